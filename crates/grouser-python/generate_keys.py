@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import json
+import keyword
 import textwrap
 from collections.abc import Iterable
 from pathlib import Path
@@ -97,12 +98,25 @@ class Writer:
                 types.setdefault(key, []).append(self.type_of(schema, part))
                 docs.setdefault(key, schema.get("description", ""))
         lines = [*doc_of(doc or laws[0].get("description", name), "    "), ""]
+        reserved = {key: union(found) for key, found in types.items() if keyword.iskeyword(key)}
         for key, found in types.items():
-            lines += [f"    {key}: {union(found)}", *doc_of(docs[key], "    ")]
-        first = self.known.setdefault(tuple(lines), name)
+            if key not in reserved:
+                lines += [f"    {key}: {union(found)}", *doc_of(docs[key], "    ")]
+        first = self.known.setdefault((*lines, *reserved), name)
         if first == name:
-            self.tables[name] = [f"class {name}(TypedDict, total=False):", *lines]
+            self.tables[name] = [*table_head(name, reserved), *lines]
         return first
+
+
+def table_head(name: str, reserved: dict[str, str]) -> list[str]:
+    """How the class of a table begins. Keys that are Python's own words cannot be fields of a class: a base has
+    them."""
+    if not reserved:
+        return [f"class {name}(TypedDict, total=False):"]
+    base = f"_{name}Reserved"
+    keys = ", ".join(f'"{key}": {kind}' for key, kind in reserved.items())
+    head = [f'{base} = TypedDict("{base}", {{{keys}}}, total=False)', "", ""]
+    return [*head, f"class {name}({base}, total=False):"]
 
 
 def union(types: Iterable[str]) -> str:

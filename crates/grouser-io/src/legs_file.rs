@@ -38,7 +38,7 @@ pub(crate) fn put_in(mission: &mut Node) -> Result<(), DocumentError> {
 }
 
 fn read(name: &str, origin: &Origin) -> Result<Vec<Node>, DocumentError> {
-    let beside = origin.text.companions.iter().find(|beside| beside.name == name);
+    let beside = origin.text.beside.files.iter().find(|beside| beside.name == name);
     let path = origin.text.folder.join(name);
     let label = beside.map_or_else(|| path.display().to_string(), |_| name.to_owned());
     let content = match beside {

@@ -96,8 +96,11 @@ pub use read::{
 };
 pub use schema::{range, schema};
 pub use source::{LARGEST_FILE, Source};
-pub use tree::{Companion, Entry, Node, Origin};
+pub use terrain_file::{map_of, read_map};
+pub use tree::{Beside, Companion, Entry, HeldMap, Node, Origin};
 pub use uncertain_soil::{SAMPLES_FILE, UncertainSoil, stated_of, without_uncertainty};
 pub use unit::{UNITS, Unit, unit_of};
 pub use values::{Described, Misfit};
 pub use varied::scenario_with;
+
+pub use grouser_raster::{BEYOND, Placement, ReadOptions};

@@ -9,8 +9,7 @@ use super::field::Names;
 use super::kind::Kind;
 use super::schema::{names_in, root};
 use super::text::parse;
-use super::tree::Companion;
-use super::tree::{Entry, Node, Origin, Text, Value};
+use super::tree::{Beside, Entry, Node, Origin, Text, Value};
 
 /// Values that replace those of documents, applied in order before anything is checked.
 ///
@@ -94,7 +93,7 @@ impl Overrides {
     /// [`change_label`](Self::change_label) writes it.
     ///
     /// * `value`: as TOML
-    /// * `companions`: files that it names
+    /// * `beside`: files and maps that it names
     ///
     /// # Errors
     /// [`DocumentError`] if there is no such document, or the value is not TOML.
@@ -102,9 +101,9 @@ impl Overrides {
         &mut self,
         key: &str,
         value: &str,
-        companions: Vec<Companion>,
+        beside: impl Into<Beside>,
     ) -> Result<(), DocumentError> {
-        let text = argument_with(Self::change_label(key, value), companions);
+        let text = argument_with(Self::change_label(key, value), beside.into());
         let value = parse_value(&text, text.content.len() - value.len())?;
         self.add(&text, key, value, true)
     }
@@ -427,12 +426,12 @@ fn without_parts(mut kind: Kind, mut path: Vec<String>) -> (Kind, Vec<String>) {
 }
 
 fn argument(content: String) -> Arc<Text> {
-    argument_with(content, Vec::new())
+    argument_with(content, Beside::default())
 }
 
-fn argument_with(content: String, companions: Vec<Companion>) -> Arc<Text> {
+fn argument_with(content: String, beside: Beside) -> Arc<Text> {
     let label = content.clone();
-    Arc::new(Text { label, content, is_argument: true, companions, ..Text::default() })
+    Arc::new(Text { label, content, is_argument: true, beside, ..Text::default() })
 }
 
 /// The answer to a question of a draft; messages quote it with its key.

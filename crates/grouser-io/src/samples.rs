@@ -26,7 +26,7 @@ impl SampleTable {
     ///
     /// * `origin`: where it does
     pub fn read(name: &str, origin: &Origin) -> Result<Self, DocumentError> {
-        if let Some(beside) = origin.text.companions.iter().find(|it| it.name == name) {
+        if let Some(beside) = origin.text.beside.files.iter().find(|it| it.name == name) {
             let (label, content) = (name.to_owned(), beside.content.clone());
             return Self::parse(Arc::new(Text { label, content, ..Text::default() }));
         }

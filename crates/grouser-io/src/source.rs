@@ -10,8 +10,7 @@ use super::escape;
 use super::file;
 use super::kind::Kind;
 use super::presets::{self, Preset};
-use super::tree::Companion;
-use super::tree::Text;
+use super::tree::{Beside, Text};
 
 /// The source of a document.
 ///
@@ -38,8 +37,8 @@ pub enum Source {
         label: String,
         /// The document.
         content: String,
-        /// Files that it may name, before those of the current folder.
-        companions: Vec<Companion>,
+        /// What it may name, before the files of the current folder.
+        beside: Beside,
     },
 }
 
@@ -66,17 +65,17 @@ impl Source {
     /// A text in memory.
     #[must_use]
     pub fn text(label: impl Into<String>, content: impl Into<String>) -> Self {
-        Self::text_with(label, content, Vec::new())
+        Self::text_with(label, content, Beside::default())
     }
 
-    /// A text in memory, and the files beside it.
+    /// A text in memory, and the files and maps beside it.
     #[must_use]
     pub fn text_with(
         label: impl Into<String>,
         content: impl Into<String>,
-        companions: Vec<Companion>,
+        beside: impl Into<Beside>,
     ) -> Self {
-        Self::Text { label: label.into(), content: content.into(), companions }
+        Self::Text { label: label.into(), content: content.into(), beside: beside.into() }
     }
 
     /// The empty scenario: every value is the default of its key.
@@ -107,13 +106,13 @@ impl Source {
     }
 
     pub(crate) fn read(&self) -> Result<Arc<Text>, DocumentError> {
-        let mut beside = Vec::new();
+        let mut named = Beside::default();
         let (label, content, folder) = match self {
             Self::Preset(preset) => {
                 (format!("preset {}", preset.name), preset.text.to_owned(), PathBuf::new())
             }
-            Self::Text { label, content, companions } => {
-                beside.clone_from(companions);
+            Self::Text { label, content, beside } => {
+                named.clone_from(beside);
                 (label.clone(), content.clone(), PathBuf::new())
             }
             Self::File(path) => {
@@ -125,7 +124,7 @@ impl Source {
                 (label, content, path.parent().unwrap_or(Path::new("")).to_owned())
             }
         };
-        Ok(Arc::new(Text { label, content, folder, is_argument: false, companions: beside }))
+        Ok(Arc::new(Text { label, content, folder, is_argument: false, beside: named }))
     }
 }
 

@@ -4,18 +4,19 @@ use std::path::{Path, absolute};
 use std::sync::Arc;
 
 use super::describe::run::{SLOPE, TERRAIN};
-use super::describe::terrain::{FILE, START};
+use super::describe::terrain::{BAND, CELL_SIZE, FILE, MISSING, SOUTH_WEST, START};
 use super::describe::zones::FILE as SOIL_FILE;
 use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::file;
 use super::raster_file::{Found, found, key, options};
-use super::tree::{Entry, Node, Value};
+use super::tree::{Entry, HeldMap, Node, Value};
 use super::zones_file;
 use grouser_core::simulation::{Landscape, Scenario};
 use grouser_core::soil::Soil;
 use grouser_core::terrain::{ElevationModel, Extent};
 use grouser_core::units::Vec2;
+use grouser_raster::ReadOptions;
 
 /// Gives maps that a document names their whole paths, so that the resolved document finds them from anywhere, and ground
 /// with heights no slope beside them.
@@ -26,6 +27,7 @@ pub(crate) fn locate(tree: &mut Node) {
         if let Some(Entry { node, .. }) = entry.node.entry_mut(key)
             && let Value::String(name) = &mut node.value
             && !name.is_empty()
+            && !node.origin.text.beside.maps.iter().any(|map| map.name == *name)
             && let Ok(path) = absolute(node.origin.text.folder.join(&name))
         {
             *name = path.display().to_string();
@@ -56,7 +58,12 @@ pub(crate) fn read(
     let fault = |key_of: &str, (problem, hint)| {
         DocumentError::at(tree.origin_of(&key(key_of)), problem).with_hint(hint)
     };
-    let model = model(Path::new(path), document, soil).map_err(|found| fault(FILE, found))?;
+    let model = if let Some(model) = held(path, document, tree)? {
+        model
+    } else {
+        let model = model(Path::new(path), &options(document), soil);
+        Arc::new(model.map_err(|found| fault(FILE, found))?)
+    };
     if document.get(&key(START)).is_none() {
         placed.start = middle(model.extent());
     } else if !contains(model.extent(), placed.start) {
@@ -64,16 +71,64 @@ pub(crate) fn read(
         let problem = format!("the start, x {x} m, y {y} m, is beyond the map {path}");
         return Err(fault(START, (Problem::NoTerrain(problem), Some(spans(model.extent())))));
     }
-    placed.ground = Landscape::Elevation(Arc::new(model));
+    placed.ground = Landscape::Elevation(model);
     zones_file::read(placed, soil, document, tree)
 }
 
-fn model(path: &Path, document: &Document, soil: Soil) -> Result<ElevationModel, Found> {
+/// The map in memory that a document names, if it does.
+fn held(
+    name: &str,
+    document: &Document,
+    tree: &Node,
+) -> Result<Option<Arc<ElevationModel>>, DocumentError> {
+    let origin = tree.origin_of(&key(FILE));
+    let Some(map) = origin.text.beside.maps.iter().find(|map| map.name == name) else {
+        return Ok(None);
+    };
+    if let Some(read_with) = &map.options {
+        // Read otherwise, the file is another map.
+        return Ok((*read_with == options(document)).then(|| map.model.clone()));
+    }
+    let of_files = [CELL_SIZE, SOUTH_WEST, BAND, MISSING].map(key);
+    if let Some(key) = of_files.iter().find(|key| document.get(key).is_some()) {
+        let problem = Problem::Conflict("a map in memory has this already");
+        return Err(DocumentError::at(tree.origin_of(key), problem));
+    }
+    Ok(Some(map.model.clone()))
+}
+
+/// The map of heights of a scenario that was read, under the name that its document has for it: texts that
+/// name it too need not read it again.
+#[must_use]
+pub fn map_of(scenario: &Scenario, document: &Document) -> Option<HeldMap> {
+    let Landscape::Elevation(model) = &scenario.terrain.as_ref()?.ground else { return None };
+    let name = document.text(&key(FILE))?.to_owned();
+    // A resolved document has whole paths.
+    let options = Path::new(&name).is_absolute().then(|| options(document));
+    Some(HeldMap { name, model: model.clone(), options })
+}
+
+/// Reads a map from a file, to be shared by documents that name it.
+///
+/// * `soil`: any; runs take that of their scenario
+///
+/// # Errors
+/// [`DocumentError`] if it cannot be read, with what helps.
+pub fn read_map(path: &Path, options: ReadOptions, soil: Soil) -> Result<HeldMap, DocumentError> {
+    let whole = absolute(path).unwrap_or_else(|_| path.to_owned());
+    let name = whole.display().to_string();
+    let model = model(&whole, &options, soil).map_err(|(problem, hint)| {
+        // Options stand in no table.
+        let hint = hint.map(|hint| hint.replace("`terrain.", "`"));
+        DocumentError::whole(&name, problem).with_hint(hint)
+    })?;
+    Ok(HeldMap { name, model: Arc::new(model), options: Some(options) })
+}
+
+fn model(path: &Path, options: &ReadOptions, soil: Soil) -> Result<ElevationModel, Found> {
     // Neither a device nor a pipe is waited for.
     file::check_regular(path).map_err(|problem| (Problem::from(problem), None))?;
-    let options = options(document);
-    let raster =
-        grouser_raster::read(path, &options).map_err(|error| found("map", &error.fault))?;
+    let raster = grouser_raster::read(path, options).map_err(|error| found("map", &error.fault))?;
     raster.model(soil).map_err(|error| found("map", &error.into()))
 }
 

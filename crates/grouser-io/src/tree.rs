@@ -8,6 +8,8 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use grouser_core::terrain::ElevationModel;
+use grouser_raster::ReadOptions;
 use serde_json::Value as Json;
 
 /// A text that values come from.
@@ -21,8 +23,8 @@ pub(crate) struct Text {
     pub folder: PathBuf,
     /// Whether it is an argument: short, without lines, and quoted whole by its label.
     pub is_argument: bool,
-    /// Files beside it that it may name, before those of its folder.
-    pub companions: Vec<Companion>,
+    /// What it may name, before the files of its folder.
+    pub beside: Beside,
 }
 
 impl Text {
@@ -166,6 +168,33 @@ pub struct Companion {
     pub name: String,
     /// What is in it.
     pub content: String,
+}
+
+/// A map of heights in memory, which a document names in `terrain.file`.
+#[derive(Clone, Debug)]
+pub struct HeldMap {
+    /// Its name in documents: the whole path of its file; for a map without a file any other text.
+    pub name: String,
+    /// The map; its soil is not asked for.
+    pub model: Arc<ElevationModel>,
+    /// How its file was read. A document that asks for something else reads the file anew. Without a file
+    /// the document has to leave all of that out.
+    pub options: Option<ReadOptions>,
+}
+
+/// What a text in memory may name, before the files of the current folder.
+#[derive(Clone, Debug, Default)]
+pub struct Beside {
+    /// Files.
+    pub files: Vec<Companion>,
+    /// Maps of heights.
+    pub maps: Vec<HeldMap>,
+}
+
+impl From<Vec<Companion>> for Beside {
+    fn from(files: Vec<Companion>) -> Self {
+        Self { files, maps: Vec::new() }
+    }
 }
 
 /// A number as messages write it: without hundreds of zeros.

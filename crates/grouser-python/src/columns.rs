@@ -4,7 +4,7 @@ use grouser::contact::Settled;
 use grouser::document::columns::Column;
 use grouser::document::columns::heading::{BAND, BAND_LIMIT, held};
 use grouser::document::columns::mission::{LEG, MISSION};
-use grouser::document::columns::run::{RECORD, RUN_BAND, TIME_BAND, WHEEL_RECORD};
+use grouser::document::columns::run::{RECORD, RUN_BAND, STANDING, TIME_BAND, WHEEL_RECORD};
 use grouser::document::columns::stand::TRIALS;
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{wheel_speeds, wheel_test};
@@ -45,6 +45,7 @@ pub(crate) fn result_columns(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     dict.set_item("wheel", declared(&WHEEL))?;
     dict.set_item("wheel_sample", declared(&WHEEL_RECORD))?;
     dict.set_item("sample", declared(&RECORD))?;
+    dict.set_item("standing", declared(&STANDING))?;
     dict.set_item("heading", declared(&held()))?;
     dict.set_item("heading_band", declared(&BAND))?;
     dict.set_item("heading_band_limit", declared(&BAND_LIMIT))?;

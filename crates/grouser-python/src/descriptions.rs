@@ -1,11 +1,10 @@
 //! Documents for Python: read from presets, files, texts and tables, changed, and written back.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use grouser::document::{
-    self, Companion, DocumentError, Kind, LoadedMission, LoadedRover, LoadedScenario, LoadedSoil,
-    LoadedWheel, Overrides, Problem, Source,
+    self, Beside, Companion, DocumentError, HeldMap, Kind, LoadedMission, LoadedRover,
+    LoadedScenario, LoadedSoil, LoadedWheel, Overrides, Problem, Source, map_of,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -13,6 +12,7 @@ use pyo3::types::PyDict;
 use toml::{Table, Value};
 
 use crate::campaign::LoadedCampaign;
+use crate::terrain::Terrain;
 use crate::values::Change;
 use crate::{errors, values};
 
@@ -77,6 +77,16 @@ impl Document {
             // A campaign holds all that it needs.
             Read::Campaign(_) => &[],
         }
+    }
+
+    /// The map of heights that a scenario or mission names.
+    pub(crate) fn map(&self) -> Option<HeldMap> {
+        let (scenario, document) = match &self.read {
+            Read::Scenario(it) => (&it.value, &it.document),
+            Read::Mission(it) => (&it.value.scenario, &it.document),
+            _ => return None,
+        };
+        map_of(scenario, document)
     }
 
     /// A soil that was made here, with the file of its samples.
@@ -172,11 +182,17 @@ impl Document {
         all.into_iter().map(|one| one.key).collect()
     }
 
-    /// The files that the resolved document names: their names, and what is in them.
+    /// The files that the resolved document names: their names, and what is in them, a text or a map.
     #[getter]
-    fn files(&self) -> BTreeMap<String, String> {
-        let pair = |it: &Companion| (it.name.clone(), it.content.clone());
-        self.companions().iter().map(pair).collect()
+    fn files<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let dict = PyDict::new(py);
+        for Companion { name, content } in self.companions() {
+            dict.set_item(name, content)?;
+        }
+        if let Some(map) = self.map() {
+            dict.set_item(map.name.clone(), Terrain::of_map(map).into_pyobject(py)?)?;
+        }
+        Ok(dict)
     }
 
     /// Samples of an uncertain soil, each an exact soil: those of the studies over samples.
@@ -238,14 +254,25 @@ pub(crate) fn read_document_text(
     label: &str,
     text: &str,
     changes: &Bound<'_, PyDict>,
-    files: BTreeMap<String, String>,
+    files: &Bound<'_, PyDict>,
 ) -> PyResult<Document> {
-    let source = Source::text_with(label, text, companions(files));
+    let source = Source::text_with(label, text, beside(files)?);
     changed(kind_of(kind)?, &source, changes)
 }
 
-fn companions(files: BTreeMap<String, String>) -> Vec<Companion> {
-    files.into_iter().map(|(name, content)| Companion { name, content }).collect()
+/// Files as [`Document::files`] gives them.
+fn beside(files: &Bound<'_, PyDict>) -> PyResult<Beside> {
+    let mut beside = Beside::default();
+    for (name, content) in files {
+        let name: String = name.extract()?;
+        match content.cast::<Terrain>() {
+            Ok(terrain) => {
+                beside.maps.push(HeldMap { name, ..terrain.get().map.clone() });
+            }
+            Err(_) => beside.files.push(Companion { name, content: content.extract()? }),
+        }
+    }
+    Ok(beside)
 }
 
 /// A table of keys, under a label for messages; it need not say what it describes.
@@ -255,10 +282,10 @@ pub(crate) fn read_document_table(
     label: &str,
     table: &Bound<'_, PyDict>,
     changes: &Bound<'_, PyDict>,
-    files: BTreeMap<String, String>,
+    files: &Bound<'_, PyDict>,
 ) -> PyResult<Document> {
     let kind = kind_of(kind)?;
-    let mut beside = companions(files);
+    let mut beside = beside(files)?;
     let mut content = match values::to_toml(label, table.as_any(), &mut beside)? {
         Value::Table(table) => table,
         _ => Table::new(),
@@ -293,10 +320,14 @@ fn read_changed(
     table: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Document> {
     let mut overrides = Overrides::none();
-    for Change { key, value, companions } in values::changes(kind.name(), changes)? {
+    if changes.contains("terrain")? && !changes.contains("slope_deg")? {
+        // Ground with heights takes the place of the plane.
+        overrides.leave_out(kind, &["slope_deg"]);
+    }
+    for Change { key, value, beside } in values::changes(kind.name(), changes)? {
         arguments.push(Overrides::change_label(&key, &value));
         overrides
-            .change(&key, &value, companions)
+            .change(&key, &value, beside)
             .map_err(|error| errors::of_document(&error, &arguments))?;
     }
     let read = changes.py().detach(|| Read::new(kind, source, &overrides));
@@ -389,5 +420,5 @@ pub(crate) fn presets(kind: &str) -> PyResult<Vec<(&'static str, String, String)
 /// A dictionary as TOML.
 #[pyfunction]
 pub(crate) fn to_toml(label: &str, table: &Bound<'_, PyDict>) -> PyResult<String> {
-    Ok(document::to_toml(&values::to_toml(label, table.as_any(), &mut Vec::new())?))
+    Ok(document::to_toml(&values::to_toml(label, table.as_any(), &mut Beside::default())?))
 }

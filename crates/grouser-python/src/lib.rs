@@ -26,6 +26,7 @@ mod simulators;
 mod slip_from_current;
 mod studies;
 mod style;
+mod terrain;
 mod threads;
 mod time_step;
 mod validation;
@@ -78,6 +79,8 @@ mod _core {
     };
     #[pymodule_export]
     use super::style::{spread_labels, style_colours};
+    #[pymodule_export]
+    use super::terrain::Terrain;
     #[pymodule_export]
     use super::time_step::SteppingWheels;
     #[pymodule_export]

@@ -2,7 +2,7 @@
 
 use grouser::document::columns::mission::{stopped_by, why_stopped};
 use grouser::document::unit::DEG;
-use grouser::document::{Source, limited_quantity, read_limits, to_toml};
+use grouser::document::{Beside, Source, limited_quantity, read_limits, to_toml};
 use grouser::mission::{Cause, LegOutcome, PathRun, PathTask as Task, Route, Stop, Then};
 use grouser::simulation::{Run, RunError};
 use grouser::units::Vec2;
@@ -96,7 +96,7 @@ impl PathTask {
 /// What Python's argument `stop` says, with the keys that a mission's table has.
 fn limits(stop: &Bound<'_, PyDict>) -> PyResult<Vec<Stop>> {
     const STOP: &str = "stop";
-    let table = values::to_toml(STOP, stop.as_any(), &mut Vec::new())?;
+    let table = values::to_toml(STOP, stop.as_any(), &mut Beside::default())?;
     let content = Table::from_iter([(STOP.to_owned(), table)]);
     let source = Source::text(STOP, to_toml(&content));
     let stops =

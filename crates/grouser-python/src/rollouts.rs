@@ -1,12 +1,13 @@
 //! Many runs at once: scenarios, soils and numbers that vary from run to run.
 
 use grouser::contact::Theory;
-use grouser::document::columns::run::RECORD;
+use grouser::document::columns::Column;
+use grouser::document::columns::run::{RECORD, STANDING};
 use grouser::document::{
     Described as _, Kind, LoadedScenario, LoadedSoil, Misfit, range, scenario_with,
 };
 use grouser::error::ParameterError;
-use grouser::simulation::{Run, Scenario};
+use grouser::simulation::{Record, Run, Scenario};
 use grouser::soil::Soil;
 use grouser::studies::ensemble::outputs_while;
 use numpy::{PyArray2, PyReadonlyArray1};
@@ -167,8 +168,13 @@ fn arguments_of(
     Ok(all)
 }
 
-/// The numbers of a record.
-type Row = [f64; RECORD.len()];
+/// The numbers of a record, those on ground with heights last.
+type Row = [f64; RECORD.len() + STANDING.len()];
+
+/// The columns of a record.
+fn of_record() -> impl Iterator<Item = (usize, &'static Column<Record>)> {
+    RECORD.iter().chain(&STANDING).enumerate()
+}
 
 /// What is kept of a run.
 struct End {
@@ -184,13 +190,17 @@ impl End {
         Self {
             outcome: "failed",
             reason: Some(reason),
-            last: [f64::NAN; RECORD.len()],
+            last: [f64::NAN; RECORD.len() + STANDING.len()],
             samples: Vec::new(),
         }
     }
 
     fn of(scenario: &Scenario, keep: bool) -> Self {
-        let row = |sample| RECORD.each_ref().map(|column| column.number(sample));
+        let row = |sample: &Record| {
+            let mut row = [f64::NAN; RECORD.len() + STANDING.len()];
+            of_record().for_each(|(place, column)| row[place] = column.number(sample));
+            row
+        };
         let lead = if keep { Run::to_end } else { Run::to_outcome };
         match Run::new(scenario).and_then(lead) {
             Ok(run) => Self {
@@ -223,6 +233,7 @@ pub(crate) fn rollout<'py>(
     keep: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
     let runs = Runs::new(&scenarios, &scenario_index, &soils, &soil_index, varied, count)?;
+    let on_heights = runs.bases.iter().any(|(base, _)| base.terrain.is_some());
     let ends = listening(py, move |cancelled| {
         if let Some(misfit) = runs.first_misfit() {
             return Err(misfit);
@@ -238,20 +249,28 @@ pub(crate) fn rollout<'py>(
         ends.unwrap_or_default().into_iter().collect::<Result<Vec<End>, _>>()
     })?;
     let ends = ends.map_err(|(place, error)| errors::misfit_at(place, count, &error))?;
-    to_python(py, &ends, keep)
+    to_python(py, &ends, keep, on_heights)
 }
 
-fn to_python<'py>(py: Python<'py>, ends: &[End], keep: bool) -> PyResult<Bound<'py, PyDict>> {
+/// * `on_heights`: whether there is ground with heights
+fn to_python<'py>(
+    py: Python<'py>,
+    ends: &[End],
+    keep: bool,
+    on_heights: bool,
+) -> PyResult<Bound<'py, PyDict>> {
+    let count = if on_heights { usize::MAX } else { RECORD.len() };
+    let columns = || of_record().take(count);
     let dict = PyDict::new(py);
     dict.set_item("outcome", PyList::new(py, ends.iter().map(|end| end.outcome))?)?;
     dict.set_item("reason", PyList::new(py, ends.iter().map(|end| end.reason.as_deref()))?)?;
-    for (place, name) in RECORD.iter().map(|it| it.name).enumerate() {
+    for (place, Column { name, .. }) in columns() {
         dict.set_item(name, column(py, ends.iter().map(|end| end.last[place])))?;
     }
     if keep {
         let longest = ends.iter().map(|end| end.samples.len()).max().unwrap_or(0);
         let samples = PyDict::new(py);
-        for (place, name) in RECORD.iter().map(|it| it.name).enumerate() {
+        for (place, Column { name, .. }) in columns() {
             let row = |end: &End| {
                 let column = end.samples.iter().map(|row| row[place]);
                 column.chain(std::iter::repeat(f64::NAN)).take(longest).collect::<Vec<f64>>()

@@ -5,8 +5,8 @@ use std::ops::RangeInclusive;
 use grouser::document::card::RuleRecord;
 use grouser::document::columns::flags::{self, FLAGS};
 use grouser::document::columns::run::{
-    ELECTRICAL, ELECTRICAL_RECORD, ENERGY_ERROR, RECORD, RUN_BAND, STEERING_RECORD, TIME_BAND,
-    WHEEL_RECORD,
+    ELECTRICAL, ELECTRICAL_RECORD, ENERGY_ERROR, RECORD, RUN_BAND, STANDING, STEERING_RECORD,
+    TIME_BAND, WHEEL_RECORD,
 };
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{
@@ -79,6 +79,11 @@ pub(crate) fn trajectory_to_python<'py>(
     let rover = PyDict::new(py);
     for one in &RECORD {
         rover.set_item(one.name, column(py, run.records.iter().map(|it| one.number(it))))?;
+    }
+    if scenario.terrain.is_some() {
+        for one in &STANDING {
+            rover.set_item(one.name, column(py, run.records.iter().map(|it| one.number(it))))?;
+        }
     }
     dict.set_item("rover", rover)?;
     let (electrical, wheels) = (PyDict::new(py), each_wheel(py, run, names.len())?);

@@ -1,6 +1,6 @@
 //! Python's values as those of documents, and back.
 
-use grouser::document::Companion;
+use grouser::document::Beside;
 use pyo3::exceptions::PyRecursionError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyMapping, PyString};
@@ -9,6 +9,7 @@ use toml::{Table, Value};
 
 use crate::descriptions::Document;
 use crate::errors;
+use crate::terrain::Terrain;
 
 /// Tables and lists may be nested this deep. Source: ours, as the reader of documents has it.
 const DEEPEST: usize = 16;
@@ -19,25 +20,21 @@ pub(crate) struct Change {
     pub(crate) key: String,
     /// The value as TOML.
     pub(crate) value: String,
-    /// Files that the value names.
-    pub(crate) companions: Vec<Companion>,
+    /// Files and maps that the value names.
+    pub(crate) beside: Beside,
 }
 
 /// A value for a document.
 ///
-/// * `files`: those that descriptions in it name are added
-pub(crate) fn to_toml(
-    key: &str,
-    value: &Bound<'_, PyAny>,
-    files: &mut Vec<Companion>,
-) -> PyResult<Value> {
-    convert(key, value, files, 0)
+/// * `beside`: files and maps that descriptions in it name, and maps in it, are added
+pub(crate) fn to_toml(key: &str, value: &Bound<'_, PyAny>, beside: &mut Beside) -> PyResult<Value> {
+    convert(key, value, beside, 0)
 }
 
 fn convert(
     key: &str,
     value: &Bound<'_, PyAny>,
-    files: &mut Vec<Companion>,
+    beside: &mut Beside,
     depth: usize,
 ) -> PyResult<Value> {
     if depth > DEEPEST {
@@ -45,8 +42,14 @@ fn convert(
         return Err(PyRecursionError::new_err(message));
     }
     if let Some(document) = described(value)? {
-        files.extend_from_slice(document.get().companions());
-        return Ok(Value::Table(document.get().table()));
+        let document = document.get();
+        beside.files.extend_from_slice(document.companions());
+        beside.maps.extend(document.map());
+        return Ok(Value::Table(document.table()));
+    }
+    if let Some(terrain) = terrain(value)? {
+        beside.maps.push(terrain.get().map.clone());
+        return Ok(Value::Table(terrain.get().table()));
     }
     if value.is_instance_of::<PyBool>() {
         return Ok(Value::Boolean(value.extract()?));
@@ -67,19 +70,24 @@ fn convert(
         for item in mapping.items()?.iter() {
             let (name, child): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
             let name: String = name.extract().map_err(|_| errors::wrong_type(key, &name))?;
-            let child = convert(&format!("{key}.{name}"), &child, files, depth + 1)?;
-            table.insert(name, child);
+            let is_map = name == FILE && terrain(&child)?.is_some();
+            let child = convert(&format!("{key}.{name}"), &child, beside, depth + 1)?;
+            match child {
+                // Beside the start the table has what the map says of itself.
+                Value::Table(of_map) if is_map => table.extend(of_map),
+                _ => drop(table.insert(name, child)),
+            }
         }
         return Ok(Value::Table(table));
     }
-    other(key, value, files, depth)
+    other(key, value, beside, depth)
 }
 
 /// Paths, scalars and arrays of NumPy, and sequences.
 fn other(
     key: &str,
     value: &Bound<'_, PyAny>,
-    files: &mut Vec<Companion>,
+    beside: &mut Beside,
     depth: usize,
 ) -> PyResult<Value> {
     if value.hasattr("__fspath__")? {
@@ -92,7 +100,7 @@ fn other(
         return if plain.hasattr("tolist")? {
             Err(errors::wrong_type(key, value))
         } else {
-            convert(key, &plain, files, depth + 1)
+            convert(key, &plain, beside, depth + 1)
         };
     }
     let is_sequence = value.hasattr("__len__")? && value.hasattr("__getitem__")?;
@@ -101,7 +109,7 @@ fn other(
     }
     let items = value.try_iter()?.enumerate();
     let list =
-        items.map(|(place, item)| convert(&format!("{key}.{place}"), &item?, files, depth + 1));
+        items.map(|(place, item)| convert(&format!("{key}.{place}"), &item?, beside, depth + 1));
     Ok(Value::Array(list.collect::<PyResult<_>>()?))
 }
 
@@ -111,6 +119,23 @@ fn described<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, Docum
         Some(document) => Ok(document.cast_into::<Document>().ok()),
         None => Ok(None),
     }
+}
+
+/// The key of a map's file, in the table of a terrain.
+const FILE: &str = "file";
+
+/// The map of a `Terrain`.
+fn terrain<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, Terrain>>> {
+    match value.getattr_opt("_native")? {
+        Some(native) => Ok(native.cast_into::<Terrain>().ok()),
+        None => Ok(None),
+    }
+}
+
+/// Whether a mapping is a terrain on a map in memory, which is taken as a whole.
+fn has_map(mapping: &Bound<'_, PyMapping>) -> PyResult<bool> {
+    let file = if mapping.contains(FILE)? { Some(mapping.get_item(FILE)?) } else { None };
+    file.map_or(Ok(false), |file| Ok(terrain(&file)?.is_some()))
 }
 
 /// The changes in a mapping: a table changes single keys of the table; laws come first, so that keys of
@@ -134,7 +159,7 @@ fn collect(
     let mapping = value.cast::<PyMapping>();
     let is_table = depth <= DEEPEST && described(value)?.is_none();
     match mapping {
-        Ok(mapping) if is_table && !mapping.is_empty()? => {
+        Ok(mapping) if is_table && !mapping.is_empty()? && !has_map(mapping)? => {
             for item in mapping.items()?.iter() {
                 let (name, child): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
                 let name: String = name.extract().map_err(|_| errors::wrong_type(prefix, &name))?;
@@ -143,9 +168,9 @@ fn collect(
             Ok(())
         }
         _ => {
-            let mut companions = Vec::new();
-            let value = to_toml(prefix, value, &mut companions)?.to_string();
-            all.push(Change { key: prefix.to_owned(), value, companions });
+            let mut beside = Beside::default();
+            let value = to_toml(prefix, value, &mut beside)?.to_string();
+            all.push(Change { key: prefix.to_owned(), value, beside });
             Ok(())
         }
     }

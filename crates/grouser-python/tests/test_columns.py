@@ -13,12 +13,14 @@ import grouser as gr
 from grouser import _core, _tables
 
 COLUMNS = _core.result_columns()
+#: On ground with heights alone.
+STANDING = {name for name, _, _ in COLUMNS["standing"]}
 
 #: Results with the columns of their numbers, and what they have besides.
 RESULTS = [
     (gr.WheelForces, "wheel", {"slip_ratio", "slip_angle_deg"}),
-    (gr.Trajectory, "sample", {"energy_error_j"}),
-    (gr.Rollout, "sample", set()),
+    (gr.Trajectory, "sample", {"energy_error_j", *STANDING}),
+    (gr.Rollout, "sample", STANDING),
     (gr.Headings, "heading", {"slope_deg", "limit_slope_deg", "steering_deg"}),
     (gr.HeadingMap, "heading", {"course_deg", "slope_deg", "limit_slope_deg"}),
     (gr.WheelSpeeds, "wheel_speeds", {"slope_deg"}),
@@ -89,6 +91,14 @@ def test_docs_have_the_sentence_and_the_unit_of_the_column(
         assert text == sentence, name
         compared += 1
     assert compared >= 4
+
+
+@pytest.mark.parametrize("result", [gr.Trajectory, gr.Rollout])
+def test_how_a_rover_stands_has_the_sentences_of_its_columns(result: type) -> None:
+    docs = docs_of(result)
+    for name, unit, sentence in COLUMNS["standing"]:
+        text, stated = parts_of(docs[name])
+        assert (text.split(";")[0], stated) == (sentence, unit)
 
 
 @pytest.mark.parametrize("result", [gr.WheelSpeeds, gr.WheelSpeedLimits])

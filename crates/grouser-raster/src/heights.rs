@@ -6,8 +6,8 @@ use grouser_core::terrain::{ElevationError, ElevationGrid};
 use crate::error::Fault;
 use crate::{CoordinateSystem, Raster, RowOrder};
 
-/// Heights beyond this are none [m]: planetary formats write special values of that size.
-const BEYOND: f64 = 1e30;
+/// Heights from here on are missing [m]: planetary formats write special values of that size.
+pub const BEYOND: f64 = 1e30;
 
 /// Heights above the first one, rounded.
 #[derive(Debug)]

@@ -50,6 +50,7 @@ pub mod zones;
 
 pub use coordinate_system::{CoordinateSystem, GeoKeys};
 pub use error::{Fault, RasterError};
+pub use heights::BEYOND;
 pub use options::{CELLS, Content, Placement, ReadOptions, RowOrder};
 pub use raster::Raster;
 pub use read::read;

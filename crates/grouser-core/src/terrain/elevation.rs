@@ -142,6 +142,21 @@ impl ElevationModel {
         self.grid.extent()
     }
 
+    /// What the heights are kept above [m].
+    #[must_use]
+    pub fn base(&self) -> f64 {
+        self.base
+    }
+
+    /// The heights above the base [m] as [`above_base`](Self::above_base) takes them: NaN where they are
+    /// missing.
+    pub fn heights_above_base(&self) -> impl Iterator<Item = f32> + '_ {
+        let given = |(point, height): (usize, &f32)| {
+            if self.known.contains(point) { *height } else { f32::NAN }
+        };
+        self.heights.iter().enumerate().map(given)
+    }
+
     /// Number of points whose height is missing.
     #[must_use]
     pub fn missing(&self) -> usize {

@@ -1,6 +1,7 @@
 """Predicts how a wheeled rover moves on loose soil.
 
-`Soil`, `Wheel`, `Rover`, `Site`, `Scenario` and `Mission` describe the inputs. `settle` and
+`Soil`, `Wheel`, `Rover`, `Site`, `Scenario` and `Mission` describe the inputs, `Terrain` is a map
+of heights to drive on. `settle` and
 `wheel_forces` compute the forces of the soil on wheels, for whole arrays. `simulate`,
 `rollout`, `heading`, `heading_map` and `wheel_speeds` compute the motion of a rover, `mission`
 drives it through legs with limits at which it stops, `wheel_test` simulates a wheel on a test
@@ -58,6 +59,7 @@ from ._models import MODELS, ByModel
 from ._runs import Run, RunBatch
 from ._slip_from_current import SlipEstimator
 from ._studies import Trajectory, TraverseBand, simulate
+from ._terrain import Terrain
 from ._validation import (
     Ranking,
     SlopeValidation,
@@ -118,6 +120,7 @@ __all__ = [
     "Site",
     "SlipEstimator",
     "Soil",
+    "Terrain",
     "Trajectory",
     "TraverseBand",
     "Validation",

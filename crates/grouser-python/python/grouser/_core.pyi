@@ -23,6 +23,7 @@ __all__ = [
     "Simulators",
     "SlipFromCurrent",
     "SteppingWheels",
+    "Terrain",
     "__version__",
     "animation",
     "arrow_stream",
@@ -90,6 +91,7 @@ SINKAGE_DAMPING_S_M: float
 REST_SPEED_M_S: float
 
 _Floats = NDArray[np.float64]
+_Reading = tuple[Sequence[float] | None, int | None, float | None]
 _Data = str | os.PathLike[str] | tuple[str, str]
 
 @final
@@ -101,10 +103,49 @@ class Document:
     @property
     def assumed(self) -> list[str]: ...
     @property
-    def files(self) -> dict[str, str]: ...
+    def files(self) -> dict[str, str | Terrain]: ...
     def samples(self, count: int, seed: int) -> list[Document]: ...
     def to_toml(self) -> str: ...
     def to_dict(self) -> dict[str, Any]: ...
+
+@final
+class Terrain:
+    def __new__(
+        cls,
+        heights: _Floats,
+        south_west_m: Sequence[float],
+        spacing_m: Sequence[float],
+        north_first: bool,
+    ) -> Terrain: ...
+    @staticmethod
+    def from_file(path: str | os.PathLike[str], reading: _Reading) -> Terrain: ...
+    @staticmethod
+    def of_parts(
+        name: str,
+        reading: _Reading | None,
+        base: float,
+        south_west_m: Sequence[float],
+        spacing_m: Sequence[float],
+        heights: NDArray[np.float32],
+    ) -> Terrain: ...
+    def parts(
+        self,
+    ) -> tuple[
+        str, _Reading | None, float, list[float], list[float], NDArray[np.float32]
+    ]: ...
+    @property
+    def extent(self) -> list[float]: ...
+    @property
+    def shape(self) -> tuple[int, int]: ...
+    @property
+    def spacing(self) -> list[float]: ...
+    @property
+    def missing(self) -> int: ...
+    def heights(self, x: _Floats, y: _Floats) -> _Floats: ...
+    def slopes(self, x: _Floats, y: _Floats) -> _Floats: ...
+    def normals(self, x: _Floats, y: _Floats) -> _Floats: ...
+    def ground(self, x: _Floats, y: _Floats) -> _Floats: ...
+    def __eq__(self, other: object) -> bool: ...
 
 @final
 class Footprints:
@@ -232,10 +273,10 @@ def read_document_file(
     kind: str, path: str | os.PathLike[str], changes: dict[str, Any]
 ) -> Document: ...
 def read_document_text(
-    kind: str, label: str, text: str, changes: dict[str, Any], files: dict[str, str]
+    kind: str, label: str, text: str, changes: dict[str, Any], files: dict[str, str | Terrain]
 ) -> Document: ...
 def read_document_table(
-    kind: str, label: str, table: dict[str, Any], changes: dict[str, Any], files: dict[str, str]
+    kind: str, label: str, table: dict[str, Any], changes: dict[str, Any], files: dict[str, str | Terrain]
 ) -> Document: ...
 def check_document(
     name: str | os.PathLike[str], text: str | None

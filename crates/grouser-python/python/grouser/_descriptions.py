@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, Union
 from . import _core, _former_names, _keys
 from ._arrays import whole_number
 from ._errors import ParameterError
+from ._terrain import Terrain
 
 _Self = TypeVar("_Self", bound="_Description")
 #: The sources of a description: a preset's name, a path, or its keys.
@@ -43,7 +44,7 @@ class _Description:
     __slots__ = ("_document", "_files", "_items", "_toml")
     _kind: ClassVar[str]
     _document: _core.Document
-    _files: dict[str, str]
+    _files: dict[str, str | _core.Terrain]
     _items: dict[str, Any]
     _toml: str
 
@@ -79,14 +80,16 @@ class _Description:
         object.__setattr__(self, "_document", document)
 
     @classmethod
-    def from_toml(cls: type[_Self], text: str, files: Mapping[str, str] | None = None) -> _Self:
+    def from_toml(
+        cls: type[_Self], text: str, files: Mapping[str, str | Terrain] | None = None
+    ) -> _Self:
         """The description that a TOML text gives.
 
         Parameters
         ----------
         text : str
             The document.
-        files : mapping of str to str, optional
+        files : mapping of str to str or Terrain, optional
             The content of the files that it names, in the form of `files`.
 
         Raises
@@ -97,11 +100,13 @@ class _Description:
             If a file that it names is neither among ``files`` nor in the current folder.
         """
         made = cls.__new__(cls)
-        made._take(_core.read_document_text(cls._kind, "TOML", text, {}, dict(files or {})))
+        made._take(_core.read_document_text(cls._kind, "TOML", text, {}, _given(files)))
         return made
 
     @classmethod
-    def _of(cls: type[_Self], items: Mapping[str, Any], files: Mapping[str, str]) -> _Self:
+    def _of(
+        cls: type[_Self], items: Mapping[str, Any], files: Mapping[str, str | _core.Terrain]
+    ) -> _Self:
         """A part of another description, with its files."""
         label = f"{cls.__name__}(…)"
         made = cls.__new__(cls)
@@ -138,10 +143,10 @@ class _Description:
         return self._toml
 
     @property
-    def files(self) -> dict[str, str]:
+    def files(self) -> dict[str, str | Terrain]:
         """Names and contents of the files that the document names; a copy. A soil whose uncertainty
-        is given by samples has one."""
-        return dict(self._files)
+        is given by samples has one, as text; ground with heights has a map, as a `Terrain`."""
+        return {name: _file(content) for name, content in self._files.items()}
 
     def to_dict(self) -> dict[str, Any]:
         """Keys and values of the document; a copy."""
@@ -204,7 +209,7 @@ class _Description:
         return hash((type(self), self._toml))
 
     def __reduce__(self) -> tuple[object, ...]:
-        return type(self).from_toml, (self._toml, self._files)
+        return type(self).from_toml, (self._toml, self.files)
 
     def __copy__(self: _Self) -> _Self:
         return self
@@ -232,6 +237,19 @@ class _Keys(dict[str, Any]):
         if now is None:
             raise KeyError(name)
         return self[now]
+
+
+def _file(content: str | _core.Terrain) -> str | Terrain:
+    """The content of a file, as a caller has it."""
+    return content if isinstance(content, str) else Terrain._of(content)
+
+
+def _given(files: Mapping[str, str | Terrain] | None) -> dict[str, str | _core.Terrain]:
+    """Files of a caller."""
+    return {
+        name: content._native if isinstance(content, Terrain) else content
+        for name, content in (files or {}).items()
+    }
 
 
 def _frozen(value: Any) -> Any:
@@ -574,7 +592,7 @@ class Site(_Description, _keys.SiteKeys):
         return Soil._of(self._items["soil"], self._files)
 
     @classmethod
-    def from_toml(cls, text: str, files: Mapping[str, str] | None = None) -> Site:
+    def from_toml(cls, text: str, files: Mapping[str, str | Terrain] | None = None) -> Site:
         """A site from a TOML text with ``soil``, ``slope_deg`` and ``gravity_m_s2``, or from a
         scenario's.
 

@@ -876,11 +876,12 @@ class ScenarioTerrainZoneSoil(TypedDict, total=False):
     prior's, not the source's."""
 
 
-class ScenarioTerrainZone(TypedDict, total=False):
+_ScenarioTerrainZoneReserved = TypedDict("_ScenarioTerrainZoneReserved", {"class": int}, total=False)
+
+
+class ScenarioTerrainZone(_ScenarioTerrainZoneReserved, total=False):
     """The soil of a zone."""
 
-    class: int
-    """The zone's class number in the file."""
     name: str
     """The zone's name in the file, in place of a class number."""
     soil: ScenarioTerrainZoneSoil

@@ -14,7 +14,7 @@ from . import _core, _former_names, _tables
 from ._arrays import Floats, broadcast, varied
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError
-from ._studies import SAMPLE, columns_of, scenario_of
+from ._studies import SAMPLE, columns_of, scenario_of, standing_of
 from ._wheels import Soils, names_of, soils_of
 
 if TYPE_CHECKING:
@@ -47,11 +47,11 @@ class Rollout(_tables.Tabular):
     time_s: Floats
     """Time [s]."""
     x_m: Floats
-    """Along the contour [m], of the body's centre of mass."""
+    """Of the body's centre of mass: along the contour, or on a map [m]."""
     y_m: Floats
-    """Uphill [m]."""
+    """Uphill, or on a map [m]."""
     yaw_deg: Floats
-    """Yaw [°], positive where the nose points uphill."""
+    """Yaw [°], positive where the nose points uphill; on a map from its x axis, to the left."""
     forward_speed_m_s: Floats
     """Speed along the body [m/s]."""
     lateral_speed_m_s: Floats
@@ -68,6 +68,15 @@ class Rollout(_tables.Tabular):
     """Kinetic energy [J]."""
     potential_energy_j: Floats
     """Potential energy, zero at the start's height [J]."""
+    z_m: Floats | None = None
+    """Height of the body's centre of mass [m];
+    None where all runs are on planes."""
+    roll_deg: Floats | None = None
+    """Roll, positive with the right side down [°];
+    None where all runs are on planes."""
+    pitch_deg: Floats | None = None
+    """Pitch, positive with the nose up [°];
+    None where all runs are on planes."""
 
     records: Mapping[str, Floats] | None = None
     """With ``trajectories=True``, the records over time of each run by name (``time_s`` and the
@@ -90,7 +99,8 @@ class Rollout(_tables.Tabular):
         return {**inputs, **self._results()}
 
     def _results(self) -> dict[str, Any]:
-        return {"outcome": self.outcome, "message": self.message, **columns_of(self, SAMPLE)}
+        ends = {**columns_of(self, SAMPLE), **standing_of(self)}
+        return {"outcome": self.outcome, "message": self.message, **ends}
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each run: its inputs, then its final state."""

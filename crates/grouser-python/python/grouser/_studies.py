@@ -28,6 +28,13 @@ def columns_of(result: Any, names: Iterable[str]) -> dict[str, Any]:
 
 #: Fields of a `Trajectory` over time, and of a `Rollout` over runs.
 SAMPLE = _tables.COLUMNS["sample"]
+#: Those beside them on ground with heights.
+_STANDING = _tables.COLUMNS["standing"]
+
+
+def standing_of(result: Any) -> dict[str, Any]:
+    """How a rover stands on ground with heights; empty on a plane."""
+    return {} if result.z_m is None else columns_of(result, _STANDING)
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +111,8 @@ class TraverseBand(_tables.Tabular):
 @dataclass(frozen=True, eq=False)
 class Trajectory(_tables.Tabular):
     """Outcome and records over time of a run: arrays of shape (records,). Positions are in the
-    slope frame (x along the contour, y uphill), speeds in the body frame (x forward, y left).
+    slope frame (x along the contour, y uphill), on ground with heights in that of the map (x east,
+    y north, z up); speeds are in the body frame (x forward, y left).
 
     ``wheel`` has arrays of shape (records, wheels) by name: ``slip_ratio``, ``slip_angle_deg``,
     ``load_n``, ``wheel_speed_rad_s``, ``power_w`` and the fields of `WheelForces`; NaN where the
@@ -150,11 +158,11 @@ class Trajectory(_tables.Tabular):
     time_s: Floats
     """Time [s]."""
     x_m: Floats
-    """Along the contour [m], of the body's centre of mass."""
+    """Of the body's centre of mass: along the contour, or on a map [m]."""
     y_m: Floats
-    """Uphill [m]."""
+    """Uphill, or on a map [m]."""
     yaw_deg: Floats
-    """Yaw [°], positive where the nose points uphill."""
+    """Yaw [°], positive where the nose points uphill; on a map from its x axis, to the left."""
     forward_speed_m_s: Floats
     """Speed along the body [m/s]."""
     lateral_speed_m_s: Floats
@@ -171,6 +179,12 @@ class Trajectory(_tables.Tabular):
     """Kinetic energy [J]."""
     potential_energy_j: Floats
     """Potential energy, zero at the start's height [J]."""
+    z_m: Floats | None = None
+    """Height of the body's centre of mass [m]; None on a plane."""
+    roll_deg: Floats | None = None
+    """Roll, positive with the right side down [°]; None on a plane."""
+    pitch_deg: Floats | None = None
+    """Pitch, positive with the nose up [°]; None on a plane."""
     electrical: Mapping[str, Floats] = field(default_factory=dict)
     """``electrical_power_w`` [W] of all motors, ``battery_energy_j`` [J] of motors and electronics,
     and of the battery ``battery_voltage_v`` [V], ``battery_current_a`` [A] and
@@ -186,6 +200,7 @@ class Trajectory(_tables.Tabular):
     def _table(self) -> dict[str, Any]:
         columns: dict[str, Any] = {
             **columns_of(self, SAMPLE),
+            **standing_of(self),
             **self.electrical,
             "flags": self.flags,
         }
@@ -209,7 +224,7 @@ class Trajectory(_tables.Tabular):
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``time_s``, and over ``time_s`` and ``wheel`` for the wheels, whose
         names start with ``wheel_``. Units are in the attributes."""
-        rover = {**columns_of(self, SAMPLE[1:]), **self.electrical}
+        rover = {**columns_of(self, SAMPLE[1:]), **standing_of(self), **self.electrical}
         data = _tables.dataset(("time_s",), rover, {"time_s": self.time_s})
         for name, values in self.wheel.items():
             longer = name if name.startswith("wheel_") else f"wheel_{name}"
@@ -218,7 +233,7 @@ class Trajectory(_tables.Tabular):
         return data.assign_attrs(self._notes())
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
-        """Plots the path on the slope, seen from above.
+        """Plots the path on the slope, or on the map, seen from above.
 
         Parameters
         ----------
@@ -229,8 +244,9 @@ class Trajectory(_tables.Tabular):
         """
         axes = _tables.axes_or_new(axes)
         axes.plot(self.x_m, self.y_m, **{"label": self.outcome, **style})
-        axes.set_xlabel("along the contour, x [m]")
-        axes.set_ylabel("uphill, y [m]")
+        on_plane = self.z_m is None
+        axes.set_xlabel("along the contour, x [m]" if on_plane else "east, x [m]")
+        axes.set_ylabel("uphill, y [m]" if on_plane else "north, y [m]")
         return axes
 
     def animate(
