@@ -298,6 +298,7 @@ impl Described for Rover {
     fn settled(self) -> Result<Self, Misfit> {
         check_names(&self)?;
         check_steering(&self)?;
+        check_suspension(&self)?;
         // Masses and lengths are in their ranges by now: what can still be wrong is the stance.
         let place = uneven_mount(&self);
         let rover = self.checked().map_err(|error| Misfit::new(place, error))?;
@@ -305,6 +306,17 @@ impl Described for Rover {
         check_inertias(&rover)?;
         Ok(rover)
     }
+}
+
+/// Checks that rockers have the wheels that they can carry.
+fn check_suspension(rover: &Rover) -> Result<(), Misfit> {
+    let parts = rover.parts();
+    let Some(suspension) = parts.suspension else { return Ok(()) };
+    suspension.check(&parts.complete_mounts()).map_err(|error| {
+        Misfit::new("suspension", error).with_hint(
+            "rockers carry two wheels on a side, with [suspension.bogie] three; without [suspension] the wheels are rigidly joined",
+        )
+    })
 }
 
 /// Checks that the wheels' names differ: columns and messages use them.

@@ -2,14 +2,16 @@
 
 use super::super::field::{
     At, DEG, DEG_S, Each, Field, Form, Inner, KG, KG_M2, M, Reach, Table, list, number, numbers,
-    part, positive, table, text,
+    part, positive, table, text, word, words,
 };
 use super::super::kind::Kind;
 use super::about::{assumed, name, notes, schema, source};
 use super::power::{BATTERY, MOTOR, NO_BATTERY, NO_MOTOR};
 use super::wheel::{self, WHEEL};
 use grouser_core::units::{Vec2, Vec3};
-use grouser_core::vehicle::{Body, Inertia, MountParts, RoverParts, SteeringParts, WheelUnit};
+use grouser_core::vehicle::{
+    Body, Bogie, End, Inertia, MountParts, RoverParts, SteeringParts, Suspension, WheelUnit,
+};
 
 const NO_INERTIA: Inertia = Inertia { xx: 0.0, yy: 0.0, zz: 0.0 };
 
@@ -26,7 +28,7 @@ pub(crate) const BLANK: RoverParts = RoverParts {
 const NO_STEERING: SteeringParts = SteeringParts { limit: None, rate: None };
 
 pub(crate) static ROVER: Table<RoverParts> = Table {
-    doc: "A body and three or more wheels, rigidly joined.",
+    doc: "A body and three or more wheels, rigidly joined or on rockers.",
     fields: &[
         schema("rover/1"),
         name(),
@@ -72,6 +74,15 @@ pub(crate) static ROVER: Table<RoverParts> = Table {
             },
         )
         .optional(),
+        table(
+            "suspension",
+            "How the wheels are joined to the body: on rockers with a differential, two wheels on a side, or with bogies three; left out, rigidly.",
+            &At {
+                inner: &SUSPENSION,
+                at: |rover: &mut RoverParts| rover.suspension.get_or_insert(NO_SUSPENSION),
+            },
+        )
+        .optional(),
         list(
             "mount",
             "Where the wheels sit: three or more, standing on one plane, not in one line.",
@@ -94,6 +105,53 @@ pub(crate) static ROVER: Table<RoverParts> = Table {
         ),
     ],
 };
+
+/// Rockers before their numbers are put in.
+const NO_SUSPENSION: Suspension = Suspension { pivot: Vec2::new(0.0, 0.0), bogie: None };
+
+static SUSPENSION: Table<Suspension> = Table {
+    doc: "Rockers on both sides, alike, with a differential that turns them against each other.",
+    fields: &[
+        pivot(
+            "Axis of the rockers, seen from the side, from the body's centre of mass: x forward, z up",
+            |it: &mut Suspension, axis| it.pivot.get_mut(axis),
+        ),
+        table(
+            "bogie",
+            "The bogie of each rocker, which carries two of three wheels on a side.",
+            &At {
+                inner: &BOGIE,
+                at: |it: &mut Suspension| {
+                    it.bogie.get_or_insert(Bogie { pivot: Vec2::zeros(), end: End::Rear })
+                },
+            },
+        )
+        .optional(),
+    ],
+};
+
+static BOGIE: Table<Bogie> = Table {
+    doc: "A link with two wheels, joined to a rocker.",
+    fields: &[
+        pivot(
+            "Its axis, seen from the side, from the body's centre of mass where the rover stands on a plane: x forward, z up",
+            |it: &mut Bogie, axis| it.pivot.get_mut(axis),
+        ),
+        words(
+            "end",
+            "The end of the rover at which it is.",
+            &[
+                word("front", "Where its nose is.", |it: &mut Bogie| it.end = End::Front),
+                word("rear", "Where its tail is.", |it: &mut Bogie| it.end = End::Rear),
+            ],
+        ),
+    ],
+};
+
+/// The axis of a joint.
+const fn pivot<T>(doc: &'static str, reach: fn(&mut T, usize) -> Option<&mut f64>) -> Field<T> {
+    numbers("pivot_m", M, -100.0..=100.0, Form::Exactly(2), doc, |_, _| {}, reach)
+}
 
 /// How far wheels are steered.
 const fn steering_limit<T>(doc: &'static str, reach: Reach<T>) -> Field<T> {

@@ -131,10 +131,15 @@ const SOILS: [(&str, &str, &str); 30] = [
     ("mit-rig-b", "earth", "the wheel mit-rig, the softer of two sets; second-hand"),
 ];
 
-const ROVERS: [(&str, &str, &str); 13] = [
+const ROVERS: [(&str, &str, &str); 15] = [
     ("hakuto", "earth", "to start with: the paper's rover; the size of its wheels is assumed"),
     ("hakuto-flight", "moon", "the lighter flight model; masses scaled"),
     ("hakuto-steered", "earth", "the paper's rover with steered wheels, which it has not"),
+    (
+        "hakuto-rockers",
+        "earth",
+        "the paper's rover on rockers, which it has not: for uneven ground",
+    ),
     ("el-dorado-2", "earth", "a larger rover of the same laboratory; its mass and size are known"),
     ("mgru3", "earth", "VIPER's test rover, 88 kg; mass, size and wheels are known"),
     ("viper", "moon", "430 kg on the wheels of its test rover, which are known"),
@@ -147,6 +152,11 @@ const ROVERS: [(&str, &str, &str); 13] = [
         "curiosity",
         "mars",
         "899 kg on six wheels; mass, wheels and wheelbase known, its track from memory",
+    ),
+    (
+        "curiosity-rocker-bogie",
+        "mars",
+        "curiosity for uneven ground; where its rockers and bogies turn is a guess",
     ),
     (
         "lrv",

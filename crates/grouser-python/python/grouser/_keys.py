@@ -649,6 +649,27 @@ class RoverBattery(TypedDict, total=False):
     """State of charge at the start [-]."""
 
 
+class RoverSuspensionBogie(TypedDict, total=False):
+    """The bogie of each rocker, which carries two of three wheels on a side."""
+
+    pivot_m: tuple[float, ...]
+    """Its axis, seen from the side, from the body's centre of mass where the rover stands on a
+    plane: x forward, z up [m]."""
+    end: str
+    """The end of the rover at which it is."""
+
+
+class RoverSuspension(TypedDict, total=False):
+    """How the wheels are joined to the body: on rockers with a differential, two wheels on a side,
+    or with bogies three; left out, rigidly."""
+
+    pivot_m: tuple[float, ...]
+    """Axis of the rockers, seen from the side, from the body's centre of mass: x forward, z up
+    [m]."""
+    bogie: RoverSuspensionBogie
+    """The bogie of each rocker, which carries two of three wheels on a side."""
+
+
 class RoverMountInertiaKgM2(TypedDict, total=False):
     """Moments of inertia of this wheel with its motor about its hub [kg·m²], instead of the wheel
     unit's."""
@@ -816,6 +837,12 @@ class RoverKeys:
         def battery(self) -> RoverBattery:
             """The battery, and what the electronics draw from it; without it nothing is known of
             its voltage and charge."""
+            ...
+
+        @property
+        def suspension(self) -> RoverSuspension:
+            """How the wheels are joined to the body: on rockers with a differential, two wheels on
+            a side, or with bogies three; left out, rigidly."""
             ...
 
         @property

@@ -48,6 +48,7 @@ mod slip_from_current;
 mod small_wheel;
 mod steering;
 mod stepping;
+mod suspensions;
 mod time_step;
 mod uncertain_documents;
 mod uncertainty;
