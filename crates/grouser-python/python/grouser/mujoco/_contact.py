@@ -13,6 +13,7 @@ from .. import _core, _former_names
 from .._arrays import number
 from .._descriptions import Soil, Source, Wheel
 from .._errors import ParameterError
+from .._terrain import Terrain
 from .._wheels import WheelForces, setting
 from ._ground import Ground, HeightFunction, ground_geom, ground_of
 from ._inertia import inertia_of_step
@@ -47,9 +48,10 @@ class SoilContact:
         The soil, or one for each wheel.
     wheels : mapping
         Names of the wheels' bodies, each with its `Wheel` or a source of one.
-    ground : str or callable
-        Name of the geom that is the ground, a plane or a height field of the world; or a function
-        that gives heights [m] over arrays of world x and y [m].
+    ground : str, Terrain or callable
+        Name of the geom that is the ground, a plane or a height field of the world; or a map, whose
+        coordinates are the world's, with the ground between its points as `grouser.simulate` has
+        it; or a function that gives heights [m] over arrays of world x and y [m].
     model : str, optional
         The wheel–soil model; by default each soil's own.
     wheel_moments : str
@@ -95,7 +97,7 @@ class SoilContact:
         *,
         soil: Soil | Source | Sequence[Soil | Source],
         wheels: Mapping[str, Wheel | Source],
-        ground: str | HeightFunction,
+        ground: str | Terrain | HeightFunction,
         model: str | None = None,
         wheel_moments: str = "included",
         sinkage_damping_s_m: float = _core.SINKAGE_DAMPING_S_M,

@@ -1,4 +1,4 @@
-"""The surface under wheels: a plane, a height field, or a function of position."""
+"""The surface under wheels: a plane, a height field, a map of heights, or a function of position."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from .. import _core
 from .._errors import ParameterError
+from .._terrain import Terrain
 
 Floats = NDArray[np.float64]
 #: Heights [m] over places x and y [m], all arrays of one shape.
@@ -86,19 +87,23 @@ class _HeightField:
         )
 
 
-def ground_of(model: Any, ground: str | HeightFunction, radii: Floats, widths: Floats) -> Ground:
-    """The ground of a geom's name or a function, under wheels of these shearing radii and widths
-    [m]."""
+def ground_of(
+    model: Any, ground: str | Terrain | HeightFunction, radii: Floats, widths: Floats
+) -> Ground:
+    """The ground of a geom's name, a map or a function, under wheels of these shearing radii and
+    widths [m]."""
     footprints = _core.Footprints(radii, widths)
     if isinstance(ground, str):
         geom = ground_geom(model, ground)
         if int(model.geom_type[geom]) == _PLANE:
             return _Plane(geom)
         return _HeightField(model, geom, footprints)
+    if isinstance(ground, Terrain):
+        return _Uneven(ground._native.ground, footprints)
     if not callable(ground):
         given = type(ground).__name__
         raise ParameterError(
-            f"ground is a {given}, it must be a geom's name or a function", "ground"
+            f"ground is a {given}, it must be a geom's name, a Terrain or a function", "ground"
         )
     return _Uneven(ground, footprints)
 
