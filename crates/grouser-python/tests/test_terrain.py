@@ -184,6 +184,18 @@ def test_a_file_that_is_no_map_is_refused(tmp_path: Path) -> None:
     assert "terrain." not in str(caught.value)
 
 
+def test_the_map_is_drawn_where_it_lies() -> None:
+    """The missing corner in the south-west is left out of the relief, whose first row is northern."""
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    heights = grid("south-first").copy()
+    heights[0, 0] = np.nan
+    ground = gr.Terrain(heights, cell_size_m=2.0, south_west_m=(10.0, 20.0), rows="south-first")
+    [image] = ground.plot().images
+    assert tuple(image.get_extent()) == (9.0, 27.0, 19.0, 33.0)
+    assert np.argwhere(np.ma.getmaskarray(image.get_array())).tolist() == [[6, 0]]
+
+
 # ---- runs ----
 
 
