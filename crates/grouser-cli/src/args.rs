@@ -6,6 +6,7 @@ mod documents;
 mod draw;
 mod forecast;
 mod heading;
+mod import_urdf;
 mod measurements;
 mod mission;
 mod new;
@@ -32,6 +33,7 @@ pub(crate) use documents::{CheckArgs, CompletionsArgs, PresetsArgs, SchemaArgs};
 pub(crate) use draw::DrawArgs;
 pub(crate) use forecast::ForecastArgs;
 pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
+pub(crate) use import_urdf::ImportUrdfArgs;
 pub(crate) use measurements::{
     CalibrateArgs, ImportArgs, PlateLawChoice, SlipChoice, ValidateArgs,
 };
@@ -93,6 +95,8 @@ pub(crate) enum Command {
     Draw(DrawArgs),
     /// Convert another laboratory's CSV file to the layout that `validate` reads.
     Import(ImportArgs),
+    /// Make a rover of URDF, the format in which robots are described to ROS.
+    ImportUrdf(ImportUrdfArgs),
     /// Measure how fast and how accurately this machine computes.
     Bench(BenchArgs),
     /// Make a rover, a wheel, a soil or a scenario of your own: asks, or takes answers by flags.

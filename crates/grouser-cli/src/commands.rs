@@ -14,6 +14,7 @@ pub(crate) mod heading;
 mod heading_band;
 pub(crate) mod heading_map;
 pub(crate) mod import;
+pub(crate) mod import_urdf;
 mod log;
 pub(crate) mod mission;
 pub(crate) mod new;

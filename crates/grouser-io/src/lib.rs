@@ -72,6 +72,7 @@ mod tree;
 mod uncertain_soil;
 pub mod uncertainty;
 pub mod unit;
+pub mod urdf;
 mod values;
 pub mod varied;
 mod zones_file;

@@ -1,0 +1,33 @@
+//! `grouser import-urdf`: a rover's document of the robot that ROS knows.
+
+use grouser::document::urdf::{self, UrdfOptions};
+use grouser::document::{self, Overrides, Source, escape};
+
+use crate::args::ImportUrdfArgs;
+use crate::failure::Failure;
+use crate::output::{self, file};
+
+/// The largest file [bytes]: meshes stand in files of their own.
+const LARGEST: u64 = 16 << 20;
+
+pub(crate) fn run(args: &ImportUrdfArgs) -> Result<(), Failure> {
+    if let Some(out) = &args.out {
+        file::check_new(out, args.force)?;
+    }
+    let name = escape::path(&args.file);
+    let refused = |what: String| Failure::Usage(format!("{name}: {what}"));
+    let bytes = document::file::read(&args.file, LARGEST).map_err(|it| refused(it.to_string()))?;
+    let text = String::from_utf8(bytes).map_err(|_| refused("is not a text".to_owned()))?;
+    let options = UrdfOptions { wheels: args.wheels.clone(), has_differential: args.differential };
+    let found = urdf::import(&text, &options)
+        .map_err(|error| refused(escape::visible(&error.to_string()).into_owned()))?;
+    let source = Source::text(format!("the rover of {name}"), found.toml.clone());
+    document::read_rover(&source, &Overrides::none())?;
+    for note in &found.notes {
+        output::message(&format!("note: {}", escape::line(note)));
+    }
+    match &args.out {
+        Some(out) => file::write(out, found.toml.as_bytes()),
+        None => output::print(&found.toml),
+    }
+}

@@ -1,0 +1,74 @@
+//! Rovers from URDF, the format in which robots are described to ROS.
+//!
+//! Links that roll become wheels, and all other links the body. Joints about an axis across the rover between the two are
+//! rockers and bogies, joints about an upright axis steer; what slides is taken as it stands at zero. Lengths are metres,
+//! the root link's x axis points forward, y to the left, z up (REP 103).
+//!
+//! Source of the format: "URDF XML Specification", wiki.ros.org/urdf/XML.
+
+mod error;
+mod links;
+mod rover;
+#[cfg(test)]
+mod tests;
+mod tree;
+
+pub use error::UrdfError;
+
+use self::rover::Found;
+use self::tree::Robot;
+
+/// What URDF cannot say.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct UrdfOptions {
+    /// Names of the links that are wheels, with `*` for any letters; without any, all cylinders that roll without end about
+    /// an axis across the rover.
+    pub wheels: Vec<String>,
+    /// That a differential joins the rockers of both sides.
+    pub has_differential: bool,
+}
+
+/// A rover that was found in URDF.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UrdfRover {
+    /// Its document, `rover/1`.
+    pub toml: String,
+    /// What was taken for granted on the way, a sentence each.
+    pub notes: Vec<String>,
+}
+
+/// Makes a rover's document of URDF.
+///
+/// How heavy is the body of a cart on three wheels?
+///
+/// ```
+/// use grouser_io::{Overrides, Source, read_rover};
+/// use grouser_io::urdf::{UrdfOptions, import};
+///
+/// let wheel = |name: &str, x: f64, y: f64| format!(
+///     r#"<link name="{name}"><inertial><mass value="0.5"/>
+///          <inertia ixx="2e-3" iyy="3e-3" izz="2e-3" ixy="0" ixz="0" iyz="0"/></inertial>
+///          <collision><origin rpy="1.5708 0 0"/><geometry><cylinder radius="0.1" length="0.08"/></geometry></collision>
+///        </link>
+///        <joint name="{name}-axle" type="continuous"><parent link="body"/><child link="{name}"/>
+///          <origin xyz="{x} {y} -0.1"/><axis xyz="0 1 0"/></joint>"#
+/// );
+/// let wheels = wheel("left", 0.2, 0.2) + &wheel("right", 0.2, -0.2) + &wheel("rear", -0.3, 0.0);
+/// let robot = format!(
+///     r#"<robot name="cart"><link name="body"><inertial><mass value="5"/>
+///          <inertia ixx="0.1" iyy="0.1" izz="0.2" ixy="0" ixz="0" iyz="0"/></inertial></link>{wheels}</robot>"#
+/// );
+/// let found = import(&robot, &UrdfOptions::default())?;
+/// let rover = read_rover(&Source::text("cart", found.toml), &Overrides::none())?.value;
+/// assert_eq!(rover.body().mass, 5.0);
+/// assert_eq!(rover.mounts()[2].name, "rear");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`UrdfError`], which names the link or the joint.
+pub fn import(text: &str, options: &UrdfOptions) -> Result<UrdfRover, UrdfError> {
+    let robot = Robot::read(text)?;
+    let found = Found::of(&robot, options)?;
+    Ok(UrdfRover { toml: found.to_toml(&robot.name), notes: found.notes })
+}

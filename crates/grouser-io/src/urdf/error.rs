@@ -1,0 +1,123 @@
+//! Why URDF is no rover of ours.
+
+/// What is wrong with a text that should be URDF, and what to do.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum UrdfError {
+    /// No XML.
+    #[error("is no XML: {0}")]
+    Xml(String),
+    /// Macros that are to be expanded first.
+    #[error("is xacro, not URDF\nhint: xacro FILE.xacro > FILE.urdf writes URDF")]
+    Xacro,
+    /// Another document.
+    #[error("has no <robot>: its root is <{0}>")]
+    NoRobot(String),
+    /// More links than a rover has.
+    #[error("has more than {0} links and joints, the most that are read")]
+    TooMany(usize),
+    /// A link or a joint without something that it needs.
+    #[error("{what} has no {lacks}")]
+    Lacks {
+        /// Which, as `link wheel`.
+        what: String,
+        /// What it has not.
+        lacks: &'static str,
+    },
+    /// A number that is none, or cannot be.
+    #[error("{what}: {attribute} is \"{written}\", it must be {expected}")]
+    Number {
+        /// Whose.
+        what: String,
+        /// Its name.
+        attribute: &'static str,
+        /// What stands there.
+        written: String,
+        /// What could.
+        expected: &'static str,
+    },
+    /// Two of one name.
+    #[error("{0} stands there twice: names must differ")]
+    Twice(String),
+    /// A joint to a link that is not there.
+    #[error("joint {joint} leads to link {link}, which is not there")]
+    NoLink {
+        /// The joint.
+        joint: String,
+        /// The link.
+        link: String,
+    },
+    /// A link with two parents.
+    #[error("link {0} hangs on two joints: links of URDF are a tree")]
+    TwoParents(String),
+    /// Links that hang on each other.
+    #[error("link {0} hangs on itself, by way of others: links of URDF are a tree")]
+    Cycle(String),
+    /// Several links that hang on nothing.
+    #[error("links {0} and {1} hang on nothing: one link is the root")]
+    TwoRoots(String, String),
+    /// No wheels.
+    #[error(
+        "no wheels were found: no cylinder rolls without end (type continuous) about an axis across the rover\nhint: name them: --wheels '*wheel*'; the links are {0}"
+    )]
+    NoWheels(String),
+    /// More wheels than a rover has.
+    #[error(
+        "has {count} wheels, and a rover has at most {most}\nhint: --wheels names those that are wheels"
+    )]
+    TooManyWheels {
+        /// How many were found.
+        count: usize,
+        /// The most.
+        most: usize,
+    },
+    /// A pattern that no link has.
+    #[error("no link is called {pattern}\nhint: the links are {links}")]
+    NoSuchWheel {
+        /// As it was given.
+        pattern: String,
+        /// The links there are.
+        links: String,
+    },
+    /// A wheel without radius and width.
+    #[error(
+        "link {link} is a wheel, but {found}\nhint: give it a <collision> with <cylinder radius=\"…\" length=\"…\"/>, radius and width of its rim"
+    )]
+    NoRim {
+        /// The link.
+        link: String,
+        /// What it has instead.
+        found: &'static str,
+    },
+    /// A wheel whose joints do not roll.
+    #[error("link {0} is a wheel, but no joint above it turns about an axis across the rover")]
+    DoesNotRoll(String),
+    /// A joint about an axis that is neither across nor upright.
+    #[error(
+        "joint {0} turns about an axis that is neither across the rover, as rockers and bogies do, nor upright, as steering does\nhint: fix it (type=\"fixed\") if it stands still on the way"
+    )]
+    Askew(String),
+    /// More joints than rockers and bogies have.
+    #[error("between the body and wheel {0} are more than two joints about axes across the rover")]
+    TooManyJoints(String),
+    /// A differential that nobody spoke of.
+    #[error(
+        "joint {0} is a rocker, and URDF cannot say what holds the body between the rockers of both sides\nhint: --differential says that a differential does; without one the body would tip over, and other mechanisms are not known here: fix the joint (type=\"fixed\") for rigid ones"
+    )]
+    Differential(String),
+    /// Sides that differ.
+    #[error(
+        "{0} are not alike on both sides: joints {1} and {2} turn about axes at different places"
+    )]
+    Sides(&'static str, String, String),
+    /// Bogies on the way, but not of all.
+    #[error(
+        "wheels of one side hang on rockers and bogies in a way that is not known here: on each side one wheel is on the rocker, and two on its bogie"
+    )]
+    OtherSuspension,
+    /// Nothing to carry.
+    #[error(
+        "all links are wheels, or none of the others has a mass\nhint: give the body's link an <inertial>"
+    )]
+    NoBody,
+}

@@ -1,0 +1,318 @@
+//! The links and joints of URDF as a tree.
+
+use roxmltree::{Document, Node, ParsingOptions};
+
+use super::error::UrdfError;
+use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
+
+/// The most links and joints.
+const MOST: usize = 10_000;
+/// The most elements and attributes of the text.
+const NODES: u32 = 1_000_000;
+
+/// A robot: link 0 is the root, and parents come before their children.
+#[derive(Debug)]
+pub(super) struct Robot {
+    pub(super) name: String,
+    pub(super) links: Vec<Link>,
+}
+
+/// A link, with the joint that it hangs on.
+#[derive(Clone, Debug)]
+pub(super) struct Link {
+    pub(super) name: String,
+    /// Place of its parent among the links; none of the root.
+    pub(super) parent: Option<usize>,
+    pub(super) joint: Option<Joint>,
+    pub(super) inertial: Option<Inertial>,
+    pub(super) rim: Rim,
+    /// Its frame in the root's, where all joints are at zero.
+    pub(super) frame: Isometry3<f64>,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Joint {
+    pub(super) name: String,
+    pub(super) kind: String,
+    parent: String,
+    child: String,
+    origin: Isometry3<f64>,
+    /// In the joint's frame, a unit vector.
+    axis: Vector3<f64>,
+    /// How far it turns to either side [rad].
+    pub(super) limit: Option<f64>,
+}
+
+/// Mass, centre and inertia of a link, in its frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Inertial {
+    pub(super) mass: f64,
+    pub(super) origin: Isometry3<f64>,
+    /// About its centre, in the frame of `origin`.
+    pub(super) inertia: Matrix3<f64>,
+}
+
+/// What a link has of a wheel's rim.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Rim {
+    Cylinder { radius: f64, length: f64, origin: Isometry3<f64> },
+    Other(&'static str),
+}
+
+impl Robot {
+    pub(super) fn read(text: &str) -> Result<Self, UrdfError> {
+        let options = ParsingOptions { nodes_limit: NODES, ..ParsingOptions::default() };
+        let document = Document::parse_with_options(text, options)
+            .map_err(|error| UrdfError::Xml(error.to_string()))?;
+        let robot = document.root_element();
+        if robot.tag_name().name() != "robot" {
+            return Err(UrdfError::NoRobot(robot.tag_name().name().to_owned()));
+        }
+        if robot.descendants().any(|node| node.tag_name().namespace().is_some_and(is_xacro)) {
+            return Err(UrdfError::Xacro);
+        }
+        let named = |tag: &'static str| robot.children().filter(move |node| node.has_tag_name(tag));
+        if named("link").count() + named("joint").count() > MOST {
+            return Err(UrdfError::TooMany(MOST));
+        }
+        let links = named("link").map(link).collect::<Result<Vec<_>, _>>()?;
+        let joints = named("joint").map(joint).collect::<Result<Vec<_>, _>>()?;
+        check_names("link", links.iter().map(|link| &link.name))?;
+        check_names("joint", joints.iter().map(|joint| &joint.name))?;
+        let name = robot.attribute("name").unwrap_or("rover").to_owned();
+        Ok(Self { name, links: ordered(&links, joints)? })
+    }
+
+    /// Of each link, whether it is one of some, or hangs on one.
+    pub(super) fn hanging_on(&self, some: &[usize]) -> Vec<bool> {
+        let mut hanging = vec![false; self.links.len()];
+        for (place, link) in self.links.iter().enumerate() {
+            hanging[place] = some.contains(&place) || link.parent.is_some_and(|it| hanging[it]);
+        }
+        hanging
+    }
+
+    /// A link, its parent, and so on to the root.
+    pub(super) fn up_from(&self, link: usize) -> impl Iterator<Item = usize> + '_ {
+        std::iter::successors(Some(link), |link| self.links[*link].parent)
+    }
+}
+
+impl Link {
+    /// Where its joint is, in the root's frame [m].
+    pub(super) fn pivot(&self) -> Vector3<f64> {
+        self.frame.translation.vector
+    }
+
+    /// The axis of its joint, in the root's frame.
+    pub(super) fn axis(&self) -> Option<Vector3<f64>> {
+        Some(self.frame.rotation * self.joint.as_ref()?.axis)
+    }
+}
+
+fn is_xacro(namespace: &str) -> bool {
+    namespace.contains("xacro")
+}
+
+fn check_names<'a>(what: &str, names: impl Iterator<Item = &'a String>) -> Result<(), UrdfError> {
+    let mut sorted: Vec<&String> = names.collect();
+    sorted.sort();
+    match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
+        Some(pair) => Err(UrdfError::Twice(format!("{what} {}", pair[0]))),
+        None => Ok(()),
+    }
+}
+
+/// Links in an order in which parents come first, with their frames.
+fn ordered(links: &[Link], joints: Vec<Joint>) -> Result<Vec<Link>, UrdfError> {
+    let place = |joint: &Joint, name: &String| {
+        links
+            .iter()
+            .position(|link| link.name == *name)
+            .ok_or_else(|| UrdfError::NoLink { joint: joint.name.clone(), link: name.clone() })
+    };
+    let mut hangs: Vec<Option<(usize, Joint)>> = vec![None; links.len()];
+    for joint in joints {
+        let (parent, child) = (place(&joint, &joint.parent)?, place(&joint, &joint.child)?);
+        if hangs[child].is_some() {
+            return Err(UrdfError::TwoParents(links[child].name.clone()));
+        }
+        hangs[child] = Some((parent, joint));
+    }
+    let mut roots = (0..links.len()).filter(|link| hangs[*link].is_none());
+    let Some(root) = roots.next() else {
+        return Err(match links.first() {
+            Some(first) => UrdfError::Cycle(first.name.clone()),
+            None => UrdfError::NoBody,
+        });
+    };
+    if let Some(other) = roots.next() {
+        return Err(UrdfError::TwoRoots(links[root].name.clone(), links[other].name.clone()));
+    }
+    let mut children: Vec<Vec<usize>> = vec![Vec::new(); links.len()];
+    for (child, joint) in hangs.iter().enumerate() {
+        if let Some((parent, _)) = joint {
+            children[*parent].push(child);
+        }
+    }
+    // Breadth first: what is not reached hangs on itself.
+    let mut order = vec![root];
+    let mut next = 0;
+    while let Some(&link) = order.get(next) {
+        order.extend(&children[link]);
+        next += 1;
+    }
+    if let Some(lost) = (0..links.len()).find(|link| !order.contains(link)) {
+        return Err(UrdfError::Cycle(links[lost].name.clone()));
+    }
+    let mut sorted: Vec<Link> = Vec::with_capacity(links.len());
+    for &old in &order {
+        let mut link = links[old].clone();
+        if let Some((parent, joint)) = hangs[old].take() {
+            let parent = order.iter().position(|it| *it == parent).unwrap_or(0);
+            link.frame = sorted[parent].frame * joint.origin;
+            link.parent = Some(parent);
+            link.joint = Some(joint);
+        }
+        sorted.push(link);
+    }
+    Ok(sorted)
+}
+
+fn link(node: Node<'_, '_>) -> Result<Link, UrdfError> {
+    let name = attribute(node, "a link", "name")?.to_owned();
+    let what = format!("link {name}");
+    let inertial = child(node, "inertial").map(|node| inertial(node, &what)).transpose()?;
+    let rim = rim(node, &what)?;
+    let frame = Isometry3::identity();
+    Ok(Link { name, parent: None, joint: None, inertial, rim, frame })
+}
+
+fn inertial(node: Node<'_, '_>, what: &str) -> Result<Inertial, UrdfError> {
+    let lacks = |lacks| UrdfError::Lacks { what: what.to_owned(), lacks };
+    let mass = child(node, "mass").ok_or_else(|| lacks("mass in its <inertial>"))?;
+    let mass = number(mass, what, "value", |mass| mass >= 0.0, "a mass in kg, not below 0")?;
+    let tensor = child(node, "inertia").ok_or_else(|| lacks("inertia in its <inertial>"))?;
+    let part = |name| number(tensor, what, name, |_| true, "a moment of inertia in kg m²");
+    let or_zero = |name| if tensor.has_attribute(name) { part(name) } else { Ok(0.0) };
+    let (xx, yy, zz) = (part("ixx")?, part("iyy")?, part("izz")?);
+    let (xy, xz, yz) = (or_zero("ixy")?, or_zero("ixz")?, or_zero("iyz")?);
+    let inertia = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    Ok(Inertial { mass, origin: origin(node, what)?, inertia })
+}
+
+/// The first cylinder of what collides, or else of what is seen.
+fn rim(node: Node<'_, '_>, what: &str) -> Result<Rim, UrdfError> {
+    let mut found = Rim::Other("it has no geometry");
+    for tag in ["collision", "visual"] {
+        for part in node.children().filter(|node| node.has_tag_name(tag)) {
+            let Some(geometry) = child(part, "geometry") else { continue };
+            if let Some(cylinder) = child(geometry, "cylinder") {
+                let size = |name| {
+                    number(cylinder, what, name, |size| size > 0.0, "a length in m, above 0")
+                };
+                let (radius, length) = (size("radius")?, size("length")?);
+                return Ok(Rim::Cylinder { radius, length, origin: origin(part, what)? });
+            }
+            let shapes = [
+                ("mesh", "its geometry is a mesh, which does not tell radius and width"),
+                ("sphere", "its geometry is a sphere, which has no width"),
+                ("box", "its geometry is a box"),
+            ];
+            let shape = shapes.into_iter().find(|(shape, _)| child(geometry, shape).is_some());
+            if let Some((_, shape)) = shape {
+                found = Rim::Other(shape);
+            }
+        }
+    }
+    Ok(found)
+}
+
+fn joint(node: Node<'_, '_>) -> Result<Joint, UrdfError> {
+    let name = attribute(node, "a joint", "name")?.to_owned();
+    let what = format!("joint {name}");
+    let end = |tag: &'static str| {
+        let lacks = || UrdfError::Lacks { what: what.clone(), lacks: tag };
+        let end = child(node, tag).ok_or_else(lacks)?;
+        Ok(attribute(end, &what, "link")?.to_owned())
+    };
+    let axis = match child(node, "axis") {
+        Some(axis) => triple(axis, &what, "xyz")?,
+        None => Vector3::x(),
+    };
+    let kind = attribute(node, &what, "type")?.to_owned();
+    let axis = axis.try_normalize(1e-9).ok_or_else(|| UrdfError::Number {
+        what: what.clone(),
+        attribute: "xyz",
+        written: "0 0 0".to_owned(),
+        expected: "a direction",
+    })?;
+    let limit = match child(node, "limit") {
+        Some(limit) if kind == "revolute" => {
+            let end = |name| {
+                if !limit.has_attribute(name) {
+                    return Ok(0.0);
+                }
+                number(limit, &what, name, |_| true, "an angle in rad")
+            };
+            Some(end("lower")?.abs().min(end("upper")?.abs()))
+        }
+        _ => None,
+    };
+    let (parent, child) = (end("parent")?, end("child")?);
+    Ok(Joint { name, kind, parent, child, origin: origin(node, &what)?, axis, limit })
+}
+
+// ---- Attributes ----
+
+fn child<'a, 'input>(node: Node<'a, 'input>, tag: &str) -> Option<Node<'a, 'input>> {
+    node.children().find(|node| node.has_tag_name(tag))
+}
+
+fn attribute<'a>(node: Node<'a, '_>, what: &str, name: &'static str) -> Result<&'a str, UrdfError> {
+    node.attribute(name).ok_or_else(|| UrdfError::Lacks { what: what.to_owned(), lacks: name })
+}
+
+fn number(
+    node: Node<'_, '_>,
+    what: &str,
+    name: &'static str,
+    may_be: impl Fn(f64) -> bool,
+    expected: &'static str,
+) -> Result<f64, UrdfError> {
+    /// What is larger is no rover's, in any unit of URDF.
+    const LARGEST: f64 = 1e9;
+    let written = attribute(node, what, name)?;
+    let number = written.trim().parse().ok();
+    number.filter(|it: &f64| it.abs() <= LARGEST && may_be(*it)).ok_or_else(|| {
+        let (what, written) = (what.to_owned(), written.chars().take(40).collect());
+        UrdfError::Number { what, attribute: name, written, expected }
+    })
+}
+
+fn triple(node: Node<'_, '_>, what: &str, name: &'static str) -> Result<Vector3<f64>, UrdfError> {
+    let Some(written) = node.attribute(name) else { return Ok(Vector3::zeros()) };
+    let parts: Vec<f64> = written
+        .split_whitespace()
+        .filter_map(|part| part.parse().ok())
+        .filter(|part: &f64| part.is_finite() && part.abs() <= 1e9)
+        .collect();
+    let is_whole = written.split_whitespace().count() == 3;
+    match parts[..] {
+        [x, y, z] if is_whole => Ok(Vector3::new(x, y, z)),
+        _ => Err(UrdfError::Number {
+            what: what.to_owned(),
+            attribute: name,
+            written: written.chars().take(40).collect(),
+            expected: "three numbers",
+        }),
+    }
+}
+
+/// The `<origin>` in an element: a place, and roll, pitch and yaw about fixed axes.
+fn origin(node: Node<'_, '_>, what: &str) -> Result<Isometry3<f64>, UrdfError> {
+    let Some(origin) = child(node, "origin") else { return Ok(Isometry3::identity()) };
+    let (place, turned) = (triple(origin, what, "xyz")?, triple(origin, what, "rpy")?);
+    let rotation = UnitQuaternion::from_euler_angles(turned.x, turned.y, turned.z);
+    Ok(Isometry3::from_parts(Translation3::from(place), rotation))
+}
