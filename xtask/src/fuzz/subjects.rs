@@ -53,7 +53,7 @@ impl Subject {
 }
 
 /// Quick lines of every command, each with the names of its files among [`documents`].
-const LINES: [(&str, &str, &[&str]); 35] = [
+const LINES: [(&str, &str, &[&str]); 36] = [
     (
         "wheel-test",
         "wheel-test --soil soil.toml --wheel wheel.toml --load-n 17 --slip-ratio -0.4:0.8:0.4 --format json",
@@ -201,6 +201,7 @@ const LINES: [(&str, &str, &[&str]); 35] = [
     ),
     ("check, zones", "check zones.toml", &["zones.toml", "zones.geojson", "soil.toml"]),
     ("mission, map", "mission mission.toml --format json", &["mission.toml", "map.xyz"]),
+    ("import-urdf", "import-urdf robot.urdf --differential", &["robot.urdf"]),
     ("presets", "presets toyoura --kind soil", &[]),
     ("schema", "schema soil", &[]),
     ("completions", "completions bash", &[]),
@@ -274,7 +275,7 @@ fn documents(program: &Path) -> Result<Vec<(String, Vec<u8>)>> {
             "wheel-test --load-n 20 --slip-ratio 0:0.6:0.2 --slip-angle-deg 0,15 --trials 3 --format csv",
         ),
     ];
-    const WRITTEN: [(&str, &str); 11] = [
+    const WRITTEN: [(&str, &str); 12] = [
         (
             "scenario.toml",
             "schema = \"scenario/1\"\nname = \"a run\"\nrover = \"rover.toml\"\nsoil = \"soil.toml\"\nslope_deg = 10.0\nduration_s = 1.0\n[drive]\nlaw = \"constant\"\nspeed_m_s = [0.06, 0.06, 0.05, 0.05]\n[start]\nyaw_deg = 5.0\n",
@@ -299,6 +300,7 @@ fn documents(program: &Path) -> Result<Vec<(String, Vec<u8>)>> {
             "climbs.toml",
             "schema = \"data-set/1\"\nname = \"our climbs\"\nsource = \"simulated\"\nfile = \"climbs.csv\"\n[[case]]\nname = \"all\"\nrover = \"rover.toml\"\nsoils = [\"soil.toml\", \"toyoura\"]\nfitted = [\"toyoura\"]\n",
         ),
+        ("robot.urdf", include_str!("robot.urdf")),
         ("samples.csv", "friction_angle_deg,exit.ratio\n38,1.0\n37,0.9\n36.5,0.95\n"),
         ("sampled.toml", SAMPLED),
         ("yaws.csv", "slope_deg,measured,yaw_deg\n5,first run,3.31\n10,second run,5.51\n"),

@@ -150,3 +150,45 @@ fn a_full_disk_leaves_no_imported_file() {
     assert!(answer.stderr.contains("error: cannot write ours.csv"), "{}", answer.stderr);
     assert_eq!(place.names(), ["lab.csv"]);
 }
+
+/// A log has the rover as URDF, wheels on sliding joints: it comes back with the masses, places and wheels of its document.
+#[test]
+fn urdf_of_a_log_comes_back_as_its_rover() {
+    let place = Place::new();
+    place.line("traverse --duration-s 1 --mcap run.mcap");
+    let log = std::fs::read(place.file("run.mcap")).expect("a log");
+    let find = |what: &[u8]| log.windows(what.len()).position(|it| it == what).expect("it");
+    let (start, end) = (find(b"<?xml"), find(b"</robot>") + b"</robot>".len());
+    place.write("rover.urdf", &log[start..end]);
+    let answer = place.line("import-urdf rover.urdf --out back.toml");
+    assert_eq!(answer.code(), 0, "{}", answer.stderr);
+    assert!(answer.stderr.contains("wheels: front-left_rim") && answer.stderr.contains("slides"));
+    let back = place.read("back.toml");
+    for expected in ["mass_kg = 5.24", "mass_kg = 0.422", "radius_m = 0.1,", "width_m = 0.08"] {
+        assert!(back.contains(expected), "{expected}: {back}");
+    }
+    assert!(back.contains("position_m = [0.19, 0.24, -0.06]"), "{back}");
+    assert_eq!(place.line("check back.toml").code(), 0);
+    assert_eq!(place.line("import-urdf rover.urdf --out back.toml").code(), 2);
+    let printed = place.line("import-urdf rover.urdf --wheels *_rim");
+    assert!(printed.stdout.starts_with("schema = \"rover/1\""), "{}", printed.stderr);
+    let run = place.json("traverse --rover back.toml --duration-s 2");
+    assert_eq!(run["outcome"], "completed");
+}
+
+#[test]
+fn urdf_that_is_no_rover_is_refused() {
+    let place = Place::new();
+    place.write("arm.urdf", "<robot name=\"arm\"><link name=\"base\"/></robot>");
+    place.write("bytes.urdf", [0xff_u8, 0xfe]);
+    for (line, expected) in [
+        ("import-urdf none.urdf", "no such file"),
+        ("import-urdf bytes.urdf", "not a text"),
+        ("import-urdf arm.urdf", "--wheels '*wheel*'"),
+        ("import-urdf arm.urdf --wheels tyre", "no link is called tyre"),
+        ("import-urdf arm.urdf --force", "--out"),
+    ] {
+        let refused = check_is_refusal(&place.line(line), 2);
+        assert!(refused.contains(expected), "{line}: {refused}");
+    }
+}
