@@ -22,6 +22,7 @@ use crate::output::rows::Rows;
 use crate::output::text::Text;
 use crate::output::{self, Format};
 use crate::report::REPORT;
+use crate::report::answer::drawing_of_ground;
 
 pub(crate) fn run(args: &MissionArgs) -> Result<(), Failure> {
     let destinations = Destinations::of(&args.run, &args.output)?;
@@ -101,6 +102,10 @@ impl Answered {
                 let records = Rows::of_table(&self.records(way)).to_csv()?;
                 folder.add(format!("records{end}.csv"), records);
                 folder.add(format!("path{end}.svg"), self.path(way));
+                let (scenario, run) = (&self.document.value.scenario, &way.report.trajectory);
+                if let Some(drawing) = drawing_of_ground(scenario, &run.records) {
+                    folder.add(format!("ground{end}.svg"), drawing);
+                }
             }
             folder.add(REPORT, page::html(self));
             folder.add_document("mission.toml", &self.document);

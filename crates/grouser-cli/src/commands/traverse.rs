@@ -27,6 +27,7 @@ use crate::output::rows::{Rows, four_digits, metres};
 use crate::output::text::Text;
 use crate::output::{self, Format};
 use crate::report::REPORT;
+use crate::report::answer::drawing_of_ground;
 
 /// Lines of the table on a terminal, besides the start.
 const LINES: usize = 10;
@@ -105,6 +106,9 @@ impl OfModel {
             folder.add("traverse.csv", rows.to_csv()?);
             let all = std::slice::from_ref(self);
             folder.add("traverse.svg", chart(all).to_svg());
+            if let Some(drawing) = drawing_of_ground(&self.scenario.value, &self.run.records) {
+                folder.add("ground.svg", drawing);
+            }
             folder.add(REPORT, page::html(args, all));
             folder.add_document("scenario.toml", &self.scenario);
             folder.finish()?;

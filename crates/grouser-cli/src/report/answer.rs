@@ -129,11 +129,16 @@ pub(crate) fn ground(document: &Document, scenario: &Scenario) -> String {
     format!("terrain: {}{zones}", shape.unwrap_or("unnamed"))
 }
 
-/// A run over ground with heights, from three sides; nothing of one on a plane.
+/// A run over ground with heights, from above, obliquely and cut along the way; nothing of one on a plane.
+pub(crate) fn drawing_of_ground(scenario: &Scenario, records: &[Record]) -> Option<String> {
+    relief_of("The ground and the way over it", scenario, records)
+}
+
+/// The same on a page.
 pub(crate) fn over_ground(page: &mut Page, scenario: &Scenario, records: &[Record]) {
     const CAPTION: &str = "The ground, the way of the body's centre of mass over it, and the rover at its start, on the \
         way and at its end, to scale. Numbers are the map's coordinates; the body is a likeness.";
-    if let Some(drawing) = relief_of("The ground and the way over it", scenario, records) {
+    if let Some(drawing) = drawing_of_ground(scenario, records) {
         page.drawing(&drawing, CAPTION);
     }
 }

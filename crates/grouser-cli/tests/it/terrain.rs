@@ -103,6 +103,7 @@ fn a_folder_repeats_a_drive_over_a_map() {
     let page = place.read("out/report.html");
     assert!(page.contains("map.xyz") && page.contains("Height of the body"));
     assert!(page.contains("along the way"));
+    assert!(place.read("out/ground.svg").contains("along the way"));
     let table = place.line("traverse out/scenario.toml").stdout;
     assert!(table.contains("x -22998") || table.contains("x -24997."), "{table}");
 }

@@ -199,8 +199,7 @@ fn robots_that_are_no_rovers_are_refused() {
         (String::new(), UrdfOptions::default(), "is no XML"),
         (deep, UrdfOptions::default(), "is no XML"),
         (
-            "<robot xmlns:xacro=\"urn:xacro\"><xacro:wheel/></robot>"
-                .to_owned(),
+            "<robot xmlns:xacro=\"urn:xacro\"><xacro:wheel/></robot>".to_owned(),
             UrdfOptions::default(),
             "xacro FILE.xacro",
         ),
