@@ -1,6 +1,6 @@
 //! `grouser import-urdf`: a rover's document of the robot that ROS knows.
 
-use grouser::document::urdf::{self, UrdfOptions};
+use grouser::document::urdf::{self, UrdfError, UrdfOptions};
 use grouser::document::{self, Overrides, Source, escape};
 
 use crate::args::ImportUrdfArgs;
@@ -20,7 +20,7 @@ pub(crate) fn run(args: &ImportUrdfArgs) -> Result<(), Failure> {
     let text = String::from_utf8(bytes).map_err(|_| refused("is not a text".to_owned()))?;
     let options = UrdfOptions { wheels: args.wheels.clone(), has_differential: args.differential };
     let found = urdf::import(&text, &options)
-        .map_err(|error| refused(escape::visible(&error.to_string()).into_owned()))?;
+        .map_err(|error| refused(escape::visible(&with_flags(&error)).into_owned()))?;
     let source = Source::text(format!("the rover of {name}"), found.toml.clone());
     document::read_rover(&source, &Overrides::none())?;
     for note in &found.notes {
@@ -30,4 +30,16 @@ pub(crate) fn run(args: &ImportUrdfArgs) -> Result<(), Failure> {
         Some(out) => file::write(out, found.toml.as_bytes()),
         None => output::print(&found.toml),
     }
+}
+
+/// An error with the flags that help.
+fn with_flags(error: &UrdfError) -> String {
+    let hint = match error {
+        UrdfError::NoWheels(_) | UrdfError::TooManyWheels { .. } => {
+            "\nhint: --wheels '*wheel*' names those that are wheels"
+        }
+        UrdfError::Differential(_) => "\nhint: --differential says that there is one",
+        _ => "",
+    };
+    format!("{error}{hint}")
 }

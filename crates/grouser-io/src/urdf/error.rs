@@ -58,13 +58,11 @@ pub enum UrdfError {
     TwoRoots(String, String),
     /// No wheels.
     #[error(
-        "no wheels were found: no cylinder rolls without end (type continuous) about an axis across the rover\nhint: name them: --wheels '*wheel*'; the links are {0}"
+        "no wheels were found: no cylinder rolls without end (type continuous) about an axis across the rover; the links are {0}"
     )]
     NoWheels(String),
     /// More wheels than a rover has.
-    #[error(
-        "has {count} wheels, and a rover has at most {most}\nhint: --wheels names those that are wheels"
-    )]
+    #[error("has {count} wheels, and a rover has at most {most}: name those that are wheels")]
     TooManyWheels {
         /// How many were found.
         count: usize,
@@ -102,7 +100,7 @@ pub enum UrdfError {
     TooManyJoints(String),
     /// A differential that nobody spoke of.
     #[error(
-        "joint {0} is a rocker, and URDF cannot say what holds the body between the rockers of both sides\nhint: --differential says that a differential does; without one the body would tip over, and other mechanisms are not known here: fix the joint (type=\"fixed\") for rigid ones"
+        "joint {0} is a rocker, and URDF cannot say what holds the body between the rockers of both sides\nhint: a differential has to be asked for; other mechanisms are not known here, and a rigid rover has fixed joints (type=\"fixed\")"
     )]
     Differential(String),
     /// Sides that differ.
