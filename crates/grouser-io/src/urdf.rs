@@ -8,25 +8,17 @@
 
 mod error;
 mod links;
+mod options;
 mod rover;
 #[cfg(test)]
 mod tests;
 mod tree;
 
 pub use error::UrdfError;
+pub use options::UrdfOptions;
 
 use self::rover::Found;
 use self::tree::Robot;
-
-/// What URDF cannot say.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct UrdfOptions {
-    /// Names of the links that are wheels, with `*` for any letters; without any, all cylinders that roll without end about
-    /// an axis across the rover.
-    pub wheels: Vec<String>,
-    /// That a differential joins the rockers of both sides.
-    pub has_differential: bool,
-}
 
 /// A rover that was found in URDF.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,7 +10,7 @@ from typing import Any
 
 import grouser as gr
 
-#: Twelve shards, the last of them shorter, of dynamic runs: long enough for a worker to be killed in one.
+#: Twelve shards, the last of them shorter.
 SHARDS = 12
 
 
@@ -34,6 +34,11 @@ def study(**changes: Any) -> gr.Campaign:
         ],
     }
     return gr.Campaign({**keys, **changes})
+
+
+def long_study() -> gr.Campaign:
+    """The same over minutes: a shard takes so long that a worker can be killed in one."""
+    return study(scenario={"soil": "toyoura", "slope_deg": 8.0, "duration_s": 120.0})
 
 
 def wheel_study(**changes: Any) -> gr.Campaign:

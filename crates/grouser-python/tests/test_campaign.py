@@ -31,6 +31,13 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> gr.campaign.Results:
     return gr.campaign.run(campaigns.study(), out=folder, threads=1)
 
 
+@pytest.fixture(scope="module")
+def long(tmp_path_factory: pytest.TempPathFactory) -> gr.campaign.Results:
+    """The same of the study whose workers are killed."""
+    folder = tmp_path_factory.mktemp("long") / "out"
+    return gr.campaign.run(campaigns.long_study(), out=folder, threads=1)
+
+
 class Backwards(Executor):
     """Computes what was submitted last first, and counts what waits."""
 
@@ -102,29 +109,29 @@ def test_shards_may_come_in_any_order(whole: gr.campaign.Results, tmp_path: Path
     assert order == list(range(1, campaigns.SHARDS + 1)) and executor.most == 5
 
 
-def test_a_killed_process_costs_time_only(whole: gr.campaign.Results, tmp_path: Path) -> None:
+def test_a_killed_process_costs_time_only(long: gr.campaign.Results, tmp_path: Path) -> None:
     def workers() -> list[int]:
         return [child.pid for child in multiprocessing.active_children() if child.pid]
 
     killer = campaigns.Killer(workers)
     found = gr.campaign.run(
-        campaigns.study(), out=tmp_path, executor="processes", workers=2, progress=killer
+        campaigns.long_study(), out=tmp_path, executor="processes", workers=2, progress=killer
     )
-    assert found.digest == whole.digest
+    assert found.digest == long.digest
     assert killer.killed and killer.lost >= 1
 
 
 def test_what_a_broken_pool_has_left_is_gone_on_with(
-    whole: gr.campaign.Results, tmp_path: Path
+    long: gr.campaign.Results, tmp_path: Path
 ) -> None:
     pool = ProcessPoolExecutor(2, mp_context=SPAWN)
     killer = campaigns.Killer(lambda: list(pool._processes))
     with pytest.raises(gr.CampaignError, match="the executor is broken"):
-        gr.campaign.run(campaigns.study(), out=tmp_path, executor=pool, progress=killer)
+        gr.campaign.run(campaigns.long_study(), out=tmp_path, executor=pool, progress=killer)
     pool.shutdown()
     kept = campaigns.files_of(tmp_path)
     assert 2 <= len(kept) < campaigns.SHARDS
-    assert gr.campaign.run(campaigns.study(), out=tmp_path).digest == whole.digest
+    assert gr.campaign.run(campaigns.long_study(), out=tmp_path).digest == long.digest
     assert kept.items() <= campaigns.files_of(tmp_path).items()
 
 

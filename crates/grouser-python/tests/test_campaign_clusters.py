@@ -18,14 +18,21 @@ import grouser as gr
 pytestmark = [pytest.mark.cluster, pytest.mark.filterwarnings("default")]
 
 
-@pytest.fixture(scope="module")
-def digest(tmp_path_factory: pytest.TempPathFactory) -> str:
-    """That of an undisturbed run in one thread."""
-    found = gr.campaign.run(
-        campaigns.study(), out=tmp_path_factory.mktemp("one") / "out", threads=1
-    )
+def undisturbed(study: gr.Campaign, folder: Path) -> str:
+    """The digest of a run in one thread."""
+    found = gr.campaign.run(study, out=folder / "out", threads=1)
     assert found.digest is not None
     return found.digest
+
+
+@pytest.fixture(scope="module")
+def digest(tmp_path_factory: pytest.TempPathFactory) -> str:
+    return undisturbed(campaigns.study(), tmp_path_factory.mktemp("one"))
+
+
+@pytest.fixture(scope="module")
+def long_digest(tmp_path_factory: pytest.TempPathFactory) -> str:
+    return undisturbed(campaigns.long_study(), tmp_path_factory.mktemp("long"))
 
 
 @pytest.fixture(scope="module")
@@ -66,11 +73,13 @@ def test_dask_by_its_address(cluster: Any, digest: str, tmp_path: Path) -> None:
     assert json.loads(finished.stdout.splitlines()[-1])["digest"] == digest
 
 
-def test_dask_with_a_killed_worker(cluster: Any, digest: str, tmp_path: Path) -> None:
+def test_dask_with_a_killed_worker(cluster: Any, long_digest: str, tmp_path: Path) -> None:
     killer = campaigns.Killer(lambda: workers_of(cluster))
     with cluster.get_client() as client:
-        found = gr.campaign.run(campaigns.study(), out=tmp_path, executor=client, progress=killer)
-    assert found.digest == digest and killer.killed
+        found = gr.campaign.run(
+            campaigns.long_study(), out=tmp_path, executor=client, progress=killer
+        )
+    assert found.digest == long_digest and killer.killed
 
 
 @pytest.fixture(scope="module")
@@ -104,7 +113,7 @@ def test_ray_finds_the_same(ray: Any, digest: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="workers are found in /proc")
-def test_ray_with_a_killed_worker(ray: Any, digest: str, tmp_path: Path) -> None:
+def test_ray_with_a_killed_worker(ray: Any, long_digest: str, tmp_path: Path) -> None:
     killer = campaigns.Killer(workers_of_ray)
-    found = gr.campaign.run(campaigns.study(), out=tmp_path, executor=ray, progress=killer)
-    assert found.digest == digest and killer.killed
+    found = gr.campaign.run(campaigns.long_study(), out=tmp_path, executor=ray, progress=killer)
+    assert found.digest == long_digest and killer.killed

@@ -2,8 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::UrdfOptions;
 use super::error::UrdfError;
+use super::options::UrdfOptions;
 use super::tree::{Rim, Robot};
 
 /// Cosine of the angle by which an axis may be off its direction: 10°.

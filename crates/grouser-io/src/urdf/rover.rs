@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::UrdfOptions;
 use super::error::UrdfError;
 use super::links::{Together, Wheel, joint_name};
+use super::options::UrdfOptions;
 use super::tree::Robot;
 
 /// How far apart two places are that should be one [m].

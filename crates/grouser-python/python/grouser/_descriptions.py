@@ -248,7 +248,7 @@ def _given(files: Mapping[str, str | Terrain] | None) -> dict[str, str | _core.T
     """Files of a caller."""
     return {
         name: content._native if isinstance(content, Terrain) else content
-        for name, content in (files or {}).items()
+        for name, content in dict(files or {}).items()
     }
 
 
