@@ -29,6 +29,7 @@ pub mod ruts;
 pub(crate) mod settling;
 mod several_soils;
 pub mod speed_control;
+pub mod stability;
 pub mod standing;
 pub mod state;
 pub mod statics;

@@ -1,5 +1,7 @@
 //! Slip ratio and slip angle: how a wheel's rim moves against the soil ([FourWheel], Eqs 15-17).
 
+use std::f64::consts::PI;
+
 use crate::elementary::wide::{atan2, hypot, tan};
 use crate::units::Vec2;
 
@@ -83,6 +85,26 @@ pub struct Slip {
 }
 
 impl Slip {
+    /// Between this slip and another; senses are those of the nearer one, and so is the angle where both are more than half a
+    /// turn apart.
+    ///
+    /// * `share`: of the way to the other [-]
+    #[must_use]
+    pub(crate) fn towards(&self, other: &Self, share: f64) -> Self {
+        let between = |from: f64, to: f64| (1.0 - share) * from + share * to;
+        let nearer = if share < 0.5 { self } else { other };
+        let is_near = (other.angle - self.angle).abs() <= PI;
+        Self {
+            ratio: between(self.ratio, other.ratio),
+            angle: if is_near { between(self.angle, other.angle) } else { nearer.angle },
+            rim: nearer.rim,
+            forward: between(self.forward, other.forward),
+            lateral: between(self.lateral, other.lateral),
+            sideways: nearer.sideways,
+            entering_side: between(self.entering_side, other.entering_side),
+        }
+    }
+
     /// The slip of a moving wheel.
     ///
     /// * `rim_speed`: ω r_s [m/s]

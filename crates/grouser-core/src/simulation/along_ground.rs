@@ -12,6 +12,7 @@ use super::point::Point;
 use super::quasi_steady::{blended, rolling};
 use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
 use super::turning::Turning;
+use crate::contact::Slip;
 use crate::units::Vec2;
 use crate::vehicle::{Mount, WheelReaction};
 
@@ -113,6 +114,11 @@ impl<'a, 'g> AlongGround<'a, 'g> {
     /// The wheels at the point that it has come to.
     pub(super) fn wheels(&self) -> Vec<WheelReaction> {
         self.stride.wheels()
+    }
+
+    /// Their slip.
+    pub(super) fn slips(&self) -> Vec<Slip> {
+        self.stride.slips()
     }
 
     /// Goes on for a while [s].
@@ -281,11 +287,17 @@ impl Stride {
     fn wheels(&self) -> Vec<WheelReaction> {
         let s = self.share();
         let pairs = self.from.steady.wheels.iter().zip(&self.to.steady.wheels);
-        pairs
-            .map(|(from, to)| {
-                let slip = if s < 0.5 { from.slip } else { to.slip };
-                WheelReaction { slip, ..blended([(from, 1.0 - s), (to, s)].into_iter()) }
-            })
-            .collect()
+        let wheels = pairs.map(|(from, to)| {
+            let slip = from.slip.towards(&to.slip, s);
+            WheelReaction { slip, ..blended([(from, 1.0 - s), (to, s)].into_iter()) }
+        });
+        wheels.collect()
+    }
+
+    /// Their slip.
+    fn slips(&self) -> Vec<Slip> {
+        let s = self.share();
+        let pairs = self.from.steady.wheels.iter().zip(&self.to.steady.wheels);
+        pairs.map(|(from, to)| from.slip.towards(&to.slip, s)).collect()
     }
 }

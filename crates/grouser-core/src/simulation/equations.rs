@@ -14,6 +14,8 @@ use crate::units::Vec2;
 use crate::vehicle::ground::forces_of;
 use crate::vehicle::kinematics::{wheel_slips, wheel_velocity};
 use crate::vehicle::posture::{Attitude, StandingMotion};
+use crate::vehicle::stability::stability_margin;
+use crate::vehicle::standing::NearbyStanding;
 use crate::vehicle::statics::centre_of_mass;
 use crate::vehicle::{
     Acceleration, Drive, Driven, Electrical, MotorLimits, OwnMoments, Posture, ReactionError,
@@ -39,7 +41,7 @@ pub struct Equations<'a> {
     /// The wheels of the last attempt, near which those of the next settle.
     nearby: RefCell<Nearby<'a>>,
     /// The same on uneven ground, and where the rover stood how.
-    nearby_standing: RefCell<Vec<WheelReaction>>,
+    nearby_standing: RefCell<NearbyStanding>,
     last_posture: RefCell<Option<(Vec2, f64, Posture)>>,
 }
 
@@ -299,16 +301,14 @@ impl<'a> Equations<'a> {
         let standing = self.standing(state)?;
         let slips = slips_of(rover, &standing, rim_speeds);
         self.count(|work| work.settled_wheels += slips.len() as u64);
-        let mut near = match search {
-            Search::Anew => Vec::new(),
-            Search::Nearby => std::mem::take(&mut *self.nearby_standing.borrow_mut()),
+        let (posture, up) = (&standing.posture, standing.up);
+        let wheels = match search {
+            Search::Anew => self.ground.reactions_standing(posture, up, &slips, &[])?,
+            Search::Nearby => {
+                let mut near = self.nearby_standing.borrow_mut();
+                self.ground.reactions_standing_after(posture, up, &slips, &mut near)?
+            }
         };
-        let wheels =
-            self.ground.reactions_standing(&standing.posture, standing.up, &slips, &near)?;
-        if search == Search::Nearby {
-            near.clone_from(&wheels);
-            *self.nearby_standing.borrow_mut() = near;
-        }
         let resultant = self.ground.resultant(&standing, &wheels);
         let pull = standing.pull(rover.mass() * site.gravity);
         let motion = standing.motion;
@@ -330,26 +330,31 @@ impl<'a> Equations<'a> {
         let posture = match &*last {
             Some((place, yaw, posture)) if *place == state.position && *yaw == state.yaw => posture,
             _ => {
-                let posture = self.ground.standing_posture(state)?;
+                let near = last.as_ref().map(|(.., posture)| posture);
+                let firm = vec![0.0; self.ground.rover.wheel_count()];
+                let posture = self.ground.posture_near(state, &firm, near)?;
                 &last.insert((state.position, state.yaw, posture)).2
             }
         };
         self.ground.moving(posture.clone(), state)
     }
 
-    /// How a rover on uneven ground stands with its wheels sunk; none where it does not come to stand, and on a plane
-    /// where it has no suspension.
+    /// How a rover on uneven ground stands with its wheels sunk, and its margin of stability [rad]; none where it does not
+    /// come to stand, and on a plane where it has no suspension.
     pub(super) fn attitude(
         &self,
         state: &RoverState,
         wheels: &[WheelReaction],
-    ) -> Option<Attitude> {
+    ) -> Option<(Attitude, f64)> {
         if !self.ground.is_uneven() || wheels.is_empty() {
             return None;
         }
         let sinkages: Vec<f64> = wheels.iter().map(|wheel| wheel.settled.sinkage).collect();
-        let posture = self.ground.posture(state, &sinkages).ok()?;
-        Some(posture.attitude())
+        let last = self.last_posture.borrow();
+        let near = last.as_ref().map(|(.., posture)| posture);
+        let posture = self.ground.posture_near(state, &sinkages, near).ok()?;
+        let margin = stability_margin(self.ground.rover, &posture, self.ground.up(state));
+        Some((posture.attitude(), margin))
     }
 
     /// Potential energy [J]; what the rover sinks does not count.

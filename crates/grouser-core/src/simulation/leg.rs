@@ -18,7 +18,7 @@ use super::steady_run::{Carried, SteadyRun};
 use super::steady_state::NotSteady;
 use super::times::{is_multiple, is_same_time, is_sample_due, multiples_between};
 use super::watch::{self, WATCH_PERIOD};
-use crate::contact::SettleError;
+use crate::contact::{SettleError, Slip};
 use crate::vehicle::{ReactionError, WheelReaction};
 
 /// A stretch of time over which the wheels keep their speeds.
@@ -111,14 +111,16 @@ impl Leg<'_> {
             // A run starts steady: what its start would cost the motors is not in the energy balance.
             point.start_work(&self.scenario.rover);
             let wheels = || Ok(motion.wheels(&point));
-            let _ = self.look(equations, 0.0, &point, &wheels).map_err(Ended::Failed)?;
+            let slips = motion.slips(equations, &point);
+            let _ = self.look(equations, 0.0, &point, &slips, &wheels).map_err(Ended::Failed)?;
         }
         for &time in times {
             let span = time - self.state.time;
             let advanced = motion.advance(&mut point, span, self.kept_until - self.state.time);
             advanced.map_err(Ended::NotSteady)?;
             let wheels = || Ok(motion.wheels(&point));
-            let looked = self.look(equations, time, &point, &wheels);
+            let slips = motion.slips(equations, &point);
+            let looked = self.look(equations, time, &point, &slips, &wheels);
             if looked.map_err(Ended::Failed)?.is_break() {
                 break;
             }
@@ -134,10 +136,12 @@ impl Leg<'_> {
         let mut failed = None;
         let mut on_sample = |now: f64, reached: &Point| {
             let wheels = || equations.reactions_of(reached);
-            self.look(equations, now, reached, &wheels).unwrap_or_else(|error| {
-                failed = Some(error);
-                ControlFlow::Break(())
-            })
+            self.look(equations, now, reached, &equations.slips(reached), &wheels).unwrap_or_else(
+                |error| {
+                    failed = Some(error);
+                    ControlFlow::Break(())
+                },
+            )
         };
         let integrated = if times.is_empty() {
             let _ = on_sample(start_time, &start);
@@ -178,13 +182,14 @@ impl Leg<'_> {
         equations: &Equations<'_>,
         now: f64,
         reached: &Point,
+        slips: &[Slip],
         wheels: Wheels<'_>,
     ) -> Result<ControlFlow<()>, RunError> {
         let rover = &reached.state;
         let state = &mut *self.state;
         (state.time, state.point) = (now, *reached);
         state.slip_ratios.clear();
-        state.slip_ratios.extend(equations.slips(reached).iter().map(|slip| slip.ratio));
+        state.slip_ratios.extend(slips.iter().map(|slip| slip.ratio));
         if reached.turning.is_some() {
             state.rim_speeds.copy_from_slice(equations.turning(reached));
         }

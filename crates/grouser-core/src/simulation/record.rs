@@ -37,6 +37,8 @@ pub struct Record {
     pub origin: Option<Vec2>,
     /// How it stands on uneven ground, or on a suspension.
     pub attitude: Option<Attitude>,
+    /// By how much the weight may turn there before the rover tips over, the force-angle margin [rad].
+    pub stability_margin: Option<f64>,
     /// Each wheel, in the mounts' order; none where a rover has just tipped over or sunk.
     pub wheels: Vec<WheelRecord>,
     /// Energy since the start.
@@ -55,7 +57,7 @@ impl Record {
         supply: Option<&Supply>,
     ) -> Self {
         let (rover, state) = (equations.rover(), point.state);
-        let attitude = equations.attitude(&state, wheels);
+        let (attitude, stability_margin) = equations.attitude(&state, wheels).unzip();
         let wheel_speeds: Vec<f64> = rover.wheel_speeds(equations.turning(point)).collect();
         let spin = power::spin_energy(rover, &wheel_speeds);
         let energy = EnergyBalance {
@@ -82,7 +84,7 @@ impl Record {
         let wheels = wheels.collect();
         let battery = supply.and_then(Supply::battery);
         let origin = equations.origin();
-        Self { time, state, origin, attitude, wheels, energy, battery }
+        Self { time, state, origin, attitude, stability_margin, wheels, energy, battery }
     }
 
     /// Where the body's centre of mass is, seen from above [m]: in the coordinates of ground with heights, or in the

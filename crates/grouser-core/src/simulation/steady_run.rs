@@ -5,6 +5,7 @@ use super::equations::Equations;
 use super::point::Point;
 use super::quasi_steady::{self, QuasiSteady};
 use super::steady_state::NotSteady;
+use crate::contact::Slip;
 use crate::vehicle::WheelReaction;
 
 /// The motion of a rover whose wheels turn at given speeds, with steady velocities.
@@ -91,6 +92,14 @@ impl<'a, 'g> SteadyRun<'a, 'g> {
         match self {
             Self::Plane(motion) => motion.wheels(point),
             Self::Uneven(motion) => motion.wheels(),
+        }
+    }
+
+    /// Their slip.
+    pub(super) fn slips(&self, equations: &Equations<'_>, point: &Point) -> Vec<Slip> {
+        match self {
+            Self::Plane(_) => equations.slips(point),
+            Self::Uneven(motion) => motion.slips(),
         }
     }
 

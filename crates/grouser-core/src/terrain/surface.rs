@@ -66,8 +66,21 @@ impl Surface {
             Self::Incline(incline) => incline.height(at),
             Self::Ramp(ramp) => ramp.height(at),
             Self::Cone(cone) => cone.height(at),
-            Self::Ripple(ripple) => ripple.height(at),
+            Self::Ripple(ripple) => ripple.heights()(at),
             Self::Crater(crater) => crater.height(at),
+        }
+    }
+
+    /// Heights at several places [m]: what is the same at all of them is computed once.
+    #[must_use]
+    pub fn heights<const N: usize>(&self, at: [Vec2; N]) -> [f64; N] {
+        match self {
+            Self::Incline(incline) => {
+                let gradient = incline.gradient();
+                at.map(|place| gradient.dot(&place))
+            }
+            Self::Ripple(ripple) => at.map(ripple.heights()),
+            _ => at.map(|place| self.height(place)),
         }
     }
 
@@ -124,7 +137,7 @@ impl AnalyticTerrain {
 
 impl Terrain for AnalyticTerrain {
     fn patch(&self, at: Vec2, footprint: Footprint) -> Patch<'_> {
-        let fit = footprint.fit(&footprint.points(at).map(|place| self.surface.height(place)));
+        let fit = footprint.fit(&self.surface.heights(footprint.points(at)));
         Patch { height: fit.height, normal: fit.normal, soil: Cow::Borrowed(&self.soil) }
     }
 

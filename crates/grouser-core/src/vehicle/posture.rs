@@ -141,11 +141,42 @@ impl Posture {
         yaw: f64,
         sinkages: &[f64],
     ) -> Result<Self, NoPosture> {
+        let level = Attitude::level_with(rover, terrain, place, yaw);
+        Self::sought(rover, terrain, (place, yaw), sinkages, level, None)
+    }
+
+    /// As [`of`](Self::of), sought from how the rover stands nearby: the answer is the same but for its last digits.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of).
+    pub fn near(
+        &self,
+        rover: &Rover,
+        terrain: &dyn Terrain,
+        place: Vec2,
+        yaw: f64,
+        sinkages: &[f64],
+    ) -> Result<Self, NoPosture> {
+        let normals = self.wheels.iter().map(|wheel| wheel.normal).collect();
+        let pose = self.attitude();
+        Self::sought(rover, terrain, (place, yaw), sinkages, pose, Some(normals))
+            .or_else(|_| Self::of(rover, terrain, place, yaw, sinkages))
+    }
+
+    /// Searches from a pose.
+    ///
+    /// * `normals`: of the ground under each wheel, if known
+    fn sought(
+        rover: &Rover,
+        terrain: &dyn Terrain,
+        (place, yaw): (Vec2, f64),
+        sinkages: &[f64],
+        mut pose: Attitude,
+        mut normals: Option<Vec<Vec3>>,
+    ) -> Result<Self, NoPosture> {
         /// Changes below this end the search [m]; rounding of map coordinates of 10⁴ km is a thousandth of it.
         const SETTLED: f64 = 1e-12;
         const MOST_STEPS: usize = 60;
-        let mut pose = Pose::level_with(rover, terrain, place, yaw);
-        let mut normals: Option<Vec<Vec3>> = None;
         let scale = rover.centre_height();
         let mut change = f64::INFINITY;
         for _ in 0..MOST_STEPS {
@@ -277,15 +308,7 @@ impl Posture {
     }
 }
 
-/// What is sought of a posture.
-struct Pose {
-    height: f64,
-    roll: f64,
-    pitch: f64,
-    joints: Joints,
-}
-
-impl Pose {
+impl Attitude {
     /// Of a rover on the mean plane below all of it.
     fn level_with(rover: &Rover, terrain: &dyn Terrain, place: Vec2, yaw: f64) -> Self {
         let (sin, cos) = sin_cos(yaw);

@@ -5,9 +5,9 @@
 //! only stand, or from those of a motion nearby.
 
 use std::borrow::Cow;
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Dyn};
 
 use super::ground::{Ground, ReactionError, Stance, WheelReaction, forces_of};
 use super::load::Tipping;
@@ -17,10 +17,11 @@ use super::state::RoverState;
 use super::statics::{Balance, Resultant};
 use crate::contact::{Contact, LoadedWheel, Settled, Slip, WheelForces, settle_each};
 use crate::elementary::wide::atan2;
+use crate::newton::{self, Zero};
+use crate::root;
 use crate::soil::Soil;
 use crate::terrain::{Footprint, Patch, Share, Terrain};
 use crate::units::{Vec2, Vec3};
-use crate::{newton, root};
 
 /// The plane of the slope frame: level in it.
 struct Flat<'a>(&'a Soil);
@@ -65,6 +66,19 @@ impl Ground<'_> {
     /// # Errors
     /// [`ReactionError`] beyond the known ground, and where the wheels do not come to stand.
     pub fn posture(&self, state: &RoverState, sinkages: &[f64]) -> Result<Posture, ReactionError> {
+        self.posture_near(state, sinkages, None)
+    }
+
+    /// The same, sought from a posture nearby, if one is known.
+    ///
+    /// # Errors
+    /// As of [`posture`](Self::posture).
+    pub fn posture_near(
+        &self,
+        state: &RoverState,
+        sinkages: &[f64],
+        near: Option<&Posture>,
+    ) -> Result<Posture, ReactionError> {
         let soil =
             self.site.terrain.soil(state.position, self.rover.footprint(&state.slope_from_body()));
         let flat = Flat(&soil);
@@ -72,7 +86,11 @@ impl Ground<'_> {
             Some(relief) => relief,
             None => &flat,
         };
-        let posture = Posture::of(self.rover, terrain, state.position, state.yaw, sinkages)?;
+        let (place, yaw) = (state.position, state.yaw);
+        let posture = match near {
+            Some(near) => near.near(self.rover, terrain, place, yaw, sinkages)?,
+            None => Posture::of(self.rover, terrain, place, yaw, sinkages)?,
+        };
         for (wheel, mount) in posture.wheels.iter().zip(self.rover.mounts()) {
             if !terrain.covers(wheel.at, wheel.footprint) {
                 let origin = self.relief.map_or(Vec2::zeros(), |relief| relief.origin);
@@ -101,7 +119,7 @@ impl Ground<'_> {
     }
 
     /// Against gravity, in the ground's coordinates: on a plane, those of the slope.
-    fn up(&self, state: &RoverState) -> Vec3 {
+    pub(crate) fn up(&self, state: &RoverState) -> Vec3 {
         if self.relief.is_some() {
             return Vec3::z();
         }
@@ -125,40 +143,47 @@ impl Ground<'_> {
         slips: &[Slip],
         near: &[WheelReaction],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
-        /// The last step of a load, over the weight [-]: what is left of it disturbs an integrator's steps.
-        const AGREED: f64 = 1e-13;
-        /// This is enough where rounding lets steps become no shorter [-].
-        const NEARLY: f64 = 1e-11;
+        let mut near = NearbyStanding { wheels: near.to_vec(), inverse: None };
+        self.reactions_standing_after(posture, up, slips, &mut near)
+    }
+
+    /// The same by what is known of a motion nearby; this one is known afterwards.
+    ///
+    /// # Errors
+    /// As of [`reactions_standing`](Self::reactions_standing).
+    pub(crate) fn reactions_standing_after(
+        &self,
+        posture: &Posture,
+        up: Vec3,
+        slips: &[Slip],
+        near: &mut NearbyStanding,
+    ) -> Result<Vec<WheelReaction>, ReactionError> {
         let weight = self.rover.mass() * self.site.gravity;
+        let NearbyStanding { wheels: before, inverse } = std::mem::take(near);
         let met = self.met(posture, slips);
-        let sought = Sought { ground: self, posture, met, weight: weight * up, near };
-        let forces: Vec<WheelForces> = forces_of(near).copied().collect();
-        let guess = if near.is_empty() {
-            DVector::from_vec(sought.balanced(&forces)?)
+        let sinkages = RefCell::new(before.iter().map(|wheel| wheel.settled.sinkage).collect());
+        let sought = Sought { ground: self, posture, met, weight: weight * up, sinkages };
+        let guess = if before.is_empty() {
+            DVector::from_vec(sought.balanced(&[])?)
         } else {
-            DVector::from_iterator(near.len(), near.iter().map(|wheel| wheel.load))
+            DVector::from_iterator(before.len(), before.iter().map(|wheel| wheel.load))
         };
-        let size = |step: &DVector<f64>| step.amax() / weight;
-        let last = Cell::new(f64::INFINITY);
-        let found = newton::zero_near(
-            |loads| sought.next(loads).ok(),
-            &guess,
-            DMatrix::identity(guess.len(), guess.len()),
-            size,
-            1.0,
-            |_, step| {
-                let before = last.replace(size(step));
-                size(step) <= AGREED || size(step) <= NEARLY && size(step) >= before
-            },
-        );
+        let size = guess.len();
+        let found = inverse
+            .and_then(|inverse| sought.by_newton(&guess, inverse, weight))
+            .or_else(|| sought.by_newton(&guess, DMatrix::identity(size, size), weight));
         let (loads, wheels) = match found {
-            Some(found) => (found.at, found.value),
+            Some(found) => {
+                near.inverse = Some(found.inverse);
+                (found.at, found.value)
+            }
             // Where wheels lift, loads have corners, which Newton's steps do not find.
             None => sought.by_small_steps(guess, NEARLY * weight)?,
         };
         if loads.iter().any(|load| *load < -NEARLY * weight) {
             return Err(Tipping.into());
         }
+        near.wheels.clone_from(&wheels);
         Ok(wheels)
     }
 
@@ -258,6 +283,20 @@ impl Ground<'_> {
     }
 }
 
+/// The wheels of a rover that stands in a motion nearby: where a search begins.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct NearbyStanding {
+    /// Of none, where nothing is known.
+    wheels: Vec<WheelReaction>,
+    /// How loads follow from by how much they do not agree with the forces under them, where that is known.
+    inverse: Option<DMatrix<f64>>,
+}
+
+/// The last step of a load, over the weight [-]: what is left of it disturbs an integrator's steps.
+const AGREED: f64 = 1e-13;
+/// This is enough where rounding lets steps become no shorter [-].
+const NEARLY: f64 = 1e-11;
+
 /// Loads of wheels that stand, on their way to those that balance the rover.
 struct Sought<'a> {
     ground: &'a Ground<'a>,
@@ -265,8 +304,8 @@ struct Sought<'a> {
     met: Vec<Met>,
     /// m g, against gravity [N].
     weight: Vec3,
-    /// The wheels in a motion nearby, or none.
-    near: &'a [WheelReaction],
+    /// Near which each is expected: those of a motion nearby, then those of the round before; none where nothing is known.
+    sinkages: RefCell<Vec<f64>>,
 }
 
 impl Sought<'_> {
@@ -275,8 +314,10 @@ impl Sought<'_> {
         &self,
         loads: &DVector<f64>,
     ) -> Result<(DVector<f64>, Vec<WheelReaction>), ReactionError> {
-        let near = |wheel: usize| self.near.get(wheel).map(|near| near.settled.sinkage);
+        let mut sinkages = self.sinkages.borrow_mut();
+        let near = |wheel: usize| sinkages.get(wheel).copied();
         let wheels = self.ground.settle_standing(&self.met, loads.as_slice(), near)?;
+        *sinkages = wheels.iter().map(|wheel| wheel.settled.sinkage).collect();
         let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
         let balanced = DVector::from_vec(self.balanced(&forces)?);
         let next = match self.warp() {
@@ -284,6 +325,25 @@ impl Sought<'_> {
             None => balanced,
         };
         Ok((loads - next, wheels))
+    }
+
+    /// The same by Newton's method with Broyden's updates; none where it does not come to an end.
+    ///
+    /// * `inverse`: how loads follow from by how much they do not agree
+    /// * `weight`: m g [N]
+    fn by_newton(
+        &self,
+        guess: &DVector<f64>,
+        inverse: DMatrix<f64>,
+        weight: f64,
+    ) -> Option<Zero<Vec<WheelReaction>, Dyn>> {
+        let size = |step: &DVector<f64>| step.amax() / weight;
+        let last = Cell::new(f64::INFINITY);
+        let is_found = |_: &DVector<f64>, step: &DVector<f64>| {
+            let before = last.replace(size(step));
+            size(step) <= AGREED || size(step) <= NEARLY && size(step) >= before
+        };
+        newton::zero_near(|loads| self.next(loads).ok(), guess, inverse, size, 1.0, is_found)
     }
 
     /// Loads that balance the rover and the wheels under them, by steps that go a part of the way.

@@ -173,17 +173,23 @@ impl Ripple {
         finite("phase of the ripple [rad]", self.phase)
     }
 
-    pub(super) fn height(&self, at: Vec2) -> f64 {
-        self.amplitude * wide::sin(self.angle(at))
+    /// The height at a place.
+    pub(super) fn heights(&self) -> impl Fn(Vec2) -> f64 {
+        let Self { amplitude, .. } = *self;
+        let angle = self.angles();
+        move |at| amplitude * wide::sin(angle(at))
     }
 
     pub(super) fn gradient(&self, at: Vec2) -> Vec2 {
         let steepness = TAU / self.wavelength * self.amplitude;
-        steepness * wide::cos(self.angle(at)) * unit(self.across)
+        steepness * wide::cos(self.angles()(at)) * unit(self.across)
     }
 
-    fn angle(&self, at: Vec2) -> f64 {
-        TAU * (unit(self.across).dot(&at) / self.wavelength) + self.phase
+    /// The phase at a place [rad].
+    fn angles(&self) -> impl Fn(Vec2) -> f64 {
+        let Self { wavelength, phase, .. } = *self;
+        let across = unit(self.across);
+        move |at| TAU * (across.dot(&at) / wavelength) + phase
     }
 }
 

@@ -4,7 +4,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::super::table::ColumnKind;
 use super::super::table::Table;
-use super::super::unit::{A, DEG_S, J, M, M_PER_M, M_S, ONE, V, W};
+use super::super::unit::{A, DEG, DEG_S, J, M, M_PER_M, M_S, ONE, V, W};
 use super::flags;
 use super::heading::DRAWS;
 use super::wheel::{MAX_NORMAL_STRESS, WHEEL};
@@ -46,10 +46,14 @@ pub const RECORD: [Column<Record>; 12] = [
 ];
 
 /// How the rover stands on ground with heights: beside [`RECORD`].
-pub const STANDING: [Column<Record>; 3] = [
+pub const STANDING: [Column<Record>; 4] = [
     Z.maybe("Height of the body's centre of mass", |it| Some(it.standing()?.height)),
     ROLL.maybe("Roll, positive with the right side down", |it| Some(it.standing()?.roll)),
     PITCH.maybe("Pitch, positive with the nose up", |it| Some(it.standing()?.pitch)),
+    quantity("stability_margin_deg", DEG).maybe(
+        "Force-angle margin: by how much the weight's direction may turn before the rover tips over",
+        |it| it.standing().and(it.stability_margin),
+    ),
 ];
 
 /// What motors take, of a rover whose motors are known: beside [`RECORD`].
