@@ -15,14 +15,15 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
     /// As many quarter turns as the leading parts of π/2 can be multiplied by without rounding.
     const FAR: f64 = 1e6;
     let x = if x.abs() > FAR { x % TAU } else { x };
-    /// Added to a number below 2⁵¹ and taken away again, this leaves the nearest whole number, an even one of two as near.
+    /// A sum of this and a number below 2⁵¹ ends in the bits of the nearest whole number, the even
+    /// one of two as near.
     const WHOLE: f64 = 1.5 * (1_u64 << 52) as f64;
-    let quarters = x * FRAC_2_PI + WHOLE - WHOLE;
-    let (r, rest) = less_quarters(x, quarters);
+    let shifted = x * FRAC_2_PI + WHOLE;
+    let (r, rest) = less_quarters(x, shifted - WHOLE);
     let (sin, cos) = super::sin_cos(r);
     let (sin, cos) = (sin + rest * cos, cos - rest * sin);
     // The last two bits tell the quadrant.
-    match quarters as i64 & 3 {
+    match shifted.to_bits() & 3 {
         1 => (cos, -sin),
         2 => (-sin, -cos),
         3 => (-cos, sin),
