@@ -68,6 +68,8 @@ impl Suspension {
                 let name = format!("the number of wheels on the {side}");
                 return Err(ParameterError::new(name, count as f64, expected));
             }
+            let wheels = mounts.iter().filter(|mount| is_left(mount) == is_side);
+            self.check_levers(&wheels.collect::<Vec<_>>(), mounts)?;
         }
         mounts.iter().try_for_each(|mount| {
             let name = format!("position y of wheel {} [m]", mount.name);
@@ -78,6 +80,31 @@ impl Suspension {
                 Ok(())
             }
         })
+    }
+
+    /// That each link reaches from what it carries on one side of its pivot to what it carries on the other.
+    ///
+    /// * `wheels`: of one side
+    /// * `mounts`: all
+    fn check_levers(&self, wheels: &[&Mount], mounts: &[Mount]) -> Result<(), ParameterError> {
+        let (on_bogie, on_rocker): (Vec<&Mount>, Vec<&Mount>) =
+            wheels.iter().copied().partition(|mount| self.is_on_bogie(mount, mounts));
+        let seen = |mounts: &[&Mount]| -> Vec<Vec2> {
+            mounts.iter().map(|mount| Vec2::new(mount.position.x, mount.position.z)).collect()
+        };
+        let mut carried = seen(&on_rocker);
+        if let Some(bogie) = self.bogie {
+            check_lever("bogie", bogie.pivot, &seen(&on_bogie), "between its two wheels")?;
+            carried.push(bogie.pivot);
+            check_lever(
+                "rocker",
+                self.pivot,
+                &carried,
+                "between its wheel and the pivot of its bogie",
+            )
+        } else {
+            check_lever("rocker", self.pivot, &carried, "between its two wheels")
+        }
     }
 
     /// The joints that carry a wheel, where they have some angles.
@@ -97,6 +124,32 @@ impl Suspension {
         hub = rocker.pivot + front_up(sense * joints.rocker) * (hub - rocker.pivot);
         Carried { hub, axle: front_up(turned) * axle(mount), hinges }
     }
+}
+
+/// That a pivot is between what its link carries, and no further above or below it than that is apart.
+///
+/// * `carried`: two points, (x, z) [m]
+/// * `between`: where the pivot has to be
+fn check_lever(
+    link: &str,
+    pivot: Vec2,
+    carried: &[Vec2],
+    between: &'static str,
+) -> Result<(), ParameterError> {
+    let span = |axis: usize| {
+        let of = carried.iter().map(move |at| at[axis]);
+        of.fold((f64::INFINITY, -f64::INFINITY), |(low, high), it| (low.min(it), high.max(it)))
+    };
+    let ((rear, front), (low, high)) = (span(0), span(1));
+    if pivot.x <= rear || pivot.x >= front {
+        return Err(ParameterError::new(format!("pivot x of the {link} [m]"), pivot.x, between));
+    }
+    let reach = front - rear;
+    if pivot.y < low - reach || pivot.y > high + reach {
+        let expected = "no further above or below what it carries than that is apart";
+        return Err(ParameterError::new(format!("pivot z of the {link} [m]"), pivot.y, expected));
+    }
+    Ok(())
 }
 
 impl Carried {

@@ -150,7 +150,7 @@ static BOGIE: Table<Bogie> = Table {
 
 /// The axis of a joint.
 const fn pivot<T>(doc: &'static str, reach: fn(&mut T, usize) -> Option<&mut f64>) -> Field<T> {
-    numbers("pivot_m", M, -100.0..=100.0, Form::Exactly(2), doc, |_, _| {}, reach)
+    numbers("pivot_m", M, -10.0..=10.0, Form::Exactly(2), doc, |_, _| {}, reach)
 }
 
 /// How far wheels are steered.

@@ -56,8 +56,28 @@ fn suspensions_that_do_not_fit_the_wheels_are_refused() {
             vec![pivot, bogie[0]],
             ["`suspension.bogie.end` is missing", "end of the rover"],
         ),
-        ("hakuto", vec!["rover.suspension.pivot_m=[0,1e3]"], ["1000", "-100 to 100"]),
+        ("hakuto", vec!["rover.suspension.pivot_m=[0,1e3]"], ["1000", "-10 to 10"]),
         ("hakuto", vec!["rover.suspension.pivot_m=[0]"], ["1 entries", "2"]),
+        (
+            "hakuto",
+            vec!["rover.suspension.pivot_m=[0.3,0]"],
+            ["pivot x of the rocker", "between its two wheels"],
+        ),
+        (
+            "hakuto",
+            vec!["rover.suspension.pivot_m=[0,5]"],
+            ["pivot z of the rocker", "no further above or below"],
+        ),
+        (
+            "curiosity-rocker-bogie",
+            vec!["rover.suspension.bogie.end=front"],
+            ["pivot x of the bogie", "between its two wheels"],
+        ),
+        (
+            "curiosity-rocker-bogie",
+            vec!["rover.suspension.pivot_m=[-0.9,0]"],
+            ["pivot x of the rocker", "between its wheel and the pivot of its bogie"],
+        ),
     ] {
         let refused = preset(name, &settings).expect_err("it does not fit");
         assert!(expected.iter().all(|it| refused.contains(it)), "{refused}");
