@@ -87,6 +87,26 @@ pub enum UrdfError {
         /// What it has instead.
         found: &'static str,
     },
+    /// A rim that lies or faces forward.
+    #[error(
+        "link {0} is a wheel, but the axis of its cylinder is not across the rover\nhint: a cylinder's axis is its z axis: an origin with rpy=\"1.5708 0 0\" lays it across"
+    )]
+    RimAcross(String),
+    /// Two links of one wheel.
+    #[error(
+        "links {0} and {1} turn about the same axle and are one wheel\nhint: name the one that has the rim"
+    )]
+    OneWheelTwice(String, String),
+    /// A joint that is none of a rover's.
+    #[error(
+        "joint {joint} has the type {kind}, which a rover's joints do not have\nhint: they are fixed, continuous, revolute or prismatic"
+    )]
+    JointType {
+        /// The joint.
+        joint: String,
+        /// Its type, as it is written.
+        kind: String,
+    },
     /// A wheel whose joints do not roll.
     #[error("link {0} is a wheel, but no joint above it turns about an axis across the rover")]
     DoesNotRoll(String),

@@ -44,7 +44,16 @@ impl Wheel {
         if links.len() > MOST {
             return Err(UrdfError::TooManyWheels { count: links.len(), most: MOST });
         }
-        links.into_iter().map(|link| Self::of(robot, link, notes)).collect()
+        let wheels: Vec<Self> =
+            links.into_iter().map(|link| Self::of(robot, link, notes)).collect::<Result<_, _>>()?;
+        for (number, wheel) in wheels.iter().enumerate() {
+            if let Some(other) = wheels[..number].iter().find(|it| it.turned == wheel.turned) {
+                let [one, two] =
+                    [other.link, wheel.link].map(|link| robot.links[link].name.clone());
+                return Err(UrdfError::OneWheelTwice(one, two));
+            }
+        }
+        Ok(wheels)
     }
 
     fn of(robot: &Robot, link: usize, notes: &mut Vec<String>) -> Result<Self, UrdfError> {
@@ -54,7 +63,11 @@ impl Wheel {
             let Rim::Other(found) = robot.links[link].rim else { return Err(no_rim("")) };
             return Err(no_rim(found));
         };
-        let centre = (robot.links[link].frame * origin).translation.vector;
+        let placed = robot.links[link].frame * origin;
+        let centre = placed.translation.vector;
+        if (placed.rotation * Vector3::z()).y.abs() <= ALONG {
+            return Err(UrdfError::RimAcross(name.clone()));
+        }
         let mut moving = robot.up_from(link).filter(|it| is_turned(robot, *it));
         let turned = moving.next().filter(|it| is_across(robot, *it));
         let turned = turned.ok_or_else(|| UrdfError::DoesNotRoll(name.clone()))?;

@@ -1,5 +1,6 @@
 //! A rover's document of links that are known as wheels and body.
 
+use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
 
 use nalgebra::{Matrix3, Vector3};
@@ -62,8 +63,10 @@ impl Found {
             notes.push("the body's products of inertia are left out: the rover's axes are taken as its principal axes".to_owned());
         }
         let suspension = suspension(robot, &wheels, &body, options)?;
-        let mounts =
-            wheels.iter().map(|wheel| mount(robot, wheel, &body)).collect::<Result<_, _>>()?;
+        let mounts = wheels
+            .iter()
+            .map(|wheel| mount(robot, wheel, &body, &mut notes))
+            .collect::<Result<_, _>>()?;
         notes.push("wheels are smooth: URDF has no grousers".to_owned());
         Ok(Self { body, mounts, suspension, notes })
     }
@@ -123,7 +126,12 @@ impl Unit {
     }
 }
 
-fn mount(robot: &Robot, wheel: &Wheel, body: &Together) -> Result<Mount, UrdfError> {
+fn mount(
+    robot: &Robot,
+    wheel: &Wheel,
+    body: &Together,
+    notes: &mut Vec<String>,
+) -> Result<Mount, UrdfError> {
     let is_part = robot.hanging_on(&[wheel.turned]);
     let all = (0..robot.links.len()).filter(|link| is_part[*link]);
     let together = Together::of(robot, all);
@@ -133,10 +141,21 @@ fn mount(robot: &Robot, wheel: &Wheel, body: &Together) -> Result<Mount, UrdfErr
         return Err(UrdfError::Lacks { what, lacks: "mass: give it an <inertial>" });
     }
     let steering = wheel.steered.map(|link| {
-        let limit = robot.links[link].joint.as_ref().and_then(|joint| joint.limit);
+        let limits = robot.links[link].joint.as_ref().and_then(|joint| joint.limits);
         let axis = robot.links[link].pivot() - wheel.centre;
         // A joint without limits turns as far as wheels are steered at all.
-        (limit.unwrap_or(std::f64::consts::FRAC_PI_2), [axis.x, axis.y])
+        let limit = limits.map_or(FRAC_PI_2, |[lower, upper]| {
+            let less = lower.abs().min(upper.abs());
+            if (upper.abs() - lower.abs()).abs() > 1e-3 {
+                let [lower, upper, less] = [lower, upper, less].map(|it| shown(it.to_degrees()));
+                let joint = joint_name(robot, link);
+                notes.push(format!(
+                    "joint {joint} steers from {lower} to {upper} degrees: the rover steers by {less} degrees to either side"
+                ));
+            }
+            less
+        });
+        (limit, [axis.x, axis.y])
     });
     let unit = Unit {
         mass: together.mass,

@@ -126,6 +126,10 @@ fn steering_is_found_and_patterns_name_wheels() {
     let rover = read(&text, &UrdfOptions { wheels, has_differential: false }).expect("it").value;
     let axis = rover.mounts()[0].steering_axis.expect("it is steered");
     assert!((axis.limit - 0.5).abs() < 1e-6);
+    let options =
+        UrdfOptions { wheels: vec!["wheel_*".into(), "b4".into()], has_differential: false };
+    let notes = import(&text, &options).expect("it is a rover").notes;
+    assert!(notes.iter().any(|it| it.contains("wheel_a1_steering steers from -28.")), "{notes:?}");
     let refused =
         import(&text, &UrdfOptions { wheels: vec!["c*".to_owned()], has_differential: false });
     assert!(
@@ -187,6 +191,27 @@ fn robots_that_are_no_rovers_are_refused() {
             "link left_rear stands there twice",
         ),
         (robot(&loops), UrdfOptions::default(), "hangs on itself"),
+        (
+            six.replacen("type=\"revolute\"", "type=\"floating\"", 1),
+            with_differential(),
+            "joint left_rocker_joint has the type floating",
+        ),
+        (
+            six.replacen("rpy=\"1.570796326794897 0 0\"", "rpy=\"0 0 0\"", 1),
+            with_differential(),
+            "the axis of its cylinder is not across",
+        ),
+        (
+            six.replace("</robot>", "")
+                + &link("left_front_tyre", 0.1, RIM)
+                + &joint("tyre", "fixed", ["left_front", "left_front_tyre"], [0.0; 3], "0 0 1")
+                + "</robot>",
+            UrdfOptions {
+                wheels: vec!["*front*".into(), "*middle".into(), "*rear".into()],
+                has_differential: true,
+            },
+            "links left_front and left_front_tyre turn about the same axle",
+        ),
         (robot(&base), UrdfOptions::default(), "no wheels were found"),
         (
             robot(&(base.clone() + &link("other", 1.0, ""))),

@@ -39,8 +39,8 @@ pub(super) struct Joint {
     origin: Isometry3<f64>,
     /// In the joint's frame, a unit vector.
     axis: Vector3<f64>,
-    /// How far it turns to either side [rad].
-    pub(super) limit: Option<f64>,
+    /// How far it turns, down to and up to [rad].
+    pub(super) limits: Option<[f64; 2]>,
 }
 
 /// Mass, centre and inertia of a link, in its frame.
@@ -247,7 +247,11 @@ fn joint(node: Node<'_, '_>) -> Result<Joint, UrdfError> {
         written: "0 0 0".to_owned(),
         expected: "a direction",
     })?;
-    let limit = match child(node, "limit") {
+    const KINDS: [&str; 4] = ["fixed", "continuous", "revolute", "prismatic"];
+    if !KINDS.contains(&&*kind) {
+        return Err(UrdfError::JointType { joint: name, kind });
+    }
+    let limits = match child(node, "limit") {
         Some(limit) if kind == "revolute" => {
             let end = |name| {
                 if !limit.has_attribute(name) {
@@ -255,12 +259,12 @@ fn joint(node: Node<'_, '_>) -> Result<Joint, UrdfError> {
                 }
                 number(limit, &what, name, |_| true, "an angle in rad")
             };
-            Some(end("lower")?.abs().min(end("upper")?.abs()))
+            Some([end("lower")?, end("upper")?])
         }
         _ => None,
     };
     let (parent, child) = (end("parent")?, end("child")?);
-    Ok(Joint { name, kind, parent, child, origin: origin(node, &what)?, axis, limit })
+    Ok(Joint { name, kind, parent, child, origin: origin(node, &what)?, axis, limits })
 }
 
 // ---- Attributes ----
