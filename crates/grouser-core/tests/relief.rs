@@ -6,7 +6,7 @@ mod hakuto;
 use std::sync::Arc;
 
 use grouser_core::simulation::{
-    Approach, Landscape, Method, PlacedTerrain, Record, Run, Scenario, Trajectory,
+    Approach, Landscape, Method, Outcome, PlacedTerrain, Record, Run, Scenario, Trajectory,
 };
 use grouser_core::site::Site;
 use grouser_core::terrain::surface::{AnalyticTerrain, Cone, Incline, Ripple, Surface};
@@ -192,7 +192,7 @@ fn over_ripples_both_ways_agree_and_energy_is_kept() {
     }
 }
 
-/// On a map a drive ends in words where that does.
+/// On a map a drive ends where that does, with what it drove so far; it does not start there.
 #[test]
 fn a_drive_that_leaves_the_map_says_where() {
     let plane = &scenarios()[1];
@@ -201,6 +201,16 @@ fn a_drive_that_leaves_the_map_says_where() {
     let start = middle + Vec2::new(9.3, 0.0);
     let mut scenario = over(plane, map(plane, incline, middle), start);
     scenario.start.yaw = 0.0;
-    let error = Run::new(&scenario).and_then(Run::to_end).expect_err("the map ends").to_string();
+    let drive = |scenario: &Scenario| Run::new(scenario).and_then(Run::to_end);
+    let driven = drive(&scenario).expect("it drives as far as the map goes");
+    let Outcome::OffTheMap { time, place, .. } = &driven.outcome else {
+        panic!("{:?}", driven.outcome);
+    };
+    assert!(*time > 1.0 && driven.last().time <= *time, "{time}");
+    assert!(place.x > start.x && (place.x - driven.last().place().x).abs() < 0.5, "{place}");
+    if let Some(terrain) = &mut scenario.terrain {
+        terrain.start = middle + Vec2::new(40.0, 0.0);
+    }
+    let error = drive(&scenario).expect_err("no map is there").to_string();
     assert!(error.contains("where the map has no heights"), "{error}");
 }

@@ -244,7 +244,8 @@ fn outcome(outcome: &Outcome) -> Option<(f64, String)> {
         Outcome::Immobilised { time, .. }
         | Outcome::Sliding { time }
         | Outcome::TippedOver { time }
-        | Outcome::BrownOut { time, .. } => *time,
+        | Outcome::BrownOut { time, .. }
+        | Outcome::OffTheMap { time, .. } => *time,
     };
     let name = outcome.name().replace('_', " ");
     let reason = outcome.reason().unwrap_or_default();

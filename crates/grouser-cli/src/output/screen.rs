@@ -29,7 +29,7 @@ const NOTE: Style = CAUTION.bold();
 const HINT: Style = AnsiColor::Cyan.on_default().bold();
 
 /// Words that begin a line, and their colours.
-const LABELS: [(&str, Style); 9] = [
+const LABELS: [(&str, Style); 10] = [
     ("error:", ERROR),
     ("interrupted:", ERROR),
     ("note:", NOTE),
@@ -39,6 +39,7 @@ const LABELS: [(&str, Style); 9] = [
     ("sliding after", BAD),
     ("tipped_over after", BAD),
     ("brown_out after", BAD),
+    ("off_map after", BAD),
 ];
 
 /// A longer cell of a column of reasons stands under the table.
@@ -161,7 +162,7 @@ fn style_of(column: &Column, cell: &[String]) -> Style {
     match words {
         "go" => GOOD,
         "caution" => CAUTION,
-        "no-go" | "immobilised" | "sliding" | "tipped_over" | "brown_out" => BAD,
+        "no-go" | "immobilised" | "sliding" | "tipped_over" | "brown_out" | "off_map" => BAD,
         "-" | "ok" | "completed" => Style::new(),
         _ if column.name == STATUS => BAD,
         _ if column.name == FLAGS => CAUTION,

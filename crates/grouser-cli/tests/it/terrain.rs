@@ -182,6 +182,10 @@ fn maps_that_cannot_be_driven_on_are_refused() {
     let cells = "--set scenario.terrain.cell_size_m=2 --set scenario.terrain.south_west_m=[100,50]";
     let run = place.json(&format!("traverse --terrain map.npy {cells} --duration-s 1"));
     assert_eq!(numbers(&run["samples"][0], ["x_m", "y_m"]), [102.0, 52.0]);
-    let gone = place.line("traverse --terrain map.xyz --duration-s 90 --simulation quasi-steady");
-    assert!(gone.stderr.contains("where the map has no heights"), "{}", gone.stderr);
+    let gone = place.json("traverse --terrain map.xyz --duration-s 90 --simulation quasi-steady");
+    assert_eq!(gone["outcome"], "off_map");
+    let reason = gone["reason"].as_str().expect("a reason");
+    assert!(reason.contains("where the map has no heights"), "{reason}");
+    let last = gone["samples"].as_array().and_then(|samples| samples.last());
+    assert!(last.is_some_and(|last| last["time_s"].as_f64() > Some(1.0)), "{last:?}");
 }

@@ -256,6 +256,10 @@ fn outcome_of(time: f64, error: ReactionError) -> Result<Outcome, RunError> {
             let because = StuckBecause::SunkToAxle { wheel, load, capacity };
             Ok(Outcome::Immobilised { time, because })
         }
+        // A rover that starts there is misplaced.
+        ReactionError::OffTheMap { wheel, place } if time > 0.0 => {
+            Ok(Outcome::OffTheMap { time, wheel, place })
+        }
         source => Err(RunError::Reaction { time, source }),
     }
 }

@@ -1,5 +1,7 @@
 //! What may become of a rover.
 
+use crate::units::Vec2;
+
 /// What became of the rover.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
@@ -28,6 +30,15 @@ pub enum Outcome {
         time: f64,
         /// What its battery lacks.
         because: PowerLost,
+    },
+    /// It drove to where its map has no heights.
+    OffTheMap {
+        /// When [s].
+        time: f64,
+        /// The wheel that came there.
+        wheel: String,
+        /// Where, in the map's coordinates [m].
+        place: Vec2,
     },
 }
 
@@ -71,7 +82,7 @@ pub enum StuckBecause {
 }
 
 impl Outcome {
-    /// One word: `completed`, `immobilised`, `sliding`, `tipped_over`, `brown_out`.
+    /// One word: `completed`, `immobilised`, `sliding`, `tipped_over`, `brown_out`, `off_map`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -80,6 +91,7 @@ impl Outcome {
             Self::Sliding { .. } => "sliding",
             Self::TippedOver { .. } => "tipped_over",
             Self::BrownOut { .. } => "brown_out",
+            Self::OffTheMap { .. } => "off_map",
         }
     }
 
@@ -114,6 +126,10 @@ impl Outcome {
                     )
                 }
             }),
+            Self::OffTheMap { wheel, place, .. } => Some(format!(
+                "wheel {wheel} is at x = {:.3} m, y = {:.3} m, where the map has no heights",
+                place.x, place.y
+            )),
         }
     }
 }

@@ -35,8 +35,8 @@ class Legs(_tables.Tabular):
     manoeuvre: NDArray[np.object_]
     """What the leg says, in a few words."""
     outcome: NDArray[np.object_]
-    """``completed``, ``stopped`` by a limit, ``immobilised``, ``sliding``, ``tipped_over`` or
-    ``brown_out``."""
+    """``completed``, ``stopped`` by a limit, ``immobilised``, ``sliding``, ``tipped_over``,
+    ``brown_out`` or ``off_map``."""
     distance_m: Floats
     """Way over the ground; a turn to the yaw of the leg before it does not count [m]."""
     time_s: Floats

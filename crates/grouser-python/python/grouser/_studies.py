@@ -137,8 +137,8 @@ class Trajectory(_tables.Tabular):
     scenario: Scenario
     """The scenario of the run; of a `mission` its rover, ground, model and start."""
     outcome: str
-    """``completed``, ``immobilised``, ``sliding``, ``tipped_over`` or ``brown_out``; a mission that a limit ended
-    counts as completed here."""
+    """``completed``, ``immobilised``, ``sliding``, ``tipped_over``, ``brown_out`` or ``off_map``; a mission that a limit
+    ended counts as completed here."""
     message: str | None
     """The outcome explained; None for a completed run."""
     simulation: str

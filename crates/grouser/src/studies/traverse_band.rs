@@ -70,6 +70,8 @@ pub struct RunBand {
     pub tipped_over: usize,
     /// Samples whose battery failed.
     pub brown_out: usize,
+    /// Samples that drove off their map.
+    pub off_map: usize,
 }
 
 /// The rover at one time in one sample.
@@ -271,6 +273,7 @@ impl RunBand {
             sliding: count(|outcome| matches!(outcome, Outcome::Sliding { .. })),
             tipped_over: count(|outcome| matches!(outcome, Outcome::TippedOver { .. })),
             brown_out: count(|outcome| matches!(outcome, Outcome::BrownOut { .. })),
+            off_map: count(|outcome| matches!(outcome, Outcome::OffTheMap { .. })),
         }
     }
 }

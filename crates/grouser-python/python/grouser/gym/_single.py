@@ -46,7 +46,7 @@ class OneRoverEnv(gymnasium.Env[Floats, Floats]):
 
     @property
     def outcome(self) -> str | None:
-        """``immobilised``, ``sliding``, ``tipped_over`` or ``brown_out``, of a path also ``completed`` or
+        """``immobilised``, ``sliding``, ``tipped_over``, ``brown_out`` or ``off_map``, of a path also ``completed`` or
         ``stopped``; None during the run."""
         return self._rovers.outcome(0)
 

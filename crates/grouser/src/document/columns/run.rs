@@ -112,9 +112,11 @@ pub const DISTANCE: Quantity = quantity("distance_m", M);
 
 /// The outcome of a run.
 const RUN: [Column<Trajectory>; 6] = [
-    text("outcome", "`completed`, `immobilised`, `sliding`, `tipped_over` or `brown_out`", |it| {
-        Some(it.outcome.name().into())
-    }),
+    text(
+        "outcome",
+        "`completed`, `immobilised`, `sliding`, `tipped_over`, `brown_out` or `off_map`",
+        |it| Some(it.outcome.name().into()),
+    ),
     text("reason", "What that means here; none for a completed run", |it| it.outcome.reason()),
     text("simulation", "`dynamic`, `quasi-steady`, or `fell-back` to the first", |it| {
         Some(it.method.name().into())
@@ -224,7 +226,7 @@ pub const TIME_BAND: [Column<TimeBand>; 7] = [
 ];
 
 /// A run in a few numbers over samples of soil and model. Means are over the scenario's whole duration.
-pub const RUN_BAND: [Column<RunBand>; 14] = [
+pub const RUN_BAND: [Column<RunBand>; 15] = [
     X.band("Along the contour, at the end", |it| it.x),
     Y.band("Uphill, at the end", |it| it.y),
     YAW.band("Yaw at the end", |it| it.yaw),
@@ -244,6 +246,7 @@ pub const RUN_BAND: [Column<RunBand>; 14] = [
     whole("draws_sliding", "Samples in which it slides downhill", |it| Some(it.sliding)),
     whole("draws_tipped_over", "Samples in which it tips over", |it| Some(it.tipped_over)),
     whole("draws_brown_out", "Samples in which its battery fails", |it| Some(it.brown_out)),
+    whole("draws_off_map", "Samples in which it drives off its map", |it| Some(it.off_map)),
     whole(DRAWS, "All samples", |it| Some(it.completed.trials)),
 ];
 
