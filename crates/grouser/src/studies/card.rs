@@ -21,8 +21,8 @@ use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, STRAIGHT_DOWN, S
 use crate::contact::Theory;
 use crate::contact::validity::Finding;
 use crate::error::ParameterError;
-use crate::soil::SlopeStability;
 pub use driven::{DRIFT_WAY, Driven, DrivenMotion, HEADING_ERROR, SHORTEST_LEG};
+pub(super) use rule::best_slopes;
 pub use rule::{BELOW_FRICTION_ANGLE, Rule, STUCK_ON_GO, Verdict};
 pub use slip_check::{MOST_CHECKED_SLIP, SOIL_LENGTH, STUCK_WITH_CHECKS, SlipCheck};
 
@@ -253,18 +253,13 @@ impl CardStudy {
         yaw.is_finite().then(|| Driven::at_rest(&self.heading, slope, yaw))
     }
 
-    /// The best verdict that a slope can have, whatever the samples say: no go near the friction angle, none below
-    /// the usual factor of safety, none without a stated uncertainty; and neither ground that slides by itself, nor
-    /// above the friction angle, where it stands by a cohesion that wheels break, nor a rover that tips over is to be
-    /// driven.
+    /// The best verdict that a slope can have, whatever the samples say: that of [`best_slopes`], and no rover that
+    /// tips over is to be driven.
     fn best_verdict(&self, slope: f64, driven: Option<&Driven>) -> Verdict {
-        let (soil, gravity) = (&self.heading.soil, self.heading.gravity);
-        let by_friction = soil.friction_angle - BELOW_FRICTION_ANGLE;
-        let flattest = by_friction.min(soil.stable_slope(gravity, SlopeStability::USUAL));
-        let is_too_steep = slope > self.heading.ground_limit().min(soil.friction_angle);
-        if is_too_steep || driven.is_some_and(|it| it.tipping_margin <= 0.0) {
+        let (go, caution) = best_slopes(&self.heading, self.is_uncertainty_stated);
+        if slope > caution || driven.is_some_and(|it| it.tipping_margin <= 0.0) {
             Verdict::NoGo
-        } else if slope > flattest || !self.is_uncertainty_stated {
+        } else if go.is_none_or(|go| slope > go) {
             Verdict::Caution
         } else {
             Verdict::Go

@@ -274,10 +274,7 @@ impl HeadingStudy {
     /// # Errors
     /// As [`curve`](Self::curve), and for a course out of its range.
     pub fn curve_on(&self, course: f64) -> Result<HeadingCurve, ParameterError> {
-        finite("course [rad]", course)?;
-        if course.abs() > STRAIGHT_UP {
-            return Err(ParameterError::new("course [rad]", course, "−π/2 to π/2"));
-        }
+        check_course(course)?;
         self.follow(self.held(course), STEEPEST_SLOPE)
     }
 
@@ -298,7 +295,16 @@ impl HeadingStudy {
     /// # Errors
     /// As [`curve`](Self::curve).
     pub fn drift_curve(&self) -> Result<HeadingCurve, ParameterError> {
-        self.follow(Held::Yaw(0.0), STEEPEST_SLOPE)
+        self.drift_curve_along(0.0)
+    }
+
+    /// The same with the nose along another course, *γ* [rad], −π/2 to π/2, positive uphill.
+    ///
+    /// # Errors
+    /// As [`curve_on`](Self::curve_on).
+    pub fn drift_curve_along(&self, yaw: f64) -> Result<HeadingCurve, ParameterError> {
+        check_course(yaw)?;
+        self.follow(Held::Yaw(yaw), STEEPEST_SLOPE)
     }
 
     /// What is held on a course [rad].
@@ -342,6 +348,14 @@ impl HeadingStudy {
         let settled_wheels = path.settled_wheels();
         Ok(HeadingCurve { study: self.clone(), held, points, held_below, end, settled_wheels })
     }
+}
+
+fn check_course(course: f64) -> Result<(), ParameterError> {
+    finite("course [rad]", course)?;
+    if course.abs() > STRAIGHT_UP {
+        return Err(ParameterError::new("course [rad]", course, "−π/2 to π/2"));
+    }
+    Ok(())
 }
 
 impl HeadingCurve {
@@ -460,6 +474,11 @@ impl HeadingCurve {
         let on_slope =
             RoverOnSlope { rover, soil, zones: None, gravity: *gravity, theory: *theory, slope };
         on_slope.findings(found.iter().flat_map(|heading| &heading.wheels))
+    }
+
+    /// Slope [rad] and slip ratio [-] at points along the curve, from level ground to the steepest slope.
+    pub(super) fn slips(&self) -> Vec<(f64, f64)> {
+        self.points.iter().map(|point| (point.place.z, point.place.x)).collect()
     }
 
     /// Points along the curve, from level ground to the steepest slope.

@@ -3,6 +3,8 @@
 use std::f64::consts::PI;
 
 use crate::error::ParameterError;
+use crate::soil::SlopeStability;
+use crate::studies::heading::HeadingStudy;
 
 /// Whether to drive on a slope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,6 +37,22 @@ pub const BELOW_FRICTION_ANGLE: f64 = 5.0 * PI / 180.0;
 /// No slope is a go on which the rover is stuck by the card's heading in more than this share of the samples [-]: 5
 /// of 1000. Source: ours.
 pub const STUCK_ON_GO: f64 = 0.005;
+
+/// The steepest slopes that can be a go, and a caution [rad], whatever the samples say: no go near the friction
+/// angle, none below the usual factor of safety, none without a stated uncertainty; and neither ground that slides by
+/// itself, nor above the friction angle, where it stands by a cohesion that wheels break, is to be driven.
+///
+/// * `is_uncertainty_stated`: of the soil
+pub(in crate::studies) fn best_slopes(
+    heading: &HeadingStudy,
+    is_uncertainty_stated: bool,
+) -> (Option<f64>, f64) {
+    let (soil, gravity) = (&heading.soil, heading.gravity);
+    let caution = heading.ground_limit().min(soil.friction_angle);
+    let by_friction = soil.friction_angle - BELOW_FRICTION_ANGLE;
+    let flattest = by_friction.min(soil.stable_slope(gravity, SlopeStability::USUAL));
+    (is_uncertainty_stated.then_some(flattest.min(caution)), caution)
+}
 
 impl Rule {
     /// Slip 0.3: rims go 1.4 times the way, and thrust still grows with slip. 0.95: the share of a
