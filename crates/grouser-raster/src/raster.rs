@@ -2,6 +2,7 @@
 
 use grouser_core::soil::Soil;
 use grouser_core::terrain::{ElevationError, ElevationGrid, ElevationModel};
+use grouser_core::units::Vec2;
 
 use crate::CoordinateSystem;
 
@@ -23,9 +24,39 @@ impl Raster {
     /// The height at a point [m]; none where it is missing, or beyond the grid.
     #[must_use]
     pub fn height(&self, column: usize, row: usize) -> Option<f64> {
-        let inside = column < self.grid.columns && row < self.grid.rows;
-        let above = inside.then(|| self.heights.get(row * self.grid.columns + column)).flatten()?;
-        above.is_finite().then(|| self.base + f64::from(*above))
+        self.above(column, row).map(|above| self.base + above)
+    }
+
+    /// How steeply the ground rises at a point to the east and to the north [m/m], between its neighbours on both
+    /// sides; from the point itself where one of them is missing. None where the point's own height is missing, or
+    /// both neighbours' in one direction.
+    ///
+    /// * `reach`: how far the neighbours are to the east and to the north, in points, 1 or more
+    #[must_use]
+    pub fn gradient(&self, column: usize, row: usize, reach: [usize; 2]) -> Option<Vec2> {
+        let here = self.above(column, row)?;
+        let rise = |before: Option<f64>, after: Option<f64>, distance: f64| match (before, after) {
+            (Some(before), Some(after)) => Some((after - before) / (2.0 * distance)),
+            (Some(before), None) => Some((here - before) / distance),
+            (None, Some(after)) => Some((after - here) / distance),
+            (None, None) => None,
+        };
+        let [east, north] = reach;
+        let west_of = column.checked_sub(east).and_then(|column| self.above(column, row));
+        let south_of = row.checked_sub(north).and_then(|row| self.above(column, row));
+        let spacing = self.grid.spacing;
+        let x = rise(west_of, self.above(column + east, row), east as f64 * spacing.x)?;
+        let y = rise(south_of, self.above(column, row + north), north as f64 * spacing.y)?;
+        Some(Vec2::new(x, y))
+    }
+
+    /// The height above the base.
+    fn above(&self, column: usize, row: usize) -> Option<f64> {
+        if column >= self.grid.columns || row >= self.grid.rows {
+            return None;
+        }
+        let above = self.heights.get(row * self.grid.columns + column)?;
+        above.is_finite().then(|| f64::from(*above))
     }
 
     /// The elevation model to drive on, with one soil.
@@ -34,5 +65,43 @@ impl Raster {
     /// [`ElevationError`] if the grid is too small, no height is known, or there is no such soil.
     pub fn model(self, soil: Soil) -> Result<ElevationModel, ElevationError> {
         ElevationModel::above_base(self.grid, self.base, self.heights, soil)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Heights of a parabola along x and a line along y, one of them missing.
+    fn raster() -> Raster {
+        let grid = ElevationGrid {
+            columns: 5,
+            rows: 4,
+            south_west: Vec2::new(100.0, 200.0),
+            spacing: Vec2::new(2.0, 0.5),
+        };
+        let height = |at: Vec2| (at.x - 100.0) * (at.x - 100.0) + 3.0 * (at.y - 200.0);
+        #[expect(clippy::cast_possible_truncation, reason = "small whole numbers")]
+        let mut heights: Vec<f32> = grid.points().map(|at| height(at) as f32).collect();
+        heights[2 * 5 + 2] = f32::NAN;
+        Raster { grid, base: 7.0, heights, coordinates: CoordinateSystem::default() }
+    }
+
+    #[test]
+    fn a_gradient_is_that_between_the_neighbours() {
+        let raster = raster();
+        assert_eq!(raster.gradient(1, 1, [1, 1]), Some(Vec2::new(4.0, 3.0)));
+        assert_eq!(raster.gradient(2, 0, [2, 1]), Some(Vec2::new(8.0, 3.0)));
+        assert_eq!(raster.height(1, 1), Some(7.0 + 4.0 + 1.5));
+    }
+
+    #[test]
+    fn beside_the_edge_and_beside_a_gap_it_is_one_sided() {
+        let raster = raster();
+        assert_eq!(raster.gradient(0, 1, [1, 1]), Some(Vec2::new(2.0, 3.0)));
+        assert_eq!(raster.gradient(4, 3, [1, 1]), Some(Vec2::new(14.0, 3.0)));
+        assert_eq!(raster.gradient(1, 2, [1, 1]), Some(Vec2::new(2.0, 3.0)));
+        assert_eq!(raster.gradient(2, 2, [1, 1]), None);
+        assert_eq!(raster.gradient(2, 1, [9, 1]), None);
     }
 }

@@ -1,0 +1,143 @@
+//! Bands as cloud-optimised GeoTIFF, written through `geotiff-writer`, which no other file of ours knows.
+//!
+//! Tiles of 512 × 512 cells, north up; overviews of half the size down to one tile, each with every second cell of the
+//! one before it, since neither directions nor verdicts have a mean; deflate. Coordinates are those of the elevation
+//! model, key by key, and its points are the cells' middles.
+
+use std::fs::File;
+use std::io::{BufWriter, Write as _};
+use std::path::Path;
+
+use geotiff_writer::{
+    CogBuilder, Compression, GeoKeyValue, GeoTiffBuilder, NumericSample, Predictor, Resampling,
+};
+use grouser::document::columns::map::VERDICT;
+use grouser::studies::mobility::MobilityMap;
+use grouser_raster::{CoordinateSystem, GeoKeys};
+use ndarray::ArrayView2;
+
+use crate::error::Fault;
+use crate::{Ground, MapColumn, MapError};
+
+/// Cells of a tile to either side.
+const TILE: usize = 512;
+
+/// Writes a band.
+///
+/// * `tick`: called after every row of tiles with the cells that it had
+///
+/// # Errors
+/// [`MapError`] if the file cannot be written.
+pub fn write_band(
+    file: &Path,
+    ground: Ground<'_>,
+    map: &MobilityMap,
+    band: &MapColumn,
+    tick: &(dyn Fn(u64) + Sync),
+) -> Result<(), MapError> {
+    let written = if band.name == VERDICT {
+        // Whole numbers up to 3.
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1, 2 or 3")]
+        let class = |number: Option<f64>| number.unwrap_or(0.0) as u8;
+        write(file, ground, (map, band), ("0", Predictor::None), class, tick)
+    } else {
+        #[expect(clippy::cast_possible_truncation, reason = "seven digits are more than are known")]
+        let real = |number: Option<f64>| number.map_or(f32::NAN, |number| number as f32);
+        write(file, ground, (map, band), ("nan", Predictor::FloatingPoint), real, tick)
+    };
+    written.map_err(|fault| MapError::new(file, fault))
+}
+
+fn write<T: NumericSample>(
+    file: &Path,
+    ground: Ground<'_>,
+    (map, band): (&MobilityMap, &MapColumn),
+    (missing, predictor): (&str, Predictor),
+    cell: impl Fn(Option<f64>) -> T,
+    tick: &(dyn Fn(u64) + Sync),
+) -> Result<(), Fault> {
+    let grid = &ground.raster().grid;
+    let (columns, rows) = (grid.columns, grid.rows);
+    let image = image(ground)?.nodata(missing).predictor(predictor);
+    let cog = CogBuilder::new(image)
+        .overview_levels(overviews(columns.max(rows)))
+        .resampling(Resampling::NearestNeighbor);
+    let mut writer = cog.tile_writer::<T, _>(BufWriter::new(File::create(file)?))?;
+    let mut tile = Vec::with_capacity(TILE * TILE);
+    for top in (0..rows).step_by(TILE) {
+        let height = TILE.min(rows - top);
+        for left in (0..columns).step_by(TILE) {
+            let width = TILE.min(columns - left);
+            tile.clear();
+            for row in top..top + height {
+                // Rows of the file are from north to south, those of the grid from south to north.
+                let row = rows - 1 - row;
+                tile.extend((left..left + width).map(|column| {
+                    cell(ground.at(map, column, row).map(|motion| band.number(&motion)))
+                }));
+            }
+            let view = ArrayView2::from_shape((height, width), &tile)
+                .unwrap_or_else(|_| unreachable!("as many cells as rows and columns make"));
+            writer.write_tile(left, top, &view)?;
+        }
+        tick((height * columns) as u64);
+    }
+    let mut sink = writer.finish()?;
+    sink.flush()?;
+    sink.get_ref().sync_all()?;
+    Ok(())
+}
+
+/// The factors of the overviews: the last is no larger than a tile.
+fn overviews(cells: usize) -> Vec<u32> {
+    let factors = std::iter::successors(Some(2_u32), |factor| factor.checked_mul(2));
+    factors.take_while(|factor| cells.div_ceil(*factor as usize) * 2 > TILE).collect()
+}
+
+/// An image on the ground's grid.
+fn image(ground: Ground<'_>) -> Result<GeoTiffBuilder, Fault> {
+    let raster = ground.raster();
+    let grid = &raster.grid;
+    let count = |cells: usize| u32::try_from(cells).map_err(|_| Fault::TooLarge { cells });
+    let north_west = grid.point(0, grid.rows - 1);
+    let (width, height) = (grid.spacing.x, grid.spacing.y);
+    let tile = u32::try_from(TILE).map_err(|_| Fault::TooLarge { cells: TILE })?;
+    let image = GeoTiffBuilder::new(count(grid.columns)?, count(grid.rows)?)
+        .pixel_scale(width, height)
+        .origin(north_west.x - 0.5 * width, north_west.y + 0.5 * height)
+        .tile_size(tile, tile)
+        .compression(Compression::Deflate)
+        .deflate_level(4);
+    Ok(geo_keys(&raster.coordinates)
+        .into_iter()
+        .fold(image, |image, (id, value)| image.geokey(id, value)))
+}
+
+/// The keys of a system of coordinates, with cells that are areas.
+fn geo_keys(coordinates: &CoordinateSystem) -> Vec<(u16, GeoKeyValue)> {
+    /// `GTRasterTypeGeoKey`, and its value for areas.
+    const RASTER_TYPE: u16 = 1025;
+    const AREAS: u16 = 1;
+    /// Tags in which values stand that are no whole numbers.
+    const DOUBLES: u16 = 34736;
+    const TEXT: u16 = 34737;
+    let GeoKeys { directory, doubles, text } = coordinates.keys();
+    let value = |entry: &[u16]| {
+        let (tag, count, place) = (entry[1], usize::from(entry[2]), usize::from(entry[3]));
+        match tag {
+            0 => Some(GeoKeyValue::Short(entry[3])),
+            DOUBLES => doubles.get(place..place + count).map(|it| GeoKeyValue::Double(it.to_vec())),
+            TEXT => {
+                let bytes = text.as_bytes().get(place..(place + count).min(text.len()))?;
+                let words = String::from_utf8_lossy(bytes);
+                Some(GeoKeyValue::Ascii(words.trim_end_matches(['|', '\0']).to_owned()))
+            }
+            _ => None,
+        }
+    };
+    let entries = directory.get(4..).unwrap_or_default().chunks_exact(4);
+    let kept = entries.filter(|entry| entry[0] != RASTER_TYPE);
+    let mut keys: Vec<_> = kept.filter_map(|entry| Some((entry[0], value(entry)?))).collect();
+    keys.push((RASTER_TYPE, GeoKeyValue::Short(AREAS)));
+    keys
+}

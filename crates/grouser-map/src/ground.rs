@@ -1,0 +1,60 @@
+//! The ground that a map is of.
+
+use grouser::studies::mobility::{CellMotion, MobilityMap};
+use grouser_core::vehicle::Rover;
+use grouser_raster::Raster;
+
+/// Heights, and how far apart those are between which a rover stands.
+#[derive(Clone, Copy, Debug)]
+pub struct Ground<'a> {
+    raster: &'a Raster,
+    reach: [usize; 2],
+}
+
+impl<'a> Ground<'a> {
+    /// Ground under a rover: slopes are those between points half of the rover's length away on either side, or
+    /// neighbours where points are farther apart.
+    #[must_use]
+    pub fn under(rover: &Rover, raster: &'a Raster) -> Self {
+        let hubs = rover.mounts().iter().map(|mount| mount.position.x);
+        let (rear, front) =
+            hubs.fold((0.0, 0.0), |(low, high), x| (f64::min(low, x), f64::max(high, x)));
+        let half = 0.5 * (front - rear);
+        let spacing = raster.grid.spacing;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a positive ratio, at least 1"
+        )]
+        let reach =
+            [spacing.x, spacing.y].map(|spacing| (half / spacing).round().max(1.0) as usize);
+        Self { raster, reach }
+    }
+
+    /// The heights.
+    #[must_use]
+    pub fn raster(&self) -> &'a Raster {
+        self.raster
+    }
+
+    /// Distance of the points between which slopes are taken, to the east and to the north [m].
+    #[must_use]
+    pub fn slope_length(&self) -> [f64; 2] {
+        let spacing = self.raster.grid.spacing;
+        [2.0 * self.reach[0] as f64 * spacing.x, 2.0 * self.reach[1] as f64 * spacing.y]
+    }
+
+    /// How steeply a point's ground rises to the east and to the north [m/m]; none where its height is missing.
+    #[must_use]
+    pub fn gradient(&self, column: usize, row: usize) -> Option<grouser_core::units::Vec2> {
+        self.raster.gradient(column, row, self.reach)
+    }
+
+    /// What a rover does at a point; none where its height is missing.
+    ///
+    /// * `row`: from the south
+    #[must_use]
+    pub fn at(&self, map: &MobilityMap, column: usize, row: usize) -> Option<CellMotion> {
+        self.gradient(column, row).map(|gradient| map.at(gradient))
+    }
+}
