@@ -7,6 +7,7 @@ mod draw;
 mod forecast;
 mod heading;
 mod import_urdf;
+mod map;
 mod measurements;
 mod mission;
 mod new;
@@ -28,12 +29,13 @@ pub(crate) use campaign::{
     CampaignArgs, CampaignCommand, CampaignCostArgs, CampaignDigestArgs, CampaignMergeArgs,
     CampaignRerunArgs, CampaignRunArgs, CampaignSummariseArgs, ExecutorChoice,
 };
-pub(crate) use card::{CardArgs, SideChoice};
+pub(crate) use card::{CardArgs, RuleArgs, SideChoice};
 pub(crate) use documents::{CheckArgs, CompletionsArgs, PresetsArgs, SchemaArgs};
 pub(crate) use draw::DrawArgs;
 pub(crate) use forecast::ForecastArgs;
 pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
 pub(crate) use import_urdf::ImportUrdfArgs;
+pub(crate) use map::MapArgs;
 pub(crate) use measurements::{
     CalibrateArgs, ImportArgs, PlateLawChoice, SlipChoice, ValidateArgs,
 };
@@ -73,6 +75,8 @@ pub(crate) enum Command {
     Heading(HeadingArgs),
     /// The heading offset that holds a course on a slope, over slope, course and soil.
     HeadingMap(HeadingMapArgs),
+    /// Where a rover can go on a map of heights: heading, slip, power, probability of a no-go, as GeoTIFF.
+    Map(MapArgs),
     /// `heading`, by the name of earlier versions: the word of the source paper.
     #[command(hide = true)]
     Attitude(HeadingArgs),

@@ -16,6 +16,7 @@ pub(crate) mod heading_map;
 pub(crate) mod import;
 pub(crate) mod import_urdf;
 mod log;
+pub(crate) mod map;
 pub(crate) mod mission;
 pub(crate) mod new;
 mod place;

@@ -3,6 +3,7 @@
 mod card;
 mod forecast;
 mod heading;
+mod map;
 pub(crate) mod mission;
 mod slip_from_current;
 mod stand;
@@ -18,6 +19,7 @@ use grouser::document::{
 pub(crate) use self::card::{CardInputs, card};
 pub(crate) use self::forecast::{ForecastInputs, forecast};
 pub(crate) use self::heading::{heading, heading_map};
+pub(crate) use self::map::{MapInputs, map};
 pub(crate) use self::slip_from_current::{SlipInputs, slip_from_current};
 pub(crate) use self::stand::{StandInputs, soil, stand, wheel_test};
 pub(crate) use self::traverse::traverse;
@@ -111,6 +113,9 @@ fn balanced_overrides(
             }
             "slip-from-current" => {
                 "slopes are those of the log or of --slope-deg; the log has the drive"
+            }
+            "map" => {
+                "slopes are those of the ground; a steady motion has no drive, start or duration"
             }
             _ => {
                 "slopes are given by --slope-deg; a heading offset has no drive, start or duration"

@@ -60,6 +60,7 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::WheelTest(args) => commands::wheel_test::run(args),
         Command::Heading(args) => commands::heading::run("heading", args),
         Command::HeadingMap(args) => commands::heading_map::run("heading-map", args),
+        Command::Map(args) => commands::map::run(args),
         Command::Attitude(args) => commands::heading::run("attitude", args),
         Command::AttitudeMap(args) => commands::heading_map::run("attitude-map", args),
         Command::Card(args) => commands::card::run(args),

@@ -113,6 +113,18 @@ fn image(ground: Ground<'_>) -> Result<GeoTiffBuilder, Fault> {
         .fold(image, |image, (id, value)| image.geokey(id, value)))
 }
 
+/// A name that the encoder takes: of a list such as `GCS Name = Moon 2000|Datum = …`, whose bars it refuses, the first
+/// name, and without characters that are not in ASCII. Numbers of the system are in keys of their own.
+fn name_of(words: &str) -> String {
+    let first = words.split('|').next().unwrap_or_default();
+    let name = if words.contains('|') {
+        first.split_once("Name = ").map_or(first, |(_, name)| name)
+    } else {
+        first
+    };
+    name.chars().filter(char::is_ascii).collect::<String>().trim().to_owned()
+}
+
 /// The keys of a system of coordinates, with cells that are areas.
 fn geo_keys(coordinates: &CoordinateSystem) -> Vec<(u16, GeoKeyValue)> {
     /// `GTRasterTypeGeoKey`, and its value for areas.
@@ -130,7 +142,7 @@ fn geo_keys(coordinates: &CoordinateSystem) -> Vec<(u16, GeoKeyValue)> {
             TEXT => {
                 let bytes = text.as_bytes().get(place..(place + count).min(text.len()))?;
                 let words = String::from_utf8_lossy(bytes);
-                Some(GeoKeyValue::Ascii(words.trim_end_matches(['|', '\0']).to_owned()))
+                Some(GeoKeyValue::Ascii(name_of(words.trim_end_matches(['|', '\0']))))
             }
             _ => None,
         }

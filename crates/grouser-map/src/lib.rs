@@ -9,12 +9,14 @@
 mod error;
 mod geotiff;
 mod ground;
+mod picture;
 mod style;
 mod summary;
 
 pub use error::MapError;
 pub use geotiff::write_band;
 pub use ground::Ground;
+pub use picture::picture;
 pub use style::{Look, style};
 pub use summary::{BandSummary, summaries};
 

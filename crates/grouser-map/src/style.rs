@@ -43,6 +43,11 @@ impl Look {
         }
     }
 
+    /// The words of verdicts, in the order of their numbers.
+    pub(crate) fn words(self) -> [&'static str; 3] {
+        VERDICTS.map(|(_, _, word)| word)
+    }
+
     /// Numbers and their colours, rising; between them colours are mixed, but for verdicts.
     ///
     /// * `of`: the numbers that are shown
@@ -118,7 +123,7 @@ pub fn style(look: Look, of: &BandSummary, label: &str) -> String {
 }
 
 /// A number with four digits.
-fn rounded(number: f64) -> String {
+pub(crate) fn rounded(number: f64) -> String {
     let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
     rounded.to_string()
 }

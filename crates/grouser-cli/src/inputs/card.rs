@@ -4,8 +4,9 @@ use grouser::document::{self, LoadedScenario};
 use grouser::studies::card::Rule;
 
 use super::{balanced, refuse_sampled_keys, single};
-use crate::args::CardArgs;
+use crate::args::{CardArgs, RuleArgs};
 use crate::failure::Failure;
+use crate::list::Numbers;
 
 /// The inputs of a card.
 pub(crate) struct CardInputs {
@@ -16,8 +17,18 @@ pub(crate) struct CardInputs {
 }
 
 pub(crate) fn card(args: &CardArgs) -> Result<CardInputs, Failure> {
+    let rule = rule(&args.rule)?;
+    let (rover, soil) = (args.parts.rover.as_ref(), args.parts.soil.as_ref());
+    let (setting, balance) = (&args.setting, &args.balance);
+    let scenario = balanced("card", args.scenario.as_deref(), rover, soil, setting, balance)?;
+    refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
+    let rim_speed = rim_speed(args.rim_speed_m_s.as_ref(), &scenario)?;
+    Ok(CardInputs { scenario, rim_speed, rule })
+}
+
+/// The limits of go and no-go.
+pub(super) fn rule(flags: &RuleArgs) -> Result<Rule, Failure> {
     use document::card::{RuleRecord, SHARE};
-    let flags = &args.rule;
     let record = RuleRecord {
         go_slip_ratio: single("--go-slip-ratio", &flags.go_slip_ratio, &SHARE)?,
         go_probability: single("--go-probability", &flags.go_probability, &SHARE)?,
@@ -26,13 +37,16 @@ pub(crate) fn card(args: &CardArgs) -> Result<CardInputs, Failure> {
     };
     let rule = Rule::from(&record);
     rule.check()?;
-    let (rover, soil) = (args.parts.rover.as_ref(), args.parts.soil.as_ref());
-    let (setting, balance) = (&args.setting, &args.balance);
-    let scenario = balanced("card", args.scenario.as_deref(), rover, soil, setting, balance)?;
-    refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
-    let rim_speed = match &args.rim_speed_m_s {
-        Some(speed) => single("--rim-speed-m-s", speed, &document::study::MAP_SPEED_M_S)?,
-        None => scenario.value.drive.nominal_rim_speed(),
-    };
-    Ok(CardInputs { scenario, rim_speed, rule })
+    Ok(rule)
+}
+
+/// The rim speed that is asked for, or else the scenario's [m/s].
+pub(super) fn rim_speed(
+    asked: Option<&Numbers>,
+    scenario: &LoadedScenario,
+) -> Result<f64, Failure> {
+    match asked {
+        Some(speed) => single("--rim-speed-m-s", speed, &document::study::MAP_SPEED_M_S),
+        None => Ok(scenario.value.drive.nominal_rim_speed()),
+    }
 }

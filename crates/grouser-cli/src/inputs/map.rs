@@ -1,0 +1,61 @@
+//! What a mobility map is made of.
+
+use grouser::document::{self, LoadedScenario};
+use grouser::studies::mobility::{CourseChoice, MobilityStudy};
+use grouser_raster::{Raster, RasterError, ReadOptions};
+
+use super::card::{rim_speed, rule};
+use super::{balanced, check_numbers, refuse_sampled_keys};
+use crate::args::MapArgs;
+use crate::failure::Failure;
+use crate::list::{self, Numbers};
+
+/// What a mobility map is made of.
+pub(crate) struct MapInputs {
+    pub(crate) scenario: LoadedScenario,
+    pub(crate) study: MobilityStudy,
+    pub(crate) course: CourseChoice,
+    pub(crate) raster: Raster,
+}
+
+pub(crate) fn map(args: &MapArgs) -> Result<MapInputs, Failure> {
+    let course = course(&args.course_deg)?;
+    let (rover, soil) = (args.parts.rover.as_ref(), args.parts.soil.as_ref());
+    let (setting, balance) = (&args.setting, &args.balance);
+    let scenario = balanced("map", args.scenario.as_deref(), rover, soil, setting, balance)?;
+    refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
+    let study = MobilityStudy {
+        rim_speed: rim_speed(args.rim_speed_m_s.as_ref(), &scenario)?,
+        rule: rule(&args.rule)?,
+        ..MobilityStudy::of(&scenario)
+    };
+    let raster = grouser_raster::read(&args.dem, &ReadOptions::default())?;
+    Ok(MapInputs { scenario, study, course, raster })
+}
+
+impl From<RasterError> for Failure {
+    fn from(error: RasterError) -> Self {
+        match error.fault {
+            grouser_raster::Fault::Disk(_) => Self::Run(error.to_string()),
+            _ => Self::Usage(error.to_string()),
+        }
+    }
+}
+
+/// A course that is asked for by a number or a word.
+fn course(asked: &str) -> Result<CourseChoice, Failure> {
+    match asked {
+        "best" => return Ok(CourseChoice::Best),
+        "worst" => return Ok(CourseChoice::Worst),
+        _ => (),
+    }
+    let expected = || {
+        Failure::Usage(format!(
+            "--course-deg {asked}: expected an angle of -90 to 90, best or worst"
+        ))
+    };
+    let numbers: Numbers = list::parse(asked).map_err(|_| expected())?;
+    let [degrees] = numbers.0[..] else { return Err(expected()) };
+    check_numbers("--course-deg", &numbers, &document::study::COURSE_DEG)?;
+    Ok(CourseChoice::Fixed(degrees.to_radians()))
+}
