@@ -12,12 +12,12 @@ use geotiff_writer::{
     CogBuilder, Compression, GeoKeyValue, GeoTiffBuilder, NumericSample, Predictor, Resampling,
 };
 use grouser::document::columns::map::VERDICT;
-use grouser::studies::mobility::MobilityMap;
+use grouser::studies::mobility::{Ground, MobilityMap};
 use grouser_raster::{CoordinateSystem, GeoKeys};
 use ndarray::ArrayView2;
 
 use crate::error::Fault;
-use crate::{Ground, MapColumn, MapError};
+use crate::{MapColumn, MapError};
 
 /// Cells of a tile to either side.
 const TILE: usize = 512;

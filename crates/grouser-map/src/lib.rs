@@ -1,21 +1,19 @@
 //! Mobility maps as files: for each number a cloud-optimised GeoTIFF in the coordinates of the elevation model that it
 //! was made from, and a style with which QGIS shows it.
 //!
-//! A map is a [`Ground`], whose places have gradients, and a
+//! A map is a [`Ground`](grouser::studies::mobility::Ground), whose places have gradients, and a
 //! [`MobilityMap`](grouser::studies::mobility::MobilityMap), which says what a rover does on them. A band is written
 //! tile by tile, so that no more of it is in memory than a tile. Nothing is computed from one place for another: a
 //! band that was written again is the same to the byte, whatever else was going on.
 
 mod error;
 mod geotiff;
-mod ground;
 mod picture;
 mod style;
 mod summary;
 
 pub use error::MapError;
 pub use geotiff::write_band;
-pub use ground::Ground;
 pub use picture::picture;
 pub use style::{Look, style};
 pub use summary::{BandSummary, summaries};

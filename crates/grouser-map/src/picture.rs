@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use grouser::studies::mobility::MobilityMap;
+use grouser::studies::mobility::{Ground, MobilityMap};
 
 use crate::style::{Look, rounded};
-use crate::{BandSummary, Ground, MapColumn};
+use crate::{BandSummary, MapColumn};
 
 /// Cells of a picture along its longer side, at most.
 const CELLS: usize = 200;

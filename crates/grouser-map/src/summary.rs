@@ -1,10 +1,10 @@
 //! What a map has in all, before it is written.
 
 use grouser::document::columns::map::verdict_number;
-use grouser::studies::mobility::{CellMotion, MobilityMap};
+use grouser::studies::mobility::{CellMotion, Ground, MobilityMap};
 use rayon::prelude::*;
 
-use crate::{Ground, MapColumn};
+use crate::MapColumn;
 
 /// The numbers of a band in all.
 #[derive(Clone, Copy, Debug, PartialEq)]

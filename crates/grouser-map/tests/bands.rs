@@ -2,10 +2,10 @@
 
 use grouser::document::columns::map::{bands, chosen};
 use grouser::document::{self, Overrides, Source};
-use grouser::studies::mobility::{CourseChoice, MobilityMap, MobilityStudy};
+use grouser::studies::mobility::{CourseChoice, Ground, MobilityMap, MobilityStudy};
 use grouser_core::terrain::ElevationGrid;
 use grouser_core::units::Vec2;
-use grouser_map::{Ground, Look, style, summaries, write_band};
+use grouser_map::{Look, style, summaries, write_band};
 use grouser_raster::{CoordinateSystem, Raster, ReadOptions};
 
 /// A dome with a gap, of more than one tile.

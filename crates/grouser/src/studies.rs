@@ -7,6 +7,7 @@
 //! | [`heading`] | the heading offset that holds the contour on a slope |
 //! | [`heading_map`], [`heading_band`] | the same for other courses and soils, and where soil and model are uncertain |
 //! | [`mobility`] | the same as tables over slope, to read maps and routes from |
+//! | [`route`] | the cheapest way over ground with heights: in time, work or risk |
 //! | [`wheel_speeds`] | contour traverses with wheels at speeds of their own |
 //! | [`card`] | the operator's card: heading, slip, drift, power, go or no-go |
 //! | [`forecast`] | slip, drift, heading and steepest slope under another gravity, with one error budget |
@@ -35,6 +36,7 @@ pub mod lost_yaw;
 pub mod mission;
 pub mod mobility;
 pub mod reproduction;
+pub mod route;
 pub mod simulated_test;
 pub mod slip_from_current;
 pub mod slope_validation;

@@ -16,12 +16,14 @@
 //! samples whose steepest is below it. No curve in between is stored: the steepest slopes, sorted, say it exactly.
 
 mod choice;
+mod ground;
 mod map;
 mod thresholds;
 
 use rayon::prelude::*;
 
 pub use self::choice::CourseChoice;
+pub use self::ground::Ground;
 pub use self::map::{CellMotion, MobilityMap};
 use self::thresholds::Thresholds;
 use super::card::{Rule, Verdict};
@@ -275,6 +277,13 @@ impl MobilityTable {
         let limit = self.limit.filter(|limit| slope <= *limit)?;
         let v = if limit > 0.0 { 1.0 - (1.0 - slope / limit).max(0.0).sqrt() } else { 0.0 };
         Some(self.between_nodes(v * INTERVALS as f64))
+    }
+
+    /// The steepest slope of each sample that is no no-go [rad], in the order of the samples; below 0 where it cannot
+    /// move at all.
+    #[must_use]
+    pub fn steepest(&self) -> &[f64] {
+        &self.thresholds.of_samples
     }
 
     /// In which share of the samples a slope [rad] is a no-go [-].

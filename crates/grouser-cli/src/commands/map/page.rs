@@ -1,8 +1,8 @@
 //! The page of a map.
 
 use grouser::document::columns::map::bands;
-use grouser::studies::mobility::MobilityMap;
-use grouser_map::{BandSummary, Ground, MapColumn, picture};
+use grouser::studies::mobility::{Ground, MobilityMap};
+use grouser_map::{BandSummary, MapColumn, picture};
 
 use super::{errors, label};
 use crate::args::MapArgs;

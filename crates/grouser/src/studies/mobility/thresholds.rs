@@ -14,6 +14,8 @@ pub(super) struct Thresholds {
     caution: f64,
     /// The steepest slope of each sample that is no no-go [rad], rising.
     steepest: Vec<f64>,
+    /// The same in the order of the samples.
+    pub(super) of_samples: Vec<f64>,
 }
 
 /// The slope of a sample that cannot drive at all [rad]: below level ground.
@@ -46,7 +48,8 @@ impl Thresholds {
         let (best_go, best_caution) = best_slopes(heading, study.is_uncertainty_stated);
         let caution = held_by(&steepest, rule.no_go_probability).min(best_caution);
         let go = held_by(&easy, rule.go_probability).min(best_go.unwrap_or(NOWHERE)).min(caution);
-        Ok(Some(Self { go, caution, steepest }))
+        let of_samples = found.iter().map(|[_, steepest]| *steepest).collect();
+        Ok(Some(Self { go, caution, steepest, of_samples }))
     }
 
     pub(super) fn verdict(&self, slope: f64) -> Verdict {

@@ -1,8 +1,10 @@
 //! The ground that a map is of.
 
-use grouser::studies::mobility::{CellMotion, MobilityMap};
-use grouser_core::vehicle::Rover;
 use grouser_raster::Raster;
+
+use super::{CellMotion, MobilityMap};
+use crate::units::Vec2;
+use crate::vehicle::Rover;
 
 /// Heights, and how far apart those are between which a rover stands.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +48,7 @@ impl<'a> Ground<'a> {
 
     /// How steeply a point's ground rises to the east and to the north [m/m]; none where its height is missing.
     #[must_use]
-    pub fn gradient(&self, column: usize, row: usize) -> Option<grouser_core::units::Vec2> {
+    pub fn gradient(&self, column: usize, row: usize) -> Option<Vec2> {
         self.raster.gradient(column, row, self.reach)
     }
 

@@ -1,0 +1,297 @@
+//! What a metre of way costs, by how steeply the ground rises along it and across it.
+
+use super::{Limits, Objective, RouteStudy};
+use crate::elementary::wide::atan2;
+use crate::error::ParameterError;
+use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
+use crate::studies::mobility::{Mobility, MobilityTable};
+
+/// Courses from straight down to straight up are so far apart [°].
+const COURSE_STEP_DEG: f64 = 7.5;
+/// Points along the axes of the table: from the steepest way down to the steepest way up, and from level to the steepest
+/// across.
+const ALONG: usize = 401;
+const ACROSS: usize = 201;
+
+/// A metre of way, measured on the map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Metre {
+    /// Length over the ground [m].
+    pub(super) length: f64,
+    /// Time [s].
+    pub(super) time: f64,
+    /// Work of the wheels [J].
+    pub(super) energy: f64,
+    /// Slip ratio [-].
+    pub(super) slip_ratio: f64,
+}
+
+/// Motions on every slope and course.
+pub(super) struct Costs {
+    tables: Vec<MobilityTable>,
+    limits: Limits,
+    /// What is sought, for a metre: infinite where nobody may go.
+    table: Vec<f32>,
+    step: f64,
+    /// What a metre costs at least, [`of a level way`](Bound::level) and for each metre that it climbs.
+    pub(super) bound: Bound,
+}
+
+/// A plane below all costs: `level + climb · rise`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Bound {
+    pub(super) level: f64,
+    pub(super) climb: f64,
+}
+
+impl Costs {
+    /// `None` if `go_on` was false before the end.
+    pub(super) fn of(
+        study: &RouteStudy,
+        samples: &[Sample],
+        objective: Objective,
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Self>, ParameterError> {
+        let table = |course: f64| study.mobility.table(course, samples, go_on);
+        let tables = courses().map(table).collect::<Result<Option<Vec<_>>, _>>()?;
+        let Some(tables) = tables else { return Ok(None) };
+        let steepest = tables.iter().filter_map(MobilityTable::limit).fold(0.05, f64::max);
+        let step = crate::elementary::wide::tan(steepest) / (ACROSS - 1) as f64;
+        let risk = if objective == Objective::Risk {
+            let Some(risk) = Risk::of(study, samples, go_on)? else { return Ok(None) };
+            Some(risk)
+        } else {
+            None
+        };
+        let bound = Bound { level: 0.0, climb: 0.0 };
+        let mut costs = Self { tables, limits: study.limits, table: Vec::new(), step, bound };
+        let level = costs.metre(0.0, 0.0);
+        let price = |along: f64, across: f64| {
+            let metre = costs.metre(along, across)?;
+            Some(match objective {
+                Objective::Time => metre.time,
+                // Wheels that brake give nothing back.
+                Objective::Energy => metre.energy.max(1e-3 * level?.energy),
+                Objective::Risk => metre.length * risk.as_ref()?.at(along, across),
+            })
+        };
+        let all = (0..ALONG * ACROSS).map(|place| {
+            let (along, across) = costs.point(place);
+            #[expect(clippy::cast_possible_truncation, reason = "seven digits are enough to seek")]
+            price(along, across).map_or(f32::INFINITY, |price| price as f32)
+        });
+        costs.table = all.collect();
+        costs.bound = costs.largest_bound();
+        Ok(Some(costs))
+    }
+
+    /// Rises along and across at a place of the table.
+    fn point(&self, place: usize) -> (f64, f64) {
+        let along = (place % ALONG) as f64 - (ALONG / 2) as f64;
+        (along * self.step, (place / ALONG) as f64 * self.step)
+    }
+
+    /// What is sought, for a metre on the map; infinite where nobody may go.
+    ///
+    /// * `along`, `across`: how steeply the ground rises along the way, and to its side [m/m]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "places in the table"
+    )]
+    pub(super) fn price(&self, along: f64, across: f64) -> f64 {
+        let x = along / self.step + (ALONG / 2) as f64;
+        let y = across.abs() / self.step;
+        if !(0.0..=(ALONG - 1) as f64).contains(&x) || y > (ACROSS - 1) as f64 {
+            return f64::INFINITY;
+        }
+        let (column, row) = ((x as usize).min(ALONG - 2), (y as usize).min(ACROSS - 2));
+        let (u, v) = (x - column as f64, y - row as f64);
+        let at = |column: usize, row: usize| f64::from(self.table[row * ALONG + column]);
+        let mixed = |row: usize| {
+            let (one, other) = (at(column, row), at(column + 1, row));
+            // Nothing of what is infinite is nothing.
+            if u == 0.0 { one } else { one + u * (other - one) }
+        };
+        let price =
+            if v == 0.0 { mixed(row) } else { mixed(row) + v * (mixed(row + 1) - mixed(row)) };
+        if price.is_nan() { f64::INFINITY } else { price }
+    }
+
+    /// A metre of way; none where nobody may go.
+    pub(super) fn metre(&self, along: f64, across: f64) -> Option<Metre> {
+        let (slope, course) = on_slope(along, across);
+        let motion = self.motion(slope, course)?;
+        let length = (1.0 + along * along).sqrt();
+        let is_allowed = slope <= self.limits.most_slope
+            && motion.slip_ratio <= self.limits.most_slip_ratio
+            && self.probability_no_go(slope, course) <= self.limits.most_no_go;
+        is_allowed.then(|| Metre {
+            length,
+            time: length / motion.speed,
+            energy: length * motion.energy_per_metre(),
+            slip_ratio: motion.slip_ratio,
+        })
+    }
+
+    fn motion(&self, slope: f64, course: f64) -> Option<Mobility> {
+        let (below, share) = self.between(course);
+        let one = self.tables[below].motion(slope)?;
+        if share == 0.0 {
+            return Some(one);
+        }
+        Some(one.towards(&self.tables[below + 1].motion(slope)?, share))
+    }
+
+    /// The number of the table of the course below this one, and how far it is to the next [-].
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a place in a list"
+    )]
+    fn between(&self, course: f64) -> (usize, f64) {
+        let place = (course.to_degrees() + 90.0) / COURSE_STEP_DEG;
+        let below = (place.max(0.0) as usize).min(self.tables.len() - 2);
+        (below, (place - below as f64).clamp(0.0, 1.0))
+    }
+
+    /// Whether each sample may go no farther on a slope and course.
+    pub(super) fn fails(&self, along: f64, across: f64) -> impl Iterator<Item = bool> {
+        let (slope, course) = on_slope(along, across);
+        self.fails_on(slope, course)
+    }
+
+    fn fails_on(&self, slope: f64, course: f64) -> impl Iterator<Item = bool> {
+        let (below, share) = self.between(course);
+        let pairs = self.tables[below].steepest().iter().zip(self.tables[below + 1].steepest());
+        pairs.map(move |(one, other)| slope > one + share * (other - one))
+    }
+
+    fn probability_no_go(&self, slope: f64, course: f64) -> f64 {
+        let failed = self.fails_on(slope, course).filter(|fails| *fails).count();
+        failed as f64 / self.tables[0].steepest().len() as f64
+    }
+
+    /// The plane that lies highest over a level way and below all prices.
+    fn largest_bound(&self) -> Bound {
+        /// Thirds that are taken off an interval: to less than 1e-9 of it.
+        const STEPS: usize = 54;
+        let open = || self.table.iter().enumerate().filter(|(_, price)| price.is_finite());
+        let under = |climb: f64| {
+            let left =
+                |(place, price): (usize, &f32)| f64::from(*price) - climb * self.point(place).0;
+            open().map(left).fold(f64::INFINITY, f64::min)
+        };
+        let dearest = open().map(|(_, price)| f64::from(*price)).fold(0.0, f64::max);
+        // The least of many planes is concave in their common slope.
+        let reach = dearest / self.step.max(f64::MIN_POSITIVE) / ALONG as f64;
+        let (mut low, mut high) = (-reach, reach);
+        for _ in 0..STEPS {
+            let third = (high - low) / 3.0;
+            if under(low + third) < under(high - third) {
+                low += third;
+            } else {
+                high -= third;
+            }
+        }
+        let climb = f64::midpoint(low, high);
+        let level = under(climb);
+        // A little less, for what single precision takes off.
+        if level.is_finite() && level > 0.0 {
+            Bound { level: level * (1.0 - 1e-6), climb }
+        } else {
+            Bound { level: under(0.0).max(0.0), climb: 0.0 }
+        }
+    }
+}
+
+/// Slope and course of a way [rad].
+fn on_slope(along: f64, across: f64) -> (f64, f64) {
+    let rise = (along * along + across * across).sqrt();
+    if rise == 0.0 {
+        return (0.0, 0.0);
+    }
+    // On the slope itself the way up is longer than on the map.
+    let steepness = (1.0 + rise * rise).sqrt();
+    (atan2(rise, 1.0), atan2(along * steepness, across.abs()))
+}
+
+/// The courses of the tables [rad].
+fn courses() -> impl Iterator<Item = f64> {
+    #[expect(clippy::cast_possible_truncation, reason = "a small whole number")]
+    let half = (90.0 / COURSE_STEP_DEG) as i32;
+    (-half..=half).map(|step| (f64::from(step) * COURSE_STEP_DEG).to_radians())
+}
+
+/// The time of a metre that the worst of the samples need.
+struct Risk {
+    /// By course and slope.
+    times: Vec<Vec<f64>>,
+}
+
+/// Slopes of the risk are so far apart [°], and there are so many.
+const SLOPE_STEP_DEG: f64 = 0.5;
+const SLOPES: usize = 121;
+
+impl Risk {
+    fn of(
+        study: &RouteStudy,
+        samples: &[Sample],
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Self>, ParameterError> {
+        let mobility = &study.mobility;
+        let nominal = [Sample { soil: mobility.heading.soil, theory: mobility.heading.theory }];
+        let samples = if samples.is_empty() { &nominal } else { samples };
+        let stuck = super::STUCK_WAY / mobility.rim_speed;
+        let mut times = Vec::new();
+        for course in courses() {
+            let one = |sample: &Sample| -> Result<Vec<f64>, ParameterError> {
+                let curve = mobility.heading.of_sample(sample).curve_on(course)?;
+                let time = |place: usize| {
+                    let heading = curve.at((place as f64 * SLOPE_STEP_DEG).to_radians());
+                    let held =
+                        heading.ok().filter(|it| it.slip_ratio <= mobility.rule.no_go_slip_ratio);
+                    held.map_or(stuck, |it| it.speed_ratio() / mobility.rim_speed)
+                };
+                Ok((0..SLOPES).map(time).collect())
+            };
+            let Some(found) = outputs_of_samples(samples, go_on, one) else { return Ok(None) };
+            let found = found.into_iter().collect::<Result<Vec<_>, ParameterError>>()?;
+            times.push((0..SLOPES).map(|slope| mean_of_worst(&found, slope)).collect());
+        }
+        Ok(Some(Self { times }))
+    }
+
+    /// Time of a metre of ground [s].
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "places in the table"
+    )]
+    fn at(&self, along: f64, across: f64) -> f64 {
+        let (slope, course) = on_slope(along, across);
+        let x = (slope.to_degrees() / SLOPE_STEP_DEG).min((SLOPES - 1) as f64);
+        let y = (course.to_degrees() + 90.0) / COURSE_STEP_DEG;
+        let (column, row) =
+            ((x as usize).min(SLOPES - 2), (y.max(0.0) as usize).min(self.times.len() - 2));
+        let (u, v) = (x - column as f64, (y - row as f64).clamp(0.0, 1.0));
+        let mixed = |row: usize| {
+            let times = &self.times[row];
+            times[column] + u * (times[column + 1] - times[column])
+        };
+        mixed(row) + v * (mixed(row + 1) - mixed(row))
+    }
+}
+
+/// The conditional value at risk: the mean of the worst of all samples.
+fn mean_of_worst(samples: &[Vec<f64>], slope: usize) -> f64 {
+    let mut times: Vec<f64> = samples.iter().map(|times| times[slope]).collect();
+    times.sort_by(f64::total_cmp);
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a share of a count"
+    )]
+    let worst = ((times.len() as f64 * super::WORST_SHARE).ceil() as usize).clamp(1, times.len());
+    times[times.len() - worst..].iter().sum::<f64>() / worst as f64
+}
