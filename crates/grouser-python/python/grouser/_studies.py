@@ -185,6 +185,9 @@ class Trajectory(_tables.Tabular):
     """Roll, positive with the right side down [°]; None on a plane."""
     pitch_deg: Floats | None = None
     """Pitch, positive with the nose up [°]; None on a plane."""
+    stability_margin_deg: Floats | None = None
+    """Force-angle margin: by how much the weight's direction may turn before the rover tips over [°];
+    None on a plane."""
     electrical: Mapping[str, Floats] = field(default_factory=dict)
     """``electrical_power_w`` [W] of all motors, ``battery_energy_j`` [J] of motors and electronics,
     and of the battery ``battery_voltage_v`` [V], ``battery_current_a`` [A] and
