@@ -69,6 +69,17 @@ pub trait Terrain {
         self.patch(origin + at, footprint)
     }
 
+    /// Height of a place seen from an origin [m]. Ground that has no answer of its own has the mean height of a tiny patch.
+    ///
+    /// * `origin`: in the ground's coordinates [m]
+    /// * `at`: seen from there [m]
+    fn height_from(&self, origin: Vec2, at: Vec2) -> f64 {
+        /// Half of the size of that patch [m]: rounding of map coordinates of 10⁴ km is a hundred-thousandth of it.
+        const HALF: f64 = 1e-4;
+        let tiny = Footprint { forward: Vec2::x(), half_length: HALF, half_width: HALF };
+        self.patch_from(origin, at, tiny).height
+    }
+
     /// The soil of that patch.
     fn soil(&self, at: Vec2, footprint: Footprint) -> Cow<'_, Soil> {
         self.patch(at, footprint).soil

@@ -11,6 +11,7 @@
 //! `wheel` frame is the body's, turned to the left by the wheel's steering angle, at its hub.
 
 pub mod battery;
+pub mod belly;
 pub mod by_wheel;
 pub mod drive;
 pub mod drive_unit;
@@ -38,6 +39,7 @@ pub mod suspension;
 pub mod winding;
 
 pub use battery::{Battery, Terminals};
+pub use belly::{BellyPoint, Underside};
 pub use by_wheel::{ByWheel, Differences, PerWheel};
 pub use drive::DriveLaw;
 pub use drive_unit::{Drive, Driven};

@@ -121,7 +121,7 @@ impl<W: Write> Log<W> {
         let battery = rover
             .battery()
             .map(|_| out.channel("/rover/battery", &of_battery.schema(), &of_battery.described()));
-        let of_standing = numbers::of_standing();
+        let of_standing = numbers::of_standing(rover);
         let standing = base.map(|_| {
             out.channel("/rover/standing", &of_standing.schema(), &of_standing.described())
         });

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use grouser::document::columns::run::{
-    ELECTRICAL, ELECTRICAL_RECORD, RECORD, STANDING, STEERING_RECORD, WHEEL_RECORD,
+    BELLY_CLEARANCE, ELECTRICAL, ELECTRICAL_RECORD, RECORD, STANDING, STEERING_RECORD, WHEEL_RECORD,
 };
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{Column, TEMPERATURE};
@@ -51,10 +51,13 @@ pub(crate) fn of_battery() -> Numbers<Record> {
     Numbers { schema: "grouser.Battery", entries: entries(battery, |it| it).collect() }
 }
 
-/// How the rover stands on ground with heights.
-pub(crate) fn of_standing() -> Numbers<Record> {
+/// How the rover stands on ground with heights, with its belly clearance where its document says that.
+pub(crate) fn of_standing(rover: &Rover) -> Numbers<Record> {
     static COLUMNS: &[Column<Record>] = &STANDING;
-    Numbers { schema: "grouser.Standing", entries: entries(COLUMNS, |it| it).collect() }
+    let has_belly = rover.parts().belly_clearance.is_some();
+    let is_known = |it: &Entry<Record>| it.name != BELLY_CLEARANCE.name || has_belly;
+    let known = entries(COLUMNS, |it| it).filter(is_known);
+    Numbers { schema: "grouser.Standing", entries: known.collect() }
 }
 
 /// The rover's, with what its motors take where that is known.

@@ -245,7 +245,8 @@ fn outcome(outcome: &Outcome) -> Option<(f64, String)> {
         | Outcome::Sliding { time }
         | Outcome::TippedOver { time }
         | Outcome::BrownOut { time, .. }
-        | Outcome::OffTheMap { time, .. } => *time,
+        | Outcome::OffTheMap { time, .. }
+        | Outcome::HighCentred { time, .. } => *time,
     };
     let name = outcome.name().replace('_', " ");
     let reason = outcome.reason().unwrap_or_default();

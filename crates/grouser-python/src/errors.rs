@@ -169,6 +169,7 @@ pub(crate) fn of_simulation(error: &RunError) -> PyErr {
         RunError::Reaction { time, .. } | RunError::Stalled { time, .. } => {
             classes::SimulationError::new_err((error.to_string(), *time))
         }
+        RunError::HighCentred { .. } => classes::SimulationError::new_err((error.to_string(), 0.0)),
     }
 }
 

@@ -130,14 +130,23 @@ impl OfModel {
         let lines = LINES.min(last);
         let places: Vec<usize> = (0..=lines).map(|line| line * last / lines.max(1)).collect();
         let times = Table::of(&TIME_BAND, &band.times).rows_at(&places);
-        let RunBand { completed, immobilised, sliding, tipped_over, brown_out, off_map, .. } =
-            band.run;
+        let RunBand {
+            completed,
+            immobilised,
+            sliding,
+            tipped_over,
+            brown_out,
+            off_map,
+            high_centred,
+            ..
+        } = band.run;
         let some =
             |count, word| if count > 0 { format!(", {count} {word}") } else { String::new() };
         let (without_power, gone) =
             (some(brown_out, "without power"), some(off_map, "off the map"));
+        let on_belly = some(high_centred, "high-centred");
         let samples = format!(
-            "{} samples: {} completed, {immobilised} immobilised, {sliding} sliding, {tipped_over} tipped over{without_power}{gone}\n",
+            "{} samples: {} completed, {immobilised} immobilised, {sliding} sliding, {tipped_over} tipped over{without_power}{gone}{on_belly}\n",
             completed.trials, completed.successes,
         );
         Text::from("\n") + Rows::of_table(&times).to_table(&run::bands_brief()) + samples

@@ -29,7 +29,7 @@ const NOTE: Style = CAUTION.bold();
 const HINT: Style = AnsiColor::Cyan.on_default().bold();
 
 /// Words that begin a line, and their colours.
-const LABELS: [(&str, Style); 10] = [
+const LABELS: [(&str, Style); 11] = [
     ("error:", ERROR),
     ("interrupted:", ERROR),
     ("note:", NOTE),
@@ -40,6 +40,7 @@ const LABELS: [(&str, Style); 10] = [
     ("tipped_over after", BAD),
     ("brown_out after", BAD),
     ("off_map after", BAD),
+    ("high_centred after", BAD),
 ];
 
 /// A longer cell of a column of reasons stands under the table.
@@ -162,7 +163,8 @@ fn style_of(column: &Column, cell: &[String]) -> Style {
     match words {
         "go" => GOOD,
         "caution" => CAUTION,
-        "no-go" | "immobilised" | "sliding" | "tipped_over" | "brown_out" | "off_map" => BAD,
+        "no-go" | "immobilised" | "sliding" | "tipped_over" | "brown_out" | "off_map"
+        | "high_centred" => BAD,
         "-" | "ok" | "completed" => Style::new(),
         _ if column.name == STATUS => BAD,
         _ if column.name == FLAGS => CAUTION,

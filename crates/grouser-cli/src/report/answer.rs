@@ -3,7 +3,7 @@
 
 use grouser::contact::validity::Finding;
 use grouser::document::columns::run::{
-    ELECTRICAL, ELECTRICAL_RECORD, RECORD, STANDING, STEERING_RECORD, WHEEL_RECORD,
+    BELLY_CLEARANCE, ELECTRICAL, ELECTRICAL_RECORD, RECORD, STANDING, STEERING_RECORD, WHEEL_RECORD,
 };
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{Column, Quantity, SLOPE, TIME, X, Y};
@@ -154,7 +154,10 @@ pub(crate) fn over_time(page: &mut Page, table: &Table, scenario: &Scenario) {
             let column: Vec<_> = RECORD.into_iter().filter(|it| it.name == place).collect();
             page.charts(&by_unit(table, TIME, &column));
         }
-        page.charts(&by_unit(table, TIME, &STANDING));
+        let (belly, standing): (Vec<_>, Vec<_>) =
+            STANDING.into_iter().partition(|it| it.name == BELLY_CLEARANCE.name);
+        page.charts(&by_unit(table, TIME, &standing));
+        page.charts(&by_unit(table, TIME, &belly));
         let others = RECORD.into_iter().filter(|it| ![X.name, Y.name].contains(&it.name));
         page.charts(&by_unit(table, TIME, &others.collect::<Vec<_>>()));
     } else {

@@ -330,7 +330,15 @@ fn every_outcome_is_a_result() {
     ] {
         let json = place.json(line);
         let found = json["outcome"].as_str().expect("an outcome");
-        let known = ["completed", "immobilised", "sliding", "tipped_over", "brown_out", "off_map"];
+        let known = [
+            "completed",
+            "immobilised",
+            "sliding",
+            "tipped_over",
+            "brown_out",
+            "off_map",
+            "high_centred",
+        ];
         assert!(known.contains(&found), "{line}: {found}");
         assert!(outcome.is_empty() || found == outcome, "{line}: {found}");
         assert_eq!(json["reason"].is_null(), found == "completed", "{line}");

@@ -90,6 +90,35 @@ fn places_are_those_of_the_map() {
     assert!(!keys(&plane["final"]).contains(&"z_m"));
 }
 
+/// A crest under the belly ends a drive where the rover's document says how high that is; a start on one is refused.
+#[test]
+fn a_drive_over_a_crest_ends_on_the_belly() {
+    let place = Place::new();
+    place.write("map.xyz", map(|x, _| 0.06 * (std::f64::consts::TAU * x / 1.2).cos()));
+    let over = "--yaw-deg 0 --duration-s 15 --simulation quasi-steady";
+    let free = drive(&place, [1.8, 3.0], over);
+    assert_eq!(free["outcome"], "completed");
+    assert!(free["final"]["belly_clearance_m"].is_null());
+    assert!(number(&free["final"]["stability_margin_deg"]) > 20.0);
+    let low = "--set scenario.rover.belly_clearance_m=0.03";
+    let stuck = drive(&place, [1.8, 3.0], &format!("{over} {low}"));
+    assert_eq!(stuck["outcome"], "high_centred");
+    let reason = stuck["reason"].as_str().expect("a reason");
+    assert!(reason.starts_with("its underside touches the ground at x = -24997."), "{reason}");
+    let clearances: Vec<f64> = stuck["samples"]
+        .as_array()
+        .expect("samples")
+        .iter()
+        .map(|sample| number(&sample["belly_clearance_m"]))
+        .collect();
+    let (last, before) = clearances.split_last().expect("some");
+    assert!(*last <= 0.0 && before.iter().all(|clearance| *clearance > 0.0), "{clearances:?}");
+    let [x, y] = [CORNER[0] + 2.4, CORNER[1] + 3.0];
+    let on_it = format!("traverse --terrain map.xyz --start-x-m {x} --start-y-m {y} {over} {low}");
+    let refused = place.line(&on_it).stderr;
+    assert!(refused.contains("where the rover starts its underside touches"), "{refused}");
+}
+
 /// What a folder keeps repeats the run from anywhere, and its table and page know the heights.
 #[test]
 fn a_folder_repeats_a_drive_over_a_map() {

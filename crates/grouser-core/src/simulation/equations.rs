@@ -18,9 +18,9 @@ use crate::vehicle::stability::stability_margin;
 use crate::vehicle::standing::NearbyStanding;
 use crate::vehicle::statics::centre_of_mass;
 use crate::vehicle::{
-    Acceleration, Drive, Driven, Electrical, MotorLimits, OwnMoments, Posture, ReactionError,
-    Rover, RoverState, Stance, Standing, WheelReaction, dynamics, ground::Ground, settling::Known,
-    settling::Nearby,
+    Acceleration, BellyPoint, Drive, Driven, Electrical, MotorLimits, OwnMoments, Posture,
+    ReactionError, Rover, RoverState, Stance, Standing, Underside, WheelReaction, dynamics,
+    ground::Ground, settling::Known, settling::Nearby,
 };
 
 /// The equations of motion of a rover whose motors are set to given speeds.
@@ -60,6 +60,15 @@ struct Acting {
     velocity: Vec2,
     /// [rad/s]
     yaw_rate: f64,
+}
+
+/// How a rover on uneven ground stands with its wheels sunk.
+pub(super) struct Sunk {
+    pub(super) attitude: Attitude,
+    /// [rad]
+    pub(super) stability_margin: f64,
+    /// [m]; none where nothing is known of it, and on a plane.
+    pub(super) belly_clearance: Option<f64>,
 }
 
 /// One evaluation of the motion: its rates, and the wheels that they come from.
@@ -339,22 +348,44 @@ impl<'a> Equations<'a> {
         self.ground.moving(posture.clone(), state)
     }
 
-    /// How a rover on uneven ground stands with its wheels sunk, and its margin of stability [rad]; none where it does not
-    /// come to stand, and on a plane where it has no suspension.
-    pub(super) fn attitude(
-        &self,
-        state: &RoverState,
-        wheels: &[WheelReaction],
-    ) -> Option<(Attitude, f64)> {
+    /// How a rover on uneven ground stands with its wheels sunk; none where it does not come to stand, and on a plane where
+    /// it has no suspension.
+    pub(super) fn sunk(&self, state: &RoverState, wheels: &[WheelReaction]) -> Option<Sunk> {
+        let posture = self.sunk_posture(state, wheels)?;
+        Some(Sunk {
+            attitude: posture.attitude(),
+            stability_margin: stability_margin(self.ground.rover, &posture, self.ground.up(state)),
+            belly_clearance: self.belly_over(&posture).map(|belly| belly.clearance),
+        })
+    }
+
+    /// Whether the ground may touch the rover's underside.
+    pub(super) fn has_belly(&self) -> bool {
+        self.ground.rover.parts().belly_clearance.is_some() && self.has_relief()
+    }
+
+    /// The point of the rover's underside that is nearest to the ground, its wheels sunk; none where its belly clearance is not
+    /// known, and on a plane.
+    pub(super) fn belly(&self, state: &RoverState, wheels: &[WheelReaction]) -> Option<BellyPoint> {
+        if !self.has_belly() {
+            return None;
+        }
+        self.belly_over(&self.sunk_posture(state, wheels)?)
+    }
+
+    fn belly_over(&self, posture: &Posture) -> Option<BellyPoint> {
+        let relief = self.ground.relief?;
+        Some(Underside::of(self.ground.rover)?.nearest(posture, relief))
+    }
+
+    fn sunk_posture(&self, state: &RoverState, wheels: &[WheelReaction]) -> Option<Posture> {
         if !self.ground.is_uneven() || wheels.is_empty() {
             return None;
         }
         let sinkages: Vec<f64> = wheels.iter().map(|wheel| wheel.settled.sinkage).collect();
         let last = self.last_posture.borrow();
         let near = last.as_ref().map(|(.., posture)| posture);
-        let posture = self.ground.posture_near(state, &sinkages, near).ok()?;
-        let margin = stability_margin(self.ground.rover, &posture, self.ground.up(state));
-        Some((posture.attitude(), margin))
+        self.ground.posture_near(state, &sinkages, near).ok()
     }
 
     /// Potential energy [J]; what the rover sinks does not count.

@@ -1,6 +1,7 @@
 //! Why a run could not be computed.
 
 use crate::error::ParameterError;
+use crate::units::Vec2;
 use crate::vehicle::ReactionError;
 
 /// Why a run could not be computed. (What a rover does is an [`Outcome`](super::Outcome), not an error.)
@@ -16,6 +17,19 @@ pub enum RunError {
         time: f64,
         /// What is wrong.
         source: ReactionError,
+    },
+    /// The rover does not stand on its wheels alone where it starts.
+    #[error(
+        "where the rover starts its underside touches the ground at x = {x:.3} m, y = {y:.3} m, by {depth:.3} m: \
+         let it start elsewhere, or with a larger `belly_clearance_m`",
+        x = place.x,
+        y = place.y
+    )]
+    HighCentred {
+        /// Where, in the ground's coordinates [m].
+        place: Vec2,
+        /// How far the underside is below the ground there [m].
+        depth: f64,
     },
     /// The integrator could not go on.
     #[error(

@@ -19,7 +19,7 @@ use super::steady_state::NotSteady;
 use super::times::{is_multiple, is_same_time, is_sample_due, multiples_between};
 use super::watch::{self, WATCH_PERIOD};
 use crate::contact::{SettleError, Slip};
-use crate::vehicle::{ReactionError, WheelReaction};
+use crate::vehicle::{BellyPoint, ReactionError, WheelReaction};
 
 /// A stretch of time over which the wheels keep their speeds.
 pub(super) struct Leg<'a> {
@@ -194,12 +194,17 @@ impl Leg<'_> {
             state.rim_speeds.copy_from_slice(equations.turning(reached));
         }
         let is_power_known = state.supply.is_some() || state.most_taken.is_some();
-        let seen = is_power_known.then(wheels);
-        let without_power = match &seen {
-            Some(Ok(wheels)) => state.look_at_power(equations, wheels),
-            _ => None,
+        let is_watched = is_multiple(now, WATCH_PERIOD);
+        let has_belly = is_watched && equations.has_belly();
+        let seen = (is_power_known || has_belly).then(wheels);
+        let (without_power, high_centred) = match &seen {
+            Some(Ok(wheels)) => {
+                let belly = has_belly.then(|| equations.belly(rover, wheels)).flatten();
+                (state.look_at_power(equations, wheels), touching(now, belly)?)
+            }
+            _ => (None, None),
         };
-        if is_multiple(now, WATCH_PERIOD) {
+        if is_watched {
             let turning = watch::Wheels {
                 slip_ratios: &state.slip_ratios,
                 rim_speeds: &state.rim_speeds,
@@ -207,7 +212,7 @@ impl Leg<'_> {
             };
             state.outcome = state.watch.look(self.scenario, now, rover, turning);
         }
-        state.outcome = state.outcome.take().or(without_power);
+        state.outcome = state.outcome.take().or(without_power).or(high_centred);
         let is_end = state.outcome.is_some();
         let is_due = match self.due {
             Due::Samples => {
@@ -247,6 +252,19 @@ enum Ended {
 
 /// Wheels at the point that is looked at, if they are asked for.
 type Wheels<'a> = &'a dyn Fn() -> Result<Vec<WheelReaction>, ReactionError>;
+
+/// What an underside on the ground means.
+fn touching(time: f64, belly: Option<BellyPoint>) -> Result<Option<Outcome>, RunError> {
+    match belly.filter(|belly| belly.clearance <= 0.0) {
+        // A rover that starts there is misplaced.
+        Some(BellyPoint { clearance, place }) if time == 0.0 => {
+            Err(RunError::HighCentred { place, depth: -clearance })
+        }
+        touching => {
+            Ok(touching.map(|BellyPoint { place, .. }| Outcome::HighCentred { time, place }))
+        }
+    }
+}
 
 /// The outcome that a missing reaction means, if it means one.
 fn outcome_of(time: f64, error: ReactionError) -> Result<Outcome, RunError> {

@@ -40,6 +40,13 @@ pub enum Outcome {
         /// Where, in the map's coordinates [m].
         place: Vec2,
     },
+    /// Its underside came to the ground.
+    HighCentred {
+        /// When that was seen [s].
+        time: f64,
+        /// Where, in the ground's coordinates [m].
+        place: Vec2,
+    },
 }
 
 /// Why a battery no longer gave what was drawn.
@@ -82,7 +89,7 @@ pub enum StuckBecause {
 }
 
 impl Outcome {
-    /// One word: `completed`, `immobilised`, `sliding`, `tipped_over`, `brown_out`, `off_map`.
+    /// One word: `completed`, `immobilised`, `sliding`, `tipped_over`, `brown_out`, `off_map`, `high_centred`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -92,6 +99,7 @@ impl Outcome {
             Self::TippedOver { .. } => "tipped_over",
             Self::BrownOut { .. } => "brown_out",
             Self::OffTheMap { .. } => "off_map",
+            Self::HighCentred { .. } => "high_centred",
         }
     }
 
@@ -128,6 +136,10 @@ impl Outcome {
             }),
             Self::OffTheMap { wheel, place, .. } => Some(format!(
                 "wheel {wheel} is at x = {:.3} m, y = {:.3} m, where the map has no heights",
+                place.x, place.y
+            )),
+            Self::HighCentred { place, .. } => Some(format!(
+                "its underside touches the ground at x = {:.3} m, y = {:.3} m",
                 place.x, place.y
             )),
         }

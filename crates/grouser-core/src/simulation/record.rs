@@ -39,6 +39,9 @@ pub struct Record {
     pub attitude: Option<Attitude>,
     /// By how much the weight may turn there before the rover tips over, the force-angle margin [rad].
     pub stability_margin: Option<f64>,
+    /// Least height of its underside over ground with heights, its [belly clearance](crate::vehicle::belly) [m]; none where
+    /// the rover's document says nothing of it.
+    pub belly_clearance: Option<f64>,
     /// Each wheel, in the mounts' order; none where a rover has just tipped over or sunk.
     pub wheels: Vec<WheelRecord>,
     /// Energy since the start.
@@ -57,7 +60,7 @@ impl Record {
         supply: Option<&Supply>,
     ) -> Self {
         let (rover, state) = (equations.rover(), point.state);
-        let (attitude, stability_margin) = equations.attitude(&state, wheels).unzip();
+        let sunk = equations.sunk(&state, wheels);
         let wheel_speeds: Vec<f64> = rover.wheel_speeds(equations.turning(point)).collect();
         let spin = power::spin_energy(rover, &wheel_speeds);
         let energy = EnergyBalance {
@@ -84,7 +87,17 @@ impl Record {
         let wheels = wheels.collect();
         let battery = supply.and_then(Supply::battery);
         let origin = equations.origin();
-        Self { time, state, origin, attitude, stability_margin, wheels, energy, battery }
+        Self {
+            time,
+            state,
+            origin,
+            attitude: sunk.as_ref().map(|sunk| sunk.attitude),
+            stability_margin: sunk.as_ref().map(|sunk| sunk.stability_margin),
+            belly_clearance: sunk.and_then(|sunk| sunk.belly_clearance),
+            wheels,
+            energy,
+            battery,
+        }
     }
 
     /// Where the body's centre of mass is, seen from above [m]: in the coordinates of ground with heights, or in the

@@ -243,6 +243,11 @@ impl Terrain for ElevationModel {
         Patch { height: self.base + fit.height, normal: fit.normal, soil }
     }
 
+    fn height_from(&self, origin: Vec2, at: Vec2) -> f64 {
+        let from = origin - self.grid.south_west;
+        self.base + self.above_base_at(self.grid.cells(from + at))
+    }
+
     fn soil(&self, _: Vec2, _: Footprint) -> Cow<'_, Soil> {
         Cow::Borrowed(&self.soil)
     }

@@ -141,6 +141,10 @@ impl Terrain for AnalyticTerrain {
         Patch { height: fit.height, normal: fit.normal, soil: Cow::Borrowed(&self.soil) }
     }
 
+    fn height_from(&self, origin: Vec2, at: Vec2) -> f64 {
+        self.surface.height(origin + at)
+    }
+
     fn soil(&self, _: Vec2, _: Footprint) -> Cow<'_, Soil> {
         Cow::Borrowed(&self.soil)
     }

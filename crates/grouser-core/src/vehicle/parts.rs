@@ -203,6 +203,8 @@ pub struct RoverParts {
     pub battery: Option<Battery>,
     /// What joins the wheels to the body; a rigid rover has none.
     pub suspension: Option<Suspension>,
+    /// Height of the [underside](super::belly) over level hard ground on which the wheels stand [m], where that is known.
+    pub belly_clearance: Option<f64>,
 }
 
 /// How far and how fast wheels are steered, as far as that is known.

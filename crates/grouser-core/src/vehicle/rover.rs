@@ -10,7 +10,7 @@ use super::parts::{
 };
 use super::support_polygon::SupportPolygon;
 use super::suspension::Suspension;
-use crate::error::{ParameterError, finite, positive};
+use crate::error::{ParameterError, finite, not_negative, positive};
 use crate::terrain::Footprint;
 use crate::units::{Vec2, Vec3};
 
@@ -60,6 +60,7 @@ impl PartialEq for Rover {
         one.body == other_parts.body
             && one.battery == other_parts.battery
             && one.suspension == other_parts.suspension
+            && one.belly_clearance == other_parts.belly_clearance
             && self.mounts == other.mounts
     }
 }
@@ -98,9 +99,16 @@ impl Rover {
         };
         let mounts = mounts.into_iter().map(parts).collect();
         let steering = SteeringParts::default();
-        let (battery, suspension) = (None, None);
-        Self::draft(RoverParts { body, wheel_unit, steering, mounts, battery, suspension })
-            .checked()
+        Self::draft(RoverParts {
+            body,
+            wheel_unit,
+            steering,
+            mounts,
+            battery: None,
+            suspension: None,
+            belly_clearance: None,
+        })
+        .checked()
     }
 
     /// A rover of which nothing but the parts is known: to be filled in, and then
@@ -164,6 +172,7 @@ impl Rover {
         check_stance(&mounts)?;
         parts.suspension.map_or(Ok(()), |suspension| suspension.check(&mounts))?;
         parts.check_axes(&mounts)?;
+        parts.belly_clearance.map_or(Ok(()), |it| not_negative("belly clearance [m]", it))?;
 
         let (mut mass, mut yaw_inertia) = (body.mass, body.inertia.zz);
         for (unit, positions) in &alike {

@@ -23,6 +23,7 @@ pub(crate) const BLANK: RoverParts = RoverParts {
     mounts: Vec::new(),
     battery: None,
     suspension: None,
+    belly_clearance: None,
 };
 
 const NO_STEERING: SteeringParts = SteeringParts { limit: None, rate: None };
@@ -81,6 +82,14 @@ pub(crate) static ROVER: Table<RoverParts> = Table {
                 inner: &SUSPENSION,
                 at: |rover: &mut RoverParts| rover.suspension.get_or_insert(NO_SUSPENSION),
             },
+        )
+        .optional(),
+        number(
+            "belly_clearance_m",
+            M,
+            0.0..=10.0,
+            "Height of the body's flat underside, between the wheels' hubs, over level hard ground; left out, nothing is said of high-centring",
+            |rover: &mut RoverParts| Some(rover.belly_clearance.get_or_insert(0.0)),
         )
         .optional(),
         list(

@@ -357,6 +357,32 @@ fn transforms_lead_to_the_ground_of_a_map() -> Outcomes {
     Ok(())
 }
 
+/// Messages have the belly clearance of a rover whose document says it, and none of another's.
+#[test]
+fn a_log_has_the_belly_clearance_where_that_is_known() -> Outcomes {
+    let mut scenario = short();
+    scenario.site = scenario.site.with_slope(0.0);
+    let surface =
+        Surface::Ripple(Ripple { amplitude: 0.03, wavelength: 1.0, across: 0.3, phase: 0.0 });
+    let ground =
+        Landscape::Analytic(AnalyticTerrain { surface, soil: scenario.site.terrain.soil }.into());
+    scenario.terrain = Some(PlacedTerrain { ground, start: Vec2::zeros(), soils: None });
+    for (clearance, fields) in [(None, 4), (Some(0.2), 5)] {
+        scenario.rover.parts_mut().belly_clearance = clearance;
+        scenario.rover = scenario.rover.clone().checked()?;
+        let run = run_of(&scenario);
+        let file = log_of(&scenario, &run.records)?;
+        let standing = messages(&file, "/rover/standing");
+        assert_eq!(standing.len(), run.records.len());
+        // Each field is a tag of a byte and a number of eight.
+        assert!(standing.iter().all(|(_, message)| message.len() == 9 * fields));
+        let last = standing.last().expect("a message").1.last_chunk::<8>().expect("a number");
+        let belly = run.last().belly_clearance;
+        assert!(belly.is_none_or(|belly| f64::from_le_bytes(*last) == belly));
+    }
+    Ok(())
+}
+
 #[test]
 fn names_of_frames_are_plain_and_differ_and_the_model_has_them() -> Outcomes {
     let scenario = Scenario { rover: six(), ..short() };

@@ -846,6 +846,12 @@ class RoverKeys:
             ...
 
         @property
+        def belly_clearance_m(self) -> float:
+            """Height of the body's flat underside, between the wheels' hubs, over level hard
+            ground; left out, nothing is said of high-centring [m]."""
+            ...
+
+        @property
         def mount(self) -> tuple[RoverMount, ...]:
             """Where the wheels sit: three or more, standing on one plane, not in one line."""
             ...

@@ -36,7 +36,7 @@ class Legs(_tables.Tabular):
     """What the leg says, in a few words."""
     outcome: NDArray[np.object_]
     """``completed``, ``stopped`` by a limit, ``immobilised``, ``sliding``, ``tipped_over``,
-    ``brown_out`` or ``off_map``."""
+    ``brown_out``, ``off_map`` or ``high_centred``."""
     distance_m: Floats
     """Way over the ground; a turn to the yaw of the leg before it does not count [m]."""
     time_s: Floats

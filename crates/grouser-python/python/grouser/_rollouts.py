@@ -77,6 +77,12 @@ class Rollout(_tables.Tabular):
     pitch_deg: Floats | None = None
     """Pitch, positive with the nose up [°];
     None where all runs are on planes."""
+    stability_margin_deg: Floats | None = None
+    """Force-angle margin: by how much the weight's direction may turn before the rover tips over [°];
+    None where all runs are on planes."""
+    belly_clearance_m: Floats | None = None
+    """Least height of the body's underside over the ground, where its belly clearance is given [m];
+    NaN elsewhere, None where all runs are on planes."""
 
     records: Mapping[str, Floats] | None = None
     """With ``trajectories=True``, the records over time of each run by name (``time_s`` and the

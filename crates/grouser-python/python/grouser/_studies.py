@@ -137,8 +137,8 @@ class Trajectory(_tables.Tabular):
     scenario: Scenario
     """The scenario of the run; of a `mission` its rover, ground, model and start."""
     outcome: str
-    """``completed``, ``immobilised``, ``sliding``, ``tipped_over``, ``brown_out`` or ``off_map``; a mission that a limit
-    ended counts as completed here."""
+    """``completed``, ``immobilised``, ``sliding``, ``tipped_over``, ``brown_out``, ``off_map`` or
+    ``high_centred``; a mission that a limit ended counts as completed here."""
     message: str | None
     """The outcome explained; None for a completed run."""
     simulation: str
@@ -185,6 +185,12 @@ class Trajectory(_tables.Tabular):
     """Roll, positive with the right side down [°]; None on a plane."""
     pitch_deg: Floats | None = None
     """Pitch, positive with the nose up [°]; None on a plane."""
+    stability_margin_deg: Floats | None = None
+    """Force-angle margin: by how much the weight's direction may turn before the rover tips over [°];
+    None on a plane."""
+    belly_clearance_m: Floats | None = None
+    """Least height of the body's underside over the ground, where its belly clearance is given [m];
+    NaN elsewhere, None on a plane."""
     electrical: Mapping[str, Floats] = field(default_factory=dict)
     """``electrical_power_w`` [W] of all motors, ``battery_energy_j`` [J] of motors and electronics,
     and of the battery ``battery_voltage_v`` [V], ``battery_current_a`` [A] and

@@ -72,6 +72,8 @@ pub struct RunBand {
     pub brown_out: usize,
     /// Samples that drove off their map.
     pub off_map: usize,
+    /// Samples whose underside came to the ground.
+    pub high_centred: usize,
 }
 
 /// The rover at one time in one sample.
@@ -274,6 +276,7 @@ impl RunBand {
             tipped_over: count(|outcome| matches!(outcome, Outcome::TippedOver { .. })),
             brown_out: count(|outcome| matches!(outcome, Outcome::BrownOut { .. })),
             off_map: count(|outcome| matches!(outcome, Outcome::OffTheMap { .. })),
+            high_centred: count(|outcome| matches!(outcome, Outcome::HighCentred { .. })),
         }
     }
 }

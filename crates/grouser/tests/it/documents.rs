@@ -590,6 +590,25 @@ fn wrong_soils_say_what_where_and_how_to_mend_it() {
     }
 }
 
+/// A rover without a belly clearance has none, one with it another value of its own; both are written as they were read.
+#[test]
+fn a_rover_may_have_a_belly_clearance() {
+    let source = Source::find(Kind::Rover, "hakuto").expect("a preset");
+    let read = |settings: &[&str]| {
+        let overrides = Overrides::parse(settings.iter().copied()).expect("good settings");
+        document::read_rover(&source, &overrides).expect("a rover")
+    };
+    let [without, with] = [&[][..], &["rover.belly_clearance_m=0.12"]].map(read);
+    assert_eq!(without.value.parts().belly_clearance, None);
+    assert_eq!(with.value.parts().belly_clearance, Some(0.12));
+    assert!(with.value != without.value);
+    for loaded in [without, with] {
+        let again = Source::text("again", loaded.to_toml());
+        let again = document::read_rover(&again, &Overrides::none()).expect("it was written");
+        assert_eq!(again.value, loaded.value);
+    }
+}
+
 #[test]
 fn wrong_rovers_say_what_where_and_how_to_mend_it() {
     let cut = |from: &str| {
@@ -632,6 +651,11 @@ fn wrong_rovers_say_what_where_and_how_to_mend_it() {
             "this is a `soil/1` document, a `wheel/1` document is needed",
         ),
         ("wheel = \"hakuto\"", "", "`wheel_unit.wheel` is missing"),
+        (
+            "[body]",
+            "belly_clearance_m = -0.05\n[body]",
+            "`belly_clearance_m` is -0.05, it must be 0 to 10",
+        ),
     ] {
         let text = changed(Kind::Rover, "hakuto", from, to);
         let error = fail(Kind::Rover, &text);

@@ -128,7 +128,7 @@ pub const LEG: [Column<DrivenLeg>; 15] = [
     text("manoeuvre", "What the leg says, in a few words", |it| Some(in_words(&it.leg, it.origin))),
     text(
         OUTCOME,
-        "`completed`, `stopped` by a limit, `immobilised`, `sliding`, `tipped_over`, `brown_out` or `off_map`",
+        "`completed`, `stopped` by a limit, `immobilised`, `sliding`, `tipped_over`, `brown_out`, `off_map` or `high_centred`",
         |it| Some(it.report.outcome.name().into()),
     ),
     DISTANCE.number(

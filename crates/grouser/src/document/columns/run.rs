@@ -46,7 +46,7 @@ pub const RECORD: [Column<Record>; 12] = [
 ];
 
 /// How the rover stands on ground with heights: beside [`RECORD`].
-pub const STANDING: [Column<Record>; 4] = [
+pub const STANDING: [Column<Record>; 5] = [
     Z.maybe("Height of the body's centre of mass", |it| Some(it.standing()?.height)),
     ROLL.maybe("Roll, positive with the right side down", |it| Some(it.standing()?.roll)),
     PITCH.maybe("Pitch, positive with the nose up", |it| Some(it.standing()?.pitch)),
@@ -54,7 +54,14 @@ pub const STANDING: [Column<Record>; 4] = [
         "Force-angle margin: by how much the weight's direction may turn before the rover tips over",
         |it| it.standing().and(it.stability_margin),
     ),
+    BELLY_CLEARANCE.maybe(
+        "Least height of the body's underside over the ground, where its belly clearance is given",
+        |it| it.belly_clearance,
+    ),
 ];
+
+/// Height of a rover's underside over the ground.
+pub const BELLY_CLEARANCE: Quantity = quantity("belly_clearance_m", M);
 
 /// What motors take, of a rover whose motors are known: beside [`RECORD`].
 pub const ELECTRICAL_RECORD: [Column<Record>; 5] = [
@@ -114,7 +121,7 @@ pub const DISTANCE: Quantity = quantity("distance_m", M);
 const RUN: [Column<Trajectory>; 6] = [
     text(
         "outcome",
-        "`completed`, `immobilised`, `sliding`, `tipped_over`, `brown_out` or `off_map`",
+        "`completed`, `immobilised`, `sliding`, `tipped_over`, `brown_out`, `off_map` or `high_centred`",
         |it| Some(it.outcome.name().into()),
     ),
     text("reason", "What that means here; none for a completed run", |it| it.outcome.reason()),
@@ -226,7 +233,7 @@ pub const TIME_BAND: [Column<TimeBand>; 7] = [
 ];
 
 /// A run in a few numbers over samples of soil and model. Means are over the scenario's whole duration.
-pub const RUN_BAND: [Column<RunBand>; 15] = [
+pub const RUN_BAND: [Column<RunBand>; 16] = [
     X.band("Along the contour, at the end", |it| it.x),
     Y.band("Uphill, at the end", |it| it.y),
     YAW.band("Yaw at the end", |it| it.yaw),
@@ -247,6 +254,9 @@ pub const RUN_BAND: [Column<RunBand>; 15] = [
     whole("draws_tipped_over", "Samples in which it tips over", |it| Some(it.tipped_over)),
     whole("draws_brown_out", "Samples in which its battery fails", |it| Some(it.brown_out)),
     whole("draws_off_map", "Samples in which it drives off its map", |it| Some(it.off_map)),
+    whole("draws_high_centred", "Samples in which the ground touches its underside", |it| {
+        Some(it.high_centred)
+    }),
     whole(DRAWS, "All samples", |it| Some(it.completed.trials)),
 ];
 
@@ -335,7 +345,9 @@ pub fn brief(run: &Trajectory, scenario: &Scenario, lines: usize) -> Table {
     let rows: Vec<_> =
         (0..=lines).map(|line| Some(&run.records[line * last / lines.max(1)])).collect();
     let power = RECORD.iter().position(|it| it.name == POWER.name).unwrap_or(0);
-    let standing = STANDING.iter().filter(|_| scenario.terrain.is_some());
+    let has_belly = scenario.rover.parts().belly_clearance.is_some();
+    let is_known = |it: &&Column<Record>| it.name != BELLY_CLEARANCE.name || has_belly;
+    let standing = STANDING.iter().filter(|_| scenario.terrain.is_some()).filter(is_known);
     Table::default()
         .and(END, &rows)
         .and(standing, &rows)
