@@ -129,6 +129,17 @@ impl MobilityStudy {
         samples: &[Sample],
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<MobilityTable>, ParameterError> {
+        self.table_of(course, samples, INTERVALS, go_on)
+    }
+
+    /// The same with so many intervals between nodes.
+    pub(super) fn table_of(
+        &self,
+        course: f64,
+        samples: &[Sample],
+        intervals: usize,
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<MobilityTable>, ParameterError> {
         self.rule.check()?;
         crate::error::positive("rim speed [m/s]", self.rim_speed)?;
         let curve = self.heading.curve_on(course)?;
@@ -137,8 +148,13 @@ impl MobilityStudy {
             return Ok(None);
         };
         let limit = curve.limit().ok().map(|(slope, _)| slope);
-        let found =
-            Nodes { study: self, curve: &curve, drift: &drift, limit: limit.unwrap_or(0.0) };
+        let found = Nodes {
+            study: self,
+            curve: &curve,
+            drift: &drift,
+            limit: limit.unwrap_or(0.0),
+            intervals,
+        };
         let (nodes, largest_errors) =
             limit.map_or_else(Default::default, |_| (found.all(), Mobility::default()));
         let mut table = MobilityTable { course, limit, nodes, largest_errors, thresholds };
@@ -149,7 +165,7 @@ impl MobilityStudy {
     }
 }
 
-/// Intervals between nodes.
+/// Intervals between nodes, for maps.
 const INTERVALS: usize = 2048;
 
 /// Where the numbers of a table come from.
@@ -158,13 +174,14 @@ struct Nodes<'a> {
     curve: &'a HeadingCurve,
     drift: &'a HeadingCurve,
     limit: f64,
+    intervals: usize,
 }
 
 impl Nodes<'_> {
     fn all(&self) -> Vec<Mobility> {
-        let places: Vec<f64> = (0..=INTERVALS).map(|node| node as f64).collect();
+        let places: Vec<f64> = (0..=self.intervals).map(|node| node as f64).collect();
         let mut nodes: Vec<Mobility> =
-            places.par_iter().map(|it| self.motion(it / INTERVALS as f64)).collect();
+            places.par_iter().map(|it| self.motion(it / self.intervals as f64)).collect();
         // A slope at which no point of the curve is found, as one of rounding at its end, is as its neighbour.
         for place in 1..nodes.len() {
             if nodes[place].slip_ratio.is_nan() {
@@ -198,9 +215,10 @@ impl Nodes<'_> {
     fn largest_errors(&self, table: &MobilityTable) -> Mobility {
         /// Of so many intervals one is looked at.
         const EVERY: usize = 16;
-        let middles: Vec<f64> = (0..INTERVALS).step_by(EVERY).map(|at| at as f64 + 0.5).collect();
+        let middles: Vec<f64> =
+            (0..self.intervals).step_by(EVERY).map(|at| at as f64 + 0.5).collect();
         let errors = middles.par_iter().filter_map(|middle| {
-            let v = middle / INTERVALS as f64;
+            let v = middle / self.intervals as f64;
             let (exact, read) = (self.motion(v), table.between_nodes(*middle));
             (!exact.slip_ratio.is_nan())
                 .then(|| exact.with(&read, |one, other| (one - other).abs()))
@@ -276,7 +294,7 @@ impl MobilityTable {
     pub fn motion(&self, slope: f64) -> Option<Mobility> {
         let limit = self.limit.filter(|limit| slope <= *limit)?;
         let v = if limit > 0.0 { 1.0 - (1.0 - slope / limit).max(0.0).sqrt() } else { 0.0 };
-        Some(self.between_nodes(v * INTERVALS as f64))
+        Some(self.between_nodes(v * (self.nodes.len() - 1) as f64))
     }
 
     /// The steepest slope of each sample that is no no-go [rad], in the order of the samples; below 0 where it cannot
@@ -299,7 +317,7 @@ impl MobilityTable {
         reason = "a place between zero and the number of intervals"
     )]
     fn between_nodes(&self, place: f64) -> Mobility {
-        let below = (place.max(0.0) as usize).min(INTERVALS - 1);
+        let below = (place.max(0.0) as usize).min(self.nodes.len() - 2);
         self.nodes[below].towards(&self.nodes[below + 1], place - below as f64)
     }
 }

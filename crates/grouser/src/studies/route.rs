@@ -248,7 +248,7 @@ impl RouteStudy {
             (Err(none), _) | (_, Err(none)) => return Ok(Some(Answer::NoSafeRoute(none))),
         };
         let heading = ends.yaw.map(|yaw| lattice.moves.nearest(yaw));
-        Ok(Some(match lattice.search(from, to, heading, true) {
+        Ok(Some(match lattice.search(from, to, heading) {
             Found::Way(way, headings) => {
                 Answer::Route(measured(&lattice, &costs, turning, ends, (&way, &headings), heading))
             }

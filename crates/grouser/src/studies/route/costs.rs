@@ -8,6 +8,8 @@ use crate::studies::mobility::{Mobility, MobilityTable};
 
 /// Courses from straight down to straight up are so far apart [°].
 const COURSE_STEP_DEG: f64 = 7.5;
+/// Intervals of the tables over slope.
+const INTERVALS: usize = 192;
 /// Points along the axes of the table: from the steepest way down to the steepest way up, and from level to the steepest
 /// across.
 const ALONG: usize = 401;
@@ -33,7 +35,8 @@ pub(super) struct Costs {
     /// What is sought, for a metre: infinite where nobody may go.
     table: Vec<f32>,
     step: f64,
-    /// What a metre costs at least, [`of a level way`](Bound::level) and for each metre that it climbs.
+    /// What a metre costs at least. Downhill wheels may do less work than none: what they take out of the height is not
+    /// lost before it is gained, so that all that is above the bound is positive.
     pub(super) bound: Bound,
 }
 
@@ -52,7 +55,7 @@ impl Costs {
         objective: Objective,
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Self>, ParameterError> {
-        let table = |course: f64| study.mobility.table(course, samples, go_on);
+        let table = |course: f64| study.mobility.table_of(course, samples, INTERVALS, go_on);
         let tables = courses().map(table).collect::<Result<Option<Vec<_>>, _>>()?;
         let Some(tables) = tables else { return Ok(None) };
         let steepest = tables.iter().filter_map(MobilityTable::limit).fold(0.05, f64::max);
@@ -65,13 +68,11 @@ impl Costs {
         };
         let bound = Bound { level: 0.0, climb: 0.0 };
         let mut costs = Self { tables, limits: study.limits, table: Vec::new(), step, bound };
-        let level = costs.metre(0.0, 0.0);
         let price = |along: f64, across: f64| {
             let metre = costs.metre(along, across)?;
             Some(match objective {
                 Objective::Time => metre.time,
-                // Wheels that brake give nothing back.
-                Objective::Energy => metre.energy.max(1e-3 * level?.energy),
+                Objective::Energy => metre.energy,
                 Objective::Risk => metre.length * risk.as_ref()?.at(along, across),
             })
         };
@@ -82,6 +83,11 @@ impl Costs {
         });
         costs.table = all.collect();
         costs.bound = costs.largest_bound();
+        if costs.bound.level <= 0.0 {
+            // Nothing may cost less than nothing all the way round.
+            costs.table.iter_mut().for_each(|price| *price = price.max(0.0));
+            costs.bound = Bound { level: 0.0, climb: 0.0 };
+        }
         Ok(Some(costs))
     }
 
@@ -197,11 +203,7 @@ impl Costs {
         let climb = f64::midpoint(low, high);
         let level = under(climb);
         // A little less, for what single precision takes off.
-        if level.is_finite() && level > 0.0 {
-            Bound { level: level * (1.0 - 1e-6), climb }
-        } else {
-            Bound { level: under(0.0).max(0.0), climb: 0.0 }
-        }
+        Bound { level: if level.is_finite() { level * (1.0 - 1e-6) } else { 0.0 }, climb }
     }
 }
 

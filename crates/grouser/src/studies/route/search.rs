@@ -173,33 +173,24 @@ impl<'a> Lattice<'a> {
     /// The cheapest way between two cells.
     ///
     /// * `heading`: at the start; without it any
-    /// * `is_guided`: whether what a way costs at least leads the search; without it the way is the same
-    pub(super) fn search(
-        &self,
-        from: usize,
-        target: usize,
-        heading: Option<usize>,
-        is_guided: bool,
-    ) -> Found {
+    pub(super) fn search(&self, from: usize, target: usize, heading: Option<usize>) -> Found {
         let states = self.columns * self.rows * DIRECTIONS;
         // Pages that are never touched are never there.
         let mut costs = vec![0.0_f32; states];
         let mut how = vec![0_u8; states];
         let mut open: BinaryHeap<Reverse<(u32, u32)>> = BinaryHeap::new();
-        let least = |cell: usize| if is_guided { self.at_least(cell, target) } else { 0.0 };
-        let at_start = least(from);
+        let at_start = self.at_least(from, target);
         // Positive numbers are in the order of their bits.
         #[expect(
             clippy::cast_possible_truncation,
             reason = "the order of near ones does not matter"
         )]
-        let key =
-            |cost: f64, cell: usize| ((cost + least(cell) - at_start).max(0.0) as f32).to_bits();
+        let key = |cost: f64, least: f64| ((cost + least - at_start).max(0.0) as f32).to_bits();
         let number = |state: usize| u32::try_from(state).unwrap_or(u32::MAX);
         for direction in (0..DIRECTIONS).filter(|it| heading.is_none_or(|heading| heading == *it)) {
             let state = from * DIRECTIONS + direction;
             how[state] = BEGAN;
-            open.push(Reverse((key(0.0, from), number(state))));
+            open.push(Reverse((key(0.0, at_start), number(state))));
         }
         let mut reached = 0;
         while let Some(Reverse((_, state))) = open.pop() {
@@ -230,7 +221,10 @@ impl<'a> Lattice<'a> {
                 if how[next] == 0 || (how[next] & DONE == 0 && kept < costs[next]) {
                     costs[next] = kept;
                     how[next] = by;
-                    open.push(Reverse((key(cost, next / DIRECTIONS), number(next))));
+                    open.push(Reverse((
+                        key(cost, self.at_least(next / DIRECTIONS, target)),
+                        number(next),
+                    )));
                 }
             }
         }

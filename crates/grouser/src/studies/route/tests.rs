@@ -69,7 +69,7 @@ fn price_of(lattice: &Lattice<'_>, found: &Found, turn: f64) -> f64 {
     moves.sum::<f64>() + turns.sum::<f64>()
 }
 
-/// As by Dijkstra's algorithm, ours without guidance and another's.
+/// As by another's search, Dijkstra's, which is not guided.
 #[test]
 fn the_way_is_the_cheapest_there_is() {
     let (study, raster) = (study(), ground_of(34, 30, 0.8, hills));
@@ -80,26 +80,27 @@ fn the_way_is_the_cheapest_there_is() {
         let turn = 5.0;
         let lattice = Lattice::new(ground, &costs, turn, |_| true);
         let (from, to) = (2 * 34 + 2, 26 * 34 + 30);
-        let guided = price_of(&lattice, &lattice.search(from, to, Some(3), true), turn);
-        let other = price_of(&lattice, &lattice.search(from, to, Some(3), false), turn);
+        let guided = price_of(&lattice, &lattice.search(from, to, Some(3)), turn);
+        // The other takes no negative prices: what the height is worth is counted as it is gained.
+        let worth = |cell: usize| costs.bound.climb * f64::from(raster.heights[cell]);
         let micro = |price: f64| (price * 1e6).round() as u64;
         let next = |&(cell, heading): &(usize, usize)| {
             let (ahead, price) = lattice.price(cell, heading);
             let left = (heading + 1) % DIRECTIONS;
             let right = (heading + DIRECTIONS - 1) % DIRECTIONS;
             let turned = |it: usize| micro(turn * lattice.moves.to_next[it]);
-            let drive = price.is_finite().then(|| ((ahead, heading), micro(price)));
+            let lost = price + worth(cell) - worth(ahead);
+            let drive = price.is_finite().then(|| ((ahead, heading), micro(lost)));
             let turns = [((cell, left), turned(heading)), ((cell, right), turned(right))];
             drive.into_iter().chain(turns).collect::<Vec<_>>()
         };
         let (_, exact) =
             pathfinding::prelude::dijkstra(&(from, 3), next, |(cell, _)| *cell == to).unwrap();
-        let exact = exact as f64 / 1e6;
+        let exact = exact as f64 / 1e6 + worth(to) - worth(from);
         // The first turns, from the heading at the start, are not in the sum of the way.
-        let Found::Way(_, headings) = lattice.search(from, to, Some(3), true) else { panic!() };
+        let Found::Way(_, headings) = lattice.search(from, to, Some(3)) else { panic!() };
         let first = turn * lattice.moves.turn(MOVED, headings[0]);
         assert!((guided + first - exact).abs() < 1e-4 * exact, "{objective:?} {guided} {exact}");
-        assert!((other - guided).abs() < 1e-4 * exact, "{objective:?} {guided} {other}");
     }
     const MOVED: usize = 3;
 }
@@ -144,9 +145,9 @@ fn up_a_plane_the_way_is_straight_or_a_zigzag() {
     let zigzag = route(&study, &plane(14.0), &up, Objective::Time);
     assert!(zigzag.map_length > 1.1 * 25.0 && zigzag.turned > 0.5, "{zigzag:?}");
     assert!(zigzag.most_slip_ratio <= study.limits.most_slip_ratio);
-    // Of the steepest direction that is left over, up and over: 25 m over its sine.
-    let steepest = f64::atan2(2.0, 1.0).sin();
-    assert!((zigzag.map_length - 25.0 / steepest).abs() < 1.5, "{zigzag:?}");
+    // Two legs along the steepest direction of the lattice that is left over, which is the diagonal.
+    assert!((zigzag.map_length - 25.0 * f64::sqrt(2.0)).abs() < 1e-9, "{zigzag:?}");
+    assert_eq!(zigzag.waypoints.len(), 3);
 }
 
 #[test]
@@ -167,7 +168,9 @@ fn each_objective_is_best_at_its_own() {
     let (study, raster) = (study(), ground_of(70, 60, 0.8, hills));
     let all = ends([4.0, 4.0], [48.0, 40.0]);
     let [fast, frugal, _] = Objective::ALL.map(|objective| route(&study, &raster, &all, objective));
-    assert!(fast.time <= frugal.time * (1.0 + 1e-4) && frugal.energy <= fast.energy * (1.0 + 1e-4));
+    // What is sought is read from a table, and the sums are not.
+    assert!(fast.time <= 1.001 * frugal.time, "{fast:?} {frugal:?}");
+    assert!(frugal.energy <= 1.001 * fast.energy, "{fast:?} {frugal:?}");
 }
 
 #[test]
