@@ -232,6 +232,17 @@ pub enum Fault {
         /// What is wrong with it.
         problem: String,
     },
+    /// A feature that is no area.
+    #[error("has no area in feature {number}, counted from 1: {problem}")]
+    Area {
+        /// Which.
+        number: usize,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// A file without areas.
+    #[error("has no polygon\nhint: areas are features with a Polygon or a MultiPolygon, in metres of the map")]
+    NoAreas,
     /// A coordinate system of longitude and latitude.
     #[error(
         "has coordinates in degrees of longitude and latitude (its system is {name}), and a rover needs metres\nhint: ogr2ogr -t_srs SYSTEM_OF_THE_MAP OUT.geojson IN.geojson"

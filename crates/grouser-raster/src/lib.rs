@@ -54,4 +54,4 @@ pub use heights::BEYOND;
 pub use options::{CELLS, Content, Placement, ReadOptions, RowOrder};
 pub use raster::Raster;
 pub use read::read;
-pub use zones::{ZoneKey, ZoneMap, read_zones, zone_names};
+pub use zones::{ZoneKey, ZoneMap, read_areas, read_zones, zone_names};

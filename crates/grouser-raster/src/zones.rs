@@ -55,6 +55,26 @@ pub fn zone_names(path: &Path) -> Result<Vec<String>, RasterError> {
     names().map_err(|fault: Fault| RasterError::new(path, fault))
 }
 
+/// Reads areas, such as those to keep out of, from GeoJSON: polygons with any properties, all of them the zone of class 0.
+///
+/// * `ground`: the extent of the heights that they are for
+///
+/// # Errors
+/// [`RasterError`] with the file's name; also for a polygon whose edge crosses itself, and for areas none of which lies on
+/// the ground.
+pub fn read_areas(path: &Path, ground: &Extent) -> Result<ZoneMap, RasterError> {
+    let areas = || {
+        if !geojson::starts_so(&start_of(path)?) {
+            let problem = "it does not begin with an object".to_owned();
+            return Err(Fault::GeoJson { problem });
+        }
+        let map = geojson::read_areas(path)?;
+        map.check_place(Some(ground))?;
+        Ok(map)
+    };
+    areas().map_err(|fault: Fault| RasterError::new(path, fault))
+}
+
 /// Reads zones from a file of any format, which its content tells.
 ///
 /// * `options`: of a raster

@@ -4,6 +4,7 @@
 //! cover earlier ones; within a polygon, a ring in a ring is a hole. By the standard, coordinates are degrees of longitude
 //! and latitude; here they are those of the map that a rover drives on, as GDAL writes them with `-t_srs`.
 
+mod crossing;
 mod syntax;
 
 use std::fs::File;
@@ -31,9 +32,21 @@ pub(super) fn starts_so(start: &[u8]) -> bool {
 /// # Errors
 /// [`Fault`] if it has no polygons with soils.
 pub(super) fn read(path: &Path) -> Result<ZoneMap, Fault> {
+    decode(&bytes_of(path)?)
+}
+
+/// Reads areas, whatever their properties: all are one zone, of class 0.
+///
+/// # Errors
+/// [`Fault`] if it has no polygons, or the edge of one crosses itself.
+pub(super) fn read_areas(path: &Path) -> Result<ZoneMap, Fault> {
+    decode_areas(&bytes_of(path)?)
+}
+
+fn bytes_of(path: &Path) -> Result<Vec<u8>, Fault> {
     let mut bytes = Vec::new();
     File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
-    decode(&bytes)
+    Ok(bytes)
 }
 
 /// Reads what a file holds.
@@ -41,6 +54,40 @@ pub(super) fn read(path: &Path) -> Result<ZoneMap, Fault> {
 /// # Errors
 /// [`Fault`] if it has no polygons with soils.
 pub fn decode(bytes: &[u8]) -> Result<ZoneMap, Fault> {
+    let mut polygons = Vec::new();
+    for (number, feature) in (1..).zip(features_of(bytes)?) {
+        let fault = |problem: String| Fault::Feature { number, problem };
+        let key = key_of(&feature).map_err(fault)?;
+        for rings in polygons_of(feature.geometry).map_err(fault)? {
+            polygons.push((key.clone(), rings));
+        }
+    }
+    ZoneMap::of_polygons(polygons)
+}
+
+/// Reads areas as a file of GeoJSON holds them, whatever their properties: all are one zone, of class 0.
+///
+/// # Errors
+/// [`Fault`] if there are no polygons, or the edge of one crosses itself.
+pub fn decode_areas(bytes: &[u8]) -> Result<ZoneMap, Fault> {
+    let mut polygons = Vec::new();
+    for (number, feature) in (1..).zip(features_of(bytes)?) {
+        let fault = |problem: String| Fault::Area { number, problem };
+        for rings in polygons_of(feature.geometry).map_err(fault)? {
+            if let Some(at) = rings.iter().find_map(|ring| crossing::crossing(ring)) {
+                return Err(fault(format!("its edge crosses itself near x {}, y {}", at.x, at.y)));
+            }
+            polygons.push((ZoneKey::Class(0), rings));
+        }
+    }
+    if polygons.is_empty() {
+        return Err(Fault::NoAreas);
+    }
+    ZoneMap::of_polygons(polygons)
+}
+
+/// The features of a file.
+fn features_of(bytes: &[u8]) -> Result<Vec<Feature>, Fault> {
     if bytes.len() as u64 > LARGEST_FILE {
         return Err(Fault::LargeGeoJson { limit: LARGEST_FILE });
     }
@@ -50,20 +97,11 @@ pub fn decode(bytes: &[u8]) -> Result<ZoneMap, Fault> {
     if let Some(name) = root.system().filter(|name| is_in_degrees(name)) {
         return Err(Fault::SystemInDegrees { name: shown(name) });
     }
-    let features = match root.kind.as_str() {
-        "FeatureCollection" => root.features,
-        "Feature" => vec![Feature { geometry: root.geometry, properties: root.properties }],
-        kind => return Err(Fault::NoFeatures { kind: shown(kind) }),
-    };
-    let mut polygons = Vec::new();
-    for (number, feature) in (1..).zip(features) {
-        let fault = |problem: String| Fault::Feature { number, problem };
-        let key = key_of(&feature).map_err(fault)?;
-        for rings in polygons_of(feature.geometry).map_err(fault)? {
-            polygons.push((key.clone(), rings));
-        }
+    match root.kind.as_str() {
+        "FeatureCollection" => Ok(root.features),
+        "Feature" => Ok(vec![Feature { geometry: root.geometry, properties: root.properties }]),
+        kind => Err(Fault::NoFeatures { kind: shown(kind) }),
     }
-    ZoneMap::of_polygons(polygons)
 }
 
 /// Whether a coordinate system of that name has degrees.

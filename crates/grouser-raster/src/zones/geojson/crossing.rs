@@ -1,0 +1,75 @@
+//! Rings whose edge crosses itself.
+
+use grouser_core::units::Vec2;
+
+/// A place where the edge of a ring crosses itself, if it does.
+///
+/// Edges are looked at from the west to the east, each beside those that reach as far east as it begins.
+///
+/// * `ring`: its corners, each once
+pub(super) fn crossing(ring: &[Vec2]) -> Option<Vec2> {
+    let count = ring.len();
+    let edge = |place: usize| (ring[place], ring[(place + 1) % count]);
+    let west = |place: &usize| {
+        let (one, other) = edge(*place);
+        one.x.min(other.x)
+    };
+    let mut order: Vec<usize> = (0..count).collect();
+    order.sort_by(|one, other| west(one).total_cmp(&west(other)));
+    let mut near: Vec<usize> = Vec::new();
+    for place in order {
+        let begins = west(&place);
+        near.retain(|other| {
+            let (from, to) = edge(*other);
+            from.x.max(to.x) >= begins
+        });
+        for other in &near {
+            let apart = place.abs_diff(*other);
+            // Neighbours share a corner.
+            if apart > 1 && apart < count - 1 {
+                if let Some(at) = common(edge(place), edge(*other)) {
+                    return Some(at);
+                }
+            }
+        }
+        near.push(place);
+    }
+    None
+}
+
+/// Where two edges cross; one that only touches the other does not.
+fn common((a, b): (Vec2, Vec2), (c, d): (Vec2, Vec2)) -> Option<Vec2> {
+    let (along, across) = (b - a, d - c);
+    let area = along.perp(&across);
+    if area == 0.0 {
+        return None;
+    }
+    let (t, u) = ((c - a).perp(&across) / area, (c - a).perp(&along) / area);
+    let inside = |share: f64| share > 0.0 && share < 1.0;
+    (inside(t) && inside(u)).then(|| a + t * along)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ring(corners: &[(f64, f64)]) -> Vec<Vec2> {
+        corners.iter().map(|(x, y)| Vec2::new(*x, *y)).collect()
+    }
+
+    #[test]
+    fn a_bow_tie_crosses_itself_and_a_star_with_dents_does_not() {
+        let tie = ring(&[(0.0, 0.0), (4.0, 4.0), (4.0, 0.0), (0.0, 4.0)]);
+        assert_eq!(crossing(&tie), Some(Vec2::new(2.0, 2.0)));
+        let star: Vec<Vec2> = (0..2000)
+            .map(|place| {
+                let (sin, cos) = (f64::from(place) * std::f64::consts::TAU / 2000.0).sin_cos();
+                (if place % 2 == 0 { 5.0 } else { 3.0 }) * Vec2::new(cos, sin)
+            })
+            .collect();
+        assert_eq!(crossing(&star), None);
+        let mut crossed = star;
+        crossed.swap(700, 704);
+        assert!(crossing(&crossed).is_some());
+    }
+}
