@@ -11,6 +11,7 @@ mod map;
 mod measurements;
 mod mission;
 mod new;
+mod route;
 mod slip_from_current;
 mod terminal;
 mod traverse;
@@ -41,6 +42,7 @@ pub(crate) use measurements::{
 };
 pub(crate) use mission::MissionArgs;
 pub(crate) use new::NewArgs;
+pub(crate) use route::RouteArgs;
 pub(crate) use slip_from_current::SlipFromCurrentArgs;
 pub(crate) use terminal::{TerminalArgs, colours_of};
 pub(crate) use traverse::TraverseArgs;
@@ -77,6 +79,8 @@ pub(crate) enum Command {
     HeadingMap(HeadingMapArgs),
     /// Where a rover can go on a map of heights: heading, slip, power, probability of a no-go, as GeoTIFF.
     Map(MapArgs),
+    /// The way over a map of heights with the least time, work or risk, driven by simulation to check it.
+    Route(RouteArgs),
     /// `heading`, by the name of earlier versions: the word of the source paper.
     #[command(hide = true)]
     Attitude(HeadingArgs),

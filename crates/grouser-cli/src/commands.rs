@@ -22,6 +22,7 @@ pub(crate) mod new;
 mod place;
 pub(crate) mod presets;
 pub(crate) mod reproduce;
+pub(crate) mod route;
 pub(crate) mod sampling;
 pub(crate) mod schema;
 pub(crate) mod slip_from_current;

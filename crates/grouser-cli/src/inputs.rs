@@ -5,6 +5,7 @@ mod forecast;
 mod heading;
 mod map;
 pub(crate) mod mission;
+mod route;
 mod slip_from_current;
 mod stand;
 mod traverse;
@@ -20,6 +21,7 @@ pub(crate) use self::card::{CardInputs, card};
 pub(crate) use self::forecast::{ForecastInputs, forecast};
 pub(crate) use self::heading::{heading, heading_map};
 pub(crate) use self::map::{MapInputs, map};
+pub(crate) use self::route::{RouteInputs, route};
 pub(crate) use self::slip_from_current::{SlipInputs, slip_from_current};
 pub(crate) use self::stand::{StandInputs, soil, stand, wheel_test};
 pub(crate) use self::traverse::traverse;
@@ -114,7 +116,7 @@ fn balanced_overrides(
             "slip-from-current" => {
                 "slopes are those of the log or of --slope-deg; the log has the drive"
             }
-            "map" => {
+            "map" | "route" => {
                 "slopes are those of the ground; a steady motion has no drive, start or duration"
             }
             _ => {

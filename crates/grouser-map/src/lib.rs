@@ -9,12 +9,14 @@
 mod error;
 mod geotiff;
 mod picture;
+mod relief;
 mod style;
 mod summary;
 
 pub use error::MapError;
 pub use geotiff::write_band;
 pub use picture::picture;
+pub use relief::{Track, relief};
 pub use style::{Look, style};
 pub use summary::{BandSummary, summaries};
 

@@ -241,7 +241,9 @@ pub enum Fault {
         problem: String,
     },
     /// A file without areas.
-    #[error("has no polygon\nhint: areas are features with a Polygon or a MultiPolygon, in metres of the map")]
+    #[error(
+        "has no polygon\nhint: areas are features with a Polygon or a MultiPolygon, in metres of the map"
+    )]
     NoAreas,
     /// A coordinate system of longitude and latitude.
     #[error(

@@ -12,12 +12,14 @@
 //! whole ground is not known.
 
 mod costs;
+mod drive;
 mod moves;
 mod search;
 
 use std::f64::consts::PI;
 
 use self::costs::Costs;
+pub use self::drive::DrivenRoute;
 use self::search::{Found, Lattice};
 use super::ensemble::samples::Sample;
 use super::mobility::{Ground, MobilityStudy};

@@ -212,3 +212,21 @@ fn without_a_way_the_answer_says_why() {
     let error = off.unwrap_err().to_string();
     assert!(error.starts_with("the target at x 99.00 m, y 5.00 m is not on the map"), "{error}");
 }
+
+/// Over hills, with turns: time and work by the tables are those of the simulation within a tenth.
+#[test]
+fn a_route_that_is_driven_takes_what_it_says() {
+    let scenario =
+        document::read_scenario(&Source::default_scenario(), &Overrides::none()).unwrap().value;
+    let (study, raster) = (study(), ground_of(60, 60, 0.8, |at| 0.6 * hills(at)));
+    let model = std::sync::Arc::new(raster.clone().model(scenario.site.terrain.soil).unwrap());
+    for (objective, to) in [(Objective::Time, [14.0, 11.0]), (Objective::Energy, [4.0, 16.0])] {
+        let found = route(&study, &raster, &ends([6.0, 6.0], to), objective);
+        let driven = found.drive(&scenario, &model, study.mobility.rim_speed).unwrap();
+        assert_eq!(driven.outcome, "completed");
+        assert!(driven.miss < 0.2, "{driven:?}");
+        assert!((driven.time / found.time - 1.0).abs() < 0.1, "{driven:?} {found:?}");
+        assert!((driven.energy / found.energy - 1.0).abs() < 0.1, "{driven:?} {found:?}");
+        assert!((driven.distance / found.length - 1.0).abs() < 0.05, "{driven:?} {found:?}");
+    }
+}

@@ -1,0 +1,96 @@
+//! Arguments of `route`.
+
+use std::path::PathBuf;
+
+use clap::builder::NonEmptyStringValueParser;
+use clap::{Args, ValueEnum};
+use grouser::studies::route::Objective;
+
+use super::{BalanceArgs, OutputArgs, PartArgs, RuleArgs, SettingArgs};
+use crate::list::{self, Numbers};
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Ways lead over the points of DEM in sixteen directions, and turns are made on the spot. The way is then \
+                  driven by simulation, so that predicted and simulated time, work and slip stand side by side. With --out \
+                  there is route.geojson, whose legs `mission --terrain DEM --legs-from` drives. docs/guide/maps.md \
+                  explains the numbers."
+)]
+pub(crate) struct RouteArgs {
+    /// A map of heights: a GeoTIFF in metres, or text with x, y and z in each line.
+    #[arg(value_name = "DEM")]
+    pub(crate) dem: PathBuf,
+    /// A scenario's file or preset, for its rover, soil, gravity, load transfer and rim speed; without it the default
+    /// scenario.
+    #[arg(value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) scenario: Option<String>,
+    #[command(flatten)]
+    pub(crate) parts: PartArgs,
+    /// Where the way begins, in the map's coordinates [m].
+    #[arg(long, value_name = "X,Y", value_parser = list::parse, allow_hyphen_values = true)]
+    pub(crate) from: Numbers,
+    /// Where it ends [m].
+    #[arg(long, value_name = "X,Y", value_parser = list::parse, allow_hyphen_values = true)]
+    pub(crate) to: Numbers,
+    /// What the way has least of: time, work of the wheels, or time in the worst tenth of the samples.
+    #[arg(long, value_name = "WHAT", value_enum, default_value_t)]
+    pub(crate) minimise: ObjectiveArg,
+    /// Yaw at the start [°], from the map's x axis to the left; without it the first turn is free.
+    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
+    pub(crate) yaw_deg: Option<f64>,
+    /// Where nobody may go: polygons of GeoJSON, in metres of the map.
+    #[arg(long, value_name = "FILE.geojson")]
+    pub(crate) keep_out: Option<PathBuf>,
+    /// The steepest slope of the way [°].
+    #[arg(long, value_name = "DEG", value_parser = list::parse, allow_hyphen_values = true)]
+    pub(crate) most_slope_deg: Option<Numbers>,
+    /// The largest slip ratio of the way; without it that of a no-go.
+    #[arg(long, value_name = "S", value_parser = list::parse, allow_hyphen_values = true)]
+    pub(crate) most_slip_ratio: Option<Numbers>,
+    /// In which share of the samples a place of the way may be a no-go; without it as many as a no-go allows.
+    #[arg(long, value_name = "P", value_parser = list::parse, allow_hyphen_values = true)]
+    pub(crate) most_no_go: Option<Numbers>,
+    /// Also seek the ways that have least of the other two.
+    #[arg(long)]
+    pub(crate) alternatives: bool,
+    /// Leave out the simulation of the way.
+    #[arg(long)]
+    pub(crate) no_drive: bool,
+    /// Rim speed [m/s]; without it the scenario's.
+    #[arg(long, value_name = "V", value_parser = list::parse, allow_hyphen_values = true)]
+    pub(crate) rim_speed_m_s: Option<Numbers>,
+    /// Number of samples of soil and model, 2 to 100000.
+    #[arg(long, value_name = "N", default_value_t = 50)]
+    #[arg(value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
+    pub(crate) samples: u32,
+    /// Seed of the samples: the same seed gives the same soils and models.
+    #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true)]
+    pub(crate) seed: u64,
+    #[command(flatten)]
+    pub(crate) rule: RuleArgs,
+    #[command(flatten)]
+    pub(crate) balance: BalanceArgs,
+    #[command(flatten)]
+    pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+/// What a way has least of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ObjectiveArg {
+    #[default]
+    Time,
+    Energy,
+    Risk,
+}
+
+impl From<ObjectiveArg> for Objective {
+    fn from(objective: ObjectiveArg) -> Self {
+        match objective {
+            ObjectiveArg::Time => Self::Time,
+            ObjectiveArg::Energy => Self::Energy,
+            ObjectiveArg::Risk => Self::Risk,
+        }
+    }
+}
