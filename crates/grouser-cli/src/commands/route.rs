@@ -8,7 +8,9 @@ use std::sync::Arc;
 use grouser::document::columns::{ENERGY, SLOPE, TIME, YAW};
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::mobility::Ground;
-use grouser::studies::route::{Answer as Found, DrivenRoute, Objective, Route, RouteError};
+use grouser::studies::route::{
+    Answer as Found, COURSES, DrivenRoute, Objective, Route, RouteError, RouteTables,
+};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -74,14 +76,19 @@ struct Way {
 pub(crate) fn run(args: &RouteArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let inputs = inputs::route(args)?;
-    let samples = samples(args, &inputs)?;
     let chosen: Objective = args.minimise.into();
-    let mut ways = vec![way(args, &inputs, &samples, chosen)?];
+    let mut wanted = vec![chosen];
     if args.alternatives {
-        for other in Objective::ALL.into_iter().filter(|it| *it != chosen) {
-            ways.push(way(args, &inputs, &samples, other)?);
-        }
+        wanted.extend(Objective::ALL.into_iter().filter(|it| *it != chosen));
     }
+    let samples = samples(args, &inputs)?;
+    let with_risk = wanted.contains(&Objective::Risk);
+    let tables = sampling::with_bar(samples.len().max(1) * COURSES, |go_on| {
+        inputs.study.tables(&samples, with_risk, go_on)
+    });
+    let tables = sampling::whole(tables?);
+    let ways = wanted.into_iter().map(|objective| way(args, &inputs, &tables, objective));
+    let ways = ways.collect::<Result<Vec<Way>, Failure>>()?;
     let records: Vec<RouteRecord> = ways.iter().map(RouteRecord::of).collect();
     let results = Results {
         best: &records[0],
@@ -126,16 +133,15 @@ impl From<RouteError> for Failure {
 fn way(
     args: &RouteArgs,
     inputs: &RouteInputs,
-    samples: &[Sample],
+    tables: &RouteTables,
     objective: Objective,
 ) -> Result<Way, Failure> {
     let RouteInputs { study, ends, raster, .. } = inputs;
     let ground = Ground::under(&study.mobility.heading.rover, raster);
     let bar = output::progress_bar(0);
     bar.set_message(format!("least {}", objective.name()));
-    let found = study.route(ground, ends, objective, samples, &|| true)?;
+    let found = study.route(tables, ground, ends, objective)?;
     bar.finish_and_clear();
-    let found = sampling::whole(found);
     let driven = match &found {
         Found::Route(route) if !args.no_drive => Some(drive(route, inputs)?),
         _ => None,

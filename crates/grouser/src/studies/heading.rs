@@ -476,9 +476,9 @@ impl HeadingCurve {
         on_slope.findings(found.iter().flat_map(|heading| &heading.wheels))
     }
 
-    /// Slope [rad] and slip ratio [-] at points along the curve, from level ground to the steepest slope.
-    pub(super) fn slips(&self) -> Vec<(f64, f64)> {
-        self.points.iter().map(|point| (point.place.z, point.place.x)).collect()
+    /// Slope [rad], slip ratio [-] and crab angle [rad] at points along the curve, from level ground to the steepest slope.
+    pub(super) fn points(&self) -> impl Iterator<Item = [f64; 3]> {
+        self.points.iter().map(|point| [point.place.z, point.place.x, point.place.y])
     }
 
     /// Points along the curve, from level ground to the steepest slope.

@@ -129,50 +129,70 @@ impl MobilityStudy {
         samples: &[Sample],
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<MobilityTable>, ParameterError> {
-        self.table_of(course, samples, INTERVALS, go_on)
+        self.table_of(course, samples, Detail::Full, go_on)
     }
 
-    /// The same with so many intervals between nodes.
+    /// The same in as much detail as is needed.
     pub(super) fn table_of(
         &self,
         course: f64,
         samples: &[Sample],
-        intervals: usize,
+        detail: Detail,
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<MobilityTable>, ParameterError> {
         self.rule.check()?;
         crate::error::positive("rim speed [m/s]", self.rim_speed)?;
         let curve = self.heading.curve_on(course)?;
-        let drift = self.heading.drift_curve_along(course)?;
-        let Some(thresholds) = Thresholds::of(self, course, samples, go_on)? else {
+        let drift = match detail {
+            Detail::Full => Some(self.heading.drift_curve_along(course)?),
+            Detail::Rough => None,
+        };
+        let Some(thresholds) = Thresholds::of(self, course, samples, detail, go_on)? else {
             return Ok(None);
         };
         let limit = curve.limit().ok().map(|(slope, _)| slope);
         let found = Nodes {
             study: self,
             curve: &curve,
-            drift: &drift,
+            drift: drift.as_ref(),
             limit: limit.unwrap_or(0.0),
-            intervals,
+            intervals: detail.intervals(),
         };
         let (nodes, largest_errors) =
             limit.map_or_else(Default::default, |_| (found.all(), Mobility::default()));
         let mut table = MobilityTable { course, limit, nodes, largest_errors, thresholds };
-        if limit.is_some() {
+        if limit.is_some() && detail == Detail::Full {
             table.largest_errors = found.largest_errors(&table);
         }
         Ok(Some(table))
     }
 }
 
-/// Intervals between nodes, for maps.
-const INTERVALS: usize = 2048;
+/// How much a table has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Detail {
+    /// All: for maps.
+    Full,
+    /// Fewer nodes, no drift, steepest slopes of the samples from the points of their curves, and no errors: for routes,
+    /// which have many courses.
+    Rough,
+}
+
+impl Detail {
+    /// Intervals between nodes.
+    fn intervals(self) -> usize {
+        match self {
+            Self::Full => 2048,
+            Self::Rough => 64,
+        }
+    }
+}
 
 /// Where the numbers of a table come from.
 struct Nodes<'a> {
     study: &'a MobilityStudy,
     curve: &'a HeadingCurve,
-    drift: &'a HeadingCurve,
+    drift: Option<&'a HeadingCurve>,
     limit: f64,
     intervals: usize,
 }
@@ -200,7 +220,8 @@ impl Nodes<'_> {
 
     fn of(&self, slope: f64, heading: &HeadingOffset) -> Mobility {
         let study = self.study;
-        let drift = self.drift.at(slope).map_or(f64::NAN, |it| sin(it.crab()));
+        let drifting = self.drift.and_then(|curve| curve.at(slope).ok());
+        let drift = drifting.map_or(f64::NAN, |it| sin(it.crab()));
         Mobility {
             crab: heading.crab(),
             slip_ratio: heading.slip_ratio,

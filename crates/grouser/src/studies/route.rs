@@ -19,9 +19,9 @@ mod search;
 use std::f64::consts::PI;
 
 use self::costs::Costs;
+pub use self::costs::{COURSES, RouteTables};
 pub use self::drive::DrivenRoute;
 use self::search::{Found, Lattice};
-use super::ensemble::samples::Sample;
 use super::mobility::{Ground, MobilityStudy};
 use crate::error::ParameterError;
 use crate::simulation::NotSteady;
@@ -212,29 +212,27 @@ struct Turning {
 }
 
 impl RouteStudy {
-    /// Seeks the cheapest way; `None` if `go_on` was false before the end.
+    /// Seeks the cheapest way.
     ///
-    /// * `samples`: of soil and model; with none the soil as written is judged by
-    /// * `go_on`: asked before each sample of each course, from any thread
+    /// * `tables`: of this study; with the risk, if that is the objective
     ///
     /// # Errors
-    /// [`RouteError`] for ends that are not on the map, and inputs that are none.
+    /// [`RouteError`] for ends that are not on the map, and a map that is too large.
     pub fn route(
         &self,
+        tables: &RouteTables,
         ground: Ground<'_>,
         ends: &Ends,
         objective: Objective,
-        samples: &[Sample],
-        go_on: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Option<Answer>, RouteError> {
+    ) -> Result<Answer, RouteError> {
         let cells = ground.raster().grid.columns * ground.raster().grid.rows;
         if cells > MOST_CELLS {
             return Err(RouteError::TooLarge { cells });
         }
-        let Some(costs) = Costs::of(self, samples, objective, go_on)? else { return Ok(None) };
+        let costs = Costs::of(tables, objective);
         let turning = match self.turning() {
             Ok(turning) => turning,
-            Err(reason) => return Ok(Some(Answer::NoSafeRoute(NoRoute::NoTurn(reason)))),
+            Err(reason) => return Ok(Answer::NoSafeRoute(NoRoute::NoTurn(reason))),
         };
         let turn = match objective {
             Objective::Energy => turning.energy,
@@ -247,15 +245,15 @@ impl RouteStudy {
             [self.end(&lattice, "start", ends.from)?, self.end(&lattice, "target", ends.to)?];
         let (from, to) = match (from, to) {
             (Ok(from), Ok(to)) => (from, to),
-            (Err(none), _) | (_, Err(none)) => return Ok(Some(Answer::NoSafeRoute(none))),
+            (Err(none), _) | (_, Err(none)) => return Ok(Answer::NoSafeRoute(none)),
         };
         let heading = ends.yaw.map(|yaw| lattice.moves.nearest(yaw));
-        Ok(Some(match lattice.search(from, to, heading) {
+        Ok(match lattice.search(from, to, heading) {
             Found::Way(way, headings) => {
-                Answer::Route(measured(&lattice, &costs, turning, ends, (&way, &headings), heading))
+                Answer::Route(measured(&lattice, tables, turning, ends, (&way, &headings), heading))
             }
             Found::None { reached } => Answer::NoSafeRoute(NoRoute::Cut { reached, cells }),
-        }))
+        })
     }
 
     /// The cell of an end of the way.
@@ -311,7 +309,7 @@ impl RouteStudy {
 /// What a way takes, move by move.
 fn measured(
     lattice: &Lattice<'_>,
-    costs: &Costs,
+    tables: &RouteTables,
     turning: Turning,
     ends: &Ends,
     (way, headings): (&[usize], &[usize]),
@@ -342,7 +340,7 @@ fn measured(
         let Some((_, along, across)) = lattice.rises(*cell, *direction) else { continue };
         let way = lattice.moves.lengths[*direction];
         route.map_length += way;
-        if let Some(metre) = costs.metre(along, across) {
+        if let Some(metre) = tables.metre(along, across) {
             route.length += way * metre.length;
             route.time += way * metre.time;
             route.energy += way * metre.energy;
@@ -351,7 +349,7 @@ fn measured(
         }
         let rise = (along * along + across * across).sqrt();
         route.most_slope = route.most_slope.max(crate::elementary::wide::atan2(rise, 1.0));
-        let fails = costs.fails(along, across);
+        let fails = tables.fails(along, across);
         if failed.is_empty() {
             failed.extend(fails);
         } else {

@@ -1,7 +1,8 @@
 //! The steepest slopes that the samples allow.
 
-use super::MobilityStudy;
+use super::{Detail, MobilityStudy};
 use crate::error::ParameterError;
+use crate::root;
 use crate::studies::card::{Verdict, best_slopes};
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
 use crate::studies::heading::HeadingCurve;
@@ -27,6 +28,7 @@ impl Thresholds {
         study: &MobilityStudy,
         course: f64,
         samples: &[Sample],
+        detail: Detail,
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Self>, ParameterError> {
         let MobilityStudy { heading, rule, .. } = study;
@@ -34,7 +36,8 @@ impl Thresholds {
         let samples = if samples.is_empty() { &nominal } else { samples };
         let one = |sample: &Sample| {
             let curve = heading.of_sample(sample).curve_on(course)?;
-            Ok([rule.go_slip_ratio, rule.no_go_slip_ratio].map(|most| steepest(&curve, most)))
+            Ok([rule.go_slip_ratio, rule.no_go_slip_ratio]
+                .map(|most| steepest(&curve, most, detail)))
         };
         let Some(found) = outputs_of_samples(samples, go_on, one) else { return Ok(None) };
         // In order, so that the error is always that of the first soil.
@@ -78,24 +81,25 @@ fn held_by(steepest: &[f64], share: f64) -> f64 {
 }
 
 /// The steepest slope up to which a curve slips at most so much [rad].
-fn steepest(curve: &HeadingCurve, most_slip: f64) -> f64 {
-    /// Halvings of an interval between two points of a curve: to less than 1e-5 rad.
-    const HALVINGS: usize = 14;
+fn steepest(curve: &HeadingCurve, most_slip: f64, detail: Detail) -> f64 {
+    /// To so much [rad].
+    const TOLERANCE: f64 = 1e-6;
     let Ok((limit, _)) = curve.limit() else { return NOWHERE };
-    let slips_more = |slope: f64| curve.at(slope).is_ok_and(|it| it.slip_ratio > most_slip);
-    let points = curve.slips();
-    let Some(above) = points.iter().position(|(_, slip)| *slip > most_slip) else { return limit };
+    let points: Vec<[f64; 3]> = curve.points().collect();
+    let Some(above) = points.iter().position(|[_, slip, _]| *slip > most_slip) else {
+        return limit;
+    };
     if above == 0 {
         return NOWHERE;
     }
-    let (mut low, mut high) = (points[above - 1].0, points[above].0.min(limit));
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if slips_more(middle) {
-            high = middle;
-        } else {
-            low = middle;
+    let ([low, slip_low, _], [high, slip_high, _]) = (points[above - 1], points[above]);
+    let high = high.min(limit);
+    match detail {
+        // The slope below the root of what the slip is too large by.
+        Detail::Full => {
+            let excess = |slope: f64| curve.at(slope).map_or(1.0, |it| it.slip_ratio - most_slip);
+            root::between(excess, low, high, TOLERANCE)
         }
+        Detail::Rough => low + (high - low) * (most_slip - slip_low) / (slip_high - slip_low),
     }
-    low
 }

@@ -1,15 +1,18 @@
 //! What a metre of way costs, by how steeply the ground rises along it and across it.
 
+use rayon::prelude::*;
+
 use super::{Limits, Objective, RouteStudy};
-use crate::elementary::wide::atan2;
+use crate::elementary::wide::{atan2, cos};
 use crate::error::ParameterError;
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
-use crate::studies::mobility::{Mobility, MobilityTable};
+use crate::studies::heading::HeadingCurve;
+use crate::studies::mobility::{Detail, Mobility, MobilityTable};
 
 /// Courses from straight down to straight up are so far apart [°].
 const COURSE_STEP_DEG: f64 = 7.5;
-/// Intervals of the tables over slope.
-const INTERVALS: usize = 192;
+/// How many courses have a table: straight down, …, straight up.
+pub const COURSES: usize = 25;
 /// Points along the axes of the table: from the steepest way down to the steepest way up, and from level to the steepest
 /// across.
 const ALONG: usize = 401;
@@ -28,13 +31,20 @@ pub(super) struct Metre {
     pub(super) slip_ratio: f64,
 }
 
-/// Motions on every slope and course.
-pub(super) struct Costs {
+/// Motions on every slope and course, and where nobody may go.
+#[derive(Clone, Debug)]
+pub struct RouteTables {
     tables: Vec<MobilityTable>,
     limits: Limits,
+    risk: Option<Risk>,
+    step: f64,
+}
+
+/// What a metre costs that has the least of one thing.
+pub(super) struct Costs<'a> {
+    pub(super) of: &'a RouteTables,
     /// What is sought, for a metre: infinite where nobody may go.
     table: Vec<f32>,
-    step: f64,
     /// What a metre costs at least. Downhill wheels may do less work than none: what they take out of the height is not
     /// lost before it is gained, so that all that is above the bound is positive.
     pub(super) bound: Bound,
@@ -47,54 +57,59 @@ pub(super) struct Bound {
     pub(super) climb: f64,
 }
 
-impl Costs {
-    /// `None` if `go_on` was false before the end.
-    pub(super) fn of(
-        study: &RouteStudy,
+impl RouteStudy {
+    /// The tables that routes are sought with; `None` if `go_on` was false before the end.
+    ///
+    /// * `samples`: of soil and model; with none the soil as written is judged by
+    /// * `with_risk`: whether ways of the least risk are to be sought
+    /// * `go_on`: asked before each sample of each course, from any thread
+    ///
+    /// # Errors
+    /// [`ParameterError`] for inputs that are none.
+    pub fn tables(
+        &self,
         samples: &[Sample],
-        objective: Objective,
+        with_risk: bool,
         go_on: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Option<Self>, ParameterError> {
-        let table = |course: f64| study.mobility.table_of(course, samples, INTERVALS, go_on);
+    ) -> Result<Option<RouteTables>, ParameterError> {
+        let table = |course| self.mobility.table_of(course, samples, Detail::Rough, go_on);
         let tables = courses().map(table).collect::<Result<Option<Vec<_>>, _>>()?;
         let Some(tables) = tables else { return Ok(None) };
+        let mut risk = None;
+        if with_risk {
+            let Some(found) = Risk::of(self, samples, go_on)? else { return Ok(None) };
+            risk = Some(found);
+        }
         let steepest = tables.iter().filter_map(MobilityTable::limit).fold(0.05, f64::max);
         let step = crate::elementary::wide::tan(steepest) / (ACROSS - 1) as f64;
-        let risk = if objective == Objective::Risk {
-            let Some(risk) = Risk::of(study, samples, go_on)? else { return Ok(None) };
-            Some(risk)
-        } else {
-            None
-        };
-        let bound = Bound { level: 0.0, climb: 0.0 };
-        let mut costs = Self { tables, limits: study.limits, table: Vec::new(), step, bound };
+        Ok(Some(RouteTables { tables, limits: self.limits, risk, step }))
+    }
+}
+
+impl<'a> Costs<'a> {
+    /// * `of`: with the risk, if that is the objective
+    pub(super) fn of(of: &'a RouteTables, objective: Objective) -> Self {
         let price = |along: f64, across: f64| {
-            let metre = costs.metre(along, across)?;
+            let metre = of.metre(along, across)?;
             Some(match objective {
                 Objective::Time => metre.time,
                 Objective::Energy => metre.energy,
-                Objective::Risk => metre.length * risk.as_ref()?.at(along, across),
+                Objective::Risk => metre.length * of.risk.as_ref()?.at(along, across),
             })
         };
-        let all = (0..ALONG * ACROSS).map(|place| {
-            let (along, across) = costs.point(place);
+        let all = (0..ALONG * ACROSS).into_par_iter().map(|place| {
+            let (along, across) = of.point(place);
             #[expect(clippy::cast_possible_truncation, reason = "seven digits are enough to seek")]
             price(along, across).map_or(f32::INFINITY, |price| price as f32)
         });
-        costs.table = all.collect();
+        let mut costs = Self { of, table: all.collect(), bound: Bound { level: 0.0, climb: 0.0 } };
         costs.bound = costs.largest_bound();
         if costs.bound.level <= 0.0 {
             // Nothing may cost less than nothing all the way round.
             costs.table.iter_mut().for_each(|price| *price = price.max(0.0));
             costs.bound = Bound { level: 0.0, climb: 0.0 };
         }
-        Ok(Some(costs))
-    }
-
-    /// Rises along and across at a place of the table.
-    fn point(&self, place: usize) -> (f64, f64) {
-        let along = (place % ALONG) as f64 - (ALONG / 2) as f64;
-        (along * self.step, (place / ALONG) as f64 * self.step)
+        costs
     }
 
     /// What is sought, for a metre on the map; infinite where nobody may go.
@@ -106,8 +121,8 @@ impl Costs {
         reason = "places in the table"
     )]
     pub(super) fn price(&self, along: f64, across: f64) -> f64 {
-        let x = along / self.step + (ALONG / 2) as f64;
-        let y = across.abs() / self.step;
+        let x = along / self.of.step + (ALONG / 2) as f64;
+        let y = across.abs() / self.of.step;
         if !(0.0..=(ALONG - 1) as f64).contains(&x) || y > (ACROSS - 1) as f64 {
             return f64::INFINITY;
         }
@@ -122,6 +137,42 @@ impl Costs {
         let price =
             if v == 0.0 { mixed(row) } else { mixed(row) + v * (mixed(row + 1) - mixed(row)) };
         if price.is_nan() { f64::INFINITY } else { price }
+    }
+
+    /// The plane that lies highest over a level way and below all prices.
+    fn largest_bound(&self) -> Bound {
+        /// Thirds that are taken off an interval: to less than 1e-9 of it.
+        const STEPS: usize = 54;
+        let open = || self.table.iter().enumerate().filter(|(_, price)| price.is_finite());
+        let under = |climb: f64| {
+            let left =
+                |(place, price): (usize, &f32)| f64::from(*price) - climb * self.of.point(place).0;
+            open().map(left).fold(f64::INFINITY, f64::min)
+        };
+        let dearest = open().map(|(_, price)| f64::from(*price)).fold(0.0, f64::max);
+        // The least of many planes is concave in their common slope.
+        let reach = dearest / self.of.step.max(f64::MIN_POSITIVE) / ALONG as f64;
+        let (mut low, mut high) = (-reach, reach);
+        for _ in 0..STEPS {
+            let third = (high - low) / 3.0;
+            if under(low + third) < under(high - third) {
+                low += third;
+            } else {
+                high -= third;
+            }
+        }
+        let climb = f64::midpoint(low, high);
+        let level = under(climb);
+        // A little less, for what single precision takes off.
+        Bound { level: if level.is_finite() { level * (1.0 - 1e-6) } else { 0.0 }, climb }
+    }
+}
+
+impl RouteTables {
+    /// Rises along and across at a place of the table.
+    fn point(&self, place: usize) -> (f64, f64) {
+        let along = (place % ALONG) as f64 - (ALONG / 2) as f64;
+        (along * self.step, (place / ALONG) as f64 * self.step)
     }
 
     /// A metre of way; none where nobody may go.
@@ -177,34 +228,6 @@ impl Costs {
         let failed = self.fails_on(slope, course).filter(|fails| *fails).count();
         failed as f64 / self.tables[0].steepest().len() as f64
     }
-
-    /// The plane that lies highest over a level way and below all prices.
-    fn largest_bound(&self) -> Bound {
-        /// Thirds that are taken off an interval: to less than 1e-9 of it.
-        const STEPS: usize = 54;
-        let open = || self.table.iter().enumerate().filter(|(_, price)| price.is_finite());
-        let under = |climb: f64| {
-            let left =
-                |(place, price): (usize, &f32)| f64::from(*price) - climb * self.point(place).0;
-            open().map(left).fold(f64::INFINITY, f64::min)
-        };
-        let dearest = open().map(|(_, price)| f64::from(*price)).fold(0.0, f64::max);
-        // The least of many planes is concave in their common slope.
-        let reach = dearest / self.step.max(f64::MIN_POSITIVE) / ALONG as f64;
-        let (mut low, mut high) = (-reach, reach);
-        for _ in 0..STEPS {
-            let third = (high - low) / 3.0;
-            if under(low + third) < under(high - third) {
-                low += third;
-            } else {
-                high -= third;
-            }
-        }
-        let climb = f64::midpoint(low, high);
-        let level = under(climb);
-        // A little less, for what single precision takes off.
-        Bound { level: if level.is_finite() { level * (1.0 - 1e-6) } else { 0.0 }, climb }
-    }
 }
 
 /// Slope and course of a way [rad].
@@ -220,12 +243,11 @@ fn on_slope(along: f64, across: f64) -> (f64, f64) {
 
 /// The courses of the tables [rad].
 fn courses() -> impl Iterator<Item = f64> {
-    #[expect(clippy::cast_possible_truncation, reason = "a small whole number")]
-    let half = (90.0 / COURSE_STEP_DEG) as i32;
-    (-half..=half).map(|step| (f64::from(step) * COURSE_STEP_DEG).to_radians())
+    (0..COURSES).map(|number| (number as f64 * COURSE_STEP_DEG - 90.0).to_radians())
 }
 
 /// The time of a metre that the worst of the samples need.
+#[derive(Clone, Debug)]
 struct Risk {
     /// By course and slope.
     times: Vec<Vec<f64>>,
@@ -249,13 +271,10 @@ impl Risk {
         for course in courses() {
             let one = |sample: &Sample| -> Result<Vec<f64>, ParameterError> {
                 let curve = mobility.heading.of_sample(sample).curve_on(course)?;
-                let time = |place: usize| {
-                    let heading = curve.at((place as f64 * SLOPE_STEP_DEG).to_radians());
-                    let held =
-                        heading.ok().filter(|it| it.slip_ratio <= mobility.rule.no_go_slip_ratio);
-                    held.map_or(stuck, |it| it.speed_ratio() / mobility.rim_speed)
-                };
-                Ok((0..SLOPES).map(time).collect())
+                let time = |slip: f64, crab: f64| cos(crab) / (1.0 - slip) / mobility.rim_speed;
+                let most = mobility.rule.no_go_slip_ratio;
+                let times = times_of(&curve, most, time);
+                Ok((0..SLOPES).map(|slope| times(slope).unwrap_or(stuck)).collect())
             };
             let Some(found) = outputs_of_samples(samples, go_on, one) else { return Ok(None) };
             let found = found.into_iter().collect::<Result<Vec<_>, ParameterError>>()?;
@@ -282,6 +301,26 @@ impl Risk {
             times[column] + u * (times[column + 1] - times[column])
         };
         mixed(row) + v * (mixed(row + 1) - mixed(row))
+    }
+}
+
+/// The time of a metre on each slope by its number, between the points of a curve; none where it ends, or slips more than it
+/// may.
+fn times_of(
+    curve: &HeadingCurve,
+    most_slip: f64,
+    time: impl Fn(f64, f64) -> f64,
+) -> impl Fn(usize) -> Option<f64> {
+    let points: Vec<[f64; 3]> = curve.points().collect();
+    move |place| {
+        let slope = (place as f64 * SLOPE_STEP_DEG).to_radians();
+        let above = points.iter().position(|point| point[0] >= slope)?;
+        let (low, high) = (points[above.saturating_sub(1)], points[above]);
+        let rise = high[0] - low[0];
+        let share = if rise > 0.0 { (slope - low[0]) / rise } else { 1.0 };
+        let [slip, crab] = [1, 2].map(|it| low[it] + share * (high[it] - low[it]));
+        (slip <= most_slip)
+            .then(|| if slip < 0.0 { time(0.0, crab) * (1.0 + slip) } else { time(slip, crab) })
     }
 }
 

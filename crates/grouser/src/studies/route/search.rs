@@ -25,7 +25,7 @@ pub(super) struct Lattice<'a> {
     rows: usize,
     /// How steeply the ground of each cell rises to the east and to the north; NaN where nobody may go.
     gradients: Vec<[f32; 2]>,
-    costs: &'a Costs,
+    costs: &'a Costs<'a>,
     /// What it costs to turn by a radian.
     turn: f64,
 }
@@ -52,7 +52,7 @@ impl<'a> Lattice<'a> {
     /// * `turn`: what it costs to turn by a radian
     pub(super) fn new(
         ground: Ground<'a>,
-        costs: &'a Costs,
+        costs: &'a Costs<'a>,
         turn: f64,
         is_open: impl Fn(Vec2) -> bool + Sync,
     ) -> Self {

@@ -33,9 +33,14 @@ fn ends(from: [f64; 2], to: [f64; 2]) -> Ends {
     Ends { from: Vec2::from(from), to: Vec2::from(to), yaw: None }
 }
 
+/// With the risk.
+fn tables(study: &RouteStudy) -> RouteTables {
+    study.tables(&[], true, &|| true).unwrap().unwrap()
+}
+
 fn answer(study: &RouteStudy, raster: &Raster, ends: &Ends, objective: Objective) -> Answer {
     let ground = Ground::under(&study.mobility.heading.rover, raster);
-    study.route(ground, ends, objective, &[], &|| true).unwrap().unwrap()
+    study.route(&tables(study), ground, ends, objective).unwrap()
 }
 
 fn route(study: &RouteStudy, raster: &Raster, ends: &Ends, objective: Objective) -> Route {
@@ -75,7 +80,8 @@ fn the_way_is_the_cheapest_there_is() {
     let (study, raster) = (study(), ground_of(34, 30, 0.8, hills));
     let ground = Ground::under(&study.mobility.heading.rover, &raster);
     for objective in Objective::ALL {
-        let costs = Costs::of(&study, &[], objective, &|| true).unwrap().unwrap();
+        let tables = tables(&study);
+        let costs = Costs::of(&tables, objective);
         assert!(costs.bound.level > 0.0, "{:?}", costs.bound);
         let turn = 5.0;
         let lattice = Lattice::new(ground, &costs, turn, |_| true);
@@ -111,7 +117,8 @@ fn the_guidance_is_consistent() {
     let (study, raster) = (study(), ground_of(40, 40, 0.8, hills));
     let ground = Ground::under(&study.mobility.heading.rover, &raster);
     for objective in Objective::ALL {
-        let costs = Costs::of(&study, &[], objective, &|| true).unwrap().unwrap();
+        let tables = tables(&study);
+        let costs = Costs::of(&tables, objective);
         let lattice = Lattice::new(ground, &costs, 1.0, |_| true);
         let target = 31 * 40 + 17;
         let mut moves = 0;
@@ -208,7 +215,8 @@ fn without_a_way_the_answer_says_why() {
         "{on_the_wall:?}"
     );
     let ground = Ground::under(&study.mobility.heading.rover, &raster);
-    let off = study.route(ground, &ends([3.0, 5.0], [99.0, 5.0]), Objective::Time, &[], &|| true);
+    let far = ends([3.0, 5.0], [99.0, 5.0]);
+    let off = study.route(&tables(&study), ground, &far, Objective::Time);
     let error = off.unwrap_err().to_string();
     assert!(error.starts_with("the target at x 99.00 m, y 5.00 m is not on the map"), "{error}");
 }
