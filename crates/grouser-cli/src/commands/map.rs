@@ -141,7 +141,7 @@ fn write(
     bands: &[MapColumn],
 ) -> Result<(), Failure> {
     let missing: Vec<&MapColumn> = bands.iter().filter(|band| !folder.has(band.name)).collect();
-    if missing.len() < bands.len() {
+    if missing.len() < bands.len() && output::terminal::has_progress() {
         let there = bands.len() - missing.len();
         output::message(&format!("{there} of {} bands are there already", bands.len()));
     }

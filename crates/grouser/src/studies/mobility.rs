@@ -325,6 +325,13 @@ impl MobilityTable {
         &self.thresholds.of_samples
     }
 
+    /// Takes for the steepest slope of each sample the mean of those on two other courses.
+    pub(super) fn set_steepest_between(&mut self, one: &Self, other: &Self) {
+        let pairs = one.steepest().iter().zip(other.steepest());
+        self.thresholds.of_samples =
+            pairs.map(|(one, other)| f64::midpoint(*one, *other)).collect();
+    }
+
     /// In which share of the samples a slope [rad] is a no-go [-].
     #[must_use]
     pub fn probability_no_go(&self, slope: f64) -> f64 {

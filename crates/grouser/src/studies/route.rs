@@ -270,7 +270,9 @@ impl RouteStudy {
             self.keep_out.as_ref().is_some_and(|zones| zones.zone(lattice.place(cell)).is_some());
         let why = match () {
             () if is_kept_out => "lies where nobody may go",
-            () if !lattice.is_open(cell) => "has no height",
+            () if !lattice.is_open(cell) => {
+                "lies at the edge of the map, or beside a place without a height"
+            }
             () if !lattice.has_way(cell) => "is a no-go in every direction",
             () => return Ok(Ok(cell)),
         };

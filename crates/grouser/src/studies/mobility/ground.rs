@@ -52,6 +52,18 @@ impl<'a> Ground<'a> {
         self.raster.gradient(column, row, self.reach)
     }
 
+    /// Whether the ground is known all around a point, as far as a rover's wheels reach.
+    #[must_use]
+    pub fn surrounds(&self, column: usize, row: usize) -> bool {
+        let raster = self.raster;
+        let [east, north] = self.reach;
+        column >= east
+            && row >= north
+            && (row - north..=row + north).all(|row| {
+                (column - east..=column + east).all(|column| raster.height(column, row).is_some())
+            })
+    }
+
     /// What a rover does at a point; none where its height is missing.
     ///
     /// * `row`: from the south

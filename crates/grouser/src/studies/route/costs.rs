@@ -72,9 +72,18 @@ impl RouteStudy {
         with_risk: bool,
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<RouteTables>, ParameterError> {
-        let table = |course| self.mobility.table_of(course, samples, Detail::Rough, go_on);
-        let tables = courses().map(table).collect::<Result<Option<Vec<_>>, _>>()?;
-        let Some(tables) = tables else { return Ok(None) };
+        // Of the samples every other course is followed, and between two of them lies the mean.
+        let table = |(number, course): (usize, f64)| {
+            let samples = if number % 2 == 0 { samples } else { &[] };
+            self.mobility.table_of(course, samples, Detail::Rough, go_on)
+        };
+        let tables = courses().enumerate().map(table).collect::<Result<Option<Vec<_>>, _>>()?;
+        let Some(mut tables) = tables else { return Ok(None) };
+        for number in (1..COURSES - 1).step_by(2) {
+            let (before, rest) = tables.split_at_mut(number);
+            let (between, after) = rest.split_at_mut(1);
+            between[0].set_steepest_between(&before[number - 1], &after[0]);
+        }
         let mut risk = None;
         if with_risk {
             let Some(found) = Risk::of(self, samples, go_on)? else { return Ok(None) };
@@ -249,7 +258,7 @@ fn courses() -> impl Iterator<Item = f64> {
 /// The time of a metre that the worst of the samples need.
 #[derive(Clone, Debug)]
 struct Risk {
-    /// By course and slope.
+    /// By every other course, and slope.
     times: Vec<Vec<f64>>,
 }
 
@@ -268,7 +277,7 @@ impl Risk {
         let samples = if samples.is_empty() { &nominal } else { samples };
         let stuck = super::STUCK_WAY / mobility.rim_speed;
         let mut times = Vec::new();
-        for course in courses() {
+        for course in courses().step_by(2) {
             let one = |sample: &Sample| -> Result<Vec<f64>, ParameterError> {
                 let curve = mobility.heading.of_sample(sample).curve_on(course)?;
                 let time = |slip: f64, crab: f64| cos(crab) / (1.0 - slip) / mobility.rim_speed;
@@ -292,7 +301,7 @@ impl Risk {
     fn at(&self, along: f64, across: f64) -> f64 {
         let (slope, course) = on_slope(along, across);
         let x = (slope.to_degrees() / SLOPE_STEP_DEG).min((SLOPES - 1) as f64);
-        let y = (course.to_degrees() + 90.0) / COURSE_STEP_DEG;
+        let y = (course.to_degrees() + 90.0) / (2.0 * COURSE_STEP_DEG);
         let (column, row) =
             ((x as usize).min(SLOPES - 2), (y.max(0.0) as usize).min(self.times.len() - 2));
         let (u, v) = (x - column as f64, (y - row as f64).clamp(0.0, 1.0));

@@ -59,7 +59,8 @@ impl<'a> Lattice<'a> {
         let grid = &ground.raster().grid;
         let gradient = |cell: usize| {
             let (column, row) = (cell % grid.columns, cell / grid.columns);
-            let found = ground.gradient(column, row).filter(|_| is_open(grid.point(column, row)));
+            let may_be = ground.surrounds(column, row) && is_open(grid.point(column, row));
+            let found = may_be.then(|| ground.gradient(column, row)).flatten();
             #[expect(clippy::cast_possible_truncation, reason = "as heights are")]
             found.map_or([f32::NAN; 2], |it| [it.x as f32, it.y as f32])
         };

@@ -1,0 +1,179 @@
+//! Mobility maps: numbers of `heading-map`, files that open, and maps that were stopped.
+
+use std::fmt::Write as _;
+use std::fs;
+
+use grouser_raster::{Raster, ReadOptions};
+use serde_json::Value;
+
+use crate::bad_input::check_is_refusal;
+use crate::program::{Place, number};
+
+/// A map of 30 × 20 points, 0.5 m apart, each with the height of a formula of the way from its corner; one of them is not
+/// there.
+pub(crate) fn heights(height: impl Fn(f64, f64) -> f64) -> String {
+    let mut text = String::new();
+    for (row, column) in (0..20).flat_map(|row| (0..30).map(move |column| (row, column))) {
+        let [x, y] = [column, row].map(|cells| 0.5 * f64::from(cells));
+        if (column, row) != (25, 3) {
+            let _ = writeln!(text, "{:.1} {:.1} {:.9}", 7000.0 + x, -300.0 + y, height(x, y));
+        }
+    }
+    text
+}
+
+fn band(answer: &Value, place: &Place, name: &str) -> Raster {
+    let files = answer["files"].as_array().expect("files");
+    let file = files.iter().find(|file| file["name"] == name).expect("such a band");
+    let path = place.file(file["path"].as_str().expect("a path"));
+    grouser_raster::read(&path, &ReadOptions::default()).expect("it opens")
+}
+
+/// On a plane every place has the row of `heading-map` for its slope, and the heading turns with the plane.
+#[test]
+fn a_plane_has_the_numbers_of_the_heading_map() {
+    let place = Place::new();
+    for (number_of, course, rises) in [(0, 0.0, 90.0_f64), (1, 30.0, 210.0)] {
+        let (sin, cos) = rises.to_radians().sin_cos();
+        let tan = 12_f64.to_radians().tan();
+        place.write("plane.xyz", heights(|x, y| tan * (x * cos + y * sin)));
+        let out = format!("map-{number_of}");
+        let map =
+            place.json(&format!("map plane.xyz --course-deg {course} --samples 5 --out {out}"));
+        let row = place.json(&format!("attitude-map --slope-deg 12 --course-deg {course}"));
+        let row = &row["rows"][0];
+        let error = |name: &str| number(&map["interpolation_error"][name]) + 2e-5;
+        let check = |name: &str, expected: f64| {
+            let found = band(&map, &place, name).height(14, 9).expect("a number");
+            let difference = (found - expected).abs();
+            assert!(
+                difference <= error(name) + 1e-6 * expected.abs(),
+                "{name}: {found} {expected}"
+            );
+        };
+        for name in ["slip_ratio", "power_w", "sinkage_mm"] {
+            check(name, number(&row[name]));
+        }
+        let yaw = number(&row["yaw_deg"]).to_radians();
+        let on_map = (yaw.sin() * 12_f64.to_radians().cos()).atan2(yaw.cos()).to_degrees();
+        let heading = on_map + rises - 90.0;
+        let found = band(&map, &place, "heading_deg").height(14, 9).expect("a number");
+        let apart = (found - heading + 180.0).rem_euclid(360.0) - 180.0;
+        assert!(apart.abs() <= error("heading_deg"), "{found} {heading}");
+        assert!((band(&map, &place, "slope_deg").height(3, 4).expect("one") - 12.0).abs() < 1e-3);
+    }
+}
+
+/// A map of hills has all its files, in the coordinates of the heights; places without a height have no number.
+#[test]
+fn a_map_has_its_bands_styles_and_page() {
+    let place = Place::new();
+    place.write("hills.xyz", heights(|x, y| 0.8 * (0.7 * x).sin() * (0.5 * y).cos()));
+    let map = place
+        .json("map hills.xyz --course-deg best --soil toyoura-uncertain --samples 8 --out map");
+    let names: Vec<&str> = map["files"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|file| file["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(
+        names,
+        [
+            "slope_deg",
+            "heading_deg",
+            "slip_ratio",
+            "drift_m_per_m",
+            "power_w",
+            "sinkage_mm",
+            "verdict",
+            "probability_no_go",
+            "course_deg",
+        ]
+    );
+    let heights = grouser_raster::read(&place.file("hills.xyz"), &ReadOptions::default()).unwrap();
+    let counts = ["go", "caution", "no_go", "unknown"].map(|word| number(&map["verdicts"][word]));
+    assert_eq!(counts.iter().sum::<f64>(), 600.0);
+    for name in names {
+        let band = band(&map, &place, name);
+        assert_eq!(band.grid, heights.grid, "{name}");
+        assert_eq!(band.height(25, 3), None, "{name}");
+        let style = place.read(&format!("map/{name}.qml"));
+        assert!(
+            style.starts_with("<!DOCTYPE qgis>") && style.contains("<rasterrenderer"),
+            "{style}"
+        );
+    }
+    let verdict = band(&map, &place, "verdict");
+    let probability = band(&map, &place, "probability_no_go");
+    for (column, row) in (0..20).flat_map(|row| (0..30).map(move |column| (column, row))) {
+        let (Some(verdict), Some(share)) =
+            (verdict.height(column, row), probability.height(column, row))
+        else {
+            continue;
+        };
+        assert!((1.0..=3.0).contains(&verdict) && (0.0..=1.0).contains(&share));
+        assert!(share <= 0.2 || verdict == 3.0, "{column} {row}: {verdict} {share}");
+    }
+    let page = place.read("map/map.html");
+    assert_eq!(page.matches("<svg").count(), 9, "a picture of each band");
+    assert!(!place.names().iter().any(|name| name.contains("in-the-making")));
+}
+
+/// What was there when a map was stopped stays, and the rest is the same to the byte as of a map that was not.
+#[test]
+fn a_map_that_was_stopped_goes_on() {
+    let place = Place::new();
+    place.write("hills.xyz", heights(|x, y| 0.8 * (0.7 * x).sin() * (0.5 * y).cos()));
+    place.results("map hills.xyz --samples 4 --out whole");
+    // A folder where a band is to be written stops that one.
+    fs::create_dir_all(place.file("stopped/.power_w.part")).unwrap();
+    let stopped = place.line("map hills.xyz --samples 4 --out stopped --force");
+    assert_eq!(stopped.code(), 1, "{}", stopped.conversation());
+    assert!(stopped.stderr.contains(".power_w.part: cannot be written"), "{}", stopped.stderr);
+    fs::remove_dir(place.file("stopped/.power_w.part")).unwrap();
+    assert!(place.file("stopped/slope_deg.tif").exists());
+    assert!(
+        !place.file("stopped/power_w.tif").exists() && !place.file("stopped/map.json").exists()
+    );
+    let made = |name: &str| fs::metadata(place.file(name)).unwrap().modified().unwrap();
+    let before = made("stopped/slope_deg.tif");
+    let other = check_is_refusal(&place.line("map hills.xyz --samples 5 --out stopped"), 2);
+    assert!(other.contains("has a map in the making, of other inputs"), "{other}");
+    place.results("map hills.xyz --samples 4 --out stopped");
+    assert_eq!(made("stopped/slope_deg.tif"), before);
+    for entry in fs::read_dir(place.file("whole")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        if name.ends_with(".tif") || name.ends_with(".qml") {
+            let [one, other] =
+                ["whole", "stopped"].map(|it| fs::read(place.file(&format!("{it}/{name}"))));
+            assert!(one.unwrap() == other.unwrap(), "{name}");
+        }
+    }
+    assert!(!place.file("stopped/map-in-the-making.json").exists());
+}
+
+#[test]
+fn maps_that_cannot_be_made_say_why() {
+    let place = Place::new();
+    place.write("hills.xyz", heights(|x, _| 0.1 * x));
+    place.write("picture.tif", "no tiff");
+    for (line, words) in [
+        (
+            "map hills.xyz --course-deg up --out m",
+            "--course-deg up: expected an angle of -90 to 90, best or worst",
+        ),
+        ("map hills.xyz --course-deg 91 --out m", "--course-deg"),
+        ("map nowhere.tif --out m", "nowhere.tif"),
+        ("map picture.tif --out m", "picture.tif"),
+        ("map hills.xyz --set scenario.slope_deg=5 --out m", "slopes are those of the ground"),
+        ("map hills.xyz --out hills.xyz", "is a file"),
+        ("map hills.xyz --go-slip-ratio 0.7 --out m", "go slip ratio"),
+        ("map hills.xyz", "--out"),
+    ] {
+        let answer = place.line(line);
+        assert!(answer.code() == 1 || answer.code() == 2, "{}", answer.conversation());
+        assert!(answer.stderr.contains(words), "{}", answer.conversation());
+        assert!(!place.file("m").exists(), "{line}");
+    }
+}

@@ -1,0 +1,111 @@
+//! Routes: found, checked by simulation, driven as missions, and refused with a reason.
+
+use serde_json::{Value, json};
+
+use crate::maps::heights;
+use crate::program::{Place, number};
+
+/// A ridge across the map with a pass in the north, too steep to be crossed elsewhere.
+fn ridge(x: f64, y: f64) -> f64 {
+    let height = if y > 7.0 { 0.0 } else { (7.0 - y).min(2.0) };
+    height * (-((x - 7.0) / 1.2).powi(2)).exp()
+}
+
+fn places(route: &Value) -> Vec<[f64; 2]> {
+    let list = route["waypoints"].as_array().expect("waypoints").iter();
+    list.map(|place| [number(&place[0]), number(&place[1])]).collect()
+}
+
+#[test]
+fn a_route_goes_around_and_can_be_driven() {
+    let place = Place::new();
+    place.write("ridge.xyz", heights(ridge));
+    let line = "route ridge.xyz --from 7002,-298 --to 7010.5,-298 --samples 6 --alternatives --no-drive --out out";
+    let route = place.json(line);
+    assert_eq!(route["status"], "found");
+    let way = places(&route);
+    assert_eq!((way[0], way[way.len() - 1]), ([7002.0, -298.0], [7010.5, -298.0]));
+    assert!(way.iter().any(|[_, y]| *y > -294.5), "{way:?}");
+    let straight = number(&route["straight_m"]);
+    assert!(number(&route["length_m"]) > 1.2 * straight);
+    let named: Vec<&Value> = route["alternatives"].as_array().unwrap().iter().collect();
+    assert_eq!(named.iter().map(|it| &it["minimise"]).collect::<Vec<_>>(), ["energy", "risk"]);
+    assert!(named.iter().all(|it| number(&it["time_s"]) >= 0.999 * number(&route["time_s"])));
+    let page = place.read("out/report.html");
+    assert!(page.contains("<polyline") && page.contains("least risk"), "a picture of the ways");
+    // A short one is driven at once, and its line is a mission.
+    let short =
+        place.json("route ridge.xyz --from 7002,-298 --to 7003,-296 --samples 2 --out short");
+    let driven = &short["simulated"];
+    assert_eq!(driven["outcome"], "completed");
+    for error in ["time_error", "energy_error"] {
+        assert!(number(&driven[error]).abs() < 0.1, "{error}: {driven}");
+    }
+    let mission =
+        "schema = \"mission/1\"\n[terrain]\nfile = \"ridge.xyz\"\nstart_m = [7002.0, -298.0]\n";
+    place.write("mission.toml", mission);
+    let legs = place.json(
+        "mission mission.toml --legs-from short/route.geojson --set mission.simulation=quasi-steady",
+    );
+    let rows = legs["legs"].as_array().or(legs["rows"].as_array()).expect("legs");
+    let last = rows.last().expect("a leg");
+    assert!((number(&last["x_m"]) - 7003.0).abs() < 0.2, "{last}");
+}
+
+/// A square of GeoJSON, as a start and a size [m].
+fn square(x: f64, y: f64, size: f64) -> Value {
+    let ring = [[x, y], [x + size, y], [x + size, y + size], [x, y + size], [x, y]];
+    json!({"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [ring]}})
+}
+
+#[test]
+fn a_route_keeps_out_of_areas() {
+    let place = Place::new();
+    place.write("flat.xyz", heights(|_, _| 2.0));
+    place.write("keep.geojson", square(7005.0, -300.0, 4.0).to_string());
+    let line = "route flat.xyz --from 7002,-298 --to 7010.5,-298 --samples 2 --no-drive --keep-out keep.geojson";
+    let route = place.json(line);
+    assert!(places(&route).iter().any(|[_, y]| *y > -296.2), "{route}");
+    let inside = place.json(&line.replace("7010.5,-298", "7007,-298"));
+    assert_eq!(inside["status"], "no-safe-route");
+    assert!(inside["reason"].as_str().unwrap().contains("lies where nobody may go"), "{inside}");
+    let tie =
+        [[7003.0, -299.0], [7006.0, -296.0], [7006.0, -299.0], [7003.0, -296.0], [7003.0, -299.0]];
+    let tie = json!({"type": "Feature", "geometry": {"type": "Polygon", "coordinates": [tie]}});
+    place.write("keep.geojson", tie.to_string());
+    let answer = place.line(line);
+    assert!(
+        answer.stderr.contains("its edge crosses itself near x 7004.5, y -297.5"),
+        "{}",
+        answer.stderr
+    );
+    place.write("keep.geojson", square(0.0, 0.0, 4.0).to_string());
+    assert_eq!(place.line(line).code(), 2, "an area somewhere else");
+}
+
+#[test]
+fn what_is_no_route_is_said() {
+    let place = Place::new();
+    place.write("wall.xyz", heights(|x, _| 6.0 * ((x - 6.0) / 2.0).clamp(0.0, 1.0)));
+    let cut = place.json("route wall.xyz --from 7002,-298 --to 7010.5,-298 --samples 2");
+    assert_eq!(cut["status"], "no-safe-route");
+    assert!(
+        cut["reason"].as_str().unwrap().contains("cannot be crossed within the limits"),
+        "{cut}"
+    );
+    assert!(cut["waypoints"].as_array().unwrap().is_empty() && cut["energy_j"].is_null());
+    for (line, words) in [
+        (
+            "route wall.xyz --from 7002,-298 --to 8012,-298",
+            "the target at x 8012.00 m, y -298.00 m is not on the map",
+        ),
+        ("route wall.xyz --from 7002 --to 8012,-298", "--from: expected two numbers"),
+        ("route wall.xyz --from 7002,-298 --to 7003,-298 --most-no-go 2", "--most-no-go"),
+        ("route wall.xyz --from 7002,-298 --to 7003,-298 --keep-out no.geojson", "no.geojson"),
+        ("route wall.xyz --from 7002,-298", "--to"),
+    ] {
+        let answer = place.line(line);
+        assert!(answer.code() == 1 || answer.code() == 2, "{}", answer.conversation());
+        assert!(answer.stderr.contains(words), "{}", answer.conversation());
+    }
+}
