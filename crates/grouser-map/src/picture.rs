@@ -142,7 +142,7 @@ impl Scale {
             );
         }
         let labels: Vec<(f64, String)> = if self.look == Look::Verdicts {
-            let words = self.look.words().into_iter().enumerate();
+            let words = Look::verdict_words().into_iter().enumerate();
             words.map(|(place, word)| ((place as f64 + 0.5) / count, word.to_owned())).collect()
         } else {
             let number = |share: f64| rounded(self.low + share * (self.high - self.low));

@@ -44,7 +44,7 @@ impl Look {
     }
 
     /// The words of verdicts, in the order of their numbers.
-    pub(crate) fn words(self) -> [&'static str; 3] {
+    pub(crate) fn verdict_words() -> [&'static str; 3] {
         VERDICTS.map(|(_, _, word)| word)
     }
 

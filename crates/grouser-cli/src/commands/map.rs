@@ -1,10 +1,11 @@
 //! `grouser map`: where a rover can go on a map of heights.
 
 mod folder;
+mod numbers;
 mod page;
 
+use grouser::document::columns::LIMIT_SLOPE;
 use grouser::document::columns::map::{bands, chosen};
-use grouser::document::columns::{LIMIT_SLOPE, POWER, SINKAGE, SLIP_RATIO, YAW};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::mobility::{CourseChoice, Ground, MobilityMap};
 use grouser_map::{BandSummary, Look, MapColumn, style, summaries, write_band};
@@ -13,6 +14,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use self::folder::MapFolder;
+use self::numbers::{errors, label};
 use super::{Answer, sampling};
 use crate::args::MapArgs;
 use crate::failure::Failure;
@@ -178,15 +180,6 @@ fn record(folder: &MapFolder, band: &MapColumn, of: &BandSummary) -> FileRecord 
     }
 }
 
-/// What a band is called in pictures and styles.
-fn label(band: &MapColumn) -> String {
-    let words = grouser::document::columns::quantity(band.name, band.unit).label();
-    match band.unit.symbol {
-        "" | "-" => words,
-        unit => format!("{words} [{unit}]"),
-    }
-}
-
 /// The steepest slope on which a heading holds the course [°]; where courses are chosen, of the one that reaches
 /// farthest.
 fn limit(inputs: &MapInputs, map: &MobilityMap) -> Option<f64> {
@@ -197,17 +190,6 @@ fn limit(inputs: &MapInputs, map: &MobilityMap) -> Option<f64> {
         limits.reduce(f64::max)
     };
     limit.map(|limit| LIMIT_SLOPE.unit.from_si(limit))
-}
-
-/// How far numbers of the map are from those of `heading-map` on the same slope, at most.
-fn errors(map: &MobilityMap) -> Value {
-    let errors = map.largest_errors();
-    json!({
-        "heading_deg": YAW.unit.from_si(errors.crab),
-        (SLIP_RATIO.name): errors.slip_ratio,
-        (POWER.name): errors.power,
-        (SINKAGE.name): SINKAGE.unit.from_si(errors.sinkage),
-    })
 }
 
 fn sentence(results: &Results<'_>) -> String {

@@ -2,10 +2,11 @@
 
 mod geojson;
 mod page;
+mod record;
 
 use std::sync::Arc;
 
-use grouser::document::columns::{ENERGY, SLOPE, TIME, YAW};
+use grouser::document::columns::SLOPE;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::mobility::Ground;
 use grouser::studies::route::{
@@ -14,48 +15,15 @@ use grouser::studies::route::{
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use self::record::{Brief, RouteRecord, Way};
 use super::{Answer, sampling};
 use crate::args::RouteArgs;
 use crate::failure::Failure;
 use crate::inputs::{self, RouteInputs};
 use crate::output::folder::OutputFolder;
-use crate::output::rows::{Rows, four_digits};
+use crate::output::rows::Rows;
 use crate::output::{self, Format};
 use crate::report::REPORT;
-
-/// A way, as it leaves.
-#[derive(Clone, Serialize)]
-struct RouteRecord {
-    minimise: &'static str,
-    /// `found` or `no-safe-route`.
-    status: &'static str,
-    reason: Option<String>,
-    length_m: Option<f64>,
-    time_s: Option<f64>,
-    energy_j: Option<f64>,
-    turned_deg: Option<f64>,
-    mean_slip_ratio: Option<f64>,
-    most_slip_ratio: Option<f64>,
-    most_slope_deg: Option<f64>,
-    probability_no_go: Option<f64>,
-    waypoints: Vec<[f64; 2]>,
-    simulated: Option<Simulated>,
-}
-
-/// What simulation makes of it.
-#[derive(Clone, Serialize)]
-struct Simulated {
-    outcome: &'static str,
-    legs: usize,
-    length_m: f64,
-    time_s: f64,
-    energy_j: f64,
-    slip_ratio: Option<f64>,
-    miss_m: f64,
-    /// How far the prediction is from it, over it [-].
-    time_error: f64,
-    energy_error: f64,
-}
 
 #[derive(Serialize)]
 struct Results<'a> {
@@ -64,13 +32,6 @@ struct Results<'a> {
     straight_m: f64,
     coordinate_system: String,
     alternatives: &'a [RouteRecord],
-}
-
-/// A way that was found, or why there is none.
-struct Way {
-    objective: Objective,
-    found: Found,
-    driven: Option<DrivenRoute>,
 }
 
 pub(crate) fn run(args: &RouteArgs) -> Result<(), Failure> {
@@ -159,130 +120,6 @@ fn drive(route: &Route, inputs: &RouteInputs) -> Result<DrivenRoute, Failure> {
     let driven = route.drive(scenario, &Arc::new(model), inputs.study.mobility.rim_speed);
     bar.finish_and_clear();
     driven.map_err(|error| Failure::Run(format!("the way cannot be driven: {error}")))
-}
-
-impl RouteRecord {
-    fn of(way: &Way) -> Self {
-        let minimise = way.objective.name();
-        match &way.found {
-            Found::Route(route) => Self {
-                minimise,
-                status: "found",
-                reason: None,
-                length_m: Some(route.length),
-                time_s: Some(route.time),
-                energy_j: Some(route.energy),
-                turned_deg: Some(YAW.unit.from_si(route.turned)),
-                mean_slip_ratio: Some(route.mean_slip_ratio),
-                most_slip_ratio: Some(route.most_slip_ratio),
-                most_slope_deg: Some(SLOPE.unit.from_si(route.most_slope)),
-                probability_no_go: Some(route.probability_no_go),
-                waypoints: route.waypoints.iter().map(|it| [it.x, it.y]).collect(),
-                simulated: way.driven.as_ref().map(|driven| Simulated::of(route, driven)),
-            },
-            Found::NoSafeRoute(reason) => Self {
-                minimise,
-                status: "no-safe-route",
-                reason: Some(reason.to_string()),
-                length_m: None,
-                time_s: None,
-                energy_j: None,
-                turned_deg: None,
-                mean_slip_ratio: None,
-                most_slip_ratio: None,
-                most_slope_deg: None,
-                probability_no_go: None,
-                waypoints: Vec::new(),
-                simulated: None,
-            },
-        }
-    }
-
-    /// What the table does not say.
-    fn line(&self) -> String {
-        match (&self.reason, &self.simulated) {
-            (Some(reason), _) => format!("least {}: no safe route: {reason}\n", self.minimise),
-            (None, Some(driven)) => format!(
-                "least {}: driven by simulation: {}, {} s ({:+.1} %), {} J ({:+.1} %), {} m from the target\n",
-                self.minimise,
-                driven.outcome,
-                four_digits(driven.time_s),
-                100.0 * driven.time_error,
-                four_digits(driven.energy_j),
-                100.0 * driven.energy_error,
-                four_digits(driven.miss_m)
-            ),
-            (None, None) => String::new(),
-        }
-    }
-}
-
-impl Simulated {
-    fn of(route: &Route, driven: &DrivenRoute) -> Self {
-        let error = |predicted: f64, simulated: f64| predicted / simulated - 1.0;
-        Self {
-            outcome: driven.outcome,
-            legs: driven.legs,
-            length_m: driven.distance,
-            time_s: driven.time,
-            energy_j: driven.energy,
-            slip_ratio: driven.slip_ratio,
-            miss_m: driven.miss,
-            time_error: error(route.time, driven.time),
-            energy_error: error(route.energy, driven.energy),
-        }
-    }
-}
-
-/// A row of the table.
-#[derive(Serialize)]
-struct Brief {
-    minimise: &'static str,
-    status: &'static str,
-    length_m: Option<f64>,
-    time_s: Option<f64>,
-    energy_j: Option<f64>,
-    turned_deg: Option<f64>,
-    mean_slip_ratio: Option<f64>,
-    most_slip_ratio: Option<f64>,
-    most_slope_deg: Option<f64>,
-    probability_no_go: Option<f64>,
-    simulated_time_s: Option<f64>,
-    simulated_energy_j: Option<f64>,
-    reason: Option<String>,
-}
-
-impl Brief {
-    const COLUMNS: [&'static str; 9] = [
-        "minimise",
-        "status",
-        "length_m",
-        TIME.name,
-        ENERGY.name,
-        "turned_deg",
-        "most_slip_ratio",
-        "most_slope_deg",
-        "probability_no_go",
-    ];
-
-    fn of(record: &RouteRecord) -> Self {
-        let simulated = record.simulated.as_ref();
-        Self {
-            minimise: record.minimise,
-            status: record.status,
-            length_m: record.length_m,
-            time_s: record.time_s,
-            energy_j: record.energy_j,
-            turned_deg: record.turned_deg,
-            mean_slip_ratio: record.mean_slip_ratio,
-            most_slip_ratio: record.most_slip_ratio,
-            most_slope_deg: record.most_slope_deg,
-            probability_no_go: record.probability_no_go,
-            simulated_time_s: simulated.map(|it| it.time_s),
-            simulated_energy_j: simulated.map(|it| it.energy_j),
-            reason: record.reason.clone(),
-        }
-    }
 }
 
 /// The inputs of the answer.

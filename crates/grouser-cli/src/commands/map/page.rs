@@ -4,7 +4,7 @@ use grouser::document::columns::map::bands;
 use grouser::studies::mobility::{Ground, MobilityMap};
 use grouser_map::{BandSummary, MapColumn, picture};
 
-use super::{errors, label};
+use super::numbers::{errors, label};
 use crate::args::MapArgs;
 use crate::inputs::MapInputs;
 use crate::output::rows::four_digits;

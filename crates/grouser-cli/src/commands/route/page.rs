@@ -3,7 +3,7 @@
 use grouser::studies::route::Answer as Found;
 use grouser_map::{Track, relief};
 
-use super::{RouteRecord, Way};
+use super::record::{Brief, RouteRecord, Way};
 use crate::args::RouteArgs;
 use crate::inputs::RouteInputs;
 use crate::output::rows::{Rows, four_digits};
@@ -34,7 +34,7 @@ pub(super) fn html(
         "Grey: how steep the ground is, dark for steep. Rings: where the way turns.",
     );
     page.heading("What each way takes");
-    page.text(&rows.to_table(&super::Brief::COLUMNS));
+    page.text(&rows.to_table(&Brief::COLUMNS));
     for record in records {
         let line = record.line();
         if !line.is_empty() {

@@ -26,10 +26,11 @@ pub(super) fn crossing(ring: &[Vec2]) -> Option<Vec2> {
         for other in &near {
             let apart = place.abs_diff(*other);
             // Neighbours share a corner.
-            if apart > 1 && apart < count - 1 {
-                if let Some(at) = common(edge(place), edge(*other)) {
-                    return Some(at);
-                }
+            if apart > 1
+                && apart < count - 1
+                && let Some(at) = common(edge(place), edge(*other))
+            {
+                return Some(at);
             }
         }
         near.push(place);

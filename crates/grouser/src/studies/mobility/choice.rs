@@ -1,6 +1,6 @@
 //! Which course is looked at, slope by slope.
 
-use super::{MobilityTable, OnSlope};
+use super::table::{MobilityTable, OnSlope};
 use crate::units::STEEPEST_SLOPE;
 
 /// The direction of travel that a map is of.

@@ -2,7 +2,7 @@
 
 use grouser_raster::Raster;
 
-use super::{CellMotion, MobilityMap};
+use super::map::{CellMotion, MobilityMap};
 use crate::units::Vec2;
 use crate::vehicle::Rover;
 

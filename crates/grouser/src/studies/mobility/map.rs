@@ -1,7 +1,7 @@
 //! What a rover does at a place of a map.
 
 use super::choice::{Choice, CourseChoice};
-use super::{Mobility, MobilityStudy, MobilityTable, OnSlope};
+use super::table::{Mobility, MobilityStudy, MobilityTable, OnSlope};
 use crate::elementary::wide::{atan2, sin_cos};
 use crate::error::ParameterError;
 use crate::studies::card::Verdict;

@@ -1,8 +1,10 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::*;
+use crate::document::LoadedScenario;
 use crate::document::{self, Overrides, Source};
-use crate::studies::ensemble::samples::BandInputs;
+use crate::studies::card::Verdict;
+use crate::studies::ensemble::samples::{BandInputs, Sample};
 use crate::units::{Vec2, deg};
 
 fn scenario(settings: &[&str]) -> LoadedScenario {

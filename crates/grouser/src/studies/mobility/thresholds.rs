@@ -1,11 +1,19 @@
 //! The steepest slopes that the samples allow.
 
-use super::{Detail, MobilityStudy};
+use super::detail::Detail;
 use crate::error::ParameterError;
 use crate::root;
-use crate::studies::card::{Verdict, best_slopes};
+use crate::studies::card::{Rule, Verdict, best_slopes};
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
-use crate::studies::heading::HeadingCurve;
+use crate::studies::heading::{HeadingCurve, HeadingStudy};
+
+/// By what slopes are judged.
+#[derive(Clone, Copy)]
+pub(super) struct Judged<'a> {
+    pub(super) heading: &'a HeadingStudy,
+    pub(super) rule: &'a Rule,
+    pub(super) is_uncertainty_stated: bool,
+}
 
 /// Slopes at which the verdict changes, and those of the samples, sorted.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,13 +33,13 @@ const NOWHERE: f64 = -1.0;
 impl Thresholds {
     /// * `samples`: with none the soil as written is judged by
     pub(super) fn of(
-        study: &MobilityStudy,
+        judged: &Judged<'_>,
         course: f64,
         samples: &[Sample],
         detail: Detail,
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Self>, ParameterError> {
-        let MobilityStudy { heading, rule, .. } = study;
+        let Judged { heading, rule, is_uncertainty_stated } = *judged;
         let nominal = [Sample { soil: heading.soil, theory: heading.theory }];
         let samples = if samples.is_empty() { &nominal } else { samples };
         let one = |sample: &Sample| {
@@ -48,7 +56,7 @@ impl Thresholds {
             slopes
         };
         let (easy, steepest) = (sorted(0), sorted(1));
-        let (best_go, best_caution) = best_slopes(heading, study.is_uncertainty_stated);
+        let (best_go, best_caution) = best_slopes(heading, is_uncertainty_stated);
         let caution = held_by(&steepest, rule.no_go_probability).min(best_caution);
         let go = held_by(&easy, rule.go_probability).min(best_go.unwrap_or(NOWHERE)).min(caution);
         let of_samples = found.iter().map(|[_, steepest]| *steepest).collect();

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{Limits, Objective, RouteStudy};
+use super::study::{Limits, Objective, RouteStudy, STUCK_WAY, WORST_SHARE};
 use crate::elementary::wide::{atan2, cos};
 use crate::error::ParameterError;
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
@@ -229,13 +229,16 @@ impl RouteTables {
 
     fn fails_on(&self, slope: f64, course: f64) -> impl Iterator<Item = bool> {
         let (below, share) = self.between(course);
-        let pairs = self.tables[below].steepest().iter().zip(self.tables[below + 1].steepest());
+        let pairs = self.tables[below]
+            .steepest_of_samples()
+            .iter()
+            .zip(self.tables[below + 1].steepest_of_samples());
         pairs.map(move |(one, other)| slope > one + share * (other - one))
     }
 
     fn probability_no_go(&self, slope: f64, course: f64) -> f64 {
         let failed = self.fails_on(slope, course).filter(|fails| *fails).count();
-        failed as f64 / self.tables[0].steepest().len() as f64
+        failed as f64 / self.tables[0].steepest_of_samples().len() as f64
     }
 }
 
@@ -275,7 +278,7 @@ impl Risk {
         let mobility = &study.mobility;
         let nominal = [Sample { soil: mobility.heading.soil, theory: mobility.heading.theory }];
         let samples = if samples.is_empty() { &nominal } else { samples };
-        let stuck = super::STUCK_WAY / mobility.rim_speed;
+        let stuck = STUCK_WAY / mobility.rim_speed;
         let mut times = Vec::new();
         for course in courses().step_by(2) {
             let one = |sample: &Sample| -> Result<Vec<f64>, ParameterError> {
@@ -342,6 +345,6 @@ fn mean_of_worst(samples: &[Vec<f64>], slope: usize) -> f64 {
         clippy::cast_sign_loss,
         reason = "a share of a count"
     )]
-    let worst = ((times.len() as f64 * super::WORST_SHARE).ceil() as usize).clamp(1, times.len());
+    let worst = ((times.len() as f64 * WORST_SHARE).ceil() as usize).clamp(1, times.len());
     times[times.len() - worst..].iter().sum::<f64>() / worst as f64
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Ends, Route};
+use super::answer::{Ends, Route};
 use crate::elementary::wide::atan2;
 use crate::mission::{Leg, LegOutcome, Manoeuvre, Mission, MissionError, MissionRun};
 use crate::simulation::scenario::{Landscape, PlacedTerrain};

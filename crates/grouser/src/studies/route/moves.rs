@@ -1,6 +1,6 @@
 //! The moves of the lattice: sixteen directions from a cell to others, and the shortest way over them.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use crate::elementary::wide::atan2;
 use crate::units::Vec2;
@@ -82,6 +82,13 @@ impl Moves {
             self.along[direction].dot(&Vec2::new(cos, sin))
         };
         (0..DIRECTIONS).max_by(|one, other| turned(*one).total_cmp(&turned(*other))).unwrap_or(0)
+    }
+
+    /// The angle between two directions [rad], 0 to π.
+    pub(super) fn turn(&self, from: usize, to: usize) -> f64 {
+        let [from, to] = [from, to].map(|it| self.along[it]);
+        let turn = atan2(from.perp(&to), from.dot(&to));
+        turn.abs().min(PI)
     }
 
     /// Columns and rows from one place to another.

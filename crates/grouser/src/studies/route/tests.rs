@@ -1,10 +1,13 @@
 use grouser_raster::{CoordinateSystem, Raster};
 
+use super::costs::Costs;
 use super::moves::DIRECTIONS;
+use super::search::{Found, Lattice};
 use super::*;
 use crate::document::{self, Overrides, Source};
-use crate::terrain::{ElevationGrid, ZonePolygon};
-use crate::units::deg;
+use crate::studies::mobility::{Ground, MobilityStudy};
+use crate::terrain::{ElevationGrid, SoilZones, ZonePolygon};
+use crate::units::{Vec2, deg};
 
 /// Ground whose height is given over x and y [m].
 fn ground_of(columns: usize, rows: usize, spacing: f64, height: impl Fn(Vec2) -> f64) -> Raster {
@@ -89,6 +92,7 @@ fn the_way_is_the_cheapest_there_is() {
         let guided = price_of(&lattice, &lattice.search(from, to, Some(3)), turn);
         // The other takes no negative prices: what the height is worth is counted as it is gained.
         let worth = |cell: usize| costs.bound.climb * f64::from(raster.heights[cell]);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
         let micro = |price: f64| (price * 1e6).round() as u64;
         let next = |&(cell, heading): &(usize, usize)| {
             let (ahead, price) = lattice.price(cell, heading);

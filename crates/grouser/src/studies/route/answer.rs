@@ -1,0 +1,110 @@
+//! Ways, and why there are none.
+
+use crate::error::ParameterError;
+use crate::units::Vec2;
+
+/// From where to where.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ends {
+    /// Where the way begins [m].
+    pub from: Vec2,
+    /// Where it ends [m].
+    pub to: Vec2,
+    /// Where the nose points at the start, from the map's x axis to the left [rad]; without it any direction.
+    pub yaw: Option<f64>,
+}
+
+/// A way, and what it takes by the tables.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Route {
+    /// The places where it turns, with the first and the last [m].
+    pub waypoints: Vec<Vec2>,
+    /// Length over the ground [m].
+    pub length: f64,
+    /// Length on the map [m].
+    pub map_length: f64,
+    /// Time, with turns [s].
+    pub time: f64,
+    /// Work of the wheels, with turns [J].
+    pub energy: f64,
+    /// Angle of all turns together [rad].
+    pub turned: f64,
+    /// Mean slip ratio over the way [-].
+    pub mean_slip_ratio: f64,
+    /// The largest [-].
+    pub most_slip_ratio: f64,
+    /// The steepest slope [rad].
+    pub most_slope: f64,
+    /// In which share of the samples some place of the way is a no-go [-].
+    pub probability_no_go: f64,
+}
+
+/// What came of seeking a way.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    /// The cheapest way.
+    Route(Route),
+    /// There is none that keeps to the limits.
+    NoSafeRoute(NoRoute),
+}
+
+/// Why there is no way.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NoRoute {
+    /// Nobody may go to one of its ends.
+    #[error("the {end} at x {:.2} m, y {:.2} m {why}", .place.x, .place.y)]
+    End {
+        /// `start` or `target`.
+        end: &'static str,
+        /// Where [m].
+        place: Vec2,
+        /// What is wrong there.
+        why: &'static str,
+    },
+    /// What lies between cannot be crossed.
+    #[error(
+        "the ground between start and target cannot be crossed within the limits: from the start {reached} of {cells} \
+         places can be reached"
+    )]
+    Cut {
+        /// How many places can be reached.
+        reached: usize,
+        /// How many there are.
+        cells: usize,
+    },
+    /// The rover cannot turn.
+    #[error("the rover cannot turn on the spot on level ground: {0}")]
+    NoTurn(String),
+}
+
+/// A way that cannot be sought.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RouteError {
+    /// An end that is not on the map.
+    #[error(
+        "the {end} at x {:.2} m, y {:.2} m is not on the map, which goes from x {:.2} to {:.2} m and from y {:.2} to {:.2} m",
+        .place.x, .place.y, .corners[0].x, .corners[1].x, .corners[0].y, .corners[1].y
+    )]
+    OffTheMap {
+        /// `start` or `target`.
+        end: &'static str,
+        /// Where [m].
+        place: Vec2,
+        /// South-west and north-east of the map [m].
+        corners: [Vec2; 2],
+    },
+    /// More places than states can be told apart.
+    #[error(
+        "{cells} places are more than a way can be sought over, {MOST_CELLS}: cut out the area of the drive"
+    )]
+    TooLarge {
+        /// How many.
+        cells: usize,
+    },
+    /// A soil, a rover or a limit that is none.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
+}
+
+/// The most places that a way is sought over.
+pub const MOST_CELLS: usize = (u32::MAX / 16) as usize;
