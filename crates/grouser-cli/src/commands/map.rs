@@ -53,7 +53,8 @@ struct Results<'a> {
     rows: usize,
     coordinate_system: String,
     slope_length_m: [f64; 2],
-    limit_slope_deg: Option<f64>,
+    #[serde(flatten)]
+    limit: Value,
     interpolation_error: Value,
     page: String,
 }
@@ -71,18 +72,20 @@ pub(crate) fn run(args: &MapArgs) -> Result<(), Failure> {
     let files: Vec<FileRecord> = files.collect();
     let [unknown, go, caution, no_go] = counts;
     let raster = &inputs.raster;
+    let limit = limit(&inputs, &map);
+    let verdicts = Verdicts { go, caution, no_go, unknown };
+    let sentence = sentence(&verdicts, limit);
     let results = Results {
         files: &files,
-        verdicts: Verdicts { go, caution, no_go, unknown },
+        verdicts,
         columns: raster.grid.columns,
         rows: raster.grid.rows,
         coordinate_system: raster.coordinates.name(),
         slope_length_m: ground.slope_length(),
-        limit_slope_deg: limit(&inputs, &map),
+        limit: json!({ (LIMIT_SLOPE.name): limit }),
         interpolation_error: errors(&map),
         page: folder.path(page::NAME),
     };
-    let sentence = sentence(&results);
     let page = page::html(
         args,
         &inputs,
@@ -192,13 +195,13 @@ fn limit(inputs: &MapInputs, map: &MobilityMap) -> Option<f64> {
     limit.map(|limit| LIMIT_SLOPE.unit.from_si(limit))
 }
 
-fn sentence(results: &Results<'_>) -> String {
-    let Verdicts { go, caution, no_go, unknown } = results.verdicts;
+fn sentence(verdicts: &Verdicts, limit: Option<f64>) -> String {
+    let Verdicts { go, caution, no_go, unknown } = *verdicts;
     let known = go + caution + no_go;
     let share = |count: u64| {
         if known == 0 { 0.0 } else { (1000.0 * count as f64 / known as f64).round() / 10.0 }
     };
-    let limit = results.limit_slope_deg.map_or_else(
+    let limit = limit.map_or_else(
         || "The rover cannot move on this soil.".to_owned(),
         |limit| format!("A heading holds the course up to {}°.", rounded_down(limit)),
     );

@@ -25,4 +25,274 @@ pub use self::drive::DrivenRoute;
 pub use self::study::{Limits, Objective, RouteStudy, STUCK_WAY, WORST_SHARE};
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use grouser_raster::{CoordinateSystem, Raster};
+
+    use super::costs::Costs;
+    use super::moves::DIRECTIONS;
+    use super::search::{Found, Lattice};
+    use super::*;
+    use crate::studies::mobility::{Ground, MobilityStudy};
+    use crate::terrain::{ElevationGrid, SoilZones, ZonePolygon};
+    use crate::units::{Vec2, deg};
+    use grouser_io::{self as document, Overrides, Source};
+
+    /// Ground whose height is given over x and y [m].
+    fn ground_of(
+        columns: usize,
+        rows: usize,
+        spacing: f64,
+        height: impl Fn(Vec2) -> f64,
+    ) -> Raster {
+        let spacing = Vec2::new(spacing, spacing);
+        let grid = ElevationGrid { columns, rows, south_west: Vec2::zeros(), spacing };
+        #[expect(clippy::cast_possible_truncation, reason = "heights of a test")]
+        let heights = grid.points().map(|at| height(at) as f32).collect();
+        Raster { grid, base: 0.0, heights, coordinates: CoordinateSystem::default() }
+    }
+
+    /// Hills that nothing repeats.
+    fn hills(at: Vec2) -> f64 {
+        1.1 * f64::sin(0.31 * at.x + 0.4) * f64::cos(0.23 * at.y)
+            + 0.5 * f64::sin(0.57 * at.y - 0.2 * at.x)
+    }
+
+    fn study() -> RouteStudy {
+        let scenario =
+            document::read_scenario(&Source::default_scenario(), &Overrides::none()).unwrap();
+        let mobility = MobilityStudy::of(&scenario);
+        let limits = Limits::of(&mobility);
+        RouteStudy { mobility, limits, keep_out: None }
+    }
+
+    fn ends(from: [f64; 2], to: [f64; 2]) -> Ends {
+        Ends { from: Vec2::from(from), to: Vec2::from(to), yaw: None }
+    }
+
+    /// With the risk.
+    fn tables(study: &RouteStudy) -> RouteTables {
+        study.tables(&[], true, &|| true).unwrap().unwrap()
+    }
+
+    fn answer(study: &RouteStudy, raster: &Raster, ends: &Ends, objective: Objective) -> Answer {
+        let ground = Ground::under(&study.mobility.heading.rover, raster);
+        study.route(&tables(study), ground, ends, objective).unwrap()
+    }
+
+    fn route(study: &RouteStudy, raster: &Raster, ends: &Ends, objective: Objective) -> Route {
+        match answer(study, raster, ends, objective) {
+            Answer::Route(route) => route,
+            Answer::NoSafeRoute(reason) => panic!("{reason}"),
+        }
+    }
+
+    #[test]
+    fn over_level_ground_a_way_is_nearly_straight() {
+        let (study, raster) = (study(), ground_of(60, 60, 0.5, |_| 3.0));
+        for (x, y) in [(25.0, 0.0), (25.0, 12.5), (25.0, 7.0), (11.0, 24.5), (3.5, 20.0)] {
+            let found =
+                route(&study, &raster, &ends([2.0, 2.0], [2.0 + x, 2.0 + y]), Objective::Time);
+            let straight = f64::hypot(x, y);
+            assert!((1.0 - 1e-9..1.028).contains(&(found.length / straight)), "{x} {y}: {found:?}");
+            assert!((found.length - found.map_length).abs() < 1e-9);
+        }
+        let found = route(&study, &raster, &ends([2.0, 2.0], [27.0, 2.0]), Objective::Energy);
+        let motion =
+            study.mobility.table(0.0, &[], &|| true).unwrap().unwrap().motion(0.0).unwrap();
+        assert_eq!(found.waypoints.len(), 2);
+        assert!(
+            (found.energy / (25.0 * motion.energy_per_metre()) - 1.0).abs() < 1e-6,
+            "{found:?}"
+        );
+        assert!((found.time / (25.0 / motion.speed) - 1.0).abs() < 1e-6, "{found:?}");
+    }
+
+    /// The price of the way that a search finds, with its turns.
+    fn price_of(lattice: &Lattice<'_>, found: &Found, turn: f64) -> f64 {
+        let Found::Way(way, headings) = found else { panic!("there is a way") };
+        let moves =
+            way.iter().zip(headings).map(|(cell, heading)| lattice.price(*cell, *heading).1);
+        let turns = headings.windows(2).map(|pair| turn * lattice.moves.turn(pair[0], pair[1]));
+        moves.sum::<f64>() + turns.sum::<f64>()
+    }
+
+    /// As by another's search, Dijkstra's, which is not guided.
+    #[test]
+    fn the_way_is_the_cheapest_there_is() {
+        let (study, raster) = (study(), ground_of(34, 30, 0.8, hills));
+        let ground = Ground::under(&study.mobility.heading.rover, &raster);
+        for objective in Objective::ALL {
+            let tables = tables(&study);
+            let costs = Costs::of(&tables, objective);
+            assert!(costs.bound.level > 0.0, "{:?}", costs.bound);
+            let turn = 5.0;
+            let lattice = Lattice::new(ground, &costs, turn, |_| true);
+            let (from, to) = (2 * 34 + 2, 26 * 34 + 30);
+            let guided = price_of(&lattice, &lattice.search(from, to, Some(3)), turn);
+            // The other takes no negative prices: what the height is worth is counted as it is gained.
+            let worth = |cell: usize| costs.bound.climb * f64::from(raster.heights[cell]);
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
+            let micro = |price: f64| (price * 1e6).round() as u64;
+            let next = |&(cell, heading): &(usize, usize)| {
+                let (ahead, price) = lattice.price(cell, heading);
+                let left = (heading + 1) % DIRECTIONS;
+                let right = (heading + DIRECTIONS - 1) % DIRECTIONS;
+                let turned = |it: usize| micro(turn * lattice.moves.to_next[it]);
+                let lost = price + worth(cell) - worth(ahead);
+                let drive = price.is_finite().then(|| ((ahead, heading), micro(lost)));
+                let turns = [((cell, left), turned(heading)), ((cell, right), turned(right))];
+                drive.into_iter().chain(turns).collect::<Vec<_>>()
+            };
+            let (_, exact) =
+                pathfinding::prelude::dijkstra(&(from, 3), next, |(cell, _)| *cell == to).unwrap();
+            let exact = exact as f64 / 1e6 + worth(to) - worth(from);
+            // The first turns, from the heading at the start, are not in the sum of the way.
+            let Found::Way(_, headings) = lattice.search(from, to, Some(3)) else { panic!() };
+            let first = turn * lattice.moves.turn(MOVED, headings[0]);
+            assert!(
+                (guided + first - exact).abs() < 1e-4 * exact,
+                "{objective:?} {guided} {exact}"
+            );
+        }
+        const MOVED: usize = 3;
+    }
+
+    /// What a way costs at least is never more than a move less.
+    #[test]
+    fn the_guidance_is_consistent() {
+        let (study, raster) = (study(), ground_of(40, 40, 0.8, hills));
+        let ground = Ground::under(&study.mobility.heading.rover, &raster);
+        for objective in Objective::ALL {
+            let tables = tables(&study);
+            let costs = Costs::of(&tables, objective);
+            let lattice = Lattice::new(ground, &costs, 1.0, |_| true);
+            let target = 31 * 40 + 17;
+            let mut moves = 0;
+            for (cell, heading) in
+                (0..1600).flat_map(|cell| (0..DIRECTIONS).map(move |it| (cell, it)))
+            {
+                let (to, price) = lattice.price(cell, heading);
+                if price.is_finite() {
+                    let [here, there] = [cell, to].map(|it| lattice.at_least(it, target));
+                    assert!(here <= there + price + 1e-5 * (1.0 + here.abs()), "{cell} {heading}");
+                    moves += 1;
+                }
+            }
+            assert!(moves > 10_000, "{moves}");
+        }
+    }
+
+    /// Up a plane that can be climbed the way is straight; where straight up is not allowed it is a zigzag whose courses the
+    /// limit allows, and its length that of the closed form.
+    #[test]
+    fn up_a_plane_the_way_is_straight_or_a_zigzag() {
+        let mut study = study();
+        let plane = |slope: f64| ground_of(81, 61, 0.5, move |at| at.y * deg(slope).tan());
+        let up = ends([20.0, 2.0], [20.0, 27.0]);
+        let straight = route(&study, &plane(8.0), &up, Objective::Time);
+        assert!((straight.map_length - 25.0).abs() < 1e-9, "{straight:?}");
+        assert!((straight.length - 25.0 / deg(8.0).cos()).abs() < 1e-4, "{straight:?}");
+        // Straight up 14° slips more than the diagonal does.
+        let tables = [90.0, 45.0].map(|course| study.mobility.table(deg(course), &[], &|| true));
+        let slip =
+            tables.map(|table| table.unwrap().unwrap().motion(deg(14.0)).unwrap().slip_ratio);
+        study.limits.most_slip_ratio = 0.5 * (slip[0] + slip[1]);
+        let zigzag = route(&study, &plane(14.0), &up, Objective::Time);
+        assert!(zigzag.map_length > 1.1 * 25.0 && zigzag.turned > 0.5, "{zigzag:?}");
+        assert!(zigzag.most_slip_ratio <= study.limits.most_slip_ratio);
+        // Two legs along the steepest direction of the lattice that is left over, which is the diagonal.
+        assert!((zigzag.map_length - 25.0 * f64::sqrt(2.0)).abs() < 1e-9, "{zigzag:?}");
+        assert_eq!(zigzag.waypoints.len(), 3);
+    }
+
+    #[test]
+    fn mirrored_ground_has_the_mirrored_way() {
+        let study = study();
+        let raster = ground_of(50, 40, 0.8, hills);
+        let mirrored = ground_of(50, 40, 0.8, |at| hills(Vec2::new(at.x, 39.0 * 0.8 - at.y)));
+        let there = route(&study, &raster, &ends([4.0, 4.0], [36.0, 26.4]), Objective::Energy);
+        let back = |y: f64| 39.0 * 0.8 - y;
+        let other = route(
+            &study,
+            &mirrored,
+            &ends([4.0, back(4.0)], [36.0, back(26.4)]),
+            Objective::Energy,
+        );
+        assert!((there.energy - other.energy).abs() < 1e-3 * there.energy, "{there:?} {other:?}");
+        assert!((there.time - other.time).abs() < 5e-3 * there.time, "{there:?} {other:?}");
+    }
+
+    #[test]
+    fn each_objective_is_best_at_its_own() {
+        let (study, raster) = (study(), ground_of(70, 60, 0.8, hills));
+        let all = ends([4.0, 4.0], [48.0, 40.0]);
+        let [fast, frugal, _] =
+            Objective::ALL.map(|objective| route(&study, &raster, &all, objective));
+        // What is sought is read from a table, and the sums are not.
+        assert!(fast.time <= 1.001 * frugal.time, "{fast:?} {frugal:?}");
+        assert!(frugal.energy <= 1.001 * fast.energy, "{fast:?} {frugal:?}");
+    }
+
+    #[test]
+    fn a_way_leads_around_where_nobody_may_go() {
+        let mut study = study();
+        let raster = ground_of(60, 60, 0.5, |_| 0.0);
+        let corners = [(10.0, -1.0), (13.0, -1.0), (13.0, 20.0), (10.0, 20.0)];
+        let rings = vec![corners.map(|(x, y)| Vec2::new(x, y)).to_vec()];
+        let soils = vec![study.mobility.heading.soil];
+        let zones =
+            SoilZones::from_polygons(&[ZonePolygon { soil: Some(0), rings }], soils).unwrap();
+        study.keep_out = Some(zones);
+        let found = route(&study, &raster, &ends([3.0, 5.0], [24.0, 5.0]), Objective::Time);
+        let around = 2.0 * f64::hypot(7.0, 15.0) + 3.0;
+        assert!(found.length > around && found.length < 1.06 * around + 2.0, "{found:?}");
+        let inside = answer(&study, &raster, &ends([11.0, 5.0], [24.0, 5.0]), Objective::Time);
+        let Answer::NoSafeRoute(reason) = inside else { panic!("{inside:?}") };
+        assert!(
+            reason.to_string().contains("the start at x 11.00 m, y 5.00 m lies where nobody"),
+            "{reason}"
+        );
+    }
+
+    #[test]
+    fn without_a_way_the_answer_says_why() {
+        let study = study();
+        // A wall of 60° from side to side.
+        let wall = |at: Vec2| 6.0 * ((at.x - 14.0) / 3.0).clamp(0.0, 1.0);
+        let raster = ground_of(60, 40, 0.5, wall);
+        let cut = answer(&study, &raster, &ends([3.0, 5.0], [26.0, 5.0]), Objective::Time);
+        let Answer::NoSafeRoute(NoRoute::Cut { reached, cells }) = cut else { panic!("{cut:?}") };
+        assert!(reached > 400 && reached < cells / 2 + 200, "{reached} of {cells}");
+        let on_the_wall = answer(&study, &raster, &ends([15.5, 5.0], [26.0, 5.0]), Objective::Time);
+        assert!(
+            matches!(on_the_wall, Answer::NoSafeRoute(NoRoute::End { end: "start", .. })),
+            "{on_the_wall:?}"
+        );
+        let ground = Ground::under(&study.mobility.heading.rover, &raster);
+        let far = ends([3.0, 5.0], [99.0, 5.0]);
+        let off = study.route(&tables(&study), ground, &far, Objective::Time);
+        let error = off.unwrap_err().to_string();
+        assert!(
+            error.starts_with("the target at x 99.00 m, y 5.00 m is not on the map"),
+            "{error}"
+        );
+    }
+
+    /// Over hills, with turns: time and work by the tables are those of the simulation within a tenth.
+    #[test]
+    fn a_route_that_is_driven_takes_what_it_says() {
+        let scenario =
+            document::read_scenario(&Source::default_scenario(), &Overrides::none()).unwrap().value;
+        let (study, raster) = (study(), ground_of(60, 60, 0.8, |at| 0.6 * hills(at)));
+        let model = std::sync::Arc::new(raster.clone().model(scenario.site.terrain.soil).unwrap());
+        for (objective, to) in [(Objective::Time, [14.0, 11.0]), (Objective::Energy, [4.0, 16.0])] {
+            let found = route(&study, &raster, &ends([6.0, 6.0], to), objective);
+            let driven = found.drive(&scenario, &model, study.mobility.rim_speed).unwrap();
+            assert_eq!(driven.outcome, "completed");
+            assert!(driven.miss < 0.2, "{driven:?}");
+            assert!((driven.time / found.time - 1.0).abs() < 0.1, "{driven:?} {found:?}");
+            assert!((driven.energy / found.energy - 1.0).abs() < 0.1, "{driven:?} {found:?}");
+            assert!((driven.distance / found.length - 1.0).abs() < 0.05, "{driven:?} {found:?}");
+        }
+    }
+}

@@ -132,7 +132,7 @@ fn is_a_key_too(name: &str) -> bool {
 }
 
 /// Where a name that only results have stands once more, and why.
-const OTHER_PLACES: [(&str, &str); 7] = [
+const OTHER_PLACES: [(&str, &str); 10] = [
     // Plates sink, too, in files and results of their own.
     ("sinkage_mm", "document/plates.rs"),
     ("sinkage_mm", "document/calibration/plates.rs"),
@@ -140,6 +140,10 @@ const OTHER_PLACES: [(&str, &str); 7] = [
     ("course_deg", "src/args/heading.rs"),
     ("course_deg", "src/args/slip_from_current.rs"),
     ("course_deg", "commands/heading_map.rs"),
+    ("course_deg", "src/args/map.rs"),
+    ("course_deg", "commands/map.rs"),
+    // A direction on a path that is asked for.
+    ("heading_deg", "grouser-python/src/paths.rs"),
     ("course_deg", "grouser-python/src/studies.rs"),
     ("sinkage_mm", "grouser-python/src/wheels.rs"),
 ];

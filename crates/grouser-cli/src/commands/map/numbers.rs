@@ -1,5 +1,6 @@
 //! Names of bands, and how exact their numbers are.
 
+use grouser::document::columns::map::HEADING;
 use grouser::document::columns::{POWER, SINKAGE, SLIP_RATIO, YAW};
 use grouser::studies::mobility::MobilityMap;
 use grouser_map::MapColumn;
@@ -18,7 +19,7 @@ pub(super) fn label(band: &MapColumn) -> String {
 pub(super) fn errors(map: &MobilityMap) -> Value {
     let errors = map.largest_errors();
     json!({
-        "heading_deg": YAW.unit.from_si(errors.crab),
+        (HEADING.name): YAW.unit.from_si(errors.crab),
         (SLIP_RATIO.name): errors.slip_ratio,
         (POWER.name): errors.power,
         (SINKAGE.name): SINKAGE.unit.from_si(errors.sinkage),

@@ -1,6 +1,7 @@
 //! The page of a map.
 
-use grouser::document::columns::map::bands;
+use grouser::document::columns::map::{HEADING, bands};
+use grouser::document::columns::{POWER, SINKAGE, SLIP_RATIO};
 use grouser::studies::mobility::{Ground, MobilityMap};
 use grouser_map::{BandSummary, MapColumn, picture};
 
@@ -41,10 +42,10 @@ pub(super) fn html(
          What a map cannot know: steps and stones between its points, and soil that differs from place to place.",
         four_digits(east),
         four_digits(north),
-        error("heading_deg"),
-        error("slip_ratio"),
-        error("power_w"),
-        error("sinkage_mm"),
+        error(HEADING.name),
+        error(SLIP_RATIO.name),
+        error(POWER.name),
+        error(SINKAGE.name),
     ));
     let repeat = format!(
         "grouser map DEM scenario.toml --course-deg {} --samples {} --seed {} --rim-speed-m-s {} --out OTHER",

@@ -1,6 +1,7 @@
 //! Which course is looked at, slope by slope.
 
 use super::table::{MobilityTable, OnSlope};
+use crate::studies::heading::STRAIGHT_UP;
 use crate::units::STEEPEST_SLOPE;
 
 /// The direction of travel that a map is of.
@@ -21,7 +22,7 @@ impl CourseChoice {
         match self {
             Self::Fixed(course) => vec![course],
             Self::Best | Self::Worst => {
-                (-6_i8..=6).map(|step| (15.0 * f64::from(step)).to_radians()).collect()
+                (-6_i8..=6).map(|step| f64::from(step) / 6.0 * STRAIGHT_UP).collect()
             }
         }
     }

@@ -1,10 +1,10 @@
 //! Motions along one course, by slope.
 
+use grouser_io::LoadedScenario;
 use rayon::prelude::*;
 
 use super::detail::Detail;
 use super::thresholds::{Judged, Thresholds};
-use crate::document::LoadedScenario;
 use crate::elementary::wide::sin;
 use crate::error::ParameterError;
 use crate::studies::card::{Rule, Verdict};

@@ -6,11 +6,11 @@ use super::study::{Limits, Objective, RouteStudy, STUCK_WAY, WORST_SHARE};
 use crate::elementary::wide::{atan2, cos};
 use crate::error::ParameterError;
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
-use crate::studies::heading::HeadingCurve;
+use crate::studies::heading::{HeadingCurve, STRAIGHT_UP};
 use crate::studies::mobility::{Detail, Mobility, MobilityTable};
 
-/// Courses from straight down to straight up are so far apart [°].
-const COURSE_STEP_DEG: f64 = 7.5;
+/// Courses from straight down to straight up are so far apart [rad]: 7.5°.
+const COURSE_STEP: f64 = std::f64::consts::PI / 24.0;
 /// How many courses have a table: straight down, …, straight up.
 pub const COURSES: usize = 25;
 /// Points along the axes of the table: from the steepest way down to the steepest way up, and from level to the steepest
@@ -216,7 +216,7 @@ impl RouteTables {
         reason = "a place in a list"
     )]
     fn between(&self, course: f64) -> (usize, f64) {
-        let place = (course.to_degrees() + 90.0) / COURSE_STEP_DEG;
+        let place = (course + STRAIGHT_UP) / COURSE_STEP;
         let below = (place.max(0.0) as usize).min(self.tables.len() - 2);
         (below, (place - below as f64).clamp(0.0, 1.0))
     }
@@ -255,7 +255,7 @@ fn on_slope(along: f64, across: f64) -> (f64, f64) {
 
 /// The courses of the tables [rad].
 fn courses() -> impl Iterator<Item = f64> {
-    (0..COURSES).map(|number| (number as f64 * COURSE_STEP_DEG - 90.0).to_radians())
+    (0..COURSES).map(|number| number as f64 * COURSE_STEP - STRAIGHT_UP)
 }
 
 /// The time of a metre that the worst of the samples need.
@@ -265,8 +265,8 @@ struct Risk {
     times: Vec<Vec<f64>>,
 }
 
-/// Slopes of the risk are so far apart [°], and there are so many.
-const SLOPE_STEP_DEG: f64 = 0.5;
+/// Slopes of the risk are so far apart [rad], half a degree, and there are so many.
+const SLOPE_STEP: f64 = std::f64::consts::PI / 360.0;
 const SLOPES: usize = 121;
 
 impl Risk {
@@ -303,8 +303,8 @@ impl Risk {
     )]
     fn at(&self, along: f64, across: f64) -> f64 {
         let (slope, course) = on_slope(along, across);
-        let x = (slope.to_degrees() / SLOPE_STEP_DEG).min((SLOPES - 1) as f64);
-        let y = (course.to_degrees() + 90.0) / (2.0 * COURSE_STEP_DEG);
+        let x = (slope / SLOPE_STEP).min((SLOPES - 1) as f64);
+        let y = (course + STRAIGHT_UP) / (2.0 * COURSE_STEP);
         let (column, row) =
             ((x as usize).min(SLOPES - 2), (y.max(0.0) as usize).min(self.times.len() - 2));
         let (u, v) = (x - column as f64, (y - row as f64).clamp(0.0, 1.0));
@@ -325,7 +325,7 @@ fn times_of(
 ) -> impl Fn(usize) -> Option<f64> {
     let points: Vec<[f64; 3]> = curve.points().collect();
     move |place| {
-        let slope = (place as f64 * SLOPE_STEP_DEG).to_radians();
+        let slope = place as f64 * SLOPE_STEP;
         let above = points.iter().position(|point| point[0] >= slope)?;
         let (low, high) = (points[above.saturating_sub(1)], points[above]);
         let rise = high[0] - low[0];
