@@ -18,6 +18,7 @@ mod descriptions;
 mod errors;
 mod ground;
 mod interrupt;
+mod maps;
 mod measurements;
 mod missions;
 mod paths;
@@ -59,6 +60,8 @@ mod _core {
     };
     #[pymodule_export]
     use super::ground::Footprints;
+    #[pymodule_export]
+    use super::maps::mobility_map;
     #[pymodule_export]
     use super::measurements::import_wheel_tests;
     #[pymodule_export]

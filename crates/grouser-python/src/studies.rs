@@ -531,7 +531,7 @@ fn scaling_of(name: &str) -> PyResult<GravityScaling> {
 }
 
 /// How many samples may be asked for.
-const SAMPLES: RangeInclusive<f64> = 2.0..=1e5;
+pub(crate) const SAMPLES: RangeInclusive<f64> = 2.0..=1e5;
 
 /// Why there is no band.
 pub(crate) enum Problem {

@@ -53,6 +53,7 @@ __all__ = [
     "import_wheel_tests",
     "meant_keys",
     "merge_campaign",
+    "mobility_map",
     "most_shard_bytes",
     "not_carried",
     "path_columns",
@@ -369,6 +370,14 @@ def simulated_wheel_test(
     noise: Sequence[float],
     seed: int,
 ) -> dict[str, Any]: ...
+def mobility_map(
+    scenario: Document,
+    terrain: Terrain,
+    course: float | str,
+    rim_speed_m_s: float | None,
+    samples: int,
+    seed: int,
+) -> tuple[list[tuple[str, str, str, Any]], _Floats, _Floats, dict[str, Any]]: ...
 def heading_map(
     scenarios: Sequence[Document], slope_deg: _Floats, course_deg: _Floats, rim_speed_m_s: float
 ) -> dict[str, Any]: ...
