@@ -12,7 +12,7 @@
 //! made, half-way between nodes, and stated with it ([`MobilityTable::largest_errors`]).
 //!
 //! How likely a slope is a no-go comes from samples of soil and model: each has a steepest slope on which a heading
-//! holds the course and slips no more than the [`Rule`] allows, and the probability at a slope is the share of the
+//! holds the course and slips no more than the [`Rule`](super::card::Rule) allows, and the probability at a slope is the share of the
 //! samples whose steepest is below it. No curve in between is stored: the steepest slopes, sorted, say it exactly.
 
 mod choice;
