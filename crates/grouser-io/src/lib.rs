@@ -62,6 +62,7 @@ mod read;
 mod rows;
 mod samples;
 mod schema;
+pub mod soil_coordinates;
 mod source;
 mod stated;
 pub mod statistics;

@@ -28,6 +28,7 @@ pub mod slope_tests;
 mod source;
 pub mod table;
 mod taken;
+pub mod telemetry;
 pub mod wheel_tests;
 
 use std::collections::HashMap;

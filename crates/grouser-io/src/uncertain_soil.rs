@@ -95,8 +95,18 @@ impl UncertainSoil {
         self.keys().skip(self.parameters)
     }
 
+    /// Its keys: those of distributions, then those of samples.
+    pub(super) fn all_keys(&self) -> &[Key] {
+        &self.keys
+    }
+
+    /// The distribution of their values.
+    pub(super) fn distribution(&self) -> &Distribution {
+        &self.distribution
+    }
+
     /// The soil with these values of its keys, if they can be.
-    fn soil(&self, values: &[f64]) -> Option<Soil> {
+    pub(super) fn soil(&self, values: &[f64]) -> Option<Soil> {
         let mut pairs = self.keys.iter().zip(values);
         // NaN is in no range.
         let are_inside = pairs.all(|(key, value)| key.range.contains(value));

@@ -110,7 +110,7 @@ pub const COLUMNS: [LogColumn; 10] = [
     column(COURSE, false, "direction of travel from the contour, positive uphill", -180.0..=180.0),
 ];
 
-const fn column(
+pub(super) const fn column(
     quantity: Quantity,
     is_of_wheel: bool,
     doc: &'static str,

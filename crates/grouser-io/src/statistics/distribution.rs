@@ -3,7 +3,6 @@
 use std::ops::RangeInclusive;
 
 use nalgebra::DMatrix;
-use rand_chacha::ChaCha8Rng;
 
 use crate::statistics::normal::{normal_score, normal_share};
 use crate::statistics::random::{self, place_below};
@@ -295,9 +294,35 @@ impl Distribution {
         index: u64,
         mut accept: impl FnMut(&[f64]) -> Option<T>,
     ) -> Result<T, NothingAccepted> {
+        self.draw_with_point(seed, index, |values| accept(values)).map(|(_, accepted)| accepted)
+    }
+
+    /// The same, with the point of the unit cube at which the values are.
+    ///
+    /// # Errors
+    /// As [`draw`](Self::draw).
+    pub fn draw_with_point<T>(
+        &self,
+        seed: u64,
+        index: u64,
+        mut accept: impl FnMut(&[f64]) -> Option<T>,
+    ) -> Result<(Vec<f64>, T), NothingAccepted> {
         let mut random = random::generator(seed, index);
-        let drawn = (0..MOST_TRIES).find_map(|_| accept(&self.values(&mut random)));
+        let mut draw = || {
+            let point: Vec<f64> =
+                (0..self.dimensions()).map(|_| random::uniform(&mut random)).collect();
+            accept(&self.at(&point)).map(|accepted| (point, accepted))
+        };
+        let drawn = (0..MOST_TRIES).find_map(|_| draw());
         drawn.ok_or(NothingAccepted { index, tries: MOST_TRIES })
+    }
+
+    /// The rows of samples among its parts, which come last; none if it has no such part.
+    pub(crate) fn sample_rows(&self) -> Option<&[Vec<f64>]> {
+        match self.parts.last() {
+            Some(Part::Samples(rows)) => Some(rows),
+            _ => None,
+        }
     }
 
     /// The number of uniform numbers of a sample: one for each marginal, and one for rows of samples.
@@ -318,11 +343,6 @@ impl Distribution {
             point = others;
         }
         values
-    }
-
-    fn values(&self, random: &mut ChaCha8Rng) -> Vec<f64> {
-        let point: Vec<f64> = (0..self.dimensions()).map(|_| random::uniform(random)).collect();
-        self.at(&point)
     }
 }
 

@@ -1,0 +1,363 @@
+//! Reads telemetry of a drive, `telemetry/1`, row by row: what a rover's instruments said over time.
+//!
+//! A table has a row for each time and columns of [`COLUMNS`], all but the time optional and in any order; the column
+//! of a wheel ends with its name (`wheel_speed_rad_s_front-left`) or begins with it, as those of runs do
+//! (`front-left.wheel_speed_rad_s`). An empty cell is a gap. Displacement and rotation by visual odometry are those
+//! since the last row that has one.
+//!
+//! Telemetry is damaged telemetry: a cell that is no number, or out of its range, is a gap, and a row without a time
+//! of its own is left out. [`Lost`] counts all of that. Memory does not grow with the length of the log.
+
+use std::collections::BTreeMap;
+use std::io::Read;
+use std::ops::RangeInclusive;
+
+use csv::StringRecord;
+use grouser_core::vehicle::Rover;
+
+use super::super::check::nearest;
+use super::super::columns::{
+    CURRENT, PITCH, Quantity, ROLL, SINKAGE, STEERING, TIME, TORQUE, WHEEL_SPEED, X, Y, YAW,
+    quantity,
+};
+use super::super::escape;
+use super::super::unit::{A, DEG, M, NM};
+use super::error::{MeasurementError, MeasurementProblem as Problem};
+use super::limits::Limits;
+use super::motor_log::{LogColumn, column};
+use super::row::name_of;
+use super::table::Table;
+
+/// Way along the body's x since the last one, by visual odometry.
+pub const FORWARD: Quantity = quantity("vo_dx_m", M);
+/// Way to its left.
+pub const LEFTWARD: Quantity = quantity("vo_dy_m", M);
+/// Rotation to the left.
+pub const ROTATION: Quantity = quantity("vo_dyaw_deg", DEG);
+/// Torque on a wheel.
+pub const WHEEL_TORQUE: Quantity = quantity("wheel_torque_nm", NM);
+/// Current of a wheel's motor.
+pub const MOTOR_CURRENT: Quantity = quantity("motor_current_a", A);
+
+const ANGLE: RangeInclusive<f64> = -90.0..=90.0;
+const TURN: RangeInclusive<f64> = -360.0..=360.0;
+const WAY: RangeInclusive<f64> = -1e3..=1e3;
+const PLACE: RangeInclusive<f64> = -1e7..=1e7;
+
+/// Every column that is known.
+pub const COLUMNS: [LogColumn; 14] = [
+    column(TIME, false, "time, which rises from row to row", -1e12..=1e12),
+    column(ROLL, false, "roll of the body, positive with its right side down", ANGLE),
+    column(PITCH, false, "pitch of the body, positive with its nose up", ANGLE),
+    column(YAW, false, "yaw from the contour, positive uphill, on a plane", TURN),
+    column(FORWARD, false, "way since the last one along the body's x, by visual odometry", WAY),
+    column(LEFTWARD, false, "way since the last one to the body's left", WAY),
+    column(ROTATION, false, "rotation since the last one, positive to the left", TURN),
+    column(X, false, "position along the contour, from a fix", PLACE),
+    column(Y, false, "position uphill, from a fix", PLACE),
+    column(WHEEL_SPEED, true, "angular speed of the wheel, negative backward", -1e4..=1e4),
+    column(WHEEL_TORQUE, true, "torque on the wheel", -1e5..=1e5),
+    column(MOTOR_CURRENT, true, "current of its motor, in place of a torque", -1e5..=1e5),
+    column(STEERING, true, "steering angle, positive to the left", -180.0..=180.0),
+    column(SINKAGE, true, "sinkage, as a camera sees it", 0.0..=1e4),
+];
+
+/// What other tables call some of them: those of runs.
+const OTHER_NAMES: [(Quantity, Quantity); 2] = [(TORQUE, WHEEL_TORQUE), (CURRENT, MOTOR_CURRENT)];
+
+/// What a rover's instruments said at one time, in SI units; gaps are `None`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TelemetryRecord {
+    /// Time [s].
+    pub time: f64,
+    /// Roll [rad], positive with the right side down.
+    pub roll: Option<f64>,
+    /// Pitch [rad], positive with the nose up.
+    pub pitch: Option<f64>,
+    /// Yaw, *γ* [rad], from the contour, positive uphill.
+    pub yaw: Option<f64>,
+    /// Way since the last record that has one, along the body and to its left [m].
+    pub displacement: [Option<f64>; 2],
+    /// Rotation since the last record that has one [rad].
+    pub rotation: Option<f64>,
+    /// Position along the contour and uphill [m].
+    pub position: [Option<f64>; 2],
+    /// Of each wheel, in the order of the rover's mounts.
+    pub wheels: Vec<WheelTelemetry>,
+}
+
+/// What was read of one wheel, in SI units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WheelTelemetry {
+    /// Angular speed, *ω* [rad/s].
+    pub speed: Option<f64>,
+    /// Torque, *T* [N·m].
+    pub torque: Option<f64>,
+    /// Current of the motor, *i* [A].
+    pub current: Option<f64>,
+    /// Steering angle, *δ* [rad].
+    pub steering: Option<f64>,
+    /// Sinkage [m].
+    pub sinkage: Option<f64>,
+}
+
+/// What a reader left out.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Lost {
+    /// Rows that are no rows of the table: too few or too many cells, or no text.
+    pub damaged_rows: u64,
+    /// Rows without a time.
+    pub rows_without_time: u64,
+    /// Rows whose time does not come after that of the row before.
+    pub rows_out_of_order: u64,
+    /// Cells that are no numbers, or out of their ranges, by column.
+    pub cells: BTreeMap<String, u64>,
+}
+
+impl Lost {
+    /// Whether nothing was lost.
+    #[must_use]
+    pub fn is_nothing(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// A sentence for each kind of loss.
+    #[must_use]
+    pub fn sentences(&self) -> Vec<String> {
+        let rows = [
+            (self.damaged_rows, "with another number of cells than the header, or no text"),
+            (self.rows_without_time, "without a time"),
+            (self.rows_out_of_order, "whose time is not after that of the row before"),
+        ];
+        let rows = rows.into_iter().filter(|(count, _)| *count > 0);
+        let rows = rows.map(|(count, why)| format!("{count} rows {why} are left out"));
+        let cells = self.cells.iter().map(|(column, count)| {
+            format!("{count} cells of `{column}` are no numbers within its range, and count as gaps")
+        });
+        rows.chain(cells).collect()
+    }
+}
+
+/// Reads a log row by row.
+pub struct TelemetryReader<'a, R> {
+    table: Table<'a, R>,
+    header: Header,
+    row: StringRecord,
+    last_time: Option<f64>,
+    rows: u64,
+    lost: Lost,
+}
+
+impl<'a, R: Read> TelemetryReader<'a, R> {
+    /// Reads the header.
+    ///
+    /// * `label`: what messages call the source
+    /// * `rover`: the rover that was driven, for the names of its wheels
+    ///
+    /// # Errors
+    /// [`MeasurementError`] for a source without a header, without the time, with a column twice, or with the column
+    /// of a wheel that the rover does not have.
+    pub fn new(label: &'a str, source: R, rover: &Rover) -> Result<Self, MeasurementError> {
+        let mut table = Table::new(label, source, b',', Limits { rows: usize::MAX });
+        let names: Vec<String> = table.header()?.iter().map(name_of).collect();
+        let header = Header::new(label, names, rover)?;
+        let (row, lost) = (StringRecord::new(), Lost::default());
+        Ok(Self { table, header, row, last_time: None, rows: 0, lost })
+    }
+
+    /// The next record, if there is one.
+    ///
+    /// # Errors
+    /// [`MeasurementError`] where reading fails, or a row is too long to be one.
+    pub fn next_record(&mut self) -> Result<Option<TelemetryRecord>, MeasurementError> {
+        loop {
+            match self.table.next_row(&mut self.row) {
+                Ok(true) => {}
+                Ok(false) => return Ok(None),
+                Err(error) if matches!(error.problem(), Problem::NotCsv(_)) => {
+                    self.lost.damaged_rows += 1;
+                    continue;
+                }
+                Err(error) => return Err(error),
+            }
+            self.rows += 1;
+            let record = self.header.record(&self.row, &mut self.lost);
+            let Some(record) = record else {
+                self.lost.rows_without_time += 1;
+                continue;
+            };
+            if self.last_time.is_some_and(|last| record.time <= last) {
+                self.lost.rows_out_of_order += 1;
+                continue;
+            }
+            self.last_time = Some(record.time);
+            return Ok(Some(record));
+        }
+    }
+
+    /// How many rows were read so far.
+    #[must_use]
+    pub fn rows(&self) -> u64 {
+        self.rows
+    }
+
+    /// What was lost so far.
+    #[must_use]
+    pub fn lost(&self) -> &Lost {
+        &self.lost
+    }
+
+    /// Columns of the header that are not known, and left aside.
+    #[must_use]
+    pub fn unused(&self) -> &[String] {
+        &self.header.unused
+    }
+}
+
+/// The header, understood.
+struct Header {
+    /// Of each cell: its name, column and wheel.
+    cells: Vec<Option<(String, &'static LogColumn, Option<usize>)>>,
+    unused: Vec<String>,
+    wheels: usize,
+}
+
+impl Header {
+    fn new(label: &str, names: Vec<String>, rover: &Rover) -> Result<Self, MeasurementError> {
+        let failed = |problem| MeasurementError::at(label, 1, problem);
+        if names.iter().all(String::is_empty) {
+            return Err(MeasurementError::whole(label, Problem::NoHeader));
+        }
+        let wheels: Vec<&str> = rover.mounts().iter().map(|mount| mount.name.as_str()).collect();
+        let mut cells: Vec<Option<(String, &'static LogColumn, Option<usize>)>> = Vec::new();
+        let mut unused = Vec::new();
+        for name in names {
+            let known = known(&name, &wheels).map_err(|wheel| {
+                let all = wheels.iter().map(|it| (*it).to_owned()).collect();
+                let hint = nearest(&wheel, wheels.iter().copied());
+                failed(Problem::UnknownWheel { name: wheel, wheels: all })
+                    .with_hint(hint.map(|meant| format!("did you mean `{meant}`?")))
+            })?;
+            let rival = cells.iter().flatten().find(|(_, column, wheel)| {
+                known.is_some_and(|known| known == (column.name, *wheel))
+            });
+            if let Some((rival, ..)) = rival {
+                return Err(failed(if *rival == name {
+                    Problem::RepeatedColumn(name)
+                } else {
+                    Problem::CompetingColumns(rival.clone(), name)
+                }));
+            }
+            let column = known.and_then(|(column, wheel)| {
+                Some((COLUMNS.iter().find(|it| it.name == column)?, wheel))
+            });
+            if column.is_none() && !name.is_empty() {
+                unused.push(name.clone());
+            }
+            cells.push(column.map(|(column, wheel)| (name, column, wheel)));
+        }
+        let has_time = cells.iter().flatten().any(|(_, column, _)| column.name == TIME.name);
+        if !has_time {
+            let near = unused.iter().find(|name| nearest(name, [TIME.name]).is_some());
+            let hint = near.map(|name| format!("is `{name}` meant as `{}`?", TIME.name));
+            let expected = format!("`{}`", TIME.name);
+            return Err(failed(Problem::MissingColumn { what: "the time", expected }).with_hint(hint));
+        }
+        Ok(Self { cells, unused, wheels: wheels.len() })
+    }
+
+    /// A row in SI; nothing without a time.
+    fn record(&self, row: &StringRecord, lost: &mut Lost) -> Option<TelemetryRecord> {
+        let mut record = TelemetryRecord {
+            time: f64::NAN,
+            wheels: vec![WheelTelemetry::default(); self.wheels],
+            ..TelemetryRecord::default()
+        };
+        for (cell, text) in self.cells.iter().zip(row.iter()) {
+            let Some((name, column, wheel)) = cell else { continue };
+            let text = escape::plain(text);
+            if text.is_empty() {
+                continue;
+            }
+            let number = text.parse::<f64>().ok().filter(|it| column.range.contains(it));
+            let Some(number) = number else {
+                // NaN stands for a gap in many logs.
+                if !text.eq_ignore_ascii_case("nan") {
+                    *lost.cells.entry(name.clone()).or_default() += 1;
+                }
+                continue;
+            };
+            record.put(column.name, *wheel, column.unit.to_si(number));
+        }
+        (!record.time.is_nan()).then_some(record)
+    }
+}
+
+impl TelemetryRecord {
+    fn put(&mut self, column: &str, wheel: Option<usize>, value: f64) {
+        if let Some(wheel) = wheel {
+            let wheel = &mut self.wheels[wheel];
+            let place = [
+                (WHEEL_SPEED, &mut wheel.speed),
+                (WHEEL_TORQUE, &mut wheel.torque),
+                (MOTOR_CURRENT, &mut wheel.current),
+                (STEERING, &mut wheel.steering),
+                (SINKAGE, &mut wheel.sinkage),
+            ];
+            put(place, column, value);
+            return;
+        }
+        if column == TIME.name {
+            self.time = value;
+            return;
+        }
+        let [forward, leftward] = &mut self.displacement;
+        let [x, y] = &mut self.position;
+        let place = [
+            (ROLL, &mut self.roll),
+            (PITCH, &mut self.pitch),
+            (YAW, &mut self.yaw),
+            (FORWARD, forward),
+            (LEFTWARD, leftward),
+            (ROTATION, &mut self.rotation),
+            (X, x),
+            (Y, y),
+        ];
+        put(place, column, value);
+    }
+}
+
+fn put<const N: usize>(places: [(Quantity, &mut Option<f64>); N], column: &str, value: f64) {
+    for (quantity, place) in places {
+        if quantity.name == column {
+            *place = Some(value);
+        }
+    }
+}
+
+/// The column and the wheel of a name; nothing for one that is not known.
+///
+/// # Errors
+/// The wheel's name, where the column is a wheel's and the rover has no such wheel.
+fn known(name: &str, wheels: &[&str]) -> Result<Option<(&'static str, Option<usize>)>, String> {
+    let of_rover = COLUMNS.iter().find(|column| !column.is_of_wheel && column.name == name);
+    if let Some(column) = of_rover {
+        return Ok(Some((column.name, None)));
+    }
+    let of_wheels = COLUMNS.iter().filter(|column| column.is_of_wheel).map(|it| (it.name, it.name));
+    let others = OTHER_NAMES.iter().map(|(other, own)| (other.name, own.name));
+    for (written, own) in of_wheels.chain(others) {
+        let before = name.strip_suffix(written).and_then(|rest| rest.strip_suffix('.'));
+        let after = name.strip_prefix(written).and_then(|rest| rest.strip_prefix('_'));
+        let Some(wheel) = before.or(after).filter(|wheel| !wheel.is_empty()) else { continue };
+        let place = wheels.iter().position(|known| is_same(known, wheel));
+        return place.map(|place| Some((own, Some(place)))).ok_or_else(|| wheel.to_owned());
+    }
+    Ok(None)
+}
+
+/// Whether two names of a wheel are one: capitals, and what parts words, do not count.
+fn is_same(one: &str, other: &str) -> bool {
+    let plain = |name: &str| name.to_ascii_lowercase().replace(['-', ' ', '.'], "_");
+    plain(one) == plain(other)
+}
