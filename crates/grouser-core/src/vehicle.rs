@@ -54,7 +54,7 @@ pub use rover::Rover;
 pub use ruts::Ruts;
 pub use speed_control::{MotorLimits, SpeedControl};
 pub use standing::Standing;
-pub use state::{Acceleration, RoverState, roll_and_pitch};
+pub use state::{Acceleration, RoverState, roll_and_pitch, slope_and_yaw};
 pub use statics::{Balance, Resultant};
 pub use suspension::{Bogie, End, Joints, Suspension};
 pub use winding::Winding;

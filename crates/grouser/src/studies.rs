@@ -11,6 +11,7 @@
 //! | [`wheel_speeds`] | contour traverses with wheels at speeds of their own |
 //! | [`card`] | the operator's card: heading, slip, drift, power, go or no-go |
 //! | [`forecast`] | slip, drift, heading and steepest slope under another gravity, with one error budget |
+//! | [`simulated_telemetry`] | what instruments with their faults say of a drive |
 //! | [`measurement`], [`simulated_test`] | measured wheel tests, and simulated ones whose soil is known |
 //! | [`validation`], [`slope_validation`] | the errors of a wheel–soil model against measured wheels, and a measured rover on slopes |
 //! | [`calibration`] | soil parameters, with confidence intervals, from measurements |
@@ -18,6 +19,7 @@
 //! | [`drive`], [`comparison`] | a traverse in a few numbers, and the source paper's metrics of one |
 //! | [`traverse_band`] | a traverse where soil and model are uncertain |
 //! | [`slip_from_current`] | each wheel's slip from its motor's current and speed |
+//! | [`learn`] | what driving tells of a soil: slip and heading of the next slopes, from telemetry |
 //! | [`mission`] | missions and their alternatives, leg by leg |
 //! | [`validity`] | the flags of a rover on a slope and over a run |
 //! | [`lost_yaw`] | the yaw lost on the way: by loads, and by soil and motors that scatter |
@@ -32,11 +34,13 @@ pub mod forecast;
 pub mod heading;
 pub mod heading_band;
 pub mod heading_map;
+pub mod learn;
 pub mod lost_yaw;
 pub mod mission;
 pub mod mobility;
 pub mod reproduction;
 pub mod route;
+pub mod simulated_telemetry;
 pub mod simulated_test;
 pub mod slip_from_current;
 pub mod slope_validation;

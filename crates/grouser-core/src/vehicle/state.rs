@@ -60,10 +60,35 @@ pub fn roll_and_pitch(slope: f64, yaw: f64) -> [f64; 2] {
     [wide::atan2(across, wide::cos(slope)), wide::asin(wide::sin(slope) * wide::sin(yaw))]
 }
 
+/// Slope and yaw of a rover on a plane [rad]: the inverse of [`roll_and_pitch`]. On level ground the yaw is not known,
+/// and 0.
+///
+/// * `roll`, `pitch`: *φ*, *θ* [rad]
+///
+/// ```text
+/// sin α sin γ = sin θ        sin α cos γ = cos θ sin φ        cos α = cos θ cos φ
+/// ```
+#[must_use]
+pub fn slope_and_yaw(roll: f64, pitch: f64) -> [f64; 2] {
+    let (along, across) = (wide::sin(pitch), wide::cos(pitch) * wide::sin(roll));
+    let upright = wide::cos(pitch) * wide::cos(roll);
+    [wide::atan2(wide::hypot(along, across), upright), wide::atan2(along, across)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::units::deg;
+
+    #[test]
+    fn slope_and_yaw_follow_from_roll_and_pitch() {
+        for (slope, yaw) in [(10.0, 0.0), (10.0, 90.0), (25.0, -130.0), (13.0, 8.0), (1e-3, 40.0)] {
+            let [roll, pitch] = roll_and_pitch(deg(slope), deg(yaw));
+            let [found, turned] = slope_and_yaw(roll, pitch);
+            assert!((found - deg(slope)).abs() < 1e-12 && (turned - deg(yaw)).abs() < 1e-9);
+        }
+        assert_eq!(slope_and_yaw(0.0, 0.0), [0.0, 0.0]);
+    }
 
     /// Along the contour all of the slope is roll, straight up all of it is pitch, and the upright's share is
     /// always the slope's.

@@ -132,7 +132,9 @@ impl Lost {
         let rows = rows.into_iter().filter(|(count, _)| *count > 0);
         let rows = rows.map(|(count, why)| format!("{count} rows {why} are left out"));
         let cells = self.cells.iter().map(|(column, count)| {
-            format!("{count} cells of `{column}` are no numbers within its range, and count as gaps")
+            format!(
+                "{count} cells of `{column}` are no numbers within its range, and count as gaps"
+            )
         });
         rows.chain(cells).collect()
     }
@@ -261,7 +263,9 @@ impl Header {
             let near = unused.iter().find(|name| nearest(name, [TIME.name]).is_some());
             let hint = near.map(|name| format!("is `{name}` meant as `{}`?", TIME.name));
             let expected = format!("`{}`", TIME.name);
-            return Err(failed(Problem::MissingColumn { what: "the time", expected }).with_hint(hint));
+            return Err(
+                failed(Problem::MissingColumn { what: "the time", expected }).with_hint(hint)
+            );
         }
         Ok(Self { cells, unused, wheels: wheels.len() })
     }

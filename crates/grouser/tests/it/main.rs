@@ -23,6 +23,7 @@ mod integration;
 mod kernel;
 mod laws;
 mod layers;
+mod learn;
 mod measured;
 mod measurements;
 mod messages;

@@ -52,6 +52,12 @@ impl ModelSpread {
         Self { shares: own.into_iter().chain(others).filter(|(_, share)| *share > 0.0).collect() }
     }
 
+    /// Some models with their shares [-], above 0 and with the sum 1.
+    #[must_use]
+    pub(in crate::studies) fn of_shares(shares: Vec<(Theory, f64)>) -> Self {
+        Self { shares }
+    }
+
     /// The models with their shares [-].
     #[must_use]
     pub fn shares(&self) -> &[(Theory, f64)] {

@@ -101,6 +101,16 @@ impl BandInputs {
         Ok(Sample { soil, theory })
     }
 
+    /// The soil as its document has it, without what a calibration found wrong with another model than this.
+    pub(in crate::studies) fn nominal(&self, theory: Theory) -> Soil {
+        self.as_known_to(theory, self.soil)
+    }
+
+    /// The soils that it may be, if its document leaves any of that open.
+    pub(in crate::studies) fn soils(&self) -> Option<&UncertainSoil> {
+        self.soils.as_ref()
+    }
+
     /// Whether soils differ from sample to sample; if not, no model gets anything wrong in them either.
     #[must_use]
     pub fn has_soils(&self) -> bool {
@@ -108,7 +118,7 @@ impl BandInputs {
     }
 
     /// A soil without what a calibration found wrong with another model than this.
-    fn as_known_to(&self, theory: Theory, soil: Soil) -> Soil {
+    pub(in crate::studies) fn as_known_to(&self, theory: Theory, soil: Soil) -> Soil {
         match self.made_for {
             Some(own) if own != theory => Soil { discrepancy: None, ..soil },
             _ => soil,

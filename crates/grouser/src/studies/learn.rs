@@ -1,0 +1,189 @@
+//! What driving tells of a soil: telemetry in, and the slip and heading of the next slopes out, with bands that narrow.
+//!
+//! [FourWheel] ends with the wish to learn the relation of slope and attitude during the mission. A [`Learner`] does so
+//! stretch by stretch of a decimetre or so:
+//!
+//! 1. the instruments' readings become means with their uncertainty ([`Stretch`]), outliers left out;
+//! 2. a soil and a wheel–soil model say which forces and torques go with the motion that was seen, and what is left over
+//!    of the balance of forces is the observation (`motion`);
+//! 3. an iterated Kalman filter moves what is believed of the soil's numbers, and of what the model gets wrong in it, in
+//!    coordinates that were standard normal beforehand (`filter`, `gaussian`, `unknowns`);
+//! 4. several models do so side by side, and their shares follow how well each of them expected what came (`bank`).
+//!
+//! A Kalman filter and not particles: what is learnt lies in some ten to twenty coordinates, of which a drive tells three
+//! or four, and the answer has to be the same whatever way the telemetry is cut. What no reading bears upon stays what
+//! it was, so that without telemetry predictions are those of the soil as it was, sample by sample.
+
+mod bank;
+mod filter;
+mod gaussian;
+mod middle;
+mod motion;
+mod noise;
+mod settings;
+mod stretch;
+mod unknowns;
+
+use std::collections::BTreeMap;
+
+pub use self::bank::LearntSample;
+use self::bank::{Bank, Taught};
+pub use self::filter::Wandering;
+pub use self::motion::NotUsed;
+use self::motion::SeenMotion;
+pub use self::noise::ModelNoise;
+pub use self::settings::LearnSettings;
+use self::stretch::Gatherer;
+pub use self::stretch::{Reading, Stretch};
+use super::ensemble::models::ModelSpread;
+use super::ensemble::samples::{BandInputs, Sample};
+use super::heading::HeadingStudy;
+use super::heading_band::HeadingBand;
+use crate::error::ParameterError;
+use grouser_io::LoadedScenario;
+pub use grouser_io::measurements::telemetry::{TelemetryRecord, WheelTelemetry};
+use grouser_io::statistics::NothingAccepted;
+
+/// Learns from telemetry, record by record.
+///
+/// Stretches, and so all that is learnt, depend on the records alone: it does not matter how many are given at once.
+#[derive(Clone, Debug)]
+pub struct Learner {
+    study: HeadingStudy,
+    settings: LearnSettings,
+    gatherer: Gatherer,
+    bank: Bank,
+    learnt: Learnt,
+}
+
+/// How much was learnt from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Learnt {
+    /// Records that were given.
+    pub records: u64,
+    /// Readings that were outliers in their stretch.
+    pub outliers: u64,
+    /// Stretches that taught something.
+    pub stretches: u64,
+    /// The rims' way over all stretches [m].
+    pub way: f64,
+    /// Stretches that taught nothing, by why.
+    pub not_used: BTreeMap<NotUsed, u64>,
+}
+
+/// What one stretch taught.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lesson {
+    /// The stretch.
+    pub stretch: Stretch,
+    /// Mean slip ratio of the wheels as it was seen [-].
+    pub slip_ratio: f64,
+    /// How far each number of the observation was from what was expected [standard deviations]: the force along the
+    /// body, across it, then torques and sinkages.
+    pub scores: Vec<f64>,
+}
+
+/// Why there is nothing to learn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("all numbers of the soil are taken as exact, so that no drive tells more of them")]
+pub struct NothingToLearn;
+
+impl Learner {
+    /// A learner that knows what a scenario's soil document knows; the slope of the scenario stands in where telemetry has
+    /// neither roll nor pitch.
+    ///
+    /// * `slope_is_known`: whether the scenario's slope is that of the drive
+    ///
+    /// # Errors
+    /// [`NothingToLearn`] if the soil's numbers are all exact.
+    pub fn new(
+        scenario: &LoadedScenario,
+        slope_is_known: bool,
+        settings: LearnSettings,
+    ) -> Result<Self, NothingToLearn> {
+        let study = HeadingStudy::of(&scenario.value);
+        let slope = slope_is_known.then_some(scenario.value.site.terrain.slope);
+        let bank = Bank::new(&BandInputs::of_scenario(scenario)).ok_or(NothingToLearn)?;
+        let gatherer = Gatherer::new(&study.rover, slope);
+        Ok(Self { study, settings, gatherer, bank, learnt: Learnt::default() })
+    }
+
+    /// Takes a record; what was learnt, where it completes a stretch that teaches something.
+    pub fn update(&mut self, record: TelemetryRecord) -> Option<Lesson> {
+        self.learnt.records += 1;
+        let stretch = self.gatherer.push(record)?;
+        self.learn(stretch)
+    }
+
+    /// Takes the records that are too few for a stretch of their own, at the end of a drive.
+    pub fn finish(&mut self) -> Option<Lesson> {
+        let stretch = self.gatherer.take()?;
+        self.learn(stretch)
+    }
+
+    fn learn(&mut self, stretch: Stretch) -> Option<Lesson> {
+        self.learnt.outliers += stretch.outliers as u64;
+        let motion = SeenMotion::of(&stretch, &self.study.rover);
+        let taught = motion.and_then(|motion| {
+            let taught = self.bank.learn(&self.study, &motion, &self.settings, stretch.way)?;
+            Ok((motion, taught))
+        });
+        let (motion, Taught { surprise, .. }) = match taught {
+            Ok(taught) => taught,
+            Err(why) => {
+                *self.learnt.not_used.entry(why).or_default() += 1;
+                return None;
+            }
+        };
+        self.learnt.stretches += 1;
+        self.learnt.way += stretch.way;
+        let slip_ratio = motion.slip_ratio();
+        Some(Lesson { stretch, slip_ratio, scores: surprise.scores.as_slice().to_vec() })
+    }
+
+    /// How much was learnt from.
+    #[must_use]
+    pub fn learnt(&self) -> &Learnt {
+        &self.learnt
+    }
+
+    /// The wheel–soil models with their shares.
+    #[must_use]
+    pub fn models(&self) -> ModelSpread {
+        self.bank.models(&self.settings)
+    }
+
+    /// Standard deviation of each of the soil's coordinates over what it was beforehand [-], under the model with the
+    /// greatest share.
+    #[must_use]
+    pub fn narrowed(&self) -> BTreeMap<String, f64> {
+        self.bank.narrowed(&self.settings)
+    }
+
+    /// Samples of what is believed now.
+    ///
+    /// # Errors
+    /// [`NothingAccepted`] if no soil can be drawn.
+    pub fn samples(&self, seed: u64, count: u32) -> Result<Vec<LearntSample>, NothingAccepted> {
+        (0..count).map(|index| self.bank.sample(&self.settings, seed, index.into())).collect()
+    }
+
+    /// The heading that holds the contour, and the slip there, on some slopes [rad], over samples of what is believed now.
+    ///
+    /// * `go_on`: asked before each sample, from any thread; without it there is no result
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first invalid soil.
+    ///
+    /// # Panics
+    /// If there are no samples.
+    pub fn predict(
+        &self,
+        samples: &[LearntSample],
+        slopes: &[f64],
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<HeadingBand>, ParameterError> {
+        let samples: Vec<Sample> = samples.iter().map(|it| it.sample).collect();
+        HeadingBand::of(&self.study, &samples, slopes, go_on)
+    }
+}

@@ -1,0 +1,171 @@
+//! What is believed of a soil under several wheel–soil models, and of the models themselves.
+
+use std::collections::BTreeMap;
+
+use super::filter::Filter;
+use super::gaussian::Surprise;
+use super::motion::{NotUsed, SeenMotion};
+use super::settings::LearnSettings;
+use super::unknowns::Unknowns;
+use crate::elementary::exp;
+use crate::elementary::wide::ln;
+use crate::studies::ensemble::models::ModelSpread;
+use crate::studies::ensemble::samples::{BandInputs, Sample};
+use crate::studies::heading::HeadingStudy;
+use grouser_io::statistics::NothingAccepted;
+
+/// A filter for each model, with its weight.
+#[derive(Clone, Debug)]
+pub(super) struct Bank {
+    filters: Vec<Filter>,
+    /// The models' shares beforehand [-].
+    shares: Vec<f64>,
+    /// The logarithm of what the observations say for each.
+    evidence: Vec<f64>,
+}
+
+/// What a motion taught.
+#[derive(Clone, Debug)]
+pub(super) struct Taught {
+    /// How surprising it was to the model with the greatest share.
+    pub(super) surprise: Surprise,
+    /// The logarithm of its density, over all models.
+    pub(super) log_density: f64,
+}
+
+/// A sample of what is believed, with the values of the soil's keys in their own units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LearntSample {
+    /// Soil and model.
+    pub sample: Sample,
+    /// The values of the soil's uncertain keys.
+    pub values: Vec<f64>,
+}
+
+impl Bank {
+    /// What is believed beforehand; `None` of a soil that is known exactly.
+    pub(super) fn new(inputs: &BandInputs) -> Option<Self> {
+        let models = inputs.models().shares();
+        let filters: Option<Vec<Filter>> = models
+            .iter()
+            .map(|(theory, _)| Unknowns::of(*theory, inputs).map(Filter::new))
+            .collect();
+        let shares = models.iter().map(|(_, share)| *share).collect();
+        Some(Self { filters: filters?, shares, evidence: vec![0.0; models.len()] })
+    }
+
+    /// The models with their shares [-].
+    ///
+    /// What the observations say for a model counts by [`LearnSettings::trust`], and a part of the shares is what it was
+    /// beforehand: no model is right, and a likelihood that takes one for right would leave only one.
+    pub(super) fn models(&self, settings: &LearnSettings) -> ModelSpread {
+        let most = self.evidence.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let told: Vec<f64> = self
+            .shares
+            .iter()
+            .zip(&self.evidence)
+            .map(|(share, evidence)| share * exp(settings.trust * (evidence - most)))
+            .collect();
+        let sum: f64 = told.iter().sum();
+        let kept = settings.kept_share;
+        let shares = self
+            .shares
+            .iter()
+            .zip(told)
+            .map(|(before, told)| kept * before + (1.0 - kept) * told / sum);
+        let theories = self.filters.iter().map(|it| it.unknowns.theory());
+        ModelSpread::of_shares(theories.zip(shares).collect())
+    }
+
+    /// The filter of the model with the greatest share.
+    pub(super) fn best(&self, settings: &LearnSettings) -> &Filter {
+        let models = self.models(settings);
+        let shares = models.shares().iter().map(|(_, share)| *share).enumerate();
+        let best = shares.max_by(|one, other| one.1.total_cmp(&other.1)).map_or(0, |it| it.0);
+        &self.filters[best]
+    }
+
+    /// Learns from a motion.
+    ///
+    /// # Errors
+    /// [`NotUsed`] where no model has anything to say of it.
+    pub(super) fn learn(
+        &mut self,
+        study: &HeadingStudy,
+        motion: &SeenMotion,
+        settings: &LearnSettings,
+        way: f64,
+    ) -> Result<Taught, NotUsed> {
+        let models = self.models(settings);
+        let mut densities = Vec::new();
+        let mut best: Option<(f64, Surprise)> = None;
+        for (place, filter) in self.filters.iter_mut().enumerate() {
+            filter.wander(way, settings.wandering);
+            let Ok(surprise) = filter.learn(study, motion, &settings.noise) else { continue };
+            let share = models.shares()[place].1;
+            densities.push((place, surprise.log_density));
+            if best.as_ref().is_none_or(|(most, _)| share > *most) {
+                best = Some((share, surprise));
+            }
+        }
+        let (_, surprise) = best.ok_or(NotUsed::NotCarried)?;
+        let least = densities.iter().map(|it| it.1).fold(f64::INFINITY, f64::min);
+        // A model under which the rover could not be there has the density of the worst that could.
+        for (place, evidence) in self.evidence.iter_mut().enumerate() {
+            let own = densities.iter().find(|it| it.0 == place).map_or(least, |it| it.1);
+            // Stretches near each other say the same: what they say counts once.
+            *evidence += own / settings.noise.together(way);
+        }
+        let most = self.evidence.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        self.evidence.iter_mut().for_each(|it| *it -= most);
+        let mixed: f64 = densities
+            .iter()
+            .map(|(place, it)| models.shares()[*place].1 * exp((it - least).min(600.0)))
+            .sum();
+        Ok(Taught { surprise, log_density: least + ln(mixed) })
+    }
+
+    /// The logarithm of the density of a motion, over all models, if nothing was learnt from it.
+    pub(super) fn log_density(
+        &self,
+        study: &HeadingStudy,
+        motion: &SeenMotion,
+        settings: &LearnSettings,
+    ) -> Option<f64> {
+        let models = self.models(settings);
+        let each = self.filters.iter().zip(models.shares());
+        let all: Vec<(f64, f64)> = each
+            .filter_map(|(filter, (_, share))| {
+                let found = filter.surprise(study, motion, &settings.noise)?;
+                Some((*share, found.log_density))
+            })
+            .collect();
+        let least = all.iter().map(|it| it.1).fold(f64::INFINITY, f64::min);
+        let sum: f64 = all.iter().map(|(share, it)| share * exp((it - least).min(600.0))).sum();
+        (!all.is_empty()).then(|| least + ln(sum))
+    }
+
+    /// Sample number `index` of what is believed, which depends on the seed and that number alone. Before anything is
+    /// learnt it is that of [`BandInputs::sample`].
+    ///
+    /// # Errors
+    /// [`NothingAccepted`] if no soil can be drawn.
+    pub(super) fn sample(
+        &self,
+        settings: &LearnSettings,
+        seed: u64,
+        index: u64,
+    ) -> Result<LearntSample, NothingAccepted> {
+        let theory = self.models(settings).theory(seed, index);
+        let of_model = self.filters.iter().find(|it| it.unknowns.theory() == theory);
+        let filter = of_model.unwrap_or(&self.filters[0]);
+        filter.sample(seed, index)
+    }
+
+    /// How much wider each coordinate of the soil was beforehand, by key of the soil [-]: 1 where nothing was learnt.
+    pub(super) fn narrowed(&self, settings: &LearnSettings) -> BTreeMap<String, f64> {
+        let filter = self.best(settings);
+        let deviations = filter.belief.covariance.diagonal().map(f64::sqrt);
+        filter.unknowns.keys().map(str::to_owned).zip(deviations.iter().copied()).collect()
+    }
+}

@@ -1,0 +1,146 @@
+//! What is believed of a soil under one wheel–soil model, stretch by stretch.
+
+use nalgebra::DVector;
+
+use super::bank::LearntSample;
+use super::gaussian::{Gaussian, Line, Surprise};
+use super::motion::{Expected, NotUsed, SeenMotion};
+use super::noise::ModelNoise;
+use super::unknowns::Unknowns;
+use crate::elementary::exp;
+use crate::studies::heading::HeadingStudy;
+use grouser_io::statistics::NothingAccepted;
+
+/// The belief under one model.
+#[derive(Clone, Debug)]
+pub(super) struct Filter {
+    pub(super) unknowns: Unknowns,
+    pub(super) belief: Gaussian,
+}
+
+/// How soils differ along the way, and what an observation may do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wandering {
+    /// The way over which the soil forgets what it was [m]: 5 % for the root of a metre, of what is known to 50 %.
+    pub way: f64,
+}
+
+impl Wandering {
+    /// Source: ours, after 5 % a metre.
+    pub const USUAL: Self = Self { way: 200.0 };
+}
+
+/// Lines that are fitted at most: the first over what was believed beforehand.
+const ROUNDS: usize = 4;
+/// A step this short ends them, in standard deviations of what is believed afterwards [-].
+const CLOSE: f64 = 0.3;
+/// What is farther from what was expected than this pulls no more than from there, in standard deviations [-] (Huber
+/// 1964): an outlier that got through.
+const FARTHEST: f64 = 3.0;
+
+impl Filter {
+    pub(super) fn new(unknowns: Unknowns) -> Self {
+        let belief = Gaussian::standard(unknowns.count());
+        Self { unknowns, belief }
+    }
+
+    /// That the rover went on over soil that changes.
+    ///
+    /// * `way`: of the rims [m]
+    pub(super) fn wander(&mut self, way: f64, wandering: Wandering) {
+        let kept = exp(-way / wandering.way);
+        let of_soil = self.unknowns.of_soil();
+        let kept =
+            DVector::from_fn(
+                self.unknowns.count(),
+                |place, _| {
+                    if place < of_soil { kept } else { 1.0 }
+                },
+            );
+        self.belief.forget(&kept);
+    }
+
+    /// The line of a motion over the width of a belief: of the soil, and then of the error of the yaw rate.
+    fn line(
+        &self,
+        study: &HeadingStudy,
+        motion: &SeenMotion,
+        noise: &ModelNoise,
+        over: &Gaussian,
+    ) -> Option<Line> {
+        let expected = |at: &DVector<f64>, near: Option<&Expected>| {
+            let (of_soil, error) = at.as_slice().split_at(self.unknowns.count());
+            motion.turning(error[0]).expected(study, &self.unknowns.sample(of_soil)?, near)
+        };
+        let here = expected(&over.mean, None)?;
+        let numbers = |at: &DVector<f64>| Some(expected(at, Some(&here))?.numbers);
+        let mut line = Line::over(over, &here.numbers, numbers);
+        line.noise += motion.noise(study, &here, noise);
+        Some(line)
+    }
+
+    /// What was expected of a motion: how far it is off.
+    pub(super) fn surprise(
+        &self,
+        study: &HeadingStudy,
+        motion: &SeenMotion,
+        noise: &ModelNoise,
+    ) -> Option<Surprise> {
+        let belief = self.belief.and_one();
+        let line = self.line(study, motion, noise, &belief)?;
+        belief.surprise(&line, &motion.seen(study))
+    }
+
+    /// Learns from a motion; how surprising it was.
+    pub(super) fn learn(
+        &mut self,
+        study: &HeadingStudy,
+        motion: &SeenMotion,
+        noise: &ModelNoise,
+    ) -> Result<Surprise, NotUsed> {
+        let (seen, belief) = (motion.seen(study), self.belief.and_one());
+        let first = self.line(study, motion, noise, &belief).ok_or(NotUsed::NotCarried)?;
+        let surprise = belief.surprise(&first, &seen).ok_or(NotUsed::NotCarried)?;
+        let robust = |line| robust(line, &surprise);
+        let mut after = belief.after(&robust(first), &seen).ok_or(NotUsed::NotCarried)?;
+        let mut before = belief.mean.clone();
+        for _ in 1..ROUNDS {
+            if after.distance(&before) < CLOSE {
+                break;
+            }
+            before = after.mean.clone();
+            let line = self.line(study, motion, noise, &after);
+            let next = line.and_then(|line| belief.after(&robust(line), &seen));
+            let Some(next) = next else { break };
+            after = next;
+        }
+        self.belief = after.first(self.unknowns.count());
+        Ok(surprise)
+    }
+
+    /// Sample number `index` of what is believed: that of what was believed beforehand, moved as mean and covariance
+    /// moved. A soil that cannot be is moved half as far, and so on.
+    pub(super) fn sample(&self, seed: u64, index: u64) -> Result<LearntSample, NothingAccepted> {
+        const HALVINGS: i32 = 8;
+        let draw = self.unknowns.draw(seed, index)?;
+        let before = DVector::from_column_slice(&draw.coordinates);
+        let after = &self.belief.mean + self.belief.root() * &before;
+        let places = (0..HALVINGS).map(|round| {
+            let share = 0.5_f64.powi(round);
+            &before + (&after - &before) * share
+        });
+        let moved = places.filter_map(|at| self.unknowns.moved(&draw, at.as_slice())).next();
+        let (values, sample) = moved.ok_or(NothingAccepted { index, tries: 1 })?;
+        Ok(LearntSample { sample, values })
+    }
+}
+
+/// A line each of whose numbers pulls no more than one that is [`FARTHEST`] off.
+fn robust(mut line: Line, surprise: &Surprise) -> Line {
+    for (place, score) in surprise.scores.iter().enumerate() {
+        let beyond = (score.abs() / FARTHEST).max(1.0);
+        line.noise.row_mut(place).scale_mut(beyond);
+        line.noise.column_mut(place).scale_mut(beyond);
+    }
+    line
+}

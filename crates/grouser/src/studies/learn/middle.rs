@@ -1,0 +1,83 @@
+//! The middle of readings of which some are outliers, and how well it is known.
+
+/// The mean of the readings that are near the others.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Middle {
+    /// The mean.
+    pub(super) value: f64,
+    /// Standard deviation of a reading, by the middle half.
+    pub(super) scatter: f64,
+    /// How many readings are near the others.
+    pub(super) count: usize,
+    /// How many are not.
+    pub(super) outliers: usize,
+}
+
+/// Readings farther than this from the median are outliers, in standard deviations. Source: ours; of a thousand
+/// normal readings two are.
+const FARTHEST: f64 = 3.1;
+
+impl Middle {
+    /// Of some readings; `None` of none.
+    ///
+    /// The scatter is that of the middle half, which is 1.349 standard deviations of normal readings wide: a quarter of
+    /// outliers at each end does not show in it. Readings that are rounded to more than that have the scatter of the
+    /// middle eight tenths, 2.563 wide.
+    pub(super) fn of(readings: &mut [f64]) -> Option<Self> {
+        const HALF: f64 = 1.348_979_500_4;
+        const EIGHT_TENTHS: f64 = 2.563_103_131_1;
+        if readings.is_empty() {
+            return None;
+        }
+        readings.sort_by(f64::total_cmp);
+        let at = |share: f64| grouser_io::statistics::quantile(readings, share).unwrap_or(f64::NAN);
+        let (median, half) = (at(0.5), (at(0.75) - at(0.25)) / HALF);
+        let scatter = if half > 0.0 { half } else { (at(0.9) - at(0.1)) / EIGHT_TENTHS };
+        let is_near = |reading: &&f64| (**reading - median).abs() <= FARTHEST * scatter;
+        let near = readings.iter().filter(is_near);
+        let (count, sum) = near.fold((0_usize, 0.0), |(count, sum), it| (count + 1, sum + it));
+        let value = if count == 0 { median } else { sum / count as f64 };
+        Some(Self { value, scatter, count: count.max(1), outliers: readings.len() - count })
+    }
+
+    /// Standard deviation of the mean.
+    ///
+    /// * `usual`: of a reading, where there are too few to tell
+    pub(super) fn deviation(&self, usual: f64) -> f64 {
+        const ENOUGH: usize = 5;
+        let scatter = if self.count < ENOUGH { self.scatter.max(usual) } else { self.scatter };
+        scatter / (self.count as f64).sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::studies::random;
+
+    #[test]
+    fn outliers_do_not_move_the_middle() {
+        let mut random = random::generator(5, 1);
+        let mut readings: Vec<f64> =
+            (0..400).map(|_| 1.0 + 0.1 * random::standard_normal(&mut random)).collect();
+        let clean = Middle::of(&mut readings.clone()).unwrap();
+        for reading in readings.iter_mut().step_by(20) {
+            *reading = 50.0;
+        }
+        let found = Middle::of(&mut readings).unwrap();
+        assert!((found.value - clean.value).abs() < 0.01, "{found:?}");
+        assert!((found.scatter - 0.1).abs() < 0.015, "{found:?}");
+        assert!((20..=26).contains(&found.outliers), "{found:?}");
+    }
+
+    /// Readings rounded to more than their noise still have the mean of all.
+    #[test]
+    fn rounded_readings_have_their_mean() {
+        let mut readings = [vec![0.0; 30], vec![1.0; 70]].concat();
+        let found = Middle::of(&mut readings).unwrap();
+        assert!((found.value - 0.7).abs() < 1e-12 && found.outliers == 0, "{found:?}");
+        assert!(Middle::of(&mut []).is_none());
+        let one = Middle::of(&mut [3.0]).unwrap();
+        assert_eq!((one.value, one.deviation(0.2)), (3.0, 0.2));
+    }
+}

@@ -1,0 +1,384 @@
+//! The motion that a soil expects where the rover was seen, with the torques and sinkages that go with it.
+//!
+//! Attitude, rim speeds and yaw rate are taken as they were read. The velocities (u, v) are those that leave no force
+//! over,
+//!
+//! ```text
+//! ΣF_x(u, v) + G_x = 0        ΣF_y(u, v) + G_y = 0
+//! ```
+//!
+//! and are compared with those that were read, not the forces at those that were read: where wheels hardly slip, forces
+//! turn within the noise of odometry, and a soil that is judged by forces at a noisy motion is judged too weak. A soil in
+//! which nothing balances holds the rover where it is.
+
+use nalgebra::{DMatrix, DVector, Matrix2};
+
+use super::noise::ModelNoise;
+use super::stretch::{Reading, Stretch};
+use crate::contact::Slip;
+use crate::elementary::wide::{hypot, ln};
+use crate::newton;
+use crate::studies::ensemble::samples::Sample;
+use crate::studies::heading::HeadingStudy;
+use crate::units::Vec2;
+use crate::vehicle::ground::{Ground, forces_of};
+use crate::vehicle::kinematics::wheel_slips;
+use crate::vehicle::{Rover, RoverState, WheelReaction, dynamics};
+
+/// A motion that was seen, with what was read of forces and sinkages in it.
+#[derive(Clone, Debug)]
+pub(super) struct SeenMotion {
+    rover: Rover,
+    slope: f64,
+    yaw: f64,
+    rim_speeds: Vec<f64>,
+    /// Velocity along the body and to its left [m/s], and yaw rate [rad/s].
+    velocities: [Reading; 3],
+    torques: Vec<Option<Reading>>,
+    sinkages: Vec<Option<Reading>>,
+    way: f64,
+}
+
+/// Why nothing is learnt from a stretch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum NotUsed {
+    /// Neither roll nor pitch, and no slope.
+    NoAttitude,
+    /// No way along the body.
+    NoMotion,
+    /// The wheels stand.
+    Standing,
+    /// The wheels turn in different directions, or change their speeds.
+    Manoeuvre,
+    /// The rover tips, or no soil that is believed possible carries it.
+    NotCarried,
+}
+
+impl NotUsed {
+    /// All of them.
+    pub const ALL: [Self; 5] =
+        [Self::NoAttitude, Self::NoMotion, Self::Standing, Self::Manoeuvre, Self::NotCarried];
+
+    /// What it means for an operator.
+    #[must_use]
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Self::NoAttitude => "roll and pitch are not known",
+            Self::NoMotion => "there is no way by odometry or fixes",
+            Self::Standing => "the wheels stand",
+            Self::Manoeuvre => "the wheels turn in different directions, or change their speeds",
+            Self::NotCarried => {
+                "the rover would tip there, or sink to its axles in every soil that is believed \
+                 possible"
+            }
+        }
+    }
+}
+
+/// Rims that are slower than this stand [m/s].
+const STANDS: f64 = 1e-3;
+/// Rims whose speeds scatter more than this over their size change them [-].
+const STEADY: f64 = 0.25;
+/// How far a way to the side that was not read is unknown, over the rims' speed [-].
+const UNKNOWN_SIDE: f64 = 0.15;
+/// How far a yaw rate that was not read is unknown, its speed at the farthest wheel over the rims' [-].
+const UNKNOWN_TURN: f64 = 0.05;
+/// Odometry is this uncertain however many of it are averaged, over the rims' speed [-]: its scale and mounting. Source:
+/// ours.
+const ODOMETRY: f64 = 0.005;
+
+impl SeenMotion {
+    /// What can be learnt from a stretch.
+    pub(super) fn of(stretch: &Stretch, rover: &Rover) -> Result<Self, NotUsed> {
+        let rims = &stretch.rim_speeds;
+        let fastest = rims.iter().map(|it| it.abs()).fold(0.0, f64::max);
+        if fastest < STANDS {
+            return Err(NotUsed::Standing);
+        }
+        let turns_both_ways =
+            rims.iter().any(|it| *it > STANDS) && rims.iter().any(|it| *it < -STANDS);
+        if turns_both_ways || stretch.rim_scatter > STEADY {
+            return Err(NotUsed::Manoeuvre);
+        }
+        let [slope, yaw] = stretch.attitude.ok_or(NotUsed::NoAttitude)?;
+        let [forward, leftward] = stretch.velocity;
+        let forward = forward.ok_or(NotUsed::NoMotion)?;
+        let reach = rover.load_arms().iter().map(Vec2::norm).fold(f64::MIN_POSITIVE, f64::max);
+        let unknown = |share: f64| Reading { value: 0.0, deviation: share * fastest };
+        let leftward = leftward.unwrap_or(unknown(UNKNOWN_SIDE));
+        let turning = stretch.yaw_rate.unwrap_or(unknown(UNKNOWN_TURN / reach));
+        let floor = ODOMETRY * fastest;
+        let with_floor = |reading: Reading, floor: f64| {
+            let deviation = hypot(reading.deviation, floor);
+            Reading { deviation, ..reading }
+        };
+        let velocities = [
+            with_floor(forward, floor),
+            with_floor(leftward, floor),
+            with_floor(turning, floor / reach),
+        ];
+        Ok(Self {
+            rover: steered(rover, &stretch.steering),
+            slope,
+            yaw,
+            rim_speeds: rims.clone(),
+            velocities,
+            torques: stretch.torques.clone(),
+            sinkages: stretch.sinkages.clone(),
+            way: stretch.way,
+        })
+    }
+
+    /// Mean slip ratio of the wheels as it was seen [-].
+    pub(super) fn slip_ratio(&self) -> f64 {
+        let [forward, leftward, _] = self.velocities.map(|it| it.value);
+        let slips = self.slips(Vec2::new(forward, leftward));
+        slips.iter().map(|it| it.ratio).sum::<f64>() / slips.len() as f64
+    }
+
+    /// The fastest rim's speed [m/s].
+    fn fastest(&self) -> f64 {
+        self.rim_speeds.iter().map(|it| it.abs()).fold(0.0, f64::max)
+    }
+
+    /// The same motion with another yaw rate.
+    ///
+    /// * `error`: by which it was read too small, in its standard deviations [-]
+    pub(super) fn turning(&self, error: f64) -> Self {
+        let mut turning = self.clone();
+        let [.., rate] = &mut turning.velocities;
+        rate.value += error * rate.deviation;
+        turning
+    }
+
+    fn state(&self, velocity: Vec2) -> RoverState {
+        let yaw_rate = self.velocities[2].value;
+        RoverState { yaw: self.yaw, velocity, yaw_rate, ..RoverState::default() }
+    }
+
+    fn slips(&self, velocity: Vec2) -> Vec<Slip> {
+        wheel_slips(&self.rover, &self.state(velocity), &self.rim_speeds).collect()
+    }
+
+    /// What each wheel does at a velocity, and the force that is left over, over the weight [-]; `None` where the soil
+    /// does not carry the rover.
+    fn left_over(
+        &self,
+        study: &HeadingStudy,
+        velocity: Vec2,
+        near: &[WheelReaction],
+    ) -> Option<(Vec2, Vec<WheelReaction>)> {
+        let site = study.site(self.slope);
+        let ground = Ground { rover: &self.rover, ..study.ground(&site) };
+        let stance = ground.stance(&self.state(velocity));
+        let wheels = ground.reactions_near(&stance, &self.slips(velocity), near).ok()?;
+        let (soil, _) =
+            dynamics::soil_resultant(&self.rover, forces_of(&wheels), study.own_moments);
+        Some(((soil + stance.pull) / (self.rover.mass() * study.gravity), wheels))
+    }
+
+    /// What a soil expects; `None` where it does not carry the rover even at rest.
+    ///
+    /// * `near`: what a soil that is nearly alike expects, to begin with
+    pub(super) fn expected(
+        &self,
+        study: &HeadingStudy,
+        sample: &Sample,
+        near: Option<&Expected>,
+    ) -> Option<Expected> {
+        let study = study.of_sample(sample);
+        let mut found = near.and_then(|near| self.balanced_near(&study, near));
+        if found.is_none() {
+            found = self.starts().into_iter().find_map(|at| self.balanced_from(&study, at));
+        }
+        let balance = match found {
+            Some(balance) => balance,
+            None => self.stuck(&study)?,
+        };
+        Some(self.numbers(&study, balance))
+    }
+
+    /// Where a balance is sought: at the motion as it was seen, then at lighter and heavier slips.
+    fn starts(&self) -> Vec<Vec2> {
+        let [forward, leftward, _] = self.velocities.map(|it| it.value);
+        let mean = self.rim_speeds.iter().sum::<f64>() / self.rim_speeds.len() as f64;
+        let lighter = [0.97, 0.85, 0.6, 0.3].map(|share| Vec2::new(share * mean, 0.0));
+        [Vec2::new(forward, leftward)].into_iter().chain(lighter).collect()
+    }
+
+    fn balanced_near(&self, study: &HeadingStudy, near: &Expected) -> Option<Balance> {
+        let zero = newton::zero_near(
+            |at| {
+                let (left, wheels) = self.left_over(study, *at, &near.balance.wheels)?;
+                Some((left, wheels))
+            },
+            &near.balance.velocity,
+            near.balance.inverse?,
+            |step| step.norm() / self.fastest(),
+            LONGEST,
+            |left, _| left.norm() < BALANCED,
+        )?;
+        let (velocity, wheels) = (zero.at, zero.value);
+        Some(Balance { velocity, wheels, inverse: Some(zero.inverse) })
+    }
+
+    /// Newton's method with steps that are halved until less is left over.
+    fn balanced_from(&self, study: &HeadingStudy, mut at: Vec2) -> Option<Balance> {
+        const ROUNDS: usize = 20;
+        const HALVINGS: i32 = 6;
+        let longest = LONGEST * self.fastest();
+        let (mut left, mut wheels) = self.left_over(study, at, &[])?;
+        for _ in 0..ROUNDS {
+            let inverse = self.stiffness(study, at, &left, &wheels)?.try_inverse()?;
+            if left.norm() < BALANCED {
+                return Some(Balance { velocity: at, wheels, inverse: Some(inverse) });
+            }
+            let mut way = -(inverse * left);
+            way *= (longest / way.norm()).min(1.0);
+            let found = (0..HALVINGS).find_map(|round| {
+                let there = at + way * 0.5_f64.powi(round);
+                let (left_there, wheels_there) = self.left_over(study, there, &wheels)?;
+                (left_there.norm() < left.norm()).then_some((there, left_there, wheels_there))
+            });
+            (at, left, wheels) = found?;
+        }
+        None
+    }
+
+    /// How the force that is left over changes with the velocities [s/m].
+    fn stiffness(
+        &self,
+        study: &HeadingStudy,
+        at: Vec2,
+        left: &Vec2,
+        wheels: &[WheelReaction],
+    ) -> Option<Matrix2<f64>> {
+        /// Over the fastest rim: forces turn within a thousandth where wheels hardly slip.
+        const STEP: f64 = 1e-4;
+        let step = STEP * self.fastest();
+        let column = |axis: Vec2| {
+            let (ahead, _) = self.left_over(study, at + axis * step, wheels)?;
+            Some((ahead - left) / step)
+        };
+        Some(Matrix2::from_columns(&[column(Vec2::x())?, column(Vec2::y())?]))
+    }
+
+    /// The rover where nothing balances: its wheels turn on the spot.
+    fn stuck(&self, study: &HeadingStudy) -> Option<Balance> {
+        let (_, wheels) = self.left_over(study, Vec2::zeros(), &[])?;
+        Some(Balance { velocity: Vec2::zeros(), wheels, inverse: None })
+    }
+
+    /// The numbers that go with a balance, as [`seen`](Self::seen) has those that were read.
+    fn numbers(&self, study: &HeadingStudy, balance: Balance) -> Expected {
+        let mut numbers: Vec<f64> = (balance.velocity / self.fastest()).iter().copied().collect();
+        for (place, wheel) in balance.wheels.iter().enumerate() {
+            if self.torques[place].is_some() {
+                numbers.push(wheel.settled.forces.torque / self.torque_scale(study, place));
+            }
+        }
+        for (wheel, read) in balance.wheels.iter().zip(&self.sinkages) {
+            if read.is_some() {
+                numbers.push(ln(wheel.settled.sinkage.max(SHALLOWEST)));
+            }
+        }
+        Expected { numbers: DVector::from_vec(numbers), balance }
+    }
+
+    /// What was read: velocities over the fastest rim's, torques over weight times shearing radius, logarithms of
+    /// sinkages.
+    pub(super) fn seen(&self, study: &HeadingStudy) -> DVector<f64> {
+        let velocities = self.velocities[..2].iter().map(|it| it.value / self.fastest());
+        let torques = self
+            .torques
+            .iter()
+            .enumerate()
+            .filter_map(|(place, read)| Some((*read)?.value / self.torque_scale(study, place)));
+        let sinkages = self.sinkages.iter().flatten().map(|it| ln(it.value.max(SHALLOWEST)));
+        DVector::from_vec(velocities.chain(torques).chain(sinkages).collect())
+    }
+
+    /// What torques are measured by [N·m].
+    fn torque_scale(&self, study: &HeadingStudy, wheel: usize) -> f64 {
+        self.rover.mounts()[wheel].shearing_radius() * self.rover.mass() * study.gravity
+    }
+
+    /// The noise of what was read about what a right soil expects: that of the instruments, and what no soil explains.
+    pub(super) fn noise(
+        &self,
+        study: &HeadingStudy,
+        expected: &Expected,
+        noise: &ModelNoise,
+    ) -> DMatrix<f64> {
+        /// A force that is off moves a rover no farther than this off its speed, over the fastest rim's [-].
+        const FARTHEST: f64 = 0.3;
+        let fastest = self.fastest();
+        let together = noise.together(self.way);
+        let count = expected.numbers.len();
+        let mut covariance = DMatrix::zeros(count, count);
+        let force = hypot(noise.force, noise.attitude);
+        let by_force = expected.balance.inverse.map(|inverse| inverse * (force / fastest));
+        let mut of_force =
+            by_force.map_or(Matrix2::identity() * FARTHEST.powi(2), |it| it * it.transpose());
+        let size = of_force.trace().sqrt();
+        of_force *= (FARTHEST / size).min(1.0).powi(2) * together;
+        covariance.view_mut((0, 0), (2, 2)).copy_from(&of_force);
+        let mut own: Vec<f64> =
+            self.velocities[..2].iter().map(|it| (it.deviation / fastest).powi(2)).collect();
+        for (place, wheel) in expected.balance.wheels.iter().enumerate() {
+            if let Some(read) = self.torques[place] {
+                let share = noise.torque_share * wheel.settled.forces.torque;
+                let of_model = together * (share.powi(2) + noise.torque.powi(2));
+                own.push(
+                    (of_model + read.deviation.powi(2)) / self.torque_scale(study, place).powi(2),
+                );
+            }
+        }
+        for read in self.sinkages.iter().flatten() {
+            let share = read.deviation / read.value.max(SHALLOWEST);
+            own.push(together * noise.sinkage.powi(2) + share.powi(2));
+        }
+        for (place, variance) in own.into_iter().enumerate() {
+            covariance[(place, place)] += variance;
+        }
+        covariance
+    }
+}
+
+/// A force over the weight that is nothing [-].
+const BALANCED: f64 = 1e-7;
+/// The longest step towards a balance, over the fastest rim's speed [-].
+const LONGEST: f64 = 0.3;
+/// Sinkages below this count as this [m].
+const SHALLOWEST: f64 = 1e-4;
+
+/// Velocities that leave no force over.
+#[derive(Clone, Debug)]
+struct Balance {
+    velocity: Vec2,
+    wheels: Vec<WheelReaction>,
+    /// How the velocities change with a force over the weight [m/s]; `None` where nothing balances.
+    inverse: Option<Matrix2<f64>>,
+}
+
+/// What a soil expects of a motion.
+#[derive(Clone, Debug)]
+pub(super) struct Expected {
+    /// Velocities over the fastest rim's, torques over weight times shearing radius, logarithms of sinkages.
+    pub(super) numbers: DVector<f64>,
+    balance: Balance,
+}
+
+/// The rover with its wheels steered as they were read.
+fn steered(rover: &Rover, read: &[Option<f64>]) -> Rover {
+    let mounts = rover.mounts().iter().zip(read);
+    let angles: Vec<f64> = mounts
+        .map(|(mount, read)| {
+            let axis = mount.steering_axis.as_ref();
+            let within = axis.zip(*read).map(|(axis, it)| it.clamp(-axis.limit, axis.limit));
+            within.unwrap_or(mount.steering)
+        })
+        .collect();
+    // Within its limits a rover can be steered.
+    rover.steered(&angles).unwrap_or_else(|_| rover.clone())
+}
