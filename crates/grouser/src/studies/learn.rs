@@ -23,11 +23,13 @@ mod noise;
 mod settings;
 mod stretch;
 mod unknowns;
+mod warnings;
 
 use std::collections::BTreeMap;
 
 pub use self::bank::LearntSample;
 use self::bank::{Bank, Taught};
+use self::filter::Filter;
 pub use self::filter::Wandering;
 pub use self::motion::NotUsed;
 use self::motion::SeenMotion;
@@ -35,6 +37,8 @@ pub use self::noise::ModelNoise;
 pub use self::settings::LearnSettings;
 use self::stretch::Gatherer;
 pub use self::stretch::{Reading, Stretch};
+use self::warnings::{DEEP, Seen, Watch};
+pub use self::warnings::{Warning, WarningKind};
 use super::ensemble::models::ModelSpread;
 use super::ensemble::samples::{BandInputs, Sample};
 use super::heading::HeadingStudy;
@@ -53,8 +57,12 @@ pub struct Learner {
     settings: LearnSettings,
     gatherer: Gatherer,
     bank: Bank,
+    watch: Watch,
     learnt: Learnt,
 }
+
+/// On less slope than this nothing is said of the slopes ahead [rad].
+const LEVEL: f64 = 0.03;
 
 /// How much was learnt from.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -81,6 +89,8 @@ pub struct Lesson {
     /// How far each number of the observation was from what was expected [standard deviations]: the force along the
     /// body, across it, then torques and sinkages.
     pub scores: Vec<f64>,
+    /// What to warn of.
+    pub warnings: Vec<Warning>,
 }
 
 /// Why there is nothing to learn.
@@ -105,7 +115,8 @@ impl Learner {
         let slope = slope_is_known.then_some(scenario.value.site.terrain.slope);
         let bank = Bank::new(&BandInputs::of_scenario(scenario)).ok_or(NothingToLearn)?;
         let gatherer = Gatherer::new(&study.rover, slope);
-        Ok(Self { study, settings, gatherer, bank, learnt: Learnt::default() })
+        let (watch, learnt) = (Watch::default(), Learnt::default());
+        Ok(Self { study, settings, gatherer, bank, watch, learnt })
     }
 
     /// Takes a record; what was learnt, where it completes a stretch that teaches something.
@@ -125,10 +136,11 @@ impl Learner {
         self.learnt.outliers += stretch.outliers as u64;
         let motion = SeenMotion::of(&stretch, &self.study.rover);
         let taught = motion.and_then(|motion| {
+            let before = self.bank.best(&self.settings).clone();
             let taught = self.bank.learn(&self.study, &motion, &self.settings, stretch.way)?;
-            Ok((motion, taught))
+            Ok((before, motion, taught))
         });
-        let (motion, Taught { surprise, .. }) = match taught {
+        let (before, motion, Taught { surprise }) = match taught {
             Ok(taught) => taught,
             Err(why) => {
                 *self.learnt.not_used.entry(why).or_default() += 1;
@@ -138,7 +150,39 @@ impl Learner {
         self.learnt.stretches += 1;
         self.learnt.way += stretch.way;
         let slip_ratio = motion.slip_ratio();
-        Some(Lesson { stretch, slip_ratio, scores: surprise.scores.as_slice().to_vec() })
+        let seen = Seen {
+            stretch: &stretch,
+            slip_ratio,
+            strangeness: surprise.strangeness,
+            expected_slip: before
+                .expected_slip(&self.study, &motion, motion.slope())
+                .unwrap_or(1.0),
+            deep_slope: self.deep_slope(&before, &motion),
+        };
+        let warnings = self.watch.look(&seen, &self.study.rover);
+        if warnings.iter().any(|it| it.kind == WarningKind::SoilChange) {
+            self.bank.forget();
+        }
+        Some(Lesson { stretch, slip_ratio, scores: surprise.scores.as_slice().to_vec(), warnings })
+    }
+
+    /// The slope on which the wheels' slip is [`DEEP`] on this course [rad], by what was believed before; nothing where it
+    /// is not up to ten degrees steeper.
+    fn deep_slope(&self, before: &Filter, motion: &SeenMotion) -> Option<f64> {
+        const ROUNDS: usize = 6;
+        let is_deep = |slope: f64| {
+            let slip = before.expected_slip(&self.study, motion, slope);
+            slip.is_none_or(|slip| slip >= DEEP)
+        };
+        let (mut low, mut high) = (motion.slope(), motion.slope() + 10.0_f64.to_radians());
+        if low < LEVEL || !is_deep(high) {
+            return None;
+        }
+        for _ in 0..ROUNDS {
+            let middle = 0.5 * (low + high);
+            if is_deep(middle) { high = middle } else { low = middle }
+        }
+        Some(low)
     }
 
     /// How much was learnt from.

@@ -2,8 +2,10 @@
 
 mod twin;
 
+use grouser::document::LoadedScenario;
+use grouser::studies::learn::{LearnSettings, Learner, Warning, WarningKind};
 use grouser::studies::simulated_telemetry::SensorModels;
-use twin::{answer, scenario, truths};
+use twin::{Drive, answer, scenario, truths};
 
 #[test]
 #[ignore = "prints"]
@@ -61,4 +63,64 @@ fn look() {
         errors.map(|e| e / f64::from(all)),
         started.elapsed()
     );
+}
+
+/// The warnings of a drive.
+fn warnings(
+    prior: &LoadedScenario,
+    drive: &Drive,
+    models: SensorModels,
+    seed: u64,
+) -> Vec<Warning> {
+    let mut learner = Learner::new(prior, false, LearnSettings::USUAL).unwrap();
+    let lessons = drive.seen(models, seed).into_iter().filter_map(|it| learner.update(it));
+    lessons.flat_map(|it| it.warnings).collect()
+}
+
+fn usual() -> SensorModels {
+    SensorModels { outliers: 0.05, ..SensorModels::USUAL }
+}
+
+#[test]
+#[ignore = "prints"]
+fn look_at_warnings() {
+    let prior = scenario(&["scenario.soil=toyoura-uncertain"]);
+    let count: u32 = std::env::var("N").map_or(10, |it| it.parse().unwrap());
+    let started = std::time::Instant::now();
+    for (place, truth) in truths(&prior, 5, count).iter().enumerate() {
+        let mut drive = Drive::new(&prior, truth);
+        if drive.leg((4.0, 3.0, 3.0)).is_none() || drive.leg((6.0, 20.0, 2.0)).is_none() {
+            continue;
+        }
+        println!("{place} {:?} false: {:?}", truth.theory, warnings(&prior, &drive, usual(), 3));
+        let mut drive = Drive::new(&prior, truth);
+        drive.leg((6.0, 40.0, 2.0));
+        let mut other = *truth;
+        other.soil.friction_angle *= 0.85;
+        drive.change(&other);
+        let before = drive.records.last().unwrap().displacement[0];
+        drive.leg((6.0, 40.0, 1.5));
+        let after = drive.records.last().unwrap().displacement[0];
+        println!("   change {before:?} {after:?}: {:?}", warnings(&prior, &drive, usual(), 3));
+        let mut drive = Drive::new(&prior, truth);
+        let mut slope = 3.0;
+        while drive.leg((slope, 90.0, 0.06)).is_some() && slope < 40.0 {
+            slope += 0.3;
+        }
+        let end = drive.records.last().unwrap();
+        let ways: Vec<(f64, f64)> =
+            drive.records.iter().map(|it| (it.time, it.displacement[0].unwrap())).collect();
+        let stuck =
+            ways.iter().position(|it| it.1 < 0.1 * twin::RIM_SPEED * 0.1).unwrap_or(ways.len() - 1);
+        let all = warnings(&prior, &drive, usual(), 3);
+        println!(
+            "   stuck at {:.1} s of {:.1} slope {slope:.1} {:?}",
+            ways[stuck].0, end.time, end.displacement[0]
+        );
+        for w in all.iter().filter(|it| it.kind == WarningKind::Entrapment) {
+            let ground: f64 = ways[..stuck].iter().filter(|it| it.0 > w.time).map(|it| it.1).sum();
+            println!("       {:.1} s and {:.2} m ahead: {:?}", ways[stuck].0 - w.time, ground, w);
+        }
+    }
+    println!("{:?}", started.elapsed());
 }

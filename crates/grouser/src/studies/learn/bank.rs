@@ -8,7 +8,6 @@ use super::motion::{NotUsed, SeenMotion};
 use super::settings::LearnSettings;
 use super::unknowns::Unknowns;
 use crate::elementary::exp;
-use crate::elementary::wide::ln;
 use crate::studies::ensemble::models::ModelSpread;
 use crate::studies::ensemble::samples::{BandInputs, Sample};
 use crate::studies::heading::HeadingStudy;
@@ -29,8 +28,6 @@ pub(super) struct Bank {
 pub(super) struct Taught {
     /// How surprising it was to the model with the greatest share.
     pub(super) surprise: Surprise,
-    /// The logarithm of its density, over all models.
-    pub(super) log_density: f64,
 }
 
 /// A sample of what is believed, with the values of the soil's keys in their own units.
@@ -118,31 +115,13 @@ impl Bank {
         }
         let most = self.evidence.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         self.evidence.iter_mut().for_each(|it| *it -= most);
-        let mixed: f64 = densities
-            .iter()
-            .map(|(place, it)| models.shares()[*place].1 * exp((it - least).min(600.0)))
-            .sum();
-        Ok(Taught { surprise, log_density: least + ln(mixed) })
+        Ok(Taught { surprise })
     }
 
-    /// The logarithm of the density of a motion, over all models, if nothing was learnt from it.
-    pub(super) fn log_density(
-        &self,
-        study: &HeadingStudy,
-        motion: &SeenMotion,
-        settings: &LearnSettings,
-    ) -> Option<f64> {
-        let models = self.models(settings);
-        let each = self.filters.iter().zip(models.shares());
-        let all: Vec<(f64, f64)> = each
-            .filter_map(|(filter, (_, share))| {
-                let found = filter.surprise(study, motion, &settings.noise)?;
-                Some((*share, found.log_density))
-            })
-            .collect();
-        let least = all.iter().map(|it| it.1).fold(f64::INFINITY, f64::min);
-        let sum: f64 = all.iter().map(|(share, it)| share * exp((it - least).min(600.0))).sum();
-        (!all.is_empty()).then(|| least + ln(sum))
+    /// Forgets all that was learnt: the soil is another.
+    pub(super) fn forget(&mut self) {
+        self.filters.iter_mut().for_each(Filter::forget);
+        self.evidence.fill(0.0);
     }
 
     /// Sample number `index` of what is believed, which depends on the seed and that number alone. Before anything is

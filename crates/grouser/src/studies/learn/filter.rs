@@ -44,6 +44,11 @@ impl Filter {
         Self { unknowns, belief }
     }
 
+    /// Forgets all that was learnt.
+    pub(super) fn forget(&mut self) {
+        self.belief = Gaussian::standard(self.unknowns.count());
+    }
+
     /// That the rover went on over soil that changes.
     ///
     /// * `way`: of the rims [m]
@@ -79,16 +84,16 @@ impl Filter {
         Some(line)
     }
 
-    /// What was expected of a motion: how far it is off.
-    pub(super) fn surprise(
+    /// The mean slip ratio that is expected of a motion on another slope [rad], with the soil that is believed most.
+    pub(super) fn expected_slip(
         &self,
         study: &HeadingStudy,
         motion: &SeenMotion,
-        noise: &ModelNoise,
-    ) -> Option<Surprise> {
-        let belief = self.belief.and_one();
-        let line = self.line(study, motion, noise, &belief)?;
-        belief.surprise(&line, &motion.seen(study))
+        slope: f64,
+    ) -> Option<f64> {
+        let sample = self.unknowns.sample(self.belief.mean.as_slice())?;
+        let there = motion.on_slope(slope);
+        there.expected(study, &sample, None).map(|it| there.slip_of(&it))
     }
 
     /// Learns from a motion; how surprising it was.

@@ -132,8 +132,27 @@ impl SeenMotion {
     /// Mean slip ratio of the wheels as it was seen [-].
     pub(super) fn slip_ratio(&self) -> f64 {
         let [forward, leftward, _] = self.velocities.map(|it| it.value);
-        let slips = self.slips(Vec2::new(forward, leftward));
+        self.mean_slip(Vec2::new(forward, leftward))
+    }
+
+    /// Mean slip ratio of the wheels that a soil expects [-].
+    pub(super) fn slip_of(&self, expected: &Expected) -> f64 {
+        self.mean_slip(expected.balance.velocity)
+    }
+
+    fn mean_slip(&self, velocity: Vec2) -> f64 {
+        let slips = self.slips(velocity);
         slips.iter().map(|it| it.ratio).sum::<f64>() / slips.len() as f64
+    }
+
+    /// The slope of the ground [rad].
+    pub(super) fn slope(&self) -> f64 {
+        self.slope
+    }
+
+    /// The same motion on another slope [rad], at the same yaw.
+    pub(super) fn on_slope(&self, slope: f64) -> Self {
+        Self { slope, ..self.clone() }
     }
 
     /// The fastest rim's speed [m/s].

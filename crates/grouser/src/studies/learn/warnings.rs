@@ -1,0 +1,336 @@
+//! What to warn of on the way: another soil, entrapment, a wheel that no longer pulls, a sensor that lies.
+//!
+//! A [`Watch`] looks at stretch after stretch. A warning is given once, and again only after a metre without its cause.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use super::stretch::Stretch;
+use crate::elementary::wide::{cos, ln_1p};
+use crate::vehicle::Rover;
+
+/// Something that an operator should know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Warning {
+    /// What it is.
+    pub kind: WarningKind,
+    /// When it was noticed [s].
+    pub time: f64,
+    /// The rims' way until then [m].
+    pub way: f64,
+    /// Time until it happens, if it is ahead [s].
+    pub lead_time: Option<f64>,
+    /// Way over the ground until it happens, if it is ahead [m].
+    pub lead_way: Option<f64>,
+    /// What was seen: a sentence.
+    pub evidence: String,
+}
+
+/// What a warning is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum WarningKind {
+    /// The rover moves as it would not on the soil that was learnt so far.
+    SoilChange,
+    /// The rover gets stuck if it goes on.
+    Entrapment,
+    /// A wheel has much less torque than the others.
+    WheelNotPulling,
+    /// Readings contradict each other, or do not change.
+    LyingSensor,
+}
+
+impl WarningKind {
+    /// All of them.
+    pub const ALL: [Self; 4] =
+        [Self::SoilChange, Self::Entrapment, Self::WheelNotPulling, Self::LyingSensor];
+
+    /// One word: `soil-change`, `entrapment`, `wheel-not-pulling`, `lying-sensor`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::SoilChange => "soil-change",
+            Self::Entrapment => "entrapment",
+            Self::WheelNotPulling => "wheel-not-pulling",
+            Self::LyingSensor => "lying-sensor",
+        }
+    }
+}
+
+/// What a stretch says beside its readings.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seen<'a> {
+    pub(super) stretch: &'a Stretch,
+    pub(super) slip_ratio: f64,
+    /// How much better a soil that is not known yet explains it than what was learnt: a logarithm of densities.
+    pub(super) strangeness: f64,
+    /// Slip ratio that was expected [-].
+    pub(super) expected_slip: f64,
+    /// The slope on which the wheels' slip reaches [`DEEP`] on this course [rad], by what was learnt.
+    pub(super) deep_slope: Option<f64>,
+}
+
+/// Looks at stretches.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Watch {
+    way: f64,
+    /// Of the last stretches: time [s], the rims' way [m], −ln(1 − s), slope [rad] and course.
+    recent: VecDeque<Past>,
+    /// Evidence of another soil, summed up (Page 1954).
+    change: f64,
+    /// Of each warning: the way at which its cause was last seen [m].
+    causes: BTreeMap<(WarningKind, usize), f64>,
+    /// Of each wheel: the rims' way over which its torque is too small [m].
+    idle: Vec<f64>,
+    /// The rims' way over which yaw contradicts roll and pitch [m].
+    contradicted: f64,
+    /// The rims' way over which odometry is faster than the wheels [m].
+    outrun: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Past {
+    time: f64,
+    way: f64,
+    ground: f64,
+    strain: f64,
+    slope: f64,
+    yaw: f64,
+}
+
+/// Slip at which a rover is as good as stuck [-].
+pub(super) const DEEP: f64 = 0.9;
+/// Evidence at which the soil counts as another: false alarms are one in e^9 stretches or fewer, if what is learnt is
+/// right.
+const CHANGED: f64 = 9.0;
+/// The most that one stretch may say: three have to agree, so that no outlier is a soil.
+const MOST_SAID: f64 = 3.5;
+/// Trends are those of this way of the rims [m].
+const TREND: f64 = 0.8;
+/// Entrapment is looked for this far ahead: way over the ground [m], and time [s].
+const AHEAD: f64 = 1.5;
+const SOON: f64 = 90.0;
+/// Less slip than this is no sign of entrapment [-].
+const SLIPS: f64 = 0.25;
+/// More slip than this is entrapment whatever the trend [-].
+const SPINS: f64 = 0.6;
+/// A cause has to last this way of the rims to be one [m].
+const LASTS: f64 = 0.5;
+/// A warning is given again after this way without its cause [m].
+const QUIET: f64 = 1.0;
+
+impl Watch {
+    /// The warnings that a stretch gives rise to.
+    pub(super) fn look(&mut self, seen: &Seen<'_>, rover: &Rover) -> Vec<Warning> {
+        self.way += seen.stretch.way;
+        self.remember(seen);
+        let found = [
+            self.soil_change(seen),
+            self.entrapment(seen),
+            self.contradiction(seen.stretch),
+            self.outrunning(seen),
+        ];
+        let idle = self.idle_wheels(seen.stretch, rover);
+        found.into_iter().flatten().chain(idle).collect()
+    }
+
+    fn remember(&mut self, seen: &Seen<'_>) {
+        let [slope, yaw] = seen.stretch.attitude.unwrap_or_default();
+        let ground = self.recent.back().map_or(0.0, |it| it.ground)
+            + seen.stretch.way * (1.0 - seen.slip_ratio).max(0.0);
+        let strain = -ln_1p(-seen.slip_ratio.min(0.995));
+        let (time, way) = (seen.stretch.time[1], self.way);
+        self.recent.push_back(Past { time, way, ground, strain, slope, yaw });
+        while self.recent.front().is_some_and(|it| it.way < way - TREND) {
+            self.recent.pop_front();
+        }
+    }
+
+    /// A warning, unless its cause was there a moment ago.
+    ///
+    /// * `which`: of several of a kind
+    fn raise(
+        &mut self,
+        kind: WarningKind,
+        which: usize,
+        lead: [Option<f64>; 2],
+        evidence: impl FnOnce() -> String,
+    ) -> Option<Warning> {
+        let before = self.causes.insert((kind, which), self.way);
+        if before.is_some_and(|before| self.way - before < QUIET) {
+            return None;
+        }
+        let time = self.recent.back()?.time;
+        let [lead_time, lead_way] = lead;
+        Some(Warning { kind, time, way: self.way, lead_time, lead_way, evidence: evidence() })
+    }
+
+    /// Whether the soil has just been found to be another.
+    fn soil_change(&mut self, seen: &Seen<'_>) -> Option<Warning> {
+        self.change = (self.change + seen.strangeness.min(MOST_SAID)).max(0.0);
+        if self.change < CHANGED {
+            return None;
+        }
+        self.change = 0.0;
+        let (slip, expected) = (seen.slip_ratio, seen.expected_slip);
+        self.raise(WarningKind::SoilChange, 0, [None; 2], || {
+            format!(
+                "three or more stretches in a row move as the soil learnt so far does not let them: a slip ratio of \
+                 {slip:.2} where {expected:.2} was expected"
+            )
+        })
+    }
+
+    /// Whether the slip goes to 1, or the ground gets too steep for what was learnt.
+    fn entrapment(&mut self, seen: &Seen<'_>) -> Option<Warning> {
+        let last = *self.recent.back()?;
+        let speed = self.ground_speed();
+        let slip = seen.slip_ratio;
+        if slip > SPINS {
+            return self.raise(WarningKind::Entrapment, 0, [Some(0.0); 2], || {
+                format!("the slip ratio is {slip:.2}")
+            });
+        }
+        let by_slip = (slip > SLIPS).then(|| self.strain_ahead(last.strain)).flatten();
+        let by_slope = seen.deep_slope.and_then(|limit| self.slope_ahead(limit - last.slope));
+        let way = [by_slip, by_slope].into_iter().flatten().fold(f64::INFINITY, f64::min);
+        let time = way / speed.max(1e-6);
+        if way > AHEAD || time > SOON {
+            return None;
+        }
+        let slope = last.slope.to_degrees();
+        let is_slope = by_slope == Some(way);
+        self.raise(WarningKind::Entrapment, 0, [Some(time), Some(way)], || {
+            if is_slope {
+                format!(
+                    "the ground rises, and on this course the soil holds the rover up to {:.1}° only; the slope is \
+                     {slope:.1}° now, the slip ratio {slip:.2}",
+                    seen.deep_slope.unwrap_or_default().to_degrees()
+                )
+            } else {
+                format!("the slip ratio is {slip:.2}, and grows")
+            }
+        })
+    }
+
+    /// Speed over the ground on the mean of the last stretches [m/s].
+    fn ground_speed(&self) -> f64 {
+        match (self.recent.front(), self.recent.back()) {
+            (Some(first), Some(last)) if last.time > first.time => {
+                (last.ground - first.ground) / (last.time - first.time)
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Way over the ground until the slip is [`DEEP`], if it grows as it did.
+    fn strain_ahead(&self, strain: f64) -> Option<f64> {
+        let (rise, error) = self.trend(|it| it.strain)?;
+        // A rise that could be chance is none.
+        (rise > 2.0 * error).then(|| (-ln_1p(-DEEP) - strain).max(0.0) / rise)
+    }
+
+    /// Way over the ground until the slope has grown by so much [rad], if it grows as it did.
+    fn slope_ahead(&self, by: f64) -> Option<f64> {
+        if by <= 0.0 {
+            return Some(0.0);
+        }
+        let (rise, error) = self.trend(|it| it.slope)?;
+        (rise > 2.0 * error).then(|| by / rise)
+    }
+
+    /// What a number grows by over a metre of ground, and the standard error of that: a straight line through the last
+    /// stretches.
+    fn trend(&self, of: impl Fn(&Past) -> f64) -> Option<(f64, f64)> {
+        const LEAST: usize = 4;
+        let count = self.recent.len();
+        let yaw = self.recent.back()?.yaw;
+        /// A rover that turns has other slips for another reason [rad].
+        const TURNS: f64 = 0.25;
+        let turns = self.recent.iter().any(|it| 1.0 - cos(it.yaw - yaw) > 0.5 * TURNS * TURNS);
+        if count < LEAST || turns {
+            return None;
+        }
+        let mean =
+            |of: &dyn Fn(&Past) -> f64| self.recent.iter().map(of).sum::<f64>() / count as f64;
+        let (x, y) = (mean(&|it| it.ground), mean(&of));
+        let xx: f64 = self.recent.iter().map(|it| (it.ground - x).powi(2)).sum();
+        let xy: f64 = self.recent.iter().map(|it| (it.ground - x) * (of(it) - y)).sum();
+        if xx <= 0.0 {
+            return None;
+        }
+        let rise = xy / xx;
+        let off = |it: &Past| (of(it) - y - rise * (it.ground - x)).powi(2);
+        let variance = self.recent.iter().map(off).sum::<f64>() / (count - 2) as f64;
+        Some((rise, (variance / xx).sqrt()))
+    }
+
+    /// Whether yaw contradicts roll and pitch.
+    fn contradiction(&mut self, stretch: &Stretch) -> Option<Warning> {
+        /// On less slope roll and pitch do not tell the yaw [rad].
+        const STEEP: f64 = 0.09;
+        /// More than this is no mounting [rad].
+        const APART: f64 = 0.17;
+        let ([slope, yaw], told) = (stretch.attitude?, stretch.told_yaw?);
+        let apart = cos(told - yaw) < cos(APART);
+        self.contradicted =
+            if slope > STEEP && apart { self.contradicted + stretch.way } else { 0.0 };
+        if self.contradicted < LASTS {
+            return None;
+        }
+        let (told, yaw) = (told.to_degrees(), yaw.to_degrees());
+        self.raise(WarningKind::LyingSensor, 0, [None; 2], || {
+            format!("the yaw is {told:.0}°, but {yaw:.0}° by roll and pitch")
+        })
+    }
+
+    /// Whether odometry says that the rover is faster than its wheels, where none drives it down.
+    fn outrunning(&mut self, seen: &Seen<'_>) -> Option<Warning> {
+        /// Slip that no soil has of wheels that drive [-].
+        const SKIDS: f64 = -0.3;
+        let faster = seen.slip_ratio < SKIDS && seen.expected_slip > 0.5 * SKIDS;
+        self.outrun = if faster { self.outrun + seen.stretch.way } else { 0.0 };
+        if self.outrun < LASTS {
+            return None;
+        }
+        let slip = seen.slip_ratio;
+        self.raise(WarningKind::LyingSensor, 1, [None; 2], || {
+            format!(
+                "odometry has the rover faster than its wheels turn, by a slip ratio of {slip:.2}: its scale, or a wheel \
+                 speed, is wrong"
+            )
+        })
+    }
+
+    /// Wheels that have much less torque than the others.
+    fn idle_wheels(&mut self, stretch: &Stretch, rover: &Rover) -> Vec<Warning> {
+        /// A share of the others' torque that is none [-].
+        const LITTLE: f64 = 0.15;
+        let torques: Vec<f64> = stretch.torques.iter().flatten().map(|it| it.value.abs()).collect();
+        let Some(middle) = middle_of(torques) else { return Vec::new() };
+        self.idle.resize(rover.wheel_count(), 0.0);
+        for (place, read) in stretch.torques.iter().enumerate() {
+            let noise = read.map_or(0.0, |it| it.deviation);
+            let is_idle = read.is_some_and(|it| {
+                it.value.abs() < LITTLE * middle && middle - it.value.abs() > 4.0 * noise
+            });
+            self.idle[place] = if is_idle { self.idle[place] + stretch.way } else { 0.0 };
+        }
+        let idle: Vec<usize> =
+            (0..self.idle.len()).filter(|place| self.idle[*place] >= LASTS).collect();
+        let warn = |place: usize| {
+            let name = rover.mounts()[place].name.clone();
+            self.raise(WarningKind::WheelNotPulling, place, [None; 2], || {
+                format!(
+                    "{name} has less than {:.0} % of the torque of the other wheels",
+                    100.0 * LITTLE
+                )
+            })
+        };
+        idle.into_iter().filter_map(warn).collect()
+    }
+}
+
+fn middle_of(mut values: Vec<f64>) -> Option<f64> {
+    const LEAST: usize = 3;
+    values.sort_by(f64::total_cmp);
+    (values.len() >= LEAST).then(|| values[values.len() / 2])
+}
