@@ -7,6 +7,7 @@ mod draw;
 mod forecast;
 mod heading;
 mod import_urdf;
+mod learn;
 mod map;
 mod measurements;
 mod mission;
@@ -36,6 +37,7 @@ pub(crate) use draw::DrawArgs;
 pub(crate) use forecast::ForecastArgs;
 pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
 pub(crate) use import_urdf::ImportUrdfArgs;
+pub(crate) use learn::LearnArgs;
 pub(crate) use map::MapArgs;
 pub(crate) use measurements::{
     CalibrateArgs, ImportArgs, PlateLawChoice, SlipChoice, ValidateArgs,
@@ -93,6 +95,8 @@ pub(crate) enum Command {
     Forecast(ForecastArgs),
     /// Each wheel's slip from a log of its motor's current and speed, with its uncertainty.
     SlipFromCurrent(SlipFromCurrentArgs),
+    /// What the telemetry of a drive tells of the soil: heading and slip of the next slopes, and warnings.
+    Learn(LearnArgs),
     /// Compare a wheel-soil model with measured wheel tests, or rank all models.
     Validate(ValidateArgs),
     /// Estimate soil parameters, with confidence intervals, from wheel or plate tests.

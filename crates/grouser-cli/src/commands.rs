@@ -15,6 +15,7 @@ mod heading_band;
 pub(crate) mod heading_map;
 pub(crate) mod import;
 pub(crate) mod import_urdf;
+pub(crate) mod learn;
 mod log;
 pub(crate) mod map;
 pub(crate) mod mission;

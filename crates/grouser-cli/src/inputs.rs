@@ -3,6 +3,7 @@
 mod card;
 mod forecast;
 mod heading;
+mod learn;
 mod map;
 pub(crate) mod mission;
 mod route;
@@ -20,6 +21,7 @@ use grouser::document::{
 pub(crate) use self::card::{CardInputs, card};
 pub(crate) use self::forecast::{ForecastInputs, forecast};
 pub(crate) use self::heading::{heading, heading_map};
+pub(crate) use self::learn::{learn, telemetry};
 pub(crate) use self::map::{MapInputs, map};
 pub(crate) use self::route::{RouteInputs, route};
 pub(crate) use self::slip_from_current::{SlipInputs, slip_from_current};
@@ -113,6 +115,7 @@ fn balanced_overrides(
             "validate" => {
                 "slopes are those of the rows; a heading offset has no drive, start or duration"
             }
+            "learn" => "slopes, speeds and times are those of the log",
             "slip-from-current" => {
                 "slopes are those of the log or of --slope-deg; the log has the drive"
             }

@@ -216,6 +216,31 @@ impl<'a, R: Read> TelemetryReader<'a, R> {
     }
 }
 
+/// The header of a table with all columns, and its line end.
+#[must_use]
+pub fn csv_header(rover: &Rover) -> String {
+    let (of_wheels, of_rover): (Vec<_>, Vec<_>) = COLUMNS.iter().partition(|it| it.is_of_wheel);
+    let of_rover = of_rover.into_iter().map(|it| it.name.to_owned());
+    let each = of_wheels.into_iter().flat_map(|column| {
+        rover.mounts().iter().map(|mount| format!("{}_{}", column.name, mount.name))
+    });
+    of_rover.chain(each).collect::<Vec<String>>().join(",") + "\n"
+}
+
+/// A record as a line below that header; gaps are empty.
+#[must_use]
+pub fn csv_line(record: &TelemetryRecord) -> String {
+    let cell = |(column, value): (&LogColumn, Option<f64>)| {
+        value.map_or_else(String::new, |it| column.unit.from_si(it).to_string())
+    };
+    let (of_wheels, of_rover): (Vec<_>, Vec<_>) = COLUMNS.iter().partition(|it| it.is_of_wheel);
+    let of_rover = of_rover.into_iter().map(|it| (it, record.of_rover(it.name)));
+    let each = of_wheels
+        .into_iter()
+        .flat_map(|column| record.wheels.iter().map(move |wheel| (column, wheel.of(column.name))));
+    of_rover.chain(each).map(cell).collect::<Vec<String>>().join(",") + "\n"
+}
+
 /// The header, understood.
 struct Header {
     /// Of each cell: its name, column and wheel.
@@ -297,45 +322,56 @@ impl Header {
     }
 }
 
+/// What [`COLUMNS`] are of a record, but for the time.
+type OfRover = (Quantity, fn(&mut TelemetryRecord) -> &mut Option<f64>);
+type OfWheel = (Quantity, fn(&mut WheelTelemetry) -> &mut Option<f64>);
+
+const OF_ROVER: [OfRover; 8] = [
+    (ROLL, |it| &mut it.roll),
+    (PITCH, |it| &mut it.pitch),
+    (YAW, |it| &mut it.yaw),
+    (FORWARD, |it| &mut it.displacement[0]),
+    (LEFTWARD, |it| &mut it.displacement[1]),
+    (ROTATION, |it| &mut it.rotation),
+    (X, |it| &mut it.position[0]),
+    (Y, |it| &mut it.position[1]),
+];
+
+const OF_WHEEL: [OfWheel; 5] = [
+    (WHEEL_SPEED, |it| &mut it.speed),
+    (WHEEL_TORQUE, |it| &mut it.torque),
+    (MOTOR_CURRENT, |it| &mut it.current),
+    (STEERING, |it| &mut it.steering),
+    (SINKAGE, |it| &mut it.sinkage),
+];
+
 impl TelemetryRecord {
     fn put(&mut self, column: &str, wheel: Option<usize>, value: f64) {
         if let Some(wheel) = wheel {
-            let wheel = &mut self.wheels[wheel];
-            let place = [
-                (WHEEL_SPEED, &mut wheel.speed),
-                (WHEEL_TORQUE, &mut wheel.torque),
-                (MOTOR_CURRENT, &mut wheel.current),
-                (STEERING, &mut wheel.steering),
-                (SINKAGE, &mut wheel.sinkage),
-            ];
-            put(place, column, value);
-            return;
-        }
-        if column == TIME.name {
+            let place = OF_WHEEL.iter().find(|(quantity, _)| quantity.name == column);
+            if let Some((_, place)) = place {
+                *place(&mut self.wheels[wheel]) = Some(value);
+            }
+        } else if column == TIME.name {
             self.time = value;
-            return;
+        } else if let Some((_, place)) = OF_ROVER.iter().find(|(it, _)| it.name == column) {
+            *place(self) = Some(value);
         }
-        let [forward, leftward] = &mut self.displacement;
-        let [x, y] = &mut self.position;
-        let place = [
-            (ROLL, &mut self.roll),
-            (PITCH, &mut self.pitch),
-            (YAW, &mut self.yaw),
-            (FORWARD, forward),
-            (LEFTWARD, leftward),
-            (ROTATION, &mut self.rotation),
-            (X, x),
-            (Y, y),
-        ];
-        put(place, column, value);
+    }
+
+    fn of_rover(&self, column: &str) -> Option<f64> {
+        if column == TIME.name {
+            return Some(self.time);
+        }
+        let (_, place) = OF_ROVER.iter().find(|(it, _)| it.name == column)?;
+        *place(&mut self.clone())
     }
 }
 
-fn put<const N: usize>(places: [(Quantity, &mut Option<f64>); N], column: &str, value: f64) {
-    for (quantity, place) in places {
-        if quantity.name == column {
-            *place = Some(value);
-        }
+impl WheelTelemetry {
+    fn of(&self, column: &str) -> Option<f64> {
+        let (_, place) = OF_WHEEL.iter().find(|(it, _)| it.name == column)?;
+        *place(&mut self.clone())
     }
 }
 
@@ -364,4 +400,86 @@ fn known(name: &str, wheels: &[&str]) -> Result<Option<(&'static str, Option<usi
 fn is_same(one: &str, other: &str) -> bool {
     let plain = |name: &str| name.to_ascii_lowercase().replace(['-', ' ', '.'], "_");
     plain(one) == plain(other)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Kind, Overrides, Source, read_rover};
+
+    fn rover() -> Rover {
+        read_rover(&Source::find(Kind::Rover, "hakuto").unwrap(), &Overrides::none()).unwrap().value
+    }
+
+    fn all(text: &[u8]) -> Result<(Vec<TelemetryRecord>, Lost), MeasurementError> {
+        let mut reader = TelemetryReader::new("log.csv", text, &rover())?;
+        let mut records = Vec::new();
+        while let Some(record) = reader.next_record()? {
+            records.push(record);
+        }
+        Ok((records, reader.lost().clone()))
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let wheel = WheelTelemetry {
+            speed: Some(0.5),
+            torque: Some(0.25),
+            sinkage: Some(0.01),
+            ..WheelTelemetry::default()
+        };
+        let record = TelemetryRecord {
+            time: 2.0,
+            roll: Some(0.1),
+            displacement: [Some(0.5), None],
+            rotation: Some(-0.01),
+            wheels: vec![wheel, WheelTelemetry::default(), wheel, wheel],
+            ..TelemetryRecord::default()
+        };
+        let text = csv_header(&rover()) + &csv_line(&record);
+        let (found, lost) = all(text.as_bytes()).unwrap();
+        assert!(lost.is_nothing());
+        let [found] = &found[..] else { panic!("one record") };
+        assert_eq!((found.time, found.pitch, found.displacement), (2.0, None, [Some(0.5), None]));
+        assert!((found.roll.unwrap() - 0.1).abs() < 1e-12);
+        assert_eq!(found.wheels, record.wheels);
+    }
+
+    #[test]
+    fn wheels_are_named_before_or_behind_and_in_any_spelling() {
+        let text =
+            "time_s,wheel_speed_rad_s_Front_Left,rear-right.torque_nm,colour\n1,0.5,0.25,red\n";
+        let mut reader = TelemetryReader::new("log.csv", text.as_bytes(), &rover()).unwrap();
+        assert_eq!(reader.unused(), ["colour"]);
+        let record = reader.next_record().unwrap().unwrap();
+        let names: Vec<_> = rover().mounts().iter().map(|it| it.name.clone()).collect();
+        let place = |name: &str| names.iter().position(|it| it == name).unwrap();
+        assert_eq!(record.wheels[place("front-left")].speed, Some(0.5));
+        assert_eq!(record.wheels[place("rear-right")].torque, Some(0.25));
+    }
+
+    #[test]
+    fn damage_is_counted_and_the_rest_is_read() {
+        let text = b"time_s,roll_deg,vo_dx_m\n1,5,0.1\n2,oops,0.1\n3,400,nan\n,1,1\n2.5,1,1\n4,1\n\xff,1,1\n5,2,0.3\n";
+        let (found, lost) = all(text).unwrap();
+        assert_eq!(found.iter().map(|it| it.time).collect::<Vec<_>>(), [1.0, 2.0, 3.0, 5.0]);
+        assert_eq!((found[1].roll, found[2].roll), (None, None));
+        assert_eq!(lost.cells[ROLL.name], 2);
+        assert_eq!((lost.damaged_rows, lost.rows_without_time, lost.rows_out_of_order), (2, 1, 1));
+        assert_eq!(lost.sentences().len(), 4);
+    }
+
+    #[test]
+    fn headers_that_cannot_be_meant_are_refused() {
+        for (text, words) in [
+            ("", "has no header"),
+            ("roll_deg,pitch_deg\n1,2\n", "the time is missing"),
+            ("time_s,roll_deg,roll_deg\n", "twice"),
+            ("time_s,wheel_speed_rad_s_middle-left\n", "is no wheel of the rover"),
+            ("time_s,wheel_speed_rad_s_front-left,front-left.wheel_speed_rad_s\n", "same meaning"),
+        ] {
+            let error = all(text.as_bytes()).unwrap_err().to_string();
+            assert!(error.contains(words), "{text}: {error}");
+        }
+    }
 }

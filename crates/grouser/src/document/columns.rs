@@ -6,6 +6,7 @@ pub mod card_drives;
 pub mod fit;
 pub mod forecast;
 pub mod heading;
+pub mod learn;
 pub mod map;
 pub mod mission;
 pub mod run;

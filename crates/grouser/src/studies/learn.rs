@@ -43,6 +43,7 @@ use super::ensemble::models::ModelSpread;
 use super::ensemble::samples::{BandInputs, Sample};
 use super::heading::HeadingStudy;
 use super::heading_band::HeadingBand;
+use crate::contact::Theory;
 use crate::error::ParameterError;
 use grouser_io::LoadedScenario;
 pub use grouser_io::measurements::telemetry::{TelemetryRecord, WheelTelemetry};
@@ -84,8 +85,14 @@ pub struct Learnt {
 pub struct Lesson {
     /// The stretch.
     pub stretch: Stretch,
+    /// The rims' way until its end, of all stretches that taught something [m].
+    pub way: f64,
     /// Mean slip ratio of the wheels as it was seen [-].
     pub slip_ratio: f64,
+    /// The same as it was expected before [-].
+    pub expected_slip: f64,
+    /// How much it narrowed what is believed of the soil [nat], under the model with the greatest share.
+    pub information: f64,
     /// How far each number of the observation was from what was expected [standard deviations]: the force along the
     /// body, across it, then torques and sinkages.
     pub scores: Vec<f64>,
@@ -140,7 +147,7 @@ impl Learner {
             let taught = self.bank.learn(&self.study, &motion, &self.settings, stretch.way)?;
             Ok((before, motion, taught))
         });
-        let (before, motion, Taught { surprise }) = match taught {
+        let (before, motion, Taught { surprise, information }) = match taught {
             Ok(taught) => taught,
             Err(why) => {
                 *self.learnt.not_used.entry(why).or_default() += 1;
@@ -159,11 +166,13 @@ impl Learner {
                 .unwrap_or(1.0),
             deep_slope: self.deep_slope(&before, &motion),
         };
+        let (way, expected_slip) = (self.learnt.way, seen.expected_slip);
         let warnings = self.watch.look(&seen, &self.study.rover);
         if warnings.iter().any(|it| it.kind == WarningKind::SoilChange) {
             self.bank.forget();
         }
-        Some(Lesson { stretch, slip_ratio, scores: surprise.scores.as_slice().to_vec(), warnings })
+        let scores = surprise.scores.as_slice().to_vec();
+        Some(Lesson { stretch, way, slip_ratio, expected_slip, information, scores, warnings })
     }
 
     /// The slope on which the wheels' slip is [`DEEP`] on this course [rad], by what was believed before; nothing where it
@@ -210,6 +219,25 @@ impl Learner {
     /// [`NothingAccepted`] if no soil can be drawn.
     pub fn samples(&self, seed: u64, count: u32) -> Result<Vec<LearntSample>, NothingAccepted> {
         (0..count).map(|index| self.bank.sample(&self.settings, seed, index.into())).collect()
+    }
+
+    /// Samples of what is believed now under the model with the greatest share, and that model.
+    ///
+    /// # Errors
+    /// As [`samples`](Self::samples).
+    pub fn samples_of_best(
+        &self,
+        seed: u64,
+        count: u32,
+    ) -> Result<(Theory, Vec<LearntSample>), NothingAccepted> {
+        let theory = self.bank.best(&self.settings).unknowns.theory();
+        let all = (0..count).map(|index| self.bank.sample_of(theory, seed, index.into()));
+        Ok((theory, all.collect::<Result<_, _>>()?))
+    }
+
+    /// The keys of the soil that are uncertain, as samples have their values.
+    pub fn keys(&self) -> impl Iterator<Item = &str> {
+        self.bank.keys()
     }
 
     /// The heading that holds the contour, and the slip there, on some slopes [rad], over samples of what is believed now.

@@ -82,6 +82,21 @@ fn usual() -> SensorModels {
 }
 
 #[test]
+#[ignore = "writes"]
+fn dump() {
+    use grouser::document::measurements::telemetry::{csv_header, csv_line};
+    let prior = scenario(&["scenario.soil=toyoura-uncertain"]);
+    let truth = truths(&prior, 77, 3)[2];
+    let mut drive = Drive::new(&prior, &truth);
+    for leg in [(0.0, 0.0, 0.6), (5.0, 3.0, 1.0), (6.0, 40.0, 0.6), (8.0, 5.0, 1.0)] {
+        drive.leg(leg).unwrap();
+    }
+    let rover = &prior.value.rover;
+    let text: String = drive.seen(usual(), 4).iter().map(csv_line).collect();
+    std::fs::write("/tmp/drive.csv", csv_header(rover) + &text).unwrap();
+}
+
+#[test]
 #[ignore = "prints"]
 fn look_at_warnings() {
     let prior = scenario(&["scenario.soil=toyoura-uncertain"]);

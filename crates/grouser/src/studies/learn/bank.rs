@@ -7,6 +7,7 @@ use super::gaussian::Surprise;
 use super::motion::{NotUsed, SeenMotion};
 use super::settings::LearnSettings;
 use super::unknowns::Unknowns;
+use crate::contact::Theory;
 use crate::elementary::exp;
 use crate::studies::ensemble::models::ModelSpread;
 use crate::studies::ensemble::samples::{BandInputs, Sample};
@@ -28,6 +29,8 @@ pub(super) struct Bank {
 pub(super) struct Taught {
     /// How surprising it was to the model with the greatest share.
     pub(super) surprise: Surprise,
+    /// How much it narrowed what that model believes [nat].
+    pub(super) information: f64,
 }
 
 /// A sample of what is believed, with the values of the soil's keys in their own units.
@@ -95,17 +98,19 @@ impl Bank {
     ) -> Result<Taught, NotUsed> {
         let models = self.models(settings);
         let mut densities = Vec::new();
-        let mut best: Option<(f64, Surprise)> = None;
+        let mut best: Option<(f64, Taught)> = None;
         for (place, filter) in self.filters.iter_mut().enumerate() {
             filter.wander(way, settings.wandering);
+            let before = filter.knowledge();
             let Ok(surprise) = filter.learn(study, motion, &settings.noise) else { continue };
+            let information = filter.knowledge() - before;
             let share = models.shares()[place].1;
             densities.push((place, surprise.log_density));
             if best.as_ref().is_none_or(|(most, _)| share > *most) {
-                best = Some((share, surprise));
+                best = Some((share, Taught { surprise, information }));
             }
         }
-        let (_, surprise) = best.ok_or(NotUsed::NotCarried)?;
+        let (_, taught) = best.ok_or(NotUsed::NotCarried)?;
         let least = densities.iter().map(|it| it.1).fold(f64::INFINITY, f64::min);
         // A model under which the rover could not be there has the density of the worst that could.
         for (place, evidence) in self.evidence.iter_mut().enumerate() {
@@ -115,7 +120,7 @@ impl Bank {
         }
         let most = self.evidence.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         self.evidence.iter_mut().for_each(|it| *it -= most);
-        Ok(Taught { surprise })
+        Ok(taught)
     }
 
     /// Forgets all that was learnt: the soil is another.
@@ -135,10 +140,26 @@ impl Bank {
         seed: u64,
         index: u64,
     ) -> Result<LearntSample, NothingAccepted> {
-        let theory = self.models(settings).theory(seed, index);
+        self.sample_of(self.models(settings).theory(seed, index), seed, index)
+    }
+
+    /// The same under one model.
+    ///
+    /// # Errors
+    /// As [`sample`](Self::sample).
+    pub(super) fn sample_of(
+        &self,
+        theory: Theory,
+        seed: u64,
+        index: u64,
+    ) -> Result<LearntSample, NothingAccepted> {
         let of_model = self.filters.iter().find(|it| it.unknowns.theory() == theory);
-        let filter = of_model.unwrap_or(&self.filters[0]);
-        filter.sample(seed, index)
+        of_model.unwrap_or(&self.filters[0]).sample(seed, index)
+    }
+
+    /// The keys of the soil that a sample has values of.
+    pub(super) fn keys(&self) -> impl Iterator<Item = &str> {
+        self.filters[0].unknowns.keys()
     }
 
     /// How much wider each coordinate of the soil was beforehand, by key of the soil [-]: 1 where nothing was learnt.

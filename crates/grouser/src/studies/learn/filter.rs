@@ -8,6 +8,7 @@ use super::motion::{Expected, NotUsed, SeenMotion};
 use super::noise::ModelNoise;
 use super::unknowns::Unknowns;
 use crate::elementary::exp;
+use crate::elementary::wide::ln;
 use crate::studies::heading::HeadingStudy;
 use grouser_io::statistics::NothingAccepted;
 
@@ -94,6 +95,11 @@ impl Filter {
         let sample = self.unknowns.sample(self.belief.mean.as_slice())?;
         let there = motion.on_slope(slope);
         there.expected(study, &sample, None).map(|it| there.slip_of(&it))
+    }
+
+    /// How much is known, but for a constant [nat]: −½ ln det P.
+    pub(super) fn knowledge(&self) -> f64 {
+        -self.belief.root().diagonal().iter().map(|it| ln(*it)).sum::<f64>()
     }
 
     /// Learns from a motion; how surprising it was.

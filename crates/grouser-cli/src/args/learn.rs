@@ -1,0 +1,56 @@
+//! Arguments of `learn`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use clap::builder::NonEmptyStringValueParser;
+
+use super::{BalanceArgs, OutputArgs, SettingArgs};
+use crate::list::{self, Numbers};
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Forces that a soil has to give in the motion that was seen narrow what its document leaves open; \
+                        what no reading bears upon stays what it was. The folder of --out has the soil that was \
+                        learnt, for `card`, `heading` and all other commands.\n\
+                        Example:\n  grouser learn drive.csv --prior toyoura-uncertain --rover hakuto \\\n    \
+                        --predict-slope-deg 10,15 --out today\n\
+                        docs/guide/learn.md explains the telemetry, what is learnt, and how far it is to be trusted."
+)]
+pub(crate) struct LearnArgs {
+    /// Telemetry of the drive (CSV, `telemetry/1`), or `-` to read it from standard input: `time_s`, and any of
+    /// `roll_deg`, `pitch_deg`, `yaw_deg`, `wheel_speed_rad_s_WHEEL`, `wheel_torque_nm_WHEEL` or
+    /// `motor_current_a_WHEEL`, `steering_deg_WHEEL`, `sinkage_mm_WHEEL`, `vo_dx_m`, `vo_dy_m`, `vo_dyaw_deg`,
+    /// `x_m`, `y_m`; empty cells are gaps.
+    #[arg(value_name = "LOG.csv|-")]
+    pub(crate) log: PathBuf,
+    /// What is known of the soil before the drive: a preset or a file that says how uncertain it is.
+    #[arg(long, alias = "soil", value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) prior: Option<String>,
+    /// The rover: a preset or a file.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) rover: Option<String>,
+    /// A scenario's file or preset, for its rover, soil, gravity and load transfer; without it the
+    /// default scenario.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) scenario: Option<String>,
+    /// Slope of the ground where the telemetry has neither roll nor pitch [°].
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    pub(crate) slope_deg: Option<String>,
+    /// Slopes for which heading and slip are predicted [°]: a list (5,10) or a range (0:20:2.5).
+    #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "5,10,15", allow_hyphen_values = true)]
+    pub(crate) predict_slope_deg: Numbers,
+    /// Number of samples of predictions, 2 to 100000.
+    #[arg(long, value_name = "N", default_value_t = 200)]
+    #[arg(value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
+    pub(crate) samples: u32,
+    /// Seed of the samples.
+    #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true)]
+    pub(crate) seed: u64,
+    #[command(flatten)]
+    pub(crate) balance: BalanceArgs,
+    #[command(flatten)]
+    pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}

@@ -1,0 +1,152 @@
+//! What a drive taught, as text and as a page.
+
+use grouser::document::LoadedScenario;
+use grouser::document::columns::learn::{
+    self as columns, EXPECTED_SLIP, INFORMATION, LESSON_COLUMNS, PREDICTION_COLUMNS, WAY,
+};
+use grouser::document::columns::{SLIP_RATIO, SLOPE};
+use grouser::document::table::Table;
+
+use super::{Found, of_row, shares};
+use crate::args::LearnArgs;
+use crate::chart::{BAND_COLOUR, Chart, Series, Style};
+use crate::output::rows::{Rows, four_digits};
+use crate::output::text::Text;
+use crate::report::answer::{self, Basis, axis, meanings};
+use crate::report::page::Page;
+
+/// For reading: predictions with those before the drive, warnings and notes.
+pub(super) fn text(found: &Found) -> Text {
+    let lines: String = lines(found).iter().map(|line| format!("{line}\n")).collect();
+    Rows::of_table(&found.predictions).to_table(&columns::brief()) + format!("\n{lines}")
+}
+
+/// What was learnt from, what to warn of, and notes: a line each.
+fn lines(found: &Found) -> Vec<String> {
+    let learnt = found.learner.learnt();
+    let models = shares(&found.learner);
+    let models: Vec<String> =
+        models.iter().map(|(name, share)| format!("{name} {:.0} %", 100.0 * share)).collect();
+    let whole = format!(
+        "learnt from {} stretches, {} m of the wheels' way, in {} records; models: {}",
+        learnt.stretches,
+        four_digits(learnt.way),
+        learnt.records,
+        models.join(", ")
+    );
+    let narrowed = found.learner.narrowed();
+    let narrowed: Vec<String> = narrowed
+        .iter()
+        .map(|(key, share)| format!("{key} {:.0} %", 100.0 * share.min(1.0)))
+        .collect();
+    let narrowed = format!("what is left of the uncertainty: {}", narrowed.join(", "));
+    let notes = found.notes.iter().map(|note| format!("note: {note}"));
+    [whole, narrowed].into_iter().chain(warnings(found)).chain(notes).collect()
+}
+
+/// The warnings, a sentence each.
+fn warnings(found: &Found) -> Vec<String> {
+    let sentence = |it: &grouser::studies::learn::Warning| {
+        let lead = match (it.lead_way, it.lead_time) {
+            (Some(way), Some(time)) if way > 0.0 => format!(", {way:.1} m and {time:.0} s ahead"),
+            _ => String::new(),
+        };
+        format!(
+            "warning: {} after {:.1} m at {:.0} s{lead}: {}",
+            it.kind.name(),
+            it.way,
+            it.time,
+            it.evidence
+        )
+    };
+    found.warnings.iter().map(sentence).collect()
+}
+
+pub(super) fn html(
+    args: &LearnArgs,
+    scenario: &LoadedScenario,
+    found: &Found,
+    lessons: &Table,
+) -> String {
+    let mut page = Page::new("Learnt from the drive");
+    let rows = (0..found.predictions.rows()).filter_map(|row| of_row(&found.predictions, row));
+    let sentences: Vec<String> = rows.collect();
+    page.answer(&format!("To hold the contour: {}.", sentences.join("; ")));
+    let name = |key: &str| scenario.document.text(key).unwrap_or("unnamed").to_owned();
+    page.list([
+        format!("rover: {}", name("rover.name")),
+        format!("soil before the drive: {}", name("soil.name")),
+    ]);
+    page.list(lines(found));
+    page.heading("Today beside yesterday");
+    page.rows(
+        "Heading and slip of the next slopes, after the drive and before it",
+        &found.predictions,
+        &columns::brief(),
+    );
+    page.charts(&predictions(&found.predictions));
+    page.heading("What each stretch taught");
+    page.charts(&[over_way(lessons), information(lessons)]);
+    let of_columns = [meanings(&PREDICTION_COLUMNS), meanings(&LESSON_COLUMNS)];
+    let of_columns: Vec<_> = of_columns.into_iter().flatten().collect();
+    answer::close(page, &[], &of_columns, &basis(args, scenario))
+}
+
+/// Yaw and slip over the slope, before the drive and after it.
+fn predictions(table: &Table) -> [Chart; 2] {
+    use grouser::document::columns::YAW;
+    use grouser::document::columns::learn::{BEFORE_SLIP, BEFORE_YAW};
+    [(YAW, BEFORE_YAW, "Heading that holds the contour"), (SLIP_RATIO, BEFORE_SLIP, "Slip ratio")]
+        .map(|(after, before, title)| {
+            let band =
+                |name: &str, colour: usize, quantity: grouser::document::columns::Quantity| {
+                    let [low, _, high] = quantity.quantiles();
+                    let ends = table.points(SLOPE.name, &low).zip(table.points(SLOPE.name, &high));
+                    let edges: Vec<_> = ends.map(|((x, low), (_, high))| (x, low, high)).collect();
+                    Series::band(name, colour, edges)
+                };
+            let median = table.points(SLOPE.name, after.name);
+            let series = vec![
+                band("before, 95 %", BAND_COLOUR, before),
+                band("after, 95 %", AFTER, after),
+                Series::new("after", Style::Line, 1, median),
+            ];
+            Chart::new(title.to_owned(), (axis(SLOPE), axis(after)), series)
+        })
+}
+
+/// The colour of bands after the drive, among those of charts.
+const AFTER: usize = 1;
+
+fn over_way(lessons: &Table) -> Chart {
+    let series = vec![
+        Series::new("seen", Style::Line, 1, lessons.points(WAY.name, SLIP_RATIO.name)),
+        Series::new(
+            "expected before",
+            Style::Dashed,
+            2,
+            lessons.points(WAY.name, EXPECTED_SLIP.name),
+        ),
+    ];
+    Chart::new("Slip ratio along the way".to_owned(), (axis(WAY), axis(SLIP_RATIO)), series)
+}
+
+fn information(lessons: &Table) -> Chart {
+    let points = lessons.points(WAY.name, INFORMATION.name);
+    let series = vec![Series::new("learnt", Style::Line, 1, points)];
+    Chart::new("Knowledge of the soil gained".to_owned(), (axis(WAY), axis(INFORMATION)), series)
+}
+
+fn basis(args: &LearnArgs, scenario: &LoadedScenario) -> Basis {
+    let list = |numbers: &crate::list::Numbers| {
+        numbers.0.iter().map(ToString::to_string).collect::<Vec<_>>().join(",")
+    };
+    let slope = args.slope_deg.as_ref().map_or(String::new(), |it| format!(" --slope-deg={it}"));
+    let repeat = format!(
+        "grouser learn log.csv --scenario scenario.toml{slope} --predict-slope-deg {} --samples {} --seed {}",
+        list(&args.predict_slope_deg),
+        args.samples,
+        args.seed
+    );
+    Basis::new(repeat).with("scenario.toml", scenario)
+}

@@ -1,0 +1,119 @@
+//! What was learnt from a drive: predictions for slopes, what each stretch taught, and warnings.
+
+use super::super::table::Table;
+use super::super::unit::{M, ONE, S};
+use super::heading::DRAWS;
+use super::{
+    Column, PROBABILITY_LEVEL, Quantity, SLIP_RATIO, SLOPE, TIME, YAW, quantity, text, whole,
+};
+use crate::studies::heading_band::SlopeBand;
+use crate::studies::learn::{Lesson, Warning};
+
+/// The yaw as it was predicted before the drive.
+pub const BEFORE_YAW: Quantity = quantity("before_yaw_deg", super::super::unit::DEG);
+/// The slip as it was predicted before the drive.
+pub const BEFORE_SLIP: Quantity = quantity("before_slip_ratio", ONE);
+/// The rims' way since the start.
+pub const WAY: Quantity = quantity("way_m", M);
+/// Slip as it was expected.
+pub const EXPECTED_SLIP: Quantity = quantity("expected_slip_ratio", ONE);
+/// Time until something happens.
+pub const LEAD_TIME: Quantity = quantity("lead_s", S);
+/// Way until something happens.
+pub const LEAD_WAY: Quantity = quantity("lead_m", M);
+/// What a warning is about.
+pub const WARNING: &str = "warning";
+/// What was seen.
+pub const EVIDENCE: &str = "evidence";
+/// How much a stretch narrowed what is believed.
+pub const INFORMATION: Quantity = quantity("information_nat", ONE);
+
+/// A slope before a drive and after it.
+pub struct PredictedSlope {
+    before: SlopeBand,
+    after: SlopeBand,
+}
+
+/// The columns of [`predictions`].
+pub const PREDICTION_COLUMNS: [Column<PredictedSlope>; 9] = [
+    SLOPE.number("Slope", |it| it.after.slope),
+    YAW.maybe("Yaw that holds the contour, positive uphill: the median", |it| {
+        it.after.yaw.map(|band| band.median)
+    }),
+    YAW.band("The same over the samples that hold the contour", |it| it.after.yaw),
+    SLIP_RATIO.maybe("Slip ratio there: the median; 1 where no heading holds the contour", |it| {
+        it.after.slip_ratio.map(|band| band.median)
+    }),
+    SLIP_RATIO.band("The same over all samples", |it| it.after.slip_ratio),
+    PROBABILITY_LEVEL.probability(
+        "Probability that a heading holds the contour: the share of the samples that have one",
+        |it| Some(it.after.level),
+    ),
+    BEFORE_YAW.band("Yaw as it was predicted before the drive", |it| it.before.yaw),
+    BEFORE_SLIP.band("Slip ratio as it was predicted before the drive", |it| it.before.slip_ratio),
+    whole(DRAWS, "All samples", |it| Some(it.after.level.trials)),
+];
+
+/// A row for each slope.
+///
+/// * `before`: before the drive, on the same slopes
+#[must_use]
+pub fn predictions(before: &[SlopeBand], after: &[SlopeBand]) -> Table {
+    let pairs = before.iter().cloned().zip(after.iter().cloned());
+    let rows: Vec<PredictedSlope> =
+        pairs.map(|(before, after)| PredictedSlope { before, after }).collect();
+    Table::of(&PREDICTION_COLUMNS, &rows)
+}
+
+/// The columns of [`predictions`] for reading.
+#[must_use]
+pub fn brief() -> Vec<String> {
+    let ends = |quantity: Quantity| {
+        let [low, _, high] = quantity.quantiles();
+        [low, high]
+    };
+    let name = |quantity: Quantity| quantity.name.to_owned();
+    let [yaw, slip] = [ends(YAW), ends(SLIP_RATIO)];
+    let [before_yaw, before_slip] = [ends(BEFORE_YAW), ends(BEFORE_SLIP)];
+    [
+        vec![name(SLOPE), name(YAW)],
+        yaw.into(),
+        before_yaw.into(),
+        vec![name(SLIP_RATIO)],
+        slip.into(),
+        before_slip.into(),
+    ]
+    .concat()
+}
+
+/// The columns of [`lessons`].
+pub const LESSON_COLUMNS: [Column<Lesson>; 7] = [
+    TIME.number("End of the stretch", |it| it.stretch.time[1]),
+    WAY.number("Way of the rims since the start", |it| it.way),
+    SLOPE.maybe("Slope of the ground", |it| it.stretch.attitude.map(|it| it[0])),
+    YAW.maybe("Yaw from the contour, positive uphill", |it| it.stretch.attitude.map(|it| it[1])),
+    SLIP_RATIO.number("Mean slip ratio of the wheels", |it| it.slip_ratio),
+    EXPECTED_SLIP.number("The same as it was expected before", |it| it.expected_slip),
+    INFORMATION.number("How much it narrowed what is believed of the soil", |it| it.information),
+];
+
+/// A row for each stretch that taught something.
+#[must_use]
+pub fn lessons(lessons: &[Lesson]) -> Table {
+    Table::of(&LESSON_COLUMNS, lessons)
+}
+
+const WARNINGS: [Column<Warning>; 6] = [
+    text(WARNING, "What it is about", |it| Some(it.kind.name().to_owned())),
+    TIME.number("When it was noticed", |it| it.time),
+    WAY.number("Way of the rims until then", |it| it.way),
+    LEAD_TIME.maybe("Time until it happens, if it is ahead", |it| it.lead_time),
+    LEAD_WAY.maybe("Way over the ground until it happens, if it is ahead", |it| it.lead_way),
+    text(EVIDENCE, "What was seen", |it| Some(it.evidence.clone())),
+];
+
+/// A row for each warning.
+#[must_use]
+pub fn warnings(warnings: &[Warning]) -> Table {
+    Table::of(&WARNINGS, warnings)
+}
