@@ -102,7 +102,7 @@ fn learn(args: &LearnArgs, scenario: &LoadedScenario) -> Result<Found, Failure> 
         keep(&mut lessons, lesson);
     })?;
     let after = predictions(args, &learner, &slopes)?;
-    let predictions = columns::predictions(&before, &after);
+    let predictions = columns::predictions(&args.predict_slope_deg.0, &before, &after);
     Ok(Found { learner, lessons, warnings, notes, predictions })
 }
 

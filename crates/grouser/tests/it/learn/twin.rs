@@ -2,6 +2,7 @@
 
 use grouser::document::{self, LoadedScenario, Overrides, Source};
 use grouser::simulation::SteadyMotion;
+use grouser::studies::ensemble::Band;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::learn::{LearnSettings, Learner, TelemetryRecord, WheelTelemetry};
@@ -45,9 +46,9 @@ impl Drive {
     pub(crate) fn leg(&mut self, (slope, yaw, way): Leg) -> Option<()> {
         let (slope, mut yaw) = (deg(slope), deg(yaw));
         let mut motion: Option<SteadyMotion> = None;
-        let [count, _] = [(way / RIM_SPEED / STEP).round(), 0.0];
+        let until = self.time + way / RIM_SPEED - 0.5 * STEP;
         let rover = self.study.rover.clone();
-        for _ in 0..count as u32 {
+        while self.time < until {
             let found = match &motion {
                 Some(motion) => self.study.steady_motion_near(motion, slope, yaw, RIM_SPEED),
                 None => self.study.steady_motion(slope, yaw, RIM_SPEED),
@@ -90,12 +91,10 @@ impl Drive {
 /// What is predicted for one slope, before a drive and after it, and what is true there.
 #[derive(Debug)]
 pub(crate) struct Answer {
+    /// Slip ratio, and yaw [rad].
     pub(crate) truth: [f64; 2],
-    /// Of slip ratio and yaw: lower end, median, upper end.
-    pub(crate) before: [[f64; 3]; 2],
-    pub(crate) after: [[f64; 3]; 2],
-    /// The place of the true slip among the samples, 0 to 1.
-    pub(crate) rank: f64,
+    pub(crate) before: [Band; 2],
+    pub(crate) after: [Band; 2],
 }
 
 /// Drives over legs on a hidden soil, and predicts slip and yaw of the contour on a slope [°]; `None` where the rover
@@ -103,67 +102,32 @@ pub(crate) struct Answer {
 pub(crate) fn answer(
     prior: &LoadedScenario,
     truth: &Sample,
-    legs: &[Leg],
-    slope: f64,
+    (legs, slope): (&[Leg], f64),
     models: SensorModels,
-    seed: u64,
+    (seed, samples): (u64, u32),
 ) -> Option<Answer> {
     let mut drive = Drive::new(prior, truth);
     for leg in legs {
         drive.leg(*leg)?;
     }
     let there = drive.study.curve().unwrap().at(deg(slope)).ok()?;
-    let mut learner = Learner::new(prior, false, LearnSettings::USUAL).unwrap();
-    let before = band(&learner, slope, seed);
+    let mut learner = learner(prior);
+    let bands = |learner: &Learner| {
+        let samples = learner.samples(seed, samples).unwrap();
+        let found = learner.predict(&samples, &[deg(slope)], &|| true).unwrap().unwrap();
+        let found = &found.slopes[0];
+        [found.slip_ratio, found.yaw].map(|band| band.expect("some samples hold the contour"))
+    };
+    let before = bands(&learner);
     for record in drive.seen(models, seed) {
         learner.update(record);
     }
     learner.finish();
-    if std::env::var("SHARES").is_ok() {
-        println!("{:?} {:?} {:?}", learner.models().shares(), learner.narrowed(), learner.learnt());
-        for theory in ["ishigami", "rft", "small-wheel"] {
-            let study = HeadingStudy::of(&prior.value);
-            let all: Vec<f64> = learner
-                .samples(seed, 200)
-                .unwrap()
-                .iter()
-                .filter(|it| it.sample.theory.name() == theory)
-                .filter_map(|it| {
-                    Some(
-                        study
-                            .of_sample(&it.sample)
-                            .curve()
-                            .unwrap()
-                            .at(deg(slope))
-                            .ok()?
-                            .yaw
-                            .to_degrees(),
-                    )
-                })
-                .collect();
-            let mean = all.iter().sum::<f64>() / all.len() as f64;
-            let sd =
-                (all.iter().map(|it| (it - mean).powi(2)).sum::<f64>() / all.len() as f64).sqrt();
-            println!("   {theory} {} {mean:.2} +- {sd:.2}", all.len());
-        }
-    }
-    let after = band(&learner, slope, seed);
-    let samples = learner.samples(seed, 64).unwrap();
-    let study = HeadingStudy::of(&prior.value);
-    let below = samples.iter().filter(|it| {
-        let curve = study.of_sample(&it.sample).curve().unwrap();
-        curve.at(deg(slope)).is_ok_and(|it| it.slip_ratio < there.slip_ratio)
-    });
-    let rank = below.count() as f64 / samples.len() as f64;
-    Some(Answer { truth: [there.slip_ratio, there.yaw], before, after, rank })
+    Some(Answer { truth: [there.slip_ratio, there.yaw], before, after: bands(&learner) })
 }
 
-pub(crate) fn band(learner: &Learner, slope: f64, seed: u64) -> [[f64; 3]; 2] {
-    let samples = learner.samples(seed, 100).unwrap();
-    let found = learner.predict(&samples, &[deg(slope)], &|| true).unwrap().unwrap();
-    let found = &found.slopes[0];
-    [found.slip_ratio, found.yaw]
-        .map(|band| band.map_or([f64::NAN; 3], |it| [it.low, it.median, it.high]))
+pub(crate) fn learner(prior: &LoadedScenario) -> Learner {
+    Learner::new(prior, false, LearnSettings::USUAL).unwrap()
 }
 
 /// The hidden soils of some repeats.
