@@ -20,7 +20,7 @@ use crate::args::LearnArgs;
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output::folder::OutputFolder;
-use crate::output::rows::Rows;
+use crate::output::rows::{Rows, four_digits};
 use crate::output::{self, Format};
 use crate::report::REPORT;
 
@@ -102,7 +102,7 @@ fn learn(args: &LearnArgs, scenario: &LoadedScenario) -> Result<Found, Failure> 
         keep(&mut lessons, lesson);
     })?;
     let after = predictions(args, &learner, &slopes)?;
-    let predictions = columns::predictions(&args.predict_slope_deg.0, &before, &after);
+    let predictions = columns::predictions(&before, &after);
     Ok(Found { learner, lessons, warnings, notes, predictions })
 }
 
@@ -138,9 +138,17 @@ fn read(
     if reader.rows() == 0 {
         return Err(Failure::Usage(format!("{label}: has no rows below its header")));
     }
-    let unused = reader.unused();
-    let unused = (!unused.is_empty()).then(|| format!("columns not used: {}", unused.join(", ")));
+    let unused = not_known(reader.unused());
     Ok(reader.lost().sentences().into_iter().chain(unused).chain(not_used(learner)).collect())
+}
+
+/// The columns that are not known, as many as a sentence bears.
+fn not_known(names: &[String]) -> Option<String> {
+    const MOST: usize = 6;
+    let more = names.len().saturating_sub(MOST);
+    let more = if more == 0 { String::new() } else { format!(" and {more} more") };
+    let first = names.get(..MOST).unwrap_or(names).join(", ");
+    (!names.is_empty()).then(|| format!("columns not used: {first}{more}"))
 }
 
 /// Why stretches of the drive taught nothing, a sentence each.
@@ -242,5 +250,8 @@ pub(super) fn of_row(table: &Table, row: usize) -> Option<String> {
     );
     let slip = number(SLIP_RATIO.name)?;
     let (low, high) = (number(&slip_low)?, number(&slip_high)?);
-    Some(format!("on {slope}° {yaw}, the slip ratio {slip:.2} ({low:.2} to {high:.2})"))
+    Some(format!(
+        "on {}° {yaw}, the slip ratio {slip:.2} ({low:.2} to {high:.2})",
+        four_digits(slope)
+    ))
 }

@@ -12,6 +12,7 @@ mod forecast;
 mod former_names;
 mod hostile;
 mod import;
+mod learn;
 mod logs;
 mod maps;
 mod mission;

@@ -30,15 +30,13 @@ pub const INFORMATION: Quantity = quantity("information_nat", ONE);
 
 /// A slope before a drive and after it.
 pub struct PredictedSlope {
-    /// As it was asked for [°].
-    slope: f64,
     before: SlopeBand,
     after: SlopeBand,
 }
 
 /// The columns of [`predictions`].
 pub const PREDICTION_COLUMNS: [Column<PredictedSlope>; 9] = [
-    SLOPE.given("Slope", |it| Some(it.slope)),
+    SLOPE.given("Slope", |it| Some(it.after.slope)),
     YAW.maybe("Yaw that holds the contour, positive uphill: the median", |it| {
         it.after.yaw.map(|band| band.median)
     }),
@@ -58,15 +56,12 @@ pub const PREDICTION_COLUMNS: [Column<PredictedSlope>; 9] = [
 
 /// A row for each slope.
 ///
-/// * `slopes`: as they were asked for [°]
-/// * `before`, `after`: before the drive and after it, on these slopes
+/// * `before`: before the drive, on the same slopes
 #[must_use]
-pub fn predictions(slopes: &[f64], before: &[SlopeBand], after: &[SlopeBand]) -> Table {
+pub fn predictions(before: &[SlopeBand], after: &[SlopeBand]) -> Table {
     let bands = before.iter().cloned().zip(after.iter().cloned());
-    let rows = slopes.iter().zip(bands);
-    let rows: Vec<PredictedSlope> = rows
-        .map(|(slope, (before, after))| PredictedSlope { slope: *slope, before, after })
-        .collect();
+    let rows: Vec<PredictedSlope> =
+        bands.map(|(before, after)| PredictedSlope { before, after }).collect();
     Table::of(&PREDICTION_COLUMNS, &rows)
 }
 

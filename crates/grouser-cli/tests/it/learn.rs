@@ -1,0 +1,82 @@
+//! `learn`: what it makes of the telemetry of a run on another soil, its folder, and what it refuses.
+
+use crate::bad_input::check_is_refusal;
+use crate::program::{Place, number};
+
+/// A place with the log of a drive along 8° of a sand that is softer than the prior says.
+fn driven() -> Place {
+    let place = Place::new();
+    let run = "traverse --rover hakuto --soil toyoura --set soil.shear.lateral_m=0.022 --slope-deg 8 \
+               --set soil.shear.longitudinal_m=0.05 --set scenario.start.yaw_deg=4 --simulation quasi-steady \
+               --duration-s 30 --format csv";
+    place.write("log.csv", place.results(run));
+    place
+}
+
+const COMMAND: &str = "learn log.csv --prior toyoura-uncertain --rover hakuto --model ishigami --slope-deg 8 \
+                       --predict-slope-deg 5,10 --samples 60";
+
+/// The command's contract: headings and slips with bands, that hold what the soil of the drive has.
+#[test]
+fn a_drive_narrows_the_next_slopes() {
+    let place = driven();
+    let answer = place.json(&format!("{COMMAND} --out today"));
+    assert_eq!(answer["schema"], "grouser.learn.v1");
+    let rows = answer["predictions"].as_array().expect("predictions");
+    assert_eq!(rows.len(), 2);
+    // What `heading` has for the soil of the drive.
+    for (row, (slope, yaw, slip)) in rows.iter().zip([(5.0, 3.68, 0.104), (10.0, 8.90, 0.163)]) {
+        assert_eq!(number(&row["slope_deg"]), slope);
+        for (name, truth) in [("yaw_deg", yaw), ("slip_ratio", slip)] {
+            let [low, high] = ["2_5", "97_5"].map(|end| number(&row[format!("{name}_p{end}")]));
+            let median = number(&row[name]);
+            assert!((low..=high).contains(&truth) && low < median && median < high, "{name} {row}");
+            let [least, most] =
+                ["2_5", "97_5"].map(|end| number(&row[format!("before_{name}_p{end}")]));
+            assert!(high - low < 0.9 * (most - least), "{name} is narrower than before: {row}");
+        }
+    }
+    assert_eq!(answer["warnings"].as_array().map(Vec::len), Some(0));
+    // The soil that was learnt is a soil for all other commands.
+    let soil = answer["soil"].as_str().expect("a path");
+    let again = place.json(&format!("heading --rover hakuto --soil {soil} --slope-deg 10"));
+    let yaw = number(&again["rows"][0]["yaw_deg"]);
+    assert!((yaw - 8.9).abs() < 2.5, "{yaw}");
+    for name in ["report.html", "predictions.csv", "lessons.csv", "soil-samples.csv"] {
+        assert!(place.file(&format!("today/{name}")).exists(), "{name}");
+    }
+}
+
+/// A log without roll and pitch teaches nothing unless the slope is given, and the note says so.
+#[test]
+fn what_taught_nothing_is_said() {
+    let place = driven();
+    let text = place.results(&COMMAND.replace("--slope-deg 8", ""));
+    for part in ["taught nothing: roll and pitch are not known", "columns not used: forward_speed"]
+    {
+        assert!(text.contains(part), "{part} in\n{text}");
+    }
+}
+
+#[test]
+fn logs_that_are_none_are_refused() {
+    let place = Place::new();
+    place.write("empty.csv", "");
+    place.write("rows.csv", "time_s,roll_deg\n");
+    place.write("wheel.csv", "time_s,wheel_speed_rad_s_middle\n1,1\n");
+    for (file, words) in [
+        ("empty.csv", "has no header"),
+        ("rows.csv", "has no rows"),
+        ("wheel.csv", "is no wheel of the rover"),
+        ("nothing.csv", "there is no such file"),
+        (".", "this is a folder"),
+    ] {
+        let command = COMMAND.replace("log.csv", file);
+        let said = check_is_refusal(&place.line(&command), 2);
+        assert!(said.contains(words), "{words} in {said}");
+    }
+    let exact = COMMAND.replace("toyoura-uncertain", "toyoura --set soil.priors=none");
+    place.write("log.csv", "time_s,roll_deg\n1,1\n");
+    let said = check_is_refusal(&place.line(&exact), 2);
+    assert!(said.contains("taken as exact") && said.contains("--prior"), "{said}");
+}
