@@ -38,7 +38,7 @@ pub use self::settings::LearnSettings;
 use self::stretch::Gatherer;
 pub use self::stretch::{Reading, Stretch};
 use self::warnings::{DEEP, Seen, Watch};
-pub use self::warnings::{Warning, WarningKind};
+pub use self::warnings::{Evidence, Warning, WarningKind};
 use super::ensemble::models::ModelSpread;
 use super::ensemble::samples::{BandInputs, Sample};
 use super::heading::HeadingStudy;
@@ -178,12 +178,14 @@ impl Learner {
     /// The slope on which the wheels' slip is [`DEEP`] on this course [rad], by what was believed before; nothing where it
     /// is not up to ten degrees steeper.
     fn deep_slope(&self, before: &Filter, motion: &SeenMotion) -> Option<f64> {
+        /// So much steeper is looked at [rad].
+        const FARTHEST: f64 = 0.175;
         const ROUNDS: usize = 6;
         let is_deep = |slope: f64| {
             let slip = before.expected_slip(&self.study, motion, slope);
             slip.is_none_or(|slip| slip >= DEEP)
         };
-        let (mut low, mut high) = (motion.slope(), motion.slope() + 10.0_f64.to_radians());
+        let (mut low, mut high) = (motion.slope(), motion.slope() + FARTHEST);
         if low < LEVEL || !is_deep(high) {
             return None;
         }

@@ -100,10 +100,14 @@ fn a_copy_goes_on_where_it_was() {
     let records = drive.seen(usual(), 5);
     let (first, second) = records.split_at(records.len() / 2 + 3);
     let mut one = learner(&prior);
-    first.iter().for_each(|it| drop(one.update(it.clone())));
+    for record in first {
+        one.update(record.clone());
+    }
     let mut other = one.clone();
-    second.iter().for_each(|it| drop(one.update(it.clone())));
-    second.iter().for_each(|it| drop(other.update(it.clone())));
+    for record in second {
+        one.update(record.clone());
+        other.update(record.clone());
+    }
     assert_eq!(one.samples(1, 5).unwrap(), other.samples(1, 5).unwrap());
     assert_eq!(one.learnt(), other.learnt());
 }

@@ -56,7 +56,7 @@ fn warnings(found: &Found) -> Vec<String> {
             it.kind.name(),
             it.way,
             it.time,
-            it.evidence
+            columns::sentence(&it.evidence)
         )
     };
     found.warnings.iter().map(sentence).collect()

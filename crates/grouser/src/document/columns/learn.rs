@@ -7,7 +7,7 @@ use super::{
     Column, PROBABILITY_LEVEL, Quantity, SLIP_RATIO, SLOPE, TIME, YAW, quantity, text, whole,
 };
 use crate::studies::heading_band::SlopeBand;
-use crate::studies::learn::{Lesson, Warning};
+use crate::studies::learn::{Evidence, Lesson, Warning};
 
 /// The yaw as it was predicted before the drive.
 pub const BEFORE_YAW: Quantity = quantity("before_yaw_deg", super::super::unit::DEG);
@@ -109,11 +109,46 @@ const WARNINGS: [Column<Warning>; 6] = [
     WAY.number("Way of the rims until then", |it| it.way),
     LEAD_TIME.maybe("Time until it happens, if it is ahead", |it| it.lead_time),
     LEAD_WAY.maybe("Way over the ground until it happens, if it is ahead", |it| it.lead_way),
-    text(EVIDENCE, "What was seen", |it| Some(it.evidence.clone())),
+    text(EVIDENCE, "What was seen", |it| Some(sentence(&it.evidence))),
 ];
 
 /// A row for each warning.
 #[must_use]
 pub fn warnings(warnings: &[Warning]) -> Table {
     Table::of(&WARNINGS, warnings)
+}
+
+/// What was seen, in words and degrees.
+#[must_use]
+pub fn sentence(evidence: &Evidence) -> String {
+    let degrees = |angle: f64| SLOPE.unit.from_si(angle);
+    match evidence {
+        Evidence::Strange { slip_ratio, expected } => format!(
+            "three or more stretches in a row move as the soil learnt so far does not let them: a slip ratio of \
+             {slip_ratio:.2} where {expected:.2} was expected"
+        ),
+        Evidence::Spinning { slip_ratio } => format!("the slip ratio is {slip_ratio:.2}"),
+        Evidence::Growing { slip_ratio } => {
+            format!("the slip ratio is {slip_ratio:.2}, and grows")
+        }
+        Evidence::Rising { slip_ratio, slope, limit } => format!(
+            "the ground rises, and on this course the soil holds the rover up to {:.1}° only; the slope is {:.1}° \
+             now, the slip ratio {slip_ratio:.2}",
+            degrees(*limit),
+            degrees(*slope)
+        ),
+        Evidence::Contradiction { told, by_attitude } => format!(
+            "the yaw is {:.0}°, but {:.0}° by roll and pitch",
+            degrees(*told),
+            degrees(*by_attitude)
+        ),
+        Evidence::Outrun { slip_ratio } => format!(
+            "odometry has the rover faster than its wheels turn, by a slip ratio of {slip_ratio:.2}: its scale, or a \
+             wheel speed, is wrong"
+        ),
+        Evidence::Idle { wheel, share } => format!(
+            "{wheel} has less than {:.0} % of the torque of the other wheels",
+            100.0 * share
+        ),
+    }
 }

@@ -132,18 +132,20 @@ impl Filter {
     /// Sample number `index` of what is believed: that of what was believed beforehand, moved as mean and covariance
     /// moved. A soil that cannot be is moved half as far, and so on.
     pub(super) fn sample(&self, seed: u64, index: u64) -> Result<LearntSample, NothingAccepted> {
-        const HALVINGS: i32 = 8;
+        const HALVINGS: usize = 8;
         let draw = self.unknowns.draw(seed, index)?;
         let before = DVector::from_column_slice(&draw.coordinates);
         let after = &self.belief.mean + self.belief.root() * &before;
-        let places = (0..HALVINGS).map(|round| {
-            let share = 0.5_f64.powi(round);
-            &before + (&after - &before) * share
-        });
-        let moved = places.filter_map(|at| self.unknowns.moved(&draw, at.as_slice())).next();
+        let mut places = halves(HALVINGS).map(|share| &before + (&after - &before) * share);
+        let moved = places.find_map(|at| self.unknowns.moved(&draw, at.as_slice()));
         let (values, sample) = moved.ok_or(NothingAccepted { index, tries: 1 })?;
         Ok(LearntSample { sample, values })
     }
+}
+
+/// 1, ½, ¼, …
+pub(super) fn halves(count: usize) -> impl Iterator<Item = f64> {
+    std::iter::successors(Some(1.0), |share| Some(0.5 * share)).take(count)
 }
 
 /// A line each of whose numbers pulls no more than one that is [`FARTHEST`] off.

@@ -13,6 +13,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix2};
 
+use super::filter::halves;
 use super::noise::ModelNoise;
 use super::stretch::{Reading, Stretch};
 use crate::contact::Slip;
@@ -244,7 +245,7 @@ impl SeenMotion {
     /// Newton's method with steps that are halved until less is left over.
     fn balanced_from(&self, study: &HeadingStudy, mut at: Vec2) -> Option<Balance> {
         const ROUNDS: usize = 20;
-        const HALVINGS: i32 = 6;
+        const HALVINGS: usize = 6;
         let longest = LONGEST * self.fastest();
         let (mut left, mut wheels) = self.left_over(study, at, &[])?;
         for _ in 0..ROUNDS {
@@ -254,8 +255,8 @@ impl SeenMotion {
             }
             let mut way = -(inverse * left);
             way *= (longest / way.norm()).min(1.0);
-            let found = (0..HALVINGS).find_map(|round| {
-                let there = at + way * 0.5_f64.powi(round);
+            let found = halves(HALVINGS).find_map(|share| {
+                let there = at + way * share;
                 let (left_there, wheels_there) = self.left_over(study, there, &wheels)?;
                 (left_there.norm() < left.norm()).then_some((there, left_there, wheels_there))
             });

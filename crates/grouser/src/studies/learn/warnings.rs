@@ -21,8 +21,58 @@ pub struct Warning {
     pub lead_time: Option<f64>,
     /// Way over the ground until it happens, if it is ahead [m].
     pub lead_way: Option<f64>,
-    /// What was seen: a sentence.
-    pub evidence: String,
+    /// What was seen.
+    pub evidence: Evidence,
+}
+
+/// What a warning rests on.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Evidence {
+    /// A slip ratio that the soil learnt so far does not have there, over three or more stretches.
+    Strange {
+        /// The slip ratio that was seen [-].
+        slip_ratio: f64,
+        /// The slip ratio that was expected [-].
+        expected: f64,
+    },
+    /// Wheels that spin.
+    Spinning {
+        /// The slip ratio [-].
+        slip_ratio: f64,
+    },
+    /// A slip ratio that grows.
+    Growing {
+        /// What it is now [-].
+        slip_ratio: f64,
+    },
+    /// Ground that rises.
+    Rising {
+        /// The slip ratio now [-].
+        slip_ratio: f64,
+        /// The slope now [rad].
+        slope: f64,
+        /// The slope up to which the soil holds the rover on this course [rad].
+        limit: f64,
+    },
+    /// A yaw that contradicts roll and pitch.
+    Contradiction {
+        /// The yaw as it was told [rad].
+        told: f64,
+        /// The yaw by roll and pitch [rad].
+        by_attitude: f64,
+    },
+    /// Odometry that is faster than the wheels.
+    Outrun {
+        /// The slip ratio that it makes [-].
+        slip_ratio: f64,
+    },
+    /// A wheel with a small share of the others' torque.
+    Idle {
+        /// The wheel's name.
+        wheel: String,
+        /// The share that it has less than [-].
+        share: f64,
+    },
 }
 
 /// What a warning is about.
@@ -152,7 +202,7 @@ impl Watch {
         kind: WarningKind,
         which: usize,
         lead: [Option<f64>; 2],
-        evidence: impl FnOnce() -> String,
+        evidence: Evidence,
     ) -> Option<Warning> {
         let before = self.causes.insert((kind, which), self.way);
         if before.is_some_and(|before| self.way - before < QUIET) {
@@ -160,7 +210,7 @@ impl Watch {
         }
         let time = self.recent.back()?.time;
         let [lead_time, lead_way] = lead;
-        Some(Warning { kind, time, way: self.way, lead_time, lead_way, evidence: evidence() })
+        Some(Warning { kind, time, way: self.way, lead_time, lead_way, evidence })
     }
 
     /// Whether the soil has just been found to be another.
@@ -170,45 +220,32 @@ impl Watch {
             return None;
         }
         self.change = 0.0;
-        let (slip, expected) = (seen.slip_ratio, seen.expected_slip);
-        self.raise(WarningKind::SoilChange, 0, [None; 2], || {
-            format!(
-                "three or more stretches in a row move as the soil learnt so far does not let them: a slip ratio of \
-                 {slip:.2} where {expected:.2} was expected"
-            )
-        })
+        let evidence =
+            Evidence::Strange { slip_ratio: seen.slip_ratio, expected: seen.expected_slip };
+        self.raise(WarningKind::SoilChange, 0, [None; 2], evidence)
     }
 
     /// Whether the slip goes to 1, or the ground gets too steep for what was learnt.
     fn entrapment(&mut self, seen: &Seen<'_>) -> Option<Warning> {
         let last = *self.recent.back()?;
         let speed = self.ground_speed();
-        let slip = seen.slip_ratio;
-        if slip > SPINS {
-            return self.raise(WarningKind::Entrapment, 0, [Some(0.0); 2], || {
-                format!("the slip ratio is {slip:.2}")
-            });
+        let slip_ratio = seen.slip_ratio;
+        if slip_ratio > SPINS {
+            let evidence = Evidence::Spinning { slip_ratio };
+            return self.raise(WarningKind::Entrapment, 0, [Some(0.0); 2], evidence);
         }
-        let by_slip = (slip > SLIPS).then(|| self.strain_ahead(last.strain)).flatten();
+        let by_slip = (slip_ratio > SLIPS).then(|| self.strain_ahead(last.strain)).flatten();
         let by_slope = seen.deep_slope.and_then(|limit| self.slope_ahead(limit - last.slope));
         let way = [by_slip, by_slope].into_iter().flatten().fold(f64::INFINITY, f64::min);
         let time = way / speed.max(1e-6);
         if way > AHEAD || time > SOON {
             return None;
         }
-        let slope = last.slope.to_degrees();
-        let is_slope = by_slope == Some(way);
-        self.raise(WarningKind::Entrapment, 0, [Some(time), Some(way)], || {
-            if is_slope {
-                format!(
-                    "the ground rises, and on this course the soil holds the rover up to {:.1}° only; the slope is \
-                     {slope:.1}° now, the slip ratio {slip:.2}",
-                    seen.deep_slope.unwrap_or_default().to_degrees()
-                )
-            } else {
-                format!("the slip ratio is {slip:.2}, and grows")
-            }
-        })
+        let evidence = match seen.deep_slope.filter(|_| by_slope == Some(way)) {
+            Some(limit) => Evidence::Rising { slip_ratio, slope: last.slope, limit },
+            None => Evidence::Growing { slip_ratio },
+        };
+        self.raise(WarningKind::Entrapment, 0, [Some(time), Some(way)], evidence)
     }
 
     /// Speed over the ground on the mean of the last stretches [m/s].
@@ -276,10 +313,8 @@ impl Watch {
         if self.contradicted < LASTS {
             return None;
         }
-        let (told, yaw) = (told.to_degrees(), yaw.to_degrees());
-        self.raise(WarningKind::LyingSensor, 0, [None; 2], || {
-            format!("the yaw is {told:.0}°, but {yaw:.0}° by roll and pitch")
-        })
+        let evidence = Evidence::Contradiction { told, by_attitude: yaw };
+        self.raise(WarningKind::LyingSensor, 0, [None; 2], evidence)
     }
 
     /// Whether odometry says that the rover is faster than its wheels, where none drives it down.
@@ -291,13 +326,8 @@ impl Watch {
         if self.outrun < LASTS {
             return None;
         }
-        let slip = seen.slip_ratio;
-        self.raise(WarningKind::LyingSensor, 1, [None; 2], || {
-            format!(
-                "odometry has the rover faster than its wheels turn, by a slip ratio of {slip:.2}: its scale, or a wheel \
-                 speed, is wrong"
-            )
-        })
+        let evidence = Evidence::Outrun { slip_ratio: seen.slip_ratio };
+        self.raise(WarningKind::LyingSensor, 1, [None; 2], evidence)
     }
 
     /// Wheels that have much less torque than the others.
@@ -317,13 +347,9 @@ impl Watch {
         let idle: Vec<usize> =
             (0..self.idle.len()).filter(|place| self.idle[*place] >= LASTS).collect();
         let warn = |place: usize| {
-            let name = rover.mounts()[place].name.clone();
-            self.raise(WarningKind::WheelNotPulling, place, [None; 2], || {
-                format!(
-                    "{name} has less than {:.0} % of the torque of the other wheels",
-                    100.0 * LITTLE
-                )
-            })
+            let evidence =
+                Evidence::Idle { wheel: rover.mounts()[place].name.clone(), share: LITTLE };
+            self.raise(WarningKind::WheelNotPulling, place, [None; 2], evidence)
         };
         idle.into_iter().filter_map(warn).collect()
     }
