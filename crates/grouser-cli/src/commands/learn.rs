@@ -1,38 +1,30 @@
 //! `grouser learn`: what the telemetry of a drive tells of the soil, and of the next slopes.
 
+mod found;
 mod page;
 
 use std::collections::BTreeMap;
 
+use grouser::document::columns::SLOPE;
 use grouser::document::columns::learn as columns;
-use grouser::document::columns::{SLIP_RATIO, SLOPE, YAW};
 use grouser::document::learn::LearntSoil;
 use grouser::document::measurements::telemetry::TelemetryReader;
 use grouser::document::table::Table;
 use grouser::document::{Kind, LoadedScenario, SAMPLES_FILE, escape};
 use grouser::studies::heading_band::SlopeBand;
-use grouser::studies::learn::{LearnSettings, Learner, LearntSample, Lesson, NotUsed, Warning};
+use grouser::studies::learn::{LearnSettings, Learner, LearntSample, Lesson, NotUsed};
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use self::found::{Found, shares};
 use super::{Answer, sampling};
 use crate::args::LearnArgs;
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output::folder::OutputFolder;
-use crate::output::rows::{Rows, four_digits};
+use crate::output::rows::Rows;
 use crate::output::{self, Format};
 use crate::report::REPORT;
-
-/// What a drive taught.
-pub(super) struct Found {
-    pub(super) learner: Learner,
-    pub(super) lessons: Vec<Lesson>,
-    pub(super) warnings: Vec<Warning>,
-    /// What was left out of the telemetry, a sentence each.
-    pub(super) notes: Vec<String>,
-    pub(super) predictions: Table,
-}
 
 #[derive(Serialize)]
 struct Results<'a> {
@@ -214,11 +206,6 @@ fn learnt(learner: &Learner) -> Value {
     })
 }
 
-/// The models with their shares.
-pub(super) fn shares(learner: &Learner) -> BTreeMap<&'static str, f64> {
-    learner.models().shares().iter().map(|(theory, share)| (theory.name(), *share)).collect()
-}
-
 /// The inputs of the answer.
 fn settings(args: &LearnArgs, scenario: &LoadedScenario) -> Value {
     let document = &scenario.document;
@@ -235,23 +222,4 @@ fn settings(args: &LearnArgs, scenario: &LoadedScenario) -> Value {
         "samples": args.samples,
         "seed": args.seed,
     })
-}
-
-/// What one slope comes to, for a sentence: yaw and slip with their bands.
-pub(super) fn of_row(table: &Table, row: usize) -> Option<String> {
-    let number = |name: &str| table.numbers(name).get(row).copied().flatten();
-    let [yaw_low, _, yaw_high] = YAW.quantiles();
-    let [slip_low, _, slip_high] = SLIP_RATIO.quantiles();
-    let slope = number(SLOPE.name)?;
-    let yaw = number(YAW.name).zip(number(&yaw_low)).zip(number(&yaw_high));
-    let yaw = yaw.map_or_else(
-        || "no heading holds the contour".to_owned(),
-        |((median, low), high)| format!("the heading is {median:.1}° ({low:.1}° to {high:.1}°)"),
-    );
-    let slip = number(SLIP_RATIO.name)?;
-    let (low, high) = (number(&slip_low)?, number(&slip_high)?);
-    Some(format!(
-        "on {}° {yaw}, the slip ratio {slip:.2} ({low:.2} to {high:.2})",
-        four_digits(slope)
-    ))
 }

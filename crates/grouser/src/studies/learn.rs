@@ -27,7 +27,6 @@ mod warnings;
 
 use std::collections::BTreeMap;
 
-pub use self::bank::LearntSample;
 use self::bank::{Bank, Taught};
 use self::filter::Filter;
 pub use self::filter::Wandering;
@@ -37,6 +36,7 @@ pub use self::noise::ModelNoise;
 pub use self::settings::LearnSettings;
 use self::stretch::Gatherer;
 pub use self::stretch::{Reading, Stretch};
+pub use self::unknowns::LearntSample;
 use self::warnings::{DEEP, Seen, Watch};
 pub use self::warnings::{Evidence, Warning, WarningKind};
 use super::ensemble::models::ModelSpread;

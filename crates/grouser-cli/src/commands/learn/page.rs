@@ -7,7 +7,7 @@ use grouser::document::columns::learn::{
 use grouser::document::columns::{SLIP_RATIO, SLOPE};
 use grouser::document::table::Table;
 
-use super::{Found, of_row, shares};
+use super::found::{Found, of_row, shares};
 use crate::args::LearnArgs;
 use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::output::rows::{Rows, four_digits};

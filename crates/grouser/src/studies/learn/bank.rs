@@ -6,11 +6,11 @@ use super::filter::Filter;
 use super::gaussian::Surprise;
 use super::motion::{NotUsed, SeenMotion};
 use super::settings::LearnSettings;
-use super::unknowns::Unknowns;
+use super::unknowns::{LearntSample, Unknowns};
 use crate::contact::Theory;
 use crate::elementary::exp;
 use crate::studies::ensemble::models::ModelSpread;
-use crate::studies::ensemble::samples::{BandInputs, Sample};
+use crate::studies::ensemble::samples::BandInputs;
 use crate::studies::heading::HeadingStudy;
 use grouser_io::statistics::NothingAccepted;
 
@@ -31,15 +31,6 @@ pub(super) struct Taught {
     pub(super) surprise: Surprise,
     /// How much it narrowed what that model believes [nat].
     pub(super) information: f64,
-}
-
-/// A sample of what is believed, with the values of the soil's keys in their own units.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LearntSample {
-    /// Soil and model.
-    pub sample: Sample,
-    /// The values of the soil's uncertain keys.
-    pub values: Vec<f64>,
 }
 
 impl Bank {

@@ -2,11 +2,10 @@
 
 use nalgebra::DVector;
 
-use super::bank::LearntSample;
 use super::gaussian::{Gaussian, Line, Surprise};
-use super::motion::{Expected, NotUsed, SeenMotion};
+use super::motion::{Expected, NotUsed, SeenMotion, halves};
 use super::noise::ModelNoise;
-use super::unknowns::Unknowns;
+use super::unknowns::{LearntSample, Unknowns};
 use crate::elementary::exp;
 use crate::elementary::wide::ln;
 use crate::studies::heading::HeadingStudy;
@@ -141,11 +140,6 @@ impl Filter {
         let (values, sample) = moved.ok_or(NothingAccepted { index, tries: 1 })?;
         Ok(LearntSample { sample, values })
     }
-}
-
-/// 1, ½, ¼, …
-pub(super) fn halves(count: usize) -> impl Iterator<Item = f64> {
-    std::iter::successors(Some(1.0), |share| Some(0.5 * share)).take(count)
 }
 
 /// A line each of whose numbers pulls no more than one that is [`FARTHEST`] off.

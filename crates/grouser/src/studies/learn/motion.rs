@@ -13,7 +13,6 @@
 
 use nalgebra::{DMatrix, DVector, Matrix2};
 
-use super::filter::halves;
 use super::noise::ModelNoise;
 use super::stretch::{Reading, Stretch};
 use crate::contact::Slip;
@@ -387,6 +386,11 @@ pub(super) struct Expected {
     /// Velocities over the fastest rim's, torques over weight times shearing radius, logarithms of sinkages.
     pub(super) numbers: DVector<f64>,
     balance: Balance,
+}
+
+/// 1, ½, ¼, …
+pub(super) fn halves(count: usize) -> impl Iterator<Item = f64> {
+    std::iter::successors(Some(1.0), |share| Some(0.5 * share)).take(count)
 }
 
 /// The rover with its wheels steered as they were read.

@@ -26,6 +26,15 @@ pub(super) struct Draw {
     pub(super) coordinates: Vec<f64>,
 }
 
+/// A sample of what is believed, with the values of the soil's keys in their own units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LearntSample {
+    /// Soil and model.
+    pub sample: Sample,
+    /// The values of the soil's uncertain keys.
+    pub values: Vec<f64>,
+}
+
 impl Unknowns {
     /// `None` of a soil that is known exactly.
     pub(super) fn of(theory: Theory, inputs: &BandInputs) -> Option<Self> {

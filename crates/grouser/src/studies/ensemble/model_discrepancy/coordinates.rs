@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::{ANGLE_LENGTH, FORCE, SINKAGE, SLIP_LENGTH, TORQUE, correlations};
+use super::process::{ANGLE_LENGTH, FORCE, SINKAGE, SLIP_LENGTH, TORQUE, correlations};
 use crate::soil::Discrepancy;
 use crate::soil::discrepancy::{Blend, LARGEST, SIDE_VALUES, SLIP_ANGLES, SLIPS, VALUES};
 
@@ -162,7 +162,7 @@ impl Part {
 
 #[cfg(test)]
 mod tests {
-    use super::super::drawn;
+    use super::super::process::drawn;
     use super::*;
 
     /// Coordinates of 4000 samples are standard normal and uncorrelated, and what is left beyond them is independent.

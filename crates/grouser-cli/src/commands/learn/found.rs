@@ -1,0 +1,43 @@
+//! What a drive taught.
+
+use std::collections::BTreeMap;
+
+use grouser::document::columns::{SLIP_RATIO, SLOPE, YAW};
+use grouser::document::table::Table;
+use grouser::studies::learn::{Learner, Lesson, Warning};
+
+use crate::output::rows::four_digits;
+
+/// What a drive taught.
+pub(in crate::commands) struct Found {
+    pub(in crate::commands) learner: Learner,
+    pub(in crate::commands) lessons: Vec<Lesson>,
+    pub(in crate::commands) warnings: Vec<Warning>,
+    /// What was left out of the telemetry, a sentence each.
+    pub(in crate::commands) notes: Vec<String>,
+    pub(in crate::commands) predictions: Table,
+}
+
+/// The models with their shares.
+pub(in crate::commands) fn shares(learner: &Learner) -> BTreeMap<&'static str, f64> {
+    learner.models().shares().iter().map(|(theory, share)| (theory.name(), *share)).collect()
+}
+
+/// What one slope comes to, for a sentence: yaw and slip with their bands.
+pub(in crate::commands) fn of_row(table: &Table, row: usize) -> Option<String> {
+    let number = |name: &str| table.numbers(name).get(row).copied().flatten();
+    let [yaw_low, _, yaw_high] = YAW.quantiles();
+    let [slip_low, _, slip_high] = SLIP_RATIO.quantiles();
+    let slope = number(SLOPE.name)?;
+    let yaw = number(YAW.name).zip(number(&yaw_low)).zip(number(&yaw_high));
+    let yaw = yaw.map_or_else(
+        || "no heading holds the contour".to_owned(),
+        |((median, low), high)| format!("the heading is {median:.1}° ({low:.1}° to {high:.1}°)"),
+    );
+    let slip = number(SLIP_RATIO.name)?;
+    let (low, high) = (number(&slip_low)?, number(&slip_high)?);
+    Some(format!(
+        "on {}° {yaw}, the slip ratio {slip:.2} ({low:.2} to {high:.2})",
+        four_digits(slope)
+    ))
+}
