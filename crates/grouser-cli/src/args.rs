@@ -252,6 +252,23 @@ pub(crate) struct RunArgs {
     /// and every number over time. With --out, a name alone is a file in DIR.
     #[arg(long, value_name = "FILE")]
     pub(crate) mcap: Option<PathBuf>,
+    /// Also write what the rover's instruments would say of the run, with their noise and gaps: CSV that `learn` reads.
+    /// With --out, a name alone is a file in DIR.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) telemetry: Option<PathBuf>,
+    /// A setting of these instruments, such as `attitude_noise_deg=0.2`, `outliers=0.05` or `rate_hz=2`; `perfect` for
+    /// none of their faults; can be repeated. docs/guide/learn.md lists the keys.
+    #[arg(long = "sensor", value_name = "KEY=VALUE", requires = "telemetry")]
+    pub(crate) sensors: Vec<String>,
+    /// Seed of their noise.
+    #[arg(
+        long,
+        value_name = "S",
+        default_value_t = 1,
+        requires = "telemetry",
+        allow_negative_numbers = true
+    )]
+    pub(crate) sensor_seed: u64,
 }
 
 /// How the weight acts on the wheels.

@@ -28,6 +28,7 @@ pub(crate) mod sampling;
 pub(crate) mod schema;
 pub(crate) mod slip_from_current;
 mod strict;
+mod telemetry;
 pub(crate) mod traverse;
 pub(crate) mod validate;
 pub(crate) mod wheel_test;

@@ -12,6 +12,7 @@ pub mod forecast;
 pub mod learn;
 pub mod plates;
 pub mod ranking;
+pub mod sensors;
 pub mod simulated_test;
 mod soil_family;
 pub mod study;

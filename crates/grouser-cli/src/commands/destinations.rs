@@ -2,16 +2,17 @@
 
 use grouser::simulation::Scenario;
 
-use super::{animation, log};
+use super::{animation, log, telemetry};
 use crate::args::{OutputArgs, RunArgs};
 use crate::failure::Failure;
 use crate::output::folder::OutputFolder;
 
-/// The folder, the animation and the log that flags ask for.
+/// The folder, the animation, the log and the telemetry that flags ask for.
 pub(super) struct Destinations<'a> {
     pub(super) folder: Option<OutputFolder>,
     pub(super) animation: Option<animation::Target<'a>>,
     pub(super) log: Option<log::Target<'a>>,
+    pub(super) telemetry: Option<telemetry::Target<'a>>,
 }
 
 impl<'a> Destinations<'a> {
@@ -23,7 +24,8 @@ impl<'a> Destinations<'a> {
         let animation = animation.map(|it| animation::Target::of(it, has_folder, may_replace));
         let animation = animation.transpose()?;
         let log = run.mcap.as_deref().map(|it| log::Target::of(it, has_folder, may_replace));
-        Ok(Self { animation, log: log.transpose()?, folder })
+        let telemetry = telemetry::Target::of(run, has_folder, may_replace)?;
+        Ok(Self { animation, log: log.transpose()?, telemetry, folder })
     }
 
     /// That animations can show the ground.

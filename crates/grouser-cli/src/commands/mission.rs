@@ -28,14 +28,20 @@ pub(crate) fn run(args: &MissionArgs) -> Result<(), Failure> {
     let destinations = Destinations::of(&args.run, &args.output)?;
     let document = inputs::mission::read(args)?;
     destinations.check(&document.value.scenario)?;
-    let Destinations { mut folder, animation, log } = destinations;
+    let Destinations { mut folder, animation, log, telemetry } = destinations;
     let missions = document.value.missions();
-    if log.is_some() && missions.len() > 1 {
-        let text = "--mcap logs one mission: this one has alternatives, each of which would be one";
-        return Err(Failure::Usage(text.to_owned()));
+    for (flag, is_given) in [("--mcap", log.is_some()), ("--telemetry", telemetry.is_some())] {
+        if is_given && missions.len() > 1 {
+            return Err(Failure::Usage(format!(
+                "{flag} logs one mission: this one has alternatives, each of which would be one"
+            )));
+        }
     }
-    let has_records =
-        folder.is_some() || animation.is_some() || log.is_some() || args.strict.strict;
+    let has_records = folder.is_some()
+        || animation.is_some()
+        || log.is_some()
+        || telemetry.is_some()
+        || args.strict.strict;
     let drive = if has_records { DrivenMission::all } else { DrivenMission::all_ends };
     let ways = drive(&missions)?;
     let answered = Answered { document, ways };
@@ -45,6 +51,10 @@ pub(crate) fn run(args: &MissionArgs) -> Result<(), Failure> {
     }
     if let (Some(log), [one]) = (log, &answered.ways[..]) {
         log.write_mission(&answered.document, one, folder.as_mut())?;
+    }
+    if let (Some(telemetry), [one]) = (telemetry, &answered.ways[..]) {
+        let scenario = &answered.document.value.scenario;
+        telemetry.write(scenario, &one.report.trajectory, folder.as_mut())?;
     }
     answered.output(args, folder)
 }

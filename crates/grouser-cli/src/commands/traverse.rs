@@ -34,20 +34,28 @@ const LINES: usize = 10;
 
 pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
     let destinations = Destinations::of(&args.run, &args.output)?;
-    if destinations.log.is_some() && args.setting.each_model().len() > 1 {
-        let text = "--mcap logs one run: name one model with --model";
-        return Err(Failure::Usage(text.to_owned()));
+    let of_one =
+        [("--mcap", destinations.log.is_some()), ("--telemetry", destinations.telemetry.is_some())];
+    for (flag, is_given) in of_one {
+        if is_given && args.setting.each_model().len() > 1 {
+            return Err(Failure::Usage(format!(
+                "{flag} logs one run: name one model with --model"
+            )));
+        }
     }
     let each = |setting| OfModel::of(args, &setting);
     let all: Vec<OfModel> =
         args.setting.each_model().into_iter().map(each).collect::<Result<_, _>>()?;
     destinations.check(&all[0].scenario.value)?;
-    let Destinations { mut folder, animation, log } = destinations;
+    let Destinations { mut folder, animation, log, telemetry } = destinations;
     if let Some(target) = animation {
         animate(args, &target, &all, folder.as_mut())?;
     }
     if let Some(log) = log {
         log.write(&all[0].scenario, &all[0].run, folder.as_mut())?;
+    }
+    if let Some(telemetry) = telemetry {
+        telemetry.write(&all[0].scenario.value, &all[0].run, folder.as_mut())?;
     }
     match &all[..] {
         [one] => one.output(args, folder),

@@ -47,6 +47,48 @@ fn a_drive_narrows_the_next_slopes() {
     }
 }
 
+/// What the instruments of a simulated mission say: the same again from the same seed, other noise from another, and
+/// enough to learn from. Without a fault it is the run itself.
+#[test]
+fn a_run_has_telemetry() {
+    let place = Place::new();
+    let run = "traverse --rover hakuto --soil toyoura --slope-deg 6 --simulation quasi-steady --duration-s 30 \
+               --set scenario.start.yaw_deg=3";
+    for (name, flags) in [
+        ("one.csv", "--sensor outliers=0.05"),
+        ("again.csv", "--sensor outliers=0.05 --sensor-seed 1"),
+        ("other.csv", "--sensor outliers=0.05 --sensor-seed 2"),
+        ("perfect.csv", "--sensor perfect --sensor rate_hz=2"),
+    ] {
+        place.results(&format!("{run} --telemetry {name} {flags}"));
+    }
+    assert_eq!(place.read("one.csv"), place.read("again.csv"));
+    assert_ne!(place.read("one.csv"), place.read("other.csv"));
+    let perfect = place.read("perfect.csv");
+    assert_eq!(perfect.lines().count(), 1 + 61, "two readings a second");
+    let column = |name: &str| {
+        let place = perfect.lines().next().unwrap().split(',').position(|it| it == name).unwrap();
+        let cells = perfect.lines().skip(1).map(move |line| line.split(',').nth(place).unwrap());
+        cells.filter_map(|cell| cell.parse::<f64>().ok()).collect::<Vec<_>>()
+    };
+    let (roll, way) = (column("roll_deg"), column("vo_dx_m"));
+    assert!((roll[0] - 5.99).abs() < 0.02, "roll has almost all of the slope: {}", roll[0]);
+    assert_eq!((roll.len(), way.len()), (61, 60));
+    let learnt =
+        "learn one.csv --prior toyoura-uncertain --rover hakuto --model ishigami --samples 20";
+    let answer = place.json(learnt);
+    assert!(answer["learnt"]["stretches"].as_u64().unwrap() > 10, "{}", answer["learnt"]);
+    assert_eq!(answer["learnt"]["stretches_not_used"], 0);
+    for (flags, words) in [
+        ("--telemetry a.csv --sensor colour=1", "there is no 'colour'"),
+        ("--telemetry a.csv --model all", "--telemetry logs one run"),
+        ("--sensor perfect", "--telemetry"),
+    ] {
+        let said = check_is_refusal(&place.line(&format!("{run} {flags}")), 2);
+        assert!(said.contains(words), "{words} in {said}");
+    }
+}
+
 /// A log without roll and pitch teaches nothing unless the slope is given, and the note says so.
 #[test]
 fn what_taught_nothing_is_said() {

@@ -1,13 +1,18 @@
 //! What a rover's instruments would say of a drive, with their noise and faults.
 //!
+//! [`truth`] is what perfect ones would say of a run.
+//!
 //! [`Sensors`] take what is true at a time and give what the telemetry has of it: with noise, bias, rounding, gaps and
 //! outliers, from a seed. A reading depends on the seed and on the readings before it, and on nothing else.
 
 use rand_chacha::ChaCha8Rng;
 
 use super::random;
+use crate::elementary::wide::{cos, sin};
 use crate::error::{ParameterError, not_negative};
-use grouser_io::measurements::telemetry::TelemetryRecord;
+use crate::simulation::{Record, Scenario, Trajectory, WheelRecord};
+use crate::vehicle::{Mount, roll_and_pitch};
+use grouser_io::measurements::telemetry::{TelemetryRecord, WheelTelemetry};
 
 /// What is wrong with one kind of instrument.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -43,6 +48,8 @@ pub struct SensorModels {
     pub dropouts: f64,
     /// The share of readings that are wrong by far [-].
     pub outliers: f64,
+    /// Readings a second [Hz]; 0 for one at each record of the run.
+    pub rate: f64,
 }
 
 impl SensorModels {
@@ -57,6 +64,7 @@ impl SensorModels {
         sinkage: Fault::NONE,
         dropouts: 0.0,
         outliers: 0.0,
+        rate: 0.0,
     };
 
     /// Those of a micro rover. Source: ours, after what is sold: an attitude to 0.2°, odometry to a millimetre for each
@@ -71,6 +79,7 @@ impl SensorModels {
         sinkage: Fault { noise: 3e-3, relative_noise: 0.1, bias: 0.0, step: 1e-3 },
         dropouts: 0.02,
         outliers: 0.0,
+        rate: 0.0,
     };
 
     /// That they are instruments.
@@ -93,6 +102,7 @@ impl SensorModels {
             not_negative("step of an instrument", fault.step)?;
             crate::error::finite("bias of an instrument", fault.bias)?;
         }
+        not_negative("rate of readings [Hz]", self.rate)?;
         for share in [self.dropouts, self.outliers] {
             if !(0.0..=1.0).contains(&share) {
                 let expected = "a share, 0 to 1";
@@ -113,8 +123,68 @@ impl Fault {
 pub struct Sensors {
     models: SensorModels,
     random: ChaCha8Rng,
+    /// When they last read [s].
+    last: Option<f64>,
     /// Ways and rotation that no reading has told yet.
     untold: [f64; 3],
+}
+
+/// What perfect instruments say of a run: of a rover whose motors are known currents, of another torques. Yaw is told on a
+/// plane, where it counts from the contour.
+#[must_use]
+pub fn truth(run: &Trajectory, scenario: &Scenario) -> Vec<TelemetryRecord> {
+    let mounts = scenario.rover.mounts();
+    let slope = scenario.terrain.is_none().then_some(scenario.site.terrain.slope);
+    let mut last: Option<&Record> = None;
+    let mut all = Vec::with_capacity(run.records.len());
+    for record in &run.records {
+        all.push(truth_at(record, last, (slope, mounts)));
+        last = Some(record);
+    }
+    all
+}
+
+/// * `slope`: of a plane [rad]
+fn truth_at(
+    record: &Record,
+    last: Option<&Record>,
+    (slope, mounts): (Option<f64>, &[Mount]),
+) -> TelemetryRecord {
+    let yaw = record.state.yaw;
+    let on_plane = slope.map(|slope| roll_and_pitch(slope, yaw));
+    let stands = record.attitude.as_ref().map(|it| [it.roll, it.pitch]);
+    let [roll, pitch] = [0, 1].map(|place| stands.or(on_plane).map(|it| it[place]));
+    let moved = last.map(|last| {
+        let (way, turned) = (record.state.position - last.state.position, yaw - last.state.yaw);
+        let middle = yaw - 0.5 * turned;
+        let (cos, sin) = (cos(middle), sin(middle));
+        ([cos * way.x + sin * way.y, cos * way.y - sin * way.x], turned)
+    });
+    let wheels = mounts.iter().enumerate().map(|(place, mount)| {
+        record.wheels.get(place).map_or_else(WheelTelemetry::default, |it| of_wheel(it, mount))
+    });
+    TelemetryRecord {
+        time: record.time,
+        roll,
+        pitch,
+        yaw: slope.map(|_| yaw),
+        displacement: [0, 1].map(|place| moved.map(|(way, _)| way[place])),
+        rotation: moved.map(|(_, turned)| turned),
+        position: [None; 2],
+        wheels: wheels.collect(),
+    }
+}
+
+fn of_wheel(record: &WheelRecord, mount: &Mount) -> WheelTelemetry {
+    let current = record.electrical.as_ref().map(|it| it.current);
+    let torque = record.reaction.settled.forces.torque;
+    WheelTelemetry {
+        speed: Some(record.wheel_speed),
+        torque: current.is_none().then_some(torque),
+        current,
+        steering: mount.steering_axis.is_some().then_some(record.steering),
+        sinkage: Some(record.reaction.settled.sinkage),
+    }
 }
 
 /// The stream of random numbers of instruments.
@@ -125,7 +195,29 @@ impl Sensors {
     /// As [`SensorModels::check`].
     pub fn new(models: SensorModels, seed: u64) -> Result<Self, ParameterError> {
         models.check()?;
-        Ok(Self { models, random: random::generator(seed, STREAM), untold: [0.0; 3] })
+        Ok(Self { models, random: random::generator(seed, STREAM), last: None, untold: [0.0; 3] })
+    }
+
+    /// What they say of a drive, at their rate.
+    pub fn read_all(&mut self, truth: &[TelemetryRecord]) -> Vec<TelemetryRecord> {
+        truth.iter().filter_map(|record| self.read_at_rate(record)).collect()
+    }
+
+    /// What they say at a time, if they read then; ways and rotation add up until they do.
+    fn read_at_rate(&mut self, truth: &TelemetryRecord) -> Option<TelemetryRecord> {
+        /// A record this much too early is one of its time [-].
+        const EARLY: f64 = 1e-6;
+        let due =
+            self.last.is_none_or(|last| (truth.time - last) * self.models.rate >= 1.0 - EARLY);
+        if due || self.models.rate == 0.0 {
+            self.last = Some(truth.time);
+            return Some(self.read(truth));
+        }
+        let [forward, leftward] = truth.displacement;
+        for (untold, way) in self.untold.iter_mut().zip([forward, leftward, truth.rotation]) {
+            *untold += way.unwrap_or(0.0);
+        }
+        None
     }
 
     /// What they say at a time. Where a way or a rotation is missing, the next reading has it too.
@@ -232,6 +324,18 @@ mod tests {
         }
         assert!((sum + sensors.untold[0] - 20.0).abs() < 1e-9);
         assert!((700..900).contains(&gaps), "{gaps}");
+    }
+
+    /// At a tenth of the records the ways are those of ten.
+    #[test]
+    fn a_slower_rate_tells_the_same_way() {
+        let models = SensorModels { rate: 1.0, ..SensorModels::PERFECT };
+        let mut sensors = Sensors::new(models, 5).unwrap();
+        let truths: Vec<_> = (0..101).map(|step| truth(0.1 * f64::from(step))).collect();
+        let seen = sensors.read_all(&truths);
+        assert_eq!(seen.len(), 11);
+        let ways: Vec<f64> = seen.iter().filter_map(|it| it.displacement[0]).collect();
+        assert!((ways[3] - 0.1).abs() < 1e-12 && (ways.iter().sum::<f64>() - 1.01).abs() < 1e-9);
     }
 
     #[test]
