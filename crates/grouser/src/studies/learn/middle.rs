@@ -17,6 +17,9 @@ pub(super) struct Middle {
 /// normal readings two are.
 const FARTHEST: f64 = 3.1;
 
+/// Fewer readings than this have their median, and no mean.
+const MANY: usize = 12;
+
 impl Middle {
     /// Of some readings; `None` of none.
     ///
@@ -36,7 +39,8 @@ impl Middle {
         let is_near = |reading: &&f64| (**reading - median).abs() <= FARTHEST * scatter;
         let near = readings.iter().filter(is_near);
         let (count, sum) = near.fold((0_usize, 0.0), |(count, sum), it| (count + 1, sum + it));
-        let value = if count == 0 { median } else { sum / count as f64 };
+        // Of few readings two may be outliers in one direction, and widen what counts as near.
+        let value = if count < MANY { median } else { sum / count as f64 };
         Some(Self { value, scatter, count: count.max(1), outliers: readings.len() - count })
     }
 
@@ -45,8 +49,11 @@ impl Middle {
     /// * `usual`: of a reading, where there are too few to tell
     pub(super) fn deviation(&self, usual: f64) -> f64 {
         const ENOUGH: usize = 5;
+        /// Standard deviation of a median over that of a mean, √(π/2) [-].
+        const OF_MEDIAN: f64 = 1.253;
         let scatter = if self.count < ENOUGH { self.scatter.max(usual) } else { self.scatter };
-        scatter / (self.count as f64).sqrt()
+        let factor = if self.count < MANY && self.count > 1 { OF_MEDIAN } else { 1.0 };
+        factor * scatter / (self.count as f64).sqrt()
     }
 }
 

@@ -47,7 +47,7 @@ pub struct Reading {
 /// The rims' way of a stretch [m]: short enough to see the soil change, long enough for a mean. Source: ours.
 const WAY: f64 = 0.1;
 /// A stretch has this many readings of the motion at least, unless it is [`LONGEST`].
-const LEAST_READINGS: usize = 5;
+const LEAST_READINGS: usize = 7;
 /// The rims' way of the longest stretch [m].
 const LONGEST: f64 = 0.5;
 /// A stretch takes this long at most [s]: rovers that stand have one, too.
@@ -176,7 +176,10 @@ impl Gatherer {
         };
         let rims = self.rims(&mut of)?;
         let fastest = rims.iter().map(|it| it.value.abs()).fold(0.0, f64::max);
-        let scatter = rims.iter().map(|it| it.scatter).fold(0.0, f64::max);
+        // Outliers are those of one wheel, a change of speed is that of most.
+        let mut scatters: Vec<f64> = rims.iter().map(|it| it.scatter).collect();
+        scatters.sort_by(f64::total_cmp);
+        let scatter = grouser_io::statistics::quantile(&scatters, 0.5).unwrap_or(0.0);
         let value = |it: Option<Middle>| it.map(|it| it.value);
         let (roll, pitch) = (value(of(&|it| it.roll)), value(of(&|it| it.pitch)));
         let told_yaw = value(of(&|it| it.yaw));
@@ -211,7 +214,7 @@ impl Gatherer {
         })
     }
 
-    /// The rim speeds of all wheels [m/s]; that of a wheel without readings is the mean of the others.
+    /// The rim speeds of all wheels [m/s]; that of a wheel without readings is the middle of the others.
     fn rims(
         &self,
         of: &mut impl FnMut(&dyn Fn(&TelemetryRecord) -> Option<f64>) -> Option<Middle>,
@@ -225,16 +228,18 @@ impl Gatherer {
             .collect();
         let known: Vec<Middle> = read.iter().copied().flatten().collect();
         let first = *known.first()?;
-        let mean = known.iter().map(|it| it.value).sum::<f64>() / known.len() as f64;
+        let mut speeds: Vec<f64> = known.iter().map(|it| it.value).collect();
+        speeds.sort_by(f64::total_cmp);
+        let middle = grouser_io::statistics::quantile(&speeds, 0.5)?;
         // Rims that differ by no more than their readings' noise turn alike: where wheels hardly slip, a hundredth between
         // them is as much as their slip.
         let differs = |it: &Middle| {
-            (it.value - mean).abs() > MOST_ALIKE * it.deviation(0.0) + ALIKE * mean.abs()
+            (it.value - middle).abs() > MOST_ALIKE * it.deviation(0.0) + ALIKE * middle.abs()
         };
         if !known.iter().any(differs) {
-            return Some(vec![Middle { value: mean, ..first }; read.len()]);
+            return Some(vec![Middle { value: middle, ..first }; read.len()]);
         }
-        Some(read.into_iter().map(|it| it.unwrap_or(Middle { value: mean, ..first })).collect())
+        Some(read.into_iter().map(|it| it.unwrap_or(Middle { value: middle, ..first })).collect())
     }
 
     /// The torque of a wheel [N·m], as it was read or from its current.

@@ -141,6 +141,7 @@ struct Past {
     time: f64,
     way: f64,
     ground: f64,
+    slip_ratio: f64,
     strain: f64,
     slope: f64,
     yaw: f64,
@@ -188,7 +189,8 @@ impl Watch {
             + seen.stretch.way * (1.0 - seen.slip_ratio).max(0.0);
         let strain = -ln_1p(-seen.slip_ratio.min(0.995));
         let (time, way) = (seen.stretch.time[1], self.way);
-        self.recent.push_back(Past { time, way, ground, strain, slope, yaw });
+        let slip_ratio = seen.slip_ratio;
+        self.recent.push_back(Past { time, way, ground, slip_ratio, strain, slope, yaw });
         while self.recent.front().is_some_and(|it| it.way < way - TREND) {
             self.recent.pop_front();
         }
@@ -230,7 +232,9 @@ impl Watch {
         let last = *self.recent.back()?;
         let speed = self.ground_speed();
         let slip_ratio = seen.slip_ratio;
-        if slip_ratio > SPINS {
+        // Two in a row: one may be outliers that got through.
+        let before = self.recent.iter().nth_back(1).map_or(0.0, |it| it.slip_ratio);
+        if slip_ratio.min(before) > SPINS {
             let evidence = Evidence::Spinning { slip_ratio };
             return self.raise(WarningKind::Entrapment, 0, [Some(0.0); 2], evidence);
         }
