@@ -256,7 +256,7 @@ pub(crate) struct RunArgs {
     /// With --out, a name alone is a file in DIR.
     #[arg(long, value_name = "FILE")]
     pub(crate) telemetry: Option<PathBuf>,
-    /// A setting of these instruments, such as `attitude_noise_deg=0.2`, `outliers=0.05` or `rate_hz=2`; `perfect` for
+    /// A setting of these instruments, such as `roll_pitch_noise_deg=0.2`, `outliers=0.05` or `rate_hz=2`; `perfect` for
     /// none of their faults; can be repeated. docs/guide/learn.md lists the keys.
     #[arg(long = "sensor", value_name = "KEY=VALUE", requires = "telemetry")]
     pub(crate) sensors: Vec<String>,

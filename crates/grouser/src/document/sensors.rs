@@ -28,9 +28,9 @@ const SHARE: RangeInclusive<f64> = 0.0..=1.0;
 
 /// All of them.
 pub const KEYS: [SensorKey; 20] = [
-    key("attitude_noise_deg", DEG, "noise of roll and pitch", SIZE, |it| &mut it.attitude.noise),
-    key("attitude_bias_deg", DEG, "added to roll and pitch", BIAS, |it| &mut it.attitude.bias),
-    key("attitude_step_deg", DEG, "step of roll and pitch", SIZE, |it| &mut it.attitude.step),
+    key("roll_pitch_noise_deg", DEG, "noise of roll and pitch", SIZE, |it| &mut it.attitude.noise),
+    key("roll_pitch_bias_deg", DEG, "added to roll and pitch", BIAS, |it| &mut it.attitude.bias),
+    key("roll_pitch_step_deg", DEG, "step of roll and pitch", SIZE, |it| &mut it.attitude.step),
     key("yaw_noise_deg", DEG, "noise of the yaw", SIZE, |it| &mut it.yaw.noise),
     key("yaw_bias_deg", DEG, "added to the yaw", BIAS, |it| &mut it.yaw.bias),
     key("vo_noise_m", M, "noise of each way by odometry", SIZE, |it| &mut it.odometry.noise),
@@ -117,7 +117,8 @@ mod tests {
 
     #[test]
     fn settings_change_what_they_name() {
-        let models = sensor_models(["perfect", "attitude_noise_deg=0.5", "outliers=0.05"]).unwrap();
+        let models =
+            sensor_models(["perfect", "roll_pitch_noise_deg=0.5", "outliers=0.05"]).unwrap();
         assert!((models.attitude.noise - 0.5_f64.to_radians()).abs() < 1e-12);
         assert_eq!((models.outliers, models.dropouts, models.torque.noise), (0.05, 0.0, 0.0));
         assert_eq!(sensor_models([]).unwrap(), SensorModels::USUAL);
@@ -126,8 +127,8 @@ mod tests {
     #[test]
     fn what_is_no_setting_is_said() {
         for (setting, words) in [
-            ("attitude_nois_deg=1", "did you mean `attitude_noise_deg`"),
-            ("colour=1", "there are attitude_noise_deg"),
+            ("roll_pitch_nois_deg=1", "did you mean `roll_pitch_noise_deg`"),
+            ("colour=1", "there are roll_pitch_noise_deg"),
             ("outliers=2", "from 0 to 1"),
             ("outliers=many", "must be a number"),
             ("imperfect", "neither KEY=VALUE"),
