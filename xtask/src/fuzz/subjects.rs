@@ -53,7 +53,7 @@ impl Subject {
 }
 
 /// Quick lines of every command, each with the names of its files among [`documents`].
-const LINES: [(&str, &str, &[&str]); 36] = [
+const LINES: [(&str, &str, &[&str]); 37] = [
     (
         "wheel-test",
         "wheel-test --soil soil.toml --wheel wheel.toml --load-n 17 --slip-ratio -0.4:0.8:0.4 --format json",
@@ -113,6 +113,11 @@ const LINES: [(&str, &str, &[&str]); 36] = [
         "card, page",
         "card --soil uncertain.toml --samples 2 --out card.html --format json",
         &["uncertain.toml"],
+    ),
+    (
+        "learn",
+        "learn drive.csv --prior uncertain.toml --model ishigami --samples 2 --predict-slope-deg 5 --out learnt --format json",
+        &["drive.csv", "uncertain.toml"],
     ),
     (
         "forecast",
@@ -316,7 +321,19 @@ fn documents(program: &Path) -> Result<Vec<(String, Vec<u8>)>> {
         .map(|(name, line)| Ok((name.to_owned(), printed(program, line, folder.path())?)));
     let written = WRITTEN.into_iter().map(|(name, text)| Ok((name.to_owned(), text.into())));
     let maps = maps::files()?.into_iter().map(Ok);
-    made.chain(written).chain(maps).collect()
+    let drive = std::iter::once(Ok(("drive.csv".to_owned(), drive().into_bytes())));
+    made.chain(written).chain(maps).chain(drive).collect()
+}
+
+/// Telemetry of some seconds along a slope.
+fn drive() -> String {
+    let row = |step: i32| {
+        let time = 0.2 * f64::from(step);
+        format!("{time:.1},5.98,0.31,3,0.0112,-0.0006,-0.02,0.55,0.55,0.21,0.22\n")
+    };
+    let header = "time_s,roll_deg,pitch_deg,yaw_deg,vo_dx_m,vo_dy_m,vo_dyaw_deg,wheel_speed_rad_s_front-left,\
+                  wheel_speed_rad_s_rear-right,wheel_torque_nm_front-left,rear-right.torque_nm\n";
+    header.to_owned() + &(0..40).map(row).collect::<String>()
 }
 
 /// A soil whose uncertainty is a table of samples.

@@ -52,7 +52,7 @@ pub(crate) fn run(args: &LearnArgs) -> Result<(), Failure> {
         warnings: &warnings,
         learnt: learnt(&found.learner),
         models: shares(&found.learner),
-        narrowed: found.learner.narrowed(),
+        narrowed: found.narrowed.clone(),
         soil,
         notes: &found.notes,
     };
@@ -95,7 +95,9 @@ fn learn(args: &LearnArgs, scenario: &LoadedScenario) -> Result<Found, Failure> 
     })?;
     let after = predictions(args, &learner, &slopes)?;
     let predictions = columns::predictions(&before, &after);
-    Ok(Found { learner, lessons, warnings, notes, predictions })
+    let narrowed = learner.narrowed(args.seed, args.samples);
+    let narrowed = narrowed.map_err(|error| reaches_too_far(&error))?;
+    Ok(Found { learner, lessons, warnings, notes, predictions, narrowed })
 }
 
 /// Keeps a lesson; where there are too many, every second of them, so that memory does not grow with the drive.

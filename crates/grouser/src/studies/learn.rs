@@ -65,6 +65,9 @@ pub struct Learner {
 /// On less slope than this nothing is said of the slopes ahead [rad].
 const LEVEL: f64 = 0.03;
 
+/// What the keys of what a model gets wrong begin with.
+const DISCREPANCY: &str = "discrepancy.";
+
 /// How much was learnt from.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Learnt {
@@ -208,11 +211,31 @@ impl Learner {
         self.bank.models(&self.settings)
     }
 
-    /// Standard deviation of each of the soil's coordinates over what it was beforehand [-], under the model with the
-    /// greatest share.
-    #[must_use]
-    pub fn narrowed(&self) -> BTreeMap<String, f64> {
-        self.bank.narrowed(&self.settings)
+    /// Standard deviation of each of the soil's uncertain keys over what it was beforehand [-], over some samples of the
+    /// model with the greatest share: 1 where nothing was learnt. What models get wrong is left out.
+    ///
+    /// # Errors
+    /// As [`samples`](Self::samples).
+    pub fn narrowed(
+        &self,
+        seed: u64,
+        count: u32,
+    ) -> Result<BTreeMap<String, f64>, NothingAccepted> {
+        let filter = self.bank.best(&self.settings);
+        let (before, after): (Vec<_>, Vec<_>) = (0..count)
+            .map(|index| {
+                Ok((filter.values_before(seed, index.into())?, filter.sample(seed, index.into())?))
+            })
+            .collect::<Result<Vec<_>, NothingAccepted>>()?
+            .into_iter()
+            .unzip();
+        let of_key = |(place, key): (usize, &str)| {
+            let before = deviation(before.iter().map(|it: &Vec<f64>| it[place]));
+            let after = deviation(after.iter().map(|it: &LearntSample| it.values[place]));
+            (before > 0.0).then(|| (key.to_owned(), after / before))
+        };
+        let keys = self.keys().enumerate().filter(|(_, key)| !key.starts_with(DISCREPANCY));
+        Ok(keys.filter_map(of_key).collect())
     }
 
     /// Samples of what is believed now.
@@ -260,4 +283,11 @@ impl Learner {
         let samples: Vec<Sample> = samples.iter().map(|it| it.sample).collect();
         HeadingBand::of(&self.study, &samples, slopes, go_on)
     }
+}
+
+/// Standard deviation of some values.
+fn deviation(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    let count = values.clone().count() as f64;
+    let mean = values.clone().sum::<f64>() / count;
+    (values.map(|it| (it - mean) * (it - mean)).sum::<f64>() / count).sqrt()
 }

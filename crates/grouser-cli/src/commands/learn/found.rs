@@ -16,6 +16,8 @@ pub(in crate::commands) struct Found {
     /// What was left out of the telemetry, a sentence each.
     pub(in crate::commands) notes: Vec<String>,
     pub(in crate::commands) predictions: Table,
+    /// What is left of the uncertainty of each of the soil's keys [-].
+    pub(in crate::commands) narrowed: BTreeMap<String, f64>,
 }
 
 /// The models with their shares.

@@ -34,8 +34,8 @@ fn lines(found: &Found) -> Vec<String> {
         learnt.records,
         models.join(", ")
     );
-    let narrowed = found.learner.narrowed();
-    let narrowed: Vec<String> = narrowed
+    let narrowed: Vec<String> = found
+        .narrowed
         .iter()
         .map(|(key, share)| format!("{key} {:.0} %", 100.0 * share.min(1.0)))
         .collect();

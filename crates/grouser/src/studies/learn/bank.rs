@@ -1,7 +1,5 @@
 //! What is believed of a soil under several wheel–soil models, and of the models themselves.
 
-use std::collections::BTreeMap;
-
 use super::filter::Filter;
 use super::gaussian::Surprise;
 use super::motion::{NotUsed, SeenMotion};
@@ -151,12 +149,5 @@ impl Bank {
     /// The keys of the soil that a sample has values of.
     pub(super) fn keys(&self) -> impl Iterator<Item = &str> {
         self.filters[0].unknowns.keys()
-    }
-
-    /// How much wider each coordinate of the soil was beforehand, by key of the soil [-]: 1 where nothing was learnt.
-    pub(super) fn narrowed(&self, settings: &LearnSettings) -> BTreeMap<String, f64> {
-        let filter = self.best(settings);
-        let deviations = filter.belief.covariance.diagonal().map(f64::sqrt);
-        filter.unknowns.keys().map(str::to_owned).zip(deviations.iter().copied()).collect()
     }
 }

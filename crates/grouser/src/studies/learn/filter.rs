@@ -128,6 +128,16 @@ impl Filter {
         Ok(surprise)
     }
 
+    /// The values of the soil's uncertain keys in sample number `index` of what was believed beforehand.
+    ///
+    /// # Errors
+    /// [`NothingAccepted`] if no soil can be drawn.
+    pub(super) fn values_before(&self, seed: u64, index: u64) -> Result<Vec<f64>, NothingAccepted> {
+        let draw = self.unknowns.draw(seed, index)?;
+        let own = self.unknowns.moved(&draw, &draw.coordinates);
+        own.map(|(values, _)| values).ok_or(NothingAccepted { index, tries: 1 })
+    }
+
     /// Sample number `index` of what is believed: that of what was believed beforehand, moved as mean and covariance
     /// moved. A soil that cannot be is moved half as far, and so on.
     pub(super) fn sample(&self, seed: u64, index: u64) -> Result<LearntSample, NothingAccepted> {
