@@ -1,5 +1,6 @@
 //! The library's errors as Python's, by the names of `grouser/_errors.py`.
 
+use std::io::ErrorKind;
 use std::ops::RangeInclusive;
 
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
@@ -9,6 +10,7 @@ use grouser::error::ParameterError;
 use grouser::mission::MissionError;
 use grouser::simulation::RunError;
 use grouser::studies::calibration::CalibrationError;
+use grouser_raster::{Fault, RasterError};
 use grouser_store::StoreError;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -92,6 +94,18 @@ fn facts(problem: &Problem) -> Facts {
         _ => (None, None, None),
     };
     Facts { key, value, expected }
+}
+
+/// A file of heights or areas that cannot be used.
+pub(crate) fn of_raster(error: &RasterError) -> PyErr {
+    let (message, file) = (error.to_string(), error.file.display().to_string());
+    match &error.fault {
+        Fault::Disk(disk) if disk.kind() == ErrorKind::NotFound => {
+            classes::DocumentNotFoundError::new_err((message, file, None::<String>))
+        }
+        Fault::Disk(_) => classes::DocumentUnreadableError::new_err((message, file)),
+        _ => classes::DocumentError::new_err((message, file)),
+    }
 }
 
 /// A file of measurements that cannot be used.

@@ -23,6 +23,7 @@ mod measurements;
 mod missions;
 mod paths;
 mod rollouts;
+mod routes;
 mod simulators;
 mod slip_from_current;
 mod studies;
@@ -70,6 +71,8 @@ mod _core {
     use super::paths::PathTask;
     #[pymodule_export]
     use super::rollouts::rollout;
+    #[pymodule_export]
+    use super::routes::routes;
     #[pymodule_export]
     use super::simulators::{Simulators, path_columns, simulator_columns};
     #[pymodule_export]

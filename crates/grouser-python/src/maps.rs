@@ -50,13 +50,7 @@ pub(crate) fn mobility_map<'py>(
         study.rim_speed = speed;
     }
     let inputs = BandInputs::of_scenario(scenario);
-    let model = &terrain.map.model;
-    let raster = Raster {
-        grid: *model.grid(),
-        base: model.base(),
-        heights: model.heights_above_base().collect(),
-        coordinates: CoordinateSystem::default(),
-    };
+    let raster = raster_of(terrain);
     let mut columns: Vec<Column<CellMotion>> = bands().into();
     if !matches!(course, CourseChoice::Fixed(_)) {
         columns.extend(chosen());
@@ -91,6 +85,17 @@ pub(crate) fn mobility_map<'py>(
         PyArray1::from_iter(py, y),
         about(py, &map, slope_length)?,
     ))
+}
+
+/// Heights with nothing else.
+pub(crate) fn raster_of(terrain: &Terrain) -> Raster {
+    let model = &terrain.map.model;
+    Raster {
+        grid: *model.grid(),
+        base: model.base(),
+        heights: model.heights_above_base().collect(),
+        coordinates: CoordinateSystem::default(),
+    }
 }
 
 fn choice(course: &Bound<'_, PyAny>) -> PyResult<CourseChoice> {

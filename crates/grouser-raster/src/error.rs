@@ -240,6 +240,12 @@ pub enum Fault {
         /// What is wrong with it.
         problem: String,
     },
+    /// A geometry by itself where areas are expected, or something else.
+    #[error("is of type {kind}, and areas are polygons of a Feature or a FeatureCollection")]
+    NoAreaFeatures {
+        /// The type in the file.
+        kind: String,
+    },
     /// A file without areas.
     #[error(
         "has no polygon\nhint: areas are features with a Polygon or a MultiPolygon, in metres of the map"

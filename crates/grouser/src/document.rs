@@ -12,6 +12,7 @@ pub mod forecast;
 pub mod learn;
 pub mod plates;
 pub mod ranking;
+pub mod route;
 pub mod sensors;
 pub mod simulated_test;
 mod soil_family;

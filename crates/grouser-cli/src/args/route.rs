@@ -36,8 +36,8 @@ pub(crate) struct RouteArgs {
     #[arg(long, value_name = "WHAT", value_enum, default_value_t)]
     pub(crate) minimise: ObjectiveArg,
     /// Yaw at the start [°], from the map's x axis to the left; without it the first turn is free.
-    #[arg(long, value_name = "DEG", allow_negative_numbers = true)]
-    pub(crate) yaw_deg: Option<f64>,
+    #[arg(long, value_name = "DEG", value_parser = list::parse, allow_hyphen_values = true)]
+    pub(crate) yaw_deg: Option<Numbers>,
     /// Where nobody may go: polygons of GeoJSON, in metres of the map.
     #[arg(long, value_name = "FILE.geojson")]
     pub(crate) keep_out: Option<PathBuf>,

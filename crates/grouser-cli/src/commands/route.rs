@@ -6,7 +6,8 @@ mod record;
 
 use std::sync::Arc;
 
-use grouser::document::columns::SLOPE;
+use grouser::document::columns::{SLOPE, YAW};
+use grouser::document::route::RouteRecord;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::mobility::Ground;
 use grouser::studies::route::{
@@ -15,7 +16,7 @@ use grouser::studies::route::{
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use self::record::{Brief, RouteRecord, Way};
+use self::record::Brief;
 use super::{Answer, sampling};
 use crate::args::RouteArgs;
 use crate::failure::Failure;
@@ -24,6 +25,13 @@ use crate::output::folder::OutputFolder;
 use crate::output::rows::Rows;
 use crate::output::{self, Format};
 use crate::report::REPORT;
+
+/// A way that was found, or why there is none.
+struct Way {
+    objective: Objective,
+    found: Found,
+    driven: Option<DrivenRoute>,
+}
 
 #[derive(Serialize)]
 struct Results<'a> {
@@ -50,7 +58,7 @@ pub(crate) fn run(args: &RouteArgs) -> Result<(), Failure> {
     let tables = sampling::whole(tables?);
     let ways = wanted.into_iter().map(|objective| way(args, &inputs, &tables, objective));
     let ways = ways.collect::<Result<Vec<Way>, Failure>>()?;
-    let records: Vec<RouteRecord> = ways.iter().map(RouteRecord::of).collect();
+    let records: Vec<RouteRecord> = ways.iter().map(Way::record).collect();
     let results = Results {
         best: &records[0],
         straight_m: inputs.ends.distance(),
@@ -69,11 +77,17 @@ pub(crate) fn run(args: &RouteArgs) -> Result<(), Failure> {
     }
     match args.output.format {
         Format::Table => {
-            let lines: String = records.iter().map(RouteRecord::line).collect();
+            let lines: String = records.iter().map(record::line).collect();
             output::show(rows.to_table(&Brief::COLUMNS) + lines)
         }
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
+    }
+}
+
+impl Way {
+    fn record(&self) -> RouteRecord {
+        RouteRecord::of(self.objective, &self.found, self.driven.as_ref())
     }
 }
 
@@ -135,7 +149,7 @@ fn settings(args: &RouteArgs, inputs: &RouteInputs) -> Value {
         "gravity_m_s2": document.get("gravity_m_s2"),
         "from_m": [inputs.ends.from.x, inputs.ends.from.y],
         "to_m": [inputs.ends.to.x, inputs.ends.to.y],
-        "yaw_deg": args.yaw_deg,
+        "yaw_deg": inputs.ends.yaw.map(|yaw| YAW.unit.from_si(yaw)),
         "keep_out": args.keep_out,
         "most_slope_deg": SLOPE.unit.from_si(limits.most_slope),
         "most_slip_ratio": limits.most_slip_ratio,

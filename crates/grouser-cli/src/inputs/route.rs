@@ -1,12 +1,10 @@
 //! What a route is made of.
 
-use grouser::document::LoadedScenario;
+use grouser::document::{LoadedScenario, study};
 use grouser::studies::mobility::MobilityStudy;
 use grouser::studies::route::{Ends, Limits, RouteStudy};
-use grouser::terrain::{Extent, SoilZones};
 use grouser::units::Vec2;
-use grouser_raster::zones::ZoneKey;
-use grouser_raster::{Raster, ReadOptions, read_areas};
+use grouser_raster::{Raster, ReadOptions};
 
 use super::card::{rim_speed, rule};
 use super::{balanced, refuse_sampled_keys, single};
@@ -26,7 +24,10 @@ pub(crate) fn route(args: &RouteArgs) -> Result<RouteInputs, Failure> {
     let ends = Ends {
         from: place("--from", &args.from)?,
         to: place("--to", &args.to)?,
-        yaw: args.yaw_deg.map(f64::to_radians),
+        yaw: match &args.yaw_deg {
+            Some(yaw) => Some(single("--yaw-deg", yaw, &study::START_YAW_DEG)?.to_radians()),
+            None => None,
+        },
     };
     let (rover, soil) = (args.parts.rover.as_ref(), args.parts.soil.as_ref());
     let (setting, balance) = (&args.setting, &args.balance);
@@ -39,11 +40,10 @@ pub(crate) fn route(args: &RouteArgs) -> Result<RouteInputs, Failure> {
     };
     let limits = limits(args, &mobility)?;
     let raster = grouser_raster::read(&args.dem, &ReadOptions::default())?;
-    let keep_out = match &args.keep_out {
-        Some(file) => Some(areas(file, &raster.grid.extent(), &mobility)?),
-        None => None,
-    };
-    let study = RouteStudy { mobility, limits, keep_out };
+    let mut study = RouteStudy { mobility, limits, keep_out: None };
+    if let Some(file) = &args.keep_out {
+        study = study.keeping_out_of(file, &raster.grid.extent())?;
+    }
     Ok(RouteInputs { scenario, study, ends, raster })
 }
 
@@ -59,26 +59,13 @@ fn place(flag: &str, numbers: &Numbers) -> Result<Vec2, Failure> {
 fn limits(args: &RouteArgs, mobility: &MobilityStudy) -> Result<Limits, Failure> {
     let mut limits = Limits::of(mobility);
     if let Some(slope) = &args.most_slope_deg {
-        limits.most_slope = single("--most-slope-deg", slope, &(0.0..=60.0))?.to_radians();
+        limits.most_slope = single("--most-slope-deg", slope, &study::MOST_SLOPE_DEG)?.to_radians();
     }
     if let Some(slip) = &args.most_slip_ratio {
-        limits.most_slip_ratio = single("--most-slip-ratio", slip, &(0.0..=1.0))?;
+        limits.most_slip_ratio = single("--most-slip-ratio", slip, &study::SHARE)?;
     }
     if let Some(share) = &args.most_no_go {
-        limits.most_no_go = single("--most-no-go", share, &(0.0..=1.0))?;
+        limits.most_no_go = single("--most-no-go", share, &study::SHARE)?;
     }
     Ok(limits)
-}
-
-/// The areas of a file.
-fn areas(
-    file: &std::path::Path,
-    ground: &Extent,
-    mobility: &MobilityStudy,
-) -> Result<SoilZones, Failure> {
-    let map = read_areas(file, ground)?;
-    // That there is a zone is all that counts.
-    let legend = [(ZoneKey::Class(0), Some(0))];
-    map.with_legend(&legend, vec![mobility.heading.soil])
-        .map_err(|fault| Failure::Usage(format!("{}: {fault}", file.display())))
 }

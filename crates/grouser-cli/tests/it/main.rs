@@ -22,6 +22,7 @@ mod new;
 mod program;
 mod reports;
 mod routes;
+mod routes_hostile;
 mod scrambled;
 mod simulated;
 mod slip_from_current;

@@ -2,6 +2,8 @@
 
 use std::fmt::Write as _;
 use std::fs;
+use std::path::Path;
+use std::time::Duration;
 
 use grouser_raster::{Raster, ReadOptions};
 use serde_json::Value;
@@ -151,6 +153,71 @@ fn a_map_that_was_stopped_goes_on() {
         }
     }
     assert!(!place.file("stopped/map-in-the-making.json").exists());
+}
+
+/// All files of a folder with what is in them, in order.
+fn files_of(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let entry = |entry: std::io::Result<fs::DirEntry>| {
+        let path = entry.unwrap().path();
+        (path.file_name().unwrap().display().to_string(), fs::read(&path).unwrap())
+    };
+    let mut files: Vec<_> = fs::read_dir(folder).unwrap().map(entry).collect();
+    files.sort();
+    files
+}
+
+/// Kills the making of a map, without a warning, as soon as a file of it is there.
+fn kill_when_there_is(place: &Place, arguments: &[&str], file: &str) -> bool {
+    let mut child = place.command(arguments).spawn().expect("it starts");
+    while !place.file(file).exists() && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_micros(200));
+    }
+    child.kill().expect("it can be killed");
+    !child.wait().unwrap().success()
+}
+
+/// Killed when it has begun, at the first band, and at the last: the same command goes on, to the same bytes.
+#[test]
+fn a_map_that_was_killed_goes_on_to_the_same_bytes() {
+    let mut text = String::new();
+    for (row, column) in (0..160).flat_map(|row| (0..200).map(move |column| (row, column))) {
+        let [x, y] = [column, row].map(|cells| 0.5 * f64::from(cells));
+        let height = 0.8 * (0.7 * x).sin() * (0.5 * y).cos();
+        let _ = writeln!(text, "{:.1} {:.1} {height:.6}", 7000.0 + x, -300.0 + y);
+    }
+    let arguments = ["map", "hills.xyz", "--samples", "4", "--course-deg", "30", "--out", "map"];
+    let made = |stops: &[&str]| {
+        let place = Place::new();
+        place.write("hills.xyz", &text);
+        let killed = stops.iter().map(|file| kill_when_there_is(&place, &arguments, file));
+        let killed: Vec<bool> = killed.collect();
+        // One that was done before the kill is not made again.
+        if killed.last() != Some(&false) {
+            let answer = place.run(&arguments);
+            assert_eq!(answer.code(), 0, "{stops:?}: {}", answer.conversation());
+        }
+        (killed, files_of(&place.file("map")))
+    };
+    let (_, whole) = made(&[]);
+    assert!(whole.len() > 16, "{}", whole.len());
+    for stops in [
+        &["map/map-in-the-making.json"][..],
+        &["map/.slope_deg.part"],
+        &["map/slope_deg.tif"],
+        &["map/map-in-the-making.json", "map/sinkage_mm.tif"],
+    ] {
+        let (killed, files) = made(stops);
+        if stops[0].ends_with("making.json") {
+            assert!(killed[0], "it was done before it was killed");
+        }
+        let names = |files: &[(String, Vec<u8>)]| -> Vec<String> {
+            files.iter().map(|(name, _)| name.clone()).collect()
+        };
+        assert_eq!(names(&files), names(&whole), "{stops:?}");
+        for ((name, one), (_, other)) in files.iter().zip(&whole) {
+            assert!(one == other, "{stops:?}: {name}");
+        }
+    }
 }
 
 #[test]

@@ -69,6 +69,14 @@ fn a_route_keeps_out_of_areas() {
     let inside = place.json(&line.replace("7010.5,-298", "7007,-298"));
     assert_eq!(inside["status"], "no-safe-route");
     assert!(inside["reason"].as_str().unwrap().contains("lies where nobody may go"), "{inside}");
+    // However narrow it is: less than half as wide as the points are apart.
+    let mut fence = square(7006.1, -301.0, 0.2);
+    for corner in [2, 3] {
+        fence["geometry"]["coordinates"][0][corner][1] = json!(-293.2);
+    }
+    place.write("keep.geojson", fence.to_string());
+    let route = place.json(line);
+    assert!(places(&route).iter().any(|[_, y]| *y > -293.2), "{route}");
     let tie =
         [[7003.0, -299.0], [7006.0, -296.0], [7006.0, -299.0], [7003.0, -296.0], [7003.0, -299.0]];
     let tie = json!({"type": "Feature", "geometry": {"type": "Polygon", "coordinates": [tie]}});

@@ -6,7 +6,8 @@ of heights to drive on. `settle` and
 `rollout`, `heading`, `heading_map` and `wheel_speeds` compute the motion of a rover, `mission`
 drives it through legs with limits at which it stops, `wheel_test` simulates a wheel on a test
 stand, and `validate` and `calibrate` compare models with measurements, which
-`import_wheel_tests` converts. `map` says where on a `Terrain` a rover can go. `SlipEstimator` reads slip from motor currents. `card` is the operator's card, `forecast` predicts under another
+`import_wheel_tests` converts. `map` says where on a `Terrain` a rover can go,
+`route` which way over it is the cheapest. `SlipEstimator` reads slip from motor currents. `card` is the operator's card, `forecast` predicts under another
 gravity, and `check` checks documents. `Run` and ``grouser.gym``, which is imported by itself,
 are for step-by-step control. `Campaign` and `grouser.campaign` are for Monte Carlo campaigns,
 on one machine or on many.
@@ -56,6 +57,7 @@ from ._maps import map
 from ._measurements import ImportedWheelTests, import_wheel_tests
 from ._missions import Alternatives, DrivenMission, Legs, mission
 from ._rollouts import Rollout, rollout
+from ._routes import route
 from ._models import MODELS, ByModel
 from ._runs import Run, RunBatch
 from ._slip_from_current import SlipEstimator
@@ -145,6 +147,7 @@ __all__ = [
     "mission",
     "require_inside",
     "rollout",
+    "route",
     "settle",
     "simulate",
     "style",

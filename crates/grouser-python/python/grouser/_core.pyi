@@ -63,6 +63,7 @@ __all__ = [
     "read_document_text",
     "result_columns",
     "rollout",
+    "routes",
     "seal_manifest",
     "settle",
     "simulate",
@@ -378,6 +379,9 @@ def mobility_map(
     samples: int,
     seed: int,
 ) -> tuple[list[tuple[str, str, str, Any]], _Floats, _Floats, dict[str, Any]]: ...
+def routes(
+    scenario: Document, terrain: Terrain, task: dict[str, Any]
+) -> list[dict[str, Any]]: ...
 def heading_map(
     scenarios: Sequence[Document], slope_deg: _Floats, course_deg: _Floats, rim_speed_m_s: float
 ) -> dict[str, Any]: ...

@@ -71,12 +71,17 @@ pub fn decode(bytes: &[u8]) -> Result<ZoneMap, Fault> {
 /// [`Fault`] if there are no polygons, or the edge of one crosses itself.
 pub fn decode_areas(bytes: &[u8]) -> Result<ZoneMap, Fault> {
     let mut polygons = Vec::new();
-    for (number, feature) in (1..).zip(features_of(bytes)?) {
+    let features = features_of(bytes).map_err(|fault| match fault {
+        Fault::NoFeatures { kind } => Fault::NoAreaFeatures { kind },
+        other => other,
+    })?;
+    for (number, feature) in (1..).zip(features) {
         let fault = |problem: String| Fault::Area { number, problem };
         for rings in polygons_of(feature.geometry).map_err(fault)? {
-            if let Some(at) = rings.iter().find_map(|ring| crossing::crossing(ring)) {
-                return Err(fault(format!("its edge crosses itself near x {}, y {}", at.x, at.y)));
+            if rings.is_empty() {
+                return Err(fault("a polygon of it has no ring".to_owned()));
             }
+            rings.iter().try_for_each(|ring| check_area(ring)).map_err(fault)?;
             polygons.push((ZoneKey::Class(0), rings));
         }
     }
@@ -84,6 +89,31 @@ pub fn decode_areas(bytes: &[u8]) -> Result<ZoneMap, Fault> {
         return Err(Fault::NoAreas);
     }
     ZoneMap::of_polygons(polygons)
+}
+
+/// That a ring has an area whose edge does not cross itself.
+fn check_area(ring: &[Vec2]) -> Result<(), String> {
+    /// Farther away no map has places [m].
+    const FARTHEST: f64 = 1e9;
+    if let Some(far) = ring.iter().find(|at| at.x.abs().max(at.y.abs()) > FARTHEST) {
+        return Err(format!(
+            "its corner x {:e}, y {:e} is beyond every map in metres",
+            far.x, far.y
+        ));
+    }
+    let sides = || ring.windows(2).map(|pair| pair[1] - pair[0]);
+    let first = sides().find(|side| side.norm() > 0.0).unwrap_or_default();
+    if ring.iter().all(|at| first.perp(&(at - ring[0])) == 0.0) {
+        return Err(format!(
+            "its corners lie on a line through x {}, y {}, and a line has no inside\nhint: ogr2ogr -dialect SQLite -sql \
+             \"SELECT ST_Buffer(geometry, METRES) FROM LAYER\" OUT.geojson IN.geojson makes an area of it",
+            ring[0].x, ring[0].y
+        ));
+    }
+    match crossing::crossing(ring) {
+        Some(at) => Err(format!("its edge crosses itself near x {}, y {}", at.x, at.y)),
+        None => Ok(()),
+    }
 }
 
 /// The features of a file.

@@ -1,4 +1,4 @@
-//! Permitted settings of wheel tests and heading maps.
+//! Permitted settings of wheel tests, heading maps and routes.
 
 use std::ops::RangeInclusive;
 
@@ -13,3 +13,10 @@ pub const SLIP_ANGLE_DEG: RangeInclusive<f64> = -90.0..=90.0;
 pub const COURSE_DEG: RangeInclusive<f64> = -90.0..=90.0;
 /// Rim speeds that a heading map may ask for [m/s].
 pub const MAP_SPEED_M_S: RangeInclusive<f64> = 1e-6..=10.0;
+
+/// Slopes that a route may be limited to [°].
+pub const MOST_SLOPE_DEG: RangeInclusive<f64> = 0.0..=60.0;
+/// Slip ratios, and shares of samples, that a route may be limited to [-].
+pub const SHARE: RangeInclusive<f64> = 0.0..=1.0;
+/// Yaws at the start of a route [°].
+pub const START_YAW_DEG: RangeInclusive<f64> = -360.0..=360.0;

@@ -19,7 +19,7 @@ mod search;
 mod seek;
 mod study;
 
-pub use self::answer::{Answer, Ends, MOST_CELLS, NoRoute, Route, RouteError};
+pub use self::answer::{Answer, Arrival, Ends, MOST_CELLS, NoRoute, Route, RouteError};
 pub use self::costs::{COURSES, RouteTables};
 pub use self::drive::DrivenRoute;
 pub use self::study::{Limits, Objective, RouteStudy, STUCK_WAY, WORST_SHARE};
@@ -203,6 +203,12 @@ mod tests {
         // Two legs along the steepest direction of the lattice that is left over, which is the diagonal.
         assert!((zigzag.map_length - 25.0 * f64::sqrt(2.0)).abs() < 1e-9, "{zigzag:?}");
         assert_eq!(zigzag.waypoints.len(), 3);
+        // Half-way up it has taken half of all but the turn, which comes after it.
+        let [begin, half, end] = zigzag.arrivals[..] else { panic!("{zigzag:?}") };
+        assert_eq!(begin, Arrival::default());
+        assert!((half.length / end.length - 0.5).abs() < 1e-6, "{zigzag:?}");
+        assert!(half.time < 0.5 * end.time && half.energy < 0.5 * end.energy, "{zigzag:?}");
+        assert_eq!((end.length, end.time), (zigzag.length, zigzag.time));
     }
 
     #[test]
@@ -237,15 +243,20 @@ mod tests {
     fn a_way_leads_around_where_nobody_may_go() {
         let mut study = study();
         let raster = ground_of(60, 60, 0.5, |_| 0.0);
-        let corners = [(10.0, -1.0), (13.0, -1.0), (13.0, 20.0), (10.0, 20.0)];
-        let rings = vec![corners.map(|(x, y)| Vec2::new(x, y)).to_vec()];
         let soils = vec![study.mobility.heading.soil];
-        let zones =
-            SoilZones::from_polygons(&[ZonePolygon { soil: Some(0), rings }], soils).unwrap();
-        study.keep_out = Some(zones);
-        let found = route(&study, &raster, &ends([3.0, 5.0], [24.0, 5.0]), Objective::Time);
-        let around = 2.0 * f64::hypot(7.0, 15.0) + 3.0;
-        assert!(found.length > around && found.length < 1.06 * around + 2.0, "{found:?}");
+        let wall = |from: f64, to: f64| {
+            let corners = [(from, -1.0), (to, -1.0), (to, 20.0), (from, 20.0)];
+            let rings = vec![corners.map(|(x, y)| Vec2::new(x, y)).to_vec()];
+            let area = ZonePolygon { soil: Some(0), rings };
+            Some(SoilZones::from_polygons(&[area], soils.clone()).unwrap())
+        };
+        // One that lies between the points of the grid, and one over several of them.
+        for (from, to) in [(10.2, 10.3), (10.0, 13.0)] {
+            study.keep_out = wall(from, to);
+            let found = route(&study, &raster, &ends([3.0, 5.0], [24.0, 5.0]), Objective::Time);
+            let around = f64::hypot(from - 3.0, 15.0) + to - from + f64::hypot(24.0 - to, 15.0);
+            assert!(found.length > around && found.length < 1.06 * around + 2.0, "{found:?}");
+        }
         let inside = answer(&study, &raster, &ends([11.0, 5.0], [24.0, 5.0]), Objective::Time);
         let Answer::NoSafeRoute(reason) = inside else { panic!("{inside:?}") };
         assert!(

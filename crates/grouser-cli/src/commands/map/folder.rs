@@ -57,7 +57,10 @@ impl MapFolder {
                 fs::remove_file(&path).map_err(Failure::at("cannot remove", &path))?;
             }
         }
-        fs::write(&mark, identity).map_err(Failure::at("cannot write", &mark))?;
+        // A kill leaves the whole of it, or nothing.
+        let unfinished = target.join(format!(".{IN_THE_MAKING}.part"));
+        fs::write(&unfinished, identity).map_err(Failure::at("cannot write", &unfinished))?;
+        fs::rename(&unfinished, &mark).map_err(Failure::at("cannot write", &mark))?;
         Ok(folder)
     }
 

@@ -3,7 +3,7 @@
 use grouser::studies::route::Answer as Found;
 use serde_json::json;
 
-use super::record::Way;
+use super::Way;
 
 /// A line for each way that was found, the one that was asked for first.
 pub(super) fn text(ways: &[Way]) -> String {

@@ -1,9 +1,11 @@
 //! The page of a route.
 
+use grouser::document::route::RouteRecord;
 use grouser::studies::route::Answer as Found;
 use grouser_map::{Track, relief};
 
-use super::record::{Brief, RouteRecord, Way};
+use super::Way;
+use super::record::{self, Brief};
 use crate::args::RouteArgs;
 use crate::inputs::RouteInputs;
 use crate::output::rows::{Rows, four_digits};
@@ -36,7 +38,7 @@ pub(super) fn html(
     page.heading("What each way takes");
     page.text(&rows.to_table(&Brief::COLUMNS));
     for record in records {
-        let line = record.line();
+        let line = record::line(record);
         if !line.is_empty() {
             page.paragraph(line.trim_end());
         }

@@ -19,6 +19,8 @@ pub struct Ends {
 pub struct Route {
     /// The places where it turns, with the first and the last [m].
     pub waypoints: Vec<Vec2>,
+    /// What the way takes up to each of them.
+    pub arrivals: Vec<Arrival>,
     /// Length over the ground [m].
     pub length: f64,
     /// Length on the map [m].
@@ -37,6 +39,17 @@ pub struct Route {
     pub most_slope: f64,
     /// In which share of the samples some place of the way is a no-go [-].
     pub probability_no_go: f64,
+}
+
+/// What a way takes from its start to one of its waypoints, before it turns there.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Arrival {
+    /// Length over the ground [m].
+    pub length: f64,
+    /// Time, with turns [s].
+    pub time: f64,
+    /// Work of the wheels, with turns [J].
+    pub energy: f64,
 }
 
 /// What came of seeking a way.

@@ -77,6 +77,9 @@ impl Route {
         rim_speed: f64,
     ) -> Result<DrivenRoute, MissionError> {
         let mission = self.mission(scenario, ground, rim_speed);
+        if mission.legs.is_empty() {
+            return Ok(DrivenRoute::nowhere());
+        }
         let mut run = MissionRun::new(&mission)?;
         while run.next_leg_watched(&mut |_| true)?.is_some() {}
         let report = run.finish();
@@ -99,6 +102,21 @@ impl Route {
             slip_ratio: (rims > 0.0).then(|| 1.0 - distance / rims),
             miss: (target - end).norm(),
         })
+    }
+}
+
+impl DrivenRoute {
+    /// Where start and target are one place.
+    fn nowhere() -> Self {
+        Self {
+            outcome: LegOutcome::Completed.name(),
+            legs: 0,
+            distance: 0.0,
+            time: 0.0,
+            energy: 0.0,
+            slip_ratio: None,
+            miss: 0.0,
+        }
     }
 }
 

@@ -9,6 +9,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use grouser_raster::Raster;
 use rayon::prelude::*;
 
 use super::costs::Costs;
@@ -92,6 +93,11 @@ impl<'a> Lattice<'a> {
     /// The place of a cell [m].
     pub(super) fn place(&self, cell: usize) -> Vec2 {
         self.ground.raster().grid.point(cell % self.columns, cell / self.columns)
+    }
+
+    /// The heights.
+    pub(super) fn raster(&self) -> &Raster {
+        self.ground.raster()
     }
 
     /// What the map spans.

@@ -1,11 +1,12 @@
 //! Seeks a way, and says what it takes.
 
-use super::answer::{Answer, Ends, MOST_CELLS, NoRoute, Route, RouteError};
+use super::answer::{Answer, Arrival, Ends, MOST_CELLS, NoRoute, Route, RouteError};
 use super::costs::{Costs, RouteTables};
 use super::search::{Found, Lattice};
 use super::study::{Objective, RouteStudy};
 use crate::simulation::NotSteady;
 use crate::studies::mobility::{Ground, MobilityStudy};
+use crate::terrain::Footprint;
 use crate::units::Vec2;
 
 /// Turning on the spot on level ground.
@@ -44,8 +45,8 @@ impl RouteStudy {
             Objective::Energy => turning.energy,
             Objective::Time | Objective::Risk => turning.time,
         };
-        let is_open =
-            |place| self.keep_out.as_ref().is_none_or(|zones| zones.zone(place).is_none());
+        let spacing = ground.raster().grid.spacing;
+        let is_open = |place| !self.is_kept_out(place, spacing);
         let lattice = Lattice::new(ground, &costs, turn, is_open);
         let [from, to] =
             [self.end(&lattice, "start", ends.from)?, self.end(&lattice, "target", ends.to)?];
@@ -62,6 +63,19 @@ impl RouteStudy {
         })
     }
 
+    /// Whether an area where nobody may go reaches into the cell around a place, however narrow it is.
+    ///
+    /// * `spacing`: of the grid, to the east and to the north [m]
+    fn is_kept_out(&self, place: Vec2, spacing: Vec2) -> bool {
+        let Some(areas) = &self.keep_out else { return false };
+        let cell = Footprint {
+            forward: Vec2::new(1.0, 0.0),
+            half_length: 0.5 * spacing.x,
+            half_width: 0.5 * spacing.y,
+        };
+        areas.under(place, Vec2::zeros(), cell).iter().any(|share| share.soil.is_some())
+    }
+
     /// The cell of an end of the way.
     fn end(
         &self,
@@ -72,10 +86,10 @@ impl RouteStudy {
         let Some(cell) = lattice.cell(place) else {
             return Err(RouteError::OffTheMap { end, place, corners: lattice.corners() });
         };
-        let is_kept_out =
-            self.keep_out.as_ref().is_some_and(|zones| zones.zone(lattice.place(cell)).is_some());
         let why = match () {
-            () if is_kept_out => "lies where nobody may go",
+            () if self.is_kept_out(lattice.place(cell), lattice.spacing()) => {
+                "lies where nobody may go"
+            }
             () if !lattice.is_open(cell) => {
                 "lies at the edge of the map, or beside a place without a height"
             }
@@ -124,7 +138,8 @@ fn measured(
     heading: Option<usize>,
 ) -> Route {
     let mut route = Route {
-        waypoints: vec![ends.from],
+        waypoints: Vec::new(),
+        arrivals: Vec::new(),
         length: 0.0,
         map_length: 0.0,
         time: 0.0,
@@ -135,14 +150,15 @@ fn measured(
         most_slope: 0.0,
         probability_no_go: 0.0,
     };
+    route.arrive(ends.from, turning);
     let mut failed: Vec<bool> = Vec::new();
     let mut before = heading;
     for (cell, direction) in way.iter().zip(headings) {
         if let Some(before) = before.filter(|before| before != direction) {
-            route.turned += lattice.moves.turn(before, *direction);
             if *cell != way[0] {
-                route.waypoints.push(lattice.place(*cell));
+                route.arrive(lattice.place(*cell), turning);
             }
+            route.turned += lattice.moves.turn(before, *direction);
         }
         before = Some(*direction);
         let Some((_, along, across)) = lattice.rises(*cell, *direction) else { continue };
@@ -164,7 +180,7 @@ fn measured(
             failed.iter_mut().zip(fails).for_each(|(failed, fails)| *failed |= fails);
         }
     }
-    route.waypoints.push(ends.to);
+    route.arrive(ends.to, turning);
     route.time += route.turned * turning.time;
     route.energy += route.turned * turning.energy;
     if route.length > 0.0 {
@@ -175,7 +191,24 @@ fn measured(
     route
 }
 
+impl Route {
+    /// Another waypoint, with what has been taken up to it; the sums have no turns yet.
+    fn arrive(&mut self, place: Vec2, turning: Turning) {
+        self.waypoints.push(place);
+        self.arrivals.push(Arrival {
+            length: self.length,
+            time: self.time + self.turned * turning.time,
+            energy: self.energy + self.turned * turning.energy,
+        });
+    }
+}
+
 impl Lattice<'_> {
+    /// How far apart its points are, to the east and to the north [m].
+    fn spacing(&self) -> Vec2 {
+        self.raster().grid.spacing
+    }
+
     /// South-west and north-east of the map [m].
     fn corners(&self) -> [Vec2; 2] {
         let extent = self.extent();

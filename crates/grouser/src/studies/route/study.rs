@@ -1,7 +1,12 @@
 //! What routes are made of.
 
+use std::path::Path;
+
+use grouser_raster::zones::ZoneKey;
+use grouser_raster::{RasterError, read_areas};
+
 use crate::studies::mobility::MobilityStudy;
-use crate::terrain::SoilZones;
+use crate::terrain::{Extent, SoilZones};
 use crate::units::STEEPEST_SLOPE;
 
 /// A sample that is stuck on a metre counts as so much way on top [m]. Source: ours; the order of what is driven to get
@@ -58,6 +63,23 @@ pub struct RouteStudy {
     pub limits: Limits,
     /// Where it may not: any zone of these.
     pub keep_out: Option<SoilZones>,
+}
+
+impl RouteStudy {
+    /// The study with areas that ways are to keep out of: the polygons of a file of GeoJSON.
+    ///
+    /// * `ground`: the extent of the heights
+    ///
+    /// # Errors
+    /// [`RasterError`] if the file has no such polygons on this ground.
+    pub fn keeping_out_of(self, file: &Path, ground: &Extent) -> Result<Self, RasterError> {
+        let map = read_areas(file, ground)?;
+        // That there is a zone is all that counts.
+        let legend = [(ZoneKey::Class(0), Some(0))];
+        let zones = map.with_legend(&legend, vec![self.mobility.heading.soil]);
+        let zones = zones.map_err(|fault| RasterError { file: file.to_owned(), fault })?;
+        Ok(Self { keep_out: Some(zones), ..self })
+    }
 }
 
 impl Limits {

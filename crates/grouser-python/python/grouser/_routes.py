@@ -1,0 +1,233 @@
+"""The cheapest way for a rover over a map of heights."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal, overload
+
+import numpy as np
+
+from . import _core
+from ._arrays import number, numbers, whole_number
+from ._descriptions import Scenario, Source
+from ._errors import ParameterError
+from ._studies import scenario_of
+from ._terrain import Terrain
+
+if TYPE_CHECKING:
+    import xarray
+
+#: What a way can have least of.
+Objective = Literal["time", "energy", "risk"]
+
+_OBJECTIVES = ("time", "energy", "risk")
+#: Numbers at each waypoint: unit and what they are.
+_ARRIVALS = {
+    "length_m": ("m", "Length over the ground from the start"),
+    "time_s": ("s", "Time from the start, before the turn at the waypoint"),
+    "energy_j": ("J", "Work of the wheels from the start, before the turn at the waypoint"),
+}
+
+
+@overload
+def route(
+    terrain: Terrain,
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
+    from_m: Sequence[float],
+    to_m: Sequence[float],
+    minimise: Objective = "time",
+    yaw_deg: float | None = None,
+    keep_out: str | os.PathLike[str] | None = None,
+    most_slope_deg: float | None = None,
+    most_slip_ratio: float | None = None,
+    most_no_go: float | None = None,
+    alternatives: Literal[False] = False,
+    drive: bool = True,
+    rim_speed_m_s: float | None = None,
+    samples: int = 50,
+    seed: int = 1,
+    **changes: Any,
+) -> xarray.Dataset: ...
+@overload
+def route(
+    terrain: Terrain,
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
+    from_m: Sequence[float],
+    to_m: Sequence[float],
+    minimise: Objective = "time",
+    yaw_deg: float | None = None,
+    keep_out: str | os.PathLike[str] | None = None,
+    most_slope_deg: float | None = None,
+    most_slip_ratio: float | None = None,
+    most_no_go: float | None = None,
+    alternatives: Literal[True],
+    drive: bool = True,
+    rim_speed_m_s: float | None = None,
+    samples: int = 50,
+    seed: int = 1,
+    **changes: Any,
+) -> dict[Objective, xarray.Dataset]: ...
+def route(
+    terrain: Terrain,
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
+    from_m: Sequence[float],
+    to_m: Sequence[float],
+    minimise: Objective = "time",
+    yaw_deg: float | None = None,
+    keep_out: str | os.PathLike[str] | None = None,
+    most_slope_deg: float | None = None,
+    most_slip_ratio: float | None = None,
+    most_no_go: float | None = None,
+    alternatives: bool = False,
+    drive: bool = True,
+    rim_speed_m_s: float | None = None,
+    samples: int = 50,
+    seed: int = 1,
+    **changes: Any,
+) -> xarray.Dataset | dict[Objective, xarray.Dataset]:
+    """The cheapest way over a map of heights, and what simulation makes of it.
+
+    Parameters
+    ----------
+    terrain : Terrain
+        The heights.
+    scenario : Scenario, name, path or mapping, optional
+        Rover, soil, gravity and model, as for `heading`.
+    from_m, to_m : (float, float)
+        x and y where the way begins and ends [m].
+    minimise : "time", "energy" or "risk"
+        What the way has least of: time, work of the wheels, or time in the worst tenth of the
+        samples of soil and model.
+    yaw_deg : float, optional
+        Yaw at the start [°], from the map's x axis to the left; by default the first turn is free.
+    keep_out : path, optional
+        A file of GeoJSON with polygons, in metres of the map, into which the way may not lead.
+    most_slope_deg : float, optional
+        The steepest slope of the way [°].
+    most_slip_ratio : float, optional
+        The largest slip ratio of the way; by default that of a no-go.
+    most_no_go : float, optional
+        In which share of the samples a place of the way may be a no-go; by default as many as a
+        no-go allows.
+    alternatives : bool
+        Whether to seek the ways that have least of the other two as well.
+    drive : bool
+        Whether to drive the way by simulation, too.
+    rim_speed_m_s : float, optional
+        Rim speed [m/s]; by default the scenario's.
+    samples, seed : int
+        How many samples of soil and model there are, and their seed.
+    **changes
+        Keys of the scenario with other values.
+
+    Returns
+    -------
+    xarray.Dataset or dict of xarray.Dataset
+        The places where the way turns, with the first and the last, as coordinates ``x`` and ``y``
+        over ``waypoint`` [m], and the length, time and work up to each of them. Its ``attrs`` have
+        the ``status``, ``"found"`` or ``"no-safe-route"``, and of the whole way what
+        `grouser route` writes: ``length_m``, ``time_s``, ``energy_j``, ``turned_deg``, slip, slope
+        and ``probability_no_go``, and ``simulated_…`` of the simulation. If no way is safe there
+        are no waypoints, and a ``reason`` instead of the numbers. With ``alternatives`` a dataset
+        for each objective, the chosen one first.
+
+    Raises
+    ------
+    ParameterError
+        Also for ends that are not on the map.
+    DocumentError, DocumentNotFoundError
+        As `heading`, and for a file of ``keep_out`` that has no polygons on the map.
+
+    Examples
+    --------
+    Around a hill, or over it?
+
+    >>> import numpy as np
+    >>> import grouser as gr
+    >>> x = y = np.linspace(-20.0, 20.0, 41)
+    >>> hill = gr.Terrain(
+    ...     9.0 * np.exp(-(x**2 + y[:, None] ** 2) / 40.0),
+    ...     cell_size_m=1.0,
+    ...     south_west_m=(-20.0, -20.0),
+    ... )
+    >>> way = gr.route(hill, from_m=(-15.0, 0.0), to_m=(15.0, 0.0), samples=4, drive=False)
+    >>> way.attrs["status"], bool(way.attrs["length_m"] > 32.0)
+    ('found', True)
+    >>> way.time_s.dims, way.time_s.attrs["units"], bool(abs(way.y).max() > 5.0)
+    (('waypoint',), 's', True)
+    """
+    if not isinstance(terrain, Terrain):
+        raise ParameterError(
+            f"terrain is {type(terrain).__name__}, it must be a Terrain: Terrain.from_file, "
+            "from_rasterio and from_xarray make one",
+            "terrain",
+        )
+    run = scenario_of(scenario, changes)
+    chosen = [minimise, *(it for it in _OBJECTIVES if alternatives and it != minimise)]
+    limits = {
+        "yaw_deg": yaw_deg,
+        "most_slope_deg": most_slope_deg,
+        "most_slip_ratio": most_slip_ratio,
+        "most_no_go": most_no_go,
+        "rim_speed_m_s": rim_speed_m_s,
+    }
+    task = {
+        "from_m": _place("from_m", from_m),
+        "to_m": _place("to_m", to_m),
+        "minimise": [str(it) for it in chosen],
+        "keep_out": None if keep_out is None else os.fspath(keep_out),
+        "drive": bool(drive),
+        "samples": whole_number("samples", samples, most=2**32 - 1),
+        "seed": whole_number("seed", seed),
+    }
+    task |= {name: None if value is None else number(name, value) for name, value in limits.items()}
+    found = _core.routes(run._document, terrain._native, task)
+    notes = {"samples": samples, "seed": seed}
+    ways = {way["minimise"]: _dataset(way, notes) for way in found}
+    return ways if alternatives else ways[minimise]
+
+
+def _place(name: str, value: Any) -> list[float]:
+    """x and y."""
+    given = numbers(name, value)
+    if given.shape != (2,):
+        raise ParameterError(f"{name} has shape {given.shape}, it must be x and y", name)
+    if not np.isfinite(given).all():
+        raise ParameterError(f"{name} is {given.tolist()}, it must be x and y in metres", name)
+    return [float(it) for it in given]
+
+
+def _dataset(way: Mapping[str, Any], notes: Mapping[str, int]) -> xarray.Dataset:
+    import xarray
+
+    places = np.array(way["waypoints"], dtype=np.float64).reshape(-1, 2)
+    over = ("waypoint",)
+    coordinates = {
+        axis: (
+            over,
+            places[:, column],
+            {"units": "m", "standard_name": f"projection_{axis}_coordinate"},
+        )
+        for column, axis in enumerate("xy")
+    }
+    variables = {
+        name: (
+            over,
+            np.array([arrival[name] for arrival in way["arrivals"]], dtype=np.float64),
+            {"units": unit, "long_name": doc},
+        )
+        for name, (unit, doc) in _ARRIVALS.items()
+    }
+    whole = {name: it for name, it in way.items() if name not in ("waypoints", "arrivals")}
+    simulated = whole.pop("simulated") or {}
+    attributes = {**whole, **{f"simulated_{name}": it for name, it in simulated.items()}, **notes}
+    # Files have no attributes without a value.
+    attributes = {name: it for name, it in attributes.items() if it is not None}
+    return xarray.Dataset(variables, coords=coordinates, attrs=attributes)

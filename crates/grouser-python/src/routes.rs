@@ -1,0 +1,200 @@
+//! Routes: the cheapest way over a map of heights.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use grouser::document::columns::YAW;
+use grouser::document::route::RouteRecord;
+use grouser::document::study::{MAP_SPEED_M_S, MOST_SLOPE_DEG, SHARE, START_YAW_DEG};
+use grouser::mission::MissionError;
+use grouser::simulation::Scenario;
+use grouser::studies::ensemble::samples::BandInputs;
+use grouser::studies::mobility::{Ground, MobilityStudy};
+use grouser::studies::route::{Answer, Ends, Limits, Objective, RouteError, RouteStudy};
+use grouser_raster::Raster;
+use pyo3::prelude::*;
+
+use crate::descriptions::Document;
+use crate::errors;
+use crate::interrupt::listening;
+use crate::maps::raster_of;
+use crate::studies::{Problem, SAMPLES};
+use crate::terrain::Terrain;
+use crate::validation::record_to_python;
+use crate::wheels::check;
+
+/// Where ways lead.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub(crate) struct Task {
+    from_m: [f64; 2],
+    to_m: [f64; 2],
+    /// What the ways have least of, by name.
+    minimise: Vec<String>,
+    yaw_deg: Option<f64>,
+    keep_out: Option<PathBuf>,
+    most_slope_deg: Option<f64>,
+    most_slip_ratio: Option<f64>,
+    most_no_go: Option<f64>,
+    /// Whether the ways are driven by simulation, too.
+    drive: bool,
+    rim_speed_m_s: Option<f64>,
+    samples: u32,
+    seed: u64,
+}
+
+/// A way that has least of each of several things, as the program writes it.
+#[pyfunction]
+#[pyo3(signature = (scenario, terrain, task))]
+pub(crate) fn routes<'py>(
+    py: Python<'py>,
+    scenario: &Document,
+    terrain: &Terrain,
+    task: Task,
+) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    check("samples", &[f64::from(task.samples)], &SAMPLES)?;
+    let loaded = scenario.scenario()?;
+    let raster = raster_of(terrain);
+    let study = study(&task, MobilityStudy::of(loaded), &raster)?;
+    let objectives =
+        task.minimise.iter().map(|it| objective(it)).collect::<PyResult<Vec<Objective>>>()?;
+    let (inputs, scenario) = (BandInputs::of_scenario(loaded), loaded.value.clone());
+    let records = listening(py, move |cancelled| {
+        let sought = Sought { task: &task, study: &study, raster: &raster, scenario: &scenario };
+        sought.records(&objectives, &inputs, &|| !cancelled.is_set())
+    })?;
+    let records = records.map_err(|failure| failure.raised())?;
+    records.iter().map(|record| record_to_python(py, record)).collect()
+}
+
+/// What is sought, and where.
+struct Sought<'a> {
+    task: &'a Task,
+    study: &'a RouteStudy,
+    raster: &'a Raster,
+    scenario: &'a Scenario,
+}
+
+impl Sought<'_> {
+    /// A record for each objective.
+    fn records(
+        &self,
+        objectives: &[Objective],
+        inputs: &BandInputs,
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Vec<RouteRecord>, Failure> {
+        let Task { samples, seed, .. } = *self.task;
+        let samples = if inputs.is_certain() {
+            Vec::new()
+        } else {
+            inputs.samples(seed, samples).map_err(Problem::Sampling)?
+        };
+        let with_risk = objectives.contains(&Objective::Risk);
+        let tables = self.study.tables(&samples, with_risk, go_on).map_err(Problem::Parameter)?;
+        // Who stopped it gets the signal, and no records.
+        let Some(tables) = tables else { return Ok(Vec::new()) };
+        let ground = Ground::under(&self.study.mobility.heading.rover, self.raster);
+        let ends = Ends {
+            from: self.task.from_m.into(),
+            to: self.task.to_m.into(),
+            yaw: self.task.yaw_deg.map(|yaw| YAW.unit.to_si(yaw)),
+        };
+        let record = |objective: &Objective| {
+            let answer = self.study.route(&tables, ground, &ends, *objective)?;
+            self.driven(*objective, &answer)
+        };
+        objectives.iter().map(record).collect()
+    }
+
+    fn driven(&self, objective: Objective, answer: &Answer) -> Result<RouteRecord, Failure> {
+        let driven = match answer {
+            Answer::Route(route) if self.task.drive => {
+                let soil = self.scenario.site.terrain.soil;
+                let model = self.raster.clone().model(soil);
+                let model = Arc::new(model.map_err(|error| Failure::Ground(error.to_string()))?);
+                let speed = self.study.mobility.rim_speed;
+                Some(route.drive(self.scenario, &model, speed).map_err(Failure::Drive)?)
+            }
+            _ => None,
+        };
+        Ok(RouteRecord::of(objective, answer, driven.as_ref()))
+    }
+}
+
+/// The study with its limits.
+fn study(task: &Task, mut mobility: MobilityStudy, raster: &Raster) -> PyResult<RouteStudy> {
+    let checked = |name: &str, value: Option<f64>, range| match value {
+        Some(value) => check(name, &[value], range).map(|()| Some(value)),
+        None => Ok(None),
+    };
+    if let Some(speed) = checked("rim_speed_m_s", task.rim_speed_m_s, &MAP_SPEED_M_S)? {
+        mobility.rim_speed = speed;
+    }
+    checked("yaw_deg", task.yaw_deg, &START_YAW_DEG)?;
+    let mut limits = Limits::of(&mobility);
+    if let Some(slope) = checked("most_slope_deg", task.most_slope_deg, &MOST_SLOPE_DEG)? {
+        limits.most_slope = YAW.unit.to_si(slope);
+    }
+    if let Some(slip) = checked("most_slip_ratio", task.most_slip_ratio, &SHARE)? {
+        limits.most_slip_ratio = slip;
+    }
+    if let Some(share) = checked("most_no_go", task.most_no_go, &SHARE)? {
+        limits.most_no_go = share;
+    }
+    let study = RouteStudy { mobility, limits, keep_out: None };
+    match &task.keep_out {
+        Some(file) => study
+            .keeping_out_of(file, &raster.grid.extent())
+            .map_err(|error| errors::of_raster(&error)),
+        None => Ok(study),
+    }
+}
+
+fn objective(name: &str) -> PyResult<Objective> {
+    let found = Objective::ALL.into_iter().find(|objective| objective.name() == name);
+    found.ok_or_else(|| {
+        let expected = "'time', 'energy' or 'risk'";
+        let message = format!("minimise is {name:?}, it must be {expected}");
+        errors::parameter(message, "minimise", None, expected)
+    })
+}
+
+/// Why there are no records.
+enum Failure {
+    Study(Problem),
+    Route(RouteError),
+    Ground(String),
+    Drive(MissionError),
+}
+
+impl Failure {
+    fn raised(&self) -> PyErr {
+        match self {
+            Self::Study(problem) => problem.raised(),
+            Self::Route(RouteError::Parameter(error)) => errors::of_parameter(error),
+            Self::Route(error @ RouteError::OffTheMap { end, .. }) => {
+                let name = if *end == "start" { "from_m" } else { "to_m" };
+                errors::parameter(error.to_string(), name, None, "a place on the map")
+            }
+            Self::Route(error @ RouteError::TooLarge { .. }) => {
+                errors::parameter(error.to_string(), "terrain", None, "a smaller map")
+            }
+            Self::Ground(message) => {
+                errors::parameter(message.clone(), "terrain", None, "a map of heights")
+            }
+            Self::Drive(error) => errors::of_mission(error),
+        }
+    }
+}
+
+impl From<Problem> for Failure {
+    fn from(problem: Problem) -> Self {
+        Self::Study(problem)
+    }
+}
+
+impl From<RouteError> for Failure {
+    fn from(error: RouteError) -> Self {
+        Self::Route(error)
+    }
+}
