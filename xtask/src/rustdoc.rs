@@ -12,8 +12,10 @@ use crate::cited::is_work;
 use crate::workspace;
 
 /// Units, which may stand in brackets without being a link; works that are cited may, too.
-const UNITS: [&str; 15] =
-    ["A", "J", "K", "N", "Pa", "V", "W", "bytes", "kPa", "kg", "m", "mm", "rad", "s", "Ω"];
+const UNITS: [&str; 17] = [
+    "A", "Hz", "J", "K", "N", "Pa", "V", "W", "bytes", "kPa", "kg", "m", "mm", "nat", "rad", "s",
+    "Ω",
+];
 
 /// Whether the documentation of all crates builds without a warning; prints those it has.
 pub(crate) fn check() -> Result<bool> {
