@@ -1,0 +1,10 @@
+//! Telemetry of a drive, record by record, from whatever recorded it: CSV, Parquet, or MCAP logs of Foxglove and ROS.
+//!
+//! [`TelemetryLog`] opens any of them, and gives records in SI units and Grouser's signs in the order of time; what was
+//! damaged, late or not used is counted, and [notes](TelemetryLog::notes) say so. Memory does not grow with the log.
+
+mod error;
+mod log;
+
+pub use error::{Problem, TelemetryError};
+pub use log::TelemetryLog;
