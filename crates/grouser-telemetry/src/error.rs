@@ -31,6 +31,41 @@ pub enum Problem {
     /// Its table cannot be understood.
     #[error("{}", .0.problem())]
     Table(MeasurementError),
+    /// A mapping that is none.
+    #[error("{0}")]
+    Mapping(String),
+    /// A mapping that reads none of a log's topics.
+    #[error("the mapping '{mapping}' reads none of its topics, which are {}", listed(topics))]
+    NothingMapped {
+        /// The mapping's name.
+        mapping: String,
+        /// The topics, each with the type of its messages.
+        topics: Vec<String>,
+    },
+    /// Several topics that a mapping could mean.
+    #[error("several topics have what the mapping calls `{what}`: {}", topics.join(", "))]
+    Ambiguous {
+        /// The type of messages or the pattern of topics in the mapping.
+        what: String,
+        /// The topics that fit.
+        topics: Vec<String>,
+    },
+    /// Messages that are not decoded here.
+    #[error(
+        "messages of {topic} are encoded as {encoding}; JSON and Protocol Buffers are read here"
+    )]
+    Encoding {
+        /// The topic.
+        topic: String,
+        /// As the log calls it.
+        encoding: String,
+    },
+    /// A mapping, or a choice of topics, for a file that has none.
+    #[error("this is a table, which has columns and no topics: a mapping is for logs of messages")]
+    NoMessages,
+    /// A file of Parquet that is damaged, or written in a way that is not read.
+    #[error("{0}")]
+    Parquet(String),
     /// A log of another kind.
     #[error("this is {0}, which is not read here")]
     OtherKind(&'static str),
@@ -38,7 +73,20 @@ pub enum Problem {
 
 impl TelemetryError {
     pub(crate) fn new(label: &str, problem: Problem) -> Self {
-        Self { label: label.to_owned(), problem, hint: None }
+        let hint = match &problem {
+            Problem::NothingMapped { .. } => Some(
+                "--mapping FILE.toml says which topics and fields are which columns".to_owned(),
+            ),
+            Problem::Ambiguous { what, topics } => topics
+                .first()
+                .map(|topic| format!("say which is meant, such as by --topic {what}={topic}")),
+            Problem::Encoding { .. } | Problem::OtherKind(_) => Some(
+                "Python converts it: python -m grouser import-telemetry LOG --out drive.csv"
+                    .to_owned(),
+            ),
+            _ => None,
+        };
+        Self { label: label.to_owned(), problem, hint }
     }
 
     pub(crate) fn with_hint(mut self, hint: impl Into<Option<String>>) -> Self {
@@ -71,6 +119,11 @@ impl TelemetryError {
             _ => false,
         }
     }
+}
+
+/// Topics as a sentence bears them.
+fn listed(topics: &[String]) -> String {
+    if topics.is_empty() { "none".to_owned() } else { topics.join(", ") }
 }
 
 impl From<MeasurementError> for TelemetryError {

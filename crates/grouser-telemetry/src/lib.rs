@@ -4,7 +4,20 @@
 //! damaged, late or not used is counted, and [notes](TelemetryLog::notes) say so. Memory does not grow with the log.
 
 mod error;
+mod field;
 mod log;
+mod mapping;
+mod mcap;
+mod merge;
+mod messages;
+mod parquet;
+mod plan;
+mod pose;
+mod writer;
 
 pub use error::{Problem, TelemetryError};
 pub use log::TelemetryLog;
+pub use mapping::Mapping;
+pub use messages::MessageRows;
+pub use plan::{Topic, TopicChoices};
+pub use writer::TelemetryWriter;

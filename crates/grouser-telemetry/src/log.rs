@@ -9,6 +9,10 @@ use grouser_io::escape;
 use grouser_io::measurements::telemetry::{TelemetryReader, TelemetryRecord, TelemetryRows};
 
 use crate::error::{Problem, TelemetryError};
+use crate::mapping::Mapping;
+use crate::mcap::{self, McapLog};
+use crate::parquet::{self, ParquetLog};
+use crate::plan::TopicChoices;
 
 /// Telemetry of a drive, opened.
 pub struct TelemetryLog {
@@ -18,16 +22,26 @@ pub struct TelemetryLog {
 
 enum Source {
     Csv(TelemetryReader<'static, Box<dyn Read>>),
+    Parquet(ParquetLog),
+    Mcap(Box<McapLog>),
 }
 
 impl TelemetryLog {
     /// Opens a file; its first bytes say what it is.
     ///
     /// * `rover`: the rover that was driven, for the names of its wheels
+    /// * `mapping`: of a log of messages, which fields are which columns; without it the built-in one that fits
+    /// * `choices`: of such a log, the topic that is meant where several fit
     ///
     /// # Errors
-    /// [`TelemetryError`] for a file that cannot be opened, or is no telemetry of this rover.
-    pub fn open(path: &Path, rover: &Rover) -> Result<Self, TelemetryError> {
+    /// [`TelemetryError`] for a file that cannot be opened, or is no telemetry of this rover; with
+    /// [`Problem::Ambiguous`] another call can make the choice.
+    pub fn open(
+        path: &Path,
+        rover: &Rover,
+        mapping: Option<&Mapping>,
+        choices: &TopicChoices,
+    ) -> Result<Self, TelemetryError> {
         let failed = |error| TelemetryError::open(path, error);
         let mut file = File::open(path).map_err(failed)?;
         if file.metadata().map_err(failed)?.is_dir() {
@@ -39,10 +53,18 @@ impl TelemetryLog {
         let bags: [(&[u8], &str); 2] =
             [(b"#ROSBAG V", "a bag of ROS 1"), (b"SQLite format 3", "a bag of ROS 2 in SQLite")];
         if let Some((_, kind)) = bags.iter().find(|(magic, _)| start.starts_with(magic)) {
-            return Err(TelemetryError::new(&label, Problem::OtherKind(kind)).with_hint(
-                "Python converts it: python -m grouser import-telemetry BAG --out drive.csv"
-                    .to_owned(),
-            ));
+            return Err(TelemetryError::new(&label, Problem::OtherKind(kind)));
+        }
+        if start.starts_with(&mcap::MAGIC) {
+            let log = McapLog::new(&label, file, mapping, rover, choices)?;
+            return Ok(Self { label, source: Source::Mcap(Box::new(log)) });
+        }
+        if mapping.is_some() || !choices.is_empty() {
+            return Err(TelemetryError::new(&label, Problem::NoMessages));
+        }
+        if start.starts_with(parquet::MAGIC) {
+            let log = ParquetLog::new(&label, file, rover)?;
+            return Ok(Self { label, source: Source::Parquet(log) });
         }
         Self::of_csv(&label, Box::new(BufReader::new(file)), rover)
     }
@@ -75,6 +97,8 @@ impl TelemetryLog {
     pub fn next_record(&mut self) -> Result<Option<TelemetryRecord>, TelemetryError> {
         match &mut self.source {
             Source::Csv(reader) => Ok(reader.next_record()?),
+            Source::Parquet(log) => log.next_record(),
+            Source::Mcap(log) => log.next_record(),
         }
     }
 
@@ -88,12 +112,20 @@ impl TelemetryLog {
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         let table = self.table();
-        table.lost().sentences().into_iter().chain(not_used(table.unused())).collect()
+        let of_kind = match &self.source {
+            Source::Csv(_) => Vec::new(),
+            Source::Parquet(log) => log.notes(),
+            Source::Mcap(log) => log.notes(),
+        };
+        let lost = table.lost().sentences().into_iter();
+        of_kind.into_iter().chain(lost).chain(not_used(table.unused())).collect()
     }
 
     fn table(&self) -> &TelemetryRows {
         match &self.source {
             Source::Csv(reader) => reader.rows(),
+            Source::Parquet(log) => log.rows(),
+            Source::Mcap(log) => log.rows(),
         }
     }
 }

@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use grouser::vehicle::Rover;
-use grouser_telemetry::{TelemetryError, TelemetryLog};
+use grouser_telemetry::{Mapping, TelemetryError, TelemetryLog};
 
 use crate::args::TelemetryArgs;
 use crate::failure::Failure;
@@ -28,12 +28,14 @@ impl From<TelemetryError> for Failure {
 /// * `rover`: the rover that was driven
 pub(crate) fn telemetry(
     path: &Path,
-    _args: &TelemetryArgs,
+    args: &TelemetryArgs,
     rover: &Rover,
 ) -> Result<TelemetryLog, Failure> {
     if path == Path::new(STANDARD_INPUT) {
         let source = Box::new(io::stdin().lock());
         return Ok(TelemetryLog::of_csv("standard input", source, rover)?);
     }
-    Ok(TelemetryLog::open(path, rover)?)
+    let mapping = args.mapping.as_deref().map(Mapping::find).transpose()?;
+    let choices = args.topics.iter().cloned().collect();
+    Ok(TelemetryLog::open(path, rover, mapping.as_ref(), &choices)?)
 }
