@@ -6,6 +6,7 @@ mod documents;
 mod draw;
 mod forecast;
 mod heading;
+mod import_telemetry;
 mod import_urdf;
 mod learn;
 mod map;
@@ -37,6 +38,7 @@ pub(crate) use documents::{CheckArgs, CompletionsArgs, PresetsArgs, SchemaArgs};
 pub(crate) use draw::DrawArgs;
 pub(crate) use forecast::ForecastArgs;
 pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
+pub(crate) use import_telemetry::ImportTelemetryArgs;
 pub(crate) use import_urdf::ImportUrdfArgs;
 pub(crate) use learn::LearnArgs;
 pub(crate) use map::MapArgs;
@@ -109,6 +111,8 @@ pub(crate) enum Command {
     Draw(DrawArgs),
     /// Convert another laboratory's CSV file to the layout that `validate` reads.
     Import(ImportArgs),
+    /// Convert a log of a drive, of Foxglove or ROS (MCAP) or in Parquet, to the telemetry that `learn` reads.
+    ImportTelemetry(ImportTelemetryArgs),
     /// Make a rover of URDF, the format in which robots are described to ROS.
     ImportUrdf(ImportUrdfArgs),
     /// Measure how fast and how accurately this machine computes.

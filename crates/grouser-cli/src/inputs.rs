@@ -27,7 +27,7 @@ pub(crate) use self::map::{MapInputs, map};
 pub(crate) use self::route::{RouteInputs, route};
 pub(crate) use self::slip_from_current::{SlipInputs, slip_from_current};
 pub(crate) use self::stand::{StandInputs, soil, stand, wheel_test};
-pub(crate) use self::telemetry::telemetry;
+pub(crate) use self::telemetry::{driven_rover, mapping, telemetry};
 pub(crate) use self::traverse::traverse;
 use crate::args::{BalanceArgs, DrawArgs, RunArgs, SettingArgs, SlopeArgs, TerrainArgs};
 use crate::failure::Failure;

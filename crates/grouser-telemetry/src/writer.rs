@@ -19,16 +19,21 @@ use parquet::schema::types::Type;
 const GROUP: usize = 1 << 16;
 
 /// A table of telemetry on its way.
-pub struct TelemetryWriter<W: Write + Send> {
-    kind: Kind<W>,
+pub struct TelemetryWriter<W> {
+    out: W,
+    kind: Kind,
 }
 
-enum Kind<W: Write + Send> {
-    Csv(W),
-    Parquet { writer: SerializedFileWriter<W>, columns: Vec<Vec<Option<f64>>> },
+enum Kind {
+    Csv,
+    /// Its bytes are collected in memory, and passed on after each group of rows.
+    Parquet {
+        writer: SerializedFileWriter<Vec<u8>>,
+        columns: Vec<Vec<Option<f64>>>,
+    },
 }
 
-impl<W: Write + Send> TelemetryWriter<W> {
+impl<W: Write> TelemetryWriter<W> {
     /// Begins a table with all columns of a rover: Parquet for a name that ends with `.parquet`, or else CSV.
     ///
     /// # Errors
@@ -37,7 +42,7 @@ impl<W: Write + Send> TelemetryWriter<W> {
         let is_parquet = name.extension().is_some_and(|it| it.eq_ignore_ascii_case("parquet"));
         if !is_parquet {
             out.write_all(csv_header(rover).as_bytes())?;
-            return Ok(Self { kind: Kind::Csv(out) });
+            return Ok(Self { out, kind: Kind::Csv });
         }
         let names = column_names(rover);
         let field = |name: &String| {
@@ -47,11 +52,10 @@ impl<W: Write + Send> TelemetryWriter<W> {
         let fields = names.iter().map(field).collect::<Result<_, _>>().map_err(io_error)?;
         let schema = Type::group_type_builder("telemetry").with_fields(fields).build();
         let schema = Arc::new(schema.map_err(io_error)?);
-        // Dictionaries help where readings repeat, which rounded ones do.
         let properties = WriterProperties::builder().set_compression(Compression::UNCOMPRESSED);
-        let writer = SerializedFileWriter::new(out, schema, Arc::new(properties.build()));
+        let writer = SerializedFileWriter::new(Vec::new(), schema, Arc::new(properties.build()));
         let columns = vec![Vec::new(); names.len()];
-        Ok(Self { kind: Kind::Parquet { writer: writer.map_err(io_error)?, columns } })
+        Ok(Self { out, kind: Kind::Parquet { writer: writer.map_err(io_error)?, columns } })
     }
 
     /// Adds a record.
@@ -60,13 +64,16 @@ impl<W: Write + Send> TelemetryWriter<W> {
     /// Those of what is written to.
     pub fn write(&mut self, record: &TelemetryRecord) -> io::Result<()> {
         match &mut self.kind {
-            Kind::Csv(out) => out.write_all(csv_line(record).as_bytes()),
+            Kind::Csv => self.out.write_all(csv_line(record).as_bytes()),
             Kind::Parquet { writer, columns } => {
                 for (column, number) in columns.iter_mut().zip(numbers(record)) {
                     column.push(number);
                 }
                 if columns.first().is_some_and(|it| it.len() >= GROUP) {
                     write_group(writer, columns).map_err(io_error)?;
+                    writer.flush()?;
+                    self.out.write_all(writer.inner())?;
+                    writer.inner_mut().clear();
                 }
                 Ok(())
             }
@@ -77,19 +84,15 @@ impl<W: Write + Send> TelemetryWriter<W> {
     ///
     /// # Errors
     /// Those of what is written to.
-    pub fn finish(self) -> io::Result<W> {
-        match self.kind {
-            Kind::Csv(mut out) => {
-                out.flush()?;
-                Ok(out)
+    pub fn finish(mut self) -> io::Result<W> {
+        if let Kind::Parquet { mut writer, mut columns } = self.kind {
+            if columns.first().is_some_and(|it| !it.is_empty()) {
+                write_group(&mut writer, &mut columns).map_err(io_error)?;
             }
-            Kind::Parquet { mut writer, mut columns } => {
-                if columns.first().is_some_and(|it| !it.is_empty()) {
-                    write_group(&mut writer, &mut columns).map_err(io_error)?;
-                }
-                writer.into_inner().map_err(io_error)
-            }
+            self.out.write_all(&writer.into_inner().map_err(io_error)?)?;
         }
+        self.out.flush()?;
+        Ok(self.out)
     }
 }
 
@@ -104,8 +107,8 @@ fn io_error(error: ParquetError) -> io::Error {
 }
 
 /// Writes the rows of all columns as a group, and empties them.
-fn write_group<W: Write + Send>(
-    writer: &mut SerializedFileWriter<W>,
+fn write_group(
+    writer: &mut SerializedFileWriter<Vec<u8>>,
     columns: &mut [Vec<Option<f64>>],
 ) -> Result<(), ParquetError> {
     let mut group = writer.next_row_group()?;

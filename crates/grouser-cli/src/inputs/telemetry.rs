@@ -3,9 +3,11 @@
 use std::io;
 use std::path::Path;
 
+use grouser::document::{self, Kind, Overrides, Source};
 use grouser::vehicle::Rover;
 use grouser_telemetry::{Mapping, TelemetryError, TelemetryLog};
 
+use super::flag_source;
 use crate::args::TelemetryArgs;
 use crate::failure::Failure;
 
@@ -35,7 +37,24 @@ pub(crate) fn telemetry(
         let source = Box::new(io::stdin().lock());
         return Ok(TelemetryLog::of_csv("standard input", source, rover)?);
     }
-    let mapping = args.mapping.as_deref().map(Mapping::find).transpose()?;
+    let mapping = mapping(args)?;
     let choices = args.topics.iter().cloned().collect();
     Ok(TelemetryLog::open(path, rover, mapping.as_ref(), &choices)?)
+}
+
+/// The mapping that is named.
+pub(crate) fn mapping(args: &TelemetryArgs) -> Result<Option<Mapping>, Failure> {
+    Ok(args.mapping.as_deref().map(Mapping::find).transpose()?)
+}
+
+/// The rover that was driven.
+///
+/// * `name`: a preset or a file; without it that of the default scenario
+pub(crate) fn driven_rover(name: Option<&str>) -> Result<Rover, Failure> {
+    let Some(name) = name else {
+        let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?;
+        return Ok(scenario.value.rover);
+    };
+    let source = flag_source("--rover", Kind::Rover, name)?;
+    Ok(document::read_rover(&source, &Overrides::none())?.value)
 }
