@@ -104,6 +104,12 @@ impl TelemetryError {
         Self::new(&escape::path(path), problem)
     }
 
+    /// What messages call the file.
+    #[must_use]
+    pub fn label(&self) -> &str {
+        &self.label
+    }
+
     /// What is wrong.
     #[must_use]
     pub fn problem(&self) -> &Problem {
