@@ -6,6 +6,7 @@ mod documents;
 mod draw;
 mod forecast;
 mod heading;
+mod import_telemetry;
 mod import_urdf;
 mod learn;
 mod map;
@@ -14,6 +15,7 @@ mod mission;
 mod new;
 mod route;
 mod slip_from_current;
+mod telemetry;
 mod terminal;
 mod traverse;
 mod uncertainty;
@@ -36,6 +38,7 @@ pub(crate) use documents::{CheckArgs, CompletionsArgs, PresetsArgs, SchemaArgs};
 pub(crate) use draw::DrawArgs;
 pub(crate) use forecast::ForecastArgs;
 pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
+pub(crate) use import_telemetry::ImportTelemetryArgs;
 pub(crate) use import_urdf::ImportUrdfArgs;
 pub(crate) use learn::LearnArgs;
 pub(crate) use map::MapArgs;
@@ -46,6 +49,7 @@ pub(crate) use mission::MissionArgs;
 pub(crate) use new::NewArgs;
 pub(crate) use route::RouteArgs;
 pub(crate) use slip_from_current::SlipFromCurrentArgs;
+pub(crate) use telemetry::TelemetryArgs;
 pub(crate) use terminal::{TerminalArgs, colours_of};
 pub(crate) use traverse::TraverseArgs;
 pub(crate) use uncertainty::{SamplingArgs, UncertaintyArgs};
@@ -107,6 +111,8 @@ pub(crate) enum Command {
     Draw(DrawArgs),
     /// Convert another laboratory's CSV file to the layout that `validate` reads.
     Import(ImportArgs),
+    /// Convert a log of a drive, of Foxglove or ROS (MCAP) or in Parquet, to the telemetry that `learn` reads.
+    ImportTelemetry(ImportTelemetryArgs),
     /// Make a rover of URDF, the format in which robots are described to ROS.
     ImportUrdf(ImportUrdfArgs),
     /// Measure how fast and how accurately this machine computes.

@@ -14,6 +14,7 @@ pub(crate) mod heading;
 mod heading_band;
 pub(crate) mod heading_map;
 pub(crate) mod import;
+pub(crate) mod import_telemetry;
 pub(crate) mod import_urdf;
 pub(crate) mod learn;
 mod log;

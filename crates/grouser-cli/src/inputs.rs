@@ -9,6 +9,7 @@ pub(crate) mod mission;
 mod route;
 mod slip_from_current;
 mod stand;
+mod telemetry;
 mod traverse;
 
 use std::ops::RangeInclusive;
@@ -21,11 +22,12 @@ use grouser::document::{
 pub(crate) use self::card::{CardInputs, card};
 pub(crate) use self::forecast::{ForecastInputs, forecast};
 pub(crate) use self::heading::{heading, heading_map};
-pub(crate) use self::learn::{learn, telemetry};
+pub(crate) use self::learn::learn;
 pub(crate) use self::map::{MapInputs, map};
 pub(crate) use self::route::{RouteInputs, route};
 pub(crate) use self::slip_from_current::{SlipInputs, slip_from_current};
 pub(crate) use self::stand::{StandInputs, soil, stand, wheel_test};
+pub(crate) use self::telemetry::{driven_rover, mapping, telemetry};
 pub(crate) use self::traverse::traverse;
 use crate::args::{BalanceArgs, DrawArgs, RunArgs, SettingArgs, SlopeArgs, TerrainArgs};
 use crate::failure::Failure;

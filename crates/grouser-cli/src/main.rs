@@ -73,6 +73,7 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::Campaign(args) => commands::campaign::run(args),
         Command::Draw(args) => commands::draw::run(args),
         Command::Import(args) => commands::import::run(args),
+        Command::ImportTelemetry(args) => commands::import_telemetry::run(args),
         Command::ImportUrdf(args) => commands::import_urdf::run(args),
         Command::Bench(args) => commands::bench::run(args),
         Command::New(args) => commands::new::run(args),

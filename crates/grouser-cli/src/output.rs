@@ -10,7 +10,7 @@ pub(crate) mod terminal;
 pub(crate) mod text;
 
 use std::borrow::Cow;
-use std::io::{BufWriter, ErrorKind, Write as _, stderr, stdout};
+use std::io::{BufWriter, ErrorKind, Write, stderr, stdout};
 use std::path::Path;
 
 use anstream::AutoStream;
@@ -32,6 +32,32 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
         .write_all(escape::visible(text).as_bytes())
         .and_then(|()| stdout.flush())
         .map_err(failed_to_print)
+}
+
+/// Writes a long text to the standard output piece by piece, as [`print`] does.
+///
+/// * `content`: writes it, in pieces that end where characters do
+pub(crate) fn print_by(
+    content: impl FnOnce(&mut dyn Write) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    /// Writes out what would steer a terminal.
+    struct Visible<W>(W);
+
+    impl<W: Write> Write for Visible<W> {
+        fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+            let text = String::from_utf8_lossy(bytes);
+            self.0.write_all(escape::visible(&text).as_bytes()).map(|()| bytes.len())
+        }
+
+        fn flush(&mut self) -> std::io::Result<()> {
+            self.0.flush()
+        }
+    }
+
+    activity::end();
+    let mut stdout = Visible(BufWriter::new(stdout().lock()));
+    content(&mut stdout)?;
+    stdout.flush().map_err(failed_to_print)
 }
 
 /// Writes text for reading to the standard output: as it is to a file or a pipe, and to a terminal in its width
@@ -94,7 +120,7 @@ fn write_message(text: &str) {
     let _ = AutoStream::auto(stderr().lock()).write_all(shown.as_bytes());
 }
 
-fn failed_to_print(error: std::io::Error) -> Failure {
+pub(crate) fn failed_to_print(error: std::io::Error) -> Failure {
     if error.kind() == ErrorKind::BrokenPipe {
         Failure::ReaderGone
     } else {

@@ -18,6 +18,7 @@
 
 pub mod columns;
 mod condition;
+mod dimension;
 mod error;
 mod import;
 mod limits;
@@ -37,6 +38,7 @@ use std::path::Path;
 
 pub use columns::{Column, Meaning};
 pub use condition::Condition;
+pub use dimension::Dimension;
 pub use error::{MeasurementError, MeasurementProblem};
 pub use import::{Imported, Layout, Mapping, SlipDefinition, import};
 pub use limits::{Excess, Limits};

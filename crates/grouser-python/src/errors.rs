@@ -12,6 +12,7 @@ use grouser::simulation::RunError;
 use grouser::studies::calibration::CalibrationError;
 use grouser_raster::{Fault, RasterError};
 use grouser_store::StoreError;
+use grouser_telemetry::{Problem as TelemetryProblem, TelemetryError};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
@@ -133,6 +134,31 @@ pub(crate) fn of_measurements(error: &MeasurementError, file: &str) -> PyErr {
             };
             let (line, column) = (error.line(), None::<u64>);
             classes::DocumentError::new_err((message, file, line, column, key, value, expected))
+        }
+    }
+}
+
+/// Telemetry that cannot be read.
+pub(crate) fn of_telemetry(error: &TelemetryError) -> PyErr {
+    let (message, file) = (error.to_string(), error.label().to_owned());
+    match error.problem() {
+        TelemetryProblem::Table(error) => of_measurements(error, &file),
+        TelemetryProblem::NoSuchFile => {
+            classes::DocumentNotFoundError::new_err((message, file, None::<String>))
+        }
+        TelemetryProblem::Folder | TelemetryProblem::Unreadable(_) => {
+            classes::DocumentUnreadableError::new_err((message, file))
+        }
+        _ => {
+            // Python's own half decodes these.
+            let is_encoded = matches!(
+                error.problem(),
+                TelemetryProblem::Encoding { .. } | TelemetryProblem::OtherKind(_)
+            );
+            let key = is_encoded.then(|| "encoding".to_owned());
+            let (place, value) = (None::<u64>, None::<f64>);
+            let expected = None::<String>;
+            classes::DocumentError::new_err((message, file, place, place, key, value, expected))
         }
     }
 }

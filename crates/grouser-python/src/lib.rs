@@ -5,7 +5,7 @@
 //! ([`simulators`], on [`paths`]), reads slip from currents
 //! ([`slip_from_current`]), runs studies ([`studies`], [`missions`], [`rollouts`], [`validation`], [`calibration`]) and
 //! campaigns ([`campaign`]), computes the soil's reaction for other engines ([`time_step`], and the
-//! [`ground`] under their wheels) and exports tables ([`arrow`]). It does so without Python's lock, with threads that a forked process has too
+//! [`ground`] under their wheels) reads [`telemetry`] and exports tables ([`arrow`]). It does so without Python's lock, with threads that a forked process has too
 //! ([`threads`]), and Ctrl-C interrupts it ([`interrupt`]). Nothing here computes physics, and the
 //! library knows nothing of Python.
 
@@ -28,6 +28,7 @@ mod simulators;
 mod slip_from_current;
 mod studies;
 mod style;
+mod telemetry;
 mod terrain;
 mod threads;
 mod time_step;
@@ -85,6 +86,8 @@ mod _core {
     };
     #[pymodule_export]
     use super::style::{spread_labels, style_colours};
+    #[pymodule_export]
+    use super::telemetry::{TelemetryMessages, import_telemetry};
     #[pymodule_export]
     use super::terrain::Terrain;
     #[pymodule_export]

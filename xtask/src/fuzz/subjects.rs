@@ -53,7 +53,7 @@ impl Subject {
 }
 
 /// Quick lines of every command, each with the names of its files among [`documents`].
-const LINES: [(&str, &str, &[&str]); 37] = [
+const LINES: [(&str, &str, &[&str]); 40] = [
     (
         "wheel-test",
         "wheel-test --soil soil.toml --wheel wheel.toml --load-n 17 --slip-ratio -0.4:0.8:0.4 --format json",
@@ -118,6 +118,21 @@ const LINES: [(&str, &str, &[&str]); 37] = [
         "learn",
         "learn drive.csv --prior uncertain.toml --model ishigami --samples 2 --predict-slope-deg 5 --out learnt --format json",
         &["drive.csv", "uncertain.toml"],
+    ),
+    (
+        "learn, MCAP",
+        "learn run.mcap --prior uncertain.toml --model ishigami --samples 2 --predict-slope-deg 5 --format json",
+        &["run.mcap", "uncertain.toml"],
+    ),
+    (
+        "import-telemetry, MCAP",
+        "import-telemetry run.mcap --mapping mapping.toml --rover rover.toml --out drive.parquet",
+        &["run.mcap", "mapping.toml", "rover.toml", "wheel.toml"],
+    ),
+    (
+        "import-telemetry, Parquet",
+        "import-telemetry drive.parquet --rover hakuto",
+        &["drive.parquet"],
     ),
     (
         "forecast",
@@ -321,8 +336,20 @@ fn documents(program: &Path) -> Result<Vec<(String, Vec<u8>)>> {
         .map(|(name, line)| Ok((name.to_owned(), printed(program, line, folder.path())?)));
     let written = WRITTEN.into_iter().map(|(name, text)| Ok((name.to_owned(), text.into())));
     let maps = maps::files()?.into_iter().map(Ok);
-    let drive = std::iter::once(Ok(("drive.csv".to_owned(), drive().into_bytes())));
-    made.chain(written).chain(maps).chain(drive).collect()
+    let drives = drives(program, folder.path())?.into_iter().map(Ok);
+    made.chain(written).chain(maps).chain(drives).collect()
+}
+
+/// The telemetry of a drive as CSV and Parquet, a run as MCAP, and a mapping for that.
+fn drives(program: &Path, folder: &Path) -> Result<Vec<(String, Vec<u8>)>> {
+    fs::write(folder.join("drive.csv"), drive())?;
+    printed(program, "traverse --duration-s 1 --simulation quasi-steady --mcap run.mcap", folder)?;
+    printed(program, "import-telemetry drive.csv --rover hakuto --out drive.parquet", folder)?;
+    let mapping = printed(program, "import-telemetry --print-mapping grouser", folder)?;
+    fs::write(folder.join("mapping.toml"), mapping)?;
+    let names = ["drive.csv", "drive.parquet", "run.mcap", "mapping.toml"];
+    let file = |name: &str| Ok((name.to_owned(), fs::read(folder.join(name))?));
+    names.into_iter().map(file).collect()
 }
 
 /// Telemetry of some seconds along a slope.

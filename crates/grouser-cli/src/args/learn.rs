@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::{BalanceArgs, OutputArgs, SettingArgs};
+use super::{BalanceArgs, OutputArgs, SettingArgs, TelemetryArgs};
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
@@ -24,6 +24,8 @@ pub(crate) struct LearnArgs {
     /// `x_m`, `y_m`; empty cells are gaps.
     #[arg(value_name = "LOG.csv|-")]
     pub(crate) log: PathBuf,
+    #[command(flatten)]
+    pub(crate) telemetry: TelemetryArgs,
     /// What is known of the soil before the drive: a preset or a file that says how uncertain it is.
     #[arg(long, alias = "soil", value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
     pub(crate) prior: Option<String>,

@@ -8,7 +8,6 @@ use std::collections::BTreeMap;
 use grouser::document::columns::SLOPE;
 use grouser::document::columns::learn as columns;
 use grouser::document::learn::LearntSoil;
-use grouser::document::measurements::telemetry::TelemetryReader;
 use grouser::document::table::Table;
 use grouser::document::{Kind, LoadedScenario, SAMPLES_FILE, escape};
 use grouser::studies::heading_band::SlopeBand;
@@ -119,9 +118,8 @@ fn read(
     learner: &mut Learner,
     lesson: &mut dyn FnMut(Lesson),
 ) -> Result<Vec<String>, Failure> {
-    let (label, source) = inputs::telemetry(&args.log)?;
-    let mut reader = TelemetryReader::new(&label, source, &scenario.value.rover)?;
-    while let Some(record) = reader.next_record()? {
+    let mut log = inputs::telemetry(&args.log, &args.telemetry, &scenario.value.rover)?;
+    while let Some(record) = log.next_record()? {
         if let Some(learnt) = learner.update(record) {
             lesson(learnt);
         }
@@ -129,20 +127,10 @@ fn read(
     if let Some(learnt) = learner.finish() {
         lesson(learnt);
     }
-    if reader.rows() == 0 {
-        return Err(Failure::Usage(format!("{label}: has no rows below its header")));
+    if log.rows() == 0 {
+        return Err(Failure::Usage(format!("{}: has no rows of telemetry", log.label())));
     }
-    let unused = not_known(reader.unused());
-    Ok(reader.lost().sentences().into_iter().chain(unused).chain(not_used(learner)).collect())
-}
-
-/// The columns that are not known, as many as a sentence bears.
-fn not_known(names: &[String]) -> Option<String> {
-    const MOST: usize = 6;
-    let more = names.len().saturating_sub(MOST);
-    let more = if more == 0 { String::new() } else { format!(" and {more} more") };
-    let first = names.get(..MOST).unwrap_or(names).join(", ");
-    (!names.is_empty()).then(|| format!("columns not used: {first}{more}"))
+    Ok(log.notes().into_iter().chain(not_used(learner)).collect())
 }
 
 /// Why stretches of the drive taught nothing, a sentence each.

@@ -1,17 +1,10 @@
 //! The inputs of learning from a drive.
 
-use std::fs::File;
-use std::io::{self, BufReader, Read};
-use std::path::Path;
-
-use grouser::document::{self, LoadedScenario, escape};
+use grouser::document::{self, LoadedScenario};
 
 use super::{balanced_overrides, check_numbers, refuse_sampled_keys, scenario_source};
 use crate::args::LearnArgs;
 use crate::failure::Failure;
-
-/// The name of standard input among files.
-const STANDARD_INPUT: &str = "-";
 
 /// The scenario that is learnt in; its slope is that of the flag.
 pub(crate) fn learn(args: &LearnArgs) -> Result<LoadedScenario, Failure> {
@@ -27,27 +20,4 @@ pub(crate) fn learn(args: &LearnArgs) -> Result<LoadedScenario, Failure> {
     let scenario = document::read_scenario(&source, &overrides)?;
     refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
     Ok(scenario)
-}
-
-/// A log to read, and what messages call it.
-pub(crate) fn telemetry(path: &Path) -> Result<(String, Box<dyn Read>), Failure> {
-    if path == Path::new(STANDARD_INPUT) {
-        return Ok(("standard input".to_owned(), Box::new(io::stdin().lock())));
-    }
-    let label = escape::path(path);
-    let failed = |why: &str| {
-        Failure::Usage(format!(
-            "{label}: {why}\nhint: name a CSV file of telemetry, or - to read standard input"
-        ))
-    };
-    if path.is_dir() {
-        return Err(failed("this is a folder, not a file"));
-    }
-    match File::open(path) {
-        Ok(file) => Ok((label, Box::new(BufReader::new(file)))),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            Err(failed("there is no such file"))
-        }
-        Err(error) => Err(Failure::Run(format!("{label}: cannot be read: {error}"))),
-    }
 }

@@ -27,6 +27,7 @@ mod scrambled;
 mod simulated;
 mod slip_from_current;
 mod soil_zones;
+mod telemetry;
 mod terminal;
 mod terrain;
 mod validate;

@@ -7,6 +7,7 @@ use csv::{StringRecord, Writer};
 use super::super::check::nearest;
 use super::super::escape;
 use super::columns::{self, COLUMNS, Column, Meaning};
+use super::dimension::Dimension;
 use super::error::{MeasurementError, MeasurementProblem as Problem, QUOTED};
 use super::limits::Limits;
 use super::row::name_of;
@@ -76,48 +77,6 @@ impl Default for Layout {
     }
 }
 
-/// Units by name, with what they measure and their size in SI.
-const UNITS: [(&str, Dimension, f64); 26] = [
-    ("m", Dimension::Length, 1.0),
-    ("cm", Dimension::Length, 1e-2),
-    ("mm", Dimension::Length, 1e-3),
-    ("um", Dimension::Length, 1e-6),
-    ("in", Dimension::Length, 0.0254),
-    ("N", Dimension::Force, 1.0),
-    ("kN", Dimension::Force, 1e3),
-    ("mN", Dimension::Force, 1e-3),
-    ("kgf", Dimension::Force, 9.806_65),
-    ("gf", Dimension::Force, 9.806_65e-3),
-    ("lbf", Dimension::Force, 4.448_221_615_260_5),
-    ("Nm", Dimension::Moment, 1.0),
-    ("N.m", Dimension::Moment, 1.0),
-    ("mNm", Dimension::Moment, 1e-3),
-    ("Nmm", Dimension::Moment, 1e-3),
-    ("kNm", Dimension::Moment, 1e3),
-    ("deg", Dimension::Angle, std::f64::consts::PI / 180.0),
-    ("rad", Dimension::Angle, 1.0),
-    ("m/s", Dimension::Speed, 1.0),
-    ("cm/s", Dimension::Speed, 1e-2),
-    ("mm/s", Dimension::Speed, 1e-3),
-    ("km/h", Dimension::Speed, 1.0 / 3.6),
-    ("m/min", Dimension::Speed, 1.0 / 60.0),
-    ("%", Dimension::Share, 1e-2),
-    ("percent", Dimension::Share, 1e-2),
-    ("1", Dimension::Share, 1.0),
-];
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Dimension {
-    Length,
-    Force,
-    Moment,
-    Angle,
-    Speed,
-    Share,
-    /// A label, or a column that is taken as it is.
-    Text,
-}
-
 fn dimension(column: &Column) -> Dimension {
     use crate::measurements::wheel_tests::Quantity;
     match column.meaning {
@@ -180,11 +139,7 @@ impl Mapping {
 
 /// The size of a unit in SI, if it measures what the column holds.
 fn size_of(unit: &str, column: &Column) -> Result<f64, String> {
-    let dimension = dimension(column);
-    let found = UNITS.iter().find(|(name, of, _)| *name == unit && *of == dimension);
-    found.map(|(_, _, size)| *size).ok_or_else(|| {
-        let fitting = UNITS.iter().filter(|(_, of, _)| *of == dimension);
-        let fitting: Vec<&str> = fitting.map(|(name, _, _)| *name).collect();
+    dimension(column).size_of(unit).map_err(|fitting| {
         if fitting.is_empty() {
             format!("`{}` is taken as it is and has no unit", column.name)
         } else {

@@ -1,5 +1,6 @@
 //! CSV as it comes: line ends of every kind, and fields that are parted by something else.
 
+use std::borrow::Cow;
 use std::io::{self, Read};
 
 use csv::StringRecord;
@@ -9,7 +10,7 @@ use super::limits::{Excess, Limits};
 
 /// A table read row by row, its fields trimmed, within limits.
 pub struct Table<'a, R> {
-    label: &'a str,
+    label: Cow<'a, str>,
     reader: csv::Reader<LineEnds<R>>,
     limits: Limits,
     rows: usize,
@@ -17,11 +18,11 @@ pub struct Table<'a, R> {
 
 impl<'a, R: Read> Table<'a, R> {
     /// * `label`: what messages call the source
-    pub fn new(label: &'a str, source: R, delimiter: u8, limits: Limits) -> Self {
+    pub fn new(label: impl Into<Cow<'a, str>>, source: R, delimiter: u8, limits: Limits) -> Self {
         let mut builder = csv::ReaderBuilder::new();
         builder.delimiter(delimiter).trim(csv::Trim::All);
         let source = LineEnds { longest_row: Limits::LONGEST_ROW, ..LineEnds::of(source, limits) };
-        Self { label, reader: builder.from_reader(source), limits, rows: 0 }
+        Self { label: label.into(), reader: builder.from_reader(source), limits, rows: 0 }
     }
 
     /// The names of the columns.
@@ -29,9 +30,8 @@ impl<'a, R: Read> Table<'a, R> {
     /// # Errors
     /// [`MeasurementError`] for a file that cannot be read, is empty, or is larger than its limits.
     pub fn header(&mut self) -> Result<StringRecord, MeasurementError> {
-        let label = self.label;
         let found = self.reader.headers().cloned();
-        let header = found.map_err(|error| MeasurementError::csv(label, &error, 1))?;
+        let header = found.map_err(|error| MeasurementError::csv(&self.label, &error, 1))?;
         if header.len() > Limits::CELLS {
             return Err(
                 self.too_large(1, Excess::Cells { count: header.len(), most: Limits::CELLS })
@@ -51,9 +51,8 @@ impl<'a, R: Read> Table<'a, R> {
     pub fn next_row(&mut self, row: &mut StringRecord) -> Result<bool, MeasurementError> {
         let start = self.reader.position().clone();
         self.reader.get_mut().row_starts_at(start.byte());
-        let label = self.label;
         let found = self.reader.read_record(row);
-        if !found.map_err(|error| MeasurementError::csv(label, &error, start.line()))? {
+        if !found.map_err(|error| MeasurementError::csv(&self.label, &error, start.line()))? {
             return Ok(false);
         }
         let inside: usize = row.iter().map(|field| field.matches('\n').count()).sum();
@@ -79,7 +78,7 @@ impl<'a, R: Read> Table<'a, R> {
     }
 
     fn too_large(&self, line: u64, excess: Excess) -> MeasurementError {
-        MeasurementError::at(self.label, line, MeasurementProblem::TooLarge(excess))
+        MeasurementError::at(&self.label, line, MeasurementProblem::TooLarge(excess))
     }
 }
 

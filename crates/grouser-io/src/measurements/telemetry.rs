@@ -8,25 +8,28 @@
 //! Telemetry is damaged telemetry: a cell that is no number, or out of its range, is a gap, and a row without a time
 //! of its own is left out. [`Lost`] counts all of that. Memory does not grow with the length of the log.
 
+mod rows;
+
+use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 use std::io::Read;
 use std::ops::RangeInclusive;
 
 use csv::StringRecord;
 use grouser_core::vehicle::Rover;
 
-use super::super::check::nearest;
 use super::super::columns::{
     CURRENT, PITCH, Quantity, ROLL, SINKAGE, STEERING, TIME, TORQUE, WHEEL_SPEED, X, Y, YAW,
     quantity,
 };
-use super::super::escape;
 use super::super::unit::{A, DEG, M, NM};
 use super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::limits::Limits;
 use super::motor_log::{LogColumn, column};
 use super::row::name_of;
 use super::table::Table;
+pub use rows::{Cell, TelemetryRows, is_same_wheel};
 
 /// Way along the body's x since the last one, by visual odometry.
 pub const FORWARD: Quantity = quantity("vo_dx_m", M);
@@ -121,6 +124,15 @@ impl Lost {
         *self == Self::default()
     }
 
+    /// Counts a cell of a column that is no number within its range.
+    fn cell(&mut self, column: &str) {
+        if let Some(count) = self.cells.get_mut(column) {
+            *count += 1;
+        } else {
+            self.cells.insert(column.to_owned(), 1);
+        }
+    }
+
     /// A sentence for each kind of loss.
     #[must_use]
     pub fn sentences(&self) -> Vec<String> {
@@ -140,14 +152,11 @@ impl Lost {
     }
 }
 
-/// Reads a log row by row.
+/// Reads a log of CSV row by row.
 pub struct TelemetryReader<'a, R> {
     table: Table<'a, R>,
-    header: Header,
     row: StringRecord,
-    last_time: Option<f64>,
-    rows: u64,
-    lost: Lost,
+    rows: TelemetryRows,
 }
 
 impl<'a, R: Read> TelemetryReader<'a, R> {
@@ -159,12 +168,16 @@ impl<'a, R: Read> TelemetryReader<'a, R> {
     /// # Errors
     /// [`MeasurementError`] for a source without a header, without the time, with a column twice, or with the column
     /// of a wheel that the rover does not have.
-    pub fn new(label: &'a str, source: R, rover: &Rover) -> Result<Self, MeasurementError> {
-        let mut table = Table::new(label, source, b',', Limits { rows: usize::MAX });
+    pub fn new(
+        label: impl Into<Cow<'a, str>>,
+        source: R,
+        rover: &Rover,
+    ) -> Result<Self, MeasurementError> {
+        let label = label.into();
+        let mut table = Table::new(label.clone(), source, b',', Limits { rows: usize::MAX });
         let names: Vec<String> = table.header()?.iter().map(name_of).collect();
-        let header = Header::new(label, names, rover)?;
-        let (row, lost) = (StringRecord::new(), Lost::default());
-        Ok(Self { table, header, row, last_time: None, rows: 0, lost })
+        let rows = TelemetryRows::new(&label, names, rover)?;
+        Ok(Self { table, row: StringRecord::new(), rows })
     }
 
     /// The next record, if there is one.
@@ -177,149 +190,67 @@ impl<'a, R: Read> TelemetryReader<'a, R> {
                 Ok(true) => {}
                 Ok(false) => return Ok(None),
                 Err(error) if matches!(error.problem(), Problem::NotCsv(_)) => {
-                    self.lost.damaged_rows += 1;
+                    self.rows.damaged_row();
                     continue;
                 }
                 Err(error) => return Err(error),
             }
-            self.rows += 1;
-            let record = self.header.record(&self.row, &mut self.lost);
-            let Some(record) = record else {
-                self.lost.rows_without_time += 1;
-                continue;
-            };
-            if self.last_time.is_some_and(|last| record.time <= last) {
-                self.lost.rows_out_of_order += 1;
-                continue;
+            if let Some(record) = self.rows.record(self.row.iter().map(Cell::of_text)) {
+                return Ok(Some(record));
             }
-            self.last_time = Some(record.time);
-            return Ok(Some(record));
         }
     }
 
-    /// How many rows were read so far.
+    /// The rows that were read so far, with what was lost of them.
     #[must_use]
-    pub fn rows(&self) -> u64 {
-        self.rows
-    }
-
-    /// What was lost so far.
-    #[must_use]
-    pub fn lost(&self) -> &Lost {
-        &self.lost
-    }
-
-    /// Columns of the header that are not known, and left aside.
-    #[must_use]
-    pub fn unused(&self) -> &[String] {
-        &self.header.unused
+    pub fn rows(&self) -> &TelemetryRows {
+        &self.rows
     }
 }
 
-/// The header of a table with all columns, and its line end.
+/// The names of all columns of a rover's telemetry.
 #[must_use]
-pub fn csv_header(rover: &Rover) -> String {
+pub fn column_names(rover: &Rover) -> Vec<String> {
     let (of_wheels, of_rover): (Vec<_>, Vec<_>) = COLUMNS.iter().partition(|it| it.is_of_wheel);
     let of_rover = of_rover.into_iter().map(|it| it.name.to_owned());
     let each = of_wheels.into_iter().flat_map(|column| {
         rover.mounts().iter().map(|mount| format!("{}_{}", column.name, mount.name))
     });
-    of_rover.chain(each).collect::<Vec<String>>().join(",") + "\n"
+    of_rover.chain(each).collect()
+}
+
+/// What a record has in these columns, each in its unit; gaps are `None`.
+pub fn numbers(record: &TelemetryRecord) -> impl Iterator<Item = Option<f64>> {
+    let of_rover =
+        COLUMNS.iter().filter(|it| !it.is_of_wheel).map(|it| (it, record.of_rover(it.name)));
+    let each = COLUMNS
+        .iter()
+        .filter(|it| it.is_of_wheel)
+        .flat_map(|column| record.wheels.iter().map(move |wheel| (column, wheel.of(column.name))));
+    of_rover.chain(each).map(|(column, value)| value.map(|it| column.unit.from_si(it)))
+}
+
+/// The header of a table with all columns, and its line end.
+#[must_use]
+pub fn csv_header(rover: &Rover) -> String {
+    column_names(rover).join(",") + "\n"
 }
 
 /// A record as a line below that header; gaps are empty.
 #[must_use]
 pub fn csv_line(record: &TelemetryRecord) -> String {
-    let cell = |(column, value): (&LogColumn, Option<f64>)| {
-        value.map_or_else(String::new, |it| column.unit.from_si(it).to_string())
-    };
-    let (of_wheels, of_rover): (Vec<_>, Vec<_>) = COLUMNS.iter().partition(|it| it.is_of_wheel);
-    let of_rover = of_rover.into_iter().map(|it| (it, record.of_rover(it.name)));
-    let each = of_wheels
-        .into_iter()
-        .flat_map(|column| record.wheels.iter().map(move |wheel| (column, wheel.of(column.name))));
-    of_rover.chain(each).map(cell).collect::<Vec<String>>().join(",") + "\n"
-}
-
-/// The header, understood.
-struct Header {
-    /// Of each cell: its name, column and wheel.
-    cells: Vec<Option<(String, &'static LogColumn, Option<usize>)>>,
-    unused: Vec<String>,
-    wheels: usize,
-}
-
-impl Header {
-    fn new(label: &str, names: Vec<String>, rover: &Rover) -> Result<Self, MeasurementError> {
-        let failed = |problem| MeasurementError::at(label, 1, problem);
-        if names.iter().all(String::is_empty) {
-            return Err(MeasurementError::whole(label, Problem::NoHeader));
+    let mut line = String::with_capacity(512);
+    for (place, number) in numbers(record).enumerate() {
+        if place > 0 {
+            line.push(',');
         }
-        let wheels: Vec<&str> = rover.mounts().iter().map(|mount| mount.name.as_str()).collect();
-        let mut cells: Vec<Option<(String, &'static LogColumn, Option<usize>)>> = Vec::new();
-        let mut unused = Vec::new();
-        for name in names {
-            let known = known(&name, &wheels).map_err(|wheel| {
-                let all = wheels.iter().map(|it| (*it).to_owned()).collect();
-                let hint = nearest(&wheel, wheels.iter().copied());
-                failed(Problem::UnknownWheel { name: wheel, wheels: all })
-                    .with_hint(hint.map(|meant| format!("did you mean `{meant}`?")))
-            })?;
-            let rival = cells.iter().flatten().find(|(_, column, wheel)| {
-                known.is_some_and(|known| known == (column.name, *wheel))
-            });
-            if let Some((rival, ..)) = rival {
-                return Err(failed(if *rival == name {
-                    Problem::RepeatedColumn(name)
-                } else {
-                    Problem::CompetingColumns(rival.clone(), name)
-                }));
-            }
-            let column = known.and_then(|(column, wheel)| {
-                Some((COLUMNS.iter().find(|it| it.name == column)?, wheel))
-            });
-            if column.is_none() && !name.is_empty() {
-                unused.push(name.clone());
-            }
-            cells.push(column.map(|(column, wheel)| (name, column, wheel)));
+        if let Some(number) = number {
+            // Writing to memory does not fail.
+            let _ = write!(line, "{number}");
         }
-        let has_time = cells.iter().flatten().any(|(_, column, _)| column.name == TIME.name);
-        if !has_time {
-            let near = unused.iter().find(|name| nearest(name, [TIME.name]).is_some());
-            let hint = near.map(|name| format!("is `{name}` meant as `{}`?", TIME.name));
-            let expected = format!("`{}`", TIME.name);
-            return Err(
-                failed(Problem::MissingColumn { what: "the time", expected }).with_hint(hint)
-            );
-        }
-        Ok(Self { cells, unused, wheels: wheels.len() })
     }
-
-    /// A row in SI; nothing without a time.
-    fn record(&self, row: &StringRecord, lost: &mut Lost) -> Option<TelemetryRecord> {
-        let mut record = TelemetryRecord {
-            time: f64::NAN,
-            wheels: vec![WheelTelemetry::default(); self.wheels],
-            ..TelemetryRecord::default()
-        };
-        for (cell, text) in self.cells.iter().zip(row.iter()) {
-            let Some((name, column, wheel)) = cell else { continue };
-            let text = escape::plain(text);
-            if text.is_empty() {
-                continue;
-            }
-            let number = text.parse::<f64>().ok().filter(|it| column.range.contains(it));
-            let Some(number) = number else {
-                // NaN stands for a gap in many logs.
-                if !text.eq_ignore_ascii_case("nan") {
-                    *lost.cells.entry(name.clone()).or_default() += 1;
-                }
-                continue;
-            };
-            record.put(column.name, *wheel, column.unit.to_si(number));
-        }
-        (!record.time.is_nan()).then_some(record)
-    }
+    line.push('\n');
+    line
 }
 
 /// What [`COLUMNS`] are of a record, but for the time.
@@ -346,19 +277,6 @@ const OF_WHEEL: [OfWheel; 5] = [
 ];
 
 impl TelemetryRecord {
-    fn put(&mut self, column: &str, wheel: Option<usize>, value: f64) {
-        if let Some(wheel) = wheel {
-            let place = OF_WHEEL.iter().find(|(quantity, _)| quantity.name == column);
-            if let Some((_, place)) = place {
-                *place(&mut self.wheels[wheel]) = Some(value);
-            }
-        } else if column == TIME.name {
-            self.time = value;
-        } else if let Some((_, place)) = OF_ROVER.iter().find(|(it, _)| it.name == column) {
-            *place(self) = Some(value);
-        }
-    }
-
     fn of_rover(&self, column: &str) -> Option<f64> {
         if column == TIME.name {
             return Some(self.time);
@@ -373,33 +291,6 @@ impl WheelTelemetry {
         let (_, place) = OF_WHEEL.iter().find(|(it, _)| it.name == column)?;
         *place(&mut self.clone())
     }
-}
-
-/// The column and the wheel of a name; nothing for one that is not known.
-///
-/// # Errors
-/// The wheel's name, where the column is a wheel's and the rover has no such wheel.
-fn known(name: &str, wheels: &[&str]) -> Result<Option<(&'static str, Option<usize>)>, String> {
-    let of_rover = COLUMNS.iter().find(|column| !column.is_of_wheel && column.name == name);
-    if let Some(column) = of_rover {
-        return Ok(Some((column.name, None)));
-    }
-    let of_wheels = COLUMNS.iter().filter(|column| column.is_of_wheel).map(|it| (it.name, it.name));
-    let others = OTHER_NAMES.iter().map(|(other, own)| (other.name, own.name));
-    for (written, own) in of_wheels.chain(others) {
-        let before = name.strip_suffix(written).and_then(|rest| rest.strip_suffix('.'));
-        let after = name.strip_prefix(written).and_then(|rest| rest.strip_prefix('_'));
-        let Some(wheel) = before.or(after).filter(|wheel| !wheel.is_empty()) else { continue };
-        let place = wheels.iter().position(|known| is_same(known, wheel));
-        return place.map(|place| Some((own, Some(place)))).ok_or_else(|| wheel.to_owned());
-    }
-    Ok(None)
-}
-
-/// Whether two names of a wheel are one: capitals, and what parts words, do not count.
-fn is_same(one: &str, other: &str) -> bool {
-    let plain = |name: &str| name.to_ascii_lowercase().replace(['-', ' ', '.'], "_");
-    plain(one) == plain(other)
 }
 
 #[cfg(test)]
@@ -417,7 +308,7 @@ mod tests {
         while let Some(record) = reader.next_record()? {
             records.push(record);
         }
-        Ok((records, reader.lost().clone()))
+        Ok((records, reader.rows().lost().clone()))
     }
 
     #[test]
@@ -450,7 +341,7 @@ mod tests {
         let text =
             "time_s,wheel_speed_rad_s_Front_Left,rear-right.torque_nm,colour\n1,0.5,0.25,red\n";
         let mut reader = TelemetryReader::new("log.csv", text.as_bytes(), &rover()).unwrap();
-        assert_eq!(reader.unused(), ["colour"]);
+        assert_eq!(reader.rows().unused(), ["colour"]);
         let record = reader.next_record().unwrap().unwrap();
         let names: Vec<_> = rover().mounts().iter().map(|it| it.name.clone()).collect();
         let place = |name: &str| names.iter().position(|it| it == name).unwrap();

@@ -62,6 +62,7 @@ from ._models import MODELS, ByModel
 from ._runs import Run, RunBatch
 from ._slip_from_current import SlipEstimator
 from ._studies import Trajectory, TraverseBand, simulate
+from ._telemetry import ImportedTelemetry, import_telemetry
 from ._terrain import Terrain
 from ._validation import (
     Ranking,
@@ -106,6 +107,7 @@ __all__ = [
     "HeadingMap",
     "HeadingMapBand",
     "Headings",
+    "ImportedTelemetry",
     "ImportedWheelTests",
     "Legs",
     "Mission",
@@ -142,6 +144,7 @@ __all__ = [
     "forecast",
     "heading",
     "heading_map",
+    "import_telemetry",
     "import_wheel_tests",
     "map",
     "mission",

@@ -220,6 +220,22 @@ class SlipFromCurrent:
         self, of_wheels: Sequence[_Floats], of_records: Sequence[_Floats]
     ) -> dict[str, Any]: ...
 
+@final
+class TelemetryMessages:
+    def __new__(
+        cls,
+        label: str,
+        out: str | os.PathLike[str],
+        rover: Document,
+        mapping: str | os.PathLike[str] | None,
+        topics: Sequence[tuple[str, str]],
+        choices: Sequence[tuple[str, str]],
+    ) -> TelemetryMessages: ...
+    def wants(self, topic: str) -> bool: ...
+    def add(self, topic: str, time_ns: int, message: str) -> None: ...
+    def damaged(self) -> None: ...
+    def finish(self) -> tuple[int, list[str]]: ...
+
 _Stop = dict[str, Any]
 
 @final
@@ -291,6 +307,13 @@ def import_wheel_tests(
     skip_lines: int,
     slip_definition: str,
 ) -> tuple[str, list[str], list[str]]: ...
+def import_telemetry(
+    log: str | os.PathLike[str],
+    out: str | os.PathLike[str],
+    rover: Document,
+    mapping: str | os.PathLike[str] | None,
+    choices: Sequence[tuple[str, str]],
+) -> tuple[int, list[str]]: ...
 def meant_keys(kind: str, name: str) -> list[str]: ...
 def presets(kind: str) -> list[tuple[str, str, str]]: ...
 def to_toml(label: str, table: dict[str, Any]) -> str: ...

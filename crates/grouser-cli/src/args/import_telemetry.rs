@@ -1,0 +1,36 @@
+//! Arguments of `import-telemetry`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use clap::builder::NonEmptyStringValueParser;
+
+use super::TelemetryArgs;
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "MCAP logs are read by a mapping: which topics and fields are which columns, with units, signs and \
+                  axes. Those of Grouser, ROS and Foxglove are built in. Bags of ROS, and MCAP logs with its messages \
+                  in CDR, are converted by the Python package: python -m grouser import-telemetry BAG.\n\
+                  Example:\n  grouser import-telemetry drive.mcap --rover hakuto --mapping ours.toml --out drive.csv\n\
+                  docs/guide/telemetry.md has the reference of mappings."
+)]
+pub(crate) struct ImportTelemetryArgs {
+    /// The log: MCAP, Parquet or CSV.
+    #[arg(value_name = "LOG", required_unless_present = "print_mapping")]
+    pub(crate) log: Option<PathBuf>,
+    /// The rover that was driven: a preset or a file. Without it the rover of the default scenario.
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) rover: Option<String>,
+    #[command(flatten)]
+    pub(crate) telemetry: TelemetryArgs,
+    /// Print a built-in mapping, to start from: `grouser`, `ros` or `foxglove`.
+    #[arg(long, value_name = "NAME", conflicts_with = "log")]
+    pub(crate) print_mapping: Option<String>,
+    /// The file to write, Parquet if its name ends with `.parquet`, or else CSV; without it CSV is printed.
+    #[arg(long, value_name = "FILE", value_hint = clap::ValueHint::FilePath)]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace the file if it is there.
+    #[arg(long, requires = "out")]
+    pub(crate) force: bool,
+}

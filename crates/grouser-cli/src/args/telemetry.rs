@@ -1,0 +1,23 @@
+//! Arguments of commands that read telemetry.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+/// How a log of messages is read.
+#[derive(Debug, Args)]
+pub(crate) struct TelemetryArgs {
+    /// Of a log of messages (MCAP): which of its topics and fields are which columns, a file or one of `grouser`,
+    /// `ros`, `foxglove`; without it the one of these that fits.
+    #[arg(long, value_name = "FILE|NAME")]
+    pub(crate) mapping: Option<PathBuf>,
+    /// Of such a log: the topic that is meant where several have messages of a type; can be repeated.
+    #[arg(long = "topic", value_name = "TYPE=TOPIC", value_parser = choice)]
+    pub(crate) topics: Vec<(String, String)>,
+}
+
+fn choice(text: &str) -> Result<(String, String), String> {
+    let (what, topic) =
+        text.split_once('=').ok_or_else(|| format!("'{text}' is not of the form TYPE=TOPIC"))?;
+    Ok((what.trim().to_owned(), topic.trim().to_owned()))
+}

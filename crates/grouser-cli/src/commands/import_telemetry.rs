@@ -1,0 +1,93 @@
+//! `grouser import-telemetry`: a log of any kind as a table of telemetry.
+
+mod dialogue;
+
+use std::io::{BufReader, IsTerminal as _, Write, stderr, stdin};
+use std::path::Path;
+
+use grouser::document::escape;
+use grouser::vehicle::Rover;
+use grouser_telemetry::{Mapping, Problem, TelemetryLog, TelemetryWriter, TopicChoices};
+
+use crate::args::ImportTelemetryArgs;
+use crate::failure::Failure;
+use crate::inputs;
+use crate::output::{self, activity, file};
+
+pub(crate) fn run(args: &ImportTelemetryArgs) -> Result<(), Failure> {
+    if let Some(name) = &args.print_mapping {
+        return print_mapping(name);
+    }
+    let Some(path) = &args.log else { return Ok(()) };
+    if let Some(out) = &args.out {
+        file::check_new(out, args.force)?;
+    }
+    let rover = inputs::driven_rover(args.rover.as_deref())?;
+    let log = opened(args, path, &rover)?;
+    match &args.out {
+        Some(out) => file::write_by(out, |writer| {
+            let failed = |error| Failure::at("cannot write", out)(error);
+            convert(log, (out, writer), &rover, failed)
+        }),
+        None => output::print_by(|writer| {
+            convert(log, (Path::new("-"), writer), &rover, output::failed_to_print)
+        }),
+    }
+}
+
+fn print_mapping(name: &str) -> Result<(), Failure> {
+    let text = Mapping::built_in_text(name).ok_or_else(|| {
+        let (name, names) = (escape::line(name), Mapping::built_in_names().join(", "));
+        Failure::Usage(format!(
+            "--print-mapping {name}: there is no such mapping\nhint: it is one of {names}"
+        ))
+    })?;
+    output::print(text)
+}
+
+/// The log, after questions on what is ambiguous in it, where somebody can answer.
+fn opened(args: &ImportTelemetryArgs, path: &Path, rover: &Rover) -> Result<TelemetryLog, Failure> {
+    if !stdin().is_terminal() {
+        return inputs::telemetry(path, &args.telemetry, rover);
+    }
+    let mapping = inputs::mapping(&args.telemetry)?;
+    let mut choices: TopicChoices = args.telemetry.topics.iter().cloned().collect();
+    loop {
+        let error = match TelemetryLog::open(path, rover, mapping.as_ref(), &choices) {
+            Ok(log) => return Ok(log),
+            Err(error) => error,
+        };
+        let (what, topics) = match error.problem() {
+            // What was chosen already and is asked again is none of the topics.
+            Problem::Ambiguous { what, topics } if !choices.contains_key(what) => (what, topics),
+            _ => return Err(error.into()),
+        };
+        activity::end();
+        let topic = dialogue::ask(what, topics, &mut BufReader::new(stdin()), &mut stderr())?;
+        choices.insert(what.clone(), topic);
+    }
+}
+
+/// Writes all records, and says what was noticed.
+fn convert(
+    mut log: TelemetryLog,
+    (name, out): (&Path, &mut dyn Write),
+    rover: &Rover,
+    failed: impl Fn(std::io::Error) -> Failure,
+) -> Result<(), Failure> {
+    let mut writer = TelemetryWriter::begin(name, out, rover).map_err(&failed)?;
+    let mut records: u64 = 0;
+    while let Some(record) = log.next_record()? {
+        writer.write(&record).map_err(&failed)?;
+        records += 1;
+    }
+    if records == 0 {
+        return Err(Failure::Usage(format!("{}: has no rows of telemetry", log.label())));
+    }
+    writer.finish().map_err(&failed)?;
+    for note in log.notes() {
+        output::message(&format!("note: {}", escape::line(&note)));
+    }
+    output::message(&format!("{records} records of telemetry"));
+    Ok(())
+}

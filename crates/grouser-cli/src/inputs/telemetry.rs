@@ -1,0 +1,60 @@
+//! Telemetry of a drive, from a file of any kind or from standard input.
+
+use std::io;
+use std::path::Path;
+
+use grouser::document::{self, Kind, Overrides, Source};
+use grouser::vehicle::Rover;
+use grouser_telemetry::{Mapping, TelemetryError, TelemetryLog};
+
+use super::flag_source;
+use crate::args::TelemetryArgs;
+use crate::failure::Failure;
+
+/// The name of standard input among files.
+const STANDARD_INPUT: &str = "-";
+
+impl From<TelemetryError> for Failure {
+    fn from(error: TelemetryError) -> Self {
+        if error.is_environment() {
+            Self::Run(error.to_string())
+        } else {
+            Self::Usage(error.to_string())
+        }
+    }
+}
+
+/// A log, opened: its records and notes come from the same value.
+///
+/// * `path`: a file, or `-` for CSV from standard input
+/// * `rover`: the rover that was driven
+pub(crate) fn telemetry(
+    path: &Path,
+    args: &TelemetryArgs,
+    rover: &Rover,
+) -> Result<TelemetryLog, Failure> {
+    if path == Path::new(STANDARD_INPUT) {
+        let source = Box::new(io::stdin().lock());
+        return Ok(TelemetryLog::of_csv("standard input", source, rover)?);
+    }
+    let mapping = mapping(args)?;
+    let choices = args.topics.iter().cloned().collect();
+    Ok(TelemetryLog::open(path, rover, mapping.as_ref(), &choices)?)
+}
+
+/// The mapping that is named.
+pub(crate) fn mapping(args: &TelemetryArgs) -> Result<Option<Mapping>, Failure> {
+    Ok(args.mapping.as_deref().map(Mapping::find).transpose()?)
+}
+
+/// The rover that was driven.
+///
+/// * `name`: a preset or a file; without it that of the default scenario
+pub(crate) fn driven_rover(name: Option<&str>) -> Result<Rover, Failure> {
+    let Some(name) = name else {
+        let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?;
+        return Ok(scenario.value.rover);
+    };
+    let source = flag_source("--rover", Kind::Rover, name)?;
+    Ok(document::read_rover(&source, &Overrides::none())?.value)
+}

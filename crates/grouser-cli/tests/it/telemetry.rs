@@ -1,0 +1,70 @@
+//! Telemetry of logs of any kind: the same drive teaches the same, whatever it is written as.
+
+use crate::program::{Place, number};
+
+const RUN: &str = "traverse --rover hakuto --soil toyoura --set soil.shear.lateral_m=0.022 --slope-deg 8 \
+                   --set soil.shear.longitudinal_m=0.05 --set scenario.start.yaw_deg=4 --simulation quasi-steady \
+                   --duration-s 30";
+const LEARN: &str =
+    "--prior toyoura-uncertain --rover hakuto --model ishigami --predict-slope-deg 10 --samples 20";
+
+/// What `learn` predicts after a log.
+fn yaw_after(place: &Place, log: &str) -> f64 {
+    let answer = place.json(&format!("learn {log} {LEARN}"));
+    number(&answer["predictions"][0]["yaw_deg"])
+}
+
+/// What an import that ends well prints; its notes go to the standard error.
+fn imported(place: &Place, line: &str) -> String {
+    let answer = place.line(&format!("import-telemetry {line}"));
+    assert_eq!(answer.code(), 0, "{line}: {}", answer.stderr);
+    assert!(answer.stderr.contains("records of telemetry"), "{line}: {}", answer.stderr);
+    answer.stdout
+}
+
+#[test]
+fn a_drive_teaches_the_same_from_mcap_csv_and_parquet() {
+    let place = Place::new();
+    place.results(&format!("{RUN} --mcap drive.mcap"));
+    for out in ["drive.csv", "drive.parquet"] {
+        imported(&place, &format!("drive.mcap --rover hakuto --out {out}"));
+    }
+    let expected = yaw_after(&place, "drive.mcap");
+    // All but the last digits, which degrees and radians change.
+    for log in ["drive.csv", "drive.parquet"] {
+        let found = yaw_after(&place, log);
+        assert!((found - expected).abs() < 1e-6, "{log}: {found} for {expected}");
+    }
+    // What is printed is what the file has, and Parquet is a table again.
+    let printed = imported(&place, "drive.parquet --rover hakuto");
+    let rows = |text: &str| text.lines().count();
+    assert_eq!(rows(&printed), rows(&place.read("drive.csv")));
+}
+
+#[test]
+fn what_cannot_be_imported_says_what_to_do() {
+    let place = Place::new();
+    place.write("bag.db3", b"SQLite format 3\0");
+    place.write("drive.csv", "time_s,roll_deg\n1,2\n");
+    place.write("empty.csv", "time_s,roll_deg\n");
+    place.write("wrong.toml", "schema = \"telemetry-mapping/1\"\nname = \"x\"\nreading = []\n");
+    for (line, part) in [
+        ("import-telemetry bag.db3", "python -m grouser import-telemetry"),
+        ("import-telemetry nowhere.mcap", "there is no such file"),
+        ("import-telemetry drive.csv --mapping ros", "which has columns and no topics"),
+        ("import-telemetry drive.csv --mapping wrong.toml", "has no [[reading]]"),
+        ("import-telemetry drive.csv --mapping nowhere.toml", "grouser, ros, foxglove"),
+        ("import-telemetry drive.csv --topic imu", "is not of the form TYPE=TOPIC"),
+        ("import-telemetry empty.csv", "has no rows of telemetry"),
+        ("import-telemetry --print-mapping none", "it is one of grouser, ros, foxglove"),
+        ("learn bag.db3 --prior toyoura-uncertain", "python -m grouser import-telemetry"),
+    ] {
+        let answer = place.line(line);
+        assert_eq!(answer.code(), 2, "{line}: {}", answer.stderr);
+        assert!(answer.stderr.contains(part), "{line}: {}", answer.stderr);
+    }
+    let mapping = place.results("import-telemetry --print-mapping ros");
+    place.write("ours.toml", mapping);
+    let answer = place.line("import-telemetry drive.csv --mapping ours.toml");
+    assert!(answer.stderr.contains("which has columns and no topics"), "{}", answer.stderr);
+}

@@ -1,0 +1,74 @@
+//! Units in which others write their numbers.
+
+/// What a unit measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dimension {
+    /// A way, a sinkage.
+    Length,
+    /// A force.
+    Force,
+    /// A torque.
+    Moment,
+    /// An angle.
+    Angle,
+    /// A speed.
+    Speed,
+    /// An angular speed.
+    AngularSpeed,
+    /// A current.
+    Current,
+    /// A ratio.
+    Share,
+    /// A label, or a column that is taken as it is.
+    Text,
+}
+
+/// Units by name, with what they measure and their size in SI.
+const UNITS: [(&str, Dimension, f64); 32] = [
+    ("m", Dimension::Length, 1.0),
+    ("cm", Dimension::Length, 1e-2),
+    ("mm", Dimension::Length, 1e-3),
+    ("um", Dimension::Length, 1e-6),
+    ("in", Dimension::Length, 0.0254),
+    ("N", Dimension::Force, 1.0),
+    ("kN", Dimension::Force, 1e3),
+    ("mN", Dimension::Force, 1e-3),
+    ("kgf", Dimension::Force, 9.806_65),
+    ("gf", Dimension::Force, 9.806_65e-3),
+    ("lbf", Dimension::Force, 4.448_221_615_260_5),
+    ("Nm", Dimension::Moment, 1.0),
+    ("N.m", Dimension::Moment, 1.0),
+    ("mNm", Dimension::Moment, 1e-3),
+    ("Nmm", Dimension::Moment, 1e-3),
+    ("kNm", Dimension::Moment, 1e3),
+    ("deg", Dimension::Angle, DEGREE),
+    ("rad", Dimension::Angle, 1.0),
+    ("mrad", Dimension::Angle, 1e-3),
+    ("m/s", Dimension::Speed, 1.0),
+    ("cm/s", Dimension::Speed, 1e-2),
+    ("mm/s", Dimension::Speed, 1e-3),
+    ("km/h", Dimension::Speed, 1.0 / 3.6),
+    ("m/min", Dimension::Speed, 1.0 / 60.0),
+    ("rad/s", Dimension::AngularSpeed, 1.0),
+    ("deg/s", Dimension::AngularSpeed, DEGREE),
+    ("rpm", Dimension::AngularSpeed, std::f64::consts::PI / 30.0),
+    ("A", Dimension::Current, 1.0),
+    ("mA", Dimension::Current, 1e-3),
+    ("%", Dimension::Share, 1e-2),
+    ("percent", Dimension::Share, 1e-2),
+    ("1", Dimension::Share, 1.0),
+];
+
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
+
+impl Dimension {
+    /// The size of a unit in SI.
+    ///
+    /// # Errors
+    /// The names of the units that measure this, where the name is none of them.
+    pub fn size_of(self, unit: &str) -> Result<f64, Vec<&'static str>> {
+        let fitting = UNITS.iter().filter(|(_, of, _)| *of == self);
+        let found = fitting.clone().find(|(name, ..)| *name == unit);
+        found.map(|(_, _, size)| *size).ok_or_else(|| fitting.map(|(name, ..)| *name).collect())
+    }
+}

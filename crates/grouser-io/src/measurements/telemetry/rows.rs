@@ -1,0 +1,263 @@
+//! Rows of telemetry from a source of any kind: names of columns become a header, cells become records in SI, and
+//! what is damaged is counted.
+
+use grouser_core::vehicle::Rover;
+
+use super::super::super::check::nearest;
+use super::super::super::columns::TIME;
+use super::super::super::escape;
+use super::super::error::{MeasurementError, MeasurementProblem as Problem};
+use super::super::motor_log::LogColumn;
+use super::{COLUMNS, Lost, OF_ROVER, OF_WHEEL, OTHER_NAMES, TelemetryRecord, WheelTelemetry};
+
+/// A cell of a row, whatever its source.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cell {
+    /// Nothing was read.
+    Gap,
+    /// A number in the unit of its column.
+    Number(f64),
+    /// Something that is no number.
+    Damaged,
+}
+
+impl Cell {
+    /// A cell of a table of texts; NaN stands for a gap in many logs.
+    #[must_use]
+    pub fn of_text(text: &str) -> Self {
+        let text = escape::plain(text);
+        if text.is_empty() {
+            return Self::Gap;
+        }
+        text.parse().map_or(Self::Damaged, Self::of_number)
+    }
+
+    /// A cell of a table of numbers, where NaN is a gap.
+    #[must_use]
+    pub fn of_number(number: f64) -> Self {
+        if number.is_nan() { Self::Gap } else { Self::Number(number) }
+    }
+}
+
+/// Rows with named columns, which become records in the order in which they come.
+#[derive(Clone, Debug)]
+pub struct TelemetryRows {
+    header: Header,
+    last_time: Option<f64>,
+    rows: u64,
+    lost: Lost,
+}
+
+impl TelemetryRows {
+    /// Understands the names of the columns.
+    ///
+    /// * `label`: what messages call the source
+    /// * `rover`: the rover that was driven, for the names of its wheels
+    ///
+    /// # Errors
+    /// [`MeasurementError`] for columns without the time, with a column twice, or with the column of a wheel that the
+    /// rover does not have.
+    pub fn new(label: &str, names: Vec<String>, rover: &Rover) -> Result<Self, MeasurementError> {
+        let header = Header::new(label, names, rover)?;
+        Ok(Self { header, last_time: None, rows: 0, lost: Lost::default() })
+    }
+
+    /// Whether the column at a place is known, and so is read.
+    #[must_use]
+    pub fn is_used(&self, place: usize) -> bool {
+        self.header.columns.get(place).is_some_and(Option::is_some)
+    }
+
+    /// Columns that are not known, and left aside.
+    #[must_use]
+    pub fn unused(&self) -> &[String] {
+        &self.header.unused
+    }
+
+    /// How many rows were read so far.
+    #[must_use]
+    pub fn rows(&self) -> u64 {
+        self.rows
+    }
+
+    /// What was lost so far.
+    #[must_use]
+    pub fn lost(&self) -> &Lost {
+        &self.lost
+    }
+
+    /// Counts a row that cannot be read.
+    pub fn damaged_row(&mut self) {
+        self.lost.damaged_rows += 1;
+    }
+
+    /// The record of a row; nothing if it has no time of its own, which is counted.
+    ///
+    /// * `cells`: in the order of the columns
+    pub fn record(&mut self, cells: impl Iterator<Item = Cell>) -> Option<TelemetryRecord> {
+        self.rows += 1;
+        let Some(record) = self.header.record(cells, &mut self.lost) else {
+            self.lost.rows_without_time += 1;
+            return None;
+        };
+        if self.last_time.is_some_and(|last| record.time <= last) {
+            self.lost.rows_out_of_order += 1;
+            return None;
+        }
+        self.last_time = Some(record.time);
+        Some(record)
+    }
+}
+
+/// Where a number goes in a record.
+#[derive(Clone, Copy, Debug)]
+enum Place {
+    Time,
+    Rover(fn(&mut TelemetryRecord) -> &mut Option<f64>),
+    Wheel(usize, fn(&mut WheelTelemetry) -> &mut Option<f64>),
+}
+
+impl Place {
+    /// * `wheel`: its place among the rover's, of a column of wheels
+    fn of(column: &LogColumn, wheel: Option<usize>) -> Option<Self> {
+        match wheel {
+            Some(wheel) => {
+                let (_, field) = OF_WHEEL.iter().find(|(it, _)| it.name == column.name)?;
+                Some(Self::Wheel(wheel, *field))
+            }
+            None if column.name == TIME.name => Some(Self::Time),
+            None => {
+                let (_, field) = OF_ROVER.iter().find(|(it, _)| it.name == column.name)?;
+                Some(Self::Rover(*field))
+            }
+        }
+    }
+}
+
+/// A column that is known.
+#[derive(Clone, Debug)]
+struct KnownColumn {
+    /// What the source calls it.
+    name: String,
+    column: &'static LogColumn,
+    wheel: Option<usize>,
+    place: Place,
+}
+
+/// The header, understood.
+#[derive(Clone, Debug)]
+struct Header {
+    columns: Vec<Option<KnownColumn>>,
+    unused: Vec<String>,
+    wheels: usize,
+}
+
+impl Header {
+    fn new(label: &str, names: Vec<String>, rover: &Rover) -> Result<Self, MeasurementError> {
+        if names.iter().all(String::is_empty) {
+            return Err(MeasurementError::whole(label, Problem::NoHeader));
+        }
+        let wheels: Vec<&str> = rover.mounts().iter().map(|mount| mount.name.as_str()).collect();
+        let mut header = Self { columns: Vec::new(), unused: Vec::new(), wheels: wheels.len() };
+        for name in names {
+            header.add(label, name, &wheels)?;
+        }
+        let mut known = header.columns.iter().flatten();
+        if known.any(|known| known.column.name == TIME.name) {
+            return Ok(header);
+        }
+        let near = header.unused.iter().find(|name| nearest(name, [TIME.name]).is_some());
+        let hint = near.map(|name| format!("is `{name}` meant as `{}`?", TIME.name));
+        let expected = format!("`{}`", TIME.name);
+        let problem = Problem::MissingColumn { what: "the time", expected };
+        Err(MeasurementError::at(label, 1, problem).with_hint(hint))
+    }
+
+    fn add(&mut self, label: &str, name: String, wheels: &[&str]) -> Result<(), MeasurementError> {
+        let failed = |problem| MeasurementError::at(label, 1, problem);
+        let known = known(&name, wheels).map_err(|wheel| {
+            let all = wheels.iter().map(|it| (*it).to_owned()).collect();
+            let hint = nearest(&wheel, wheels.iter().copied());
+            failed(Problem::UnknownWheel { name: wheel, wheels: all })
+                .with_hint(hint.map(|meant| format!("did you mean `{meant}`?")))
+        })?;
+        let mut others = self.columns.iter().flatten();
+        let rival = others.find(|other| known == Some((other.column.name, other.wheel)));
+        if let Some(rival) = rival {
+            return Err(failed(if rival.name == name {
+                Problem::RepeatedColumn(name)
+            } else {
+                Problem::CompetingColumns(rival.name.clone(), name)
+            }));
+        }
+        let found = known.and_then(|(column, wheel)| {
+            let column = COLUMNS.iter().find(|it| it.name == column)?;
+            let place = Place::of(column, wheel)?;
+            Some(KnownColumn { name: name.clone(), column, wheel, place })
+        });
+        if found.is_none() && !name.is_empty() {
+            self.unused.push(name);
+        }
+        self.columns.push(found);
+        Ok(())
+    }
+
+    /// A row in SI; nothing without a time.
+    fn record(
+        &self,
+        cells: impl Iterator<Item = Cell>,
+        lost: &mut Lost,
+    ) -> Option<TelemetryRecord> {
+        let mut time = None;
+        let mut record = TelemetryRecord {
+            wheels: vec![WheelTelemetry::default(); self.wheels],
+            ..TelemetryRecord::default()
+        };
+        for (known, cell) in self.columns.iter().zip(cells) {
+            let (Some(known), false) = (known, cell == Cell::Gap) else { continue };
+            let number = match cell {
+                Cell::Number(number) if known.column.range.contains(&number) => number,
+                _ => {
+                    lost.cell(&known.name);
+                    continue;
+                }
+            };
+            let value = Some(known.column.unit.to_si(number));
+            match known.place {
+                Place::Time => time = value,
+                Place::Rover(field) => *field(&mut record) = value,
+                Place::Wheel(wheel, field) => *field(&mut record.wheels[wheel]) = value,
+            }
+        }
+        record.time = time?;
+        Some(record)
+    }
+}
+
+/// The column and the wheel of a name; nothing for one that is not known.
+///
+/// # Errors
+/// The wheel's name, where the column is a wheel's and the rover has no such wheel.
+fn known(name: &str, wheels: &[&str]) -> Result<Option<(&'static str, Option<usize>)>, String> {
+    let of_rover = COLUMNS.iter().find(|column| !column.is_of_wheel && column.name == name);
+    if let Some(column) = of_rover {
+        return Ok(Some((column.name, None)));
+    }
+    let of_wheels = COLUMNS.iter().filter(|column| column.is_of_wheel).map(|it| (it.name, it.name));
+    let others = OTHER_NAMES.iter().map(|(other, own)| (other.name, own.name));
+    for (written, own) in of_wheels.chain(others) {
+        let before = name.strip_suffix(written).and_then(|rest| rest.strip_suffix('.'));
+        let after = name.strip_prefix(written).and_then(|rest| rest.strip_prefix('_'));
+        let Some(wheel) = before.or(after).filter(|wheel| !wheel.is_empty()) else { continue };
+        let place = wheels.iter().position(|known| is_same_wheel(known, wheel));
+        return place.map(|place| Some((own, Some(place)))).ok_or_else(|| wheel.to_owned());
+    }
+    Ok(None)
+}
+
+/// Whether two names of a wheel are one: capitals, and what parts words, do not count.
+#[must_use]
+pub fn is_same_wheel(one: &str, other: &str) -> bool {
+    let plain = |name: &str| name.to_ascii_lowercase().replace(['-', ' ', '.'], "_");
+    plain(one) == plain(other)
+}

@@ -1,0 +1,175 @@
+//! Telemetry: logs that the library reads, and messages that Python decodes.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::PathBuf;
+
+use grouser::document::escape;
+use grouser::document::measurements::telemetry::TelemetryRecord;
+use grouser::vehicle::Rover;
+use grouser_telemetry::{
+    Mapping, MessageRows, TelemetryError, TelemetryLog, TelemetryWriter, Topic, TopicChoices,
+};
+use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::descriptions::Document;
+use crate::errors;
+use crate::interrupt::listening;
+
+/// Names of topics by the types of their messages.
+type Choices = Vec<(String, String)>;
+
+/// Converts a log that the library reads: how many records there are, and what was noticed.
+///
+/// * `out`: the file that is written, Parquet by its suffix, or else CSV
+/// * `mapping`: a file, or the name of a built-in one
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value, reason = "how paths and lists come from Python")]
+pub(crate) fn import_telemetry(
+    py: Python<'_>,
+    log: PathBuf,
+    out: PathBuf,
+    rover: &Document,
+    mapping: Option<PathBuf>,
+    choices: Choices,
+) -> PyResult<(u64, Vec<String>)> {
+    let rover = rover.scenario()?.value.rover.clone();
+    let convert = move || -> Result<(u64, Vec<String>), Failed> {
+        let mapping = mapping.as_deref().map(Mapping::find).transpose()?;
+        let choices: TopicChoices = choices.into_iter().collect();
+        let mut log = TelemetryLog::open(&log, &rover, mapping.as_ref(), &choices)?;
+        let mut table = Table::create(out, &rover)?;
+        while let Some(record) = log.next_record()? {
+            table.write(&record)?;
+        }
+        Ok((table.finish()?, log.notes()))
+    };
+    listening(py, move |_| convert())?.map_err(Failed::raised)
+}
+
+/// What converting failed at.
+enum Failed {
+    Log(TelemetryError),
+    Out(PathBuf, std::io::Error),
+}
+
+impl From<TelemetryError> for Failed {
+    fn from(error: TelemetryError) -> Self {
+        Self::Log(error)
+    }
+}
+
+impl Failed {
+    fn raised(self) -> PyErr {
+        match self {
+            Self::Log(error) => errors::of_telemetry(&error),
+            Self::Out(path, error) => {
+                PyOSError::new_err(format!("cannot write {}: {error}", escape::path(&path)))
+            }
+        }
+    }
+}
+
+/// A table on its way into a file.
+struct Table {
+    path: PathBuf,
+    writer: TelemetryWriter<BufWriter<File>>,
+    records: u64,
+}
+
+impl Table {
+    fn create(path: PathBuf, rover: &Rover) -> Result<Self, Failed> {
+        let begun = File::create(&path)
+            .and_then(|file| TelemetryWriter::begin(&path, BufWriter::new(file), rover));
+        match begun {
+            Ok(writer) => Ok(Self { path, writer, records: 0 }),
+            Err(error) => Err(Failed::Out(path, error)),
+        }
+    }
+
+    fn write(&mut self, record: &TelemetryRecord) -> Result<(), Failed> {
+        self.records += 1;
+        self.writer.write(record).map_err(|error| Failed::Out(self.path.clone(), error))
+    }
+
+    fn finish(self) -> Result<u64, Failed> {
+        let Self { path, writer, records } = self;
+        writer.finish().map(|_| records).map_err(|error| Failed::Out(path, error))
+    }
+}
+
+/// Messages that Python decodes, on their way into a table.
+#[pyclass(module = "grouser._core")]
+pub(crate) struct TelemetryMessages {
+    rows: MessageRows,
+    table: Option<Table>,
+}
+
+#[pymethods]
+impl TelemetryMessages {
+    /// * `label`: what messages call the log
+    /// * `topics`: names and types of messages of all topics
+    #[new]
+    #[allow(clippy::needless_pass_by_value, reason = "how paths and lists come from Python")]
+    fn new(
+        label: &str,
+        out: PathBuf,
+        rover: &Document,
+        mapping: Option<PathBuf>,
+        topics: Vec<(String, String)>,
+        choices: Choices,
+    ) -> PyResult<Self> {
+        let rover = &rover.scenario()?.value.rover;
+        let begin = || -> Result<Self, Failed> {
+            let mapping = mapping.as_deref().map(Mapping::find).transpose()?;
+            let topic = |(name, message)| Topic { name, message, encoding: None };
+            let topics: Vec<Topic> = topics.into_iter().map(topic).collect();
+            let choices = choices.into_iter().collect();
+            let rows = MessageRows::new(label, mapping.as_ref(), &topics, rover, &choices)?;
+            Ok(Self { rows, table: Some(Table::create(out, rover)?) })
+        };
+        begin().map_err(Failed::raised)
+    }
+
+    /// Whether messages of a topic are read.
+    fn wants(&self, topic: &str) -> bool {
+        self.rows.wants(topic)
+    }
+
+    /// Adds a message.
+    ///
+    /// * `time_ns`: when it was recorded
+    /// * `message`: its fields as JSON, where NaN is null
+    fn add(&mut self, topic: &str, time_ns: i64, message: &str) -> PyResult<()> {
+        let tree = serde_json::from_str(message)
+            .map_err(|error| PyValueError::new_err(format!("no JSON: {error}")))?;
+        self.rows.add(topic, time_ns, &tree);
+        self.drain()
+    }
+
+    /// Counts a message that could not be decoded.
+    fn damaged(&mut self) {
+        self.rows.damaged_message();
+    }
+
+    /// Writes the rest: how many records there are, and what was noticed.
+    fn finish(&mut self) -> PyResult<(u64, Vec<String>)> {
+        self.rows.end();
+        self.drain()?;
+        let records = match self.table.take() {
+            Some(table) => table.finish().map_err(Failed::raised)?,
+            None => 0,
+        };
+        let lost = self.rows.rows().lost().sentences();
+        Ok((records, self.rows.notes().into_iter().chain(lost).collect()))
+    }
+
+    fn drain(&mut self) -> PyResult<()> {
+        let Some(table) = &mut self.table else { return Ok(()) };
+        while let Some(record) = self.rows.next_record() {
+            table.write(&record).map_err(Failed::raised)?;
+        }
+        Ok(())
+    }
+}
