@@ -23,11 +23,11 @@ mod track;
 
 use std::collections::BTreeMap;
 
-pub use self::attribution::{Finding, Verdict};
 use self::attribution::Sums;
+pub use self::attribution::{Finding, Verdict};
 pub use self::channel::{Channel, ChannelSummary, ChannelValue, Prediction};
-pub use self::faults::{Cause, Parameter};
 use self::faults::Faults;
+pub use self::faults::{Cause, Parameter};
 use self::free_run::Commands;
 pub use self::free_run::{Ended, FreeRun};
 use self::prescribed::{Differences, Predicted, Situation};
@@ -139,9 +139,7 @@ impl NotPredicted {
 
 /// Why there is nothing to replay.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "the telemetry has no stretch to replay: wheel speeds over two records or more are needed"
-)]
+#[error("the telemetry has no stretch to replay: wheel speeds over two records or more are needed")]
 pub struct NothingToReplay;
 
 impl Replayer {
@@ -185,7 +183,8 @@ impl Replayer {
             return;
         };
         self.taken.outliers += stretch.outliers as u64;
-        let turned = stretch.yaw_rate.map_or(0.0, |it| it.value) * (stretch.time[1] - stretch.time[0]);
+        let turned =
+            stretch.yaw_rate.map_or(0.0, |it| it.value) * (stretch.time[1] - stretch.time[0]);
         // Roll and pitch tell the yaw in the middle of the stretch, and the mean of what was read is that, too.
         let middle = stretch.told_yaw.or(stretch.attitude.map(|it| it[1]));
         if self.taken.stretches == 0
@@ -242,9 +241,8 @@ impl Replayer {
         let channels = Channel::all(self.study.rover.wheel_count());
         let mut stretches = self.compared(&motions, &free_run);
         if !samples.is_empty() {
-            let sampled = outputs_of_samples(samples, go_on, |sample| {
-                self.sampled(sample, slope, &motions)
-            });
+            let sampled =
+                outputs_of_samples(samples, go_on, |sample| self.sampled(sample, slope, &motions));
             let Some(sampled) = sampled else { return Ok(None) };
             add_bands(&mut stretches, &channels, &sampled);
         }

@@ -80,19 +80,40 @@ fn explore() {
         match name {
             "slope" => misread(&mut records, |[slope, yaw]| [slope - deg(2.0), yaw]),
             "yaw" => misread(&mut records, |[slope, yaw]| [slope, yaw + deg(3.0)]),
-            "pitch" => records.iter_mut().for_each(|it| it.pitch = it.pitch.map(|it| it + deg(3.0))),
-            "encoder" => records.iter_mut().flat_map(|it| &mut it.wheels).for_each(|it| it.speed = it.speed.map(|it| it / 1.05)),
-            "torque" => records.iter_mut().flat_map(|it| &mut it.wheels).for_each(|it| it.torque = it.torque.map(|it| it * 1.25)),
+            "pitch" => {
+                records.iter_mut().for_each(|it| it.pitch = it.pitch.map(|it| it + deg(3.0)))
+            }
+            "encoder" => records
+                .iter_mut()
+                .flat_map(|it| &mut it.wheels)
+                .for_each(|it| it.speed = it.speed.map(|it| it / 1.05)),
+            "torque" => records
+                .iter_mut()
+                .flat_map(|it| &mut it.wheels)
+                .for_each(|it| it.torque = it.torque.map(|it| it * 1.25)),
             _ => {}
         }
         let time = std::time::Instant::now();
         let found = replay(records);
-        println!("== {name} {:?} {} of {} stretches, {:?}, {:?}", time.elapsed(), found.explained_stretches, found.stretches.len(), pointed(&found), found.free_run.ended);
+        println!(
+            "== {name} {:?} {} of {} stretches, {:?}, {:?}",
+            time.elapsed(),
+            found.explained_stretches,
+            found.stretches.len(),
+            pointed(&found),
+            found.free_run.ended
+        );
         for it in &found.findings {
-            println!("  {:?} {:.4} +- {:.4} share {:.3} lnB {:.1} {:?}", it.parameter, it.estimate, it.deviation, it.share, it.evidence, it.verdict);
+            println!(
+                "  {:?} {:.4} +- {:.4} share {:.3} lnB {:.1} {:?}",
+                it.parameter, it.estimate, it.deviation, it.share, it.evidence, it.verdict
+            );
         }
         for it in &found.channels {
-            println!("  {:?} n {} means {:.4?} bias {:.5} rms {:.5}", it.channel, it.count, it.means, it.bias, it.rms);
+            println!(
+                "  {:?} n {} means {:.4?} bias {:.5} rms {:.5}",
+                it.channel, it.count, it.means, it.bias, it.rms
+            );
         }
     }
 }

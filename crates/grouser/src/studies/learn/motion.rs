@@ -96,8 +96,7 @@ pub(in crate::studies) fn steady_attitude(stretch: &Stretch) -> Result<[f64; 2],
     if rims.iter().all(|it| it.abs() < STANDS) {
         return Err(NotUsed::Standing);
     }
-    let turns_both_ways =
-        rims.iter().any(|it| *it > STANDS) && rims.iter().any(|it| *it < -STANDS);
+    let turns_both_ways = rims.iter().any(|it| *it > STANDS) && rims.iter().any(|it| *it < -STANDS);
     if turns_both_ways || stretch.rim_scatter > STEADY {
         return Err(NotUsed::Manoeuvre);
     }

@@ -10,7 +10,7 @@ pub enum Channel {
     /// Velocity along the body [m/s].
     ForwardSpeed,
     /// Velocity to the body's left [m/s].
-    LeftwardSpeed,
+    LateralSpeed,
     /// Yaw rate [rad/s].
     YawRate,
     /// Mean slip ratio of the wheels [-].
@@ -56,14 +56,13 @@ impl Prediction {
 /// The channels of steady motion that are not a wheel's.
 const OF_MOTION: [Channel; 5] = [
     Channel::ForwardSpeed,
-    Channel::LeftwardSpeed,
+    Channel::LateralSpeed,
     Channel::YawRate,
     Channel::SlipRatio,
     Channel::Power,
 ];
 /// Those of a free run.
-const OF_POSE: [Channel; 5] =
-    [Channel::X, Channel::Y, Channel::Yaw, Channel::Roll, Channel::Pitch];
+const OF_POSE: [Channel; 5] = [Channel::X, Channel::Y, Channel::Yaw, Channel::Roll, Channel::Pitch];
 
 impl Channel {
     /// All channels of a rover, in the order in which [`ReplayedStretch::values`](super::ReplayedStretch) has them.
@@ -167,7 +166,8 @@ impl ChannelSummary {
         channel: Channel,
         values: impl Iterator<Item = &'v ChannelValue> + Clone,
     ) -> Option<Self> {
-        let both = values.clone().filter_map(|it| Some([it.measured?, it.predicted?, it.residual?]));
+        let both =
+            values.clone().filter_map(|it| Some([it.measured?, it.predicted?, it.residual?]));
         let count = both.clone().count();
         if count == 0 {
             return None;

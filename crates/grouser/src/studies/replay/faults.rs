@@ -219,8 +219,7 @@ impl Faults {
     /// ```
     pub(super) fn situation(&self, read: &Situation) -> Situation {
         let [roll, pitch] = roll_and_pitch(read.slope, read.yaw - self.get(Parameter::Yaw));
-        let [roll, pitch] =
-            [roll - self.get(Parameter::Roll), pitch - self.get(Parameter::Pitch)];
+        let [roll, pitch] = [roll - self.get(Parameter::Roll), pitch - self.get(Parameter::Pitch)];
         let [slope, yaw] = slope_and_yaw(roll, pitch);
         // On level ground the yaw is what it was.
         let yaw = if slope == 0.0 { read.yaw } else { yaw };

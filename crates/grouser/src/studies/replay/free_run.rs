@@ -1,9 +1,11 @@
 //! A run from the first pose, with the wheels turning and steered over time as they were measured, on a plane.
 
 use super::track::Pose;
-use crate::simulation::{Controller, Motion, Observation, Outcome, Run, RunError, Scatter, Scenario, Start};
-use crate::studies::learn::{GAP, Stretch};
+use crate::simulation::{
+    Controller, Motion, Observation, Outcome, Run, RunError, Scatter, Scenario, Start,
+};
 use crate::studies::ensemble::samples::Sample;
+use crate::studies::learn::{GAP, Stretch};
 use crate::vehicle::ByWheel;
 
 /// How the wheels turn until a time.
@@ -62,9 +64,10 @@ impl Commands {
         let [from, until] = stretch.time;
         let (rim_speeds, steering) = (stretch.rim_speeds.clone(), stretch.steering.clone());
         let command = Command { from, until, rim_speeds, steering };
-        let open = self.0.last_mut().filter(|piece| {
-            piece.commands.last().is_some_and(|last| from - last.until <= GAP)
-        });
+        let open = self
+            .0
+            .last_mut()
+            .filter(|piece| piece.commands.last().is_some_and(|last| from - last.until <= GAP));
         match open {
             // What the wheels did between two records is what they do next.
             Some(piece) => {
@@ -110,7 +113,8 @@ impl Piece {
         site.terrain.slope = slope;
         site.terrain.soil = sample.soil;
         let last = self.commands.last().map_or(self.start.time, |it| it.until);
-        let duration = (last - self.start.time).clamp(1.0, crate::simulation::scenario::LONGEST_DURATION);
+        let duration =
+            (last - self.start.time).clamp(1.0, crate::simulation::scenario::LONGEST_DURATION);
         let mut numerics = scenario.numerics;
         // Poses are read off the run itself.
         numerics.sample_interval = duration;
@@ -146,7 +150,8 @@ impl Piece {
             played.0 = command;
             run.advance(&mut played, until)?;
             if let Some(outcome) = run.outcome() {
-                found.ended = Some((self.start.time + run.state().time(), Ended::Outcome(outcome.clone())));
+                found.ended =
+                    Some((self.start.time + run.state().time(), Ended::Outcome(outcome.clone())));
                 break;
             }
             found.poses.push(pose(&run, command.until));

@@ -9,7 +9,7 @@ use crate::simulation::SteadyMotion;
 use crate::studies::ensemble::samples::Sample;
 use crate::studies::heading::HeadingStudy;
 use crate::studies::learn::{
-    ModelNoise, ODOMETRY, Reading, SHALLOWEST, Stretch, steady_attitude, steered, NotUsed,
+    ModelNoise, NotUsed, ODOMETRY, Reading, SHALLOWEST, Stretch, steady_attitude, steered,
 };
 use crate::units::Vec2;
 use crate::vehicle::kinematics::wheel_slips;
@@ -111,7 +111,7 @@ impl Predicted {
     pub(super) fn of_channel(&self, channel: Channel, speeds: &[f64]) -> Option<f64> {
         match channel {
             Channel::ForwardSpeed => Some(self.velocity.x),
-            Channel::LeftwardSpeed => Some(self.velocity.y),
+            Channel::LateralSpeed => Some(self.velocity.y),
             Channel::YawRate => Some(self.yaw_rate),
             Channel::SlipRatio => Some(self.slip_ratio),
             Channel::Power => Some(power(&self.torques, speeds)),
@@ -138,7 +138,7 @@ pub(super) fn measured(channel: Channel, stretch: &Stretch, rover: &Rover) -> Op
     let [forward, leftward] = stretch.velocity.map(value);
     match channel {
         Channel::ForwardSpeed => forward,
-        Channel::LeftwardSpeed => leftward,
+        Channel::LateralSpeed => leftward,
         Channel::YawRate => value(stretch.yaw_rate),
         Channel::SlipRatio => {
             let velocity = Vec2::new(forward?, leftward.unwrap_or(0.0));
@@ -235,13 +235,17 @@ impl<'s> Seen<'s> {
         let mut found: Vec<(Channel, f64, f64)> = Vec::new();
         let motion = [
             (Channel::ForwardSpeed, stretch.velocity[0], 1.0),
-            (Channel::LeftwardSpeed, stretch.velocity[1], 1.0),
+            (Channel::LateralSpeed, stretch.velocity[1], 1.0),
             (Channel::YawRate, stretch.yaw_rate, reach),
         ];
         for (channel, reading, arm) in motion {
             let Some(reading) = reading else { continue };
             let scale = arm / fastest;
-            found.push((channel, scale * reading.value, hypot(scale * reading.deviation, ODOMETRY)));
+            found.push((
+                channel,
+                scale * reading.value,
+                hypot(scale * reading.deviation, ODOMETRY),
+            ));
         }
         for (wheel, reading) in stretch.torques.iter().enumerate() {
             let Some(reading) = reading else { continue };
