@@ -137,7 +137,7 @@ fn read(
 }
 
 /// The columns that are not known, as many as a sentence bears.
-fn not_known(names: &[String]) -> Option<String> {
+pub(super) fn not_known(names: &[String]) -> Option<String> {
     const MOST: usize = 6;
     let more = names.len().saturating_sub(MOST);
     let more = if more == 0 { String::new() } else { format!(" and {more} more") };

@@ -1,9 +1,9 @@
 //! Drives whose telemetry is off by one thing, replayed: that thing is named.
 
 use crate::learn::twin::{Drive, Leg, scenario};
-use grouser::studies::ensemble::samples::{BandInputs, Sample};
+use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::learn::TelemetryRecord;
-use grouser::studies::replay::{Cause, Parameter, Replay, Replayer, Verdict};
+use grouser::studies::replay::{Cause, Replay, Replayer, Verdict};
 use grouser::studies::simulated_telemetry::SensorModels;
 use grouser::units::deg;
 use grouser::vehicle::{roll_and_pitch, slope_and_yaw};
@@ -23,7 +23,7 @@ const MODEL: &str = "scenario.model=ishigami";
 /// The telemetry of a drive over legs, with the rover and on the soil of settings.
 fn telemetry(settings: &[&str], legs: &[Leg], seed: u64) -> Vec<TelemetryRecord> {
     let truth = scenario(&[&[MODEL], settings].concat());
-    let sample: Sample = BandInputs::of_scenario(&truth).sample(1, 0).unwrap();
+    let sample = Sample { soil: truth.value.site.terrain.soil, theory: truth.value.theory };
     let mut drive = Drive::new(&truth, &sample);
     for leg in legs {
         drive.leg(*leg).expect("the rover drives there");

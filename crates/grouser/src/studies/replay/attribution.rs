@@ -61,7 +61,7 @@ pub enum Verdict {
 pub struct Finding {
     /// The parameter.
     pub parameter: Parameter,
-    /// Its estimate, in SI: together with the other causes that are pointed to; of another cause as if it were the next.
+    /// Its estimate, in SI; of the soil the share by which a number is larger. Together with the other causes that are pointed to; of another cause as if it were the next.
     pub estimate: f64,
     /// Its standard deviation.
     pub deviation: f64,
@@ -136,11 +136,13 @@ impl Sums {
             let parameters = Parameter::ALL.into_iter().filter(|it| it.cause() == cause);
             let finding = |parameter: Parameter| {
                 let place = fit.places.iter().position(|it| *it == parameter as usize);
-                let scaled = |value: f64| value * parameter.usual();
+                let found = place.map_or([0.0, 1.0], |it| [fit.estimates[it], fit.deviations[it]]);
+                let [estimate, deviation] =
+                    parameter.as_share(found.map(|it| it * parameter.usual()));
                 Finding {
                     parameter,
-                    estimate: scaled(place.map_or(0.0, |it| fit.estimates[it])),
-                    deviation: scaled(place.map_or(1.0, |it| fit.deviations[it])),
+                    estimate,
+                    deviation,
                     share,
                     evidence,
                     verdict: verdict.clone(),
@@ -157,7 +159,7 @@ impl Sums {
         let fit = self.fit(&causes);
         let mut values = [0.0; COUNT];
         for (place, estimate) in fit.places.iter().zip(fit.estimates.iter()) {
-            values[*place] = estimate * Parameter::ALL[*place].usual();
+            values[*place] = *estimate;
         }
         Faults::of(values)
     }

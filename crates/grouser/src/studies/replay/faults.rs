@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::prescribed::{Predicted, Situation};
-use crate::elementary::wide::{atan2, tan};
+use crate::elementary::wide::{atan2, exp_m1, tan};
 use crate::soil::{Shear, ShearModulus, Soil, SoilDifference};
 use crate::units::deg;
 use crate::vehicle::{RoverState, roll_and_pitch, slope_and_yaw};
@@ -85,11 +85,11 @@ impl Cause {
 /// A number that says how far off something is; 0 where all is as it was read and as the documents say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
-    /// By which share the soil is stronger than assumed: c and tan φ [-].
+    /// How much stronger the soil is than assumed, the logarithm of the ratio: c and tan φ [-].
     Strength,
-    /// By which share its shear deformation moduli are larger [-].
+    /// The same of its shear deformation moduli [-].
     ShearModulus,
-    /// By which share it carries more at a sinkage [-].
+    /// The same of the pressure that it bears at a sinkage [-].
     Stiffness,
     /// By which share rims move faster than was read [-].
     Speed,
@@ -160,6 +160,14 @@ impl Parameter {
         }
     }
 
+    /// An estimate of it, and its standard deviation, as a reader expects them: logarithms become shares.
+    pub(super) fn as_share(self, [estimate, deviation]: [f64; 2]) -> [f64; 2] {
+        if self.cause() == Cause::Soil {
+            return [exp_m1(estimate), (1.0 + exp_m1(estimate)) * deviation];
+        }
+        [estimate, deviation]
+    }
+
     /// Whether predictions have to be computed anew for it; if not, it is what instruments add to them.
     pub(super) fn moves_rover(self) -> bool {
         !matches!(self, Self::Odometry | Self::YawRate | Self::Torque)
@@ -170,12 +178,16 @@ impl Parameter {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Faults([f64; COUNT]);
 
-/// Relative errors stay above this [-]: a soil has some strength.
-const LEAST: f64 = -0.9;
+/// Errors over their usual size are looked at within this [-]: models are no tangents farther out.
+const FARTHEST: f64 = 2.5;
 
 impl Faults {
-    /// These values [SI].
-    pub(super) fn of(values: [f64; COUNT]) -> Self {
+    /// These values over their usual sizes, as far as that is sensible.
+    pub(super) fn of(over_usual: [f64; COUNT]) -> Self {
+        let mut values = over_usual.map(|it| it.clamp(-FARTHEST, FARTHEST));
+        for (value, parameter) in values.iter_mut().zip(Parameter::ALL) {
+            *value *= parameter.usual();
+        }
         Self(values)
     }
 
@@ -195,8 +207,10 @@ impl Faults {
         self.0[parameter as usize]
     }
 
+    /// The ratio of which it is the logarithm, or by which share it is off.
     fn factor(&self, parameter: Parameter) -> f64 {
-        1.0 + self.get(parameter).max(LEAST)
+        let value = self.get(parameter);
+        if parameter.cause() == Cause::Soil { 1.0 + exp_m1(value) } else { 1.0 + value }
     }
 
     /// A soil that is off by them.
