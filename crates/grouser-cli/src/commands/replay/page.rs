@@ -2,8 +2,8 @@
 
 use grouser::document::LoadedScenario;
 use grouser::document::columns::replay::{
-    self as columns, FINDINGS, STRETCH, brief_channels, brief_findings, columns_of,
-    measured_channels, prefix_of, quantity_of,
+    FINDINGS, STRETCH, brief_channels, brief_findings, columns_of, measured_channels, prefix_of,
+    quantity_of,
 };
 use grouser::document::columns::{ENERGY, TIME};
 use grouser::document::table::Table;
@@ -89,10 +89,15 @@ fn charts(found: &Found, rover: &Rover, prediction: Prediction) -> Vec<[Chart; 2
 
 fn of_channel(table: &Table, channel: Channel, rover: &Rover) -> [Chart; 2] {
     let (quantity, prefix) = (quantity_of(channel), prefix_of(channel, rover));
-    let over = |name: &str| table.points(TIME.name, &format!("{prefix}{name}"));
+    let over = |name: &str| -> Vec<(f64, f64)> {
+        table.points(TIME.name, &format!("{prefix}{name}")).collect()
+    };
     let [low, _, high] = quantity.quantiles();
-    let edges: Vec<_> =
-        over(&low).zip(over(&high)).map(|((time, low), (_, high))| (time, low, high)).collect();
+    let edges: Vec<_> = over(&low)
+        .into_iter()
+        .zip(over(&high))
+        .map(|((time, low), (_, high))| (time, low, high))
+        .collect();
     let mut series = Vec::new();
     if !edges.is_empty() {
         series.push(Series::band("95 %", BAND_COLOUR, edges));
