@@ -120,6 +120,11 @@ const LINES: [(&str, &str, &[&str]); 37] = [
         &["drive.csv", "uncertain.toml"],
     ),
     (
+        "replay",
+        "replay drive.csv --soil uncertain.toml --uncertainty --samples 2 --mcap drive.mcap --out replayed --format json",
+        &["drive.csv", "uncertain.toml"],
+    ),
+    (
         "forecast",
         "forecast --soil soil.toml --site moon --slope-deg 5 --model ishigami --samples 2 --discrepancies 2 --scaling reece --ground as-measured,uncertain.toml --out moon",
         &["soil.toml", "uncertain.toml"],
