@@ -37,7 +37,7 @@ def test_it_is_what_the_program_has(drive: Path, program: Program) -> None:
 
 def test_columns_are_as_good_as_a_file(drive: Path) -> None:
     pandas = pytest.importorskip("pandas")
-    table = pandas.read_csv(drive)
+    table = pandas.read_csv(drive, float_precision="round_trip")
     of_file = gr.replay(drive, model="ishigami")
     of_table = gr.replay(table, model="ishigami")
     of_arrays = gr.replay({name: table[name].to_numpy() for name in table}, model="ishigami")

@@ -118,10 +118,11 @@ pub struct ChannelValue {
 
 impl ChannelValue {
     pub(super) fn new(channel: Channel, measured: Option<f64>, predicted: Option<f64>) -> Self {
-        let residual = measured.zip(predicted);
-        let residual = residual.map(|(measured, it)| channel.difference(measured - it));
-        // A prediction within half a turn of what was measured is easier to read beside it.
-        let predicted = measured.zip(residual).map(|(it, residual)| it - residual).or(predicted);
+        let plain = measured.zip(predicted).map(|(measured, it)| measured - it);
+        let residual = plain.map(|it| channel.difference(it));
+        // A yaw within half a turn of what was measured is easier to read beside it.
+        let turns = plain.zip(residual).map_or(0.0, |(plain, residual)| plain - residual);
+        let predicted = predicted.map(|it| it + turns);
         Self { measured, predicted, band: None, residual }
     }
 
