@@ -13,6 +13,7 @@ mod map;
 mod measurements;
 mod mission;
 mod new;
+mod replay;
 mod route;
 mod slip_from_current;
 mod telemetry;
@@ -47,6 +48,7 @@ pub(crate) use measurements::{
 };
 pub(crate) use mission::MissionArgs;
 pub(crate) use new::NewArgs;
+pub(crate) use replay::ReplayArgs;
 pub(crate) use route::RouteArgs;
 pub(crate) use slip_from_current::SlipFromCurrentArgs;
 pub(crate) use telemetry::TelemetryArgs;
@@ -101,6 +103,8 @@ pub(crate) enum Command {
     SlipFromCurrent(SlipFromCurrentArgs),
     /// What the telemetry of a drive tells of the soil: heading and slip of the next slopes, and warnings.
     Learn(LearnArgs),
+    /// The telemetry of a drive beside what is predicted for it, and what the differences point to.
+    Replay(ReplayArgs),
     /// Compare a wheel-soil model with measured wheel tests, or rank all models.
     Validate(ValidateArgs),
     /// Estimate soil parameters, with confidence intervals, from wheel or plate tests.

@@ -23,6 +23,7 @@ pub(crate) mod mission;
 pub(crate) mod new;
 mod place;
 pub(crate) mod presets;
+pub(crate) mod replay;
 pub(crate) mod reproduce;
 pub(crate) mod route;
 pub(crate) mod sampling;

@@ -6,6 +6,7 @@ mod heading;
 mod learn;
 mod map;
 pub(crate) mod mission;
+mod replay;
 mod route;
 mod slip_from_current;
 mod stand;
@@ -24,6 +25,7 @@ pub(crate) use self::forecast::{ForecastInputs, forecast};
 pub(crate) use self::heading::{heading, heading_map};
 pub(crate) use self::learn::learn;
 pub(crate) use self::map::{MapInputs, map};
+pub(crate) use self::replay::replay;
 pub(crate) use self::route::{RouteInputs, route};
 pub(crate) use self::slip_from_current::{SlipInputs, slip_from_current};
 pub(crate) use self::stand::{StandInputs, soil, stand, wheel_test};
@@ -117,7 +119,7 @@ fn balanced_overrides(
             "validate" => {
                 "slopes are those of the rows; a heading offset has no drive, start or duration"
             }
-            "learn" => "slopes, speeds and times are those of the log",
+            "learn" | "replay" => "slopes, speeds and times are those of the log",
             "slip-from-current" => {
                 "slopes are those of the log or of --slope-deg; the log has the drive"
             }

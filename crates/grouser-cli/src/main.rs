@@ -68,6 +68,7 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::Forecast(args) => commands::forecast::run(args),
         Command::SlipFromCurrent(args) => commands::slip_from_current::run(args),
         Command::Learn(args) => commands::learn::run(args),
+        Command::Replay(args) => commands::replay::run(args),
         Command::Validate(args) => commands::validate::run(args),
         Command::Calibrate(args) => commands::calibrate::run(args),
         Command::Campaign(args) => commands::campaign::run(args),

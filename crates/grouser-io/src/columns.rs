@@ -65,6 +65,8 @@ enum Value<R> {
     Measured(fn(&R) -> [Option<f64>; 2]),
     /// Three columns: measured, its standard deviation, and predicted.
     Compared(fn(&R) -> [Option<f64>; 3]),
+    /// Three columns: measured, predicted, and the residual: measured less predicted.
+    Replayed(fn(&R) -> [Option<f64>; 3]),
     Whole(fn(&R) -> Option<usize>),
     Text(fn(&R) -> Option<String>),
     Words(fn(&R) -> Vec<&'static str>),
@@ -178,6 +180,12 @@ impl Quantity {
         format!("measured_{}", self.name)
     }
 
+    /// The name of what was measured less what was predicted.
+    #[must_use]
+    pub fn residual(self) -> String {
+        format!("residual_{}", self.name)
+    }
+
     /// The name of its standard deviation: `drawbar_pull_std_n`.
     #[must_use]
     pub fn deviation(self) -> String {
@@ -233,6 +241,11 @@ impl Quantity {
     /// Three columns: the measured value, its standard deviation, and the predicted value.
     pub const fn compared<R>(self, doc: &'static str, of: fn(&R) -> [Option<f64>; 3]) -> Column<R> {
         self.column(doc, Value::Compared(of))
+    }
+
+    /// Three columns: measured, predicted, and measured less predicted.
+    pub const fn replayed<R>(self, doc: &'static str, of: fn(&R) -> [Option<f64>; 3]) -> Column<R> {
+        self.column(doc, Value::Replayed(of))
     }
 
     /// Three columns: a probability and the ends of its 95 % confidence interval.
@@ -304,6 +317,9 @@ impl<R> Column<R> {
             Value::Compared(_) => {
                 vec![quantity.measurement(), quantity.deviation(), self.name.into()]
             }
+            Value::Replayed(_) => {
+                vec![quantity.measurement(), self.name.into(), quantity.residual()]
+            }
             _ => vec![self.name.into()],
         }
     }
@@ -311,7 +327,7 @@ impl<R> Column<R> {
     /// How many names it has.
     fn ends(&self) -> usize {
         match self.value {
-            Value::Band(_) | Value::Probability(_) | Value::Compared(_) => 3,
+            Value::Band(_) | Value::Probability(_) | Value::Compared(_) | Value::Replayed(_) => 3,
             Value::Measured(_) => 2,
             _ => 1,
         }
@@ -360,7 +376,7 @@ impl<R> Column<R> {
                 [it.estimate(), low, high][end]
             })),
             Value::Measured(of) => float(of(row)[end]),
-            Value::Compared(of) => float(of(row)[end]),
+            Value::Compared(of) | Value::Replayed(of) => float(of(row)[end]),
             Value::Whole(of) => Cell::Whole(of(row).map(|count| count as u64)),
             Value::Text(of) => Cell::Text(of(row)),
             Value::Words(of) => Cell::Words(of(row)),

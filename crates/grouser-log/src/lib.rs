@@ -13,6 +13,8 @@
 //! | `/events` | `foxglove.Log`: flags of validity as they are first raised, and what the caller says | then |
 //! | `/robot_description` | `std_msgs/msg/String`: the rover as URDF | once |
 //!
+//! A replayed drive is another log, of [`write_replay`]: `/measured/…` and `/predicted/…` with the numbers of both.
+//!
 //! Times count from the run's start, which is 0 ns. Transforms and scenes are in SI units, numbers in the units of
 //! their columns. The same records make the same bytes.
 //!
@@ -48,9 +50,11 @@ mod frames;
 mod log;
 mod numbers;
 mod protobuf;
+mod replay;
 mod scene;
 mod urdf;
 
 pub use error::LogError;
 pub use foxglove::Level;
 pub use log::Log;
+pub use replay::write_replay;

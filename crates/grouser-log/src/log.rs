@@ -395,7 +395,7 @@ fn cdr(text: &str) -> Vec<u8> {
 
 /// * `time`: [s]
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-fn nanoseconds(time: f64) -> Result<u64, LogError> {
+pub(crate) fn nanoseconds(time: f64) -> Result<u64, LogError> {
     if (0.0..=LONGEST).contains(&time) {
         Ok((time * foxglove::NANO as f64).round() as u64)
     } else {

@@ -22,6 +22,7 @@ mod maps;
 mod measurements;
 mod missions;
 mod paths;
+mod replay;
 mod rollouts;
 mod routes;
 mod simulators;
@@ -70,6 +71,8 @@ mod _core {
     use super::missions::drive_mission;
     #[pymodule_export]
     use super::paths::PathTask;
+    #[pymodule_export]
+    use super::replay::replay;
     #[pymodule_export]
     use super::rollouts::rollout;
     #[pymodule_export]

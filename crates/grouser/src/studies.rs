@@ -20,6 +20,7 @@
 //! | [`traverse_band`] | a traverse where soil and model are uncertain |
 //! | [`slip_from_current`] | each wheel's slip from its motor's current and speed |
 //! | [`learn`] | what driving tells of a soil: slip and heading of the next slopes, from telemetry |
+//! | [`replay`] | a drive that was measured beside the one that is predicted, and what their differences point to |
 //! | [`mission`] | missions and their alternatives, leg by leg |
 //! | [`validity`] | the flags of a rover on a slope and over a run |
 //! | [`lost_yaw`] | the yaw lost on the way: by loads, and by soil and motors that scatter |
@@ -38,6 +39,7 @@ pub mod learn;
 pub mod lost_yaw;
 pub mod mission;
 pub mod mobility;
+pub mod replay;
 pub mod reproduction;
 pub mod route;
 pub mod simulated_telemetry;

@@ -53,7 +53,7 @@ impl Subject {
 }
 
 /// Quick lines of every command, each with the names of its files among [`documents`].
-const LINES: [(&str, &str, &[&str]); 40] = [
+const LINES: [(&str, &str, &[&str]); 41] = [
     (
         "wheel-test",
         "wheel-test --soil soil.toml --wheel wheel.toml --load-n 17 --slip-ratio -0.4:0.8:0.4 --format json",
@@ -133,6 +133,11 @@ const LINES: [(&str, &str, &[&str]); 40] = [
         "import-telemetry, Parquet",
         "import-telemetry drive.parquet --rover hakuto",
         &["drive.parquet"],
+    ),
+    (
+        "replay",
+        "replay drive.csv --soil uncertain.toml --uncertainty --samples 2 --mcap drive.mcap --out replayed --format json",
+        &["drive.csv", "uncertain.toml"],
     ),
     (
         "forecast",

@@ -6,7 +6,8 @@ use std::path::Path;
 use grouser::document::{Loaded, LoadedMission, LoadedScenario, escape};
 use grouser::simulation::Trajectory;
 use grouser::studies::mission::DrivenMission;
-use grouser_log::{Log, LogError};
+use grouser::studies::replay::Replay;
+use grouser_log::{Log, LogError, write_replay};
 use grouser_pictures::title_of;
 
 use super::place::Place;
@@ -61,6 +62,22 @@ impl<'a> Target<'a> {
             let mut log = Log::begin(out, &title_of(document), &document.value.scenario)?;
             log.mission(mission)?;
             finish(log, "mission.toml", document)
+        })
+    }
+
+    /// The same of a replayed drive.
+    pub(super) fn write_replay(
+        &self,
+        scenario: &LoadedScenario,
+        replay: &Replay,
+        folder: Option<&mut OutputFolder>,
+    ) -> Result<(), Failure> {
+        let mut documents = vec![("scenario.toml".to_owned(), scenario.to_toml().into_bytes())];
+        let companions = scenario.companions.iter();
+        documents.extend(companions.map(|it| (it.name.clone(), it.content.clone().into())));
+        self.write_with(folder, |out| {
+            let drive = (replay, &scenario.value.rover);
+            write_replay(out, &title_of(scenario), drive, &documents).map(drop)
         })
     }
 

@@ -81,6 +81,7 @@ fn help_of_each_command() {
         "card",
         "forecast",
         "slip-from-current",
+        "replay",
         "validate",
         "import",
         "check",

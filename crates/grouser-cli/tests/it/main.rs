@@ -20,6 +20,7 @@ mod models;
 mod motors;
 mod new;
 mod program;
+mod replay;
 mod reports;
 mod routes;
 mod routes_hostile;

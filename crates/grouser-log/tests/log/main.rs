@@ -11,13 +11,15 @@ use std::f64::consts::PI;
 use std::io::{self, Write};
 
 use grouser::studies::mission::DrivenMission;
+use grouser::studies::replay::Replayer;
+use grouser::studies::simulated_telemetry::truth;
 use grouser_core::mission::{Leg, Limited, Manoeuvre, Mission, Stop};
 use grouser_core::simulation::{Landscape, PlacedTerrain, Record, Run, Scenario, Trajectory};
 use grouser_core::terrain::AnalyticTerrain;
 use grouser_core::terrain::surface::{Ripple, Surface};
 use grouser_core::units::{Vec2, Vec3, deg};
 use grouser_core::vehicle::{Battery, Motor, Mount, Rover, Winding};
-use grouser_log::{Level, Log, LogError};
+use grouser_log::{Level, Log, LogError, write_replay};
 use grouser_pictures::motion::Follower;
 use grouser_pictures::rover::PlacedWheel;
 use reader::{Message, Summary};
@@ -154,6 +156,35 @@ fn every_record_is_a_message_of_rover_wheels_and_transforms() -> Outcomes {
     let wheel = summary.channels.iter().find(|it| it.topic == "/wheels/front-left").expect("it");
     assert_eq!(wheel.metadata["sinkage_mm"], "Sinkage of the grouser tips [mm]");
     assert_eq!(wheel.metadata["wheel"], "front-left");
+    Ok(())
+}
+
+/// A replayed drive has both sides under the same names, with the times of the telemetry.
+#[test]
+fn a_replay_is_logged_measured_beside_predicted() -> Outcomes {
+    let scenario = Scenario { duration: 10.0, ..hakuto::traverse()? };
+    let mut replayer = Replayer::new(&scenario, None);
+    for record in truth(&run_of(&scenario), &scenario) {
+        replayer.update(record);
+    }
+    let replay = replayer.finish(&[], &|| true)?.ok_or("it was not stopped")?;
+    let documents = [("scenario.toml".to_owned(), b"slope_deg = 10".to_vec())];
+    let file = write_replay(Vec::new(), "a drive", (&replay, &scenario.rover), &documents)?;
+    let summary = Summary::of(&file);
+    for side in ["measured", "predicted"] {
+        for topic in ["motion", "power", "pose", "wheels/front-left", "wheels/rear-right"] {
+            let topic = format!("/{side}/{topic}");
+            let found = messages(&file, &topic);
+            assert_eq!(found.len(), replay.stretches.len(), "{topic}");
+            let channel =
+                summary.channels.iter().find(|it| it.topic == topic).ok_or("a channel")?;
+            assert_eq!(doubles(&found[0].1).len(), channel.metadata.len(), "{topic}");
+        }
+    }
+    let speed = |side: &str| doubles(&messages(&file, &format!("/{side}/motion"))[3].1)[0];
+    let value = &replay.stretches[3].values[0];
+    assert_eq!(Some(speed("measured")), value.measured);
+    assert_eq!(Some(speed("predicted")), value.predicted);
     Ok(())
 }
 

@@ -56,6 +56,7 @@ from ._headings import HeadingMap, Headings, heading, heading_map
 from ._maps import map
 from ._measurements import ImportedWheelTests, import_wheel_tests
 from ._missions import Alternatives, DrivenMission, Legs, mission
+from ._replay import replay
 from ._rollouts import Rollout, rollout
 from ._routes import route
 from ._models import MODELS, ByModel
@@ -148,6 +149,7 @@ __all__ = [
     "import_wheel_tests",
     "map",
     "mission",
+    "replay",
     "require_inside",
     "rollout",
     "route",

@@ -62,6 +62,7 @@ __all__ = [
     "read_document_table",
     "read_document_text",
     "result_columns",
+    "replay",
     "rollout",
     "routes",
     "seal_manifest",
@@ -402,6 +403,16 @@ def mobility_map(
     samples: int,
     seed: int,
 ) -> tuple[list[tuple[str, str, str, Any]], _Floats, _Floats, dict[str, Any]]: ...
+def replay(
+    scenario: Document,
+    path: str | os.PathLike[str],
+    text: str | None,
+    slope_is_known: bool,
+    samples: int,
+    seed: int,
+) -> tuple[
+    tuple[dict[str, Any], dict[str, Any], dict[str, Any]], list[str], list[str], list[str]
+]: ...
 def routes(
     scenario: Document, terrain: Terrain, task: dict[str, Any]
 ) -> list[dict[str, Any]]: ...

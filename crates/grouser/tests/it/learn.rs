@@ -1,6 +1,6 @@
 //! What is learnt from drives whose soil is hidden from the learner.
 
-mod twin;
+pub(crate) mod twin;
 
 use grouser::document::LoadedScenario;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};

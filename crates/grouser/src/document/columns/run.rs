@@ -21,6 +21,13 @@ use crate::studies::traverse_band::{RunBand, TimeBand};
 use crate::studies::validity::{Raised, RoverOnSlope};
 use crate::vehicle::Mount;
 
+/// Speed along the body.
+pub const FORWARD_SPEED: Quantity = quantity("forward_speed_m_s", M_S);
+/// Speed across the body, positive to the left.
+pub const LATERAL_SPEED: Quantity = quantity("lateral_speed_m_s", M_S);
+/// Yaw rate.
+pub const YAW_RATE: Quantity = quantity("yaw_rate_deg_s", DEG_S);
+
 /// The rover at one time. Positions are of the body's centre of mass, in the slope frame or on the map; speeds in the body
 /// frame.
 pub const RECORD: [Column<Record>; 12] = [
@@ -31,11 +38,9 @@ pub const RECORD: [Column<Record>; 12] = [
         "Yaw, positive where the nose points uphill; on a map from its x axis, to the left",
         |it| it.state.yaw,
     ),
-    number("forward_speed_m_s", M_S, "Speed along the body", |it| it.state.velocity.x),
-    number("lateral_speed_m_s", M_S, "Speed across the body, positive to the left", |it| {
-        it.state.velocity.y
-    }),
-    number("yaw_rate_deg_s", DEG_S, "Yaw rate", |it| it.state.yaw_rate),
+    FORWARD_SPEED.number("Speed along the body", |it| it.state.velocity.x),
+    LATERAL_SPEED.number("Speed across the body, positive to the left", |it| it.state.velocity.y),
+    YAW_RATE.number("Yaw rate", |it| it.state.yaw_rate),
     POWER.number("Power of all motors", |it| it.wheels.iter().map(WheelRecord::power).sum()),
     ENERGY.number("Work of the motors so far", |it| it.energy.motors),
     number("soil_energy_j", J, "Work done on the soil so far", |it| it.energy.soil),

@@ -85,22 +85,30 @@ const UNKNOWN_SIDE: f64 = 0.15;
 const UNKNOWN_TURN: f64 = 0.05;
 /// Odometry is this uncertain however many of it are averaged, over the rims' speed [-]: its scale and mounting. Source:
 /// ours.
-const ODOMETRY: f64 = 0.005;
+pub(in crate::studies) const ODOMETRY: f64 = 0.005;
+
+/// Slope and yaw of a stretch over which the motion may be taken as steady [rad].
+///
+/// # Errors
+/// [`NotUsed`] where it may not, or its attitude is not known.
+pub(in crate::studies) fn steady_attitude(stretch: &Stretch) -> Result<[f64; 2], NotUsed> {
+    let rims = &stretch.rim_speeds;
+    if rims.iter().all(|it| it.abs() < STANDS) {
+        return Err(NotUsed::Standing);
+    }
+    let turns_both_ways = rims.iter().any(|it| *it > STANDS) && rims.iter().any(|it| *it < -STANDS);
+    if turns_both_ways || stretch.rim_scatter > STEADY {
+        return Err(NotUsed::Manoeuvre);
+    }
+    stretch.attitude.ok_or(NotUsed::NoAttitude)
+}
 
 impl SeenMotion {
     /// What can be learnt from a stretch.
     pub(super) fn of(stretch: &Stretch, rover: &Rover) -> Result<Self, NotUsed> {
+        let [slope, yaw] = steady_attitude(stretch)?;
         let rims = &stretch.rim_speeds;
         let fastest = rims.iter().map(|it| it.abs()).fold(0.0, f64::max);
-        if fastest < STANDS {
-            return Err(NotUsed::Standing);
-        }
-        let turns_both_ways =
-            rims.iter().any(|it| *it > STANDS) && rims.iter().any(|it| *it < -STANDS);
-        if turns_both_ways || stretch.rim_scatter > STEADY {
-            return Err(NotUsed::Manoeuvre);
-        }
-        let [slope, yaw] = stretch.attitude.ok_or(NotUsed::NoAttitude)?;
         let [forward, leftward] = stretch.velocity;
         let forward = forward.ok_or(NotUsed::NoMotion)?;
         let reach = rover.load_arms().iter().map(Vec2::norm).fold(f64::MIN_POSITIVE, f64::max);
@@ -369,7 +377,7 @@ const BALANCED: f64 = 1e-7;
 /// The longest step towards a balance, over the fastest rim's speed [-].
 const LONGEST: f64 = 0.3;
 /// Sinkages below this count as this [m].
-const SHALLOWEST: f64 = 1e-4;
+pub(in crate::studies) const SHALLOWEST: f64 = 1e-4;
 
 /// Velocities that leave no force over.
 #[derive(Clone, Debug)]
@@ -394,7 +402,7 @@ pub(super) fn halves(count: usize) -> impl Iterator<Item = f64> {
 }
 
 /// The rover with its wheels steered as they were read.
-fn steered(rover: &Rover, read: &[Option<f64>]) -> Rover {
+pub(in crate::studies) fn steered(rover: &Rover, read: &[Option<f64>]) -> Rover {
     let mounts = rover.mounts().iter().zip(read);
     let angles: Vec<f64> = mounts
         .map(|(mount, read)| {

@@ -33,7 +33,7 @@ impl ModelNoise {
     /// than one [-].
     ///
     /// * `way`: of the stretch [m]
-    pub(super) fn together(&self, way: f64) -> f64 {
+    pub(in crate::studies) fn together(&self, way: f64) -> f64 {
         /// Of a rover that does not come forward.
         const SHORTEST: f64 = 0.01;
         (self.way / way.max(SHORTEST)).max(1.0)

@@ -53,7 +53,7 @@ const LONGEST: f64 = 0.5;
 /// A stretch takes this long at most [s]: rovers that stand have one, too.
 const LAST: f64 = 30.0;
 /// A gap this long between records ends a stretch [s].
-const GAP: f64 = 5.0;
+pub(in crate::studies) const GAP: f64 = 5.0;
 /// A stretch has this many records at most.
 const MOST_RECORDS: usize = 4096;
 /// Rims whose speeds differ by no more than this are alike: in standard deviations of their means, and over their speed
@@ -68,7 +68,7 @@ const USUAL_SINKAGE: f64 = 0.003;
 
 /// Gathers records into stretches. What it gives depends on the records alone, not on how many are given at once.
 #[derive(Clone, Debug)]
-pub(super) struct Gatherer {
+pub(in crate::studies) struct Gatherer {
     rover: Rover,
     slope: Option<f64>,
     records: Vec<TelemetryRecord>,
@@ -82,7 +82,7 @@ pub(super) struct Gatherer {
 
 impl Gatherer {
     /// * `slope`: of the ground where the telemetry does not tell it [rad]
-    pub(super) fn new(rover: &Rover, slope: Option<f64>) -> Self {
+    pub(in crate::studies) fn new(rover: &Rover, slope: Option<f64>) -> Self {
         Self {
             rover: rover.clone(),
             slope,
@@ -96,7 +96,7 @@ impl Gatherer {
     }
 
     /// Adds a record; the stretch that is complete with it, if one is.
-    pub(super) fn push(&mut self, record: TelemetryRecord) -> Option<Stretch> {
+    pub(in crate::studies) fn push(&mut self, record: TelemetryRecord) -> Option<Stretch> {
         let before = self.last_time.replace(record.time);
         let gap = before.map_or(0.0, |before| record.time - before);
         let ended = if gap > GAP { self.take() } else { None };
@@ -112,7 +112,7 @@ impl Gatherer {
     }
 
     /// What is left.
-    pub(super) fn take(&mut self) -> Option<Stretch> {
+    pub(in crate::studies) fn take(&mut self) -> Option<Stretch> {
         let stretch = self.stretch();
         self.records.clear();
         self.readings.iter_mut().for_each(Vec::clear);

@@ -1,0 +1,74 @@
+//! `replay`: the telemetry of a run beside what is predicted for it, its folder and log, and what it refuses.
+
+use crate::bad_input::check_is_refusal;
+use crate::program::{Place, number};
+
+/// A place with the telemetry of a drive along 8°.
+fn driven() -> Place {
+    let place = Place::new();
+    place.results(
+        "traverse --rover hakuto --soil toyoura --model ishigami --slope-deg 8 --simulation quasi-steady \
+         --set scenario.start.yaw_deg=4 --duration-s 60 --telemetry drive.csv --format csv",
+    );
+    place
+}
+
+const COMMAND: &str = "replay drive.csv --rover hakuto --soil toyoura --model ishigami";
+
+/// The command's contract: each channel with its residuals, what they point to, and the files of the folder.
+#[test]
+fn a_drive_beside_its_prediction() {
+    let place = driven();
+    let answer = place.json(&format!("{COMMAND} --out replayed --mcap drive.mcap"));
+    assert_eq!(answer["schema"], "grouser.replay.v1");
+    let channels = answer["channels"].as_array().expect("channels");
+    let of = |name: &str| channels.iter().find(|it| it["channel"] == name).expect(name);
+    assert_eq!(of("forward_speed_m_s")["prediction"], "prescribed");
+    assert_eq!(of("yaw_deg")["prediction"], "free-run");
+    assert!(number(&of("forward_speed_m_s")["rms"]) < 5e-3, "{}", of("forward_speed_m_s"));
+    assert!(number(&of("y_m")["rms"]) < 0.05, "{}", of("y_m"));
+    let points = answer["points_to"].as_array().expect("sentences");
+    assert!(points[0].as_str().expect("words").contains("point to nothing"), "{points:?}");
+    let stretch = &answer["stretches"][3];
+    let [measured, predicted, residual] = ["measured_torque_nm", "torque_nm", "residual_torque_nm"]
+        .map(|name| number(&stretch[format!("front-left.{name}")]));
+    assert!((measured - predicted - residual).abs() < 1e-12);
+    for name in
+        ["report.html", "replay.csv", "channels.csv", "findings.csv", "drive.mcap", "scenario.toml"]
+    {
+        assert!(place.file(&format!("replayed/{name}")).exists(), "{name}");
+    }
+}
+
+/// Wheels that are assumed a twentieth too small, and bands over samples of the soil.
+#[test]
+fn a_wrong_radius_is_named() {
+    let place = driven();
+    let answer = place.json(&format!("{COMMAND} --set wheel.radius_m=0.095"));
+    let findings = answer["findings"].as_array().expect("findings");
+    let speed = findings.iter().find(|it| it["cause"] == "speed").expect("speed");
+    assert_ne!(speed["finding"], "nothing", "{speed}");
+    assert!((number(&speed["estimate"]) - 0.048).abs() < 0.02, "{speed}");
+    let banded = "replay drive.csv --rover hakuto --soil toyoura-uncertain --model ishigami --uncertainty \
+                  --samples 8 --seed 2";
+    let answer = place.json(banded);
+    let first = &answer["stretches"][0];
+    assert!(number(&first["slip_ratio_p2_5"]) <= number(&first["slip_ratio_p97_5"]), "{first}");
+    let channels = answer["channels"].as_array().expect("channels");
+    assert!(channels.iter().all(|it| it["share_within_band"].is_number()), "{channels:?}");
+}
+
+#[test]
+fn telemetry_that_cannot_be_replayed_is_refused() {
+    let place = Place::new();
+    place.write("still.csv", "time_s,roll_deg\n0,1\n1,1\n");
+    for (command, words) in [
+        ("replay missing.csv", "there is no such file"),
+        ("replay still.csv", "wheel speeds"),
+        ("replay still.csv --mcap log.txt", "ends with `.mcap`"),
+        ("replay still.csv --set scenario.duration_s=3", "speeds and times are those of the log"),
+    ] {
+        let said = check_is_refusal(&place.line(command), 2);
+        assert!(said.contains(words), "{words} in {said}");
+    }
+}

@@ -1,0 +1,84 @@
+"""A drive beside its prediction: of a file, of a data frame and of arrays, and in a log that others read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import grouser as gr
+import numpy as np
+import pytest
+from conftest import Program
+
+RUN = ["--slope-deg", "8", "--model", "ishigami", "--duration-s", "40"]
+
+
+@pytest.fixture(scope="module")
+def drive(program: Program, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The telemetry of a drive, with the usual noise and gaps."""
+    path = tmp_path_factory.mktemp("drive") / "drive.csv"
+    program("traverse", *RUN, "--simulation", "quasi-steady", "--telemetry", str(path))
+    return path
+
+
+def test_it_is_what_the_program_has(drive: Path, program: Program) -> None:
+    answer = program("replay", str(drive), "--model", "ishigami")
+    found = gr.replay(drive, model="ishigami")
+    assert found.attrs["points_to"] == answer["points_to"]
+    for name in ("measured_forward_speed_m_s", "forward_speed_m_s", "residual_yaw_deg"):
+        stretches = [stretch[name] for stretch in answer["stretches"]]
+        expected = [np.nan if value is None else value for value in stretches]
+        np.testing.assert_array_equal(found[name], expected)
+    torque = found.torque_nm.sel(wheel="rear-left")
+    assert float(torque[2]) == answer["stretches"][2]["rear-left.torque_nm"]
+    assert found.torque_nm.dims == ("time_s", "wheel")
+    assert found.forward_speed_m_s.attrs["units"] == "m/s"
+    assert [row["cause"] for row in found.attrs["findings"]][:3] == ["soil"] * 3
+
+
+def test_columns_are_as_good_as_a_file(drive: Path) -> None:
+    pandas = pytest.importorskip("pandas")
+    table = pandas.read_csv(drive, float_precision="round_trip")
+    of_file = gr.replay(drive, model="ishigami")
+    of_table = gr.replay(table, model="ishigami")
+    of_arrays = gr.replay({name: table[name].to_numpy() for name in table}, model="ishigami")
+    assert of_file.identical(of_table)
+    assert of_file.identical(of_arrays)
+
+
+def test_bands_are_of_the_seed(drive: Path) -> None:
+    settings = {"soil": "toyoura-uncertain", "model": "ishigami", "uncertainty": True, "samples": 4}
+    one, again = (gr.replay(drive, seed=3, **settings) for _ in range(2))
+    assert one.identical(again)
+    assert bool((one.slip_ratio_p2_5 <= one.slip_ratio_p97_5).all())
+
+
+def test_logs_that_are_none_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(gr.DocumentNotFoundError, match="no such file"):
+        gr.replay(tmp_path / "missing.csv")
+    with pytest.raises(gr.ParameterError, match="wheel speeds"):
+        gr.replay({"time_s": [0.0, 1.0], "roll_deg": [1.0, 1.0]})
+    with pytest.raises(gr.ParameterError, match="one length"):
+        gr.replay({"time_s": [0.0, 1.0], "roll_deg": [1.0]})
+    with pytest.raises(gr.ParameterError, match="samples"):
+        gr.replay({"time_s": [0.0]}, samples=1)
+
+
+def test_the_log_is_read_by_others(drive: Path, program: Program, tmp_path: Path) -> None:
+    pytest.importorskip("mcap_protobuf")
+    from mcap.reader import make_reader
+    from mcap_protobuf.decoder import DecoderFactory
+
+    path = tmp_path / "drive.mcap"
+    answer = program("replay", str(drive), "--model", "ishigami", "--mcap", str(path))
+    found: dict[str, list[float]] = {}
+    with path.open("rb") as file:
+        reader = make_reader(file, validate_crcs=True, decoder_factories=[DecoderFactory()])
+        for _, channel, _, message in reader.iter_decoded_messages():
+            if channel.topic.endswith("/motion"):
+                found.setdefault(channel.topic, []).append(message.forward_speed_m_s)
+    for topic, name in (
+        ("/measured/motion", "measured_forward_speed_m_s"),
+        ("/predicted/motion", "forward_speed_m_s"),
+    ):
+        expected = [stretch[name] for stretch in answer["stretches"]]
+        assert found[topic] == [value for value in expected if value is not None]

@@ -1,0 +1,309 @@
+//! Prescribed motion: what a soil predicts at the attitude, the wheel speeds and the steering angles that were read.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::channel::{Channel, ChannelValue};
+use super::faults::{COUNT, Faults, Parameter};
+use crate::elementary::wide::{hypot, ln};
+use crate::simulation::SteadyMotion;
+use crate::studies::ensemble::samples::Sample;
+use crate::studies::heading::HeadingStudy;
+use crate::studies::learn::{
+    ModelNoise, NotUsed, ODOMETRY, Reading, SHALLOWEST, Stretch, steady_attitude, steered,
+};
+use crate::units::Vec2;
+use crate::vehicle::kinematics::wheel_slips;
+use crate::vehicle::{Rover, RoverState};
+
+/// What a prediction takes from the telemetry.
+#[derive(Clone, Debug)]
+pub(super) struct Situation {
+    /// With the rover as it was steered.
+    pub(super) study: HeadingStudy,
+    /// Slope and yaw [rad].
+    pub(super) slope: f64,
+    pub(super) yaw: f64,
+    /// Rim speed of each wheel [m/s].
+    pub(super) rim_speeds: Vec<f64>,
+}
+
+/// What is predicted, or what instruments read of it.
+#[derive(Clone, Debug)]
+pub(super) struct Predicted {
+    /// Along the body and to its left [m/s].
+    pub(super) velocity: Vec2,
+    /// Yaw rate [rad/s].
+    pub(super) yaw_rate: f64,
+    /// Torque of each wheel [N·m].
+    pub(super) torques: Vec<f64>,
+    /// Sinkage of each wheel [m].
+    sinkages: Vec<f64>,
+    /// Mean slip ratio of the wheels [-].
+    slip_ratio: f64,
+}
+
+impl Situation {
+    pub(super) fn of(study: &HeadingStudy, stretch: &Stretch) -> Result<Self, NotUsed> {
+        let [slope, yaw] = steady_attitude(stretch)?;
+        let rover = steered(&study.rover, &stretch.steering);
+        let study = HeadingStudy { rover, ..study.clone() };
+        Ok(Self { study, slope, yaw, rim_speeds: stretch.rim_speeds.clone() })
+    }
+
+    /// The same with another soil and model.
+    pub(super) fn on(&self, sample: &Sample) -> Self {
+        Self { study: self.study.of_sample(sample), ..self.clone() }
+    }
+
+    /// The steady motion there, sought near another; `None` where no velocities leave no force and no yaw moment over.
+    pub(super) fn motion(&self, near: Option<&SteadyMotion>) -> Option<SteadyMotion> {
+        let Self { study, slope, yaw, rim_speeds } = self;
+        let found = match near {
+            Some(near) => study.steady_motion_of_near(near, *slope, *yaw, rim_speeds),
+            None => study.steady_motion_of(*slope, *yaw, rim_speeds),
+        };
+        found.ok()
+    }
+
+    /// The motion here, where what was read and assumed is off by some faults.
+    fn under(&self, faults: &Faults, near: &SteadyMotion) -> Option<Predicted> {
+        let mut truth = faults.situation(self);
+        truth.study.soil = faults.soil(&self.study.soil);
+        Some(Predicted::of(&truth.motion(Some(near))?))
+    }
+
+    /// Speeds are measured by the fastest rim's [m/s].
+    fn fastest(&self) -> f64 {
+        self.rim_speeds.iter().map(|it| it.abs()).fold(0.0, f64::max)
+    }
+
+    /// Turning is measured by the speed of the farthest wheel: its distance [m].
+    fn reach(&self) -> f64 {
+        reach(&self.study.rover)
+    }
+
+    /// Torques are measured by this [N·m].
+    fn torque_scale(&self, wheel: usize) -> f64 {
+        let rover = &self.study.rover;
+        rover.mounts()[wheel].shearing_radius() * rover.mass() * self.study.gravity
+    }
+}
+
+fn reach(rover: &Rover) -> f64 {
+    rover.load_arms().iter().map(Vec2::norm).fold(f64::MIN_POSITIVE, f64::max)
+}
+
+impl Predicted {
+    pub(super) fn of(motion: &SteadyMotion) -> Self {
+        let each = || motion.wheels.iter().map(|it| &it.settled);
+        Self {
+            velocity: motion.velocity,
+            yaw_rate: motion.yaw_rate,
+            torques: each().map(|it| it.forces.torque).collect(),
+            sinkages: each().map(|it| it.sinkage).collect(),
+            slip_ratio: motion.slip_ratio(),
+        }
+    }
+
+    /// The value of a channel of steady motion.
+    ///
+    /// * `speeds`: angular speed of each wheel [rad/s]
+    pub(super) fn of_channel(&self, channel: Channel, speeds: &[f64]) -> Option<f64> {
+        match channel {
+            Channel::ForwardSpeed => Some(self.velocity.x),
+            Channel::LateralSpeed => Some(self.velocity.y),
+            Channel::YawRate => Some(self.yaw_rate),
+            Channel::SlipRatio => Some(self.slip_ratio),
+            Channel::Power => Some(power(&self.torques, speeds)),
+            Channel::Torque(wheel) => self.torques.get(wheel).copied(),
+            Channel::Sinkage(wheel) => self.sinkages.get(wheel).copied(),
+            Channel::X | Channel::Y | Channel::Yaw | Channel::Roll | Channel::Pitch => None,
+        }
+    }
+}
+
+fn power(torques: &[f64], speeds: &[f64]) -> f64 {
+    torques.iter().zip(speeds).map(|(torque, speed)| torque * speed).sum()
+}
+
+/// Angular speed of each wheel [rad/s].
+pub(super) fn wheel_speeds(stretch: &Stretch, rover: &Rover) -> Vec<f64> {
+    let pairs = stretch.rim_speeds.iter().zip(rover.mounts());
+    pairs.map(|(speed, mount)| speed / mount.shearing_radius()).collect()
+}
+
+/// What was measured of a channel of steady motion.
+pub(super) fn measured(channel: Channel, stretch: &Stretch, rover: &Rover) -> Option<f64> {
+    let value = |it: Option<Reading>| it.map(|it| it.value);
+    let [forward, leftward] = stretch.velocity.map(value);
+    match channel {
+        Channel::ForwardSpeed => forward,
+        Channel::LateralSpeed => leftward,
+        Channel::YawRate => value(stretch.yaw_rate),
+        Channel::SlipRatio => {
+            let velocity = Vec2::new(forward?, leftward.unwrap_or(0.0));
+            let yaw_rate = value(stretch.yaw_rate).unwrap_or(0.0);
+            let state = RoverState { velocity, yaw_rate, ..RoverState::default() };
+            let rover = steered(rover, &stretch.steering);
+            let slips = wheel_slips(&rover, &state, &stretch.rim_speeds);
+            Some(slips.map(|it| it.ratio).sum::<f64>() / stretch.rim_speeds.len() as f64)
+        }
+        Channel::Power => {
+            let torques: Option<Vec<f64>> = stretch.torques.iter().map(|it| value(*it)).collect();
+            Some(power(&torques?, &wheel_speeds(stretch, rover)))
+        }
+        Channel::Torque(wheel) => value(*stretch.torques.get(wheel)?),
+        Channel::Sinkage(wheel) => value(*stretch.sinkages.get(wheel)?),
+        Channel::X | Channel::Y | Channel::Yaw | Channel::Roll | Channel::Pitch => None,
+    }
+}
+
+/// The channels of steady motion over a stretch, side by side.
+pub(super) fn values<'c>(
+    channels: impl Iterator<Item = Channel> + 'c,
+    stretch: &'c Stretch,
+    rover: &'c Rover,
+    predicted: Option<&'c Predicted>,
+) -> impl Iterator<Item = ChannelValue> + 'c {
+    let speeds = wheel_speeds(stretch, rover);
+    channels.map(move |channel| {
+        let predicted = predicted.and_then(|it| it.of_channel(channel, &speeds));
+        ChannelValue::new(channel, measured(channel, stretch, rover), predicted)
+    })
+}
+
+/// Differences of a stretch over their noise, and how the parameters of [`Parameter::ALL`] change them.
+#[derive(Clone, Debug)]
+pub(super) struct Differences {
+    /// Measured less predicted, with unit variance.
+    pub(super) residuals: DVector<f64>,
+    /// How predictions change with each parameter, over its usual size, on the same scale.
+    pub(super) sensitivities: DMatrix<f64>,
+}
+
+/// A torque, or whatever turns the rover, that no soil explains turns it by this of its rims' speed [-]. Source: ours: a
+/// hundredth of the weight at one side of the rover.
+const TURNING: f64 = 0.02;
+
+impl Differences {
+    /// * `base`: what is taken to be wrong already
+    /// * `motion`: the steady motion where nothing is
+    pub(super) fn of(
+        situation: &Situation,
+        stretch: &Stretch,
+        base: &Faults,
+        motion: &SteadyMotion,
+    ) -> Option<Self> {
+        let seen = Seen::of(situation, stretch);
+        let truth = situation.under(base, motion)?;
+        let here = base.read(truth.clone());
+        let numbers = seen.numbers(&here);
+        let mut sensitivities = DMatrix::zeros(seen.values.len(), COUNT);
+        for (place, parameter) in Parameter::ALL.into_iter().enumerate() {
+            // Half of its usual size, to both sides of which a prediction bends little.
+            let step = 0.5 * parameter.usual();
+            let faults = base.and(parameter, step);
+            let there = match parameter.moves_rover() {
+                true => situation.under(&faults, motion)?,
+                false => truth.clone(),
+            };
+            let change = (seen.numbers(&faults.read(there)) - &numbers) * 2.0;
+            sensitivities.set_column(place, &change);
+        }
+        let noise = seen.noise(&sensitivities, &here, stretch.way);
+        let scale = noise.cholesky()?.l();
+        Some(Self {
+            residuals: scale.solve_lower_triangular(&(&seen.values - numbers))?,
+            sensitivities: scale.solve_lower_triangular(&sensitivities)?,
+        })
+    }
+}
+
+/// What was read over a stretch, as numbers without a unit: velocities over the fastest rim's, torques over weight times
+/// shearing radius, logarithms of sinkages.
+struct Seen<'s> {
+    situation: &'s Situation,
+    channels: Vec<Channel>,
+    values: DVector<f64>,
+    /// Variances of the instruments.
+    variances: Vec<f64>,
+}
+
+impl<'s> Seen<'s> {
+    fn of(situation: &'s Situation, stretch: &Stretch) -> Self {
+        let (fastest, reach) = (situation.fastest(), situation.reach());
+        let mut found: Vec<(Channel, f64, f64)> = Vec::new();
+        let motion = [
+            (Channel::ForwardSpeed, stretch.velocity[0], 1.0),
+            (Channel::LateralSpeed, stretch.velocity[1], 1.0),
+            (Channel::YawRate, stretch.yaw_rate, reach),
+        ];
+        for (channel, reading, arm) in motion {
+            let Some(reading) = reading else { continue };
+            let scale = arm / fastest;
+            found.push((
+                channel,
+                scale * reading.value,
+                hypot(scale * reading.deviation, ODOMETRY),
+            ));
+        }
+        for (wheel, reading) in stretch.torques.iter().enumerate() {
+            let Some(reading) = reading else { continue };
+            let scale = situation.torque_scale(wheel);
+            found.push((Channel::Torque(wheel), reading.value / scale, reading.deviation / scale));
+        }
+        for (wheel, reading) in stretch.sinkages.iter().enumerate() {
+            let Some(reading) = reading else { continue };
+            let value = reading.value.max(SHALLOWEST);
+            found.push((Channel::Sinkage(wheel), ln(value), reading.deviation / value));
+        }
+        Self {
+            situation,
+            channels: found.iter().map(|(channel, ..)| *channel).collect(),
+            values: DVector::from_iterator(found.len(), found.iter().map(|(_, value, _)| *value)),
+            variances: found.iter().map(|(.., deviation)| deviation * deviation).collect(),
+        }
+    }
+
+    /// The same numbers of a prediction.
+    fn numbers(&self, predicted: &Predicted) -> DVector<f64> {
+        let (fastest, reach) = (self.situation.fastest(), self.situation.reach());
+        let number = |channel: &Channel| {
+            // A prediction has every wheel of the rover.
+            let value = predicted.of_channel(*channel, &[]).unwrap_or(0.0);
+            match channel {
+                Channel::YawRate => value * reach / fastest,
+                Channel::Torque(wheel) => value / self.situation.torque_scale(*wheel),
+                Channel::Sinkage(_) => ln(value.max(SHALLOWEST)),
+                _ => value / fastest,
+            }
+        };
+        DVector::from_iterator(self.channels.len(), self.channels.iter().map(number))
+    }
+
+    /// Covariance of what was read about what a right soil predicts: of the instruments, and of what no soil explains,
+    /// [`ModelNoise`]: a force, or an attitude of the ground, acts as a small roll and pitch do.
+    fn noise(&self, sensitivities: &DMatrix<f64>, here: &Predicted, way: f64) -> DMatrix<f64> {
+        let noise = ModelNoise::USUAL;
+        let together = noise.together(way);
+        let force = hypot(noise.force, noise.attitude);
+        let mut covariance = DMatrix::zeros(self.channels.len(), self.channels.len());
+        for parameter in [Parameter::Roll, Parameter::Pitch] {
+            let by_force = sensitivities.column(parameter as usize) * (force / parameter.usual());
+            covariance += together * &by_force * by_force.transpose();
+        }
+        for (place, channel) in self.channels.iter().enumerate() {
+            let of_model = match channel {
+                Channel::YawRate => TURNING * TURNING,
+                Channel::Torque(wheel) => {
+                    let share = noise.torque_share * here.torques[*wheel];
+                    (hypot(share, noise.torque) / self.situation.torque_scale(*wheel)).powi(2)
+                }
+                Channel::Sinkage(_) => noise.sinkage * noise.sinkage,
+                _ => 0.0,
+            };
+            covariance[(place, place)] += together * of_model + self.variances[place];
+        }
+        covariance
+    }
+}

@@ -1,0 +1,236 @@
+//! Drives whose telemetry is off by one thing, replayed: that thing is named, and nothing where nothing is off.
+
+use crate::learn::twin::{Drive, Leg, scenario};
+use grouser::simulation::Run;
+use grouser::studies::ensemble::samples::{BandInputs, Sample};
+use grouser::studies::learn::TelemetryRecord;
+use grouser::studies::replay::{Cause, Channel, Finding, Parameter, Replay, Replayer, Verdict};
+use grouser::studies::simulated_telemetry::{SensorModels, truth};
+use grouser::units::deg;
+use grouser::vehicle::{roll_and_pitch, slope_and_yaw};
+
+/// Slopes crossed at several headings, 4.8 m.
+const LEGS: [Leg; 6] = [
+    (0.0, 0.0, 0.8),
+    (5.0, 3.0, 0.8),
+    (6.0, 40.0, 0.8),
+    (8.0, -30.0, 0.8),
+    (9.0, 5.0, 0.8),
+    (4.0, 150.0, 0.8),
+];
+/// The same on slopes without level ground, which have a direction.
+const SLOPES: [Leg; 5] = [LEGS[1], LEGS[2], LEGS[3], LEGS[4], LEGS[5]];
+/// Steeper and longer, 12 m: a yaw of the sensor turns a pull that is no more than the slope's.
+const STEEP: [Leg; 4] =
+    [(14.0, 8.0, 3.0), (12.0, 40.0, 3.0), (14.0, -20.0, 3.0), (13.0, 20.0, 3.0)];
+
+const MODEL: &str = "scenario.model=ishigami";
+
+/// The telemetry of a drive over legs, with the rover and on the soil of settings.
+fn telemetry(settings: &[&str], legs: &[Leg], models: SensorModels) -> Vec<TelemetryRecord> {
+    let truth = scenario(&[&[MODEL], settings].concat());
+    let sample = Sample { soil: truth.value.site.terrain.soil, theory: truth.value.theory };
+    driven(&settings_of(settings), &sample, legs, models, 11)
+}
+
+fn settings_of<'s>(settings: &[&'s str]) -> Vec<&'s str> {
+    [&[MODEL], settings].concat()
+}
+
+fn driven(
+    settings: &[&str],
+    sample: &Sample,
+    legs: &[Leg],
+    models: SensorModels,
+    seed: u64,
+) -> Vec<TelemetryRecord> {
+    let mut drive = Drive::new(&scenario(settings), sample);
+    for leg in legs {
+        drive.leg(*leg).expect("the rover drives there");
+    }
+    drive.seen(models, seed)
+}
+
+/// A replay with the rover and soil as they are documented.
+fn replay(records: Vec<TelemetryRecord>) -> Replay {
+    let mut replayer = Replayer::new(&scenario(&[MODEL]).value, None);
+    records.into_iter().for_each(|it| replayer.update(it));
+    replayer.finish(&[], &|| true).unwrap().unwrap()
+}
+
+/// Telemetry whose roll and pitch tell another slope and yaw.
+fn misread(
+    mut records: Vec<TelemetryRecord>,
+    error: impl Fn([f64; 2]) -> [f64; 2],
+) -> Vec<TelemetryRecord> {
+    for record in &mut records {
+        if let (Some(roll), Some(pitch)) = (record.roll, record.pitch) {
+            let [slope, yaw] = error(slope_and_yaw(roll, pitch));
+            let [roll, pitch] = roll_and_pitch(slope, yaw);
+            (record.roll, record.pitch) = (Some(roll), Some(pitch));
+        }
+    }
+    records
+}
+
+/// The causes that are pointed to, alone or with others.
+fn pointed(replay: &Replay) -> Vec<Cause> {
+    let points = |it: &&Finding| it.verdict != Verdict::Nothing;
+    let mut causes: Vec<Cause> =
+        replay.findings.iter().filter(points).map(|it| it.parameter.cause()).collect();
+    causes.dedup();
+    causes
+}
+
+fn finding(replay: &Replay, parameter: Parameter) -> &Finding {
+    replay.findings.iter().find(|it| it.parameter == parameter).unwrap()
+}
+
+/// One cause is named, and how far off it is: within three of its standard deviations.
+fn check_named(replay: &Replay, parameter: Parameter, size: f64) {
+    assert_eq!(pointed(replay), [parameter.cause()], "{:#?}", replay.findings);
+    let found = finding(replay, parameter);
+    assert_eq!(found.verdict, Verdict::PointsTo);
+    assert!((found.estimate - size).abs() < 3.0 * found.deviation, "{found:?}");
+    assert!(found.deviation < 0.4 * size, "{found:?}");
+}
+
+#[test]
+fn where_nothing_is_off_nothing_is_pointed_to() {
+    let nominal = scenario(&[MODEL]);
+    let sample = Sample { soil: nominal.value.site.terrain.soil, theory: nominal.value.theory };
+    for (seed, outliers) in [(1, 0.0), (2, 0.0), (3, 0.05)] {
+        let models = SensorModels { outliers, ..SensorModels::USUAL };
+        let found = replay(driven(&[MODEL], &sample, &LEGS, models, seed));
+        assert_eq!(pointed(&found), [], "{:#?}", found.findings);
+        assert!(found.explained_stretches > 40, "{}", found.explained_stretches);
+    }
+}
+
+/// Slip and torques are off together.
+#[test]
+fn another_soil_is_named() {
+    let soft = ["soil.shear.lateral_m=0.022", "soil.shear.longitudinal_m=0.05"];
+    let found = replay(telemetry(&soft, &LEGS, SensorModels::USUAL));
+    assert_eq!(pointed(&found), [Cause::Soil], "{:#?}", found.findings);
+}
+
+/// The shearing radius is 0.11 m in the rover's document.
+#[test]
+fn wheels_that_are_5_percent_larger_are_named() {
+    let found = replay(telemetry(&["wheel.radius_m=0.1055"], &LEGS, SensorModels::USUAL));
+    check_named(&found, Parameter::Speed, 0.05);
+}
+
+#[test]
+fn a_slope_that_is_2_degrees_steeper_is_named() {
+    let records = telemetry(&[], &SLOPES, SensorModels::USUAL);
+    let found = replay(misread(records, |[slope, yaw]| [slope - deg(2.0), yaw]));
+    check_named(&found, Parameter::Slope, deg(2.0));
+}
+
+#[test]
+fn a_sensor_that_is_mounted_3_degrees_off_is_named() {
+    let records = || telemetry(&[], &LEGS, SensorModels::USUAL);
+    let mut rolled = records();
+    rolled.iter_mut().for_each(|it| it.roll = it.roll.map(|roll| roll + deg(3.0)));
+    check_named(&replay(rolled), Parameter::Roll, deg(3.0));
+    let mut pitched = records();
+    pitched.iter_mut().for_each(|it| it.pitch = it.pitch.map(|pitch| pitch + deg(3.0)));
+    check_named(&replay(pitched), Parameter::Pitch, deg(3.0));
+    let mut seen_askew = records();
+    for record in &mut seen_askew {
+        if let [Some(forward), Some(leftward)] = record.displacement {
+            let (sin, cos) = deg(3.0).sin_cos();
+            let turned = [cos * forward + sin * leftward, cos * leftward - sin * forward];
+            record.displacement = turned.map(Some);
+        }
+    }
+    check_named(&replay(seen_askew), Parameter::Odometry, deg(3.0));
+}
+
+#[test]
+fn a_sensor_that_is_turned_by_3_degrees_is_named_on_steep_slopes() {
+    let records = telemetry(&[], &STEEP, SensorModels::USUAL);
+    let found = replay(misread(records, |[slope, yaw]| [slope, yaw + deg(3.0)]));
+    check_named(&found, Parameter::Yaw, deg(3.0));
+}
+
+/// Along the contour a slope that is steeper and a sensor with a roll do the same.
+#[test]
+fn what_a_drive_does_not_tell_apart_is_said() {
+    let records = telemetry(&[], &[(8.0, 0.0, 1.5), (10.0, 0.0, 1.5)], SensorModels::USUAL);
+    let found = replay(misread(records, |[slope, yaw]| [slope - deg(3.0), yaw]));
+    let causes = pointed(&found);
+    assert!(causes.contains(&Cause::Slope) && causes.contains(&Cause::RollMounting), "{causes:?}");
+    let verdict = &finding(&found, Parameter::Slope).verdict;
+    let Verdict::NotToldApart(rivals) = verdict else { panic!("{verdict:?}") };
+    assert!(rivals.contains(&Cause::RollMounting), "{rivals:?}");
+}
+
+/// A run's own telemetry leads a free run over its way, and has its velocities and torques.
+#[test]
+fn a_run_replays_itself() {
+    let run = [MODEL, "scenario.slope_deg=8", "scenario.start.yaw_deg=4", "scenario.duration_s=40"];
+    let loaded = scenario(&run);
+    let trajectory = Run::new(&loaded.value).unwrap().to_end().unwrap();
+    let mut replayer = Replayer::new(&scenario(&[MODEL]).value, None);
+    truth(&trajectory, &loaded.value).into_iter().for_each(|it| replayer.update(it));
+    let found = replayer.finish(&[], &|| true).unwrap().unwrap();
+    let rms = |channel: Channel| {
+        found.channels.iter().find(|it| it.channel == channel).map(|it| it.rms).unwrap()
+    };
+    assert!((found.free_run.slope - deg(8.0)).abs() < 1e-9);
+    // Of 2.2 m of way and a yaw that turns by some degrees.
+    assert!(rms(Channel::X) < 0.01 && rms(Channel::Y) < 0.01, "{:?}", found.channels);
+    assert!(rms(Channel::Yaw) < deg(0.3), "{:?}", found.channels);
+    assert!(rms(Channel::ForwardSpeed) < 5e-4 && rms(Channel::Torque(0)) < 0.02);
+    let [measured, predicted] = found.energy.unwrap();
+    assert!((measured / predicted - 1.0).abs() < 0.03, "{measured} {predicted}");
+    assert_eq!(pointed(&found), []);
+}
+
+/// A soil drawn from an uncertain one is mostly within the bands over its samples; samples depend on the seed alone.
+#[test]
+fn bands_hold_a_soil_of_the_prior() {
+    let prior = scenario(&[MODEL, "scenario.soil=toyoura-uncertain"]);
+    let inputs = BandInputs::of_scenario(&prior);
+    let sample = inputs.sample(77, 3).unwrap();
+    let settings = [MODEL, "scenario.soil=toyoura-uncertain"];
+    let records = driven(&settings, &sample, &LEGS[1..3], SensorModels::PERFECT, 1);
+    let samples = inputs.samples(5, 24).unwrap();
+    let banded = || {
+        let mut replayer = Replayer::new(&prior.value, None);
+        records.clone().into_iter().for_each(|it| replayer.update(it));
+        replayer.finish(&samples, &|| true).unwrap().unwrap()
+    };
+    let found = banded();
+    for channel in [Channel::ForwardSpeed, Channel::LateralSpeed, Channel::Torque(1)] {
+        let summary = found.channels.iter().find(|it| it.channel == channel).unwrap();
+        assert!(summary.within.unwrap().estimate() > 0.6, "{summary:?}");
+    }
+    assert_eq!(found, banded());
+}
+
+/// Ten times the telemetry keeps no more stretches.
+#[test]
+fn memory_does_not_grow_with_the_drive() {
+    let records = telemetry(&[], &LEGS, SensorModels::PERFECT);
+    let span = records.last().unwrap().time;
+    let mut replayer = Replayer::new(&scenario(&[MODEL]).value, None);
+    for lap in 0..20_u32 {
+        for record in &records {
+            let time = record.time + f64::from(lap) * span;
+            replayer.update(TelemetryRecord { time, ..record.clone() });
+        }
+    }
+    let found = replayer.finish(&[], &|| true).unwrap().unwrap();
+    assert!(found.taken.stretches > 800 && found.stretches.len() <= 400, "{:?}", found.taken);
+    assert!(found.every >= 2 && found.stretches.len() >= 200);
+}
+
+#[test]
+fn telemetry_without_wheel_speeds_is_refused() {
+    let replayer = Replayer::new(&scenario(&[MODEL]).value, None);
+    assert!(replayer.finish(&[], &|| true).is_err());
+}
