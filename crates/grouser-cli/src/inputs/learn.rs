@@ -1,11 +1,12 @@
 //! The inputs of learning from a drive.
 
 use std::fs::File;
-use std::io::{self, BufReader, Read};
+use std::io::{self, Read};
 use std::path::Path;
 
 use grouser::document::{self, LoadedScenario, escape};
 
+use super::follow::Following;
 use super::{balanced_overrides, check_numbers, refuse_sampled_keys, scenario_source};
 use crate::args::LearnArgs;
 use crate::failure::Failure;
@@ -30,9 +31,14 @@ pub(crate) fn learn(args: &LearnArgs) -> Result<LoadedScenario, Failure> {
 }
 
 /// A log to read, and what messages call it.
-pub(crate) fn telemetry(path: &Path) -> Result<(String, Box<dyn Read>), Failure> {
-    if path == Path::new(STANDARD_INPUT) {
-        return Ok(("standard input".to_owned(), Box::new(io::stdin().lock())));
+///
+/// * `following`: whether rows that are added to it are read, too
+pub(crate) fn telemetry(
+    path: &Path,
+    following: Option<Following>,
+) -> Result<(String, Box<dyn Read + Send>), Failure> {
+    if is_standard_input(path) {
+        return Ok(("standard input".to_owned(), Box::new(io::stdin())));
     }
     let label = escape::path(path);
     let failed = |why: &str| {
@@ -44,10 +50,21 @@ pub(crate) fn telemetry(path: &Path) -> Result<(String, Box<dyn Read>), Failure>
         return Err(failed("this is a folder, not a file"));
     }
     match File::open(path) {
-        Ok(file) => Ok((label, Box::new(BufReader::new(file)))),
+        Ok(file) => Ok((
+            label,
+            match following {
+                Some(following) => Box::new(following.of(file)),
+                None => Box::new(file),
+            },
+        )),
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             Err(failed("there is no such file"))
         }
         Err(error) => Err(Failure::Run(format!("{label}: cannot be read: {error}"))),
     }
+}
+
+/// Whether a log comes from standard input.
+pub(crate) fn is_standard_input(path: &Path) -> bool {
+    path == Path::new(STANDARD_INPUT)
 }

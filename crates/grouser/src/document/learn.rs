@@ -1,7 +1,10 @@
-//! The soil that was learnt from a drive, as a document with samples.
+//! The soil that was learnt from a drive, as a document with samples; and the state of learning, to go on from.
+
+mod state;
 
 use serde_json::{Map, Value as Json, json};
 
+pub use self::state::{KeptDrive, LARGEST_STATE, StateError, state_text};
 use super::soil_family::DISCREPANCY;
 use super::{Document, SAMPLES_FILE, UncertainSoil, with_priors_held, without_uncertainty};
 use crate::contact::Theory;
