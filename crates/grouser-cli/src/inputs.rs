@@ -1,6 +1,7 @@
 //! Reads documents, overridden by flags: each flag stands for a key, and is checked as that key is.
 
 mod card;
+mod follow;
 mod forecast;
 mod heading;
 mod learn;
@@ -19,9 +20,10 @@ use grouser::document::{
 };
 
 pub(crate) use self::card::{CardInputs, card};
+pub(crate) use self::follow::Following;
 pub(crate) use self::forecast::{ForecastInputs, forecast};
 pub(crate) use self::heading::{heading, heading_map};
-pub(crate) use self::learn::{learn, telemetry};
+pub(crate) use self::learn::{is_standard_input, learn, telemetry};
 pub(crate) use self::map::{MapInputs, map};
 pub(crate) use self::route::{RouteInputs, route};
 pub(crate) use self::slip_from_current::{SlipInputs, slip_from_current};

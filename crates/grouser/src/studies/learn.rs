@@ -15,6 +15,7 @@
 //! it was, so that without telemetry predictions are those of the soil as it was, sample by sample.
 
 mod bank;
+mod currents;
 mod drive;
 mod filter;
 mod gaussian;
@@ -31,6 +32,7 @@ mod warnings;
 use std::collections::BTreeMap;
 
 use self::bank::{Bank, Taught};
+pub use self::currents::motor_log;
 pub use self::drive::{Drive, RecordDigest};
 use self::filter::Filter;
 pub use self::filter::Wandering;

@@ -4,6 +4,7 @@ use super::state::{Archive, items};
 use super::warnings::Warning;
 use super::{Learner, Lesson, TelemetryRecord, WheelTelemetry};
 use grouser_io::fnv_1a;
+use grouser_io::measurements::telemetry::Lost;
 
 /// Lessons that are kept at most: of a longer drive every n-th.
 const MOST_LESSONS: usize = 5000;
@@ -16,6 +17,7 @@ pub struct Drive {
     warnings: Vec<Warning>,
     last_time: Option<f64>,
     records_seen: RecordDigest,
+    lost: Lost,
 }
 
 /// A number by which records are known again, one after the other: FNV-1a of 64 bits.
@@ -47,7 +49,8 @@ impl Drive {
     #[must_use]
     pub fn new(learner: Learner) -> Self {
         let (lessons, warnings) = (Vec::new(), Vec::new());
-        Self { learner, lessons, warnings, last_time: None, records_seen: RecordDigest::default() }
+        let (records_seen, lost) = (RecordDigest::default(), Lost::default());
+        Self { learner, lessons, warnings, last_time: None, records_seen, lost }
     }
 
     /// Takes the next record; what was learnt, where it completes a stretch that teaches something.
@@ -56,6 +59,17 @@ impl Drive {
         self.records_seen = self.records_seen.and(&record);
         let lesson = self.learner.update(record)?;
         Some(self.keep(lesson))
+    }
+
+    /// Notes what was left out of the telemetry so far.
+    pub fn note_lost(&mut self, lost: Lost) {
+        self.lost = lost;
+    }
+
+    /// What was left out of the telemetry.
+    #[must_use]
+    pub fn lost(&self) -> &Lost {
+        &self.lost
     }
 
     /// The drive as if it ended here: the records that are too few for a stretch of their own count, too.
@@ -136,11 +150,27 @@ impl Drive {
     }
 
     fn walk(&mut self, archive: &mut dyn Archive) {
-        let Self { learner: _, lessons, warnings, last_time, records_seen: RecordDigest(digest) } =
-            self;
+        let Self { learner: _, lessons, warnings, last_time, records_seen, lost } = self;
         archive.maybe("last_time", last_time);
-        archive.count("digest", digest);
+        archive.count("digest", &mut records_seen.0);
         items(archive, "lessons", lessons, Lesson::default, Lesson::walk);
         items(archive, "warnings", warnings, Warning::blank, Warning::walk);
+        archive.group("lost");
+        walk_lost(lost, archive);
+        archive.end();
     }
+}
+
+fn walk_lost(lost: &mut Lost, archive: &mut dyn Archive) {
+    let Lost { damaged_rows, rows_without_time, rows_out_of_order, cells } = lost;
+    archive.count("damaged_rows", damaged_rows);
+    archive.count("rows_without_time", rows_without_time);
+    archive.count("rows_out_of_order", rows_out_of_order);
+    let mut of_cells: Vec<(String, u64)> = std::mem::take(cells).into_iter().collect();
+    let blank = || (String::new(), 0);
+    items(archive, "cells", &mut of_cells, blank, |(column, count), archive| {
+        archive.word("column", column);
+        archive.count("count", count);
+    });
+    *cells = of_cells.into_iter().collect();
 }
