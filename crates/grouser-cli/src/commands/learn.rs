@@ -18,9 +18,7 @@ use grouser::document::learn::{LearntSoil, files_of_prior};
 use grouser::document::table::Table;
 use grouser::document::{LoadedScenario, SAMPLES_FILE, escape};
 use grouser::studies::heading_band::SlopeBand;
-use grouser::studies::learn::{
-    Drive, LearnSettings, Learner, LearntSample, NotUsed, TelemetryRecord,
-};
+use grouser::studies::learn::{Drive, LearnSettings, Learner, LearntSample, TelemetryRecord};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -152,7 +150,7 @@ fn learn(args: &LearnArgs, scenario: &LoadedScenario) -> Result<Found, Failure> 
     let narrowed = narrowed.map_err(|error| reaches_too_far(&error))?;
     let unused = not_known(&ending.unused);
     let lost = drive.lost().sentences();
-    let notes = lost.into_iter().chain(unused).chain(not_used(drive.learner())).collect();
+    let notes = lost.into_iter().chain(unused).chain(drive.learner().notes()).collect();
     Ok(Found { drive, notes, predictions, narrowed })
 }
 
@@ -225,18 +223,6 @@ fn not_known(names: &[String]) -> Option<String> {
     let more = if more == 0 { String::new() } else { format!(" and {more} more") };
     let first = names.get(..MOST).unwrap_or(names).join(", ");
     (!names.is_empty()).then(|| format!("columns not used: {first}{more}"))
-}
-
-/// Why stretches of the drive taught nothing, a sentence each.
-fn not_used(learner: &Learner) -> Vec<String> {
-    let learnt = learner.learnt();
-    let sentence = |why: NotUsed| {
-        let count = learnt.not_used.get(&why)?;
-        Some(format!("{count} stretches taught nothing: {}", why.meaning()))
-    };
-    let outliers = (learnt.outliers > 0)
-        .then(|| format!("{} readings far from those around them are left out", learnt.outliers));
-    NotUsed::ALL.into_iter().filter_map(sentence).chain(outliers).collect()
 }
 
 fn predictions(

@@ -240,6 +240,69 @@ impl<'a, R: Read> TelemetryReader<'a, R> {
     }
 }
 
+/// Columns of numbers that are at hand, as records: what a log with these columns has.
+pub struct TelemetryColumns {
+    header: Header,
+    last_time: Option<f64>,
+    lost: Lost,
+}
+
+impl TelemetryColumns {
+    /// * `label`: what messages call the columns
+    /// * `names`: of the columns, as in a log
+    /// * `rover`: the rover that was driven
+    /// * `last_time`: of the record before [s]: records that do not come after it are left out
+    ///
+    /// # Errors
+    /// [`MeasurementError`] as of [`TelemetryReader::new`].
+    pub fn new(
+        label: &str,
+        names: Vec<String>,
+        rover: &Rover,
+        last_time: Option<f64>,
+    ) -> Result<Self, MeasurementError> {
+        let names: Vec<String> = names.iter().map(|name| name_of(name)).collect();
+        let header = Header::new(label, names, rover)?;
+        Ok(Self { header, last_time, lost: Lost::default() })
+    }
+
+    /// A record; nothing of a row that a log's reader leaves out.
+    ///
+    /// * `cells`: a number for each column in its own unit, NaN for a gap
+    pub fn record(&mut self, cells: &[f64]) -> Option<TelemetryRecord> {
+        let Self { header, last_time, lost } = self;
+        let record = header.record_of(cells.iter().copied(), |number, range, name| {
+            let is_known = range.contains(&number);
+            if !is_known && !number.is_nan() {
+                *lost.cells.entry(name.to_owned()).or_default() += 1;
+            }
+            is_known.then_some(number)
+        });
+        let Some(record) = record else {
+            lost.rows_without_time += 1;
+            return None;
+        };
+        if last_time.is_some_and(|last| record.time <= last) {
+            lost.rows_out_of_order += 1;
+            return None;
+        }
+        *last_time = Some(record.time);
+        Some(record)
+    }
+
+    /// What was lost so far.
+    #[must_use]
+    pub fn lost(&self) -> &Lost {
+        &self.lost
+    }
+
+    /// Columns that are not known, and left aside.
+    #[must_use]
+    pub fn unused(&self) -> &[String] {
+        &self.header.unused
+    }
+}
+
 /// The header of a table with all columns, and its line end.
 #[must_use]
 pub fn csv_header(rover: &Rover) -> String {
@@ -321,26 +384,39 @@ impl Header {
 
     /// A row in SI; nothing without a time.
     fn record(&self, row: &StringRecord, lost: &mut Lost) -> Option<TelemetryRecord> {
+        self.record_of(row.iter(), |text, range, name| {
+            let text = escape::plain(text);
+            if text.is_empty() {
+                return None;
+            }
+            let number = text.parse::<f64>().ok().filter(|it| range.contains(it));
+            // NaN stands for a gap in many logs.
+            if number.is_none() && !text.eq_ignore_ascii_case("nan") {
+                *lost.cells.entry(name.to_owned()).or_default() += 1;
+            }
+            number
+        })
+    }
+
+    /// Cells in SI; nothing without a time.
+    ///
+    /// * `number`: a cell's number in the column's own unit, within a range; nothing of a gap. It gets the column's name,
+    ///   too
+    fn record_of<C>(
+        &self,
+        cells: impl Iterator<Item = C>,
+        mut number: impl FnMut(C, &RangeInclusive<f64>, &str) -> Option<f64>,
+    ) -> Option<TelemetryRecord> {
         let mut record = TelemetryRecord {
             time: f64::NAN,
             wheels: vec![WheelTelemetry::default(); self.wheels],
             ..TelemetryRecord::default()
         };
-        for (cell, text) in self.cells.iter().zip(row.iter()) {
+        for (cell, content) in self.cells.iter().zip(cells) {
             let Some((name, column, wheel)) = cell else { continue };
-            let text = escape::plain(text);
-            if text.is_empty() {
-                continue;
+            if let Some(number) = number(content, &column.range, name) {
+                record.put(column.name, *wheel, column.unit.to_si(number));
             }
-            let number = text.parse::<f64>().ok().filter(|it| column.range.contains(it));
-            let Some(number) = number else {
-                // NaN stands for a gap in many logs.
-                if !text.eq_ignore_ascii_case("nan") {
-                    *lost.cells.entry(name.clone()).or_default() += 1;
-                }
-                continue;
-            };
-            record.put(column.name, *wheel, column.unit.to_si(number));
         }
         (!record.time.is_nan()).then_some(record)
     }

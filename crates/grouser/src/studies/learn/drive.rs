@@ -2,7 +2,7 @@
 
 use super::state::{Archive, items};
 use super::warnings::Warning;
-use super::{Learner, Lesson, TelemetryRecord, WheelTelemetry};
+use super::{Learner, Lesson, NotUsed, TelemetryRecord, WheelTelemetry};
 use grouser_io::fnv_1a;
 use grouser_io::measurements::telemetry::Lost;
 
@@ -41,6 +41,21 @@ impl RecordDigest {
         // No reading is NaN: its bits stand for a gap.
         let bits = of_rover.chain(of_wheels).map(|it| it.unwrap_or(f64::NAN).to_bits());
         Self(fnv_1a(self.0.to_le_bytes().into_iter().chain(bits.flat_map(u64::to_le_bytes))))
+    }
+}
+
+impl Learner {
+    /// Why stretches of the drive taught nothing, and how many readings are left out, a sentence each.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        let sentence = |why: NotUsed| {
+            let count = self.learnt.not_used.get(&why)?;
+            Some(format!("{count} stretches taught nothing: {}", why.meaning()))
+        };
+        let outliers = self.learnt.outliers;
+        let left_out = (outliers > 0)
+            .then(|| format!("{outliers} readings far from those around them are left out"));
+        NotUsed::ALL.into_iter().filter_map(sentence).chain(left_out).collect()
     }
 }
 
