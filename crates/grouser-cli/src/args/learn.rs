@@ -56,6 +56,10 @@ pub(crate) struct LearnArgs {
     /// Predict no more often than this on the way [s]; warnings are printed at once.
     #[arg(long, value_name = "SECONDS", default_value = "1", requires = "follow", value_parser = parse_seconds, allow_negative_numbers = true)]
     pub(crate) every_s: f64,
+    /// Make the operator's card of today beside that of yesterday, too, in the folder of --out; it takes some minutes of
+    /// one core.
+    #[arg(long, requires = "out")]
+    pub(crate) cards: bool,
     /// Seed of the samples.
     #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true)]
     pub(crate) seed: u64,

@@ -99,7 +99,8 @@ fn write(
         folder.add("slip-from-current.csv", Rows::of_table(&slips.rows).to_csv()?);
     }
     let learnt = learnt_soil(args, scenario, found.drive.learner())?;
-    let cards = learnt.as_ref().map(|learnt| Cards::of(args, scenario, learnt)).transpose()?;
+    let of_cards = learnt.as_ref().filter(|_| args.cards);
+    let cards = of_cards.map(|learnt| Cards::of(args, scenario, learnt)).transpose()?;
     if let Some(learnt) = &learnt {
         folder.add(SOIL, learnt.soil.to_toml());
         folder.add(SAMPLES_FILE, &*learnt.samples);
