@@ -168,15 +168,15 @@ fn a_learnt_soil_is_a_prior() {
     let place = driven();
     place.results(&format!("{LEARN} --samples 40 --out yesterday").replace("--samples 8 ", ""));
     let today = LEARN.replace("toyoura-uncertain", "yesterday/soil.toml");
-    let answer = place.json(&format!("{today} --samples 40 --out today").replace("--samples 8 ", ""));
+    let answer =
+        place.json(&format!("{today} --samples 40 --out today").replace("--samples 8 ", ""));
     let row = &answer["predictions"][0];
-    let width = |name: &str| {
-        number(&row[format!("{name}_p97_5")]) - number(&row[format!("{name}_p2_5")])
-    };
+    let width =
+        |name: &str| number(&row[format!("{name}_p97_5")]) - number(&row[format!("{name}_p2_5")]);
     assert!(width("yaw_deg") < width("before_yaw_deg"), "{row}");
     // The samples of both days are there, each where its document says.
-    let [before, after] = ["prior-samples.csv", "soil-samples.csv"]
-        .map(|name| place.read(&format!("today/{name}")));
+    let [before, after] =
+        ["prior-samples.csv", "soil-samples.csv"].map(|name| place.read(&format!("today/{name}")));
     assert_eq!(before, place.read("yesterday/soil-samples.csv"));
     assert_ne!(before, after);
     assert!(place.read("today/scenario.toml").contains("prior-samples.csv"));
