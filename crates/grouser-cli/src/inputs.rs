@@ -1,6 +1,7 @@
 //! Reads documents, overridden by flags: each flag stands for a key, and is checked as that key is.
 
 mod card;
+mod follow;
 mod forecast;
 mod heading;
 mod learn;
@@ -21,6 +22,7 @@ use grouser::document::{
 };
 
 pub(crate) use self::card::{CardInputs, card};
+pub(crate) use self::follow::Following;
 pub(crate) use self::forecast::{ForecastInputs, forecast};
 pub(crate) use self::heading::{heading, heading_map};
 pub(crate) use self::learn::learn;
@@ -29,7 +31,9 @@ pub(crate) use self::replay::replay;
 pub(crate) use self::route::{RouteInputs, route};
 pub(crate) use self::slip_from_current::{SlipInputs, slip_from_current};
 pub(crate) use self::stand::{StandInputs, soil, stand, wheel_test};
-pub(crate) use self::telemetry::{driven_rover, mapping, telemetry};
+pub(crate) use self::telemetry::{
+    driven_rover, is_standard_input, mapping, telemetry, telemetry_label,
+};
 pub(crate) use self::traverse::traverse;
 use crate::args::{BalanceArgs, DrawArgs, RunArgs, SettingArgs, SlopeArgs, TerrainArgs};
 use crate::failure::Failure;

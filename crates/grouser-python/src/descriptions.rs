@@ -96,6 +96,11 @@ impl Document {
         read.map(|read| Self { read }).map_err(|error| errors::of_document(&error, &[]))
     }
 
+    /// A scenario that was read here.
+    pub(crate) fn of_scenario(scenario: LoadedScenario) -> Self {
+        Self { read: Read::Scenario(scenario.into()) }
+    }
+
     pub(crate) fn soil(&self) -> PyResult<&LoadedSoil> {
         match &self.read {
             Read::Soil(soil) => Ok(soil),

@@ -3,7 +3,7 @@
 //! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one reads
 //! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), steps rovers
 //! ([`simulators`], on [`paths`]), reads slip from currents
-//! ([`slip_from_current`]), runs studies ([`studies`], [`missions`], [`rollouts`], [`validation`], [`calibration`]) and
+//! ([`slip_from_current`]), learns from telemetry ([`learning`]), runs studies ([`studies`], [`missions`], [`rollouts`], [`validation`], [`calibration`]) and
 //! campaigns ([`campaign`]), computes the soil's reaction for other engines ([`time_step`], and the
 //! [`ground`] under their wheels) reads [`telemetry`] and exports tables ([`arrow`]). It does so without Python's lock, with threads that a forked process has too
 //! ([`threads`]), and Ctrl-C interrupts it ([`interrupt`]). Nothing here computes physics, and the
@@ -18,6 +18,7 @@ mod descriptions;
 mod errors;
 mod ground;
 mod interrupt;
+mod learning;
 mod maps;
 mod measurements;
 mod missions;
@@ -63,6 +64,8 @@ mod _core {
     };
     #[pymodule_export]
     use super::ground::Footprints;
+    #[pymodule_export]
+    use super::learning::Learner;
     #[pymodule_export]
     use super::maps::mobility_map;
     #[pymodule_export]

@@ -620,7 +620,7 @@ pub(crate) fn simulated_wheel_test<'py>(
 const COURSES: usize = 64;
 
 /// Slopes in their range [rad].
-fn slopes(slope_deg: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<f64>> {
+pub(crate) fn slopes(slope_deg: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<f64>> {
     let range = document::range(Kind::Scenario, SLOPE.name).unwrap_or(0.0..=60.0);
     check(SLOPE.name, slope_deg.as_slice()?, &range)?;
     Ok(in_si(SLOPE, slope_deg.as_slice()?))

@@ -1,12 +1,14 @@
 //! A log of any kind, record by record.
 
+use std::cell::Cell;
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek as _};
 use std::path::Path;
+use std::rc::Rc;
 
 use grouser_core::vehicle::Rover;
 use grouser_io::escape;
-use grouser_io::measurements::telemetry::{TelemetryReader, TelemetryRecord, TelemetryRows};
+use grouser_io::measurements::telemetry::{Lost, TelemetryReader, TelemetryRecord, TelemetryRows};
 
 use crate::error::{Problem, TelemetryError};
 use crate::mapping::Mapping;
@@ -21,7 +23,7 @@ pub struct TelemetryLog {
 }
 
 enum Source {
-    Csv(TelemetryReader<'static, Box<dyn Read>>),
+    Csv { reader: TelemetryReader<'static, LastByte>, ended_in_row: Rc<Cell<bool>> },
     Parquet(ParquetLog),
     Mcap(Box<McapLog>),
 }
@@ -80,8 +82,10 @@ impl TelemetryLog {
         source: Box<dyn Read>,
         rover: &Rover,
     ) -> Result<Self, TelemetryError> {
+        let ended_in_row = Rc::new(Cell::new(false));
+        let source = LastByte { source, last: b'\n', ended_in_row: ended_in_row.clone() };
         let reader = TelemetryReader::new(label.to_owned(), source, rover)?;
-        Ok(Self { label: label.to_owned(), source: Source::Csv(reader) })
+        Ok(Self { label: label.to_owned(), source: Source::Csv { reader, ended_in_row } })
     }
 
     /// What messages call it.
@@ -96,7 +100,7 @@ impl TelemetryLog {
     /// [`TelemetryError`] where reading fails, or what comes cannot be telemetry.
     pub fn next_record(&mut self) -> Result<Option<TelemetryRecord>, TelemetryError> {
         match &mut self.source {
-            Source::Csv(reader) => Ok(reader.next_record()?),
+            Source::Csv { reader, .. } => Ok(reader.next_record()?),
             Source::Parquet(log) => log.next_record(),
             Source::Mcap(log) => log.next_record(),
         }
@@ -108,35 +112,45 @@ impl TelemetryLog {
         self.table().rows()
     }
 
+    /// Whether the row of the last record has its end: the last row of CSV that is being written may not.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        match &self.source {
+            Source::Csv { ended_in_row, .. } => !ended_in_row.get(),
+            Source::Parquet(_) | Source::Mcap(_) => true,
+        }
+    }
+
+    /// What was left out of its rows so far.
+    #[must_use]
+    pub fn lost(&self) -> &Lost {
+        self.table().lost()
+    }
+
     /// What was left out so far, and what is not used: a sentence each.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
-        let table = self.table();
+        self.lost().sentences().into_iter().chain(self.notes_of_source()).collect()
+    }
+
+    /// The same without what was left out of its rows, which is [`lost`](Self::lost).
+    #[must_use]
+    pub fn notes_of_source(&self) -> Vec<String> {
         let of_kind = match &self.source {
-            Source::Csv(_) => Vec::new(),
+            Source::Csv { .. } => Vec::new(),
             Source::Parquet(log) => log.notes(),
             Source::Mcap(log) => log.notes(),
         };
-        let lost = table.lost().sentences().into_iter();
-        of_kind.into_iter().chain(lost).chain(not_used(table.unused())).collect()
+        of_kind.into_iter().chain(self.table().sentence_of_unused()).collect()
     }
 
     fn table(&self) -> &TelemetryRows {
         match &self.source {
-            Source::Csv(reader) => reader.rows(),
+            Source::Csv { reader, .. } => reader.rows(),
             Source::Parquet(log) => log.rows(),
             Source::Mcap(log) => log.rows(),
         }
     }
-}
-
-/// The columns that are not known, as many as a sentence bears.
-fn not_used(names: &[String]) -> Option<String> {
-    const MOST: usize = 6;
-    let more = names.len().saturating_sub(MOST);
-    let more = if more == 0 { String::new() } else { format!(" and {more} more") };
-    let first = names.get(..MOST).unwrap_or(names).join(", ");
-    (!names.is_empty()).then(|| format!("columns not used: {first}{more}"))
 }
 
 /// As many bytes as tell what a file is, or all that it has.
@@ -145,4 +159,25 @@ fn first_bytes(file: &mut File) -> io::Result<Vec<u8>> {
     let mut start = Vec::new();
     file.take(ENOUGH).read_to_end(&mut start)?;
     Ok(start)
+}
+
+/// Notices whether a source ends within a row.
+struct LastByte {
+    source: Box<dyn Read>,
+    last: u8,
+    ended_in_row: Rc<Cell<bool>>,
+}
+
+impl Read for LastByte {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.source.read(buffer)?;
+        match buffer[..count].last() {
+            Some(last) => self.last = *last,
+            None if !buffer.is_empty() => {
+                self.ended_in_row.set(!matches!(self.last, b'\n' | b'\r'));
+            }
+            None => {}
+        }
+        Ok(count)
+    }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::builder::NonEmptyStringValueParser;
-use clap::{Args, ValueEnum};
+use clap::{Args, Command, FromArgMatches as _, ValueEnum};
 
 use super::measurements::ReadArgs;
 use super::{BalanceArgs, PartArgs, SettingArgs, StrictArgs};
@@ -67,6 +67,15 @@ pub(crate) struct CardArgs {
     /// Replace that file, or files of the same names in that folder.
     #[arg(long, requires = "out")]
     pub(crate) force: bool,
+}
+
+impl CardArgs {
+    /// Those of a command line without flags.
+    pub(crate) fn usual() -> Self {
+        let command = Self::augment_args(Command::new("card"));
+        let matches = command.get_matches_from(["card"]);
+        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    }
 }
 
 /// Limits of go and no-go.

@@ -12,9 +12,11 @@ use crate::list::{self, Numbers};
 #[command(
     after_help = "Forces that a soil has to give in the motion that was seen narrow what its document leaves open; \
                         what no reading bears upon stays what it was. The folder of --out has the soil that was \
-                        learnt, for `card`, `heading` and all other commands.\n\
+                        learnt, for `card`, `heading` and all other commands; killed or interrupted, the same \
+                        command goes on from the last state that it kept there.\n\
                         Example:\n  grouser learn drive.csv --prior toyoura-uncertain --rover hakuto \\\n    \
-                        --predict-slope-deg 10,15 --out today\n\
+                        --predict-slope-deg 10,15 --out today\n  \
+                        grouser learn drive.csv --follow --follow-s 60 --format json --out today\n\
                         docs/guide/learn.md explains the telemetry, what is learnt, and how far it is to be trusted."
 )]
 pub(crate) struct LearnArgs {
@@ -46,6 +48,20 @@ pub(crate) struct LearnArgs {
     #[arg(long, value_name = "N", default_value_t = 200)]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
     pub(crate) samples: u32,
+    /// Learn from rows as they are added to the log, and print what is learnt on the way: text, or with --format json a
+    /// line of JSON for each lesson, warning and prediction; until Ctrl-C, or the end of standard input.
+    #[arg(long)]
+    pub(crate) follow: bool,
+    /// End as if by Ctrl-C once the log has not grown for so long [s].
+    #[arg(long, value_name = "SECONDS", requires = "follow", value_parser = parse_seconds, allow_negative_numbers = true)]
+    pub(crate) follow_s: Option<f64>,
+    /// Predict no more often than this on the way [s]; warnings are printed at once.
+    #[arg(long, value_name = "SECONDS", default_value = "1", requires = "follow", value_parser = parse_seconds, allow_negative_numbers = true)]
+    pub(crate) every_s: f64,
+    /// Make the operator's card of today beside that of yesterday, too, in the folder of --out; it takes some minutes of
+    /// one core.
+    #[arg(long, requires = "out")]
+    pub(crate) cards: bool,
     /// Seed of the samples.
     #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true)]
     pub(crate) seed: u64,
@@ -55,4 +71,12 @@ pub(crate) struct LearnArgs {
     pub(crate) setting: SettingArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+}
+
+/// A time of waiting.
+fn parse_seconds(text: &str) -> Result<f64, String> {
+    /// A year.
+    const MOST: f64 = 3.2e7;
+    let number = text.parse::<f64>().ok().filter(|it| (0.0..=MOST).contains(it));
+    number.ok_or_else(|| format!("it is no number from 0 to {MOST}"))
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 /// How a log of messages is read.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(crate) struct TelemetryArgs {
     /// Of a log of messages (MCAP): which of its topics and fields are which columns, a file or one of `grouser`,
     /// `ros`, `foxglove`; without it the one of these that fits.

@@ -13,8 +13,8 @@ use std::path::{Path, PathBuf};
 use grouser::document::card::RuleRecord;
 use grouser::document::columns::card::{self, MeasuredYaw, YAW_AS_WRITTEN};
 use grouser::document::columns::{SLOPE, YAW, card_courses, card_drives};
-use grouser::document::escape;
 use grouser::document::table::{Row, Table};
+use grouser::document::{LoadedScenario, escape};
 use grouser::simulation::Approach;
 use grouser::studies::card::drives::{CardDrives, RowDrives};
 use grouser::studies::card::{Card, CardStudy, Side};
@@ -79,6 +79,30 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
         Format::Table => output::show(answers.table()),
         Format::Csv => output::print(&Rows::of_table(&answers.rows).to_csv()?),
         Format::Json => output::print_json(&answers.json(&card::steepest(&card), &courses)),
+    }
+}
+
+/// A card with its pages, of the usual side, speed and rule.
+pub(super) struct Pages {
+    pub(super) card: Card,
+    pub(super) sheets: [Sheet; 2],
+}
+
+impl Pages {
+    /// * `samples`, `seed`: as the flags
+    pub(super) fn of(scenario: LoadedScenario, samples: u32, seed: u64) -> Result<Self, Failure> {
+        let args = CardArgs { samples, seed, ..CardArgs::usual() };
+        let inputs = CardInputs::usual(&args, scenario)?;
+        let samples = self::samples(&args, &inputs)?;
+        let study = study(&args, &inputs);
+        let card = compute(&study, &samples, &[])?;
+        let rows = shown(&card::table(&card), &[]);
+        let courses =
+            card_courses::table(&sampling::whole(study.courses(&card.rows, &samples, &|| true)));
+        let picture = Picture::of(&inputs.scenario.value.rover, args.uphill);
+        let texts = texts::of(&args, &inputs, &card);
+        let sheets = [layout::draw(&texts, &picture, &rows), second::draw(&texts, &rows, &courses)];
+        Ok(Self { card, sheets })
     }
 }
 

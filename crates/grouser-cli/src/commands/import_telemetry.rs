@@ -48,7 +48,7 @@ fn print_mapping(name: &str) -> Result<(), Failure> {
 /// The log, after questions on what is ambiguous in it, where somebody can answer.
 fn opened(args: &ImportTelemetryArgs, path: &Path, rover: &Rover) -> Result<TelemetryLog, Failure> {
     if !stdin().is_terminal() {
-        return inputs::telemetry(path, &args.telemetry, rover);
+        return inputs::telemetry(path, &args.telemetry, rover, None);
     }
     let mapping = inputs::mapping(&args.telemetry)?;
     let mut choices: TopicChoices = args.telemetry.topics.iter().cloned().collect();

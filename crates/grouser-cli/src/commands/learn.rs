@@ -1,25 +1,39 @@
 //! `grouser learn`: what the telemetry of a drive tells of the soil, and of the next slopes.
 
+mod cards;
 mod found;
+mod live;
 mod page;
+mod position;
+mod records;
+mod state_file;
+mod tables;
 
 use std::collections::BTreeMap;
+use std::time::Duration;
 
 use grouser::document::columns::SLOPE;
 use grouser::document::columns::learn as columns;
-use grouser::document::learn::LearntSoil;
+use grouser::document::learn::{LearntSoil, files_of_prior};
 use grouser::document::table::Table;
-use grouser::document::{Kind, LoadedScenario, SAMPLES_FILE, escape};
+use grouser::document::{LoadedScenario, SAMPLES_FILE, escape};
 use grouser::studies::heading_band::SlopeBand;
-use grouser::studies::learn::{LearnSettings, Learner, LearntSample, Lesson, NotUsed};
+use grouser::studies::learn::{Drive, LearnSettings, Learner, LearntSample, TelemetryRecord};
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use self::cards::Cards;
 use self::found::{Found, shares};
+use self::live::Live;
+use self::position::Position;
+use self::records::{Event, Records};
+use self::state_file::StateFile;
+use self::tables::Tables;
 use super::{Answer, sampling};
 use crate::args::LearnArgs;
 use crate::failure::Failure;
-use crate::inputs;
+use crate::inputs::{self, Following};
+use crate::interrupt;
 use crate::output::folder::OutputFolder;
 use crate::output::rows::Rows;
 use crate::output::{self, Format};
@@ -37,40 +51,70 @@ struct Results<'a> {
     notes: &'a [String],
 }
 
-/// Lessons that a report has at most: of a longer drive every n-th.
-const MOST_LESSONS: usize = 5000;
-
 pub(crate) fn run(args: &LearnArgs) -> Result<(), Failure> {
-    let folder = OutputFolder::for_args(&args.output)?;
+    if args.follow && args.output.format == Format::Csv {
+        let why =
+            "--follow prints text, or with --format json lines of JSON: there is no CSV of it";
+        return Err(Failure::Usage(why.to_owned()));
+    }
+    let folder = state_file::open_folder(args)?;
     let scenario = inputs::learn(args)?;
     let found = learn(args, &scenario)?;
-    let warnings = columns::warnings(&found.warnings);
+    let warnings = columns::warnings(found.drive.warnings());
     let soil = args.output.out.as_ref().map(|folder| escape::path(&folder.join(SOIL)));
     let results = Results {
         predictions: &found.predictions,
         warnings: &warnings,
-        learnt: learnt(&found.learner),
-        models: shares(&found.learner),
+        learnt: learnt(found.drive.learner()),
+        models: shares(found.drive.learner()),
         narrowed: found.narrowed.clone(),
         soil,
         notes: &found.notes,
     };
     let answer = Answer::new("learn", settings(args, &scenario), results);
-    if let Some(mut folder) = folder {
-        let lessons = columns::lessons(&found.lessons);
-        folder.add("learn.json", answer.to_text());
-        folder.add("predictions.csv", Rows::of_table(&found.predictions).to_csv()?);
-        folder.add("lessons.csv", Rows::of_table(&lessons).to_csv()?);
-        add_soil(&mut folder, args, &scenario, &found.learner)?;
-        folder.add(REPORT, page::html(args, &scenario, &found, &lessons));
-        folder.add_document("scenario.toml", &scenario);
-        folder.finish()?;
+    if let Some(folder) = folder {
+        write(folder, args, &scenario, (&found, &answer))?;
     }
     match args.output.format {
         Format::Table => output::show(page::text(&found)),
         Format::Csv => output::print(&Rows::of_table(&found.predictions).to_csv()?),
+        Format::Json if args.follow => live::print_line("answer", &answer),
         Format::Json => output::print_json(&answer),
     }
+}
+
+/// Writes the folder of the answer.
+fn write(
+    mut folder: OutputFolder,
+    args: &LearnArgs,
+    scenario: &LoadedScenario,
+    (found, answer): (&Found, &Answer<Results<'_>>),
+) -> Result<(), Failure> {
+    let tables = Tables::of(args, scenario, found)?;
+    folder.add("learn.json", answer.to_text());
+    folder.add("predictions.csv", Rows::of_table(&found.predictions).to_csv()?);
+    folder.add("lessons.csv", Rows::of_table(&tables.lessons).to_csv()?);
+    folder.add("warnings.csv", Rows::of_table(&tables.warnings).to_csv()?);
+    if let Some(slips) = &tables.slips {
+        folder.add("slip-from-current.csv", Rows::of_table(&slips.rows).to_csv()?);
+    }
+    let learnt = learnt_soil(args, scenario, found.drive.learner())?;
+    let of_cards = learnt.as_ref().filter(|_| args.cards);
+    let cards = of_cards.map(|learnt| Cards::of(args, scenario, learnt)).transpose()?;
+    if let Some(learnt) = &learnt {
+        folder.add(SOIL, learnt.soil.to_toml());
+        folder.add(SAMPLES_FILE, &*learnt.samples);
+    }
+    if let Some(cards) = &cards {
+        cards.add_to(&mut folder)?;
+    }
+    folder.add(REPORT, page::html(args, scenario, found, (&tables, cards.as_ref())));
+    let (before, companions) = files_of_prior(scenario);
+    folder.add("scenario.toml", before.to_toml());
+    for companion in companions {
+        folder.add(companion.name, companion.content);
+    }
+    folder.finish()
 }
 
 /// The soil's document in the folder.
@@ -83,66 +127,97 @@ fn learn(args: &LearnArgs, scenario: &LoadedScenario) -> Result<Found, Failure> 
             "{error}\nhint: --prior toyoura-uncertain, or a soil with an [uncertainty] table"
         ))
     });
-    let mut learner = learner?;
+    let learner = learner?;
+    let mut state = StateFile::of(args, scenario);
+    let kept = state.read(args.output.force)?;
     let slopes: Vec<f64> =
         args.predict_slope_deg.0.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect();
     let before = predictions(args, &learner, &slopes)?;
-    let (mut lessons, mut warnings) = (Vec::new(), Vec::new());
-    let notes = read(args, scenario, &mut learner, &mut |lesson: Lesson| {
-        warnings.extend(lesson.warnings.iter().cloned());
-        keep(&mut lessons, lesson);
-    })?;
-    let after = predictions(args, &learner, &slopes)?;
+    let mut drive = kept.unwrap_or_else(|| Drive::new(learner));
+    let live = Live::of(args, &before);
+    let ending = drive_on(args, scenario, &mut drive, (&mut state, live), &slopes)?;
+    state.keep(&drive)?;
+    let drive = ending.last.map_or_else(
+        || drive.finished(),
+        |last| {
+            let mut whole = drive.clone();
+            whole.update(last);
+            whole.finished()
+        },
+    );
+    let after = predictions(args, drive.learner(), &slopes)?;
     let predictions = columns::predictions(&before, &after);
-    let narrowed = learner.narrowed(args.seed, args.samples);
+    let narrowed = drive.learner().narrowed(args.seed, args.samples);
     let narrowed = narrowed.map_err(|error| reaches_too_far(&error))?;
-    Ok(Found { learner, lessons, warnings, notes, predictions, narrowed })
+    let lost = drive.lost().sentences();
+    let notes = lost.into_iter().chain(ending.notes).chain(drive.learner().notes()).collect();
+    Ok(Found { drive, notes, predictions, narrowed })
 }
 
-/// Keeps a lesson; where there are too many, every second of them, so that memory does not grow with the drive.
-fn keep(lessons: &mut Vec<Lesson>, lesson: Lesson) {
-    if lessons.len() >= MOST_LESSONS {
-        let mut place = 0;
-        lessons.retain(|_| {
-            place += 1;
-            place % 2 == 0
-        });
-    }
-    lessons.push(lesson);
+/// How a log ended.
+struct Ended {
+    /// What there is to say of it besides what was left out of its rows.
+    notes: Vec<String>,
+    /// The record of a last row that may not be whole: it counts, but what is kept ends before it.
+    last: Option<TelemetryRecord>,
 }
 
-/// Teaches the learner all records of the log; notes on what was left out.
-fn read(
+/// Learns from all records of the log that are new, and keeps and prints what was learnt on the way.
+fn drive_on(
     args: &LearnArgs,
     scenario: &LoadedScenario,
-    learner: &mut Learner,
-    lesson: &mut dyn FnMut(Lesson),
-) -> Result<Vec<String>, Failure> {
-    let mut log = inputs::telemetry(&args.log, &args.telemetry, &scenario.value.rover)?;
-    while let Some(record) = log.next_record()? {
-        if let Some(learnt) = learner.update(record) {
-            lesson(learnt);
+    drive: &mut Drive,
+    (state, mut live): (&mut StateFile<'_>, Option<Live<'_>>),
+    slopes: &[f64],
+) -> Result<Ended, Failure> {
+    let quiet = args.follow_s.map(Duration::from_secs_f64);
+    let following = args.follow.then_some(Following { quiet });
+    if args.follow {
+        interrupt::handle_ctrl_c();
+    }
+    let label = inputs::telemetry_label(&args.log);
+    let is_stream = inputs::is_standard_input(&args.log);
+    let mut position = Position::after(drive, &label, is_stream);
+    let (log, how, rover) =
+        (args.log.clone(), args.telemetry.clone(), scenario.value.rover.clone());
+    let open = move || inputs::telemetry(&log, &how, &rover, following);
+    let records = Records::of(open, args.follow);
+    let mut last = None;
+    loop {
+        match records.next() {
+            Event::Record { record, is_whole, lost } => {
+                if !position.is_new(&record, &lost)? {
+                    continue;
+                }
+                drive.note_lost(position.lost(lost));
+                if !is_whole {
+                    // A row that is still being written is left alone while the log is followed.
+                    last = (!args.follow).then_some(record);
+                    continue;
+                }
+                let lesson = drive.update(record);
+                if let Some((live, lesson)) = live.as_mut().zip(lesson) {
+                    live.lesson(lesson)?;
+                }
+                state.keep_now_and_then(drive)?;
+            }
+            Event::Nothing => {}
+            Event::End(ending) => {
+                position.check_end()?;
+                if ending.rows == 0 && drive.records() == 0 && !interrupt::is_asked_to_stop() {
+                    return Err(Failure::Usage(format!("{label}: has no rows of telemetry")));
+                }
+                if ending.rows > 0 {
+                    drive.note_lost(position.lost(ending.lost));
+                }
+                return Ok(Ended { notes: ending.notes, last });
+            }
+            Event::Failed(failure) => return Err(failure),
+        }
+        if let Some(live) = &mut live {
+            live.predictions(drive, || predictions(args, drive.learner(), slopes))?;
         }
     }
-    if let Some(learnt) = learner.finish() {
-        lesson(learnt);
-    }
-    if log.rows() == 0 {
-        return Err(Failure::Usage(format!("{}: has no rows of telemetry", log.label())));
-    }
-    Ok(log.notes().into_iter().chain(not_used(learner)).collect())
-}
-
-/// Why stretches of the drive taught nothing, a sentence each.
-fn not_used(learner: &Learner) -> Vec<String> {
-    let learnt = learner.learnt();
-    let sentence = |why: NotUsed| {
-        let count = learnt.not_used.get(&why)?;
-        Some(format!("{count} stretches taught nothing: {}", why.meaning()))
-    };
-    let outliers = (learnt.outliers > 0)
-        .then(|| format!("{} readings far from those around them are left out", learnt.outliers));
-    NotUsed::ALL.into_iter().filter_map(sentence).chain(outliers).collect()
 }
 
 fn predictions(
@@ -163,26 +238,15 @@ fn reaches_too_far(error: &dyn std::error::Error) -> Failure {
     Failure::Usage(format!("the soil's uncertainty reaches too far: {error}"))
 }
 
-fn add_soil(
-    folder: &mut OutputFolder,
+/// The soil that was learnt.
+fn learnt_soil(
     args: &LearnArgs,
     scenario: &LoadedScenario,
     learner: &Learner,
-) -> Result<(), Failure> {
-    let prior = scenario.document.part(Kind::Soil, "soil").zip(scenario.uncertain.as_ref());
-    let Some((document, uncertain)) = prior else { return Ok(()) };
-    let found = learner.samples_of_best(args.seed, args.samples);
-    let (theory, samples) = found.map_err(|error| reaches_too_far(&error))?;
-    let source = format!(
-        "learnt by Grouser {} from {:.1} m of the drive {}",
-        env!("CARGO_PKG_VERSION"),
-        learner.learnt().way,
-        escape::path(&args.log),
-    );
-    let learnt = LearntSoil::of((&document, uncertain), theory, &samples, &source);
-    folder.add(SOIL, learnt.soil.to_toml());
-    folder.add(SAMPLES_FILE, learnt.samples);
-    Ok(())
+) -> Result<Option<LearntSoil>, Failure> {
+    let log = escape::path(&args.log);
+    let found = LearntSoil::now(scenario, learner, (args.seed, args.samples), &log);
+    found.map_err(|error| reaches_too_far(&error))
 }
 
 fn learnt(learner: &Learner) -> Value {

@@ -104,7 +104,7 @@ fn read(
     scenario: &LoadedScenario,
     replayer: &mut Replayer,
 ) -> Result<(String, Vec<String>), Failure> {
-    let mut log = inputs::telemetry(&args.log, &args.telemetry, &scenario.value.rover)?;
+    let mut log = inputs::telemetry(&args.log, &args.telemetry, &scenario.value.rover, None)?;
     while let Some(record) = log.next_record()? {
         replayer.update(record);
     }

@@ -26,6 +26,15 @@ pub(crate) fn card(args: &CardArgs) -> Result<CardInputs, Failure> {
     Ok(CardInputs { scenario, rim_speed, rule })
 }
 
+impl CardInputs {
+    /// Those of a scenario that was read for another command.
+    pub(crate) fn usual(args: &CardArgs, scenario: LoadedScenario) -> Result<Self, Failure> {
+        let rule = rule(&args.rule)?;
+        let rim_speed = rim_speed(args.rim_speed_m_s.as_ref(), &scenario)?;
+        Ok(Self { scenario, rim_speed, rule })
+    }
+}
+
 /// The limits of go and no-go.
 pub(super) fn rule(flags: &RuleArgs) -> Result<Rule, Failure> {
     use document::card::{RuleRecord, SHARE};

@@ -3,11 +3,12 @@
 use std::io;
 use std::path::Path;
 
-use grouser::document::{self, Kind, Overrides, Source};
+use grouser::document::{self, Kind, Overrides, Source, escape};
 use grouser::vehicle::Rover;
 use grouser_telemetry::{Mapping, TelemetryError, TelemetryLog};
 
 use super::flag_source;
+use super::follow::Following;
 use crate::args::TelemetryArgs;
 use crate::failure::Failure;
 
@@ -28,18 +29,34 @@ impl From<TelemetryError> for Failure {
 ///
 /// * `path`: a file, or `-` for CSV from standard input
 /// * `rover`: the rover that was driven
+/// * `following`: whether rows that are added to a file of CSV are read, too
 pub(crate) fn telemetry(
     path: &Path,
     args: &TelemetryArgs,
     rover: &Rover,
+    following: Option<Following>,
 ) -> Result<TelemetryLog, Failure> {
-    if path == Path::new(STANDARD_INPUT) {
-        let source = Box::new(io::stdin().lock());
-        return Ok(TelemetryLog::of_csv("standard input", source, rover)?);
+    let label = telemetry_label(path);
+    if is_standard_input(path) {
+        return Ok(TelemetryLog::of_csv(&label, Box::new(io::stdin().lock()), rover)?);
+    }
+    if let Some(following) = following {
+        let source = following.open(path)?;
+        return Ok(TelemetryLog::of_csv(&label, Box::new(source), rover)?);
     }
     let mapping = mapping(args)?;
     let choices = args.topics.iter().cloned().collect();
     Ok(TelemetryLog::open(path, rover, mapping.as_ref(), &choices)?)
+}
+
+/// What messages call a log.
+pub(crate) fn telemetry_label(path: &Path) -> String {
+    if is_standard_input(path) { "standard input".to_owned() } else { escape::path(path) }
+}
+
+/// Whether a log comes from standard input.
+pub(crate) fn is_standard_input(path: &Path) -> bool {
+    path == Path::new(STANDARD_INPUT)
 }
 
 /// The mapping that is named.

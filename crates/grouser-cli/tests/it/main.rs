@@ -13,6 +13,7 @@ mod former_names;
 mod hostile;
 mod import;
 mod learn;
+mod learn_on_the_way;
 mod logs;
 mod maps;
 mod mission;

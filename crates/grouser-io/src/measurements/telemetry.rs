@@ -133,6 +133,30 @@ impl Lost {
         }
     }
 
+    /// What was lost together with something else.
+    #[must_use]
+    pub fn and(&self, other: &Self) -> Self {
+        self.combined(other, |one, other| one + other)
+    }
+
+    /// What was lost since an earlier time.
+    #[must_use]
+    pub fn since(&self, earlier: &Self) -> Self {
+        self.combined(earlier, u64::saturating_sub)
+    }
+
+    fn combined(&self, other: &Self, both: fn(u64, u64) -> u64) -> Self {
+        let columns = self.cells.keys().chain(other.cells.keys());
+        let of = |it: &Self, column: &str| it.cells.get(column).copied().unwrap_or(0);
+        let cells = columns.map(|it| (it.clone(), both(of(self, it), of(other, it))));
+        Self {
+            damaged_rows: both(self.damaged_rows, other.damaged_rows),
+            rows_without_time: both(self.rows_without_time, other.rows_without_time),
+            rows_out_of_order: both(self.rows_out_of_order, other.rows_out_of_order),
+            cells: cells.filter(|(_, count)| *count > 0).collect(),
+        }
+    }
+
     /// A sentence for each kind of loss.
     #[must_use]
     pub fn sentences(&self) -> Vec<String> {

@@ -7,7 +7,8 @@ of heights to drive on. `settle` and
 drives it through legs with limits at which it stops, `wheel_test` simulates a wheel on a test
 stand, and `validate` and `calibrate` compare models with measurements, which
 `import_wheel_tests` converts. `map` says where on a `Terrain` a rover can go,
-`route` which way over it is the cheapest. `SlipEstimator` reads slip from motor currents. `card` is the operator's card, `forecast` predicts under another
+`route` which way over it is the cheapest. `SlipEstimator` reads slip from motor currents,
+`Learner` learns the soil from the telemetry of a drive. `card` is the operator's card, `forecast` predicts under another
 gravity, and `check` checks documents. `Run` and ``grouser.gym``, which is imported by itself,
 are for step-by-step control. `Campaign` and `grouser.campaign` are for Monte Carlo campaigns,
 on one machine or on many.
@@ -53,6 +54,7 @@ from ._check import Checked, check
 from ._forecast import Forecast, forecast
 from ._heading_band import HeadingBand, HeadingMapBand
 from ._headings import HeadingMap, Headings, heading, heading_map
+from ._learning import Learner, learn
 from ._maps import map
 from ._measurements import ImportedWheelTests, import_wheel_tests
 from ._missions import Alternatives, DrivenMission, Legs, mission
@@ -110,6 +112,7 @@ __all__ = [
     "Headings",
     "ImportedTelemetry",
     "ImportedWheelTests",
+    "Learner",
     "Legs",
     "Mission",
     "OutsideDomainError",
@@ -147,6 +150,7 @@ __all__ = [
     "heading_map",
     "import_telemetry",
     "import_wheel_tests",
+    "learn",
     "map",
     "mission",
     "replay",

@@ -2,6 +2,7 @@
 
 pub mod card;
 pub mod card_courses;
+pub mod card_days;
 pub mod card_drives;
 pub mod fit;
 pub mod forecast;

@@ -1,14 +1,20 @@
-//! The soil that was learnt from a drive, as a document with samples.
+//! The soil that was learnt from a drive, as a document with samples; and the state of learning, to go on from.
+
+mod state;
 
 use serde_json::{Map, Value as Json, json};
 
+pub use self::state::{KeptDrive, LARGEST_STATE, StateError, state_text};
 use super::soil_family::DISCREPANCY;
-use super::{Document, SAMPLES_FILE, UncertainSoil, with_priors_held, without_uncertainty};
+use super::{
+    Companion, Document, DocumentError, Kind, Loaded, LoadedScenario, Overrides, SAMPLES_FILE,
+    Source, UncertainSoil, read_scenario, with_priors_held, without_uncertainty,
+};
 use crate::contact::Theory;
 use crate::soil::Discrepancy;
 use crate::soil::discrepancy::{SIDE_VALUES, VALUES};
-use crate::studies::learn::LearntSample;
-use grouser_io::statistics::quantile;
+use crate::studies::learn::{Learner, LearntSample};
+use grouser_io::statistics::{NothingAccepted, quantile};
 
 /// A soil's document, and the file of samples that it names.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,7 +35,53 @@ const LISTS: [List; 4] = [
     ("torque", VALUES, |it| &it.torque),
 ];
 
+/// The file of a prior's samples, beside those of what was learnt.
+const PRIOR_SAMPLES_FILE: &str = "prior-samples.csv";
+
 impl LearntSoil {
+    /// What a learner knows now, under the model with the greatest share; `None` of a scenario without an uncertain soil.
+    ///
+    /// * `log`: what the drive is called
+    ///
+    /// # Errors
+    /// [`NothingAccepted`] if no soil can be drawn.
+    pub fn now(
+        scenario: &LoadedScenario,
+        learner: &Learner,
+        (seed, count): (u64, u32),
+        log: &str,
+    ) -> Result<Option<Self>, NothingAccepted> {
+        let prior = scenario.document.part(Kind::Soil, "soil").zip(scenario.uncertain.as_ref());
+        let Some((document, uncertain)) = prior else { return Ok(None) };
+        let (theory, samples) = learner.samples_of_best(seed, count)?;
+        let source = format!(
+            "learnt by Grouser {} from {:.1} m of the drive {log}",
+            env!("CARGO_PKG_VERSION"),
+            learner.learnt().way,
+        );
+        Ok(Some(Self::of((&document, uncertain), theory, &samples, &source)))
+    }
+
+    /// The file of samples that the document names.
+    #[must_use]
+    pub fn companion(&self) -> Companion {
+        Companion { name: SAMPLES_FILE.to_owned(), content: self.samples.clone() }
+    }
+
+    /// A scenario with this soil in place of its own.
+    ///
+    /// # Errors
+    /// [`DocumentError`] if they are no scenario together.
+    pub fn in_scenario(&self, before: &LoadedScenario) -> Result<LoadedScenario, DocumentError> {
+        let soil = serde_json::to_value(&self.soil).unwrap_or_default();
+        let document = before.document.changed(|keys| {
+            keys["soil"] = soil;
+        });
+        let source =
+            Source::text_with("what was learnt", document.to_toml(), vec![self.companion()]);
+        read_scenario(&source, &Overrides::none())
+    }
+
     /// * `prior`: the soil's document before the drive, and its uncertain keys
     /// * `theory`: the model that the samples belong to
     /// * `source`: of the drive, in words
@@ -68,6 +120,24 @@ impl LearntSoil {
         });
         Self { soil: with_priors_held(&soil), samples: csv(&keys, lists, samples) }
     }
+}
+
+/// A scenario as files beside those of what was learnt: its document, and the files that it names under names of their own.
+#[must_use]
+pub fn files_of_prior<V>(before: &Loaded<V>) -> (Document, Vec<Companion>) {
+    let mut companions = before.companions.clone();
+    let Some(samples) = companions.iter_mut().find(|it| it.name == SAMPLES_FILE) else {
+        return (before.document.clone(), companions);
+    };
+    PRIOR_SAMPLES_FILE.clone_into(&mut samples.name);
+    let document = before.document.changed(|keys| {
+        if let Some(samples) =
+            keys.get_mut("soil").and_then(|it| it.pointer_mut("/uncertainty/samples"))
+        {
+            *samples = PRIOR_SAMPLES_FILE.into();
+        }
+    });
+    (document, companions)
 }
 
 /// Whether an assumption is about a number that was learnt, or about how uncertain it was.

@@ -15,12 +15,16 @@
 //! it was, so that without telemetry predictions are those of the soil as it was, sample by sample.
 
 mod bank;
+mod currents;
+mod drive;
 mod filter;
 mod gaussian;
+mod information;
 mod middle;
 mod motion;
 mod noise;
 mod settings;
+mod state;
 mod stretch;
 mod unknowns;
 mod warnings;
@@ -28,13 +32,17 @@ mod warnings;
 use std::collections::BTreeMap;
 
 use self::bank::{Bank, Taught};
+pub use self::currents::motor_log;
+pub use self::drive::{Drive, RecordDigest};
 use self::filter::Filter;
 pub use self::filter::Wandering;
+pub use self::information::InformationByKind;
 pub use self::motion::NotUsed;
 use self::motion::SeenMotion;
 pub(super) use self::motion::{ODOMETRY, SHALLOWEST, steady_attitude, steered};
 pub use self::noise::ModelNoise;
 pub use self::settings::LearnSettings;
+pub use self::state::Archive;
 pub(super) use self::stretch::{GAP, Gatherer};
 pub use self::stretch::{Reading, Stretch};
 pub use self::unknowns::LearntSample;
@@ -85,7 +93,7 @@ pub struct Learnt {
 }
 
 /// What one stretch taught.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lesson {
     /// The stretch.
     pub stretch: Stretch,
@@ -97,6 +105,8 @@ pub struct Lesson {
     pub expected_slip: f64,
     /// How much it narrowed what is believed of the soil [nat], under the model with the greatest share.
     pub information: f64,
+    /// The same of each kind of observation.
+    pub by_kind: InformationByKind,
     /// How far each number of the observation was from what was expected [standard deviations]: the force along the
     /// body, across it, then torques and sinkages.
     pub scores: Vec<f64>,
@@ -151,7 +161,7 @@ impl Learner {
             let taught = self.bank.learn(&self.study, &motion, &self.settings, stretch.way)?;
             Ok((before, motion, taught))
         });
-        let (before, motion, Taught { surprise, information }) = match taught {
+        let (before, motion, Taught { surprise, information, by_number }) = match taught {
             Ok(taught) => taught,
             Err(why) => {
                 *self.learnt.not_used.entry(why).or_default() += 1;
@@ -176,7 +186,17 @@ impl Learner {
             self.bank.forget();
         }
         let scores = surprise.scores.as_slice().to_vec();
-        Some(Lesson { stretch, way, slip_ratio, expected_slip, information, scores, warnings })
+        let by_kind = InformationByKind::of(&stretch, &by_number);
+        Some(Lesson {
+            stretch,
+            way,
+            slip_ratio,
+            expected_slip,
+            information,
+            by_kind,
+            scores,
+            warnings,
+        })
     }
 
     /// The slope on which the wheels' slip is [`DEEP`] on this course [rad], by what was believed before; nothing where it

@@ -2,17 +2,16 @@
 
 use std::collections::BTreeMap;
 
+use grouser::document::columns::learn::sentence;
 use grouser::document::columns::{SLIP_RATIO, SLOPE, YAW};
 use grouser::document::table::Table;
-use grouser::studies::learn::{Learner, Lesson, Warning};
+use grouser::studies::learn::{Drive, Learner, Warning};
 
 use crate::output::rows::four_digits;
 
 /// What a drive taught.
 pub(in crate::commands) struct Found {
-    pub(in crate::commands) learner: Learner,
-    pub(in crate::commands) lessons: Vec<Lesson>,
-    pub(in crate::commands) warnings: Vec<Warning>,
+    pub(in crate::commands) drive: Drive,
     /// What was left out of the telemetry, a sentence each.
     pub(in crate::commands) notes: Vec<String>,
     pub(in crate::commands) predictions: Table,
@@ -42,4 +41,19 @@ pub(in crate::commands) fn of_row(table: &Table, row: usize) -> Option<String> {
         "on {}° {yaw}, the slip ratio {slip:.2} ({low:.2} to {high:.2})",
         four_digits(slope)
     ))
+}
+
+/// A warning, for reading.
+pub(in crate::commands) fn warning(warning: &Warning) -> String {
+    let lead = match (warning.lead_way, warning.lead_time) {
+        (Some(way), Some(time)) if way > 0.0 => format!(", {way:.1} m and {time:.0} s ahead"),
+        _ => String::new(),
+    };
+    format!(
+        "warning: {} after {:.1} m at {:.0} s{lead}: {}",
+        warning.kind.name(),
+        warning.way,
+        warning.time,
+        sentence(&warning.evidence)
+    )
 }

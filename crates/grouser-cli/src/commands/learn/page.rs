@@ -2,12 +2,17 @@
 
 use grouser::document::LoadedScenario;
 use grouser::document::columns::learn::{
-    self as columns, EXPECTED_SLIP, INFORMATION, LESSON_COLUMNS, PREDICTION_COLUMNS, WAY,
+    self as columns, BY_ACROSS, BY_ALONG, BY_SINKAGE, BY_TORQUE, EXPECTED_SLIP, INFORMATION,
+    LESSON_COLUMNS, PREDICTION_COLUMNS, WARNING_COLUMNS, WAY,
 };
-use grouser::document::columns::{SLIP_RATIO, SLOPE};
+use grouser::document::columns::slip_from_current::{TRUE_SLIP, WHEEL};
+use grouser::document::columns::{SLIP_RATIO, SLOPE, TIME};
 use grouser::document::table::Table;
+use grouser::vehicle::Rover;
 
-use super::found::{Found, of_row, shares};
+use super::cards::Cards;
+use super::found::{Found, of_row, shares, warning};
+use super::tables::Tables;
 use crate::args::LearnArgs;
 use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::output::rows::{Rows, four_digits};
@@ -23,8 +28,8 @@ pub(super) fn text(found: &Found) -> Text {
 
 /// What was learnt from, what to warn of, and notes: a line each.
 fn lines(found: &Found) -> Vec<String> {
-    let learnt = found.learner.learnt();
-    let models = shares(&found.learner);
+    let learner = found.drive.learner();
+    let (learnt, models) = (learner.learnt(), shares(learner));
     let models: Vec<String> =
         models.iter().map(|(name, share)| format!("{name} {:.0} %", 100.0 * share)).collect();
     let whole = format!(
@@ -41,32 +46,15 @@ fn lines(found: &Found) -> Vec<String> {
         .collect();
     let narrowed = format!("what is left of the uncertainty: {}", narrowed.join(", "));
     let notes = found.notes.iter().map(|note| format!("note: {note}"));
-    [whole, narrowed].into_iter().chain(warnings(found)).chain(notes).collect()
-}
-
-/// The warnings, a sentence each.
-fn warnings(found: &Found) -> Vec<String> {
-    let sentence = |it: &grouser::studies::learn::Warning| {
-        let lead = match (it.lead_way, it.lead_time) {
-            (Some(way), Some(time)) if way > 0.0 => format!(", {way:.1} m and {time:.0} s ahead"),
-            _ => String::new(),
-        };
-        format!(
-            "warning: {} after {:.1} m at {:.0} s{lead}: {}",
-            it.kind.name(),
-            it.way,
-            it.time,
-            columns::sentence(&it.evidence)
-        )
-    };
-    found.warnings.iter().map(sentence).collect()
+    let warnings = found.drive.warnings().iter().map(warning);
+    [whole, narrowed].into_iter().chain(warnings).chain(notes).collect()
 }
 
 pub(super) fn html(
     args: &LearnArgs,
     scenario: &LoadedScenario,
     found: &Found,
-    lessons: &Table,
+    (tables, cards): (&Tables, Option<&Cards>),
 ) -> String {
     let mut page = Page::new("Learnt from the drive");
     let rows = (0..found.predictions.rows()).filter_map(|row| of_row(&found.predictions, row));
@@ -86,8 +74,18 @@ pub(super) fn html(
     );
     page.charts(&predictions(&found.predictions));
     page.heading("What each stretch taught");
-    page.charts(&[over_way(lessons), information(lessons)]);
-    let of_columns = [meanings(&PREDICTION_COLUMNS), meanings(&LESSON_COLUMNS)];
+    page.charts(&[over_way(&tables.lessons), information(&tables.lessons)]);
+    if let Some(slips) = &tables.slips {
+        page.heading("Slip from currents beside slip that was seen");
+        let names: Vec<&String> = slips.wheels.columns.iter().map(|(name, _)| name).collect();
+        page.rows("Slip from currents, wheel by wheel, beside that seen", &slips.wheels, &names);
+        page.charts(&slips_from_currents(&scenario.value.rover, &slips.rows));
+    }
+    if let Some(cards) = cards {
+        cards.show(&mut page);
+    }
+    let of_columns =
+        [meanings(&PREDICTION_COLUMNS), meanings(&LESSON_COLUMNS), meanings(&WARNING_COLUMNS)];
     let of_columns: Vec<_> = of_columns.into_iter().flatten().collect();
     answer::close(page, &[], &of_columns, &basis(args, scenario))
 }
@@ -132,9 +130,43 @@ fn over_way(lessons: &Table) -> Chart {
 }
 
 fn information(lessons: &Table) -> Chart {
-    let points = lessons.points(WAY.name, INFORMATION.name);
-    let series = vec![Series::new("learnt", Style::Line, 1, points)];
-    Chart::new("Knowledge of the soil gained".to_owned(), (axis(WAY), axis(INFORMATION)), series)
+    let parts = [
+        (INFORMATION, "all"),
+        (BY_ALONG, "force along the body"),
+        (BY_ACROSS, "force across it"),
+        (BY_TORQUE, "torques"),
+        (BY_SINKAGE, "sinkages"),
+    ];
+    let series = parts.into_iter().zip(1..).filter_map(|((quantity, name), colour)| {
+        let points: Vec<_> = lessons.points(WAY.name, quantity.name).collect();
+        let taught = points.iter().any(|(_, value)| *value != 0.0);
+        taught.then(|| Series::new(name, Style::Line, colour, points))
+    });
+    let title = "Knowledge of the soil gained".to_owned();
+    Chart::new(title, (axis(WAY), axis(INFORMATION)), series.collect())
+}
+
+/// Of each wheel: the slip that its current gives, with the band, and the slip that was seen.
+fn slips_from_currents(rover: &Rover, rows: &Table) -> Vec<Chart> {
+    let names = rows.texts(WHEEL);
+    let [low, median, high] = SLIP_RATIO.quantiles();
+    let of_wheel = |wheel: &str| {
+        let points = |column: &str| -> Vec<(f64, f64)> {
+            let values = rows.numbers(TIME.name).into_iter().zip(rows.numbers(column));
+            let of_rows = names.iter().zip(values);
+            let own = of_rows.filter(|(name, _)| name.as_deref() == Some(wheel));
+            own.filter_map(|(_, (time, value))| (*time).zip(*value)).collect()
+        };
+        let ends = points(&low).into_iter().zip(points(&high));
+        let edges: Vec<_> = ends.map(|((time, low), (_, high))| (time, low, high)).collect();
+        let series = vec![
+            Series::band("from its current, 95 %", AFTER, edges),
+            Series::new("from its current", Style::Line, 1, points(&median)),
+            Series::new("seen", Style::Dashed, 2, points(TRUE_SLIP.name)),
+        ];
+        Chart::new(wheel.to_owned(), (axis(TIME), axis(SLIP_RATIO)), series)
+    };
+    rover.mounts().iter().map(|mount| of_wheel(&mount.name)).collect()
 }
 
 fn basis(args: &LearnArgs, scenario: &LoadedScenario) -> Basis {

@@ -62,6 +62,12 @@ impl TelemetryRows {
         Ok(Self { header, last_time: None, rows: 0, lost: Lost::default() })
     }
 
+    /// The same, gone on with after the record of a time: rows that do not come after it are out of order.
+    #[must_use]
+    pub fn after(self, last_time: Option<f64>) -> Self {
+        Self { last_time, ..self }
+    }
+
     /// Whether the column at a place is known, and so is read.
     #[must_use]
     pub fn is_used(&self, place: usize) -> bool {
@@ -72,6 +78,17 @@ impl TelemetryRows {
     #[must_use]
     pub fn unused(&self) -> &[String] {
         &self.header.unused
+    }
+
+    /// A sentence with these columns, as many as it bears; nothing where all are known.
+    #[must_use]
+    pub fn sentence_of_unused(&self) -> Option<String> {
+        const MOST: usize = 6;
+        let names = self.unused();
+        let more = names.len().saturating_sub(MOST);
+        let more = if more == 0 { String::new() } else { format!(" and {more} more") };
+        let first = names.get(..MOST).unwrap_or(names).join(", ");
+        (!names.is_empty()).then(|| format!("columns not used: {first}{more}"))
     }
 
     /// How many rows were read so far.

@@ -28,6 +28,15 @@ pub const EVIDENCE: &str = "evidence";
 /// How much a stretch narrowed what is believed.
 pub const INFORMATION: Quantity = quantity("information_nat", ONE);
 
+/// The part of it that came from the force along the body.
+pub const BY_ALONG: Quantity = quantity("information_along_nat", ONE);
+/// The part that came from the force across it.
+pub const BY_ACROSS: Quantity = quantity("information_across_nat", ONE);
+/// The part that came from torques.
+pub const BY_TORQUE: Quantity = quantity("information_torque_nat", ONE);
+/// The part that came from sinkages.
+pub const BY_SINKAGE: Quantity = quantity("information_sinkage_nat", ONE);
+
 /// A slope before a drive and after it.
 pub struct PredictedSlope {
     before: SlopeBand,
@@ -87,7 +96,7 @@ pub fn brief() -> Vec<String> {
 }
 
 /// The columns of [`lessons`].
-pub const LESSON_COLUMNS: [Column<Lesson>; 7] = [
+pub const LESSON_COLUMNS: [Column<Lesson>; 11] = [
     TIME.number("End of the stretch", |it| it.stretch.time[1]),
     WAY.number("Way of the rims since the start", |it| it.way),
     SLOPE.maybe("Slope of the ground", |it| it.stretch.attitude.map(|it| it[0])),
@@ -95,6 +104,10 @@ pub const LESSON_COLUMNS: [Column<Lesson>; 7] = [
     SLIP_RATIO.number("Mean slip ratio of the wheels", |it| it.slip_ratio),
     EXPECTED_SLIP.number("The same as it was expected before", |it| it.expected_slip),
     INFORMATION.number("How much it narrowed what is believed of the soil", |it| it.information),
+    BY_ALONG.number("The part of it from the force along the body", |it| it.by_kind.along),
+    BY_ACROSS.number("The part that the force across the body added", |it| it.by_kind.across),
+    BY_TORQUE.number("The part that torques added", |it| it.by_kind.torque),
+    BY_SINKAGE.number("The part that sinkages added", |it| it.by_kind.sinkage),
 ];
 
 /// A row for each stretch that taught something.
@@ -103,7 +116,8 @@ pub fn lessons(lessons: &[Lesson]) -> Table {
     Table::of(&LESSON_COLUMNS, lessons)
 }
 
-const WARNINGS: [Column<Warning>; 6] = [
+/// The columns of [`warnings`].
+pub const WARNING_COLUMNS: [Column<Warning>; 6] = [
     text(WARNING, "What it is about", |it| Some(it.kind.name().to_owned())),
     TIME.number("When it was noticed", |it| it.time),
     WAY.number("Way of the rims until then", |it| it.way),
@@ -115,7 +129,7 @@ const WARNINGS: [Column<Warning>; 6] = [
 /// A row for each warning.
 #[must_use]
 pub fn warnings(warnings: &[Warning]) -> Table {
-    Table::of(&WARNINGS, warnings)
+    Table::of(&WARNING_COLUMNS, warnings)
 }
 
 /// What was seen, in words and degrees.

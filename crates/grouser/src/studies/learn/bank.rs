@@ -4,6 +4,7 @@ use super::filter::Filter;
 use super::gaussian::Surprise;
 use super::motion::{NotUsed, SeenMotion};
 use super::settings::LearnSettings;
+use super::state::{Archive, numbers};
 use super::unknowns::{LearntSample, Unknowns};
 use crate::contact::Theory;
 use crate::elementary::exp;
@@ -29,6 +30,8 @@ pub(super) struct Taught {
     pub(super) surprise: Surprise,
     /// How much it narrowed what that model believes [nat].
     pub(super) information: f64,
+    /// The same of each number of the observation.
+    pub(super) by_number: Vec<f64>,
 }
 
 impl Bank {
@@ -91,12 +94,13 @@ impl Bank {
         for (place, filter) in self.filters.iter_mut().enumerate() {
             filter.wander(way, settings.wandering);
             let before = filter.knowledge();
-            let Ok(surprise) = filter.learn(study, motion, &settings.noise) else { continue };
+            let learnt = filter.learn(study, motion, &settings.noise);
+            let Ok((surprise, by_number)) = learnt else { continue };
             let information = filter.knowledge() - before;
             let share = models.shares()[place].1;
             densities.push((place, surprise.log_density));
             if best.as_ref().is_none_or(|(most, _)| share > *most) {
-                best = Some((share, Taught { surprise, information }));
+                best = Some((share, Taught { surprise, information, by_number }));
             }
         }
         let (_, taught) = best.ok_or(NotUsed::NotCarried)?;
@@ -149,5 +153,27 @@ impl Bank {
     /// The keys of the soil that a sample has values of.
     pub(super) fn keys(&self) -> impl Iterator<Item = &str> {
         self.filters[0].unknowns.keys()
+    }
+}
+
+impl Bank {
+    /// Writes or reads what is believed; the rest follows from the soil's document.
+    pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
+        let Self { filters, shares: _, evidence } = self;
+        numbers(archive, "evidence", evidence);
+        let count = archive.list("beliefs", filters.len());
+        for filter in filters.iter_mut().take(count) {
+            archive.group("");
+            let Filter { unknowns: _, belief } = filter;
+            belief.walk(archive);
+            archive.end();
+        }
+        archive.end();
+    }
+
+    /// Whether it is of as many numbers as there are unknowns.
+    pub(super) fn is_whole(&self) -> bool {
+        let is_whole = |it: &Filter| it.belief.is_of(it.unknowns.count());
+        self.evidence.len() == self.filters.len() && self.filters.iter().all(is_whole)
     }
 }

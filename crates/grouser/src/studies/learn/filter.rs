@@ -3,6 +3,7 @@
 use nalgebra::DVector;
 
 use super::gaussian::{Gaussian, Line, Surprise};
+use super::information;
 use super::motion::{Expected, NotUsed, SeenMotion, halves};
 use super::noise::ModelNoise;
 use super::unknowns::{LearntSample, Unknowns};
@@ -101,31 +102,33 @@ impl Filter {
         -self.belief.root().diagonal().iter().map(|it| ln(*it)).sum::<f64>()
     }
 
-    /// Learns from a motion; how surprising it was.
+    /// Learns from a motion; how surprising it was, and how much each of its numbers taught [nat].
     pub(super) fn learn(
         &mut self,
         study: &HeadingStudy,
         motion: &SeenMotion,
         noise: &ModelNoise,
-    ) -> Result<Surprise, NotUsed> {
+    ) -> Result<(Surprise, Vec<f64>), NotUsed> {
         let (seen, belief) = (motion.seen(study), self.belief.and_one());
         let first = self.line(study, motion, noise, &belief).ok_or(NotUsed::NotCarried)?;
         let surprise = belief.surprise(&first, &seen).ok_or(NotUsed::NotCarried)?;
         let robust = |line| robust(line, &surprise);
-        let mut after = belief.after(&robust(first), &seen).ok_or(NotUsed::NotCarried)?;
+        let mut used = robust(first);
+        let mut after = belief.after(&used, &seen).ok_or(NotUsed::NotCarried)?;
         let mut before = belief.mean.clone();
         for _ in 1..ROUNDS {
             if after.distance(&before) < CLOSE {
                 break;
             }
             before = after.mean.clone();
-            let line = self.line(study, motion, noise, &after);
-            let next = line.and_then(|line| belief.after(&robust(line), &seen));
+            let line = self.line(study, motion, noise, &after).map(robust);
+            let next = line.and_then(|line| Some((belief.after(&line, &seen)?, line)));
             let Some(next) = next else { break };
-            after = next;
+            (after, used) = next;
         }
-        self.belief = after.first(self.unknowns.count());
-        Ok(surprise)
+        let count = self.unknowns.count();
+        self.belief = after.first(count);
+        Ok((surprise, information::by_number(&belief, &used, count)))
     }
 
     /// The values of the soil's uncertain keys in sample number `index` of what was believed beforehand.

@@ -14,6 +14,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
+use super::state::{Archive, numbers};
 use crate::elementary::wide::ln;
 
 /// Unknowns that are normal.
@@ -157,6 +158,27 @@ impl Gaussian {
         let from_mean = at - &self.mean;
         let root = Cholesky::new(self.covariance.clone());
         root.map_or(0.0, |root| from_mean.dot(&root.solve(&from_mean)).sqrt())
+    }
+}
+
+impl Gaussian {
+    /// Writes or reads it.
+    pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
+        let Self { mean, covariance } = self;
+        let of_mean: &mut Vec<f64> = &mut mean.iter().copied().collect();
+        let of_covariance: &mut Vec<f64> = &mut covariance.iter().copied().collect();
+        numbers(archive, "mean", of_mean);
+        numbers(archive, "covariance", of_covariance);
+        let count = of_mean.len();
+        if of_covariance.len() == count * count {
+            self.mean = DVector::from_column_slice(of_mean);
+            self.covariance = DMatrix::from_column_slice(count, count, of_covariance);
+        }
+    }
+
+    /// Whether it is of so many unknowns.
+    pub(super) fn is_of(&self, count: usize) -> bool {
+        self.mean.len() == count && self.covariance.shape() == (count, count)
     }
 }
 

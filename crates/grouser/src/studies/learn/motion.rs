@@ -59,6 +59,17 @@ impl NotUsed {
     pub const ALL: [Self; 5] =
         [Self::NoAttitude, Self::NoMotion, Self::Standing, Self::Manoeuvre, Self::NotCarried];
 
+    /// One word.
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::NoAttitude => "no-attitude",
+            Self::NoMotion => "no-motion",
+            Self::Standing => "standing",
+            Self::Manoeuvre => "manoeuvre",
+            Self::NotCarried => "not-carried",
+        }
+    }
+
     /// What it means for an operator.
     #[must_use]
     pub const fn meaning(self) -> &'static str {

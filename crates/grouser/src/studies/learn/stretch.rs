@@ -1,13 +1,14 @@
 //! Telemetry in stretches: what the instruments said on the mean over a decimetre or so of the wheels' way.
 
 use super::middle::Middle;
+use super::state::{self, Archive, items, maybes, numbers};
 use crate::elementary::wide::{asin, cos, sin};
 use crate::units::Vec2;
 use crate::vehicle::{Rover, slope_and_yaw};
 use grouser_io::measurements::telemetry::{TelemetryRecord, WheelTelemetry};
 
 /// What was read on the mean over a stretch of the way.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stretch {
     /// When it began and ended [s].
     pub time: [f64; 2],
@@ -29,6 +30,8 @@ pub struct Stretch {
     pub yaw_rate: Option<Reading>,
     /// Torque of each wheel [N·m].
     pub torques: Vec<Option<Reading>>,
+    /// Current of each wheel's motor [A], where it was read.
+    pub currents: Vec<Option<f64>>,
     /// Sinkage of each wheel [m].
     pub sinkages: Vec<Option<Reading>>,
     /// How many readings were outliers.
@@ -36,7 +39,7 @@ pub struct Stretch {
 }
 
 /// A mean, and how well it is known.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reading {
     /// The mean.
     pub value: f64,
@@ -189,6 +192,8 @@ impl Gatherer {
             Some(found.reading(USUAL_TORQUE * found.value.abs()))
         });
         let torques = torques.collect();
+        let currents =
+            each.clone().map(|wheel| value(of(&|it| it.wheels[wheel].current))).collect();
         let sinkages = each
             .clone()
             .map(|wheel| of(&|it| it.wheels[wheel].sinkage).map(|it| it.reading(USUAL_SINKAGE)));
@@ -209,6 +214,7 @@ impl Gatherer {
             velocity: [forward, leftward].map(|it| it.map(|it| it.reading(usual))),
             yaw_rate: rotation.map(|it| it.reading(usual / reach)),
             torques,
+            currents,
             sinkages,
             outliers,
         })
@@ -249,6 +255,35 @@ impl Gatherer {
             motor.torque(read.current?, read.speed?)
         };
         read.torque.or_else(of_current)
+    }
+}
+
+impl Gatherer {
+    /// Writes or reads what was gathered so far; the rest follows from the rover.
+    pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
+        let Self { rover: _, slope: _, records, readings, way, last, fix, last_time } = self;
+        items(archive, "records", records, TelemetryRecord::default, state::record);
+        for (name, readings) in ["forward", "leftward", "rotation"].into_iter().zip(readings) {
+            numbers(archive, name, readings);
+        }
+        archive.number("way", way);
+        let mut of_last = last.to_vec();
+        maybes(archive, "last", &mut of_last);
+        if let Ok(read) = of_last.try_into() {
+            *last = read;
+        }
+        let mut of_fix: Vec<f64> = fix.iter().flat_map(|(time, at)| [*time, at.x, at.y]).collect();
+        numbers(archive, "fix", &mut of_fix);
+        *fix = match of_fix[..] {
+            [time, x, y] => Some((time, Vec2::new(x, y))),
+            _ => None,
+        };
+        archive.maybe("last_time", last_time);
+    }
+
+    /// Whether its records have the rover's wheels.
+    pub(super) fn is_whole(&self) -> bool {
+        self.records.iter().all(|it| it.wheels.len() == self.rover.wheel_count())
     }
 }
 

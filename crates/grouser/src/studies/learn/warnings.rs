@@ -4,6 +4,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
+use super::state::{Archive, items, numbers};
 use super::stretch::Stretch;
 use crate::elementary::wide::{cos, ln_1p};
 use crate::vehicle::Rover;
@@ -136,7 +137,7 @@ pub(super) struct Watch {
     outrun: f64,
 }
 
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Past {
     time: f64,
     way: f64,
@@ -356,6 +357,52 @@ impl Watch {
             self.raise(WarningKind::WheelNotPulling, place, [None; 2], evidence)
         };
         idle.into_iter().filter_map(warn).collect()
+    }
+}
+
+impl Watch {
+    /// Writes or reads what it has seen.
+    pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
+        let Self { way, recent, change, causes, idle, contradicted, outrun } = self;
+        archive.number("way", way);
+        archive.number("change", change);
+        archive.number("contradicted", contradicted);
+        archive.number("outrun", outrun);
+        numbers(archive, "idle", idle);
+        let mut of_recent: Vec<Past> = recent.drain(..).collect();
+        items(archive, "recent", &mut of_recent, Past::default, Past::walk);
+        recent.extend(of_recent);
+        let mut of_causes: Vec<_> =
+            causes.iter().map(|((kind, which), way)| (*kind, *which as u64, *way)).collect();
+        let blank = || (WarningKind::SoilChange, 0, 0.0);
+        items(archive, "causes", &mut of_causes, blank, |(kind, which, way), archive| {
+            kind.walk(archive);
+            archive.count("which", which);
+            archive.number("way", way);
+        });
+        let of_causes = of_causes.into_iter();
+        *causes = of_causes.map(|(kind, which, way)| ((kind, which as usize), way)).collect();
+    }
+}
+
+impl Past {
+    fn walk(&mut self, archive: &mut dyn Archive) {
+        let Self { time, way, ground, slip_ratio, strain, slope, yaw } = self;
+        let all = [time, way, ground, slip_ratio, strain, slope, yaw];
+        let names = ["time", "way", "ground", "slip_ratio", "strain", "slope", "yaw"];
+        names.into_iter().zip(all).for_each(|(name, value)| archive.number(name, value));
+    }
+}
+
+impl WarningKind {
+    /// Writes or reads it by its name.
+    pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
+        let mut name = self.name().to_owned();
+        archive.word("kind", &mut name);
+        match Self::ALL.into_iter().find(|kind| kind.name() == name) {
+            Some(kind) => *self = kind,
+            None => archive.refuse("kind"),
+        }
     }
 }
 

@@ -1,0 +1,191 @@
+//! A drive that is learnt from: the learner, what it found on the way, and how far in the log it is.
+
+use super::state::{Archive, items};
+use super::warnings::Warning;
+use super::{Learner, Lesson, NotUsed, TelemetryRecord, WheelTelemetry};
+use grouser_io::fnv_1a;
+use grouser_io::measurements::telemetry::Lost;
+
+/// Lessons that are kept at most: of a longer drive every n-th.
+const MOST_LESSONS: usize = 5000;
+
+/// Learns from a drive and keeps what it found, in memory that does not grow with the drive.
+#[derive(Clone, Debug)]
+pub struct Drive {
+    learner: Learner,
+    lessons: Vec<Lesson>,
+    warnings: Vec<Warning>,
+    last_time: Option<f64>,
+    records_seen: RecordDigest,
+    lost: Lost,
+}
+
+/// A number by which records are known again, one after the other: FNV-1a of 64 bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RecordDigest(u64);
+
+impl RecordDigest {
+    /// With one more record.
+    #[must_use]
+    pub fn and(self, record: &TelemetryRecord) -> Self {
+        let TelemetryRecord { time, roll, pitch, yaw, displacement, rotation, position, wheels } =
+            record;
+        let [forward, leftward] = *displacement;
+        let [x, y] = *position;
+        let of_rover =
+            [Some(*time), *roll, *pitch, *yaw, forward, leftward, *rotation, x, y].into_iter();
+        let of_wheels = wheels.iter().flat_map(|it| {
+            let WheelTelemetry { speed, torque, current, steering, sinkage } = *it;
+            [speed, torque, current, steering, sinkage]
+        });
+        // No reading is NaN: its bits stand for a gap.
+        let bits = of_rover.chain(of_wheels).map(|it| it.unwrap_or(f64::NAN).to_bits());
+        Self(fnv_1a(self.0.to_le_bytes().into_iter().chain(bits.flat_map(u64::to_le_bytes))))
+    }
+}
+
+impl Learner {
+    /// Why stretches of the drive taught nothing, and how many readings are left out, a sentence each.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        let sentence = |why: NotUsed| {
+            let count = self.learnt.not_used.get(&why)?;
+            Some(format!("{count} stretches taught nothing: {}", why.meaning()))
+        };
+        let outliers = self.learnt.outliers;
+        let left_out = (outliers > 0)
+            .then(|| format!("{outliers} readings far from those around them are left out"));
+        NotUsed::ALL.into_iter().filter_map(sentence).chain(left_out).collect()
+    }
+}
+
+impl Drive {
+    /// A drive that is about to begin.
+    #[must_use]
+    pub fn new(learner: Learner) -> Self {
+        let (lessons, warnings) = (Vec::new(), Vec::new());
+        let (records_seen, lost) = (RecordDigest::default(), Lost::default());
+        Self { learner, lessons, warnings, last_time: None, records_seen, lost }
+    }
+
+    /// Takes the next record; what was learnt, where it completes a stretch that teaches something.
+    pub fn update(&mut self, record: TelemetryRecord) -> Option<&Lesson> {
+        self.last_time = Some(record.time);
+        self.records_seen = self.records_seen.and(&record);
+        let lesson = self.learner.update(record)?;
+        Some(self.keep(lesson))
+    }
+
+    /// Notes what was left out of the telemetry so far.
+    pub fn note_lost(&mut self, lost: Lost) {
+        self.lost = lost;
+    }
+
+    /// What was left out of the telemetry.
+    #[must_use]
+    pub fn lost(&self) -> &Lost {
+        &self.lost
+    }
+
+    /// The drive as if it ended here: the records that are too few for a stretch of their own count, too.
+    #[must_use]
+    pub fn finished(&self) -> Self {
+        let mut finished = self.clone();
+        if let Some(lesson) = finished.learner.finish() {
+            finished.keep(lesson);
+        }
+        finished
+    }
+
+    /// Keeps a lesson; where there are too many, every second of them.
+    fn keep(&mut self, lesson: Lesson) -> &Lesson {
+        self.warnings.extend(lesson.warnings.iter().cloned());
+        if self.lessons.len() >= MOST_LESSONS {
+            let mut place = 0;
+            self.lessons.retain(|_| {
+                place += 1;
+                place % 2 == 0
+            });
+        }
+        self.lessons.push(lesson);
+        &self.lessons[self.lessons.len() - 1]
+    }
+
+    /// The learner.
+    #[must_use]
+    pub fn learner(&self) -> &Learner {
+        &self.learner
+    }
+
+    /// What stretches taught: all of them, or every n-th of a long drive.
+    #[must_use]
+    pub fn lessons(&self) -> &[Lesson] {
+        &self.lessons
+    }
+
+    /// All warnings.
+    #[must_use]
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
+    }
+
+    /// Time of the last record [s].
+    #[must_use]
+    pub fn last_time(&self) -> Option<f64> {
+        self.last_time
+    }
+
+    /// How many records were taken.
+    #[must_use]
+    pub fn records(&self) -> u64 {
+        self.learner.learnt.records
+    }
+
+    /// The number by which the records that were taken are known again.
+    #[must_use]
+    pub fn digest(&self) -> RecordDigest {
+        self.records_seen
+    }
+
+    /// Writes its state.
+    pub fn write_state(&self, archive: &mut dyn Archive) {
+        self.clone().walk(archive);
+        archive.group("learner");
+        self.learner.write_state(archive);
+        archive.end();
+    }
+
+    /// Goes on from a state, as [`Learner::read_state`].
+    pub fn read_state(&mut self, archive: &mut dyn Archive) -> bool {
+        self.walk(archive);
+        archive.group("learner");
+        let is_whole = self.learner.read_state(archive);
+        archive.end();
+        is_whole
+    }
+
+    fn walk(&mut self, archive: &mut dyn Archive) {
+        let Self { learner: _, lessons, warnings, last_time, records_seen, lost } = self;
+        archive.maybe("last_time", last_time);
+        archive.count("digest", &mut records_seen.0);
+        items(archive, "lessons", lessons, Lesson::default, Lesson::walk);
+        items(archive, "warnings", warnings, Warning::blank, Warning::walk);
+        archive.group("lost");
+        walk_lost(lost, archive);
+        archive.end();
+    }
+}
+
+fn walk_lost(lost: &mut Lost, archive: &mut dyn Archive) {
+    let Lost { damaged_rows, rows_without_time, rows_out_of_order, cells } = lost;
+    archive.count("damaged_rows", damaged_rows);
+    archive.count("rows_without_time", rows_without_time);
+    archive.count("rows_out_of_order", rows_out_of_order);
+    let mut of_cells: Vec<(String, u64)> = std::mem::take(cells).into_iter().collect();
+    let blank = || (String::new(), 0);
+    items(archive, "cells", &mut of_cells, blank, |(column, count), archive| {
+        archive.word("column", column);
+        archive.count("count", count);
+    });
+    *cells = of_cells.into_iter().collect();
+}

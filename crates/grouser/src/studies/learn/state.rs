@@ -1,0 +1,299 @@
+//! The state of learning, written and read field by field, so that it can go on elsewhere with the same bits.
+//!
+//! Each type walks its fields once, for both ways: [`Archive`] takes them, or puts kept ones in their place. What follows
+//! from the scenario is not part of the state. An exhaustive pattern in each walk leaves no field out.
+
+use super::information::InformationByKind;
+use super::motion::NotUsed;
+use super::stretch::{Reading, Stretch};
+use super::warnings::{Evidence, Warning, WarningKind};
+use super::{Learner, Learnt, Lesson, TelemetryRecord, WheelTelemetry};
+
+/// Where a state is written to or read from. Inside of lists names do not count.
+pub trait Archive {
+    /// A number.
+    fn number(&mut self, name: &str, value: &mut f64);
+    /// A number that may be missing.
+    fn maybe(&mut self, name: &str, value: &mut Option<f64>);
+    /// A whole number.
+    fn count(&mut self, name: &str, value: &mut u64);
+    /// A text.
+    fn word(&mut self, name: &str, value: &mut String);
+    /// Begins a list; how many items it has: `length` where it is written, as many as there are where it is read.
+    fn list(&mut self, name: &str, length: usize) -> usize;
+    /// Begins a group of named fields.
+    fn group(&mut self, name: &str);
+    /// Ends the list or group that was begun last.
+    fn end(&mut self);
+    /// Says that what was read under a name cannot be.
+    fn refuse(&mut self, name: &str);
+}
+
+/// A list of items, each a group.
+///
+/// * `blank`: an item to read into
+pub(super) fn items<T>(
+    archive: &mut dyn Archive,
+    name: &str,
+    items: &mut Vec<T>,
+    blank: impl FnMut() -> T,
+    mut walk: impl FnMut(&mut T, &mut dyn Archive),
+) {
+    let count = archive.list(name, items.len());
+    items.resize_with(count, blank);
+    for item in items {
+        archive.group("");
+        walk(item, archive);
+        archive.end();
+    }
+    archive.end();
+}
+
+/// A list of numbers.
+pub(super) fn numbers(archive: &mut dyn Archive, name: &str, values: &mut Vec<f64>) {
+    let count = archive.list(name, values.len());
+    values.resize(count, 0.0);
+    values.iter_mut().for_each(|value| archive.number("", value));
+    archive.end();
+}
+
+/// A list of numbers that may be missing.
+pub(super) fn maybes(archive: &mut dyn Archive, name: &str, values: &mut Vec<Option<f64>>) {
+    let count = archive.list(name, values.len());
+    values.resize(count, None);
+    values.iter_mut().for_each(|value| archive.maybe("", value));
+    archive.end();
+}
+
+/// A record of telemetry.
+pub(super) fn record(record: &mut TelemetryRecord, archive: &mut dyn Archive) {
+    let TelemetryRecord { time, roll, pitch, yaw, displacement, rotation, position, wheels } =
+        record;
+    archive.number("time", time);
+    let [forward, leftward] = displacement;
+    let [x, y] = position;
+    let all = [roll, pitch, yaw, forward, leftward, rotation, x, y];
+    let names = ["roll", "pitch", "yaw", "forward", "leftward", "rotation", "x", "y"];
+    names.into_iter().zip(all).for_each(|(name, value)| archive.maybe(name, value));
+    items(archive, "wheels", wheels, WheelTelemetry::default, |wheel, archive| {
+        let WheelTelemetry { speed, torque, current, steering, sinkage } = wheel;
+        let all = [speed, torque, current, steering, sinkage];
+        let names = ["speed", "torque", "current", "steering", "sinkage"];
+        names.into_iter().zip(all).for_each(|(name, value)| archive.maybe(name, value));
+    });
+}
+
+impl Learner {
+    /// Writes all that was learnt.
+    pub fn write_state(&self, archive: &mut dyn Archive) {
+        self.clone().walk(archive);
+    }
+
+    /// Goes on from a state that a learner of the same scenario and settings wrote. Whether it was one; else this learner
+    /// is not to be used any more.
+    pub fn read_state(&mut self, archive: &mut dyn Archive) -> bool {
+        self.walk(archive);
+        self.bank.is_whole() && self.gatherer.is_whole()
+    }
+
+    fn walk(&mut self, archive: &mut dyn Archive) {
+        let Self { study: _, settings: _, gatherer, bank, watch, learnt } = self;
+        archive.group("gatherer");
+        gatherer.walk(archive);
+        archive.end();
+        archive.group("bank");
+        bank.walk(archive);
+        archive.end();
+        archive.group("watch");
+        watch.walk(archive);
+        archive.end();
+        archive.group("learnt");
+        learnt.walk(archive);
+        archive.end();
+    }
+}
+
+impl Learnt {
+    fn walk(&mut self, archive: &mut dyn Archive) {
+        let Self { records, outliers, stretches, way, not_used } = self;
+        archive.count("records", records);
+        archive.count("outliers", outliers);
+        archive.count("stretches", stretches);
+        archive.number("way", way);
+        archive.group("not_used");
+        for why in NotUsed::ALL {
+            let mut count = not_used.get(&why).copied().unwrap_or(0);
+            archive.count(why.name(), &mut count);
+            if count > 0 {
+                not_used.insert(why, count);
+            }
+        }
+        archive.end();
+    }
+}
+
+impl Lesson {
+    pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
+        let Self {
+            stretch,
+            way,
+            slip_ratio,
+            expected_slip,
+            information,
+            by_kind,
+            scores,
+            warnings,
+        } = self;
+        archive.number("way", way);
+        archive.number("slip_ratio", slip_ratio);
+        archive.number("expected_slip", expected_slip);
+        archive.number("information", information);
+        let InformationByKind { along, across, torque, sinkage } = by_kind;
+        let names = ["along", "across", "torque", "sinkage"];
+        let all = [along, across, torque, sinkage];
+        names.into_iter().zip(all).for_each(|(name, value)| archive.number(name, value));
+        numbers(archive, "scores", scores);
+        items(archive, "warnings", warnings, Warning::blank, Warning::walk);
+        archive.group("stretch");
+        stretch.walk(archive);
+        archive.end();
+    }
+}
+
+impl Stretch {
+    fn walk(&mut self, archive: &mut dyn Archive) {
+        let Self {
+            time: [from, to],
+            way,
+            attitude,
+            told_yaw,
+            rim_speeds,
+            rim_scatter,
+            steering,
+            velocity: [forward, leftward],
+            yaw_rate,
+            torques,
+            currents,
+            sinkages,
+            outliers,
+        } = self;
+        archive.number("from", from);
+        archive.number("to", to);
+        archive.number("way", way);
+        let mut of_attitude: Vec<f64> = attitude.iter().flatten().copied().collect();
+        numbers(archive, "attitude", &mut of_attitude);
+        *attitude = of_attitude.try_into().ok();
+        archive.maybe("told_yaw", told_yaw);
+        numbers(archive, "rim_speeds", rim_speeds);
+        archive.number("rim_scatter", rim_scatter);
+        maybes(archive, "steering", steering);
+        for (name, reading) in
+            [("forward", forward), ("leftward", leftward), ("yaw_rate", yaw_rate)]
+        {
+            let mut one = vec![*reading];
+            readings(archive, name, &mut one);
+            *reading = one.into_iter().flatten().next();
+        }
+        readings(archive, "torques", torques);
+        maybes(archive, "currents", currents);
+        readings(archive, "sinkages", sinkages);
+        let mut of_outliers = *outliers as u64;
+        archive.count("outliers", &mut of_outliers);
+        *outliers = of_outliers as usize;
+    }
+}
+
+/// Readings that may be missing: means, and their deviations.
+fn readings(archive: &mut dyn Archive, name: &str, readings: &mut Vec<Option<Reading>>) {
+    let each = |of: fn(Reading) -> f64| readings.iter().map(|it| it.map(of)).collect();
+    let (mut values, mut deviations): (Vec<_>, Vec<_>) =
+        (each(|it| it.value), each(|it| it.deviation));
+    archive.group(name);
+    maybes(archive, "value", &mut values);
+    maybes(archive, "deviation", &mut deviations);
+    archive.end();
+    let both = values.into_iter().zip(deviations);
+    *readings = both
+        .map(|(value, deviation)| value.zip(deviation))
+        .map(|it| it.map(|(value, deviation)| Reading { value, deviation }))
+        .collect();
+}
+
+impl Warning {
+    pub(super) fn blank() -> Self {
+        let evidence = Evidence::Spinning { slip_ratio: 0.0 };
+        let (kind, lead_time, lead_way) = (WarningKind::Entrapment, None, None);
+        Self { kind, time: 0.0, way: 0.0, lead_time, lead_way, evidence }
+    }
+
+    pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
+        let Self { kind, time, way, lead_time, lead_way, evidence } = self;
+        kind.walk(archive);
+        archive.number("time", time);
+        archive.number("way", way);
+        archive.maybe("lead_time", lead_time);
+        archive.maybe("lead_way", lead_way);
+        evidence.walk(archive);
+    }
+}
+
+impl Evidence {
+    /// One of each, to read into.
+    fn all() -> [Self; 7] {
+        let zero = 0.0;
+        [
+            Self::Strange { slip_ratio: zero, expected: zero },
+            Self::Spinning { slip_ratio: zero },
+            Self::Growing { slip_ratio: zero },
+            Self::Rising { slip_ratio: zero, slope: zero, limit: zero },
+            Self::Contradiction { told: zero, by_attitude: zero },
+            Self::Outrun { slip_ratio: zero },
+            Self::Idle { wheel: String::new(), share: zero },
+        ]
+    }
+
+    const fn name(&self) -> &'static str {
+        match self {
+            Self::Strange { .. } => "strange",
+            Self::Spinning { .. } => "spinning",
+            Self::Growing { .. } => "growing",
+            Self::Rising { .. } => "rising",
+            Self::Contradiction { .. } => "contradiction",
+            Self::Outrun { .. } => "outrun",
+            Self::Idle { .. } => "idle",
+        }
+    }
+
+    fn walk(&mut self, archive: &mut dyn Archive) {
+        let mut name = self.name().to_owned();
+        archive.word("evidence", &mut name);
+        if name != self.name() {
+            match Self::all().into_iter().find(|it| it.name() == name) {
+                Some(blank) => *self = blank,
+                None => return archive.refuse("evidence"),
+            }
+        }
+        match self {
+            Self::Strange { slip_ratio, expected } => {
+                archive.number("slip_ratio", slip_ratio);
+                archive.number("expected", expected);
+            }
+            Self::Spinning { slip_ratio }
+            | Self::Growing { slip_ratio }
+            | Self::Outrun { slip_ratio } => archive.number("slip_ratio", slip_ratio),
+            Self::Rising { slip_ratio, slope, limit } => {
+                archive.number("slip_ratio", slip_ratio);
+                archive.number("slope", slope);
+                archive.number("limit", limit);
+            }
+            Self::Contradiction { told, by_attitude } => {
+                archive.number("told", told);
+                archive.number("by_attitude", by_attitude);
+            }
+            Self::Idle { wheel, share } => {
+                archive.word("wheel", wheel);
+                archive.number("share", share);
+            }
+        }
+    }
+}
