@@ -67,6 +67,8 @@ pub(crate) struct Reading {
     pub(crate) topic: Option<String>,
     pub(crate) message: Option<String>,
     pub(crate) time: Option<FieldPath>,
+    /// Whether messages may have no such field, which is then not noted.
+    pub(crate) is_optional: bool,
     pub(crate) what: What,
 }
 
@@ -119,6 +121,8 @@ struct ReadingDocument {
     sign: Option<f64>,
     offset: Option<f64>,
     axes: Option<String>,
+    #[serde(default)]
+    optional: bool,
 }
 
 impl Mapping {
@@ -238,7 +242,8 @@ impl ReadingDocument {
                 return Err("needs one of `field`, `attitude`, `pose` and `transform`".to_owned());
             }
         };
-        Ok(Reading { topic: self.topic, message: self.message, time, what })
+        let Self { topic, message, optional: is_optional, .. } = self;
+        Ok(Reading { topic, message, time, is_optional, what })
     }
 
     fn axes(&self) -> Result<Axes, String> {

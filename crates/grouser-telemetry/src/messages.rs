@@ -258,7 +258,7 @@ impl Context<'_> {
         let mut readings = Readings::default();
         match &reading.what {
             Planned::Number { field, column, factor, offset } => {
-                let cell = match self.field(field, counts)? {
+                let cell = match self.field(field, reading.is_optional, counts)? {
                     Value::Null => Cell::Gap,
                     value => number(value)
                         .map_or(Cell::Damaged, |it| Cell::of_number(it * factor + offset)),
@@ -268,11 +268,13 @@ impl Context<'_> {
             Planned::Pose { of: PoseOf::Transform { parent, child }, slot, .. } => {
                 return self.transform(parent, child, *slot, counts);
             }
-            Planned::Pose { of, columns, slot, .. } => match self.pose(of, counts)? {
-                Some(pose) => readings.poses.push((*slot, pose)),
-                // The first of its columns stands for all.
-                None => readings.cells.extend(columns.first().map(|it| (it.1, Cell::Damaged))),
-            },
+            Planned::Pose { of, columns, slot, .. } => {
+                match self.pose(of, reading.is_optional, counts)? {
+                    Some(pose) => readings.poses.push((*slot, pose)),
+                    // The first of its columns stands for all.
+                    None => readings.cells.extend(columns.first().map(|it| (it.1, Cell::Damaged))),
+                }
+            }
         }
         let time = match &reading.time {
             Some(path) => match path.find(self.message) {
@@ -303,9 +305,10 @@ impl Context<'_> {
         Some(time as i64)
     }
 
-    fn field(&self, field: &FieldPath, counts: &mut Counts) -> Option<&Value> {
+    fn field(&self, field: &FieldPath, is_optional: bool, counts: &mut Counts) -> Option<&Value> {
         let count = match field.find(self.message) {
             Found::One(value) => return Some(value),
+            Found::Nothing if is_optional => return None,
             Found::Nothing => &mut counts.without_field,
             Found::Several => &mut counts.several,
         };
@@ -314,9 +317,9 @@ impl Context<'_> {
     }
 
     /// The pose in a field; `None` within for one that is damaged.
-    fn pose(&self, of: &PoseOf, counts: &mut Counts) -> Option<Option<Pose>> {
+    fn pose(&self, of: &PoseOf, is_optional: bool, counts: &mut Counts) -> Option<Option<Pose>> {
         let (PoseOf::Attitude(field) | PoseOf::Pose(field)) = of else { return None };
-        let value = self.field(field, counts)?;
+        let value = self.field(field, is_optional, counts)?;
         if value.is_null() || self.is_unknown(field) {
             return None;
         }

@@ -49,6 +49,7 @@ pub(crate) struct PlannedReading {
     /// Its topics: one, but for transforms.
     pub(crate) topics: Vec<String>,
     pub(crate) time: Option<FieldPath>,
+    pub(crate) is_optional: bool,
     pub(crate) what: Planned,
 }
 
@@ -147,7 +148,8 @@ impl Plan {
         self.columns.extend(free);
         let topics = found.iter().map(|topic| topic.name.clone()).collect();
         let time = reading.time.clone().or_else(|| mapping.time.clone());
-        self.readings.push(PlannedReading { topics, time, what });
+        let is_optional = reading.is_optional;
+        self.readings.push(PlannedReading { topics, time, is_optional, what });
         Ok(())
     }
 }

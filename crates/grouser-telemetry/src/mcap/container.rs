@@ -127,7 +127,7 @@ pub(crate) struct Message {
 /// What of a file could not be read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Damage {
-    /// The byte at which the file ends in the middle, or without its end.
+    /// The byte at which the file ends, if that is in the middle or without its end.
     pub(crate) cut_at: Option<u64>,
     /// Chunks that cannot be unpacked to their end.
     pub(crate) chunks: u64,
@@ -234,8 +234,7 @@ impl<R: Read> Messages<R> {
     /// Takes in the next record outside of chunks: a message becomes the data, a chunk the chunk.
     fn next_at_top(&mut self) -> io::Result<()> {
         self.data.clear();
-        let start = self.source.count;
-        let Some(head) = head(&mut self.source)? else { return self.cut(start) };
+        let Some(head) = head(&mut self.source)? else { return self.cut() };
         match head.kind {
             kind::DATA_END | kind::FOOTER => {
                 self.has_ended = true;
@@ -247,7 +246,7 @@ impl<R: Read> Messages<R> {
                 let is_of_interest = matches!(head.kind, kind::SCHEMA..=kind::CHUNK);
                 self.damage.too_large += u64::from(is_of_interest);
                 let passed = io::copy(&mut (&mut self.source).take(head.length), &mut io::sink())?;
-                return if passed < head.length { self.cut(start) } else { Ok(()) };
+                return if passed < head.length { self.cut() } else { Ok(()) };
             }
         }
         let mut content = std::mem::take(&mut self.data);
@@ -260,7 +259,7 @@ impl<R: Read> Messages<R> {
                 Err(Refused::Damaged) => self.damage.chunks += u64::from(read == head.length),
             }
             if read < head.length {
-                self.damage.cut_at = Some(start);
+                self.damage.cut_at = Some(self.source.count);
                 if let Some(chunk) = &mut self.chunk {
                     chunk.is_cut = true;
                 } else {
@@ -270,7 +269,7 @@ impl<R: Read> Messages<R> {
             return Ok(());
         }
         if read < head.length {
-            return self.cut(start);
+            return self.cut();
         }
         if head.kind == kind::MESSAGE {
             self.data = content;
@@ -281,8 +280,8 @@ impl<R: Read> Messages<R> {
     }
 
     /// The file ends within a record.
-    fn cut(&mut self, start: u64) -> io::Result<()> {
-        self.damage.cut_at.get_or_insert(start);
+    fn cut(&mut self) -> io::Result<()> {
+        self.damage.cut_at.get_or_insert(self.source.count);
         self.has_ended = true;
         self.data.clear();
         Ok(())

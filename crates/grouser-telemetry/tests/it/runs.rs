@@ -78,7 +78,8 @@ fn a_log_of_our_own_is_telemetry() {
     // Without its last quarter it is read as far as it is there.
     let (part, notes) = read(&bytes[..3 * bytes.len() / 4], None).unwrap();
     assert!(part.len() > records.len() / 2 && part.len() < records.len(), "{}", part.len());
-    assert_eq!(part[..], records[..part.len()]);
+    // Of the last record some readings are missing.
+    assert_eq!(part[..part.len() - 1], records[..part.len() - 1]);
     assert!(notes[0].contains("without its end"), "{notes:?}");
 }
 
