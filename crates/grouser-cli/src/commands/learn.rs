@@ -207,12 +207,15 @@ fn drive_on(
                 if ending.rows > 0 {
                     drive.note_lost(position.lost(ending.lost));
                 }
+                if let Some(live) = &mut live {
+                    live.finish()?;
+                }
                 return Ok(Ended { unused: ending.unused, last });
             }
             Event::Failed(error) => return Err(error.into()),
         }
         if let Some(live) = &mut live {
-            live.predictions(drive, || predictions(args, drive.learner(), slopes))?;
+            live.predictions(drive, slopes)?;
         }
     }
 }
