@@ -18,7 +18,7 @@ use pyo3::types::PyDict;
 use crate::columns::table_to_python;
 use crate::descriptions::Document;
 use crate::interrupt::listening;
-use crate::studies::{Problem, SAMPLES, slopes};
+use crate::studies::{Problem, SAMPLES, slopes, wheel_names};
 use crate::wheels::check;
 use crate::{errors, threads};
 
@@ -77,6 +77,12 @@ impl Learner {
     /// The scenario that it began with, as TOML and files.
     fn scenario(&self) -> Document {
         Document::of_scenario(self.scenario.clone())
+    }
+
+    /// The names of the wheels.
+    #[getter]
+    fn wheel_names(&self) -> Vec<String> {
+        wheel_names(&self.scenario.value)
     }
 
     /// Takes records; what they taught.

@@ -210,12 +210,15 @@ fn drive_on(
                 if ending.rows > 0 {
                     drive.note_lost(position.lost(ending.lost));
                 }
+                if let Some(live) = &mut live {
+                    live.finish()?;
+                }
                 return Ok(Ended { notes: ending.notes, last });
             }
             Event::Failed(failure) => return Err(failure),
         }
         if let Some(live) = &mut live {
-            live.predictions(drive, || predictions(args, drive.learner(), slopes))?;
+            live.predictions(drive, slopes)?;
         }
     }
 }

@@ -109,7 +109,7 @@ class Learner:
     @property
     def wheel_names(self) -> tuple[str, ...]:
         """The wheels, by whose names telemetry has its columns."""
-        return tuple(mount["name"] for mount in self.scenario.rover.to_dict()["wheel_mounts"])
+        return tuple(self._native.wheel_names)
 
     def update(self, telemetry: Telemetry) -> list[dict[str, Any]]:
         """Takes telemetry that comes after what it has, and learns from it.

@@ -1,9 +1,12 @@
 //! What is learnt while a log grows: lines of text, or lines of JSON.
 
+use std::collections::BTreeMap;
+use std::panic::resume_unwind;
+use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
+use grouser::document::columns::TIME;
 use grouser::document::columns::learn as columns;
-use grouser::document::columns::{Quantity, TIME};
 use grouser::document::table::Table;
 use grouser::studies::heading_band::SlopeBand;
 use grouser::studies::learn::{Drive, Lesson};
@@ -11,35 +14,47 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use super::found::{of_row, shares, warning};
+use super::reaches_too_far;
 use crate::args::LearnArgs;
+use crate::commands::sampling;
 use crate::failure::Failure;
 use crate::output::{self, Format, json};
 
 /// Prints what a log that is followed tells on the way.
+///
+/// Predictions take longer than learning. They are computed in a thread of their own, from a copy of what was learnt, so
+/// that no warning waits for them.
 pub(super) struct Live<'a> {
-    format: Format,
-    every: Duration,
+    args: &'a LearnArgs,
     before: &'a [SlopeBand],
-    /// When predictions were printed last.
-    printed: Option<Instant>,
+    /// When predictions were asked for last.
+    asked: Option<Instant>,
     /// Whether something was learnt since then.
     is_due: bool,
+    running: Option<JoinHandle<Result<Predicted, Failure>>>,
+}
+
+/// Predictions, and where on the drive they were made.
+struct Predicted {
+    time: f64,
+    way: f64,
+    slopes: Vec<SlopeBand>,
+    models: BTreeMap<&'static str, f64>,
 }
 
 impl<'a> Live<'a> {
     /// Nothing if the log is not followed.
     ///
     /// * `before`: predictions before the drive
-    pub(super) fn of(args: &LearnArgs, before: &'a [SlopeBand]) -> Option<Self> {
-        let every = Duration::from_secs_f64(args.every_s);
-        let format = args.output.format;
-        args.follow.then_some(Self { format, every, before, printed: None, is_due: false })
+    pub(super) fn of(args: &'a LearnArgs, before: &'a [SlopeBand]) -> Option<Self> {
+        let (asked, is_due, running) = (None, false, None);
+        args.follow.then_some(Self { args, before, asked, is_due, running })
     }
 
     /// Prints a lesson and its warnings, at once.
     pub(super) fn lesson(&mut self, lesson: &Lesson) -> Result<(), Failure> {
         self.is_due = true;
-        let is_json = self.format == Format::Json;
+        let is_json = self.args.output.format == Format::Json;
         if is_json {
             let table = columns::lessons(std::slice::from_ref(lesson));
             print_line("lesson", fields_of(&table, 0))?;
@@ -55,29 +70,49 @@ impl<'a> Live<'a> {
         Ok(())
     }
 
-    /// Prints predictions, if something was learnt and the last ones were printed some time ago.
+    /// Prints predictions that are ready, and asks for others if something was learnt and the last ones were asked for some
+    /// time ago.
     ///
-    /// * `predict`: computes them
-    pub(super) fn predictions(
-        &mut self,
-        drive: &Drive,
-        predict: impl FnOnce() -> Result<Vec<SlopeBand>, Failure>,
-    ) -> Result<(), Failure> {
-        let is_early = self.printed.is_some_and(|printed| printed.elapsed() < self.every);
+    /// * `slopes`: [rad]
+    pub(super) fn predictions(&mut self, drive: &Drive, slopes: &[f64]) -> Result<(), Failure> {
+        if self.running.as_ref().is_some_and(|it| !it.is_finished()) {
+            return Ok(());
+        }
+        self.finish()?;
+        let every = Duration::from_secs_f64(self.args.every_s);
+        let is_early = self.asked.is_some_and(|asked| asked.elapsed() < every);
         if !self.is_due || is_early {
             return Ok(());
         }
-        (self.printed, self.is_due) = (Some(Instant::now()), false);
-        let table = columns::predictions(self.before, &predict()?);
-        let of = |quantity: Quantity, value: f64| quantity.unit.from_si(value);
-        let time = of(TIME, drive.last_time().unwrap_or_default());
-        let way = of(columns::WAY, drive.learner().learnt().way);
-        if self.format == Format::Json {
+        (self.asked, self.is_due) = (Some(Instant::now()), false);
+        let (learner, slopes) = (drive.learner().clone(), slopes.to_vec());
+        let (seed, count) = (self.args.seed, self.args.samples);
+        let (time, way) = (drive.last_time().unwrap_or_default(), learner.learnt().way);
+        self.running = Some(thread::spawn(move || {
+            let samples = learner.samples(seed, count).map_err(|error| reaches_too_far(&error))?;
+            let band = sampling::whole(learner.predict(&samples, &slopes, &|| true)?);
+            Ok(Predicted { time, way, slopes: band.slopes, models: shares(&learner) })
+        }));
+        Ok(())
+    }
+
+    /// Waits for predictions that were asked for, and prints them.
+    pub(super) fn finish(&mut self) -> Result<(), Failure> {
+        let Some(running) = self.running.take() else { return Ok(()) };
+        let predicted = running.join().unwrap_or_else(|panic| resume_unwind(panic))?;
+        self.print(&predicted)
+    }
+
+    fn print(&self, predicted: &Predicted) -> Result<(), Failure> {
+        let table = columns::predictions(self.before, &predicted.slopes);
+        let time = TIME.unit.from_si(predicted.time);
+        let way = columns::WAY.unit.from_si(predicted.way);
+        if self.args.output.format == Format::Json {
             let fields = json!({
                 (TIME.name): time,
                 (columns::WAY.name): way,
                 "predictions": table,
-                "models": shares(drive.learner()),
+                "models": predicted.models,
             });
             return print_line("predictions", fields);
         }
