@@ -1,5 +1,6 @@
 //! `grouser learn`: what the telemetry of a drive tells of the soil, and of the next slopes.
 
+mod advice;
 mod found;
 mod page;
 
@@ -11,11 +12,12 @@ use grouser::document::learn::LearntSoil;
 use grouser::document::measurements::telemetry::TelemetryReader;
 use grouser::document::table::Table;
 use grouser::document::{Kind, LoadedScenario, SAMPLES_FILE, escape};
-use grouser::studies::heading_band::SlopeBand;
+use grouser::studies::heading_band::HeadingBand;
 use grouser::studies::learn::{LearnSettings, Learner, LearntSample, Lesson, NotUsed};
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use self::advice::AdviceTables;
 use self::found::{Found, shares};
 use super::{Answer, sampling};
 use crate::args::LearnArgs;
@@ -35,6 +37,8 @@ struct Results<'a> {
     narrowed: BTreeMap<String, f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     soil: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    advice: Option<&'a AdviceTables>,
     notes: &'a [String],
 }
 
@@ -54,6 +58,7 @@ pub(crate) fn run(args: &LearnArgs) -> Result<(), Failure> {
         models: shares(&found.learner),
         narrowed: found.narrowed.clone(),
         soil,
+        advice: found.advice.as_ref(),
         notes: &found.notes,
     };
     let answer = Answer::new("learn", settings(args, &scenario), results);
@@ -62,6 +67,11 @@ pub(crate) fn run(args: &LearnArgs) -> Result<(), Failure> {
         folder.add("learn.json", answer.to_text());
         folder.add("predictions.csv", Rows::of_table(&found.predictions).to_csv()?);
         folder.add("lessons.csv", Rows::of_table(&lessons).to_csv()?);
+        for (name, text) in
+            found.advice.iter().map(AdviceTables::files).collect::<Result<Vec<_>, _>>()?.concat()
+        {
+            folder.add(name, text);
+        }
         add_soil(&mut folder, args, &scenario, &found.learner)?;
         folder.add(REPORT, page::html(args, &scenario, &found, &lessons));
         folder.add_document("scenario.toml", &scenario);
@@ -87,17 +97,19 @@ fn learn(args: &LearnArgs, scenario: &LoadedScenario) -> Result<Found, Failure> 
     let mut learner = learner?;
     let slopes: Vec<f64> =
         args.predict_slope_deg.0.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect();
-    let before = predictions(args, &learner, &slopes)?;
+    let before = band(&learner, &samples(args, &learner)?, &slopes)?;
     let (mut lessons, mut warnings) = (Vec::new(), Vec::new());
     let notes = read(args, scenario, &mut learner, &mut |lesson: Lesson| {
         warnings.extend(lesson.warnings.iter().cloned());
         keep(&mut lessons, lesson);
     })?;
-    let after = predictions(args, &learner, &slopes)?;
-    let predictions = columns::predictions(&before, &after);
+    let samples = samples(args, &learner)?;
+    let after = band(&learner, &samples, &slopes)?;
+    let advice = advice::of(args, scenario, &learner, (&samples, &after), &lessons)?;
+    let predictions = columns::predictions(&before.slopes, &after.slopes);
     let narrowed = learner.narrowed(args.seed, args.samples);
     let narrowed = narrowed.map_err(|error| reaches_too_far(&error))?;
-    Ok(Found { learner, lessons, warnings, notes, predictions, narrowed })
+    Ok(Found { learner, lessons, warnings, notes, predictions, advice, narrowed })
 }
 
 /// Keeps a lesson; where there are too many, every second of them, so that memory does not grow with the drive.
@@ -157,14 +169,13 @@ fn not_used(learner: &Learner) -> Vec<String> {
     NotUsed::ALL.into_iter().filter_map(sentence).chain(outliers).collect()
 }
 
-fn predictions(
-    args: &LearnArgs,
+fn band(
     learner: &Learner,
+    samples: &[LearntSample],
     slopes: &[f64],
-) -> Result<Vec<SlopeBand>, Failure> {
-    let samples = samples(args, learner)?;
-    let band = sampling::with_bar(samples.len(), |go_on| learner.predict(&samples, slopes, go_on));
-    Ok(sampling::whole(band?).slopes)
+) -> Result<HeadingBand, Failure> {
+    let band = sampling::with_bar(samples.len(), |go_on| learner.predict(samples, slopes, go_on));
+    Ok(sampling::whole(band?))
 }
 
 fn samples(args: &LearnArgs, learner: &Learner) -> Result<Vec<LearntSample>, Failure> {

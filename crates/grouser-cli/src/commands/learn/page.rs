@@ -7,6 +7,7 @@ use grouser::document::columns::learn::{
 use grouser::document::columns::{SLIP_RATIO, SLOPE};
 use grouser::document::table::Table;
 
+use super::advice;
 use super::found::{Found, of_row, shares};
 use crate::args::LearnArgs;
 use crate::chart::{BAND_COLOUR, Chart, Series, Style};
@@ -18,7 +19,12 @@ use crate::report::page::Page;
 /// For reading: predictions with those before the drive, warnings and notes.
 pub(super) fn text(found: &Found) -> Text {
     let lines: String = lines(found).iter().map(|line| format!("{line}\n")).collect();
-    Rows::of_table(&found.predictions).to_table(&columns::brief()) + format!("\n{lines}")
+    let text =
+        Rows::of_table(&found.predictions).to_table(&columns::brief()) + format!("\n{lines}");
+    match &found.advice {
+        Some(advice) => text + "\n".to_owned() + advice.text(),
+        None => text,
+    }
 }
 
 /// What was learnt from, what to warn of, and notes: a line each.
@@ -85,10 +91,16 @@ pub(super) fn html(
         &columns::brief(),
     );
     page.charts(&predictions(&found.predictions));
+    if let Some(advice) = &found.advice {
+        advice.add_to(&mut page);
+    }
     page.heading("What each stretch taught");
     page.charts(&[over_way(lessons), information(lessons)]);
     let of_columns = [meanings(&PREDICTION_COLUMNS), meanings(&LESSON_COLUMNS)];
-    let of_columns: Vec<_> = of_columns.into_iter().flatten().collect();
+    let mut of_columns: Vec<_> = of_columns.into_iter().flatten().collect();
+    if found.advice.is_some() {
+        of_columns.extend(advice::of_columns());
+    }
     answer::close(page, &[], &of_columns, &basis(args, scenario))
 }
 
