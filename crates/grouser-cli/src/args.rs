@@ -1,5 +1,6 @@
 //! The arguments of the command line.
 
+mod advice;
 mod campaign;
 mod card;
 mod documents;
@@ -30,6 +31,7 @@ use grouser::contact::Theory;
 
 use crate::output::Format;
 
+pub(crate) use advice::AdviceArgs;
 pub(crate) use campaign::{
     CampaignArgs, CampaignCommand, CampaignCostArgs, CampaignDigestArgs, CampaignMergeArgs,
     CampaignRerunArgs, CampaignRunArgs, CampaignSummariseArgs, ExecutorChoice,

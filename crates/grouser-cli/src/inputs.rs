@@ -1,5 +1,6 @@
 //! Reads documents, overridden by flags: each flag stands for a key, and is checked as that key is.
 
+mod advice;
 mod card;
 mod follow;
 mod forecast;
@@ -21,6 +22,7 @@ use grouser::document::{
     self, Document, DocumentError, Kind, LoadedScenario, Overrides, Source, UncertainSoil,
 };
 
+pub(crate) use self::advice::advice;
 pub(crate) use self::card::{CardInputs, card};
 pub(crate) use self::follow::Following;
 pub(crate) use self::forecast::{ForecastInputs, forecast};

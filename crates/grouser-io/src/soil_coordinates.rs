@@ -76,6 +76,15 @@ impl SoilCoordinates {
         self.values_at(coordinates, None).and_then(|values| self.soils.soil(&values))
     }
 
+    /// The values of the keys at a place, in their own units and within their ranges; `None` of coordinates that are not
+    /// finite.
+    ///
+    /// * `coordinates`: as many as [`count`](Self::count) says
+    #[must_use]
+    pub fn values(&self, coordinates: &[f64]) -> Option<Vec<f64>> {
+        self.values_at(coordinates, None)
+    }
+
     /// Sample number `index` with its place: the same soil as [`UncertainSoil::draw`] gives.
     ///
     /// # Errors

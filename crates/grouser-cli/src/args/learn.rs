@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::{BalanceArgs, OutputArgs, SettingArgs, TelemetryArgs};
+use super::{AdviceArgs, BalanceArgs, OutputArgs, SettingArgs, TelemetryArgs};
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
@@ -65,6 +65,8 @@ pub(crate) struct LearnArgs {
     /// Seed of the samples.
     #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true)]
     pub(crate) seed: u64,
+    #[command(flatten)]
+    pub(crate) advice: AdviceArgs,
     #[command(flatten)]
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]

@@ -1,5 +1,6 @@
 //! `grouser learn`: what the telemetry of a drive tells of the soil, and of the next slopes.
 
+mod advice;
 mod cards;
 mod found;
 mod live;
@@ -17,11 +18,12 @@ use grouser::document::columns::learn as columns;
 use grouser::document::learn::{LearntSoil, files_of_prior};
 use grouser::document::table::Table;
 use grouser::document::{LoadedScenario, SAMPLES_FILE, escape};
-use grouser::studies::heading_band::SlopeBand;
+use grouser::studies::heading_band::HeadingBand;
 use grouser::studies::learn::{Drive, LearnSettings, Learner, LearntSample, TelemetryRecord};
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use self::advice::AdviceTables;
 use self::cards::Cards;
 use self::found::{Found, shares};
 use self::live::Live;
@@ -48,6 +50,8 @@ struct Results<'a> {
     narrowed: BTreeMap<String, f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     soil: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    advice: Option<&'a AdviceTables>,
     notes: &'a [String],
 }
 
@@ -69,6 +73,7 @@ pub(crate) fn run(args: &LearnArgs) -> Result<(), Failure> {
         models: shares(found.drive.learner()),
         narrowed: found.narrowed.clone(),
         soil,
+        advice: found.advice.as_ref(),
         notes: &found.notes,
     };
     let answer = Answer::new("learn", settings(args, &scenario), results);
@@ -94,6 +99,10 @@ fn write(
     folder.add("learn.json", answer.to_text());
     folder.add("predictions.csv", Rows::of_table(&found.predictions).to_csv()?);
     folder.add("lessons.csv", Rows::of_table(&tables.lessons).to_csv()?);
+    let advice = found.advice.iter().map(AdviceTables::files).collect::<Result<Vec<_>, _>>()?;
+    for (name, text) in advice.concat() {
+        folder.add(name, text);
+    }
     folder.add("warnings.csv", Rows::of_table(&tables.warnings).to_csv()?);
     if let Some(slips) = &tables.slips {
         folder.add("slip-from-current.csv", Rows::of_table(&slips.rows).to_csv()?);
@@ -132,9 +141,9 @@ fn learn(args: &LearnArgs, scenario: &LoadedScenario) -> Result<Found, Failure> 
     let kept = state.read(args.output.force)?;
     let slopes: Vec<f64> =
         args.predict_slope_deg.0.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect();
-    let before = predictions(args, &learner, &slopes)?;
+    let before = band(&learner, &samples(args, &learner)?, &slopes)?;
     let mut drive = kept.unwrap_or_else(|| Drive::new(learner));
-    let live = Live::of(args, &before);
+    let live = Live::of(args, &before.slopes);
     let ending = drive_on(args, scenario, &mut drive, (&mut state, live), &slopes)?;
     state.keep(&drive)?;
     let drive = ending.last.map_or_else(
@@ -145,13 +154,15 @@ fn learn(args: &LearnArgs, scenario: &LoadedScenario) -> Result<Found, Failure> 
             whole.finished()
         },
     );
-    let after = predictions(args, drive.learner(), &slopes)?;
-    let predictions = columns::predictions(&before, &after);
+    let samples = samples(args, drive.learner())?;
+    let after = band(drive.learner(), &samples, &slopes)?;
+    let advice = advice::of(args, scenario, &drive, (&samples, &after))?;
+    let predictions = columns::predictions(&before.slopes, &after.slopes);
     let narrowed = drive.learner().narrowed(args.seed, args.samples);
     let narrowed = narrowed.map_err(|error| reaches_too_far(&error))?;
     let lost = drive.lost().sentences();
     let notes = lost.into_iter().chain(ending.notes).chain(drive.learner().notes()).collect();
-    Ok(Found { drive, notes, predictions, narrowed })
+    Ok(Found { drive, notes, predictions, advice, narrowed })
 }
 
 /// How a log ended.
@@ -223,14 +234,13 @@ fn drive_on(
     }
 }
 
-fn predictions(
-    args: &LearnArgs,
+fn band(
     learner: &Learner,
+    samples: &[LearntSample],
     slopes: &[f64],
-) -> Result<Vec<SlopeBand>, Failure> {
-    let samples = samples(args, learner)?;
-    let band = sampling::with_bar(samples.len(), |go_on| learner.predict(&samples, slopes, go_on));
-    Ok(sampling::whole(band?).slopes)
+) -> Result<HeadingBand, Failure> {
+    let band = sampling::with_bar(samples.len(), |go_on| learner.predict(samples, slopes, go_on));
+    Ok(sampling::whole(band?))
 }
 
 fn samples(args: &LearnArgs, learner: &Learner) -> Result<Vec<LearntSample>, Failure> {

@@ -1,5 +1,6 @@
 //! The columns of results: those of `grouser-io`, and those of studies.
 
+pub mod advice;
 pub mod card;
 pub mod card_courses;
 pub mod card_days;

@@ -14,6 +14,7 @@
 //! or four, and the answer has to be the same whatever way the telemetry is cut. What no reading bears upon stays what
 //! it was, so that without telemetry predictions are those of the soil as it was, sample by sample.
 
+pub mod advice;
 mod bank;
 mod currents;
 mod drive;

@@ -7,6 +7,7 @@ use grouser::document::columns::{SLIP_RATIO, SLOPE, YAW};
 use grouser::document::table::Table;
 use grouser::studies::learn::{Drive, Learner, Warning};
 
+use super::advice::AdviceTables;
 use crate::output::rows::four_digits;
 
 /// What a drive taught.
@@ -15,6 +16,8 @@ pub(in crate::commands) struct Found {
     /// What was left out of the telemetry, a sentence each.
     pub(in crate::commands) notes: Vec<String>,
     pub(in crate::commands) predictions: Table,
+    /// What to do tomorrow, if that is asked for.
+    pub(super) advice: Option<AdviceTables>,
     /// What is left of the uncertainty of each of the soil's keys [-].
     pub(in crate::commands) narrowed: BTreeMap<String, f64>,
 }

@@ -10,6 +10,7 @@ use grouser::document::columns::{SLIP_RATIO, SLOPE, TIME};
 use grouser::document::table::Table;
 use grouser::vehicle::Rover;
 
+use super::advice;
 use super::cards::Cards;
 use super::found::{Found, of_row, shares, warning};
 use super::tables::Tables;
@@ -23,7 +24,12 @@ use crate::report::page::Page;
 /// For reading: predictions with those before the drive, warnings and notes.
 pub(super) fn text(found: &Found) -> Text {
     let lines: String = lines(found).iter().map(|line| format!("{line}\n")).collect();
-    Rows::of_table(&found.predictions).to_table(&columns::brief()) + format!("\n{lines}")
+    let text =
+        Rows::of_table(&found.predictions).to_table(&columns::brief()) + format!("\n{lines}");
+    match &found.advice {
+        Some(advice) => text + "\n".to_owned() + advice.text(),
+        None => text,
+    }
 }
 
 /// What was learnt from, what to warn of, and notes: a line each.
@@ -73,6 +79,9 @@ pub(super) fn html(
         &columns::brief(),
     );
     page.charts(&predictions(&found.predictions));
+    if let Some(advice) = &found.advice {
+        advice.add_to(&mut page);
+    }
     page.heading("What each stretch taught");
     page.charts(&[over_way(&tables.lessons), information(&tables.lessons)]);
     if let Some(slips) = &tables.slips {
@@ -86,7 +95,10 @@ pub(super) fn html(
     }
     let of_columns =
         [meanings(&PREDICTION_COLUMNS), meanings(&LESSON_COLUMNS), meanings(&WARNING_COLUMNS)];
-    let of_columns: Vec<_> = of_columns.into_iter().flatten().collect();
+    let mut of_columns: Vec<_> = of_columns.into_iter().flatten().collect();
+    if found.advice.is_some() {
+        of_columns.extend(advice::of_columns());
+    }
     answer::close(page, &[], &of_columns, &basis(args, scenario))
 }
 

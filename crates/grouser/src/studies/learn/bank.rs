@@ -146,8 +146,13 @@ impl Bank {
         seed: u64,
         index: u64,
     ) -> Result<LearntSample, NothingAccepted> {
+        self.of_model(theory).sample(seed, index)
+    }
+
+    /// What one model believes.
+    pub(super) fn of_model(&self, theory: Theory) -> &Filter {
         let of_model = self.filters.iter().find(|it| it.unknowns.theory() == theory);
-        of_model.unwrap_or(&self.filters[0]).sample(seed, index)
+        of_model.unwrap_or(&self.filters[0])
     }
 
     /// The keys of the soil that a sample has values of.

@@ -6,7 +6,7 @@ use super::gaussian::{Gaussian, Line, Surprise};
 use super::information;
 use super::motion::{Expected, NotUsed, SeenMotion, halves};
 use super::noise::ModelNoise;
-use super::unknowns::{LearntSample, Unknowns};
+use super::unknowns::{Draw, LearntSample, Unknowns};
 use crate::elementary::exp;
 use crate::elementary::wide::ln;
 use crate::studies::heading::HeadingStudy;
@@ -67,7 +67,7 @@ impl Filter {
     }
 
     /// The line of a motion over the width of a belief: of the soil, and then of the error of the yaw rate.
-    fn line(
+    pub(super) fn line(
         &self,
         study: &HeadingStudy,
         motion: &SeenMotion,
@@ -144,14 +144,19 @@ impl Filter {
     /// Sample number `index` of what is believed: that of what was believed beforehand, moved as mean and covariance
     /// moved. A soil that cannot be is moved half as far, and so on.
     pub(super) fn sample(&self, seed: u64, index: u64) -> Result<LearntSample, NothingAccepted> {
-        const HALVINGS: usize = 8;
         let draw = self.unknowns.draw(seed, index)?;
+        let moved = self.unknowns.moved(&draw, self.place(&draw).as_slice());
+        let (values, sample) = moved.ok_or(NothingAccepted { index, tries: 1 })?;
+        Ok(LearntSample { sample, values })
+    }
+
+    /// Where a sample of what was believed beforehand lies in what is believed now.
+    pub(super) fn place(&self, draw: &Draw) -> DVector<f64> {
+        const HALVINGS: usize = 8;
         let before = DVector::from_column_slice(&draw.coordinates);
         let after = &self.belief.mean + self.belief.root() * &before;
         let mut places = halves(HALVINGS).map(|share| &before + (&after - &before) * share);
-        let moved = places.find_map(|at| self.unknowns.moved(&draw, at.as_slice()));
-        let (values, sample) = moved.ok_or(NothingAccepted { index, tries: 1 })?;
-        Ok(LearntSample { sample, values })
+        places.find(|at| self.unknowns.moved(draw, at.as_slice()).is_some()).unwrap_or(before)
     }
 }
 

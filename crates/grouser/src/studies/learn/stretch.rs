@@ -48,9 +48,9 @@ pub struct Reading {
 }
 
 /// The rims' way of a stretch [m]: short enough to see the soil change, long enough for a mean. Source: ours.
-const WAY: f64 = 0.1;
+pub(super) const WAY: f64 = 0.1;
 /// A stretch has this many readings of the motion at least, unless it is [`LONGEST`].
-const LEAST_READINGS: usize = 7;
+pub(super) const LEAST_READINGS: usize = 7;
 /// The rims' way of the longest stretch [m].
 const LONGEST: f64 = 0.5;
 /// A stretch takes this long at most [s]: rovers that stand have one, too.
@@ -64,9 +64,9 @@ const MOST_RECORDS: usize = 4096;
 const MOST_ALIKE: f64 = 4.0;
 const ALIKE: f64 = 5e-3;
 /// What a reading of the motion scatters by where too few tell, over the rims' speed [-].
-const USUAL_SCATTER: f64 = 0.05;
+pub(super) const USUAL_SCATTER: f64 = 0.05;
 /// The same of torques, over their size, and of sinkages [m].
-const USUAL_TORQUE: f64 = 0.1;
+pub(super) const USUAL_TORQUE: f64 = 0.1;
 const USUAL_SINKAGE: f64 = 0.003;
 
 /// Gathers records into stretches. What it gives depends on the records alone, not on how many are given at once.

@@ -64,6 +64,11 @@ impl Unknowns {
         self.soil.keys()
     }
 
+    /// The values of the soil's uncertain keys at a place, in their own units.
+    pub(super) fn values(&self, coordinates: &[f64]) -> Option<Vec<f64>> {
+        self.soil.values(&coordinates[..self.soil.count()])
+    }
+
     /// The sample at a place; `None` where there is no such soil.
     pub(super) fn sample(&self, coordinates: &[f64]) -> Option<Sample> {
         let (of_soil, of_model) = coordinates.split_at(self.soil.count());

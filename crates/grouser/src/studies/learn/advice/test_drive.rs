@@ -1,0 +1,497 @@
+//! The test drives that tell most of tomorrow's slopes for what they cost.
+//!
+//! A leg on a slope at a yaw would be taken in by the filter as stretches of a decimetre. In a filter of normal unknowns
+//! how much a stretch narrows the belief does not depend on what is read, so that it is known beforehand:
+//!
+//! ```text
+//! P' = P − P Jᵀ (J P Jᵀ + R)⁻¹ J P
+//! ```
+//!
+//! with the line (J, R) that the filter itself fits over the width of what is believed, first before and then after
+//! a stretch. Tomorrow's headings and slips are lines of the same unknowns, h ≈ H x, and what a leg tells of them is
+//!
+//! ```text
+//! I = ½ ln det(H P Hᵀ + D) − ½ ln det(H P' Hᵀ + D)
+//! ```
+//!
+//! with what nobody needs to know better, *D*. Legs are chosen one after the other, each as that with the most
+//! information for its cost after those before it.
+
+use nalgebra::{Cholesky, DMatrix, DVector};
+
+use super::super::DISCREPANCY;
+use super::super::filter::Filter;
+use super::super::gaussian::{Gaussian, Line};
+use super::super::motion::SeenMotion;
+use super::super::settings::LearnSettings;
+use super::super::stretch::{self, Reading, Stretch};
+use super::Limits;
+use super::course::{moving, slip_of, thrust_of};
+use crate::elementary::wide::ln;
+use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
+use crate::studies::ensemble::{Probability, outputs};
+use crate::studies::heading::{HeadingStudy, STUCK};
+use crate::units::Vec2;
+use crate::vehicle::Rover;
+
+/// A leg of a test drive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TestLeg {
+    /// Slope, *α* [rad].
+    pub slope: f64,
+    /// Yaw, *γ* [rad], positive uphill.
+    pub yaw: f64,
+    /// The way of the rims [m].
+    pub way: f64,
+}
+
+/// What a leg costs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TestCost {
+    /// Work of the wheels [J].
+    #[default]
+    Energy,
+    /// Way of the rims [m].
+    Way,
+}
+
+impl TestCost {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Energy, Self::Way];
+
+    /// One word: `energy`, `way`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Energy => "energy",
+            Self::Way => "way",
+        }
+    }
+}
+
+/// What is read on a test drive, and how well it is read on the mean over a stretch of a decimetre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instruments {
+    /// Of the velocity along the body, over the rims' speed [-].
+    pub forward: f64,
+    /// Of that to its left [-]; `None` where it is not read.
+    pub leftward: Option<f64>,
+    /// Of the yaw rate times the distance of the farthest wheel [-].
+    pub turning: Option<f64>,
+    /// Of torques, over their size [-].
+    pub torque: Option<f64>,
+    /// Of sinkages [m].
+    pub sinkage: Option<f64>,
+}
+
+impl Instruments {
+    /// Odometry that scatters by 5 % of the rims' speed and torques by a tenth, on the mean of seven readings; no sinkage.
+    #[must_use]
+    pub fn usual() -> Self {
+        let readings = (stretch::LEAST_READINGS as f64).sqrt();
+        let odometry = stretch::USUAL_SCATTER / readings;
+        let torque = Some(stretch::USUAL_TORQUE / readings);
+        Self {
+            forward: odometry,
+            leftward: Some(odometry),
+            turning: Some(odometry),
+            torque,
+            sinkage: None,
+        }
+    }
+
+    /// Those of a stretch; the usual ones where it has no way along the body.
+    #[must_use]
+    pub fn of(stretch: &Stretch, rover: &Rover) -> Self {
+        let fastest = stretch.rim_speeds.iter().map(|it| it.abs()).fold(0.0, f64::max);
+        let [forward, leftward] = stretch.velocity;
+        let Some(forward) = forward.filter(|_| fastest > 0.0) else { return Self::usual() };
+        let share = |it: Reading| it.deviation / fastest;
+        let torques = stretch.torques.iter().flatten();
+        let sizes: f64 = torques.clone().map(|it| it.value.abs()).sum();
+        let deviations: f64 = torques.map(|it| it.deviation).sum();
+        let sinkages: Vec<f64> = stretch.sinkages.iter().flatten().map(|it| it.deviation).collect();
+        let mean = |it: &[f64]| it.iter().sum::<f64>() / it.len() as f64;
+        Self {
+            forward: share(forward),
+            leftward: leftward.map(share),
+            turning: stretch.yaw_rate.map(|it| share(it) * reach(rover)),
+            torque: (sizes > 0.0).then(|| deviations / sizes),
+            sinkage: (!sinkages.is_empty()).then(|| mean(&sinkages)),
+        }
+    }
+}
+
+/// Distance of the farthest wheel [m].
+fn reach(rover: &Rover) -> f64 {
+    rover.load_arms().iter().map(Vec2::norm).fold(f64::MIN_POSITIVE, f64::max)
+}
+
+/// Which test drives there may be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TestSettings {
+    /// Legs to choose among.
+    pub legs: Vec<TestLeg>,
+    /// What they cost.
+    pub cost: TestCost,
+    /// How many to choose.
+    pub count: usize,
+    /// What is read on the way.
+    pub instruments: Instruments,
+}
+
+/// Yaws at which legs are tried [rad]: along the contour, crabwise up, straight up, crabwise down, straight down.
+const YAWS: [f64; 5] = [0.0, 45.0, 90.0, -45.0, -90.0];
+
+impl TestSettings {
+    /// Legs of one length [m] on some slopes [rad]: along the contour, at 45° and straight up and down; on level ground,
+    /// where all yaws are alike, along it alone.
+    #[must_use]
+    pub fn on_slopes(slopes: &[f64], way: f64) -> Self {
+        let each = slopes.iter().flat_map(|slope| {
+            let yaws = if *slope == 0.0 { &YAWS[..1] } else { &YAWS[..] };
+            yaws.iter().map(|yaw| TestLeg { slope: *slope, yaw: yaw.to_radians(), way })
+        });
+        Self {
+            legs: each.collect(),
+            cost: TestCost::default(),
+            count: 3,
+            instruments: Instruments::usual(),
+        }
+    }
+}
+
+/// What test drives would tell.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TestDrives {
+    /// Every leg on its own, by the most information for its cost.
+    pub legs: Vec<TestDrive>,
+    /// The legs to drive, one after the other; none where there is nothing to learn of the slopes.
+    pub chosen: Vec<TestDrive>,
+    /// The heading that is least certain before any of them: its slope [rad].
+    pub slope: Option<f64>,
+}
+
+/// What a leg would tell, after those before it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TestDrive {
+    /// The leg.
+    pub leg: TestLeg,
+    /// Mean slip ratio of the wheels that is expected [-].
+    pub slip_ratio: f64,
+    /// Work of the wheels [J].
+    pub energy: f64,
+    /// Samples in which the slip keeps its limit.
+    pub within: Probability,
+    /// Width of the 95 % band of the heading that is least certain, before it and after it [rad].
+    pub widths: [f64; 2],
+    /// Width of the 95 % band of the slip on that slope, before it and after it [-].
+    pub slip_widths: [f64; 2],
+    /// What it tells of the headings and slips of the slopes [nat].
+    pub information: f64,
+    /// The same for its cost [nat/J] or [nat/m].
+    pub per_cost: f64,
+    /// Standard deviations of the soil's uncertain numbers after it over those before any [-], by their keys.
+    pub left: Vec<(String, f64)>,
+}
+
+/// Legs that tell less than this are not worth driving [nat]: a band that narrows by 2 %.
+const LEAST_INFORMATION: f64 = 0.02;
+/// Nobody needs to know a heading better than this [rad], half a degree, nor a slip [-]. Source: ours.
+const HEADING_NEEDED: f64 = 0.5 * std::f64::consts::PI / 180.0;
+const SLIP_NEEDED: f64 = 0.02;
+
+/// Width of a 95 % band, in standard deviations.
+const WIDTH: f64 = 2.0 * 1.959_963_984_540_054;
+
+/// Where test drives are planned.
+pub(super) struct Planner<'a> {
+    pub(super) study: &'a HeadingStudy,
+    pub(super) settings: &'a LearnSettings,
+    /// Of the model with the greatest share.
+    pub(super) filter: &'a Filter,
+    pub(super) limits: &'a Limits,
+    pub(super) tests: &'a TestSettings,
+}
+
+/// Headings and slips of the slopes ahead as lines of the unknowns.
+struct Target {
+    slopes: Vec<f64>,
+    /// A row for each slope's heading over what is needed, then one for each slope's slip.
+    jacobian: DMatrix<f64>,
+    /// A row for each of the soil's uncertain keys.
+    values: Option<DMatrix<f64>>,
+}
+
+/// A leg that can be driven.
+struct Candidate {
+    leg: TestLeg,
+    stretch: SeenMotion,
+    /// Stretches that it has.
+    stretches: usize,
+    slip_ratio: f64,
+    energy: f64,
+    within: Probability,
+}
+
+impl Planner<'_> {
+    /// * `samples`: by which legs are judged as safe
+    /// * `slopes`: that come next [rad]
+    /// * `go_on`: asked before each leg; `None` if it was false
+    pub(super) fn plan(
+        &self,
+        samples: &[Sample],
+        slopes: &[f64],
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Option<TestDrives> {
+        let none = TestDrives { legs: Vec::new(), chosen: Vec::new(), slope: None };
+        let Some(target) = self.target(slopes) else { return Some(none) };
+        let mut candidates = Vec::new();
+        for leg in &self.tests.legs {
+            candidates.extend(self.candidate(leg, samples, go_on)?);
+        }
+        let mut belief = self.filter.belief.clone();
+        let mut drives = TestDrives { slope: target.least_certain(&belief).map(|it| it.1), ..none };
+        for round in 0..self.tests.count {
+            let mut told = self.told(&candidates, &target, &belief, go_on)?;
+            told.sort_by(|(one, _), (other, _)| other.per_cost.total_cmp(&one.per_cost));
+            let worth = |it: &&(TestDrive, Gaussian)| it.0.information >= LEAST_INFORMATION;
+            let best = told.iter().find(worth).cloned();
+            if round == 0 {
+                drives.legs = told.into_iter().map(|it| it.0).collect();
+            }
+            let Some((drive, after)) = best else { break };
+            drives.chosen.push(drive);
+            belief = after;
+        }
+        Some(drives)
+    }
+
+    /// What each leg tells, with what is believed after it.
+    fn told(
+        &self,
+        candidates: &[Candidate],
+        target: &Target,
+        belief: &Gaussian,
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Vec<(TestDrive, Gaussian)>> {
+        let each = outputs(candidates, |candidate| {
+            go_on().then(|| {
+                let after = self.after(candidate, belief)?;
+                Some((self.drive(candidate, target, belief, &after), after))
+            })
+        });
+        each.into_iter().collect::<Option<Vec<_>>>().map(|it| it.into_iter().flatten().collect())
+    }
+
+    fn drive(
+        &self,
+        candidate: &Candidate,
+        target: &Target,
+        belief: &Gaussian,
+        after: &Gaussian,
+    ) -> TestDrive {
+        let information = target.uncertainty(belief) - target.uncertainty(after);
+        let cost = match self.tests.cost {
+            TestCost::Energy => candidate.energy,
+            TestCost::Way => candidate.leg.way,
+        };
+        let place = target.least_certain(&self.filter.belief).map_or(0, |it| it.0);
+        TestDrive {
+            leg: candidate.leg,
+            slip_ratio: candidate.slip_ratio,
+            energy: candidate.energy,
+            within: candidate.within,
+            widths: [belief, after].map(|it| target.heading_width(it, place)),
+            slip_widths: [belief, after].map(|it| target.slip_width(it, place)),
+            information,
+            per_cost: information / cost.max(f64::MIN_POSITIVE),
+            left: target.values.as_ref().map_or(Vec::new(), |it| self.left(it, after)),
+        }
+    }
+
+    /// How the values of the soil's uncertain keys go with the unknowns: a line for each.
+    fn values(&self) -> Option<DMatrix<f64>> {
+        let unknowns = &self.filter.unknowns;
+        let values = |at: &DVector<f64>| unknowns.values(at.as_slice()).map(DVector::from_vec);
+        let belief = &self.filter.belief;
+        Some(Line::over(belief, &values(&belief.mean)?, values).jacobian)
+    }
+
+    /// What is left of the uncertainty of the soil's keys.
+    fn left(&self, values: &DMatrix<f64>, after: &Gaussian) -> Vec<(String, f64)> {
+        let deviations = |it: &Gaussian| {
+            let covariance = values * &it.covariance * values.transpose();
+            covariance.diagonal().map(|variance| variance.max(0.0).sqrt())
+        };
+        let (before, after) = (deviations(&self.filter.belief), deviations(after));
+        let keys = self.filter.unknowns.keys().zip(before.iter().zip(after.iter()));
+        let own = keys.filter(|(key, (before, _))| !key.starts_with(DISCREPANCY) && **before > 0.0);
+        own.map(|(key, (before, after))| (key.to_owned(), after / before)).collect()
+    }
+
+    /// What is expected to be believed after a leg. The mean stays: nothing is known of where it will go.
+    fn after(&self, candidate: &Candidate, belief: &Gaussian) -> Option<Gaussian> {
+        let noise = &self.settings.noise;
+        let line = |over: &Gaussian| self.filter.line(self.study, &candidate.stretch, noise, over);
+        let count = belief.mean.len();
+        let stretch = |belief: &Gaussian, line: &Line| {
+            let both = belief.and_one();
+            let expected = &line.value + &line.jacobian * (&both.mean - &line.at);
+            both.after(line, &expected)
+        };
+        let over_all = line(&belief.and_one())?;
+        let first = stretch(belief, &over_all)?;
+        let narrower = line(&first)?;
+        let mut after = belief.clone();
+        for _ in 0..candidate.stretches {
+            after = stretch(&after, &narrower)?.first(count);
+        }
+        Some(after)
+    }
+
+    /// Headings and slips of the slopes that can be held with the soil that is believed most.
+    fn target(&self, slopes: &[f64]) -> Option<Target> {
+        let belief = &self.filter.belief;
+        let held = |at: &DVector<f64>, slopes: &[f64]| {
+            let sample = self.filter.unknowns.sample(at.as_slice())?;
+            let curve = self.study.of_sample(&sample).curve().ok()?;
+            Some(slopes.iter().map(|slope| curve.at(*slope).ok()).collect::<Vec<_>>())
+        };
+        let of_mean = held(&belief.mean, slopes)?;
+        let known = slopes.iter().zip(&of_mean).filter(|it| it.1.is_some());
+        let slopes: Vec<f64> = known.map(|it| *it.0).collect();
+        if slopes.is_empty() {
+            return None;
+        }
+        let here: Vec<[f64; 2]> =
+            of_mean.iter().flatten().map(|it| [it.yaw, it.slip_ratio]).collect();
+        let numbers = |pairs: &[[f64; 2]]| {
+            let yaws = pairs.iter().map(|it| it[0] / HEADING_NEEDED);
+            let slips = pairs.iter().map(|it| it[1] / SLIP_NEEDED);
+            DVector::from_vec(yaws.chain(slips).collect())
+        };
+        let f = |at: &DVector<f64>| {
+            let there = held(at, &slopes)?;
+            // Where no heading holds the contour the wheels turn on the spot; a heading it has not.
+            let pairs: Vec<[f64; 2]> = here
+                .iter()
+                .zip(there)
+                .map(|(here, it)| it.map_or([here[0], STUCK], |it| [it.yaw, it.slip_ratio]))
+                .collect();
+            Some(numbers(&pairs))
+        };
+        let jacobian = Line::over(belief, &numbers(&here), f).jacobian;
+        Some(Target { slopes, jacobian, values: self.values() })
+    }
+
+    /// A leg, if the rover moves on it with the soil that is believed most.
+    fn candidate(
+        &self,
+        leg: &TestLeg,
+        samples: &[Sample],
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Option<Candidate>> {
+        let (course, rim_speed) = ((leg.slope, leg.yaw), self.limits.rim_speed);
+        let most = self.filter.unknowns.sample(self.filter.belief.mean.as_slice());
+        let study = most.map(|sample| self.study.of_sample(&sample));
+        let motion = study.as_ref().and_then(|study| moving(study, course, rim_speed, None));
+        let Some((study, motion)) = study.zip(motion) else { return Some(None) };
+        let slips = outputs_of_samples(samples, go_on, |sample| {
+            slip_of(&moving(&self.study.of_sample(sample), course, rim_speed, None))
+        })?;
+        let kept = slips.iter().filter(|slip| **slip <= self.limits.slip_ratio).count();
+        let within = Probability { successes: kept, trials: slips.len() };
+        if within.estimate() < self.limits.probability {
+            return Some(None);
+        }
+        let velocities = [motion.velocity.x, motion.velocity.y, motion.yaw_rate];
+        let stretch = self.tests.instruments.stretch(leg, rim_speed, velocities, &study.rover);
+        let planned = SeenMotion::of(&stretch, &study.rover).ok();
+        Some(planned.map(|stretch| Candidate {
+            leg: *leg,
+            stretch,
+            stretches: (leg.way / stretch::WAY).round().max(1.0) as usize,
+            slip_ratio: motion.slip_ratio(),
+            energy: thrust_of(&study, &motion) * leg.way,
+            within,
+        }))
+    }
+}
+
+impl Instruments {
+    /// A stretch of a leg as they would read it; torques and sinkages of what a soil expects have no values yet.
+    fn stretch(
+        &self,
+        leg: &TestLeg,
+        rim_speed: f64,
+        [forward, leftward, turning]: [f64; 3],
+        rover: &Rover,
+    ) -> Stretch {
+        /// A wheel's torque over its share of the weight times its radius, by which its deviation is taken [-].
+        const TORQUE: f64 = 0.3;
+        const SINKAGE: f64 = 0.01;
+        let wheels = rover.wheel_count();
+        let reading = |value: f64, deviation: f64| Reading { value, deviation };
+        let torque = |share: f64, radius: f64| {
+            let size = TORQUE * rover.mass() * crate::units::EARTH_GRAVITY / wheels as f64 * radius;
+            reading(size, share * size)
+        };
+        let radii = rover.mounts().iter().map(|mount| mount.shearing_radius());
+        let way = stretch::WAY;
+        Stretch {
+            time: [0.0, way / rim_speed],
+            way,
+            attitude: Some([leg.slope, leg.yaw]),
+            told_yaw: Some(leg.yaw),
+            rim_speeds: vec![rim_speed; wheels],
+            rim_scatter: 0.0,
+            steering: vec![None; wheels],
+            velocity: [
+                Some(reading(forward, self.forward * rim_speed)),
+                self.leftward.map(|share| reading(leftward, share * rim_speed)),
+            ],
+            yaw_rate: self.turning.map(|share| reading(turning, share * rim_speed / reach(rover))),
+            torques: radii.map(|radius| self.torque.map(|share| torque(share, radius))).collect(),
+            currents: vec![None; wheels],
+            sinkages: vec![self.sinkage.map(|deviation| reading(SINKAGE, deviation)); wheels],
+            outliers: 0,
+        }
+    }
+}
+
+impl Target {
+    fn covariance(&self, belief: &Gaussian) -> DMatrix<f64> {
+        &self.jacobian * &belief.covariance * self.jacobian.transpose()
+    }
+
+    /// ½ ln det(H P Hᵀ + D) [nat], in units of what is needed.
+    fn uncertainty(&self, belief: &Gaussian) -> f64 {
+        let covariance = self.covariance(belief);
+        let size = covariance.nrows();
+        let root = Cholesky::new(covariance + DMatrix::identity(size, size));
+        root.map_or(0.0, |root| root.l().diagonal().iter().map(|it| ln(*it)).sum())
+    }
+
+    fn deviation(&self, belief: &Gaussian, row: usize) -> f64 {
+        let covariance = self.covariance(belief);
+        covariance[(row, row)].max(0.0).sqrt()
+    }
+
+    /// Width of the heading's 95 % band on one of the slopes [rad].
+    fn heading_width(&self, belief: &Gaussian, place: usize) -> f64 {
+        WIDTH * HEADING_NEEDED * self.deviation(belief, place)
+    }
+
+    /// The same of the slip [-].
+    fn slip_width(&self, belief: &Gaussian, place: usize) -> f64 {
+        WIDTH * SLIP_NEEDED * self.deviation(belief, self.slopes.len() + place)
+    }
+
+    /// The slope whose heading is least certain: its place, and the slope [rad].
+    fn least_certain(&self, belief: &Gaussian) -> Option<(usize, f64)> {
+        let widths = (0..self.slopes.len()).map(|place| (place, self.heading_width(belief, place)));
+        let (place, _) = widths.max_by(|one, other| one.1.total_cmp(&other.1))?;
+        Some((place, self.slopes[place]))
+    }
+}
