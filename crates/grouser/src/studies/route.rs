@@ -11,17 +11,23 @@
 //! [`STUCK_WAY`]. That adds up along the way if one soil is the better one everywhere, as it is where the soil of the
 //! whole ground is not known.
 
+mod along;
 mod answer;
+mod corridor;
 mod costs;
 mod drive;
+mod hazard;
+mod measure;
 mod moves;
 mod search;
 mod seek;
 mod study;
 
-pub use self::answer::{Answer, Arrival, Ends, MOST_CELLS, NoRoute, Route, RouteError};
+pub use self::along::{CheckedLine, Line};
+pub use self::answer::{Answer, Arrival, Ends, LineError, MOST_CELLS, NoRoute, Route, RouteError};
 pub use self::costs::{COURSES, RouteTables};
 pub use self::drive::DrivenRoute;
+pub use self::hazard::{Danger, Hazard};
 pub use self::study::{Limits, Objective, RouteStudy, STUCK_WAY, WORST_SHARE};
 
 #[cfg(test)]
