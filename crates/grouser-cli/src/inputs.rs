@@ -30,7 +30,7 @@ pub(crate) use self::heading::{heading, heading_map};
 pub(crate) use self::learn::learn;
 pub(crate) use self::map::{MapInputs, map};
 pub(crate) use self::replay::replay;
-pub(crate) use self::route::{RouteInputs, route};
+pub(crate) use self::route::{Asked, RouteInputs, route};
 pub(crate) use self::slip_from_current::{SlipInputs, slip_from_current};
 pub(crate) use self::stand::{StandInputs, soil, stand, wheel_test};
 pub(crate) use self::telemetry::{

@@ -1,4 +1,4 @@
-//! Routes: the cheapest way over a map of heights.
+//! Routes: the cheapest way over a map of heights, or what a given one takes.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -10,7 +10,10 @@ use grouser::mission::MissionError;
 use grouser::simulation::Scenario;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::mobility::{Ground, MobilityStudy};
-use grouser::studies::route::{Answer, Ends, Limits, Objective, RouteError, RouteStudy};
+use grouser::studies::route::{
+    Answer, DrivenRoute, Ends, Limits, Line, LineError, Objective, Route, RouteError, RouteStudy,
+};
+use grouser::units::Vec2;
 use grouser_raster::Raster;
 use pyo3::prelude::*;
 
@@ -27,8 +30,12 @@ use crate::wheels::check;
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Task {
-    from_m: [f64; 2],
-    to_m: [f64; 2],
+    /// Ends of the way, which are there if no line is.
+    from_m: Option<[f64; 2]>,
+    to_m: Option<[f64; 2]>,
+    /// The places of a given line, or the file that has it.
+    along: Option<Vec<[f64; 2]>>,
+    along_file: Option<PathBuf>,
     /// What the ways have least of, by name.
     minimise: Vec<String>,
     yaw_deg: Option<f64>,
@@ -56,11 +63,18 @@ pub(crate) fn routes<'py>(
     let loaded = scenario.scenario()?;
     let raster = raster_of(terrain);
     let study = study(&task, MobilityStudy::of(loaded), &raster)?;
+    let line = line(&task)?;
     let objectives =
         task.minimise.iter().map(|it| objective(it)).collect::<PyResult<Vec<Objective>>>()?;
     let (inputs, scenario) = (BandInputs::of_scenario(loaded), loaded.value.clone());
     let records = listening(py, move |cancelled| {
-        let sought = Sought { task: &task, study: &study, raster: &raster, scenario: &scenario };
+        let sought = Sought {
+            task: &task,
+            line: line.as_ref(),
+            study: &study,
+            raster: &raster,
+            scenario: &scenario,
+        };
         sought.records(&objectives, &inputs, &|| !cancelled.is_set())
     })?;
     let records = records.map_err(|failure| failure.raised())?;
@@ -70,6 +84,7 @@ pub(crate) fn routes<'py>(
 /// What is sought, and where.
 struct Sought<'a> {
     task: &'a Task,
+    line: Option<&'a Line>,
     study: &'a RouteStudy,
     raster: &'a Raster,
     scenario: &'a Scenario,
@@ -94,31 +109,59 @@ impl Sought<'_> {
         // Who stopped it gets the signal, and no records.
         let Some(tables) = tables else { return Ok(Vec::new()) };
         let ground = Ground::under(&self.study.mobility.heading.rover, self.raster);
+        if let Some(line) = self.line {
+            let found = self.study.along(&tables, ground, line)?;
+            let driven = self.driven(found.route.as_ref())?;
+            let limits = &self.study.limits;
+            return Ok(vec![RouteRecord::of_line(line, &found, limits, driven.as_ref())]);
+        }
         let ends = Ends {
-            from: self.task.from_m.into(),
-            to: self.task.to_m.into(),
-            yaw: self.task.yaw_deg.map(|yaw| YAW.unit.to_si(yaw)),
+            from: self.task.from_m.unwrap_or_default().into(),
+            to: self.task.to_m.unwrap_or_default().into(),
+            yaw: self.task.yaw(),
         };
         let record = |objective: &Objective| {
             let answer = self.study.route(&tables, ground, &ends, *objective)?;
-            self.driven(*objective, &answer)
+            let route = match &answer {
+                Answer::Route(route) => Some(route),
+                Answer::NoSafeRoute(_) => None,
+            };
+            Ok(RouteRecord::of(*objective, &answer, self.driven(route)?.as_ref()))
         };
         objectives.iter().map(record).collect()
     }
 
-    fn driven(&self, objective: Objective, answer: &Answer) -> Result<RouteRecord, Failure> {
-        let driven = match answer {
-            Answer::Route(route) if self.task.drive => {
-                let soil = self.scenario.site.terrain.soil;
-                let model = self.raster.clone().model(soil);
-                let model = Arc::new(model.map_err(|error| Failure::Ground(error.to_string()))?);
-                let speed = self.study.mobility.rim_speed;
-                Some(route.drive(self.scenario, &model, speed).map_err(Failure::Drive)?)
-            }
-            _ => None,
-        };
-        Ok(RouteRecord::of(objective, answer, driven.as_ref()))
+    /// What simulation makes of a way, if there is one and that is asked for.
+    fn driven(&self, route: Option<&Route>) -> Result<Option<DrivenRoute>, Failure> {
+        let Some(route) = route.filter(|_| self.task.drive) else { return Ok(None) };
+        let soil = self.scenario.site.terrain.soil;
+        let model = self.raster.clone().model(soil);
+        let model = Arc::new(model.map_err(|error| Failure::Ground(error.to_string()))?);
+        let speed = self.study.mobility.rim_speed;
+        route.drive(self.scenario, &model, speed).map(Some).map_err(Failure::Drive)
     }
+}
+
+impl Task {
+    fn yaw(&self) -> Option<f64> {
+        self.yaw_deg.map(|yaw| YAW.unit.to_si(yaw))
+    }
+}
+
+/// The line to drive along, if one is given.
+fn line(task: &Task) -> PyResult<Option<Line>> {
+    let places = match (&task.along, &task.along_file) {
+        (Some(places), _) => places.iter().map(|place| Vec2::from(*place)).collect(),
+        (None, Some(file)) => {
+            grouser_raster::read_line_string(file).map_err(|error| errors::of_raster(&error))?
+        }
+        (None, None) => return Ok(None),
+    };
+    Line::through(places, task.yaw()).map(Some).map_err(|error| of_line(&error))
+}
+
+fn of_line(error: &LineError) -> PyErr {
+    errors::parameter(error.to_string(), "along", None, "a line on the map")
 }
 
 /// The study with its limits.
@@ -176,6 +219,7 @@ impl Failure {
                 let name = if *end == "start" { "from_m" } else { "to_m" };
                 errors::parameter(error.to_string(), name, None, "a place on the map")
             }
+            Self::Route(RouteError::Line(error)) => of_line(error),
             Self::Route(error @ RouteError::TooLarge { .. }) => {
                 errors::parameter(error.to_string(), "terrain", None, "a smaller map")
             }

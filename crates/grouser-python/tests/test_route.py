@@ -77,6 +77,42 @@ def test_a_way_keeps_out_of_areas(tmp_path: Path) -> None:
         gr.route(ground(), keep_out=tmp_path / "nowhere.geojson", **ends)
 
 
+def test_a_way_that_was_found_takes_the_same_when_it_is_given() -> None:
+    bumps = ground(lambda x, y: 0.5 * np.sin(0.9 * x) * np.cos(0.7 * y))
+    found = gr.route(bumps, from_m=(302.0, -37.0), to_m=(311.0, -31.0), drive=False, samples=3)
+    places = np.column_stack([found.x, found.y])
+    given = gr.route(bumps, along=places, drive=False, samples=3)
+    assert given.attrs["status"] == "safe" and "minimise" not in given.attrs
+    assert given.sizes == {"waypoint": found.sizes["waypoint"], "hazard": 0}
+    for name in ("length_m", "time_s", "energy_j"):
+        np.testing.assert_allclose(given[name], found[name], rtol=1e-9)
+        np.testing.assert_allclose(given.attrs[name], found.attrs[name], rtol=1e-9)
+
+
+def test_a_given_way_is_not_safe_where_it_says(tmp_path: Path) -> None:
+    across = [[302.0, -36.0], [311.0, -36.0]]
+    way = gr.route(ground(wall), along=across, samples=2)
+    assert way.attrs["status"] == "not-safe" and "length_m" not in way.attrs
+    assert "no-heading" in way.danger and np.isnan(way.time_s).all()
+    begins = float(way.from_m[list(way.danger).index("no-heading")])
+    assert abs(begins - 4.0) <= 0.5
+    line = tmp_path / "line.geojson"
+    line.write_text(json.dumps({"type": "LineString", "coordinates": across}))
+    xarray.testing.assert_identical(way, gr.route(ground(wall), along=line, samples=2))
+    with pytest.raises(gr.ParameterError, match="along has shape"):
+        gr.route(ground(), along=[1.0, 2.0])
+    with pytest.raises(gr.ParameterError, match="the line has no length"):
+        gr.route(ground(), along=[[302.0, -36.0], [302.0, -36.0]])
+    with pytest.raises(gr.ParameterError, match="the line is not on the map"):
+        gr.route(ground(), along=[[2.0, 3.0], [4.0, 5.0]])
+    with pytest.raises(gr.ParameterError, match="to_m has no place beside"):
+        gr.route(ground(), along=across, to_m=(302.0, -36.0))
+    with pytest.raises(gr.ParameterError, match="from_m is missing"):
+        gr.route(ground(), to_m=(302.0, -36.0))
+    with pytest.raises(gr.DocumentNotFoundError, match=r"nowhere\.geojson"):
+        gr.route(ground(), along=tmp_path / "nowhere.geojson")
+
+
 def test_without_a_safe_route_there_is_a_reason(tmp_path: Path) -> None:
     way = gr.route(ground(wall), from_m=(302.0, -36.0), to_m=(311.0, -36.0), samples=2)
     assert way.attrs["status"] == "no-safe-route" and way.sizes == {"waypoint": 0}

@@ -251,6 +251,12 @@ pub enum Fault {
         "has no polygon\nhint: areas are features with a Polygon or a MultiPolygon, in metres of the map"
     )]
     NoAreas,
+    /// A file without a line, or with several.
+    #[error("has no line to drive along: {problem}")]
+    NoLine {
+        /// What is wrong with it.
+        problem: String,
+    },
     /// A coordinate system of longitude and latitude.
     #[error(
         "has coordinates in degrees of longitude and latitude (its system is {name}), and a rover needs metres\nhint: ogr2ogr -t_srs SYSTEM_OF_THE_MAP OUT.geojson IN.geojson"

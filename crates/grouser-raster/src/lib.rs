@@ -54,4 +54,5 @@ pub use heights::BEYOND;
 pub use options::{CELLS, Content, Placement, ReadOptions, RowOrder};
 pub use raster::Raster;
 pub use read::read;
+pub use zones::geojson::read_line_string;
 pub use zones::{ZoneKey, ZoneMap, read_areas, read_zones, zone_names};

@@ -13,8 +13,9 @@ use crate::list::{self, Numbers};
 #[command(
     after_help = "Ways lead over the points of DEM in sixteen directions, and turns are made on the spot. The way is then \
                   driven by simulation, so that predicted and simulated time, work and slip stand side by side. With --out \
-                  there is route.geojson, whose legs `mission --terrain DEM --legs-from` drives. docs/guide/maps.md \
-                  explains the numbers."
+                  there is route.geojson, whose legs `mission --terrain DEM --legs-from` drives. With --along the numbers \
+                  are those of a given line, and each stretch of it that is not safe is named. docs/guide/maps.md explains \
+                  the numbers."
 )]
 pub(crate) struct RouteArgs {
     /// A map of heights: a GeoTIFF in metres, or text with x, y and z in each line.
@@ -28,10 +29,16 @@ pub(crate) struct RouteArgs {
     pub(crate) parts: PartArgs,
     /// Where the way begins, in the map's coordinates [m].
     #[arg(long, value_name = "X,Y", value_parser = list::parse, allow_hyphen_values = true)]
-    pub(crate) from: Numbers,
+    #[arg(required_unless_present = "along")]
+    pub(crate) from: Option<Numbers>,
     /// Where it ends [m].
     #[arg(long, value_name = "X,Y", value_parser = list::parse, allow_hyphen_values = true)]
-    pub(crate) to: Numbers,
+    #[arg(required_unless_present = "along")]
+    pub(crate) to: Option<Numbers>,
+    /// Check this way instead of seeking one: a LineString of GeoJSON, in metres of the map, such as a route.geojson.
+    #[arg(long, value_name = "FILE.geojson")]
+    #[arg(conflicts_with_all = ["from", "to", "minimise", "alternatives"])]
+    pub(crate) along: Option<PathBuf>,
     /// What the way has least of: time, work of the wheels, or time in the worst tenth of the samples.
     #[arg(long, value_name = "WHAT", value_enum, default_value_t)]
     pub(crate) minimise: ObjectiveArg,

@@ -1,4 +1,4 @@
-//! `grouser route`: the cheapest way over a map of heights.
+//! `grouser route`: the cheapest way over a map of heights, or what a given one takes.
 
 mod geojson;
 mod page;
@@ -11,8 +11,9 @@ use grouser::document::route::RouteRecord;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::mobility::Ground;
 use grouser::studies::route::{
-    Answer as Found, COURSES, DrivenRoute, Objective, Route, RouteError, RouteTables,
+    Answer as Found, COURSES, DrivenRoute, Ends, Line, Objective, Route, RouteError, RouteTables,
 };
+use grouser::units::Vec2;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -20,17 +21,17 @@ use self::record::Brief;
 use super::{Answer, sampling};
 use crate::args::RouteArgs;
 use crate::failure::Failure;
-use crate::inputs::{self, RouteInputs};
+use crate::inputs::{self, Asked, RouteInputs};
 use crate::output::folder::OutputFolder;
 use crate::output::rows::Rows;
 use crate::output::{self, Format};
 use crate::report::REPORT;
 
-/// A way that was found, or why there is none.
+/// A way that was found or given, or why there is none.
 struct Way {
-    objective: Objective,
-    found: Found,
-    driven: Option<DrivenRoute>,
+    record: RouteRecord,
+    /// None where none was found [m].
+    places: Vec<Vec2>,
 }
 
 #[derive(Serialize)]
@@ -45,23 +46,24 @@ struct Results<'a> {
 pub(crate) fn run(args: &RouteArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let inputs = inputs::route(args)?;
-    let chosen: Objective = args.minimise.into();
-    let mut wanted = vec![chosen];
-    if args.alternatives {
-        wanted.extend(Objective::ALL.into_iter().filter(|it| *it != chosen));
-    }
     let samples = samples(args, &inputs)?;
-    let with_risk = wanted.contains(&Objective::Risk);
+    let wanted = objectives(args);
+    let with_risk = args.along.is_none() && wanted.contains(&Objective::Risk);
     let tables = sampling::with_bar(samples.len().max(1) * COURSES, |go_on| {
         inputs.study.tables(&samples, with_risk, go_on)
     });
     let tables = sampling::whole(tables?);
-    let ways = wanted.into_iter().map(|objective| way(args, &inputs, &tables, objective));
-    let ways = ways.collect::<Result<Vec<Way>, Failure>>()?;
-    let records: Vec<RouteRecord> = ways.iter().map(Way::record).collect();
+    let ways = match &inputs.asked {
+        Asked::Between(ends) => {
+            let ways = wanted.into_iter().map(|it| sought(args, &inputs, &tables, ends, it));
+            ways.collect::<Result<Vec<Way>, Failure>>()?
+        }
+        Asked::Along(line) => vec![given(args, &inputs, &tables, line)?],
+    };
+    let records: Vec<RouteRecord> = ways.iter().map(|way| way.record.clone()).collect();
     let results = Results {
         best: &records[0],
-        straight_m: inputs.ends.distance(),
+        straight_m: inputs.asked.distance(),
         coordinate_system: inputs.raster.coordinates.name(),
         alternatives: &records[1..],
     };
@@ -70,14 +72,14 @@ pub(crate) fn run(args: &RouteArgs) -> Result<(), Failure> {
     if let Some(mut folder) = folder {
         folder.add("route.json", answer.to_text());
         folder.add("route.csv", rows.to_csv()?);
-        folder.add("route.geojson", geojson::text(&ways));
+        folder.add("route.geojson", geojson::text(&records[0]));
         folder.add(REPORT, page::html(args, &inputs, &ways, &records, &rows));
         folder.add_document("scenario.toml", &inputs.scenario);
         folder.finish()?;
     }
     match args.output.format {
         Format::Table => {
-            let lines: String = records.iter().map(record::line).collect();
+            let lines: String = records.iter().map(record::lines).collect();
             output::show(rows.to_table(&Brief::COLUMNS) + lines)
         }
         Format::Csv => output::print(&rows.to_csv()?),
@@ -85,10 +87,21 @@ pub(crate) fn run(args: &RouteArgs) -> Result<(), Failure> {
     }
 }
 
-impl Way {
-    fn record(&self) -> RouteRecord {
-        RouteRecord::of(self.objective, &self.found, self.driven.as_ref())
+impl Asked {
+    /// The straight line from start to target [m].
+    fn distance(&self) -> f64 {
+        match self {
+            Self::Between(ends) => ends.distance(),
+            Self::Along(line) => line.straight(),
+        }
     }
+}
+
+/// What ways are to have least of, the one that is asked for first.
+fn objectives(args: &RouteArgs) -> Vec<Objective> {
+    let chosen: Objective = args.minimise.into();
+    let others = Objective::ALL.into_iter().filter(|it| args.alternatives && *it != chosen);
+    std::iter::once(chosen).chain(others).collect()
 }
 
 fn samples(args: &RouteArgs, inputs: &RouteInputs) -> Result<Vec<Sample>, Failure> {
@@ -105,27 +118,53 @@ impl From<RouteError> for Failure {
     }
 }
 
-fn way(
+fn sought(
     args: &RouteArgs,
     inputs: &RouteInputs,
     tables: &RouteTables,
+    ends: &Ends,
     objective: Objective,
 ) -> Result<Way, Failure> {
-    let RouteInputs { study, ends, raster, .. } = inputs;
+    let RouteInputs { study, raster, .. } = inputs;
     let ground = Ground::under(&study.mobility.heading.rover, raster);
     let bar = output::progress_bar(0);
     bar.set_message(format!("least {}", objective.name()));
     let found = study.route(tables, ground, ends, objective)?;
     bar.finish_and_clear();
-    let driven = match &found {
-        Found::Route(route) if !args.no_drive => Some(drive(route, inputs)?),
-        _ => None,
+    let route = match &found {
+        Found::Route(route) => Some(route),
+        Found::NoSafeRoute(_) => None,
     };
-    Ok(Way { objective, found, driven })
+    let driven = drive(args, route, inputs)?;
+    Ok(Way {
+        record: RouteRecord::of(objective, &found, driven.as_ref()),
+        places: route.map(|it| it.waypoints.clone()).unwrap_or_default(),
+    })
 }
 
-/// Drives a way by simulation.
-fn drive(route: &Route, inputs: &RouteInputs) -> Result<DrivenRoute, Failure> {
+fn given(
+    args: &RouteArgs,
+    inputs: &RouteInputs,
+    tables: &RouteTables,
+    line: &Line,
+) -> Result<Way, Failure> {
+    let RouteInputs { study, raster, .. } = inputs;
+    let ground = Ground::under(&study.mobility.heading.rover, raster);
+    let found = study.along(tables, ground, line)?;
+    let driven = drive(args, found.route.as_ref(), inputs)?;
+    Ok(Way {
+        record: RouteRecord::of_line(line, &found, &study.limits, driven.as_ref()),
+        places: line.places().to_vec(),
+    })
+}
+
+/// Drives a way by simulation, if there is one and that is asked for.
+fn drive(
+    args: &RouteArgs,
+    route: Option<&Route>,
+    inputs: &RouteInputs,
+) -> Result<Option<DrivenRoute>, Failure> {
+    let Some(route) = route.filter(|_| !args.no_drive) else { return Ok(None) };
     let scenario = &inputs.scenario.value;
     let model = inputs.raster.clone().model(scenario.site.terrain.soil);
     let model = model.map_err(|error| Failure::Run(error.to_string()))?;
@@ -133,7 +172,7 @@ fn drive(route: &Route, inputs: &RouteInputs) -> Result<DrivenRoute, Failure> {
     bar.set_message("driving the way");
     let driven = route.drive(scenario, &Arc::new(model), inputs.study.mobility.rim_speed);
     bar.finish_and_clear();
-    driven.map_err(|error| Failure::Run(format!("the way cannot be driven: {error}")))
+    driven.map(Some).map_err(|error| Failure::Run(format!("the way cannot be driven: {error}")))
 }
 
 /// The inputs of the answer.
@@ -141,15 +180,21 @@ fn settings(args: &RouteArgs, inputs: &RouteInputs) -> Value {
     let document = &inputs.scenario.document;
     let band = BandInputs::of_scenario(&inputs.scenario);
     let limits = inputs.study.limits;
+    let (from, to, yaw) = match &inputs.asked {
+        Asked::Between(ends) => (ends.from, ends.to, ends.yaw),
+        Asked::Along(line) => (line.start(), line.end(), line.yaw),
+    };
+    let [from, to] = [from, to].map(|it| [it.x, it.y]);
     json!({
         "dem": args.dem,
         "rover": document.get("rover"),
         "soil": document.get("soil"),
         "model": inputs.scenario.value.theory.name(),
         "gravity_m_s2": document.get("gravity_m_s2"),
-        "from_m": [inputs.ends.from.x, inputs.ends.from.y],
-        "to_m": [inputs.ends.to.x, inputs.ends.to.y],
-        "yaw_deg": inputs.ends.yaw.map(|yaw| YAW.unit.from_si(yaw)),
+        "from_m": from,
+        "to_m": to,
+        "along": args.along,
+        "yaw_deg": yaw.map(|yaw| YAW.unit.from_si(yaw)),
         "keep_out": args.keep_out,
         "most_slope_deg": SLOPE.unit.from_si(limits.most_slope),
         "most_slip_ratio": limits.most_slip_ratio,

@@ -1,8 +1,8 @@
 //! What a route is made of.
 
-use grouser::document::{LoadedScenario, study};
+use grouser::document::{LoadedScenario, escape, study};
 use grouser::studies::mobility::MobilityStudy;
-use grouser::studies::route::{Ends, Limits, RouteStudy};
+use grouser::studies::route::{Ends, Limits, Line, LineError, RouteStudy};
 use grouser::units::Vec2;
 use grouser_raster::{Raster, ReadOptions};
 
@@ -16,19 +16,20 @@ use crate::list::Numbers;
 pub(crate) struct RouteInputs {
     pub(crate) scenario: LoadedScenario,
     pub(crate) study: RouteStudy,
-    pub(crate) ends: Ends,
+    pub(crate) asked: Asked,
     pub(crate) raster: Raster,
 }
 
+/// What is asked.
+pub(crate) enum Asked {
+    /// A way between two places.
+    Between(Ends),
+    /// What a line takes.
+    Along(Line),
+}
+
 pub(crate) fn route(args: &RouteArgs) -> Result<RouteInputs, Failure> {
-    let ends = Ends {
-        from: place("--from", &args.from)?,
-        to: place("--to", &args.to)?,
-        yaw: match &args.yaw_deg {
-            Some(yaw) => Some(single("--yaw-deg", yaw, &study::START_YAW_DEG)?.to_radians()),
-            None => None,
-        },
-    };
+    let asked = asked(args)?;
     let (rover, soil) = (args.parts.rover.as_ref(), args.parts.soil.as_ref());
     let (setting, balance) = (&args.setting, &args.balance);
     let scenario = balanced("route", args.scenario.as_deref(), rover, soil, setting, balance)?;
@@ -44,12 +45,27 @@ pub(crate) fn route(args: &RouteArgs) -> Result<RouteInputs, Failure> {
     if let Some(file) = &args.keep_out {
         study = study.keeping_out_of(file, &raster.grid.extent())?;
     }
-    Ok(RouteInputs { scenario, study, ends, raster })
+    Ok(RouteInputs { scenario, study, asked, raster })
 }
 
-fn place(flag: &str, numbers: &Numbers) -> Result<Vec2, Failure> {
-    match numbers.0[..] {
-        [x, y] if x.is_finite() && y.is_finite() => Ok(Vec2::new(x, y)),
+fn asked(args: &RouteArgs) -> Result<Asked, Failure> {
+    let yaw = match &args.yaw_deg {
+        Some(yaw) => Some(single("--yaw-deg", yaw, &study::START_YAW_DEG)?.to_radians()),
+        None => None,
+    };
+    if let Some(file) = &args.along {
+        let places = grouser_raster::read_line_string(file)?;
+        let line = Line::through(places, yaw);
+        let named = |error: LineError| Failure::Usage(format!("{}: {error}", escape::path(file)));
+        return line.map(Asked::Along).map_err(named);
+    }
+    let from = place("--from", args.from.as_ref())?;
+    Ok(Asked::Between(Ends { from, to: place("--to", args.to.as_ref())?, yaw }))
+}
+
+fn place(flag: &str, numbers: Option<&Numbers>) -> Result<Vec2, Failure> {
+    match numbers.map_or(&[][..], |numbers| &numbers.0) {
+        &[x, y] if x.is_finite() && y.is_finite() => Ok(Vec2::new(x, y)),
         _ => Err(Failure::Usage(format!(
             "{flag}: expected two numbers, x and y in metres, such as 120.5,-40"
         ))),

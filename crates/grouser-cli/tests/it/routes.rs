@@ -50,6 +50,43 @@ fn a_route_goes_around_and_can_be_driven() {
     let rows = legs["legs"].as_array().or(legs["rows"].as_array()).expect("legs");
     let last = rows.last().expect("a leg");
     assert!((number(&last["x_m"]) - 7003.0).abs() < 0.2, "{last}");
+    // The same way again as a line to check takes the same.
+    let back = place.json("route ridge.xyz --along short/route.geojson --samples 2 --out back");
+    assert_eq!((&back["status"], &back["minimise"]), (&json!("safe"), &Value::Null));
+    for key in ["length_m", "time_s", "energy_j"] {
+        let (one, other) = (number(&back[key]), number(&short[key]));
+        assert!((one / other - 1.0).abs() < 1e-9, "{key}: {one} {other}");
+    }
+    assert_eq!(back["waypoints"], short["waypoints"]);
+    assert_eq!(back["simulated"]["outcome"], "completed");
+    assert!(place.read("back/report.html").contains("the given way is safe"));
+    assert_eq!(place.read("back/route.geojson").matches("LineString").count(), 1);
+}
+
+#[test]
+fn a_line_over_a_ridge_is_not_safe_and_is_told_where() {
+    let place = Place::new();
+    place.write("ridge.xyz", heights(ridge));
+    // Heights in it are passed over.
+    let line = json!({"type": "LineString", "coordinates": [[7002, -298, 5.0], [7010.5, -298]]});
+    place.write("line.geojson", line.to_string());
+    let answer = place.json("route ridge.xyz --along line.geojson --samples 2 --out out");
+    assert_eq!(answer["status"], "not-safe");
+    let reason = answer["reason"].as_str().expect("a reason");
+    assert!(
+        reason.contains("m along the line, at x ") && reason.contains("more stretches"),
+        "{reason}"
+    );
+    let dangers: Vec<&str> = answer["hazards"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(|it| it["danger"].as_str())
+        .collect();
+    assert!(dangers.contains(&"no-heading"), "{dangers:?}");
+    assert!(answer["energy_j"].is_null() && answer["simulated"].is_null());
+    assert!(place.read("out/report.html").contains("no heading holds the course"));
+    assert_eq!(place.read("out/route.geojson").matches("LineString").count(), 0);
 }
 
 /// A square of GeoJSON, as a start and a size [m].

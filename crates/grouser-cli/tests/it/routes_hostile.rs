@@ -197,3 +197,58 @@ fn damaged_files_are_refused_and_nothing_panics() {
     }
     assert!(refused > 0, "no bit that was turned made a difference");
 }
+
+#[test]
+fn lines_that_are_none_are_refused_with_a_reason() {
+    let place = Place::new();
+    place.write("flat.xyz", heights(|_, _| 2.0));
+    let check = |what: &str, text: &str, words: &str| {
+        place.write("line.geojson", text);
+        let answer = place.line("route flat.xyz --no-drive --along line.geojson");
+        let message = check_is_refusal(&answer, 2);
+        assert!(message.contains(words), "{what}: {message}");
+    };
+    let line = |places: Value| json!({"type": "LineString", "coordinates": places});
+    let feature = |geometry: Value| json!({"type": "Feature", "geometry": geometry});
+    let way = line(json!([[7002, -298], [7008, -298]]));
+    let two = json!({"type": "FeatureCollection", "features": [feature(way.clone()), feature(way.clone())]});
+    let none = json!({"type": "FeatureCollection", "features": []});
+    let point = json!({"type": "Point", "coordinates": [7002, -298]});
+    let mut degrees = feature(way);
+    degrees["crs"] = json!({"properties": {"name": "EPSG:4326"}});
+    for (what, json, words) in [
+        ("one place", line(json!([[7002, -298]])), "1 places, and at least two"),
+        ("twice the same", line(json!([[7002, -298], [7002, -298]])), "the line has no length"),
+        ("no place", line(json!([])), "0 places"),
+        ("no y", line(json!([[7002], [7003]])), "a place has an x and no y"),
+        (
+            "too deep",
+            line(json!([[[7002, -298], [7003, -298]]])),
+            "where a place is expected there is a list",
+        ),
+        (
+            "a place",
+            line(json!([7002, -298])),
+            "where a list of places is expected there is a place",
+        ),
+        ("a point", feature(point.clone()), "its geometry is a Point: a LineString is a way"),
+        ("a point by itself", point, "its geometry is a Point"),
+        ("nothing", feature(Value::Null), "its feature has no geometry"),
+        ("two lines", two, "it has 2 features, and one line is one way"),
+        ("no line", none, "it has no feature"),
+        ("elsewhere", line(json!([[2, 3], [4, 5]])), "the line is not on the map"),
+        ("too long", line(json!([[7002, -298], [1e300, -298]])), "cells of the map long"),
+        ("degrees", degrees, "has coordinates in degrees"),
+    ] {
+        check(what, &json.to_string(), words);
+    }
+    let nan = r#"{"type": "LineString", "coordinates": [[NaN, 1], [2, 3]]}"#;
+    check("no number", nan, "is no GeoJSON: expected value at line 1");
+    check("no JSON", "x,y\n1,2\n", "is no GeoJSON");
+    let message = check_is_refusal(&place.line("route flat.xyz --along nowhere.geojson"), 1);
+    assert!(message.contains("nowhere.geojson"), "{message}");
+    for flags in ["--from 7002,-298", "--minimise energy", "--alternatives"] {
+        let line = format!("route flat.xyz --along line.geojson {flags}");
+        check_is_refusal(&place.line(&line), 2);
+    }
+}

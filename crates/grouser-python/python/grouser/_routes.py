@@ -1,4 +1,4 @@
-"""The cheapest way for a rover over a map of heights."""
+"""The cheapest way for a rover over a map of heights, and what a given way takes."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from ._terrain import Terrain
 
 if TYPE_CHECKING:
     import xarray
+    from numpy.typing import ArrayLike
 
 #: What a way can have least of.
 Objective = Literal["time", "energy", "risk"]
@@ -28,6 +29,18 @@ _ARRIVALS = {
     "time_s": ("s", "Time from the start, before the turn at the waypoint"),
     "energy_j": ("J", "Work of the wheels from the start, before the turn at the waypoint"),
 }
+#: Words of each stretch that is not safe: their key, and what they are.
+_HAZARD_WORDS = {
+    "danger": ("danger", "What is not safe"),
+    "hazard_sentence": ("sentence", "What is not safe, where, and by how much"),
+}
+#: Where each stretch that is not safe is.
+_HAZARD_PLACES = {
+    "from_m": "Where it begins, as length on the map from the start",
+    "to_m": "Where it ends, as length on the map from the start",
+    "x_m": "x where it begins",
+    "y_m": "y where it begins",
+}
 
 
 @overload
@@ -36,8 +49,9 @@ def route(
     scenario: Scenario | Source | None = None,
     /,
     *,
-    from_m: Sequence[float],
-    to_m: Sequence[float],
+    from_m: Sequence[float] | None = None,
+    to_m: Sequence[float] | None = None,
+    along: ArrayLike | str | os.PathLike[str] | None = None,
     minimise: Objective = "time",
     yaw_deg: float | None = None,
     keep_out: str | os.PathLike[str] | None = None,
@@ -57,8 +71,9 @@ def route(
     scenario: Scenario | Source | None = None,
     /,
     *,
-    from_m: Sequence[float],
-    to_m: Sequence[float],
+    from_m: Sequence[float] | None = None,
+    to_m: Sequence[float] | None = None,
+    along: ArrayLike | str | os.PathLike[str] | None = None,
     minimise: Objective = "time",
     yaw_deg: float | None = None,
     keep_out: str | os.PathLike[str] | None = None,
@@ -77,8 +92,9 @@ def route(
     scenario: Scenario | Source | None = None,
     /,
     *,
-    from_m: Sequence[float],
-    to_m: Sequence[float],
+    from_m: Sequence[float] | None = None,
+    to_m: Sequence[float] | None = None,
+    along: ArrayLike | str | os.PathLike[str] | None = None,
     minimise: Objective = "time",
     yaw_deg: float | None = None,
     keep_out: str | os.PathLike[str] | None = None,
@@ -92,7 +108,7 @@ def route(
     seed: int = 1,
     **changes: Any,
 ) -> xarray.Dataset | dict[Objective, xarray.Dataset]:
-    """The cheapest way over a map of heights, and what simulation makes of it.
+    """The cheapest way over a map of heights, or what a given way takes, and what simulation makes of it.
 
     Parameters
     ----------
@@ -102,6 +118,10 @@ def route(
         Rover, soil, gravity and model, as for `heading`.
     from_m, to_m : (float, float)
         x and y where the way begins and ends [m].
+    along : (N, 2) array or path, optional
+        Instead of both, a way that is not sought but checked: x and y of its places [m], or a file
+        of GeoJSON with a LineString in metres of the map, such as a ``route.geojson``. The result
+        is one dataset then, whatever ``minimise`` is.
     minimise : "time", "energy" or "risk"
         What the way has least of: time, work of the wheels, or time in the worst tenth of the
         samples of soil and model.
@@ -136,14 +156,19 @@ def route(
         `grouser route` writes: ``length_m``, ``time_s``, ``energy_j``, ``turned_deg``, slip, slope
         and ``probability_no_go``, and ``simulated_…`` of the simulation. If no way is safe there
         are no waypoints, and a ``reason`` instead of the numbers. With ``alternatives`` a dataset
-        for each objective, the chosen one first.
+        for each objective, the chosen one first. Of a way given by ``along`` the status is
+        ``"safe"`` or ``"not-safe"``, and each stretch that is not safe is a ``hazard``: what it is
+        (``danger``, and ``hazard_sentence``), from which length on the map to which (``from_m``,
+        ``to_m``), and where it begins (``x_m``, ``y_m``). Where the ground is not known or no
+        heading holds the course, there are no numbers of the whole way.
 
     Raises
     ------
     ParameterError
-        Also for ends that are not on the map.
+        Also for ends or a line that are not on the map.
     DocumentError, DocumentNotFoundError
-        As `heading`, and for a file of ``keep_out`` that has no polygons on the map.
+        As `heading`, for a file of ``keep_out`` that has no polygons on the map, and for one of
+        ``along`` that has no line.
 
     Examples
     --------
@@ -162,6 +187,12 @@ def route(
     ('found', True)
     >>> way.time_s.dims, way.time_s.attrs["units"], bool(abs(way.y).max() > 5.0)
     (('waypoint',), 's', True)
+
+    Is the straight line safe?
+
+    >>> straight = gr.route(hill, along=[(-15.0, 0.0), (15.0, 0.0)], samples=4, drive=False)
+    >>> straight.attrs["status"], str(straight.danger[0].values)
+    ('not-safe', 'no-heading')
     """
     if not isinstance(terrain, Terrain):
         raise ParameterError(
@@ -179,8 +210,7 @@ def route(
         "rim_speed_m_s": rim_speed_m_s,
     }
     task = {
-        "from_m": _place("from_m", from_m),
-        "to_m": _place("to_m", to_m),
+        **_asked(from_m, to_m, along),
         "minimise": [str(it) for it in chosen],
         "keep_out": None if keep_out is None else os.fspath(keep_out),
         "drive": bool(drive),
@@ -190,8 +220,32 @@ def route(
     task |= {name: None if value is None else number(name, value) for name, value in limits.items()}
     found = _core.routes(run._document, terrain._native, task)
     notes = {"samples": samples, "seed": seed}
+    if along is not None:
+        return _line_dataset(found[0], notes)
     ways = {way["minimise"]: _dataset(way, notes) for way in found}
     return ways if alternatives else ways[minimise]
+
+
+def _asked(from_m: Any, to_m: Any, along: Any) -> dict[str, Any]:
+    """Ends of a way, or a line."""
+    ends = {"from_m": from_m, "to_m": to_m}
+    none = {"from_m": None, "to_m": None, "along": None, "along_file": None}
+    if along is None:
+        for name, end in ends.items():
+            if end is None:
+                raise ParameterError(f"{name} is missing: a way needs it, or `along`", name)
+        return none | {name: _place(name, end) for name, end in ends.items()}
+    for name, end in ends.items():
+        if end is not None:
+            raise ParameterError(f"{name} has no place beside `along`, which is the whole way", name)
+    if isinstance(along, (str, os.PathLike)):
+        return none | {"along_file": os.fspath(along)}
+    given = numbers("along", along)
+    if given.ndim != 2 or given.shape[1] != 2:
+        raise ParameterError(
+            f"along has shape {given.shape}, it must be x and y of each place, (N, 2)", "along"
+        )
+    return none | {"along": given.tolist()}
 
 
 def _place(name: str, value: Any) -> list[float]:
@@ -217,17 +271,39 @@ def _dataset(way: Mapping[str, Any], notes: Mapping[str, int]) -> xarray.Dataset
         )
         for column, axis in enumerate("xy")
     }
+    # Of a line that has no numbers there are places all the same.
+    arrivals = way["arrivals"] or [dict.fromkeys(_ARRIVALS, np.nan)] * len(places)
     variables = {
         name: (
             over,
-            np.array([arrival[name] for arrival in way["arrivals"]], dtype=np.float64),
+            np.array([arrival[name] for arrival in arrivals], dtype=np.float64),
             {"units": unit, "long_name": doc},
         )
         for name, (unit, doc) in _ARRIVALS.items()
     }
-    whole = {name: it for name, it in way.items() if name not in ("waypoints", "arrivals")}
+    apart = ("waypoints", "arrivals", "hazards")
+    whole = {name: it for name, it in way.items() if name not in apart}
     simulated = whole.pop("simulated") or {}
     attributes = {**whole, **{f"simulated_{name}": it for name, it in simulated.items()}, **notes}
     # Files have no attributes without a value.
     attributes = {name: it for name, it in attributes.items() if it is not None}
     return xarray.Dataset(variables, coords=coordinates, attrs=attributes)
+
+
+def _line_dataset(way: Mapping[str, Any], notes: Mapping[str, int]) -> xarray.Dataset:
+    """Of a way that was given: with its hazards."""
+    hazards = way["hazards"]
+    over = ("hazard",)
+    words = {
+        name: (over, np.array([it[key] for it in hazards], dtype=np.str_), {"long_name": doc})
+        for name, (key, doc) in _HAZARD_WORDS.items()
+    }
+    lengths = {
+        name: (
+            over,
+            np.array([it[name] for it in hazards], dtype=np.float64),
+            {"units": "m", "long_name": doc},
+        )
+        for name, doc in _HAZARD_PLACES.items()
+    }
+    return _dataset(way, notes).assign(words | lengths)

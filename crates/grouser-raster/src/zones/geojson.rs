@@ -5,7 +5,10 @@
 //! and latitude; here they are those of the map that a rover drives on, as GDAL writes them with `-t_srs`.
 
 mod crossing;
+mod line;
 mod syntax;
+
+pub use line::{decode_line_string, read_line_string};
 
 use std::fs::File;
 use std::io::Read;
@@ -118,15 +121,24 @@ fn check_area(ring: &[Vec2]) -> Result<(), String> {
 
 /// The features of a file.
 fn features_of(bytes: &[u8]) -> Result<Vec<Feature>, Fault> {
+    features_in(root_of(bytes)?)
+}
+
+/// The outermost object of a file in metres.
+fn root_of(bytes: &[u8]) -> Result<Root, Fault> {
     if bytes.len() as u64 > LARGEST_FILE {
         return Err(Fault::LargeGeoJson { limit: LARGEST_FILE });
     }
     let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let root: Root = serde_json::from_slice(text)
         .map_err(|error| Fault::GeoJson { problem: error.to_string() })?;
-    if let Some(name) = root.system().filter(|name| is_in_degrees(name)) {
-        return Err(Fault::SystemInDegrees { name: shown(name) });
+    match root.system().filter(|name| is_in_degrees(name)) {
+        Some(name) => Err(Fault::SystemInDegrees { name: shown(name) }),
+        None => Ok(root),
     }
+}
+
+fn features_in(root: Root) -> Result<Vec<Feature>, Fault> {
     match root.kind.as_str() {
         "FeatureCollection" => Ok(root.features),
         "Feature" => Ok(vec![Feature { geometry: root.geometry, properties: root.properties }]),

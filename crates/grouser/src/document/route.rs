@@ -3,16 +3,18 @@
 use serde::Serialize;
 
 use super::columns::{SLOPE, YAW};
-use crate::studies::route::{Answer, Arrival, DrivenRoute, Objective, Route};
+use crate::studies::route::{
+    Answer, Arrival, CheckedLine, Danger, DrivenRoute, Hazard, Limits, Line, Objective, Route,
+};
 
 /// A way, as it leaves; without a way there is a reason instead of numbers.
 #[derive(Clone, Debug, Serialize)]
 pub struct RouteRecord {
-    /// What it has least of.
-    pub minimise: &'static str,
-    /// `found` or `no-safe-route`.
+    /// What it has least of; none of a line that was given.
+    pub minimise: Option<&'static str>,
+    /// `found` or `no-safe-route`; of a line that was given `safe` or `not-safe`.
     pub status: &'static str,
-    /// Why there is none.
+    /// Why there is none, or why it is not safe.
     pub reason: Option<String>,
     /// Length over the ground.
     pub length_m: Option<f64>,
@@ -34,6 +36,8 @@ pub struct RouteRecord {
     pub waypoints: Vec<[f64; 2]>,
     /// What it takes up to each of them.
     pub arrivals: Vec<ArrivalRecord>,
+    /// Where a line that was given is not safe.
+    pub hazards: Vec<HazardRecord>,
     /// What simulation makes of it, if it was driven.
     pub simulated: Option<SimulatedRecord>,
 }
@@ -47,6 +51,29 @@ pub struct ArrivalRecord {
     pub time_s: f64,
     /// Work of the wheels, with turns.
     pub energy_j: f64,
+}
+
+/// A stretch of a line that is not safe.
+#[derive(Clone, Debug, Serialize)]
+pub struct HazardRecord {
+    /// One word, such as `too-steep`.
+    pub danger: &'static str,
+    /// Where it begins, as length on the map from the start of the line.
+    pub from_m: f64,
+    /// Where it ends.
+    pub to_m: f64,
+    /// x where it begins.
+    pub x_m: f64,
+    /// y where it begins.
+    pub y_m: f64,
+    /// The steepest slope of the stretch, if that is what is wrong.
+    pub most_slope_deg: Option<f64>,
+    /// Its largest slip ratio, if that is what is wrong.
+    pub most_slip_ratio: Option<f64>,
+    /// The largest share of the samples in which it is a no-go, if that is what is wrong.
+    pub most_no_go: Option<f64>,
+    /// All of it as a sentence.
+    pub sentence: String,
 }
 
 /// What simulation makes of a way.
@@ -80,14 +107,48 @@ impl RouteRecord {
     pub fn of(objective: Objective, answer: &Answer, driven: Option<&DrivenRoute>) -> Self {
         let minimise = objective.name();
         match answer {
-            Answer::Route(route) => Self::of_route(minimise, route, driven),
-            Answer::NoSafeRoute(reason) => Self::of_none(minimise, reason.to_string()),
+            Answer::Route(route) => {
+                Self { minimise: Some(minimise), ..Self::of_route(route, driven) }
+            }
+            Answer::NoSafeRoute(reason) => Self {
+                minimise: Some(minimise),
+                status: "no-safe-route",
+                reason: Some(reason.to_string()),
+                ..Self::unknown()
+            },
         }
     }
 
-    fn of_route(minimise: &'static str, route: &Route, driven: Option<&DrivenRoute>) -> Self {
+    /// What came of looking along a line.
+    ///
+    /// * `driven`: what simulation makes of it, if it was driven
+    #[must_use]
+    pub fn of_line(
+        line: &Line,
+        found: &CheckedLine,
+        limits: &Limits,
+        driven: Option<&DrivenRoute>,
+    ) -> Self {
+        let record =
+            found.route.as_ref().map_or_else(Self::unknown, |it| Self::of_route(it, driven));
+        let hazards: Vec<HazardRecord> =
+            found.hazards.iter().map(|hazard| HazardRecord::of(hazard, limits)).collect();
+        let reason = hazards.first().map(|first| match hazards.len() {
+            1 => first.sentence.clone(),
+            count => format!("{}; {} more stretches are not safe", first.sentence, count - 1),
+        });
         Self {
-            minimise,
+            status: if hazards.is_empty() { "safe" } else { "not-safe" },
+            reason,
+            waypoints: line.places().iter().map(|it| [it.x, it.y]).collect(),
+            hazards,
+            ..record
+        }
+    }
+
+    fn of_route(route: &Route, driven: Option<&DrivenRoute>) -> Self {
+        Self {
+            minimise: None,
             status: "found",
             reason: None,
             length_m: Some(route.length),
@@ -100,15 +161,17 @@ impl RouteRecord {
             probability_no_go: Some(route.probability_no_go),
             waypoints: route.waypoints.iter().map(|it| [it.x, it.y]).collect(),
             arrivals: route.arrivals.iter().map(ArrivalRecord::of).collect(),
+            hazards: Vec::new(),
             simulated: driven.map(|driven| SimulatedRecord::of(route, driven)),
         }
     }
 
-    fn of_none(minimise: &'static str, reason: String) -> Self {
+    /// A way whose cost is not known.
+    fn unknown() -> Self {
         Self {
-            minimise,
+            minimise: None,
             status: "no-safe-route",
-            reason: Some(reason),
+            reason: None,
             length_m: None,
             time_s: None,
             energy_j: None,
@@ -119,6 +182,7 @@ impl RouteRecord {
             probability_no_go: None,
             waypoints: Vec::new(),
             arrivals: Vec::new(),
+            hazards: Vec::new(),
             simulated: None,
         }
     }
@@ -127,6 +191,60 @@ impl RouteRecord {
 impl ArrivalRecord {
     fn of(arrival: &Arrival) -> Self {
         Self { length_m: arrival.length, time_s: arrival.time, energy_j: arrival.energy }
+    }
+}
+
+impl HazardRecord {
+    fn of(hazard: &Hazard, limits: &Limits) -> Self {
+        let Hazard { danger, along: [from, to], place, worst } = *hazard;
+        let only = |of: Danger| worst.filter(|_| danger == of);
+        let mut record = Self {
+            danger: danger.name(),
+            from_m: from,
+            to_m: to,
+            x_m: place.x,
+            y_m: place.y,
+            most_slope_deg: only(Danger::TooSteep).map(|slope| SLOPE.unit.from_si(slope)),
+            most_slip_ratio: only(Danger::TooMuchSlip),
+            most_no_go: only(Danger::NoGo),
+            sentence: String::new(),
+        };
+        record.sentence = format!(
+            "from {from:.2} to {to:.2} m along the line, at x {:.2} m, y {:.2} m, {}",
+            place.x,
+            place.y,
+            record.why(danger, limits)
+        );
+        record
+    }
+
+    /// What is wrong there.
+    fn why(&self, danger: Danger, limits: &Limits) -> String {
+        let number = |number: Option<f64>| number.unwrap_or(f64::NAN);
+        match danger {
+            Danger::UnknownGround => {
+                "the ground is not known all around: beyond the map, at its edge, or beside a place without a height"
+                    .to_owned()
+            }
+            Danger::KeptOut => "it leads where nobody may go".to_owned(),
+            Danger::NoHeading => "no heading holds the course".to_owned(),
+            Danger::TooSteep => format!(
+                "the slope is up to {:.1}°, and at most {:.1}° are allowed",
+                number(self.most_slope_deg),
+                SLOPE.unit.from_si(limits.most_slope)
+            ),
+            Danger::TooMuchSlip => format!(
+                "the slip ratio is up to {:.3}, and at most {:.3} is allowed",
+                number(self.most_slip_ratio),
+                limits.most_slip_ratio
+            ),
+            Danger::NoGo => format!(
+                "it is a no-go in up to {:.0} % of the samples, and at most {:.0} % are allowed",
+                100.0 * number(self.most_no_go),
+                100.0 * limits.most_no_go
+            ),
+            Danger::NoTurn => "the line turns, and the rover cannot turn on the spot".to_owned(),
+        }
     }
 }
 

@@ -11,17 +11,23 @@
 //! [`STUCK_WAY`]. That adds up along the way if one soil is the better one everywhere, as it is where the soil of the
 //! whole ground is not known.
 
+mod along;
 mod answer;
+mod corridor;
 mod costs;
 mod drive;
+mod hazard;
+mod measure;
 mod moves;
 mod search;
 mod seek;
 mod study;
 
-pub use self::answer::{Answer, Arrival, Ends, MOST_CELLS, NoRoute, Route, RouteError};
+pub use self::along::{CheckedLine, Line};
+pub use self::answer::{Answer, Arrival, Ends, LineError, MOST_CELLS, NoRoute, Route, RouteError};
 pub use self::costs::{COURSES, RouteTables};
 pub use self::drive::DrivenRoute;
+pub use self::hazard::{Danger, Hazard};
 pub use self::study::{Limits, Objective, RouteStudy, STUCK_WAY, WORST_SHARE};
 
 #[cfg(test)]
@@ -304,6 +310,126 @@ mod tests {
             assert!((driven.time / found.time - 1.0).abs() < 0.1, "{driven:?} {found:?}");
             assert!((driven.energy / found.energy - 1.0).abs() < 0.1, "{driven:?} {found:?}");
             assert!((driven.distance / found.length - 1.0).abs() < 0.05, "{driven:?} {found:?}");
+        }
+    }
+
+    fn line(places: &[[f64; 2]]) -> Line {
+        Line::through(places.iter().map(|it| Vec2::from(*it)).collect(), None).unwrap()
+    }
+
+    fn checked(study: &RouteStudy, raster: &Raster, line: &Line) -> CheckedLine {
+        let ground = Ground::under(&study.mobility.heading.rover, raster);
+        study.along(&tables(study), ground, line).unwrap()
+    }
+
+    /// To rounding from point to point of the grid; between points within what half a cell at either end takes, and the
+    /// difference of bilinear heights from those of the move there.
+    #[test]
+    fn a_way_that_was_found_takes_the_same_when_it_is_read_back() {
+        let (study, raster) = (study(), ground_of(60, 60, 0.8, hills));
+        for (from, to, within) in
+            [([4.0, 4.0], [36.0, 26.4], 1e-9), ([4.3, 4.1], [36.2, 26.1], 0.03)]
+        {
+            let found = route(&study, &raster, &ends(from, to), Objective::Time);
+            let line = Line::through(found.waypoints.clone(), None).unwrap();
+            let back = checked(&study, &raster, &line);
+            assert!(within > 1e-3 || back.hazards.is_empty(), "{:?}", back.hazards);
+            let back = back.route.unwrap();
+            let near = |one: f64, other: f64| (one / other - 1.0).abs() < within;
+            assert!(near(back.length, found.length), "{back:?} {found:?}");
+            assert!(near(back.time, found.time) && near(back.energy, found.energy), "{back:?}");
+            assert_eq!(back.probability_no_go, found.probability_no_go);
+            assert_eq!(back.waypoints, found.waypoints);
+            for (one, other) in back.arrivals.iter().zip(&found.arrivals).skip(1) {
+                assert!((one.time - other.time).abs() < within * found.time, "{one:?} {other:?}");
+            }
+        }
+    }
+
+    /// Over a plane the motion is the same everywhere, so that a line's numbers are those of its course in closed form,
+    /// whatever its angle to the grid is.
+    #[test]
+    fn over_a_plane_a_line_takes_what_its_course_does() {
+        let study = study();
+        let rise = deg(9.0).tan();
+        let raster = ground_of(61, 61, 0.5, move |at| at.y * rise);
+        for angle in [7.5, 15.0, 30.0, 52.5].map(deg) {
+            // The direction on the map of a course on the slope.
+            let way = Vec2::new(angle.cos(), angle.sin() * deg(9.0).cos());
+            let (start, end) = (Vec2::new(3.1, 3.3), Vec2::new(3.1, 3.3) + 15.0 * way);
+            let line = line(&[start.into(), end.into()]);
+            let found = checked(&study, &raster, &line);
+            assert!(found.hazards.is_empty(), "{found:?}");
+            let route = found.route.unwrap();
+            // One along the slope: cos² + sin² cos² + sin² sin² = 1.
+            assert!((route.length - 15.0).abs() < 1e-4, "{route:?}");
+            let table = study.mobility.table(angle, &[], &|| true).unwrap().unwrap();
+            let motion = table.motion(deg(9.0)).unwrap();
+            assert!((route.time * motion.speed / 15.0 - 1.0).abs() < 2e-3, "{route:?} {motion:?}");
+            let energy = 15.0 * motion.energy_per_metre();
+            assert!((route.energy / energy - 1.0).abs() < 5e-3, "{route:?} {energy}");
+        }
+    }
+
+    #[test]
+    fn where_a_line_is_not_safe_is_named() {
+        let mut study = study();
+        // 30° steep from x 14 to 17 m, with a place without a height at (22, 10).
+        let mut raster =
+            ground_of(60, 40, 0.5, |at| deg(30.0).tan() * (at.x - 14.0).clamp(0.0, 3.0));
+        raster.heights[20 * 60 + 44] = f32::NAN;
+        let corners = [(4.0, 9.0), (6.0, 9.0), (6.0, 12.0), (4.0, 12.0)];
+        let rings = vec![corners.map(|(x, y)| Vec2::new(x, y)).to_vec()];
+        let area = ZonePolygon { soil: Some(0), rings };
+        let soils = vec![study.mobility.heading.soil];
+        study.keep_out = Some(SoilZones::from_polygons(&[area], soils).unwrap());
+        let found = checked(&study, &raster, &line(&[[2.0, 10.0], [28.0, 10.0]]));
+        let named: Vec<(Danger, [f64; 2])> =
+            found.hazards.iter().map(|it| (it.danger, it.along)).collect();
+        let [(kept, inside), (steep, wall), (unknown, hole)] = named[..] else {
+            panic!("{named:?}")
+        };
+        assert_eq!((kept, inside), (Danger::KeptOut, [2.0, 4.0]));
+        assert_eq!(steep, Danger::NoHeading);
+        assert!((wall[0] - 12.0).abs() <= 0.5 && (wall[1] - 15.0).abs() <= 0.5, "{wall:?}");
+        assert_eq!(unknown, Danger::UnknownGround);
+        assert!(hole[0] < 20.0 && hole[1] > 20.0 && hole[1] - hole[0] < 2.5, "{hole:?}");
+        assert_eq!(found.route, None);
+        // Beside all of that there is nothing to say.
+        let free = checked(&study, &raster, &line(&[[2.0, 5.0], [12.0, 5.0], [12.0, 15.0]]));
+        assert!(free.hazards.is_empty() && free.route.is_some(), "{free:?}");
+        // A limit that is stricter names the worst of the stretch, and leaves the numbers.
+        let slope = ground_of(60, 40, 0.5, |at| 0.1 * at.x);
+        study.limits.most_slope = deg(5.0);
+        let steep = checked(&study, &slope, &line(&[[2.0, 5.0], [12.0, 5.0]]));
+        let [hazard] = steep.hazards[..] else { panic!("{steep:?}") };
+        assert_eq!((hazard.danger, hazard.along), (Danger::TooSteep, [0.0, 10.0]));
+        assert!((hazard.worst.unwrap() - 0.1_f64.atan()).abs() < 1e-6 && steep.route.is_some());
+    }
+
+    #[test]
+    fn lines_that_are_none_are_refused() {
+        let through = |places: &[[f64; 2]]| {
+            let places = places.iter().map(|it| Vec2::from(*it)).collect();
+            Line::through(places, None).unwrap_err().to_string()
+        };
+        assert!(through(&[]).contains("0 places"));
+        assert!(through(&[[1.0, 2.0], [1.0, 2.0]]).contains("no length"));
+        assert!(
+            through(&[[1.0, 2.0], [f64::NAN, 2.0]]).starts_with("place 2 of the line is x NaN")
+        );
+        let (study, raster) = (study(), ground_of(30, 30, 0.5, |_| 0.0));
+        let ground = Ground::under(&study.mobility.heading.rover, &raster);
+        let tables = tables(&study);
+        for (places, words) in [
+            (
+                [[50.0, 2.0], [60.0, 2.0]],
+                "the line is not on the map: it lies within x 50.00 to 60.00 m",
+            ),
+            ([[5.0, 2.0], [1e12, 2.0]], "cells of the map long"),
+        ] {
+            let error = study.along(&tables, ground, &line(&places)).unwrap_err().to_string();
+            assert!(error.contains(words), "{error}");
         }
     }
 }

@@ -1,13 +1,12 @@
 //! The page of a route.
 
 use grouser::document::route::RouteRecord;
-use grouser::studies::route::Answer as Found;
 use grouser_map::{Track, relief};
 
 use super::Way;
 use super::record::{self, Brief};
 use crate::args::RouteArgs;
-use crate::inputs::RouteInputs;
+use crate::inputs::{Asked, RouteInputs};
 use crate::output::rows::{Rows, four_digits};
 use crate::report::answer::{self, Basis};
 use crate::report::page::Page;
@@ -19,17 +18,13 @@ pub(super) fn html(
     records: &[RouteRecord],
     rows: &Rows,
 ) -> String {
-    let mut page = Page::new("The cheapest way");
+    let is_given = args.along.is_some();
+    let mut page = Page::new(if is_given { "What a way takes" } else { "The cheapest way" });
     page.answer(&sentence(&records[0]));
     let tracks: Vec<Track<'_>> = ways
         .iter()
-        .filter_map(|way| match &way.found {
-            Found::Route(route) => Some(Track {
-                name: format!("least {}", way.objective.name()),
-                places: &route.waypoints,
-            }),
-            Found::NoSafeRoute(_) => None,
-        })
+        .filter(|way| !way.places.is_empty())
+        .map(|way| Track { name: record::name(&way.record), places: &way.places })
         .collect();
     page.drawing(
         &relief(&inputs.raster, &tracks, "slope [°] and ways"),
@@ -37,25 +32,20 @@ pub(super) fn html(
     );
     page.heading("What each way takes");
     page.text(&rows.to_table(&Brief::COLUMNS));
-    for record in records {
-        let line = record::line(record);
-        if !line.is_empty() {
-            page.paragraph(line.trim_end());
-        }
+    for line in records
+        .iter()
+        .map(record::lines)
+        .flat_map(|it| it.lines().map(str::to_owned).collect::<Vec<_>>())
+    {
+        page.paragraph(&line);
     }
+    page.paragraph(if is_given { OF_A_LINE } else { OF_THE_LATTICE });
     page.paragraph(
-        "Predicted by tables of the steady motion on each slope and course, with turns on the spot as on level ground. The \
-         lattice's sixteen directions make a way up to 2.8 % longer than it need be. What the way cannot know: steps and \
-         stones between the points of the map, and soil that differs from place to place.",
+        "What the way cannot know: steps and stones between the points of the map, and soil that differs from place to place.",
     );
-    let ends = inputs.ends;
     let repeat = format!(
-        "grouser route DEM scenario.toml --from {},{} --to {},{} --minimise {} --samples {} --seed {}",
-        ends.from.x,
-        ends.from.y,
-        ends.to.x,
-        ends.to.y,
-        records[0].minimise,
+        "{} --samples {} --seed {}",
+        question(inputs, &records[0]),
         args.samples,
         args.seed
     );
@@ -63,15 +53,50 @@ pub(super) fn html(
     answer::close(page, [], &[], &basis)
 }
 
+/// How the numbers of ways that were sought come about.
+const OF_THE_LATTICE: &str = "Predicted by tables of the steady motion on each slope and course, with turns on the spot as \
+                              on level ground. The lattice's sixteen directions make a way up to 2.8 % longer than it need \
+                              be.";
+
+/// How the numbers of a given line come about.
+const OF_A_LINE: &str = "Predicted by tables of the steady motion on each slope and course, piece by piece as long as the \
+                         map's points are apart, with turns on the spot as on level ground.";
+
+/// The command that asks the same.
+fn question(inputs: &RouteInputs, best: &RouteRecord) -> String {
+    match &inputs.asked {
+        Asked::Along(_) => "grouser route DEM scenario.toml --along LINE.geojson".to_owned(),
+        Asked::Between(ends) => format!(
+            "grouser route DEM scenario.toml --from {},{} --to {},{} --minimise {}",
+            ends.from.x,
+            ends.from.y,
+            ends.to.x,
+            ends.to.y,
+            best.minimise.unwrap_or_default()
+        ),
+    }
+}
+
 fn sentence(record: &RouteRecord) -> String {
-    match (&record.reason, record.length_m, record.time_s, record.energy_j) {
-        (None, Some(length), Some(time), Some(energy)) => format!(
-            "{} m in {} s with {} J: the way with the least {}.",
+    let taken = match (record.length_m, record.time_s, record.energy_j) {
+        (Some(length), Some(time), Some(energy)) => Some(format!(
+            "{} m in {} s with {} J",
             four_digits(length),
             four_digits(time),
-            four_digits(energy),
-            record.minimise
-        ),
-        (reason, ..) => format!("No safe route: {}.", reason.as_deref().unwrap_or_default()),
+            four_digits(energy)
+        )),
+        _ => None,
+    };
+    match (record.minimise, &record.reason, taken) {
+        (Some(least), None, Some(taken)) => format!("{taken}: the way with the least {least}."),
+        (Some(_), reason, _) => {
+            format!("No safe route: {}.", reason.as_deref().unwrap_or_default())
+        }
+        (None, None, Some(taken)) => format!("{taken}: the given way is safe."),
+        (None, reason, taken) => {
+            let but = taken.map_or_else(String::new, |taken| format!("{taken}, but "));
+            let why = reason.as_deref().unwrap_or_default();
+            format!("{but}the given way is not safe: {why}.")
+        }
     }
 }

@@ -1,33 +1,50 @@
 //! Ways as they are read: a row each, and what the table does not say.
 
+use std::fmt::Write as _;
+
 use grouser::document::columns::{ENERGY, TIME};
 use grouser::document::route::RouteRecord;
 use serde::Serialize;
 
 use crate::output::rows::four_digits;
 
+/// What a way is called.
+pub(super) fn name(record: &RouteRecord) -> String {
+    record.minimise.map_or_else(|| "the given way".to_owned(), |it| format!("least {it}"))
+}
+
 /// What the table does not say of a way.
-pub(super) fn line(record: &RouteRecord) -> String {
-    match (&record.reason, &record.simulated) {
-        (Some(reason), _) => format!("least {}: no safe route: {reason}\n", record.minimise),
-        (None, Some(driven)) => format!(
-            "least {}: driven by simulation: {}, {} s ({:+.1} %), {} J ({:+.1} %), {} m from the target\n",
-            record.minimise,
+pub(super) fn lines(record: &RouteRecord) -> String {
+    let name = name(record);
+    let mut text = String::new();
+    match &record.reason {
+        Some(reason) if record.hazards.is_empty() => {
+            let _ = writeln!(text, "{name}: no safe route: {reason}");
+        }
+        _ => (),
+    }
+    for hazard in &record.hazards {
+        let _ = writeln!(text, "not safe: {}", hazard.sentence);
+    }
+    if let Some(driven) = &record.simulated {
+        let _ = writeln!(
+            text,
+            "{name}: driven by simulation: {}, {} s ({:+.1} %), {} J ({:+.1} %), {} m from the target",
             driven.outcome,
             four_digits(driven.time_s),
             100.0 * driven.time_error,
             four_digits(driven.energy_j),
             100.0 * driven.energy_error,
             four_digits(driven.miss_m)
-        ),
-        (None, None) => String::new(),
+        );
     }
+    text
 }
 
 /// A row of the table.
 #[derive(Serialize)]
 pub(super) struct Brief {
-    minimise: &'static str,
+    minimise: Option<&'static str>,
     status: &'static str,
     length_m: Option<f64>,
     time_s: Option<f64>,

@@ -114,9 +114,52 @@ pub enum RouteError {
         /// How many.
         cells: usize,
     },
+    /// A line that cannot be driven along.
+    #[error(transparent)]
+    Line(#[from] LineError),
     /// A soil, a rover or a limit that is none.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
+}
+
+/// A line that is none, or not one of the map.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LineError {
+    /// A place that is none.
+    #[error("place {number} of the line is x {}, y {}, and places are finite", .place.x, .place.y)]
+    NoPlace {
+        /// Which, from 1.
+        number: usize,
+        /// What it is.
+        place: Vec2,
+    },
+    /// All places are the same one, or there is none.
+    #[error("the line has no length: {places} places, and at least two different ones make a line")]
+    NoLength {
+        /// How many there are.
+        places: usize,
+    },
+    /// A line of another place.
+    #[error(
+        "the line is not on the map: it lies within x {:.2} to {:.2} m and y {:.2} to {:.2} m, and the map goes from x {:.2} \
+         to {:.2} m and from y {:.2} to {:.2} m; both need the same projection",
+        .line[0].x, .line[1].x, .line[0].y, .line[1].y,
+        .corners[0].x, .corners[1].x, .corners[0].y, .corners[1].y
+    )]
+    Elsewhere {
+        /// South-west and north-east of the line [m].
+        line: [Vec2; 2],
+        /// South-west and north-east of the map [m].
+        corners: [Vec2; 2],
+    },
+    /// A line that takes too long to look at.
+    #[error("the line is {pieces:.3e} cells of the map long, and at most {most:e} are looked at")]
+    TooLong {
+        /// How many.
+        pieces: f64,
+        /// The most.
+        most: f64,
+    },
 }
 
 /// The most places that a way is sought over.

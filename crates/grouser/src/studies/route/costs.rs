@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::hazard::Danger;
 use super::study::{Limits, Objective, RouteStudy, STUCK_WAY, WORST_SHARE};
 use crate::elementary::wide::{atan2, cos};
 use crate::error::ParameterError;
@@ -186,18 +187,42 @@ impl RouteTables {
 
     /// A metre of way; none where nobody may go.
     pub(super) fn metre(&self, along: f64, across: f64) -> Option<Metre> {
+        let metre = self.steady_metre(along, across)?;
+        self.limits_exceeded(along, across, &metre).next().is_none().then_some(metre)
+    }
+
+    /// A metre of way, whatever the limits; none where no heading holds the course.
+    pub(super) fn steady_metre(&self, along: f64, across: f64) -> Option<Metre> {
         let (slope, course) = on_slope(along, across);
         let motion = self.motion(slope, course)?;
         let length = (1.0 + along * along).sqrt();
-        let is_allowed = slope <= self.limits.most_slope
-            && motion.slip_ratio <= self.limits.most_slip_ratio
-            && self.probability_no_go(slope, course) <= self.limits.most_no_go;
-        is_allowed.then(|| Metre {
+        Some(Metre {
             length,
             time: length / motion.speed,
             energy: length * motion.energy_per_metre(),
             slip_ratio: motion.slip_ratio,
         })
+    }
+
+    /// The limits that a metre of way does not keep to, each with the number that is beyond it.
+    pub(super) fn limits_exceeded(
+        &self,
+        along: f64,
+        across: f64,
+        metre: &Metre,
+    ) -> impl Iterator<Item = (Danger, f64)> {
+        let (slope, course) = on_slope(along, across);
+        let Limits { most_slope, most_slip_ratio, most_no_go } = self.limits;
+        let slip = metre.slip_ratio;
+        let steep = (slope > most_slope).then_some((Danger::TooSteep, slope));
+        let slips =
+            (slip.is_nan() || slip > most_slip_ratio).then_some((Danger::TooMuchSlip, slip));
+        let no_go = move || {
+            let probability = self.probability_no_go(slope, course);
+            (probability > most_no_go).then_some((Danger::NoGo, probability))
+        };
+        // The last one takes long, and is not asked for if one before it is enough.
+        steep.into_iter().chain(slips).chain(std::iter::once_with(no_go).flatten())
     }
 
     fn motion(&self, slope: f64, course: f64) -> Option<Mobility> {

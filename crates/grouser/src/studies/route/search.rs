@@ -48,6 +48,14 @@ const BEGAN: u8 = 4;
 /// It will not be looked at again.
 const DONE: u8 = 0x80;
 
+/// How steeply the ground of a point rises to the east and to the north [m/m]; none at the edge, and beside a place without
+/// a height.
+pub(super) fn slope_at(ground: Ground<'_>, column: usize, row: usize) -> Option<[f32; 2]> {
+    let found = ground.surrounds(column, row).then(|| ground.gradient(column, row));
+    #[expect(clippy::cast_possible_truncation, reason = "as heights are")]
+    found.flatten().map(|it| [it.x as f32, it.y as f32])
+}
+
 impl<'a> Lattice<'a> {
     /// * `is_open`: whether one may go to a place, besides what its slope says
     /// * `turn`: what it costs to turn by a radian
@@ -60,10 +68,8 @@ impl<'a> Lattice<'a> {
         let grid = &ground.raster().grid;
         let gradient = |cell: usize| {
             let (column, row) = (cell % grid.columns, cell / grid.columns);
-            let may_be = ground.surrounds(column, row) && is_open(grid.point(column, row));
-            let found = may_be.then(|| ground.gradient(column, row)).flatten();
-            #[expect(clippy::cast_possible_truncation, reason = "as heights are")]
-            found.map_or([f32::NAN; 2], |it| [it.x as f32, it.y as f32])
+            let found = is_open(grid.point(column, row)).then(|| slope_at(ground, column, row));
+            found.flatten().unwrap_or([f32::NAN; 2])
         };
         let cells = grid.columns * grid.rows;
         Self {

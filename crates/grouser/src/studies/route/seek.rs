@@ -1,22 +1,13 @@
 //! Seeks a way, and says what it takes.
 
-use super::answer::{Answer, Arrival, Ends, MOST_CELLS, NoRoute, Route, RouteError};
+use super::answer::{Answer, Ends, MOST_CELLS, NoRoute, Route, RouteError};
 use super::costs::{Costs, RouteTables};
+use super::measure::{Measure, Piece, Turning};
 use super::search::{Found, Lattice};
 use super::study::{Objective, RouteStudy};
-use crate::simulation::NotSteady;
-use crate::studies::mobility::{Ground, MobilityStudy};
+use crate::studies::mobility::Ground;
 use crate::terrain::Footprint;
 use crate::units::Vec2;
-
-/// Turning on the spot on level ground.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Turning {
-    /// Time for a radian [s].
-    time: f64,
-    /// Work of the wheels for a radian [J].
-    energy: f64,
-}
 
 impl RouteStudy {
     /// Seeks the cheapest way.
@@ -37,7 +28,7 @@ impl RouteStudy {
             return Err(RouteError::TooLarge { cells });
         }
         let costs = Costs::of(tables, objective);
-        let turning = match self.turning() {
+        let turning = match Turning::of(&self.mobility) {
             Ok(turning) => turning,
             Err(reason) => return Ok(Answer::NoSafeRoute(NoRoute::NoTurn(reason))),
         };
@@ -98,34 +89,6 @@ impl RouteStudy {
         };
         Ok(Err(NoRoute::End { end, place, why }))
     }
-
-    /// Time and work of turning on the spot, by the steady motion with both sides against each other.
-    fn turning(&self) -> Result<Turning, String> {
-        let MobilityStudy { heading, rim_speed, .. } = &self.mobility;
-        let rims: Vec<f64> = heading
-            .rover
-            .mounts()
-            .iter()
-            .map(|mount| if mount.position.y > 0.0 { -rim_speed } else { *rim_speed })
-            .collect();
-        let motion = heading
-            .steady_motion_of(0.0, 0.0, &rims)
-            .map_err(|error: NotSteady| error.to_string())?;
-        let power: f64 = motion
-            .wheels
-            .iter()
-            .zip(heading.rover.mounts())
-            .zip(&rims)
-            .map(|((wheel, mount), rim)| {
-                wheel.settled.forces.torque * rim / mount.shearing_radius()
-            })
-            .sum();
-        let rate = motion.yaw_rate.abs();
-        if rate <= 0.0 {
-            return Err("its wheels turn and it does not".to_owned());
-        }
-        Ok(Turning { time: 1.0 / rate, energy: power / rate })
-    }
 }
 
 /// What a way takes, move by move.
@@ -137,70 +100,21 @@ fn measured(
     (way, headings): (&[usize], &[usize]),
     heading: Option<usize>,
 ) -> Route {
-    let mut route = Route {
-        waypoints: Vec::new(),
-        arrivals: Vec::new(),
-        length: 0.0,
-        map_length: 0.0,
-        time: 0.0,
-        energy: 0.0,
-        turned: 0.0,
-        mean_slip_ratio: 0.0,
-        most_slip_ratio: 0.0,
-        most_slope: 0.0,
-        probability_no_go: 0.0,
-    };
-    route.arrive(ends.from, turning);
-    let mut failed: Vec<bool> = Vec::new();
+    let mut measure = Measure::from(tables, turning, ends.from);
     let mut before = heading;
     for (cell, direction) in way.iter().zip(headings) {
         if let Some(before) = before.filter(|before| before != direction) {
             if *cell != way[0] {
-                route.arrive(lattice.place(*cell), turning);
+                measure.arrive(lattice.place(*cell));
             }
-            route.turned += lattice.moves.turn(before, *direction);
+            measure.turn(lattice.moves.turn(before, *direction));
         }
         before = Some(*direction);
         let Some((_, along, across)) = lattice.rises(*cell, *direction) else { continue };
-        let way = lattice.moves.lengths[*direction];
-        route.map_length += way;
-        if let Some(metre) = tables.metre(along, across) {
-            route.length += way * metre.length;
-            route.time += way * metre.time;
-            route.energy += way * metre.energy;
-            route.mean_slip_ratio += way * metre.length * metre.slip_ratio;
-            route.most_slip_ratio = route.most_slip_ratio.max(metre.slip_ratio);
-        }
-        let rise = (along * along + across * across).sqrt();
-        route.most_slope = route.most_slope.max(crate::elementary::wide::atan2(rise, 1.0));
-        let fails = tables.fails(along, across);
-        if failed.is_empty() {
-            failed.extend(fails);
-        } else {
-            failed.iter_mut().zip(fails).for_each(|(failed, fails)| *failed |= fails);
-        }
+        let length = lattice.moves.lengths[*direction];
+        measure.drive(Piece { length, along, across }, tables.metre(along, across));
     }
-    route.arrive(ends.to, turning);
-    route.time += route.turned * turning.time;
-    route.energy += route.turned * turning.energy;
-    if route.length > 0.0 {
-        route.mean_slip_ratio /= route.length;
-    }
-    let count = failed.iter().filter(|failed| **failed).count();
-    route.probability_no_go = count as f64 / failed.len().max(1) as f64;
-    route
-}
-
-impl Route {
-    /// Another waypoint, with what has been taken up to it; the sums have no turns yet.
-    fn arrive(&mut self, place: Vec2, turning: Turning) {
-        self.waypoints.push(place);
-        self.arrivals.push(Arrival {
-            length: self.length,
-            time: self.time + self.turned * turning.time,
-            energy: self.energy + self.turned * turning.energy,
-        });
-    }
+    measure.finish(ends.to)
 }
 
 impl Lattice<'_> {
