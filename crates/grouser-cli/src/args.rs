@@ -8,6 +8,7 @@ mod forecast;
 mod heading;
 mod import_urdf;
 mod learn;
+mod make_terrain;
 mod map;
 mod measurements;
 mod mission;
@@ -38,6 +39,7 @@ pub(crate) use forecast::ForecastArgs;
 pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
 pub(crate) use import_urdf::ImportUrdfArgs;
 pub(crate) use learn::LearnArgs;
+pub(crate) use make_terrain::{MakeTerrainArgs, MakeTerrainCommand, MoonArgs};
 pub(crate) use map::MapArgs;
 pub(crate) use measurements::{
     CalibrateArgs, ImportArgs, PlateLawChoice, SlipChoice, ValidateArgs,
@@ -83,6 +85,8 @@ pub(crate) enum Command {
     Map(MapArgs),
     /// The way over a map of heights with the least time, work or risk, driven by simulation to check it.
     Route(RouteArgs),
+    /// Make an elevation model by chance: lunar ground with its craters.
+    Terrain(MakeTerrainArgs),
     /// `heading`, by the name of earlier versions: the word of the source paper.
     #[command(hide = true)]
     Attitude(HeadingArgs),

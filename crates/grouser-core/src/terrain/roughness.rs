@@ -1,6 +1,7 @@
 //! How rough heights of a grid are, by the distance between their points.
 
 use super::ElevationGrid;
+use crate::elementary::wide;
 use crate::units::Vec2;
 
 /// Differences of height between points of one distance.
@@ -15,10 +16,10 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// Root mean square of the slopes along rows and columns, as a tangent [-].
+    /// The inclination whose tangent is the root mean square of the slopes along rows and columns [rad].
     #[must_use]
     pub fn rms_slope(&self) -> f64 {
-        self.rms_deviation / self.baseline
+        wide::atan2(self.rms_deviation, self.baseline)
     }
 }
 
@@ -48,7 +49,7 @@ fn deviation(grid: &ElevationGrid, heights: &[f64], cells: usize) -> Deviation {
     }
     let middle = slopes.len() / 2;
     let (_, median, _) = slopes.select_nth_unstable_by(middle, f64::total_cmp);
-    let median_slope = crate::elementary::wide::atan2(*median, 1.0);
+    let median_slope = wide::atan2(*median, 1.0);
     let rms_deviation = (0.5 * squares / slopes.len() as f64).sqrt();
     Deviation { baseline, rms_deviation, median_slope }
 }

@@ -9,6 +9,7 @@ pub mod heading;
 pub mod learn;
 pub mod map;
 pub mod mission;
+pub mod roughness;
 pub mod run;
 pub mod slip_from_current;
 pub mod slope;
