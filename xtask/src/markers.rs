@@ -105,7 +105,11 @@ pub(crate) fn commands(arguments: &[String]) -> Result<Vec<&[String]>> {
     let first = parts.next().into_iter().map(Ok);
     let others = parts.map(|words| {
         let is_ours = words.len() > start.len() && words.iter().zip(&start).all(|(a, b)| a == b);
-        if is_ours { Ok(&words[start.len()..]) } else { bail!("`{COMMAND}…` is wanted after `&&`") }
+        if is_ours {
+            Ok(&words[start.len()..])
+        } else {
+            bail!("`{COMMAND}…` is wanted after `&&`")
+        }
     });
     first.chain(others).collect()
 }

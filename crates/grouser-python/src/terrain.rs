@@ -96,7 +96,12 @@ impl Terrain {
         let ground = LunarGround::ALL.into_iter().find(|it| it.name() == ground);
         let ground = ground.ok_or_else(|| {
             let names = LunarGround::ALL.map(LunarGround::name).join("' or '");
-            errors::parameter(format!("ground must be '{names}'"), "ground", None, "a kind of ground")
+            errors::parameter(
+                format!("ground must be '{names}'"),
+                "ground",
+                None,
+                "a kind of ground",
+            )
         })?;
         let site = LunarSite {
             size: size_m,

@@ -14,6 +14,7 @@ mod hostile;
 mod import;
 mod learn;
 mod logs;
+mod make_terrain;
 mod maps;
 mod mission;
 mod models;

@@ -21,19 +21,9 @@ pub(super) fn html(
 ) -> String {
     let mut page = Page::new("The cheapest way");
     page.answer(&sentence(&records[0]));
-    let tracks: Vec<Track<'_>> = ways
-        .iter()
-        .filter_map(|way| match &way.found {
-            Found::Route(route) => Some(Track {
-                name: format!("least {}", way.objective.name()),
-                places: &route.waypoints,
-            }),
-            Found::NoSafeRoute(_) => None,
-        })
-        .collect();
     page.drawing(
-        &relief(&inputs.raster, &tracks, "slope [°] and ways"),
-        "Grey: how steep the ground is, dark for steep. Rings: where the way turns.",
+        &picture(inputs, ways),
+        "The ground as a Sun in the north-west lights it, 30° above the horizon. Rings: where the way turns.",
     );
     page.heading("What each way takes");
     page.text(&rows.to_table(&Brief::COLUMNS));
@@ -61,6 +51,21 @@ pub(super) fn html(
     );
     let basis = Basis::new(repeat).with("scenario.toml", &inputs.scenario);
     answer::close(page, [], &[], &basis)
+}
+
+/// The ground and the ways.
+pub(super) fn picture(inputs: &RouteInputs, ways: &[Way]) -> String {
+    let tracks: Vec<Track<'_>> = ways
+        .iter()
+        .filter_map(|way| match &way.found {
+            Found::Route(route) => Some(Track {
+                name: format!("least {}", way.objective.name()),
+                places: &route.waypoints,
+            }),
+            Found::NoSafeRoute(_) => None,
+        })
+        .collect();
+    relief(&inputs.raster, &tracks, "Ways over the ground")
 }
 
 fn sentence(record: &RouteRecord) -> String {
