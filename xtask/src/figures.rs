@@ -172,7 +172,12 @@ impl Maker {
         if let Some(parent) = folder.parent() {
             fs::create_dir_all(parent)?;
         }
-        let mut all = arguments.to_vec();
+        let commands = markers::commands(arguments)?;
+        let (last, before) = commands.split_last().context("no command")?;
+        for command in before {
+            workspace::output_of(&self.program, command)?;
+        }
+        let mut all = last.to_vec();
         all.extend(["--out".into(), folder.display().to_string()]);
         workspace::output_of(&self.program, &all)?;
         self.folders.insert(arguments.to_vec(), folder.clone());

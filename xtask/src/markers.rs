@@ -98,6 +98,22 @@ fn start_of(line: &str, number: usize) -> Result<Option<Block>> {
     Ok(Some(Block { kind, arguments, line: number, content: String::new() }))
 }
 
+/// The arguments of each command of a line: `… && cargo run --release -- …` is another one.
+pub(crate) fn commands(arguments: &[String]) -> Result<Vec<&[String]>> {
+    let start: Vec<&str> = COMMAND.split_whitespace().collect();
+    let mut parts = arguments.split(|word| word == "&&");
+    let first = parts.next().into_iter().map(Ok);
+    let others = parts.map(|words| {
+        let is_ours = words.len() > start.len() && words.iter().zip(&start).all(|(a, b)| a == b);
+        if is_ours {
+            Ok(&words[start.len()..])
+        } else {
+            bail!("`{COMMAND}…` is wanted after `&&`")
+        }
+    });
+    first.chain(others).collect()
+}
+
 /// What a program printed, as Markdown: a table as it is, anything else as fenced code.
 pub(crate) fn as_markdown(output: &str, arguments: &[String]) -> String {
     let output = output.trim_matches('\n');
@@ -183,6 +199,19 @@ between
         assert_eq!(blocks[0].content, "old\n");
         assert_eq!(blocks[1].kind, Kind::Picture);
         assert_eq!(picture_of(&blocks[1].content).ok(), Some("docs/pictures/fig10.svg"));
+    }
+
+    #[test]
+    fn a_line_may_have_several_commands() {
+        let split = |line: &str| {
+            let words = shell_words::split(line).expect("words");
+            let parts = commands(&words)?;
+            Ok::<_, anyhow::Error>(parts.iter().map(|it| it.join(" ")).collect::<Vec<_>>())
+        };
+        let both = split("terrain moon --force && cargo run --release -- map site.tif");
+        assert_eq!(both.expect("two"), ["terrain moon --force", "map site.tif"]);
+        assert_eq!(split("draw").expect("one"), ["draw"]);
+        assert!(split("draw && rm site.tif").is_err());
     }
 
     #[test]

@@ -10,6 +10,7 @@ mod heading;
 mod import_telemetry;
 mod import_urdf;
 mod learn;
+mod make_terrain;
 mod map;
 mod measurements;
 mod mission;
@@ -44,6 +45,7 @@ pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
 pub(crate) use import_telemetry::ImportTelemetryArgs;
 pub(crate) use import_urdf::ImportUrdfArgs;
 pub(crate) use learn::LearnArgs;
+pub(crate) use make_terrain::{MakeTerrainArgs, MakeTerrainCommand, MoonArgs};
 pub(crate) use map::MapArgs;
 pub(crate) use measurements::{
     CalibrateArgs, ImportArgs, PlateLawChoice, SlipChoice, ValidateArgs,
@@ -91,6 +93,8 @@ pub(crate) enum Command {
     Map(MapArgs),
     /// The way over a map of heights with the least time, work or risk, driven by simulation to check it.
     Route(RouteArgs),
+    /// Make an elevation model by chance: lunar ground with its craters.
+    Terrain(MakeTerrainArgs),
     /// `heading`, by the name of earlier versions: the word of the source paper.
     #[command(hide = true)]
     Attitude(HeadingArgs),

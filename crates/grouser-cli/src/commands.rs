@@ -18,6 +18,7 @@ pub(crate) mod import_telemetry;
 pub(crate) mod import_urdf;
 pub(crate) mod learn;
 mod log;
+pub(crate) mod make_terrain;
 pub(crate) mod map;
 pub(crate) mod mission;
 pub(crate) mod new;

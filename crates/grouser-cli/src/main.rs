@@ -62,6 +62,7 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::HeadingMap(args) => commands::heading_map::run("heading-map", args),
         Command::Map(args) => commands::map::run(args),
         Command::Route(args) => commands::route::run(args),
+        Command::Terrain(args) => commands::make_terrain::run(args),
         Command::Attitude(args) => commands::heading::run("attitude", args),
         Command::AttitudeMap(args) => commands::heading_map::run("attitude-map", args),
         Command::Card(args) => commands::card::run(args),

@@ -40,6 +40,11 @@ impl Random {
         (-2.0 * wide::ln(size)).sqrt() * wide::cos(TAU * direction)
     }
 
+    /// A number of the exponential distribution with mean 1.
+    pub(crate) fn exponential(&mut self) -> f64 {
+        -wide::ln(self.uniform())
+    }
+
     fn next(&mut self) -> u64 {
         self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut word = self.state;

@@ -11,6 +11,8 @@ use crate::units::{Vec2, Vec3};
 pub mod elevation;
 pub mod footprint;
 pub mod height_field;
+pub mod lunar;
+pub mod roughness;
 pub mod soil_field;
 pub mod surface;
 pub mod zones;

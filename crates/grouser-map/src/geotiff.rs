@@ -1,11 +1,11 @@
-//! Bands as cloud-optimised GeoTIFF, written through `geotiff-writer`, which no other file of ours knows.
+//! Bands and elevation models as cloud-optimised GeoTIFF, written through `geotiff-writer`, which no other file of ours knows.
 //!
 //! Tiles of 512 × 512 cells, north up; overviews of half the size down to one tile, each with every second cell of the
 //! one before it, since neither directions nor verdicts have a mean; deflate. Coordinates are those of the elevation
 //! model, key by key, and its points are the cells' middles.
 
 use std::fs::File;
-use std::io::{BufWriter, Write as _};
+use std::io::{BufWriter, Cursor, Seek, Write};
 use std::path::Path;
 
 use geotiff_writer::{
@@ -13,7 +13,7 @@ use geotiff_writer::{
 };
 use grouser::document::columns::map::VERDICT;
 use grouser::studies::mobility::{Ground, MobilityMap};
-use grouser_raster::{CoordinateSystem, GeoKeys};
+use grouser_raster::{CoordinateSystem, GeoKeys, Raster};
 use ndarray::ArrayView2;
 
 use crate::error::Fault;
@@ -52,17 +52,52 @@ fn write<T: NumericSample>(
     file: &Path,
     ground: Ground<'_>,
     (map, band): (&MobilityMap, &MapColumn),
-    (missing, predictor): (&str, Predictor),
+    format: (&str, Predictor),
     cell: impl Fn(Option<f64>) -> T,
     tick: &(dyn Fn(u64) + Sync),
 ) -> Result<(), Fault> {
-    let grid = &ground.raster().grid;
+    let of_place = |column: usize, row: usize| {
+        cell(ground.at(map, column, row).map(|motion| band.number(&motion)))
+    };
+    let file = BufWriter::new(File::create(file)?);
+    let mut sink = encode(file, ground.raster(), format, of_place, tick)?;
+    sink.flush()?;
+    sink.get_ref().sync_all()?;
+    Ok(())
+}
+
+/// An elevation model as the content of a file, with real numbers of single precision and in the raster's coordinates.
+///
+/// * `name`: of the file that it will be, for errors
+///
+/// # Errors
+/// [`MapError`] if it cannot be encoded.
+pub fn elevation_model(name: &Path, raster: &Raster) -> Result<Vec<u8>, MapError> {
+    #[expect(clippy::cast_possible_truncation, reason = "the precision of the raster itself")]
+    let height = |column, row| raster.height(column, row).map_or(f32::NAN, |height| height as f32);
+    let format = ("nan", Predictor::FloatingPoint);
+    let file = encode(Cursor::new(Vec::new()), raster, format, height, &|_| ());
+    file.map(Cursor::into_inner).map_err(|fault| MapError::new(name, fault))
+}
+
+/// Encodes cells.
+///
+/// * `missing`, `predictor`: what stands for a cell without a number, and how numbers are prepared for compression
+/// * `cell`: the content of a point of the raster's grid, by its column and row
+fn encode<T: NumericSample, W: Write + Seek>(
+    sink: W,
+    raster: &Raster,
+    (missing, predictor): (&str, Predictor),
+    cell: impl Fn(usize, usize) -> T,
+    tick: &(dyn Fn(u64) + Sync),
+) -> Result<W, Fault> {
+    let grid = &raster.grid;
     let (columns, rows) = (grid.columns, grid.rows);
-    let image = image(ground)?.nodata(missing).predictor(predictor);
+    let image = image(raster)?.nodata(missing).predictor(predictor);
     let cog = CogBuilder::new(image)
         .overview_levels(overviews(columns.max(rows)))
         .resampling(Resampling::NearestNeighbor);
-    let mut writer = cog.tile_writer::<T, _>(BufWriter::new(File::create(file)?))?;
+    let mut writer = cog.tile_writer::<T, _>(sink)?;
     let mut tile = Vec::with_capacity(TILE * TILE);
     for top in (0..rows).step_by(TILE) {
         let height = TILE.min(rows - top);
@@ -72,9 +107,7 @@ fn write<T: NumericSample>(
             for row in top..top + height {
                 // Rows of the file are from north to south, those of the grid from south to north.
                 let row = rows - 1 - row;
-                tile.extend((left..left + width).map(|column| {
-                    cell(ground.at(map, column, row).map(|motion| band.number(&motion)))
-                }));
+                tile.extend((left..left + width).map(|column| cell(column, row)));
             }
             let view = ArrayView2::from_shape((height, width), &tile)
                 .unwrap_or_else(|_| unreachable!("as many cells as rows and columns make"));
@@ -82,10 +115,7 @@ fn write<T: NumericSample>(
         }
         tick((height * columns) as u64);
     }
-    let mut sink = writer.finish()?;
-    sink.flush()?;
-    sink.get_ref().sync_all()?;
-    Ok(())
+    Ok(writer.finish()?)
 }
 
 /// The factors of the overviews: the last is no larger than a tile.
@@ -94,9 +124,8 @@ fn overviews(cells: usize) -> Vec<u32> {
     factors.take_while(|factor| cells.div_ceil(*factor as usize) * 2 > TILE).collect()
 }
 
-/// An image on the ground's grid.
-fn image(ground: Ground<'_>) -> Result<GeoTiffBuilder, Fault> {
-    let raster = ground.raster();
+/// An image on a raster's grid.
+fn image(raster: &Raster) -> Result<GeoTiffBuilder, Fault> {
     let grid = &raster.grid;
     let count = |cells: usize| u32::try_from(cells).map_err(|_| Fault::TooLarge { cells });
     let north_west = grid.point(0, grid.rows - 1);

@@ -14,7 +14,7 @@ mod style;
 mod summary;
 
 pub use error::MapError;
-pub use geotiff::write_band;
+pub use geotiff::{elevation_model, write_band};
 pub use picture::picture;
 pub use relief::{Track, relief};
 pub use style::{Look, style};

@@ -16,15 +16,16 @@ pub struct Track<'a> {
 
 /// Cells along the longer side, at most.
 const CELLS: usize = 240;
-/// Shades of grey, from level ground to the steepest that is told apart.
+/// Shades of grey, from ground in its own shadow to ground that faces the light.
 const SHADES: usize = 24;
-const STEEPEST_DEG: f64 = 30.0;
+/// Where the light comes from: a unit vector to the north-west, 30° above the horizon.
+const LIGHT: [f64; 3] = [-0.612_372_435_695_794_5, 0.612_372_435_695_794_5, 0.5];
 /// Length of the longer side [px].
 const LENGTH: f64 = 560.0;
 /// Colours of Okabe and Ito.
 const COLOURS: [&str; 3] = ["#d55e00", "#0072b2", "#009e73"];
 
-/// The slopes of the part of a map about some ways, in shades of grey, and the ways, as a stand-alone SVG document.
+/// The part of a map about some ways in the light of a low Sun, and the ways, as a stand-alone SVG document.
 #[must_use]
 pub fn relief(raster: &Raster, tracks: &[Track<'_>], title: &str) -> String {
     let window = Window::about(raster, tracks);
@@ -38,10 +39,11 @@ pub fn relief(raster: &Raster, tracks: &[Track<'_>], title: &str) -> String {
         text,
         "<text x=\"20\" y=\"22\" font-size=\"15\">{title}</text>\n<g transform=\"translate(20 36)\">"
     );
-    window.draw_slopes(&mut text, raster);
+    window.draw_ground(&mut text, raster);
     for (place, track) in tracks.iter().enumerate().rev() {
         window.draw_track(&mut text, track, COLOURS[place % COLOURS.len()]);
     }
+    window.draw_ends(&mut text, tracks);
     for (place, track) in tracks.iter().enumerate() {
         let y = 14.0 + 22.0 * place as f64;
         let (x, colour) = (window.width + 16.0, COLOURS[place % COLOURS.len()]);
@@ -119,7 +121,7 @@ impl Window {
         }
     }
 
-    fn draw_slopes(&self, text: &mut String, raster: &Raster) {
+    fn draw_ground(&self, text: &mut String, raster: &Raster) {
         let [columns, rows] = self.count.map(|count| count.div_ceil(self.step));
         let mut runs = vec![String::new(); SHADES];
         for y in 0..rows {
@@ -143,7 +145,7 @@ impl Window {
             scale[0], scale[1]
         );
         for (place, run) in runs.iter().enumerate().filter(|(_, run)| !run.is_empty()) {
-            let grey = 245 - place * 190 / SHADES;
+            let grey = 30 + place * 220 / SHADES;
             let _ = writeln!(
                 text,
                 "<path transform=\"translate(0 .5)\" stroke=\"#{grey:02x}{grey:02x}{grey:02x}\" d=\"{run}\"/>"
@@ -152,13 +154,32 @@ impl Window {
         *text += "</g>\n";
     }
 
-    fn draw_track(&self, text: &mut String, track: &Track<'_>, colour: &str) {
+    /// Where a place is on the picture [px].
+    fn pixel(&self, at: &Vec2) -> [f64; 2] {
         let size = self.north_east - self.south_west;
-        let pixel = |at: &Vec2| {
-            let way = at - self.south_west;
-            [way.x / size.x * self.width, (1.0 - way.y / size.y) * self.height]
-        };
-        let points: Vec<[f64; 2]> = track.places.iter().map(pixel).collect();
+        let way = at - self.south_west;
+        [way.x / size.x * self.width, (1.0 - way.y / size.y) * self.height]
+    }
+
+    /// Names of the first and the last place, which all ways share.
+    fn draw_ends(&self, text: &mut String, tracks: &[Track<'_>]) {
+        let Some(Track { places: [first, .., last], .. }) = tracks.first() else { return };
+        for (place, name) in [(first, "start"), (last, "goal")] {
+            let [x, y] = self.pixel(place);
+            // To the side where there is room.
+            let (x, anchor) =
+                if x > 0.5 * self.width { (x - 9.0, "end") } else { (x + 9.0, "start") };
+            let _ = writeln!(
+                text,
+                "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\" font-weight=\"bold\" stroke=\"#fff\" \
+                 stroke-width=\"3\" paint-order=\"stroke\">{name}</text>",
+                y + 4.5
+            );
+        }
+    }
+
+    fn draw_track(&self, text: &mut String, track: &Track<'_>, colour: &str) {
+        let points: Vec<[f64; 2]> = track.places.iter().map(|at| self.pixel(at)).collect();
         let line: Vec<String> = points.iter().map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
         let _ = writeln!(
             text,
@@ -170,15 +191,17 @@ impl Window {
         for [x, y] in points {
             let _ = writeln!(
                 text,
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.4\" fill=\"#fff\" stroke=\"{colour}\" stroke-width=\"1.8\"/>"
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.6\" fill=\"#fff\" stroke=\"{colour}\" stroke-width=\"1.6\"/>"
             );
         }
     }
 }
 
-/// The shade of a slope.
+/// The shade of ground with a gradient: how much of the light meets it.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place in a list")]
 fn shade(gradient: Vec2) -> usize {
-    let slope = grouser_core::elementary::wide::atan2(gradient.norm(), 1.0).to_degrees();
-    ((slope / STEEPEST_DEG * SHADES as f64) as usize).min(SHADES - 1)
+    let [east, north, up] = LIGHT;
+    let across = (1.0 + gradient.norm_squared()).sqrt();
+    let light = (up - east * gradient.x - north * gradient.y) / across;
+    ((light.max(0.0) * SHADES as f64) as usize).min(SHADES - 1)
 }

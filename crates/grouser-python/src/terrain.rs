@@ -8,8 +8,10 @@ use grouser::document::{
     BEYOND, DEFAULT_SOIL, HeldMap, Kind, Overrides, Placement, ReadOptions, Source, fnv_1a,
     read_map, read_soil,
 };
+use grouser::error::ParameterError;
 use grouser::soil::Soil;
 use grouser::terrain::elevation::{above, round_base};
+use grouser::terrain::lunar::{LunarGround, LunarModel, LunarSite};
 use grouser::terrain::{ElevationGrid, ElevationModel, Extent};
 use grouser::units::{Vec2, Vec3};
 use numpy::{
@@ -76,6 +78,51 @@ impl Terrain {
         let soil = any_soil()?;
         let map = py.detach(|| read_map(&path, options(reading), soil));
         map.map(|map| Self { map }).map_err(|error| errors::of_document(&error, &[]))
+    }
+
+    /// Makes lunar ground.
+    ///
+    /// * `size_m`, `cell_size_m`, `largest_crater_m`: sides, distance of neighbours, largest diameter
+    #[staticmethod]
+    fn lunar(
+        py: Python<'_>,
+        size_m: f64,
+        cell_size_m: f64,
+        ground: &str,
+        crater_share: f64,
+        largest_crater_m: f64,
+        seed: u64,
+    ) -> PyResult<Self> {
+        let ground = LunarGround::ALL.into_iter().find(|it| it.name() == ground);
+        let ground = ground.ok_or_else(|| {
+            let names = LunarGround::ALL.map(LunarGround::name).join("' or '");
+            errors::parameter(
+                format!("ground must be '{names}'"),
+                "ground",
+                None,
+                "a kind of ground",
+            )
+        })?;
+        let site = LunarSite {
+            size: size_m,
+            cell_size: cell_size_m,
+            ground,
+            crater_share,
+            largest_crater: largest_crater_m,
+            seed,
+        };
+        let soil = any_soil()?;
+        let made = py.detach(|| {
+            let LunarModel { grid, heights, .. } = site.model()?;
+            // As files have them, and with the base of those that are read: its northern row comes first.
+            let north_west = heights[(grid.rows - 1) * grid.columns];
+            let base = round_base(f64::from(above(north_west, 0.0)));
+            let kept = |height: &f64| above(f64::from(above(*height, 0.0)), base);
+            let kept = heights.iter().map(kept).collect();
+            Ok(ElevationModel::above_base(grid, base, kept, soil))
+        });
+        let model = made.map_err(|error: ParameterError| errors::of_parameter(&error))?;
+        model.map(Self::of_model).map_err(|error| refused(&error.to_string()))
     }
 
     /// The map that [`parts`](Self::parts) are of.

@@ -42,6 +42,15 @@ pub(crate) mod key {
     pub(crate) const PROJECTION: u16 = 3074;
     pub(crate) const LINEAR_UNIT: u16 = 3076;
     pub(crate) const LINEAR_UNIT_SIZE: u16 = 3077;
+    pub(crate) const METHOD: u16 = 3075;
+    pub(crate) const FALSE_EASTING: u16 = 3082;
+    pub(crate) const FALSE_NORTHING: u16 = 3083;
+    pub(crate) const CENTRE_LONGITUDE: u16 = 3088;
+    pub(crate) const CENTRE_LATITUDE: u16 = 3089;
+    pub(crate) const SCALE_AT_CENTRE: u16 = 3093;
+    pub(crate) const DATUM: u16 = 2050;
+    pub(crate) const ANGULAR_UNIT: u16 = 2054;
+    pub(crate) const ELLIPSOID: u16 = 2056;
     pub(crate) const VERTICAL_UNIT: u16 = 4099;
     /// A value that is none of the register's.
     pub(crate) const USER_DEFINED: u16 = 32767;
@@ -50,6 +59,44 @@ pub(crate) mod key {
 impl CoordinateSystem {
     pub(crate) fn new(directory: Vec<u16>, doubles: Vec<f64>, text: String) -> Self {
         Self { directory, doubles, text }
+    }
+
+    /// A stereographic projection of the Moon about a place, in metres.
+    ///
+    /// * `centre`: longitude, positive to the east, and latitude of the place at the origin [°]
+    /// * `name`: of the system, in ASCII
+    #[must_use]
+    pub fn of_the_moon(centre: [f64; 2], name: &str) -> Self {
+        /// The Moon's radius [m] and inverse flattening (none): IAU 2015.
+        const SPHERE: [f64; 2] = [1_737_400.0, 0.0];
+        /// Codes of the standard's register.
+        const PROJECTED: u16 = 1;
+        const AREAS: u16 = 1;
+        const DEGREE: u16 = 9102;
+        const METRE: u16 = 9001;
+        const STEREOGRAPHIC: u16 = 14;
+        let mut keys = Keys::default();
+        keys.whole(key::MODEL, PROJECTED);
+        keys.whole(key::POINTS_OR_AREAS, AREAS);
+        keys.words(key::CITATION, name);
+        keys.whole(key::GEODETIC, key::USER_DEFINED);
+        keys.words(key::GEODETIC_CITATION, "Moon (2015) - Sphere");
+        keys.whole(key::DATUM, key::USER_DEFINED);
+        keys.whole(key::ANGULAR_UNIT, DEGREE);
+        keys.whole(key::ELLIPSOID, key::USER_DEFINED);
+        keys.real(key::SEMI_MAJOR_AXIS, SPHERE[0]);
+        keys.real(key::INVERSE_FLATTENING, SPHERE[1]);
+        keys.whole(key::PROJECTED, key::USER_DEFINED);
+        keys.words(key::PROJECTED_CITATION, name);
+        keys.whole(key::PROJECTION, key::USER_DEFINED);
+        keys.whole(key::METHOD, STEREOGRAPHIC);
+        keys.whole(key::LINEAR_UNIT, METRE);
+        keys.real(key::FALSE_EASTING, 0.0);
+        keys.real(key::FALSE_NORTHING, 0.0);
+        keys.real(key::CENTRE_LONGITUDE, centre[0]);
+        keys.real(key::CENTRE_LATITUDE, centre[1]);
+        keys.real(key::SCALE_AT_CENTRE, 1.0);
+        keys.system()
     }
 
     /// Whether the file says anything about it.
@@ -119,6 +166,46 @@ impl CoordinateSystem {
     fn entry(&self, id: u16) -> Option<&[u16]> {
         self.directory.get(4..)?.chunks_exact(4).find(|entry| entry[0] == id)
     }
+}
+
+/// Keys in the making, in ascending order of their identities.
+#[derive(Default)]
+struct Keys {
+    entries: Vec<[u16; 4]>,
+    doubles: Vec<f64>,
+    text: String,
+}
+
+impl Keys {
+    fn whole(&mut self, id: u16, value: u16) {
+        self.entries.push([id, 0, 1, value]);
+    }
+
+    fn real(&mut self, id: u16, value: f64) {
+        self.entries.push([id, DOUBLES, 1, short(self.doubles.len())]);
+        self.doubles.push(value);
+    }
+
+    fn words(&mut self, id: u16, value: &str) {
+        let start = self.text.len();
+        self.text += value;
+        self.text.push('|');
+        self.entries.push([id, TEXT, short(self.text.len() - start), short(start)]);
+    }
+
+    fn system(self) -> CoordinateSystem {
+        /// Of the directory, and of its keys: GeoTIFF 1.1.
+        const VERSION: [u16; 3] = [1, 1, 1];
+        let mut directory = VERSION.to_vec();
+        directory.push(short(self.entries.len()));
+        directory.extend(self.entries.iter().flatten());
+        CoordinateSystem::new(directory, self.doubles, self.text)
+    }
+}
+
+/// A place or a length in a few keys of our own, as they are stored.
+fn short(count: usize) -> u16 {
+    u16::try_from(count).expect("names are short")
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! A grid of heights as a file has it.
 
 use grouser_core::soil::Soil;
+use grouser_core::terrain::lunar::LunarModel;
 use grouser_core::terrain::{ElevationError, ElevationGrid, ElevationModel};
 use grouser_core::units::Vec2;
 
@@ -21,6 +22,16 @@ pub struct Raster {
 }
 
 impl Raster {
+    /// A piece of made lunar ground, as a file has it: in a projection of the Moon's, about a place of no meaning.
+    #[must_use]
+    pub fn of_moon(model: &LunarModel) -> Self {
+        #[expect(clippy::cast_possible_truncation, reason = "the precision of elevation models")]
+        let heights = model.heights.iter().map(|height| *height as f32).collect();
+        let coordinates =
+            CoordinateSystem::of_the_moon([0.0, 0.0], "made lunar ground (no place of the Moon)");
+        Self { grid: model.grid, base: 0.0, heights, coordinates }
+    }
+
     /// The height at a point [m]; none where it is missing, or beyond the grid.
     #[must_use]
     pub fn height(&self, column: usize, row: usize) -> Option<f64> {

@@ -7,7 +7,7 @@
 mod axis;
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
 
 use grouser_core::terrain::ElevationGrid;
@@ -30,6 +30,21 @@ const EMPTY: u64 = 1_000;
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Raster, RasterError> {
     let raster = || decode(BufReader::new(File::open(path)?), options);
     raster().map_err(|fault| RasterError::new(path, fault))
+}
+
+/// The text of a raster, a line for each point whose height is known, in rows from south to north.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write(to: &mut impl Write, raster: &Raster) -> std::io::Result<()> {
+    for row in 0..raster.grid.rows {
+        for column in 0..raster.grid.columns {
+            let Some(height) = raster.height(column, row) else { continue };
+            let at = raster.grid.point(column, row);
+            writeln!(to, "{} {} {}", at.x, at.y, height)?;
+        }
+    }
+    Ok(())
 }
 
 /// Reads text.

@@ -73,6 +73,7 @@ pub(crate) fn run(args: &RouteArgs) -> Result<(), Failure> {
         folder.add("route.json", answer.to_text());
         folder.add("route.csv", rows.to_csv()?);
         folder.add("route.geojson", geojson::text(&records[0]));
+        folder.add("route.svg", page::picture(&inputs, &ways));
         folder.add(REPORT, page::html(args, &inputs, &ways, &records, &rows));
         folder.add_document("scenario.toml", &inputs.scenario);
         folder.finish()?;

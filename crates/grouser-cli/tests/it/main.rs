@@ -15,6 +15,7 @@ mod import;
 mod learn;
 mod learn_on_the_way;
 mod logs;
+mod make_terrain;
 mod maps;
 mod mission;
 mod models;

@@ -123,6 +123,15 @@ class Terrain:
     @staticmethod
     def from_file(path: str | os.PathLike[str], reading: _Reading) -> Terrain: ...
     @staticmethod
+    def lunar(
+        size_m: float,
+        cell_size_m: float,
+        ground: str,
+        crater_share: float,
+        largest_crater_m: float,
+        seed: int,
+    ) -> Terrain: ...
+    @staticmethod
     def of_parts(
         name: str,
         reading: _Reading | None,

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 #: Which row of an array comes first.
 Rows = Literal["north-first", "south-first"]
+#: Kinds of lunar ground.
+Ground = Literal["mare", "highlands"]
 
 
 class Terrain:
@@ -156,6 +158,54 @@ class Terrain:
         which = None if band is None else whole_number("band", band, most=65_535)
         missing = None if missing_m is None else number("missing_m", missing_m)
         return cls._of(_core.Terrain.from_file(os.fspath(path), (placement, which, missing)))
+
+    @classmethod
+    def lunar(
+        cls,
+        *,
+        size_m: float = 500.0,
+        cell_size_m: float = 1.0,
+        ground: Ground = "mare",
+        crater_share: float = 1.0,
+        largest_crater_m: float = 100.0,
+        seed: int = 1,
+    ) -> Terrain:
+        """Lunar ground made by chance: craters by published counts, from fresh to worn, on fractal
+        relief. It is no place of the Moon; the same seed gives the same ground, and the program's
+        ``grouser terrain moon`` the same heights.
+
+        Parameters
+        ----------
+        size_m : float
+            Length of a side [m], up to 20000, and 8 to 4096 cells; the origin is in the middle.
+        cell_size_m : float
+            Distance between neighbours [m]. The smallest craters have a diameter of four cells.
+        ground : {"mare", "highlands"}
+            A plain of lava, or the older and steeper ground about the plains.
+        crater_share : float
+            Number of craters, over that of ground where as many form as wear away, 0 to 1.
+        largest_crater_m : float
+            Upper limit of the craters' diameters [m], up to 300.
+        seed : int
+            What chance it is made by.
+
+        Raises
+        ------
+        ParameterError
+            For values beyond these ranges, with the range.
+
+        Examples
+        --------
+        >>> import grouser as gr
+        >>> site = gr.Terrain.lunar(size_m=100.0, seed=2)
+        >>> site.shape, site.extent_m
+        ((101, 101), (-50.0, -50.0, 50.0, 50.0))
+        """
+        sizes = (number("size_m", size_m), number("cell_size_m", cell_size_m))
+        share = number("crater_share", crater_share)
+        largest = number("largest_crater_m", largest_crater_m)
+        at_random = whole_number("seed", seed)
+        return cls._of(_core.Terrain.lunar(*sizes, ground, share, largest, at_random))
 
     @classmethod
     def from_rasterio(cls, dataset: Any, *, band: int = 1) -> Terrain:

@@ -12,6 +12,7 @@ pub mod learn;
 pub mod map;
 pub mod mission;
 pub mod replay;
+pub mod roughness;
 pub mod run;
 pub mod slip_from_current;
 pub mod slope;

@@ -21,14 +21,9 @@ pub(super) fn html(
     let is_given = args.along.is_some();
     let mut page = Page::new(if is_given { "What a way takes" } else { "The cheapest way" });
     page.answer(&sentence(&records[0]));
-    let tracks: Vec<Track<'_>> = ways
-        .iter()
-        .filter(|way| !way.places.is_empty())
-        .map(|way| Track { name: record::name(&way.record), places: &way.places })
-        .collect();
     page.drawing(
-        &relief(&inputs.raster, &tracks, "slope [°] and ways"),
-        "Grey: how steep the ground is, dark for steep. Rings: where the way turns.",
+        &picture(inputs, ways),
+        "The ground as a Sun in the north-west lights it, 30° above the horizon. Rings: where the way turns.",
     );
     page.heading("What each way takes");
     page.text(&rows.to_table(&Brief::COLUMNS));
@@ -51,6 +46,16 @@ pub(super) fn html(
     );
     let basis = Basis::new(repeat).with("scenario.toml", &inputs.scenario);
     answer::close(page, [], &[], &basis)
+}
+
+/// The ground and the ways.
+pub(super) fn picture(inputs: &RouteInputs, ways: &[Way]) -> String {
+    let tracks: Vec<Track<'_>> = ways
+        .iter()
+        .filter(|way| !way.places.is_empty())
+        .map(|way| Track { name: record::name(&way.record), places: &way.places })
+        .collect();
+    relief(&inputs.raster, &tracks, "Ways over the ground")
 }
 
 /// How the numbers of ways that were sought come about.
