@@ -198,7 +198,9 @@ impl Writer {
 
 impl Archive for Writer {
     fn number(&mut self, name: &str, value: &mut f64) {
-        self.put(name, json!(*value));
+        // JSON has no infinity.
+        let number = if value.is_finite() { json!(*value) } else { value.to_string().into() };
+        self.put(name, number);
     }
 
     fn maybe(&mut self, name: &str, value: &mut Option<f64>) {
@@ -266,7 +268,7 @@ impl<'a> Reader<'a> {
 
 impl Archive for Reader<'_> {
     fn number(&mut self, name: &str, value: &mut f64) {
-        self.take(name, value, Json::as_f64);
+        self.take(name, value, |it| it.as_f64().or_else(|| it.as_str()?.parse().ok()));
     }
 
     fn maybe(&mut self, name: &str, value: &mut Option<f64>) {
