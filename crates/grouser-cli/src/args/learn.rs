@@ -20,11 +20,12 @@ use crate::list::{self, Numbers};
                         docs/guide/learn.md explains the telemetry, what is learnt, and how far it is to be trusted."
 )]
 pub(crate) struct LearnArgs {
-    /// Telemetry of the drive (CSV, `telemetry/1`), or `-` to read it from standard input: `time_s`, and any of
+    /// Telemetry of the drive: MCAP, or a table (`telemetry/1`) of CSV or Parquet, `-` for CSV from standard input. Its
+    /// columns are `time_s`, and any of
     /// `roll_deg`, `pitch_deg`, `yaw_deg`, `wheel_speed_rad_s_WHEEL`, `wheel_torque_nm_WHEEL` or
     /// `motor_current_a_WHEEL`, `steering_deg_WHEEL`, `sinkage_mm_WHEEL`, `vo_dx_m`, `vo_dy_m`, `vo_dyaw_deg`,
     /// `x_m`, `y_m`; empty cells are gaps.
-    #[arg(value_name = "LOG.csv|-")]
+    #[arg(value_name = "LOG|-")]
     pub(crate) log: PathBuf,
     #[command(flatten)]
     pub(crate) telemetry: TelemetryArgs,

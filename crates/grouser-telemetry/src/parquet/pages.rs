@@ -96,6 +96,7 @@ impl Pages {
                 return Err(ParquetError::NYI(why));
             }
         };
+        check_place(chunk, file.length)?;
         let as_stored = chunk.clone().into_builder().set_compression(Compression::UNCOMPRESSED);
         let stored = SerializedPageReader::new(file, &as_stored.build()?, rows, None)?;
         Ok(Self { stored, packing })
@@ -156,6 +157,17 @@ impl Pages {
             }
         })
     }
+}
+
+/// That a column is within its file: the library takes that for granted.
+fn check_place(chunk: &ColumnChunkMetaData, length: u64) -> Result<()> {
+    let start = chunk.dictionary_page_offset().unwrap_or_else(|| chunk.data_page_offset());
+    let end = u64::try_from(start).ok().zip(u64::try_from(chunk.compressed_size()).ok());
+    let end = end.and_then(|(start, size)| start.checked_add(size));
+    if end.is_some_and(|end| end <= length) && chunk.data_page_offset() >= 0 {
+        return Ok(());
+    }
+    Err(ParquetError::EOF("a column would be outside of its file".into()))
 }
 
 impl Packing {
