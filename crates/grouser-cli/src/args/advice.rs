@@ -30,6 +30,10 @@ pub(crate) struct AdviceArgs {
     /// The soil is another once on so many metres on the mean [m]; 0 where it never is.
     #[arg(long, value_name = "M", value_parser = list::parse, default_value = "200", allow_hyphen_values = true, requires = "advice")]
     pub(crate) soil_change_m: Numbers,
+    /// Ways that are simulated to find how often to look, 100 to 100000.
+    #[arg(long, value_name = "N", default_value_t = 1000, requires = "advice")]
+    #[arg(value_parser = clap::value_parser!(u32).range(100..=100_000), allow_negative_numbers = true)]
+    pub(crate) ways: u32,
     /// Time that odometry needs for a look at the slip while the rover goes on [s]; 0 where it stands meanwhile.
     #[arg(long, value_name = "S", value_parser = list::parse, default_value = "0", allow_hyphen_values = true, requires = "advice")]
     pub(crate) look_s: Numbers,
@@ -47,7 +51,7 @@ pub(crate) struct AdviceArgs {
 /// What a test drive costs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum CostChoice {
-    /// Work of the wheels.
+    /// Work of the wheels that pull, and that by which lost height is won back.
     #[default]
     Energy,
     /// Way of the rims.

@@ -288,5 +288,6 @@ fn settings(args: &LearnArgs, scenario: &LoadedScenario) -> Value {
         "predict_slope_deg": args.predict_slope_deg.0,
         "samples": args.samples,
         "seed": args.seed,
+        "advice": advice::settings(&args.advice).map(|it| it.into_iter().collect::<BTreeMap<_, _>>()),
     })
 }

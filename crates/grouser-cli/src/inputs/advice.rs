@@ -42,6 +42,7 @@ pub(crate) fn advice(
             stuck_probability: share("--stuck-probability", &args.stuck_probability)?,
             false_stops: share("--false-stops", &args.false_stops)?,
             odometry_error: share("--odometry-error", &args.odometry_error)?,
+            ways: args.ways,
             soil: SoilAhead { change_way: (change > 0.0).then_some(change) },
         },
         look_time: single("--look-s", &args.look_s, &LOOK)?,

@@ -122,3 +122,40 @@ fn logs_that_are_none_are_refused() {
     let said = check_is_refusal(&place.line(&exact), 2);
     assert!(said.contains("taken as exact") && said.contains("--prior"), "{said}");
 }
+
+/// Advice is given when it is asked for: a heading within its band, looks at the slip, legs in the order of what they tell
+/// for their work; in JSON, files and the page. Its flags stand for nothing without it.
+#[test]
+fn advice_is_given_when_it_is_asked_for() {
+    let place = driven();
+    let few = COMMAND.replace("--samples 60", "--samples 20");
+    let flags = "--advice --ways 100 --stuck-probability 0.1 --test-slope-deg 0,8";
+    let answer = place.json(&format!("{few} {flags} --out today"));
+    let advice = &answer["advice"];
+    let slopes = advice["slopes"].as_array().expect("slopes");
+    for (row, predicted) in slopes.iter().zip(answer["predictions"].as_array().unwrap()) {
+        let yaw = number(&row["yaw_deg"]);
+        assert_eq!(yaw, number(&predicted["yaw_deg"]));
+        assert!(yaw < number(&row["steepest_yaw_deg"]), "{row}");
+        assert_eq!(number(&row["slip_check_every_m"]), 5.0);
+    }
+    let legs = advice["legs"].as_array().expect("legs");
+    let told: Vec<f64> = legs.iter().map(|leg| number(&leg["information_nat_per_joule"])).collect();
+    assert_eq!(told.len(), 6);
+    assert!(told.is_sorted_by(|one, other| one >= other) && told[5] > 0.0, "{told:?}");
+    for name in ["today/advice.csv", "today/test-drives.csv"] {
+        assert!(place.read(name).starts_with("slope_deg,yaw_deg,"), "{name}");
+    }
+    let page = place.read("today/report.html");
+    assert!(page.contains("<h2>Advice</h2>") && page.contains("look at the slip every 5 m"));
+    assert_eq!(place.json(&few)["advice"], serde_json::Value::Null);
+    for (flags, words) in [
+        ("--stuck-probability 0.1", "--advice"),
+        ("--advice --no-go-slip-ratio 2", "from 0 to 1"),
+        ("--advice --test-way-m 0", "from 0.1 to 100"),
+        ("--advice --look-s nan", "from 0 to"),
+    ] {
+        let said = check_is_refusal(&place.line(&format!("{few} {flags}")), 2);
+        assert!(said.contains(words), "{words} in {said}");
+    }
+}

@@ -1,5 +1,6 @@
 //! What is learnt from drives whose soil is hidden from the learner.
 
+mod advice;
 pub(crate) mod twin;
 
 use grouser::document::LoadedScenario;

@@ -5,14 +5,15 @@ use grouser::document::columns::SLOPE;
 use grouser::document::columns::advice as columns;
 use grouser::document::table::Table;
 use grouser::studies::heading_band::HeadingBand;
-use grouser::studies::learn::advice::{Advice, Instruments};
+use grouser::studies::learn::advice::{Advice, Instruments, TestCost};
 use grouser::studies::learn::{Drive, LearntSample};
 use serde::Serialize;
 
-use crate::args::LearnArgs;
+use crate::args::{AdviceArgs, LearnArgs};
 use crate::commands::sampling;
 use crate::failure::Failure;
 use crate::inputs;
+use crate::list::Numbers;
 use crate::output::rows::{Rows, four_digits};
 use crate::output::text::Text;
 use crate::report::answer::{Meaning, meanings};
@@ -119,6 +120,37 @@ impl AdviceTables {
             page.rows("All legs, each on its own", &self.legs, &brief);
         }
     }
+}
+
+/// The flags that ask for the same advice again, after a blank; nothing where none is asked for.
+pub(super) fn flags(args: &AdviceArgs) -> String {
+    let flags = settings(args).into_iter().flatten();
+    let flags = flags.map(|(flag, value)| format!(" --{}={value}", flag.replace('_', "-")));
+    flags.fold(if args.advice { " --advice".to_owned() } else { String::new() }, |all, one| {
+        all + &one
+    })
+}
+
+/// The settings of the advice, by the names of their flags; `None` where none is asked for.
+pub(super) fn settings(args: &AdviceArgs) -> Option<Vec<(&'static str, String)>> {
+    let list =
+        |numbers: &Numbers| numbers.0.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
+    let cost = TestCost::from(args.test_cost);
+    args.advice.then(|| {
+        vec![
+            ("no_go_slip_ratio", list(&args.no_go_slip_ratio)),
+            ("no_go_probability", list(&args.no_go_probability)),
+            ("stuck_probability", list(&args.stuck_probability)),
+            ("false_stops", list(&args.false_stops)),
+            ("odometry_error", list(&args.odometry_error)),
+            ("soil_change_m", list(&args.soil_change_m)),
+            ("ways", args.ways.to_string()),
+            ("look_s", list(&args.look_s)),
+            ("test_slope_deg", list(&args.test_slope_deg)),
+            ("test_way_m", list(&args.test_way_m)),
+            ("test_cost", cost.name().to_owned()),
+        ]
+    })
 }
 
 /// What the columns are.

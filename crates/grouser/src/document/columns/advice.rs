@@ -171,6 +171,12 @@ fn look(advice: &SlopeAdvice) -> String {
             "look at the slip every {} m, and go no further above {:.2}",
             check.every, check.limit
         ),
+        None if checks.closest.stuck.successes == 0 => format!(
+            "no look at the slip is known to be safe enough: none of {} ways has a stuck rover, which shows a \
+             probability of less than {} and no more",
+            checks.closest.stuck.trials,
+            percent(checks.closest.stuck.interval().1)
+        ),
         None => format!(
             "no look at the slip is known to be safe enough: every {} m the rover gets stuck on {} of the ways",
             checks.closest.every,
@@ -186,7 +192,10 @@ pub const TEST_COLUMNS: [Column<TestDrive>; 14] = [
     TEST_WAY.given("Way of the rims", |it| Some(it.leg.way)),
     SLIP_RATIO.number("Mean slip ratio of the wheels that is expected", |it| it.slip_ratio),
     PROBABILITY_WITHIN.probability("Probability that the slip keeps its limit", |it| Some(it.within)),
-    ENERGY.number("Work of the wheels", |it| it.energy),
+    ENERGY.number(
+        "Work of the wheels that pull, and that by which height is won back that is lost on the leg",
+        |it| it.energy,
+    ),
     HEADING_WIDTH_BEFORE.number(
         "Width of the 95 % band of tomorrow's heading on the slope where it is least certain, before the leg",
         |it| it.widths[0],

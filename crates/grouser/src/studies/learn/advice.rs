@@ -117,6 +117,9 @@ impl AdviceSettings {
         share("the probability of getting stuck", checks.stuck_probability)?;
         share("the share of false stops", checks.false_stops)?;
         share("the error of odometry", checks.odometry_error)?;
+        if checks.ways == 0 {
+            return Err(ParameterError::new("number of ways", 0.0, "one at least"));
+        }
         if let Some(way) = checks.soil.change_way {
             crate::error::positive("way between changes of the soil [m]", way)?;
         }

@@ -103,7 +103,7 @@ impl AdvisedHeading {
 }
 
 /// Torque of all wheels over their shearing radii [N].
-pub(super) fn thrust_of(study: &HeadingStudy, motion: &SteadyMotion) -> f64 {
+fn thrust_of(study: &HeadingStudy, motion: &SteadyMotion) -> f64 {
     let each = motion.wheels.iter().zip(study.rover.mounts());
     each.map(|(wheel, mount)| wheel.settled.forces.torque / mount.shearing_radius()).sum()
 }

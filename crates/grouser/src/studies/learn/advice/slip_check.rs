@@ -17,6 +17,7 @@ use super::super::settings::LearnSettings;
 use super::course::{moving, slip_of};
 use super::soil_ahead::{SoilAhead, SoilWay};
 use crate::simulation::MOST_SLIP;
+use crate::studies::ensemble::samples::Sample;
 use crate::studies::ensemble::{Probability, outputs_while};
 use crate::studies::heading::HeadingStudy;
 use crate::studies::random;
@@ -33,6 +34,8 @@ pub struct CheckSettings {
     pub odometry_error: f64,
     /// The soil ahead.
     pub soil: SoilAhead,
+    /// Ways that are simulated. Without a stuck rover among 1000 the probability is known to be below 0.4 %.
+    pub ways: u32,
 }
 
 impl CheckSettings {
@@ -42,6 +45,7 @@ impl CheckSettings {
         false_stops: 0.05,
         odometry_error: 0.02,
         soil: SoilAhead::USUAL,
+        ways: 1000,
     };
 }
 
@@ -104,15 +108,6 @@ struct SlipWay {
     errors: Vec<f64>,
 }
 
-/// How many ways are needed.
-fn count(stuck_probability: f64) -> u64 {
-    /// Without a stuck rover among so many over the probability, its confidence interval is half of what is asked for.
-    const ENOUGH: f64 = 8.0;
-    const LEAST: f64 = 1000.0;
-    const MOST: f64 = 10_000.0;
-    (ENOUGH / stuck_probability.max(f64::MIN_POSITIVE)).clamp(LEAST, MOST) as u64
-}
-
 impl CheckAdvice {
     /// * `course`: slope and yaw [rad]
     /// * `seed`: of the soils at the start, as [`Learner::samples`](super::super::Learner::samples) has it
@@ -127,7 +122,7 @@ impl CheckAdvice {
         (settings, seed): (&CheckSettings, u64),
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Self>, NothingAccepted> {
-        let ways = outputs_while(0..count(settings.stuck_probability), go_on, |index| {
+        let ways = outputs_while(0..u64::from(settings.ways), go_on, |index| {
             let mut soil = SoilWay::new(belief, settings.soil, (seed, index))?;
             SlipWay::driven(study, &mut soil, (course, rim_speed), (seed, index))
         });
@@ -189,8 +184,15 @@ impl Check {
     }
 }
 
+/// Whether slip between two places some steps apart needs no closer look: it is far from where it runs away.
+fn is_calm(first: f64, last: f64) -> bool {
+    const LIGHT: f64 = 0.4;
+    const CHANGE: f64 = 0.1;
+    first.max(last) < LIGHT && (last - first).abs() < CHANGE
+}
+
 impl SlipWay {
-    /// Drives a way on a course, place by place.
+    /// Drives a way on a course. Where the slip is light and hardly changes over a few places, it is a line between them.
     fn driven(
         study: &HeadingStudy,
         soil: &mut SoilWay<'_>,
@@ -199,19 +201,33 @@ impl SlipWay {
     ) -> Result<Self, NothingAccepted> {
         /// Of odometry's errors: no soil is drawn from it.
         const ERRORS: u64 = 0x0D0E_7A11;
+        /// Places that are taken together.
+        const BLOCK: usize = 5;
         let mut random = random::generator(seed ^ ERRORS, index);
-        let (mut slips, mut errors) = (Vec::new(), Vec::new());
+        let errors = (0..STEPS).map(|_| random::standard_normal(&mut random)).collect();
         let mut motion = None;
-        for _ in 0..STEPS {
-            let here = study.of_sample(soil.sample());
-            motion = moving(&here, course, rim_speed, motion.as_ref());
-            let slip = slip_of(&motion);
-            slips.push(slip);
-            errors.push(random::standard_normal(&mut random));
-            if motion.is_none() {
-                break;
+        let mut slip = |sample: &Sample| {
+            motion = moving(&study.of_sample(sample), course, rim_speed, motion.as_ref());
+            slip_of(&motion)
+        };
+        let mut slips = vec![slip(soil.sample())];
+        while let Some(first) = slips.last().copied().filter(|it| *it <= MOST_SLIP)
+            && slips.len() < STEPS
+        {
+            let count = BLOCK.min(STEPS - slips.len());
+            let mut samples = Vec::new();
+            for _ in 0..count {
+                soil.advance((1.0 - first).max(0.0) * STEP)?;
+                samples.push(*soil.sample());
             }
-            soil.advance((1.0 - slip).max(0.0) * STEP)?;
+            let last = slip(&samples[count - 1]);
+            if is_calm(first, last) {
+                let share = |place: usize| (place + 1) as f64 / count as f64;
+                slips.extend((0..count).map(|place| first + share(place) * (last - first)));
+            } else {
+                slips.extend(samples[..count - 1].iter().map(&mut slip));
+                slips.push(last);
+            }
         }
         Ok(Self { slips, errors })
     }
@@ -233,5 +249,69 @@ impl SlipWay {
             }
         }
         End::Driven
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SETTINGS: CheckSettings = CheckSettings { odometry_error: 0.0, ..CheckSettings::USUAL };
+
+    fn way(slips: &[f64]) -> SlipWay {
+        SlipWay { slips: slips.to_vec(), errors: vec![0.0; slips.len()] }
+    }
+
+    #[test]
+    fn intervals_are_whole_steps_of_the_way() {
+        assert!((STEPS as f64 * STEP - WAY_AHEAD).abs() < 1e-12);
+        assert!(INTERVALS.iter().all(|(way, steps)| (*steps as f64 * STEP - way).abs() < 1e-12));
+    }
+
+    /// A look stops a rover whose slip rises in time, a later one does not; a slip that comes at once no look catches.
+    #[test]
+    fn a_look_in_time_stops_the_rover() {
+        let rising = way(&[0.1, 0.2, 0.5, 0.8, 1.0]);
+        assert_eq!(rising.end(1, 0.4, 0.0), End::Stopped);
+        // The mean over two steps is 0.15, then 0.65.
+        assert_eq!(rising.end(2, 0.4, 0.0), End::Stopped);
+        assert_eq!(rising.end(4, 0.3, 0.0), End::Stopped);
+        assert_eq!(rising.end(10, 0.4, 0.0), End::Stuck);
+        assert_eq!(rising.end(1, 0.85, 0.0), End::Stuck);
+        assert_eq!(way(&[0.1, 0.1, 1.0]).end(1, 0.4, 0.0), End::Stuck);
+        assert_eq!(way(&[0.1; STEPS]).end(10, 0.4, 0.0), End::Driven);
+        // Odometry that has the ground 2 % shorter.
+        let short = SlipWay { slips: vec![0.39], errors: vec![-1.0] };
+        assert_eq!(short.end(1, 0.4, 0.02), End::Stopped);
+    }
+
+    /// Ways on which nobody gets stuck are looked at as rarely as may be, at the lowest limit that ends none of them; where
+    /// none may get stuck at all no look is safe enough.
+    #[test]
+    fn ways_without_a_stuck_rover_need_few_looks() {
+        let ways: Vec<SlipWay> = (0..1000).map(|_| way(&[0.22; STEPS])).collect();
+        let found = CheckAdvice::of(&ways, 0.1, &SETTINGS);
+        let check = found.check.expect("a check");
+        assert_eq!((check.every, check.stuck.successes), (5.0, 0));
+        assert!((check.limit - 0.25).abs() < 1e-12);
+        let never = CheckSettings { stuck_probability: 0.0, ..SETTINGS };
+        assert_eq!(CheckAdvice::of(&ways, 0.1, &never).check, None);
+    }
+
+    /// Slip that rises over two metres: looks every five metres miss it, every metre they do not.
+    #[test]
+    fn quick_rises_need_frequent_looks() {
+        let mut rising = vec![0.1; 13];
+        rising.extend([0.3, 0.5, 0.7, 1.0]);
+        let ways: Vec<SlipWay> = (0..1000)
+            .map(|place| if place < 50 { way(&rising) } else { way(&[0.1; STEPS]) })
+            .collect();
+        let found = CheckAdvice::of(&ways, 0.2, &SETTINGS);
+        assert_eq!(found.unchecked.successes, 50);
+        assert_eq!(found.practice.stuck.successes, 50);
+        let check = found.check.expect("a check");
+        assert!(check.every < 5.0 && check.stuck.successes == 0, "{check:?}");
+        let lax = CheckSettings { stuck_probability: 0.1, ..SETTINGS };
+        assert_eq!(CheckAdvice::of(&ways, 0.2, &lax).check.map(|it| it.every), Some(5.0));
     }
 }

@@ -26,13 +26,14 @@ use super::super::motion::SeenMotion;
 use super::super::settings::LearnSettings;
 use super::super::stretch::{self, Reading, Stretch};
 use super::Limits;
-use super::course::{moving, slip_of, thrust_of};
-use crate::elementary::wide::ln;
+use super::course::{moving, slip_of};
+use crate::elementary::wide::{ln, sin};
+use crate::simulation::SteadyMotion;
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
 use crate::studies::ensemble::{Probability, outputs};
 use crate::studies::heading::{HeadingStudy, STUCK};
 use crate::units::Vec2;
-use crate::vehicle::Rover;
+use crate::vehicle::{Mount, Rover, WheelReaction};
 
 /// A leg of a test drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,7 +49,7 @@ pub struct TestLeg {
 /// What a leg costs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum TestCost {
-    /// Work of the wheels [J].
+    /// Work of the wheels that pull, and that by which lost height is won back [J].
     #[default]
     Energy,
     /// Way of the rims [m].
@@ -179,7 +180,7 @@ pub struct TestDrive {
     pub leg: TestLeg,
     /// Mean slip ratio of the wheels that is expected [-].
     pub slip_ratio: f64,
-    /// Work of the wheels [J].
+    /// Work of the wheels that pull, and that by which lost height is won back [J].
     pub energy: f64,
     /// Samples in which the slip keeps its limit.
     pub within: Probability,
@@ -200,6 +201,19 @@ const LEAST_INFORMATION: f64 = 0.02;
 /// Nobody needs to know a heading better than this [rad], half a degree, nor a slip [-]. Source: ours.
 const HEADING_NEEDED: f64 = 0.5 * std::f64::consts::PI / 180.0;
 const SLIP_NEEDED: f64 = 0.02;
+
+/// Work of the wheels that pull over a leg, and that by which height is won back that was lost on it [J]: motors that brake
+/// give nothing back, and a leg downhill is not for nothing.
+fn work(study: &HeadingStudy, motion: &SteadyMotion, leg: &TestLeg, rim_speed: f64) -> f64 {
+    let each = motion.wheels.iter().zip(study.rover.mounts());
+    let thrust = |(wheel, mount): (&WheelReaction, &Mount)| {
+        wheel.settled.forces.torque.max(0.0) / mount.shearing_radius()
+    };
+    let pulled: f64 = each.map(thrust).sum::<f64>() * leg.way;
+    let way = motion.speed() / rim_speed * leg.way;
+    let lost = -way * sin(motion.course()) * sin(leg.slope);
+    pulled + study.rover.mass() * study.gravity * lost.max(0.0)
+}
 
 /// Width of a 95 % band, in standard deviations.
 const WIDTH: f64 = 2.0 * 1.959_963_984_540_054;
@@ -413,7 +427,7 @@ impl Planner<'_> {
             stretch,
             stretches: (leg.way / stretch::WAY).round().max(1.0) as usize,
             slip_ratio: motion.slip_ratio(),
-            energy: thrust_of(&study, &motion) * leg.way,
+            energy: work(&study, &motion, leg, rim_speed),
             within,
         }))
     }
