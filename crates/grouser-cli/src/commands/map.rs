@@ -1,6 +1,7 @@
 //! `grouser map`: where a rover can go on a map of heights.
 
 mod folder;
+mod gazebo;
 mod numbers;
 mod page;
 
@@ -101,6 +102,9 @@ pub(crate) fn run(args: &MapArgs) -> Result<(), Failure> {
     for (band, of) in bands.iter().zip(&of) {
         let text = style(Look::of(band.name), of, &label(band));
         output.add(format!("{}.qml", band.name), text);
+    }
+    if let Some(texture) = gazebo::texture(args, &inputs, ground)? {
+        gazebo::add(&mut output, &inputs, texture);
     }
     output.add_document("scenario.toml", &inputs.scenario);
     output.finish()?;
