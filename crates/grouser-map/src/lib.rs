@@ -7,6 +7,7 @@
 //! band that was written again is the same to the byte, whatever else was going on.
 
 mod error;
+mod gazebo;
 mod geotiff;
 mod picture;
 mod relief;
@@ -14,6 +15,7 @@ mod style;
 mod summary;
 
 pub use error::MapError;
+pub use gazebo::SlipTexture;
 pub use geotiff::{elevation_model, write_band};
 pub use picture::picture;
 pub use relief::{Track, relief};

@@ -39,6 +39,9 @@ pub(crate) struct MapArgs {
     /// Seed of the samples: the same seed gives the same soils and models.
     #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true)]
     pub(crate) seed: u64,
+    /// Also write gazebo_slip.png and gazebo_slip.sdf: the slip of the soil as written, for Gazebo's LookupWheelSlip.
+    #[arg(long)]
+    pub(crate) gazebo: bool,
     #[command(flatten)]
     pub(crate) rule: RuleArgs,
     #[command(flatten)]

@@ -1,6 +1,7 @@
 //! `grouser map`: where a rover can go on a map of heights.
 
 mod folder;
+mod gazebo;
 mod numbers;
 mod page;
 
@@ -102,6 +103,9 @@ pub(crate) fn run(args: &MapArgs) -> Result<(), Failure> {
         let text = style(Look::of(band.name), of, &label(band));
         output.add(format!("{}.qml", band.name), text);
         output.add(format!("{}.svg", band.name), picture(ground, &map, band, of, &label(band)));
+    }
+    if let Some(texture) = gazebo::texture(args, &inputs, ground)? {
+        gazebo::add(&mut output, &inputs, texture);
     }
     output.add_document("scenario.toml", &inputs.scenario);
     output.finish()?;

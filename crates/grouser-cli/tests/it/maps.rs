@@ -244,3 +244,22 @@ fn maps_that_cannot_be_made_say_why() {
         assert!(!place.file("m").exists(), "{line}");
     }
 }
+
+#[test]
+fn a_map_for_gazebo_has_the_slip_of_its_slopes() {
+    let place = Place::new();
+    // Level in the west, 12° uphill in the east.
+    place.write("ramp.xyz", heights(|x, _| 0.2126 * (x - 6.0).max(0.0)));
+    place.json("map ramp.xyz --samples 2 --gazebo --out out");
+    let picture = std::fs::read(place.file("out/gazebo_slip.png")).expect("a picture");
+    assert!(picture.starts_with(b"\x89PNG\r\n\x1a\n"));
+    let systems = place.read("out/gazebo_slip.sdf");
+    for words in [
+        "gz::sim::systems::LookupWheelSlip",
+        "<slip_map>gazebo_slip.png</slip_map>",
+        "<wheel_link_name>",
+        "<slip_compliance_longitudinal_delta>",
+    ] {
+        assert!(systems.contains(words), "{words}: {systems}");
+    }
+}

@@ -37,7 +37,7 @@ mod study;
 
 use nalgebra::Vector3;
 
-use self::path::{Held, JUST_TURNED, Path, Place, Point};
+use self::path::{Held, JUST_TURNED, Path, Place, Point, Reach};
 pub use self::study::{HeadingStudy, STRAIGHT_UP, Steering};
 use super::validity::RoverOnSlope;
 use crate::contact::validity::Finding;
@@ -275,7 +275,23 @@ impl HeadingStudy {
     /// As [`curve`](Self::curve), and for a course out of its range.
     pub fn curve_on(&self, course: f64) -> Result<HeadingCurve, ParameterError> {
         check_course(course)?;
-        self.follow(self.held(course), STEEPEST_SLOPE)
+        self.follow(self.held(course), Reach::END)
+    }
+
+    /// The first part of the same curve: to its first point that slips more than is asked for. The points are those of
+    /// the whole curve, and its limit is the slope of the last of them.
+    ///
+    /// * `most_slip`: slip ratio [-]
+    ///
+    /// # Errors
+    /// As [`curve_on`](Self::curve_on).
+    pub(super) fn curve_up_to(
+        &self,
+        course: f64,
+        most_slip: f64,
+    ) -> Result<HeadingCurve, ParameterError> {
+        check_course(course)?;
+        self.follow(self.held(course), Reach { slip_ratio: most_slip, ..Reach::END })
     }
 
     /// Finds the heading offset that holds the contour on one slope [rad]. The curve is followed as
@@ -286,7 +302,7 @@ impl HeadingStudy {
     /// [`ParameterError`] if the soil or gravity is invalid; [`NoHeading`] within if no heading
     /// holds the contour there.
     pub fn on_slope(&self, slope: f64) -> Result<Result<HeadingOffset, NoHeading>, ParameterError> {
-        Ok(self.follow(self.held(0.0), slope)?.at(slope))
+        Ok(self.follow(self.held(0.0), Reach { slope, ..Reach::END })?.at(slope))
     }
 
     /// Follows the curve of drift: the nose stays along the contour, γ = 0, and the course turns
@@ -304,7 +320,7 @@ impl HeadingStudy {
     /// As [`curve_on`](Self::curve_on).
     pub fn drift_curve_along(&self, yaw: f64) -> Result<HeadingCurve, ParameterError> {
         check_course(yaw)?;
-        self.follow(Held::Yaw(yaw), STEEPEST_SLOPE)
+        self.follow(Held::Yaw(yaw), Reach::END)
     }
 
     /// What is held on a course [rad].
@@ -315,9 +331,8 @@ impl HeadingStudy {
         }
     }
 
-    /// The curve of a held course or yaw, as far as its first point that is not below a slope, or to its
-    /// end.
-    fn follow(&self, held: Held, slope: f64) -> Result<HeadingCurve, ParameterError> {
+    /// The curve of a held course or yaw, as far as it is to reach, or to its end.
+    fn follow(&self, held: Held, reach: Reach) -> Result<HeadingCurve, ParameterError> {
         Site::plane(self.soil, 0.0, self.gravity).check()?;
         self.stability.check()?;
         if self.sharing == LoadSharing::Complete && self.own_moments == OwnMoments::Neglected {
@@ -342,7 +357,8 @@ impl HeadingStudy {
             Ok(start) => {
                 held_below = start.place.z;
                 points.push(start);
-                path.follow(&mut points, slope.min(self.ground_limit()))
+                let slope = reach.slope.min(self.ground_limit());
+                path.follow(&mut points, Reach { slope, ..reach })
             }
         };
         let settled_wheels = path.settled_wheels();

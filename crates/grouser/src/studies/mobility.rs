@@ -16,13 +16,17 @@
 //! samples whose steepest is below it. No curve in between is stored: the steepest slopes, sorted, say it exactly.
 
 mod choice;
+mod compliance;
 mod detail;
 mod ground;
 mod map;
+#[cfg(test)]
+mod reliability;
 mod table;
 mod thresholds;
 
 pub use self::choice::CourseChoice;
+pub use self::compliance::SlipCompliances;
 pub(super) use self::detail::Detail;
 pub use self::ground::Ground;
 pub use self::map::{CellMotion, MobilityMap};

@@ -89,6 +89,20 @@ pub(super) struct Path<'a> {
     last: RefCell<Option<(Place, Vec<WheelReaction>)>>,
 }
 
+/// How far a curve is followed: to its first point that is beyond one of these, or to its end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Reach {
+    /// Slope [rad].
+    pub(super) slope: f64,
+    /// Slip ratio in drive [-].
+    pub(super) slip_ratio: f64,
+}
+
+impl Reach {
+    /// To its end.
+    pub(super) const END: Self = Self { slope: STEEPEST_SLOPE, slip_ratio: f64::INFINITY };
+}
+
 /// Longest step along the curve [-, rad].
 const LONGEST_STEP: f64 = 0.05;
 /// First step along the curve [-, rad].
@@ -257,14 +271,17 @@ impl<'a> Path<'a> {
         Err("the start of the curve was not found".into())
     }
 
-    /// Follows the curve from its one point until it folds or ends, or until a point is not below
-    /// a slope; says what ended it.
-    pub(super) fn follow(&self, points: &mut Vec<Point>, slope: f64) -> String {
+    /// Follows the curve from its one point until it folds or ends, or until a point is not below a slope, or slips
+    /// more than it need; says what ended it.
+    pub(super) fn follow(&self, points: &mut Vec<Point>, reach: Reach) -> String {
         let mut step = FIRST_STEP;
         loop {
             let here = points[points.len() - 1].clone();
-            if here.place.z >= slope {
+            if here.place.z >= reach.slope {
                 return "the end of the range of slopes".into();
+            }
+            if here.place.x > reach.slip_ratio && self.climbs_at_last(points) {
+                return "the end of the range of slip ratios".into();
             }
             let next = loop {
                 let Some(way) = self.predict(points, step) else {
@@ -424,6 +441,13 @@ impl<'a> Path<'a> {
         guess.y = self.most_steering;
         points.extend(self.correct(&guess, &Vector3::y(), &here.gradients));
         "where the wheels cannot be steered any further".into()
+    }
+
+    /// Whether the curve still rises at its last point: where it does not, its end takes that point off.
+    fn climbs_at_last(&self, points: &[Point]) -> bool {
+        let [.., before, last] = points else { return true };
+        let way = last.place - before.place;
+        self.tangent(last, &way).is_some_and(|tangent| tangent.z >= 0.0)
     }
 
     /// Ends a curve at its highest point, which lies around the last of `points`.

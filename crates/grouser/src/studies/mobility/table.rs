@@ -281,6 +281,13 @@ impl MobilityTable {
         Some(self.between_nodes(v * (self.nodes.len() - 1) as f64))
     }
 
+    /// The steepest slope at a node on which the rover drifts, instead of sliding [rad].
+    pub(super) fn steepest_with_drift(&self) -> Option<f64> {
+        let node = self.nodes.iter().rposition(|node| node.drift.is_finite())?;
+        let v = node as f64 / (self.nodes.len() - 1) as f64;
+        Some(self.limit? * v * (2.0 - v))
+    }
+
     /// The steepest slope of each sample that is no no-go [rad], in the order of the samples; below 0 where it cannot
     /// move at all.
     #[must_use]

@@ -43,7 +43,8 @@ impl Thresholds {
         let nominal = [Sample { soil: heading.soil, theory: heading.theory }];
         let samples = if samples.is_empty() { &nominal } else { samples };
         let one = |sample: &Sample| {
-            let curve = heading.of_sample(sample).curve_on(course)?;
+            let most = rule.go_slip_ratio.max(rule.no_go_slip_ratio);
+            let curve = heading.of_sample(sample).curve_up_to(course, most)?;
             Ok([rule.go_slip_ratio, rule.no_go_slip_ratio]
                 .map(|most| steepest(&curve, most, detail)))
         };

@@ -307,9 +307,9 @@ impl Risk {
         let mut times = Vec::new();
         for course in courses().step_by(2) {
             let one = |sample: &Sample| -> Result<Vec<f64>, ParameterError> {
-                let curve = mobility.heading.of_sample(sample).curve_on(course)?;
-                let time = |slip: f64, crab: f64| cos(crab) / (1.0 - slip) / mobility.rim_speed;
                 let most = mobility.rule.no_go_slip_ratio;
+                let curve = mobility.heading.of_sample(sample).curve_up_to(course, most)?;
+                let time = |slip: f64, crab: f64| cos(crab) / (1.0 - slip) / mobility.rim_speed;
                 let times = times_of(&curve, most, time);
                 Ok((0..SLOPES).map(|slope| times(slope).unwrap_or(stuck)).collect())
             };
