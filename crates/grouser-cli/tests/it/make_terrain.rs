@@ -61,10 +61,14 @@ fn what_cannot_be_made_is_refused_with_the_limit() {
         ("--cell-size-m 1e-300", "8 to 4096"),
         ("--size-m 30000 --cell-size-m 20", "20000 at most"),
         ("--crater-share 2", "share of craters [-] is 2, it must be 0 to 1"),
-        ("--largest-crater-m 2", "diameter of the largest crater [m] is 2, it must be four cells or more"),
+        (
+            "--largest-crater-m 2",
+            "diameter of the largest crater [m] is 2, it must be four cells or more",
+        ),
         ("--largest-crater-m inf", "300 at most"),
     ] {
-        let refused = check_is_refusal(&place.line(&format!("terrain moon {flags} --out site.tif")), 2);
+        let refused =
+            check_is_refusal(&place.line(&format!("terrain moon {flags} --out site.tif")), 2);
         assert!(refused.contains(words), "{flags}: {refused}");
     }
     let refused = check_is_refusal(&place.line("terrain moon --out site.png"), 2);
