@@ -169,12 +169,16 @@ impl Window {
             // To the side where there is room.
             let (x, anchor) =
                 if x > 0.5 * self.width { (x - 9.0, "end") } else { (x + 9.0, "start") };
-            let _ = writeln!(
-                text,
-                "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\" font-weight=\"bold\" stroke=\"#fff\" \
-                 stroke-width=\"3\" paint-order=\"stroke\">{name}</text>",
-                y + 4.5
-            );
+            // White below, so that it is read on dark ground.
+            for paint in
+                ["stroke=\"#fff\" stroke-width=\"3.5\" stroke-linejoin=\"round\"", "fill=\"#000\""]
+            {
+                let _ = writeln!(
+                    text,
+                    "<text x=\"{x:.1}\" y=\"{:.1}\" text-anchor=\"{anchor}\" font-weight=\"bold\" {paint}>{name}</text>",
+                    y + 4.5
+                );
+            }
         }
     }
 

@@ -6,7 +6,7 @@
 //! v(Δ) = v₀ (Δ/Δ₀)^H          root mean square; H: Hurst exponent          [Rosenburg2011]
 //! ```
 //!
-//! It is a sum of plane waves in directions by chance, in equal steps of the logarithm of their lengths λ, with
+//! It is a sum of plane waves in all directions, in equal steps of the logarithm of their lengths λ, with
 //! amplitudes ∝ λ^H: a wave of amplitude *a* and wave number *k* adds a² (1 − J₀(k Δ)) to v².
 
 use std::f64::consts::{PI, TAU};
@@ -31,8 +31,10 @@ pub const BASELINE: f64 = 17.0;
 /// The longest wave [m]. DIFFERENCE: [Rosenburg2011] finds smaller exponents for lengths above about 1 km; of waves that
 /// long a site shows a tilt.
 const LONGEST: f64 = 8192.0;
+/// The golden section [-].
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Waves for each halving of the length.
-const PER_OCTAVE: usize = 16;
+const PER_OCTAVE: usize = 24;
 
 /// One wave.
 #[derive(Clone, Copy, Debug)]
@@ -53,8 +55,12 @@ pub(super) fn add(heights: &mut [f64], grid: &ElevationGrid, rough: Roughness, m
     }
     let scale = scale(rough);
     let shortest = 2.0 * grid.spacing.amin();
-    for length in lengths().take_while(|length| *length >= shortest) {
-        let (along, phase) = (TAU * random.uniform(), TAU * random.uniform());
+    // Directions of neighbouring lengths are apart by the golden section of a turn, so that every few of them look alike
+    // from all sides; a wave's phase is by chance.
+    let start = random.uniform();
+    for (place, length) in lengths().take_while(|length| *length >= shortest).enumerate() {
+        let turns = start + GOLDEN * place as f64 + random.uniform() / PER_OCTAVE as f64;
+        let (along, phase) = (TAU * (turns - turns.floor()), TAU * random.uniform());
         let (sin, cos) = wide::sin_cos(along);
         let number = TAU / length * Vec2::new(cos, sin);
         let amplitude = scale * pow(length, rough.hurst);
