@@ -34,6 +34,7 @@ type Replayed<'py> = (
 /// * `slope_is_known`: whether the scenario's slope is that of the drive
 /// * `samples`: of soil and model; 0 to take both as known
 #[pyfunction]
+#[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
 #[pyo3(signature = (scenario, path, text, slope_is_known, samples, seed))]
 pub(crate) fn replay<'py>(
     py: Python<'py>,

@@ -20,9 +20,9 @@ const LEGS: [Leg; 6] = [
 ];
 /// The same on slopes without level ground, which have a direction.
 const SLOPES: [Leg; 5] = [LEGS[1], LEGS[2], LEGS[3], LEGS[4], LEGS[5]];
-/// Steeper and longer, 12 m: a yaw of the sensor turns a pull that is no more than the slope's.
+/// Steeper and longer, 12 m there and back: a yaw of the sensor turns a pull that is no more than the slope's.
 const STEEP: [Leg; 4] =
-    [(14.0, 8.0, 3.0), (12.0, 40.0, 3.0), (14.0, -20.0, 3.0), (13.0, 20.0, 3.0)];
+    [(14.0, 8.0, 3.0), (14.0, 172.0, 3.0), (12.0, 40.0, 3.0), (12.0, 140.0, 3.0)];
 
 const MODEL: &str = "scenario.model=ishigami";
 
@@ -180,7 +180,7 @@ fn a_run_replays_itself() {
     let rms = |channel: Channel| {
         found.channels.iter().find(|it| it.channel == channel).map(|it| it.rms).unwrap()
     };
-    assert!((found.free_run.slope - deg(8.0)).abs() < 1e-9);
+    assert!((found.free_run.slope - deg(8.0)).abs() < deg(0.05), "{}", found.free_run.slope);
     // Of 2.2 m of way and a yaw that turns by some degrees.
     assert!(rms(Channel::X) < 0.01 && rms(Channel::Y) < 0.01, "{:?}", found.channels);
     assert!(rms(Channel::Yaw) < deg(0.3), "{:?}", found.channels);
@@ -198,7 +198,7 @@ fn bands_hold_a_soil_of_the_prior() {
     let sample = inputs.sample(77, 3).unwrap();
     let settings = [MODEL, "scenario.soil=toyoura-uncertain"];
     let records = driven(&settings, &sample, &LEGS[1..3], SensorModels::PERFECT, 1);
-    let samples = inputs.samples(5, 24).unwrap();
+    let samples = inputs.samples(5, 10).unwrap();
     let banded = || {
         let mut replayer = Replayer::new(&prior.value, None);
         records.clone().into_iter().for_each(|it| replayer.update(it));

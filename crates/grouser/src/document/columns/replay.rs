@@ -314,7 +314,7 @@ fn estimate_of(finding: &Finding) -> String {
     let label = quantity.label();
     if quantity.unit == ONE {
         let [estimate, deviation] = [finding.estimate, finding.deviation].map(|it| 100.0 * it);
-        return format!("{label} {estimate:+.0} ± {deviation:.0} %");
+        return format!("{label} {estimate:+.1} ± {deviation:.1} %");
     }
     let [estimate, deviation] =
         [finding.estimate, finding.deviation].map(|it| quantity.unit.from_si(it));

@@ -203,9 +203,10 @@ impl Differences {
             // Half of its usual size, to both sides of which a prediction bends little.
             let step = 0.5 * parameter.usual();
             let faults = base.and(parameter, step);
-            let there = match parameter.moves_rover() {
-                true => situation.under(&faults, motion)?,
-                false => truth.clone(),
+            let there = if parameter.moves_rover() {
+                situation.under(&faults, motion)?
+            } else {
+                truth.clone()
             };
             let change = (seen.numbers(&faults.read(there)) - &numbers) * 2.0;
             sensitivities.set_column(place, &change);
