@@ -111,7 +111,7 @@ fn stricter_probabilities_have_shorter_intervals() {
 fn no_such_heading_is_a_value() {
     let learner = learner(&scenario(&PRIOR));
     let mut steepest = f64::INFINITY;
-    for (slip_ratio, exists) in [(0.6, true), (0.3, true), (0.15, true), (0.02, false)] {
+    for (slip_ratio, exists) in [(0.6, true), (0.3, true), (0.15, true), (0.0, false)] {
         let mut settings = without_tests();
         settings.limits.slip_ratio = slip_ratio;
         // No ways: what is asked for here is the heading alone.
@@ -184,17 +184,19 @@ fn settings_of_tests() -> AdviceSettings {
     settings
 }
 
-/// There is no learner, and so no advice on test drives, of a soil that is known; and on slopes so flat that every soil holds
-/// them by nearly the same heading no drive is worth its work.
+/// There is no learner, and so no advice on test drives, of a soil that is known; and a leg that was driven for as long as it
+/// tells anything is not advised again.
 #[test]
-fn nothing_is_to_be_learnt_of_a_soil_that_is_known() {
+fn nothing_is_to_be_learnt_of_what_is_known() {
     let exact = scenario(&["scenario.soil=toyoura", "soil.priors=none", "scenario.model=ishigami"]);
     assert!(Learner::new(&exact, false, LearnSettings::USUAL).is_err());
     let mut settings = settings_of_tests();
-    settings.tests.legs.retain(|leg| leg.slope == 0.0);
+    settings.tests = TestSettings::on_slopes(&[0.0], 100.0);
     settings.tests.cost = TestCost::Way;
-    let found = advice(&learner(&scenario(&PRIOR)), &[0.01], &settings);
-    assert!(found.tests.chosen.is_empty(), "{:?}", found.tests);
+    let found = advice(&learner(&scenario(&PRIOR)), &[8.0], &settings);
+    assert_eq!(found.tests.chosen.len(), 1, "{:?}", found.tests);
+    let drive = &found.tests.chosen[0];
+    assert!((drive.per_cost - drive.information / 100.0).abs() < 1e-12);
 }
 
 /// The learner after a leg of a metre on a hidden soil.
@@ -328,13 +330,13 @@ fn check_looks(slope_deg: f64, stuck_probability: f64, ways: usize) {
 
 #[test]
 fn few_get_stuck_with_the_looks_that_are_advised() {
-    check_looks(11.0, 0.03, 100);
+    check_looks(10.0, 0.03, 100);
 }
 
 #[test]
 #[ignore = "minutes"]
 fn few_of_two_thousand_get_stuck_with_the_looks_that_are_advised() {
-    for (slope, probability) in [(8.0, 0.01), (11.0, 0.03), (13.0, 0.1)] {
+    for (slope, probability) in [(8.0, 0.02), (10.0, 0.03), (12.0, 0.1)] {
         check_looks(slope, probability, 2000);
     }
 }
@@ -396,7 +398,7 @@ fn mission(
 fn few_missions_get_stuck_with_the_looks_that_are_advised() {
     let prior = scenario(&PRIOR);
     let learner = learner(&prior);
-    let (slope, probability, ways) = (11.0, 0.03, 300_usize);
+    let (slope, probability, ways) = (10.0, 0.03, 300_usize);
     let (yaw, check) = looks(&learner, slope, probability);
     let stuck = (0..ways)
         .into_par_iter()
