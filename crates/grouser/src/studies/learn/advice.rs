@@ -6,16 +6,18 @@
 //! was asked for, unless odometry would then not be ready for each look at the slip.
 
 mod course;
+mod instruments;
 mod slip_check;
 mod soil_ahead;
 mod test_drive;
 
 pub use self::course::{AdvisedHeading, HeadingAdvice};
+pub use self::instruments::Instruments;
 pub use self::slip_check::{Check, CheckAdvice, CheckSettings, WAY_AHEAD};
 pub use self::soil_ahead::SoilAhead;
 use self::soil_ahead::SoilWay;
 use self::test_drive::Planner;
-pub use self::test_drive::{Instruments, TestCost, TestDrive, TestDrives, TestLeg, TestSettings};
+pub use self::test_drive::{TestCost, TestDrive, TestDrives, TestLeg, TestSettings};
 use super::{Learner, LearntSample};
 use crate::error::ParameterError;
 use crate::studies::card::Rule;

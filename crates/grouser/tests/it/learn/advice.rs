@@ -111,7 +111,7 @@ fn stricter_probabilities_have_shorter_intervals() {
 fn no_such_heading_is_a_value() {
     let learner = learner(&scenario(&PRIOR));
     let mut steepest = f64::INFINITY;
-    for (slip_ratio, exists) in [(0.6, true), (0.3, true), (0.15, true), (0.02, false)] {
+    for (slip_ratio, exists) in [(0.6, true), (0.3, true), (0.15, true), (0.0, false)] {
         let mut settings = without_tests();
         settings.limits.slip_ratio = slip_ratio;
         // No ways: what is asked for here is the heading alone.
@@ -184,22 +184,25 @@ fn settings_of_tests() -> AdviceSettings {
     settings
 }
 
-/// There is no learner, and so no advice on test drives, of a soil that is known; and on slopes so flat that every soil holds
-/// them by nearly the same heading no drive is worth its work.
+/// There is no learner, and so no advice on test drives, of a soil that is known; and a leg that was driven for as long as it
+/// tells anything is not advised again.
 #[test]
-fn nothing_is_to_be_learnt_of_a_soil_that_is_known() {
+fn nothing_is_to_be_learnt_of_what_is_known() {
     let exact = scenario(&["scenario.soil=toyoura", "soil.priors=none", "scenario.model=ishigami"]);
     assert!(Learner::new(&exact, false, LearnSettings::USUAL).is_err());
     let mut settings = settings_of_tests();
-    settings.tests.legs.retain(|leg| leg.slope == 0.0);
+    settings.tests = TestSettings::on_slopes(&[0.0], 100.0);
     settings.tests.cost = TestCost::Way;
-    let found = advice(&learner(&scenario(&PRIOR)), &[0.01], &settings);
-    assert!(found.tests.chosen.is_empty(), "{:?}", found.tests);
+    let found = advice(&learner(&scenario(&PRIOR)), &[8.0], &settings);
+    assert_eq!(found.tests.chosen.len(), 1, "{:?}", found.tests);
+    let drive = &found.tests.chosen[0];
+    assert!((drive.per_cost - drive.information / 100.0).abs() < 1e-12);
 }
 
 /// The learner after a leg of a metre on a hidden soil.
-fn driven(prior: &LoadedScenario, drive: &TestDrive, truth: usize) -> Option<Learner> {
-    let truth = &truths(prior, 91, truth as u32 + 1)[truth];
+fn driven(prior: &LoadedScenario, drive: &TestDrive, truth: u32) -> Option<Learner> {
+    let truth = truths(prior, 91, truth + 1).pop().expect("one at least");
+    let truth = &truth;
     let mut twin = Drive::new(prior, truth);
     twin.leg((drive.leg.slope.to_degrees(), drive.leg.yaw.to_degrees(), drive.leg.way))?;
     let mut learner = learner(prior);
@@ -215,7 +218,7 @@ fn truth_seed(truth: &grouser::studies::ensemble::samples::Sample) -> u64 {
 }
 
 /// Mean of what is left of the width of the heading's band after a leg on hidden soils, over that before.
-fn narrowed(prior: &LoadedScenario, drive: &TestDrive, count: usize) -> f64 {
+fn narrowed(prior: &LoadedScenario, drive: &TestDrive, count: u32) -> f64 {
     let width = |learner: &Learner| {
         let samples = learner.samples(5, 40).unwrap();
         let found = learner.predict(&samples, &[deg(8.0)], &|| true).unwrap().unwrap();
@@ -231,7 +234,7 @@ fn narrowed(prior: &LoadedScenario, drive: &TestDrive, count: usize) -> f64 {
 }
 
 /// What legs are expected to leave of the heading's band is in the order of what simulated drives leave of it.
-fn check_order(count: usize, legs: &[(f64, f64)]) {
+fn check_order(count: u32, legs: &[(f64, f64)]) {
     let prior = study_of_information();
     let found = advice(&learner(&prior), &[8.0], &settings_of_tests());
     let pairs: Vec<[f64; 2]> = legs
@@ -271,6 +274,11 @@ fn looks(learner: &Learner, slope_deg: f64, stuck_probability: f64) -> (f64, Che
     (slope.heading.advised.expect("a heading").yaw, check.expect("looks that are safe enough"))
 }
 
+/// The whole number next to a place.
+fn place_at(place: f64) -> usize {
+    (0..1000).position(|whole| f64::from(whole) >= place - 0.5).expect("it is on the way")
+}
+
 /// Whether a rover gets stuck on soils that no advice has seen, looked at ten times as often as the advice does.
 fn gets_stuck(
     study: &HeadingStudy,
@@ -280,13 +288,13 @@ fn gets_stuck(
     way: u64,
 ) -> bool {
     const STEP: f64 = 0.1;
-    let places = (WAY_AHEAD / STEP) as usize;
-    let each = (check.every / STEP).round() as usize;
+    let places = place_at(WAY_AHEAD / STEP);
+    let each = place_at(check.every / STEP);
     // Over the ground it goes less far than its rims: soils are looked up by the way over the ground.
     let soils = learner.soils_ahead(SoilAhead::USUAL, (4711, way), &vec![STEP; places]).unwrap();
     let (mut ground, mut since) = (0.0, 0.0);
     for place in 0..places {
-        let soil = &soils[((ground / STEP) as usize).min(places)];
+        let soil = &soils[place_at(ground / STEP).min(places)];
         let motion = study.of_sample(soil).steady_motion(slope, yaw, RIM_SPEED).ok();
         let slip = motion.map_or(1.0, |it| it.slip_ratio());
         if slip > 0.9 {
@@ -305,16 +313,16 @@ fn gets_stuck(
 }
 
 /// As many get stuck as is asked for at most, within the error of so few.
-fn check_looks(slope_deg: f64, stuck_probability: f64, ways: u64) {
+fn check_looks(slope_deg: f64, stuck_probability: f64, ways: usize) {
     let prior = scenario(&PRIOR);
     let learner = learner(&prior);
     let (yaw, check) = looks(&learner, slope_deg, stuck_probability);
     let study = HeadingStudy::of(&prior.value);
     let stuck = (0..ways)
         .into_par_iter()
-        .filter(|way| gets_stuck(&study, &learner, (deg(slope_deg), yaw), check, *way))
+        .filter(|way| gets_stuck(&study, &learner, (deg(slope_deg), yaw), check, *way as u64))
         .count();
-    let found = Probability { successes: stuck, trials: ways as usize };
+    let found = Probability { successes: stuck, trials: ways };
     println!("{slope_deg}°: {check:?}; {stuck} of {ways} stuck");
     assert!(found.interval().0 <= stuck_probability, "{check:?} {found:?}");
     assert!(check.stuck.interval().1 <= stuck_probability);
@@ -322,13 +330,13 @@ fn check_looks(slope_deg: f64, stuck_probability: f64, ways: u64) {
 
 #[test]
 fn few_get_stuck_with_the_looks_that_are_advised() {
-    check_looks(11.0, 0.03, 100);
+    check_looks(10.0, 0.03, 100);
 }
 
 #[test]
 #[ignore = "minutes"]
 fn few_of_two_thousand_get_stuck_with_the_looks_that_are_advised() {
-    for (slope, probability) in [(8.0, 0.01), (11.0, 0.03), (13.0, 0.1)] {
+    for (slope, probability) in [(8.0, 0.02), (10.0, 0.03), (12.0, 0.1)] {
         check_looks(slope, probability, 2000);
     }
 }
@@ -343,7 +351,7 @@ fn mission(
 ) -> Mission {
     const STRIP: f64 = 0.1;
     let (slope, yaw) = course;
-    let count = (WAY_AHEAD / STRIP) as usize + 10;
+    let count = place_at(WAY_AHEAD / STRIP) + 10;
     let soils = learner.soils_ahead(SoilAhead::USUAL, (815, way), &vec![STRIP; count - 1]).unwrap();
     let strip = |place: usize| {
         let [from, to] = [place, place + 1].map(|it| STRIP * it as f64);
@@ -390,17 +398,17 @@ fn mission(
 fn few_missions_get_stuck_with_the_looks_that_are_advised() {
     let prior = scenario(&PRIOR);
     let learner = learner(&prior);
-    let (slope, probability, ways) = (11.0, 0.03, 300);
+    let (slope, probability, ways) = (10.0, 0.03, 300_usize);
     let (yaw, check) = looks(&learner, slope, probability);
     let stuck = (0..ways)
         .into_par_iter()
         .filter(|way| {
-            let plan = mission(&prior, &learner, (deg(slope), yaw), check, *way);
+            let plan = mission(&prior, &learner, (deg(slope), yaw), check, *way as u64);
             let report = MissionRun::new(&plan).expect("a mission").to_end().expect("it drives");
             matches!(report.legs[0].outcome, LegOutcome::Ended(_))
         })
         .count();
-    let found = Probability { successes: stuck, trials: ways as usize };
+    let found = Probability { successes: stuck, trials: ways };
     println!("{slope}°: {check:?}; {stuck} of {ways} missions stuck");
     assert!(found.interval().0 <= probability, "{check:?} {found:?}");
 }

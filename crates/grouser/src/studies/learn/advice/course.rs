@@ -77,7 +77,7 @@ impl AdvisedHeading {
         let motions = outputs_of_samples(samples, go_on, |sample| {
             moving(&study.of_sample(sample), (slope, yaw), limits.rim_speed, None)
         })?;
-        let slips = || motions.iter().map(slip_of);
+        let slips = || motions.iter().map(|it| slip_of(it.as_ref()));
         let kept = slips().filter(|slip| *slip <= limits.slip_ratio).count();
         let drift = |it: &Option<SteadyMotion>| {
             it.as_ref().map_or(STRAIGHT_DOWN, |motion| -sin(motion.course()))
@@ -125,8 +125,8 @@ pub(super) fn moving(
 }
 
 /// Mean slip ratio of the wheels [-].
-pub(super) fn slip_of(motion: &Option<SteadyMotion>) -> f64 {
-    motion.as_ref().map_or(STUCK, SteadyMotion::slip_ratio)
+pub(super) fn slip_of(motion: Option<&SteadyMotion>) -> f64 {
+    motion.map_or(STUCK, SteadyMotion::slip_ratio)
 }
 
 /// The steepest heading at which the slip is within its limit in one soil [rad]: it grows as the nose turns uphill. `None`
@@ -155,7 +155,9 @@ fn steepest_within(study: &HeadingStudy, slope: f64, limits: &Limits) -> Option<
 
 /// The highest value that a share of all reaches; `None` where that share has none.
 fn share_quantile(values: Vec<Option<f64>>, share: f64) -> Option<f64> {
-    let enough = (share * values.len() as f64 - 1e-9).ceil().max(1.0) as usize;
+    // 0.8 of 5 is 4, whatever the rounding.
+    let enough =
+        (1..=values.len()).find(|count| *count as f64 >= share * values.len() as f64 - 1e-9)?;
     let mut known: Vec<f64> = values.into_iter().flatten().collect();
     known.sort_by(|one, other| other.total_cmp(one));
     known.get(enough - 1).copied()

@@ -208,7 +208,7 @@ impl SlipWay {
         let mut motion = None;
         let mut slip = |sample: &Sample| {
             motion = moving(&study.of_sample(sample), course, rim_speed, motion.as_ref());
-            slip_of(&motion)
+            slip_of(motion.as_ref())
         };
         let mut slips = vec![slip(soil.sample())];
         while let Some(first) = slips.last().copied().filter(|it| *it <= MOST_SLIP)

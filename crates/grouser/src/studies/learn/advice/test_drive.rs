@@ -24,16 +24,17 @@ use super::super::filter::Filter;
 use super::super::gaussian::{Gaussian, Line};
 use super::super::motion::SeenMotion;
 use super::super::settings::LearnSettings;
-use super::super::stretch::{self, Reading, Stretch};
+use super::super::stretch;
 use super::Limits;
 use super::course::{moving, slip_of};
+use super::instruments::Instruments;
 use crate::elementary::wide::{ln, sin};
 use crate::simulation::SteadyMotion;
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
 use crate::studies::ensemble::{Probability, outputs};
 use crate::studies::heading::{HeadingStudy, STUCK};
-use crate::units::Vec2;
-use crate::vehicle::{Mount, Rover, WheelReaction};
+use crate::vehicle::{Mount, WheelReaction};
+use grouser_io::statistics::random::place_below;
 
 /// A leg of a test drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,64 +69,6 @@ impl TestCost {
             Self::Way => "way",
         }
     }
-}
-
-/// What is read on a test drive, and how well it is read on the mean over a stretch of a decimetre.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Instruments {
-    /// Of the velocity along the body, over the rims' speed [-].
-    pub forward: f64,
-    /// Of that to its left [-]; `None` where it is not read.
-    pub leftward: Option<f64>,
-    /// Of the yaw rate times the distance of the farthest wheel [-].
-    pub turning: Option<f64>,
-    /// Of torques, over their size [-].
-    pub torque: Option<f64>,
-    /// Of sinkages [m].
-    pub sinkage: Option<f64>,
-}
-
-impl Instruments {
-    /// Odometry that scatters by 5 % of the rims' speed and torques by a tenth, on the mean of seven readings; no sinkage.
-    #[must_use]
-    pub fn usual() -> Self {
-        let readings = (stretch::LEAST_READINGS as f64).sqrt();
-        let odometry = stretch::USUAL_SCATTER / readings;
-        let torque = Some(stretch::USUAL_TORQUE / readings);
-        Self {
-            forward: odometry,
-            leftward: Some(odometry),
-            turning: Some(odometry),
-            torque,
-            sinkage: None,
-        }
-    }
-
-    /// Those of a stretch; the usual ones where it has no way along the body.
-    #[must_use]
-    pub fn of(stretch: &Stretch, rover: &Rover) -> Self {
-        let fastest = stretch.rim_speeds.iter().map(|it| it.abs()).fold(0.0, f64::max);
-        let [forward, leftward] = stretch.velocity;
-        let Some(forward) = forward.filter(|_| fastest > 0.0) else { return Self::usual() };
-        let share = |it: Reading| it.deviation / fastest;
-        let torques = stretch.torques.iter().flatten();
-        let sizes: f64 = torques.clone().map(|it| it.value.abs()).sum();
-        let deviations: f64 = torques.map(|it| it.deviation).sum();
-        let sinkages: Vec<f64> = stretch.sinkages.iter().flatten().map(|it| it.deviation).collect();
-        let mean = |it: &[f64]| it.iter().sum::<f64>() / it.len() as f64;
-        Self {
-            forward: share(forward),
-            leftward: leftward.map(share),
-            turning: stretch.yaw_rate.map(|it| share(it) * reach(rover)),
-            torque: (sizes > 0.0).then(|| deviations / sizes),
-            sinkage: (!sinkages.is_empty()).then(|| mean(&sinkages)),
-        }
-    }
-}
-
-/// Distance of the farthest wheel [m].
-fn reach(rover: &Rover) -> f64 {
-    rover.load_arms().iter().map(Vec2::norm).fold(f64::MIN_POSITIVE, f64::max)
 }
 
 /// Which test drives there may be.
@@ -196,6 +139,8 @@ pub struct TestDrive {
     pub left: Vec<(String, f64)>,
 }
 
+/// Longer legs count as having so many stretches: beyond that nothing is left to tell.
+const MOST_STRETCHES: usize = 1000;
 /// Legs that tell less than this are not worth driving [nat]: a band that narrows by 2 %.
 const LEAST_INFORMATION: f64 = 0.02;
 /// Nobody needs to know a heading better than this [rad], half a degree, nor a slip [-]. Source: ours.
@@ -262,7 +207,8 @@ impl Planner<'_> {
         let Some(target) = self.target(slopes) else { return Some(none) };
         let mut candidates = Vec::new();
         for leg in &self.tests.legs {
-            candidates.extend(self.candidate(leg, samples, go_on)?);
+            let slips = self.slips(leg, samples, go_on)?;
+            candidates.extend(self.candidate(leg, &slips));
         }
         let mut belief = self.filter.belief.clone();
         let mut drives = TestDrives { slope: target.least_certain(&belief).map(|it| it.1), ..none };
@@ -399,78 +345,40 @@ impl Planner<'_> {
         Some(Target { slopes, jacobian, values: self.values() })
     }
 
-    /// A leg, if the rover moves on it with the soil that is believed most.
-    fn candidate(
+    /// Mean slip ratio of the wheels on a leg, in each of the samples [-].
+    fn slips(
         &self,
         leg: &TestLeg,
         samples: &[Sample],
         go_on: &(dyn Fn() -> bool + Sync),
-    ) -> Option<Option<Candidate>> {
+    ) -> Option<Vec<f64>> {
         let (course, rim_speed) = ((leg.slope, leg.yaw), self.limits.rim_speed);
-        let most = self.filter.unknowns.sample(self.filter.belief.mean.as_slice());
-        let study = most.map(|sample| self.study.of_sample(&sample));
-        let motion = study.as_ref().and_then(|study| moving(study, course, rim_speed, None));
-        let Some((study, motion)) = study.zip(motion) else { return Some(None) };
-        let slips = outputs_of_samples(samples, go_on, |sample| {
-            slip_of(&moving(&self.study.of_sample(sample), course, rim_speed, None))
-        })?;
+        outputs_of_samples(samples, go_on, |sample| {
+            slip_of(moving(&self.study.of_sample(sample), course, rim_speed, None).as_ref())
+        })
+    }
+
+    /// A leg, if its slip keeps the limit and the rover moves on it with the soil that is believed most.
+    fn candidate(&self, leg: &TestLeg, slips: &[f64]) -> Option<Candidate> {
         let kept = slips.iter().filter(|slip| **slip <= self.limits.slip_ratio).count();
         let within = Probability { successes: kept, trials: slips.len() };
         if within.estimate() < self.limits.probability {
-            return Some(None);
+            return None;
         }
+        let rim_speed = self.limits.rim_speed;
+        let most = self.filter.unknowns.sample(self.filter.belief.mean.as_slice())?;
+        let study = self.study.of_sample(&most);
+        let motion = moving(&study, (leg.slope, leg.yaw), rim_speed, None)?;
         let velocities = [motion.velocity.x, motion.velocity.y, motion.yaw_rate];
         let stretch = self.tests.instruments.stretch(leg, rim_speed, velocities, &study.rover);
-        let planned = SeenMotion::of(&stretch, &study.rover).ok();
-        Some(planned.map(|stretch| Candidate {
+        Some(Candidate {
             leg: *leg,
-            stretch,
-            stretches: (leg.way / stretch::WAY).round().max(1.0) as usize,
+            stretch: SeenMotion::of(&stretch, &study.rover).ok()?,
+            stretches: place_below(leg.way / stretch::WAY + 0.5, MOST_STRETCHES).max(1),
             slip_ratio: motion.slip_ratio(),
             energy: work(&study, &motion, leg, rim_speed),
             within,
-        }))
-    }
-}
-
-impl Instruments {
-    /// A stretch of a leg as they would read it; torques and sinkages of what a soil expects have no values yet.
-    fn stretch(
-        &self,
-        leg: &TestLeg,
-        rim_speed: f64,
-        [forward, leftward, turning]: [f64; 3],
-        rover: &Rover,
-    ) -> Stretch {
-        /// A wheel's torque over its share of the weight times its radius, by which its deviation is taken [-].
-        const TORQUE: f64 = 0.3;
-        const SINKAGE: f64 = 0.01;
-        let wheels = rover.wheel_count();
-        let reading = |value: f64, deviation: f64| Reading { value, deviation };
-        let torque = |share: f64, radius: f64| {
-            let size = TORQUE * rover.mass() * crate::units::EARTH_GRAVITY / wheels as f64 * radius;
-            reading(size, share * size)
-        };
-        let radii = rover.mounts().iter().map(|mount| mount.shearing_radius());
-        let way = stretch::WAY;
-        Stretch {
-            time: [0.0, way / rim_speed],
-            way,
-            attitude: Some([leg.slope, leg.yaw]),
-            told_yaw: Some(leg.yaw),
-            rim_speeds: vec![rim_speed; wheels],
-            rim_scatter: 0.0,
-            steering: vec![None; wheels],
-            velocity: [
-                Some(reading(forward, self.forward * rim_speed)),
-                self.leftward.map(|share| reading(leftward, share * rim_speed)),
-            ],
-            yaw_rate: self.turning.map(|share| reading(turning, share * rim_speed / reach(rover))),
-            torques: radii.map(|radius| self.torque.map(|share| torque(share, radius))).collect(),
-            currents: vec![None; wheels],
-            sinkages: vec![self.sinkage.map(|deviation| reading(SINKAGE, deviation)); wheels],
-            outliers: 0,
-        }
+        })
     }
 }
 
