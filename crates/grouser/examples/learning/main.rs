@@ -3,6 +3,7 @@ mod change;
 mod coverage;
 mod drive;
 mod entrapment;
+mod probe;
 
 use std::time::Instant;
 use coverage::*;
@@ -64,6 +65,10 @@ fn main() {
             let all = alarms::alarms(&trial, models, repeats);
             println!("{name}: {all:?}");
         },
+        "probe" => { use grouser::studies::simulated_telemetry::SensorModels;
+            let models = match arguments[4].as_str() { "perfect" => SensorModels::PERFECT, "clean" => SensorModels { dropouts: 0.0, ..SensorModels::USUAL }, "usual" => SensorModels::USUAL, "att" => SensorModels { attitude: SensorModels::USUAL.attitude, ..SensorModels::PERFECT }, "odo" => SensorModels { odometry: SensorModels::USUAL.odometry, ..SensorModels::PERFECT }, "rot" => SensorModels { rotation: SensorModels::USUAL.rotation, ..SensorModels::PERFECT },"speed" => SensorModels { wheel_speed: SensorModels::USUAL.wheel_speed, ..SensorModels::PERFECT },"torque" => SensorModels { torque: SensorModels::USUAL.torque, ..SensorModels::PERFECT },"drop" => SensorModels { dropouts: 0.05, ..SensorModels::PERFECT },"out" => SensorModels { outliers: 0.05, ..SensorModels::PERFECT }, _ => INSTRUMENTS };
+            let trial = Trial { uneven: arguments.get(6).is_some(), ..trial };
+            probe::probe(&trial, repeats, models, arguments[5] == "own") }
         _ => panic!(),
     }
     println!("{:?}", start.elapsed());

@@ -96,8 +96,8 @@ pub struct Lesson {
     pub expected_slip: f64,
     /// How much it narrowed what is believed of the soil [nat], under the model with the greatest share.
     pub information: f64,
-    /// How far each number of the observation was from what was expected [standard deviations]: the force along the
-    /// body, across it, then torques and sinkages.
+    /// How far each number of the observation was from what was expected [standard deviations]: the velocity along
+    /// the body, that to its left, the yaw rate, then torques and sinkages.
     pub scores: Vec<f64>,
     /// What to warn of.
     pub warnings: Vec<Warning>,

@@ -65,7 +65,7 @@ impl Filter {
         self.belief.forget(&kept);
     }
 
-    /// The line of a motion over the width of a belief: of the soil, and then of the error of the yaw rate.
+    /// The line of a motion over the width of a belief.
     fn line(
         &self,
         study: &HeadingStudy,
@@ -74,8 +74,7 @@ impl Filter {
         over: &Gaussian,
     ) -> Option<Line> {
         let expected = |at: &DVector<f64>, near: Option<&Expected>| {
-            let (of_soil, error) = at.as_slice().split_at(self.unknowns.count());
-            motion.turning(error[0]).expected(study, &self.unknowns.sample(of_soil)?, near)
+            motion.expected(study, &self.unknowns.sample(at.as_slice())?, near)
         };
         let here = expected(&over.mean, None)?;
         let numbers = |at: &DVector<f64>| Some(expected(at, Some(&here))?.numbers);
@@ -108,8 +107,8 @@ impl Filter {
         motion: &SeenMotion,
         noise: &ModelNoise,
     ) -> Result<Surprise, NotUsed> {
-        let (seen, belief) = (motion.seen(study), self.belief.and_one());
-        let first = self.line(study, motion, noise, &belief).ok_or(NotUsed::NotCarried)?;
+        let (seen, belief) = (motion.seen(study), &self.belief);
+        let first = self.line(study, motion, noise, belief).ok_or(NotUsed::NotCarried)?;
         let surprise = belief.surprise(&first, &seen).ok_or(NotUsed::NotCarried)?;
         let robust = |line| robust(line, &surprise);
         let mut after = belief.after(&robust(first), &seen).ok_or(NotUsed::NotCarried)?;
@@ -124,7 +123,7 @@ impl Filter {
             let Some(next) = next else { break };
             after = next;
         }
-        self.belief = after.first(self.unknowns.count());
+        self.belief = after;
         Ok(surprise)
     }
 

@@ -90,21 +90,6 @@ impl Gaussian {
         Self { mean: DVector::zeros(count), covariance: DMatrix::identity(count, count) }
     }
 
-    /// The same with one more unknown, of mean 0 and variance 1.
-    pub(super) fn and_one(&self) -> Self {
-        let count = self.mean.len();
-        let mut both = Self::standard(count + 1);
-        both.mean.rows_mut(0, count).copy_from(&self.mean);
-        both.covariance.view_mut((0, 0), (count, count)).copy_from(&self.covariance);
-        both
-    }
-
-    /// The first of the unknowns.
-    pub(super) fn first(&self, count: usize) -> Self {
-        let covariance = self.covariance.view((0, 0), (count, count)).into();
-        Self { mean: self.mean.rows(0, count).into(), covariance }
-    }
-
     /// What is left of it after unknowns have wandered, each by x → a x + √(1 − a²) z: standard normal stays so.
     ///
     /// * `kept`: *a* of each, 0 to 1
