@@ -100,6 +100,17 @@ impl Filter {
         -self.belief.root().diagonal().iter().map(|it| ln(*it)).sum::<f64>()
     }
 
+    /// How surprising a motion is.
+    pub(super) fn surprise(
+        &self,
+        study: &HeadingStudy,
+        motion: &SeenMotion,
+        noise: &ModelNoise,
+    ) -> Option<Surprise> {
+        let line = self.line(study, motion, noise, &self.belief)?;
+        self.belief.surprise(&line, &motion.seen(study))
+    }
+
     /// Learns from a motion; how surprising it was.
     pub(super) fn learn(
         &mut self,

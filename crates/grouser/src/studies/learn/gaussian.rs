@@ -160,7 +160,10 @@ fn log_density(at: &DVector<f64>, covariance: DMatrix<f64>) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
+    use crate::studies::random;
 
     fn linear() -> (DMatrix<f64>, DMatrix<f64>, [DVector<f64>; 4]) {
         let jacobian = DMatrix::from_row_slice(2, 3, &[1.0, 0.5, -0.3, 0.2, -1.0, 0.7]);
@@ -193,6 +196,49 @@ mod tests {
             let found = learn(&order);
             assert!((&found.mean - &mean).norm() < 1e-9);
             assert!((&found.covariance - &exact).norm() < 1e-9);
+        }
+    }
+
+    /// A linear observation: *J*, *R* and *y*.
+    type Observation = (DMatrix<f64>, DMatrix<f64>, DVector<f64>);
+
+    /// Observations of random unknowns, each of as many numbers and with a noise of its own.
+    fn observations(seed: u64, unknowns: usize, numbers: usize, count: usize) -> Vec<Observation> {
+        let mut random = random::generator(seed, 0);
+        let mut normals = |rows, columns| {
+            DMatrix::from_fn(rows, columns, |_, _| random::standard_normal(&mut random))
+        };
+        let one = |_| {
+            let (jacobian, root) = (normals(numbers, unknowns), normals(numbers, numbers));
+            let noise = &root * root.transpose() + DMatrix::identity(numbers, numbers) * 0.1;
+            (jacobian, noise, normals(numbers, 1).column(0).into())
+        };
+        (0..count).map(one).collect()
+    }
+
+    proptest! {
+        /// One observation after the other is what generalised least squares makes of all of them at once:
+        /// P = (1 + Σ Jᵀ R⁻¹ J)⁻¹, m = P Σ Jᵀ R⁻¹ y.
+        #[test]
+        fn a_linear_toy_is_least_squares_over_all(
+            seed: u64, unknowns in 1..9_usize, numbers in 1..7_usize, count in 1..9_usize,
+        ) {
+            let all = observations(seed, unknowns, numbers, count);
+            let mut belief = Gaussian::standard(unknowns);
+            let mut information = DMatrix::identity(unknowns, unknowns);
+            let mut sum = DVector::zeros(unknowns);
+            for (jacobian, noise, seen) in &all {
+                let here = jacobian * &belief.mean;
+                let mut line = Line::over(&belief, &here, |at| Some(jacobian * at));
+                line.noise += noise;
+                belief = belief.after(&line, seen).unwrap();
+                let weighted = jacobian.transpose() * noise.clone().try_inverse().unwrap();
+                information += &weighted * jacobian;
+                sum += &weighted * seen;
+            }
+            let exact = information.try_inverse().unwrap();
+            prop_assert!((&belief.covariance - &exact).norm() < 1e-9);
+            prop_assert!((&belief.mean - exact * sum).norm() < 1e-9);
         }
     }
 
