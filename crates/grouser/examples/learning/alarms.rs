@@ -8,8 +8,8 @@ use grouser::studies::learn::{TelemetryRecord, Warning, WarningKind};
 use grouser::studies::simulated_telemetry::SensorModels;
 use grouser_io::statistics::random::{generator, uniform};
 
-use crate::coverage::Trial;
-use crate::drive::{Drive, INSTRUMENTS, RIM_SPEED, learner};
+use super::coverage::Trial;
+use super::drive::{Drive, INSTRUMENTS, RIM_SPEED, learner};
 
 /// Instruments, with what is the matter with them.
 pub(crate) fn instruments() -> [(&'static str, SensorModels); 4] {
@@ -51,9 +51,6 @@ pub(crate) fn alarms(trial: &Trial<'_>, models: SensorModels, soils: u32) -> Ala
         let drive = wandering(trial, &truth.sample, seed);
         all.way += drive.time() * RIM_SPEED;
         for warning in warned(trial.prior, &drive.seen(models, seed)) {
-            if std::env::var("SHOW").is_ok() {
-                eprintln!("{index} {warning:?}");
-            }
             *all.counts.entry(warning.kind).or_default() += 1;
         }
     }
@@ -99,4 +96,47 @@ fn is_passable(drive: &Drive, [slope, yaw]: [f64; 2]) -> bool {
     let [slope, yaw] = [slope, yaw].map(f64::to_radians);
     let found = drive.study().steady_motion(slope, yaw, RIM_SPEED);
     found.is_ok_and(|it| it.slip_ratio() < DEEP)
+}
+
+impl Alarms {
+    /// Adds others.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.way += other.way;
+        for (kind, count) in &other.counts {
+            *self.counts.entry(*kind).or_default() += count;
+        }
+    }
+
+    /// The counts of all kinds, as cells of a table.
+    pub(crate) fn cells(&self) -> String {
+        WarningKind::ALL.map(|kind| self.count(kind).to_string()).join(" | ")
+    }
+
+    fn count(&self, kind: WarningKind) -> u32 {
+        self.counts.get(&kind).copied().unwrap_or_default()
+    }
+
+    /// The most alarms of a kind in 100 m that go with the count, by 95 %: the end of Garwood's interval (1936) for
+    /// numbers of rare events.
+    pub(crate) fn at_most(&self, kind: WarningKind) -> f64 {
+        let count = f64::from(self.count(kind));
+        // The mean under which as few have a probability of 5 %: by bisection.
+        let (mut low, mut high) = (count, 4.0 * count + 10.0);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if as_few(count, middle) > 0.05 { low = middle } else { high = middle }
+        }
+        100.0 * high / self.way
+    }
+}
+
+/// The probability of a count or less of rare events where there are so many on the mean.
+fn as_few(count: f64, mean: f64) -> f64 {
+    let (mut term, mut sum, mut events) = ((-mean).exp(), (-mean).exp(), 0.0);
+    while events < count {
+        events += 1.0;
+        term *= mean / events;
+        sum += term;
+    }
+    sum
 }

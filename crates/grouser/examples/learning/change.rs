@@ -4,8 +4,8 @@ use grouser::soil::{Shear, ShearModulus, Soil};
 use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::learn::{Warning, WarningKind};
 
-use crate::coverage::Trial;
-use crate::drive::{Drive, INSTRUMENTS, Leg, RIM_SPEED, learner};
+use super::coverage::Trial;
+use super::drive::{Drive, INSTRUMENTS, Leg, RIM_SPEED, learner};
 
 /// How a soil changes.
 #[derive(Clone, Copy, Debug)]
@@ -43,6 +43,13 @@ impl Change {
         }
         Sample { soil, ..*sample }
     }
+}
+
+/// A soil with shear moduli that are larger by a factor.
+pub(crate) fn scaled(soil: &Soil, factor: f64) -> Soil {
+    let mut scaled = *soil;
+    scale(&mut scaled, [factor; 2]);
+    scaled
 }
 
 /// Scales the shear moduli along the wheel and across it.

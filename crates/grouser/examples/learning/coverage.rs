@@ -7,7 +7,7 @@ use grouser::studies::heading::HeadingStudy;
 use grouser::studies::learn::{Learner, LearntSample};
 use grouser::units::deg;
 
-use crate::drive::{Drive, INSTRUMENTS, Leg, learner};
+use super::drive::{Drive, INSTRUMENTS, Leg, learner};
 
 /// A level start, a slope along the contour and across it, and a steeper one.
 pub(crate) const LEGS: [Leg; 4] =
@@ -43,13 +43,13 @@ pub(crate) struct Answer {
 }
 
 /// What samples say of the next slope: slips, and yaws of those that hold the contour [rad].
-struct Predicted {
+pub(crate) struct Predicted {
     slips: Vec<f64>,
-    yaws: Vec<f64>,
+    pub(crate) yaws: Vec<f64>,
 }
 
 impl Predicted {
-    fn of(study: &HeadingStudy, samples: &[LearntSample]) -> Self {
+    pub(crate) fn of(study: &HeadingStudy, samples: &[LearntSample]) -> Self {
         let (mut slips, mut yaws) = (Vec::new(), Vec::new());
         for sample in samples {
             let study = study.of_sample(&sample.sample);
@@ -83,7 +83,8 @@ impl Trial<'_> {
     pub(crate) fn answers(&self, repeats: u32) -> Vec<Answer> {
         let prior = learner(self.prior).samples(self.seed, self.samples).expect("soils are drawn");
         let study = HeadingStudy::of(&self.prior.value);
-        let before = Predicted::of(&study, &prior).bands(prior.len()).expect("some hold the contour");
+        let before =
+            Predicted::of(&study, &prior).bands(prior.len()).expect("some hold the contour");
         let hidden = learner(self.hidden);
         let keys: Vec<String> = hidden.keys().map(str::to_owned).collect();
         let truths = hidden.samples(self.seed, repeats).expect("soils are drawn");
@@ -152,4 +153,24 @@ pub(crate) fn yaw_errors(answers: &[Answer]) -> [f64; 2] {
         answers.iter().map(|it| (of(it) - it.truth[1]).abs()).sum::<f64>() / answers.len() as f64
     };
     [mean(&|it| it.before[1].median), mean(&|it| it.after[1].median)]
+}
+
+/// The probability that shares which are uniform lie as far from even as these: Kolmogorov's and Smirnov's test, with the
+/// correction of Stephens (1970) for few of them.
+pub(crate) fn uniformity(shares: impl Iterator<Item = f64>) -> f64 {
+    const TERMS: i32 = 100;
+    let mut shares: Vec<f64> = shares.collect();
+    shares.sort_by(f64::total_cmp);
+    let count = shares.len() as f64;
+    let farthest = shares.iter().enumerate().map(|(place, share)| {
+        let (below, until) = (place as f64 / count, (place + 1) as f64 / count);
+        (share - below).max(until - share)
+    });
+    let root = count.sqrt();
+    let scaled = (root + 0.12 + 0.11 / root) * farthest.fold(0.0, f64::max);
+    let term = |k: i32| {
+        let sign = if k % 2 == 1 { 1.0 } else { -1.0 };
+        sign * (-2.0 * f64::from(k * k) * scaled * scaled).exp()
+    };
+    (2.0 * (1..=TERMS).map(term).sum::<f64>()).clamp(0.0, 1.0)
 }

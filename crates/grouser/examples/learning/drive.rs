@@ -4,7 +4,9 @@ use grouser::document::{self, LoadedScenario, Overrides, Source};
 use grouser::simulation::SteadyMotion;
 use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::heading::HeadingStudy;
-use grouser::studies::learn::{LearnSettings, Learner, ModelNoise, TelemetryRecord, WheelTelemetry};
+use grouser::studies::learn::{
+    LearnSettings, Learner, ModelNoise, TelemetryRecord, WheelTelemetry,
+};
 use grouser::studies::simulated_telemetry::{SensorModels, Sensors};
 use grouser::units::deg;
 use grouser::vehicle::{roll_and_pitch, slope_and_yaw};

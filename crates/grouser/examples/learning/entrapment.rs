@@ -3,9 +3,9 @@
 use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::learn::WarningKind;
 
-use crate::change::warnings;
-use crate::coverage::Trial;
-use crate::drive::{Drive, RIM_SPEED, learner};
+use super::change::warnings;
+use super::coverage::Trial;
+use super::drive::{Drive, RIM_SPEED, learner};
 
 /// How a rover gets stuck.
 #[derive(Clone, Copy, Debug)]
@@ -84,7 +84,7 @@ pub(crate) fn leads(trial: &Trial<'_>, entrapment: Way, repeats: u32) -> Vec<Opt
 
 fn is_stuck(drive: &Drive) -> bool {
     let way = drive.records.last().and_then(|it| it.displacement[0]);
-    way.is_some_and(|way| way < STUCK * RIM_SPEED * crate::drive::STEP)
+    way.is_some_and(|way| way < STUCK * RIM_SPEED * super::drive::STEP)
 }
 
 /// How far ahead the end of a drive was called.

@@ -1,8 +1,8 @@
 //! Whether the soil has become another: evidence that is summed up over stretches (Page 1954).
 //!
-//! A stretch speaks for another soil by as much as it would be likelier if nothing had been learnt. While there is such
-//! evidence, stretches are judged by what was believed before it began: a filter that learns goes along with another
-//! soil, and after two or three stretches finds it no stranger than the first.
+//! Where a stretch is stranger than it would be if nothing had been learnt, a second learner begins anew with it. Both
+//! learn from then on, and each stretch speaks for another soil by as much as the new learner expected it better. A
+//! belief that is a little off is so in every stretch; since both learn, that counts once.
 
 use super::filter::Filter;
 use super::gaussian::Surprise;
@@ -13,10 +13,19 @@ use crate::studies::heading::HeadingStudy;
 /// The evidence so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SoilChange {
-    /// A logarithm of densities, 0 or more.
+    /// What is suspected; nothing where there is no evidence.
+    suspicion: Option<Suspicion>,
+}
+
+/// That the soil is another since a while.
+#[derive(Clone, Debug)]
+struct Suspicion {
+    /// What a learner believes that began anew.
+    anew: Filter,
+    /// A logarithm of densities.
     evidence: f64,
-    /// What was believed before there was any, and the rims' way since then [m].
-    suspected: Option<(Filter, f64)>,
+    /// The rims' way since it began [m].
+    way: f64,
 }
 
 /// Evidence at which the soil counts as another: false alarms are one in e^9 stretches or fewer, if what is learnt is
@@ -30,32 +39,26 @@ const LONGEST: f64 = 1.0;
 impl SoilChange {
     /// Whether the soil has just been found to be another.
     ///
-    /// * `before`: what was believed before the stretch
-    /// * `surprise`: how surprising it was to that
+    /// * `learner`: what is believed now, of any soil
+    /// * `surprise`: how surprising the stretch was before that
     pub(super) fn look(
         &mut self,
-        (before, surprise): (&Filter, &Surprise),
+        (learner, surprise): (&Filter, &Surprise),
         (study, motion, noise): (&HeadingStudy, &SeenMotion, &ModelNoise),
         way: f64,
     ) -> bool {
-        let strangeness = match &mut self.suspected {
-            Some((filter, since)) => {
-                *since += way;
-                filter.surprise(study, motion, noise).map_or(0.0, |it| it.strangeness)
-            }
-            None => surprise.strangeness,
-        };
-        self.evidence = (self.evidence + strangeness.min(MOST_SAID)).max(0.0);
-        if self.evidence >= CHANGED {
-            *self = Self::default();
-            return true;
-        }
-        let is_over = self.suspected.as_ref().is_some_and(|(_, since)| *since > LONGEST);
-        if self.evidence == 0.0 || is_over {
-            *self = Self::default();
-        } else if self.suspected.is_none() {
-            self.suspected = Some((before.clone(), way));
-        }
-        false
+        let suspicion = self.suspicion.take().or_else(|| {
+            let begins = surprise.strangeness > 0.0;
+            begins.then(|| Suspicion { anew: learner.anew(), evidence: 0.0, way: 0.0 })
+        });
+        let Some(mut suspicion) = suspicion else { return false };
+        let Ok(surprise_anew) = suspicion.anew.learn(study, motion, noise) else { return false };
+        let stranger = surprise_anew.log_density - surprise.log_density;
+        suspicion.evidence += stranger.min(MOST_SAID);
+        suspicion.way += way;
+        let is_another = suspicion.evidence >= CHANGED;
+        let goes_on = suspicion.evidence > 0.0 && suspicion.way < LONGEST && !is_another;
+        self.suspicion = goes_on.then_some(suspicion);
+        is_another
     }
 }

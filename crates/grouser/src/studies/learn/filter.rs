@@ -44,6 +44,11 @@ impl Filter {
         Self { unknowns, belief }
     }
 
+    /// One of the same model that has learnt nothing.
+    pub(super) fn anew(&self) -> Self {
+        Self::new(self.unknowns.clone())
+    }
+
     /// Forgets all that was learnt.
     pub(super) fn forget(&mut self) {
         self.belief = Gaussian::standard(self.unknowns.count());
@@ -80,6 +85,8 @@ impl Filter {
         let numbers = |at: &DVector<f64>| Some(expected(at, Some(&here))?.numbers);
         let mut line = Line::over(over, &here.numbers, numbers);
         line.noise += motion.noise(study, &here, noise);
+        let sample = self.unknowns.sample(over.mean.as_slice())?;
+        line.value += motion.shift_of_leaning(study, &sample, &here, noise);
         Some(line)
     }
 
@@ -98,17 +105,6 @@ impl Filter {
     /// How much is known, but for a constant [nat]: −½ ln det P.
     pub(super) fn knowledge(&self) -> f64 {
         -self.belief.root().diagonal().iter().map(|it| ln(*it)).sum::<f64>()
-    }
-
-    /// How surprising a motion is.
-    pub(super) fn surprise(
-        &self,
-        study: &HeadingStudy,
-        motion: &SeenMotion,
-        noise: &ModelNoise,
-    ) -> Option<Surprise> {
-        let line = self.line(study, motion, noise, &self.belief)?;
-        self.belief.surprise(&line, &motion.seen(study))
     }
 
     /// Learns from a motion; how surprising it was.

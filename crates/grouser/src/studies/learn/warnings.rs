@@ -232,7 +232,8 @@ impl Watch {
         }
         let by_slip = (slip_ratio > SLIPS).then(|| self.strain_ahead(last.strain)).flatten();
         let by_slope = self.slope_ahead(seen, last.slope);
-        let way = [by_slip, by_slope.map(|it| it.0)].into_iter().flatten().fold(f64::INFINITY, f64::min);
+        let way =
+            [by_slip, by_slope.map(|it| it.0)].into_iter().flatten().fold(f64::INFINITY, f64::min);
         let time = way / speed.max(1e-6);
         if way > AHEAD || time > SOON {
             return None;
