@@ -52,7 +52,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         "alarms" => alarms(&trial, repeats.unwrap_or(30)),
         "cost" => cost(&trial),
         _ => {
-            return Err("give a study: coverage, heading, change, entrapment, alarms or cost".into());
+            return Err(
+                "give a study: coverage, heading, change, entrapment, alarms or cost".into()
+            );
         }
     }
     Ok(())
@@ -104,22 +106,23 @@ fn heading(trial: &Trial<'_>, repeats: u32) {
 
 fn change(trial: &Trial<'_>, repeats: u32) {
     println!(
-        "| what changes | drives | that move otherwise | flagged of these | within 0.5 m | median way |"
+        "| what changes | drives | that move otherwise | flagged of these | within 0.5 m | median way | something flagged before |"
     );
-    println!("|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|");
     for change in Change::ALL {
         let all = change::flagged(trial, change, repeats);
         let ways: Vec<Option<f64>> = all.iter().filter(|it| it.matters).map(|it| it.way).collect();
         let mut flagged: Vec<f64> = ways.iter().copied().flatten().collect();
         flagged.sort_by(f64::total_cmp);
         println!(
-            "| {} | {} | {} | {} | {} | {} |",
+            "| {} | {} | {} | {} | {} | {} | {} |",
             change.name(),
             all.len(),
             ways.len(),
             flagged.len(),
             flagged.iter().filter(|it| **it <= 0.5).count(),
             quantile(&flagged, 0.5).map_or_else(String::new, |it| format!("{it:.2} m")),
+            all.iter().filter(|it| it.early).count(),
         );
     }
 }

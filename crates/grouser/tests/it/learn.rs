@@ -17,6 +17,8 @@ use grouser::document::LoadedScenario;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::learn::WarningKind;
 
+use grouser_io::measurements::telemetry::{TelemetryReader, csv_header, csv_line};
+
 use change::{Change, flagged, warnings};
 use coverage::{LEGS, Trial, held, yaw_errors};
 use drive::{Drive, INSTRUMENTS, learner, scenario};
@@ -99,6 +101,28 @@ fn a_copy_goes_on_where_it_was() {
     }
     assert_eq!(one.samples(1, 5).unwrap(), other.samples(1, 5).unwrap());
     assert_eq!(one.learnt(), other.learnt());
+}
+
+/// Telemetry whose columns stand in the opposite order teaches the same.
+#[test]
+fn the_order_of_columns_does_not_matter() {
+    let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
+    let mut drive = Drive::new(&prior, &truths(&prior, 77, 1)[0]);
+    drive.leg((8.0, 5.0, 0.4)).unwrap();
+    let rover = &drive.study().rover;
+    let lines = drive.seen(INSTRUMENTS, 5).iter().map(csv_line).collect::<String>();
+    let table = csv_header(rover) + &lines;
+    let turned = |line: &str| line.split(',').rev().collect::<Vec<_>>().join(",") + "\n";
+    let learnt = |table: &str| {
+        let mut reader = TelemetryReader::new("drive", table.as_bytes(), rover).unwrap();
+        let mut learner = learner(&prior);
+        while let Some(record) = reader.next_record().unwrap() {
+            learner.update(record);
+        }
+        assert!(learner.learnt().stretches > 2);
+        learner.samples(1, 5).unwrap()
+    };
+    assert_eq!(learnt(&table), learnt(&table.lines().map(turned).collect::<String>()));
 }
 
 /// Up a slope that steepens until the rover stands: called 5 s and 0.3 m ahead, and more.
