@@ -15,6 +15,7 @@ mod flaw;
 mod fuzz;
 mod hygiene;
 mod instructions;
+mod learning;
 mod libtest;
 mod licence;
 mod links;
@@ -57,6 +58,7 @@ cargo xtask CHORE
                       light and dark
   costs               count what wheels cost over the domain, and write the map into
                       docs/performance.md
+  learning [STUDY]    measure what learning from drives is worth, and write it into docs/guide/learn.md
   python-times        measure what Python costs, and write it into docs/performance.md
   count [--check | --build]
                       count crates, lines and cycles of modules, and write them into ARCHITECTURE.md;
@@ -111,6 +113,14 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["site", "--as-it-is"] => good(site::build(&python::as_it_is())?),
         ["costs"] => {
             costs::write()?;
+            true
+        }
+        ["learning"] => {
+            learning::write(None)?;
+            true
+        }
+        ["learning", study] => {
+            learning::write(Some(study))?;
             true
         }
         ["python-times"] => {

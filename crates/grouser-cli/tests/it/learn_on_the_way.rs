@@ -150,7 +150,7 @@ fn a_growing_log_is_learnt_from_line_by_line() {
     assert_eq!(of("answer")[0]["predictions"], at_once["predictions"]);
     assert_eq!(of("answer")[0]["learnt"], at_once["learnt"]);
     assert!(lessons.len() > 5 && !predictions.is_empty(), "{} lines", printed.len());
-    let parts = ["along", "across", "torque", "sinkage"];
+    let parts = ["along", "across", "turning", "torque", "sinkage"];
     for lesson in lessons {
         let sum: f64 =
             parts.iter().map(|it| number(&lesson[format!("information_{it}_nat")])).sum();

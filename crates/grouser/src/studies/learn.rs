@@ -16,6 +16,7 @@
 
 pub mod advice;
 mod bank;
+mod change;
 mod currents;
 mod drive;
 mod filter;
@@ -33,6 +34,7 @@ mod warnings;
 use std::collections::BTreeMap;
 
 use self::bank::{Bank, Taught};
+use self::change::SoilChange;
 pub use self::currents::motor_log;
 pub use self::drive::{Drive, RecordDigest};
 use self::filter::Filter;
@@ -68,6 +70,7 @@ pub struct Learner {
     settings: LearnSettings,
     gatherer: Gatherer,
     bank: Bank,
+    change: SoilChange,
     watch: Watch,
     learnt: Learnt,
 }
@@ -108,8 +111,8 @@ pub struct Lesson {
     pub information: f64,
     /// The same of each kind of observation.
     pub by_kind: InformationByKind,
-    /// How far each number of the observation was from what was expected [standard deviations]: the force along the
-    /// body, across it, then torques and sinkages.
+    /// How far each number of the observation was from what was expected [standard deviations]: the velocity along
+    /// the body, that to its left, the yaw rate, then torques and sinkages.
     pub scores: Vec<f64>,
     /// What to warn of.
     pub warnings: Vec<Warning>,
@@ -137,8 +140,8 @@ impl Learner {
         let slope = slope_is_known.then_some(scenario.value.site.terrain.slope);
         let bank = Bank::new(&BandInputs::of_scenario(scenario)).ok_or(NothingToLearn)?;
         let gatherer = Gatherer::new(&study.rover, slope);
-        let (watch, learnt) = (Watch::default(), Learnt::default());
-        Ok(Self { study, settings, gatherer, bank, watch, learnt })
+        let (change, watch, learnt) = Default::default();
+        Ok(Self { study, settings, gatherer, bank, change, watch, learnt })
     }
 
     /// Takes a record; what was learnt, where it completes a stretch that teaches something.
@@ -172,14 +175,15 @@ impl Learner {
         self.learnt.stretches += 1;
         self.learnt.way += stretch.way;
         let slip_ratio = motion.slip_ratio();
+        let asked = (&self.study, &motion, &self.settings.noise);
         let seen = Seen {
             stretch: &stretch,
             slip_ratio,
-            strangeness: surprise.strangeness,
+            is_another_soil: self.change.look((&before, &surprise), asked, stretch.way),
             expected_slip: before
                 .expected_slip(&self.study, &motion, motion.slope())
                 .unwrap_or(1.0),
-            deep_slope: self.deep_slope(&before, &motion),
+            deep_slope: &|steeper| deep_slope(&self.study, &before, &motion, steeper),
         };
         let (way, expected_slip) = (self.learnt.way, seen.expected_slip);
         let warnings = self.watch.look(&seen, &self.study.rover);
@@ -198,27 +202,6 @@ impl Learner {
             scores,
             warnings,
         })
-    }
-
-    /// The slope on which the wheels' slip is [`DEEP`] on this course [rad], by what was believed before; nothing where it
-    /// is not up to ten degrees steeper.
-    fn deep_slope(&self, before: &Filter, motion: &SeenMotion) -> Option<f64> {
-        /// So much steeper is looked at [rad].
-        const FARTHEST: f64 = 0.175;
-        const ROUNDS: usize = 6;
-        let is_deep = |slope: f64| {
-            let slip = before.expected_slip(&self.study, motion, slope);
-            slip.is_none_or(|slip| slip >= DEEP)
-        };
-        let (mut low, mut high) = (motion.slope(), motion.slope() + FARTHEST);
-        if low < LEVEL || !is_deep(high) {
-            return None;
-        }
-        for _ in 0..ROUNDS {
-            let middle = 0.5 * (low + high);
-            if is_deep(middle) { high = middle } else { low = middle }
-        }
-        Some(low)
     }
 
     /// How much was learnt from.
@@ -305,6 +288,32 @@ impl Learner {
         let samples: Vec<Sample> = samples.iter().map(|it| it.sample).collect();
         HeadingBand::of(&self.study, &samples, slopes, go_on)
     }
+}
+
+/// The slope on which the wheels' slip is [`DEEP`] on a course [rad], by what was believed before; nothing where it is
+/// steeper by more than an angle [rad], or than ten degrees.
+fn deep_slope(
+    study: &HeadingStudy,
+    before: &Filter,
+    motion: &SeenMotion,
+    steeper: f64,
+) -> Option<f64> {
+    /// So much steeper is looked at [rad].
+    const FARTHEST: f64 = 0.175;
+    const ROUNDS: usize = 6;
+    let is_deep = |slope: f64| {
+        let slip = before.expected_slip(study, motion, slope);
+        slip.is_none_or(|slip| slip >= DEEP)
+    };
+    let (mut low, mut high) = (motion.slope(), motion.slope() + steeper.min(FARTHEST));
+    if low < LEVEL || !is_deep(high) {
+        return None;
+    }
+    for _ in 0..ROUNDS {
+        let middle = 0.5 * (low + high);
+        if is_deep(middle) { high = middle } else { low = middle }
+    }
+    Some(low)
 }
 
 /// Standard deviation of some values.

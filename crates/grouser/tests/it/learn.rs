@@ -1,49 +1,40 @@
 //! What is learnt from drives whose soil is hidden from the learner.
 
 mod advice;
-pub(crate) mod twin;
+#[path = "../../examples/learning/alarms.rs"]
+mod alarms;
+#[path = "../../examples/learning/change.rs"]
+mod change;
+#[path = "../../examples/learning/coverage.rs"]
+mod coverage;
+#[path = "../../examples/learning/drive.rs"]
+pub(crate) mod drive;
+#[path = "../../examples/learning/entrapment.rs"]
+mod entrapment;
+#[path = "../../examples/learning/heading.rs"]
+mod heading;
 
 use grouser::document::LoadedScenario;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
-use grouser::studies::learn::{Lesson, TelemetryRecord, Warning, WarningKind};
-use grouser::studies::simulated_telemetry::SensorModels;
-use twin::{Answer, Drive, Leg, RIM_SPEED, answer, learner, scenario, truths};
+use grouser::studies::learn::WarningKind;
 
-/// A level start, a slope along the contour and across it, and a steeper one.
-const LEGS: [Leg; 4] = [(0.0, 0.0, 0.6), (5.0, 3.0, 1.0), (6.0, 40.0, 0.6), (8.0, 5.0, 1.0)];
-/// The slope that comes next [°].
-const NEXT: f64 = 12.0;
+use grouser_io::measurements::telemetry::{TelemetryReader, csv_header, csv_line};
+
+use change::{Change, flagged, warnings};
+use coverage::{LEGS, Trial, held, yaw_errors};
+use drive::{Drive, INSTRUMENTS, learner, scenario};
+use entrapment::{Way, leads};
 
 const PRIOR: &str = "scenario.soil=toyoura-uncertain";
 
-/// Instruments with noise, rounding, gaps, and one reading in twenty wrong by far.
-fn usual() -> SensorModels {
-    SensorModels { outliers: 0.05, ..SensorModels::USUAL }
+/// Few repeats of what the example `learning` does: the guide has its numbers for many.
+fn trial<'a>(prior: &'a LoadedScenario, hidden: &'a LoadedScenario, seed: u64) -> Trial<'a> {
+    Trial { prior, hidden, uneven: true, samples: 40, seed }
 }
 
-/// How many of the answers hold the truth within their bands, of slip and of yaw.
-fn held(answers: &[Answer]) -> [usize; 2] {
-    [0, 1].map(|place| {
-        let holds = |it: &&Answer| {
-            let band = it.after[place];
-            (band.low..=band.high).contains(&it.truth[place])
-        };
-        answers.iter().filter(holds).count()
-    })
-}
-
-/// Mean error of the median yaw, before the drives and after them [rad].
-fn yaw_errors(answers: &[Answer]) -> [f64; 2] {
-    let mean = |of: &dyn Fn(&Answer) -> f64| {
-        answers.iter().map(|it| (of(it) - it.truth[1]).abs()).sum::<f64>() / answers.len() as f64
-    };
-    [mean(&|it| it.before[1].median), mean(&|it| it.after[1].median)]
-}
-
-fn answers(prior: &LoadedScenario, truths: &[Sample], samples: u32) -> Vec<Answer> {
-    let each = truths.iter().zip(0..);
-    each.filter_map(|(truth, seed)| answer(prior, truth, (&LEGS, NEXT), usual(), (seed, samples)))
-        .collect()
+/// The hidden soils of some repeats.
+pub(crate) fn truths(prior: &LoadedScenario, seed: u64, count: u32) -> Vec<Sample> {
+    BandInputs::of_scenario(prior).samples(seed, count).unwrap()
 }
 
 #[test]
@@ -66,9 +57,9 @@ fn without_telemetry_predictions_are_those_of_the_soil() {
 #[test]
 fn bands_hold_one_slope_ahead() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
-    let answers = answers(&prior, &truths(&prior, 77, 6), 60);
+    let answers = trial(&prior, &prior, 77).answers(6);
     assert_eq!(answers.len(), 6);
-    assert!(held(&answers).into_iter().all(|held| held >= 5), "{answers:?}");
+    assert!(held(&answers).into_iter().all(|held| 6.0 * held > 4.5), "{answers:?}");
     let [before, after] = yaw_errors(&answers);
     assert!(after < 0.5 * before, "{before} {after}");
 }
@@ -78,18 +69,18 @@ fn bands_hold_one_slope_ahead() {
 fn bands_hold_under_another_theory() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
     let other = scenario(&[PRIOR, "scenario.model=small-wheel"]);
-    let answers = answers(&prior, &truths(&other, 78, 4), 60);
+    let answers = trial(&prior, &other, 78).answers(4);
     assert_eq!(answers.len(), 4);
-    assert!(held(&answers).into_iter().all(|held| held >= 3), "{answers:?}");
+    assert!(held(&answers).into_iter().all(|held| 4.0 * held > 2.5), "{answers:?}");
 }
 
-fn lessons(prior: &LoadedScenario, records: Vec<TelemetryRecord>) -> Vec<Lesson> {
-    let mut learner = learner(prior);
-    records.into_iter().filter_map(|record| learner.update(record)).collect()
-}
-
-fn warnings(prior: &LoadedScenario, drive: &Drive) -> Vec<Warning> {
-    lessons(prior, drive.seen(usual(), 3)).into_iter().flat_map(|it| it.warnings).collect()
+/// Shear moduli that are off by half: after two metres of the wheels' way the heading is off by less than half as much.
+#[test]
+fn the_heading_is_learnt_within_two_metres() {
+    let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
+    let errors = heading::errors(&trial(&prior, &prior, 80), 2);
+    let sums = errors.iter().fold([0.0; 2], |sums, it| [sums[0] + it[0], sums[1] + it[1]]);
+    assert!(errors.len() == 2 && sums[1] < 0.5 * sums[0], "{errors:?}");
 }
 
 /// A learner that is copied half-way goes on as the one it was copied from: what it knows is all in it.
@@ -98,7 +89,7 @@ fn a_copy_goes_on_where_it_was() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
     let mut drive = Drive::new(&prior, &truths(&prior, 77, 1)[0]);
     drive.leg(LEGS[1]).unwrap();
-    let records = drive.seen(usual(), 5);
+    let records = drive.seen(INSTRUMENTS, 5);
     let (first, second) = records.split_at(records.len() / 2 + 3);
     let mut one = learner(&prior);
     for record in first {
@@ -113,63 +104,54 @@ fn a_copy_goes_on_where_it_was() {
     assert_eq!(one.learnt(), other.learnt());
 }
 
+/// Telemetry whose columns stand in the opposite order teaches the same.
+#[test]
+fn the_order_of_columns_does_not_matter() {
+    let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
+    let mut drive = Drive::new(&prior, &truths(&prior, 77, 1)[0]);
+    drive.leg((8.0, 5.0, 0.4)).unwrap();
+    let rover = &drive.study().rover;
+    let lines = drive.seen(INSTRUMENTS, 5).iter().map(csv_line).collect::<String>();
+    let table = csv_header(rover) + &lines;
+    let turned = |line: &str| line.split(',').rev().collect::<Vec<_>>().join(",") + "\n";
+    let learnt = |table: &str| {
+        let mut reader = TelemetryReader::new("drive", table.as_bytes(), rover).unwrap();
+        let mut learner = learner(&prior);
+        while let Some(record) = reader.next_record().unwrap() {
+            learner.update(record);
+        }
+        assert!(learner.learnt().stretches > 2);
+        learner.samples(1, 5).unwrap()
+    };
+    assert_eq!(learnt(&table), learnt(&table.lines().map(turned).collect::<String>()));
+}
+
 /// Up a slope that steepens until the rover stands: called 5 s and 0.3 m ahead, and more.
 #[test]
 fn entrapment_is_called_ahead() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
-    for truth in &truths(&prior, 5, 3) {
-        let mut drive = Drive::new(&prior, truth);
-        let mut slope = 3.0;
-        // A tenth of the rims' speed is as good as none.
-        let is_stuck = |drive: &Drive| {
-            let last = drive.records.last().and_then(|it| it.displacement[0]);
-            last.is_some_and(|way| way < 0.1 * RIM_SPEED * 0.1)
-        };
-        while !is_stuck(&drive) {
-            drive.leg((slope, 90.0, 0.06)).expect("steady motion until it stands");
-            slope += 0.3;
-        }
-        let stuck = drive.records.last().unwrap().time;
-        let all = warnings(&prior, &drive);
-        let called = all.iter().find(|it| it.kind == WarningKind::Entrapment).expect("called");
-        let left = drive.records.iter().filter(|it| it.time > called.time);
-        let way: f64 = left.filter_map(|it| it.displacement[0]).sum();
-        assert!(stuck - called.time > 5.0 && way > 0.3, "{way} m, {} s", stuck - called.time);
-    }
+    let leads = leads(&trial(&prior, &prior, 5), Way::Steepening(5.0), 2);
+    assert_eq!(leads.len(), 2);
+    assert!(leads.iter().all(|it| it.is_some_and(|it| it.time > 5.0 && it.way > 0.3)), "{leads:?}");
 }
 
-/// From firm sand into loose sand in which the slip is larger by far: flagged within half a metre of the wheels' way, and
-/// nothing before.
+/// Onto sand in which wheels slip more: flagged within half a metre of the wheels' way, and nothing before.
 #[test]
 fn another_soil_is_flagged() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
-    let mut drive = Drive::new(&prior, &truths(&prior, 77, 1)[0]);
-    drive.leg((6.0, 40.0, 2.0)).unwrap();
-    let changed = drive.records.last().unwrap().time;
-    let firm = drive.records.last().unwrap().displacement[0].unwrap();
-    let mut loose = truths(&prior, 77, 1)[0];
-    loose.soil.friction_angle *= 0.7;
-    drive.change(&loose);
-    drive.leg((6.0, 40.0, 1.0)).unwrap();
-    let slip = 1.0 - drive.records.last().unwrap().displacement[0].unwrap() / firm;
-    assert!(slip > 0.1, "the soils differ: {slip}");
-    let all = warnings(&prior, &drive);
-    let flagged = all.iter().find(|it| it.kind == WarningKind::SoilChange).expect("flagged");
-    let way = (flagged.time - changed) * RIM_SPEED;
-    assert!((0.0..0.5).contains(&way), "{way}");
+    let all = flagged(&trial(&prior, &prior, 77), Change::ShearAlong(3.0), 3);
+    let matter: Vec<_> = all.iter().filter(|it| it.matters).collect();
+    assert!(matter.len() >= 2, "{all:?}");
+    let is_in_time = |it: &change::Flagged| !it.early && it.way.is_some_and(|way| way <= 0.5);
+    assert!(matter.iter().all(|it| is_in_time(it)), "{all:?}");
 }
 
 /// On one soil, level and across slopes, nothing is warned of.
 #[test]
 fn nothing_is_warned_of_on_one_soil() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
-    for truth in &truths(&prior, 79, 3) {
-        let mut drive = Drive::new(&prior, truth);
-        for leg in LEGS {
-            drive.leg(leg).unwrap();
-        }
-        assert_eq!(warnings(&prior, &drive), []);
-    }
+    let found = alarms::alarms(&trial(&prior, &prior, 79), INSTRUMENTS, 1);
+    assert!(found.way >= 30.0 && found.counts.is_empty(), "{found:?}");
 }
 
 /// A wheel without torque, and a compass that is off: each is named.
@@ -182,7 +164,8 @@ fn idle_wheels_and_lying_sensors_are_named() {
         record.wheels[1].torque = Some(0.0);
         record.yaw = record.yaw.map(|yaw| yaw + 0.5);
     }
-    let kinds: Vec<_> = warnings(&prior, &drive).iter().map(|it| it.kind).collect();
+    let kinds: Vec<_> =
+        warnings(&trial(&prior, &prior, 77), &drive, 3).iter().map(|it| it.kind).collect();
     for kind in [WarningKind::WheelNotPulling, WarningKind::LyingSensor] {
         assert_eq!(kinds.iter().filter(|it| **it == kind).count(), 1, "{kinds:?}");
     }

@@ -1,6 +1,6 @@
 //! Drives whose telemetry is off by one thing, replayed: that thing is named, and nothing where nothing is off.
 
-use crate::learn::twin::{Drive, Leg, scenario};
+use crate::learn::drive::{Drive, Leg, scenario};
 use grouser::simulation::Run;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::learn::TelemetryRecord;

@@ -2,8 +2,8 @@
 
 use grouser::document::LoadedScenario;
 use grouser::document::columns::learn::{
-    self as columns, BY_ACROSS, BY_ALONG, BY_SINKAGE, BY_TORQUE, EXPECTED_SLIP, INFORMATION,
-    LESSON_COLUMNS, PREDICTION_COLUMNS, WARNING_COLUMNS, WAY,
+    self as columns, BY_ACROSS, BY_ALONG, BY_SINKAGE, BY_TORQUE, BY_TURNING, EXPECTED_SLIP,
+    INFORMATION, LESSON_COLUMNS, PREDICTION_COLUMNS, WARNING_COLUMNS, WAY,
 };
 use grouser::document::columns::slip_from_current::{TRUE_SLIP, WHEEL};
 use grouser::document::columns::{SLIP_RATIO, SLOPE, TIME};
@@ -146,6 +146,7 @@ fn information(lessons: &Table) -> Chart {
         (INFORMATION, "all"),
         (BY_ALONG, "force along the body"),
         (BY_ACROSS, "force across it"),
+        (BY_TURNING, "yaw moment"),
         (BY_TORQUE, "torques"),
         (BY_SINKAGE, "sinkages"),
     ];

@@ -32,6 +32,8 @@ pub const INFORMATION: Quantity = quantity("information_nat", ONE);
 pub const BY_ALONG: Quantity = quantity("information_along_nat", ONE);
 /// The part that came from the force across it.
 pub const BY_ACROSS: Quantity = quantity("information_across_nat", ONE);
+/// The part that came from the yaw moment.
+pub const BY_TURNING: Quantity = quantity("information_turning_nat", ONE);
 /// The part that came from torques.
 pub const BY_TORQUE: Quantity = quantity("information_torque_nat", ONE);
 /// The part that came from sinkages.
@@ -96,7 +98,7 @@ pub fn brief() -> Vec<String> {
 }
 
 /// The columns of [`lessons`].
-pub const LESSON_COLUMNS: [Column<Lesson>; 11] = [
+pub const LESSON_COLUMNS: [Column<Lesson>; 12] = [
     TIME.number("End of the stretch", |it| it.stretch.time[1]),
     WAY.number("Way of the rims since the start", |it| it.way),
     SLOPE.maybe("Slope of the ground", |it| it.stretch.attitude.map(|it| it[0])),
@@ -106,6 +108,7 @@ pub const LESSON_COLUMNS: [Column<Lesson>; 11] = [
     INFORMATION.number("How much it narrowed what is believed of the soil", |it| it.information),
     BY_ALONG.number("The part of it from the force along the body", |it| it.by_kind.along),
     BY_ACROSS.number("The part that the force across the body added", |it| it.by_kind.across),
+    BY_TURNING.number("The part that the yaw moment added", |it| it.by_kind.turning),
     BY_TORQUE.number("The part that torques added", |it| it.by_kind.torque),
     BY_SINKAGE.number("The part that sinkages added", |it| it.by_kind.sinkage),
 ];

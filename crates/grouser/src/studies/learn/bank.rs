@@ -169,16 +169,20 @@ impl Bank {
         let count = archive.list("beliefs", filters.len());
         for filter in filters.iter_mut().take(count) {
             archive.group("");
-            let Filter { unknowns: _, belief } = filter;
-            belief.walk(archive);
+            filter.walk(archive);
             archive.end();
         }
         archive.end();
     }
 
+    /// A filter of a model that has learnt nothing, to read into; nothing of a model that is none of these.
+    pub(super) fn blank(&self, theory: &str) -> Option<Filter> {
+        let of_theory = |it: &&Filter| it.unknowns.theory().name() == theory;
+        self.filters.iter().find(of_theory).map(Filter::anew)
+    }
+
     /// Whether it is of as many numbers as there are unknowns.
     pub(super) fn is_whole(&self) -> bool {
-        let is_whole = |it: &Filter| it.belief.is_of(it.unknowns.count());
-        self.evidence.len() == self.filters.len() && self.filters.iter().all(is_whole)
+        self.evidence.len() == self.filters.len() && self.filters.iter().all(Filter::is_whole)
     }
 }

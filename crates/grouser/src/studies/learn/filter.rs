@@ -6,6 +6,7 @@ use super::gaussian::{Gaussian, Line, Surprise};
 use super::information;
 use super::motion::{Expected, NotUsed, SeenMotion, halves};
 use super::noise::ModelNoise;
+use super::state::Archive;
 use super::unknowns::{Draw, LearntSample, Unknowns};
 use crate::elementary::exp;
 use crate::elementary::wide::ln;
@@ -45,6 +46,11 @@ impl Filter {
         Self { unknowns, belief }
     }
 
+    /// One of the same model that has learnt nothing.
+    pub(super) fn anew(&self) -> Self {
+        Self::new(self.unknowns.clone())
+    }
+
     /// Forgets all that was learnt.
     pub(super) fn forget(&mut self) {
         self.belief = Gaussian::standard(self.unknowns.count());
@@ -66,7 +72,7 @@ impl Filter {
         self.belief.forget(&kept);
     }
 
-    /// The line of a motion over the width of a belief: of the soil, and then of the error of the yaw rate.
+    /// The line of a motion over the width of a belief.
     pub(super) fn line(
         &self,
         study: &HeadingStudy,
@@ -75,13 +81,14 @@ impl Filter {
         over: &Gaussian,
     ) -> Option<Line> {
         let expected = |at: &DVector<f64>, near: Option<&Expected>| {
-            let (of_soil, error) = at.as_slice().split_at(self.unknowns.count());
-            motion.turning(error[0]).expected(study, &self.unknowns.sample(of_soil)?, near)
+            motion.expected(study, &self.unknowns.sample(at.as_slice())?, near)
         };
         let here = expected(&over.mean, None)?;
         let numbers = |at: &DVector<f64>| Some(expected(at, Some(&here))?.numbers);
         let mut line = Line::over(over, &here.numbers, numbers);
         line.noise += motion.noise(study, &here, noise);
+        let sample = self.unknowns.sample(over.mean.as_slice())?;
+        line.value += motion.shift_of_leaning(study, &sample, &here, noise);
         Some(line)
     }
 
@@ -109,8 +116,8 @@ impl Filter {
         motion: &SeenMotion,
         noise: &ModelNoise,
     ) -> Result<(Surprise, Vec<f64>), NotUsed> {
-        let (seen, belief) = (motion.seen(study), self.belief.and_one());
-        let first = self.line(study, motion, noise, &belief).ok_or(NotUsed::NotCarried)?;
+        let (seen, belief) = (motion.seen(study), &self.belief);
+        let first = self.line(study, motion, noise, belief).ok_or(NotUsed::NotCarried)?;
         let surprise = belief.surprise(&first, &seen).ok_or(NotUsed::NotCarried)?;
         let robust = |line| robust(line, &surprise);
         let mut used = robust(first);
@@ -126,9 +133,19 @@ impl Filter {
             let Some(next) = next else { break };
             (after, used) = next;
         }
-        let count = self.unknowns.count();
-        self.belief = after.first(count);
-        Ok((surprise, information::by_number(&belief, &used, count)))
+        let taught = information::by_number(&self.belief, &used);
+        self.belief = after;
+        Ok((surprise, taught))
+    }
+
+    pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
+        let Self { unknowns: _, belief } = self;
+        belief.walk(archive);
+    }
+
+    /// Whether its belief is of as many numbers as there are unknowns.
+    pub(super) fn is_whole(&self) -> bool {
+        self.belief.is_of(self.unknowns.count())
     }
 
     /// The values of the soil's uncertain keys in sample number `index` of what was believed beforehand.

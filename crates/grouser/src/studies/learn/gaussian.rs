@@ -91,21 +91,6 @@ impl Gaussian {
         Self { mean: DVector::zeros(count), covariance: DMatrix::identity(count, count) }
     }
 
-    /// The same with one more unknown, of mean 0 and variance 1.
-    pub(super) fn and_one(&self) -> Self {
-        let count = self.mean.len();
-        let mut both = Self::standard(count + 1);
-        both.mean.rows_mut(0, count).copy_from(&self.mean);
-        both.covariance.view_mut((0, 0), (count, count)).copy_from(&self.covariance);
-        both
-    }
-
-    /// The first of the unknowns.
-    pub(super) fn first(&self, count: usize) -> Self {
-        let covariance = self.covariance.view((0, 0), (count, count)).into();
-        Self { mean: self.mean.rows(0, count).into(), covariance }
-    }
-
     /// What is left of it after unknowns have wandered, each by x → a x + √(1 − a²) z: standard normal stays so.
     ///
     /// * `kept`: *a* of each, 0 to 1
@@ -197,7 +182,10 @@ fn log_density(at: &DVector<f64>, covariance: DMatrix<f64>) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
+    use crate::studies::random;
 
     fn linear() -> (DMatrix<f64>, DMatrix<f64>, [DVector<f64>; 4]) {
         let jacobian = DMatrix::from_row_slice(2, 3, &[1.0, 0.5, -0.3, 0.2, -1.0, 0.7]);
@@ -230,6 +218,49 @@ mod tests {
             let found = learn(&order);
             assert!((&found.mean - &mean).norm() < 1e-9);
             assert!((&found.covariance - &exact).norm() < 1e-9);
+        }
+    }
+
+    /// A linear observation: *J*, *R* and *y*.
+    type Observation = (DMatrix<f64>, DMatrix<f64>, DVector<f64>);
+
+    /// Observations of random unknowns, each of as many numbers and with a noise of its own.
+    fn observations(seed: u64, unknowns: usize, numbers: usize, count: usize) -> Vec<Observation> {
+        let mut random = random::generator(seed, 0);
+        let mut normals = |rows, columns| {
+            DMatrix::from_fn(rows, columns, |_, _| random::standard_normal(&mut random))
+        };
+        let one = |_| {
+            let (jacobian, root) = (normals(numbers, unknowns), normals(numbers, numbers));
+            let noise = &root * root.transpose() + DMatrix::identity(numbers, numbers) * 0.1;
+            (jacobian, noise, normals(numbers, 1).column(0).into())
+        };
+        (0..count).map(one).collect()
+    }
+
+    proptest! {
+        /// One observation after the other is what generalised least squares makes of all of them at once:
+        /// P = (1 + Σ Jᵀ R⁻¹ J)⁻¹, m = P Σ Jᵀ R⁻¹ y.
+        #[test]
+        fn a_linear_toy_is_least_squares_over_all(
+            seed: u64, unknowns in 1..9_usize, numbers in 1..7_usize, count in 1..9_usize,
+        ) {
+            let all = observations(seed, unknowns, numbers, count);
+            let mut belief = Gaussian::standard(unknowns);
+            let mut information = DMatrix::identity(unknowns, unknowns);
+            let mut sum = DVector::zeros(unknowns);
+            for (jacobian, noise, seen) in &all {
+                let here = jacobian * &belief.mean;
+                let mut line = Line::over(&belief, &here, |at| Some(jacobian * at));
+                line.noise += noise;
+                belief = belief.after(&line, seen).unwrap();
+                let weighted = jacobian.transpose() * noise.clone().try_inverse().unwrap();
+                information += &weighted * jacobian;
+                sum += &weighted * seen;
+            }
+            let exact = information.try_inverse().unwrap();
+            prop_assert!((&belief.covariance - &exact).norm() < 1e-9);
+            prop_assert!((&belief.mean - exact * sum).norm() < 1e-9);
         }
     }
 

@@ -23,6 +23,8 @@ pub struct InformationByKind {
     pub along: f64,
     /// The force across the body, by the velocity to its left.
     pub across: f64,
+    /// The yaw moment, by the yaw rate.
+    pub turning: f64,
     /// The wheels' torques.
     pub torque: f64,
     /// The wheels' sinkages.
@@ -30,29 +32,25 @@ pub struct InformationByKind {
 }
 
 impl InformationByKind {
-    /// Of the numbers of a stretch, in the order of observations: along, across, torques, sinkages.
+    /// Of the numbers of a stretch, in the order of observations: along, across, turning, torques, sinkages.
     pub(super) fn of(stretch: &Stretch, by_number: &[f64]) -> Self {
-        let [along, across] = [0, 1].map(|place| by_number.get(place).copied().unwrap_or(0.0));
+        let [along, across, turning] =
+            [0, 1, 2].map(|place| by_number.get(place).copied().unwrap_or(0.0));
         let torques = stretch.torques.iter().flatten().count();
-        let rest = by_number.get(2..).unwrap_or(&[]);
+        let rest = by_number.get(3..).unwrap_or(&[]);
         let (torques, sinkages) = rest.split_at(torques.min(rest.len()));
-        Self { along, across, torque: torques.iter().sum(), sinkage: sinkages.iter().sum() }
+        let (torque, sinkage) = (torques.iter().sum(), sinkages.iter().sum());
+        Self { along, across, turning, torque, sinkage }
     }
 }
 
-/// How much each number of an observation narrowed what is believed of the first unknowns [nat]; the others are noise.
-/// Nothing where a covariance is not positive definite.
+/// How much each number of an observation narrowed what is believed [nat]. Nothing where a covariance is not positive
+/// definite.
 ///
-/// * `belief`: before the observation, the first unknowns not correlated with the others
-/// * `count`: of the first unknowns
-pub(super) fn by_number(belief: &Gaussian, line: &Line, count: usize) -> Vec<f64> {
-    let others = belief.mean.len() - count;
-    let (of_first, of_others) =
-        (line.jacobian.columns(0, count), line.jacobian.columns(count, others));
-    let first = belief.covariance.view((0, 0), (count, count));
-    let rest = belief.covariance.view((count, count), (others, others));
-    let known = &line.noise + of_others * rest * of_others.transpose();
-    let expected = of_first * first * of_first.transpose() + &known;
+/// * `belief`: before the observation
+pub(super) fn by_number(belief: &Gaussian, line: &Line) -> Vec<f64> {
+    let known = line.noise.clone();
+    let expected = &line.jacobian * &belief.covariance * line.jacobian.transpose() + &known;
     let roots = Cholesky::new(expected).zip(Cholesky::new(known));
     let Some((expected, known)) = roots else { return vec![0.0; line.value.len()] };
     let (expected, known) = (expected.l().diagonal(), known.l().diagonal());
@@ -65,22 +63,20 @@ mod tests {
 
     use super::*;
 
-    /// The parts add up to what the belief of the first unknowns narrows by, the last unknown left out.
+    /// The parts add up to what the belief narrows by.
     #[test]
     fn parts_add_up_to_what_the_belief_narrows_by() {
-        let jacobian =
-            DMatrix::from_row_slice(3, 3, &[1.0, 0.4, 0.2, -0.3, 0.8, 0.5, 0.2, -0.1, 0.9]);
         let line = Line {
-            at: DVector::zeros(3),
+            at: DVector::zeros(2),
             value: DVector::zeros(3),
-            jacobian,
+            jacobian: DMatrix::from_row_slice(3, 2, &[1.0, 0.4, -0.3, 0.8, 0.2, -0.1]),
             noise: DMatrix::from_diagonal(&DVector::from_row_slice(&[0.3, 0.5, 0.2])),
         };
-        let belief = Gaussian::standard(2).and_one();
+        let belief = Gaussian::standard(2);
         let after = belief.after(&line, &DVector::from_row_slice(&[0.1, 0.2, 0.3])).unwrap();
-        let determinant = after.first(2).covariance.determinant();
-        let parts = by_number(&belief, &line, 2);
-        assert!((parts.iter().sum::<f64>() + 0.5 * ln(determinant)).abs() < 1e-12);
+        let parts = by_number(&belief, &line);
+        let narrowed = -0.5 * ln(after.covariance.determinant());
+        assert!((parts.iter().sum::<f64>() - narrowed).abs() < 1e-12);
         assert!(parts.iter().all(|it| *it > 0.0), "{parts:?}");
     }
 }

@@ -1,17 +1,19 @@
 //! The motion that a soil expects where the rover was seen, with the torques and sinkages that go with it.
 //!
-//! Attitude, rim speeds and yaw rate are taken as they were read. The velocities (u, v) are those that leave no force
-//! over,
+//! Attitude and rim speeds are taken as they were read. The velocities (u, v) and the yaw rate ω are those that leave
+//! neither a force nor a yaw moment over,
 //!
 //! ```text
-//! ΣF_x(u, v) + G_x = 0        ΣF_y(u, v) + G_y = 0
+//! ΣF_x(u, v, ω) + G_x = 0        ΣF_y(u, v, ω) + G_y = 0        ΣM_z(u, v, ω) + r_g × G = 0
 //! ```
 //!
 //! and are compared with those that were read, not the forces at those that were read: where wheels hardly slip, forces
-//! turn within the noise of odometry, and a soil that is judged by forces at a noisy motion is judged too weak. A soil in
-//! which nothing balances holds the rover where it is.
+//! turn within the noise of odometry, and a soil that is judged by forces at a noisy motion is judged too weak. The same
+//! goes for the yaw rate: at one that is off, in either direction, wheels of one side slip more than those of the other,
+//! which costs pull, and takes a weaker soil for the same way. A soil in which nothing balances holds the rover where it
+//! is.
 
-use nalgebra::{DMatrix, DVector, Matrix2};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::noise::ModelNoise;
 use super::stretch::{Reading, Stretch};
@@ -23,7 +25,7 @@ use crate::studies::heading::HeadingStudy;
 use crate::units::Vec2;
 use crate::vehicle::ground::{Ground, forces_of};
 use crate::vehicle::kinematics::wheel_slips;
-use crate::vehicle::{Rover, RoverState, WheelReaction, dynamics};
+use crate::vehicle::{Rover, RoverState, WheelReaction, dynamics, roll_and_pitch, slope_and_yaw};
 
 /// A motion that was seen, with what was read of forces and sinkages in it.
 #[derive(Clone, Debug)]
@@ -32,6 +34,8 @@ pub(super) struct SeenMotion {
     slope: f64,
     yaw: f64,
     rim_speeds: Vec<f64>,
+    /// Distance of the farthest wheel from the centre of mass [m].
+    reach: f64,
     /// Velocity along the body and to its left [m/s], and yaw rate [rad/s].
     velocities: [Reading; 3],
     torques: Vec<Option<Reading>>,
@@ -141,6 +145,7 @@ impl SeenMotion {
             slope,
             yaw,
             rim_speeds: rims.clone(),
+            reach,
             velocities,
             torques: stretch.torques.clone(),
             sinkages: stretch.sinkages.clone(),
@@ -150,17 +155,22 @@ impl SeenMotion {
 
     /// Mean slip ratio of the wheels as it was seen [-].
     pub(super) fn slip_ratio(&self) -> f64 {
-        let [forward, leftward, _] = self.velocities.map(|it| it.value);
-        self.mean_slip(Vec2::new(forward, leftward))
+        self.mean_slip(&self.read())
+    }
+
+    /// The motion that was read, as [`Balance::motion`] has it.
+    fn read(&self) -> Vector3<f64> {
+        let [forward, leftward, turning] = self.velocities.map(|it| it.value);
+        Vector3::new(forward, leftward, turning * self.reach)
     }
 
     /// Mean slip ratio of the wheels that a soil expects [-].
     pub(super) fn slip_of(&self, expected: &Expected) -> f64 {
-        self.mean_slip(expected.balance.velocity)
+        self.mean_slip(&expected.balance.motion)
     }
 
-    fn mean_slip(&self, velocity: Vec2) -> f64 {
-        let slips = self.slips(velocity);
+    fn mean_slip(&self, motion: &Vector3<f64>) -> f64 {
+        let slips = self.slips(motion);
         slips.iter().map(|it| it.ratio).sum::<f64>() / slips.len() as f64
     }
 
@@ -179,40 +189,33 @@ impl SeenMotion {
         self.rim_speeds.iter().map(|it| it.abs()).fold(0.0, f64::max)
     }
 
-    /// The same motion with another yaw rate.
-    ///
-    /// * `error`: by which it was read too small, in its standard deviations [-]
-    pub(super) fn turning(&self, error: f64) -> Self {
-        let mut turning = self.clone();
-        let [.., rate] = &mut turning.velocities;
-        rate.value += error * rate.deviation;
-        turning
+    fn state(&self, motion: &Vector3<f64>) -> RoverState {
+        let yaw_rate = motion.z / self.reach;
+        RoverState { yaw: self.yaw, velocity: motion.xy(), yaw_rate, ..RoverState::default() }
     }
 
-    fn state(&self, velocity: Vec2) -> RoverState {
-        let yaw_rate = self.velocities[2].value;
-        RoverState { yaw: self.yaw, velocity, yaw_rate, ..RoverState::default() }
+    fn slips(&self, motion: &Vector3<f64>) -> Vec<Slip> {
+        wheel_slips(&self.rover, &self.state(motion), &self.rim_speeds).collect()
     }
 
-    fn slips(&self, velocity: Vec2) -> Vec<Slip> {
-        wheel_slips(&self.rover, &self.state(velocity), &self.rim_speeds).collect()
-    }
-
-    /// What each wheel does at a velocity, and the force that is left over, over the weight [-]; `None` where the soil
-    /// does not carry the rover.
+    /// What each wheel does in a motion, and what is left over: the force over the weight, and the yaw moment over the
+    /// weight at the [`reach`](Self::reach) [-]; `None` where the soil does not carry the rover.
     fn left_over(
         &self,
         study: &HeadingStudy,
-        velocity: Vec2,
+        motion: &Vector3<f64>,
         near: &[WheelReaction],
-    ) -> Option<(Vec2, Vec<WheelReaction>)> {
+    ) -> Option<(Vector3<f64>, Vec<WheelReaction>)> {
         let site = study.site(self.slope);
         let ground = Ground { rover: &self.rover, ..study.ground(&site) };
-        let stance = ground.stance(&self.state(velocity));
-        let wheels = ground.reactions_near(&stance, &self.slips(velocity), near).ok()?;
-        let (soil, _) =
+        let stance = ground.stance(&self.state(motion));
+        let wheels = ground.reactions_near(&stance, &self.slips(motion), near).ok()?;
+        let (soil, moment) =
             dynamics::soil_resultant(&self.rover, forces_of(&wheels), study.own_moments);
-        Some(((soil + stance.pull) / (self.rover.mass() * study.gravity), wheels))
+        let force = soil + stance.pull;
+        let moment = moment + self.rover.centre_of_mass().perp(&stance.pull);
+        let left = Vector3::new(force.x, force.y, moment / self.reach);
+        Some((left / (self.rover.mass() * study.gravity), wheels))
     }
 
     /// What a soil expects; `None` where it does not carry the rover even at rest.
@@ -237,45 +240,44 @@ impl SeenMotion {
     }
 
     /// Where a balance is sought: at the motion as it was seen, then at lighter and heavier slips.
-    fn starts(&self) -> Vec<Vec2> {
-        let [forward, leftward, _] = self.velocities.map(|it| it.value);
+    fn starts(&self) -> Vec<Vector3<f64>> {
         let mean = self.rim_speeds.iter().sum::<f64>() / self.rim_speeds.len() as f64;
-        let lighter = [0.97, 0.85, 0.6, 0.3].map(|share| Vec2::new(share * mean, 0.0));
-        [Vec2::new(forward, leftward)].into_iter().chain(lighter).collect()
+        let lighter = [0.97, 0.85, 0.6, 0.3].map(|share| Vector3::new(share * mean, 0.0, 0.0));
+        [self.read()].into_iter().chain(lighter).collect()
     }
 
     fn balanced_near(&self, study: &HeadingStudy, near: &Expected) -> Option<Balance> {
         let zero = newton::zero_near(
             |at| {
-                let (left, wheels) = self.left_over(study, *at, &near.balance.wheels)?;
+                let (left, wheels) = self.left_over(study, at, &near.balance.wheels)?;
                 Some((left, wheels))
             },
-            &near.balance.velocity,
+            &near.balance.motion,
             near.balance.inverse?,
             |step| step.norm() / self.fastest(),
             LONGEST,
             |left, _| left.norm() < BALANCED,
         )?;
-        let (velocity, wheels) = (zero.at, zero.value);
-        Some(Balance { velocity, wheels, inverse: Some(zero.inverse) })
+        let (motion, wheels) = (zero.at, zero.value);
+        Some(Balance { motion, wheels, inverse: Some(zero.inverse) })
     }
 
     /// Newton's method with steps that are halved until less is left over.
-    fn balanced_from(&self, study: &HeadingStudy, mut at: Vec2) -> Option<Balance> {
+    fn balanced_from(&self, study: &HeadingStudy, mut at: Vector3<f64>) -> Option<Balance> {
         const ROUNDS: usize = 20;
         const HALVINGS: usize = 6;
         let longest = LONGEST * self.fastest();
-        let (mut left, mut wheels) = self.left_over(study, at, &[])?;
+        let (mut left, mut wheels) = self.left_over(study, &at, &[])?;
         for _ in 0..ROUNDS {
-            let inverse = self.stiffness(study, at, &left, &wheels)?.try_inverse()?;
+            let inverse = self.stiffness(study, &at, &left, &wheels)?.try_inverse()?;
             if left.norm() < BALANCED {
-                return Some(Balance { velocity: at, wheels, inverse: Some(inverse) });
+                return Some(Balance { motion: at, wheels, inverse: Some(inverse) });
             }
             let mut way = -(inverse * left);
             way *= (longest / way.norm()).min(1.0);
             let found = halves(HALVINGS).find_map(|share| {
                 let there = at + way * share;
-                let (left_there, wheels_there) = self.left_over(study, there, &wheels)?;
+                let (left_there, wheels_there) = self.left_over(study, &there, &wheels)?;
                 (left_there.norm() < left.norm()).then_some((there, left_there, wheels_there))
             });
             (at, left, wheels) = found?;
@@ -283,33 +285,37 @@ impl SeenMotion {
         None
     }
 
-    /// How the force that is left over changes with the velocities [s/m].
+    /// How what is left over changes with the motion [s/m].
     fn stiffness(
         &self,
         study: &HeadingStudy,
-        at: Vec2,
-        left: &Vec2,
+        at: &Vector3<f64>,
+        left: &Vector3<f64>,
         wheels: &[WheelReaction],
-    ) -> Option<Matrix2<f64>> {
+    ) -> Option<Matrix3<f64>> {
         /// Over the fastest rim: forces turn within a thousandth where wheels hardly slip.
         const STEP: f64 = 1e-4;
         let step = STEP * self.fastest();
-        let column = |axis: Vec2| {
-            let (ahead, _) = self.left_over(study, at + axis * step, wheels)?;
-            Some((ahead - left) / step)
-        };
-        Some(Matrix2::from_columns(&[column(Vec2::x())?, column(Vec2::y())?]))
+        let mut stiffness = Matrix3::zeros();
+        for axis in 0..3 {
+            let mut there = *at;
+            there[axis] += step;
+            let (ahead, _) = self.left_over(study, &there, wheels)?;
+            stiffness.set_column(axis, &((ahead - left) / step));
+        }
+        Some(stiffness)
     }
 
     /// The rover where nothing balances: its wheels turn on the spot.
     fn stuck(&self, study: &HeadingStudy) -> Option<Balance> {
-        let (_, wheels) = self.left_over(study, Vec2::zeros(), &[])?;
-        Some(Balance { velocity: Vec2::zeros(), wheels, inverse: None })
+        let motion = Vector3::zeros();
+        let (_, wheels) = self.left_over(study, &motion, &[])?;
+        Some(Balance { motion, wheels, inverse: None })
     }
 
     /// The numbers that go with a balance, as [`seen`](Self::seen) has those that were read.
     fn numbers(&self, study: &HeadingStudy, balance: Balance) -> Expected {
-        let mut numbers: Vec<f64> = (balance.velocity / self.fastest()).iter().copied().collect();
+        let mut numbers: Vec<f64> = (balance.motion / self.fastest()).iter().copied().collect();
         for (place, wheel) in balance.wheels.iter().enumerate() {
             if self.torques[place].is_some() {
                 numbers.push(wheel.settled.forces.torque / self.torque_scale(study, place));
@@ -323,17 +329,17 @@ impl SeenMotion {
         Expected { numbers: DVector::from_vec(numbers), balance }
     }
 
-    /// What was read: velocities over the fastest rim's, torques over weight times shearing radius, logarithms of
+    /// What was read: the motion over the fastest rim's speed, torques over weight times shearing radius, logarithms of
     /// sinkages.
     pub(super) fn seen(&self, study: &HeadingStudy) -> DVector<f64> {
-        let velocities = self.velocities[..2].iter().map(|it| it.value / self.fastest());
+        let motion = self.read() / self.fastest();
         let torques = self
             .torques
             .iter()
             .enumerate()
             .filter_map(|(place, read)| Some((*read)?.value / self.torque_scale(study, place)));
         let sinkages = self.sinkages.iter().flatten().map(|it| ln(it.value.max(SHALLOWEST)));
-        DVector::from_vec(velocities.chain(torques).chain(sinkages).collect())
+        DVector::from_vec(motion.iter().copied().chain(torques).chain(sinkages).collect())
     }
 
     /// What torques are measured by [N·m].
@@ -348,21 +354,15 @@ impl SeenMotion {
         expected: &Expected,
         noise: &ModelNoise,
     ) -> DMatrix<f64> {
-        /// A force that is off moves a rover no farther than this off its speed, over the fastest rim's [-].
-        const FARTHEST: f64 = 0.3;
         let fastest = self.fastest();
         let together = noise.together(self.way);
         let count = expected.numbers.len();
         let mut covariance = DMatrix::zeros(count, count);
-        let force = hypot(noise.force, noise.attitude);
-        let by_force = expected.balance.inverse.map(|inverse| inverse * (force / fastest));
-        let mut of_force =
-            by_force.map_or(Matrix2::identity() * FARTHEST.powi(2), |it| it * it.transpose());
-        let size = of_force.trace().sqrt();
-        of_force *= (FARTHEST / size).min(1.0).powi(2) * together;
-        covariance.view_mut((0, 0), (2, 2)).copy_from(&of_force);
-        let mut own: Vec<f64> =
-            self.velocities[..2].iter().map(|it| (it.deviation / fastest).powi(2)).collect();
+        let of_motion = self.noise_of_motion(&expected.balance, noise) * together;
+        covariance.view_mut((0, 0), (3, 3)).copy_from(&of_motion);
+        let read = self.velocities.map(|it| it.deviation);
+        let read = [read[0], read[1], read[2] * self.reach];
+        let mut own: Vec<f64> = read.iter().map(|it| (it / fastest).powi(2)).collect();
         for (place, wheel) in expected.balance.wheels.iter().enumerate() {
             if let Some(read) = self.torques[place] {
                 let share = noise.torque_share * wheel.settled.forces.torque;
@@ -381,6 +381,53 @@ impl SeenMotion {
         }
         covariance
     }
+
+    /// By how much ground that leans a little, now this way and now the other, moves on the mean what a soil expects: a slip
+    /// grows by more where the ground leans against the rover than it falls where it leans along. A soil that is judged
+    /// by slips without this is judged too weak.
+    ///
+    /// ```text
+    /// E y(e) − y(0) ≈ ½ Σ [y(σ e_i) + y(−σ e_i) − 2 y(0)]        e_i: the axes along the body and across it
+    /// ```
+    pub(super) fn shift_of_leaning(
+        &self,
+        study: &HeadingStudy,
+        sample: &Sample,
+        here: &Expected,
+        noise: &ModelNoise,
+    ) -> DVector<f64> {
+        let lean = hypot(noise.force, noise.attitude);
+        let [roll, pitch] = roll_and_pitch(self.slope, self.yaw);
+        let leaning = |to_side: f64, ahead: f64| {
+            let [slope, yaw] = slope_and_yaw(roll + to_side, pitch + ahead);
+            let there = Self { slope, yaw, ..self.clone() };
+            there.expected(study, sample, Some(here)).map(|it| it.numbers)
+        };
+        let mut shift = DVector::zeros(here.numbers.len());
+        for axis in [[lean, 0.0], [0.0, lean]] {
+            let pair = leaning(axis[0], axis[1]).zip(leaning(-axis[0], -axis[1]));
+            if let Some((one, other)) = pair {
+                shift += (one + other - &here.numbers * 2.0) * 0.5;
+            }
+        }
+        shift
+    }
+
+    /// How far forces that no soil explains move a rover off its motion, over the fastest rim's speed: a covariance [-].
+    /// Each wheel's force is off on its own, so that the moment is off by as much at the reach as the force.
+    fn noise_of_motion(&self, balance: &Balance, noise: &ModelNoise) -> Matrix3<f64> {
+        /// They move it no farther than this [-].
+        const FARTHEST: f64 = 0.3;
+        let force = hypot(noise.force, noise.attitude);
+        let Some(inverse) = balance.inverse else {
+            return Matrix3::identity() * FARTHEST.powi(2);
+        };
+        let by_force = inverse * (force / self.fastest());
+        let covariance = by_force * by_force.transpose();
+        let within = covariance.diagonal().map(|it| (FARTHEST / it.sqrt()).min(1.0));
+        let within = Matrix3::from_diagonal(&within);
+        within * covariance * within
+    }
 }
 
 /// A force over the weight that is nothing [-].
@@ -390,19 +437,21 @@ const LONGEST: f64 = 0.3;
 /// Sinkages below this count as this [m].
 pub(in crate::studies) const SHALLOWEST: f64 = 1e-4;
 
-/// Velocities that leave no force over.
+/// A motion that leaves neither a force nor a yaw moment over.
 #[derive(Clone, Debug)]
 struct Balance {
-    velocity: Vec2,
+    /// Velocity along the body and to its left, and the speed at the [`reach`](SeenMotion::reach) that turning makes
+    /// [m/s].
+    motion: Vector3<f64>,
     wheels: Vec<WheelReaction>,
-    /// How the velocities change with a force over the weight [m/s]; `None` where nothing balances.
-    inverse: Option<Matrix2<f64>>,
+    /// How the motion changes with what is left over [m/s]; `None` where nothing balances.
+    inverse: Option<Matrix3<f64>>,
 }
 
 /// What a soil expects of a motion.
 #[derive(Clone, Debug)]
 pub(super) struct Expected {
-    /// Velocities over the fastest rim's, torques over weight times shearing radius, logarithms of sinkages.
+    /// Motion over the fastest rim's speed, torques over weight times shearing radius, logarithms of sinkages.
     pub(super) numbers: DVector<f64>,
     balance: Balance,
 }

@@ -93,16 +93,19 @@ impl Learner {
     /// is not to be used any more.
     pub fn read_state(&mut self, archive: &mut dyn Archive) -> bool {
         self.walk(archive);
-        self.bank.is_whole() && self.gatherer.is_whole()
+        self.bank.is_whole() && self.change.is_whole() && self.gatherer.is_whole()
     }
 
     fn walk(&mut self, archive: &mut dyn Archive) {
-        let Self { study: _, settings: _, gatherer, bank, watch, learnt } = self;
+        let Self { study: _, settings: _, gatherer, bank, change, watch, learnt } = self;
         archive.group("gatherer");
         gatherer.walk(archive);
         archive.end();
         archive.group("bank");
         bank.walk(archive);
+        archive.end();
+        archive.group("change");
+        change.walk(archive, |theory| bank.blank(theory));
         archive.end();
         archive.group("watch");
         watch.walk(archive);
@@ -148,9 +151,9 @@ impl Lesson {
         archive.number("slip_ratio", slip_ratio);
         archive.number("expected_slip", expected_slip);
         archive.number("information", information);
-        let InformationByKind { along, across, torque, sinkage } = by_kind;
-        let names = ["along", "across", "torque", "sinkage"];
-        let all = [along, across, torque, sinkage];
+        let InformationByKind { along, across, turning, torque, sinkage } = by_kind;
+        let names = ["along", "across", "turning", "torque", "sinkage"];
+        let all = [along, across, turning, torque, sinkage];
         names.into_iter().zip(all).for_each(|(name, value)| archive.number(name, value));
         numbers(archive, "scores", scores);
         items(archive, "warnings", warnings, Warning::blank, Warning::walk);

@@ -107,16 +107,17 @@ impl WarningKind {
 }
 
 /// What a stretch says beside its readings.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(super) struct Seen<'a> {
     pub(super) stretch: &'a Stretch,
     pub(super) slip_ratio: f64,
-    /// How much better a soil that is not known yet explains it than what was learnt: a logarithm of densities.
-    pub(super) strangeness: f64,
+    /// Whether the soil was just found to be another.
+    pub(super) is_another_soil: bool,
     /// Slip ratio that was expected [-].
     pub(super) expected_slip: f64,
-    /// The slope on which the wheels' slip reaches [`DEEP`] on this course [rad], by what was learnt.
-    pub(super) deep_slope: Option<f64>,
+    /// The slope on which the wheels' slip reaches [`DEEP`] on this course [rad], by what was learnt; nothing where it is
+    /// steeper by more than what is asked for [rad].
+    pub(super) deep_slope: &'a dyn Fn(f64) -> Option<f64>,
 }
 
 /// Looks at stretches.
@@ -125,8 +126,6 @@ pub(super) struct Watch {
     way: f64,
     /// Of the last stretches: time [s], the rims' way [m], −ln(1 − s), slope [rad] and course.
     recent: VecDeque<Past>,
-    /// Evidence of another soil, summed up (Page 1954).
-    change: f64,
     /// Of each warning: the way at which its cause was last seen [m].
     causes: BTreeMap<(WarningKind, usize), f64>,
     /// Of each wheel: the rims' way over which its torque is too small [m].
@@ -150,11 +149,6 @@ struct Past {
 
 /// Slip at which a rover is as good as stuck [-].
 pub(super) const DEEP: f64 = 0.9;
-/// Evidence at which the soil counts as another: false alarms are one in e^9 stretches or fewer, if what is learnt is
-/// right.
-const CHANGED: f64 = 9.0;
-/// The most that one stretch may say: three have to agree, so that no outlier is a soil.
-const MOST_SAID: f64 = 3.5;
 /// Trends are those of this way of the rims [m].
 const TREND: f64 = 0.8;
 /// Entrapment is looked for this far ahead: way over the ground [m], and time [s].
@@ -218,11 +212,9 @@ impl Watch {
 
     /// Whether the soil has just been found to be another.
     fn soil_change(&mut self, seen: &Seen<'_>) -> Option<Warning> {
-        self.change = (self.change + seen.strangeness.min(MOST_SAID)).max(0.0);
-        if self.change < CHANGED {
+        if !seen.is_another_soil {
             return None;
         }
-        self.change = 0.0;
         let evidence =
             Evidence::Strange { slip_ratio: seen.slip_ratio, expected: seen.expected_slip };
         self.raise(WarningKind::SoilChange, 0, [None; 2], evidence)
@@ -240,14 +232,15 @@ impl Watch {
             return self.raise(WarningKind::Entrapment, 0, [Some(0.0); 2], evidence);
         }
         let by_slip = (slip_ratio > SLIPS).then(|| self.strain_ahead(last.strain)).flatten();
-        let by_slope = seen.deep_slope.and_then(|limit| self.slope_ahead(limit - last.slope));
-        let way = [by_slip, by_slope].into_iter().flatten().fold(f64::INFINITY, f64::min);
+        let by_slope = self.slope_ahead(seen, last.slope);
+        let way =
+            [by_slip, by_slope.map(|it| it.0)].into_iter().flatten().fold(f64::INFINITY, f64::min);
         let time = way / speed.max(1e-6);
         if way > AHEAD || time > SOON {
             return None;
         }
-        let evidence = match seen.deep_slope.filter(|_| by_slope == Some(way)) {
-            Some(limit) => Evidence::Rising { slip_ratio, slope: last.slope, limit },
+        let evidence = match by_slope.filter(|it| it.0 == way) {
+            Some((_, limit)) => Evidence::Rising { slip_ratio, slope: last.slope, limit },
             None => Evidence::Growing { slip_ratio },
         };
         self.raise(WarningKind::Entrapment, 0, [Some(time), Some(way)], evidence)
@@ -270,13 +263,19 @@ impl Watch {
         (rise > 2.0 * error).then(|| (-ln_1p(-DEEP) - strain).max(0.0) / rise)
     }
 
-    /// Way over the ground until the slope has grown by so much [rad], if it grows as it did.
-    fn slope_ahead(&self, by: f64) -> Option<f64> {
-        if by <= 0.0 {
-            return Some(0.0);
+    /// Way over the ground until the slope holds the rover no longer, if it grows as it did, and that slope [rad].
+    ///
+    /// * `slope`: now [rad]
+    fn slope_ahead(&self, seen: &Seen<'_>, slope: f64) -> Option<(f64, f64)> {
+        if seen.expected_slip >= DEEP {
+            return Some((0.0, slope));
         }
         let (rise, error) = self.trend(|it| it.slope)?;
-        (rise > 2.0 * error).then(|| by / rise)
+        if rise <= 2.0 * error {
+            return None;
+        }
+        let limit = (seen.deep_slope)(rise * AHEAD)?;
+        Some(((limit - slope) / rise, limit))
     }
 
     /// What a number grows by over a metre of ground, and the standard error of that: a straight line through the last
@@ -363,9 +362,8 @@ impl Watch {
 impl Watch {
     /// Writes or reads what it has seen.
     pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
-        let Self { way, recent, change, causes, idle, contradicted, outrun } = self;
+        let Self { way, recent, causes, idle, contradicted, outrun } = self;
         archive.number("way", way);
-        archive.number("change", change);
         archive.number("contradicted", contradicted);
         archive.number("outrun", outrun);
         numbers(archive, "idle", idle);

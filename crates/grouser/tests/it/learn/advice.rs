@@ -20,7 +20,8 @@ use grouser::terrain::{SoilZones, ZonePolygon};
 use grouser::units::{Vec2, deg};
 use rayon::prelude::*;
 
-use super::twin::{Drive, RIM_SPEED, learner, scenario, truths};
+use super::drive::{Drive, RIM_SPEED, learner, scenario};
+use super::truths;
 
 const PRIOR: [&str; 2] = ["scenario.soil=toyoura-uncertain", "scenario.model=ishigami"];
 

@@ -294,18 +294,16 @@ impl Planner<'_> {
     fn after(&self, candidate: &Candidate, belief: &Gaussian) -> Option<Gaussian> {
         let noise = &self.settings.noise;
         let line = |over: &Gaussian| self.filter.line(self.study, &candidate.stretch, noise, over);
-        let count = belief.mean.len();
         let stretch = |belief: &Gaussian, line: &Line| {
-            let both = belief.and_one();
-            let expected = &line.value + &line.jacobian * (&both.mean - &line.at);
-            both.after(line, &expected)
+            let expected = &line.value + &line.jacobian * (&belief.mean - &line.at);
+            belief.after(line, &expected)
         };
-        let over_all = line(&belief.and_one())?;
+        let over_all = line(belief)?;
         let first = stretch(belief, &over_all)?;
         let narrower = line(&first)?;
         let mut after = belief.clone();
         for _ in 0..candidate.stretches {
-            after = stretch(&after, &narrower)?.first(count);
+            after = stretch(&after, &narrower)?;
         }
         Some(after)
     }

@@ -1,0 +1,97 @@
+//! How far ahead entrapment is called: up slopes that steepen, and on soil that grows weaker, until the rover stands.
+
+use grouser::studies::ensemble::samples::Sample;
+use grouser::studies::learn::WarningKind;
+
+use super::change::warnings;
+use super::coverage::Trial;
+use super::drive::{Drive, RIM_SPEED, learner};
+
+/// How a rover gets stuck.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Way {
+    /// The slope steepens by this for each metre of the wheels' way [°].
+    Steepening(f64),
+    /// The tangent of the friction angle falls by this share for each metre of the wheels' way [-], up a slope of 8°.
+    Weakening(f64),
+}
+
+/// How far ahead it was called; `None` where it was not.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lead {
+    /// Way over the ground [m].
+    pub(crate) way: f64,
+    /// Time [s].
+    pub(crate) time: f64,
+}
+
+/// Slower than this share of the rims' speed a rover is stuck [-].
+const STUCK: f64 = 0.1;
+/// What is one attitude and one soil [m of the wheels' way].
+const STEP: f64 = 0.06;
+/// Farther than this no rover goes [m of the wheels' way].
+const FARTHEST: f64 = 40.0;
+
+impl Way {
+    /// What it is, for a table.
+    pub(crate) fn name(self) -> String {
+        match self {
+            Self::Steepening(by) => format!("the slope steepens by {by}° per metre"),
+            Self::Weakening(by) => {
+                format!("up 8°, the friction falls by {:.0} % per metre", 100.0 * by)
+            }
+        }
+    }
+
+    /// Slope [°] and soil after a way of the wheels [m].
+    fn at(self, truth: &Sample, way: f64) -> (f64, Sample) {
+        match self {
+            Self::Steepening(by) => (3.0 + by * way, *truth),
+            Self::Weakening(by) => {
+                // The first metre is as it was: there is something to learn.
+                let left = 1.0 - by * (way - 1.0).max(0.0);
+                let mut soil = truth.soil;
+                soil.friction_angle = (soil.friction_angle.tan() * left.max(0.05)).atan();
+                (8.0, Sample { soil, ..*truth })
+            }
+        }
+    }
+}
+
+/// The leads on some hidden soils; none of those that hold the rover for good, or not at all.
+pub(crate) fn leads(trial: &Trial<'_>, entrapment: Way, repeats: u32) -> Vec<Option<Lead>> {
+    let truths = learner(trial.hidden).samples(trial.seed, repeats).expect("soils are drawn");
+    let one = |(truth, index): (&Sample, u64)| {
+        let seed = 1000 * trial.seed + index;
+        let mut drive = trial.drive(truth, seed);
+        let mut way = 0.0;
+        while !is_stuck(&drive) {
+            let (slope, soil) = entrapment.at(truth, way);
+            drive.change(&soil);
+            if drive.leg((slope, 90.0, STEP)).is_none() {
+                break;
+            }
+            way += STEP;
+            if way > FARTHEST {
+                return None;
+            }
+        }
+        // A way that is too short to learn from is no case.
+        (way > 1.0).then(|| lead(trial, &drive, seed))
+    };
+    truths.iter().map(|it| &it.sample).zip(0..).filter_map(one).collect()
+}
+
+fn is_stuck(drive: &Drive) -> bool {
+    let way = drive.records.last().and_then(|it| it.displacement[0]);
+    way.is_some_and(|way| way < STUCK * RIM_SPEED * super::drive::STEP)
+}
+
+/// How far ahead the end of a drive was called.
+fn lead(trial: &Trial<'_>, drive: &Drive, seed: u64) -> Option<Lead> {
+    let all = warnings(trial, drive, seed);
+    let called = all.iter().find(|it| it.kind == WarningKind::Entrapment)?;
+    let left = drive.records.iter().filter(|it| it.time > called.time);
+    let way = left.filter_map(|it| it.displacement[0]).sum();
+    Some(Lead { way, time: drive.time() - called.time })
+}

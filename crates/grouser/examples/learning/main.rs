@@ -1,0 +1,183 @@
+//! How far can what is learnt from a drive be trusted? Many rovers drive on soils that are hidden from the learner, over
+//! uneven ground and with instruments that err, and what is learnt is compared with what is true.
+//!
+//! | study | asks |
+//! |---|---|
+//! | `coverage` | how often the bands hold slip and heading one slope ahead, and whether true values lie anywhere in them alike |
+//! | `heading` | how fast the heading is learnt on a soil that was not expected |
+//! | `change` | how soon another soil is flagged |
+//! | `entrapment` | how far ahead entrapment is called |
+//! | `alarms` | how often something is warned of on a soil that stays the same |
+//! | `cost` | what an update costs |
+//!
+//! ```sh
+//! cargo run --release -p grouser --example learning -- STUDY [REPEATS [SEED]]
+//! ```
+
+mod alarms;
+mod change;
+mod cost;
+mod coverage;
+mod drive;
+mod entrapment;
+mod heading;
+
+use std::error::Error;
+
+use grouser::document::LoadedScenario;
+use grouser::studies::learn::WarningKind;
+use grouser_io::statistics::quantile;
+
+use alarms::Alarms;
+use change::Change;
+use coverage::{Trial, held, uniformity, yaw_errors};
+use drive::scenario;
+use entrapment::Way;
+
+/// Settings and tests are made with other seeds.
+const SEED: u64 = 2026;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let study = arguments.next().unwrap_or_default();
+    let repeats = arguments.next().map(|it| it.parse()).transpose()?;
+    let seed = arguments.next().map(|it| it.parse()).transpose()?.unwrap_or(SEED);
+    let prior = sand("ishigami");
+    let trial = Trial { prior: &prior, hidden: &prior, uneven: true, samples: 100, seed };
+    match study.as_str() {
+        "coverage" => coverage(&trial, repeats.unwrap_or(100)),
+        "heading" => heading(&trial, repeats.unwrap_or(20)),
+        "change" => change(&trial, repeats.unwrap_or(100)),
+        "entrapment" => entrapment(&trial, repeats.unwrap_or(50)),
+        "alarms" => alarms(&trial, repeats.unwrap_or(30)),
+        "cost" => cost(&trial),
+        _ => {
+            return Err(
+                "give a study: coverage, heading, change, entrapment, alarms or cost".into()
+            );
+        }
+    }
+    Ok(())
+}
+
+/// The HAKUTO rover on a sand that is known roughly, under one wheel–soil model.
+fn sand(model: &str) -> LoadedScenario {
+    scenario(&["scenario.soil=toyoura-uncertain", &format!("scenario.model={model}")])
+}
+
+fn coverage(trial: &Trial<'_>, repeats: u32) {
+    let other = sand("small-wheel");
+    let even = Trial { uneven: false, ..*trial };
+    println!(
+        "| the hidden soil | ground | drives | slip within its band | heading within its band | error of the heading, before and after | even ranks: slip, heading, K_x, K_y |"
+    );
+    println!("|---|---|---|---|---|---|---|");
+    for (name, ground, trial) in [
+        ("of the learner's model", "uneven", *trial),
+        ("of the learner's model", "even", even),
+        ("of another model", "uneven", Trial { hidden: &other, ..*trial }),
+    ] {
+        let answers = trial.answers(repeats);
+        let [slip, yaw] = held(&answers).map(|it| 100.0 * it);
+        let [before, after] = yaw_errors(&answers).map(f64::to_degrees);
+        // What the numbers of a soil are under another model is no truth.
+        let ranks = if std::ptr::eq(trial.hidden, trial.prior) { 4 } else { 2 };
+        let ranks = (0..ranks)
+            .map(|place| format!("{:.2}", uniformity(answers.iter().map(|it| it.ranks[place]))));
+        let ranks: Vec<String> = ranks.collect();
+        println!(
+            "| {name} | {ground} | {} | {slip:.0} % | {yaw:.0} % | {before:.1}° and {after:.1}° | {} |",
+            answers.len(),
+            ranks.join(", ")
+        );
+    }
+}
+
+fn heading(trial: &Trial<'_>, repeats: u32) {
+    let errors = heading::errors(trial, repeats);
+    let halved = errors.iter().filter(|[before, after]| 2.0 * after <= *before).count();
+    let mean = |place: usize| {
+        errors.iter().map(|it| it[place]).sum::<f64>().to_degrees() / errors.len() as f64
+    };
+    println!("| drives | error of the heading before | after 2 m | at least halved |");
+    println!("|---|---|---|---|");
+    println!("| {} | {:.1}° | {:.1}° | {halved} |", errors.len(), mean(0), mean(1));
+}
+
+fn change(trial: &Trial<'_>, repeats: u32) {
+    println!(
+        "| what changes | drives | that move otherwise | flagged of these | within 0.5 m | median way | something flagged before |"
+    );
+    println!("|---|---|---|---|---|---|---|");
+    for change in Change::ALL {
+        let all = change::flagged(trial, change, repeats);
+        let ways: Vec<Option<f64>> = all.iter().filter(|it| it.matters).map(|it| it.way).collect();
+        let mut flagged: Vec<f64> = ways.iter().copied().flatten().collect();
+        flagged.sort_by(f64::total_cmp);
+        println!(
+            "| {} | {} | {} | {} | {} | {} | {} |",
+            change.name(),
+            all.len(),
+            ways.len(),
+            flagged.len(),
+            flagged.iter().filter(|it| **it <= 0.5).count(),
+            quantile(&flagged, 0.5).map_or_else(String::new, |it| format!("{it:.2} m")),
+            all.iter().filter(|it| it.early).count(),
+        );
+    }
+}
+
+fn entrapment(trial: &Trial<'_>, repeats: u32) {
+    println!(
+        "| how the rover gets stuck | drives | called 0.3 m and 5 s ahead or more | way ahead: 5th percentile, median | time ahead: 5th percentile, median |"
+    );
+    println!("|---|---|---|---|---|");
+    for way in
+        [Way::Steepening(5.0), Way::Steepening(2.0), Way::Weakening(0.1), Way::Weakening(0.3)]
+    {
+        let all = entrapment::leads(trial, way, repeats);
+        let soon = all.iter().flatten().filter(|it| it.way >= 0.3 && it.time >= 5.0).count();
+        let of = |of: &dyn Fn(&entrapment::Lead) -> f64| {
+            // What was not called was called at the last.
+            let mut leads: Vec<f64> = all.iter().map(|it| it.as_ref().map_or(0.0, of)).collect();
+            leads.sort_by(f64::total_cmp);
+            [0.05, 0.5].map(|share| quantile(&leads, share).unwrap_or(f64::NAN))
+        };
+        let ([far, farther], [soon_s, later_s]) = (of(&|it| it.way), of(&|it| it.time));
+        println!(
+            "| {} | {} | {soon} | {far:.2} m, {farther:.2} m | {soon_s:.0} s, {later_s:.0} s |",
+            way.name(),
+            all.len()
+        );
+    }
+}
+
+fn alarms(trial: &Trial<'_>, soils: u32) {
+    let names = WarningKind::ALL.map(|kind| format!("`{}`", kind.name())).join(" | ");
+    println!("| instruments | wheels' way | {names} |");
+    println!("|---|---|---|---|---|---|");
+    let mut all = Alarms::default();
+    for (name, models) in alarms::instruments() {
+        let found = alarms::alarms(trial, models, soils);
+        println!("| {name} | {:.0} m | {} |", found.way, found.cells());
+        all.add(&found);
+    }
+    println!("| all | {:.0} m | {} |", all.way, all.cells());
+    let bounds = WarningKind::ALL.map(|kind| format!("{:.1}", all.at_most(kind)));
+    println!("| in 100 m, at most (95 %) | | {} |", bounds.join(" | "));
+}
+
+fn cost(trial: &Trial<'_>) {
+    println!("| wheels | models | stretches | CPU time of one | records a second of CPU time |");
+    println!("|---|---|---|---|---|");
+    for cost in cost::costs(trial) {
+        println!(
+            "| {} | {} | {} | {:.0} ms | {:.0} |",
+            cost.wheels,
+            cost.models,
+            cost.stretches,
+            1e3 * cost.time / f64::from(cost.stretches),
+            f64::from(cost.records) / cost.time
+        );
+    }
+}
