@@ -175,11 +175,10 @@ impl Learner {
         self.learnt.stretches += 1;
         self.learnt.way += stretch.way;
         let slip_ratio = motion.slip_ratio();
-        let asked = (&self.study, &motion, &self.settings.noise);
         let seen = Seen {
             stretch: &stretch,
             slip_ratio,
-            is_another_soil: self.change.look((&before, &surprise), asked, stretch.way),
+            is_another_soil: self.change.look(surprise.strangeness),
             expected_slip: before
                 .expected_slip(&self.study, &motion, motion.slope())
                 .unwrap_or(1.0),

@@ -175,12 +175,6 @@ impl Bank {
         archive.end();
     }
 
-    /// A filter of a model that has learnt nothing, to read into; nothing of a model that is none of these.
-    pub(super) fn blank(&self, theory: &str) -> Option<Filter> {
-        let of_theory = |it: &&Filter| it.unknowns.theory().name() == theory;
-        self.filters.iter().find(of_theory).map(Filter::anew)
-    }
-
     /// Whether it is of as many numbers as there are unknowns.
     pub(super) fn is_whole(&self) -> bool {
         self.evidence.len() == self.filters.len() && self.filters.iter().all(Filter::is_whole)

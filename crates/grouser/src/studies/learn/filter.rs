@@ -46,11 +46,6 @@ impl Filter {
         Self { unknowns, belief }
     }
 
-    /// One of the same model that has learnt nothing.
-    pub(super) fn anew(&self) -> Self {
-        Self::new(self.unknowns.clone())
-    }
-
     /// Forgets all that was learnt.
     pub(super) fn forget(&mut self) {
         self.belief = Gaussian::standard(self.unknowns.count());

@@ -93,7 +93,7 @@ impl Learner {
     /// is not to be used any more.
     pub fn read_state(&mut self, archive: &mut dyn Archive) -> bool {
         self.walk(archive);
-        self.bank.is_whole() && self.change.is_whole() && self.gatherer.is_whole()
+        self.bank.is_whole() && self.gatherer.is_whole()
     }
 
     fn walk(&mut self, archive: &mut dyn Archive) {
@@ -105,7 +105,7 @@ impl Learner {
         bank.walk(archive);
         archive.end();
         archive.group("change");
-        change.walk(archive, |theory| bank.blank(theory));
+        change.walk(archive);
         archive.end();
         archive.group("watch");
         watch.walk(archive);
