@@ -7,7 +7,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{CourseChoice, Ground, MobilityMap, MobilityStudy};
+use super::{CellMotion, CourseChoice, Ground, MobilityMap, MobilityStudy};
 use crate::simulation::{Approach, Outcome, PrescribedYaw, Run, Scenario};
 use crate::studies::ensemble::samples::{BandInputs, Sample};
 use crate::terrain::ElevationGrid;
@@ -15,6 +15,7 @@ use crate::units::{Vec2, deg};
 use crate::vehicle::DriveLaw;
 use grouser_io::{self as document, LoadedScenario, Overrides, Source};
 use grouser_raster::{CoordinateSystem, Raster};
+use rayon::prelude::*;
 
 /// Courses that are driven: along the contour, and across it.
 const COURSES: [f64; 2] = [0.0, std::f64::consts::FRAC_PI_4];
@@ -33,7 +34,7 @@ fn ground() -> Raster {
     let spacing = Vec2::new(0.5, 0.5);
     let grid = ElevationGrid { columns: 120, rows: 120, south_west: Vec2::zeros(), spacing };
     let height = |at: Vec2| {
-        2.6 * f64::sin(0.21 * at.x + 0.4) * f64::cos(0.17 * at.y)
+        3.4 * f64::sin(0.21 * at.x + 0.4) * f64::cos(0.17 * at.y)
             + 0.9 * f64::sin(0.37 * at.y - 0.2 * at.x)
     };
     #[expect(clippy::cast_possible_truncation, reason = "heights of a test")]
@@ -54,28 +55,27 @@ fn drives(count: usize, samples: u32) -> Vec<Drive> {
     });
     let raster = ground();
     let ground = Ground::under(&study.heading.rover, &raster);
-    // Cells all over the map, far from each other, with neither level ground nor what no sample can drive on.
+    // Cells all over the map, far from each other.
     let cells = (0..).map(|number: usize| (number * 7919) % raster.heights.len());
-    let mut drives = Vec::new();
-    for (number, cell) in cells.enumerate() {
-        if drives.len() == count {
-            return drives;
-        }
+    // From slopes that most of the samples can drive on to those that few can.
+    let slopes = deg(13.0)..deg(23.0);
+    let chosen = cells.enumerate().filter_map(|(number, cell)| {
         let map = &maps[number % COURSES.len()];
         let (column, row) = (cell % raster.grid.columns, cell / raster.grid.columns);
-        let Some(found) = ground.at(map, column, row) else { continue };
-        if !(deg(9.0)..deg(24.0)).contains(&found.slope) {
-            continue;
-        }
-        let sample = inputs.sample(DRIVEN_SEED, drives.len() as u64).unwrap();
+        let found = ground.at(map, column, row)?;
+        slopes.contains(&found.slope).then_some((map, found))
+    });
+    let chosen: Vec<_> = chosen.take(count).enumerate().collect();
+    let one = |(number, (map, found)): (usize, (&MobilityMap, CellMotion))| {
+        let sample = inputs.sample(DRIVEN_SEED, number as u64).unwrap();
         // Where the soil as written has no heading, one begins with that of the steepest slope that has one.
         let table = &map.tables()[0];
         let motion = found.motion.or_else(|| table.motion(table.limit()?)).unwrap();
         let drive = On { loaded: &loaded, study: &study, sample, slope: found.slope };
         let is_no_go = drive.is_no_go(found.course, found.course + motion.crab);
-        drives.push(Drive { stated: found.probability_no_go, is_no_go });
-    }
-    drives
+        Drive { stated: found.probability_no_go, is_no_go }
+    };
+    chosen.into_par_iter().map(one).collect()
 }
 
 /// Ground as steep as a cell, with the soil and the model of a sample.
@@ -175,7 +175,7 @@ fn check(count: usize, samples: u32) {
         assert!(off < allowance(stated, count, samples), "{count}: {stated} {observed}");
     }
     // It tells apart what can be driven and what cannot.
-    assert!(brier < 0.7 * without, "{brier} {without}");
+    assert!(brier < 0.9 * without, "{brier} {without}");
 }
 
 #[test]
