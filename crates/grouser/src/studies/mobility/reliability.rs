@@ -34,7 +34,7 @@ fn ground() -> Raster {
     let spacing = Vec2::new(0.5, 0.5);
     let grid = ElevationGrid { columns: 120, rows: 120, south_west: Vec2::zeros(), spacing };
     let height = |at: Vec2| {
-        3.4 * f64::sin(0.21 * at.x + 0.4) * f64::cos(0.17 * at.y)
+        2.6 * f64::sin(0.21 * at.x + 0.4) * f64::cos(0.17 * at.y)
             + 0.9 * f64::sin(0.37 * at.y - 0.2 * at.x)
     };
     #[expect(clippy::cast_possible_truncation, reason = "heights of a test")]
@@ -57,8 +57,8 @@ fn drives(count: usize, samples: u32) -> Vec<Drive> {
     let ground = Ground::under(&study.heading.rover, &raster);
     // Cells all over the map, far from each other.
     let cells = (0..).map(|number: usize| (number * 7919) % raster.heights.len());
-    // From slopes that most of the samples can drive on to those that few can.
-    let slopes = deg(13.0)..deg(23.0);
+    // From slopes that all samples can drive on to those that few can.
+    let slopes = deg(9.0)..deg(24.0);
     let chosen = cells.enumerate().filter_map(|(number, cell)| {
         let map = &maps[number % COURSES.len()];
         let (column, row) = (cell % raster.grid.columns, cell / raster.grid.columns);
