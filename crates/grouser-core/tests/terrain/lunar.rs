@@ -26,6 +26,7 @@ fn craters_on_sites_are_as_many_as_the_law_says() {
 
 /// What the heights show: where a crater stands alone, its crest is as far above its middle as its depth says.
 #[test]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "points on the site")]
 fn heights_show_the_depth_of_a_crater() {
     let mut seen = 0;
     for seed in 1..=20 {
