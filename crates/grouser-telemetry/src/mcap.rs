@@ -30,6 +30,8 @@ pub(crate) struct McapLog {
     decoders: HashMap<u16, Option<Decoder>>,
     /// Types that were read already, by their schemas' numbers.
     descriptions: HashMap<u16, Option<Rc<Description>>>,
+    /// Messages whose channel the log does not describe.
+    without_channel: u64,
     is_read: bool,
 }
 
@@ -37,6 +39,8 @@ pub(crate) struct McapLog {
 enum Decoder {
     Json(String),
     Protobuf(String, Rc<Description>),
+    /// Of a topic that is read, but whose messages the log does not describe.
+    Unknown,
 }
 
 impl McapLog {
@@ -56,7 +60,15 @@ impl McapLog {
             .ok_or_else(|| failed(io::Error::other("the file changed while it was read")))?;
         let (decoders, descriptions) = (HashMap::new(), HashMap::new());
         let label = label.to_owned();
-        Ok(Self { label, messages, rows, decoders, descriptions, is_read: false })
+        Ok(Self {
+            label,
+            messages,
+            rows,
+            decoders,
+            descriptions,
+            without_channel: 0,
+            is_read: false,
+        })
     }
 
     pub(crate) fn next_record(&mut self) -> Result<Option<TelemetryRecord>, TelemetryError> {
@@ -81,8 +93,12 @@ impl McapLog {
     }
 
     fn next_message(&mut self) -> io::Result<Option<Message>> {
-        let Self { messages, rows, decoders, descriptions, .. } = self;
+        let Self { messages, rows, decoders, descriptions, without_channel, .. } = self;
         messages.next_message(|known, channel| {
+            if !known.channels.contains_key(&channel) {
+                *without_channel += 1;
+                return false;
+            }
             let decoder = decoders
                 .entry(channel)
                 .or_insert_with(|| decoder(known, channel, rows, descriptions));
@@ -97,6 +113,7 @@ impl McapLog {
         let (topic, tree) = match decoder {
             Decoder::Json(topic) => (topic, serde_json::from_slice::<Value>(data).ok()),
             Decoder::Protobuf(topic, description) => (topic, description.decode(data)),
+            Decoder::Unknown => return self.rows.damaged_message(),
         };
         match (tree, i64::try_from(message.log_time)) {
             (Some(tree), Ok(time)) => self.rows.add(topic, time, &tree),
@@ -109,7 +126,12 @@ impl McapLog {
     }
 
     pub(crate) fn notes(&self) -> Vec<String> {
-        self.messages.damage.sentences().into_iter().chain(self.rows.notes()).collect()
+        let count = self.without_channel;
+        let lost = (count > 0).then(|| {
+            format!("{count} messages are of channels that the log does not describe, and left out")
+        });
+        let damage = self.messages.damage.sentences().into_iter();
+        damage.chain(lost).chain(self.rows.notes()).collect()
     }
 }
 
@@ -131,10 +153,12 @@ fn decoder(
                 let schema = known.schemas.get(&channel.schema)?;
                 Description::read(&schema.data, &schema.name).map(Rc::new)
             };
-            let description = descriptions.entry(channel.schema).or_insert_with(read).clone()?;
-            Some(Decoder::Protobuf(channel.topic.clone(), description))
+            let description = descriptions.entry(channel.schema).or_insert_with(read).clone();
+            Some(description.map_or(Decoder::Unknown, |description| {
+                Decoder::Protobuf(channel.topic.clone(), description)
+            }))
         }
-        _ => None,
+        _ => Some(Decoder::Unknown),
     }
 }
 

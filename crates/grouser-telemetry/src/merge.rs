@@ -153,7 +153,7 @@ impl Merge {
 
     /// Adds readings to the row, which is returned if that ends it or if they begin another one.
     fn into_row(&mut self, time: i64, readings: Readings) -> Option<(i64, Readings)> {
-        let ends_row = readings.ends_row;
+        let ends_row = readings.ends_row || self.rule == RowRule::EachTime;
         let is_same = |row_time: i64| match self.rule {
             RowRule::EachTime => false,
             RowRule::Interval(interval) => {

@@ -90,6 +90,12 @@ impl Plan {
                 topics: topics.iter().map(described).collect(),
             });
         }
+        if let RowRule::Topic(name) = &plan.rows
+            && !topics.iter().any(|topic| topic.name == *name)
+        {
+            let why = format!("row_topic = '{name}' of the mapping is no topic of the log");
+            return Err(Problem::Mapping(why));
+        }
         let is_read =
             |topic: &&Topic| plan.readings.iter().any(|it| it.topics.contains(&topic.name));
         if let Some(topic) = topics.iter().filter(is_read).find(|topic| !topic.is_readable()) {

@@ -53,14 +53,22 @@ pub(crate) struct Known {
 }
 
 impl Known {
-    /// Takes in a record of a schema or a channel; whether it is one, and there is room for it.
+    /// Takes in a record of a schema or a channel; whether it is one, and there is room for it. What is known already
+    /// stands: recorders repeat it in every chunk.
     pub(crate) fn take(&mut self, kind: u8, content: &[u8]) -> bool {
+        let Some(id) = Fields(content).u16() else { return false };
+        let is_schema = kind == kind::SCHEMA;
+        if is_schema && self.schemas.contains_key(&id)
+            || !is_schema && self.channels.contains_key(&id)
+        {
+            return true;
+        }
         self.size += content.len();
-        self.size <= MOST_KNOWN
-            && match kind {
-                kind::SCHEMA => self.schema(content).is_some(),
-                _ => self.channel(content).is_some(),
-            }
+        if self.size > MOST_KNOWN {
+            return false;
+        }
+        let taken = if is_schema { self.schema(content) } else { self.channel(content) };
+        taken.is_some()
     }
 
     fn schema(&mut self, content: &[u8]) -> Option<()> {
