@@ -20,9 +20,11 @@ struct Group {
     fields: Vec<(usize, Channel)>,
 }
 
+/// What one side of a log has of a channel.
+type Side = fn(&ChannelValue) -> Option<f64>;
+
 /// The two sides of a log, by the beginnings of their topics.
-const SIDES: [(&str, fn(&ChannelValue) -> Option<f64>); 2] =
-    [("measured", |it| it.measured), ("predicted", |it| it.predicted)];
+const SIDES: [(&str, Side); 2] = [("measured", |it| it.measured), ("predicted", |it| it.predicted)];
 
 /// Writes a log of a replayed drive, with the topics `/measured/…` and `/predicted/…`; what it was written to comes back.
 ///
@@ -44,7 +46,7 @@ pub fn write_replay<W: Write>(
     let about = [("title", title), ("time", "that of the telemetry")];
     out.metadata("grouser", &about.map(|(key, value)| (key.to_owned(), value.to_owned())))?;
     let groups = groups(replay, rover);
-    let mut topics: Vec<(ChannelId, fn(&ChannelValue) -> Option<f64>, &Group)> = Vec::new();
+    let mut topics: Vec<(ChannelId, Side, &Group)> = Vec::new();
     for (side, of) in SIDES {
         for group in &groups {
             let (schema, about) = (group.schema(), group.described());
@@ -119,11 +121,7 @@ impl Group {
         self.fields.iter().map(described).collect()
     }
 
-    fn message(
-        &self,
-        stretch: &ReplayedStretch,
-        of: fn(&ChannelValue) -> Option<f64>,
-    ) -> Option<Vec<u8>> {
+    fn message(&self, stretch: &ReplayedStretch, of: Side) -> Option<Vec<u8>> {
         let mut out = Vec::with_capacity(10 * self.fields.len());
         for (number, (place, channel)) in (1..).zip(&self.fields) {
             let value = of(stretch.values.get(*place)?)?;

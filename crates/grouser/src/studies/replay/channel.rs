@@ -179,7 +179,8 @@ impl ChannelSummary {
         let scatter = mean(&|[.., residual]| (residual - bias).powi(2)).sqrt();
         let within: Vec<bool> = values.filter_map(ChannelValue::is_within).collect();
         let successes = within.iter().filter(|it| **it).count();
-        let within = (!within.is_empty()).then(|| Probability { successes, trials: within.len() });
+        let within =
+            (!within.is_empty()).then_some(Probability { successes, trials: within.len() });
         let means = [mean(&|[measured, ..]| measured), mean(&|[_, predicted, _]| predicted)];
         Some(Self { channel, count, means, bias, rms: square.sqrt(), scatter, within })
     }
