@@ -98,7 +98,7 @@ impl Learner {
     ) -> PyResult<Taught<'py>> {
         let last_time = self.drive().last_time();
         let rover = &self.scenario.value.rover;
-        let made = TelemetryColumns::new("the telemetry", names, rover, last_time);
+        let made = TelemetryColumns::new("the telemetry", &names, rover, last_time);
         let mut made = made.map_err(|error| {
             errors::parameter(error.to_string(), "telemetry", None, "columns of telemetry")
         })?;

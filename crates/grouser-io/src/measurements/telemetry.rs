@@ -257,7 +257,7 @@ impl TelemetryColumns {
     /// [`MeasurementError`] as of [`TelemetryReader::new`].
     pub fn new(
         label: &str,
-        names: Vec<String>,
+        names: &[String],
         rover: &Rover,
         last_time: Option<f64>,
     ) -> Result<Self, MeasurementError> {

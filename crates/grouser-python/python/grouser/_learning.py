@@ -306,7 +306,7 @@ class Learner:
         except ImportError as error:
             raise ImportError("to_arviz needs ArviZ: pip install arviz", name="arviz") from error
         count, seed = _count(samples), whole_number("seed", seed)
-        groups = {}
+        groups: dict[str, Any] = {}
         for group, is_before in (("posterior", False), ("prior", True)):
             keys, values = self._native.samples(count, seed, is_before)
             groups[group] = {f"soil.{key}": values[None, :, k] for k, key in enumerate(keys)}
