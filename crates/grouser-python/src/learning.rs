@@ -103,7 +103,7 @@ impl Learner {
             errors::parameter(error.to_string(), "telemetry", None, "columns of telemetry")
         })?;
         let arrays: Vec<_> = values.iter().map(|it| it.as_array()).collect();
-        let count = arrays.first().map_or(0, |it| it.len());
+        let count = values.first().map_or(0, |it| it.as_array().len());
         let mut records = Vec::with_capacity(count);
         for row in 0..count {
             let cells: Vec<f64> = arrays.iter().map(|it| it[row]).collect();
@@ -122,6 +122,7 @@ impl Learner {
     }
 
     /// Takes all records of a log that come after those that were taken; what they taught.
+    #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
     fn update_log<'py>(&self, py: Python<'py>, log: PathBuf) -> PyResult<Taught<'py>> {
         let label = escape::path(&log);
         let failed = |error: MeasurementError| errors::of_measurements(&error, &label);
