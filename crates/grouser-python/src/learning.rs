@@ -102,7 +102,7 @@ impl Learner {
         })?;
         let mut rows = rows.after(last_time);
         let arrays: Vec<_> = values.iter().map(|it| it.as_array()).collect();
-        let count = arrays.first().map_or(0, |it| it.len());
+        let count = values.first().map_or(0, |it| it.as_array().len());
         let mut records = Vec::with_capacity(count);
         for row in 0..count {
             records.extend(rows.record(arrays.iter().map(|it| Cell::of_number(it[row]))));
@@ -120,6 +120,7 @@ impl Learner {
     }
 
     /// Takes all records of a log that come after those that were taken; what they taught.
+    #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
     fn update_log<'py>(&self, py: Python<'py>, log: PathBuf) -> PyResult<Taught<'py>> {
         let lessons = threads::detached(py, || {
             let rover = &self.scenario.value.rover;

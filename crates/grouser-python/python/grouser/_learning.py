@@ -132,11 +132,23 @@ class Learner:
         return _lessons(self._native.update(list(columns), list(columns.values())))
 
     def update_log(self, log: str | os.PathLike[str]) -> list[dict[str, Any]]:
-        """Takes the records of a log (CSV) that come after what it has; returns as `update`."""
+        """Takes the records of a log that come after what it has; returns as `update`.
+
+        Parameters
+        ----------
+        log : str or path
+            The log, a CSV file.
+        """
         return _lessons(self._native.update_log(os.fspath(log)))
 
     def stream(self, records: Iterable[Telemetry]) -> Iterator[dict[str, Any]]:
-        """Takes record after record, and gives each lesson as soon as it is learnt."""
+        """Takes record after record, and gives each lesson as soon as it is learnt.
+
+        Parameters
+        ----------
+        records : iterable
+            Records, or larger parts of the telemetry, each as of `update`.
+        """
         for record in records:
             yield from self.update(record)
 
@@ -203,7 +215,13 @@ class Learner:
 
     def narrowed(self, *, samples: int = 200, seed: int = 1) -> dict[str, float]:
         """What is left of the uncertainty of each of the soil's keys [-]: 1 where nothing was
-        learnt."""
+        learnt.
+
+        Parameters
+        ----------
+        samples, seed : int
+            How many samples, and their seed.
+        """
         return self._native.narrowed(_count(samples), whole_number("seed", seed))
 
     def soil(self, *, samples: int = 200, seed: int = 1, name: str = "telemetry") -> Soil:
@@ -229,7 +247,17 @@ class Learner:
         seed: int = 1,
         name: str = "telemetry",
     ) -> None:
-        """Writes that soil as a document, with the file of its samples beside it."""
+        """Writes that soil as a document, with the file of its samples beside it.
+
+        Parameters
+        ----------
+        path : str or path
+            The document, such as ``soil.toml``.
+        samples, seed : int
+            How many samples, and their seed.
+        name : str
+            What the drive is called in the soil's source.
+        """
         soil = self.soil(samples=samples, seed=seed, name=name)
         target = Path(path)
         for file, content in soil.files.items():
@@ -258,6 +286,11 @@ class Learner:
         """Samples of the soil's keys for ArviZ, a variable for each, before the drive (the group
         ``prior``) and now (``posterior``): one chain, whose samples do not depend on each other.
 
+        Parameters
+        ----------
+        samples, seed : int
+            How many samples, and their seed.
+
         Returns
         -------
         arviz.InferenceData
@@ -273,7 +306,7 @@ class Learner:
         except ImportError as error:
             raise ImportError("to_arviz needs ArviZ: pip install arviz", name="arviz") from error
         count, seed = _count(samples), whole_number("seed", seed)
-        groups = {}
+        groups: dict[str, Any] = {}
         for group, is_before in (("posterior", False), ("prior", True)):
             keys, values = self._native.samples(count, seed, is_before)
             groups[group] = {f"soil.{key}": values[None, :, k] for k, key in enumerate(keys)}
@@ -283,7 +316,13 @@ class Learner:
 
     def save_state(self, path: str | os.PathLike[str]) -> None:
         """Writes its state, from which `load_state` goes on with the same bits; the file that is
-        there stays until the new one is whole."""
+        there stays until the new one is whole.
+
+        Parameters
+        ----------
+        path : str or path
+            The file.
+        """
         _write(Path(path), self._native.state())
 
     @classmethod

@@ -1,14 +1,18 @@
 //! What is learnt from drives whose soil is hidden from the learner.
 
 mod advice;
+#[allow(dead_code, reason = "the example has use for all of it")]
 #[path = "../../examples/learning/alarms.rs"]
 mod alarms;
+#[allow(dead_code, reason = "the example has use for all of it")]
 #[path = "../../examples/learning/change.rs"]
 mod change;
+#[allow(dead_code, reason = "the example has use for all of it")]
 #[path = "../../examples/learning/coverage.rs"]
 mod coverage;
 #[path = "../../examples/learning/drive.rs"]
 pub(crate) mod drive;
+#[allow(dead_code, reason = "the example has use for all of it")]
 #[path = "../../examples/learning/entrapment.rs"]
 mod entrapment;
 #[path = "../../examples/learning/heading.rs"]

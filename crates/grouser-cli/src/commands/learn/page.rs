@@ -165,7 +165,7 @@ fn slips_from_currents(rover: &Rover, rows: &Table) -> Vec<Chart> {
     let [low, median, high] = SLIP_RATIO.quantiles();
     let of_wheel = |wheel: &str| {
         let points = |column: &str| -> Vec<(f64, f64)> {
-            let values = rows.numbers(TIME.name).into_iter().zip(rows.numbers(column));
+            let values = rows.numbers(TIME.name).iter().zip(rows.numbers(column));
             let of_rows = names.iter().zip(values);
             let own = of_rows.filter(|(name, _)| name.as_deref() == Some(wheel));
             own.filter_map(|(_, (time, value))| (*time).zip(*value)).collect()

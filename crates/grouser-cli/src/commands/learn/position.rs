@@ -49,13 +49,12 @@ impl Position {
         lost: &Lost,
     ) -> Result<bool, Failure> {
         let is_other = match &mut self.kind {
-            Kind::New => return Ok(true),
+            Kind::New | Kind::File { left: 0, .. } => return Ok(true),
             Kind::Stream { last, .. } if record.time > *last => return Ok(true),
             Kind::Stream { before, .. } => {
                 before.clone_from(lost);
                 return Ok(false);
             }
-            Kind::File { left: 0, .. } => return Ok(true),
             Kind::File { left, digest, expected, .. } => {
                 *left -= 1;
                 *digest = digest.and(record);

@@ -286,13 +286,10 @@ impl Archive for Reader<'_> {
     fn list(&mut self, name: &str, _: usize) -> usize {
         let list = self.next(name);
         self.open.push((list, 0));
-        match list {
-            Json::Array(items) => items.len(),
-            _ => {
-                self.refuse(name);
-                0
-            }
+        if !list.is_array() {
+            self.refuse(name);
         }
+        list.as_array().map_or(0, Vec::len)
     }
 
     fn group(&mut self, name: &str) {

@@ -53,7 +53,9 @@ pub(super) fn items<T>(
 pub(super) fn numbers(archive: &mut dyn Archive, name: &str, values: &mut Vec<f64>) {
     let count = archive.list(name, values.len());
     values.resize(count, 0.0);
-    values.iter_mut().for_each(|value| archive.number("", value));
+    for value in values {
+        archive.number("", value);
+    }
     archive.end();
 }
 
@@ -61,7 +63,9 @@ pub(super) fn numbers(archive: &mut dyn Archive, name: &str, values: &mut Vec<f6
 pub(super) fn maybes(archive: &mut dyn Archive, name: &str, values: &mut Vec<Option<f64>>) {
     let count = archive.list(name, values.len());
     values.resize(count, None);
-    values.iter_mut().for_each(|value| archive.maybe("", value));
+    for value in values {
+        archive.maybe("", value);
+    }
     archive.end();
 }
 
@@ -202,7 +206,7 @@ impl Stretch {
         readings(archive, "sinkages", sinkages);
         let mut of_outliers = *outliers as u64;
         archive.count("outliers", &mut of_outliers);
-        *outliers = of_outliers as usize;
+        *outliers = usize::try_from(of_outliers).unwrap_or(usize::MAX);
     }
 }
 

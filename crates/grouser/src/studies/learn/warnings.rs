@@ -378,8 +378,9 @@ impl Watch {
             archive.count("which", which);
             archive.number("way", way);
         });
+        let place = |which: u64| usize::try_from(which).unwrap_or(usize::MAX);
         let of_causes = of_causes.into_iter();
-        *causes = of_causes.map(|(kind, which, way)| ((kind, which as usize), way)).collect();
+        *causes = of_causes.map(|(kind, which, way)| ((kind, place(which)), way)).collect();
     }
 }
 
