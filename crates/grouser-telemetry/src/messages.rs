@@ -41,6 +41,8 @@ struct Counts {
     /// Readings whose field is not there, or is several, by topic.
     without_field: HashMap<String, u64>,
     several: HashMap<String, u64>,
+    /// Readings that are no numbers or no rotations, by topic.
+    damaged_fields: HashMap<String, u64>,
 }
 
 impl MessageRows {
@@ -183,8 +185,7 @@ impl MessageRows {
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         let columns = self.plan.columns.len() - 1;
-        let mut notes =
-            vec![format!("{columns} columns are read by the mapping '{}'", self.mapping)];
+        let mut notes = vec![format!("the mapping '{}' looks for {columns} columns", self.mapping)];
         let Counts { without_stamp, with_stamp, outside, damaged, .. } = self.counts;
         if without_stamp > 0 && with_stamp > 0 {
             notes.push(format!("{without_stamp} messages have no time of their own, and count at the time at which they were recorded"));
@@ -209,6 +210,7 @@ impl MessageRows {
             }
         }
         for (counts, what) in [
+            (&self.counts.damaged_fields, "are no numbers or no rotations, and count as gaps"),
             (&self.counts.without_field, "without a field that the mapping reads there"),
             (
                 &self.counts.several,
@@ -258,23 +260,24 @@ impl Context<'_> {
         let mut readings = Readings::default();
         match &reading.what {
             Planned::Number { field, column, factor, offset } => {
-                let cell = match self.field(field, reading.is_optional, counts)? {
-                    Value::Null => Cell::Gap,
-                    value => number(value)
-                        .map_or(Cell::Damaged, |it| Cell::of_number(it * factor + offset)),
+                let value = self.field(field, reading.is_optional, counts)?;
+                if value.is_null() {
+                    return None;
+                }
+                let number = number(value).map(|it| it * factor + offset);
+                let Some(number) = number.filter(|it| !it.is_nan()) else {
+                    return self.damaged(counts);
                 };
+                let cell = Cell::Number(number);
                 readings.cells.push((*column, cell));
             }
             Planned::Pose { of: PoseOf::Transform { parent, child }, slot, .. } => {
                 return self.transform(parent, child, *slot, counts);
             }
-            Planned::Pose { of, columns, slot, .. } => {
-                match self.pose(of, reading.is_optional, counts)? {
-                    Some(pose) => readings.poses.push((*slot, pose)),
-                    // The first of its columns stands for all.
-                    None => readings.cells.extend(columns.first().map(|it| (it.1, Cell::Damaged))),
-                }
-            }
+            Planned::Pose { of, slot, .. } => match self.pose(of, reading.is_optional, counts)? {
+                Some(pose) => readings.poses.push((*slot, pose)),
+                None => return self.damaged(counts),
+            },
         }
         let time = match &reading.time {
             Some(path) => match path.find(self.message) {
@@ -303,6 +306,12 @@ impl Context<'_> {
         // Within the range that was just asked for.
         #[expect(clippy::cast_possible_truncation)]
         Some(time as i64)
+    }
+
+    /// Counts a reading that is none.
+    fn damaged<T>(&self, counts: &mut Counts) -> Option<T> {
+        *counts.damaged_fields.entry(self.topic.to_owned()).or_default() += 1;
+        None
     }
 
     fn field(&self, field: &FieldPath, is_optional: bool, counts: &mut Counts) -> Option<&Value> {

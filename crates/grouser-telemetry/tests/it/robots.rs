@@ -118,7 +118,10 @@ fn a_mapping_says_units_signs_and_axes() {
     assert!(close(wheel.steering, (-89_f64).to_radians()) && close(record.pitch, -0.1));
     // A quaternion of zeros is damage, which is counted.
     assert!(close(record.yaw, (-10_f64).to_radians()), "{:?}", record.yaw);
-    assert!(notes.iter().any(|it| it.starts_with("1 cells of `yaw_deg`")), "{notes:?}");
+    assert!(
+        notes.iter().any(|it| it.starts_with("1 readings of /nav are no numbers or no rotations")),
+        "{notes:?}"
+    );
 }
 
 /// Times before the window has passed are put in order, those after it counted.
