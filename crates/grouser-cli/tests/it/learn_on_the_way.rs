@@ -53,8 +53,8 @@ fn a_killed_learner_goes_on_with_the_same_bits() {
     place.results(&format!("{LEARN} --out whole"));
     let lines = lines_of(&whole);
     let log = place.file("log.csv");
-    for (killed, share) in [0.2, 0.45, 0.7].into_iter().enumerate() {
-        let end = (lines.len() as f64 * share) as usize;
+    for (killed, percent) in [20, 45, 70].into_iter().enumerate() {
+        let end = lines.len() * percent / 100;
         // The last row is only half there.
         let half = &lines[end][..lines[end].len() / 2];
         fs::write(&log, lines[..end].concat() + half).unwrap();
@@ -129,7 +129,7 @@ fn a_growing_log_is_learnt_from_line_by_line() {
     let whole = place.read("log.csv");
     let lines = lines_of(&whole);
     let at_once: Value = place.json(LEARN);
-    place.write("log.csv", &lines[..lines.len() / 2].concat());
+    place.write("log.csv", lines[..lines.len() / 2].concat());
     let log = place.file("log.csv");
     let rest = lines[lines.len() / 2..].to_vec();
     let writer = thread::spawn(move || {
