@@ -115,7 +115,7 @@ impl AdviceTables {
             crate::output::text::capitalised(self.about_drives().trim_end_matches(':'))
         ));
         if self.test_drives.rows() > 0 {
-            let brief = columns::tests_brief();
+            let brief = columns::legs_brief();
             page.rows("Test drives to make, one after the other", &self.test_drives, &brief);
             page.rows("All legs, each on its own", &self.legs, &brief);
         }

@@ -221,21 +221,19 @@ pub fn test_drives(drives: &[TestDrive]) -> Table {
     Table::of(&TEST_COLUMNS, drives)
 }
 
-/// The columns of [`test_drives`] for reading.
+/// The numbers of [`test_drives`] for reading.
+#[must_use]
+pub fn legs_brief() -> Vec<String> {
+    let before = HEADING_WIDTH_BEFORE;
+    [SLOPE, YAW, TEST_WAY, ENERGY, before, HEADING_WIDTH, INFORMATION, PER_JOULE]
+        .map(|it| it.name.to_owned())
+        .into()
+}
+
+/// The same with what legs narrow most.
 #[must_use]
 pub fn tests_brief() -> Vec<String> {
-    let numbers = [
-        SLOPE,
-        YAW,
-        TEST_WAY,
-        ENERGY,
-        HEADING_WIDTH_BEFORE,
-        HEADING_WIDTH,
-        INFORMATION,
-        PER_JOULE,
-        PER_METRE,
-    ];
-    numbers.map(|it| it.name).into_iter().chain([NARROWS]).map(str::to_owned).collect()
+    legs_brief().into_iter().chain([NARROWS.to_owned()]).collect()
 }
 
 /// The soil's numbers that a leg narrows most, two at most.

@@ -133,9 +133,10 @@ impl AdviceSettings {
                 expected,
             ));
         }
-        tests.legs.iter().try_for_each(|leg| {
-            crate::error::positive("way of a test drive [m]", leg.way).map(|_| ())
-        })
+        tests
+            .legs
+            .iter()
+            .try_for_each(|leg| crate::error::positive("way of a test drive [m]", leg.way))
     }
 }
 

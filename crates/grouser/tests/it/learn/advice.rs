@@ -88,10 +88,10 @@ fn stricter_probabilities_have_shorter_intervals() {
     let learner = learner(&scenario(&PRIOR));
     let mut before = f64::INFINITY;
     let mut seen = Vec::new();
-    for stuck_probability in [0.5, 0.1, 0.02] {
+    for stuck_probability in [0.6, 0.1, 0.01] {
         let checks = CheckSettings { stuck_probability, ..without_tests().checks };
         let settings = AdviceSettings { checks, look_time: 20.0, ..without_tests() };
-        let slope = advice(&learner, &[13.0], &settings).slopes[0].clone();
+        let slope = advice(&learner, &[17.0], &settings).slopes[0].clone();
         let check = slope.check.expect("looks");
         let (unchecked, every) = (check.unchecked, check.check.map_or(0.0, |it| it.every));
         assert!(every <= before, "{stuck_probability}: {check:?}");

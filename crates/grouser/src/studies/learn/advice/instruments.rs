@@ -3,7 +3,7 @@
 use super::super::stretch::{self, Reading, Stretch};
 use super::test_drive::TestLeg;
 use crate::units::Vec2;
-use crate::vehicle::Rover;
+use crate::vehicle::{Mount, Rover};
 
 /// What is read on a test drive, and how well it is read on the mean over a stretch of a decimetre.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +81,7 @@ impl Instruments {
             let size = TORQUE * rover.mass() * crate::units::EARTH_GRAVITY / wheels as f64 * radius;
             reading(size, share * size)
         };
-        let radii = rover.mounts().iter().map(|mount| mount.shearing_radius());
+        let radii = rover.mounts().iter().map(Mount::shearing_radius);
         let way = stretch::WAY;
         Stretch {
             time: [0.0, way / rim_speed],
