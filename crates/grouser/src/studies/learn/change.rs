@@ -1,7 +1,7 @@
 //! Whether the soil has become another: evidence that is summed up over stretches (Page 1954).
 //!
 //! A stretch speaks for another soil by as much as it would be likelier if nothing had been learnt of the width of the
-//! belief ([`Surprise::strangeness`]). The learner goes on meanwhile, and after some stretches finds another soil no
+//! belief (`Surprise::strangeness`). The learner goes on meanwhile, and after some stretches finds another soil no
 //! stranger than the first: a change that does not show in three of them or so is learnt, and not flagged. Two rules that
 //! flag more were tried and left: to judge stretches by what was believed before the evidence began, and to set a second
 //! learner beside the first that begins anew. Both took ground that leans for another soil, every ten metres or so.
