@@ -108,7 +108,7 @@ def route(
     seed: int = 1,
     **changes: Any,
 ) -> xarray.Dataset | dict[Objective, xarray.Dataset]:
-    """The cheapest way over a map of heights, or what a given way takes, and what simulation makes of it.
+    """The cheapest way over a map of heights, or what a given way takes, and its simulation.
 
     Parameters
     ----------
@@ -237,7 +237,7 @@ def _asked(from_m: Any, to_m: Any, along: Any) -> dict[str, Any]:
         return none | {name: _place(name, end) for name, end in ends.items()}
     for name, end in ends.items():
         if end is not None:
-            raise ParameterError(f"{name} has no place beside `along`, which is the whole way", name)
+            raise ParameterError(f"{name} has no place beside `along`, which is a whole way", name)
     if isinstance(along, (str, os.PathLike)):
         return none | {"along_file": os.fspath(along)}
     given = numbers("along", along)
