@@ -12,7 +12,7 @@ use grouser_io::measurements::MeasurementError;
 pub struct TelemetryError {
     /// What messages call the file.
     label: String,
-    problem: Problem,
+    problem: Box<Problem>,
     hint: Option<String>,
 }
 
@@ -86,7 +86,7 @@ impl TelemetryError {
             ),
             _ => None,
         };
-        Self { label: label.to_owned(), problem, hint }
+        Self { label: label.to_owned(), problem: Box::new(problem), hint }
     }
 
     pub(crate) fn with_hint(mut self, hint: impl Into<Option<String>>) -> Self {
@@ -119,7 +119,7 @@ impl TelemetryError {
     /// Whether the disk or its permissions failed, rather than the file.
     #[must_use]
     pub fn is_environment(&self) -> bool {
-        match &self.problem {
+        match &*self.problem {
             Problem::Unreadable(_) => true,
             Problem::Table(error) => error.is_environment(),
             _ => false,
@@ -143,7 +143,7 @@ impl fmt::Display for TelemetryError {
         /// Characters of a problem or a hint: a log may have a thousand topics.
         const LONGEST: usize = 2000;
         // An error of a table has its line and its own hint.
-        if let Problem::Table(error) = &self.problem {
+        if let Problem::Table(error) = &*self.problem {
             return error.fmt(f);
         }
         let problem = escape::short_line(&self.problem.to_string(), LONGEST);

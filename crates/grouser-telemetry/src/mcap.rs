@@ -82,12 +82,11 @@ impl McapLog {
             let message = self
                 .next_message()
                 .map_err(|error| TelemetryError::new(&self.label, Problem::Unreadable(error)))?;
-            match message {
-                Some(message) => self.add(message),
-                None => {
-                    self.is_read = true;
-                    self.rows.end();
-                }
+            if let Some(message) = message {
+                self.add(message);
+            } else {
+                self.is_read = true;
+                self.rows.end();
             }
         }
     }

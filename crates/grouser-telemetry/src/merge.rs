@@ -133,7 +133,7 @@ impl Merge {
     pub(crate) fn next_row(&mut self) -> Option<(i64, Readings)> {
         while let Some((time, readings)) = self.next_in_order() {
             self.passed = Some(time);
-            if let Some(row) = self.into_row(time, readings) {
+            if let Some(row) = self.add_to_row(time, readings) {
                 return Some(row);
             }
         }
@@ -152,7 +152,7 @@ impl Merge {
     }
 
     /// Adds readings to the row, which is returned if that ends it or if they begin another one.
-    fn into_row(&mut self, time: i64, readings: Readings) -> Option<(i64, Readings)> {
+    fn add_to_row(&mut self, time: i64, readings: Readings) -> Option<(i64, Readings)> {
         let ends_row = readings.ends_row || self.rule == RowRule::EachTime;
         let is_same = |row_time: i64| match self.rule {
             RowRule::EachTime => false,

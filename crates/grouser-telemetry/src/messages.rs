@@ -61,17 +61,16 @@ impl MessageRows {
         choices: &TopicChoices,
     ) -> Result<Self, TelemetryError> {
         let built_in;
-        let mapping = match mapping {
-            Some(mapping) => mapping,
-            None => {
-                built_in = Mapping::for_topics(topics).ok_or_else(|| {
-                    let topics = topics.iter().map(|it| format!("{} ({})", it.name, it.message));
-                    let mapping = "built-in ones".to_owned();
-                    let problem = Problem::NothingMapped { mapping, topics: topics.collect() };
-                    TelemetryError::new(label, problem)
-                })?;
-                &built_in
-            }
+        let mapping = if let Some(mapping) = mapping {
+            mapping
+        } else {
+            built_in = Mapping::for_topics(topics).ok_or_else(|| {
+                let topics = topics.iter().map(|it| format!("{} ({})", it.name, it.message));
+                let mapping = "built-in ones".to_owned();
+                let problem = Problem::NothingMapped { mapping, topics: topics.collect() };
+                TelemetryError::new(label, problem)
+            })?;
+            &built_in
         };
         let plan = Plan::new(mapping, topics, rover, choices)
             .map_err(|problem| TelemetryError::new(label, problem))?;
@@ -274,10 +273,10 @@ impl Context<'_> {
             Planned::Pose { of: PoseOf::Transform { parent, child }, slot, .. } => {
                 return self.transform(parent, child, *slot, counts);
             }
-            Planned::Pose { of, slot, .. } => match self.pose(of, reading.is_optional, counts)? {
-                Some(pose) => readings.poses.push((*slot, pose)),
-                None => return self.damaged(counts),
-            },
+            Planned::Pose { of, slot, .. } => {
+                let pose = self.pose(of, reading.is_optional, counts)?;
+                readings.poses.push((*slot, pose));
+            }
         }
         let time = match &reading.time {
             Some(path) => match path.find(self.message) {
@@ -325,19 +324,20 @@ impl Context<'_> {
         None
     }
 
-    /// The pose in a field; `None` within for one that is damaged.
-    fn pose(&self, of: &PoseOf, is_optional: bool, counts: &mut Counts) -> Option<Option<Pose>> {
+    /// The pose in a field; one that is damaged is counted.
+    fn pose(&self, of: &PoseOf, is_optional: bool, counts: &mut Counts) -> Option<Pose> {
         let (PoseOf::Attitude(field) | PoseOf::Pose(field)) = of else { return None };
         let value = self.field(field, is_optional, counts)?;
         if value.is_null() || self.is_unknown(field) {
             return None;
         }
-        Some(match of {
+        let pose = match of {
             PoseOf::Attitude(_) => {
                 Rotation::read(value).map(|rotation| Pose { position: None, rotation })
             }
             _ => Pose::read(value),
-        })
+        };
+        pose.or_else(|| self.damaged(counts))
     }
 
     /// Whether a covariance beside the field says that it is not measured, as `sensor_msgs/Imu` does by −1.
@@ -380,12 +380,11 @@ fn number(value: &Value) -> Option<f64> {
 /// A time [ns]: seconds with nanoseconds, or seconds; nothing for one that was not set.
 fn stamp(value: &Value) -> Option<f64> {
     let part = |names: [&str; 4]| names.into_iter().find_map(|name| value.get(name)?.as_f64());
-    let time = match value.as_f64() {
-        Some(seconds) => (seconds * 1e9).round(),
-        None => {
-            let nanoseconds = part(["nanosec", "nsec", "nanos", "nsecs"]).unwrap_or(0.0);
-            part(["sec", "seconds", "secs", "s"])? * 1e9 + nanoseconds
-        }
+    let time = if let Some(seconds) = value.as_f64() {
+        (seconds * 1e9).round()
+    } else {
+        let nanoseconds = part(["nanosec", "nsec", "nanos", "nsecs"]).unwrap_or(0.0);
+        part(["sec", "seconds", "secs", "s"])? * 1e9 + nanoseconds
     };
     (time != 0.0).then_some(time)
 }

@@ -213,8 +213,7 @@ fn check_column(column: &ColumnDescriptor) -> Result<(), String> {
 /// Times that count milliseconds, say, are times all the same.
 fn scale_of(column: &ColumnDescriptor) -> Scale {
     let unit = match column.logical_type_ref() {
-        Some(LogicalType::Timestamp(it)) => it.unit,
-        Some(LogicalType::Time(it)) => it.unit,
+        Some(LogicalType::Timestamp(it) | LogicalType::Time(it)) => it.unit,
         _ => return Scale::Same,
     };
     Scale::PerSecond(match unit {

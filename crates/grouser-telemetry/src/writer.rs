@@ -28,7 +28,7 @@ enum Kind {
     Csv,
     /// Its bytes are collected in memory, and passed on after each group of rows.
     Parquet {
-        writer: SerializedFileWriter<Vec<u8>>,
+        writer: Box<SerializedFileWriter<Vec<u8>>>,
         columns: Vec<Vec<Option<f64>>>,
     },
 }
@@ -55,7 +55,10 @@ impl<W: Write> TelemetryWriter<W> {
         let properties = WriterProperties::builder().set_compression(Compression::UNCOMPRESSED);
         let writer = SerializedFileWriter::new(Vec::new(), schema, Arc::new(properties.build()));
         let columns = vec![Vec::new(); names.len()];
-        Ok(Self { out, kind: Kind::Parquet { writer: writer.map_err(io_error)?, columns } })
+        Ok(Self {
+            out,
+            kind: Kind::Parquet { writer: Box::new(writer.map_err(io_error)?), columns },
+        })
     }
 
     /// Adds a record.

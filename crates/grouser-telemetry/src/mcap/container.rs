@@ -242,7 +242,10 @@ impl<R: Read> Messages<R> {
     /// Takes in the next record outside of chunks: a message becomes the data, a chunk the chunk.
     fn next_at_top(&mut self) -> io::Result<()> {
         self.data.clear();
-        let Some(head) = head(&mut self.source)? else { return self.cut() };
+        let Some(head) = head(&mut self.source)? else {
+            self.cut();
+            return Ok(());
+        };
         match head.kind {
             kind::DATA_END | kind::FOOTER => {
                 self.has_ended = true;
@@ -254,7 +257,10 @@ impl<R: Read> Messages<R> {
                 let is_of_interest = matches!(head.kind, kind::SCHEMA..=kind::CHUNK);
                 self.damage.too_large += u64::from(is_of_interest);
                 let passed = io::copy(&mut (&mut self.source).take(head.length), &mut io::sink())?;
-                return if passed < head.length { self.cut() } else { Ok(()) };
+                if passed < head.length {
+                    self.cut();
+                }
+                return Ok(());
             }
         }
         let mut content = std::mem::take(&mut self.data);
@@ -277,7 +283,8 @@ impl<R: Read> Messages<R> {
             return Ok(());
         }
         if read < head.length {
-            return self.cut();
+            self.cut();
+            return Ok(());
         }
         if head.kind == kind::MESSAGE {
             self.data = content;
@@ -288,11 +295,10 @@ impl<R: Read> Messages<R> {
     }
 
     /// The file ends within a record.
-    fn cut(&mut self) -> io::Result<()> {
+    fn cut(&mut self) {
         self.damage.cut_at.get_or_insert(self.source.count);
         self.has_ended = true;
         self.data.clear();
-        Ok(())
     }
 }
 

@@ -309,7 +309,7 @@ fn read_type(
 }
 
 /// A field with its number and the name of the type that it holds; a kind that is not known is left out.
-fn read_field(field: &[u8], is_third: bool) -> Option<Option<(u64, Field, String)>> {
+fn read_field(field: &[u8], is_third: bool) -> Option<Vec<(u64, Field, String)>> {
     const REPEATED: u64 = 3;
     let (mut name, mut holds) = (String::new(), String::new());
     let (mut number, mut label, mut code, mut is_explicit) = (0, 0, 0, !is_third);
@@ -334,5 +334,5 @@ fn read_field(field: &[u8], is_third: bool) -> Option<Option<(u64, Field, String
         is_implicit: !is_repeated && !is_explicit,
         holds: None,
     };
-    Some(Kind::of_code(code).map(|kind| (number, field(kind), holds)))
+    Some(Kind::of_code(code).map(|kind| (number, field(kind), holds)).into_iter().collect())
 }
