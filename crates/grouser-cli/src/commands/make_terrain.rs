@@ -111,7 +111,7 @@ enum Encoding {
 impl Encoding {
     /// By the end of the file's name.
     fn of(out: &Path) -> Result<Self, Failure> {
-        let end = out.extension().map(|end| end.to_ascii_lowercase());
+        let end = out.extension().map(OsStr::to_ascii_lowercase);
         match end.as_ref().and_then(|end| end.to_str()) {
             Some("tif" | "tiff") => Ok(Self::GeoTiff),
             Some("xyz") => Ok(Self::Xyz),
