@@ -265,7 +265,7 @@ mod tests {
     fn memory_does_not_grow_with_what_waits() {
         let mut merge = Merge::new(i64::MAX, RowRule::EachTime, vec![]);
         let mut found = 0;
-        for time in 0..(MOST_WAITING as i64 + 50) {
+        for time in 0..i64::try_from(MOST_WAITING).unwrap() + 50 {
             merge.add(time, reading(1, 1.0));
             found += rows(&mut merge).len();
         }

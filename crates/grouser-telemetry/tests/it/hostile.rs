@@ -110,7 +110,7 @@ fn damaged_parquet_is_refused_or_counted() {
         let record = TelemetryRecord {
             time: f64::from(step),
             roll: Some(0.1),
-            wheels: vec![Default::default(); 4],
+            wheels: vec![WheelTelemetry::default(); 4],
             ..TelemetryRecord::default()
         };
         writer.write(&record).unwrap();

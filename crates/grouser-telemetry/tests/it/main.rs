@@ -12,7 +12,7 @@ mod runs;
 use std::fs;
 use std::path::Path;
 
-use grouser::document::measurements::telemetry::TelemetryRecord;
+use grouser::document::measurements::telemetry::{TelemetryRecord, WheelTelemetry};
 use grouser::vehicle::Rover;
 use grouser_telemetry::{Mapping, TelemetryError, TelemetryLog, TopicChoices};
 use tempfile::TempDir;

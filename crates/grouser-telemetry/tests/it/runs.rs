@@ -29,7 +29,9 @@ fn a_table_is_read_as_it_was_written() {
     let truth = truth(&run, &scenario);
     for name in ["drive.csv", "drive.parquet"] {
         let mut writer = TelemetryWriter::begin(Path::new(name), Vec::new(), &rover()).unwrap();
-        truth.iter().for_each(|record| writer.write(record).unwrap());
+        for record in &truth {
+            writer.write(record).unwrap();
+        }
         let (records, notes) = read(&writer.finish().unwrap(), None).unwrap();
         assert!(notes.is_empty(), "{notes:?}");
         assert_eq!(records.len(), truth.len(), "{name}");
