@@ -59,10 +59,10 @@ const INTERVALS: [(f64, usize); 4] = [(5.0, 10), (2.0, 4), (1.0, 2), (0.5, 1)];
 const STEP: f64 = 0.5;
 /// How many there are.
 const STEPS: usize = 20;
-/// Limits of slip that are tried [%].
+/// Limits of slip that are tried, in steps of a twentieth.
 const LIMITS: std::ops::RangeInclusive<u8> = 1..=17;
-/// Between two of them [-].
-const LIMIT_STEP: f64 = 0.05;
+/// So many steps are a slip of 1.
+const LIMIT_STEPS: f64 = 20.0;
 /// The practice of Opportunity's drivers: every 5 m, 40 %.
 const PRACTICE: (usize, f64) = (10, 0.4);
 
@@ -142,7 +142,7 @@ impl CheckAdvice {
         let check = judged.iter().flatten().find(is_safe).copied();
         let [.., shortest] = INTERVALS;
         let [.., closest] = judged;
-        let lowest = LIMIT_STEP * f64::from(*LIMITS.start());
+        let lowest = f64::from(*LIMITS.start()) / LIMIT_STEPS;
         let stuck = ways.iter().filter(|way| way.is_stuck()).count();
         Self {
             slope,
@@ -157,7 +157,7 @@ impl CheckAdvice {
 /// The lowest limit that ends no more ways than it may: among these fewest get stuck with it. `None` where each ends too
 /// many.
 fn best_limit(ways: &[SlipWay], interval: (f64, usize), settings: &CheckSettings) -> Option<Check> {
-    let limits = LIMITS.map(|step| LIMIT_STEP * f64::from(step));
+    let limits = LIMITS.map(|step| f64::from(step) / LIMIT_STEPS);
     limits
         .map(|limit| Check::of(ways, interval, limit, settings.odometry_error))
         .find(|it| it.false_stops.is_none_or(|it| it.estimate() <= settings.false_stops))
