@@ -25,7 +25,7 @@ use crate::studies::heading::HeadingStudy;
 use crate::units::Vec2;
 use crate::vehicle::ground::{Ground, forces_of};
 use crate::vehicle::kinematics::wheel_slips;
-use crate::vehicle::{Rover, RoverState, WheelReaction, dynamics, roll_and_pitch, slope_and_yaw};
+use crate::vehicle::{Rover, RoverState, WheelReaction, dynamics};
 
 /// A motion that was seen, with what was read of forces and sinkages in it.
 #[derive(Clone, Debug)]
