@@ -1,5 +1,6 @@
 //! `grouser terrain`: elevation models made by chance.
 
+use std::ffi::OsStr;
 use std::path::Path;
 
 use grouser::document::columns::roughness;

@@ -2,9 +2,6 @@
 
 mod advice;
 #[allow(dead_code, reason = "the example has use for all of it")]
-#[path = "../../examples/learning/alarms.rs"]
-mod alarms;
-#[allow(dead_code, reason = "the example has use for all of it")]
 #[path = "../../examples/learning/change.rs"]
 mod change;
 #[allow(dead_code, reason = "the example has use for all of it")]
@@ -56,12 +53,17 @@ fn without_telemetry_predictions_are_those_of_the_soil() {
     }
 }
 
-/// Six hidden soils of the prior: slip and yaw of the next slope lie within the bands, but for one of either at most, and
+/// The same on even ground.
+fn on_a_plane<'a>(trial: Trial<'a>) -> Trial<'a> {
+    Trial { uneven: false, ..trial }
+}
+
+/// Six hidden soils of the prior, on even ground: slip and yaw of the next slope lie within the bands, but for one of either at most, and
 /// the error of the heading is less than half of what it was.
 #[test]
 fn bands_hold_one_slope_ahead() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
-    let answers = trial(&prior, &prior, 77).answers(6);
+    let answers = on_a_plane(trial(&prior, &prior, 77)).answers(6);
     assert_eq!(answers.len(), 6);
     assert!(held(&answers).into_iter().all(|held| 6.0 * held > 4.5), "{answers:?}");
     let [before, after] = yaw_errors(&answers);
@@ -73,7 +75,7 @@ fn bands_hold_one_slope_ahead() {
 fn bands_hold_under_another_theory() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
     let other = scenario(&[PRIOR, "scenario.model=small-wheel"]);
-    let answers = trial(&prior, &other, 78).answers(4);
+    let answers = on_a_plane(trial(&prior, &other, 78)).answers(4);
     assert_eq!(answers.len(), 4);
     assert!(held(&answers).into_iter().all(|held| 4.0 * held > 2.5), "{answers:?}");
 }
@@ -150,12 +152,17 @@ fn another_soil_is_flagged() {
     assert!(matter.iter().all(|it| is_in_time(it)), "{all:?}");
 }
 
-/// On one soil, level and across slopes, nothing is warned of.
+/// On one soil and even ground, level and across slopes, nothing is warned of.
 #[test]
 fn nothing_is_warned_of_on_one_soil() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
-    let found = alarms::alarms(&trial(&prior, &prior, 79), INSTRUMENTS, 1);
-    assert!(found.way >= 30.0 && found.counts.is_empty(), "{found:?}");
+    for truth in &truths(&prior, 79, 3) {
+        let mut drive = Drive::new(&prior, truth);
+        for leg in LEGS {
+            drive.leg(leg).unwrap();
+        }
+        assert_eq!(warnings(&trial(&prior, &prior, 79), &drive, 3), []);
+    }
 }
 
 /// A wheel without torque, and a compass that is off: each is named.

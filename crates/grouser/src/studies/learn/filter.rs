@@ -82,8 +82,6 @@ impl Filter {
         let numbers = |at: &DVector<f64>| Some(expected(at, Some(&here))?.numbers);
         let mut line = Line::over(over, &here.numbers, numbers);
         line.noise += motion.noise(study, &here, noise);
-        let sample = self.unknowns.sample(over.mean.as_slice())?;
-        line.value += motion.shift_of_leaning(study, &sample, &here, noise);
         Some(line)
     }
 

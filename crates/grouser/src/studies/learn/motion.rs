@@ -25,7 +25,7 @@ use crate::studies::heading::HeadingStudy;
 use crate::units::Vec2;
 use crate::vehicle::ground::{Ground, forces_of};
 use crate::vehicle::kinematics::wheel_slips;
-use crate::vehicle::{Rover, RoverState, WheelReaction, dynamics, roll_and_pitch, slope_and_yaw};
+use crate::vehicle::{Rover, RoverState, WheelReaction, dynamics};
 
 /// A motion that was seen, with what was read of forces and sinkages in it.
 #[derive(Clone, Debug)]
@@ -380,37 +380,6 @@ impl SeenMotion {
             covariance[(place, place)] += variance;
         }
         covariance
-    }
-
-    /// By how much ground that leans a little, now this way and now the other, moves on the mean what a soil expects: a slip
-    /// grows by more where the ground leans against the rover than it falls where it leans along. A soil that is judged
-    /// by slips without this is judged too weak.
-    ///
-    /// ```text
-    /// E y(e) − y(0) ≈ ½ Σ [y(σ e_i) + y(−σ e_i) − 2 y(0)]        e_i: the axes along the body and across it
-    /// ```
-    pub(super) fn shift_of_leaning(
-        &self,
-        study: &HeadingStudy,
-        sample: &Sample,
-        here: &Expected,
-        noise: &ModelNoise,
-    ) -> DVector<f64> {
-        let lean = hypot(noise.force, noise.attitude);
-        let [roll, pitch] = roll_and_pitch(self.slope, self.yaw);
-        let leaning = |to_side: f64, ahead: f64| {
-            let [slope, yaw] = slope_and_yaw(roll + to_side, pitch + ahead);
-            let there = Self { slope, yaw, ..self.clone() };
-            there.expected(study, sample, Some(here)).map(|it| it.numbers)
-        };
-        let mut shift = DVector::zeros(here.numbers.len());
-        for axis in [[lean, 0.0], [0.0, lean]] {
-            let pair = leaning(axis[0], axis[1]).zip(leaning(-axis[0], -axis[1]));
-            if let Some((one, other)) = pair {
-                shift += (one + other - &here.numbers * 2.0) * 0.5;
-            }
-        }
-        shift
     }
 
     /// How far forces that no soil explains move a rover off its motion, over the fastest rim's speed: a covariance [-].
