@@ -1,13 +1,18 @@
 //! What is learnt from drives whose soil is hidden from the learner.
 
+#[allow(dead_code, reason = "the example uses all of it")]
 #[path = "../../examples/learning/change.rs"]
 mod change;
+#[allow(dead_code, reason = "the example uses all of it")]
 #[path = "../../examples/learning/coverage.rs"]
 mod coverage;
+#[allow(dead_code, reason = "the example uses all of it")]
 #[path = "../../examples/learning/drive.rs"]
 mod drive;
+#[allow(dead_code, reason = "the example uses all of it")]
 #[path = "../../examples/learning/entrapment.rs"]
 mod entrapment;
+#[allow(dead_code, reason = "the example uses all of it")]
 #[path = "../../examples/learning/heading.rs"]
 mod heading;
 
