@@ -13,8 +13,8 @@ use super::drive::{Drive, INSTRUMENTS, learner, scenario};
 pub(crate) struct Cost {
     pub(crate) wheels: usize,
     pub(crate) models: usize,
-    pub(crate) stretches: u32,
-    pub(crate) records: u32,
+    pub(crate) stretches: u64,
+    pub(crate) records: usize,
     /// Processor time [s].
     pub(crate) time: f64,
 }
@@ -38,14 +38,14 @@ fn cost(trial: &Trial<'_>, settings: &[&str]) -> Option<Cost> {
     }
     let records = drive.seen(INSTRUMENTS, trial.seed);
     let start = processor_time();
-    let count = records.len() as u32;
+    let count = records.len();
     for record in records {
         learner.update(record);
     }
     Some(Cost {
         wheels: drive.study().rover.wheel_count(),
         models: learner.models().shares().len(),
-        stretches: learner.learnt().stretches as u32,
+        stretches: learner.learnt().stretches,
         records: count,
         time: processor_time() - start,
     })

@@ -73,9 +73,10 @@ impl Predicted {
 impl Trial<'_> {
     /// A drive on a hidden soil that has not begun.
     pub(crate) fn drive(&self, truth: &Sample, seed: u64) -> Drive {
-        match self.uneven {
-            true => Drive::uneven(self.prior, truth, seed),
-            false => Drive::new(self.prior, truth),
+        if self.uneven {
+            Drive::uneven(self.prior, truth, seed)
+        } else {
+            Drive::new(self.prior, truth)
         }
     }
 

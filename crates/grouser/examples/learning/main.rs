@@ -176,8 +176,8 @@ fn cost(trial: &Trial<'_>) {
             cost.wheels,
             cost.models,
             cost.stretches,
-            1e3 * cost.time / f64::from(cost.stretches),
-            f64::from(cost.records) / cost.time
+            1e3 * cost.time / cost.stretches as f64,
+            cost.records as f64 / cost.time
         );
     }
 }

@@ -1,17 +1,19 @@
 //! What is learnt from drives whose soil is hidden from the learner.
 
 mod advice;
-#[allow(dead_code, reason = "the example has use for all of it")]
+#[allow(dead_code, reason = "the example uses all of it")]
 #[path = "../../examples/learning/change.rs"]
 mod change;
-#[allow(dead_code, reason = "the example has use for all of it")]
+#[allow(dead_code, reason = "the example uses all of it")]
 #[path = "../../examples/learning/coverage.rs"]
 mod coverage;
+#[allow(dead_code, reason = "the example uses all of it")]
 #[path = "../../examples/learning/drive.rs"]
 pub(crate) mod drive;
-#[allow(dead_code, reason = "the example has use for all of it")]
+#[allow(dead_code, reason = "the example uses all of it")]
 #[path = "../../examples/learning/entrapment.rs"]
 mod entrapment;
+#[allow(dead_code, reason = "the example uses all of it")]
 #[path = "../../examples/learning/heading.rs"]
 mod heading;
 
@@ -54,7 +56,7 @@ fn without_telemetry_predictions_are_those_of_the_soil() {
 }
 
 /// The same on even ground.
-fn on_a_plane<'a>(trial: Trial<'a>) -> Trial<'a> {
+fn on_a_plane(trial: Trial<'_>) -> Trial<'_> {
     Trial { uneven: false, ..trial }
 }
 
