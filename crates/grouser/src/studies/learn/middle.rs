@@ -5,8 +5,10 @@
 pub(super) struct Middle {
     /// The mean.
     pub(super) value: f64,
-    /// Standard deviation of a reading, by the middle half.
+    /// Standard deviation of a reading, by the middle half: however far off outliers are.
     pub(super) scatter: f64,
+    /// Standard deviation of a reading, by those that are near the others.
+    pub(super) spread: f64,
     /// How many readings are near the others.
     pub(super) count: usize,
     /// How many are not.
@@ -36,12 +38,13 @@ impl Middle {
         let at = |share: f64| grouser_io::statistics::quantile(readings, share).unwrap_or(f64::NAN);
         let (median, half) = (at(0.5), (at(0.75) - at(0.25)) / HALF);
         let scatter = if half > 0.0 { half } else { (at(0.9) - at(0.1)) / EIGHT_TENTHS };
-        let is_near = |reading: &&f64| (**reading - median).abs() <= FARTHEST * scatter;
-        let near = readings.iter().filter(is_near);
-        let (count, sum) = near.fold((0_usize, 0.0), |(count, sum), it| (count + 1, sum + it));
+        // The middle half of a dozen readings may be narrow by chance: those near it tell what is near.
+        let (_, _, first) = near(readings, median, scatter);
+        let (count, mean, spread) = near(readings, median, first.max(scatter));
         // Of few readings two may be outliers in one direction, and widen what counts as near.
-        let value = if count < MANY { median } else { sum / count as f64 };
-        Some(Self { value, scatter, count: count.max(1), outliers: readings.len() - count })
+        let value = if count < MANY { median } else { mean };
+        let outliers = readings.len() - count;
+        Some(Self { value, scatter, spread, count: count.max(1), outliers })
     }
 
     /// Standard deviation of the mean.
@@ -51,10 +54,25 @@ impl Middle {
         const ENOUGH: usize = 5;
         /// Standard deviation of a median over that of a mean, √(π/2) [-].
         const OF_MEDIAN: f64 = 1.253;
-        let scatter = if self.count < ENOUGH { self.scatter.max(usual) } else { self.scatter };
-        let factor = if self.count < MANY && self.count > 1 { OF_MEDIAN } else { 1.0 };
+        let (scatter, factor) = match self.count {
+            0..ENOUGH => (self.scatter.max(usual), if self.count > 1 { OF_MEDIAN } else { 1.0 }),
+            ENOUGH..MANY => (self.scatter, OF_MEDIAN),
+            _ => (self.spread, 1.0),
+        };
         factor * scatter / (self.count as f64).sqrt()
     }
+}
+
+/// Of the readings that are near a middle: their count, mean and standard deviation.
+///
+/// The deviation is that whose inverse square is right on the mean, Σ(x − m)²/(n − 3) with their mean m: readings are weighed by it, and one
+/// that is right on the mean itself would give those too much weight that lie close together by chance.
+fn near(readings: &[f64], middle: f64, scatter: f64) -> (usize, f64, f64) {
+    let near = || readings.iter().filter(|it| (**it - middle).abs() <= FARTHEST * scatter);
+    let count = near().count();
+    let mean = near().sum::<f64>() / count.max(1) as f64;
+    let squares: f64 = near().map(|it| (it - mean) * (it - mean)).sum();
+    (count, mean, (squares / count.saturating_sub(3).max(1) as f64).sqrt())
 }
 
 #[cfg(test)]

@@ -4,10 +4,10 @@
 //! last one with the rims' way,
 //!
 //! ```text
-//! ŝ = 1 − (1 − s̄)(1 + q z)        z standard normal
+//! ŝ = 1 − (1 − s_m)(1 + q z)        z standard normal
 //! ```
 //!
-//! with the mean slip s̄ over the interval and odometry's relative error q, and ends the drive where ŝ is above the limit.
+//! with the mean slip s_m over the interval and odometry's relative error q, and ends the drive where ŝ is above the limit.
 //! The rover gets stuck where there is no steady motion, or its wheels slip by more than
 //! [`MOST_SLIP`](crate::simulation::MOST_SLIP), before a look has ended the drive. The soil along each of many ways is a
 //! [`SoilWay`]; all intervals and limits are judged on the same ways.
