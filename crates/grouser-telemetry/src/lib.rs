@@ -13,11 +13,13 @@ mod messages;
 mod parquet;
 mod plan;
 mod pose;
+mod topic;
 mod writer;
 
 pub use error::{Problem, TelemetryError};
 pub use log::TelemetryLog;
 pub use mapping::Mapping;
 pub use messages::MessageRows;
-pub use plan::{Topic, TopicChoices};
+pub use plan::TopicChoices;
+pub use topic::Topic;
 pub use writer::TelemetryWriter;

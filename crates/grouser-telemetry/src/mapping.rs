@@ -14,8 +14,8 @@ use serde::Deserialize;
 
 use crate::error::{Problem, TelemetryError};
 use crate::field::FieldPath;
-use crate::plan::Topic;
 use crate::pose::Axes;
+use crate::topic::Topic;
 
 /// The schema's name.
 const SCHEMA: &str = "telemetry-mapping/1";

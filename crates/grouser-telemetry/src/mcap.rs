@@ -17,7 +17,8 @@ use self::protobuf::Description;
 use crate::error::{Problem, TelemetryError};
 use crate::mapping::Mapping;
 use crate::messages::MessageRows;
-use crate::plan::{Topic, TopicChoices};
+use crate::plan::TopicChoices;
+use crate::topic::Topic;
 
 pub(crate) use self::container::MAGIC;
 

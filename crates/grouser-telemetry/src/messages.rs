@@ -12,8 +12,9 @@ use crate::error::{Problem, TelemetryError};
 use crate::field::{FieldPath, Found};
 use crate::mapping::{Mapping, PoseColumn, PoseOf, RowRule};
 use crate::merge::{Merge, Readings};
-use crate::plan::{Plan, Planned, PlannedReading, Topic, TopicChoices};
+use crate::plan::{Plan, Planned, PlannedReading, TopicChoices};
 use crate::pose::{Axes, Frames, Pose, Rotation};
+use crate::topic::Topic;
 
 /// Records of messages, which are added as they come.
 pub struct MessageRows {

@@ -9,24 +9,7 @@ use crate::error::Problem;
 use crate::field::FieldPath;
 use crate::mapping::{Mapping, PoseColumn, PoseOf, Reading, RowRule, WHEEL, What};
 use crate::pose::Axes;
-
-/// A topic of a log.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Topic {
-    /// Its name.
-    pub name: String,
-    /// The type of its messages, such as `sensor_msgs/msg/Imu`.
-    pub message: String,
-    /// How they are encoded, such as `json`; `None` where they come decoded.
-    pub encoding: Option<String>,
-}
-
-impl Topic {
-    /// Whether its messages can be decoded here.
-    pub(crate) fn is_readable(&self) -> bool {
-        self.encoding.as_deref().is_none_or(|it| matches!(it, "json" | "protobuf"))
-    }
-}
+use crate::topic::Topic;
 
 /// Which topic is meant where several have the messages that a mapping asks for: by the type of the messages, or the
 /// pattern of topics, as the mapping has it.

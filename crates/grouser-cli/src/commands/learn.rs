@@ -7,6 +7,7 @@ mod live;
 mod page;
 mod position;
 mod records;
+mod samples;
 mod state_file;
 mod tables;
 
@@ -29,6 +30,7 @@ use self::found::{Found, shares};
 use self::live::Live;
 use self::position::Position;
 use self::records::{Event, Records};
+use self::samples::{reaches_too_far, samples};
 use self::state_file::StateFile;
 use self::tables::Tables;
 use super::{Answer, sampling};
@@ -241,14 +243,6 @@ fn band(
 ) -> Result<HeadingBand, Failure> {
     let band = sampling::with_bar(samples.len(), |go_on| learner.predict(samples, slopes, go_on));
     Ok(sampling::whole(band?))
-}
-
-fn samples(args: &LearnArgs, learner: &Learner) -> Result<Vec<LearntSample>, Failure> {
-    learner.samples(args.seed, args.samples).map_err(|error| reaches_too_far(&error))
-}
-
-fn reaches_too_far(error: &dyn std::error::Error) -> Failure {
-    Failure::Usage(format!("the soil's uncertainty reaches too far: {error}"))
 }
 
 /// The soil that was learnt.

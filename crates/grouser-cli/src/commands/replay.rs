@@ -1,5 +1,6 @@
 //! `grouser replay`: a drive that was measured beside the one that is predicted.
 
+mod found;
 mod page;
 
 use grouser::document::LoadedScenario;
@@ -11,6 +12,7 @@ use grouser::studies::replay::{Replay, Replayer};
 use serde::Serialize;
 use serde_json::{Value, json};
 
+use self::found::Found;
 use super::{Answer, log, sampling};
 use crate::args::ReplayArgs;
 use crate::failure::Failure;
@@ -19,17 +21,6 @@ use crate::output::folder::OutputFolder;
 use crate::output::rows::Rows;
 use crate::output::{self, Format};
 use crate::report::REPORT;
-
-/// A drive that was replayed, as tables and sentences.
-struct Found {
-    replay: Replay,
-    over_time: Table,
-    channels: Table,
-    findings: Table,
-    /// What the differences point to.
-    sentences: Vec<String>,
-    notes: Vec<String>,
-}
 
 #[derive(Serialize)]
 struct Results<'a> {

@@ -3,6 +3,7 @@
 mod geojson;
 mod page;
 mod record;
+mod way;
 
 use std::sync::Arc;
 
@@ -13,11 +14,11 @@ use grouser::studies::mobility::Ground;
 use grouser::studies::route::{
     Answer as Found, COURSES, DrivenRoute, Ends, Line, Objective, Route, RouteError, RouteTables,
 };
-use grouser::units::Vec2;
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use self::record::Brief;
+use self::way::Way;
 use super::{Answer, sampling};
 use crate::args::RouteArgs;
 use crate::failure::Failure;
@@ -26,13 +27,6 @@ use crate::output::folder::OutputFolder;
 use crate::output::rows::Rows;
 use crate::output::{self, Format};
 use crate::report::REPORT;
-
-/// A way that was found or given, or why there is none.
-struct Way {
-    record: RouteRecord,
-    /// None where none was found [m].
-    places: Vec<Vec2>,
-}
 
 #[derive(Serialize)]
 struct Results<'a> {

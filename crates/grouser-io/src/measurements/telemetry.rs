@@ -8,15 +8,13 @@
 //! Telemetry is damaged telemetry: a cell that is no number, or out of its range, is a gap, and a row without a time
 //! of its own is left out. [`Lost`] counts all of that. Memory does not grow with the length of the log.
 
+mod reader;
 mod rows;
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::io::Read;
 use std::ops::RangeInclusive;
 
-use csv::StringRecord;
 use grouser_core::vehicle::Rover;
 
 use super::super::columns::{
@@ -24,11 +22,8 @@ use super::super::columns::{
     quantity,
 };
 use super::super::unit::{A, DEG, M, NM};
-use super::error::{MeasurementError, MeasurementProblem as Problem};
-use super::limits::Limits;
 use super::motor_log::{LogColumn, column};
-use super::row::name_of;
-use super::table::Table;
+pub use reader::TelemetryReader;
 pub use rows::{Cell, TelemetryRows, is_same_wheel};
 
 /// Way along the body's x since the last one, by visual odometry.
@@ -176,62 +171,6 @@ impl Lost {
     }
 }
 
-/// Reads a log of CSV row by row.
-pub struct TelemetryReader<'a, R> {
-    table: Table<'a, R>,
-    row: StringRecord,
-    rows: TelemetryRows,
-}
-
-impl<'a, R: Read> TelemetryReader<'a, R> {
-    /// Reads the header.
-    ///
-    /// * `label`: what messages call the source
-    /// * `rover`: the rover that was driven, for the names of its wheels
-    ///
-    /// # Errors
-    /// [`MeasurementError`] for a source without a header, without the time, with a column twice, or with the column
-    /// of a wheel that the rover does not have.
-    pub fn new(
-        label: impl Into<Cow<'a, str>>,
-        source: R,
-        rover: &Rover,
-    ) -> Result<Self, MeasurementError> {
-        let label = label.into();
-        let mut table = Table::new(label.clone(), source, b',', Limits { rows: usize::MAX });
-        let names: Vec<String> = table.header()?.iter().map(name_of).collect();
-        let rows = TelemetryRows::new(&label, names, rover)?;
-        Ok(Self { table, row: StringRecord::new(), rows })
-    }
-
-    /// The next record, if there is one.
-    ///
-    /// # Errors
-    /// [`MeasurementError`] where reading fails, or a row is too long to be one.
-    pub fn next_record(&mut self) -> Result<Option<TelemetryRecord>, MeasurementError> {
-        loop {
-            match self.table.next_row(&mut self.row) {
-                Ok(true) => {}
-                Ok(false) => return Ok(None),
-                Err(error) if matches!(error.problem(), Problem::NotCsv(_)) => {
-                    self.rows.damaged_row();
-                    continue;
-                }
-                Err(error) => return Err(error),
-            }
-            if let Some(record) = self.rows.record(self.row.iter().map(Cell::of_text)) {
-                return Ok(Some(record));
-            }
-        }
-    }
-
-    /// The rows that were read so far, with what was lost of them.
-    #[must_use]
-    pub fn rows(&self) -> &TelemetryRows {
-        &self.rows
-    }
-}
-
 /// The names of all columns of a rover's telemetry.
 #[must_use]
 pub fn column_names(rover: &Rover) -> Vec<String> {
@@ -319,6 +258,7 @@ impl WheelTelemetry {
 
 #[cfg(test)]
 mod tests {
+    use super::super::error::MeasurementError;
     use super::*;
     use crate::{Kind, Overrides, Source, read_rover};
 

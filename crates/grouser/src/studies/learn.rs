@@ -15,6 +15,7 @@
 //! it was, so that without telemetry predictions are those of the soil as it was, sample by sample.
 
 pub mod advice;
+mod archive;
 mod bank;
 mod change;
 mod currents;
@@ -33,6 +34,7 @@ mod warnings;
 
 use std::collections::BTreeMap;
 
+pub use self::archive::Archive;
 use self::bank::{Bank, Taught};
 use self::change::SoilChange;
 pub use self::currents::motor_log;
@@ -45,7 +47,6 @@ use self::motion::SeenMotion;
 pub(super) use self::motion::{ODOMETRY, SHALLOWEST, steady_attitude, steered};
 pub use self::noise::ModelNoise;
 pub use self::settings::LearnSettings;
-pub use self::state::Archive;
 pub(super) use self::stretch::{GAP, Gatherer};
 pub use self::stretch::{Reading, Stretch};
 pub use self::unknowns::LearntSample;

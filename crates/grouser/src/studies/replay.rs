@@ -16,6 +16,7 @@
 
 mod attribution;
 mod channel;
+mod differences;
 mod faults;
 mod free_run;
 mod prescribed;
@@ -28,11 +29,12 @@ use rayon::prelude::*;
 use self::attribution::Sums;
 pub use self::attribution::{Finding, Verdict};
 pub use self::channel::{Channel, ChannelSummary, ChannelValue, Prediction};
+use self::differences::Differences;
 use self::faults::Faults;
 pub use self::faults::{Cause, Parameter};
 use self::free_run::Commands;
 pub use self::free_run::{Ended, FreeRun};
-use self::prescribed::{Differences, Predicted, Situation};
+use self::prescribed::{Predicted, Situation};
 pub use self::track::Pose;
 use self::track::Track;
 use super::ensemble::samples::{Sample, outputs_of_samples};

@@ -14,7 +14,7 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use super::found::{of_row, shares, warning};
-use super::reaches_too_far;
+use super::samples::reaches_too_far;
 use crate::args::LearnArgs;
 use crate::commands::sampling;
 use crate::failure::Failure;

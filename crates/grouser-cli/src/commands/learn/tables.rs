@@ -8,6 +8,7 @@ use grouser::studies::learn::motor_log;
 use grouser::studies::slip_from_current::{NoEstimator, SlipEstimator, SlipSettings};
 
 use super::found::Found;
+use super::samples::samples;
 use crate::args::LearnArgs;
 use crate::commands::sampling;
 use crate::failure::Failure;
@@ -49,9 +50,9 @@ fn slips(
 ) -> Result<Option<Slips>, Failure> {
     let rover = &scenario.value.rover;
     let Some(log) = motor_log(found.drive.lessons(), rover) else { return Ok(None) };
-    let samples: Vec<Sample> =
-        super::samples(args, found.drive.learner())?.into_iter().map(|it| it.sample).collect();
-    let estimator = match SlipEstimator::new(&scenario.value, samples, SlipSettings::USUAL) {
+    let drawn: Vec<Sample> =
+        samples(args, found.drive.learner())?.into_iter().map(|it| it.sample).collect();
+    let estimator = match SlipEstimator::new(&scenario.value, drawn, SlipSettings::USUAL) {
         Ok(estimator) => estimator,
         Err(NoEstimator::NoMotor) => return Ok(None),
         Err(NoEstimator::Parameter(error)) => return Err(error.into()),

@@ -10,7 +10,7 @@ use grouser::document::table::Table;
 use grouser::studies::replay::{Channel, Prediction};
 use grouser::vehicle::Rover;
 
-use super::Found;
+use super::found::Found;
 use crate::args::ReplayArgs;
 use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::commands::sampling;

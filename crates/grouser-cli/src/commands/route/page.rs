@@ -3,8 +3,8 @@
 use grouser::document::route::RouteRecord;
 use grouser_map::{Track, relief};
 
-use super::Way;
 use super::record::{self, Brief};
+use super::way::Way;
 use crate::args::RouteArgs;
 use crate::inputs::{Asked, RouteInputs};
 use crate::output::rows::{Rows, four_digits};

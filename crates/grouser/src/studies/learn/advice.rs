@@ -7,43 +7,26 @@
 
 mod course;
 mod instruments;
+mod leg;
+mod limits;
 mod slip_check;
 mod soil_ahead;
 mod test_drive;
 
 pub use self::course::{AdvisedHeading, HeadingAdvice};
 pub use self::instruments::Instruments;
+pub use self::leg::TestLeg;
+pub use self::limits::Limits;
 pub use self::slip_check::{Check, CheckAdvice, CheckSettings, WAY_AHEAD};
 pub use self::soil_ahead::SoilAhead;
 use self::soil_ahead::SoilWay;
 use self::test_drive::Planner;
-pub use self::test_drive::{TestCost, TestDrive, TestDrives, TestLeg, TestSettings};
+pub use self::test_drive::{TestCost, TestDrive, TestDrives, TestSettings};
 use super::{Learner, LearntSample};
 use crate::error::ParameterError;
-use crate::studies::card::Rule;
 use crate::studies::ensemble::samples::Sample;
 use crate::studies::heading_band::HeadingBand;
 use grouser_io::statistics::NothingAccepted;
-
-/// The slip that a rover is to keep, and how surely.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
-    /// Slip ratio [-].
-    pub slip_ratio: f64,
-    /// The share of the samples in which it is to be kept at least [-].
-    pub probability: f64,
-    /// Rim speed ω r_s that is asked for [m/s].
-    pub rim_speed: f64,
-}
-
-impl Limits {
-    /// Those below which a slope is a no-go by [`Rule::DEFAULT`].
-    #[must_use]
-    pub fn usual(rim_speed: f64) -> Self {
-        let Rule { no_go_slip_ratio, no_go_probability, .. } = Rule::DEFAULT;
-        Self { slip_ratio: no_go_slip_ratio, probability: no_go_probability, rim_speed }
-    }
-}
 
 /// What advice is asked for.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,10 +1,10 @@
 //! What is believed of a soil under several wheel–soil models, and of the models themselves.
 
+use super::archive::{Archive, numbers};
 use super::filter::Filter;
 use super::gaussian::Surprise;
 use super::motion::{NotUsed, SeenMotion};
 use super::settings::LearnSettings;
-use super::state::{Archive, numbers};
 use super::unknowns::{LearntSample, Unknowns};
 use crate::contact::Theory;
 use crate::elementary::exp;

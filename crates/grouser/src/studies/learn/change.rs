@@ -6,7 +6,7 @@
 //! flag more were tried and left: to judge stretches by what was believed before the evidence began, and to set a second
 //! learner beside the first that begins anew. Both took ground that leans for another soil, every ten metres or so.
 
-use super::state::Archive;
+use super::archive::Archive;
 
 /// The evidence so far.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,6 +1,6 @@
 //! A drive that is learnt from: the learner, what it found on the way, and how far in the log it is.
 
-use super::state::{Archive, items};
+use super::archive::{Archive, items};
 use super::warnings::Warning;
 use super::{Learner, Lesson, NotUsed, TelemetryRecord, WheelTelemetry};
 use grouser_io::fnv_1a;

@@ -2,11 +2,11 @@
 
 use nalgebra::DVector;
 
+use super::archive::Archive;
 use super::gaussian::{Gaussian, Line, Surprise};
 use super::information;
 use super::motion::{Expected, NotUsed, SeenMotion, halves};
 use super::noise::ModelNoise;
-use super::state::Archive;
 use super::unknowns::{Draw, LearntSample, Unknowns};
 use crate::elementary::exp;
 use crate::elementary::wide::ln;

@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::state::{Archive, numbers};
+use super::archive::{Archive, numbers};
 use crate::elementary::wide::ln;
 
 /// Unknowns that are normal.

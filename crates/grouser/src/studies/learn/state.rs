@@ -1,91 +1,14 @@
 //! The state of learning, written and read field by field, so that it can go on elsewhere with the same bits.
 //!
-//! Each type walks its fields once, for both ways: [`Archive`] takes them, or puts kept ones in their place. What follows
+//! Each type walks its fields once, for both ways: an [`Archive`] takes them, or puts kept ones in their place. What follows
 //! from the scenario is not part of the state. An exhaustive pattern in each walk leaves no field out.
 
+use super::archive::{Archive, items, maybes, numbers};
 use super::information::InformationByKind;
 use super::motion::NotUsed;
 use super::stretch::{Reading, Stretch};
 use super::warnings::{Evidence, Warning, WarningKind};
-use super::{Learner, Learnt, Lesson, TelemetryRecord, WheelTelemetry};
-
-/// Where a state is written to or read from. Inside of lists names do not count.
-pub trait Archive {
-    /// A number.
-    fn number(&mut self, name: &str, value: &mut f64);
-    /// A number that may be missing.
-    fn maybe(&mut self, name: &str, value: &mut Option<f64>);
-    /// A whole number.
-    fn count(&mut self, name: &str, value: &mut u64);
-    /// A text.
-    fn word(&mut self, name: &str, value: &mut String);
-    /// Begins a list; how many items it has: `length` where it is written, as many as there are where it is read.
-    fn list(&mut self, name: &str, length: usize) -> usize;
-    /// Begins a group of named fields.
-    fn group(&mut self, name: &str);
-    /// Ends the list or group that was begun last.
-    fn end(&mut self);
-    /// Says that what was read under a name cannot be.
-    fn refuse(&mut self, name: &str);
-}
-
-/// A list of items, each a group.
-///
-/// * `blank`: an item to read into
-pub(super) fn items<T>(
-    archive: &mut dyn Archive,
-    name: &str,
-    items: &mut Vec<T>,
-    blank: impl FnMut() -> T,
-    mut walk: impl FnMut(&mut T, &mut dyn Archive),
-) {
-    let count = archive.list(name, items.len());
-    items.resize_with(count, blank);
-    for item in items {
-        archive.group("");
-        walk(item, archive);
-        archive.end();
-    }
-    archive.end();
-}
-
-/// A list of numbers.
-pub(super) fn numbers(archive: &mut dyn Archive, name: &str, values: &mut Vec<f64>) {
-    let count = archive.list(name, values.len());
-    values.resize(count, 0.0);
-    for value in values {
-        archive.number("", value);
-    }
-    archive.end();
-}
-
-/// A list of numbers that may be missing.
-pub(super) fn maybes(archive: &mut dyn Archive, name: &str, values: &mut Vec<Option<f64>>) {
-    let count = archive.list(name, values.len());
-    values.resize(count, None);
-    for value in values {
-        archive.maybe("", value);
-    }
-    archive.end();
-}
-
-/// A record of telemetry.
-pub(super) fn record(record: &mut TelemetryRecord, archive: &mut dyn Archive) {
-    let TelemetryRecord { time, roll, pitch, yaw, displacement, rotation, position, wheels } =
-        record;
-    archive.number("time", time);
-    let [forward, leftward] = displacement;
-    let [x, y] = position;
-    let all = [roll, pitch, yaw, forward, leftward, rotation, x, y];
-    let names = ["roll", "pitch", "yaw", "forward", "leftward", "rotation", "x", "y"];
-    names.into_iter().zip(all).for_each(|(name, value)| archive.maybe(name, value));
-    items(archive, "wheels", wheels, WheelTelemetry::default, |wheel, archive| {
-        let WheelTelemetry { speed, torque, current, steering, sinkage } = wheel;
-        let all = [speed, torque, current, steering, sinkage];
-        let names = ["speed", "torque", "current", "steering", "sinkage"];
-        names.into_iter().zip(all).for_each(|(name, value)| archive.maybe(name, value));
-    });
-}
+use super::{Learner, Learnt, Lesson};
 
 impl Learner {
     /// Writes all that was learnt.

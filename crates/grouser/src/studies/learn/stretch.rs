@@ -1,7 +1,7 @@
 //! Telemetry in stretches: what the instruments said on the mean over a decimetre or so of the wheels' way.
 
+use super::archive::{self, Archive, items, maybes, numbers};
 use super::middle::Middle;
-use super::state::{self, Archive, items, maybes, numbers};
 use crate::elementary::wide::{asin, cos, sin};
 use crate::units::Vec2;
 use crate::vehicle::{Rover, slope_and_yaw};
@@ -262,7 +262,7 @@ impl Gatherer {
     /// Writes or reads what was gathered so far; the rest follows from the rover.
     pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
         let Self { rover: _, slope: _, records, readings, way, last, fix, last_time } = self;
-        items(archive, "records", records, TelemetryRecord::default, state::record);
+        items(archive, "records", records, TelemetryRecord::default, archive::record);
         for (name, readings) in ["forward", "leftward", "rotation"].into_iter().zip(readings) {
             numbers(archive, name, readings);
         }

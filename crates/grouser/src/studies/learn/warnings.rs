@@ -4,7 +4,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use super::state::{Archive, items, numbers};
+use super::archive::{Archive, items, numbers};
 use super::stretch::Stretch;
 use crate::elementary::wide::{cos, ln_1p};
 use crate::vehicle::Rover;

@@ -19,8 +19,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::differences::Differences;
 use super::faults::{COUNT, Cause, Faults, Parameter};
-use super::prescribed::Differences;
 use crate::elementary::wide::ln;
 
 /// Evidence from which on a cause is taken, ln of the Bayes factor: "very strong" (Kass and Raftery 1995, their 2 ln B > 10).

@@ -1,6 +1,6 @@
 //! The heading to set on a slope, and the steepest heading that keeps the slip within its limit.
 
-use super::Limits;
+use super::limits::Limits;
 use crate::elementary::wide::sin;
 use crate::simulation::{MOST_SLIP, SteadyMotion};
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};

@@ -1,7 +1,7 @@
 //! What is read on a test drive, and how well.
 
 use super::super::stretch::{self, Reading, Stretch};
-use super::test_drive::TestLeg;
+use super::leg::TestLeg;
 use crate::units::Vec2;
 use crate::vehicle::{Mount, Rover};
 

@@ -25,9 +25,10 @@ use super::super::gaussian::{Gaussian, Line};
 use super::super::motion::SeenMotion;
 use super::super::settings::LearnSettings;
 use super::super::stretch;
-use super::Limits;
 use super::course::{moving, slip_of};
 use super::instruments::Instruments;
+use super::leg::TestLeg;
+use super::limits::Limits;
 use crate::elementary::wide::{ln, sin};
 use crate::simulation::SteadyMotion;
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
@@ -35,17 +36,6 @@ use crate::studies::ensemble::{Probability, outputs};
 use crate::studies::heading::{HeadingStudy, STUCK};
 use crate::vehicle::{Mount, WheelReaction};
 use grouser_io::statistics::random::place_below;
-
-/// A leg of a test drive.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TestLeg {
-    /// Slope, *α* [rad].
-    pub slope: f64,
-    /// Yaw, *γ* [rad], positive uphill.
-    pub yaw: f64,
-    /// The way of the rims [m].
-    pub way: f64,
-}
 
 /// What a leg costs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

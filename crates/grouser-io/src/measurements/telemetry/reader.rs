@@ -1,0 +1,70 @@
+//! A log of CSV, row by row.
+
+use std::borrow::Cow;
+use std::io::Read;
+
+use csv::StringRecord;
+use grouser_core::vehicle::Rover;
+
+use super::super::error::{MeasurementError, MeasurementProblem as Problem};
+use super::super::limits::Limits;
+use super::super::row::name_of;
+use super::super::table::Table;
+use super::TelemetryRecord;
+use super::rows::{Cell, TelemetryRows};
+
+/// Reads a log of CSV row by row.
+pub struct TelemetryReader<'a, R> {
+    table: Table<'a, R>,
+    row: StringRecord,
+    rows: TelemetryRows,
+}
+
+impl<'a, R: Read> TelemetryReader<'a, R> {
+    /// Reads the header.
+    ///
+    /// * `label`: what messages call the source
+    /// * `rover`: the rover that was driven, for the names of its wheels
+    ///
+    /// # Errors
+    /// [`MeasurementError`] for a source without a header, without the time, with a column twice, or with the column
+    /// of a wheel that the rover does not have.
+    pub fn new(
+        label: impl Into<Cow<'a, str>>,
+        source: R,
+        rover: &Rover,
+    ) -> Result<Self, MeasurementError> {
+        let label = label.into();
+        let mut table = Table::new(label.clone(), source, b',', Limits { rows: usize::MAX });
+        let names: Vec<String> = table.header()?.iter().map(name_of).collect();
+        let rows = TelemetryRows::new(&label, names, rover)?;
+        Ok(Self { table, row: StringRecord::new(), rows })
+    }
+
+    /// The next record, if there is one.
+    ///
+    /// # Errors
+    /// [`MeasurementError`] where reading fails, or a row is too long to be one.
+    pub fn next_record(&mut self) -> Result<Option<TelemetryRecord>, MeasurementError> {
+        loop {
+            match self.table.next_row(&mut self.row) {
+                Ok(true) => {}
+                Ok(false) => return Ok(None),
+                Err(error) if matches!(error.problem(), Problem::NotCsv(_)) => {
+                    self.rows.damaged_row();
+                    continue;
+                }
+                Err(error) => return Err(error),
+            }
+            if let Some(record) = self.rows.record(self.row.iter().map(Cell::of_text)) {
+                return Ok(Some(record));
+            }
+        }
+    }
+
+    /// The rows that were read so far, with what was lost of them.
+    #[must_use]
+    pub fn rows(&self) -> &TelemetryRows {
+        &self.rows
+    }
+}
