@@ -164,7 +164,9 @@ impl TelemetryMessages {
         let lost = self.rows.rows().lost().sentences();
         Ok((records, self.rows.notes().into_iter().chain(lost).collect()))
     }
+}
 
+impl TelemetryMessages {
     fn drain(&mut self) -> PyResult<()> {
         let Some(table) = &mut self.table else { return Ok(()) };
         while let Some(record) = self.rows.next_record() {

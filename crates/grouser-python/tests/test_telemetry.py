@@ -72,7 +72,9 @@ def write_bag(writer: Any, store: Any, is_first: bool) -> None:
 
     def write(to: Any, name: str, message: Any) -> None:
         serialize = store.serialize_ros1 if is_first else store.serialize_cdr
-        writer.write(to, 5 * SECOND, serialize(message, name))
+        # The recorder's clock is five seconds ahead.
+        recorded = (message.header.stamp.sec + 5) * SECOND
+        writer.write(to, recorded, serialize(message, name))
 
     vector, quaternion = of("geometry_msgs/msg/Vector3"), of("geometry_msgs/msg/Quaternion")
     zero, nine, many = vector(x=0.0, y=0.0, z=0.0), np.zeros(9), np.zeros(36)
@@ -100,7 +102,7 @@ def write_bag(writer: Any, store: Any, is_first: bool) -> None:
     )
     write(to, joints, message)
     # A message that is cut off is counted.
-    writer.write(to, 5 * SECOND, b"\x00\x01\x00\x00\x01")
+    writer.write(to, 9 * SECOND, b"\x00\x01\x00\x00\x01")
 
 
 @pytest.mark.parametrize("kind", ["ros1", "sqlite", "mcap", "mcap file"])
@@ -255,9 +257,9 @@ def test_parquet_of_pyarrow_is_telemetry(compression: str, version: str, tmp_pat
     assert found.notes == ("columns not used: remark",)
     rows = rows_of(out)
     assert [row["time_s"] for row in rows] == pytest.approx(milliseconds / 1000)
-    assert rows[7]["roll_deg"] is None and rows[8]["roll_deg"] == 1.5
+    assert rows[7]["roll_deg"] is None and rows[8]["roll_deg"] == pytest.approx(1.5)
     assert [row["x_m"] for row in rows[:3]] == [0.0, 0.125, 0.25]
-    assert rows[13]["pitch_deg"] == 3 and rows[13][WHEEL] == 0.5
+    assert rows[13]["pitch_deg"] == pytest.approx(3.0) and rows[13][WHEEL] == 0.5
     # What is written as Parquet is read by others.
     again = tmp_path / "again.parquet"
     gr.import_telemetry(out, again, rover="hakuto")

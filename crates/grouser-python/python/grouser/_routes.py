@@ -192,7 +192,7 @@ def route(
 
     >>> straight = gr.route(hill, along=[(-15.0, 0.0), (15.0, 0.0)], samples=4, drive=False)
     >>> straight.attrs["status"], str(straight.danger[0].values)
-    ('not-safe', 'no-heading')
+    ('not-safe', 'too-much-slip')
     """
     if not isinstance(terrain, Terrain):
         raise ParameterError(

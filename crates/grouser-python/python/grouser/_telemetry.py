@@ -25,7 +25,10 @@ _BAGS = (b"#ROSBAG V", b"SQLite format 3")
 
 @dataclass(frozen=True)
 class ImportedTelemetry:
-    """What `import_telemetry` wrote."""
+    """What became of a log.
+
+    Made by `import_telemetry`.
+    """
 
     path: Path
     """The table."""
