@@ -15,6 +15,7 @@ mod relief;
 pub use population::{AgedCrater, EQUILIBRIUM, expected_count};
 pub use relief::{BASELINE, Roughness};
 
+use std::f64::consts::PI;
 use std::ops::{Range, RangeInclusive};
 
 use super::{ElevationGrid, Extent};
@@ -54,11 +55,11 @@ impl LunarGround {
     pub fn roughness(self) -> Roughness {
         /// √(2 ln 2).
         const MEDIAN_OVER_RMS: f64 = 1.177_410_022_515_474_7;
-        let (hurst, median_deg) = match self {
-            Self::Mare => (0.76, 2.0_f64),
-            Self::Highlands => (0.95, 7.5),
+        let (hurst, median_slope) = match self {
+            Self::Mare => (0.76, PI / 90.0),
+            Self::Highlands => (0.95, PI / 24.0),
         };
-        let median = crate::elementary::wide::tan(median_deg.to_radians());
+        let median = crate::elementary::wide::tan(median_slope);
         Roughness { hurst, rms_slope: median / MEDIAN_OVER_RMS }
     }
 }

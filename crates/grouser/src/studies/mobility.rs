@@ -20,8 +20,6 @@ mod compliance;
 mod detail;
 mod ground;
 mod map;
-#[cfg(test)]
-mod reliability;
 mod table;
 mod thresholds;
 

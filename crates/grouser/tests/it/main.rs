@@ -38,6 +38,7 @@ mod paper;
 mod path_run;
 mod priors;
 mod reference;
+mod reliability;
 mod replay;
 mod rft;
 mod rover;

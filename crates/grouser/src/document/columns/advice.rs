@@ -1,11 +1,11 @@
 //! Advice after a drive: what to do on each slope, and which test drives would tell most of them.
 
 use super::super::table::Table;
-use super::super::unit::{DEG, M, M_S, ONE, S};
+use super::super::unit::{DEG, M_S, ONE, S};
 use super::card::{
     DRIFT, PROBABILITY_STUCK, PROBABILITY_STUCK_WITH_CHECKS, SLIP_CHECK_EVERY, SLIP_LIMIT,
 };
-use super::learn::INFORMATION;
+use super::learn::{INFORMATION, WAY};
 use super::{Column, ENERGY, POWER, Quantity, SLIP_RATIO, SLOPE, YAW, quantity, text};
 use crate::studies::learn::advice::{Advice, AdvisedHeading, SlopeAdvice, TestDrive};
 
@@ -23,8 +23,6 @@ pub const PROBABILITY_FALSE_STOP: Quantity = quantity("probability_false_stop", 
 pub const PROBABILITY_STUCK_PRACTICE: Quantity = quantity("probability_stuck_in_practice", ONE);
 /// Time between two looks at the slip.
 pub const BLIND_TIME: Quantity = quantity("blind_s", S);
-/// Way of the rims of a test drive.
-pub const TEST_WAY: Quantity = quantity("way_m", M);
 /// Width of the 95 % band of the heading.
 pub const HEADING_WIDTH: Quantity = quantity("heading_width_deg", DEG);
 /// The same before.
@@ -189,7 +187,7 @@ fn look(advice: &SlopeAdvice) -> String {
 pub const TEST_COLUMNS: [Column<TestDrive>; 14] = [
     SLOPE.given("Slope of the leg", |it| Some(it.leg.slope)),
     YAW.given("Yaw from the contour, positive uphill", |it| Some(it.leg.yaw)),
-    TEST_WAY.given("Way of the rims", |it| Some(it.leg.way)),
+    WAY.given("Way of the rims", |it| Some(it.leg.way)),
     SLIP_RATIO.number("Mean slip ratio of the wheels that is expected", |it| it.slip_ratio),
     PROBABILITY_WITHIN.probability("Probability that the slip keeps its limit", |it| Some(it.within)),
     ENERGY.number(
@@ -225,7 +223,7 @@ pub fn test_drives(drives: &[TestDrive]) -> Table {
 #[must_use]
 pub fn legs_brief() -> Vec<String> {
     let before = HEADING_WIDTH_BEFORE;
-    [SLOPE, YAW, TEST_WAY, ENERGY, before, HEADING_WIDTH, INFORMATION, PER_JOULE]
+    [SLOPE, YAW, WAY, ENERGY, before, HEADING_WIDTH, INFORMATION, PER_JOULE]
         .map(|it| it.name.to_owned())
         .into()
 }

@@ -1,13 +1,12 @@
 //! Two cards beside each other: of the soil as it was known yesterday, and as it is known today.
 
 use super::super::table::Table;
-use super::super::unit::{DEG, ONE};
+use super::super::unit::ONE;
 use super::card::{SLIP_LIMIT, VERDICT, name_of};
+use super::learn::BEFORE_YAW;
 use super::{Column, Quantity, SLIP_RATIO, SLOPE, YAW, quantity, text};
 use crate::studies::card::{Card, CardRow};
 
-/// The heading that yesterday's card sets.
-pub const BEFORE_YAW: Quantity = quantity("before_yaw_deg", DEG);
 /// Slip by yesterday's card.
 pub const BEFORE_SLIP: Quantity = quantity("before_slip_ratio", ONE);
 /// The slip above which yesterday's card turns back.

@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use super::prescribed::{Predicted, Situation};
 use crate::elementary::wide::{atan2, exp_m1, tan};
 use crate::soil::{Shear, ShearModulus, Soil, SoilDifference};
-use crate::units::deg;
 use crate::vehicle::{RoverState, roll_and_pitch, slope_and_yaw};
 
 /// What differences may point to.
@@ -153,9 +152,10 @@ impl Parameter {
             Self::Strength => 0.15,
             Self::ShearModulus | Self::Stiffness => 0.5,
             Self::Speed => 0.05,
-            Self::Slope | Self::Roll | Self::Pitch => deg(2.0),
-            Self::Yaw | Self::Odometry => deg(4.0),
-            Self::YawRate => deg(0.5),
+            // 2°, 4°, half a degree a second.
+            Self::Slope | Self::Roll | Self::Pitch => PI / 90.0,
+            Self::Yaw | Self::Odometry => PI / 45.0,
+            Self::YawRate => PI / 360.0,
             Self::Torque => 0.2,
         }
     }

@@ -19,6 +19,8 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+
 use super::super::DISCREPANCY;
 use super::super::filter::Filter;
 use super::super::gaussian::{Gaussian, Line};
@@ -75,7 +77,7 @@ pub struct TestSettings {
 }
 
 /// Yaws at which legs are tried [rad]: along the contour, crabwise up, straight up, crabwise down, straight down.
-const YAWS: [f64; 5] = [0.0, 45.0, 90.0, -45.0, -90.0];
+const YAWS: [f64; 5] = [0.0, FRAC_PI_4, FRAC_PI_2, -FRAC_PI_4, -FRAC_PI_2];
 
 impl TestSettings {
     /// Legs of one length [m] on some slopes [rad]: along the contour, at 45° and straight up and down; on level ground,
@@ -84,7 +86,7 @@ impl TestSettings {
     pub fn on_slopes(slopes: &[f64], way: f64) -> Self {
         let each = slopes.iter().flat_map(|slope| {
             let yaws = if *slope == 0.0 { &YAWS[..1] } else { &YAWS[..] };
-            yaws.iter().map(|yaw| TestLeg { slope: *slope, yaw: yaw.to_radians(), way })
+            yaws.iter().map(|yaw| TestLeg { slope: *slope, yaw: *yaw, way })
         });
         Self {
             legs: each.collect(),

@@ -7,13 +7,13 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{CellMotion, CourseChoice, Ground, MobilityMap, MobilityStudy};
-use crate::simulation::{Approach, Outcome, PrescribedYaw, Run, Scenario};
-use crate::studies::ensemble::samples::{BandInputs, Sample};
-use crate::terrain::ElevationGrid;
-use crate::units::{Vec2, deg};
-use crate::vehicle::DriveLaw;
-use grouser_io::{self as document, LoadedScenario, Overrides, Source};
+use grouser::document::{self, LoadedScenario, Overrides, Source};
+use grouser::simulation::{Approach, Outcome, PrescribedYaw, Run, Scenario};
+use grouser::studies::ensemble::samples::{BandInputs, Sample};
+use grouser::studies::mobility::{CellMotion, CourseChoice, Ground, MobilityMap, MobilityStudy};
+use grouser::terrain::ElevationGrid;
+use grouser::units::{Vec2, deg};
+use grouser::vehicle::DriveLaw;
 use grouser_raster::{CoordinateSystem, Raster};
 use rayon::prelude::*;
 
