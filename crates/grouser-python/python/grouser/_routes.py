@@ -153,7 +153,7 @@ def route(
         The places where the way turns, with the first and the last, as coordinates ``x`` and ``y``
         over ``waypoint`` [m], and the length, time and work up to each of them. Its ``attrs`` have
         the ``status``, ``"found"`` or ``"no-safe-route"``, and of the whole way what
-        `grouser route` writes: ``length_m``, ``time_s``, ``energy_j``, ``turned_deg``, slip, slope
+        ``grouser route`` writes: ``length_m``, ``time_s``, ``energy_j``, ``turned_deg``, slip, slope
         and ``probability_no_go``, and ``simulated_…`` of the simulation. If no way is safe there
         are no waypoints, and a ``reason`` instead of the numbers. With ``alternatives`` a dataset
         for each objective, the chosen one first. Of a way given by ``along`` the status is
