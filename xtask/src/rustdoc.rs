@@ -12,9 +12,9 @@ use crate::cited::is_work;
 use crate::workspace;
 
 /// Units, which may stand in brackets without being a link; works that are cited may, too.
-const UNITS: [&str; 17] = [
-    "A", "Hz", "J", "K", "N", "Pa", "V", "W", "bytes", "kPa", "kg", "m", "mm", "nat", "rad", "s",
-    "Ω",
+const UNITS: [&str; 19] = [
+    "A", "Hz", "J", "K", "N", "Pa", "V", "W", "bytes", "kPa", "kg", "m", "m²", "mm", "nat", "ns",
+    "rad", "s", "Ω",
 ];
 
 /// Whether the documentation of all crates builds without a warning; prints those it has.

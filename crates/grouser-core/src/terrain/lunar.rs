@@ -2,7 +2,7 @@
 //!
 //! It is made by chance from a seed, and shows no place of the Moon. Craters are as many as counts find where new ones
 //! form as fast as old ones wear away ([`EQUILIBRIUM`]). Their shapes are a fresh crater's whose soil has crept downhill
-//! by diffusion, to the depths that [Slsspec159] states. Between them is a relief with the Hurst exponent and the median
+//! by diffusion, to the depths that [Dsne2021] states. Between them is a relief with the Hurst exponent and the median
 //! slope of [Rosenburg2011].
 //!
 //! DIFFERENCE from the Moon: heights of craters add up where they overlap, so that a young crater does not wipe out

@@ -26,7 +26,7 @@ const RING: f64 = 1.0 / PER_RADIUS as f64;
 const STEP: f64 = 0.0005;
 const STEPS_PER_SHAPE: usize = 8;
 
-/// Depth over diameter of the shallowest craters that are made [-]: the shallowest class of [Slsspec159] is below 0.07,
+/// Depth over diameter of the shallowest craters that are made [-]: the shallowest class of [Dsne2021] is below 0.07,
 /// without an end. *Assumed*: a crater of this depth has walls of 6° at most, and shows on no picture but one with a low Sun.
 pub(super) const SHALLOWEST: f64 = 0.03;
 

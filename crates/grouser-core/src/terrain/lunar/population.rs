@@ -22,7 +22,7 @@ pub struct AgedCrater {
 /// N(≥ D) = c/D²          on each square metre, D in metres
 /// ```
 ///
-/// Source: [Slsspec159], section 3.4.1.1, after Trask: 0.079433 D⁻², which keeps its value in any unit of length. Its
+/// Source: [Dsne2021], section 3.4.1.1, after Trask: 0.079433 D⁻², which keeps its value in any unit of length. Its
 /// text has the law for craters below 100 m on all of the Moon but its youngest surfaces, as an upper limit.
 pub const EQUILIBRIUM: f64 = 0.079_433;
 
@@ -34,7 +34,7 @@ struct Class {
     depth: [f64; 2],
 }
 
-/// Craters by how worn they are, the freshest first. Source: [Slsspec159], table 3.4.1.2-2, after Basilevsky (1976).
+/// Craters by how worn they are, the freshest first. Source: [Dsne2021], table 3.4.1.2-2, after Basilevsky (1976).
 /// Its first range is open above, where ours ends with a fresh crater, and its last is open below.
 const CLASSES: [Class; 5] = [
     Class { share: 0.005, depth: [0.12, 0.2] },
@@ -132,7 +132,7 @@ mod tests {
         }
     }
 
-    /// Source: [Slsspec159], table 3.4.1.2-2: 0.5 % and 2.5 % are deeper than 0.12, half of all is below 0.07.
+    /// Source: [Dsne2021], table 3.4.1.2-2: 0.5 % and 2.5 % are deeper than 0.12, half of all is below 0.07.
     #[test]
     fn craters_are_as_deep_as_the_classes_say() {
         const COUNT: usize = 20_000;
