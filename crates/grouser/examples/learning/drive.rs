@@ -57,6 +57,8 @@ struct Patch {
     left: f64,
     /// How it leans to the right and up ahead [rad].
     lean: [f64; 2],
+    /// By how much it is weaker across and along, as what it lacks of the force at the same slip, over the weight [-].
+    weakness: [f64; 2],
     /// Of each wheel's torque: what is added over its size [-], and what is added [N·m].
     torques: Vec<[f64; 2]>,
 }
@@ -70,10 +72,10 @@ impl Ground {
         }
         let noise = self.noise;
         let mut normal = |deviation: f64| deviation * standard_normal(&mut self.random);
-        let lean = noise.force.hypot(noise.attitude);
         let patch = Patch {
             left: noise.way,
-            lean: [normal(lean), normal(lean)],
+            lean: [normal(noise.attitude), normal(noise.attitude)],
+            weakness: [normal(noise.force), normal(noise.force)],
             torques: (0..wheels)
                 .map(|_| [normal(noise.torque_share), normal(noise.torque)])
                 .collect(),
@@ -131,7 +133,10 @@ impl Drive {
                 }
                 None => (None, false),
             };
-            let lean = patch.as_ref().map_or([0.0; 2], |it| it.lean);
+            // On weaker ground a rover moves as up a steeper slope.
+            let lean = patch
+                .as_ref()
+                .map_or([0.0; 2], |it| [it.lean[0] + it.weakness[0], it.lean[1] + it.weakness[1]]);
             let [roll, pitch] = roll_and_pitch(slope, yaw);
             let here = match &motion {
                 Some(motion) if !is_new && (yaw - yaw_of_motion).abs() < TURNED => motion.clone(),
@@ -163,8 +168,12 @@ impl Drive {
         patch: Option<&Patch>,
     ) -> TelemetryRecord {
         let mounts = self.study.rover.mounts();
+        let weight = self.study.rover.mass() * self.study.gravity;
+        // Up a steeper slope wheels would pull more; on weaker ground they do not.
+        let weakness = patch.map_or(0.0, |it| it.weakness[1]);
         let wheels = here.wheels.iter().zip(mounts).enumerate().map(|(place, (wheel, mount))| {
-            let torque = wheel.settled.forces.torque;
+            let lacking = weakness * weight * mount.shearing_radius() / mounts.len() as f64;
+            let torque = wheel.settled.forces.torque - lacking;
             let [share, added] = patch.map_or([0.0; 2], |it| it.torques[place]);
             WheelTelemetry {
                 speed: Some(RIM_SPEED / mount.shearing_radius()),

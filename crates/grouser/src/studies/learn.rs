@@ -26,9 +26,11 @@ mod information;
 mod middle;
 mod motion;
 mod noise;
+mod passed;
 mod settings;
 mod state;
 mod stretch;
+mod unexplained;
 mod unknowns;
 mod warnings;
 
@@ -39,8 +41,8 @@ use self::bank::{Bank, Taught};
 use self::change::SoilChange;
 pub use self::currents::motor_log;
 pub use self::drive::{Drive, RecordDigest};
-use self::filter::Filter;
 pub use self::filter::Wandering;
+use self::filter::{Filter, Taken};
 pub use self::information::InformationByKind;
 pub use self::motion::NotUsed;
 use self::motion::SeenMotion;
@@ -166,30 +168,40 @@ impl Learner {
             let taught = self.bank.learn(&self.study, &motion, &self.settings, stretch.way)?;
             Ok((before, motion, taught))
         });
-        let (before, motion, Taught { surprise, information, by_number }) = match taught {
+        let (before, motion, taught) = match taught {
             Ok(taught) => taught,
             Err(why) => {
                 *self.learnt.not_used.entry(why).or_default() += 1;
                 return None;
             }
         };
+        let Taught { filter, taken, information } = taught;
+        let Taken { surprise, by_number, passed, push } = taken;
         self.learnt.stretches += 1;
         self.learnt.way += stretch.way;
-        let slip_ratio = motion.slip_ratio();
+        let [slip_ratio, drift] = motion.slip_and_drift();
+        let expected = before.expected_slip_and_drift(&self.study, &motion);
+        let [expected_slip, expected_drift] = expected.unwrap_or([1.0, 0.0]);
+        let mean_before = passed.belief.mean.clone();
         let seen = Seen {
             stretch: &stretch,
             slip_ratio,
-            is_another_soil: self.change.look(surprise.strangeness),
-            expected_slip: before
-                .expected_slip(&self.study, &motion, motion.slope())
-                .unwrap_or(1.0),
+            drift,
+            expected_slip,
+            expected_drift,
+            noise: self.settings.noise,
+            push: push.as_ref(),
+            is_another_soil: self.change.look(filter as u64, passed, self.settings.noise.way),
             deep_slope: &|steeper| deep_slope(&self.study, &before, &motion, steeper),
+            holds_against: &|| before.holds_against(&self.study, &motion, DEEP),
         };
-        let (way, expected_slip) = (self.learnt.way, seen.expected_slip);
+        let way = self.learnt.way;
         let warnings = self.watch.look(&seen, &self.study.rover);
         if warnings.iter().any(|it| it.kind == WarningKind::SoilChange) {
             self.bank.forget();
         }
+        let mean_after = &self.bank.filter(filter).belief.mean;
+        self.watch.believed(push.map(|push| push.learnt(&mean_before, mean_after)));
         let scores = surprise.scores.as_slice().to_vec();
         let by_kind = InformationByKind::of(&stretch, &by_number);
         Some(Lesson {

@@ -1,5 +1,7 @@
 //! Where a state of learning is written to or read from, and the walks that its parts share.
 
+use nalgebra::{DMatrix, DVector};
+
 use grouser_io::measurements::telemetry::{TelemetryRecord, WheelTelemetry};
 
 /// Where a state is written to or read from. Inside of lists names do not count.
@@ -60,6 +62,36 @@ pub(super) fn maybes(archive: &mut dyn Archive, name: &str, values: &mut Vec<Opt
         archive.maybe("", value);
     }
     archive.end();
+}
+
+/// A list of whole numbers.
+pub(super) fn counts(archive: &mut dyn Archive, name: &str, values: &mut Vec<u64>) {
+    let count = archive.list(name, values.len());
+    values.resize(count, 0);
+    for value in values {
+        archive.count("", value);
+    }
+    archive.end();
+}
+
+/// A vector.
+pub(super) fn vector(archive: &mut dyn Archive, name: &str, vector: &mut DVector<f64>) {
+    let mut values = vector.as_slice().to_vec();
+    numbers(archive, name, &mut values);
+    *vector = DVector::from_vec(values);
+}
+
+/// A matrix, column by column; one whose numbers fill no rows is read as empty.
+pub(super) fn matrix(archive: &mut dyn Archive, name: &str, matrix: &mut DMatrix<f64>) {
+    archive.group(name);
+    let (mut rows, mut values) = (matrix.nrows() as u64, matrix.as_slice().to_vec());
+    archive.count("rows", &mut rows);
+    numbers(archive, "values", &mut values);
+    archive.end();
+    let rows = usize::try_from(rows).unwrap_or(0);
+    let columns = values.len().checked_div(rows).unwrap_or(0);
+    values.truncate(rows * columns);
+    *matrix = DMatrix::from_vec(if columns == 0 { 0 } else { rows }, columns, values);
 }
 
 /// A record of telemetry.

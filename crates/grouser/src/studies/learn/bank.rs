@@ -1,8 +1,7 @@
 //! What is believed of a soil under several wheel–soil models, and of the models themselves.
 
 use super::archive::{Archive, numbers};
-use super::filter::Filter;
-use super::gaussian::Surprise;
+use super::filter::{Filter, Taken};
 use super::motion::{NotUsed, SeenMotion};
 use super::settings::LearnSettings;
 use super::unknowns::{LearntSample, Unknowns};
@@ -23,15 +22,15 @@ pub(super) struct Bank {
     evidence: Vec<f64>,
 }
 
-/// What a motion taught.
+/// What a motion taught the model with the greatest share.
 #[derive(Clone, Debug)]
 pub(super) struct Taught {
-    /// How surprising it was to the model with the greatest share.
-    pub(super) surprise: Surprise,
-    /// How much it narrowed what that model believes [nat].
+    /// The number of its filter.
+    pub(super) filter: usize,
+    /// What the filter made of it.
+    pub(super) taken: Taken,
+    /// How much it narrowed what is believed [nat].
     pub(super) information: f64,
-    /// The same of each number of the observation.
-    pub(super) by_number: Vec<f64>,
 }
 
 impl Bank {
@@ -95,12 +94,12 @@ impl Bank {
             filter.wander(way, settings.wandering);
             let before = filter.knowledge();
             let learnt = filter.learn(study, motion, &settings.noise);
-            let Ok((surprise, by_number)) = learnt else { continue };
+            let Ok(taken) = learnt else { continue };
             let information = filter.knowledge() - before;
             let share = models.shares()[place].1;
-            densities.push((place, surprise.log_density));
+            densities.push((place, taken.surprise.log_density));
             if best.as_ref().is_none_or(|(most, _)| share > *most) {
-                best = Some((share, Taught { surprise, information, by_number }));
+                best = Some((share, Taught { filter: place, taken, information }));
             }
         }
         let (_, taught) = best.ok_or(NotUsed::NotCarried)?;
@@ -114,6 +113,17 @@ impl Bank {
         let most = self.evidence.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         self.evidence.iter_mut().for_each(|it| *it -= most);
         Ok(taught)
+    }
+
+    /// How many unknowns filter number `filter` has; `None` if there is no such filter.
+    pub(super) fn unknowns(&self, filter: u64) -> Option<usize> {
+        let filter = self.filters.get(usize::try_from(filter).ok()?)?;
+        Some(filter.unknowns.count())
+    }
+
+    /// What filter number `filter` believes.
+    pub(super) fn filter(&self, filter: usize) -> &Filter {
+        &self.filters[filter]
     }
 
     /// Forgets all that was learnt: the soil is another.

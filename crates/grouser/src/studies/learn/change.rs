@@ -1,54 +1,113 @@
-//! Whether the soil has become another: evidence that is summed up over stretches (Page 1954).
+//! Whether the soil has become another: the last stretches beside what was believed before them.
 //!
-//! A stretch speaks for another soil by as much as it would be likelier if nothing had been learnt of the width of the
-//! belief (`Surprise::strangeness`). The learner goes on meanwhile, and after some stretches finds another soil no
-//! stranger than the first: a change that does not show in three of them or so is learnt, and not flagged. Two rules that
-//! flag more were tried and left: to judge stretches by what was believed before the evidence began, and to set a second
-//! learner beside the first that begins anew. Both took ground that leans for another soil, every ten metres or so.
+//! Over the last decimetres, up to a metre, what was read lies off what was expected by *r*, of which a part is the same
+//! all along a patch of the ground, and a part each stretch's own:
+//!
+//! ```text
+//! S = J P Jᵀ + U / patches + R / stretches        S' = J Jᵀ + U / patches + R / stretches
+//! strangeness = ln N(r; S') − ln N(r; S)
+//! ```
+//!
+//! with the covariance P of what was believed before these stretches, and 1 of what is believed of a soil of which
+//! nothing is known. If the soil is what it was, exp(strangeness) is 1 on the mean, so that more than [`CHANGED`] has a
+//! probability below exp(−[`CHANGED`]). Stretches count by their median: a single one is no soil.
 
-use super::archive::Archive;
+use std::collections::VecDeque;
 
-/// The evidence so far.
-#[derive(Clone, Copy, Debug, Default)]
+use nalgebra::{DMatrix, DVector};
+
+use super::archive::{Archive, items};
+use super::gaussian::log_density;
+use super::passed::Passed;
+
+/// The last stretches.
+#[derive(Clone, Debug, Default)]
 pub(super) struct SoilChange {
-    /// A logarithm of densities, 0 or more.
-    evidence: f64,
+    passed: VecDeque<Passed>,
+    /// The filter that they were expected by.
+    filter: u64,
 }
 
-/// Evidence at which the soil counts as another.
-const CHANGED: f64 = 9.0;
-/// The most that one stretch may say: three have to agree, so that no outlier is a soil.
-const MOST_SAID: f64 = 3.5;
+/// Strangeness at which the soil counts as another: on the same soil a half metre has it with a probability below 1 to
+/// 22,000.
+const CHANGED: f64 = 10.0;
+/// Stretches that speak for another soil together, at least.
+const LEAST: usize = 3;
+/// The rims' way over which they do, at most [m].
+const LONGEST: f64 = 1.05;
+/// By so much the motion has to differ from what was expected, over the fastest rim's speed [-]: what differs by less
+/// is learnt, and no reason to warn.
+const MATERIAL: f64 = 0.05;
 
 impl SoilChange {
     /// Whether the soil has just been found to be another.
     ///
-    /// * `strangeness`: of a stretch
-    pub(super) fn look(&mut self, strangeness: f64) -> bool {
-        self.evidence = (self.evidence + strangeness.min(MOST_SAID)).max(0.0);
-        let is_another = self.evidence >= CHANGED;
+    /// * `filter`: the number of the filter that expected it
+    /// * `patch`: the way over which what no soil explains is the same [m]
+    pub(super) fn look(&mut self, filter: u64, passed: Passed, patch: f64) -> bool {
+        if filter != self.filter {
+            self.filter = filter;
+            self.passed.clear();
+        }
+        self.passed.push_back(passed);
+        while self.way_of(self.passed.len()) > LONGEST {
+            self.passed.pop_front();
+        }
+        let longest = self.passed.len();
+        let is_another = (LEAST..=longest).any(|count| self.is_strange(count, patch) == Some(true));
         if is_another {
-            self.evidence = 0.0;
+            self.passed.clear();
         }
         is_another
     }
 
-    pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
-        let Self { evidence } = self;
-        archive.number("evidence", evidence);
+    fn way_of(&self, last: usize) -> f64 {
+        self.passed.iter().rev().take(last).map(|it| it.way).sum()
     }
-}
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+    /// Whether the last stretches are another soil's; `None` where nothing can be said.
+    fn is_strange(&self, count: usize, patch: f64) -> Option<bool> {
+        let last = || self.passed.iter().skip(self.passed.len() - count);
+        let before = &last().next()?.belief;
+        let in_all = |reading: &&u64| last().all(|it| it.readings.contains(reading));
+        let readings: Vec<u64> = last().next()?.readings.iter().filter(in_all).copied().collect();
+        let each: Vec<Passed> = last().map(|it| it.with(&readings)).collect();
+        let off: Vec<DVector<f64>> =
+            each.iter().map(|it| &it.seen - &it.jacobian * &before.mean).collect();
+        let median = DVector::from_fn(readings.len(), |row, _| {
+            let mut values: Vec<f64> = off.iter().map(|it| it[row]).collect();
+            values.sort_by(f64::total_cmp);
+            grouser_io::statistics::quantile(&values, 0.5).unwrap_or(0.0)
+        });
+        if median.iter().take(2).all(|it| it.abs() < MATERIAL) {
+            return Some(false);
+        }
+        /// Variance of a median over that of a mean, π/2 [-].
+        const OF_MEDIAN: f64 = std::f64::consts::FRAC_PI_2;
+        let stretches = count as f64;
+        let patches = (self.way_of(count) / patch).max(1.0);
+        let jacobian = each.iter().map(|it| &it.jacobian).sum::<DMatrix<f64>>() / stretches;
+        let of_patch = each.iter().map(|it| &it.of_patch).sum::<DMatrix<f64>>() / stretches;
+        let own = each.iter().map(|it| &it.own).sum::<DVector<f64>>() / stretches;
+        let noise = of_patch / patches + DMatrix::from_diagonal(&own) * (OF_MEDIAN / stretches);
+        let known = &jacobian * &before.covariance * jacobian.transpose() + &noise;
+        let unknown = &jacobian * jacobian.transpose() + noise;
+        Some(log_density(&median, unknown)? - log_density(&median, known)? > CHANGED)
+    }
 
-    #[test]
-    fn three_strange_stretches_are_another_soil_and_one_is_none() {
-        let mut change = SoilChange::default();
-        assert!(!change.look(1e6));
-        assert!(!change.look(-4.0));
-        assert_eq!([3.5, 3.5, 3.5].map(|it| change.look(it)), [false, false, true]);
-        assert!(!change.look(3.5), "it begins anew");
+    pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
+        let Self { passed, filter } = self;
+        archive.count("filter", filter);
+        let mut of_passed: Vec<Passed> = passed.drain(..).collect();
+        items(archive, "passed", &mut of_passed, Passed::blank, Passed::walk);
+        passed.extend(of_passed);
+    }
+
+    /// Whether what it has kept fits together, and goes with the unknowns of its filter.
+    ///
+    /// * `unknowns`: how many a filter has; `None` of one that is not there
+    pub(super) fn is_whole(&self, unknowns: impl Fn(u64) -> Option<usize>) -> bool {
+        let count = unknowns(self.filter);
+        count.is_some_and(|count| self.passed.iter().all(|it| it.is_whole(count)))
     }
 }

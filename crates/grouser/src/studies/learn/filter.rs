@@ -1,12 +1,14 @@
 //! What is believed of a soil under one wheel–soil model, stretch by stretch.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::archive::Archive;
 use super::gaussian::{Gaussian, Line, Surprise};
 use super::information;
-use super::motion::{Expected, NotUsed, SeenMotion, halves};
+use super::motion::{NotUsed, SeenMotion, Variances, halves};
 use super::noise::ModelNoise;
+use super::passed::Passed;
+use super::unexplained::Push;
 use super::unknowns::{Draw, LearntSample, Unknowns};
 use crate::elementary::exp;
 use crate::elementary::wide::ln;
@@ -18,6 +20,31 @@ use grouser_io::statistics::NothingAccepted;
 pub(super) struct Filter {
     pub(super) unknowns: Unknowns,
     pub(super) belief: Gaussian,
+}
+
+/// A line that stands for an observation, and what its noise is made of.
+#[derive(Clone, Debug)]
+pub(super) struct Fitted {
+    pub(super) line: Line,
+    /// A covariance of what no soil explains, the same over a patch of the ground.
+    of_patch: DMatrix<f64>,
+    /// Variances of the stretch's own readings.
+    pub(super) own: DVector<f64>,
+    /// How the motion goes with forces that no soil explains.
+    pub(super) motion_by_force: Matrix3<f64>,
+}
+
+/// What a filter made of a motion.
+#[derive(Clone, Debug)]
+pub(super) struct Taken {
+    /// How surprising it was.
+    pub(super) surprise: Surprise,
+    /// How much each of its numbers taught [nat].
+    pub(super) by_number: Vec<f64>,
+    /// The motion beside what was believed before it.
+    pub(super) passed: Passed,
+    /// The force that would explain it, if the soil is as it was believed to be.
+    pub(super) push: Option<Push>,
 }
 
 /// How soils differ along the way, and what an observation may do.
@@ -39,6 +66,30 @@ const CLOSE: f64 = 0.3;
 /// What is farther from what was expected than this pulls no more than from there, in standard deviations [-] (Huber
 /// 1964): an outlier that got through.
 const FARTHEST: f64 = 3.0;
+
+/// A force that no ground has to spare, over the weight [-].
+const STRONGEST: f64 = 0.3;
+
+impl Fitted {
+    /// Standard deviation of the way along the body by what no soil explains, over that of the fastest rim [-].
+    pub(super) fn deviation_along(&self) -> f64 {
+        self.of_patch[(0, 0)].sqrt()
+    }
+
+    fn passed(self, motion: &SeenMotion, belief: Gaussian, seen: DVector<f64>) -> Passed {
+        let Self { line: Line { at, value, jacobian, .. }, of_patch, own, .. } = self;
+        let seen = seen - value + &jacobian * at;
+        Passed {
+            way: motion.way(),
+            belief,
+            readings: motion.readings(),
+            seen,
+            jacobian,
+            of_patch,
+            own,
+        }
+    }
+}
 
 impl Filter {
     pub(super) fn new(unknowns: Unknowns) -> Self {
@@ -74,27 +125,69 @@ impl Filter {
         motion: &SeenMotion,
         noise: &ModelNoise,
         over: &Gaussian,
-    ) -> Option<Line> {
-        let expected = |at: &DVector<f64>, near: Option<&Expected>| {
-            motion.expected(study, &self.unknowns.sample(at.as_slice())?, near)
+    ) -> Option<Fitted> {
+        let sample = self.unknowns.sample(over.mean.as_slice())?;
+        let here = motion.expected(study, &sample, None)?;
+        let numbers = |at: &DVector<f64>| {
+            let sample = self.unknowns.sample(at.as_slice())?;
+            Some(motion.expected(study, &sample, Some(&here))?.numbers)
         };
-        let here = expected(&over.mean, None)?;
-        let numbers = |at: &DVector<f64>| Some(expected(at, Some(&here))?.numbers);
         let mut line = Line::over(over, &here.numbers, numbers);
-        line.noise += motion.noise(study, &here, noise);
-        Some(line)
+        let unexplained = motion.unexplained(study, &sample, &here, noise);
+        let Variances { own, of_patch } = motion.variances(study, &here, noise);
+        let of_patch = unexplained.covariance + DMatrix::from_diagonal(&of_patch);
+        line.value += unexplained.shift;
+        line.noise += &of_patch * noise.together(motion.way());
+        line.noise += DMatrix::from_diagonal(&own);
+        let motion_by_force = unexplained.motion_by_force;
+        Some(Fitted { line, of_patch, own, motion_by_force })
     }
 
-    /// The mean slip ratio that is expected of a motion on another slope [rad], with the soil that is believed most.
+    /// Slip ratio and drift that are expected of a motion [-], with the soil that is believed most.
+    pub(super) fn expected_slip_and_drift(
+        &self,
+        study: &HeadingStudy,
+        motion: &SeenMotion,
+    ) -> Option<[f64; 2]> {
+        let sample = self.unknowns.sample(self.belief.mean.as_slice())?;
+        let expected = motion.expected(study, &sample, None)?;
+        Some(motion.expected_slip_and_drift(&expected))
+    }
+
+    /// The mean slip ratio that is expected of a motion on another slope [rad].
     pub(super) fn expected_slip(
         &self,
         study: &HeadingStudy,
         motion: &SeenMotion,
         slope: f64,
     ) -> Option<f64> {
+        self.expected_slip_and_drift(study, &motion.on_slope(slope)).map(|[slip, _]| slip)
+    }
+
+    /// The force against the way, over the weight, under which the wheels' mean slip ratio is `deep` [-], with the soil that
+    /// is believed most; nothing where it is more than [`STRONGEST`].
+    pub(super) fn holds_against(
+        &self,
+        study: &HeadingStudy,
+        motion: &SeenMotion,
+        deep: f64,
+    ) -> Option<f64> {
+        const ROUNDS: usize = 6;
         let sample = self.unknowns.sample(self.belief.mean.as_slice())?;
-        let there = motion.on_slope(slope);
-        there.expected(study, &sample, None).map(|it| there.slip_of(&it))
+        let is_deep = |force: f64| {
+            let force = Vector3::new(motion.against() * force, 0.0, 0.0);
+            let found = motion.expected_under(study, &sample, None, force);
+            found.is_none_or(|it| motion.expected_slip_and_drift(&it)[0] >= deep)
+        };
+        let (mut low, mut high) = (0.0, STRONGEST);
+        if !is_deep(high) {
+            return None;
+        }
+        for _ in 0..ROUNDS {
+            let middle = 0.5 * (low + high);
+            if is_deep(middle) { high = middle } else { low = middle }
+        }
+        Some(low)
     }
 
     /// How much is known, but for a constant [nat]: −½ ln det P.
@@ -102,18 +195,19 @@ impl Filter {
         -self.belief.root().diagonal().iter().map(|it| ln(*it)).sum::<f64>()
     }
 
-    /// Learns from a motion; how surprising it was, and how much each of its numbers taught [nat].
+    /// Learns from a motion.
     pub(super) fn learn(
         &mut self,
         study: &HeadingStudy,
         motion: &SeenMotion,
         noise: &ModelNoise,
-    ) -> Result<(Surprise, Vec<f64>), NotUsed> {
+    ) -> Result<Taken, NotUsed> {
         let (seen, belief) = (motion.seen(study), &self.belief);
         let first = self.line(study, motion, noise, belief).ok_or(NotUsed::NotCarried)?;
-        let surprise = belief.surprise(&first, &seen).ok_or(NotUsed::NotCarried)?;
+        let surprise = belief.surprise(&first.line, &seen).ok_or(NotUsed::NotCarried)?;
+        let push = Push::of(motion, &first, belief, &seen);
         let robust = |line| robust(line, &surprise);
-        let mut used = robust(first);
+        let mut used = robust(first.line.clone());
         let mut after = belief.after(&used, &seen).ok_or(NotUsed::NotCarried)?;
         let mut before = belief.mean.clone();
         for _ in 1..ROUNDS {
@@ -121,14 +215,15 @@ impl Filter {
                 break;
             }
             before = after.mean.clone();
-            let line = self.line(study, motion, noise, &after).map(robust);
+            let line = self.line(study, motion, noise, &after).map(|it| robust(it.line));
             let next = line.and_then(|line| Some((belief.after(&line, &seen)?, line)));
             let Some(next) = next else { break };
             (after, used) = next;
         }
-        let taught = information::by_number(&self.belief, &used);
+        let by_number = information::by_number(&self.belief, &used);
+        let passed = first.passed(motion, belief.clone(), seen);
         self.belief = after;
-        Ok((surprise, taught))
+        Ok(Taken { surprise, by_number, passed, push })
     }
 
     pub(super) fn walk(&mut self, archive: &mut dyn Archive) {

@@ -80,9 +80,6 @@ pub(super) struct Surprise {
     pub(super) scores: DVector<f64>,
     /// The logarithm of its density.
     pub(super) log_density: f64,
-    /// By how much that would be more if nothing had been learnt of the width of the belief: above 0 where what was seen
-    /// lies farther off than what was learnt allows.
-    pub(super) strangeness: f64,
 }
 
 impl Gaussian {
@@ -127,8 +124,7 @@ impl Gaussian {
         let covariance = jacobian * &self.covariance * jacobian.transpose() + noise;
         let deviations = covariance.diagonal().map(f64::sqrt);
         let log_density = log_density(&off, covariance)?;
-        let strangeness = log_density_of_wide(line, &off)? - log_density;
-        Some(Surprise { scores: off.component_div(&deviations), log_density, strangeness })
+        Some(Surprise { scores: off.component_div(&deviations), log_density })
     }
 
     /// A triangular root of its covariance.
@@ -167,13 +163,8 @@ impl Gaussian {
     }
 }
 
-/// The density of what is off if the unknowns were standard normal.
-fn log_density_of_wide(line: &Line, off: &DVector<f64>) -> Option<f64> {
-    log_density(off, &line.jacobian * line.jacobian.transpose() + &line.noise)
-}
-
 /// The logarithm of the density of what is normal, of mean 0.
-fn log_density(at: &DVector<f64>, covariance: DMatrix<f64>) -> Option<f64> {
+pub(super) fn log_density(at: &DVector<f64>, covariance: DMatrix<f64>) -> Option<f64> {
     let root = Cholesky::new(covariance)?;
     let squared = at.dot(&root.solve(at));
     let log_determinant: f64 = root.l().diagonal().iter().map(|it| 2.0 * ln(*it)).sum();

@@ -13,7 +13,7 @@
 //! which costs pull, and takes a weaker soil for the same way. A soil in which nothing balances holds the rover where it
 //! is.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{DVector, Matrix3, Vector3};
 
 use super::noise::ModelNoise;
 use super::stretch::{Reading, Stretch};
@@ -153,25 +153,26 @@ impl SeenMotion {
         })
     }
 
-    /// Mean slip ratio of the wheels as it was seen [-].
-    pub(super) fn slip_ratio(&self) -> f64 {
-        self.mean_slip(&self.read())
+    /// Mean slip ratio of the wheels, and way to the left over that of the fastest rim, as they were seen [-].
+    pub(super) fn slip_and_drift(&self) -> [f64; 2] {
+        self.slip_and_drift_of(&self.read())
+    }
+
+    /// The same as a soil expects them [-].
+    pub(super) fn expected_slip_and_drift(&self, expected: &Expected) -> [f64; 2] {
+        self.slip_and_drift_of(&expected.balance.motion)
+    }
+
+    fn slip_and_drift_of(&self, motion: &Vector3<f64>) -> [f64; 2] {
+        let slips = self.slips(motion);
+        let slip = slips.iter().map(|it| it.ratio).sum::<f64>() / slips.len() as f64;
+        [slip, motion.y / self.fastest()]
     }
 
     /// The motion that was read, as [`Balance::motion`] has it.
     fn read(&self) -> Vector3<f64> {
         let [forward, leftward, turning] = self.velocities.map(|it| it.value);
         Vector3::new(forward, leftward, turning * self.reach)
-    }
-
-    /// Mean slip ratio of the wheels that a soil expects [-].
-    pub(super) fn slip_of(&self, expected: &Expected) -> f64 {
-        self.mean_slip(&expected.balance.motion)
-    }
-
-    fn mean_slip(&self, motion: &Vector3<f64>) -> f64 {
-        let slips = self.slips(motion);
-        slips.iter().map(|it| it.ratio).sum::<f64>() / slips.len() as f64
     }
 
     /// The slope of the ground [rad].
@@ -202,10 +203,11 @@ impl SeenMotion {
     /// weight at the [`reach`](Self::reach) [-]; `None` where the soil does not carry the rover.
     fn left_over(
         &self,
-        study: &HeadingStudy,
+        under: Under<'_>,
         motion: &Vector3<f64>,
         near: &[WheelReaction],
     ) -> Option<(Vector3<f64>, Vec<WheelReaction>)> {
+        let study = under.study;
         let site = study.site(self.slope);
         let ground = Ground { rover: &self.rover, ..study.ground(&site) };
         let stance = ground.stance(&self.state(motion));
@@ -215,7 +217,7 @@ impl SeenMotion {
         let force = soil + stance.pull;
         let moment = moment + self.rover.centre_of_mass().perp(&stance.pull);
         let left = Vector3::new(force.x, force.y, moment / self.reach);
-        Some((left / (self.rover.mass() * study.gravity), wheels))
+        Some((left / (self.rover.mass() * study.gravity) + under.unexplained, wheels))
     }
 
     /// What a soil expects; `None` where it does not carry the rover even at rest.
@@ -227,16 +229,29 @@ impl SeenMotion {
         sample: &Sample,
         near: Option<&Expected>,
     ) -> Option<Expected> {
-        let study = study.of_sample(sample);
-        let mut found = near.and_then(|near| self.balanced_near(&study, near));
+        self.expected_under(study, sample, near, Vector3::zeros())
+    }
+
+    /// The same with a force besides those of soil and slope: along the body and to its left, and the yaw moment at the
+    /// [`reach`](Self::reach), each over the weight [-].
+    pub(super) fn expected_under(
+        &self,
+        study: &HeadingStudy,
+        sample: &Sample,
+        near: Option<&Expected>,
+        unexplained: Vector3<f64>,
+    ) -> Option<Expected> {
+        let study = &study.of_sample(sample);
+        let under = Under { study, unexplained };
+        let mut found = near.and_then(|near| self.balanced_near(under, near));
         if found.is_none() {
-            found = self.starts().into_iter().find_map(|at| self.balanced_from(&study, at));
+            found = self.starts().into_iter().find_map(|at| self.balanced_from(under, at));
         }
         let balance = match found {
             Some(balance) => balance,
-            None => self.stuck(&study)?,
+            None => self.stuck(under)?,
         };
-        Some(self.numbers(&study, balance))
+        Some(self.numbers(study, balance))
     }
 
     /// Where a balance is sought: at the motion as it was seen, then at lighter and heavier slips.
@@ -246,10 +261,10 @@ impl SeenMotion {
         [self.read()].into_iter().chain(lighter).collect()
     }
 
-    fn balanced_near(&self, study: &HeadingStudy, near: &Expected) -> Option<Balance> {
+    fn balanced_near(&self, under: Under<'_>, near: &Expected) -> Option<Balance> {
         let zero = newton::zero_near(
             |at| {
-                let (left, wheels) = self.left_over(study, at, &near.balance.wheels)?;
+                let (left, wheels) = self.left_over(under, at, &near.balance.wheels)?;
                 Some((left, wheels))
             },
             &near.balance.motion,
@@ -263,13 +278,13 @@ impl SeenMotion {
     }
 
     /// Newton's method with steps that are halved until less is left over.
-    fn balanced_from(&self, study: &HeadingStudy, mut at: Vector3<f64>) -> Option<Balance> {
+    fn balanced_from(&self, under: Under<'_>, mut at: Vector3<f64>) -> Option<Balance> {
         const ROUNDS: usize = 20;
         const HALVINGS: usize = 6;
         let longest = LONGEST * self.fastest();
-        let (mut left, mut wheels) = self.left_over(study, &at, &[])?;
+        let (mut left, mut wheels) = self.left_over(under, &at, &[])?;
         for _ in 0..ROUNDS {
-            let inverse = self.stiffness(study, &at, &left, &wheels)?.try_inverse()?;
+            let inverse = self.stiffness(under, &at, &left, &wheels)?.try_inverse()?;
             if left.norm() < BALANCED {
                 return Some(Balance { motion: at, wheels, inverse: Some(inverse) });
             }
@@ -277,7 +292,7 @@ impl SeenMotion {
             way *= (longest / way.norm()).min(1.0);
             let found = halves(HALVINGS).find_map(|share| {
                 let there = at + way * share;
-                let (left_there, wheels_there) = self.left_over(study, &there, &wheels)?;
+                let (left_there, wheels_there) = self.left_over(under, &there, &wheels)?;
                 (left_there.norm() < left.norm()).then_some((there, left_there, wheels_there))
             });
             (at, left, wheels) = found?;
@@ -288,7 +303,7 @@ impl SeenMotion {
     /// How what is left over changes with the motion [s/m].
     fn stiffness(
         &self,
-        study: &HeadingStudy,
+        under: Under<'_>,
         at: &Vector3<f64>,
         left: &Vector3<f64>,
         wheels: &[WheelReaction],
@@ -300,16 +315,16 @@ impl SeenMotion {
         for axis in 0..3 {
             let mut there = *at;
             there[axis] += step;
-            let (ahead, _) = self.left_over(study, &there, wheels)?;
+            let (ahead, _) = self.left_over(under, &there, wheels)?;
             stiffness.set_column(axis, &((ahead - left) / step));
         }
         Some(stiffness)
     }
 
     /// The rover where nothing balances: its wheels turn on the spot.
-    fn stuck(&self, study: &HeadingStudy) -> Option<Balance> {
+    fn stuck(&self, under: Under<'_>) -> Option<Balance> {
         let motion = Vector3::zeros();
-        let (_, wheels) = self.left_over(study, &motion, &[])?;
+        let (_, wheels) = self.left_over(under, &motion, &[])?;
         Some(Balance { motion, wheels, inverse: None })
     }
 
@@ -347,55 +362,65 @@ impl SeenMotion {
         self.rover.mounts()[wheel].shearing_radius() * self.rover.mass() * study.gravity
     }
 
-    /// The noise of what was read about what a right soil expects: that of the instruments, and what no soil explains.
-    pub(super) fn noise(
+    /// The variances of what was read, and those of a right soil's torques and sinkages, which are the same over a patch.
+    pub(super) fn variances(
         &self,
         study: &HeadingStudy,
         expected: &Expected,
         noise: &ModelNoise,
-    ) -> DMatrix<f64> {
+    ) -> Variances {
         let fastest = self.fastest();
-        let together = noise.together(self.way);
-        let count = expected.numbers.len();
-        let mut covariance = DMatrix::zeros(count, count);
-        let of_motion = self.noise_of_motion(&expected.balance, noise) * together;
-        covariance.view_mut((0, 0), (3, 3)).copy_from(&of_motion);
         let read = self.velocities.map(|it| it.deviation);
         let read = [read[0], read[1], read[2] * self.reach];
-        let mut own: Vec<f64> = read.iter().map(|it| (it / fastest).powi(2)).collect();
+        let mut all: Vec<[f64; 2]> = read.iter().map(|it| [(it / fastest).powi(2), 0.0]).collect();
         for (place, wheel) in expected.balance.wheels.iter().enumerate() {
             if let Some(read) = self.torques[place] {
                 let share = noise.torque_share * wheel.settled.forces.torque;
-                let of_model = together * (share.powi(2) + noise.torque.powi(2));
-                own.push(
-                    (of_model + read.deviation.powi(2)) / self.torque_scale(study, place).powi(2),
-                );
+                let of_model = hypot(share, noise.torque);
+                let scale = self.torque_scale(study, place);
+                all.push([read.deviation, of_model].map(|it| (it / scale).powi(2)));
             }
         }
         for read in self.sinkages.iter().flatten() {
             let share = read.deviation / read.value.max(SHALLOWEST);
-            own.push(together * noise.sinkage.powi(2) + share.powi(2));
+            all.push([share, noise.sinkage].map(|it| it.powi(2)));
         }
-        for (place, variance) in own.into_iter().enumerate() {
-            covariance[(place, place)] += variance;
-        }
-        covariance
+        let of = |which: usize| all.iter().map(|it| it[which]).collect::<Vec<f64>>().into();
+        Variances { own: of(0), of_patch: of(1) }
     }
 
-    /// How far forces that no soil explains move a rover off its motion, over the fastest rim's speed: a covariance [-].
-    /// Each wheel's force is off on its own, so that the moment is off by as much at the reach as the force.
-    fn noise_of_motion(&self, balance: &Balance, noise: &ModelNoise) -> Matrix3<f64> {
-        /// They move it no farther than this [-].
-        const FARTHEST: f64 = 0.3;
-        let force = hypot(noise.force, noise.attitude);
-        let Some(inverse) = balance.inverse else {
-            return Matrix3::identity() * FARTHEST.powi(2);
+    /// Which of the rover's readings each number of an observation is: the motion's, then the torques of all wheels, then
+    /// their sinkages.
+    pub(super) fn readings(&self) -> Vec<u64> {
+        const OF_MOTION: usize = 3;
+        let wheels = self.torques.len();
+        let of = |first: usize, read: &[Option<Reading>]| {
+            let read = read.iter().enumerate().filter(|(_, read)| read.is_some());
+            read.map(|(wheel, _)| (first + wheel) as u64).collect::<Vec<u64>>()
         };
-        let by_force = inverse * (force / self.fastest());
-        let covariance = by_force * by_force.transpose();
-        let within = covariance.diagonal().map(|it| (FARTHEST / it.sqrt()).min(1.0));
-        let within = Matrix3::from_diagonal(&within);
-        within * covariance * within
+        let torques = of(OF_MOTION, &self.torques);
+        let sinkages = of(OF_MOTION + wheels, &self.sinkages);
+        (0..OF_MOTION as u64).chain(torques).chain(sinkages).collect()
+    }
+
+    /// The sign of a force along the body that is against the way of the wheels [-].
+    pub(super) fn against(&self) -> f64 {
+        if self.rim_speeds.iter().sum::<f64>() < 0.0 { 1.0 } else { -1.0 }
+    }
+
+    /// The rims' way of the stretch [m].
+    pub(super) fn way(&self) -> f64 {
+        self.way
+    }
+
+    /// The rover, its wheels steered as they were read.
+    pub(super) fn rover(&self) -> &Rover {
+        &self.rover
+    }
+
+    /// The wheels' torques as they were read [N·m].
+    pub(super) fn torques(&self) -> &[Option<Reading>] {
+        &self.torques
     }
 }
 
@@ -405,6 +430,15 @@ const BALANCED: f64 = 1e-7;
 const LONGEST: f64 = 0.3;
 /// Sinkages below this count as this [m].
 pub(in crate::studies) const SHALLOWEST: f64 = 1e-4;
+
+/// What a motion balances.
+#[derive(Clone, Copy)]
+struct Under<'a> {
+    study: &'a HeadingStudy,
+    /// A force besides those of soil and slope: along the body and to its left, and the yaw moment at the
+    /// [`reach`](SeenMotion::reach), each over the weight [-].
+    unexplained: Vector3<f64>,
+}
 
 /// A motion that leaves neither a force nor a yaw moment over.
 #[derive(Clone, Debug)]
@@ -417,12 +451,28 @@ struct Balance {
     inverse: Option<Matrix3<f64>>,
 }
 
+/// The variances of an observation's numbers.
+#[derive(Clone, Debug)]
+pub(super) struct Variances {
+    /// Of the readings, a stretch's own.
+    pub(super) own: DVector<f64>,
+    /// What no soil explains of torques and sinkages, the same over a patch of the ground.
+    pub(super) of_patch: DVector<f64>,
+}
+
 /// What a soil expects of a motion.
 #[derive(Clone, Debug)]
 pub(super) struct Expected {
     /// Motion over the fastest rim's speed, torques over weight times shearing radius, logarithms of sinkages.
     pub(super) numbers: DVector<f64>,
     balance: Balance,
+}
+
+impl Expected {
+    /// Whether there is a motion in which forces balance; else the wheels turn on the spot.
+    pub(super) fn balances(&self) -> bool {
+        self.balance.inverse.is_some()
+    }
 }
 
 /// 1, ½, ¼, …

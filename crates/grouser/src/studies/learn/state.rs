@@ -20,7 +20,9 @@ impl Learner {
     /// is not to be used any more.
     pub fn read_state(&mut self, archive: &mut dyn Archive) -> bool {
         self.walk(archive);
-        self.bank.is_whole() && self.gatherer.is_whole()
+        self.bank.is_whole()
+            && self.gatherer.is_whole()
+            && self.change.is_whole(|filter| self.bank.unknowns(filter))
     }
 
     fn walk(&mut self, archive: &mut dyn Archive) {
@@ -169,12 +171,13 @@ impl Warning {
 
 impl Evidence {
     /// One of each, to read into.
-    fn all() -> [Self; 7] {
+    fn all() -> [Self; 8] {
         let zero = 0.0;
         [
-            Self::Strange { slip_ratio: zero, expected: zero },
+            Self::Strange { slip_ratio: zero, expected: zero, drift: zero, expected_drift: zero },
             Self::Spinning { slip_ratio: zero },
             Self::Growing { slip_ratio: zero },
+            Self::Weakening { slip_ratio: zero, loss: zero, spare: zero },
             Self::Rising { slip_ratio: zero, slope: zero, limit: zero },
             Self::Contradiction { told: zero, by_attitude: zero },
             Self::Outrun { slip_ratio: zero },
@@ -187,6 +190,7 @@ impl Evidence {
             Self::Strange { .. } => "strange",
             Self::Spinning { .. } => "spinning",
             Self::Growing { .. } => "growing",
+            Self::Weakening { .. } => "weakening",
             Self::Rising { .. } => "rising",
             Self::Contradiction { .. } => "contradiction",
             Self::Outrun { .. } => "outrun",
@@ -204,9 +208,16 @@ impl Evidence {
             }
         }
         match self {
-            Self::Strange { slip_ratio, expected } => {
+            Self::Strange { slip_ratio, expected, drift, expected_drift } => {
                 archive.number("slip_ratio", slip_ratio);
                 archive.number("expected", expected);
+                archive.number("drift", drift);
+                archive.number("expected_drift", expected_drift);
+            }
+            Self::Weakening { slip_ratio, loss, spare } => {
+                archive.number("slip_ratio", slip_ratio);
+                archive.number("loss", loss);
+                archive.number("spare", spare);
             }
             Self::Spinning { slip_ratio }
             | Self::Growing { slip_ratio }

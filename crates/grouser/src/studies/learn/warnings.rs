@@ -5,8 +5,10 @@
 use std::collections::{BTreeMap, VecDeque};
 
 use super::archive::{Archive, items, numbers};
+use super::noise::ModelNoise;
 use super::stretch::Stretch;
-use crate::elementary::wide::{cos, ln_1p};
+use super::unexplained::Push;
+use crate::elementary::wide::{cos, hypot, ln_1p};
 use crate::vehicle::Rover;
 
 /// Something that an operator should know.
@@ -29,12 +31,16 @@ pub struct Warning {
 /// What a warning rests on.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Evidence {
-    /// A slip ratio that the soil learnt so far does not have there, over three or more stretches.
+    /// A motion that the soil learnt so far does not have there, over three or more stretches.
     Strange {
         /// The slip ratio that was seen [-].
         slip_ratio: f64,
         /// The slip ratio that was expected [-].
         expected: f64,
+        /// The way to the left over that of the wheels as it was seen [-].
+        drift: f64,
+        /// The same as it was expected [-].
+        expected_drift: f64,
     },
     /// Wheels that spin.
     Spinning {
@@ -45,6 +51,15 @@ pub enum Evidence {
     Growing {
         /// What it is now [-].
         slip_ratio: f64,
+    },
+    /// Ground that grows weaker.
+    Weakening {
+        /// The slip ratio now [-].
+        slip_ratio: f64,
+        /// What the wheels' pull is less by for each metre, over the weight [1/m].
+        loss: f64,
+        /// What the soil has to spare on this course, over the weight [-].
+        spare: f64,
     },
     /// Ground that rises.
     Rising {
@@ -111,21 +126,32 @@ impl WarningKind {
 pub(super) struct Seen<'a> {
     pub(super) stretch: &'a Stretch,
     pub(super) slip_ratio: f64,
-    /// Whether the soil was just found to be another.
-    pub(super) is_another_soil: bool,
     /// Slip ratio that was expected [-].
     pub(super) expected_slip: f64,
+    /// Way to the left over that of the wheels, and the same as it was expected [-].
+    pub(super) drift: f64,
+    pub(super) expected_drift: f64,
+    /// What is left over however well the soil is known.
+    pub(super) noise: ModelNoise,
+    /// The force that would explain the motion on the soil that was learnt so far.
+    pub(super) push: Option<&'a Push>,
+    /// Whether the soil was just found to be another.
+    pub(super) is_another_soil: bool,
     /// The slope on which the wheels' slip reaches [`DEEP`] on this course [rad], by what was learnt; nothing where it is
     /// steeper by more than what is asked for [rad].
     pub(super) deep_slope: &'a dyn Fn(f64) -> Option<f64>,
+    /// The force over the weight that the soil has to spare until the wheels' slip is [`DEEP`], by what was learnt [-];
+    /// nothing where it has plenty.
+    pub(super) holds_against: &'a dyn Fn() -> Option<f64>,
 }
 
 /// Looks at stretches.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Watch {
     way: f64,
-    /// Of the last stretches: time [s], the rims' way [m], −ln(1 − s), slope [rad] and course.
     recent: VecDeque<Past>,
+    /// The force against the way by which the soil learnt so far is weaker than that at the start, over the weight [-].
+    learnt: f64,
     /// Of each warning: the way at which its cause was last seen [m].
     causes: BTreeMap<(WarningKind, usize), f64>,
     /// Of each wheel: the rims' way over which its torque is too small [m].
@@ -136,21 +162,31 @@ pub(super) struct Watch {
     outrun: f64,
 }
 
+/// What is kept of a stretch.
 #[derive(Clone, Copy, Debug, Default)]
 struct Past {
+    /// When it ended [s].
     time: f64,
+    /// The rims' way until then, and that over the ground [m].
     way: f64,
     ground: f64,
     slip_ratio: f64,
+    /// The slip ratio as −ln(1 − s), and its variance by what no soil explains.
     strain: f64,
+    strain_variance: f64,
     slope: f64,
     yaw: f64,
+    /// By how much the ground was weaker than that at the start, as a force against the way over the weight [-], and its
+    /// variance.
+    weakness: Option<f64>,
+    weakness_variance: f64,
 }
 
 /// Slip at which a rover is as good as stuck [-].
 pub(super) const DEEP: f64 = 0.9;
-/// Trends are those of this way of the rims [m].
+/// Trends are those of this way of the rims [m]; of what differs from patch to patch also those of twice as much.
 const TREND: f64 = 0.8;
+const LONG_TREND: f64 = 1.6;
 /// Entrapment is looked for this far ahead: way over the ground [m], and time [s].
 const AHEAD: f64 = 1.5;
 const SOON: f64 = 90.0;
@@ -162,6 +198,25 @@ const SPINS: f64 = 0.6;
 const LASTS: f64 = 0.5;
 /// A warning is given again after this way without its cause [m].
 const QUIET: f64 = 1.0;
+
+/// A straight line.
+#[derive(Clone, Copy, Debug)]
+struct Trend {
+    /// What it rises by over a metre of ground.
+    rise: f64,
+    /// The standard error of that.
+    error: f64,
+    /// Its value at the last stretch.
+    now: f64,
+}
+
+impl Trend {
+    /// Whether it rises by more than it could by chance.
+    fn is_no_chance(&self) -> bool {
+        const SURE: f64 = 3.0;
+        self.rise > SURE * self.error
+    }
+}
 
 impl Watch {
     /// The warnings that a stretch gives rise to.
@@ -180,13 +235,28 @@ impl Watch {
 
     fn remember(&mut self, seen: &Seen<'_>) {
         let [slope, yaw] = seen.stretch.attitude.unwrap_or_default();
+        let together = seen.noise.together(seen.stretch.way);
         let ground = self.recent.back().map_or(0.0, |it| it.ground)
             + seen.stretch.way * (1.0 - seen.slip_ratio).max(0.0);
-        let strain = -ln_1p(-seen.slip_ratio.min(0.995));
         let (time, way) = (seen.stretch.time[1], self.way);
         let slip_ratio = seen.slip_ratio;
-        self.recent.push_back(Past { time, way, ground, slip_ratio, strain, slope, yaw });
-        while self.recent.front().is_some_and(|it| it.way < way - TREND) {
+        let rolls = 1.0 - slip_ratio.min(0.995);
+        let of_slip = seen.push.map_or(0.0, |it| it.of_slip / rolls);
+        let size = hypot(seen.noise.force, seen.noise.attitude);
+        let own = seen.push.map_or(0.0, |it| it.deviation);
+        self.recent.push_back(Past {
+            time,
+            way,
+            ground,
+            slip_ratio,
+            strain: -ln_1p(-slip_ratio.min(0.995)),
+            strain_variance: together * of_slip.powi(2),
+            slope,
+            yaw,
+            weakness: seen.push.map(|it| self.learnt + it.force),
+            weakness_variance: together * size.powi(2) + own.powi(2),
+        });
+        while self.recent.front().is_some_and(|it| it.way < way - LONG_TREND) {
             self.recent.pop_front();
         }
     }
@@ -215,8 +285,12 @@ impl Watch {
         if !seen.is_another_soil {
             return None;
         }
-        let evidence =
-            Evidence::Strange { slip_ratio: seen.slip_ratio, expected: seen.expected_slip };
+        let evidence = Evidence::Strange {
+            slip_ratio: seen.slip_ratio,
+            expected: seen.expected_slip,
+            drift: seen.drift,
+            expected_drift: seen.expected_drift,
+        };
         self.raise(WarningKind::SoilChange, 0, [None; 2], evidence)
     }
 
@@ -231,24 +305,26 @@ impl Watch {
             let evidence = Evidence::Spinning { slip_ratio };
             return self.raise(WarningKind::Entrapment, 0, [Some(0.0); 2], evidence);
         }
-        let by_slip = (slip_ratio > SLIPS).then(|| self.strain_ahead(last.strain)).flatten();
-        let by_slope = self.slope_ahead(seen, last.slope);
-        let way =
-            [by_slip, by_slope.map(|it| it.0)].into_iter().flatten().fold(f64::INFINITY, f64::min);
+        let growing = self.strain_ahead(slip_ratio);
+        let rising = self.slope_ahead(seen, last.slope);
+        let weakening = self.weakening_ahead(seen);
+        let nearest = [growing, rising, weakening].into_iter().flatten();
+        let (way, evidence) = nearest.min_by(|one, other| one.0.total_cmp(&other.0))?;
         let time = way / speed.max(1e-6);
         if way > AHEAD || time > SOON {
             return None;
         }
-        let evidence = match by_slope.filter(|it| it.0 == way) {
-            Some((_, limit)) => Evidence::Rising { slip_ratio, slope: last.slope, limit },
-            None => Evidence::Growing { slip_ratio },
-        };
         self.raise(WarningKind::Entrapment, 0, [Some(time), Some(way)], evidence)
+    }
+
+    /// The last stretches, over a way of the rims [m].
+    fn last(&self, way: f64) -> impl Iterator<Item = &Past> {
+        self.recent.iter().filter(move |it| it.way >= self.way - way)
     }
 
     /// Speed over the ground on the mean of the last stretches [m/s].
     fn ground_speed(&self) -> f64 {
-        match (self.recent.front(), self.recent.back()) {
+        match (self.last(TREND).next(), self.recent.back()) {
             (Some(first), Some(last)) if last.time > first.time => {
                 (last.ground - first.ground) / (last.time - first.time)
             }
@@ -257,51 +333,83 @@ impl Watch {
     }
 
     /// Way over the ground until the slip is [`DEEP`], if it grows as it did.
-    fn strain_ahead(&self, strain: f64) -> Option<f64> {
-        let (rise, error) = self.trend(|it| it.strain)?;
-        // A rise that could be chance is none.
-        (rise > 2.0 * error).then(|| (-ln_1p(-DEEP) - strain).max(0.0) / rise)
-    }
-
-    /// Way over the ground until the slope holds the rover no longer, if it grows as it did, and that slope [rad].
-    ///
-    /// * `slope`: now [rad]
-    fn slope_ahead(&self, seen: &Seen<'_>, slope: f64) -> Option<(f64, f64)> {
-        if seen.expected_slip >= DEEP {
-            return Some((0.0, slope));
-        }
-        let (rise, error) = self.trend(|it| it.slope)?;
-        if rise <= 2.0 * error {
+    fn strain_ahead(&self, slip_ratio: f64) -> Option<(f64, Evidence)> {
+        if slip_ratio <= SLIPS {
             return None;
         }
-        let limit = (seen.deep_slope)(rise * AHEAD)?;
-        Some(((limit - slope) / rise, limit))
+        let trend = self.trend(TREND, |it| Some((it.strain, it.strain_variance)))?;
+        let way = (-ln_1p(-DEEP) - trend.now).max(0.0) / trend.rise;
+        trend.is_no_chance().then_some((way, Evidence::Growing { slip_ratio }))
     }
 
-    /// What a number grows by over a metre of ground, and the standard error of that: a straight line through the last
-    /// stretches.
-    fn trend(&self, of: impl Fn(&Past) -> f64) -> Option<(f64, f64)> {
+    /// Way over the ground until the slope holds the rover no longer, if it grows as it did.
+    ///
+    /// * `slope`: now [rad]
+    fn slope_ahead(&self, seen: &Seen<'_>, slope: f64) -> Option<(f64, Evidence)> {
+        let slip_ratio = seen.slip_ratio;
+        let trend = self.trend(TREND, |it| Some((it.slope, 0.0)))?;
+        if !trend.is_no_chance() {
+            return None;
+        }
+        let limit = (seen.deep_slope)(trend.rise * AHEAD)?;
+        let evidence = Evidence::Rising { slip_ratio, slope, limit };
+        Some(((limit - slope) / trend.rise, evidence))
+    }
+
+    /// Way over the ground until the ground is too weak for the rover, if it grows weaker as it did. Where the slope
+    /// changes another soil than was believed passes for one that changes.
+    fn weakening_ahead(&self, seen: &Seen<'_>) -> Option<(f64, Evidence)> {
+        /// A slope that differs by no more than this is the same [rad].
+        const SAME: f64 = 0.02;
+        let of = |way: f64| {
+            let slopes = || self.last(way).map(|it| it.slope);
+            let range = slopes().fold(f64::MIN, f64::max) - slopes().fold(f64::MAX, f64::min);
+            let trend = self.trend(way, |it| Some((it.weakness?, it.weakness_variance)))?;
+            (range < SAME && trend.is_no_chance()).then_some(trend)
+        };
+        let steepest = [TREND, LONG_TREND].into_iter().filter_map(of);
+        let trend = steepest.max_by(|one, other| one.rise.total_cmp(&other.rise))?;
+        let spare = (seen.holds_against)()? - (trend.now - self.learnt);
+        let slip_ratio = seen.slip_ratio;
+        let evidence = Evidence::Weakening { slip_ratio, loss: trend.rise, spare };
+        Some((spare.max(0.0) / trend.rise, evidence))
+    }
+
+    /// A straight line through a number of the last stretches over the way over the ground.
+    ///
+    /// * `of`: the number, and its variance
+    fn trend(&self, way: f64, of: impl Fn(&Past) -> Option<(f64, f64)>) -> Option<Trend> {
         const LEAST: usize = 4;
-        let count = self.recent.len();
         let yaw = self.recent.back()?.yaw;
         /// A rover that turns has other slips for another reason [rad].
         const TURNS: f64 = 0.25;
-        let turns = self.recent.iter().any(|it| 1.0 - cos(it.yaw - yaw) > 0.5 * TURNS * TURNS);
-        if count < LEAST || turns {
-            return None;
-        }
-        let mean =
-            |of: &dyn Fn(&Past) -> f64| self.recent.iter().map(of).sum::<f64>() / count as f64;
-        let (x, y) = (mean(&|it| it.ground), mean(&of));
-        let xx: f64 = self.recent.iter().map(|it| (it.ground - x).powi(2)).sum();
-        let xy: f64 = self.recent.iter().map(|it| (it.ground - x) * (of(it) - y)).sum();
+        let turns = self.last(way).any(|it| 1.0 - cos(it.yaw - yaw) > 0.5 * TURNS * TURNS);
+        let all: Option<Vec<[f64; 3]>> =
+            self.last(way).map(|it| of(it).map(|(y, variance)| [it.ground, y, variance])).collect();
+        let all = all.filter(|it| it.len() >= LEAST && !turns)?;
+        let count = all.len() as f64;
+        let mean = |place: usize| all.iter().map(|it| it[place]).sum::<f64>() / count;
+        let [x, y, variance] = [0, 1, 2].map(mean);
+        let xx: f64 = all.iter().map(|it| (it[0] - x).powi(2)).sum();
+        let xy: f64 = all.iter().map(|it| (it[0] - x) * (it[1] - y)).sum();
         if xx <= 0.0 {
             return None;
         }
         let rise = xy / xx;
-        let off = |it: &Past| (of(it) - y - rise * (it.ground - x)).powi(2);
-        let variance = self.recent.iter().map(off).sum::<f64>() / (count - 2) as f64;
-        Some((rise, (variance / xx).sqrt()))
+        let off = |it: &[f64; 3]| (it[1] - y - rise * (it[0] - x)).powi(2);
+        let scatter = all.iter().map(off).sum::<f64>() / (count - 2.0);
+        let now = y + rise * (self.recent.back()?.ground - x);
+        Some(Trend { rise, error: (scatter.max(variance) / xx).sqrt(), now })
+    }
+
+    /// That the belief of the soil has changed.
+    ///
+    /// * `learnt`: the force against the way that goes with it, over the weight; nothing where that is not known
+    pub(super) fn believed(&mut self, learnt: Option<f64>) {
+        match learnt {
+            Some(learnt) => self.learnt += learnt,
+            None => self.recent.iter_mut().for_each(|it| it.weakness = None),
+        }
     }
 
     /// Whether yaw contradicts roll and pitch.
@@ -362,8 +470,9 @@ impl Watch {
 impl Watch {
     /// Writes or reads what it has seen.
     pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
-        let Self { way, recent, causes, idle, contradicted, outrun } = self;
+        let Self { way, recent, learnt, causes, idle, contradicted, outrun } = self;
         archive.number("way", way);
+        archive.number("learnt", learnt);
         archive.number("contradicted", contradicted);
         archive.number("outrun", outrun);
         numbers(archive, "idle", idle);
@@ -386,9 +495,32 @@ impl Watch {
 
 impl Past {
     fn walk(&mut self, archive: &mut dyn Archive) {
-        let Self { time, way, ground, slip_ratio, strain, slope, yaw } = self;
-        let all = [time, way, ground, slip_ratio, strain, slope, yaw];
-        let names = ["time", "way", "ground", "slip_ratio", "strain", "slope", "yaw"];
+        let Self {
+            time,
+            way,
+            ground,
+            slip_ratio,
+            strain,
+            strain_variance,
+            slope,
+            yaw,
+            weakness,
+            weakness_variance,
+        } = self;
+        archive.maybe("weakness", weakness);
+        let all =
+            [time, way, ground, slip_ratio, strain, strain_variance, slope, yaw, weakness_variance];
+        let names = [
+            "time",
+            "way",
+            "ground",
+            "slip_ratio",
+            "strain",
+            "strain_variance",
+            "slope",
+            "yaw",
+            "weakness_variance",
+        ];
         names.into_iter().zip(all).for_each(|(name, value)| archive.number(name, value));
     }
 }

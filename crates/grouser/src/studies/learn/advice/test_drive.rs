@@ -285,7 +285,10 @@ impl Planner<'_> {
     /// What is expected to be believed after a leg. The mean stays: nothing is known of where it will go.
     fn after(&self, candidate: &Candidate, belief: &Gaussian) -> Option<Gaussian> {
         let noise = &self.settings.noise;
-        let line = |over: &Gaussian| self.filter.line(self.study, &candidate.stretch, noise, over);
+        let line = |over: &Gaussian| {
+            let fitted = self.filter.line(self.study, &candidate.stretch, noise, over);
+            fitted.map(|it| it.line)
+        };
         let stretch = |belief: &Gaussian, line: &Line| {
             let expected = &line.value + &line.jacobian * (&belief.mean - &line.at);
             belief.after(line, &expected)
