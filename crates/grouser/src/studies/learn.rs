@@ -30,9 +30,11 @@ mod passed;
 mod settings;
 mod state;
 mod stretch;
+mod trail;
 mod unexplained;
 mod unknowns;
 mod warnings;
+mod watch;
 
 use std::collections::BTreeMap;
 
@@ -52,8 +54,8 @@ pub use self::settings::LearnSettings;
 pub(super) use self::stretch::{GAP, Gatherer};
 pub use self::stretch::{Reading, Stretch};
 pub use self::unknowns::LearntSample;
-use self::warnings::{DEEP, Seen, Watch};
 pub use self::warnings::{Evidence, Warning, WarningKind};
+use self::watch::{DEEP, Seen, Watch};
 use super::ensemble::models::ModelSpread;
 use super::ensemble::samples::{BandInputs, Sample};
 use super::heading::HeadingStudy;
@@ -190,6 +192,7 @@ impl Learner {
             expected_slip,
             expected_drift,
             noise: self.settings.noise,
+            filter: filter as u64,
             push: push.as_ref(),
             is_another_soil: self.change.look(filter as u64, passed, self.settings.noise.way),
             deep_slope: &|steeper| deep_slope(&self.study, &before, &motion, steeper),

@@ -130,3 +130,103 @@ impl Push {
         self.by_unknowns.dot(&(after - before))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::{self, Overrides, Source};
+    use crate::studies::learn::stretch::{Reading, Stretch};
+    use crate::studies::random;
+
+    /// The rover up 15° of a sand, and what it expects there.
+    fn up_a_slope() -> (HeadingStudy, SeenMotion, Sample) {
+        let settings = Overrides::parse(["scenario.soil=toyoura"]).unwrap();
+        let loaded = document::read_scenario(&Source::default_scenario(), &settings).unwrap();
+        let study = HeadingStudy::of(&loaded.value);
+        let wheels = study.rover.wheel_count();
+        let seen = |value| Some(Reading { value, deviation: 1e-3 });
+        let stretch = Stretch {
+            way: 0.1,
+            attitude: Some([0.262, 1.2]),
+            rim_speeds: vec![0.06; wheels],
+            steering: vec![None; wheels],
+            velocity: [seen(0.03), seen(-0.005)],
+            yaw_rate: seen(0.0),
+            torques: vec![seen(0.3); wheels],
+            currents: vec![None; wheels],
+            sinkages: vec![None; wheels],
+            ..Stretch::default()
+        };
+        let motion = SeenMotion::of(&stretch, &study.rover).unwrap();
+        let sample = Sample { soil: study.soil, theory: study.theory };
+        (study, motion, sample)
+    }
+
+    /// Mean and covariance of the motion under forces at random are those that are fitted, within their statistical error:
+    /// where the slip grows ever faster the mean is above that without forces.
+    #[test]
+    fn forces_at_random_have_the_mean_and_the_covariance_that_are_fitted() {
+        const DRAWS: u32 = 600;
+        let (study, motion, sample) = up_a_slope();
+        let noise = ModelNoise { attitude: 0.0, ..ModelNoise::USUAL };
+        let here = motion.expected(&study, &sample, None).unwrap();
+        let fitted = motion.unexplained(&study, &sample, &here, &noise);
+        let mut random = random::generator(4, 0);
+        let all: Vec<Vector3<f64>> = (0..DRAWS)
+            .map(|_| {
+                let force =
+                    Vector3::from_fn(|_, _| noise.force * random::standard_normal(&mut random));
+                let found = motion.expected_under(&study, &sample, Some(&here), force).unwrap();
+                (found.numbers - &here.numbers).fixed_rows::<3>(0).into()
+            })
+            .collect();
+        let mean = all.iter().sum::<Vector3<f64>>() / f64::from(DRAWS);
+        let covariance = all.iter().map(|it| (it - mean) * (it - mean).transpose());
+        let covariance = covariance.sum::<Matrix3<f64>>() / f64::from(DRAWS);
+        for axis in 0..3 {
+            let error = (covariance[(axis, axis)] / f64::from(DRAWS)).sqrt();
+            assert!((mean[axis] - fitted.shift[axis]).abs() < 4.0 * error, "{mean} {fitted:?}");
+            for other in 0..3 {
+                let scale = (covariance[(axis, axis)] * covariance[(other, other)]).sqrt();
+                let off = covariance[(axis, other)] - fitted.covariance[(axis, other)];
+                assert!(off.abs() < 0.2 * scale, "{covariance} {}", fitted.covariance);
+            }
+        }
+        assert!(mean[0] < -0.002, "the slip is larger on the mean: {mean}");
+    }
+
+    /// Ground that leans up takes torque, ground that is weak does not.
+    #[test]
+    fn torques_know_of_leaning_ground_alone() {
+        let (study, motion, sample) = up_a_slope();
+        let here = motion.expected(&study, &sample, None).unwrap();
+        let of = |force: f64, attitude: f64| {
+            let noise = ModelNoise { force, attitude, ..ModelNoise::USUAL };
+            let found = motion.unexplained(&study, &sample, &here, &noise);
+            // The torques of all wheels together.
+            let total: f64 = found.covariance.view((3, 3), (4, 4)).sum();
+            let with_motion: f64 = found.covariance.view((0, 3), (1, 4)).sum();
+            (found.covariance[(0, 0)].sqrt(), total.sqrt(), with_motion)
+        };
+        let (leans, weak) = (of(0.0, 0.01), of(0.01, 0.0));
+        assert!(
+            (leans.0 / weak.0 - 1.0).abs() < 1e-9,
+            "the motion is the same: {leans:?} {weak:?}"
+        );
+        assert!(weak.1 < 0.4 * leans.1, "{leans:?} {weak:?}");
+        assert!(leans.2 < 0.0, "a rover that is slower up a lean has more torque: {leans:?}");
+    }
+
+    /// The force that explains a motion is the one under which it is what is expected.
+    #[test]
+    fn a_push_is_the_force_that_there_was() {
+        let (study, motion, sample) = up_a_slope();
+        let here = motion.expected(&study, &sample, None).unwrap();
+        let fitted = motion.unexplained(&study, &sample, &here, &ModelNoise::USUAL);
+        let force = Vector3::new(-0.004, 0.002, 0.001);
+        let found = motion.expected_under(&study, &sample, Some(&here), force).unwrap();
+        let off: Vector3<f64> = (found.numbers - &here.numbers).fixed_rows::<3>(0).into();
+        let explained = fitted.motion_by_force.try_inverse().unwrap() * off;
+        assert!((explained - force).norm() < 0.1 * force.norm(), "{explained} {force}");
+    }
+}
