@@ -4,27 +4,41 @@ use std::collections::BTreeMap;
 
 use grouser::document::LoadedScenario;
 use grouser::studies::ensemble::samples::Sample;
-use grouser::studies::learn::{TelemetryRecord, Warning, WarningKind};
+use grouser::studies::learn::{LearntSample, TelemetryRecord, Warning, WarningKind};
 use grouser::studies::simulated_telemetry::SensorModels;
 use grouser_io::statistics::random::{generator, uniform};
+use rayon::prelude::*;
 
 use super::coverage::Trial;
 use super::drive::{Drive, INSTRUMENTS, RIM_SPEED, learner};
 
-/// Instruments, with what is the matter with them.
-pub(crate) fn instruments() -> [(&'static str, SensorModels); 4] {
-    let noisy = |mut models: SensorModels| {
-        for fault in [&mut models.attitude, &mut models.odometry, &mut models.torque] {
-            fault.noise *= 2.0;
-            fault.relative_noise *= 2.0;
-        }
-        models
-    };
+/// A ground and instruments on which there should be no alarms.
+pub(crate) struct Course {
+    /// What they are, for a table.
+    pub(crate) name: &'static str,
+    uneven: bool,
+    instruments: SensorModels,
+    /// Drives for each that is asked for: what is usual is to be known best.
+    times: u32,
+}
+
+/// All courses.
+pub(crate) fn courses() -> [Course; 6] {
+    let mut noisy = INSTRUMENTS;
+    for fault in [&mut noisy.attitude, &mut noisy.odometry, &mut noisy.torque] {
+        fault.noise *= 2.0;
+        fault.relative_noise *= 2.0;
+    }
+    let gaps = SensorModels { dropouts: 0.3, ..INSTRUMENTS };
+    let seldom = SensorModels { rate: 1.0, ..INSTRUMENTS };
+    let course = |name, uneven, instruments, times| Course { name, uneven, instruments, times };
     [
-        ("usual, 5 % outliers", INSTRUMENTS),
-        ("twice the noise, 5 % outliers", noisy(INSTRUMENTS)),
-        ("30 % gaps, 5 % outliers", SensorModels { dropouts: 0.3, ..INSTRUMENTS }),
-        ("one reading a second, 5 % outliers", SensorModels { rate: 1.0, ..INSTRUMENTS }),
+        course("even", false, INSTRUMENTS, 10),
+        course("even, twice the noise", false, noisy, 1),
+        course("even, 30 % gaps", false, gaps, 1),
+        course("even, one reading a second", false, seldom, 1),
+        course("uneven", true, INSTRUMENTS, 3),
+        course("uneven, twice the noise", true, noisy, 1),
     ]
 }
 
@@ -43,18 +57,24 @@ const DEEP: f64 = 0.5;
 const WAY: f64 = 30.0;
 
 /// The alarms on some hidden soils.
-pub(crate) fn alarms(trial: &Trial<'_>, models: SensorModels, soils: u32) -> Alarms {
-    let truths = learner(trial.hidden).samples(trial.seed, soils).expect("soils are drawn");
-    let mut all = Alarms::default();
-    for (truth, index) in truths.iter().zip(0..) {
-        let seed = 1000 * trial.seed + index;
-        let drive = wandering(trial, &truth.sample, seed);
-        all.way += drive.time() * RIM_SPEED;
-        for warning in warned(trial.prior, &drive.seen(models, seed)) {
-            *all.counts.entry(warning.kind).or_default() += 1;
+pub(crate) fn alarms(trial: &Trial<'_>, course: &Course, soils: u32) -> Alarms {
+    let trial = Trial { uneven: course.uneven, ..*trial };
+    let truths = learner(trial.hidden).samples(trial.seed, course.times * soils);
+    let one = |(index, truth): (usize, &LearntSample)| {
+        let seed = 1000 * trial.seed + index as u64;
+        let drive = wandering(&trial, &truth.sample, seed);
+        let mut found = Alarms { way: drive.time() * RIM_SPEED, ..Alarms::default() };
+        for warning in warned(trial.prior, &drive.seen(course.instruments, seed)) {
+            *found.counts.entry(warning.kind).or_default() += 1;
         }
-    }
-    all
+        found
+    };
+    truths
+        .expect("soils are drawn")
+        .par_iter()
+        .enumerate()
+        .map(one)
+        .reduce(Alarms::default, Alarms::and)
 }
 
 fn warned(prior: &LoadedScenario, seen: &[TelemetryRecord]) -> Vec<Warning> {
@@ -99,17 +119,19 @@ fn is_passable(drive: &Drive, [slope, yaw]: [f64; 2]) -> bool {
 }
 
 impl Alarms {
-    /// Adds others.
-    pub(crate) fn add(&mut self, other: &Self) {
+    /// These and others.
+    fn and(mut self, other: Self) -> Self {
         self.way += other.way;
-        for (kind, count) in &other.counts {
-            *self.counts.entry(*kind).or_default() += count;
+        for (kind, count) in other.counts {
+            *self.counts.entry(kind).or_default() += count;
         }
+        self
     }
 
-    /// The counts of all kinds, as cells of a table.
+    /// The counts of all kinds, as cells of a table, with the most that they are in 100 m.
     pub(crate) fn cells(&self) -> String {
-        WarningKind::ALL.map(|kind| self.count(kind).to_string()).join(" | ")
+        let cell = |kind| format!("{} (≤ {:.2})", self.count(kind), self.at_most(kind));
+        WarningKind::ALL.map(cell).join(" | ")
     }
 
     fn count(&self, kind: WarningKind) -> u32 {
@@ -118,7 +140,7 @@ impl Alarms {
 
     /// The most alarms of a kind in 100 m that go with the count, by 95 %: the end of Garwood's interval (1936) for
     /// numbers of rare events.
-    pub(crate) fn at_most(&self, kind: WarningKind) -> f64 {
+    fn at_most(&self, kind: WarningKind) -> f64 {
         let count = f64::from(self.count(kind));
         // The mean under which as few have a probability of 5 %: by bisection.
         let (mut low, mut high) = (count, 4.0 * count + 10.0);

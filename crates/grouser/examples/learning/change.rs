@@ -2,7 +2,8 @@
 
 use grouser::soil::{Shear, ShearModulus, Soil};
 use grouser::studies::ensemble::samples::Sample;
-use grouser::studies::learn::{Warning, WarningKind};
+use grouser::studies::learn::{LearntSample, Warning, WarningKind};
+use rayon::prelude::*;
 
 use super::coverage::Trial;
 use super::drive::{Drive, INSTRUMENTS, Leg, RIM_SPEED, learner};
@@ -84,8 +85,9 @@ pub(crate) struct Flagged {
 /// What became of a change on some hidden soils; none of those on which the rover stands.
 pub(crate) fn flagged(trial: &Trial<'_>, change: Change, repeats: u32) -> Vec<Flagged> {
     let truths = learner(trial.hidden).samples(trial.seed, repeats).expect("soils are drawn");
-    let one = |(truth, index): (&Sample, u64)| {
-        let seed = 1000 * trial.seed + index;
+    let one = |(index, truth): (usize, &LearntSample)| {
+        let truth = &truth.sample;
+        let seed = 1000 * trial.seed + index as u64;
         let mut drive = trial.drive(truth, seed);
         drive.leg(BEFORE)?;
         let changed = drive.time();
@@ -103,7 +105,7 @@ pub(crate) fn flagged(trial: &Trial<'_>, change: Change, repeats: u32) -> Vec<Fl
             early: times.iter().any(|it| *it <= changed),
         })
     };
-    truths.iter().map(|it| &it.sample).zip(0..).filter_map(one).collect()
+    truths.par_iter().enumerate().filter_map(one).collect()
 }
 
 /// Velocity along the body and to its left over the last half metre of the rims' way [m/s].

@@ -6,6 +6,7 @@ use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::learn::{Learner, LearntSample};
 use grouser::units::deg;
+use rayon::prelude::*;
 
 use super::drive::{Drive, INSTRUMENTS, Leg, learner};
 
@@ -89,8 +90,9 @@ impl Trial<'_> {
         let hidden = learner(self.hidden);
         let keys: Vec<String> = hidden.keys().map(str::to_owned).collect();
         let truths = hidden.samples(self.seed, repeats).expect("soils are drawn");
-        let each = truths.iter().zip(0..);
-        each.filter_map(|(truth, index)| self.answer(before, (truth, &keys), index)).collect()
+        let each = truths.par_iter().enumerate();
+        each.filter_map(|(index, truth)| self.answer(before, (truth, &keys), index as u64))
+            .collect()
     }
 
     fn answer(

@@ -1,7 +1,8 @@
 //! How far ahead entrapment is called: up slopes that steepen, and on soil that grows weaker, until the rover stands.
 
 use grouser::studies::ensemble::samples::Sample;
-use grouser::studies::learn::WarningKind;
+use grouser::studies::learn::{LearntSample, WarningKind};
+use rayon::prelude::*;
 
 use super::change::warnings;
 use super::coverage::Trial;
@@ -61,8 +62,9 @@ impl Way {
 /// The leads on some hidden soils; none of those that hold the rover for good, or not at all.
 pub(crate) fn leads(trial: &Trial<'_>, entrapment: Way, repeats: u32) -> Vec<Option<Lead>> {
     let truths = learner(trial.hidden).samples(trial.seed, repeats).expect("soils are drawn");
-    let one = |(truth, index): (&Sample, u64)| {
-        let seed = 1000 * trial.seed + index;
+    let one = |(index, truth): (usize, &LearntSample)| {
+        let truth = &truth.sample;
+        let seed = 1000 * trial.seed + index as u64;
         let mut drive = trial.drive(truth, seed);
         let mut way = 0.0;
         while !is_stuck(&drive) {
@@ -79,7 +81,7 @@ pub(crate) fn leads(trial: &Trial<'_>, entrapment: Way, repeats: u32) -> Vec<Opt
         // A way that is too short to learn from is no case.
         (way > 1.0).then(|| lead(trial, &drive, seed))
     };
-    truths.iter().map(|it| &it.sample).zip(0..).filter_map(one).collect()
+    truths.par_iter().enumerate().filter_map(one).collect()
 }
 
 fn is_stuck(drive: &Drive) -> bool {

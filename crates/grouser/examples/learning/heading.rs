@@ -5,6 +5,7 @@ use grouser::studies::ensemble::Band;
 use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::heading::HeadingStudy;
 use grouser::units::deg;
+use rayon::prelude::*;
 
 use super::change::scaled;
 use super::coverage::{NEXT, Predicted, Trial, taught};
@@ -32,7 +33,7 @@ pub(crate) fn errors(trial: &Trial<'_>, repeats: u32) -> Vec<[f64; 2]> {
         let after = yaw(&Predicted::of(drive.study(), &samples.expect("soils are drawn")));
         Some([before, after].map(|it| (it - truth).abs()))
     };
-    (0..u64::from(repeats)).filter_map(one).collect()
+    (0..u64::from(repeats)).into_par_iter().filter_map(one).collect()
 }
 
 /// The median of the yaws [rad].

@@ -28,7 +28,6 @@ use grouser::document::LoadedScenario;
 use grouser::studies::learn::WarningKind;
 use grouser_io::statistics::quantile;
 
-use alarms::Alarms;
 use change::Change;
 use coverage::{Trial, held, uniformity, yaw_errors};
 use drive::scenario;
@@ -46,10 +45,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let trial = Trial { prior: &prior, hidden: &prior, uneven: true, samples: 100, seed };
     match study.as_str() {
         "coverage" => coverage(&trial, repeats.unwrap_or(100)),
-        "heading" => heading(&trial, repeats.unwrap_or(20)),
+        "heading" => heading(&trial, repeats.unwrap_or(100)),
         "change" => change(&trial, repeats.unwrap_or(100)),
-        "entrapment" => entrapment(&trial, repeats.unwrap_or(50)),
-        "alarms" => alarms(&trial, repeats.unwrap_or(30)),
+        "entrapment" => entrapment(&trial, repeats.unwrap_or(100)),
+        "alarms" => alarms(&trial, repeats.unwrap_or(100)),
         "cost" => cost(&trial),
         _ => {
             return Err(
@@ -107,36 +106,45 @@ fn heading(trial: &Trial<'_>, repeats: u32) {
 
 fn change(trial: &Trial<'_>, repeats: u32) {
     println!(
-        "| what changes | drives | that move otherwise | flagged of these | within 0.5 m | median way | something flagged before |"
+        "| what changes | ground | drives | that move otherwise | flagged of these | within 0.5 m | median way | something flagged before |"
     );
-    println!("|---|---|---|---|---|---|---|");
-    for change in Change::ALL {
-        let all = change::flagged(trial, change, repeats);
-        let ways: Vec<Option<f64>> = all.iter().filter(|it| it.matters).map(|it| it.way).collect();
-        let mut flagged: Vec<f64> = ways.iter().copied().flatten().collect();
-        flagged.sort_by(f64::total_cmp);
-        println!(
-            "| {} | {} | {} | {} | {} | {} | {} |",
-            change.name(),
-            all.len(),
-            ways.len(),
-            flagged.len(),
-            flagged.iter().filter(|it| **it <= 0.5).count(),
-            quantile(&flagged, 0.5).map_or_else(String::new, |it| format!("{it:.2} m")),
-            all.iter().filter(|it| it.early).count(),
-        );
+    println!("|---|---|---|---|---|---|---|---|");
+    for (ground, trial) in grounds(trial) {
+        for change in Change::ALL {
+            let all = change::flagged(&trial, change, repeats);
+            let matter = all.iter().filter(|it| it.matters);
+            let ways: Vec<Option<f64>> = matter.map(|it| it.way).collect();
+            let mut flagged: Vec<f64> = ways.iter().copied().flatten().collect();
+            flagged.sort_by(f64::total_cmp);
+            println!(
+                "| {} | {ground} | {} | {} | {} | {} | {} | {} |",
+                change.name(),
+                all.len(),
+                ways.len(),
+                flagged.len(),
+                flagged.iter().filter(|it| **it <= 0.5).count(),
+                quantile(&flagged, 0.5).map_or_else(String::new, |it| format!("{it:.2} m")),
+                all.iter().filter(|it| it.early).count(),
+            );
+        }
     }
+}
+
+/// Even and uneven ground.
+fn grounds<'a>(trial: &Trial<'a>) -> [(&'static str, Trial<'a>); 2] {
+    [("even", false), ("uneven", true)].map(|(name, uneven)| (name, Trial { uneven, ..*trial }))
 }
 
 fn entrapment(trial: &Trial<'_>, repeats: u32) {
     println!(
-        "| how the rover gets stuck | drives | called 0.3 m and 5 s ahead or more | way ahead: 5th percentile, median | time ahead: 5th percentile, median |"
+        "| how the rover gets stuck | ground | drives | called 0.3 m and 5 s ahead or more | way ahead: 5th percentile, median | time ahead: 5th percentile, median |"
     );
-    println!("|---|---|---|---|---|");
-    for way in
-        [Way::Steepening(5.0), Way::Steepening(2.0), Way::Weakening(0.1), Way::Weakening(0.3)]
-    {
-        let all = entrapment::leads(trial, way, repeats);
+    println!("|---|---|---|---|---|---|");
+    let all_ways =
+        [Way::Steepening(5.0), Way::Steepening(2.0), Way::Weakening(0.1), Way::Weakening(0.3)];
+    let each = grounds(trial).into_iter().flat_map(|it| all_ways.map(|way| (way, it)));
+    for (way, (ground, trial)) in each {
+        let all = entrapment::leads(&trial, way, repeats);
         let soon = all.iter().flatten().filter(|it| it.way >= 0.3 && it.time >= 5.0).count();
         let of = |of: &dyn Fn(&entrapment::Lead) -> f64| {
             // What was not called was called at the last.
@@ -146,7 +154,7 @@ fn entrapment(trial: &Trial<'_>, repeats: u32) {
         };
         let ([far, farther], [soon_s, later_s]) = (of(&|it| it.way), of(&|it| it.time));
         println!(
-            "| {} | {} | {soon} | {far:.2} m, {farther:.2} m | {soon_s:.0} s, {later_s:.0} s |",
+            "| {} | {ground} | {} | {soon} | {far:.2} m, {farther:.2} m | {soon_s:.0} s, {later_s:.0} s |",
             way.name(),
             all.len()
         );
@@ -155,17 +163,12 @@ fn entrapment(trial: &Trial<'_>, repeats: u32) {
 
 fn alarms(trial: &Trial<'_>, soils: u32) {
     let names = WarningKind::ALL.map(|kind| format!("`{}`", kind.name())).join(" | ");
-    println!("| instruments | wheels' way | {names} |");
+    println!("| ground and instruments | wheels' way | {names} |");
     println!("|---|---|---|---|---|---|");
-    let mut all = Alarms::default();
-    for (name, models) in alarms::instruments() {
-        let found = alarms::alarms(trial, models, soils);
-        println!("| {name} | {:.0} m | {} |", found.way, found.cells());
-        all.add(&found);
+    for course in alarms::courses() {
+        let found = alarms::alarms(trial, &course, soils);
+        println!("| {} | {:.0} m | {} |", course.name, found.way, found.cells());
     }
-    println!("| all | {:.0} m | {} |", all.way, all.cells());
-    let bounds = WarningKind::ALL.map(|kind| format!("{:.1}", all.at_most(kind)));
-    println!("| in 100 m, at most (95 %) | | {} |", bounds.join(" | "));
 }
 
 fn cost(trial: &Trial<'_>) {

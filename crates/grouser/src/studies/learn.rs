@@ -47,7 +47,7 @@ pub use self::filter::Wandering;
 use self::filter::{Filter, Taken};
 pub use self::information::InformationByKind;
 pub use self::motion::NotUsed;
-use self::motion::SeenMotion;
+use self::motion::{Expected, SeenMotion};
 pub(super) use self::motion::{ODOMETRY, SHALLOWEST, steady_attitude, steered};
 pub use self::noise::ModelNoise;
 pub use self::settings::LearnSettings;
@@ -177,46 +177,62 @@ impl Learner {
                 return None;
             }
         };
-        let Taught { filter, taken, information } = taught;
-        let Taken { surprise, by_number, passed, push } = taken;
         self.learnt.stretches += 1;
         self.learnt.way += stretch.way;
+        let (expected_slip, warnings) = self.look(&stretch, &motion, &before, &taught);
+        let Taught { taken, information, .. } = taught;
+        Some(Lesson {
+            way: self.learnt.way,
+            slip_ratio: motion.slip_and_drift()[0],
+            expected_slip,
+            information,
+            by_kind: InformationByKind::of(&stretch, &taken.by_number),
+            scores: taken.surprise.scores.as_slice().to_vec(),
+            warnings,
+            stretch,
+        })
+    }
+
+    /// The slip ratio that was expected, and what there is to warn of. Where the soil is another, what was learnt is
+    /// forgotten.
+    ///
+    /// * `before`: what was believed before the stretch
+    fn look(
+        &mut self,
+        stretch: &Stretch,
+        motion: &SeenMotion,
+        before: &Filter,
+        taught: &Taught,
+    ) -> (f64, Vec<Warning>) {
+        let (study, patch) = (&self.study, self.settings.noise.way);
+        let Taken { passed, push, .. } = &taught.taken;
+        let filter = taught.filter as u64;
         let [slip_ratio, drift] = motion.slip_and_drift();
-        let expected = before.expected_slip_and_drift(&self.study, &motion);
-        let [expected_slip, expected_drift] = expected.unwrap_or([1.0, 0.0]);
-        let mean_before = passed.belief.mean.clone();
+        let expected = before.expected(study, motion);
+        let slip_and_drift = expected.as_ref().map(|it| motion.expected_slip_and_drift(it));
+        let [expected_slip, expected_drift] = slip_and_drift.unwrap_or([1.0, 0.0]);
         let seen = Seen {
-            stretch: &stretch,
+            stretch,
             slip_ratio,
             drift,
             expected_slip,
             expected_drift,
+            expected_torques: &expected.iter().flat_map(Expected::torques).collect::<Vec<f64>>(),
             noise: self.settings.noise,
-            filter: filter as u64,
+            filter,
             push: push.as_ref(),
-            is_another_soil: self.change.look(filter as u64, passed, self.settings.noise.way),
-            deep_slope: &|steeper| deep_slope(&self.study, &before, &motion, steeper),
-            holds_against: &|| before.holds_against(&self.study, &motion, DEEP),
+            is_another_soil: self.change.look(filter, passed.clone(), patch),
+            deep_slope: &|steeper| deep_slope(study, before, motion, steeper),
+            holds_against: &|| before.holds_against(study, motion, DEEP),
         };
-        let way = self.learnt.way;
-        let warnings = self.watch.look(&seen, &self.study.rover);
+        let warnings = self.watch.look(&seen, &study.rover);
         if warnings.iter().any(|it| it.kind == WarningKind::SoilChange) {
             self.bank.forget();
         }
-        let mean_after = &self.bank.filter(filter).belief.mean;
-        self.watch.believed(push.map(|push| push.learnt(&mean_before, mean_after)));
-        let scores = surprise.scores.as_slice().to_vec();
-        let by_kind = InformationByKind::of(&stretch, &by_number);
-        Some(Lesson {
-            stretch,
-            way,
-            slip_ratio,
-            expected_slip,
-            information,
-            by_kind,
-            scores,
-            warnings,
-        })
+        let after = &self.bank.filter(taught.filter).belief;
+        let learnt = push.as_ref().map(|push| push.learnt(&passed.belief.mean, &after.mean));
+        self.watch.believed(learnt);
+        (expected_slip, warnings)
     }
 
     /// How much was learnt from.

@@ -148,7 +148,7 @@ mod tests {
     fn three_strange_stretches_are_another_soil_and_one_is_none() {
         assert_eq!(flags(&[0.0, 0.3, 0.3, 0.3]), [false, false, true, false]);
         assert_eq!(flags(&[0.0, 0.0, 0.9, 0.0, 0.0]), [false; 5]);
-        assert_eq!(flags(&[-0.3, -0.3, -0.3])[2], true);
+        assert!(flags(&[-0.3, -0.3, -0.3])[2]);
     }
 
     #[test]

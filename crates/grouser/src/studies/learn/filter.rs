@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use super::archive::Archive;
 use super::gaussian::{Gaussian, Line, Surprise};
 use super::information;
-use super::motion::{NotUsed, SeenMotion, Variances, halves};
+use super::motion::{Expected, NotUsed, SeenMotion, Variances, halves};
 use super::noise::ModelNoise;
 use super::passed::Passed;
 use super::unexplained::Push;
@@ -143,15 +143,10 @@ impl Filter {
         Some(Fitted { line, of_patch, own, motion_by_force })
     }
 
-    /// Slip ratio and drift that are expected of a motion [-], with the soil that is believed most.
-    pub(super) fn expected_slip_and_drift(
-        &self,
-        study: &HeadingStudy,
-        motion: &SeenMotion,
-    ) -> Option<[f64; 2]> {
+    /// What is expected of a motion, with the soil that is believed most.
+    pub(super) fn expected(&self, study: &HeadingStudy, motion: &SeenMotion) -> Option<Expected> {
         let sample = self.unknowns.sample(self.belief.mean.as_slice())?;
-        let expected = motion.expected(study, &sample, None)?;
-        Some(motion.expected_slip_and_drift(&expected))
+        motion.expected(study, &sample, None)
     }
 
     /// The mean slip ratio that is expected of a motion on another slope [rad].
@@ -161,7 +156,9 @@ impl Filter {
         motion: &SeenMotion,
         slope: f64,
     ) -> Option<f64> {
-        self.expected_slip_and_drift(study, &motion.on_slope(slope)).map(|[slip, _]| slip)
+        let there = motion.on_slope(slope);
+        let expected = self.expected(study, &there)?;
+        Some(there.expected_slip_and_drift(&expected)[0])
     }
 
     /// The force against the way, over the weight, under which the wheels' mean slip ratio is `deep` [-], with the soil that

@@ -469,6 +469,11 @@ pub(super) struct Expected {
 }
 
 impl Expected {
+    /// The wheels' torques [N·m].
+    pub(super) fn torques(&self) -> impl Iterator<Item = f64> {
+        self.balance.wheels.iter().map(|it| it.settled.forces.torque)
+    }
+
     /// Whether there is a motion in which forces balance; else the wheels turn on the spot.
     pub(super) fn balances(&self) -> bool {
         self.balance.inverse.is_some()

@@ -23,6 +23,8 @@ pub(super) struct Seen<'a> {
     /// Way to the left over that of the wheels, and the same as it was expected [-].
     pub(super) drift: f64,
     pub(super) expected_drift: f64,
+    /// Torque of each wheel that was expected [N·m]; of none where there is no soil that carries the rover.
+    pub(super) expected_torques: &'a [f64],
     /// What is left over however well the soil is known.
     pub(super) noise: ModelNoise,
     /// The number of the filter that has learnt it.
@@ -89,7 +91,7 @@ impl Watch {
             self.contradiction(seen.stretch),
             self.outrunning(seen),
         ];
-        let idle = self.idle_wheels(seen.stretch, rover);
+        let idle = self.idle_wheels(seen, rover);
         found.into_iter().flatten().chain(idle).collect()
     }
 
@@ -261,17 +263,23 @@ impl Watch {
         self.raise(WarningKind::LyingSensor, 1, [None; 2], evidence)
     }
 
-    /// Wheels that have much less torque than the others.
-    fn idle_wheels(&mut self, stretch: &Stretch, rover: &Rover) -> Vec<Warning> {
+    /// Wheels that have much less torque than the others, where the soil would not have it so.
+    fn idle_wheels(&mut self, seen: &Seen<'_>, rover: &Rover) -> Vec<Warning> {
         /// A share of the others' torque that is none [-].
         const LITTLE: f64 = 0.15;
+        /// Where so little is expected of a wheel, a small torque is nothing strange [-].
+        const EXPECTED: f64 = 0.5;
+        let stretch = seen.stretch;
         let torques: Vec<f64> = stretch.torques.iter().flatten().map(|it| it.value.abs()).collect();
         let Some(middle) = middle_of(torques) else { return Vec::new() };
         self.idle.resize(rover.wheel_count(), 0.0);
         for (place, read) in stretch.torques.iter().enumerate() {
             let noise = read.map_or(0.0, |it| it.deviation);
+            let expected = seen.expected_torques.get(place).map_or(f64::INFINITY, |it| it.abs());
             let is_idle = read.is_some_and(|it| {
-                it.value.abs() < LITTLE * middle && middle - it.value.abs() > 4.0 * noise
+                it.value.abs() < LITTLE * middle
+                    && middle - it.value.abs() > 4.0 * noise
+                    && expected > EXPECTED * middle
             });
             self.idle[place] = if is_idle { self.idle[place] + stretch.way } else { 0.0 };
         }
