@@ -134,6 +134,27 @@ fn the_order_of_columns_does_not_matter() {
     assert_eq!(learnt(&table), learnt(&table.lines().map(turned).collect::<String>()));
 }
 
+/// Wheel speeds that are read once a second, beside ten readings a second of the rest, make stretches of the same way.
+#[test]
+fn wheel_speeds_that_are_read_seldom_hold_until_the_next() {
+    let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
+    let mut drive = Drive::new(&prior, &truths(&prior, 77, 1)[0]);
+    drive.leg((8.0, 5.0, 1.2)).unwrap();
+    let learnt = |every: usize| {
+        let mut learner = learner(&prior);
+        for (place, mut record) in drive.seen(INSTRUMENTS, 5).into_iter().enumerate() {
+            if place % every != 0 {
+                record.wheels.iter_mut().for_each(|it| it.speed = None);
+            }
+            learner.update(record);
+        }
+        learner.learnt().clone()
+    };
+    let (all, seldom) = (learnt(1), learnt(10));
+    assert!((seldom.way / all.way - 1.0).abs() < 0.1, "{all:?} {seldom:?}");
+    assert!(seldom.stretches + 2 > all.stretches, "{all:?} {seldom:?}");
+}
+
 /// Up a slope that steepens until the rover stands: called 5 s and 0.3 m ahead, and more.
 #[test]
 fn entrapment_is_called_ahead() {
@@ -154,16 +175,20 @@ fn another_soil_is_flagged() {
     assert!(matter.iter().all(|it| is_in_time(it)), "{all:?}");
 }
 
-/// On one soil and even ground, level and across slopes, nothing is warned of.
+/// On one soil, level and across slopes, nothing is warned of: neither on even ground nor where it leans and is stronger
+/// here than there.
 #[test]
 fn nothing_is_warned_of_on_one_soil() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
-    for truth in &truths(&prior, 79, 3) {
-        let mut drive = Drive::new(&prior, truth);
-        for leg in LEGS {
-            drive.leg(leg).unwrap();
+    let uneven = trial(&prior, &prior, 79);
+    for trial in [on_a_plane(uneven), uneven] {
+        for (truth, seed) in truths(&prior, 79, 3).iter().zip(0..) {
+            let mut drive = trial.drive(truth, seed);
+            for leg in LEGS {
+                drive.leg(leg).unwrap();
+            }
+            assert_eq!(warnings(&trial, &drive, seed), []);
         }
-        assert_eq!(warnings(&trial(&prior, &prior, 79), &drive, 3), []);
     }
 }
 

@@ -77,6 +77,8 @@ pub(in crate::studies) struct Gatherer {
     records: Vec<TelemetryRecord>,
     readings: [Vec<f64>; 3],
     way: f64,
+    /// The rims' speed as it was last read [m/s].
+    rim_speed: f64,
     /// When each of forward, leftward and rotation was last read [s].
     last: [Option<f64>; 3],
     fix: Option<(f64, Vec2)>,
@@ -92,6 +94,7 @@ impl Gatherer {
             records: Vec::new(),
             readings: Default::default(),
             way: 0.0,
+            rim_speed: 0.0,
             last: [None; 3],
             fix: None,
             last_time: None,
@@ -104,8 +107,9 @@ impl Gatherer {
         let gap = before.map_or(0.0, |before| record.time - before);
         let ended = if gap > GAP { self.take() } else { None };
         self.read_motion(&record);
+        self.rim_speed = self.read_rim_speed(&record).unwrap_or(self.rim_speed);
         if gap <= GAP {
-            self.way += gap * self.rim_speed(&record);
+            self.way += gap * self.rim_speed;
         }
         self.records.push(record);
         if ended.is_some() {
@@ -131,14 +135,14 @@ impl Gatherer {
             || (self.way >= WAY && self.readings[0].len() >= LEAST_READINGS)
     }
 
-    /// The middle of the rims' speeds [m/s].
-    fn rim_speed(&self, record: &TelemetryRecord) -> f64 {
+    /// The middle of the rims' speeds [m/s]; `None` where none was read.
+    fn read_rim_speed(&self, record: &TelemetryRecord) -> Option<f64> {
         let mounts = self.rover.mounts().iter().zip(&record.wheels);
         let mut speeds: Vec<f64> = mounts
             .filter_map(|(mount, wheel)| Some((wheel.speed? * mount.shearing_radius()).abs()))
             .collect();
         speeds.sort_by(f64::total_cmp);
-        grouser_io::statistics::quantile(&speeds, 0.5).unwrap_or(0.0)
+        grouser_io::statistics::quantile(&speeds, 0.5)
     }
 
     /// Takes the velocities that a record tells: ways since the last one, or without them two fixes.
@@ -261,12 +265,14 @@ impl Gatherer {
 impl Gatherer {
     /// Writes or reads what was gathered so far; the rest follows from the rover.
     pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
-        let Self { rover: _, slope: _, records, readings, way, last, fix, last_time } = self;
+        let Self { rover: _, slope: _, records, readings, way, rim_speed, last, fix, last_time } =
+            self;
         items(archive, "records", records, TelemetryRecord::default, archive::record);
         for (name, readings) in ["forward", "leftward", "rotation"].into_iter().zip(readings) {
             numbers(archive, name, readings);
         }
         archive.number("way", way);
+        archive.number("rim_speed", rim_speed);
         let mut of_last = last.to_vec();
         maybes(archive, "last", &mut of_last);
         if let Ok(read) = of_last.try_into() {
