@@ -1,6 +1,7 @@
 //! The last stretches that were passed, and straight lines through what was seen on them.
 
 use std::collections::VecDeque;
+use std::ops::Range;
 
 use super::archive::{Archive, items};
 use crate::elementary::wide::cos;
@@ -62,10 +63,12 @@ impl Trail {
         self.0.iter().nth_back(before)
     }
 
-    /// The last stretches, over a way of the rims [m].
-    pub(super) fn last(&self, way: f64) -> impl Iterator<Item = &Past> {
+    /// The stretches that the rims passed within a way before the end [m].
+    ///
+    /// * `within`: how far before it: the last ones are those from 0
+    pub(super) fn before(&self, within: Range<f64>) -> impl Iterator<Item = &Past> {
         let end = self.0.back().map_or(0.0, |it| it.way);
-        self.0.iter().filter(move |it| it.way >= end - way)
+        self.0.iter().filter(move |it| within.contains(&(end - it.way)))
     }
 
     /// Forgets how weak the ground was: what that is measured from is no longer known.
@@ -75,7 +78,7 @@ impl Trail {
 
     /// Speed over the ground on the mean of the last stretches, over a way of the rims [m/s].
     pub(super) fn ground_speed(&self, way: f64) -> f64 {
-        match (self.last(way).next(), self.0.back()) {
+        match (self.before(0.0..way).next(), self.0.back()) {
             (Some(first), Some(last)) if last.time > first.time => {
                 (last.ground - first.ground) / (last.time - first.time)
             }
@@ -85,19 +88,23 @@ impl Trail {
 
     /// A straight line through a number of the last stretches over the way over the ground.
     ///
+    /// * `within`: as [`before`](Self::before)
     /// * `of`: the number, and its variance
     pub(super) fn trend(
         &self,
-        way: f64,
+        within: Range<f64>,
         of: impl Fn(&Past) -> Option<(f64, f64)>,
     ) -> Option<Trend> {
         const LEAST: usize = 4;
         let yaw = self.0.back()?.yaw;
         /// A rover that turns has other slips for another reason [rad].
         const TURNS: f64 = 0.25;
-        let turns = self.last(way).any(|it| 1.0 - cos(it.yaw - yaw) > 0.5 * TURNS * TURNS);
-        let all: Option<Vec<[f64; 3]>> =
-            self.last(way).map(|it| of(it).map(|(y, variance)| [it.ground, y, variance])).collect();
+        let turns =
+            self.before(within.clone()).any(|it| 1.0 - cos(it.yaw - yaw) > 0.5 * TURNS * TURNS);
+        let all: Option<Vec<[f64; 3]>> = self
+            .before(within.clone())
+            .map(|it| of(it).map(|(y, variance)| [it.ground, y, variance]))
+            .collect();
         let all = all.filter(|it| it.len() >= LEAST && !turns)?;
         let count = all.len() as f64;
         let mean = |place: usize| all.iter().map(|it| it[place]).sum::<f64>() / count;
@@ -178,10 +185,10 @@ mod tests {
     #[test]
     fn a_straight_line_is_found_with_its_value_at_the_end() {
         let trail = trail(50, |place| 0.3 + 0.02 * f64::from(place), 0.0);
-        let found = trail.trend(1.0, of_weakness).unwrap();
+        let found = trail.trend(0.0..1.0, of_weakness).unwrap();
         assert!((found.rise - 0.2).abs() < 1e-12 && (found.now - 1.28).abs() < 1e-12, "{found:?}");
-        assert!(trail.last(9.0).count() < 32, "what is far behind is dropped");
-        assert!(trail.trend(0.2, of_weakness).is_none(), "three stretches are no trend");
+        assert!(trail.before(0.0..9.0).count() < 32, "what is far behind is dropped");
+        assert!(trail.trend(0.0..0.25, of_weakness).is_none(), "three stretches are no trend");
     }
 
     /// Of a thousand trends of noise alone, whose variance is known, six or so rise by 2.5 standard errors.
@@ -191,7 +198,7 @@ mod tests {
         let mut rises = 0;
         for _ in 0..1000 {
             let noise: Vec<f64> = (0..12).map(|_| random::standard_normal(&mut random)).collect();
-            let found = trail(12, |place| noise[place as usize], 1.0).trend(2.0, of_weakness);
+            let found = trail(12, |place| noise[place as usize], 1.0).trend(0.0..2.0, of_weakness);
             rises += u32::from(found.unwrap().is_no_chance());
         }
         assert!((1..=14).contains(&rises), "{rises}");
@@ -201,7 +208,7 @@ mod tests {
     fn a_rover_that_turns_has_no_trend() {
         let mut trail = trail(20, f64::from, 0.0);
         trail.0[15].yaw = 0.5;
-        assert!(trail.trend(1.0, of_weakness).is_none());
-        assert!(trail.trend(0.35, of_weakness).is_some(), "it has turned before");
+        assert!(trail.trend(0.0..1.0, of_weakness).is_none());
+        assert!(trail.trend(0.0..0.35, of_weakness).is_some(), "it has turned before");
     }
 }

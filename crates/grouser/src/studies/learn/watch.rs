@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use super::archive::{Archive, items, numbers};
 use super::noise::ModelNoise;
 use super::stretch::Stretch;
-use super::trail::{Past, Trail};
+use super::trail::{Past, Trail, Trend};
 use super::unexplained::Push;
 use super::warnings::{Evidence, Warning, WarningKind};
 use crate::elementary::wide::{cos, hypot, ln_1p};
@@ -65,10 +65,12 @@ pub(super) const DEEP: f64 = 0.9;
 /// Trends are those of this way of the rims [m]; of weak ground also those of more.
 const TREND: f64 = 0.8;
 const LONG_TRENDS: [f64; 2] = [1.6, 3.2];
-/// Entrapment is looked for this far ahead [m of ground]: a slope that rises may end, ground that grows weaker does so
-/// slowly.
-const AHEAD: f64 = 1.2;
-const FAR_AHEAD: f64 = 2.5;
+/// Entrapment is looked for this far ahead [m of ground]: by a slip that grows, a slope that has begun to rise, one that
+/// rises steadily, and ground that grows weaker, which does so slowly.
+const BY_SLIP: f64 = 1.2;
+const BY_RISE: f64 = 0.8;
+const BY_STEADY_RISE: f64 = 1.6;
+const BY_WEAKNESS: f64 = 2.5;
 /// And as soon as this [s].
 const SOON: f64 = 90.0;
 /// Less slip than this is no sign of entrapment [-].
@@ -170,10 +172,7 @@ impl Watch {
         let growing = self.strain_ahead(slip_ratio);
         let rising = self.slope_ahead(seen);
         let weakening = self.weakening_ahead(seen);
-        let seen_ahead = [(growing, AHEAD), (rising, AHEAD), (weakening, FAR_AHEAD)];
-        let nearest = seen_ahead
-            .into_iter()
-            .filter_map(|(found, farthest)| found.filter(|(way, _)| *way <= farthest));
+        let nearest = [growing, rising, weakening].into_iter().flatten();
         let (way, evidence) = nearest.min_by(|one, other| one.0.total_cmp(&other.0))?;
         let time = way / self.trail.ground_speed(TREND).max(1e-6);
         if time > SOON {
@@ -187,21 +186,21 @@ impl Watch {
         if slip_ratio <= SLIPS {
             return None;
         }
-        let trend = self.trail.trend(TREND, |it| Some((it.strain, it.strain_variance)))?;
+        let trend = self.trail.trend(0.0..TREND, |it| Some((it.strain, it.strain_variance)))?;
         let way = (-ln_1p(-DEEP) - trend.now).max(0.0) / trend.rise;
-        trend.is_no_chance().then_some((way, Evidence::Growing { slip_ratio }))
+        (trend.is_no_chance() && way <= BY_SLIP).then_some((way, Evidence::Growing { slip_ratio }))
     }
 
-    /// Way over the ground until the slope holds the rover no longer, if it grows as it did.
+    /// Way over the ground until the slope holds the rover no longer, if it grows as it did: one that rose before as well
+    /// may be expected to go on for longer.
     fn slope_ahead(&self, seen: &Seen<'_>) -> Option<(f64, Evidence)> {
         let (slip_ratio, slope) = (seen.slip_ratio, self.trail.back(0)?.slope);
-        let trend = self.trail.trend(TREND, |it| Some((it.slope, 0.0)))?;
-        if !trend.is_no_chance() {
-            return None;
-        }
-        let limit = (seen.deep_slope)(trend.rise * AHEAD)?;
-        let evidence = Evidence::Rising { slip_ratio, slope, limit };
-        Some(((limit - slope) / trend.rise, evidence))
+        let trend = |within| self.trail.trend(within, |it| Some((it.slope, 0.0)));
+        let now = trend(0.0..TREND).filter(Trend::is_no_chance)?;
+        let is_steady = trend(TREND..2.0 * TREND).is_some_and(|it| it.is_no_chance());
+        let farthest = if is_steady { BY_STEADY_RISE } else { BY_RISE };
+        let limit = (seen.deep_slope)(now.rise * farthest)?;
+        Some(((limit - slope) / now.rise, Evidence::Rising { slip_ratio, slope, limit }))
     }
 
     /// Way over the ground until the ground is too weak for the rover, if it grows weaker as it did. Where the slope
@@ -210,9 +209,10 @@ impl Watch {
         /// A slope that differs by no more than this is the same [rad].
         const SAME: f64 = 0.02;
         let of = |way: f64| {
-            let slopes = || self.trail.last(way).map(|it| it.slope);
+            let slopes = || self.trail.before(0.0..way).map(|it| it.slope);
             let range = slopes().fold(f64::MIN, f64::max) - slopes().fold(f64::MAX, f64::min);
-            let trend = self.trail.trend(way, |it| Some((it.weakness?, it.weakness_variance)))?;
+            let trend =
+                self.trail.trend(0.0..way, |it| Some((it.weakness?, it.weakness_variance)))?;
             (range < SAME && trend.is_no_chance()).then_some(trend)
         };
         let steepest = [TREND, LONG_TRENDS[0], LONG_TRENDS[1]].into_iter().filter_map(of);
@@ -220,7 +220,8 @@ impl Watch {
         let spare = (seen.holds_against)()? - (trend.now - self.learnt);
         let slip_ratio = seen.slip_ratio;
         let evidence = Evidence::Weakening { slip_ratio, loss: trend.rise, spare };
-        Some((spare.max(0.0) / trend.rise, evidence))
+        let way = spare.max(0.0) / trend.rise;
+        (way <= BY_WEAKNESS).then_some((way, evidence))
     }
 
     /// That the belief of the soil has changed.
