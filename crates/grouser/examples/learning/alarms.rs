@@ -33,7 +33,7 @@ pub(crate) fn courses() -> [Course; 6] {
     let seldom = SensorModels { rate: 1.0, ..INSTRUMENTS };
     let course = |name, uneven, instruments, times| Course { name, uneven, instruments, times };
     [
-        course("even", false, INSTRUMENTS, 10),
+        course("even", false, INSTRUMENTS, 34),
         course("even, twice the noise", false, noisy, 1),
         course("even, 30 % gaps", false, gaps, 1),
         course("even, one reading a second", false, seldom, 1),
