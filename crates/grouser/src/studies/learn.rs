@@ -21,6 +21,7 @@ mod change;
 mod currents;
 mod drive;
 mod filter;
+mod fitted;
 mod gaussian;
 mod information;
 mod middle;

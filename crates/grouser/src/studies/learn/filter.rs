@@ -1,8 +1,9 @@
 //! What is believed of a soil under one wheel–soil model, stretch by stretch.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
+use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::archive::Archive;
+use super::fitted::Fitted;
 use super::gaussian::{Gaussian, Line, Surprise};
 use super::information;
 use super::motion::{Expected, NotUsed, SeenMotion, Variances, halves};
@@ -20,18 +21,6 @@ use grouser_io::statistics::NothingAccepted;
 pub(super) struct Filter {
     pub(super) unknowns: Unknowns,
     pub(super) belief: Gaussian,
-}
-
-/// A line that stands for an observation, and what its noise is made of.
-#[derive(Clone, Debug)]
-pub(super) struct Fitted {
-    pub(super) line: Line,
-    /// A covariance of what no soil explains, the same over a patch of the ground.
-    of_patch: DMatrix<f64>,
-    /// Variances of the stretch's own readings.
-    pub(super) own: DVector<f64>,
-    /// How the motion goes with forces that no soil explains.
-    pub(super) motion_by_force: Matrix3<f64>,
 }
 
 /// What a filter made of a motion.
@@ -69,27 +58,6 @@ const FARTHEST: f64 = 3.0;
 
 /// A force that no ground has to spare, over the weight [-].
 const STRONGEST: f64 = 0.3;
-
-impl Fitted {
-    /// Standard deviation of the way along the body by what no soil explains, over that of the fastest rim [-].
-    pub(super) fn deviation_along(&self) -> f64 {
-        self.of_patch[(0, 0)].sqrt()
-    }
-
-    fn passed(self, motion: &SeenMotion, belief: Gaussian, seen: DVector<f64>) -> Passed {
-        let Self { line: Line { at, value, jacobian, .. }, of_patch, own, .. } = self;
-        let seen = seen - value + &jacobian * at;
-        Passed {
-            way: motion.way(),
-            belief,
-            readings: motion.readings(),
-            seen,
-            jacobian,
-            of_patch,
-            own,
-        }
-    }
-}
 
 impl Filter {
     pub(super) fn new(unknowns: Unknowns) -> Self {

@@ -8,7 +8,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
-use super::filter::Fitted;
+use super::fitted::Fitted;
 use super::gaussian::Gaussian;
 use super::motion::{Expected, SeenMotion};
 use super::noise::ModelNoise;
