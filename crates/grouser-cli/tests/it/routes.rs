@@ -20,7 +20,7 @@ fn places(route: &Value) -> Vec<[f64; 2]> {
 fn a_route_goes_around_and_can_be_driven() {
     let place = Place::new();
     place.write("ridge.xyz", heights(ridge));
-    let line = "route ridge.xyz --from 7002,-298 --to 7010.5,-298 --samples 6 --alternatives --no-drive --out out";
+    let line = "route ridge.xyz --from 7002,-298 --to 7010.5,-298 --samples 2 --alternatives --no-drive --out out";
     let route = place.json(line);
     assert_eq!(route["status"], "found");
     let way = places(&route);
@@ -141,12 +141,15 @@ fn what_is_no_route_is_said() {
     assert!(cut["waypoints"].as_array().unwrap().is_empty() && cut["energy_j"].is_null());
     for (line, words) in [
         (
-            "route wall.xyz --from 7002,-298 --to 8012,-298",
+            "route wall.xyz --samples 2 --from 7002,-298 --to 8012,-298",
             "the target at x 8012.00 m, y -298.00 m is not on the map",
         ),
         ("route wall.xyz --from 7002 --to 8012,-298", "--from: expected two numbers"),
         ("route wall.xyz --from 7002,-298 --to 7003,-298 --most-no-go 2", "--most-no-go"),
-        ("route wall.xyz --from 7002,-298 --to 7003,-298 --keep-out no.geojson", "no.geojson"),
+        (
+            "route wall.xyz --from 7002,-298 --to 7003,-298 --samples 2 --keep-out no.geojson",
+            "no.geojson",
+        ),
         ("route wall.xyz --from 7002,-298", "--to"),
     ] {
         let answer = place.line(line);

@@ -204,7 +204,7 @@ fn lines_that_are_none_are_refused_with_a_reason() {
     place.write("flat.xyz", heights(|_, _| 2.0));
     let check = |what: &str, text: &str, words: &str| {
         place.write("line.geojson", text);
-        let answer = place.line("route flat.xyz --no-drive --along line.geojson");
+        let answer = place.line("route flat.xyz --samples 2 --no-drive --along line.geojson");
         let message = check_is_refusal(&answer, 2);
         assert!(message.contains(words), "{what}: {message}");
     };

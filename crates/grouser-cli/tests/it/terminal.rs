@@ -52,7 +52,7 @@ fn a_narrow_table_says_what_it_leaves_out() {
 
 #[test]
 fn colours_stand_where_they_are_asked_for_and_change_no_word() {
-    let line = "card --soil toyoura-uncertain --samples 20";
+    let line = "card --soil toyoura-uncertain --samples 20 --model ishigami";
     let coloured = stdout(&format!("{line} --color always"));
     for code in ["\u{1b}[32mgo\u{1b}[0m", "\u{1b}[33mcaution\u{1b}[0m", "\u{1b}[31mno-go\u{1b}[0m"]
     {

@@ -264,8 +264,8 @@ struct Comb<'a> {
 }
 
 /// Pieces over the lower half of the rim, and over the height of a grouser or of a side face.
-const COUNT: u32 = 3000;
-const ROWS: u32 = 40;
+const COUNT: u32 = 1200;
+const ROWS: u32 = 20;
 
 impl Comb<'_> {
     /// The nearest grouser that a ray from a place meets, along its velocity in the wheel's plane.
@@ -346,7 +346,7 @@ fn outward(angle: f64) -> Vec3 {
 
 /// The mean over a pitch of wheels with real grousers, each piece looked at along its own ray.
 fn comb_sum(contact: &Contact, sinkage: f64) -> [f64; 4] {
-    const PHASES: u32 = 24;
+    const PHASES: u32 = 12;
     let count = contact.wheel.grousers.expect("it has them").count;
     let mut mean = [0.0; 4];
     for phase in 0..PHASES {
