@@ -27,7 +27,7 @@ struct Step {
 /// Takes every step and prints a summary, the closing line last; whether nothing failed.
 ///
 /// The quick steps come first. Those up to the documentation share the build of the dev profile, the
-/// others that of the release profile.
+/// others that of the release profile, which is made beside the tests.
 pub(crate) fn run(extent: Extent) -> bool {
     // Fetching packages waits for the network more than it computes.
     std::thread::spawn(python::environment);
@@ -42,6 +42,11 @@ pub(crate) fn run(extent: Extent) -> bool {
             succeeds(workspace::cargo().args(lint))
         }),
         step("wasm", wasm::check),
+    ];
+    // Both profiles compile their largest crates on one core, and the longest tests run on one: together they need
+    // less time than one after the other. The profiles have folders of their own, so neither waits for the other.
+    let program = Beside::start("program", &["program"]);
+    steps.extend([
         step("tests", || {
             let kinds = ["--lib", "--bins", "--tests", "--examples"];
             tests(
@@ -56,13 +61,15 @@ pub(crate) fn run(extent: Extent) -> bool {
             )
         }),
         step("documentation", || rustdoc::check().map(Count::one)),
-        step("program", || workspace::build_program().map(|_| Count::one(true))),
+    ]);
+    steps.push(program.end());
+    steps.extend([
         step("schemas", || schema::check().map(Count::one)),
         step("figures", || figures::check().map(Count::one)),
         step("fuzz", || fuzz::check(&fuzz::Plan::of(extent))),
         step("packages", || packages::check(extent)),
         step("wheel", || python::installed().map(|_| Count::one(true))),
-    ];
+    ]);
     // Each of these computes on one core for most of its time.
     let site = Beside::start("site", &["site", "--as-it-is"]);
     let instructions = Beside::start("instructions", &["instructions", "--check"]);

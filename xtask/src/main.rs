@@ -43,6 +43,7 @@ cargo xtask CHORE
 
   ci [--full]         run all checks; --full runs the slow tests too
   alone [--full]      both commands of the README, in a clone that stands alone, with a home of its own
+  program             build the optimised program
   schema [--check]    write schema/*.json from the program, or only compare
   figures [--check]   write the program's output into the Markdown files, or only compare
   fuzz [--cases N] [--seed N] [--only N] [--program FILE]
@@ -89,6 +90,7 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["ci"] => ci::run(extent::Extent::Usual),
         ["ci", "--full"] => ci::run(extent::Extent::Full),
         ["alone", options @ ..] => alone::check(options)?,
+        ["program"] => good(workspace::build_program().map(|_| libtest::Count::one(true))?),
         ["schema"] => schema::write()?,
         ["schema", "--check"] => schema::check()?,
         ["figures"] => figures::write()?,
