@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "heading" => heading(&trial, repeats.unwrap_or(100)),
         "change" => change(&trial, repeats.unwrap_or(100)),
         "entrapment" => entrapment(&trial, repeats.unwrap_or(100)),
-        "alarms" => alarms(&trial, repeats.unwrap_or(30)),
+        "alarms" => alarms(&trial, repeats.unwrap_or(3)),
         "cost" => cost(&trial),
         _ => {
             return Err(
