@@ -45,7 +45,7 @@ use self::change::SoilChange;
 pub use self::currents::motor_log;
 pub use self::drive::{Drive, RecordDigest};
 pub use self::filter::Wandering;
-use self::filter::{Filter, Taken};
+use self::filter::{Filter, Taken, last_before};
 pub use self::information::InformationByKind;
 pub use self::motion::NotUsed;
 use self::motion::{Expected, SeenMotion};
@@ -332,20 +332,15 @@ fn deep_slope(
 ) -> Option<f64> {
     /// So much steeper is looked at [rad].
     const FARTHEST: f64 = 0.175;
-    const ROUNDS: usize = 6;
     let is_deep = |slope: f64| {
         let slip = before.expected_slip(study, motion, slope);
         slip.is_none_or(|slip| slip >= DEEP)
     };
-    let (mut low, mut high) = (motion.slope(), motion.slope() + steeper.min(FARTHEST));
-    if low < LEVEL || !is_deep(high) {
+    let slope = motion.slope();
+    if slope < LEVEL {
         return None;
     }
-    for _ in 0..ROUNDS {
-        let middle = 0.5 * (low + high);
-        if is_deep(middle) { high = middle } else { low = middle }
-    }
-    Some(low)
+    last_before(is_deep, slope, slope + steeper.min(FARTHEST))
 }
 
 /// Standard deviation of some values.

@@ -46,30 +46,30 @@ pub(super) fn items<T>(
 
 /// A list of numbers.
 pub(super) fn numbers(archive: &mut dyn Archive, name: &str, values: &mut Vec<f64>) {
-    let count = archive.list(name, values.len());
-    values.resize(count, 0.0);
-    for value in values {
-        archive.number("", value);
-    }
-    archive.end();
+    list(archive, name, values, |archive, value| archive.number("", value));
 }
 
 /// A list of numbers that may be missing.
 pub(super) fn maybes(archive: &mut dyn Archive, name: &str, values: &mut Vec<Option<f64>>) {
-    let count = archive.list(name, values.len());
-    values.resize(count, None);
-    for value in values {
-        archive.maybe("", value);
-    }
-    archive.end();
+    list(archive, name, values, |archive, value| archive.maybe("", value));
 }
 
 /// A list of whole numbers.
 pub(super) fn counts(archive: &mut dyn Archive, name: &str, values: &mut Vec<u64>) {
+    list(archive, name, values, |archive, value| archive.count("", value));
+}
+
+/// A list of plain values.
+fn list<T: Clone + Default>(
+    archive: &mut dyn Archive,
+    name: &str,
+    values: &mut Vec<T>,
+    walk: impl Fn(&mut dyn Archive, &mut T),
+) {
     let count = archive.list(name, values.len());
-    values.resize(count, 0);
+    values.resize(count, T::default());
     for value in values {
-        archive.count("", value);
+        walk(archive, value);
     }
     archive.end();
 }

@@ -31,7 +31,7 @@ pub(super) struct SoilChange {
 /// Strangeness at which the soil counts as another: on the same soil a half metre has it with a probability below 1 to
 /// 22,000.
 const CHANGED: f64 = 10.0;
-/// Stretches that speak for another soil together, at least.
+/// The fewest stretches in a row that are taken for another soil.
 const LEAST: usize = 3;
 /// The rims' way over which they do, at most [m].
 const LONGEST: f64 = 1.05;

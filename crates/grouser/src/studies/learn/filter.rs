@@ -137,22 +137,13 @@ impl Filter {
         motion: &SeenMotion,
         deep: f64,
     ) -> Option<f64> {
-        const ROUNDS: usize = 6;
         let sample = self.unknowns.sample(self.belief.mean.as_slice())?;
         let is_deep = |force: f64| {
             let force = Vector3::new(motion.against() * force, 0.0, 0.0);
             let found = motion.expected_under(study, &sample, None, force);
             found.is_none_or(|it| motion.expected_slip_and_drift(&it)[0] >= deep)
         };
-        let (mut low, mut high) = (0.0, STRONGEST);
-        if !is_deep(high) {
-            return None;
-        }
-        for _ in 0..ROUNDS {
-            let middle = 0.5 * (low + high);
-            if is_deep(middle) { high = middle } else { low = middle }
-        }
-        Some(low)
+        last_before(is_deep, 0.0, STRONGEST)
     }
 
     /// How much is known, but for a constant [nat]: −½ ln det P.
@@ -228,6 +219,19 @@ impl Filter {
         let mut places = halves(HALVINGS).map(|share| &before + (&after - &before) * share);
         places.find(|at| self.unknowns.moved(draw, at.as_slice()).is_some()).unwrap_or(before)
     }
+}
+
+/// The last place of a range before something is so, by halving; nothing where it is not so at its end.
+pub(super) fn last_before(is_so: impl Fn(f64) -> bool, mut low: f64, mut high: f64) -> Option<f64> {
+    const ROUNDS: usize = 6;
+    if !is_so(high) {
+        return None;
+    }
+    for _ in 0..ROUNDS {
+        let middle = 0.5 * (low + high);
+        if is_so(middle) { high = middle } else { low = middle }
+    }
+    Some(low)
 }
 
 /// A line each of whose numbers pulls no more than one that is [`FARTHEST`] off.

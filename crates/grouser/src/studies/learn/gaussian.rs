@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::archive::{Archive, numbers};
+use super::archive::{Archive, matrix, vector};
 use crate::elementary::wide::ln;
 
 /// Unknowns that are normal.
@@ -146,15 +146,8 @@ impl Gaussian {
     /// Writes or reads it.
     pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
         let Self { mean, covariance } = self;
-        let of_mean: &mut Vec<f64> = &mut mean.iter().copied().collect();
-        let of_covariance: &mut Vec<f64> = &mut covariance.iter().copied().collect();
-        numbers(archive, "mean", of_mean);
-        numbers(archive, "covariance", of_covariance);
-        let count = of_mean.len();
-        if of_covariance.len() == count * count {
-            self.mean = DVector::from_column_slice(of_mean);
-            self.covariance = DMatrix::from_column_slice(count, count, of_covariance);
-        }
+        vector(archive, "mean", mean);
+        matrix(archive, "covariance", covariance);
     }
 
     /// Whether it is of so many unknowns.
