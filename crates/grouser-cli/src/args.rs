@@ -38,7 +38,7 @@ pub(crate) use campaign::{
     CampaignRerunArgs, CampaignRunArgs, CampaignSummariseArgs, ExecutorChoice,
 };
 pub(crate) use card::{CardArgs, RuleArgs, SideChoice};
-pub(crate) use documents::{CheckArgs, CompletionsArgs, PresetsArgs, SchemaArgs};
+pub(crate) use documents::{CheckArgs, CompletionsArgs, PresetsArgs, SchemaArgs, SchemaChoice};
 pub(crate) use draw::DrawArgs;
 pub(crate) use forecast::ForecastArgs;
 pub(crate) use heading::{HeadingArgs, HeadingMapArgs};

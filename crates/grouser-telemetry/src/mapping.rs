@@ -2,6 +2,8 @@
 //!
 //! `docs/guide/telemetry.md` has its reference; the folder `data` has the mappings that are built in.
 
+mod schema;
+
 use std::fs;
 use std::path::Path;
 

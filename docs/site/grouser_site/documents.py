@@ -10,6 +10,10 @@ from typing import Any
 from .pages import escaped, write
 
 
+# What checks documents that are read by one command alone.
+CHECKS = {"telemetry-mapping": "`grouser import-telemetry LOG --mapping FILE` reads one"}
+
+
 def write_pages(app) -> None:
     schemas = sorted(Path(app.srcdir, "..", "schema").glob("*.json"))
     kinds = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in schemas}
@@ -30,8 +34,9 @@ class Kind:
         self.say(
             f"# {self.schema['title']}: {article(self.name)}", escaped(self.schema["description"])
         )
+        check = CHECKS.get(self.name, "`grouser check FILE` checks one")
         self.say(
-            f"`grouser check FILE` checks one, `schema/{self.name}.json` lets an editor complete and check the keys. "
+            f"{check}, `schema/{self.name}.json` lets an editor complete and check the keys. "
             "Keys in **bold** are needed."
         )
         self.table(self.schema, "")
@@ -111,6 +116,8 @@ class Kind:
             return f"list of {exactly}{self.takes(value['items'])}"
         if value.get("type") in ("number", "integer"):
             return limits(value)
+        if value.get("type") == "boolean":
+            return "`true` or `false`"
         return "table" if self.is_table(value) else "text"
 
 

@@ -1,11 +1,13 @@
 //! Arguments of commands on documents.
 
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
-use clap::builder::{NonEmptyStringValueParser, PossibleValuesParser};
+use clap::builder::{NonEmptyStringValueParser, PossibleValue, PossibleValuesParser};
 use clap::{Args, ValueEnum};
 use clap_complete::Shell;
 use grouser::document::{GRAVITIES, Kind};
+use grouser_telemetry::Mapping;
 
 use crate::output::Format;
 
@@ -51,7 +53,7 @@ pub(crate) struct PresetsArgs {
 pub(crate) struct SchemaArgs {
     /// The kind of document; without it, the names of all kinds.
     #[arg(value_enum)]
-    pub(crate) kind: Option<KindChoice>,
+    pub(crate) kind: Option<SchemaChoice>,
 }
 
 #[derive(Debug, Args)]
@@ -73,6 +75,32 @@ pub(crate) enum KindChoice {
     DataSet,
     Campaign,
     Prior,
+}
+
+/// A kind of document that has a schema.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SchemaChoice {
+    /// One that the library reads.
+    Document(KindChoice),
+    /// Which fields of a log are which columns of telemetry.
+    TelemetryMapping,
+}
+
+impl ValueEnum for SchemaChoice {
+    fn value_variants<'a>() -> &'a [Self] {
+        static ALL: LazyLock<Vec<SchemaChoice>> = LazyLock::new(|| {
+            let documents = KindChoice::value_variants().iter().copied();
+            documents.map(SchemaChoice::Document).chain([SchemaChoice::TelemetryMapping]).collect()
+        });
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        match self {
+            Self::Document(kind) => kind.to_possible_value(),
+            Self::TelemetryMapping => Some(PossibleValue::new(Mapping::KIND)),
+        }
+    }
 }
 
 impl From<KindChoice> for Kind {
