@@ -254,6 +254,9 @@ pub(crate) struct TerrainArgs {
     pub(crate) start_y_m: Option<f64>,
 }
 
+/// The options of a run that name what is written, any of which `--force` may replace.
+const WRITTEN: [&str; 4] = ["out", "animate", "mcap", "telemetry"];
+
 /// How a run is computed, and what else is made of it.
 #[derive(Debug, Args)]
 pub(crate) struct RunArgs {

@@ -3,7 +3,7 @@
 use clap::builder::{NonEmptyStringValueParser, Resettable};
 use clap::{ArgGroup, Args};
 
-use super::{OutputArgs, RunArgs, SettingArgs, SlopeArgs, StrictArgs};
+use super::{OutputArgs, RunArgs, SettingArgs, SlopeArgs, StrictArgs, WRITTEN};
 
 /// The help of `--mcap`.
 const LOG_OF_A_MISSION: &str = "\
@@ -13,7 +13,7 @@ const LOG_OF_A_MISSION: &str = "\
 #[derive(Debug, Args)]
 #[command(mut_arg("mcap", |mcap| mcap.help(LOG_OF_A_MISSION)))]
 #[command(mut_arg("force", |force| force.requires(Resettable::Reset).requires("written")))]
-#[command(group(ArgGroup::new("written").args(["out", "animate", "mcap"]).multiple(true)))]
+#[command(group(ArgGroup::new("written").args(WRITTEN).multiple(true)))]
 pub(crate) struct MissionArgs {
     /// A mission's file or preset: `there-and-back`.
     #[arg(value_name = "FILE|NAME", value_parser = NonEmptyStringValueParser::new())]

@@ -5,13 +5,13 @@ use clap::{ArgGroup, Args};
 
 use super::{
     BalanceArgs, MODEL_OR_ALL, OutputArgs, RunArgs, SettingArgs, SlopeArgs, StrictArgs,
-    UncertaintyArgs,
+    UncertaintyArgs, WRITTEN,
 };
 
 #[derive(Debug, Args)]
 #[command(mut_arg("model", |model| model.help(MODEL_OR_ALL)))]
 #[command(mut_arg("force", |force| force.requires(Resettable::Reset).requires("written")))]
-#[command(group(ArgGroup::new("written").args(["out", "animate", "mcap"]).multiple(true)))]
+#[command(group(ArgGroup::new("written").args(WRITTEN).multiple(true)))]
 pub(crate) struct TraverseArgs {
     /// A scenario's file or preset; without it the default scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]

@@ -83,10 +83,13 @@ fn a_run_has_telemetry() {
         ("--telemetry a.csv --sensor colour=1", "there is no 'colour'"),
         ("--telemetry a.csv --model all", "--telemetry logs one run"),
         ("--sensor perfect", "--telemetry"),
+        ("--telemetry other.csv", "add --force to replace it"),
     ] {
         let said = check_is_refusal(&place.line(&format!("{run} {flags}")), 2);
         assert!(said.contains(words), "{words} in {said}");
     }
+    place.results(&format!("{run} --telemetry other.csv --sensor outliers=0.05 --force"));
+    assert_eq!(place.read("other.csv"), place.read("one.csv"));
 }
 
 /// A log without roll and pitch teaches nothing unless the slope is given, and the note says so.

@@ -134,9 +134,9 @@ impl Push {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::{self, Overrides, Source};
     use crate::studies::learn::stretch::{Reading, Stretch};
     use crate::studies::random;
+    use grouser_io::{self as document, Overrides, Source};
 
     /// The rover up 15° of a sand, and what it expects there.
     fn up_a_slope() -> (HeadingStudy, SeenMotion, Sample) {
