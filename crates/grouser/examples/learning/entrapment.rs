@@ -13,11 +13,14 @@ use super::drive::{Drive, RIM_SPEED, learner};
 pub(crate) enum Way {
     /// The slope steepens by this for each metre of the wheels' way [°].
     Steepening(f64),
-    /// The tangent of the friction angle falls by this share for each metre of the wheels' way [-], up a slope of 8°.
-    Weakening(f64),
+    /// The tangent of the friction angle falls by this share for each metre over the ground [-], up a slope of 8°: the
+    /// soil is weaker ahead.
+    WeakerAhead(f64),
+    /// The same for each metre of the wheels' way: they dig themselves in.
+    DiggingIn(f64),
 }
 
-/// How far ahead it was called; `None` where it was not.
+/// How far ahead it was called.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Lead {
     /// Way over the ground [m].
@@ -26,10 +29,21 @@ pub(crate) struct Lead {
     pub(crate) time: f64,
 }
 
+/// What became of one rover.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Case {
+    /// How far ahead its end was called; `None` where it was not.
+    pub(crate) lead: Option<Lead>,
+    /// Its way over the ground from where the ground begins to change [m].
+    pub(crate) left: f64,
+}
+
 /// Slower than this share of the rims' speed a rover is stuck [-].
 const STUCK: f64 = 0.1;
 /// What is one attitude and one soil [m of the wheels' way].
 const STEP: f64 = 0.06;
+/// So far a soil that grows weaker is as it was: there is something to learn [m].
+const FIRST: f64 = 1.0;
 /// Farther than this no rover goes [m of the wheels' way].
 const FARTHEST: f64 = 40.0;
 
@@ -38,48 +52,70 @@ impl Way {
     pub(crate) fn name(self) -> String {
         match self {
             Self::Steepening(by) => format!("the slope steepens by {by}° per metre"),
-            Self::Weakening(by) => {
-                format!("up 8°, the friction falls by {:.0} % per metre", 100.0 * by)
+            Self::WeakerAhead(by) => {
+                format!("up 8°, the friction falls by {:.0} % per metre of ground", 100.0 * by)
+            }
+            Self::DiggingIn(by) => {
+                format!(
+                    "up 8°, the friction falls by {:.0} % per metre of the wheels' way",
+                    100.0 * by
+                )
             }
         }
     }
 
-    /// Slope [°] and soil after a way of the wheels [m].
-    fn at(self, truth: &Sample, way: f64) -> (f64, Sample) {
+    /// Slope [°] and soil after a way of the wheels, and one over the ground [m].
+    fn at(self, truth: &Sample, way: f64, over_ground: f64) -> (f64, Sample) {
+        let weaker = |lost: f64| {
+            let left = (1.0 - lost.max(0.0)).max(0.05);
+            let mut soil = truth.soil;
+            soil.friction_angle = (soil.friction_angle.tan() * left).atan();
+            (8.0, Sample { soil, ..*truth })
+        };
         match self {
             Self::Steepening(by) => (3.0 + by * way, *truth),
-            Self::Weakening(by) => {
-                // The first metre is as it was: there is something to learn.
-                let left = 1.0 - by * (way - 1.0).max(0.0);
-                let mut soil = truth.soil;
-                soil.friction_angle = (soil.friction_angle.tan() * left.max(0.05)).atan();
-                (8.0, Sample { soil, ..*truth })
-            }
+            Self::WeakerAhead(by) => weaker(by * (over_ground - FIRST)),
+            Self::DiggingIn(by) => weaker(by * (way - FIRST)),
+        }
+    }
+
+    /// Whether the ground is still as it was.
+    fn begins_after(self, way: f64, over_ground: f64) -> bool {
+        match self {
+            Self::Steepening(_) => false,
+            Self::WeakerAhead(_) => over_ground < FIRST,
+            Self::DiggingIn(_) => way < FIRST,
         }
     }
 }
 
-/// The leads on some hidden soils; none of those that hold the rover for good, or not at all.
-pub(crate) fn leads(trial: &Trial<'_>, entrapment: Way, repeats: u32) -> Vec<Option<Lead>> {
+/// What became of some rovers on hidden soils; none of those that hold the rover for good, or not at all.
+pub(crate) fn cases(trial: &Trial<'_>, entrapment: Way, repeats: u32) -> Vec<Case> {
     let truths = learner(trial.hidden).samples(trial.seed, repeats).expect("soils are drawn");
     let one = |(index, truth): (usize, &LearntSample)| {
         let truth = &truth.sample;
         let seed = 1000 * trial.seed + index as u64;
         let mut drive = trial.drive(truth, seed);
-        let mut way = 0.0;
+        let (mut way, mut over_ground, mut begin) = (0.0, 0.0, 0.0);
         while !is_stuck(&drive) {
-            let (slope, soil) = entrapment.at(truth, way);
+            let (slope, soil) = entrapment.at(truth, way, over_ground);
             drive.change(&soil);
+            let before = drive.records.len();
             if drive.leg((slope, 90.0, STEP)).is_none() {
                 break;
             }
             way += STEP;
+            let moved = drive.records[before..].iter().filter_map(|it| it.displacement[0]);
+            over_ground += moved.sum::<f64>();
+            if entrapment.begins_after(way, over_ground) {
+                begin = over_ground;
+            }
             if way > FARTHEST {
                 return None;
             }
         }
         // A way that is too short to learn from is no case.
-        (way > 1.0).then(|| lead(trial, &drive, seed))
+        (way > 1.0).then(|| Case { lead: lead(trial, &drive, seed), left: over_ground - begin })
     };
     truths.par_iter().enumerate().filter_map(one).collect()
 }

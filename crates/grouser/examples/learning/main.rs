@@ -31,7 +31,7 @@ use grouser_io::statistics::quantile;
 use change::Change;
 use coverage::{Trial, held, uniformity, yaw_errors};
 use drive::scenario;
-use entrapment::Way;
+use entrapment::{Case, Lead, Way};
 
 /// Settings and tests are made with other seeds.
 const SEED: u64 = 2027;
@@ -137,24 +137,33 @@ fn grounds<'a>(trial: &Trial<'a>) -> [(&'static str, Trial<'a>); 2] {
 
 fn entrapment(trial: &Trial<'_>, repeats: u32) {
     println!(
-        "| how the rover gets stuck | ground | drives | called 0.3 m and 5 s ahead or more | way ahead: 5th percentile, median | time ahead: 5th percentile, median |"
+        "| how the rover gets stuck | ground | drives | way left when it begins: 5th percentile, median | called 0.3 m and 5 s ahead or more | way ahead: 5th percentile, median | time ahead: 5th percentile, median |"
     );
-    println!("|---|---|---|---|---|---|");
-    let all_ways =
-        [Way::Steepening(5.0), Way::Steepening(2.0), Way::Weakening(0.1), Way::Weakening(0.3)];
+    println!("|---|---|---|---|---|---|---|");
+    let all_ways = [
+        Way::Steepening(5.0),
+        Way::Steepening(2.0),
+        Way::WeakerAhead(0.1),
+        Way::WeakerAhead(0.3),
+        Way::DiggingIn(0.1),
+        Way::DiggingIn(0.3),
+    ];
     let each = grounds(trial).into_iter().flat_map(|it| all_ways.map(|way| (way, it)));
     for (way, (ground, trial)) in each {
-        let all = entrapment::leads(&trial, way, repeats);
-        let soon = all.iter().flatten().filter(|it| it.way >= 0.3 && it.time >= 5.0).count();
-        let of = |of: &dyn Fn(&entrapment::Lead) -> f64| {
-            // What was not called was called at the last.
-            let mut leads: Vec<f64> = all.iter().map(|it| it.as_ref().map_or(0.0, of)).collect();
-            leads.sort_by(f64::total_cmp);
-            [0.05, 0.5].map(|share| quantile(&leads, share).unwrap_or(f64::NAN))
+        let all = entrapment::cases(&trial, way, repeats);
+        let is_soon = |it: &&Lead| it.way >= 0.3 && it.time >= 5.0;
+        let soon = all.iter().filter_map(|it| it.lead.as_ref()).filter(is_soon).count();
+        let sorted = |of: &dyn Fn(&Case) -> f64| {
+            let mut values: Vec<f64> = all.iter().map(of).collect();
+            values.sort_by(f64::total_cmp);
+            [0.05, 0.5].map(|share| quantile(&values, share).unwrap_or(f64::NAN))
         };
+        // What was not called was called at the last.
+        let of = |of: &dyn Fn(&Lead) -> f64| sorted(&|it| it.lead.as_ref().map_or(0.0, of));
         let ([far, farther], [soon_s, later_s]) = (of(&|it| it.way), of(&|it| it.time));
+        let [least, usual] = sorted(&|it| it.left);
         println!(
-            "| {} | {ground} | {} | {soon} | {far:.2} m, {farther:.2} m | {soon_s:.0} s, {later_s:.0} s |",
+            "| {} | {ground} | {} | {least:.2} m, {usual:.2} m | {soon} | {far:.2} m, {farther:.2} m | {soon_s:.0} s, {later_s:.0} s |",
             way.name(),
             all.len()
         );

@@ -63,6 +63,7 @@ use super::heading::HeadingStudy;
 use super::heading_band::HeadingBand;
 use crate::contact::Theory;
 use crate::error::ParameterError;
+use crate::vehicle::Mount;
 use grouser_io::LoadedScenario;
 pub use grouser_io::measurements::telemetry::{TelemetryRecord, WheelTelemetry};
 use grouser_io::statistics::NothingAccepted;
@@ -212,13 +213,17 @@ impl Learner {
         let expected = before.expected(study, motion);
         let slip_and_drift = expected.as_ref().map(|it| motion.expected_slip_and_drift(it));
         let [expected_slip, expected_drift] = slip_and_drift.unwrap_or([1.0, 0.0]);
+        let expected_torques: Vec<f64> = expected.iter().flat_map(Expected::torques).collect();
+        let thrust_of = |(mount, torque): (&Mount, &f64)| torque / mount.shearing_radius();
+        let thrust: f64 = study.rover.mounts().iter().zip(&expected_torques).map(thrust_of).sum();
         let seen = Seen {
             stretch,
             slip_ratio,
             drift,
             expected_slip,
             expected_drift,
-            expected_torques: &expected.iter().flat_map(Expected::torques).collect::<Vec<f64>>(),
+            expected_torques: &expected_torques,
+            thrust: thrust.abs() / (study.rover.mass() * study.gravity),
             noise: self.settings.noise,
             filter,
             push: push.as_ref(),

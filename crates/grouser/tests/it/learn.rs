@@ -26,7 +26,7 @@ use grouser_io::measurements::telemetry::{TelemetryReader, csv_header, csv_line}
 use change::{Change, flagged, warnings};
 use coverage::{LEGS, Trial, held, yaw_errors};
 use drive::{Drive, INSTRUMENTS, learner, scenario};
-use entrapment::{Way, leads};
+use entrapment::{Case, Way, cases};
 
 const PRIOR: &str = "scenario.soil=toyoura-uncertain";
 
@@ -155,13 +155,17 @@ fn wheel_speeds_that_are_read_seldom_hold_until_the_next() {
     assert!(seldom.stretches + 2 > all.stretches, "{all:?} {seldom:?}");
 }
 
-/// Up a slope that steepens until the rover stands: called 5 s and 0.3 m ahead, and more.
+/// Up a slope that steepens, and on soil that is weaker ahead, until the rover stands: called 5 s and 0.3 m ahead, and more.
 #[test]
 fn entrapment_is_called_ahead() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
-    let leads = leads(&trial(&prior, &prior, 5), Way::Steepening(5.0), 2);
-    assert_eq!(leads.len(), 2);
-    assert!(leads.iter().all(|it| it.is_some_and(|it| it.time > 5.0 && it.way > 0.3)), "{leads:?}");
+    for way in [Way::Steepening(5.0), Way::WeakerAhead(0.3)] {
+        let cases = cases(&trial(&prior, &prior, 5), way, 2);
+        assert_eq!(cases.len(), 2);
+        let is_called =
+            |it: &Case| it.lead.is_some_and(|it| it.time > 5.0 && it.way > 0.3) && it.left > 0.3;
+        assert!(cases.iter().all(is_called), "{way:?}: {cases:?}");
+    }
 }
 
 /// Onto sand in which wheels slip more: flagged within half a metre of the wheels' way, and nothing before.

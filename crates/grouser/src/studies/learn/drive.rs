@@ -97,16 +97,10 @@ impl Drive {
         finished
     }
 
-    /// Keeps a lesson; where there are too many, every second of them.
+    /// Keeps a lesson, the last of those that the learner has counted.
     fn keep(&mut self, lesson: Lesson) -> &Lesson {
         self.warnings.extend(lesson.warnings.iter().cloned());
-        if self.lessons.len() >= MOST_LESSONS {
-            let mut place = 0;
-            self.lessons.retain(|_| {
-                place += 1;
-                place % 2 == 0
-            });
-        }
+        make_room(&mut self.lessons, self.learner.learnt().stretches, MOST_LESSONS as u64);
         self.lessons.push(lesson);
         &self.lessons[self.lessons.len() - 1]
     }
@@ -117,7 +111,7 @@ impl Drive {
         &self.learner
     }
 
-    /// What stretches taught: all of them, or every n-th of a long drive.
+    /// What stretches taught: all of them, or every n-th of a long drive and the last one.
     #[must_use]
     pub fn lessons(&self) -> &[Lesson] {
         &self.lessons
@@ -176,6 +170,24 @@ impl Drive {
     }
 }
 
+/// Makes room for the next of many, of which every n-th is kept and the last one.
+///
+/// * `count`: how many there are with it
+fn make_room<T>(kept: &mut Vec<T>, count: u64, most: u64) {
+    let every = |count: u64| count.div_ceil(most).next_power_of_two();
+    let before = count.saturating_sub(1);
+    if before % every(before) != 0 {
+        kept.pop();
+    }
+    if every(count) > every(before) {
+        let mut place = 0;
+        kept.retain(|_| {
+            place += 1;
+            place % 2 == 0
+        });
+    }
+}
+
 fn walk_lost(lost: &mut Lost, archive: &mut dyn Archive) {
     let Lost { damaged_rows, rows_without_time, rows_out_of_order, cells } = lost;
     archive.count("damaged_rows", damaged_rows);
@@ -188,4 +200,25 @@ fn walk_lost(lost: &mut Lost, archive: &mut dyn Archive) {
         archive.count("count", count);
     });
     *cells = of_cells.into_iter().collect();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_many_every_nth_is_kept_and_the_last() {
+        const MOST: u64 = 8;
+        let mut kept = Vec::new();
+        for count in 1..=1000 {
+            make_room(&mut kept, count, MOST);
+            kept.push(count);
+            let every = kept[0];
+            assert!(every.is_power_of_two() && every < 2 * count.div_ceil(MOST), "{kept:?}");
+            let mut expected: Vec<u64> = (1..=count / every).map(|place| place * every).collect();
+            expected.extend((count % every != 0).then_some(count));
+            assert_eq!(kept, expected);
+            assert!(kept.len() as u64 <= MOST + 1, "{kept:?}");
+        }
+    }
 }

@@ -25,6 +25,8 @@ pub(super) struct Seen<'a> {
     pub(super) expected_drift: f64,
     /// Torque of each wheel that was expected [N·m]; of none where there is no soil that carries the rover.
     pub(super) expected_torques: &'a [f64],
+    /// Thrust of all wheels that was expected, over the weight [-].
+    pub(super) thrust: f64,
     /// What is left over however well the soil is known.
     pub(super) noise: ModelNoise,
     /// The number of the filter that has learnt it.
@@ -75,6 +77,8 @@ const BY_WEAKNESS: f64 = 2.5;
 const SOON: f64 = 90.0;
 /// Less slip than this is no sign of entrapment [-].
 const SLIPS: f64 = 0.25;
+/// With more than this on ground that grows weaker it is near, however much the soil that was learnt has to spare [-].
+const SLIPS_DEEPLY: f64 = 0.4;
 /// More slip than this is entrapment whatever the trend [-].
 const SPINS: f64 = 0.6;
 /// A cause has to last this way of the rims to be one [m].
@@ -217,11 +221,14 @@ impl Watch {
         };
         let steepest = [TREND, LONG_TRENDS[0], LONG_TRENDS[1]].into_iter().filter_map(of);
         let trend = steepest.max_by(|one, other| one.rise.total_cmp(&other.rise))?;
-        let spare = (seen.holds_against)()? - (trend.now - self.learnt);
+        let spare = ((seen.holds_against)()? - (trend.now - self.learnt)).max(0.0);
         let slip_ratio = seen.slip_ratio;
         let evidence = Evidence::Weakening { slip_ratio, loss: trend.rise, spare };
-        let way = spare.max(0.0) / trend.rise;
-        (way <= BY_WEAKNESS).then_some((way, evidence))
+        // What the ground loses of the thrust at this slip it loses in proportion of the larger one at more. Where there is
+        // little thrust the loss may be of another kind.
+        let thrust = seen.thrust.max(spare).max(f64::MIN_POSITIVE);
+        let way = spare / trend.rise * thrust / (thrust + spare);
+        (way <= BY_WEAKNESS || slip_ratio > SLIPS_DEEPLY).then_some((way, evidence))
     }
 
     /// That the belief of the soil has changed.
