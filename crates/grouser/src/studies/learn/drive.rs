@@ -176,7 +176,7 @@ impl Drive {
 fn make_room<T>(kept: &mut Vec<T>, count: u64, most: u64) {
     let every = |count: u64| count.div_ceil(most).next_power_of_two();
     let before = count.saturating_sub(1);
-    if before % every(before) != 0 {
+    if !before.is_multiple_of(every(before)) {
         kept.pop();
     }
     if every(count) > every(before) {
