@@ -64,27 +64,25 @@ impl Way {
         }
     }
 
-    /// Slope [°] and soil after a way of the wheels, and one over the ground [m].
-    fn at(self, truth: &Sample, way: f64, over_ground: f64) -> (f64, Sample) {
-        let weaker = |lost: f64| {
-            let left = (1.0 - lost.max(0.0)).max(0.05);
-            let mut soil = truth.soil;
-            soil.friction_angle = (soil.friction_angle.tan() * left).atan();
-            (8.0, Sample { soil, ..*truth })
-        };
+    /// How far the ground has changed after a way of the wheels, and one over the ground [m].
+    fn changed(self, way: f64, over_ground: f64) -> f64 {
         match self {
-            Self::Steepening(by) => (3.0 + by * way, *truth),
-            Self::WeakerAhead(by) => weaker(by * (over_ground - FIRST)),
-            Self::DiggingIn(by) => weaker(by * (way - FIRST)),
+            Self::Steepening(_) => way,
+            Self::WeakerAhead(_) => (over_ground - FIRST).max(0.0),
+            Self::DiggingIn(_) => (way - FIRST).max(0.0),
         }
     }
 
-    /// Whether the ground is still as it was.
-    fn begins_after(self, way: f64, over_ground: f64) -> bool {
+    /// Slope [°] and soil where the ground has changed so far [m].
+    fn at(self, truth: &Sample, changed: f64) -> (f64, Sample) {
         match self {
-            Self::Steepening(_) => false,
-            Self::WeakerAhead(_) => over_ground < FIRST,
-            Self::DiggingIn(_) => way < FIRST,
+            Self::Steepening(by) => (3.0 + by * changed, *truth),
+            Self::WeakerAhead(by) | Self::DiggingIn(by) => {
+                let left = (1.0 - by * changed).max(0.05);
+                let mut soil = truth.soil;
+                soil.friction_angle = (soil.friction_angle.tan() * left).atan();
+                (8.0, Sample { soil, ..*truth })
+            }
         }
     }
 }
@@ -98,7 +96,11 @@ pub(crate) fn cases(trial: &Trial<'_>, entrapment: Way, repeats: u32) -> Vec<Cas
         let mut drive = trial.drive(truth, seed);
         let (mut way, mut over_ground, mut begin) = (0.0, 0.0, 0.0);
         while !is_stuck(&drive) {
-            let (slope, soil) = entrapment.at(truth, way, over_ground);
+            let changed = entrapment.changed(way, over_ground);
+            if changed == 0.0 {
+                begin = over_ground;
+            }
+            let (slope, soil) = entrapment.at(truth, changed);
             drive.change(&soil);
             let before = drive.records.len();
             if drive.leg((slope, 90.0, STEP)).is_none() {
@@ -107,9 +109,6 @@ pub(crate) fn cases(trial: &Trial<'_>, entrapment: Way, repeats: u32) -> Vec<Cas
             way += STEP;
             let moved = drive.records[before..].iter().filter_map(|it| it.displacement[0]);
             over_ground += moved.sum::<f64>();
-            if entrapment.begins_after(way, over_ground) {
-                begin = over_ground;
-            }
             if way > FARTHEST {
                 return None;
             }
