@@ -4,7 +4,7 @@ use grouser::contact::{Ishigami, Rft, WheelForces, WheelSoilModel as _, settle};
 use grouser::simulation::{Integrator, Run, Scenario};
 use grouser::studies::heading::{HeadingOffset, HeadingStudy};
 use grouser::vehicle::dynamics;
-use grouser::vehicle::ground::forces_of;
+use grouser::vehicle::on_ground::forces_of;
 
 use crate::fixtures::Fixtures;
 use crate::unit::controlled;
@@ -110,7 +110,7 @@ fn end(scenario: &Scenario) -> (f64, f64) {
 
 fn imbalance(scenario: &Scenario) -> f64 {
     let curve = HeadingStudy::of(scenario).curve().expect("it has one");
-    let weight = scenario.rover.mass() * scenario.site.gravity;
+    let weight = scenario.rover.mass() * scenario.gravity;
     let miss = |heading: HeadingOffset| {
         let forces = forces_of(&heading.wheels);
         let (force, _) = dynamics::soil_resultant(&scenario.rover, forces, scenario.own_moments);

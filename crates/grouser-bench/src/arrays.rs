@@ -48,7 +48,7 @@ impl Arrays {
         let varied = |&[slope, yaw]: &[f64; 2]| {
             let mut scenario = base.clone();
             scenario.numerics.approach = approach;
-            scenario.site.terrain.slope = slope.to_radians();
+            scenario.ground = scenario.ground.with_slope(slope.to_radians());
             scenario.start.yaw = yaw.to_radians();
             scenario
         };

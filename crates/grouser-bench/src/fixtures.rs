@@ -105,7 +105,7 @@ fn overloaded(wheel: &LoadedWheel, draws: &mut Draws) -> (Contact, f64) {
 /// The scenario on another soil, at another yaw, with velocities in balance as a campaign has them.
 fn varied(scenario: &Scenario, draws: &mut Draws) -> Scenario {
     let mut scenario = scenario.clone();
-    let soil = &mut scenario.site.terrain.soil;
+    let soil = &mut scenario.ground.soil;
     soil.friction_angle *= draws.between(1.0 - VARIATION, 1.0 + VARIATION);
     soil.cohesion *= draws.between(1.0 - VARIATION, 1.0 + VARIATION);
     scenario.numerics.approach = Approach::QuasiSteady;

@@ -9,7 +9,6 @@ use grouser::simulation::equations::Equations;
 use grouser::simulation::{Approach, Run, Scenario};
 use grouser::studies::heading::HeadingStudy;
 use grouser::vehicle::DriveLaw;
-use grouser::vehicle::ground::Ground;
 use rayon::prelude::*;
 
 use crate::fixtures::Fixtures;
@@ -168,13 +167,12 @@ impl Fixtures {
     fn rover_rates(&self) -> Done {
         /// Evaluations of the motion for one look at the clock.
         const TIMES: usize = 256;
-        let Scenario { rover, site, theory, sharing, own_moments, drive, .. } = &self.scenario;
-        let &DriveLaw::Constant(speed) = drive else { unreachable!("the wheels turn steadily") };
+        let rover = &self.scenario.rover;
+        let DriveLaw::Constant(speed) = self.scenario.drive else {
+            unreachable!("the wheels turn steadily")
+        };
         let rim_speeds = vec![speed; rover.wheel_count()];
-        let (sharing, own_moments) = (*sharing, *own_moments);
-        let (model, differences) = (theory.model(), self.scenario.differences());
-        let ground = Ground { rover, site, model, sharing, own_moments, differences, relief: None };
-        let equations = Equations::new(ground, &rim_speeds);
+        let equations = Equations::of(&self.scenario, &rim_speeds);
         let mut state = self.scenario.start_state(&rim_speeds);
         let mut sum = 0.0;
         for time in 0..TIMES {

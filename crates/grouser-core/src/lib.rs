@@ -13,7 +13,7 @@
 //! | simulation | [`simulation`] | a run, from its scenario to its trajectory |
 //! | vehicle | [`vehicle`] | the rover: loads, motion, drives |
 //! | contact | [`contact`] | what the soil does to one wheel |
-//! | foundations | [`units`] [`error`] [`elementary`] [`root`] [`newton`] [`soil`] [`wheel`] [`terrain`] [`site`] | numbers and things |
+//! | foundations | [`units`] [`error`] [`elementary`] [`root`] [`newton`] [`soil`] [`wheel`] [`terrain`] | numbers and things |
 //!
 //! The examples of the types take Toyoura sand and the HAKUTO rover from
 //! `examples/by_hand/hakuto.rs`, which makes both value by value.
@@ -32,7 +32,6 @@ mod peak;
 mod random;
 pub mod root;
 pub mod simulation;
-pub mod site;
 pub mod soil;
 pub mod terrain;
 pub mod units;

@@ -45,9 +45,7 @@ pub use power::EnergyBalance;
 pub use record::{Record, WheelRecord};
 pub use run::{LEAST_STEP, Run};
 pub use scatter::Scatter;
-pub use scenario::{
-    Approach, Integrator, Landscape, Motion, Numerics, PlacedTerrain, Scenario, Start,
-};
+pub use scenario::{Approach, Integrator, Motion, Numerics, Scenario, Start};
 pub use state::State;
 pub use steady_motion::SteadyMotion;
 pub use steady_state::{MOST_SLIP, NotSteady};

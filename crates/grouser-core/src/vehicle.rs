@@ -17,11 +17,11 @@ pub mod drive;
 pub mod drive_unit;
 pub mod dynamics;
 pub mod estimate;
-pub mod ground;
 pub mod kinematics;
 mod links;
 pub mod load;
 pub mod motor;
+pub mod on_ground;
 pub mod parts;
 pub mod posture;
 pub mod reaction;
@@ -43,9 +43,9 @@ pub use belly::{BellyPoint, Underside};
 pub use by_wheel::{ByWheel, Differences, PerWheel};
 pub use drive::DriveLaw;
 pub use drive_unit::{Drive, Driven};
-pub use ground::{Ground, ReactionError, Relief, Stance, WheelReaction};
-pub use load::{LoadSharing, OwnMoments};
+pub use load::{LoadSharing, OwnMoments, Weight};
 pub use motor::{Electrical, Motor};
+pub use on_ground::{OnGround, ReactionError, Stance, WheelReaction};
 pub use parts::{
     Body, Inertia, Mount, MountParts, RoverParts, SteeringAxis, SteeringParts, WheelUnit,
 };

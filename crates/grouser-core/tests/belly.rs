@@ -3,17 +3,11 @@
 #[path = "../examples/by_hand/hakuto.rs"]
 mod hakuto;
 
-use std::borrow::Cow;
-use std::sync::Arc;
-
-use grouser_core::simulation::{
-    Approach, Landscape, Outcome, PlacedTerrain, Run, RunError, Scenario, Trajectory,
-};
-use grouser_core::site::Site;
-use grouser_core::terrain::surface::{AnalyticTerrain, Incline, Ripple, Surface};
-use grouser_core::terrain::{ElevationGrid, ElevationModel, Footprint, Patch, Terrain};
+use grouser_core::simulation::{Approach, Outcome, Run, RunError, Scenario, Trajectory};
+use grouser_core::terrain::surface::{Incline, Ripple, Surface};
+use grouser_core::terrain::{ElevationGrid, ElevationModel, Footprint, Ground, Patch, Terrain};
 use grouser_core::units::{Vec2, deg};
-use grouser_core::vehicle::{BellyPoint, Posture, Relief, Rover, Suspension, Underside};
+use grouser_core::vehicle::{BellyPoint, Posture, Rover, Suspension, Underside};
 
 /// Height of the underside over level hard ground [m].
 const CLEARANCE: f64 = 0.10;
@@ -24,16 +18,16 @@ fn rover(clearance: f64) -> Rover {
     rover.checked().expect("it still does")
 }
 
-fn on(surface: Surface) -> AnalyticTerrain {
-    AnalyticTerrain { surface, soil: hakuto::sand() }
+fn on(surface: Surface) -> Ground {
+    Ground::formula(hakuto::sand(), surface)
 }
 
 /// How near the ground is to a rover that stands on it, its wheels sunk by as much each.
-fn belly(rover: &Rover, terrain: &dyn Terrain, (at, yaw): (Vec2, f64), sinkage: f64) -> BellyPoint {
-    let relief = Relief { terrain, origin: at, soils: None };
-    let posture = Posture::of(rover, &relief, Vec2::zeros(), yaw, &[sinkage; 4]);
+fn belly(rover: &Rover, ground: &Ground, (at, yaw): (Vec2, f64), sinkage: f64) -> BellyPoint {
+    let ground = ground.clone().starting_at(at);
+    let posture = Posture::of(rover, &ground, Vec2::zeros(), yaw, &[sinkage; 4]);
     let underside = Underside::of(rover).expect("its clearance is known");
-    underside.nearest(&posture.expect("it comes to stand"), relief)
+    underside.nearest(&posture.expect("it comes to stand"), &ground)
 }
 
 /// On a plane it is what the document says less what the wheels sink, whatever the slope and the yaw.
@@ -54,39 +48,40 @@ fn on_a_plane_it_is_the_given_one_less_the_sinkage() {
 struct Ridge {
     height: f64,
     width: f64,
-    soil: grouser_core::soil::Soil,
 }
 
 impl Terrain for Ridge {
-    fn patch(&self, at: Vec2, footprint: Footprint) -> Patch<'_> {
-        let Self { height, width, .. } = *self;
+    fn patch(&self, at: Vec2, footprint: Footprint) -> Patch {
+        let Self { height, width } = *self;
         let over = |place: Vec2| {
             let phase = std::f64::consts::TAU * place.x / width;
             if place.x.abs() < 0.5 * width { 0.5 * height * (1.0 + phase.cos()) } else { 0.0 }
         };
-        let fit = footprint.fit(&footprint.points(at).map(over));
-        Patch { height: fit.height, normal: fit.normal, soil: Cow::Borrowed(&self.soil) }
+        footprint.fit(&footprint.points(at).map(over))
     }
 }
+
+const RIDGE: Ridge = Ridge { height: 0.04, width: 0.2 };
 
 /// Astride a ridge that no wheel touches, the clearance is less by its height. The axles are 0.36 m apart, the crest midway
 /// is below a point of the underside. One beside the points is missed by at most its curvature times an eighth of their
 /// spacing squared.
 #[test]
 fn astride_a_ridge_it_is_less_by_the_ridge() {
-    let ridge = Ridge { height: 0.04, width: 0.2, soil: hakuto::sand() };
+    let Ridge { height, width } = RIDGE;
+    let ridge = Ground::own(hakuto::sand(), RIDGE);
     let rover = rover(CLEARANCE);
     let middle = rover.mounts().iter().map(|mount| mount.position.x).sum::<f64>() / 4.0;
     let found = belly(&rover, &ridge, (Vec2::new(-middle, 5.0), 0.0), 0.0);
     // Ground without heights of its own has those of a tiny patch, rounded off by its curvature.
-    let off = found.clearance - (CLEARANCE - ridge.height);
+    let off = found.clearance - (CLEARANCE - height);
     assert!(off.abs() < 1e-6 && found.place.x.abs() < 1e-9, "{off:e} off at {}", found.place);
 
     let spacing = 0.36 / 8.0;
-    let curvature = 0.5 * ridge.height * (std::f64::consts::TAU / ridge.width).powi(2);
+    let curvature = 0.5 * height * (std::f64::consts::TAU / width).powi(2);
     for share in [0.1, 0.3, 0.5] {
         let place = Vec2::new(share * spacing - middle, 5.0);
-        let off = belly(&rover, &ridge, (place, 0.0), 0.0).clearance - (CLEARANCE - ridge.height);
+        let off = belly(&rover, &ridge, (place, 0.0), 0.0).clearance - (CLEARANCE - height);
         let most = curvature * spacing * spacing / 8.0;
         assert!(off > -1e-6 && off < most, "{off} of {most}");
     }
@@ -136,7 +131,8 @@ fn on_a_map_it_is_that_of_the_ground() {
     let south_west = middle - Vec2::new(2.0, 2.0);
     let grid = ElevationGrid { columns: 201, rows: 201, south_west, spacing: Vec2::repeat(0.02) };
     let heights = grid.points().map(|at| -1800.0 + Surface::Ripple(ripple).height(at - middle));
-    let map = ElevationModel::new(grid, heights, hakuto::sand()).expect("a map");
+    let map = ElevationModel::new(grid, heights).expect("a map");
+    let map = Ground::map(hakuto::sand(), map);
     for at in [Vec2::zeros(), Vec2::new(0.4, -0.3)] {
         let formula = belly(&rover(CLEARANCE), &on(Surface::Ripple(ripple)), (at, 0.7), 0.01);
         let mapped = belly(&rover(CLEARANCE), &map, (middle + at, 0.7), 0.01);
@@ -149,9 +145,7 @@ fn on_a_map_it_is_that_of_the_ground() {
 fn over_ripples(amplitude: f64, clearance: Option<f64>, approach: Approach) -> Scenario {
     let mut scenario = hakuto::traverse().expect("it stands");
     let ripple = Ripple { amplitude, wavelength: 1.2, across: 0.0, phase: deg(-90.0) };
-    scenario.site = Site::plane(scenario.site.terrain.soil, 0.0, scenario.site.gravity);
-    let ground = Landscape::Analytic(Arc::new(on(Surface::Ripple(ripple))));
-    scenario.terrain = Some(PlacedTerrain { ground, start: Vec2::zeros(), soils: None });
+    scenario.ground = on(Surface::Ripple(ripple));
     if let Some(clearance) = clearance {
         scenario.rover = rover(clearance);
     }
@@ -204,9 +198,7 @@ fn a_rover_high_centres_on_a_crest() {
 fn a_start_on_the_belly_is_an_error() {
     for approach in [Approach::Dynamic, Approach::QuasiSteady] {
         let mut scenario = over_ripples(0.06, Some(0.03), approach);
-        if let Some(terrain) = &mut scenario.terrain {
-            terrain.start = Vec2::new(0.6, 0.0);
-        }
+        scenario.ground.start = Vec2::new(0.6, 0.0);
         let error = Run::new(&scenario).map(|_| ()).expect_err("it stands on a crest");
         let message = error.to_string();
         assert!(matches!(error, RunError::HighCentred { depth, .. } if depth > 0.0), "{message}");

@@ -3,39 +3,29 @@
 #[path = "../examples/by_hand/hakuto.rs"]
 mod hakuto;
 
-use std::sync::Arc;
-
-use grouser_core::simulation::{
-    Approach, Landscape, Method, Outcome, PlacedTerrain, Record, Run, Scenario, Trajectory,
-};
-use grouser_core::site::Site;
-use grouser_core::terrain::surface::{AnalyticTerrain, Cone, Incline, Ripple, Surface};
-use grouser_core::terrain::{ElevationGrid, ElevationModel};
+use grouser_core::simulation::{Approach, Method, Outcome, Record, Run, Scenario, Trajectory};
+use grouser_core::terrain::surface::{Cone, Incline, Ripple, Surface};
+use grouser_core::terrain::{ElevationGrid, ElevationModel, Ground};
 use grouser_core::units::{Vec2, deg};
 use grouser_core::vehicle::{Rover, Ruts, Suspension};
 
 /// The scenario on ground with heights in place of its plane.
-fn over(scenario: &Scenario, ground: Landscape, start: Vec2) -> Scenario {
-    let site = Site::plane(scenario.site.terrain.soil, 0.0, scenario.site.gravity);
-    Scenario {
-        site,
-        terrain: Some(PlacedTerrain { ground, start, soils: None }),
-        ..scenario.clone()
-    }
+fn over(scenario: &Scenario, ground: Ground, start: Vec2) -> Scenario {
+    Scenario { ground: ground.starting_at(start), ..scenario.clone() }
 }
 
-fn surface(scenario: &Scenario, surface: Surface) -> Landscape {
-    Landscape::Analytic(Arc::new(AnalyticTerrain { surface, soil: scenario.site.terrain.soil }))
+fn surface(scenario: &Scenario, surface: Surface) -> Ground {
+    Ground::formula(scenario.ground.soil, surface)
 }
 
 /// A map of a plane, far from the origin of its coordinates.
-fn map(scenario: &Scenario, incline: Incline, middle: Vec2) -> Landscape {
+fn map(scenario: &Scenario, incline: Incline, middle: Vec2) -> Ground {
     let south_west = middle - Vec2::new(10.0, 10.0);
     let grid = ElevationGrid { columns: 41, rows: 41, south_west, spacing: Vec2::new(0.5, 0.5) };
     let heights: Vec<f64> =
         grid.points().map(|at| -1800.0 + Surface::Incline(incline).height(at - middle)).collect();
-    let model = ElevationModel::new(grid, heights, scenario.site.terrain.soil).expect("a map");
-    Landscape::Elevation(Arc::new(model))
+    let model = ElevationModel::new(grid, heights).expect("a map");
+    Ground::map(scenario.ground.soil, model)
 }
 
 fn on_rockers(rover: &Rover) -> Rover {
@@ -72,7 +62,7 @@ fn a_tilted_plane_is_the_plane() {
     for plane in scenarios() {
         let on_plane = run(&plane);
         let one = on_plane.last();
-        let slope = plane.site.terrain.slope;
+        let slope = plane.ground.plane_slope().expect("a plane");
         for (azimuth, is_map) in [(90.0, false), (217.0, false), (-25.0, true)] {
             let uphill = deg(azimuth);
             let incline = Incline { slope, uphill };
@@ -120,7 +110,7 @@ fn ruts_on_a_tilted_plane_are_those_of_the_plane() {
         plane.duration = 10.0;
         for (yaw, is_all) in [(deg(90.0), true), (deg(4.0), false)] {
             plane.start.yaw = yaw;
-            let slope = plane.site.terrain.slope;
+            let slope = plane.ground.plane_slope().expect("a plane");
             let end = |ruts: Ruts| {
                 let plane = Scenario { ruts, ..plane.clone() };
                 let incline = Incline { slope, uphill: deg(90.0) };
@@ -145,7 +135,7 @@ fn ruts_on_a_tilted_plane_are_those_of_the_plane() {
 fn a_wide_cone_is_nearly_a_plane() {
     let plane = &scenarios()[1];
     let one = run(plane).last().state.position;
-    let slope = plane.site.terrain.slope;
+    let slope = plane.ground.plane_slope().expect("a plane");
     let off = |radius: f64| {
         let cone = Cone { tip: Vec2::new(0.0, radius), slope, rounding: 1.0 };
         let mut scenario = over(plane, surface(plane, Surface::Cone(cone)), Vec2::zeros());
@@ -217,9 +207,7 @@ fn a_drive_that_leaves_the_map_says_where() {
     };
     assert!(*time > 1.0 && driven.last().time <= *time, "{time}");
     assert!(place.x > start.x && (place.x - driven.last().place().x).abs() < 0.5, "{place}");
-    if let Some(terrain) = &mut scenario.terrain {
-        terrain.start = middle + Vec2::new(40.0, 0.0);
-    }
+    scenario.ground.start = middle + Vec2::new(40.0, 0.0);
     let error = drive(&scenario).expect_err("no map is there").to_string();
     assert!(error.contains("where the map has no heights"), "{error}");
 }

@@ -3,21 +3,18 @@
 #[path = "../examples/by_hand/hakuto.rs"]
 mod hakuto;
 
-use std::sync::Arc;
-
 use grouser_core::contact::discrepancy::sense_of_rolling;
 use grouser_core::contact::{Contact, Slip};
-use grouser_core::simulation::{
-    Approach, Landscape, Method, PlacedTerrain, Record, Run, Scenario, Trajectory,
-};
-use grouser_core::site::Site;
+use grouser_core::simulation::{Approach, Method, Record, Run, Scenario, Trajectory};
 use grouser_core::soil::discrepancy::{Discrepancy, VALUES};
 use grouser_core::soil::{PressureSinkage, SinkageExponent, Soil};
-use grouser_core::terrain::surface::{AnalyticTerrain, Incline, Surface};
+use grouser_core::terrain::surface::{Incline, Surface};
 use grouser_core::terrain::zones::NO_ZONE;
-use grouser_core::terrain::{ElevationGrid, ElevationModel, SoilScatter, SoilZones, ZonePolygon};
+use grouser_core::terrain::{
+    ElevationGrid, ElevationModel, Ground, SoilScatter, SoilZones, ZonePolygon,
+};
 use grouser_core::units::{Vec2, Vec3, deg};
-use grouser_core::vehicle::{ByWheel, Ground, PerWheel, RoverState, Ruts};
+use grouser_core::vehicle::{ByWheel, PerWheel, RoverState, Ruts};
 
 /// Where the border of most of these maps is ahead of the start [m].
 const BORDER: f64 = 0.4;
@@ -32,18 +29,14 @@ fn loose() -> Soil {
 /// The scenario on a slope given by heights, which rises to the left of the start.
 fn on_slope(slope: f64, approach: Approach) -> Scenario {
     let mut scenario = hakuto::traverse().expect("it stands");
-    let soil = scenario.site.terrain.soil;
     let surface = Surface::Incline(Incline { slope, uphill: deg(90.0) });
-    let ground = Landscape::Analytic(Arc::new(AnalyticTerrain { surface, soil }));
-    scenario.site = Site::plane(soil, 0.0, scenario.site.gravity);
-    scenario.terrain = Some(PlacedTerrain { ground, start: Vec2::zeros(), soils: None });
+    scenario.ground = Ground::formula(scenario.ground.soil, surface);
     scenario.numerics.approach = approach;
     scenario
 }
 
 fn with(mut scenario: Scenario, zones: SoilZones) -> Scenario {
-    let terrain = scenario.terrain.as_mut().expect("it has heights");
-    terrain.soils = Some(Arc::new(zones));
+    scenario.ground = scenario.ground.with_zones(zones);
     scenario
 }
 
@@ -82,7 +75,7 @@ fn zones_of_the_same_soil_change_no_bit() {
             }
             let nowhere = SoilZones::from_polygons(&[], Vec::new()).expect("zones");
             let without = run(&with(plain.clone(), nowhere)).records;
-            let soil = plain.site.terrain.soil;
+            let soil = plain.ground.soil;
             let [low, high] = [Vec2::new(-5.0, -5.0), Vec2::new(5.0, 5.0)];
             let ring = vec![low, Vec2::new(5.0, -5.0), high, Vec2::new(-5.0, 5.0)];
             let everywhere = ZonePolygon { soil: Some(0), rings: vec![ring] };
@@ -105,7 +98,7 @@ fn a_border_that_is_crossed_has_the_soils_limits_on_either_side() {
     for approach in APPROACHES {
         let plain = on_slope(0.0, approach);
         let mut on_loose = plain.clone();
-        on_loose.site.terrain.soil = loose();
+        on_loose.ground.soil = loose();
         let [hard, soft] = [&plain, &on_loose].map(|scenario| run(scenario).last().clone());
         let sinkage = |record: &Record, wheel: usize| record.wheels[wheel].reaction.settled.sinkage;
         let crossing = run(&with(plain.clone(), beyond(0.0, loose())));
@@ -152,20 +145,12 @@ fn high_enough(hard: &Record, soft: &Record) -> bool {
 #[test]
 fn a_wheel_on_two_soils_has_the_mean_of_their_forces() {
     let plain = on_slope(0.0, Approach::Dynamic);
-    let own = plain.site.terrain.soil;
+    let own = plain.ground.soil;
     let wrong = Discrepancy { drawbar_pull: [0.1; VALUES], ..Discrepancy::NONE };
     for discrepancy in [None, Some(wrong)] {
         let other = Soil { discrepancy, ..loose() };
         let scenario = with(plain.clone(), beyond(0.0, other));
-        let ground = Ground {
-            rover: &scenario.rover,
-            site: &scenario.site,
-            model: scenario.theory.model(),
-            sharing: scenario.sharing,
-            own_moments: scenario.own_moments,
-            differences: scenario.differences(),
-            relief: scenario.relief(),
-        };
+        let ground = scenario.on_ground();
         let front = &scenario.rover.mounts()[0];
         let position = Vec2::new(BORDER - front.position.x, 0.0);
         let state = RoverState { position, ..RoverState::default() };
@@ -175,7 +160,7 @@ fn a_wheel_on_two_soils_has_the_mean_of_their_forces() {
         let settled = wheels.expect("they settle")[0].settled;
         let alone = |soil: Soil| {
             let soil = Soil { discrepancy: None, ..soil };
-            let gravity = scenario.site.gravity;
+            let gravity = scenario.gravity;
             let contact = Contact { wheel: front.unit.wheel, soil, slip, gravity };
             ground.model.forces(&contact, settled.sinkage)
         };
@@ -214,21 +199,19 @@ fn a_turned_and_moved_map_of_zones_gives_the_same_run() {
             let turned =
                 |at: Vec2| middle + Vec2::new(cos * at.x - sin * at.y, sin * at.x + cos * at.y);
             let mut scenario = on_slope(0.0, approach);
-            let soil = scenario.site.terrain.soil;
+            let soil = scenario.ground.soil;
             let grid = ElevationGrid {
                 columns: 21,
                 rows: 21,
                 south_west: middle - Vec2::new(5.0, 5.0),
                 spacing: Vec2::new(0.5, 0.5),
             };
-            let model = ElevationModel::new(grid, vec![-1200.0; 441], soil).expect("a map");
-            let ground = Landscape::Elevation(Arc::new(model));
+            let model = ElevationModel::new(grid, vec![-1200.0; 441]).expect("a map");
             let ring = [(0.3, -1.0), (0.7, -0.6), (0.8, 2.0), (0.35, 0.9)];
             let ring = ring.map(|(x, y)| turned(Vec2::new(x, y))).to_vec();
             let polygon = ZonePolygon { soil: Some(0), rings: vec![ring] };
             let soils = SoilZones::from_polygons(&[polygon], vec![loose()]).expect("zones");
-            scenario.terrain =
-                Some(PlacedTerrain { ground, start: middle, soils: Some(Arc::new(soils)) });
+            scenario.ground = Ground::map(soil, model).starting_at(middle).with_zones(soils);
             scenario.start.yaw = turn;
             let state = run(&scenario).last().state;
             (turned(Vec2::zeros()) - middle, cos, sin, state)
@@ -283,7 +266,7 @@ fn soil_scatters_on_ground_with_heights() {
     assert!((end(Approach::QuasiSteady, 2, 6.0).yaw - steady.yaw).abs() > deg(0.1));
     // On level ground it is the field that a plane has.
     let mut plane = hakuto::traverse().expect("it stands");
-    plane.site = plane.site.with_slope(0.0);
+    plane.ground = plane.ground.with_slope(0.0);
     plane.scatter.soil = soil;
     plane.scatter.seed = 1;
     let on_plane = run(&plane).last().state;

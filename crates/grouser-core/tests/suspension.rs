@@ -3,33 +3,31 @@
 #[path = "../examples/by_hand/hakuto.rs"]
 mod hakuto;
 
-use std::borrow::Cow;
-
 use grouser_core::contact::{Slip, WheelForces};
-use grouser_core::site::Site;
-use grouser_core::terrain::{Footprint, Patch, Terrain};
+use grouser_core::terrain::{Footprint, Ground, Patch, Terrain};
 use grouser_core::units::{Vec2, Vec3, deg};
 use grouser_core::vehicle::{
-    Balance, Bogie, End, Ground, LoadSharing, Mount, OwnMoments, Posture, Relief, Rover,
-    RoverState, Suspension, WheelReaction,
+    Balance, Bogie, End, LoadSharing, Mount, OnGround, OwnMoments, Posture, Rover, RoverState,
+    Suspension, WheelReaction,
 };
 
 /// Ground of some heights.
-struct Heights<F: Fn(Vec2) -> f64>(F, grouser_core::soil::Soil);
+struct Heights<F: Fn(Vec2) -> f64>(F);
 
-impl<F: Fn(Vec2) -> f64> Terrain for Heights<F> {
-    fn patch(&self, at: Vec2, footprint: Footprint) -> Patch<'_> {
-        let fit = footprint.fit(&footprint.points(at).map(&self.0));
-        Patch { height: fit.height, normal: fit.normal, soil: Cow::Borrowed(&self.1) }
+impl<F: Fn(Vec2) -> f64 + Send + Sync> Terrain for Heights<F> {
+    fn patch(&self, at: Vec2, footprint: Footprint) -> Patch {
+        footprint.fit(&footprint.points(at).map(&self.0))
     }
 }
 
-fn ground(height: impl Fn(Vec2) -> f64) -> Heights<impl Fn(Vec2) -> f64> {
-    Heights(height, hakuto::sand())
+fn ground(
+    height: impl Fn(Vec2) -> f64 + Send + Sync,
+) -> Heights<impl Fn(Vec2) -> f64 + Send + Sync> {
+    Heights(height)
 }
 
 /// A plane that rises by the tangent of a slope in a direction [rad].
-fn plane(slope: f64, azimuth: f64) -> impl Fn(Vec2) -> f64 {
+fn plane(slope: f64, azimuth: f64) -> impl Fn(Vec2) -> f64 + Send + Sync {
     let uphill = slope.tan() * Vec2::new(azimuth.cos(), azimuth.sin());
     move |at| 3.0 + uphill.dot(&at)
 }
@@ -288,24 +286,16 @@ fn it_tips_where_the_weight_falls_outside() {
 #[test]
 fn twisted_ground_loads_a_rigid_rover_across_and_turns_rockers() {
     let scenario = hakuto::traverse().expect("it stands");
-    let site = Site::plane(scenario.site.terrain.soil, 0.0, scenario.site.gravity);
     let settled = |rover: &Rover, twist: f64| -> (Posture, Vec<WheelReaction>) {
-        let terrain = ground(|at: Vec2| twist * at.x * at.y);
-        let reaction = Ground {
-            rover,
-            site: &site,
-            model: scenario.theory.model(),
-            sharing: scenario.sharing,
-            own_moments: scenario.own_moments,
-            differences: scenario.differences(),
-            relief: Some(Relief { terrain: &terrain, origin: Vec2::zeros(), soils: None }),
-        };
+        let terrain = ground(move |at: Vec2| twist * at.x * at.y);
+        let terrain = Ground::own(scenario.ground.soil, terrain);
+        let reaction = OnGround { rover, ground: &terrain, ..scenario.on_ground() };
         let posture = reaction.standing_posture(&RoverState::default()).expect("it stands");
         let slips = [Slip::on_test_stand(0.2, 0.0); 4];
         let wheels = reaction.reactions_standing(&posture, Vec3::z(), &slips, &[]);
         (posture, wheels.expect("it is carried"))
     };
-    let weight = rigid().mass() * site.gravity;
+    let weight = rigid().mass() * scenario.gravity;
     let (_, flat) = settled(&rigid(), 0.0);
     for (twist, lifts) in [(0.02, 0), (0.1, 0), (1.0, 1)] {
         let (posture, wheels) = settled(&rigid(), twist);

@@ -124,7 +124,7 @@ impl Plan {
     /// The mission of some legs, with the speed of each.
     pub(crate) fn mission_of(&self, legs: &[LegKeys]) -> Mission {
         let mut speed = None;
-        let origin = self.scenario.terrain.as_ref().map_or_else(Vec2::zeros, |it| it.start);
+        let origin = self.scenario.ground.start;
         let legs = legs.iter().map(|keys| {
             speed = keys.speed.clone().or(speed.take());
             keys.leg(speed.as_ref(), origin)

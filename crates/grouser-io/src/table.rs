@@ -17,9 +17,9 @@ use super::columns::Column;
 /// use grouser_io::{Overrides, Source, read_scenario};
 ///
 /// let scenario = read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
-/// let (wheel, soil) = (scenario.rover.mounts()[0].unit.wheel, scenario.site.terrain.soil);
+/// let (wheel, soil) = (scenario.rover.mounts()[0].unit.wheel, scenario.ground.soil);
 /// let slip = Slip::on_test_stand(0.2, 0.0);
-/// let contact = Contact { wheel, soil, slip, gravity: scenario.site.gravity };
+/// let contact = Contact { wheel, soil, slip, gravity: scenario.gravity };
 /// let settled = [10.0, 17.0, 24.0].map(|load| settle(&Ishigami::DEFAULT, &contact, load));
 /// let settled = settled.into_iter().collect::<Result<Vec<_>, _>>()?;
 ///

@@ -12,9 +12,8 @@ use super::file;
 use super::raster_file::{Found, found, key, options};
 use super::tree::{Entry, HeldMap, Node, Value};
 use super::zones_file;
-use grouser_core::simulation::{Landscape, Scenario};
-use grouser_core::soil::Soil;
-use grouser_core::terrain::{ElevationModel, Extent};
+use grouser_core::simulation::Scenario;
+use grouser_core::terrain::{ElevationModel, Extent, Shape};
 use grouser_core::units::Vec2;
 use grouser_raster::ReadOptions;
 
@@ -50,10 +49,17 @@ pub(crate) fn read(
     document: &Document,
     tree: &Node,
 ) -> Result<(), DocumentError> {
-    let soil = scenario.site.terrain.soil;
-    let Some(placed) = &mut scenario.terrain else { return Ok(()) };
+    let ground = &mut scenario.ground;
+    if ground.is_plane() {
+        return Ok(());
+    }
+    if document.number(SLOPE).is_some_and(|slope| slope != 0.0) {
+        let problem = Problem::Conflict("the terrain says how the ground is inclined");
+        let hint = Some("leave out `slope_deg`, or `[terrain]`".to_owned());
+        return Err(DocumentError::at(tree.origin_of(SLOPE), problem).with_hint(hint));
+    }
     let Some(path) = document.text(&key(FILE)) else {
-        return zones_file::read(placed, soil, document, tree);
+        return zones_file::read(ground, document, tree);
     };
     let fault = |key_of: &str, (problem, hint)| {
         DocumentError::at(tree.origin_of(&key(key_of)), problem).with_hint(hint)
@@ -61,18 +67,18 @@ pub(crate) fn read(
     let model = if let Some(model) = held(path, document, tree)? {
         model
     } else {
-        let model = model(Path::new(path), &options(document), soil);
+        let model = model(Path::new(path), &options(document));
         Arc::new(model.map_err(|found| fault(FILE, found))?)
     };
     if document.get(&key(START)).is_none() {
-        placed.start = middle(model.extent());
-    } else if !contains(model.extent(), placed.start) {
-        let (x, y) = (placed.start.x, placed.start.y);
+        ground.start = middle(model.extent());
+    } else if !contains(model.extent(), ground.start) {
+        let (x, y) = (ground.start.x, ground.start.y);
         let problem = format!("the start, x {x} m, y {y} m, is beyond the map {path}");
         return Err(fault(START, (Problem::NoTerrain(problem), Some(spans(model.extent())))));
     }
-    placed.ground = Landscape::Elevation(model);
-    zones_file::read(placed, soil, document, tree)
+    ground.shape = Shape::Map(model);
+    zones_file::read(ground, document, tree)
 }
 
 /// The map in memory that a document names, if it does.
@@ -101,7 +107,7 @@ fn held(
 /// name it too need not read it again.
 #[must_use]
 pub fn map_of(scenario: &Scenario, document: &Document) -> Option<HeldMap> {
-    let Landscape::Elevation(model) = &scenario.terrain.as_ref()?.ground else { return None };
+    let Shape::Map(model) = &scenario.ground.shape else { return None };
     let name = document.text(&key(FILE))?.to_owned();
     // A resolved document has whole paths.
     let options = Path::new(&name).is_absolute().then(|| options(document));
@@ -110,14 +116,12 @@ pub fn map_of(scenario: &Scenario, document: &Document) -> Option<HeldMap> {
 
 /// Reads a map from a file, to be shared by documents that name it.
 ///
-/// * `soil`: any; runs take that of their scenario
-///
 /// # Errors
 /// [`DocumentError`] if it cannot be read, with what helps.
-pub fn read_map(path: &Path, options: ReadOptions, soil: Soil) -> Result<HeldMap, DocumentError> {
+pub fn read_map(path: &Path, options: ReadOptions) -> Result<HeldMap, DocumentError> {
     let whole = absolute(path).unwrap_or_else(|_| path.to_owned());
     let name = whole.display().to_string();
-    let model = model(&whole, &options, soil).map_err(|(problem, hint)| {
+    let model = model(&whole, &options).map_err(|(problem, hint)| {
         // Options stand in no table.
         let hint = hint.map(|hint| hint.replace("`terrain.", "`"));
         DocumentError::whole(&name, problem).with_hint(hint)
@@ -125,11 +129,11 @@ pub fn read_map(path: &Path, options: ReadOptions, soil: Soil) -> Result<HeldMap
     Ok(HeldMap { name, model: Arc::new(model), options: Some(options) })
 }
 
-fn model(path: &Path, options: &ReadOptions, soil: Soil) -> Result<ElevationModel, Found> {
+fn model(path: &Path, options: &ReadOptions) -> Result<ElevationModel, Found> {
     // Neither a device nor a pipe is waited for.
     file::check_regular(path).map_err(|problem| (Problem::from(problem), None))?;
     let raster = grouser_raster::read(path, options).map_err(|error| found("map", &error.fault))?;
-    raster.model(soil).map_err(|error| found("map", &error.into()))
+    raster.model().map_err(|error| found("map", &error.into()))
 }
 
 fn middle(extent: Extent) -> Vec2 {

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use super::campaign::{Settings, Stand};
 use super::describe::campaign::{BLANK_STAND, CAMPAIGN, STAND};
 use super::describe::power::{MOTOR, NO_MOTOR};
-use super::describe::run::{ROVER_OF_PARTS, SLOPE, TERRAIN};
+use super::describe::run::{ROVER_OF_PARTS, TERRAIN};
 use super::describe::scenario::SCENARIO;
 use super::describe::soil::{LARGEST_EXIT_RATIO, LARGEST_EXPONENT, SMALLEST_EXPONENT, SOIL};
 use super::describe::wheel::WHEEL;
@@ -26,8 +26,9 @@ use super::tree::Node;
 use super::unit::DEG;
 use grouser_core::contact::{Theory, validity};
 use grouser_core::error::ParameterError;
-use grouser_core::simulation::{Landscape, PrescribedYaw, Scenario, TooFast};
+use grouser_core::simulation::{PrescribedYaw, Scenario, TooFast};
 use grouser_core::soil::{AssumedValues, Exit, PressureSinkage, Shear, ShearModulus, Soil};
+use grouser_core::terrain::Shape;
 use grouser_core::vehicle::{Inertia, LoadSharing, Motor, Mount, OwnMoments, Rover};
 use grouser_core::wheel::Wheel;
 
@@ -142,10 +143,12 @@ pub trait Described: Clone + 'static {
     fn with<'k>(&self, values: impl IntoIterator<Item = (&'k str, f64)>) -> Result<Self, Misfit> {
         let mut value = self.clone();
         for (path, number) in values {
-            // That each key leads somewhere was seen when it was chosen.
-            if let Some(reached) = Self::table().reach(&mut value, path) {
-                reached.set(number);
-            }
+            let Some(reached) = Self::table().reach(&mut value, path) else {
+                let expected = "left out: this document has no such number";
+                let error = ParameterError::new(format!("`{path}`"), number, expected);
+                return Err(Misfit::new(path, error));
+            };
+            reached.set(number);
         }
         value.settled()
     }
@@ -432,7 +435,7 @@ impl Described for Scenario {
     fn follow(&mut self, document: &Document) {
         self.theory = document.theory().unwrap_or_else(|| document.usual_theory("soil"));
         let soil = document.part(Kind::Soil, "soil");
-        self.site.terrain.soil.domain.assumed_values = assumed_values(soil.as_ref());
+        self.ground.soil.domain.assumed_values = assumed_values(soil.as_ref());
         for (number, soil) in zone_soils(self).iter_mut().enumerate() {
             let part = document.part(Kind::Soil, &format!("terrain.zone.{number}.soil"));
             soil.domain.assumed_values = assumed_values(part.as_ref());
@@ -445,9 +448,9 @@ impl Described for Scenario {
 
     fn settled(self) -> Result<Self, Misfit> {
         let rover = self.rover.settled().map_err(|misfit| misfit.within("rover"))?;
-        let soil = self.site.terrain.soil.settled().map_err(|misfit| misfit.within("soil"))?;
-        let mut run = Self { rover, site: self.site.with_soil(soil), ..self };
-        settle_terrain(&mut run)?;
+        let soil = self.ground.soil.settled().map_err(|misfit| misfit.within("soil"))?;
+        let mut run = Self { rover, ground: self.ground.with_soil(soil), ..self };
+        check_terrain(&run)?;
         for (number, soil) in zone_soils(&mut run).iter_mut().enumerate() {
             *soil = soil
                 .settled()
@@ -483,29 +486,19 @@ impl Described for Scenario {
 
 /// The soils of a scenario's zones.
 fn zone_soils(run: &mut Scenario) -> &mut [Soil] {
-    let zones = run.terrain.as_mut().and_then(|terrain| terrain.soils.as_mut());
-    zones.map_or(&mut [], |zones| &mut Arc::make_mut(zones).soils)
+    run.ground.zones.as_mut().map_or(&mut [], |zones| &mut Arc::make_mut(zones).soils)
 }
 
-/// Gives ground with heights the scenario's soil; checks that it can be, and has no slope beside them.
-fn settle_terrain(run: &mut Scenario) -> Result<(), Misfit> {
-    let soil = run.site.terrain.soil;
-    let Some(placed) = &mut run.terrain else { return Ok(()) };
-    if run.site.terrain.slope != 0.0 {
-        let problem = Problem::Conflict("the terrain says how the ground is inclined");
-        return Err(Misfit::new(SLOPE, problem).with_hint("leave out `slope_deg`, or `[terrain]`"));
-    }
-    if run.yaw.is_some() {
+/// Checks that the ground can be.
+fn check_terrain(run: &Scenario) -> Result<(), Misfit> {
+    if run.yaw.is_some() && !run.ground.is_plane() {
         let problem = Problem::Conflict("a yaw is held over time on planes alone");
         let hint = "on ground with heights a mission's leg with a heading steers";
         return Err(Misfit::new("drive.yaw_deg", problem).with_hint(hint));
     }
-    match &mut placed.ground {
-        Landscape::Analytic(ground) => {
-            Arc::make_mut(ground).soil = soil;
-            ground.surface.check().map_err(Misfit::at(TERRAIN))
-        }
-        Landscape::Elevation(_) => Ok(()),
+    match &run.ground.shape {
+        Shape::Formula(surface) => surface.check().map_err(Misfit::at(TERRAIN)),
+        Shape::Plane(_) | Shape::Map(_) | Shape::Own(_) => Ok(()),
     }
 }
 

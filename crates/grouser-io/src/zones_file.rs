@@ -13,9 +13,8 @@ use super::kind::Kind;
 use super::presets::preset;
 use super::raster_file::{Found, found, key, options};
 use super::tree::{Entry, Node, Origin, Value};
-use grouser_core::simulation::{Landscape, PlacedTerrain};
 use grouser_core::soil::Soil;
-use grouser_core::terrain::{Extent, SoilZones};
+use grouser_core::terrain::{Extent, Ground, Shape, SoilZones};
 use grouser_raster::{ReadOptions, ZoneKey, read_zones, zone_names};
 
 /// Gives each name of a file's zones that the legend does not have, and that is a preset's, a row with that preset: the
@@ -61,20 +60,18 @@ fn row(name: &str, origin: &Origin) -> Node {
     Node { value: Value::Table(vec![entry(NAME), entry(SOIL)]), origin: origin.clone() }
 }
 
-/// Reads the zones that a document names, if it names some, and puts them into its terrain.
+/// Reads the zones that a document names, if it names some, and puts them into its ground.
 ///
-/// * `own`: the scenario's soil
 /// * `tree`: the document as it was written
 pub(crate) fn read(
-    terrain: &mut PlacedTerrain,
-    own: Soil,
+    ground: &mut Ground,
     document: &Document,
     tree: &Node,
 ) -> Result<(), DocumentError> {
     let rows = document.get(&key(LEGEND)).and_then(Json::as_array);
     let rows: &[Json] = rows.map_or(&[], Vec::as_slice);
     let Some(path) = document.text(&key(FILE)) else {
-        terrain.soils = None;
+        ground.zones = None;
         if rows.is_empty() {
             return Ok(());
         }
@@ -82,7 +79,7 @@ pub(crate) fn read(
         let hint = Some("`soil_file` names it".to_owned());
         return Err(DocumentError::at(tree.origin_of(&key(LEGEND)), problem).with_hint(hint));
     };
-    let mut soils = terrain.soils.take().map_or_else(Vec::new, |zones| zones.soils.clone());
+    let mut soils = ground.zones.take().map_or_else(Vec::new, |zones| zones.soils.clone());
     let mut legend: Vec<(ZoneKey, Option<usize>)> = Vec::new();
     for (number, row) in rows.iter().enumerate() {
         let misfit = |problem| {
@@ -95,19 +92,19 @@ pub(crate) fn read(
         }
         let has_soil = row.get(SOIL).is_some();
         if !has_soil && let Some(soil) = soils.get_mut(number) {
-            *soil = own;
+            *soil = ground.soil;
         }
         legend.push((of, has_soil.then_some(number)));
     }
-    let ground = match &terrain.ground {
-        Landscape::Elevation(model) => Some(model.extent()),
-        Landscape::Analytic(_) => None,
+    let extent = match &ground.shape {
+        Shape::Map(model) => Some(model.extent()),
+        Shape::Plane(_) | Shape::Formula(_) | Shape::Own(_) => None,
     };
-    let zones = zones(Path::new(path), &options(document), ground, &legend, soils);
+    let zones = zones(Path::new(path), &options(document), extent, &legend, soils);
     let zones = zones.map_err(|(problem, hint)| {
         DocumentError::at(tree.origin_of(&key(FILE)), problem).with_hint(hint)
     })?;
-    terrain.soils = Some(Arc::new(zones));
+    ground.zones = Some(Arc::new(zones));
     Ok(())
 }
 

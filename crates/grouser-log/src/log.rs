@@ -92,9 +92,9 @@ impl<W: Write> Log<W> {
             out.message(to, 0, message)
         };
         let base = height_of_start(scenario);
-        let ground = match (base, &scenario.terrain) {
-            (Some(base), Some(placed)) => frames::map_in_world(placed.start.push(base)),
-            _ => frames::slope_in_world(scenario.site.terrain.slope),
+        let ground = match scenario.ground.plane_slope() {
+            Some(slope) => frames::slope_in_world(slope),
+            None => frames::map_in_world(scenario.ground.start.push(base.unwrap_or(0.0))),
         };
         let transforms = FrameTransforms { transforms: vec![ground] };
         fixed("/tf_static", &schema::<FrameTransforms>(), &transforms.to_bytes())?;
@@ -206,7 +206,7 @@ impl<W: Write> Log<W> {
     /// # Errors
     /// As [`event`](Self::event).
     pub fn leg_began(&mut self, time: f64, number: usize, leg: &Leg) -> Result<(), LogError> {
-        let origin = self.scenario.terrain.as_ref().map_or_else(Vec2::zeros, |it| it.start);
+        let origin = self.scenario.ground.start;
         let began = format!("began: {}", in_words(leg, origin));
         self.event(time, Level::Info, &leg_name(number), &began)
     }
@@ -339,9 +339,9 @@ impl<W: Write> Log<W> {
 
     fn add_scene(&mut self, time: u64, pose: &Pose) -> Result<(), LogError> {
         if self.ground.grow(pose.centre.xy()) {
-            let scene = match (self.base, self.scenario.relief()) {
-                (Some(base), Some(relief)) => self.ground.relief(time, &relief, base),
-                _ => self.ground.scene(time),
+            let scene = match self.base {
+                Some(base) => self.ground.relief(time, &self.scenario.ground, base),
+                None => self.ground.scene(time),
             };
             self.out.message(self.to.ground, time, &scene.to_bytes())?;
         }
@@ -375,7 +375,8 @@ impl<W: Write> Log<W> {
 fn height_of_start(scenario: &Scenario) -> Option<f64> {
     const POINT: f64 = 1e-3;
     let footprint = Footprint { forward: Vec2::x(), half_length: POINT, half_width: POINT };
-    Some(scenario.relief()?.patch(Vec2::zeros(), footprint).height)
+    let ground = &scenario.ground;
+    (!ground.is_plane()).then(|| ground.patch(Vec2::zeros(), footprint).height)
 }
 
 fn schema<M: Message>() -> SchemaOf<'static> {

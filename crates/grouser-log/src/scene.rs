@@ -269,7 +269,7 @@ impl Forces {
     pub(crate) fn of(scenario: &Scenario) -> Self {
         let rover = &scenario.rover;
         let largest = rover.mounts().iter().map(Mount::shearing_radius).fold(0.0, f64::max);
-        let share = rover.mass() * scenario.site.gravity / rover.wheel_count() as f64;
+        let share = rover.mass() * scenario.gravity / rover.wheel_count() as f64;
         Self { newtons_per_metre: share / (2.0 * largest) }
     }
 

@@ -86,7 +86,7 @@ impl Animation {
         let end = actors.iter().map(|actor| actor.motion.end()).fold(0.0, f64::max);
         let speed = speed(end);
         let times = times(end, speed);
-        let slope = runs[0].scenario.site.terrain.slope;
+        let slope = runs[0].scenario.ground.plane_slope().unwrap_or(0.0);
         let area = [[MARGIN, TOP + 2.0], [WIDTH - 2.0 * MARGIN, SCENE - TOP - 4.0]];
         let scene = Scene::of(&mut actors, slope, &times, area);
         let row = |(actor, shown): (&Actor, &Shown<'_>)| Row {

@@ -111,9 +111,9 @@ mod tests {
         let scenario = scenario();
         let contact = Contact {
             wheel: scenario.rover.mounts()[0].unit.wheel,
-            soil: scenario.site.terrain.soil,
+            soil: scenario.ground.soil,
             slip: Slip::on_test_stand(slip_ratio, 0.0),
-            gravity: scenario.site.gravity,
+            gravity: scenario.gravity,
         };
         let settled = settle(&Ishigami::DEFAULT, &contact, load).unwrap();
         for drawing in of_a_wheel(&WheelInSoil { contact: &contact, settled: &settled, load }) {
@@ -160,7 +160,7 @@ mod tests {
                 rover: &scenario.rover,
                 slope,
                 yaw: heading.yaw,
-                gravity: scenario.site.gravity,
+                gravity: scenario.gravity,
                 wheels: &heading.wheels,
             };
             for drawing in of_a_slope(&crossing) {

@@ -121,13 +121,13 @@ impl Follower {
     /// Sets the wheels on ground with heights; gives roll and pitch [rad]. Where the rover has tipped over, the wheels stay
     /// as they were.
     fn stand(&mut self, scenario: &Scenario, record: &Record) -> Option<[f64; 2]> {
-        let (relief, standing) = (scenario.relief()?, record.standing()?);
+        let (ground, standing) = (&scenario.ground, record.standing()?);
         let angles: Vec<f64> = self.wheels.iter().map(|wheel| wheel.steering).collect();
         let sinkages: Vec<f64> = self.wheels.iter().map(|wheel| wheel.sinkage).collect();
         let state = &record.state;
         let steered = scenario.rover.steered(&angles).ok();
         let rover = steered.as_ref().unwrap_or(&scenario.rover);
-        if let Ok(posture) = Posture::of(rover, &relief, state.position, state.yaw, &sinkages) {
+        if let Ok(posture) = Posture::of(rover, ground, state.position, state.yaw, &sinkages) {
             let in_body = |vector: &Vec3| posture.ground_from_body.inverse() * vector;
             for (pose, wheel) in self.wheels.iter_mut().zip(&posture.wheels) {
                 pose.standing = Some(StandingWheel {

@@ -36,11 +36,14 @@ const ROVERS: usize = 6;
 /// * `records`: in the order of time; the first is the start
 #[must_use]
 pub fn relief_of(title: &str, scenario: &Scenario, records: &[Record]) -> Option<String> {
-    let relief = scenario.relief()?;
-    let surface = Surface::around(&relief, records, 2.0 * reach(&scenario.rover));
+    let ground = &scenario.ground;
+    if ground.is_plane() {
+        return None;
+    }
+    let surface = Surface::around(ground, records, 2.0 * reach(&scenario.rover));
     let standing = standing(scenario, records);
-    let profile = Profile::of(&relief, records);
-    let drawn = Drawn { surface, origin: relief.origin, way: way(records), standing, scenario };
+    let profile = Profile::of(ground, records);
+    let drawn = Drawn { surface, origin: ground.start, way: way(records), standing, scenario };
     let (from_above, oblique, under) = drawn.views();
     let height = under + profile.height();
     let mut sheet = Sheet::new(title, WIDTH, height).on(Role::Paper.on(Ground::Light));
@@ -69,14 +72,13 @@ fn way(records: &[Record]) -> Vec<Vec3> {
 
 /// Postures of the start, the end and some records between them.
 fn standing(scenario: &Scenario, records: &[Record]) -> Vec<Posture> {
-    let Some(relief) = scenario.relief() else { return Vec::new() };
     let posture = |record: &Record| {
         let sinkages: Vec<f64> =
             record.wheels.iter().map(|wheel| wheel.reaction.settled.sinkage).collect();
         let angles: Vec<f64> = record.wheels.iter().map(|wheel| wheel.steering).collect();
         let rover = scenario.rover.steered(&angles).ok()?;
         let state = &record.state;
-        Posture::of(&rover, &relief, state.position, state.yaw, &sinkages).ok()
+        Posture::of(&rover, &scenario.ground, state.position, state.yaw, &sinkages).ok()
     };
     let length: f64 = records
         .windows(2)

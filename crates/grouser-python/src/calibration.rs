@@ -205,7 +205,7 @@ pub(crate) fn calibrate_plate_tests<'py>(
         let message = format!("plate_law is {law:?}, it must be \"bekker\" or \"reece\"");
         return Err(errors::parameter(message, "plate_law", None, "bekker or reece"));
     }
-    let gravity = setting.scenario()?.value.site.gravity;
+    let gravity = setting.scenario()?.value.gravity;
     let soil = soil.soil()?.document.clone();
     let sampling = sampling_of(seed, steps)?;
     let (label, file) = (data.label(), data.name());

@@ -1,7 +1,7 @@
 //! The planes under wheels on uneven ground, for engines of rigid bodies.
 
-use grouser::terrain::footprint::{Fit, POINTS};
-use grouser::terrain::{Footprint, HeightField};
+use grouser::terrain::footprint::POINTS;
+use grouser::terrain::{Footprint, HeightField, Patch};
 use grouser::units::{Vec2, Vec3};
 use nalgebra::Matrix3;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
@@ -157,7 +157,7 @@ impl Frame {
     fn planes<'py>(
         &self,
         py: Python<'py>,
-        fits: impl Iterator<Item = (Fit, Vec3)>,
+        fits: impl Iterator<Item = (Patch, Vec3)>,
     ) -> PyResult<Planes<'py>> {
         let planes = fits.map(|(fit, hub)| {
             let normal = self.axes * fit.normal;

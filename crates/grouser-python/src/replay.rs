@@ -49,7 +49,7 @@ pub(crate) fn replay<'py>(
     let inputs = BandInputs::of_scenario(loaded);
     let samples = threads::detached(py, || inputs.samples(seed, samples))?;
     let samples = samples.map_err(|error| Problem::Sampling(error).raised())?;
-    let slope = slope_is_known.then_some(loaded.value.site.terrain.slope);
+    let slope = loaded.value.ground.plane_slope().filter(|_| slope_is_known);
     let label = path.display().to_string();
     let found = threads::detached(py, || -> Result<(Replay, Vec<String>), NoReplay> {
         let mut replayer = Replayer::new(&loaded.value, slope);

@@ -107,7 +107,7 @@ impl Runs {
         let mut scenario = base.clone();
         if let Some((soil, theory)) = self.soils.get(self.soil_at(place)) {
             let numbers = self.of_soils.at(self.soil_at(place), place);
-            scenario.site.terrain.soil = soil.with(numbers).map_err(Misfit::of_numbers)?;
+            scenario.ground.soil = soil.with(numbers).map_err(Misfit::of_numbers)?;
             if !names_its_model {
                 scenario.theory = *theory;
             }
@@ -233,7 +233,7 @@ pub(crate) fn rollout<'py>(
     keep: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
     let runs = Runs::new(&scenarios, &scenario_index, &soils, &soil_index, varied, count)?;
-    let on_heights = runs.bases.iter().any(|(base, _)| base.terrain.is_some());
+    let on_heights = runs.bases.iter().any(|(base, _)| !base.ground.is_plane());
     let ends = listening(py, move |cancelled| {
         if let Some(misfit) = runs.first_misfit() {
             return Err(misfit);

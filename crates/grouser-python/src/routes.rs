@@ -134,8 +134,7 @@ impl Sought<'_> {
     /// What simulation makes of a way, if there is one and that is asked for.
     fn driven(&self, route: Option<&Route>) -> Result<Option<DrivenRoute>, Failure> {
         let Some(route) = route.filter(|_| self.task.drive) else { return Ok(None) };
-        let soil = self.scenario.site.terrain.soil;
-        let model = self.raster.clone().model(soil);
+        let model = self.raster.clone().model();
         let model = Arc::new(model.map_err(|error| Failure::Ground(error.to_string()))?);
         let speed = self.study.mobility.rim_speed;
         route.drive(self.scenario, &model, speed).map(Some).map_err(Failure::Drive)

@@ -56,7 +56,7 @@ impl Stepped {
         if let (Some(seed), Some(soils)) = (fresh.seed, &self.soils) {
             // Reading the document has checked that samples can be drawn.
             if let Ok(soil) = soils.draw(seed, 0) {
-                scenario.site.terrain.soil = soil;
+                scenario.ground.soil = soil;
             }
         }
         let numbers = [(SLOPE.name, fresh.slope_deg), ("start.yaw_deg", fresh.yaw_deg)];

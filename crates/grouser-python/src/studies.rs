@@ -80,7 +80,7 @@ pub(crate) fn trajectory_to_python<'py>(
     for one in &RECORD {
         rover.set_item(one.name, column(py, run.records.iter().map(|it| one.number(it))))?;
     }
-    if scenario.terrain.is_some() {
+    if !scenario.ground.is_plane() {
         for one in &STANDING {
             rover.set_item(one.name, column(py, run.records.iter().map(|it| one.number(it))))?;
         }

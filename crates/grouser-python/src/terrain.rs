@@ -4,12 +4,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use grouser::document::unit::DEG;
-use grouser::document::{
-    BEYOND, DEFAULT_SOIL, HeldMap, Kind, Overrides, Placement, ReadOptions, Source, fnv_1a,
-    read_map, read_soil,
-};
+use grouser::document::{BEYOND, HeldMap, Placement, ReadOptions, fnv_1a, read_map};
 use grouser::error::ParameterError;
-use grouser::soil::Soil;
 use grouser::terrain::elevation::{above, round_base};
 use grouser::terrain::lunar::{LunarGround, LunarModel, LunarSite};
 use grouser::terrain::{ElevationGrid, ElevationModel, Extent};
@@ -54,7 +50,6 @@ impl Terrain {
         let heights = heights.as_array();
         let (rows, columns) = heights.dim();
         let grid = grid(rows, columns, south_west_m, spacing_m);
-        let soil = any_soil()?;
         let model = py.detach(|| {
             let row = |from_south: usize| {
                 heights.row(if north_first { rows - 1 - from_south } else { from_south })
@@ -66,7 +61,7 @@ impl Terrain {
             let kept =
                 |height: &f64| if is_known(*height) { above(*height, base) } else { f32::NAN };
             let kept = (0..rows).flat_map(row).map(kept).collect();
-            ElevationModel::above_base(grid, base, kept, soil)
+            ElevationModel::above_base(grid, base, kept)
         });
         model.map(Self::of_model).map_err(|error| refused(&error.to_string()))
     }
@@ -75,8 +70,7 @@ impl Terrain {
     #[staticmethod]
     #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
     fn from_file(py: Python<'_>, path: PathBuf, reading: Reading) -> PyResult<Self> {
-        let soil = any_soil()?;
-        let map = py.detach(|| read_map(&path, options(reading), soil));
+        let map = py.detach(|| read_map(&path, options(reading)));
         map.map(|map| Self { map }).map_err(|error| errors::of_document(&error, &[]))
     }
 
@@ -111,7 +105,6 @@ impl Terrain {
             largest_crater: largest_crater_m,
             seed,
         };
-        let soil = any_soil()?;
         let made = py.detach(|| {
             let LunarModel { grid, heights, .. } = site.model()?;
             // As files have them, and with the base of those that are read: its northern row comes first.
@@ -119,7 +112,7 @@ impl Terrain {
             let base = round_base(f64::from(above(north_west, 0.0)));
             let kept = |height: &f64| above(f64::from(above(*height, 0.0)), base);
             let kept = heights.iter().map(kept).collect();
-            Ok(ElevationModel::above_base(grid, base, kept, soil))
+            Ok(ElevationModel::above_base(grid, base, kept))
         });
         let model = made.map_err(|error: ParameterError| errors::of_parameter(&error))?;
         model.map(Self::of_model).map_err(|error| refused(&error.to_string()))
@@ -140,7 +133,7 @@ impl Terrain {
         let (rows, columns) = heights.dim();
         let grid = grid(rows, columns, south_west_m, spacing_m);
         let heights = heights.iter().copied().collect();
-        let model = ElevationModel::above_base(grid, base, heights, any_soil()?)
+        let model = ElevationModel::above_base(grid, base, heights)
             .map_err(|error| refused(&error.to_string()))?;
         Ok(Self { map: HeldMap { name, model: Arc::new(model), options: reading.map(options) } })
     }
@@ -326,13 +319,6 @@ fn fingerprint(model: &ElevationModel) -> u64 {
     let place = numbers.into_iter().flat_map(f64::to_le_bytes);
     let heights = model.heights_above_base().flat_map(|height| height.to_bits().to_le_bytes());
     fnv_1a((columns as u64).to_le_bytes().into_iter().chain(place).chain(heights))
-}
-
-/// A soil for maps, which are not asked for theirs.
-fn any_soil() -> PyResult<Soil> {
-    let soil = Source::find(Kind::Soil, DEFAULT_SOIL)
-        .and_then(|source| read_soil(&source, &Overrides::none()));
-    soil.map(|soil| soil.value).map_err(|error| errors::of_document(&error, &[]))
 }
 
 fn refused(message: &str) -> PyErr {

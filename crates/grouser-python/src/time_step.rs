@@ -61,7 +61,7 @@ impl SteppingWheels {
         });
         Ok(Self {
             wheels: made.collect::<PyResult<_>>()?,
-            gravity: setting.scenario()?.value.site.gravity,
+            gravity: setting.scenario()?.value.gravity,
             damping: sinkage_damping_s_m,
             rest_speed: rest_speed_m_s,
         })

@@ -89,7 +89,7 @@ impl Stand {
             Ok((soil.soil()?.value, theory))
         });
         let soils = soils.collect::<PyResult<Vec<_>>>()?;
-        let gravity = setting.scenario()?.value.site.gravity;
+        let gravity = setting.scenario()?.value.gravity;
         Ok(Self { soils, wheel: loaded_wheel.value, gravity, of_soils, of_wheels, gravities })
     }
 
@@ -241,7 +241,7 @@ pub(crate) fn model_and_gravity(soil: &Document, setting: &Document) -> PyResult
         Some(theory) => theory,
         None => soil.soil()?.document.usual_theory(""),
     };
-    Ok((theory, setting.value.site.gravity))
+    Ok((theory, setting.value.gravity))
 }
 
 /// A column for each of [`WHEEL`], then what one of them adds, and its flags as bits.

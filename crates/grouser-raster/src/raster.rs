@@ -1,6 +1,5 @@
 //! A grid of heights as a file has it.
 
-use grouser_core::soil::Soil;
 use grouser_core::terrain::lunar::LunarModel;
 use grouser_core::terrain::{ElevationError, ElevationGrid, ElevationModel};
 use grouser_core::units::Vec2;
@@ -70,12 +69,12 @@ impl Raster {
         above.is_finite().then(|| f64::from(*above))
     }
 
-    /// The elevation model to drive on, with one soil.
+    /// The elevation model to drive on.
     ///
     /// # Errors
-    /// [`ElevationError`] if the grid is too small, no height is known, or there is no such soil.
-    pub fn model(self, soil: Soil) -> Result<ElevationModel, ElevationError> {
-        ElevationModel::above_base(self.grid, self.base, self.heights, soil)
+    /// [`ElevationError`] if the grid is too small, or no height is known.
+    pub fn model(self) -> Result<ElevationModel, ElevationError> {
+        ElevationModel::above_base(self.grid, self.base, self.heights)
     }
 }
 

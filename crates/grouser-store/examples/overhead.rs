@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let yaws: Vec<Option<f64>> = studies
             .par_iter()
             .map(|study| {
-                Some(study.on_slope(scenario.site.terrain.slope).ok()?.ok()?.yaw.to_degrees())
+                Some(study.on_slope(scenario.ground.plane_slope()?).ok()?.ok()?.yaw.to_degrees())
             })
             .collect();
         bare += start.elapsed();

@@ -55,8 +55,8 @@ pub(crate) fn rows(slopes_deg: &[f64]) -> Result<Vec<Row>, Box<dyn Error>> {
 
 /// Where a run ends, uphill [mm].
 fn end_mm(scenario: &Scenario, slope_deg: f64, yaw: f64) -> Result<f64, RunError> {
-    let site = scenario.site.with_slope(deg(slope_deg));
+    let ground = scenario.ground.with_slope(deg(slope_deg));
     let start = Start { yaw, ..scenario.start };
-    let run = Run::new(&Scenario { site, start, ..scenario.clone() })?.to_end()?;
+    let run = Run::new(&Scenario { ground, start, ..scenario.clone() })?.to_end()?;
     Ok(1e3 * run.last().state.position.y)
 }

@@ -11,8 +11,8 @@ use grouser::contact::Theory;
 use grouser::document::{Kind, Overrides, Source, read_soil};
 use grouser::error::ParameterError;
 use grouser::simulation::{Motion, Numerics, Run, Scatter, Scenario, Start, Trajectory};
-use grouser::site::Site;
 use grouser::soil::SlopeStability;
+use grouser::terrain::Ground;
 use grouser::units::{EARTH_GRAVITY, Vec3, deg};
 use grouser::vehicle::{
     Body, ByWheel, DriveLaw, Inertia, LoadSharing, Mount, OwnMoments, Rover, Ruts, WheelUnit,
@@ -69,7 +69,8 @@ pub(crate) fn drive(steering_deg: f64) -> Result<Trajectory, Box<dyn Error>> {
     let soil = read_soil(&Source::find(Kind::Soil, "toyoura-lab-2012")?, &Overrides::none())?.value;
     let scenario = Scenario {
         rover: six_wheels(deg(steering_deg))?,
-        site: Site::plane(soil, 0.0, EARTH_GRAVITY),
+        ground: Ground::plane(soil, 0.0),
+        gravity: EARTH_GRAVITY,
         theory: Theory::Ishigami,
         sharing: LoadSharing::QuasiStatic,
         own_moments: OwnMoments::Neglected,
@@ -77,7 +78,6 @@ pub(crate) fn drive(steering_deg: f64) -> Result<Trajectory, Box<dyn Error>> {
         yaw: None,
         by_wheel: ByWheel::ALIKE,
         scatter: Scatter::NONE,
-        terrain: None,
         ruts: Ruts::Fresh,
         stability: SlopeStability::USUAL,
         start: Start { yaw: 0.0, motion: Motion::Rolling },

@@ -38,7 +38,7 @@
 //! let drift = Run::new(&scenario)?.to_end()?.last().state.position.y;
 //! assert!(drift < -0.09); // 9 cm downhill in 20 s
 //!
-//! let attitude = HeadingStudy::of(&scenario).curve()?.at(scenario.site.terrain.slope)?;
+//! let attitude = HeadingStudy::of(&scenario).curve()?.at(deg(10.0))?;
 //! assert!((attitude.yaw - deg(5.03)).abs() < deg(0.01));
 //!
 //! let start = Start { yaw: attitude.yaw, ..scenario.start };
@@ -52,9 +52,7 @@
 //! The folder `examples` has programs to start from: a wheel on sand, a heading on a slope, a rover of your own, a
 //! controller that holds the contour, and the band of an uncertain soil.
 
-pub use grouser_core::{
-    contact, error, mission, simulation, site, soil, terrain, units, vehicle, wheel,
-};
+pub use grouser_core::{contact, error, mission, simulation, soil, terrain, units, vehicle, wheel};
 use grouser_core::{elementary, newton, root};
 
 pub mod document;

@@ -30,7 +30,7 @@ impl<'a> Destinations<'a> {
 
     /// That animations can show the ground.
     pub(super) fn check(&self, scenario: &Scenario) -> Result<(), Failure> {
-        if self.animation.is_none() || scenario.terrain.is_none() {
+        if self.animation.is_none() || scenario.ground.is_plane() {
             return Ok(());
         }
         let text = "--animate shows planes, not yet ground with heights\nhint: --out writes a page with the ground, --mcap a log with it";

@@ -21,12 +21,12 @@ pub(crate) fn run(args: &DrawArgs) -> Result<(), Failure> {
     let heading = HeadingStudy::of(value).curve()?.at(slope).map_err(|none| {
         Failure::Run(format!("--slope-deg {}: {none}; choose a gentler slope", args.slope_deg))
     })?;
-    let (rover, gravity) = (&value.rover, value.site.gravity);
+    let (rover, gravity) = (&value.rover, value.gravity);
     let share = rover.mass() * gravity / rover.mounts().len() as f64;
     let load = args.load_n.unwrap_or(share);
     let contact = Contact {
         wheel: rover.mounts()[0].unit.wheel,
-        soil: value.site.terrain.soil,
+        soil: value.ground.soil,
         slip: Slip::on_test_stand(args.slip_ratio, 0.0),
         gravity,
     };

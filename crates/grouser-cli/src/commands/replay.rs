@@ -72,7 +72,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
 
 fn replay(args: &ReplayArgs) -> Result<(LoadedScenario, Found), Failure> {
     let (scenario, samples) = inputs::replay(args)?;
-    let slope = args.slope_deg.is_some().then_some(scenario.value.site.terrain.slope);
+    let slope = scenario.value.ground.plane_slope().filter(|_| args.slope_deg.is_some());
     let mut replayer = Replayer::new(&scenario.value, slope);
     let (label, read) = read(args, &scenario, &mut replayer)?;
     let replay = sampling::with_bar(samples.len(), |go_on| replayer.finish(&samples, go_on));

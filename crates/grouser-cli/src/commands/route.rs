@@ -161,7 +161,7 @@ fn drive(
 ) -> Result<Option<DrivenRoute>, Failure> {
     let Some(route) = route.filter(|_| !args.no_drive) else { return Ok(None) };
     let scenario = &inputs.scenario.value;
-    let model = inputs.raster.clone().model(scenario.site.terrain.soil);
+    let model = inputs.raster.clone().model();
     let model = model.map_err(|error| Failure::Run(error.to_string()))?;
     let bar = output::progress_bar(0);
     bar.set_message("driving the way");

@@ -72,7 +72,8 @@ fn notes(inputs: &SlipInputs) -> Vec<String> {
         let slope = if some(|record| record.slope.is_some()) {
             "the log's slope".to_owned()
         } else {
-            let slope = SLOPE.unit.from_si(inputs.scenario.value.site.terrain.slope);
+            let slope = inputs.scenario.value.ground.plane_slope().unwrap_or(0.0);
+            let slope = SLOPE.unit.from_si(slope);
             format!("a slope of {}°", four_digits(slope))
         };
         let yaw = if some(|record| record.yaw.is_some()) { "its yaw" } else { "a yaw of 0°" };

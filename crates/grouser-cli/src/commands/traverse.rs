@@ -262,11 +262,10 @@ fn table(run: &Trajectory, scenario: &LoadedScenario) -> Text {
     let last = |quantity: Quantity| {
         samples.numbers(quantity.name).last().copied().flatten().unwrap_or(f64::NAN)
     };
-    let place = match scenario.value.terrain {
-        None => format!("x {} m, y {} m", metres(last(X)), metres(last(Y))),
-        Some(_) => {
-            format!("x {} m, y {} m, z {} m", metres(last(X)), metres(last(Y)), metres(last(Z)))
-        }
+    let place = if scenario.value.ground.is_plane() {
+        format!("x {} m, y {} m", metres(last(X)), metres(last(Y)))
+    } else {
+        format!("x {} m, y {} m, z {} m", metres(last(X)), metres(last(Y)), metres(last(Z)))
     };
     let yaw = four_digits(last(YAW));
     let battery = if scenario.value.rover.has_motors() {

@@ -57,7 +57,7 @@ pub(crate) fn soil(
     overrides.check_kinds(&[Kind::Soil])?;
     let soil = document::read_soil(&flag_source("--soil", Kind::Soil, name)?, &overrides)?;
     let run = default_run(setting)?;
-    Ok((soil, run.site.gravity))
+    Ok((soil, run.gravity))
 }
 
 /// The default scenario with the gravity and the model of a setting: they are keys of scenarios, and are checked as such.
@@ -92,5 +92,5 @@ pub(crate) fn stand(
     let chosen = setting.model.as_ref().map(|_| run.theory);
     let theory = chosen.unwrap_or_else(|| soil.document.usual_theory(""));
     let band = BandInputs::of_soil(&soil, chosen);
-    Ok(StandInputs { soil, wheel, gravity: run.site.gravity, theory, band })
+    Ok(StandInputs { soil, wheel, gravity: run.gravity, theory, band })
 }

@@ -103,7 +103,7 @@ pub(crate) fn run_meanings(scenario: &Scenario) -> Vec<Meaning> {
     let electrical = |columns: Vec<Meaning>| if has_motors { columns } else { Vec::new() };
     [
         meanings(&RECORD),
-        if scenario.terrain.is_some() { meanings(&STANDING) } else { Vec::new() },
+        if !scenario.ground.is_plane() { meanings(&STANDING) } else { Vec::new() },
         electrical(meanings(&ELECTRICAL_RECORD)),
         meanings(&WHEEL_RECORD),
         meanings(&WHEEL),
@@ -119,9 +119,8 @@ pub(crate) fn run_meanings(scenario: &Scenario) -> Vec<Meaning> {
 ///
 /// * `document`: of the run
 pub(crate) fn ground(document: &Document, scenario: &Scenario) -> String {
-    if scenario.terrain.is_none() {
-        let slope = SLOPE.unit.from_si(scenario.site.terrain.slope);
-        return format!("slope: {}°", four_digits(slope));
+    if let Some(slope) = scenario.ground.plane_slope() {
+        return format!("slope: {}°", four_digits(SLOPE.unit.from_si(slope)));
     }
     let shape = document.text("terrain.file").or_else(|| document.text("terrain.surface"));
     let zones = document.text("terrain.soil_file");
@@ -148,7 +147,7 @@ pub(crate) fn over_ground(page: &mut Page, scenario: &Scenario, records: &[Recor
 /// * `table`: a row for each record
 pub(crate) fn over_time(page: &mut Page, table: &Table, scenario: &Scenario) {
     page.heading("The rover over time");
-    if scenario.terrain.is_some() {
+    if !scenario.ground.is_plane() {
         // Coordinates on a map are too far apart for one axis.
         for place in [X.name, Y.name] {
             let column: Vec<_> = RECORD.into_iter().filter(|it| it.name == place).collect();

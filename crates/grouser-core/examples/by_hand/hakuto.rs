@@ -4,11 +4,11 @@
 use grouser_core::contact::Theory;
 use grouser_core::error::ParameterError;
 use grouser_core::simulation::{Motion, Numerics, Scatter, Scenario, Start};
-use grouser_core::site::Site;
 use grouser_core::soil::{
     Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
     SinkageExponent, SlopeStability, SmallWheel, Soil, StressPeak,
 };
+use grouser_core::terrain::Ground;
 use grouser_core::units::{EARTH_GRAVITY, Vec3, deg};
 use grouser_core::vehicle::{
     Body, ByWheel, DriveLaw, Inertia, LoadSharing, Mount, OwnMoments, Rover, Ruts, WheelUnit,
@@ -73,7 +73,8 @@ pub(crate) fn rover() -> Result<Rover, ParameterError> {
 pub(crate) fn traverse() -> Result<Scenario, ParameterError> {
     Ok(Scenario {
         rover: rover()?,
-        site: Site::plane(sand(), deg(10.0), EARTH_GRAVITY),
+        ground: Ground::plane(sand(), deg(10.0)),
+        gravity: EARTH_GRAVITY,
         theory: Theory::Ishigami,
         sharing: LoadSharing::QuasiStatic,
         own_moments: OwnMoments::Neglected,
@@ -81,7 +82,6 @@ pub(crate) fn traverse() -> Result<Scenario, ParameterError> {
         yaw: None,
         by_wheel: ByWheel::ALIKE,
         scatter: Scatter::NONE,
-        terrain: None,
         ruts: Ruts::Fresh,
         stability: SlopeStability::USUAL,
         start: Start { yaw: 0.0, motion: Motion::Rolling },

@@ -164,9 +164,9 @@ impl Limits {
 
 /// How the rover leans [rad]: as it stands on ground with heights, or on the plane by the yaw that it knows.
 fn roll_and_pitch_of(run: &Run, yaw: f64) -> [f64; 2] {
-    let standing = run.scenario().terrain.as_ref().and_then(|_| run.now().standing());
+    let standing = (!run.scenario().ground.is_plane()).then(|| run.now().standing()).flatten();
     match standing {
         Some(standing) => [standing.roll, standing.pitch],
-        None => roll_and_pitch(run.scenario().site.terrain.slope, yaw),
+        None => roll_and_pitch(run.scenario().ground.plane_slope().unwrap_or(0.0), yaw),
     }
 }

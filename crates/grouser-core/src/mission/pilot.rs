@@ -288,7 +288,7 @@ impl Controller for Pilot {
     fn command(&mut self, seen: &Observation<'_>, rim_speeds: &mut [f64]) {
         let rover = &seen.scenario().rover;
         let (mounts, state) = (rover.mounts(), self.seen);
-        let slope = seen.scenario().site.terrain.slope;
+        let slope = seen.scenario().ground.plane_slope().unwrap_or(0.0);
         let (rate, forward) = self.rate_and_speed(&state, slope, reach(mounts));
         self.asked = (rate, forward);
         let turned_by = |mount: &Mount| {

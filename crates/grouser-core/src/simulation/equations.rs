@@ -8,11 +8,9 @@ use super::scenario::Scenario;
 use super::turning::Turning;
 use super::work::Work;
 use crate::contact::Slip;
-use crate::site::Site;
-use crate::terrain::Terrain;
 use crate::units::Vec2;
-use crate::vehicle::ground::forces_of;
 use crate::vehicle::kinematics::{wheel_slips, wheel_velocity};
+use crate::vehicle::on_ground::forces_of;
 use crate::vehicle::posture::{Attitude, StandingMotion};
 use crate::vehicle::stability::stability_margin;
 use crate::vehicle::standing::NearbyStanding;
@@ -20,12 +18,12 @@ use crate::vehicle::statics::centre_of_mass;
 use crate::vehicle::{
     Acceleration, BellyPoint, Drive, Driven, Electrical, MotorLimits, OwnMoments, Posture,
     ReactionError, Rover, RoverState, Stance, Standing, Underside, WheelReaction, dynamics,
-    ground::Ground, settling::Known, settling::Nearby,
+    on_ground::OnGround, settling::Known, settling::Nearby,
 };
 
 /// The equations of motion of a rover whose motors are set to given speeds.
 pub struct Equations<'a> {
-    ground: Ground<'a>,
+    on_ground: OnGround<'a>,
     rim_speeds: &'a [f64],
     wheel_speeds: Vec<f64>,
     /// Whether the speed of some wheel depends on its load.
@@ -114,26 +112,17 @@ impl<'a> Equations<'a> {
     /// The equations of a scenario, for wheels that turn at these rim speeds, ω r_s [m/s].
     #[must_use]
     pub fn of(scenario: &'a Scenario, rim_speeds: &'a [f64]) -> Self {
-        let ground = Ground {
-            rover: &scenario.rover,
-            site: &scenario.site,
-            model: scenario.theory.model(),
-            sharing: scenario.sharing,
-            own_moments: scenario.own_moments,
-            differences: scenario.differences(),
-            relief: scenario.relief(),
-        };
-        Self::new(ground, rim_speeds)
+        Self::new(scenario.on_ground(), rim_speeds)
     }
 
     /// The equations for wheels that turn at these rim speeds, ω r_s [m/s].
     #[must_use]
-    pub fn new(ground: Ground<'a>, rim_speeds: &'a [f64]) -> Self {
-        let wheel_speeds = ground.rover.wheel_speeds(rim_speeds).collect();
+    pub fn new(on_ground: OnGround<'a>, rim_speeds: &'a [f64]) -> Self {
+        let wheel_speeds = on_ground.rover.wheel_speeds(rim_speeds).collect();
         Self {
-            droops: ground.rover.has_droop(),
+            droops: on_ground.rover.has_droop(),
             limits: &[],
-            ground,
+            on_ground,
             rim_speeds,
             wheel_speeds,
             held_yaw_rate: None,
@@ -182,10 +171,10 @@ impl<'a> Equations<'a> {
         state: &RoverState,
         rim_speeds: &[f64],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
-        if self.ground.is_uneven() {
+        if self.on_ground.is_uneven() {
             return Ok(self.acting_on_uneven_ground(state, rim_speeds, Search::Anew)?.wheels);
         }
-        self.reactions_at(state, &self.ground.stance(state), rim_speeds, Search::Anew)
+        self.reactions_at(state, &self.on_ground.stance(state), rim_speeds, Search::Anew)
     }
 
     /// The same at a point of a run, whose wheels may turn at other speeds than they are set to.
@@ -205,12 +194,12 @@ impl<'a> Equations<'a> {
         rim_speeds: &[f64],
         search: Search,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
-        let slips: Vec<Slip> = wheel_slips(self.ground.rover, state, rim_speeds).collect();
+        let slips: Vec<Slip> = wheel_slips(self.on_ground.rover, state, rim_speeds).collect();
         self.count(|work| work.settled_wheels += slips.len() as u64);
         match search {
-            Search::Anew => self.ground.reactions(stance, &slips),
+            Search::Anew => self.on_ground.reactions(stance, &slips),
             Search::Nearby => {
-                self.ground.reactions_after(stance, &slips, &mut self.nearby.borrow_mut())
+                self.on_ground.reactions_after(stance, &slips, &mut self.nearby.borrow_mut())
             }
         }
     }
@@ -218,12 +207,12 @@ impl<'a> Equations<'a> {
     /// The slip of every wheel at a point of a run, from the motion alone.
     pub(super) fn slips(&self, point: &Point) -> Vec<Slip> {
         let rim_speeds = self.turning(point);
-        if self.ground.is_uneven()
+        if self.on_ground.is_uneven()
             && let Ok(standing) = self.standing(&point.state)
         {
-            return slips_of(self.ground.rover, &standing, rim_speeds);
+            return slips_of(self.on_ground.rover, &standing, rim_speeds);
         }
-        wheel_slips(self.ground.rover, &point.state, rim_speeds).collect()
+        wheel_slips(self.on_ground.rover, &point.state, rim_speeds).collect()
     }
 
     /// The rates at a state.
@@ -252,9 +241,9 @@ impl<'a> Equations<'a> {
         wheel_speeds: &[f64],
         search: Search,
     ) -> Result<Evaluation, ReactionError> {
-        let Ground { rover, own_moments, .. } = self.ground;
+        let OnGround { rover, own_moments, .. } = self.on_ground;
         let Acting { wheels, pull, soil, hubs, turns, velocity, yaw_rate } =
-            if self.ground.is_uneven() {
+            if self.on_ground.is_uneven() {
                 self.acting_on_uneven_ground(state, rim_speeds, search)?
             } else {
                 self.acting_on_a_plane(state, rim_speeds, search)?
@@ -290,8 +279,8 @@ impl<'a> Equations<'a> {
         rim_speeds: &[f64],
         search: Search,
     ) -> Result<Acting, ReactionError> {
-        let Ground { rover, own_moments, .. } = self.ground;
-        let stance = self.ground.stance(state);
+        let OnGround { rover, own_moments, .. } = self.on_ground;
+        let stance = self.on_ground.stance(state);
         let wheels = self.reactions_at(state, &stance, rim_speeds, search)?;
         let soil = dynamics::soil_resultant(rover, forces_of(&wheels), own_moments);
         let hubs = rover.mounts().iter().map(|mount| wheel_velocity(state, mount)).collect();
@@ -306,20 +295,20 @@ impl<'a> Equations<'a> {
         rim_speeds: &[f64],
         search: Search,
     ) -> Result<Acting, ReactionError> {
-        let Ground { rover, site, .. } = self.ground;
+        let OnGround { rover, gravity, .. } = self.on_ground;
         let standing = self.standing(state)?;
         let slips = slips_of(rover, &standing, rim_speeds);
         self.count(|work| work.settled_wheels += slips.len() as u64);
         let (posture, up) = (&standing.posture, standing.up);
         let wheels = match search {
-            Search::Anew => self.ground.reactions_standing(posture, up, &slips, &[])?,
+            Search::Anew => self.on_ground.reactions_standing(posture, up, &slips, &[])?,
             Search::Nearby => {
                 let mut near = self.nearby_standing.borrow_mut();
-                self.ground.reactions_standing_after(posture, up, &slips, &mut near)?
+                self.on_ground.reactions_standing_after(posture, up, &slips, &mut near)?
             }
         };
-        let resultant = self.ground.resultant(&standing, &wheels);
-        let pull = standing.pull(rover.mass() * site.gravity);
+        let resultant = self.on_ground.resultant(&standing, &wheels);
+        let pull = standing.pull(rover.mass() * gravity);
         let motion = standing.motion;
         Ok(Acting {
             wheels,
@@ -340,12 +329,12 @@ impl<'a> Equations<'a> {
             Some((place, yaw, posture)) if *place == state.position && *yaw == state.yaw => posture,
             _ => {
                 let near = last.as_ref().map(|(.., posture)| posture);
-                let firm = vec![0.0; self.ground.rover.wheel_count()];
-                let posture = self.ground.posture_near(state, &firm, near)?;
+                let firm = vec![0.0; self.on_ground.rover.wheel_count()];
+                let posture = self.on_ground.posture_near(state, &firm, near)?;
                 &last.insert((state.position, state.yaw, posture)).2
             }
         };
-        self.ground.moving(posture.clone(), state)
+        self.on_ground.moving(posture.clone(), state)
     }
 
     /// How a rover on uneven ground stands with its wheels sunk; none where it does not come to stand, and on a plane where
@@ -354,14 +343,18 @@ impl<'a> Equations<'a> {
         let posture = self.sunk_posture(state, wheels)?;
         Some(Sunk {
             attitude: posture.attitude(),
-            stability_margin: stability_margin(self.ground.rover, &posture, self.ground.up(state)),
+            stability_margin: stability_margin(
+                self.on_ground.rover,
+                &posture,
+                self.on_ground.up(state),
+            ),
             belly_clearance: self.belly_over(&posture).map(|belly| belly.clearance),
         })
     }
 
     /// Whether the ground may touch the rover's underside.
     pub(super) fn has_belly(&self) -> bool {
-        self.ground.rover.parts().belly_clearance.is_some() && self.has_relief()
+        self.on_ground.rover.parts().belly_clearance.is_some() && self.has_relief()
     }
 
     /// The point of the rover's underside that is nearest to the ground, its wheels sunk; none where its belly clearance is not
@@ -374,57 +367,59 @@ impl<'a> Equations<'a> {
     }
 
     fn belly_over(&self, posture: &Posture) -> Option<BellyPoint> {
-        let relief = self.ground.relief?;
-        Some(Underside::of(self.ground.rover)?.nearest(posture, relief))
+        if !self.has_relief() {
+            return None;
+        }
+        Some(Underside::of(self.on_ground.rover)?.nearest(posture, self.on_ground.ground))
     }
 
     fn sunk_posture(&self, state: &RoverState, wheels: &[WheelReaction]) -> Option<Posture> {
-        if !self.ground.is_uneven() || wheels.is_empty() {
+        if !self.on_ground.is_uneven() || wheels.is_empty() {
             return None;
         }
         let sinkages: Vec<f64> = wheels.iter().map(|wheel| wheel.settled.sinkage).collect();
         let last = self.last_posture.borrow();
         let near = last.as_ref().map(|(.., posture)| posture);
-        self.ground.posture_near(state, &sinkages, near).ok()
+        self.on_ground.posture_near(state, &sinkages, near).ok()
     }
 
     /// Potential energy [J]; what the rover sinks does not count.
     pub(super) fn potential_energy(&self, state: &RoverState) -> f64 {
-        let Ground { rover, site, .. } = self.ground;
-        if self.ground.is_uneven()
+        let OnGround { rover, ground, gravity, .. } = self.on_ground;
+        if self.on_ground.is_uneven()
             && let Ok(standing) = self.standing(state)
         {
             let Standing { posture, up, .. } = standing;
             let centre = posture.place + centre_of_mass(rover, &posture);
-            return rover.mass() * site.gravity * centre.dot(&up);
+            return rover.mass() * gravity * centre.dot(&up);
         }
-        power::potential_energy(rover, site, state)
+        power::potential_energy(rover, ground, gravity, state)
     }
 
     /// The rover that moves.
     #[must_use]
     pub fn rover(&self) -> &Rover {
-        self.ground.rover
+        self.on_ground.rover
     }
 
     /// Whether the soil differs from place to place.
     pub(super) fn has_uneven_soil(&self) -> bool {
-        self.ground.differences.by_place.is_some()
+        self.on_ground.differences.by_place.is_some()
     }
 
     /// Whether the ground has heights of its own.
     pub(super) fn has_relief(&self) -> bool {
-        self.ground.relief.is_some()
+        !self.on_ground.ground.is_plane()
     }
 
     /// Whether the soil differs by zone.
     pub(super) fn has_zones(&self) -> bool {
-        self.ground.relief.is_some_and(|relief| relief.soils.is_some())
+        self.on_ground.ground.zones.is_some()
     }
 
     /// Where the run started, in the coordinates of ground with heights [m].
     pub(super) fn origin(&self) -> Option<Vec2> {
-        self.ground.relief.map(|relief| relief.origin)
+        self.has_relief().then_some(self.on_ground.ground.start)
     }
 
     /// Rates of place and yaw in a state [m/s, rad/s]; none where the rover does not come to stand.
@@ -433,10 +428,10 @@ impl<'a> Equations<'a> {
         Some((motion.velocity.xy(), motion.yaw_rate))
     }
 
-    /// Where it moves.
+    /// The rover on its ground.
     #[must_use]
-    pub fn site(&self) -> &Site<dyn Terrain> {
-        self.ground.site
+    pub fn on_ground(&self) -> &OnGround<'a> {
+        &self.on_ground
     }
 
     /// The rim speeds that the wheels are set to, *ω_0 r_s* [m/s].
@@ -466,7 +461,7 @@ impl<'a> Equations<'a> {
         state: &RoverState,
         turning: &Turning,
     ) -> Option<(Rates, Turning)> {
-        let rover = self.ground.rover;
+        let rover = self.on_ground.rover;
         let rim_speeds = turning.rim_speeds();
         let Evaluation { mut rates, wheels } = self.attempt_at(state, rim_speeds)?;
         let mut changes = Turning::at(&vec![0.0; rim_speeds.len()]);
@@ -492,7 +487,7 @@ impl<'a> Equations<'a> {
             return Some(evaluation.clone());
         }
         self.count(|work| work.evaluations += 1);
-        let wheel_speeds: Vec<f64> = self.ground.rover.wheel_speeds(rim_speeds).collect();
+        let wheel_speeds: Vec<f64> = self.on_ground.rover.wheel_speeds(rim_speeds).collect();
         let evaluated = self.evaluate_with(state, rim_speeds, &wheel_speeds, Search::Nearby);
         let evaluated = evaluated.map_err(|failure| *self.failure.borrow_mut() = Some(failure));
         let evaluation = evaluated.ok()?;
@@ -502,7 +497,7 @@ impl<'a> Equations<'a> {
 
     /// The rim speed at which a wheel's motor turns it in the end under the soil's torque [m/s].
     pub(super) fn rim_speed_under(&self, wheel: usize, reaction: &WheelReaction) -> f64 {
-        let mount = &self.ground.rover.mounts()[wheel];
+        let mount = &self.on_ground.rover.mounts()[wheel];
         let Some(motor) = mount.unit.motor else { return self.rim_speeds[wheel] };
         let (set, torque) = (self.wheel_speeds[wheel], reaction.settled.forces.torque);
         mount.shearing_radius() * motor.speed_under(torque, set, self.limits_of(wheel))
@@ -517,7 +512,7 @@ impl<'a> Equations<'a> {
         rim_speed: f64,
         reaction: &WheelReaction,
     ) -> f64 {
-        let mount = &self.ground.rover.mounts()[wheel];
+        let mount = &self.on_ground.rover.mounts()[wheel];
         let (motor, torque) = (mount.unit.motor, reaction.settled.forces.torque);
         let (set, speed) = (self.wheel_speeds[wheel], rim_speed / mount.shearing_radius());
         motor.map_or(0.0, |motor| motor.settled_integral(torque, set, speed))
@@ -527,7 +522,7 @@ impl<'a> Equations<'a> {
     ///
     /// * `wheel`: its place among the mounts
     pub(super) fn driven(&self, wheel: usize, turning: &Turning) -> Option<Driven> {
-        let mount = &self.ground.rover.mounts()[wheel];
+        let mount = &self.on_ground.rover.mounts()[wheel];
         let motor = mount.unit.motor.filter(|motor| motor.control.is_some())?;
         let speed = turning.rim_speeds()[wheel] / mount.shearing_radius();
         let (set, integral) = (self.wheel_speeds[wheel], turning.integral(wheel));
@@ -538,7 +533,7 @@ impl<'a> Equations<'a> {
     ///
     /// * `wheels`: of the rover at the point, or none
     pub(super) fn taken(&self, point: &Point, wheels: &[WheelReaction]) -> Vec<Option<Electrical>> {
-        let rover = self.ground.rover;
+        let rover = self.on_ground.rover;
         let speeds = rover.wheel_speeds(self.turning(point));
         let each = wheels.iter().zip(speeds).zip(rover.mounts()).enumerate();
         each.map(|(wheel, ((reaction, speed), mount))| {
@@ -561,7 +556,7 @@ impl<'a> Equations<'a> {
 
     /// How many numbers of motors move.
     pub(super) fn moving_motors(&self) -> usize {
-        if self.droops { 2 * self.ground.rover.wheel_count() } else { 0 }
+        if self.droops { 2 * self.on_ground.rover.wheel_count() } else { 0 }
     }
 
     /// Why the last failed attempt failed.

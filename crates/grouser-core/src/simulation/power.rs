@@ -1,7 +1,6 @@
 //! The energy balance of a run: what the motors put in, and where it went.
 
-use crate::site::Site;
-use crate::terrain::Terrain;
+use crate::terrain::Ground;
 use crate::units::Vec2;
 use crate::vehicle::load;
 use crate::vehicle::{Electrical, Mount, Rover, RoverState, WheelReaction};
@@ -83,10 +82,12 @@ pub fn spin_energy(rover: &Rover, wheel_speeds: &[f64]) -> f64 {
     each.map(|(inertia, speed)| 0.5 * inertia * speed * speed).sum()
 }
 
-/// Potential energy on the slope [J]; what the rover sinks does not count.
+/// Potential energy on a plane [J]; what the rover sinks does not count.
+///
+/// * `gravity`: *g* [m/s²]
 #[must_use]
-pub fn potential_energy(rover: &Rover, site: &Site<dyn Terrain>, state: &RoverState) -> f64 {
+pub fn potential_energy(rover: &Rover, ground: &Ground, gravity: f64, state: &RoverState) -> f64 {
     let slope_from_body = state.slope_from_body();
     let centre = state.position + slope_from_body * rover.centre_of_mass();
-    load::weight(rover, site, state, &slope_from_body).uphill.dot(&centre)
+    load::weight(rover, ground, gravity, state, &slope_from_body).uphill.dot(&centre)
 }

@@ -1,22 +1,18 @@
 //! Everything that determines a run.
 
-use std::sync::Arc;
-
 use super::scatter::Scatter;
 pub use super::times::LONGEST_DURATION;
 use super::yaw::PrescribedYaw;
 use crate::contact::Theory;
 use crate::error::{ParameterError, finite, positive};
-use crate::site::Site;
 use crate::soil::SlopeStability;
-use crate::terrain::{AnalyticTerrain, ElevationModel, SoilZones, Terrain};
-use crate::units::Vec2;
+use crate::terrain::Ground;
 use crate::vehicle::kinematics::rolling_velocity;
 use crate::vehicle::{
-    ByWheel, Differences, DriveLaw, LoadSharing, OwnMoments, Relief, Rover, RoverState, Ruts,
+    ByWheel, Differences, DriveLaw, LoadSharing, OnGround, OwnMoments, Rover, RoverState, Ruts,
 };
 
-/// One run of one rover on one plane, or over ground with heights. It determines its trajectory bit for bit.
+/// One run of one rover over some ground. It determines its trajectory bit for bit.
 ///
 /// How much farther does the rover drift on a slope of 15° than on one of 10°, in the same 20 s?
 ///
@@ -26,7 +22,7 @@ use crate::vehicle::{
 /// use grouser_core::units::deg;
 ///
 /// let on_10 = hakuto::traverse()?;
-/// let on_15 = Scenario { site: on_10.site.with_slope(deg(15.0)), ..on_10.clone() };
+/// let on_15 = Scenario { ground: on_10.ground.with_slope(deg(15.0)), ..on_10.clone() };
 /// let drift_mm = |scenario: &Scenario| -> Result<String, RunError> {
 ///     let end = Run::new(scenario)?.to_end()?.last().state.position;
 ///     Ok(format!("{:.0} mm downhill", -1e3 * end.y))
@@ -39,11 +35,10 @@ use crate::vehicle::{
 pub struct Scenario {
     /// The rover.
     pub rover: Rover,
-    /// Where it drives.
-    pub site: Site,
-    /// Heights of the ground in place of the site's plane, which then is level; the soil is the site's
-    /// where there are no zones of others.
-    pub terrain: Option<PlacedTerrain>,
+    /// What it drives on.
+    pub ground: Ground,
+    /// Gravity, *g* [m/s²].
+    pub gravity: f64,
     /// The wheel–soil model.
     pub theory: Theory,
     /// How the weight is shared.
@@ -68,26 +63,6 @@ pub struct Scenario {
     pub duration: f64,
     /// How it is computed.
     pub numerics: Numerics,
-}
-
-/// Ground with heights, and where on it a run starts.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlacedTerrain {
-    /// The ground.
-    pub ground: Landscape,
-    /// The start of the rover, of its body's centre of mass seen from above, in the ground's coordinates [m].
-    pub start: Vec2,
-    /// Zones of other soils than the site's, in the ground's coordinates, if there are any.
-    pub soils: Option<Arc<SoilZones>>,
-}
-
-/// Ground with heights.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Landscape {
-    /// A map of heights.
-    Elevation(Arc<ElevationModel>),
-    /// Heights by formula.
-    Analytic(Arc<AnalyticTerrain>),
 }
 
 /// How a run is computed and recorded.
@@ -180,20 +155,15 @@ impl Scenario {
     /// # Errors
     /// [`ParameterError`] for the first value that is wrong.
     pub fn check(&self) -> Result<(), ParameterError> {
-        self.site.check()?;
-        let zones = self.terrain.as_ref().and_then(|placed| placed.soils.as_ref());
-        zones.map_or(Ok(()), |zones| zones.check())?;
-        if self.terrain.is_some() && self.site.terrain.slope != 0.0 {
-            let expected = "0: the terrain has the heights";
-            return Err(ParameterError::new("slope [rad]", self.site.terrain.slope, expected));
-        }
+        self.ground.check()?;
+        positive("gravity [m/s²]", self.gravity)?;
         self.drive.check(&self.rover)?;
         self.by_wheel.check(self.rover.wheel_count())?;
         self.scatter.check()?;
         self.stability.check()?;
         finite("start yaw [rad]", self.start.yaw)?;
         if let Some(yaw) = &self.yaw {
-            if self.terrain.is_some() {
+            if !self.ground.is_plane() {
                 let expected = "none: a yaw is held on planes alone";
                 return Err(ParameterError::new("yaw over time [rad]", yaw.at(0.0), expected));
             }
@@ -218,18 +188,21 @@ impl Scenario {
         }
     }
 
-    /// The heights of the ground, seen from the start.
+    /// The rover on its ground.
     #[must_use]
-    pub fn relief(&self) -> Option<Relief<'_>> {
-        let placed = self.terrain.as_ref()?;
-        let terrain: &dyn Terrain = match &placed.ground {
-            Landscape::Elevation(model) => &**model,
-            Landscape::Analytic(surface) => &**surface,
-        };
-        Some(Relief { terrain, origin: placed.start, soils: placed.soils.as_deref() })
+    pub fn on_ground(&self) -> OnGround<'_> {
+        OnGround {
+            rover: &self.rover,
+            ground: &self.ground,
+            gravity: self.gravity,
+            model: self.theory.model(),
+            sharing: self.sharing,
+            own_moments: self.own_moments,
+            differences: self.differences(),
+        }
     }
 
-    /// How the soil below each wheel differs from that of the site.
+    /// How the soil below each wheel differs from that of the ground.
     #[must_use]
     pub fn differences(&self) -> Differences<'_> {
         let by_wheel = (self.by_wheel != ByWheel::ALIKE).then_some(&self.by_wheel);

@@ -225,7 +225,8 @@ impl State {
     pub(super) fn steer(&mut self, scenario: &mut Scenario, rover: Rover) {
         let state = &self.point.state;
         let energy = |rover: &Rover| {
-            let potential = power::potential_energy(rover, &scenario.site, state);
+            let potential =
+                power::potential_energy(rover, &scenario.ground, scenario.gravity, state);
             power::kinetic_energy(rover, state) + potential
         };
         self.point.motors += energy(&rover) - energy(&scenario.rover);

@@ -10,7 +10,7 @@ use super::steady_state::{Memory, NotSteady, SteadySolver};
 use crate::elementary::wide;
 use crate::units::Vec2;
 use crate::vehicle::WheelReaction;
-use crate::vehicle::ground::Ground;
+use crate::vehicle::on_ground::OnGround;
 
 /// A steady motion at a yaw: forces and yaw moment are balanced, so that the rover goes straight on or turns at a
 /// steady rate.
@@ -35,7 +35,7 @@ impl SteadyMotion {
     ///
     /// # Errors
     /// [`NotSteady`] where no velocities are found at which nothing accelerates.
-    pub fn of(ground: Ground<'_>, rim_speeds: &[f64], yaw: f64) -> Result<Self, NotSteady> {
+    pub fn of(ground: OnGround<'_>, rim_speeds: &[f64], yaw: f64) -> Result<Self, NotSteady> {
         let equations = Equations::new(ground, rim_speeds);
         let light = rolling(&equations);
         let first = Self::near(&equations, yaw, &light, Memory::default());
@@ -52,7 +52,7 @@ impl SteadyMotion {
     /// As for [`of`](Self::of).
     pub fn at_yaw(
         &self,
-        ground: Ground<'_>,
+        ground: OnGround<'_>,
         rim_speeds: &[f64],
         yaw: f64,
     ) -> Result<Self, NotSteady> {

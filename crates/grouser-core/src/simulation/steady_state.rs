@@ -18,7 +18,7 @@ use super::turning::Turning;
 use crate::newton;
 use crate::units::Vec2;
 use crate::vehicle::load;
-use crate::vehicle::{RoverState, WheelReaction};
+use crate::vehicle::{OnGround, RoverState, WheelReaction};
 
 /// Why a rover's velocities are not those of a steady state, or not known to be.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -153,8 +153,8 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
 
     /// Whether the ground is level.
     pub(super) fn is_level(&self) -> bool {
-        load::slope_pull(self.equations.rover(), self.equations.site(), &RoverState::default())
-            == Vec2::zeros()
+        let OnGround { rover, ground, gravity, .. } = *self.equations.on_ground();
+        load::slope_pull(rover, ground, gravity, &RoverState::default()) == Vec2::zeros()
     }
 
     /// Size of velocities over the fastest rim's [-].

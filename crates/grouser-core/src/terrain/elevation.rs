@@ -8,10 +8,7 @@ mod grid;
 pub use error::ElevationError;
 pub use grid::{ElevationGrid, Extent};
 
-use std::borrow::Cow;
-
 use super::{Footprint, Patch, Terrain};
-use crate::soil::Soil;
 use crate::units::Vec2;
 use convolution::{POINTS, Stencil};
 use gaps::Known;
@@ -42,7 +39,6 @@ use gaps::Known;
 /// How steep is the ground at a place of a map, 2 m between its points, on the rim of a shallow bowl?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
 /// use grouser_core::terrain::{ElevationGrid, ElevationModel, Footprint, Terrain};
 /// use grouser_core::units::Vec2;
 ///
@@ -51,7 +47,7 @@ use gaps::Known;
 /// let middle = south_west + Vec2::new(10.0, 10.0);
 /// let bowl = |place: Vec2| -1250.0 + 0.02 * (place - middle).norm_squared();
 /// let heights: Vec<f64> = grid.points().map(bowl).collect();
-/// let model = ElevationModel::new(grid, heights, hakuto::sand())?;
+/// let model = ElevationModel::new(grid, heights)?;
 ///
 /// let east = middle + Vec2::new(5.0, 0.0);
 /// assert_eq!(format!("{:.3} m", model.height(east)), "-1249.500 m");
@@ -69,11 +65,10 @@ pub struct ElevationModel {
     heights: Vec<f32>,
     /// At which points the height was given.
     known: Known,
-    soil: Soil,
 }
 
 impl ElevationModel {
-    /// The model of these heights, with one soil.
+    /// The model of these heights.
     ///
     /// * `heights`: at the grid's points [m], in rows from south to north, each from west to east; those
     ///   that are not finite are missing
@@ -84,7 +79,6 @@ impl ElevationModel {
     pub fn new(
         grid: ElevationGrid,
         heights: impl IntoIterator<Item = f64>,
-        soil: Soil,
     ) -> Result<Self, ElevationError> {
         let points = grid.checked_points()?;
         let mut base = None;
@@ -97,7 +91,7 @@ impl ElevationModel {
         });
         // One more than needed is enough to see that there are too many.
         let above: Vec<f32> = above.take(points.saturating_add(1)).collect();
-        Self::above_base(grid, base.unwrap_or(0.0), above, soil)
+        Self::above_base(grid, base.unwrap_or(0.0), above)
     }
 
     /// The model of heights above a base, which are kept as they are.
@@ -111,10 +105,8 @@ impl ElevationModel {
         grid: ElevationGrid,
         base: f64,
         mut heights: Vec<f32>,
-        soil: Soil,
     ) -> Result<Self, ElevationError> {
         let points = grid.checked_points()?;
-        soil.check()?;
         if heights.len() != points {
             let given = heights.len();
             return Err(ElevationError::Count { columns: grid.columns, rows: grid.rows, given });
@@ -127,7 +119,7 @@ impl ElevationModel {
             return Err(ElevationError::NothingKnown { points });
         }
         gaps::close(&mut heights, &grid, &known);
-        Ok(Self { grid, base, heights, known, soil })
+        Ok(Self { grid, base, heights, known })
     }
 
     /// The points at which heights were given.
@@ -230,26 +222,21 @@ impl ElevationModel {
 }
 
 impl Terrain for ElevationModel {
-    fn patch(&self, at: Vec2, footprint: Footprint) -> Patch<'_> {
+    fn patch(&self, at: Vec2, footprint: Footprint) -> Patch {
         self.patch_from(Vec2::zeros(), at, footprint)
     }
 
-    fn patch_from(&self, origin: Vec2, at: Vec2, footprint: Footprint) -> Patch<'_> {
+    fn patch_from(&self, origin: Vec2, at: Vec2, footprint: Footprint) -> Patch {
         // Neither the map's place nor its height is added before differences are taken.
         let from = origin - self.grid.south_west;
         let above = |place: Vec2| self.above_base_at(self.grid.cells(from + place));
         let fit = footprint.fit(&footprint.points(at).map(above));
-        let soil = Cow::Borrowed(&self.soil);
-        Patch { height: self.base + fit.height, normal: fit.normal, soil }
+        Patch { height: self.base + fit.height, ..fit }
     }
 
     fn height_from(&self, origin: Vec2, at: Vec2) -> f64 {
         let from = origin - self.grid.south_west;
         self.base + self.above_base_at(self.grid.cells(from + at))
-    }
-
-    fn soil(&self, _: Vec2, _: Footprint) -> Cow<'_, Soil> {
-        Cow::Borrowed(&self.soil)
     }
 
     fn covers(&self, at: Vec2, footprint: Footprint) -> bool {

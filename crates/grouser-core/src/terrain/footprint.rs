@@ -1,5 +1,6 @@
 //! The plane under a wheel on uneven ground.
 
+use super::Patch;
 use crate::units::{Vec2, Vec3};
 
 /// How far ground counts for a wheel: a rectangle about the point below its hub, level.
@@ -32,15 +33,6 @@ const GRID: [(f64, f64); POINTS] = [
     (0.0, 1.0),
     (1.0, 1.0),
 ];
-
-/// The plane nearest to the ground in a footprint.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fit {
-    /// Its height in the middle of the footprint [m].
-    pub height: f64,
-    /// Its unit normal, upward.
-    pub normal: Vec3,
-}
 
 impl Footprint {
     /// That of a wheel.
@@ -77,7 +69,7 @@ impl Footprint {
     ///
     /// * `heights`: there [m]
     #[must_use]
-    pub fn fit(&self, heights: &[f64; POINTS]) -> Fit {
+    pub fn fit(&self, heights: &[f64; POINTS]) -> Patch {
         // On this grid least squares are means: Σa² = Σb² = 6 over nine points.
         const SQUARES: f64 = 6.0;
         let (mut mean, mut along, mut aside) = (0.0, 0.0, 0.0);
@@ -88,7 +80,7 @@ impl Footprint {
         }
         let uphill = along * self.forward + aside * self.left();
         let normal = Vec3::new(-uphill.x, -uphill.y, 1.0).normalize();
-        Fit { height: mean, normal }
+        Patch { height: mean, normal }
     }
 }
 

@@ -6,11 +6,8 @@ mod shapes;
 pub use crater::Crater;
 pub use shapes::{Cone, Incline, Ramp, Ripple};
 
-use std::borrow::Cow;
-
 use super::{Footprint, Patch, Terrain};
 use crate::error::ParameterError;
-use crate::soil::Soil;
 use crate::units::Vec2;
 
 /// A surface whose height and gradient are formulas.
@@ -97,55 +94,27 @@ impl Surface {
     }
 }
 
-/// A surface of homogeneous soil, to drive on.
-///
-/// A wheel meets the least-squares plane of the surface at the points of its footprint
-/// ([`Footprint::fit`]).
+/// A wheel meets the least-squares plane of the surface at the points of its footprint ([`Footprint::fit`]).
 ///
 /// How steep is a ripple 1 m long and 10 cm from trough to crest, at most, under a wheel?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
-/// use grouser_core::terrain::surface::{AnalyticTerrain, Ripple, Surface};
+/// use grouser_core::terrain::surface::{Ripple, Surface};
 /// use grouser_core::terrain::{Footprint, Terrain};
 /// use grouser_core::units::Vec2;
 ///
 /// let ripple = Ripple { amplitude: 0.05, wavelength: 1.0, across: 0.0, phase: 0.0 };
-/// let terrain = AnalyticTerrain { surface: Surface::Ripple(ripple), soil: hakuto::sand() };
+/// let terrain = Surface::Ripple(ripple);
 /// let wheel = Footprint { forward: Vec2::x(), half_length: 0.06, half_width: 0.05 };
 /// let steepest = terrain.patch(Vec2::zeros(), wheel).normal.z.acos();
 /// assert_eq!(format!("{:.1}°", steepest.to_degrees()), "17.1°");
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AnalyticTerrain {
-    /// Its shape.
-    pub surface: Surface,
-    /// The soil.
-    pub soil: Soil,
-}
-
-impl AnalyticTerrain {
-    /// That there can be such ground.
-    ///
-    /// # Errors
-    /// [`ParameterError`] for the first value that is wrong.
-    pub fn check(&self) -> Result<(), ParameterError> {
-        self.soil.check()?;
-        self.surface.check()
-    }
-}
-
-impl Terrain for AnalyticTerrain {
-    fn patch(&self, at: Vec2, footprint: Footprint) -> Patch<'_> {
-        let fit = footprint.fit(&self.surface.heights(footprint.points(at)));
-        Patch { height: fit.height, normal: fit.normal, soil: Cow::Borrowed(&self.soil) }
+impl Terrain for Surface {
+    fn patch(&self, at: Vec2, footprint: Footprint) -> Patch {
+        footprint.fit(&self.heights(footprint.points(at)))
     }
 
     fn height_from(&self, origin: Vec2, at: Vec2) -> f64 {
-        self.surface.height(origin + at)
-    }
-
-    fn soil(&self, _: Vec2, _: Footprint) -> Cow<'_, Soil> {
-        Cow::Borrowed(&self.soil)
+        self.height(origin + at)
     }
 }

@@ -14,9 +14,9 @@
 //!
 //! Source: ours.
 
-use super::ground::Relief;
 use super::posture::Posture;
 use super::rover::Rover;
+use crate::terrain::{Ground, Terrain};
 use crate::units::{Vec2, Vec3};
 
 /// How many points lie along the plate, and as many across it.
@@ -69,18 +69,18 @@ impl Underside {
 
     /// Its point that is nearest to the ground.
     ///
-    /// * `posture`: of the rover, with its wheels sunk, seen from the relief's origin
+    /// * `posture`: of the rover, with its wheels sunk, seen from the start on the ground
     #[must_use]
-    pub fn nearest(self, posture: &Posture, relief: Relief<'_>) -> BellyPoint {
-        let Relief { terrain, origin, .. } = relief;
+    pub fn nearest(self, posture: &Posture, ground: &Ground) -> BellyPoint {
         let body = posture.ground_from_body;
         let level = (body * Vec3::z()).z;
         let each = self.points().map(|point| {
             let point = posture.place + body * point;
-            let height = point.z - terrain.height_from(origin, point.xy());
-            BellyPoint { clearance: level * height, place: origin + point.xy() }
+            let height = point.z - ground.height_from(Vec2::zeros(), point.xy());
+            BellyPoint { clearance: level * height, place: ground.start + point.xy() }
         });
-        let none = BellyPoint { clearance: f64::INFINITY, place: origin + posture.place.xy() };
+        let none =
+            BellyPoint { clearance: f64::INFINITY, place: ground.start + posture.place.xy() };
         each.fold(none, |least, one| if one.clearance < least.clearance { one } else { least })
     }
 }

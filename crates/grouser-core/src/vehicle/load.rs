@@ -18,8 +18,7 @@ use super::parts::Mount;
 use super::rover::Rover;
 use super::state::RoverState;
 use crate::contact::WheelForces;
-use crate::site::{Site, Weight};
-use crate::terrain::Terrain;
+use crate::terrain::{Ground, Patch, Terrain};
 use crate::units::Vec2;
 
 /// Load transfer: what moves load from wheel to wheel.
@@ -61,26 +60,45 @@ pub enum OwnMoments {
 #[error("the weight falls outside the wheels")]
 pub struct Tipping;
 
+/// A weight, in the frame of the ground that it is on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weight {
+    /// Into the ground [N].
+    pub into: f64,
+    /// Up the ground's x and y axes [N], against the pull along it.
+    pub uphill: Vec2,
+}
+
+impl Weight {
+    /// A weight [N] on a patch of the ground.
+    #[must_use]
+    pub fn on(patch: &Patch, weight: f64) -> Self {
+        Self { into: weight * patch.normal.z, uphill: weight * patch.climb() }
+    }
+}
+
 /// The rover's weight on the ground under it.
 ///
+/// * `gravity`: *g* [m/s²]
 /// * `slope_from_body`: the rotation of the state
 #[must_use]
 pub fn weight(
     rover: &Rover,
-    site: &Site<dyn Terrain>,
+    ground: &Ground,
+    gravity: f64,
     state: &RoverState,
     slope_from_body: &Rotation2<f64>,
 ) -> Weight {
-    let patch = site.terrain.patch(state.position, rover.footprint(slope_from_body));
-    site.weight(rover.mass(), &patch)
+    let patch = ground.patch(state.position, rover.footprint(slope_from_body));
+    Weight::on(&patch, rover.mass() * gravity)
 }
 
 /// The weight's pull along the ground, in the body frame, *(G_x, G_y)* [N] ([FourWheel], Eqs
 /// 12-13, with the signs it leaves out): on a plane m g sin α points downhill, to −y of the slope frame.
 #[must_use]
-pub fn slope_pull(rover: &Rover, site: &Site<dyn Terrain>, state: &RoverState) -> Vec2 {
+pub fn slope_pull(rover: &Rover, ground: &Ground, gravity: f64, state: &RoverState) -> Vec2 {
     let slope_from_body = state.slope_from_body();
-    pull(&weight(rover, site, state, &slope_from_body), &slope_from_body)
+    pull(&weight(rover, ground, gravity, state, &slope_from_body), &slope_from_body)
 }
 
 /// The same of a weight that is known.

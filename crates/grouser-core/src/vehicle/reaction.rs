@@ -1,18 +1,15 @@
 //! All wheels settled under their share of the weight: load transfer and soil together.
 
-use std::borrow::Cow;
-
 use super::by_wheel::Differences;
-use super::ground::{Ground, ReactionError, Stance, WheelReaction, forces_of};
 use super::load;
-use super::parts::Mount;
+use super::on_ground::{OnGround, ReactionError, Stance, WheelReaction, forces_of};
 use super::ruts::Ruts;
 use super::settling::{Known, Nearby};
 use crate::contact::{Contact, Slip, WheelForces, settle_from, settle_many};
 use crate::soil::Soil;
 use crate::units::Vec2;
 
-impl<'a> Ground<'a> {
+impl<'a> OnGround<'a> {
     /// The reaction on every wheel, in the mounts' order.
     ///
     /// Where the loads depend on the wheels' own torque or moments, loads and reactions are computed in
@@ -64,7 +61,7 @@ impl<'a> Ground<'a> {
         contacts: &[Contact],
         near: &[WheelReaction],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
-        let Self { rover, site, sharing, own_moments, .. } = *self;
+        let Self { rover, sharing, own_moments, .. } = *self;
         let forces: Vec<WheelForces> = forces_of(near).copied().collect();
         let mut moments = load::moments(rover, stance.pull, sharing, own_moments, &forces);
         let mut wheels = self.settle_under(stance, moments, contacts, near)?;
@@ -75,7 +72,7 @@ impl<'a> Ground<'a> {
         /// Agreement of the moments, over weight times reach [-]: well under the integrator's.
         const AGREED: f64 = 1e-11;
         let reach = rover.load_arms().iter().map(Vec2::norm).fold(0.0, f64::max);
-        let scale = rover.mass() * site.gravity * reach;
+        let scale = rover.mass() * self.gravity * reach;
         let mut change = f64::INFINITY;
         let mut mixing = Mixing::default();
         for _ in 0..MOST_ROUNDS {
@@ -102,7 +99,7 @@ impl<'a> Ground<'a> {
         slips: &[Slip],
         near: &mut Nearby<'a>,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
-        let soil = self.only_soil(stance).map(|soil| (soil, stance.steepness));
+        let soil = self.only_soil().map(|soil| (soil, stance.steepness));
         let is_same = matches!((soil, near.soil), (Some((one, steepness)), Some((other, before)))
             if std::ptr::eq(one, other) && steepness == before);
         if is_same && near.contacts.len() == slips.len() {
@@ -117,36 +114,26 @@ impl<'a> Ground<'a> {
     }
 
     /// The soil under all wheels, where the ground has one in all places and no wheel changes it.
-    fn only_soil(&self, stance: &Stance) -> Option<&'a Soil> {
+    fn only_soil(&self) -> Option<&'a Soil> {
         let Differences { by_wheel, by_place, ruts } = self.differences;
         if by_wheel.is_some() || by_place.is_some() || ruts != Ruts::Fresh {
             return None;
         }
-        let footprint = self.rover.footprint(&stance.slope_from_body);
-        let under = |mount: &Mount| {
-            let at = stance.place + stance.slope_from_body * mount.position.xy();
-            match self.site.terrain.soil(at, footprint) {
-                Cow::Borrowed(soil) => Some(soil),
-                Cow::Owned(_) => None,
-            }
-        };
-        let mut soils = self.rover.mounts().iter().map(under);
-        let first = soils.next()??;
-        soils.all(|soil| soil.is_some_and(|soil| std::ptr::eq(soil, first))).then_some(first)
+        Some(&self.ground.soil)
     }
 
     /// What each wheel meets.
     fn meet(&self, stance: &Stance, slips: &[Slip], contacts: &mut Vec<Contact>) {
-        let Self { rover, site, ref differences, .. } = *self;
+        let Self { rover, ground, gravity, ref differences, .. } = *self;
         let Stance { place, slope_from_body, steepness, .. } = *stance;
         let ruts = differences.ruts.of_wheels(rover, slips);
         contacts.clear();
         for (wheel, (&slip, mount)) in slips.iter().zip(rover.mounts()).enumerate() {
             let at = place + slope_from_body * mount.position.xy();
-            let soil = site.terrain.soil(at, mount.footprint(&slope_from_body));
+            let soil = ground.soil_under(at, mount.footprint(&slope_from_body));
             let rut = ruts.as_ref().map(|ruts| ruts[wheel]);
             let soil = differences.soil_on(steepness, wheel, at, rut, &soil);
-            contacts.push(Contact { wheel: mount.unit.wheel, soil, slip, gravity: site.gravity });
+            contacts.push(Contact { wheel: mount.unit.wheel, soil, slip, gravity });
         }
     }
 

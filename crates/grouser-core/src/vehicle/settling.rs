@@ -17,8 +17,8 @@
 
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
-use super::ground::{Ground, ReactionError, Stance, WheelReaction};
 use super::load::{self, LoadSharing};
+use super::on_ground::{OnGround, ReactionError, Stance, WheelReaction};
 use super::parts::Mount;
 use crate::contact::equilibrium::{grows_as_usual, is_usual_step};
 use crate::contact::load_sinkage::LoadSinkage;
@@ -80,7 +80,7 @@ const MOST_ROUNDS: usize = 8;
 /// Points that a curve goes through: a parabola.
 const POINTS: usize = 3;
 
-impl Ground<'_> {
+impl OnGround<'_> {
     /// The reaction on every wheel by a search for all of them at once; none where the usual search fails.
     ///
     /// * `near`: of a motion nearby, and of this one afterwards
@@ -169,7 +169,7 @@ struct Sharing {
 
 impl Sharing {
     /// None where wheels are in one line.
-    fn of(ground: &Ground<'_>, stance: &Stance) -> Option<Self> {
+    fn of(ground: &OnGround<'_>, stance: &Stance) -> Option<Self> {
         let (rover, weight) = (ground.rover, stance.weight);
         let arms = rover.load_arms();
         let of_weight = load::moments_of_weight(rover, stance.pull, ground.sharing);
@@ -464,7 +464,7 @@ impl Nearby<'_> {
     /// * `alone`: that of wheels that are settled one by one
     pub(super) fn settle(
         &mut self,
-        ground: &Ground<'_>,
+        ground: &OnGround<'_>,
         stance: &Stance,
         alone: impl FnOnce(&[Contact]) -> Result<Vec<WheelReaction>, ReactionError>,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
@@ -481,13 +481,13 @@ impl Nearby<'_> {
 
 impl Known {
     /// Of wheels that were settled; none where one is not carried.
-    pub(super) fn of_all(ground: &Ground<'_>, wheels: &[WheelReaction]) -> Option<Vec<Self>> {
+    pub(super) fn of_all(ground: &OnGround<'_>, wheels: &[WheelReaction]) -> Option<Vec<Self>> {
         let each = wheels.iter().zip(ground.rover.mounts());
         each.map(|(wheel, mount)| Self::of(ground, mount, wheel)).collect()
     }
 
     /// Of a wheel; how its forces change with the load is as yet that of a shallow one.
-    fn of(ground: &Ground<'_>, mount: &Mount, wheel: &WheelReaction) -> Option<Self> {
+    fn of(ground: &OnGround<'_>, mount: &Mount, wheel: &WheelReaction) -> Option<Self> {
         let (sinkage, forces) = (wheel.settled.sinkage, wheel.settled.forces);
         if sinkage <= 0.0 || forces.normal_force < f64::MIN_POSITIVE {
             return None;

@@ -4,13 +4,12 @@
 //! reactions are sought together, N = N(forces(N)), by Newton's method with Broyden's updates from the loads of wheels that
 //! only stand, or from those of a motion nearby.
 
-use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
 
 use nalgebra::{DMatrix, DVector, Dyn};
 
-use super::ground::{Ground, ReactionError, Stance, WheelReaction, forces_of};
 use super::load::Tipping;
+use super::on_ground::{OnGround, ReactionError, Stance, WheelReaction, forces_of};
 use super::posture::{Posture, StandingMotion};
 use super::several_soils::Met;
 use super::state::RoverState;
@@ -24,11 +23,11 @@ use crate::terrain::{Footprint, Patch, Share, Terrain};
 use crate::units::{Vec2, Vec3};
 
 /// The plane of the slope frame: level in it.
-struct Flat<'a>(&'a Soil);
+struct Flat;
 
-impl Terrain for Flat<'_> {
-    fn patch(&self, _: Vec2, _: Footprint) -> Patch<'_> {
-        Patch { height: 0.0, normal: Vec3::z(), soil: Cow::Borrowed(self.0) }
+impl Terrain for Flat {
+    fn patch(&self, _: Vec2, _: Footprint) -> Patch {
+        Patch { height: 0.0, normal: Vec3::z() }
     }
 }
 
@@ -54,11 +53,11 @@ impl Standing {
     }
 }
 
-impl Ground<'_> {
+impl OnGround<'_> {
     /// Whether wheels have pieces of ground of their own, or links that carry them.
     #[must_use]
     pub fn is_uneven(&self) -> bool {
-        self.relief.is_some() || self.rover.suspension().is_some()
+        !self.ground.is_plane() || self.rover.suspension().is_some()
     }
 
     /// How the rover stands in a state, with its wheels sunk.
@@ -79,13 +78,7 @@ impl Ground<'_> {
         sinkages: &[f64],
         near: Option<&Posture>,
     ) -> Result<Posture, ReactionError> {
-        let soil =
-            self.site.terrain.soil(state.position, self.rover.footprint(&state.slope_from_body()));
-        let flat = Flat(&soil);
-        let terrain: &dyn Terrain = match &self.relief {
-            Some(relief) => relief,
-            None => &flat,
-        };
+        let terrain: &dyn Terrain = if self.ground.is_plane() { &Flat } else { self.ground };
         let (place, yaw) = (state.position, state.yaw);
         let posture = match near {
             Some(near) => near.near(self.rover, terrain, place, yaw, sinkages)?,
@@ -93,8 +86,7 @@ impl Ground<'_> {
         };
         for (wheel, mount) in posture.wheels.iter().zip(self.rover.mounts()) {
             if !terrain.covers(wheel.at, wheel.footprint) {
-                let origin = self.relief.map_or(Vec2::zeros(), |relief| relief.origin);
-                let place = origin + wheel.at;
+                let place = self.ground.start + wheel.at;
                 return Err(ReactionError::OffTheMap { wheel: mount.name.clone(), place });
             }
         }
@@ -120,13 +112,7 @@ impl Ground<'_> {
 
     /// Against gravity, in the ground's coordinates: on a plane, those of the slope.
     pub(crate) fn up(&self, state: &RoverState) -> Vec3 {
-        if self.relief.is_some() {
-            return Vec3::z();
-        }
-        let footprint = self.rover.footprint(&state.slope_from_body());
-        let patch = self.site.terrain.patch(state.position, footprint);
-        let unit = self.site.weight(1.0 / self.site.gravity, &patch);
-        Vec3::new(unit.uphill.x, unit.uphill.y, unit.into)
+        self.ground.lie(state.position, self.rover.footprint(&state.slope_from_body())).up
     }
 
     /// The reaction on every wheel of a rover that stands so, in the mounts' order.
@@ -158,7 +144,7 @@ impl Ground<'_> {
         slips: &[Slip],
         near: &mut NearbyStanding,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
-        let weight = self.rover.mass() * self.site.gravity;
+        let weight = self.rover.mass() * self.gravity;
         let NearbyStanding { wheels: before, inverse } = std::mem::take(near);
         let met = self.met(posture, slips);
         let sinkages = RefCell::new(before.iter().map(|wheel| wheel.settled.sinkage).collect());
@@ -217,27 +203,20 @@ impl Ground<'_> {
 
     /// What each wheel meets.
     fn met(&self, posture: &Posture, slips: &[Slip]) -> Vec<Met> {
-        let Self { rover, site, ref differences, .. } = *self;
+        let Self { rover, ground, gravity, ref differences, .. } = *self;
         let ruts = differences.ruts.of_wheels(rover, slips);
         let each = posture.wheels.iter().zip(rover.mounts()).zip(slips).enumerate();
         each.map(|(number, ((standing, mount), slip))| {
-            let own = site.terrain.soil(standing.at, standing.footprint);
+            let own = ground.soil_under(standing.at, standing.footprint);
             let normal = standing.normal;
             let steepness = normal.xy().norm() / normal.z;
             let rut = ruts.as_ref().map(|ruts| ruts[number]);
             let on_slope =
                 |soil: &Soil| differences.soil_on(steepness, number, standing.at, rut, soil);
-            let met = |soil| {
-                Met::one(Contact {
-                    wheel: mount.unit.wheel,
-                    soil,
-                    slip: *slip,
-                    gravity: site.gravity,
-                })
-            };
-            let zoned = self.relief.and_then(|relief| Some((relief.soils?, relief.origin)));
-            let Some((zones, origin)) = zoned else { return met(on_slope(&own)) };
-            let shares = zones.under(origin, standing.at, standing.footprint);
+            let met =
+                |soil| Met::one(Contact { wheel: mount.unit.wheel, soil, slip: *slip, gravity });
+            let Some(zones) = &ground.zones else { return met(on_slope(&own)) };
+            let shares = zones.under(ground.start, standing.at, standing.footprint);
             let soils = shares
                 .iter()
                 .map(|Share { soil, weight }| (on_slope(soil.unwrap_or(&own)), *weight));
@@ -299,7 +278,7 @@ const NEARLY: f64 = 1e-11;
 
 /// Loads of wheels that stand, on their way to those that balance the rover.
 struct Sought<'a> {
-    ground: &'a Ground<'a>,
+    ground: &'a OnGround<'a>,
     posture: &'a Posture,
     met: Vec<Met>,
     /// m g, against gravity [N].

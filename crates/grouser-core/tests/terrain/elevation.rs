@@ -2,13 +2,8 @@
 
 use proptest::prelude::*;
 
-use grouser_core::soil::Soil;
-use grouser_core::terrain::{
-    ElevationError, ElevationGrid, ElevationModel, Extent, Footprint, Terrain,
-};
+use grouser_core::terrain::{ElevationGrid, ElevationModel, Extent, Footprint, Terrain};
 use grouser_core::units::{Vec2, Vec3};
-
-use crate::hakuto;
 
 /// A place 500 km from a map's origin, with no round number of metres.
 const FAR: Vec2 = Vec2::new(500_123.25, -2_100_456.5);
@@ -19,7 +14,7 @@ fn grid(columns: usize, rows: usize, south_west: Vec2, spacing: Vec2) -> Elevati
 
 fn model(grid: ElevationGrid, height: impl Fn(Vec2) -> f64) -> ElevationModel {
     let heights: Vec<f64> = grid.points().map(height).collect();
-    ElevationModel::new(grid, heights, hakuto::sand()).expect("a model")
+    ElevationModel::new(grid, heights).expect("a model")
 }
 
 /// A place by its shares of the extent.
@@ -90,8 +85,8 @@ proptest! {
         let heights: Vec<f64> = heights.into_iter().map(|height| f64::from(height) / 64.0).collect();
         let grid = grid(6, 5, Vec2::new(-2.5, -2.0), Vec2::new(1.0, 1.0));
         let mirrored = heights.chunks(6).flat_map(|row| row.iter().rev().copied());
-        let mirrored = ElevationModel::new(grid, mirrored, hakuto::sand()).expect("a model");
-        let model = ElevationModel::new(grid, heights, hakuto::sand()).expect("a model");
+        let mirrored = ElevationModel::new(grid, mirrored).expect("a model");
+        let model = ElevationModel::new(grid, heights).expect("a model");
         let at = inside(model.extent(), Vec2::new(u, v));
         let other = Vec2::new(-at.x, at.y);
         prop_assert!((model.height(at) - mirrored.height(other)).abs() < 1e-12);
@@ -113,7 +108,7 @@ proptest! {
         }
         // Near the origin, where coordinates have the digits for differences.
         let grid = grid(6, 6, Vec2::new(-1.0, 2.0), Vec2::new(0.5, 0.5));
-        let model = ElevationModel::new(grid, heights, hakuto::sand()).expect("a model");
+        let model = ElevationModel::new(grid, heights).expect("a model");
         let border = Vec2::new(grid.point(column, 0).x, inside(model.extent(), Vec2::new(0.0, v)).y);
         for (across, along) in [(Vec2::x(), border), (Vec2::y(), border)] {
             let step = 1e-6 * across;
@@ -138,7 +133,7 @@ proptest! {
         for gap in gaps {
             heights[gap] = f64::NAN;
         }
-        let model = ElevationModel::new(grid, heights.clone(), hakuto::sand()).expect("a model");
+        let model = ElevationModel::new(grid, heights.clone()).expect("a model");
         prop_assert_eq!(model.missing(), heights.iter().filter(|height| height.is_nan()).count());
         let at = inside(model.extent(), Vec2::new(u, v));
         if model.is_known(at) {
@@ -198,7 +193,7 @@ fn heights_of_single_precision_are_exact() {
     let given: Vec<f64> =
         (0..12_u8).map(|i| f64::from(-2613.337_f32 + 0.71_f32 * f32::from(i * i))).collect();
     let grid = grid(4, 3, FAR, Vec2::new(5.0, 5.0));
-    let model = ElevationModel::new(grid, given.clone(), hakuto::sand()).expect("a model");
+    let model = ElevationModel::new(grid, given.clone()).expect("a model");
     for (point, expected) in grid.points().zip(given) {
         assert_eq!(model.height(point), expected);
     }
@@ -241,7 +236,7 @@ fn a_wide_gap_is_filled_from_its_rim() {
 fn what_is_no_model_is_refused() {
     let usual = grid(3, 2, Vec2::zeros(), Vec2::new(1.0, 1.0));
     let refused = |grid, heights: &[f64]| {
-        let model = ElevationModel::new(grid, heights.iter().copied(), hakuto::sand());
+        let model = ElevationModel::new(grid, heights.iter().copied());
         model.expect_err("refused").to_string()
     };
     assert!(refused(ElevationGrid { columns: 1, ..usual }, &[0.0; 2]).contains("too few"));
@@ -254,7 +249,4 @@ fn what_is_no_model_is_refused() {
     assert!(refused(nowhere, &[0.0; 6]).contains("finite coordinates"));
     let huge = ElevationGrid { columns: usize::MAX, rows: usize::MAX, ..usual };
     assert!(refused(huge, &[]).contains("address"));
-    let soil = Soil { density: -1.0, ..hakuto::sand() };
-    let of_soil = ElevationModel::new(usual, vec![0.0; 6], soil);
-    assert!(matches!(of_soil, Err(ElevationError::Soil(_))), "{of_soil:?}");
 }

@@ -1,13 +1,9 @@
 use std::f64::consts::TAU;
 
-use grouser_core::terrain::surface::{
-    AnalyticTerrain, Cone, Crater, Incline, Ramp, Ripple, Surface,
-};
+use grouser_core::terrain::surface::{Cone, Crater, Incline, Ramp, Ripple, Surface};
 use grouser_core::terrain::{ElevationGrid, ElevationModel, Footprint, Terrain};
 use grouser_core::units::{Vec2, Vec3, deg};
 use proptest::prelude::*;
-
-use crate::hakuto;
 
 fn ramp(rounding: f64) -> Ramp {
     Ramp { foot: Vec2::new(1.0, -0.5), uphill: 0.7, slope: deg(20.0), length: 3.0, rounding }
@@ -60,7 +56,7 @@ proptest! {
         (x, y, heading) in (-9.0..9.0, -9.0..9.0, 0.0..TAU),
     ) {
         let surface = Surface::Incline(Incline { slope, uphill });
-        let terrain = AnalyticTerrain { surface, soil: hakuto::sand() };
+        let terrain = surface;
         let forward = Vec2::new(heading.cos(), heading.sin());
         let footprint = Footprint { forward, half_length: 0.06, half_width: 0.05 };
         let at = Vec2::new(x, y);
@@ -88,7 +84,7 @@ fn a_ripple_repeats_itself_and_long_ones_are_planes() {
     let deviation = |wavelength: f64| {
         let surface =
             Surface::Ripple(Ripple { amplitude: 0.05 * wavelength, wavelength, ..ripple });
-        let terrain = AnalyticTerrain { surface, soil: hakuto::sand() };
+        let terrain = surface;
         let normal = terrain.patch(Vec2::zeros(), wheel).normal;
         let gradient = surface.gradient(Vec2::zeros());
         (normal.x / normal.z + gradient.x).abs()
@@ -141,13 +137,13 @@ fn a_fresh_crater_has_its_depth_rim_and_walls() {
 fn an_elevation_model_of_a_surface_approaches_it() {
     let wheel = Footprint { forward: Vec2::x(), half_length: 0.06, half_width: 0.05 };
     for surface in surfaces() {
-        let terrain = AnalyticTerrain { surface, soil: hakuto::sand() };
+        let terrain = surface;
         let worst = |cells: usize| {
             let spacing = Vec2::new(8.0, 8.0) / cells as f64;
             let south_west = Vec2::new(-4.0, -4.0);
             let grid = ElevationGrid { columns: cells + 1, rows: cells + 1, south_west, spacing };
             let heights = grid.points().map(|at| surface.height(at));
-            let model = ElevationModel::new(grid, heights, hakuto::sand()).expect("a model");
+            let model = ElevationModel::new(grid, heights).expect("a model");
             let places = (0..400)
                 .map(|i| 3.5 * Vec2::new((1.7 * f64::from(i)).sin(), (2.9 * f64::from(i)).cos()));
             places.fold(0.0_f64, |worst, at| {
@@ -178,6 +174,6 @@ fn what_is_no_surface_is_refused() {
     for (surface, name) in wrong {
         let error = surface.check().expect_err("refused");
         assert!(error.name.contains(name), "{error}");
-        assert!(AnalyticTerrain { surface, soil: hakuto::sand() }.check().is_err());
+        assert!(surface.check().is_err());
     }
 }

@@ -9,10 +9,9 @@ use super::differences;
 use super::rover;
 use super::soil;
 use super::terrain;
-use grouser_core::simulation::{
-    Approach, Motion, Numerics, PlacedTerrain, Scatter, Scenario, Start,
-};
+use grouser_core::simulation::{Approach, Motion, Numerics, Scatter, Scenario, Start};
 use grouser_core::soil::Soil;
+use grouser_core::terrain::{Ground, Shape};
 use grouser_core::vehicle::{ByWheel, LoadSharing, OwnMoments, Rover, RoverParts, Ruts};
 
 /// The slope on which the source's Table 4 is best met [°].
@@ -45,15 +44,13 @@ impl<T: OfScenario> Run<T> {
     const OF_ROVER: &At<T, Rover> =
         &At { inner: &ROVER_OF_PARTS, at: |all| &mut all.scenario().rover };
     const OF_SOIL: &At<T, Soil> =
-        &At { inner: &soil::SOIL, at: |all| &mut all.scenario().site.terrain.soil };
+        &At { inner: &soil::SOIL, at: |all| &mut all.scenario().ground.soil };
     const OF_BY_WHEEL: &At<T, ByWheel> =
         &At { inner: &differences::BY_WHEEL, at: |all| &mut all.scenario().by_wheel };
     const OF_SCATTER: &At<T, Scatter> =
         &At { inner: &differences::SCATTER, at: |all| &mut all.scenario().scatter };
-    const OF_TERRAIN: &At<T, PlacedTerrain> = &At {
-        inner: &terrain::TERRAIN,
-        at: |all| all.scenario().terrain.get_or_insert_with(terrain::blank),
-    };
+    const OF_TERRAIN: &At<T, Ground> =
+        &At { inner: &terrain::TERRAIN, at: |all| &mut all.scenario().ground };
     const OF_START: &At<T, Start> = &At { inner: &START, at: |all| &mut all.scenario().start };
 
     pub(super) const ROVER: Field<T> = part(
@@ -73,10 +70,10 @@ impl<T: OfScenario> Run<T> {
     pub(super) const MODEL: Field<T> =
         model("The wheel-soil model; without it the soil's own, or else `ishigami`.");
     pub(super) const GRAVITY: Field<T> =
-        gravity("Gravity, g", |all: &mut T| Some(&mut all.scenario().site.gravity));
+        gravity("Gravity, g", |all: &mut T| Some(&mut all.scenario().gravity));
     pub(super) const SLOPE: Field<T> =
         number(SLOPE, DEG, 0.0..=60.0, "Inclination of the plane, α", |all: &mut T| {
-            Some(&mut all.scenario().site.terrain.slope)
+            slope_of(&mut all.scenario().ground)
         })
         .or(PAPERS_SLOPE);
     pub(super) const TERRAIN: Field<T> = table(
@@ -183,6 +180,14 @@ impl<T: OfScenario> Run<T> {
     .otherwise(Fill::Keyword("none"));
     pub(super) const START: Field<T> =
         table("start", "How the run starts.", Self::OF_START).otherwise(Fill::Keys(&[]));
+}
+
+/// The inclination of ground that is a plane.
+fn slope_of(ground: &mut Ground) -> Option<&mut f64> {
+    match &mut ground.shape {
+        Shape::Plane(plane) => Some(&mut plane.slope),
+        Shape::Map(_) | Shape::Formula(_) | Shape::Own(_) => None,
+    }
 }
 
 static START: Table<Start> = Table {

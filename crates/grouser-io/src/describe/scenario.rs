@@ -15,8 +15,8 @@ use super::soil;
 use grouser_core::contact::Theory;
 use grouser_core::simulation::scenario::LONGEST_DURATION;
 use grouser_core::simulation::{Motion, Numerics, PrescribedYaw, Scatter, Scenario, Start};
-use grouser_core::site::Site;
 use grouser_core::soil::SlopeStability;
+use grouser_core::terrain::Ground;
 use grouser_core::vehicle::drive::{SlipLimit, SlipTarget};
 use grouser_core::vehicle::{ByWheel, DriveLaw, LoadSharing, OwnMoments, PerWheel, Rover, Ruts};
 
@@ -42,7 +42,8 @@ const NO_TARGET: SlipTarget = SlipTarget { speed: 0.0, slip_ratio: 0.0 };
 pub(crate) fn blank() -> Scenario {
     Scenario {
         rover: Rover::draft(rover::BLANK),
-        site: Site::plane(soil::BLANK, 0.0, 0.0),
+        ground: Ground::plane(soil::BLANK, 0.0),
+        gravity: 0.0,
         theory: Theory::default(),
         sharing: LoadSharing::Complete,
         own_moments: OwnMoments::Included,
@@ -50,7 +51,6 @@ pub(crate) fn blank() -> Scenario {
         yaw: None,
         by_wheel: ByWheel::ALIKE,
         scatter: Scatter::NONE,
-        terrain: None,
         ruts: Ruts::Fresh,
         stability: SlopeStability::USUAL,
         start: Start { yaw: 0.0, motion: Motion::Rolling },

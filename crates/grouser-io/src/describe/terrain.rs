@@ -1,14 +1,11 @@
 //! `[terrain]` of scenarios and missions: ground with heights, from a map or by a formula, and where on it a run starts.
 
-use std::sync::Arc;
-
 use super::super::field::{
     DEG, Field, Form, Law, Laws, M, Table, note, number, numbers, positive, whole,
 };
-use super::{soil, zones};
-use grouser_core::simulation::{Landscape, PlacedTerrain};
+use super::zones;
 use grouser_core::terrain::surface::{Cone, Crater, Incline, Ramp, Ripple};
-use grouser_core::terrain::{AnalyticTerrain, Surface};
+use grouser_core::terrain::{Ground, Shape, Surface};
 use grouser_core::units::Vec2;
 
 /// The farthest that coordinates of a map may be from its origin [m]: beyond the circumference of any planet.
@@ -37,59 +34,50 @@ const SLOPE: &str = "slope_deg";
 /// Level ground, which is there before anything is said of it.
 const LEVEL: Surface = Surface::Incline(Incline { slope: 0.0, uphill: 0.0 });
 
-/// Ground before its numbers are put in.
-pub(super) fn blank() -> PlacedTerrain {
-    PlacedTerrain { ground: by_formula(LEVEL), start: Vec2::zeros(), soils: None }
-}
-
-fn by_formula(surface: Surface) -> Landscape {
-    Landscape::Analytic(Arc::new(AnalyticTerrain { surface, soil: soil::BLANK }))
-}
-
 /// The formula of ground that has one.
-fn surface(terrain: &mut PlacedTerrain) -> Option<&mut Surface> {
-    match &mut terrain.ground {
-        Landscape::Analytic(ground) => Some(&mut Arc::make_mut(ground).surface),
-        Landscape::Elevation(_) => None,
+fn surface(ground: &mut Ground) -> Option<&mut Surface> {
+    match &mut ground.shape {
+        Shape::Formula(surface) => Some(surface),
+        Shape::Plane(_) | Shape::Map(_) | Shape::Own(_) => None,
     }
 }
 
-fn incline(terrain: &mut PlacedTerrain) -> Option<&mut Incline> {
+fn incline(terrain: &mut Ground) -> Option<&mut Incline> {
     match surface(terrain)? {
         Surface::Incline(incline) => Some(incline),
         _ => None,
     }
 }
 
-fn ramp(terrain: &mut PlacedTerrain) -> Option<&mut Ramp> {
+fn ramp(terrain: &mut Ground) -> Option<&mut Ramp> {
     match surface(terrain)? {
         Surface::Ramp(ramp) => Some(ramp),
         _ => None,
     }
 }
 
-fn cone(terrain: &mut PlacedTerrain) -> Option<&mut Cone> {
+fn cone(terrain: &mut Ground) -> Option<&mut Cone> {
     match surface(terrain)? {
         Surface::Cone(cone) => Some(cone),
         _ => None,
     }
 }
 
-fn ripple(terrain: &mut PlacedTerrain) -> Option<&mut Ripple> {
+fn ripple(terrain: &mut Ground) -> Option<&mut Ripple> {
     match surface(terrain)? {
         Surface::Ripple(ripple) => Some(ripple),
         _ => None,
     }
 }
 
-fn crater(terrain: &mut PlacedTerrain) -> Option<&mut Crater> {
+fn crater(terrain: &mut Ground) -> Option<&mut Crater> {
     match surface(terrain)? {
         Surface::Crater(crater) => Some(crater),
         _ => None,
     }
 }
 
-pub(super) static TERRAIN: Laws<PlacedTerrain> = Laws {
+pub(super) static TERRAIN: Laws<Ground> = Laws {
     doc: "Ground with heights, in place of the plane. Places are on a map: x east, y north, in metres.",
     key: "surface",
     may_be_left_out: true,
@@ -98,7 +86,7 @@ pub(super) static TERRAIN: Laws<PlacedTerrain> = Laws {
         Law {
             name: "map",
             word: Some("A map of heights."),
-            choose: |terrain| terrain.ground = by_formula(LEVEL),
+            choose: |terrain| terrain.shape = Shape::Formula(LEVEL),
             table: Table {
                 doc: "An elevation model from a file.",
                 fields: &[
@@ -138,7 +126,7 @@ pub(super) static TERRAIN: Laws<PlacedTerrain> = Laws {
         Law {
             name: "incline",
             word: Some("A plane."),
-            choose: |terrain| terrain.ground = by_formula(LEVEL),
+            choose: |terrain| terrain.shape = Shape::Formula(LEVEL),
             table: Table {
                 doc: "A plane through the map's origin.",
                 fields: &[
@@ -153,7 +141,7 @@ pub(super) static TERRAIN: Laws<PlacedTerrain> = Laws {
         Law {
             name: "ramp",
             word: Some("An incline between two level pieces of ground."),
-            choose: |terrain| terrain.ground = by_formula(Surface::Ramp(NO_RAMP)),
+            choose: |terrain| terrain.shape = Shape::Formula(Surface::Ramp(NO_RAMP)),
             table: Table {
                 doc: "An incline between two level pieces of ground.",
                 fields: &[
@@ -173,7 +161,7 @@ pub(super) static TERRAIN: Laws<PlacedTerrain> = Laws {
         Law {
             name: "cone",
             word: Some("A round hill or pit of even slope."),
-            choose: |terrain| terrain.ground = by_formula(Surface::Cone(NO_CONE)),
+            choose: |terrain| terrain.shape = Shape::Formula(Surface::Cone(NO_CONE)),
             table: Table {
                 doc: "A cone about a vertical axis.",
                 fields: &[
@@ -194,7 +182,7 @@ pub(super) static TERRAIN: Laws<PlacedTerrain> = Laws {
         Law {
             name: "ripple",
             word: Some("Straight waves."),
-            choose: |terrain| terrain.ground = by_formula(Surface::Ripple(NO_RIPPLE)),
+            choose: |terrain| terrain.shape = Shape::Formula(Surface::Ripple(NO_RIPPLE)),
             table: Table {
                 doc: "Straight waves of one length.",
                 fields: &[
@@ -217,7 +205,7 @@ pub(super) static TERRAIN: Laws<PlacedTerrain> = Laws {
         Law {
             name: "crater",
             word: Some("A bowl with a rim."),
-            choose: |terrain| terrain.ground = by_formula(Surface::Crater(NO_CRATER)),
+            choose: |terrain| terrain.shape = Shape::Formula(Surface::Crater(NO_CRATER)),
             table: Table {
                 doc: "A bowl with a rim, in level ground.",
                 fields: &[
@@ -267,7 +255,7 @@ const NO_CRATER: Crater = Crater {
     rim_width: 1.0,
 };
 
-const STARTS: Field<PlacedTerrain> = place(
+const STARTS: Field<Ground> = place(
     START,
     "Where the body's centre of mass is at the start, on the map, x and y; left out, the middle of the map, or the origin of a formula",
     |terrain, axis| terrain.start.get_mut(axis),
@@ -277,28 +265,22 @@ const STARTS: Field<PlacedTerrain> = place(
 const fn place(
     key: &'static str,
     doc: &'static str,
-    reach: fn(&mut PlacedTerrain, usize) -> Option<&mut f64>,
-) -> Field<PlacedTerrain> {
+    reach: fn(&mut Ground, usize) -> Option<&mut f64>,
+) -> Field<Ground> {
     numbers(key, M, -FARTHEST..=FARTHEST, Form::Exactly(2), doc, |_, _| {}, reach).optional()
 }
 
 /// How steep it is.
-const fn slope(reach: fn(&mut PlacedTerrain) -> Option<&mut f64>) -> Field<PlacedTerrain> {
+const fn slope(reach: fn(&mut Ground) -> Option<&mut f64>) -> Field<Ground> {
     number(SLOPE, DEG, 0.0..=STEEPEST, "Inclination", reach)
 }
 
 /// A direction on the map.
-const fn uphill(
-    doc: &'static str,
-    reach: fn(&mut PlacedTerrain) -> Option<&mut f64>,
-) -> Field<PlacedTerrain> {
+const fn uphill(doc: &'static str, reach: fn(&mut Ground) -> Option<&mut f64>) -> Field<Ground> {
     number("direction_deg", DEG, -360.0..=360.0, doc, reach).or(0.0)
 }
 
 /// A length over which an edge is rounded.
-const fn rounding(
-    doc: &'static str,
-    reach: fn(&mut PlacedTerrain) -> Option<&mut f64>,
-) -> Field<PlacedTerrain> {
+const fn rounding(doc: &'static str, reach: fn(&mut Ground) -> Option<&mut f64>) -> Field<Ground> {
     number("rounding_m", M, 0.0..=LARGEST, doc, reach).or(0.0)
 }

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::super::field::{At, Each, Field, Table, list, note, part, whole};
 use super::super::kind::Kind;
 use super::soil;
-use grouser_core::simulation::PlacedTerrain;
 use grouser_core::soil::Soil;
+use grouser_core::terrain::Ground;
 
 /// The key of the file of zones, in the table of the terrain.
 pub(crate) const FILE: &str = "soil_file";
@@ -22,19 +22,19 @@ pub(crate) const SOIL: &str = "soil";
 /// The largest class number: single precision has all whole numbers up to here.
 const LARGEST_CLASS: u64 = 1 << 24;
 
-pub(super) const SOIL_FILE: Field<PlacedTerrain> = note(
+pub(super) const SOIL_FILE: Field<Ground> = note(
     FILE,
     "Zones of soil: a raster of class numbers (GeoTIFF, .npy, xyz text), or GeoJSON polygons in metres with a property `soil`; a path from this document's folder. Where no zone is, the soil is the scenario's.",
 )
 .optional();
 
-const ROWS: &Each<PlacedTerrain, Soil> = &Each {
+const ROWS: &Each<Ground, Soil> = &Each {
     inner: &ZONE,
-    list: |terrain| &mut Arc::make_mut(terrain.soils.get_or_insert_default()).soils,
+    list: |terrain| &mut Arc::make_mut(terrain.zones.get_or_insert_default()).soils,
     blank: || soil::BLANK,
 };
 
-pub(super) const ZONES: Field<PlacedTerrain> =
+pub(super) const ZONES: Field<Ground> =
     list(LEGEND, "The soil of each class, or of each name that is not a preset's.", ROWS, 0)
         .optional();
 

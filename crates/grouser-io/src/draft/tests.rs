@@ -145,7 +145,7 @@ fn a_scenario_takes_words_for_gravity_and_names_for_parts() {
         ],
     );
     let scenario = read_scenario(&source(&draft), &Overrides::none()).expect("a scenario").value;
-    assert_eq!(scenario.site.gravity, crate::gravity("mars").expect("a world"));
+    assert_eq!(scenario.gravity, crate::gravity("mars").expect("a world"));
     assert_eq!(scenario.rover.wheel_count(), 6);
 }
 

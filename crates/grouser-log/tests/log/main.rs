@@ -14,8 +14,8 @@ use grouser::studies::mission::DrivenMission;
 use grouser::studies::replay::Replayer;
 use grouser::studies::simulated_telemetry::truth;
 use grouser_core::mission::{Leg, Limited, Manoeuvre, Mission, Stop};
-use grouser_core::simulation::{Landscape, PlacedTerrain, Record, Run, Scenario, Trajectory};
-use grouser_core::terrain::AnalyticTerrain;
+use grouser_core::simulation::{Record, Run, Scenario, Trajectory};
+use grouser_core::terrain::Ground;
 use grouser_core::terrain::surface::{Ripple, Surface};
 use grouser_core::units::{Vec2, Vec3, deg};
 use grouser_core::vehicle::{Battery, Motor, Mount, Rover, Winding};
@@ -357,11 +357,8 @@ fn transforms_lead_to_the_ground_of_a_map() -> Outcomes {
     let ripple = Ripple { amplitude: 0.03, wavelength: 1.0, across: 0.3, phase: 0.0 };
     let surface = Surface::Ripple(ripple);
     let mut scenario = short();
-    scenario.site = scenario.site.with_slope(0.0);
-    let ground = AnalyticTerrain { surface, soil: scenario.site.terrain.soil };
     let start = Vec2::new(1234.5, -77.0);
-    let ground = Landscape::Analytic(ground.into());
-    scenario.terrain = Some(PlacedTerrain { ground, start, soils: None });
+    scenario.ground = Ground::formula(scenario.ground.soil, surface).starting_at(start);
     let run = run_of(&scenario);
     let file = log_of(&scenario, &run.records)?;
     let base = surface.height(start);
@@ -392,12 +389,9 @@ fn transforms_lead_to_the_ground_of_a_map() -> Outcomes {
 #[test]
 fn a_log_has_the_belly_clearance_where_that_is_known() -> Outcomes {
     let mut scenario = short();
-    scenario.site = scenario.site.with_slope(0.0);
     let surface =
         Surface::Ripple(Ripple { amplitude: 0.03, wavelength: 1.0, across: 0.3, phase: 0.0 });
-    let ground =
-        Landscape::Analytic(AnalyticTerrain { surface, soil: scenario.site.terrain.soil }.into());
-    scenario.terrain = Some(PlacedTerrain { ground, start: Vec2::zeros(), soils: None });
+    scenario.ground = Ground::formula(scenario.ground.soil, surface);
     for (clearance, fields) in [(None, 4), (Some(0.2), 5)] {
         scenario.rover.parts_mut().belly_clearance = clearance;
         scenario.rover = scenario.rover.clone().checked()?;

@@ -2,7 +2,7 @@
 
 use grouser_core::contact::{Contact, Settled};
 use grouser_core::vehicle::Rover;
-use grouser_core::vehicle::ground::WheelReaction;
+use grouser_core::vehicle::on_ground::WheelReaction;
 
 /// A wheel in its soil, settled under its load.
 #[derive(Clone, Copy, Debug)]

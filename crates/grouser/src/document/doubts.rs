@@ -27,13 +27,13 @@ pub fn doubts(source: &Source) -> Result<Vec<String>, DocumentError> {
         Kind::Soil => {
             let soil = read_soil(source, &none)?;
             let mut scenario: Scenario = base()?;
-            scenario.site = scenario.site.with_soil(soil.value);
+            scenario.ground.soil = soil.value;
             let wheel = &scenario.rover.mounts()[0].unit.wheel;
             let situation = Situation {
                 theory: soil.document.usual_theory(""),
                 wheel,
                 soil: &soil.value,
-                gravity: scenario.site.gravity,
+                gravity: scenario.gravity,
                 slope: 0.0,
                 load: None,
                 slip: None,
@@ -61,16 +61,15 @@ fn modulus_question(finding: &Finding) -> String {
 
 /// The rover of a scenario at rest on level ground.
 fn of_standing(scenario: &Scenario) -> Vec<String> {
-    let Scenario { rover, site, theory, .. } = scenario;
-    let weight = rover.mass() * site.gravity;
+    let &Scenario { ref rover, ref ground, gravity, theory, .. } = scenario;
+    let weight = rover.mass() * gravity;
     let Ok(loads) = wheel_loads(rover, LoadSharing::QuasiStatic, weight, Vec2::zeros()) else {
         return vec!["the rover tips over on level ground".to_owned()];
     };
     let slip = Slip::on_test_stand(0.0, 0.0);
     let (mut doubts, mut standing) = (Vec::new(), Vec::new());
     for (mount, load) in rover.mounts().iter().zip(loads) {
-        let soil = site.terrain.soil;
-        let contact = Contact { wheel: mount.unit.wheel, soil, slip, gravity: site.gravity };
+        let contact = Contact { wheel: mount.unit.wheel, soil: ground.soil, slip, gravity };
         match settle(theory.model(), &contact, load) {
             Ok(settled) => standing.push(WheelReaction { slip, load, settled }),
             Err(error) => doubts.push(format!("the wheel `{}` finds no hold: {error}", mount.name)),

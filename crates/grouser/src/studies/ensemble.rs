@@ -81,7 +81,7 @@ pub fn outputs_while<C: Send, T: Send>(
 /// use grouser::units::deg;
 ///
 /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
-/// let (wheel, sand) = (scenario.rover.mounts()[0].unit.wheel, scenario.site.terrain.soil);
+/// let (wheel, sand) = (scenario.rover.mounts()[0].unit.wheel, scenario.ground.soil);
 /// let load = Marginal::Normal { mean: 17.0, standard_deviation: 2.0 };
 /// let friction = Marginal::Normal { mean: deg(38.0), standard_deviation: deg(1.5) };
 /// let inputs = Distribution::of_marginals(vec![load, friction], &[])?;
@@ -91,7 +91,7 @@ pub fn outputs_while<C: Send, T: Send>(
 ///     let values = ensemble.inputs(run).values;
 ///     let soil = Soil { friction_angle: values[1], ..sand };
 ///     let slip = Slip::on_test_stand(0.2, 0.0);
-///     let contact = Contact { wheel, soil, slip, gravity: scenario.site.gravity };
+///     let contact = Contact { wheel, soil, slip, gravity: scenario.gravity };
 ///     settle(&Ishigami::DEFAULT, &contact, values[0]).ok().map(|settled| settled.sinkage)
 /// });
 /// let summary = Summary::of(&sinkages, &[0.5]).expect("the wheels settle");

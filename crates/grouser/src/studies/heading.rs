@@ -42,13 +42,12 @@ pub use self::study::{HeadingStudy, STRAIGHT_UP, Steering};
 use super::validity::RoverOnSlope;
 use crate::contact::validity::Finding;
 use crate::elementary::wide;
-use crate::error::{ParameterError, finite};
+use crate::error::{ParameterError, finite, positive};
 use crate::root;
 use crate::simulation::Scenario;
 use crate::simulation::scenario::neglected_moments;
-use crate::site::Site;
 use crate::units::STEEPEST_SLOPE;
-use crate::vehicle::ground::forces_of;
+use crate::vehicle::on_ground::forces_of;
 use crate::vehicle::{LoadSharing, Mount, OwnMoments, Rover, WheelReaction, dynamics};
 
 /// The heading offset on a slope and course, with the slip, forces and sinkages in steady motion there. The
@@ -243,8 +242,8 @@ impl HeadingStudy {
     pub fn of(scenario: &Scenario) -> Self {
         Self {
             rover: scenario.rover.clone(),
-            soil: scenario.site.terrain.soil,
-            gravity: scenario.site.gravity,
+            soil: scenario.ground.soil,
+            gravity: scenario.gravity,
             theory: scenario.theory,
             sharing: scenario.sharing,
             own_moments: scenario.own_moments,
@@ -333,7 +332,8 @@ impl HeadingStudy {
 
     /// The curve of a held course or yaw, as far as it is to reach, or to its end.
     fn follow(&self, held: Held, reach: Reach) -> Result<HeadingCurve, ParameterError> {
-        Site::plane(self.soil, 0.0, self.gravity).check()?;
+        self.plane(0.0).check()?;
+        positive("gravity [m/s²]", self.gravity)?;
         self.stability.check()?;
         if self.sharing == LoadSharing::Complete && self.own_moments == OwnMoments::Neglected {
             return Err(neglected_moments());

@@ -144,7 +144,7 @@ impl Learner {
         settings: LearnSettings,
     ) -> Result<Self, NothingToLearn> {
         let study = HeadingStudy::of(&scenario.value);
-        let slope = slope_is_known.then_some(scenario.value.site.terrain.slope);
+        let slope = scenario.value.ground.plane_slope().filter(|_| slope_is_known);
         let bank = Bank::new(&BandInputs::of_scenario(scenario)).ok_or(NothingToLearn)?;
         let gatherer = Gatherer::new(&study.rover, slope);
         let (change, watch, learnt) = Default::default();

@@ -179,9 +179,9 @@ impl LostYawPlan {
         let base = self.scenario.clone();
         let numerics =
             Numerics { integrator: Integrator::Adaptive { tolerance: TOLERANCE }, ..base.numerics };
-        let site = base.site.with_slope(measured.slope);
+        let ground = base.ground.with_slope(measured.slope);
         let start = Start { yaw: measured.initial_yaw, ..base.start };
-        let run = Run::new(&Scenario { scatter, site, start, numerics, ..base })?.to_outcome()?;
+        let run = Run::new(&Scenario { scatter, ground, start, numerics, ..base })?.to_outcome()?;
         let loss = measured.initial_yaw - run.last().state.yaw;
         Ok(Lost { loss, is_whole: run.outcome == Outcome::Completed })
     }

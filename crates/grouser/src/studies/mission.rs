@@ -68,7 +68,7 @@ impl DrivenMission {
     /// The legs of a mission that were begun.
     #[must_use]
     pub fn of(name: &str, mission: &Mission, report: MissionReport) -> Self {
-        let origin = mission.scenario.terrain.as_ref().map_or_else(Vec2::zeros, |it| it.start);
+        let origin = mission.scenario.ground.start;
         let legs = mission.legs.iter().zip(&report.legs).enumerate();
         let legs = legs.map(|(place, (leg, report))| DrivenLeg {
             number: place + 1,

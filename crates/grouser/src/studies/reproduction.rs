@@ -181,11 +181,11 @@ impl Plan {
     fn wheel_test(&self, loads: &[f64], slip_angles: &[f64]) -> WheelTest {
         /// Steps from slip ratio 0 to 1.
         const STEPS: u32 = 50;
-        let Scenario { rover, site, theory, .. } = &self.scenario;
+        let Scenario { rover, ground, gravity, theory, .. } = &self.scenario;
         WheelTest {
             wheel: rover.mounts()[0].unit.wheel,
-            soil: site.terrain.soil,
-            gravity: site.gravity,
+            soil: ground.soil,
+            gravity: *gravity,
             theory: *theory,
             loads: loads.to_vec(),
             slip_angles: slip_angles.to_vec(),
@@ -237,7 +237,8 @@ impl Plan {
 
     fn start_up(&self, slopes: &[SlopeRuns]) -> Result<Trajectory, RunError> {
         let row = slopes.get(START_UP_ROW).or(slopes.first());
-        let (slope, yaw) = row.map_or((self.scenario.site.terrain.slope, 0.0), |row| {
+        let own = self.scenario.ground.plane_slope().unwrap_or(0.0);
+        let (slope, yaw) = row.map_or((own, 0.0), |row| {
             (row.measured.slope, row.heading.as_ref().map_or(0.0, |heading| heading.yaw))
         });
         let (duration, sample_interval) = START_UP;
@@ -252,7 +253,11 @@ impl Plan {
 
     fn traverse(&self, slope: f64, yaw: f64) -> Scenario {
         let base = self.scenario.clone();
-        Scenario { site: base.site.with_slope(slope), start: Start { yaw, ..base.start }, ..base }
+        Scenario {
+            ground: base.ground.with_slope(slope),
+            start: Start { yaw, ..base.start },
+            ..base
+        }
     }
 }
 

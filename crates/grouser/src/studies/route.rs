@@ -301,7 +301,7 @@ mod tests {
         let scenario =
             document::read_scenario(&Source::default_scenario(), &Overrides::none()).unwrap().value;
         let (study, raster) = (study(), ground_of(60, 60, 0.8, |at| 0.6 * hills(at)));
-        let model = std::sync::Arc::new(raster.clone().model(scenario.site.terrain.soil).unwrap());
+        let model = std::sync::Arc::new(raster.clone().model().unwrap());
         for (objective, to) in [(Objective::Time, [14.0, 11.0]), (Objective::Energy, [4.0, 16.0])] {
             let found = route(&study, &raster, &ends([6.0, 6.0], to), objective);
             let driven = found.drive(&scenario, &model, study.mobility.rim_speed).unwrap();

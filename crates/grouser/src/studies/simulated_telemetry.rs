@@ -134,7 +134,7 @@ pub struct Sensors {
 #[must_use]
 pub fn truth(run: &Trajectory, scenario: &Scenario) -> Vec<TelemetryRecord> {
     let mounts = scenario.rover.mounts();
-    let slope = scenario.terrain.is_none().then_some(scenario.site.terrain.slope);
+    let slope = scenario.ground.plane_slope();
     let mut last: Option<&Record> = None;
     let mut all = Vec::with_capacity(run.records.len());
     for record in &run.records {

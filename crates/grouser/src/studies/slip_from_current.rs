@@ -29,7 +29,7 @@ use crate::contact::{Slip, WheelForces};
 use crate::elementary::wide;
 use crate::error::{ParameterError, finite, not_negative};
 use crate::simulation::Scenario;
-use crate::site::Site;
+use crate::terrain::Ground;
 use crate::units::Vec2;
 use crate::vehicle::load::{self, Tipping};
 use crate::vehicle::{LoadSharing, Mount, OwnMoments, Rover, RoverState, SteeringAxis};
@@ -261,7 +261,8 @@ pub enum NoEstimator {
 #[derive(Debug)]
 pub struct SlipEstimator {
     rover: Rover,
-    site: Site,
+    ground: Ground,
+    gravity: f64,
     sharing: LoadSharing,
     own_moments: OwnMoments,
     settings: SlipSettings,
@@ -285,13 +286,14 @@ impl SlipEstimator {
             return Err(NoEstimator::NoMotor);
         }
         settings.check()?;
-        let (site, theory) = (scenario.site, scenario.theory);
-        let known = || vec![Sample { soil: site.terrain.soil, theory }];
+        let &Scenario { ref ground, gravity, theory, .. } = scenario;
+        let known = || vec![Sample { soil: ground.soil, theory }];
         let samples = if samples.is_empty() { known() } else { samples };
-        let table = TorqueTable::new(&scenario.rover, site.gravity, samples, settings.slips);
+        let table = TorqueTable::new(&scenario.rover, gravity, samples, settings.slips);
         Ok(Self {
             rover: scenario.rover.clone(),
-            site,
+            ground: ground.clone(),
+            gravity,
             sharing: scenario.sharing,
             own_moments: scenario.own_moments,
             settings,
@@ -346,7 +348,7 @@ impl SlipEstimator {
 
     /// What each wheel feels, without what the soil makes of it.
     fn felt(&self, record: &MotorRecord) -> Vec<Option<Felt>> {
-        let slope = record.slope.unwrap_or(self.site.terrain.slope);
+        let slope = record.slope.or(self.ground.plane_slope()).unwrap_or(0.0);
         let rover = self.steered(record);
         let loads = self.loads(&rover, record, slope);
         let wheels = rover.mounts().iter().enumerate().map(|(place, mount)| {
@@ -418,9 +420,9 @@ impl SlipEstimator {
     /// holds the pull; a wheel whose torque is not known has that of its force. Overturning moments are those of forces in
     /// the contact plane.
     fn loads(&self, rover: &Rover, record: &MotorRecord, slope: f64) -> Result<Vec<f64>, Tipping> {
-        let site = self.site.with_slope(slope);
+        let plane = self.ground.with_slope(slope);
         let state = RoverState { yaw: record.yaw.unwrap_or(0.0), ..RoverState::default() };
-        let pull = load::slope_pull(rover, &site, &state);
+        let pull = load::slope_pull(rover, &plane, self.gravity, &state);
         let share = -pull / rover.mounts().len() as f64;
         let forces = rover.mounts().iter().enumerate().map(|(place, mount)| {
             let (force, radius) = (mount.wheel_from_body(share), mount.shearing_radius());
@@ -439,7 +441,7 @@ impl SlipEstimator {
         });
         let forces: Vec<WheelForces> = forces.collect();
         let moments = load::moments(rover, pull, self.sharing, self.own_moments, &forces);
-        let weight = load::weight(rover, &site, &state, &state.slope_from_body());
+        let weight = load::weight(rover, &plane, self.gravity, &state, &state.slope_from_body());
         load::wheel_loads(rover, self.sharing, weight.into, moments)
     }
 

@@ -137,7 +137,7 @@ impl TraverseBand {
         assert!(!samples.is_empty(), "a band needs samples");
         let run = |sample: &Sample, scatter: Scatter| {
             let mut scenario = Scenario { theory: sample.theory, scatter, ..scenario.clone() };
-            scenario.site.terrain.soil = sample.soil;
+            scenario.ground.soil = sample.soil;
             let run = Run::new(&scenario)?.to_end()?;
             Ok(OfSample::of(&run, &scenario, times))
         };

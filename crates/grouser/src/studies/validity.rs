@@ -37,14 +37,13 @@ impl<'a> RoverOnSlope<'a> {
     /// The rover of a scenario on its slope.
     #[must_use]
     pub fn of(scenario: &'a Scenario) -> Self {
-        let terrain = &scenario.site.terrain;
         Self {
             rover: &scenario.rover,
-            soil: &terrain.soil,
-            zones: scenario.terrain.as_ref().and_then(|placed| placed.soils.as_deref()),
-            gravity: scenario.site.gravity,
+            soil: &scenario.ground.soil,
+            zones: scenario.ground.zones.as_deref(),
+            gravity: scenario.gravity,
             theory: scenario.theory,
-            slope: terrain.slope,
+            slope: scenario.ground.plane_slope().unwrap_or(0.0),
         }
     }
 

@@ -18,8 +18,8 @@ use crate::wheel::Wheel;
 /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
 /// let test = WheelTest {
 ///     wheel: scenario.rover.mounts()[0].unit.wheel,
-///     soil: scenario.site.terrain.soil,
-///     gravity: scenario.site.gravity,
+///     soil: scenario.ground.soil,
+///     gravity: scenario.gravity,
 ///     theory: Theory::Ishigami,
 ///     loads: vec![17.0],
 ///     slip_angles: vec![0.0],

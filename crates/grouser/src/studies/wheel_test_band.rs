@@ -78,8 +78,8 @@ impl WheelTest {
     /// let scenario = document::read_scenario(&Source::default_scenario(), &overrides)?;
     /// let test = WheelTest {
     ///     wheel: scenario.value.rover.mounts()[0].unit.wheel,
-    ///     soil: scenario.value.site.terrain.soil,
-    ///     gravity: scenario.value.site.gravity,
+    ///     soil: scenario.value.ground.soil,
+    ///     gravity: scenario.value.gravity,
     ///     theory: scenario.value.theory,
     ///     loads: vec![17.0],
     ///     slip_angles: vec![0.0],

@@ -135,7 +135,7 @@ fn a_sample_depends_on_the_seed_and_its_number_alone() {
 #[test]
 fn the_band_of_an_exact_soil_contains_every_model_of_the_spread() {
     let scenario = scenario(&[EXACT]);
-    let soil = scenario.value.site.terrain.soil;
+    let soil = scenario.value.ground.soil;
     let samples = samples(&scenario, 200);
     let test = stand(soil, Theory::Ishigami);
     let bands = test.bands(&samples, &|| true).expect("not stopped");
@@ -165,7 +165,7 @@ fn the_band_of_an_exact_soil_contains_every_model_of_the_spread() {
 fn one_model_on_an_exact_soil_is_a_point() {
     let scenario = scenario(&["scenario.model=rft", EXACT]);
     let samples = samples(&scenario, 20);
-    let test = stand(scenario.value.site.terrain.soil, Theory::Rft);
+    let test = stand(scenario.value.ground.soil, Theory::Rft);
     let mut computed = std::sync::atomic::AtomicUsize::new(0);
     let count = || {
         computed.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
@@ -188,7 +188,7 @@ fn one_model_on_an_exact_soil_is_a_point() {
 
 /// Sand so loose that the wheel sinks to its axle.
 fn mire() -> Soil {
-    let sand = scenario(&[]).value.site.terrain.soil;
+    let sand = scenario(&[]).value.ground.soil;
     let PressureSinkage::Reece { k_c, k_phi, exponent } = sand.pressure_sinkage else {
         panic!("Toyoura sand has Reece's law")
     };
@@ -198,7 +198,7 @@ fn mire() -> Soil {
 
 #[test]
 fn a_wheel_that_sinks_to_its_axle_is_not_left_out() {
-    let sand = scenario(&[]).value.site.terrain.soil;
+    let sand = scenario(&[]).value.ground.soil;
     let of = |soil| Sample { soil, theory: Theory::Ishigami };
     let test = stand(sand, Theory::Ishigami);
     let bands = test.bands(&[of(sand), of(mire()), of(mire())], &|| true).expect("not stopped");
@@ -285,12 +285,12 @@ fn a_traverse_of_one_model_is_its_run_and_of_several_contains_each() {
 #[test]
 fn a_run_that_ends_early_is_not_left_out() {
     let good = scenario(&["scenario.duration_s=6", "scenario.slope_deg=5"]).value;
-    let mut slick = good.site.terrain.soil;
+    let mut slick = good.ground.soil;
     slick.friction_angle = deg(5.0);
     let of = |soil| Sample { soil, theory: Theory::Ishigami };
-    let samples = [of(good.site.terrain.soil), of(slick), of(slick)];
+    let samples = [of(good.ground.soil), of(slick), of(slick)];
     let mut stuck = good.clone();
-    stuck.site.terrain.soil = slick;
+    stuck.ground.soil = slick;
     let run = given::run(&stuck);
     assert!(run.outcome != Outcome::Completed && run.last().time < 6.0, "{:?}", run.outcome);
     let band = TraverseBand::of(&good, &samples, &[0.1, 6.0], &|| true);

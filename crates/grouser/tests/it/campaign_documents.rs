@@ -174,7 +174,8 @@ fn a_row_is_the_study_of_the_scenario_with_its_inputs() {
         let scenario = document::read_scenario(&Source::default_scenario(), &overrides);
         let scenario = scenario.expect("it is one").value;
         let curve = HeadingStudy::of(&scenario).curve().expect("a soil");
-        let attitude = curve.at(scenario.site.terrain.slope).expect("it exists");
+        let attitude =
+            curve.at(scenario.ground.plane_slope().expect("a plane")).expect("it exists");
         assert_eq!(yaw, Some(attitude.yaw.to_degrees()));
     }
 }

@@ -3,7 +3,6 @@
 use grouser::document::{self, LoadedScenario, Overrides, Source};
 use grouser::simulation::{Approach, Motion, Scenario, Start};
 
-use grouser::site::Site;
 use grouser::soil::{SlopeStability, Soil};
 use grouser::studies::card::courses::{Course, CourseRow};
 use grouser::studies::card::drives::{CardDrives, RowDrives};
@@ -11,6 +10,7 @@ use grouser::studies::card::{Card, CardRow, CardStudy, Rule, STUCK_ON_GO, Verdic
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::ensemble::{Band, Probability};
 use grouser::studies::heading::{HeadingCurve, HeadingStudy};
+use grouser::terrain::Ground;
 use grouser::units::{EARTH_GRAVITY, MOON_GRAVITY, deg};
 use grouser::vehicle::{DriveLaw, Rover};
 
@@ -341,9 +341,10 @@ fn a_run_with_the_nose_set_again_drifts_as_the_card_says() {
         let driven = row.driven.expect("not steep");
         let motion = driven.motion.expect("it moves");
         let duration = motion.correct_every / given::RIM_SPEED;
-        let site = Site::plane(study.heading.soil, row.slope, study.heading.gravity);
+        let ground = Ground::plane(study.heading.soil, row.slope);
+        let gravity = study.heading.gravity;
         let start = Start { yaw: driven.yaw, motion: Motion::Rolling };
-        let run = given::run(&Scenario { site, start, duration, ..scenario.clone() });
+        let run = given::run(&Scenario { ground, gravity, start, duration, ..scenario.clone() });
         let (first, last) = (&run.records[0].state, &run.last().state);
         let way = last.position - first.position;
         let drift = -way.y / way.x.hypot(way.y);

@@ -23,7 +23,7 @@ fn scenario(settings: &[&str]) -> Scenario {
 /// The same on a slope, from a yaw [rad].
 fn from(base: &Scenario, slope: f64, yaw: f64) -> Scenario {
     Scenario {
-        site: base.site.with_slope(slope),
+        ground: base.ground.with_slope(slope),
         start: Start { yaw, ..base.start },
         ..base.clone()
     }
@@ -109,8 +109,8 @@ fn a_field_without_end_is_another_soil() {
         let scatter = Scatter { soil, seed, ..Scatter::NONE };
         let base = scenario(&["scenario.start.yaw_deg=5"]);
         let here = scatter.soil_field().expect("it scatters").at(Vec2::zeros());
-        let other = base.site.terrain.soil.differing(here);
-        let other = Scenario { site: base.site.with_soil(other), ..base.clone() };
+        let other = base.ground.soil.differing(here);
+        let other = Scenario { ground: base.ground.clone().with_soil(other), ..base.clone() };
         let difference = final_yaw(&Scenario { scatter, ..base }) - final_yaw(&other);
         assert!(difference.abs() < deg(0.01), "{difference}");
     }
@@ -118,7 +118,7 @@ fn a_field_without_end_is_another_soil() {
 
 #[test]
 fn a_difference_changes_what_it_says() {
-    let soil: Soil = scenario(&[]).site.terrain.soil;
+    let soil: Soil = scenario(&[]).ground.soil;
     assert_eq!(soil.differing(SoilDifference::NONE), soil);
     let steep = SoilDifference { friction_angle: deg(-60.0), stiffness: 1.0 };
     assert_eq!(soil.differing(steep).friction_angle, deg(1.0));

@@ -270,14 +270,14 @@ fn a_scenario_that_says_nothing_is_the_traverse_on_10_degrees() {
     let run = default.expect("it is read").value;
     let written = Source::find(Kind::Scenario, "traverse-10-deg").expect("a preset");
     assert_eq!(run, document::read_scenario(&written, &overrides).expect("it is read").value);
-    assert_eq!(run.site.terrain.slope, deg(10.0));
-    assert_eq!(run.site.gravity, 9.80665);
+    assert_eq!(run.ground.plane_slope().expect("a plane"), deg(10.0));
+    assert_eq!(run.gravity, 9.80665);
     assert_eq!(run.duration, 20.0);
     assert_eq!(run.theory, Theory::Ishigami);
     assert_eq!(run.drive, DriveLaw::Constant(0.06));
     assert_eq!((run.sharing, run.own_moments), (LoadSharing::Complete, OwnMoments::Included));
     assert_eq!((run.yaw, run.stability), (None, SlopeStability::USUAL));
-    assert_eq!(run.site.terrain.soil, soil("toyoura"));
+    assert_eq!(run.ground.soil, soil("toyoura"));
     assert_eq!(run.rover.mounts()[0].name, "front-left");
 }
 
@@ -392,8 +392,8 @@ fn overrides_reach_every_part_of_a_scenario() {
         "scenario.drive={speed_m_s=[0.1, 0.1, -0.1, -0.1]}",
     ]);
     let run = run.expect("all are allowed");
-    assert_eq!(run.value.site.terrain.slope, deg(5.0));
-    assert_eq!(run.value.site.terrain.soil.cohesion, 500.0);
+    assert_eq!(run.value.ground.plane_slope().expect("a plane"), deg(5.0));
+    assert_eq!(run.value.ground.soil.cohesion, 500.0);
     assert_eq!(run.value.rover.mounts()[0].unit.wheel.radius, 0.2);
     assert_eq!(run.value.rover.mass(), 24.0);
     assert_eq!(run.value.drive, DriveLaw::ConstantEach(vec![0.1, 0.1, -0.1, -0.1]));
@@ -412,7 +412,7 @@ fn an_override_ends_the_assumption_it_replaces() {
 #[test]
 fn a_new_law_needs_no_cleaning_up() {
     let run = override_scenario(&["soil.shear.law=isotropic", "soil.bulldozing.law=none"]);
-    let soil = run.expect("allowed").value.site.terrain.soil;
+    let soil = run.expect("allowed").value.ground.soil;
     assert!(matches!(soil.shear, Shear::Isotropic { .. }));
     assert_eq!(soil.bulldozing, Bulldozing::None);
     let run = override_scenario(&["scenario.drive.law=eq18", "scenario.drive.speed_m_s=0.1"]);
@@ -449,7 +449,7 @@ fn changes_are_set_as_flags_are_and_quoted_whole() {
     };
     let run = changed("scenario.soil.shear.longitudinal_m", "0.02").expect("allowed");
     let Shear::Anisotropic { longitudinal: ShearModulus::Linear { at_zero, .. }, .. } =
-        run.value.site.terrain.soil.shear
+        run.value.ground.soil.shear
     else {
         panic!("Toyoura's law")
     };

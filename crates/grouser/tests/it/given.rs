@@ -4,11 +4,11 @@ use std::f64::consts::FRAC_PI_2;
 
 use grouser::contact::{Contact, Settled, Slip, Theory, WheelSoilModel, settle};
 use grouser::simulation::{Motion, Numerics, Run, Scenario, Start, Trajectory};
-use grouser::site::Site;
 use grouser::soil::{
     Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
     SinkageExponent, SmallWheel, Soil, StressPeak,
 };
+use grouser::terrain::Ground;
 use grouser::units::{EARTH_GRAVITY, Vec3, deg};
 use grouser::vehicle::{Body, DriveLaw, Inertia, LoadSharing, Mount, OwnMoments, Rover, WheelUnit};
 use grouser::wheel::{Grousers, Wheel};
@@ -115,7 +115,8 @@ pub(crate) const RIM_SPEED: f64 = 0.06;
 pub(crate) fn traverse(slope: f64, yaw: f64) -> Scenario {
     Scenario {
         rover: hakuto(),
-        site: Site::plane(toyoura(), slope, EARTH_GRAVITY),
+        ground: Ground::plane(toyoura(), slope),
+        gravity: EARTH_GRAVITY,
         theory: Theory::Ishigami,
         sharing: LoadSharing::QuasiStatic,
         own_moments: OwnMoments::Neglected,
@@ -123,7 +124,6 @@ pub(crate) fn traverse(slope: f64, yaw: f64) -> Scenario {
         yaw: None,
         by_wheel: grouser::vehicle::ByWheel::ALIKE,
         scatter: grouser::simulation::Scatter::NONE,
-        terrain: None,
         ruts: grouser::vehicle::Ruts::Fresh,
         stability: grouser::soil::SlopeStability::USUAL,
         start: Start { yaw, motion: Motion::Rolling },

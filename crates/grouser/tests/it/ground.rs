@@ -6,12 +6,12 @@ use grouser::document::{self, Kind, Overrides, Source, experiment};
 use grouser::simulation::{
     Approach, Motion, Numerics, Outcome, PrescribedYaw, Run, Scenario, Start,
 };
-use grouser::site::Site;
 use grouser::soil::{Shear, ShearBound, SlopeStability, Soil};
 use grouser::studies::card::{CardStudy, Rule, Verdict};
 use grouser::studies::comparison::{Levelness, MeasuredTraverse};
 use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::heading::{HeadingStudy, LimitedBy, NoHeading};
+use grouser::terrain::Ground;
 use grouser::units::{
     EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, STEEPEST_SLOPE, Vec2, deg, kpa, mm,
 };
@@ -212,7 +212,7 @@ fn a_locked_wheel_resists_within_its_soils_friction() {
 fn steepest_to_park_on(soil: Soil, theory: Theory, yaw: f64) -> f64 {
     let stays = |slope: f64| {
         let parked = Scenario {
-            site: Site::plane(soil, slope, EARTH_GRAVITY),
+            ground: Ground::plane(soil, slope),
             theory,
             drive: DriveLaw::Constant(0.0),
             start: Start { yaw, motion: Motion::Rest },

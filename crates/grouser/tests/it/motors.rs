@@ -87,8 +87,8 @@ fn up_a_firm_slope_motors_take_the_climb_and_their_heat() {
     let at_once = linear(1e-5, 0.0);
     let shear = Shear::Anisotropic { longitudinal: at_once, lateral: at_once };
     let soil = Soil { shear, ..firm() };
-    scenario.site = scenario.site.with_soil(soil);
-    let weight = scenario.rover.mass() * scenario.site.gravity;
+    scenario.ground.soil = soil;
+    let weight = scenario.rover.mass() * scenario.gravity;
     let run = run(&scenario);
     let last = run.last();
     let climb = weight * deg(10.0).sin() * last.state.velocity.norm() / motor.efficiency;

@@ -32,7 +32,7 @@ pub(super) fn firm() -> Soil {
 
 fn on_level_firm_ground(rover: Rover) -> Scenario {
     let base = traverse(0.0, 0.0);
-    Scenario { rover, site: base.site.with_soil(firm()), duration: 5.0, ..base }
+    Scenario { rover, ground: base.ground.clone().with_soil(firm()), duration: 5.0, ..base }
 }
 
 /// On the left in the order of the mounts: front left, rear left, rear right, front right.
@@ -133,8 +133,8 @@ fn wide_wheels_on_one_side_turn_the_rover_to_the_side_that_pulls_less() {
                 }
             });
             let base = traverse(deg(16.0), deg(90.0));
-            let site = base.site.with_soil(soil);
-            let scenario = Scenario { rover, site, duration: 5.0, ..base };
+            let ground = base.ground.clone().with_soil(soil);
+            let scenario = Scenario { rover, ground, duration: 5.0, ..base };
             run(&scenario).last().state.yaw - deg(90.0)
         };
         let pull = |wheel: Wheel| {
@@ -361,7 +361,7 @@ fn an_attitude_of_different_wheels_holds_the_slope() {
     let study = HeadingStudy::of(&scenario);
     let attitude = study.curve().expect("a study").at(deg(10.0)).expect("it exists");
     let rover = &scenario.rover;
-    let weight = rover.mass() * scenario.site.gravity;
+    let weight = rover.mass() * scenario.gravity;
     let sum = |part: fn(&WheelForces) -> f64| {
         attitude.wheels.iter().map(|wheel| part(&wheel.settled.forces)).sum::<f64>()
     };

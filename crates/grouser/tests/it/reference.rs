@@ -2,13 +2,13 @@
 
 use grouser::contact::{Contact, Ishigami, Settled, Slip, Theory, WheelForces};
 use grouser::simulation::Scenario;
-use grouser::site::Site;
 use grouser::soil::{
     Bulldozing, Domain, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
     StressPeak,
 };
 use grouser::studies::comparison::Levelness;
 use grouser::studies::heading::{HeadingOffset, HeadingStudy, Steering};
+use grouser::terrain::Ground;
 use grouser::units::{EARTH_GRAVITY, MOON_GRAVITY, Vec2, deg};
 use grouser::vehicle::load::{slope_pull, wheel_loads};
 use grouser::vehicle::{LoadSharing, OwnMoments, RoverState, dynamics};
@@ -257,18 +257,23 @@ const TABLE_HEIGHT: f64 = 0.145;
 fn yaw_moment_with_transfers(slope_deg: f64, pitch: f64, roll: f64) -> f64 {
     let attitude = hakuto_attitude(LoadSharing::QuasiStatic, slope_deg);
     let rover = given::hakuto();
-    let site = Site::plane(given::toyoura(), deg(slope_deg), EARTH_GRAVITY);
-    let weight = rover.mass() * site.gravity * deg(slope_deg).cos();
+    let ground = Ground::plane(given::toyoura(), deg(slope_deg));
+    let weight = rover.mass() * EARTH_GRAVITY * deg(slope_deg).cos();
     let pull = TABLE_HEIGHT
-        * slope_pull(&rover, &site, &RoverState { yaw: attitude.yaw, ..RoverState::default() });
+        * slope_pull(
+            &rover,
+            &ground,
+            EARTH_GRAVITY,
+            &RoverState { yaw: attitude.yaw, ..RoverState::default() },
+        );
     let moments = Vec2::new(pitch * pull.x, roll * pull.y);
     let loads = wheel_loads(&rover, LoadSharing::QuasiStatic, weight, moments).expect("it stands");
     let slip = Slip::on_test_stand(attitude.slip_ratio, -attitude.yaw);
     let contact = Contact {
         wheel: rover.mounts()[0].unit.wheel,
-        soil: site.terrain.soil,
+        soil: ground.soil,
         slip,
-        gravity: site.gravity,
+        gravity: EARTH_GRAVITY,
     };
     let forces_under = |&load: &f64| given::settled(&Ishigami::default(), &contact, load).forces;
     let wheels: Vec<WheelForces> = loads.iter().map(forces_under).collect();

@@ -112,8 +112,8 @@ impl On<'_> {
     fn stretch(&self, yaw: f64) -> Option<(f64, f64)> {
         let rim_speed = self.study.rim_speed;
         let mut scenario: Scenario = self.loaded.value.clone();
-        scenario.site.terrain.soil = self.sample.soil;
-        scenario.site.terrain.slope = self.slope;
+        scenario.ground.soil = self.sample.soil;
+        scenario.ground = scenario.ground.with_slope(self.slope);
         scenario.theory = self.sample.theory;
         scenario.drive = DriveLaw::Constant(rim_speed);
         scenario.numerics.approach = Approach::QuasiSteady;

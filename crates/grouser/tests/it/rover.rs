@@ -1,11 +1,9 @@
 //! The rover as a rigid body: momentum, the balance of its wheels, and when it tips.
 
-use std::borrow::Cow;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use grouser::contact::WheelForces;
-use grouser::site::Site;
-use grouser::terrain::{Patch, Terrain};
+use grouser::terrain::{Ground, Patch, Plane, Terrain};
 use grouser::units::{EARTH_GRAVITY, Vec2, Vec3, deg};
 use grouser::vehicle::load::wheel_loads;
 use grouser::vehicle::{
@@ -32,8 +30,8 @@ fn lopsided() -> Rover {
     Rover::new(Body { mass: 1.0, inertia }, mounts.collect()).expect("it stands")
 }
 
-fn site(slope: f64) -> Site {
-    Site::plane(given::toyoura(), slope, EARTH_GRAVITY)
+fn plane(slope: f64) -> Ground {
+    Ground::plane(given::toyoura(), slope)
 }
 
 fn at_yaw(yaw: f64) -> RoverState {
@@ -233,7 +231,7 @@ fn any_state() -> impl Strategy<Value = RoverState> {
 /// Newton and Euler about the common centre of mass, in the slope frame, then back to the body's.
 fn by_the_common_centre(
     rover: &Rover,
-    site: &Site,
+    slope: f64,
     state: &RoverState,
     wheels: &[WheelForces],
 ) -> Acceleration {
@@ -249,7 +247,7 @@ fn by_the_common_centre(
             .iter()
             .map(|hub| unit.inertia.zz + unit.mass * (hub - centre).norm_squared())
             .sum::<f64>();
-    let weight = Vec2::new(0.0, -mass * site.gravity * site.terrain.slope.sin());
+    let weight = Vec2::new(0.0, -mass * EARTH_GRAVITY * slope.sin());
     let mut force = weight;
     let mut moment = 0.0;
     for (hub, wheel) in hubs.iter().zip(wheels) {
@@ -281,11 +279,10 @@ proptest! {
             .iter()
             .map(|&(x, y, moment)| wheel_force(x, y, moment))
             .collect();
-        let site = site(slope);
-        let pull = load::slope_pull(&rover, &site, &state);
+        let pull = load::slope_pull(&rover, &plane(slope), EARTH_GRAVITY, &state);
         let soil = dynamics::soil_resultant(&rover, &wheels, OwnMoments::Included);
         let ours = dynamics::acceleration(&rover, pull, &state, soil);
-        let theirs = by_the_common_centre(&rover, &site, &state, &wheels);
+        let theirs = by_the_common_centre(&rover, slope, &state, &wheels);
         let size = theirs.velocity_rate.norm() + theirs.yaw_acceleration.abs() + 1.0;
         // Rounding of a 3 by 3 solution; light bodies with far wheels are the worst conditioned.
         prop_assert!((ours.velocity_rate - theirs.velocity_rate).norm() < 1e-9 * size);
@@ -297,9 +294,9 @@ proptest! {
     /// rover that drives along +x.
     #[test]
     fn the_weight_pulls_downhill_whatever_the_yaw(yaw in -PI..PI, slope in 0.0..1.5) {
-        let (rover, site) = (given::hakuto(), site(slope));
-        let weight = rover.mass() * site.gravity;
-        let pull = load::slope_pull(&rover, &site, &at_yaw(yaw));
+        let (rover, ground) = (given::hakuto(), plane(slope));
+        let weight = rover.mass() * EARTH_GRAVITY;
+        let pull = load::slope_pull(&rover, &ground, EARTH_GRAVITY, &at_yaw(yaw));
         prop_assert!((pull.x + weight * slope.sin() * yaw.sin()).abs() < 1e-12 * weight);
         prop_assert!((pull.y + weight * slope.sin() * yaw.cos()).abs() < 1e-12 * weight);
         let in_slope = Rotation2::new(yaw) * pull;
@@ -385,9 +382,8 @@ proptest! {
         let hubs = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
         let hubs = hubs.map(|(x, y)| (half_base * x, half_track * y));
         let rover = given::rover_on(given::hakuto_wheel(), &hubs);
-        let site = site(slope);
-        let weight = rover.mass() * site.gravity;
-        let loads = quasi_static_loads(&rover, &site, yaw).expect("it stands");
+        let weight = rover.mass() * EARTH_GRAVITY;
+        let loads = quasi_static_loads(&rover, slope, yaw).expect("it stands");
         let height = rover.centre_height();
         for ((x, y), load) in hubs.into_iter().zip(loads) {
             let roll = slope.sin() * yaw.cos() * height / half_track * y.signum();
@@ -399,28 +395,29 @@ proptest! {
 }
 
 /// Loads of a rover that stands on a slope.
-fn quasi_static_loads(rover: &Rover, site: &Site, yaw: f64) -> Result<Vec<f64>, load::Tipping> {
+fn quasi_static_loads(rover: &Rover, slope: f64, yaw: f64) -> Result<Vec<f64>, load::Tipping> {
     let sharing = LoadSharing::QuasiStatic;
     let moments = load::moments(
         rover,
-        load::slope_pull(rover, site, &at_yaw(yaw)),
+        load::slope_pull(rover, &plane(slope), EARTH_GRAVITY, &at_yaw(yaw)),
         sharing,
         OwnMoments::Neglected,
         &[],
     );
-    wheel_loads(rover, sharing, rover.mass() * site.gravity * site.terrain.slope.cos(), moments)
+    wheel_loads(rover, sharing, rover.mass() * EARTH_GRAVITY * slope.cos(), moments)
 }
 
 /// On 50° with its nose turned 30° uphill the paper's rover still stands, on three wheels.
 #[test]
 fn a_wheel_lifts_before_the_rover_tips() {
-    let (rover, site, yaw) = (given::hakuto(), site(deg(50.0)), deg(30.0));
-    let loads = quasi_static_loads(&rover, &site, yaw).expect("it stands");
+    let (rover, slope, yaw) = (given::hakuto(), deg(50.0), deg(30.0));
+    let loads = quasi_static_loads(&rover, slope, yaw).expect("it stands");
     // Front left is the uphill corner.
     assert_eq!(loads[0], 0.0);
     assert!(loads[1..].iter().all(|load| *load > 0.0), "{loads:?}");
-    let weight = rover.mass() * site.gravity * site.terrain.slope.cos();
-    let moments = rover.centre_height() * load::slope_pull(&rover, &site, &at_yaw(yaw));
+    let weight = rover.mass() * EARTH_GRAVITY * slope.cos();
+    let pull = load::slope_pull(&rover, &plane(slope), EARTH_GRAVITY, &at_yaw(yaw));
+    let moments = rover.centre_height() * pull;
     check_balance(&rover, &loads, weight, moments).expect("they balance");
 }
 
@@ -429,7 +426,7 @@ fn tipping_slope(rover: &Rover, yaw: f64) -> f64 {
     let (mut stands, mut tips) = (0.0, FRAC_PI_2 - 1e-9);
     while tips - stands > 1e-10 {
         let slope = 0.5 * (stands + tips);
-        if quasi_static_loads(rover, &site(slope), yaw).is_ok() {
+        if quasi_static_loads(rover, slope, yaw).is_ok() {
             stands = slope;
         } else {
             tips = slope;
@@ -468,8 +465,8 @@ fn the_papers_rover_tips_at_57_degrees() {
 /// the hubs lie H − r_s below it. Forces that balance the slope's pull, so that nothing accelerates.
 #[test]
 fn loads_balance_the_moments_of_everything_that_acts_on_the_wheels() {
-    let (rover, site, yaw) = (given::hakuto(), site(deg(15.0)), deg(20.0));
-    let pull = load::slope_pull(&rover, &site, &at_yaw(yaw));
+    let (rover, ground, yaw) = (given::hakuto(), plane(deg(15.0)), deg(20.0));
+    let pull = load::slope_pull(&rover, &ground, EARTH_GRAVITY, &at_yaw(yaw));
     let wheel = WheelForces {
         drawbar_pull: -pull.x / 4.0,
         side_force: -pull.y / 4.0,
@@ -495,27 +492,27 @@ fn loads_balance_the_moments_of_everything_that_acts_on_the_wheels() {
 #[test]
 fn a_weight_is_divided_between_the_ground_and_its_axes() {
     let normal = Vec3::new(0.2, -0.3, 0.8).normalize();
-    let patch = Patch { height: 0.0, normal, soil: Cow::Owned(given::toyoura()) };
+    let patch = Patch { height: 0.0, normal };
     let x_axis = Vec3::new(normal.z, 0.0, -normal.x).normalize();
     let y_axis = normal.cross(&x_axis);
     let climb = patch.climb();
     assert!((climb - Vec2::new(x_axis.z, y_axis.z)).norm() < 1e-15, "{climb}");
-    let weight = site(0.0).weight(7.0, &patch);
     let whole = 7.0 * EARTH_GRAVITY;
+    let weight = load::Weight::on(&patch, whole);
     let parts = weight.into.hypot(weight.uphill.norm());
     assert!((parts - whole).abs() < 1e-12 && weight.into < whole, "{weight:?}");
 }
 
 /// A plane climbs along y: by its height over the way along it, and square to its normal.
 #[test]
-fn a_plane_has_one_soil_one_normal_and_a_height_that_grows_along_y() {
-    let plane = site(deg(20.0)).terrain;
+fn a_plane_has_one_normal_and_a_height_that_grows_along_y() {
+    let plane = Plane { slope: deg(20.0) };
     let patch = |x: f64, y: f64| {
         let footprint = given::hakuto().footprint(&Rotation2::identity());
         plane.patch(Vec2::new(x, y), footprint)
     };
     let (here, there) = (patch(0.0, 0.0), patch(3.0, 2.0));
-    assert_eq!((here.normal, *here.soil), (there.normal, plane.soil));
+    assert_eq!(here.normal, there.normal);
     let way = Vec3::new(3.0, 2.0 * deg(20.0).cos(), there.height - here.height);
     assert!(here.normal.dot(&way).abs() < 1e-15 && (way.norm() - 13_f64.sqrt()).abs() < 1e-14);
     assert!((here.climb() - Vec2::new(0.0, deg(20.0).sin())).norm() < 1e-15);

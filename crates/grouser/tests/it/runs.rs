@@ -9,7 +9,6 @@ use grouser::simulation::{
     Approach, Integrator, Method, Motion, Numerics, Outcome, Record, Scenario, Start, StuckBecause,
     Trajectory, WheelRecord,
 };
-use grouser::site::Site;
 use grouser::soil::{Bulldozing, PressureSinkage, Shear, SinkageExponent, Soil};
 use grouser::studies::heading::{HeadingStudy, Steering};
 use grouser::units::{EARTH_GRAVITY, MOON_GRAVITY, Vec2, deg};
@@ -31,8 +30,8 @@ fn on_level_ground() -> Scenario {
 }
 
 fn with_shear(shear: Shear, scenario: Scenario) -> Scenario {
-    let soil = Soil { shear, ..scenario.site.terrain.soil };
-    Scenario { site: scenario.site.with_soil(soil), ..scenario }
+    let soil = Soil { shear, ..scenario.ground.soil };
+    Scenario { ground: scenario.ground.clone().with_soil(soil), ..scenario }
 }
 
 fn with_integrator(integrator: Integrator, scenario: &Scenario) -> Scenario {
@@ -72,14 +71,14 @@ pub(crate) fn all_kinds() -> Vec<(&'static str, Scenario)> {
             Scenario {
                 drive: DriveLaw::ConstantEach(vec![0.04, 0.04, 0.08, 0.08]),
                 own_moments: OwnMoments::Included,
-                site: base.site.with_slope(deg(15.0)),
+                ground: base.ground.with_slope(deg(15.0)),
                 ..base.clone()
             },
         ),
         ("equal loads", Scenario { sharing: LoadSharing::Uniform, ..base.clone() }),
         ("isotropic", with_shear(isotropic, base.clone())),
         ("Bekker's theory", Scenario { theory: Theory::Bekker, ..base.clone() }),
-        ("sliding", Scenario { site: base.site.with_slope(deg(35.0)), ..base }),
+        ("sliding", Scenario { ground: base.ground.with_slope(deg(35.0)), ..base }),
     ]
 }
 
@@ -225,8 +224,8 @@ fn quasi_steady_and_dynamic_runs_agree() {
     {
         for yaw in [-40.0, -10.0, 0.0, 4.0, 12.0, 30.0, 70.0, 180.0] {
             let base = traverse(deg(slope), deg(yaw));
-            let site = base.site.with_soil(*soil);
-            let scenario = Scenario { site, duration: 5.0, ..base };
+            let ground = base.ground.clone().with_soil(*soil);
+            let scenario = Scenario { ground, duration: 5.0, ..base };
             let name = format!("{soil_name}, {slope}°, yaw {yaw}°");
             let (dynamic, steady) = (run(&scenario), run(&quasi_steady(&scenario)));
             assert_eq!(dynamic.outcome, steady.outcome, "{name}");
@@ -396,7 +395,7 @@ fn on_the_moon_the_same_rover_goes_the_same_way_more_slowly() {
     let earth = traverse(deg(15.0), deg(5.0));
     let q: f64 = MOON_GRAVITY / EARTH_GRAVITY;
     let moon = Scenario {
-        site: Site { gravity: MOON_GRAVITY, ..earth.site },
+        gravity: MOON_GRAVITY,
         drive: DriveLaw::Constant(RIM_SPEED * q.sqrt()),
         duration: earth.duration / q.sqrt(),
         ..earth.clone()
@@ -471,8 +470,8 @@ fn on_level_ground_straight_ahead_stays_straight() {
 #[test]
 fn the_sign_law_does_not_chatter() {
     let with_sign = |scenario: Scenario| {
-        let soil = Soil { bulldozing: Bulldozing::Sign, ..scenario.site.terrain.soil };
-        run(&Scenario { site: scenario.site.with_soil(soil), ..scenario })
+        let soil = Soil { bulldozing: Bulldozing::Sign, ..scenario.ground.soil };
+        run(&Scenario { ground: scenario.ground.clone().with_soil(soil), ..scenario })
     };
     for scenario in [
         on_level_ground(),
@@ -675,7 +674,7 @@ fn in_mud_a_wheel_sinks_to_its_axle() {
     let pressure_sinkage = PressureSinkage::Reece { k_c: 0.0, k_phi: 1.0, exponent };
     let soil = Soil { pressure_sinkage, ..given::toyoura() };
     let level = on_level_ground();
-    let mud = Scenario { site: level.site.with_soil(soil), ..level };
+    let mud = Scenario { ground: level.ground.clone().with_soil(soil), ..level };
     check_stuck(
         &mud,
         |because| matches!(because, StuckBecause::SunkToAxle { load, capacity, .. } if capacity < load),
@@ -701,9 +700,9 @@ fn runs_with_locked_wheels_are_computed_on_every_soil() {
     for (soil, slope) in soils.iter().flat_map(|soil| [(soil, 0.0), (soil, deg(15.0))]) {
         for speeds in speeds {
             let base = traverse(slope, 0.0);
-            let site = base.site.with_soil(*soil);
+            let ground = base.ground.clone().with_soil(*soil);
             let drive = DriveLaw::ConstantEach(speeds.to_vec());
-            run(&Scenario { site, drive, duration: 5.0, ..base });
+            run(&Scenario { ground, drive, duration: 5.0, ..base });
         }
     }
 }

@@ -106,7 +106,7 @@ fn ruts_take_yaw_as_an_independent_implementation_has_it() {
     let base = Scenario { ruts: Ruts::Stated(STATED), ..scenario(&[]) };
     for (row, expected) in experiment::table_4().iter().zip([0.78, 1.72, 2.93, 6.05]) {
         let run = Scenario {
-            site: base.site.with_slope(row.slope),
+            ground: base.ground.with_slope(row.slope),
             start: Start { yaw: row.initial_yaw, ..base.start },
             ..base.clone()
         };

@@ -2,11 +2,11 @@
 //! other, wherever the search began.
 
 use grouser::contact::{Contact, Slip, Theory};
-use grouser::site::Site;
-use grouser::units::{EARTH_GRAVITY, Vec2, deg};
-use grouser::vehicle::ground::{Ground, WheelReaction, forces_of};
+use grouser::simulation::Scenario;
+use grouser::units::deg;
 use grouser::vehicle::load;
-use grouser::vehicle::{Differences, LoadSharing, OwnMoments, RoverState};
+use grouser::vehicle::on_ground::{OnGround, WheelReaction, forces_of};
+use grouser::vehicle::{LoadSharing, OwnMoments, RoverState};
 use proptest::prelude::*;
 
 use super::given;
@@ -14,17 +14,16 @@ use super::given;
 /// How far what settles may be from what it should be, over the weight [-]: what a kink of the forces leaves.
 const TOLERANCE: f64 = 1e-9;
 
-fn check(ground: &Ground<'_>, state: &RoverState, wheels: &[WheelReaction]) {
+fn check(ground: &OnGround<'_>, state: &RoverState, wheels: &[WheelReaction]) {
     let stance = ground.stance(state);
-    let Ground { rover, site, sharing, own_moments, .. } = *ground;
+    let OnGround { rover, gravity, sharing, own_moments, .. } = *ground;
     let forces: Vec<_> = forces_of(wheels).copied().collect();
     let moments = load::moments(rover, stance.pull, sharing, own_moments, &forces);
     let loads = load::wheel_loads(rover, sharing, stance.weight, moments).expect("it stands");
-    let soil = site.terrain.soil(Vec2::zeros(), rover.footprint(&stance.slope_from_body));
-    let soil = soil.on_slope(stance.steepness);
+    let soil = ground.ground.soil.on_slope(stance.steepness);
     let off = |one: f64, other: f64| (one - other).abs() / stance.weight;
     for ((wheel, mount), load) in wheels.iter().zip(rover.mounts()).zip(loads) {
-        let (slip, gravity) = (wheel.slip, site.gravity);
+        let slip = wheel.slip;
         let contact = Contact { wheel: mount.unit.wheel, soil, slip, gravity };
         let there = ground.model.forces(&contact, wheel.settled.sinkage);
         let found = &wheel.settled.forces;
@@ -52,12 +51,9 @@ proptest! {
         theory in prop::sample::select(vec![Theory::Ishigami, Theory::Bekker, Theory::SmallWheel]),
         sharing in prop::sample::select(vec![LoadSharing::Complete, LoadSharing::QuasiStaticTorque]),
     ) {
-        let (rover, site) = (given::hakuto(), Site::plane(given::toyoura(), slope, EARTH_GRAVITY));
         let own_moments = OwnMoments::Included;
-        let differences = Differences::NONE;
-        let model = theory.model();
-        let ground =
-            Ground { rover: &rover, site: &site, model, sharing, own_moments, differences, relief: None };
+        let scenario = Scenario { theory, sharing, own_moments, ..given::traverse(slope, 0.0) };
+        let ground = scenario.on_ground();
         let state = RoverState { yaw, ..RoverState::default() };
         let stance = ground.stance(&state);
         let all = |shift: f64| {

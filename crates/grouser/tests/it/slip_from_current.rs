@@ -51,7 +51,7 @@ fn log_of(run: &Trajectory, scenario: &Scenario, noise: f64, has_loads: bool) ->
         });
         MotorRecord {
             time: record.time,
-            slope: Some(scenario.site.terrain.slope),
+            slope: Some(scenario.ground.plane_slope().expect("a plane")),
             yaw: Some(record.state.yaw),
             course: None,
             wheels: wheels.collect(),
@@ -163,7 +163,7 @@ fn short(modulus: f64) -> Soil {
 fn saturated_torque_is_ill_posed_and_says_so() {
     for (modulus, from) in [(0.005, 0.15), (0.010, 0.30), (0.036, 0.55)] {
         let mut scenario = drive(0.0, 0.0);
-        scenario.site = scenario.site.with_soil(short(modulus));
+        scenario.ground.soil = short(modulus);
         let estimator = estimator(&scenario, SlipSettings::USUAL);
         for step in 1..18 {
             let slip_ratio = 0.05 * f64::from(step);
@@ -187,7 +187,8 @@ fn a_wrong_friction_angle_biases_the_slip() {
     let log = log_of(&run, &scenario, 0.0, true);
     let bias = |error: f64| {
         let soil = Soil { friction_angle: toyoura().friction_angle + deg(error), ..toyoura() };
-        let wrong = Scenario { site: scenario.site.with_soil(soil), ..scenario.clone() };
+        let wrong =
+            Scenario { ground: scenario.ground.clone().with_soil(soil), ..scenario.clone() };
         let found = estimator(&wrong, SlipSettings::USUAL).of_log(&log, &|| true).expect("all");
         Agreement::over(&log, &found, None).bias.expect("the slip is known")
     };
@@ -202,7 +203,7 @@ fn an_uncertain_soil_widens_the_interval() {
     let overrides = Overrides::parse(["soil.friction_angle_deg=37.5"]).expect("a setting");
     let loaded = document::read_scenario(&Source::default_scenario(), &overrides).expect("it is");
     let mut scenario = with(MOTOR, loaded.value.clone());
-    scenario.site = scenario.site.with_slope(0.0);
+    scenario.ground = scenario.ground.with_slope(0.0);
     let samples = BandInputs::of_scenario(&loaded).samples(1, 40).expect("soils");
     let torque = 0.3;
     let widths = [Vec::new(), samples].map(|samples| {

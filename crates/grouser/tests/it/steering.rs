@@ -372,7 +372,7 @@ fn a_steered_arc_is_its_circle() {
         let report = |rover: Rover, steering: ArcSteering| {
             let leg = Leg { steering, ..Leg::new(manoeuvre) };
             let mut mission = mission(rover, 0.0, vec![leg]);
-            mission.scenario.site = mission.scenario.site.with_soil(firm());
+            mission.scenario.ground.soil = firm();
             driven(&mission)
         };
         for rover in [steerable(), with_kingpins(), six_wheels()] {
@@ -441,7 +441,7 @@ fn wheels_point_to_a_place_beside_the_nose() {
         let manoeuvre = Manoeuvre::Goto { place, within: 0.02, reverse };
         let leg = Leg { heading: Heading::Crab { angle: 0.0 }, ..Leg::new(manoeuvre) };
         let mut mission = mission(steerable(), 0.0, vec![leg]);
-        mission.scenario.site = mission.scenario.site.with_soil(firm());
+        mission.scenario.ground.soil = firm();
         let end = driven(&mission);
         assert_eq!(end.legs.len(), 1);
         let last = end.last();

@@ -277,7 +277,7 @@ fn a_run_goes_on_from_a_state() {
 #[test]
 fn a_controller_sees_time_motion_and_wheels() {
     let scenario = Scenario { duration: 1.0, ..traverse(deg(10.0), deg(5.0)) };
-    let weight = scenario.rover.mass() * scenario.site.gravity * deg(10.0).cos();
+    let weight = scenario.rover.mass() * scenario.gravity * deg(10.0).cos();
     let mut looks = Vec::new();
     let mut watcher = |seen: &Observation<'_>, rim_speeds: &mut [f64]| {
         let wheels = seen.wheels().expect("they settle");
@@ -333,8 +333,8 @@ fn what_nothing_can_do_changes_nothing() {
         assert!(matches!(told, Err(RunError::Parameter(ParameterError { .. }))));
         assert_eq!(rover.now(), &before);
     }
-    let nowhere = traverse(0.0, 0.0).site.with_slope(f64::NAN);
-    assert!(Run::new(&Scenario { site: nowhere, ..traverse(0.0, 0.0) }).is_err());
+    let nowhere = traverse(0.0, 0.0).ground.with_slope(f64::NAN);
+    assert!(Run::new(&Scenario { ground: nowhere, ..traverse(0.0, 0.0) }).is_err());
 }
 
 #[test]

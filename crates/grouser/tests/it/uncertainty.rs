@@ -300,7 +300,7 @@ fn soils_that_do_not_differ_give_the_nominal_curve_exactly() {
     let scenario = scenario();
     let study = HeadingStudy::of(&scenario.value);
     let curve = study.curve().expect("it is a soil");
-    let band = band(&vec![scenario.value.site.terrain.soil; 5], &slopes());
+    let band = band(&vec![scenario.value.ground.soil; 5], &slopes());
     for on_slope in &band.slopes {
         match curve.at(on_slope.slope) {
             Err(_) => {
@@ -377,7 +377,7 @@ fn a_study_that_is_broken_off_has_no_result() {
 /// A soil that cannot move the rover has no attitude and no steepest slope; it still counts.
 #[test]
 fn soils_that_do_not_carry_the_rover_count_against_it() {
-    let good = scenario().value.site.terrain.soil;
+    let good = scenario().value.ground.soil;
     let mut slick = good;
     slick.friction_angle = deg(5.0);
     slick.exit = Exit::Ratio(0.0);
@@ -409,7 +409,7 @@ fn every_drawn_curve_ends_for_a_physical_reason() {
 
 #[test]
 fn the_first_soil_that_is_none_is_the_error() {
-    let good = scenario().value.site.terrain.soil;
+    let good = scenario().value.ground.soil;
     let bad = |density| Soil { density, ..good };
     let study = HeadingStudy::of(&scenario().value);
     let soils = [good, bad(-1.0), good, bad(-2.0)];

@@ -38,7 +38,7 @@ fn rim_speeds(motion: &StraightMotion) -> Vec<f64> {
 /// A run at the motion's speeds and from its yaw.
 fn run(base: &Scenario, motion: &StraightMotion) -> Scenario {
     Scenario {
-        site: base.site.with_slope(motion.slope),
+        ground: base.ground.with_slope(motion.slope),
         drive: DriveLaw::ConstantEach(rim_speeds(motion)),
         start: Start { yaw: motion.yaw, ..base.start },
         duration: 60.0,
@@ -204,10 +204,10 @@ fn wheels_that_turn_backward_outweigh_those_that_drive() {
     let load = 17.0;
     let model = base.theory.model();
     let pull = |slip_ratio: f64| {
-        let soil = base.site.terrain.soil.on_slope(0.0);
+        let soil = base.ground.soil.on_slope(0.0);
         let slip = Slip::on_test_stand(slip_ratio, 0.0);
         let wheel = base.rover.mounts()[0].unit.wheel;
-        let contact = Contact { wheel, soil, slip, gravity: base.site.gravity };
+        let contact = Contact { wheel, soil, slip, gravity: base.gravity };
         settle(model, &contact, load).expect("it carries it").forces.drawbar_pull
     };
     let driven = (0..100).map(|step| pull(f64::from(step) / 100.0)).fold(0.0, f64::max);

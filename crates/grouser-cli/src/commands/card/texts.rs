@@ -202,7 +202,7 @@ fn rule(inputs: &CardInputs, draws: Option<usize>) -> Vec<(&'static str, String)
     };
     let value = &inputs.scenario.value;
     let below = degrees(BELOW_FRICTION_ANGLE);
-    let friction = degrees(value.site.terrain.soil.friction_angle);
+    let friction = degrees(value.ground.soil.friction_angle);
     let usual = four_digits(SlopeStability::USUAL.factor_of_safety);
     let go = if inputs.scenario.stated_uncertainty().is_none() {
         "on no slope: the soil's document does not state how uncertain it is.".to_owned()
@@ -326,7 +326,7 @@ fn other_models(inputs: &CardInputs, card: &Card) -> String {
 }
 
 fn setting(inputs: &CardInputs) -> String {
-    let gravity = inputs.scenario.value.site.gravity;
+    let gravity = inputs.scenario.value.gravity;
     let named = grouser::document::GRAVITIES.iter().find(|(_, value)| *value == gravity);
     let place = named.map_or(String::new(), |(name, _)| format!(" ({name})"));
     format!(

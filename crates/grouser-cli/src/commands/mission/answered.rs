@@ -32,9 +32,10 @@ impl Answered {
 
     /// The path from above.
     pub(super) fn path(&self, way: &DrivenMission) -> String {
-        let title = match self.document.value.scenario.terrain {
-            None => "Path on the slope",
-            Some(_) => "Path from above, from the start",
+        let title = if self.document.value.scenario.ground.is_plane() {
+            "Path on the slope"
+        } else {
+            "Path from above, from the start"
         };
         path_of(title, &self.document.value.scenario.rover, &way.report)
     }

@@ -116,7 +116,7 @@ fn add_traverses(
 
 /// The scenario of the traverses on a slope.
 fn on_slope(scenario: &Scenario, runs: &SlopeRuns) -> Scenario {
-    Scenario { site: scenario.site.with_slope(runs.measured.slope), ..scenario.clone() }
+    Scenario { ground: scenario.ground.with_slope(runs.measured.slope), ..scenario.clone() }
 }
 
 /// The flags of all wheel tests and traverses of the study.

@@ -91,7 +91,7 @@ pub(super) fn chart(all: &[OfModel]) -> Chart {
         let name = if all.len() > 1 { of_model.name() } else { "" };
         series.push(Series::new(name, Style::Line, place + 1, points));
     }
-    if all.iter().any(|it| it.scenario.value.terrain.is_some()) {
+    if all.iter().any(|it| !it.scenario.value.ground.is_plane()) {
         return Chart::new("Path on the map", ("east, x [m]", "north, y [m]"), series);
     }
     Chart::new("Path on the slope", ("along the contour, x [m]", "uphill, y [m]"), series)

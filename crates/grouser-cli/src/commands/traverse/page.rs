@@ -24,7 +24,7 @@ pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {
         page.answer(&format!("{name}{}", sentence(&of_model.run)));
     }
     page.list(what_was_run(&all[0]));
-    let is_on_a_map = all[0].scenario.value.terrain.is_some();
+    let is_on_a_map = !all[0].scenario.value.ground.is_plane();
     for of_model in all {
         over_ground(&mut page, &of_model.scenario.value, &of_model.run.records);
     }

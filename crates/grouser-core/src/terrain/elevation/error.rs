@@ -1,7 +1,5 @@
 //! What can be wrong with an elevation model.
 
-use crate::error::ParameterError;
-
 /// Why heights and a grid make no elevation model.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -66,7 +64,4 @@ pub enum ElevationError {
         /// Points of the grid.
         points: usize,
     },
-    /// No such soil.
-    #[error(transparent)]
-    Soil(#[from] ParameterError),
 }

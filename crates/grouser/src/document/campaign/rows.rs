@@ -300,8 +300,9 @@ impl Base {
 }
 
 fn heading(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
+    let slope = scenario.ground.plane_slope().unwrap_or(0.0);
     let heading = HeadingStudy::of(scenario)
-        .on_slope(scenario.site.terrain.slope)
+        .on_slope(slope)
         .map_err(|error| Failure { status: UNFIT, reason: error.to_string() })?
         .map_err(|error| {
             let status = match error {

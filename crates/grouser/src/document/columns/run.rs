@@ -195,7 +195,7 @@ pub fn raised(run: &Trajectory, scenario: &Scenario) -> Table {
 pub fn table(run: &Trajectory, scenario: &Scenario) -> Table {
     let rover = &scenario.rover;
     let mut table = Table::of(&RECORD, &run.records);
-    if scenario.terrain.is_some() {
+    if !scenario.ground.is_plane() {
         table = table.and(&STANDING, &run.records.iter().map(Some).collect::<Vec<_>>());
     }
     if rover.has_motors() {
@@ -303,7 +303,7 @@ pub fn summary(run: &Trajectory, scenario: &Scenario) -> Table {
     Table::default()
         .and(outcome, &run_row)
         .and(END, &end)
-        .and(STANDING.iter().filter(|_| scenario.terrain.is_some()), &end)
+        .and(STANDING.iter().filter(|_| !scenario.ground.is_plane()), &end)
         .and(&DRIVE, &[Some(&drive)])
         .and(ELECTRICAL_DRIVE.iter().filter(|_| has_motors), &[Some(&drive)])
         .and(&FLAGS, &[Some(&findings)])
@@ -352,7 +352,7 @@ pub fn brief(run: &Trajectory, scenario: &Scenario, lines: usize) -> Table {
     let power = RECORD.iter().position(|it| it.name == POWER.name).unwrap_or(0);
     let has_belly = scenario.rover.parts().belly_clearance.is_some();
     let is_known = |it: &&Column<Record>| it.name != BELLY_CLEARANCE.name || has_belly;
-    let standing = STANDING.iter().filter(|_| scenario.terrain.is_some()).filter(is_known);
+    let standing = STANDING.iter().filter(|_| !scenario.ground.is_plane()).filter(is_known);
     Table::default()
         .and(END, &rows)
         .and(standing, &rows)
@@ -398,7 +398,7 @@ impl Serialize for RecordObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
         RECORD.iter().try_for_each(|column| column.write(&mut map, self.record))?;
-        if self.scenario.terrain.is_some() {
+        if !self.scenario.ground.is_plane() {
             STANDING.iter().try_for_each(|column| column.write(&mut map, self.record))?;
         }
         if self.scenario.rover.has_motors() {

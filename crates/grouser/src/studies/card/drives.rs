@@ -127,14 +127,14 @@ impl CardDrives<'_> {
         let study = self.study.heading.of_sample(sample);
         let start = Start { yaw: course.yaw, motion: Motion::Rolling };
         Scenario {
-            site: study.site(course.slope),
+            ground: study.plane(course.slope),
+            gravity: study.gravity,
             rover: study.rover,
             theory: study.theory,
             sharing: study.sharing,
             own_moments: study.own_moments,
             by_wheel: ByWheel::ALIKE,
             scatter: Scatter::NONE,
-            terrain: None,
             ruts: Ruts::Fresh,
             drive: DriveLaw::Constant(self.study.rim_speed),
             yaw: None,

@@ -38,7 +38,7 @@ impl BandInputs {
         let chosen = scenario.document.theory().map(|_| scenario.value.theory);
         let made_for = scenario.document.theory_of_soil();
         Self {
-            soil: scenario.value.site.terrain.soil,
+            soil: scenario.value.ground.soil,
             soils: scenario.uncertain.clone(),
             made_for,
             models: spread(chosen, made_for),

@@ -12,7 +12,7 @@ use crate::elementary::wide::{asin, cos, sin};
 use crate::newton;
 use crate::root;
 use crate::units::{STEEPEST_SLOPE, Vec2};
-use crate::vehicle::ground::{Ground, forces_of};
+use crate::vehicle::on_ground::{OnGround, forces_of};
 use crate::vehicle::{ReactionError, Rover, RoverState, WheelReaction, dynamics};
 
 /// (s, c, α): slip ratio, crab angle c = γ + δ − χ, slope.
@@ -175,9 +175,9 @@ impl<'a> Path<'a> {
         let (slip_ratio, crab, slope) = (place.x, place.y, place.z);
         let slips = self.slips(slip_ratio, crab);
         self.settled_wheels.set(self.settled_wheels.get() + slips.len() as u64);
-        let site = self.study.site(slope);
+        let plane = self.study.plane(slope);
         let rover = self.rover(crab);
-        let ground = Ground { rover: &rover, ..self.study.ground(&site) };
+        let ground = OnGround { rover: &rover, ..self.study.on_ground(&plane) };
         let stance = ground.stance(&self.state(crab));
         let wheels = match &*self.last.borrow() {
             Some((last, wheels)) if (place - last).norm() < NEARBY => {

@@ -6,11 +6,10 @@ use crate::contact::Theory;
 use crate::elementary::wide::{cos, sin, tan};
 use crate::root;
 use crate::simulation::{NotSteady, SteadyMotion};
-use crate::site::Site;
 use crate::soil::{SlopeStability, Soil};
+use crate::terrain::Ground;
 use crate::units::Vec2;
-use crate::vehicle::ground::Ground;
-use crate::vehicle::{Differences, LoadSharing, OwnMoments, Rover};
+use crate::vehicle::{Differences, LoadSharing, OnGround, OwnMoments, Rover};
 
 /// Finds heading offsets of a rover on a soil, for any slope.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,7 +85,7 @@ impl HeadingStudy {
         yaw: f64,
         rim_speeds: &[f64],
     ) -> Result<SteadyMotion, NotSteady> {
-        SteadyMotion::of(self.ground(&self.site(slope)), rim_speeds, yaw)
+        SteadyMotion::of(self.on_ground(&self.plane(slope)), rim_speeds, yaw)
     }
 
     /// The same at another yaw *γ* [rad], sought from a motion on that slope.
@@ -115,24 +114,24 @@ impl HeadingStudy {
         yaw: f64,
         rim_speeds: &[f64],
     ) -> Result<SteadyMotion, NotSteady> {
-        motion.at_yaw(self.ground(&self.site(slope)), rim_speeds, yaw)
+        motion.at_yaw(self.on_ground(&self.plane(slope)), rim_speeds, yaw)
     }
 
     /// The slope *α* [rad].
-    pub(in crate::studies) fn site(&self, slope: f64) -> Site {
-        Site::plane(self.soil, slope, self.gravity)
+    pub(in crate::studies) fn plane(&self, slope: f64) -> Ground {
+        Ground::plane(self.soil, slope)
     }
 
     /// What decides the soil's reaction on the rover there.
-    pub(in crate::studies) fn ground<'a>(&'a self, site: &'a Site) -> Ground<'a> {
-        Ground {
+    pub(in crate::studies) fn on_ground<'a>(&'a self, plane: &'a Ground) -> OnGround<'a> {
+        OnGround {
             rover: &self.rover,
-            site,
+            ground: plane,
+            gravity: self.gravity,
             model: self.theory.model(),
             sharing: self.sharing,
             own_moments: self.own_moments,
             differences: Differences::NONE,
-            relief: None,
         }
     }
 

@@ -23,8 +23,8 @@ use crate::newton;
 use crate::studies::ensemble::samples::Sample;
 use crate::studies::heading::HeadingStudy;
 use crate::units::Vec2;
-use crate::vehicle::ground::{Ground, forces_of};
 use crate::vehicle::kinematics::wheel_slips;
+use crate::vehicle::on_ground::{OnGround, forces_of};
 use crate::vehicle::{Rover, RoverState, WheelReaction, dynamics};
 
 /// A motion that was seen, with what was read of forces and sinkages in it.
@@ -208,8 +208,8 @@ impl SeenMotion {
         near: &[WheelReaction],
     ) -> Option<(Vector3<f64>, Vec<WheelReaction>)> {
         let study = under.study;
-        let site = study.site(self.slope);
-        let ground = Ground { rover: &self.rover, ..study.ground(&site) };
+        let plane = study.plane(self.slope);
+        let ground = OnGround { rover: &self.rover, ..study.on_ground(&plane) };
         let stance = ground.stance(&self.state(motion));
         let wheels = ground.reactions_near(&stance, &self.slips(motion), near).ok()?;
         let (soil, moment) =

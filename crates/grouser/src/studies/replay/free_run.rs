@@ -6,6 +6,7 @@ use crate::simulation::{
 };
 use crate::studies::ensemble::samples::Sample;
 use crate::studies::learn::{GAP, Stretch};
+use crate::terrain::Ground;
 use crate::vehicle::ByWheel;
 
 /// How the wheels turn until a time.
@@ -109,9 +110,6 @@ impl Piece {
     }
 
     fn scenario(&self, scenario: &Scenario, slope: f64, sample: &Sample) -> Scenario {
-        let mut site = scenario.site;
-        site.terrain.slope = slope;
-        site.terrain.soil = sample.soil;
         let last = self.commands.last().map_or(self.start.time, |it| it.until);
         let duration =
             (last - self.start.time).clamp(1.0, crate::simulation::scenario::LONGEST_DURATION);
@@ -119,8 +117,7 @@ impl Piece {
         // Poses are read off the run itself.
         numerics.sample_interval = duration;
         Scenario {
-            site,
-            terrain: None,
+            ground: Ground::plane(sample.soil, slope),
             theory: sample.theory,
             yaw: None,
             by_wheel: ByWheel::ALIKE,

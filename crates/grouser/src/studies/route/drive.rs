@@ -5,9 +5,8 @@ use std::sync::Arc;
 use super::answer::{Ends, Route};
 use crate::elementary::wide::atan2;
 use crate::mission::{Leg, LegOutcome, Manoeuvre, Mission, MissionError, MissionRun};
-use crate::simulation::scenario::{Landscape, PlacedTerrain};
 use crate::simulation::{Approach, Scenario};
-use crate::terrain::ElevationModel;
+use crate::terrain::{ElevationModel, Ground};
 use crate::units::Vec2;
 use crate::vehicle::DriveLaw;
 
@@ -59,9 +58,7 @@ impl Route {
         if let Some(first) = legs.first_mut() {
             scenario.start.yaw = first.yaw.take().unwrap_or(0.0);
         }
-        let ground = Landscape::Elevation(Arc::clone(ground));
-        scenario.site.terrain.slope = 0.0;
-        scenario.terrain = Some(PlacedTerrain { ground, start, soils: None });
+        scenario.ground = Ground::map(scenario.ground.soil, Arc::clone(ground)).starting_at(start);
         scenario.yaw = None;
         Mission { scenario, legs, stops: Vec::new(), sensors: None }
     }

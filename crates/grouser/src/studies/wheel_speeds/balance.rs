@@ -10,8 +10,8 @@ use crate::elementary::wide::{cos, sin};
 use crate::simulation::equations::Equations;
 use crate::simulation::steady_state;
 use crate::units::Vec2;
-use crate::vehicle::ground::forces_of;
 use crate::vehicle::kinematics::wheel_slips;
+use crate::vehicle::on_ground::forces_of;
 use crate::vehicle::{RoverState, WheelReaction, dynamics};
 
 /// Force, and moment over the farthest wheel's distance, that are left over: both over the weight, along and across
@@ -128,8 +128,8 @@ impl<'a> Balance<'a> {
         let (heading, state) = (&self.study.heading, Self::state(place, SPEED));
         let rim_speeds = self.rim_speeds_at(place, SPEED);
         let slips: Vec<_> = wheel_slips(&heading.rover, &state, &rim_speeds).collect();
-        let site = heading.site(self.slope(place));
-        let ground = heading.ground(&site);
+        let plane = heading.plane(self.slope(place));
+        let ground = heading.on_ground(&plane);
         let stance = ground.stance(&state);
         let wheels = match &*self.last.borrow() {
             Some((last, wheels)) if (place - last).norm() < NEARBY => {
@@ -158,8 +158,8 @@ impl<'a> Balance<'a> {
         /// Steps, over the speed, or of the yaw [rad]: forces are exact to 1e-11.
         const STEP: f64 = 1e-6;
         let rim_speeds = self.rim_speeds_at(place, SLOW);
-        let site = self.study.heading.site(self.slope(place));
-        let equations = Equations::new(self.study.heading.ground(&site), &rim_speeds);
+        let plane = self.study.heading.plane(self.slope(place));
+        let equations = Equations::new(self.study.heading.on_ground(&plane), &rim_speeds);
         let sizes = [SLOW, SLOW, SLOW / self.reach];
         let accelerations = |state: &RoverState| {
             let rates = equations.rates(state).ok()?.acceleration;

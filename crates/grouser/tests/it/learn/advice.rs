@@ -1,12 +1,10 @@
 //! Advice after a drive: headings, looks at the slip, and test drives.
 
-use std::sync::Arc;
-
 use grouser::document::{self, LoadedScenario, Overrides, Source};
 use grouser::mission::{
     Leg as MissionLeg, LegOutcome, Limited, Manoeuvre, Mission, MissionRun, Sensors, Stop,
 };
-use grouser::simulation::{Approach, Landscape, Numerics, PlacedTerrain};
+use grouser::simulation::{Approach, Numerics};
 use grouser::studies::ensemble::Probability;
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::learn::advice::{
@@ -15,8 +13,8 @@ use grouser::studies::learn::advice::{
 };
 use grouser::studies::learn::{LearnSettings, Learner};
 use grouser::studies::simulated_telemetry::SensorModels;
-use grouser::terrain::surface::{AnalyticTerrain, Incline, Surface};
-use grouser::terrain::{SoilZones, ZonePolygon};
+use grouser::terrain::surface::{Incline, Surface};
+use grouser::terrain::{Ground, SoilZones, ZonePolygon};
 use grouser::units::{Vec2, deg};
 use rayon::prelude::*;
 
@@ -368,13 +366,9 @@ fn mission(
     let zones =
         SoilZones::from_polygons(&polygons, soils.iter().map(|it| it.soil).collect()).unwrap();
     let mut scenario = prior.value.clone();
-    scenario.site.terrain.slope = 0.0;
     let incline = Incline { slope, uphill: deg(90.0) };
-    let ground =
-        AnalyticTerrain { surface: Surface::Incline(incline), soil: scenario.site.terrain.soil };
-    let ground = Landscape::Analytic(Arc::new(ground));
-    let soils = Some(Arc::new(zones));
-    scenario.terrain = Some(PlacedTerrain { ground, start: Vec2::zeros(), soils });
+    scenario.ground =
+        Ground::formula(scenario.ground.soil, Surface::Incline(incline)).with_zones(zones);
     scenario.numerics = Numerics { approach: Approach::QuasiSteady, ..scenario.numerics };
     let stop = Stop { over: check.every, ..Stop::above(Limited::SlipRatio, check.limit) };
     let leg = MissionLeg {

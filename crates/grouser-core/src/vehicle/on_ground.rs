@@ -8,27 +8,26 @@ use super::posture::NoPosture;
 use super::rover::Rover;
 use super::state::RoverState;
 use crate::contact::{SettleError, Settled, Slip, WheelForces, WheelSoilModel};
-use crate::site::Site;
-use crate::terrain::{Footprint, Patch, SoilZones, Terrain};
+use crate::terrain::Ground;
 use crate::units::Vec2;
 
 /// What decides the soil's reaction on a rover, besides its motion.
 #[derive(Clone, Copy)]
-pub struct Ground<'a> {
+pub struct OnGround<'a> {
     /// The rover.
     pub rover: &'a Rover,
-    /// Where it is.
-    pub site: &'a Site<dyn Terrain>,
+    /// What it stands on.
+    pub ground: &'a Ground,
+    /// Gravity, *g* [m/s²].
+    pub gravity: f64,
     /// The wheel–soil model.
     pub model: &'a dyn WheelSoilModel,
     /// How the weight is shared.
     pub sharing: LoadSharing,
     /// Whether the wheels' own moments act on the rover.
     pub own_moments: OwnMoments,
-    /// How the soil below each wheel differs from that of the site.
+    /// How the soil below each wheel differs from that of the ground.
     pub differences: Differences<'a>,
-    /// Heights of the ground, where that is no plane.
-    pub relief: Option<Relief<'a>>,
 }
 
 /// One wheel, settled under its load.
@@ -101,33 +100,12 @@ pub struct Stance {
     pub steepness: f64,
 }
 
-/// Heights of the ground, seen from the place where a rover starts.
-#[derive(Clone, Copy)]
-pub struct Relief<'a> {
-    /// The ground; its soil is not asked for.
-    pub terrain: &'a dyn Terrain,
-    /// The start of the rover in its coordinates [m].
-    pub origin: Vec2,
-    /// Zones of other soils than the site's, if there are any.
-    pub soils: Option<&'a SoilZones>,
-}
-
-impl Terrain for Relief<'_> {
-    fn patch(&self, at: Vec2, footprint: Footprint) -> Patch<'_> {
-        self.terrain.patch_from(self.origin, at, footprint)
-    }
-
-    fn covers(&self, at: Vec2, footprint: Footprint) -> bool {
-        self.terrain.covers(self.origin + at, footprint)
-    }
-}
-
-impl Ground<'_> {
+impl OnGround<'_> {
     /// Where the rover stands in a state, and how its weight acts there.
     #[must_use]
     pub fn stance(&self, state: &RoverState) -> Stance {
         let slope_from_body = state.slope_from_body();
-        let weight = load::weight(self.rover, self.site, state, &slope_from_body);
+        let weight = load::weight(self.rover, self.ground, self.gravity, state, &slope_from_body);
         let pull = load::pull(&weight, &slope_from_body);
         let (into, along) = (weight.into, weight.uphill.norm());
         let steepness = if into > 0.0 { along / into } else { 0.0 };
