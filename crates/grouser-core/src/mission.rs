@@ -10,6 +10,7 @@
 //!
 //! Source of the manoeuvres, and of the three kinds of limits: [BiesiadeckiMaimone2006], of the Mars Exploration Rovers.
 
+mod contour;
 mod driven;
 mod limits;
 mod look_ahead;

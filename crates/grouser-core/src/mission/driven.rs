@@ -208,7 +208,7 @@ impl Driven {
 
     /// The first limit that is passed now.
     fn passed(&self, run: &Run, seen: &RoverState) -> Option<Stopped> {
-        let (off_path, is_drive) = (self.pilot.path().off(seen.position), self.is_drive());
+        let (off_path, is_drive) = (self.pilot.path().off(run.scenario(), seen), self.is_drive());
         self.limits.passed_as(run, Known { seen, off_path, is_drive })
     }
 }

@@ -68,12 +68,15 @@ impl Limits {
 
     /// The same for a rover that takes itself to be at a place [m].
     pub(super) fn begun(run: &Run, place: Vec2, stops: Vec<Stop>) -> Self {
+        let scenario = run.scenario();
         let ways = stops.iter().filter(|stop| stop.limited.is_of_a_way()).map(|stop| stop.over);
         let remembered = ways.fold(0.0, f64::max);
         let state = run.state();
+        let at = RoverState { position: place, ..*state.rover() };
+        let down = scenario.way_down((place, 0.0), &at);
         Self {
             stops,
-            odometer: Odometer::new(state.time(), place, remembered),
+            odometer: Odometer::new(state.time(), down, remembered),
             last: place,
             ground: 0.0,
             start_time: state.time(),
@@ -85,7 +88,6 @@ impl Limits {
     pub fn look(&mut self, run: &Run) {
         let place = run.state().rover().position;
         self.ground += (place - self.last).norm();
-        self.last = place;
         self.look_from(run, place, self.ground);
     }
 
@@ -94,7 +96,10 @@ impl Limits {
     /// * `place`, `ground`: where that is [m], and its way over the ground since the drive began [m]
     pub(super) fn look_from(&mut self, run: &Run, place: Vec2, ground: f64) {
         let state = run.state();
-        self.odometer.look(state.time(), place, ground, state.rim_speeds());
+        let at = RoverState { position: place, ..*state.rover() };
+        let down = run.scenario().way_down((self.last, self.odometer.down()), &at);
+        self.last = place;
+        self.odometer.look(state.time(), ground, down, state.rim_speeds());
     }
 
     /// The first limit that is passed now.

@@ -2,8 +2,6 @@
 
 use std::collections::VecDeque;
 
-use crate::units::Vec2;
-
 /// Ways since a leg began, and the last metres of them.
 #[derive(Clone, Debug)]
 pub(super) struct Odometer {
@@ -15,10 +13,11 @@ pub(super) struct Odometer {
     remembered: f64,
 }
 
-/// Where a rover was.
+/// How far a rover had come.
 #[derive(Clone, Copy, Debug)]
 struct Mark {
-    place: Vec2,
+    /// Way straight down the ground [m].
+    down: f64,
     /// Way over the ground [m].
     ground: f64,
     /// Way of the rims, mean of all wheels [m].
@@ -28,7 +27,7 @@ struct Mark {
 impl Mark {
     fn toward(self, later: Self, share: f64) -> Self {
         Self {
-            place: self.place + (later.place - self.place) * share,
+            down: self.down + (later.down - self.down) * share,
             ground: self.ground + (later.ground - self.ground) * share,
             rims: self.rims + (later.rims - self.rims) * share,
         }
@@ -40,23 +39,25 @@ impl Mark {
 pub(super) struct Seen {
     /// Slip ratio over it [-].
     pub(super) slip_ratio: f64,
-    /// Way straight down the slope [m].
+    /// Way straight down the ground [m].
     pub(super) drift: f64,
 }
 
 impl Odometer {
+    /// * `down`: how far straight downhill the rover is [m], as for [`look`](Self::look)
     /// * `remembered`: the longest way of the rims that will be asked for [m]
-    pub(super) fn new(time: f64, place: Vec2, remembered: f64) -> Self {
-        let now = Mark { place, ground: 0.0, rims: 0.0 };
+    pub(super) fn new(time: f64, down: f64, remembered: f64) -> Self {
+        let now = Mark { down, ground: 0.0, rims: 0.0 };
         Self { time, now, marks: VecDeque::from([now]), remembered }
     }
 
     /// Looks at a rover whose rims had the same speeds since the last look [m/s].
     ///
     /// * `ground`: its way over the ground since the leg began [m]
-    pub(super) fn look(&mut self, time: f64, place: Vec2, ground: f64, rim_speeds: &[f64]) {
+    /// * `down`: how far straight downhill it is [m]
+    pub(super) fn look(&mut self, time: f64, ground: f64, down: f64, rim_speeds: &[f64]) {
         self.now = Mark {
-            place,
+            down,
             ground,
             rims: self.now.rims + mean_speed(rim_speeds) * (time - self.time),
         };
@@ -79,6 +80,11 @@ impl Odometer {
         for mark in self.marks.range_mut(first..) {
             *mark = start.toward(now, (mark.rims - start.rims) / (now.rims - start.rims));
         }
+    }
+
+    /// How far straight downhill the rover is [m].
+    pub(super) fn down(&self) -> f64 {
+        self.now.down
     }
 
     /// Way over the ground [m].
@@ -109,7 +115,7 @@ impl Odometer {
         };
         Some(Seen {
             slip_ratio: 1.0 - (self.now.ground - start.ground) / over,
-            drift: start.place.y - self.now.place.y,
+            drift: self.now.down - start.down,
         })
     }
 }
@@ -126,11 +132,11 @@ mod tests {
     /// Closed form: half of the rims' way along, a tenth of it down.
     #[test]
     fn slip_and_drift_are_those_of_the_last_metres() {
-        let mut odometer = Odometer::new(0.0, Vec2::zeros(), 1.0);
+        let mut odometer = Odometer::new(0.0, 0.0, 1.0);
         for step in 1..=40_u32 {
             let time = 0.7 * f64::from(step);
-            let place = Vec2::new(0.03 * time, -0.006 * time);
-            odometer.look(time, place, place.norm(), &[0.06, -0.06]);
+            let (along, down) = (0.03 * time, 0.006 * time);
+            odometer.look(time, along.hypot(down), down, &[0.06, -0.06]);
             let rims = 0.06 * time;
             assert!((odometer.rims() - rims).abs() < 1e-12);
             let seen = odometer.over(1.0);

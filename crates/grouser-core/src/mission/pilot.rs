@@ -10,15 +10,17 @@
 //! v_i   = ± v_drive,i − w y_i
 //! ```
 //!
+//! Where the ground bends a contour leg follows the line of the height at which it began ([`Contour`]), and γ_0 turns with it.
 //! Where wheels crab, the outer law sets their steering angle δ in place of γ_set, and the inner one holds the yaw. On an arc
 //! with steered wheels *w* sets the circle that their axles point to the centre of, and rims are as fast as the hubs on it.
 
+use super::contour::Contour;
 use super::plan::{Heading, Leg, Manoeuvre, Steering};
 use super::steering::{ackermann_angles, ackermann_motion, crab_angles, within_limits};
 use super::turn::Turn;
 use crate::elementary::wide;
 use crate::elementary::wide::atan2;
-use crate::simulation::{CONTROL_PERIOD, Controller, Observation};
+use crate::simulation::{CONTROL_PERIOD, Controller, Observation, Scenario};
 use crate::units::Vec2;
 use crate::vehicle::drive::slip_limited;
 use crate::vehicle::kinematics::{wheel_slips, wheel_velocity};
@@ -75,6 +77,8 @@ enum Law {
     Toward { place: Vec2 },
     /// A line is followed.
     Follow(Line),
+    /// A contour line is followed.
+    FollowContour(Contour),
     /// A circle is followed.
     Circle { yaw: f64, radius: f64, angle: f64, steering: Steering },
     /// A line is followed by the wheels' steering angle, from one [rad], and a yaw is held [rad].
@@ -96,15 +100,22 @@ pub(super) struct Line {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Path {
     Line(Line),
+    Contour(Contour),
     /// Centre and radius [m], and which way round it is gone: 1 to the left, -1 to the right.
     Circle(Vec2, f64, f64),
 }
 
 impl Path {
     /// Of the manoeuvre of a leg that begins here.
-    fn of_leg(leg: &Leg, state: &RoverState) -> Self {
+    fn of_leg(leg: &Leg, scenario: &Scenario, state: &RoverState) -> Self {
+        if leg.heading == Heading::Contour
+            && matches!(leg.manoeuvre, Manoeuvre::Drive { .. })
+            && let Some(contour) = Contour::of_leg(leg, scenario, state)
+        {
+            return Self::Contour(contour);
+        }
         let Manoeuvre::Arc { radius, angle, reverse } = leg.manoeuvre else {
-            return Self::Line(line_of(leg, state));
+            return Self::Line(line_of(leg, scenario, state));
         };
         let (sin, cos) = wide::sin_cos(state.yaw);
         // Backward the same turn of the nose lies on the other side.
@@ -119,22 +130,24 @@ impl Path {
         Self::Line(Line { from: state.position, along: Vec2::new(cos, sin), yaw: state.yaw })
     }
 
-    /// Its direction beside a place, of length 1.
-    fn along(&self, place: Vec2) -> Vec2 {
+    /// Its direction beside a rover, of length 1.
+    fn along(&self, scenario: &Scenario, state: &RoverState) -> Vec2 {
         match self {
             Self::Line(line) => line.along,
+            Self::Contour(contour) => contour.along(scenario, state),
             Self::Circle(centre, _, side) => {
-                let out = (place - centre).try_normalize(0.0).unwrap_or_else(Vec2::x);
+                let out = (state.position - centre).try_normalize(0.0).unwrap_or_else(Vec2::x);
                 *side * Vec2::new(-out.y, out.x)
             }
         }
     }
 
-    /// How far a place lies off it [m].
-    pub(super) fn off(&self, place: Vec2) -> f64 {
+    /// How far a rover is off it [m].
+    pub(super) fn off(&self, scenario: &Scenario, state: &RoverState) -> f64 {
         match self {
-            Self::Line(line) => line.left_of(place).abs(),
-            Self::Circle(centre, radius, _) => ((place - centre).norm() - radius).abs(),
+            Self::Line(line) => line.left_of(state.position).abs(),
+            Self::Contour(contour) => contour.left_of(scenario, state).abs(),
+            Self::Circle(centre, radius, _) => ((state.position - centre).norm() - radius).abs(),
         }
     }
 }
@@ -187,24 +200,36 @@ impl Pilot {
     }
 
     /// For the manoeuvre of a leg that begins here.
-    pub(super) fn of_leg(leg: &Leg, state: &RoverState, straight: &[f64]) -> Self {
+    pub(super) fn of_leg(
+        leg: &Leg,
+        scenario: &Scenario,
+        state: &RoverState,
+        straight: &[f64],
+    ) -> Self {
         let (direction, yaw) = (leg.manoeuvre.direction(), state.yaw);
+        let path = Path::of_leg(leg, scenario, state);
         let law = match (leg.manoeuvre, leg.heading) {
             (Manoeuvre::Turn { angle }, _) => Law::Turn(Turn::new(yaw + angle, state)),
             (Manoeuvre::Arc { radius, angle, .. }, _) => {
                 Law::Circle { yaw, radius, angle, steering: leg.steering }
             }
             (Manoeuvre::Goto { .. }, Heading::Crab { angle }) => {
-                let line = line_of(leg, state);
+                let line = line_of(leg, scenario, state);
                 Law::Crab { line, yaw, angle: angle + turned(line.yaw - yaw) }
             }
-            (_, Heading::Crab { angle }) => Law::Crab { line: line_of(leg, state), yaw, angle },
-            (Manoeuvre::Goto { .. }, _) | (_, Heading::Contour) => Law::Follow(line_of(leg, state)),
+            (_, Heading::Crab { angle }) => {
+                Law::Crab { line: line_of(leg, scenario, state), yaw, angle }
+            }
+            (Manoeuvre::Goto { .. }, _) => Law::Follow(line_of(leg, scenario, state)),
+            (_, Heading::Contour) => match path {
+                Path::Contour(contour) => Law::FollowContour(contour),
+                _ => Law::Follow(line_of(leg, scenario, state)),
+            },
             (_, Heading::Hold) => Law::Hold { yaw },
             (_, Heading::Toward(place)) => Law::Toward { place },
             (_, Heading::Free) => Law::Free,
         };
-        Self::new(law, leg.drive.clone(), direction, Path::of_leg(leg, state), state, straight)
+        Self::new(law, leg.drive.clone(), direction, path, state, straight)
     }
 
     /// For a turn on the spot to a yaw [rad].
@@ -235,17 +260,32 @@ impl Pilot {
     }
 
     /// Yaw rate that the sides would give on rigid ground [rad/s], and speed along the body's x axis [m/s].
-    fn rate_and_speed(&mut self, state: &RoverState, slope: f64, reach: f64) -> (f64, f64) {
+    fn rate_and_speed(
+        &mut self,
+        scenario: &Scenario,
+        state: &RoverState,
+        reach: f64,
+    ) -> (f64, f64) {
         let speed = self.speed();
         let forward = self.direction * speed;
         let (yaw, ahead) = match &mut self.law {
             Law::Free => return (0.0, forward),
-            Law::Turn(turn) => return turn.steer(state, slope, [speed, reach]),
+            Law::Turn(turn) => {
+                let (lie, _) = scenario.ground_under(state);
+                let level = scenario.ground.is_plane().then_some(0.0);
+                let contour = lie.contour().or(level);
+                return turn.steer(state, lie.steepness(), contour, [speed, reach]);
+            }
             Law::Hold { yaw } | Law::Crab { yaw, .. } => (*yaw, 0.0),
             Law::Toward { place } => (yaw_towards(*place, state, self.direction), 0.0),
             Law::Follow(line) => {
                 let line = *line;
-                (line.yaw + self.towards(&line, state), 0.0)
+                (line.yaw + self.towards(line.left_of(state.position)), 0.0)
+            }
+            Law::FollowContour(contour) => {
+                contour.look(scenario, state);
+                let contour = *contour;
+                (contour.yaw() + self.towards(contour.left_of(scenario, state)), 0.0)
             }
             Law::Circle { yaw, radius, angle, .. } => {
                 (*yaw + angle.signum() * self.gone / *radius, angle.signum() * speed / *radius)
@@ -269,14 +309,15 @@ impl Pilot {
     }
 
     /// How far the nose, backward the tail, is turned off the path [rad].
-    fn crab(&self, state: &RoverState) -> f64 {
-        let along = self.direction * self.path.along(state.position);
+    fn crab(&self, scenario: &Scenario, state: &RoverState) -> f64 {
+        let along = self.direction * self.path.along(scenario, state);
         turned(state.yaw - atan2(along.y, along.x))
     }
 
     /// How far nose or wheels are to be turned to the left to lead back to a line [rad].
-    fn towards(&mut self, line: &Line, state: &RoverState) -> f64 {
-        let left = line.left_of(state.position);
+    ///
+    /// * `left`: how far it lies to the left [m]
+    fn towards(&mut self, left: f64) -> f64 {
         let most = MOST_CROSS_YAW / CROSS_TRACK_INTEGRAL;
         self.cross_integral = (self.cross_integral + CONTROL_PERIOD * left).clamp(-most, most);
         let yaw = CROSS_TRACK_GAIN * left + CROSS_TRACK_INTEGRAL * self.cross_integral;
@@ -288,8 +329,7 @@ impl Controller for Pilot {
     fn command(&mut self, seen: &Observation<'_>, rim_speeds: &mut [f64]) {
         let rover = &seen.scenario().rover;
         let (mounts, state) = (rover.mounts(), self.seen);
-        let slope = seen.scenario().ground.plane_slope().unwrap_or(0.0);
-        let (rate, forward) = self.rate_and_speed(&state, slope, reach(mounts));
+        let (rate, forward) = self.rate_and_speed(seen.scenario(), &state, reach(mounts));
         self.asked = (rate, forward);
         let turned_by = |mount: &Mount| {
             let arm = mount.position.xy();
@@ -323,7 +363,7 @@ impl Controller for Pilot {
                 // The law speaks of a drive forward.
                 let slip_ratios: Vec<f64> =
                     self.slip_ratios(seen).iter().map(|slip| self.direction * slip).collect();
-                law.rim_speeds(rover, self.crab(&state), &slip_ratios, rim_speeds);
+                law.rim_speeds(rover, self.crab(seen.scenario(), &state), &slip_ratios, rim_speeds);
                 for (rim, mount) in rim_speeds.iter_mut().zip(mounts) {
                     let told = self.direction * *rim;
                     *rim = rolled(mount, told).unwrap_or(told - turned_by(mount));
@@ -337,8 +377,8 @@ impl Controller for Pilot {
         let (rate, forward) = self.asked;
         let mut wanted = match self.law {
             Law::Crab { line, angle, .. } => {
-                let state = self.seen;
-                crab_angles(rover, angle + self.towards(&line, &state))
+                let left = line.left_of(self.seen.position);
+                crab_angles(rover, angle + self.towards(left))
             }
             Law::Circle { steering: Steering::Ackermann, .. } => {
                 ackermann_angles(rover, [forward, rate])
@@ -355,7 +395,7 @@ impl Controller for Pilot {
 }
 
 /// The line of a leg that begins here.
-pub(super) fn line_of(leg: &Leg, state: &RoverState) -> Line {
+pub(super) fn line_of(leg: &Leg, scenario: &Scenario, state: &RoverState) -> Line {
     let from = state.position;
     let (direction, yaw) = (leg.manoeuvre.direction(), state.yaw);
     if let Manoeuvre::Goto { place, .. } = leg.manoeuvre {
@@ -365,7 +405,9 @@ pub(super) fn line_of(leg: &Leg, state: &RoverState) -> Line {
     let (sin, cos) = wide::sin_cos(yaw);
     let ahead = if direction < 0.0 { -Vec2::new(cos, sin) } else { Vec2::new(cos, sin) };
     let along = match leg.heading {
-        Heading::Contour => Vec2::new(if ahead.x < 0.0 { -1.0 } else { 1.0 }, 0.0),
+        Heading::Contour if scenario.ground.is_plane() => {
+            Vec2::new(if ahead.x < 0.0 { -1.0 } else { 1.0 }, 0.0)
+        }
         _ => ahead,
     };
     Line { from, along, yaw }

@@ -59,9 +59,9 @@ impl MissionRun {
         let scenario = Scenario { start, ..mission.scenario.clone() };
         let state = RoverState { yaw: start.yaw, ..RoverState::default() };
         let straight = scenario.rover.steering_angles();
-        let mut pilot = match turn_before(first, &state, true) {
+        let mut pilot = match turn_before(first, &scenario, &state, true) {
             Some(yaw) => Pilot::to_yaw(yaw, &state, first.speed(), &straight),
-            None => Pilot::of_leg(first, &state, &straight),
+            None => Pilot::of_leg(first, &scenario, &state, &straight),
         };
         let run = Run::with_controller(&scenario, &mut pilot)?;
         let mission = mission.clone();
@@ -144,7 +144,7 @@ impl MissionRun {
         let stops = self.mission.stops_of(leg);
         let straight = self.mission.scenario.rover.steering_angles();
         let mut turned_to = End::Reached;
-        if let Some(yaw) = turn_before(leg, self.navigator.seen(), is_first) {
+        if let Some(yaw) = turn_before(leg, self.run.scenario(), self.navigator.seen(), is_first) {
             let seen = self.navigator.seen();
             let pilot = Pilot::to_yaw(yaw, seen, leg.speed(), &straight);
             let goal = self.turn_to(yaw, leg);
@@ -154,7 +154,8 @@ impl MissionRun {
         let (mut distance, mut slip_ratio) = (0.0, None);
         let end = match turned_to {
             End::Reached => {
-                let pilot = Pilot::of_leg(leg, self.navigator.seen(), &straight);
+                let pilot =
+                    Pilot::of_leg(leg, self.run.scenario(), self.navigator.seen(), &straight);
                 let goal = self.goal(leg);
                 let mut driven = Driven::new(&self.run, &self.navigator, pilot, goal, &stops);
                 let end = self.drive_on(&mut driven, leg.look_ahead, watch)?;
@@ -211,7 +212,10 @@ impl MissionRun {
             }
             Manoeuvre::Goto { place, within, .. } => {
                 let nominal = (place - state.position).norm() / leg.speed();
-                (Goal::Place { place, within, line: line_of(leg, state) }, nominal)
+                (
+                    Goal::Place { place, within, line: line_of(leg, self.run.scenario(), state) },
+                    nominal,
+                )
             }
             Manoeuvre::Wait { time } => (Goal::Time(self.time() + time), time),
         }
@@ -278,7 +282,7 @@ impl MissionRun {
 }
 
 /// The yaw to which a rover turns on the spot before a leg, if it does.
-fn turn_before(leg: &Leg, state: &RoverState, is_first: bool) -> Option<f64> {
+fn turn_before(leg: &Leg, scenario: &Scenario, state: &RoverState, is_first: bool) -> Option<f64> {
     let yaw = match (leg.yaw, leg.manoeuvre) {
         // The first leg begins with its yaw.
         (Some(_), _) if is_first => return None,
@@ -294,7 +298,7 @@ fn turn_before(leg: &Leg, state: &RoverState, is_first: bool) -> Option<f64> {
             return None;
         }
         (None, Manoeuvre::Goto { .. }) => {
-            let nose = line_of(leg, state).yaw();
+            let nose = line_of(leg, scenario, state).yaw();
             if (nose - state.yaw).abs() < OFF_NOSE {
                 return None;
             }

@@ -25,7 +25,7 @@ pub struct Stop {
 pub enum Limited {
     /// Slip ratio over a way: 1 less what the ground saw of the rims' way [-].
     SlipRatio,
-    /// Way straight down the slope over a way [m].
+    /// Way straight down the ground over a way [m]; none on level ground.
     Drift,
     /// Largest sinkage of a wheel over its shearing radius [-].
     Sinkage,

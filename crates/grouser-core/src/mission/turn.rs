@@ -10,11 +10,13 @@
 //! ```
 //!
 //! with *p* the way off its place, *n_f* across the nose at the end of the turn, along which it could not come back then,
-//! and *D* the drift to come, ∫ c cos γ (sin γ, −cos γ) |dγ|: down the slope across the nose, as much as was seen so far.
+//! and *D* the drift to come, ∫ c cos γ (sin γ, −cos γ) |dγ|: down the slope across the nose, as much as was seen so far, with
+//! γ and *D* counted from the contour under the rover.
 
 use crate::elementary::wide;
 use crate::units::Vec2;
 use crate::vehicle::RoverState;
+use crate::vehicle::state::rotation;
 
 /// Off its way by more than this a rover shifts [m]. Source: ours; far below a wheel's width.
 const TRIGGER: f64 = 0.015;
@@ -51,17 +53,19 @@ impl Turn {
 
     /// Yaw rate that the sides would give on rigid ground [rad/s], and speed along the body's x axis [m/s].
     ///
-    /// * `slope`: *α* [rad], as an inclinometer has it
+    /// * `steepness`: sine of the slope [-], as an inclinometer has it
+    /// * `contour`: direction of the contour with uphill to its left [rad], if the ground has one
     /// * `speed`: of the rims [m/s]
     /// * `reach`: the outermost wheel's distance from the middle [m]
     pub(super) fn steer(
         &mut self,
         state: &RoverState,
-        slope: f64,
+        steepness: f64,
+        contour: Option<f64>,
         [speed, reach]: [f64; 2],
     ) -> (f64, f64) {
-        self.look(state);
-        let way = self.way_to_shift(state, wide::sin(slope));
+        self.look(state, contour);
+        let way = self.way_to_shift(state, steepness, contour);
         if self.shift == 0.0 && way.abs() > TRIGGER {
             self.shift = way.signum();
         }
@@ -76,12 +80,16 @@ impl Turn {
     }
 
     /// Learns from the way since the last look how much the rover drifts.
-    fn look(&mut self, state: &RoverState) {
+    fn look(&mut self, state: &RoverState, contour: Option<f64>) {
         let (place, yaw) = self.last;
         self.last = (state.position, state.yaw);
-        if self.shift == 0.0 {
-            let (sin, cos) = wide::sin_cos(f64::midpoint(yaw, state.yaw));
+        if self.shift == 0.0
+            && let Some(contour) = contour
+        {
+            let middle = f64::midpoint(yaw, state.yaw);
+            let (sin, cos) = wide::sin_cos(middle);
             let across = (state.position - place).dot(&Vec2::new(-sin, cos));
+            let cos = wide::cos(middle - contour);
             self.drift -= cos * across;
             self.judged += cos * cos * (state.yaw - yaw).abs();
         }
@@ -90,14 +98,14 @@ impl Turn {
     /// The way along the nose that leads to the better place [m].
     ///
     /// * `steepness`: sine of the slope [-]
-    fn way_to_shift(&self, state: &RoverState, steepness: f64) -> f64 {
+    fn way_to_shift(&self, state: &RoverState, steepness: f64, contour: Option<f64>) -> f64 {
         let (sin, cos) = wide::sin_cos(state.yaw);
         let along = Vec2::new(cos, sin);
         let (end_sin, end_cos) = wide::sin_cos(self.yaw);
         let across_at_end = Vec2::new(-end_sin, end_cos);
         let off = state.position - self.place;
         let share = across_at_end.dot(&along);
-        let there = across_at_end.dot(&(off + self.drift_to_come(state.yaw, steepness)));
+        let there = across_at_end.dot(&(off + self.drift_to_come(state.yaw, steepness, contour)));
         let best = -(share * there + NOW * along.dot(&off)) / (share * share + NOW);
         // Within the circle around the place, as far as the nose leads into it.
         let (foot, aside) = (-along.dot(&off), along.perp(&off));
@@ -106,7 +114,8 @@ impl Turn {
     }
 
     /// Drift from a yaw [rad] to the end of the turn [m].
-    fn drift_to_come(&self, yaw: f64, steepness: f64) -> Vec2 {
+    fn drift_to_come(&self, yaw: f64, steepness: f64, contour: Option<f64>) -> Vec2 {
+        let Some(contour) = contour else { return Vec2::zeros() };
         // ∫ sin γ cos γ dγ and ∫ cos² γ dγ
         let integrals = |yaw: f64| {
             let (sin, cos) = wide::sin_cos(yaw);
@@ -115,6 +124,7 @@ impl Turn {
         let sense = (self.yaw - yaw).signum();
         let expected = EXPECTED_COUNTS * EXPECTED_DRIFT * steepness;
         let drift = (self.drift + expected) / (self.judged + EXPECTED_COUNTS);
-        sense * drift * (integrals(self.yaw) - integrals(yaw))
+        let drift = sense * drift * (integrals(self.yaw - contour) - integrals(yaw - contour));
+        rotation(contour) * drift
     }
 }

@@ -6,7 +6,8 @@ use super::yaw::PrescribedYaw;
 use crate::contact::Theory;
 use crate::error::{ParameterError, finite, positive};
 use crate::soil::SlopeStability;
-use crate::terrain::Ground;
+use crate::terrain::{Ground, Lie};
+use crate::units::Vec2;
 use crate::vehicle::kinematics::rolling_velocity;
 use crate::vehicle::{
     ByWheel, Differences, DriveLaw, LoadSharing, OnGround, OwnMoments, Rover, RoverState, Ruts,
@@ -199,6 +200,28 @@ impl Scenario {
             sharing: self.sharing,
             own_moments: self.own_moments,
             differences: self.differences(),
+        }
+    }
+
+    /// How the ground lies under the rover, and its height there [m].
+    #[must_use]
+    pub fn ground_under(&self, state: &RoverState) -> (Lie, f64) {
+        self.ground.lie(state.position, self.rover.footprint(&state.slope_from_body()))
+    }
+
+    /// How far straight downhill a rover is [m] that came from a place near by.
+    ///
+    /// On a plane that is the way down since the origin. Where the ground bends it is the sum of the ways down the ground
+    /// under the rover; on [level](crate::terrain::ground::LEVEL) ground there is none.
+    ///
+    /// * `before`: the place [m], and how far downhill it is [m]
+    #[must_use]
+    pub fn way_down(&self, before: (Vec2, f64), state: &RoverState) -> f64 {
+        let (place, down) = before;
+        match self.ground_under(state).0.uphill() {
+            None => down,
+            Some(uphill) if self.ground.is_plane() => 0.0 - state.position.dot(&uphill),
+            Some(uphill) => down - uphill.dot(&(state.position - place)),
         }
     }
 

@@ -51,8 +51,10 @@ impl Watch {
         let rim_sum: f64 = rim_speeds.iter().map(|speed| speed.abs()).sum();
         let fastest_rim = rim_speeds.iter().fold(0.0, |most: f64, speed| most.max(speed.abs()));
         let rolled = rolling_velocity(scenario.rover.mounts(), rim_speeds);
-        let rolled_downhill = -(state.slope_from_body() * rolled).y;
-        let slid = -state.velocity_slope().y - rolled_downhill.max(0.0);
+        let (lie, _) = scenario.ground_under(state);
+        let slid = lie
+            .downhill_of_body(state.yaw)
+            .map_or(0.0, |downhill| state.velocity.dot(&downhill) - rolled.dot(&downhill).max(0.0));
         let sliding = slid > fastest_rim.max(SLIDING_SPEED);
 
         let turning = rim_speeds.iter().zip(slip_ratios).filter(|(rim, _)| **rim != 0.0);

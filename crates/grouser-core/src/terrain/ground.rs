@@ -5,6 +5,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::{ElevationModel, Footprint, Patch, Plane, SoilZones, Surface, Terrain};
+use crate::elementary::wide;
 use crate::error::{ParameterError, finite};
 use crate::soil::Soil;
 use crate::units::{Vec2, Vec3};
@@ -206,18 +207,19 @@ impl Ground {
         own.unwrap_or(Cow::Borrowed(&self.soil))
     }
 
-    /// How the ground lies under a footprint.
+    /// How the ground lies under a footprint, and how high it is there [m].
     ///
     /// * `at`: seen from the start [m]
     #[must_use]
-    pub fn lie(&self, at: Vec2, footprint: Footprint) -> Lie {
-        let normal = self.patch(at, footprint).normal;
-        if self.is_plane() {
+    pub fn lie(&self, at: Vec2, footprint: Footprint) -> (Lie, f64) {
+        let Patch { height, normal } = self.patch(at, footprint);
+        let lie = if self.is_plane() {
             // Its coordinates lie in it, so that gravity leans.
             Lie { normal: Vec3::z(), up: Vec3::new(0.0, 0.0 - normal.y, normal.z) }
         } else {
             Lie { normal, up: Vec3::z() }
-        }
+        };
+        (lie, height)
     }
 }
 
@@ -282,13 +284,33 @@ impl Lie {
         self.climb().xy().try_normalize(0.0)
     }
 
+    /// Direction of the contour line that has uphill to its left [rad], counter-clockwise from the x axis of places; none on
+    /// [`LEVEL`] ground.
+    #[must_use]
+    pub fn contour(&self) -> Option<f64> {
+        let uphill = self.uphill()?;
+        Some(wide::atan2(0.0 - uphill.x, uphill.y))
+    }
+
+    /// Straight downhill along the axes of a body that stands on it, forward and to the left: a unit vector; none on
+    /// [`LEVEL`] ground.
+    ///
+    /// * `yaw`: of the body [rad]
+    #[must_use]
+    pub fn downhill_of_body(&self, yaw: f64) -> Option<Vec2> {
+        if self.is_level() {
+            return None;
+        }
+        (-self.climb_of_body(yaw)).try_normalize(0.0)
+    }
+
     /// How fast the ground climbs along the axes of a body that stands on it, forward and to the left: the sines of their
     /// inclinations [-].
     ///
     /// * `yaw`: of the body [rad]
     #[must_use]
     pub fn climb_of_body(&self, yaw: f64) -> Vec2 {
-        let (sin, cos) = crate::elementary::wide::sin_cos(yaw);
+        let (sin, cos) = wide::sin_cos(yaw);
         // The nose lies on the ground and, seen along z, in the direction of the yaw.
         let drop = (cos * self.normal.x + sin * self.normal.y) / self.normal.z;
         let forward = Vec3::new(cos, sin, 0.0 - drop).normalize();

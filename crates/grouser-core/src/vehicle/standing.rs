@@ -112,7 +112,7 @@ impl OnGround<'_> {
 
     /// Against gravity, in the ground's coordinates: on a plane, those of the slope.
     pub(crate) fn up(&self, state: &RoverState) -> Vec3 {
-        self.ground.lie(state.position, self.rover.footprint(&state.slope_from_body())).up
+        self.ground.lie(state.position, self.rover.footprint(&state.slope_from_body())).0.up
     }
 
     /// The reaction on every wheel of a rover that stands so, in the mounts' order.
