@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use nalgebra::DVector;
+
 use super::by_wheel::Differences;
 use super::ground::{Ground, ReactionError, Stance, WheelReaction, forces_of};
 use super::load;
@@ -9,6 +11,7 @@ use super::parts::Mount;
 use super::ruts::Ruts;
 use super::settling::{Known, Nearby};
 use crate::contact::{Contact, Slip, WheelForces, settle_from, settle_many};
+use crate::newton;
 use crate::soil::Soil;
 use crate::units::Vec2;
 
@@ -92,7 +95,35 @@ impl<'a> Ground<'a> {
                 Err(_) => (next, self.settle_under(stance, next, contacts, &wheels)?),
             };
         }
-        Err(ReactionError::Unsettled { rounds: MOST_ROUNDS, change })
+        let unsettled = ReactionError::Unsettled { rounds: MOST_ROUNDS, change };
+        self.settle_by_damped_steps(stance, contacts, scale, AGREED).ok_or(unsettled)
+    }
+
+    /// The reaction on every wheel, the moments sought by Newton's steps, damped, where turns go round in circles.
+    ///
+    /// * `scale`: weight times reach [N·m]
+    /// * `agreed`: agreement of the moments, over that [-]
+    fn settle_by_damped_steps(
+        &self,
+        stance: &Stance,
+        contacts: &[Contact],
+        scale: f64,
+        agreed: f64,
+    ) -> Option<Vec<WheelReaction>> {
+        let Self { rover, sharing, own_moments, .. } = *self;
+        let of = |wheels: &[WheelReaction]| {
+            let forces: Vec<WheelForces> = forces_of(wheels).copied().collect();
+            load::moments(rover, stance.pull, sharing, own_moments, &forces)
+        };
+        let miss = |moments: &DVector<f64>| {
+            let moments = Vec2::new(moments[0], moments[1]);
+            let wheels = self.settle_under(stance, moments, contacts, &[]).ok()?;
+            let off = moments - of(&wheels);
+            Some((DVector::from_row_slice(off.as_slice()), wheels))
+        };
+        let still = of(&[]);
+        let guess = DVector::from_row_slice(still.as_slice());
+        newton::damped_zero(miss, &guess, scale, agreed * scale).map(|(_, wheels)| wheels)
     }
 
     /// As [`reactions`](Self::reactions), by what is known of a motion nearby; this one is known afterwards.
