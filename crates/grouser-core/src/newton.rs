@@ -1,7 +1,7 @@
 //! The zero of as many functions as there are unknowns, near a guess.
 
 use nalgebra::allocator::Allocator;
-use nalgebra::{DefaultAllocator, Dim, OMatrix, OVector, U1};
+use nalgebra::{DMatrix, DVector, DefaultAllocator, Dim, OMatrix, OVector, U1};
 
 /// A zero, and what was learnt on the way to it.
 pub struct Zero<T, D: Dim>
@@ -61,6 +61,67 @@ where
     None
 }
 
+/// The zero that damped steps lead to from a guess, however far they must go: Newton's steps with a Jacobian by differences,
+/// each as long as the functions become smaller along it; where none is, a share of the step that the functions themselves
+/// are. None where neither leads on.
+///
+/// * `f`: values [in units of the unknowns], and what those come from; none where there are none
+/// * `scale`: size of the unknowns
+/// * `agreed`: values that are zero, of any of them
+pub fn damped_zero<T>(
+    f: impl Fn(&DVector<f64>) -> Option<(DVector<f64>, T)>,
+    guess: &DVector<f64>,
+    scale: f64,
+    agreed: f64,
+) -> Option<(DVector<f64>, T)> {
+    const MOST_STEPS: usize = 100;
+    /// Shares of a step that are tried, the longest first [-]: halves, down to a thousandth.
+    const SHARES: i32 = 11;
+    /// A step of this length promises so much less; a thousandth of it must come.
+    const DESCENT: f64 = 1e-3;
+    let mut at = guess.clone();
+    let (mut here, mut value) = f(&at)?;
+    for _ in 0..MOST_STEPS {
+        if here.amax() <= agreed {
+            return Some((at, value));
+        }
+        let newton = jacobian(&f, &at, &here, scale).and_then(|it| it.lu().solve(&-&here));
+        let ways = newton.into_iter().chain([-&here, here.clone()]);
+        let next = ways
+            .flat_map(|way| (0..SHARES).map(move |half| (way.clone(), 0.5_f64.powi(half))))
+            .find_map(|(way, share)| {
+                let there = &at + share * way;
+                let (values, value) = f(&there)?;
+                let is_less = values.norm() <= (1.0 - DESCENT * share) * here.norm();
+                is_less.then_some((there, values, value))
+            });
+        (at, here, value) = next?;
+    }
+    None
+}
+
+/// The Jacobian, by differences to the one side or, where the functions have no value there, to the other.
+fn jacobian<T>(
+    f: &impl Fn(&DVector<f64>) -> Option<(DVector<f64>, T)>,
+    at: &DVector<f64>,
+    here: &DVector<f64>,
+    scale: f64,
+) -> Option<DMatrix<f64>> {
+    /// Over the size of the unknowns [-]: rounding of 1e-13 is a millionth of it.
+    const STEP: f64 = 1e-7;
+    let mut jacobian = DMatrix::zeros(here.len(), at.len());
+    for axis in 0..at.len() {
+        let beside = |step: f64| {
+            let mut there = at.clone();
+            there[axis] += step;
+            Some((f(&there)?.0 - here) / step)
+        };
+        let column = beside(STEP * scale).or_else(|| beside(-STEP * scale))?;
+        jacobian.set_column(axis, &column);
+    }
+    Some(jacobian)
+}
+
 /// Broyden's update of an inverse Jacobian *B*, the one nearest to the old that explains a step:
 ///
 /// ```text
@@ -102,6 +163,20 @@ mod tests {
         );
         let zero = found.expect("it is near").at;
         assert!(curved(&zero).norm() < 1e-12, "{zero}");
+    }
+
+    /// Turn by turn, x ← 1 − 3 max(x, 0) runs away from 1/4, and Newton's step from 5 crosses the corner.
+    #[test]
+    fn damped_steps_find_a_zero_behind_a_corner_that_turns_run_away_from() {
+        let f = |x: &DVector<f64>| {
+            let value = x[0] - (1.0 - 3.0 * x[0].max(0.0) + 0.5 * x[1].min(0.0));
+            (x.amax() < 10.0).then(|| (DVector::from_vec(vec![value, x[1] + x[0].abs() - 2.0]), ()))
+        };
+        for guess in [[5.0, 1.0], [-3.0, -4.0], [0.0, 0.0]] {
+            let guess = DVector::from_row_slice(&guess);
+            let (zero, ()) = damped_zero(f, &guess, 1.0, 1e-12).expect("there is one");
+            assert!((zero[0] - 0.25).abs() < 1e-9 && (zero[1] - 1.75).abs() < 1e-9, "{zero}");
+        }
     }
 
     #[test]

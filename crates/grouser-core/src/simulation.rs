@@ -9,6 +9,7 @@
 //! [`SteadyMotion`] is one such state by itself. A `leg` takes one of them and keeps records, and [`watch`] sees what becomes of the rover;
 //! [`power`] computes the energy balance.
 
+pub mod allowance;
 mod along_ground;
 pub mod controller;
 pub mod equations;

@@ -206,7 +206,9 @@ pub(crate) fn misfit_at(place: usize, count: usize, error: &ParameterError) -> P
 pub(crate) fn of_simulation(error: &RunError) -> PyErr {
     match error {
         RunError::Parameter(error) => of_parameter(error),
-        RunError::Reaction { time, .. } | RunError::Stalled { time, .. } => {
+        RunError::Reaction { time, .. }
+        | RunError::Endless { time, .. }
+        | RunError::Stalled { time, .. } => {
             classes::SimulationError::new_err((error.to_string(), *time))
         }
         RunError::HighCentred { .. } => classes::SimulationError::new_err((error.to_string(), 0.0)),

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 
 use super::equations::Equations;
 use super::point::Point;
-use super::quasi_steady::{blended, rolling};
+use super::quasi_steady::{MOST_LAG, blended, rolling};
 use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
 use super::turning::Turning;
 use crate::contact::Slip;
@@ -214,9 +214,14 @@ impl<'a, 'g> AlongGround<'a, 'g> {
             (from.place + length * middle.rates.0, from.yaw + length * middle.rates.1);
         let guess = from.steady.velocities + 2.0 * change;
         let to = Node::at(equations, &mut self.solver, place, yaw, &guess)?;
-        self.solver.settling_time(&to.steady)?;
+        let settling_time = self.solver.settling_time(&to.steady)?;
         let turned = middle.rates.1 - from.rates.1;
         let size = self.solver.size(&change).max(self.solver.size(&Vector3::new(0.0, 0.0, turned)));
+        // Velocities must be able to follow the steady state as it moves.
+        let lag = settling_time * size / half;
+        if lag > MOST_LAG {
+            return Err(NotSteady::Lags { settling_time, lag });
+        }
         Ok((Stride { from: from.clone(), to, length, gone: 0.0 }, size))
     }
 }

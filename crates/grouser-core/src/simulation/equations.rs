@@ -2,6 +2,7 @@
 
 use std::cell::{Cell, RefCell};
 
+use super::allowance::Allowance;
 use super::point::Point;
 use super::power;
 use super::scenario::Scenario;
@@ -33,6 +34,8 @@ pub struct Equations<'a> {
     /// The yaw rate that is held, if one is [rad/s].
     held_yaw_rate: Option<f64>,
     work: Cell<Work>,
+    /// How much of it there may be.
+    allowance: Allowance,
     failure: RefCell<Option<ReactionError>>,
     /// The last evaluation of wheels whose speeds depend on their loads: an integral alone changes nothing of it.
     last: RefCell<Option<(RoverState, Vec<f64>, Evaluation)>>,
@@ -127,6 +130,7 @@ impl<'a> Equations<'a> {
             wheel_speeds,
             held_yaw_rate: None,
             work: Cell::default(),
+            allowance: Allowance::unlimited(),
             failure: RefCell::new(None),
             last: RefCell::new(None),
             nearby: RefCell::default(),
@@ -449,10 +453,13 @@ impl<'a> Equations<'a> {
     /// As [`evaluate`](Self::evaluate), for a solver: near the last attempt, which differs in last digits. It may try
     /// states that no rover can have, so the reason of a failure is kept for when the solver gives up.
     pub(super) fn attempt(&self, state: &RoverState) -> Option<Evaluation> {
+        if self.is_spent() {
+            return None;
+        }
         self.count(|work| work.evaluations += 1);
         let evaluated =
             self.evaluate_with(state, self.rim_speeds, &self.wheel_speeds, Search::Nearby);
-        evaluated.map_err(|failure| *self.failure.borrow_mut() = Some(failure)).ok()
+        evaluated.map_err(|failure| self.keep(failure)).ok()
     }
 
     /// The same for wheels whose speeds depend on their loads: how these change, too.
@@ -486,11 +493,13 @@ impl<'a> Equations<'a> {
         {
             return Some(evaluation.clone());
         }
+        if self.is_spent() {
+            return None;
+        }
         self.count(|work| work.evaluations += 1);
         let wheel_speeds: Vec<f64> = self.on_ground.rover.wheel_speeds(rim_speeds).collect();
         let evaluated = self.evaluate_with(state, rim_speeds, &wheel_speeds, Search::Nearby);
-        let evaluated = evaluated.map_err(|failure| *self.failure.borrow_mut() = Some(failure));
-        let evaluation = evaluated.ok()?;
+        let evaluation = evaluated.map_err(|failure| self.keep(failure)).ok()?;
         *self.last.borrow_mut() = Some((*state, rim_speeds.to_vec(), evaluation.clone()));
         Some(evaluation)
     }
@@ -559,9 +568,25 @@ impl<'a> Equations<'a> {
         if self.droops { 2 * self.on_ground.rover.wheel_count() } else { 0 }
     }
 
+    /// Keeps the reason of a failed attempt.
+    fn keep(&self, failure: ReactionError) {
+        self.allowance.charge_failure();
+        *self.failure.borrow_mut() = Some(failure);
+    }
+
     /// Why the last failed attempt failed.
     pub(super) fn take_failure(&self) -> Option<ReactionError> {
         self.failure.borrow_mut().take()
+    }
+
+    /// That as much may be computed from here on as between two looks of the watch: beyond it every attempt fails.
+    pub(super) fn renew_allowance(&self) {
+        self.allowance.renew(self.work());
+    }
+
+    /// Whether that was too little.
+    pub(super) fn is_spent(&self) -> bool {
+        self.allowance.is_spent(self.work())
     }
 
     /// What was computed so far.

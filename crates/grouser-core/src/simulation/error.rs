@@ -31,6 +31,21 @@ pub enum RunError {
         /// How far the underside is below the ground there [m].
         depth: f64,
     },
+    /// The motion takes more and more evaluations for less and less time.
+    #[error(
+        "the run cannot be computed beyond {time:.3} s, at x = {x:.3} m, y = {y:.3} m: {reason}; ground or wheel speeds \
+         that change too fast for the rover's size are the usual reason",
+        x = place.x,
+        y = place.y
+    )]
+    Endless {
+        /// When the rover was last looked at [s].
+        time: f64,
+        /// Where it was, in the ground's coordinates [m].
+        place: Vec2,
+        /// How much was computed in vain.
+        reason: String,
+    },
     /// The integrator could not go on.
     #[error(
         "the run cannot be computed beyond {time:.3} s: no time step is short enough for the motion \

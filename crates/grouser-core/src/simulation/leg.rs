@@ -5,6 +5,7 @@
 
 use std::ops::ControlFlow;
 
+use super::allowance;
 use super::equations::Equations;
 use super::error::RunError;
 use super::integrate::{self, Stalled};
@@ -19,6 +20,7 @@ use super::steady_state::NotSteady;
 use super::times::{is_multiple, is_same_time, is_sample_due, multiples_between};
 use super::watch::{self, WATCH_PERIOD};
 use crate::contact::{SettleError, Slip};
+use crate::units::Vec2;
 use crate::vehicle::{BellyPoint, ReactionError, WheelReaction};
 
 /// A stretch of time over which the wheels keep their speeds.
@@ -73,6 +75,7 @@ impl Leg<'_> {
         let near = std::mem::take(&mut self.state.near);
         let equations = Equations::of(self.scenario, &rim_speeds);
         let equations = equations.holding(yaw_rate).limited(&limits).near(near);
+        equations.renew_allowance();
         let mut times = times;
         let mut done = Ok(());
         if self.state.method == Method::QuasiSteady {
@@ -80,6 +83,10 @@ impl Leg<'_> {
             match self.go_steadily(&equations, carried, times) {
                 Ok(carried) => self.state.carried = carried,
                 Err(Ended::Failed(error)) => done = Err(error),
+                // More time would not find it: nothing is known of the motion.
+                Err(Ended::NotSteady(_)) if equations.is_spent() => {
+                    done = Err(self.endless(&equations));
+                }
                 Err(Ended::NotSteady(because)) => {
                     let time = self.state.time;
                     self.state.method = Method::FallbackToDynamic { time, because };
@@ -166,6 +173,9 @@ impl Leg<'_> {
         if let Some(error) = failed {
             return Err(error);
         }
+        if integrated.is_err() && equations.is_spent() {
+            return Err(self.endless(equations));
+        }
         if let Err(Stalled { time, reason }) = integrated {
             // The integrator stalls where the equations end: then their reason is the reason.
             match equations.take_failure() {
@@ -174,6 +184,14 @@ impl Leg<'_> {
             }
         }
         Ok(())
+    }
+
+    /// The error of a run of which no more may be computed.
+    fn endless(&self, equations: &Equations<'_>) -> RunError {
+        let State { time, point, .. } = &*self.state;
+        let place = equations.origin().unwrap_or_else(Vec2::zeros) + point.state.position;
+        let reason = allowance::reason();
+        RunError::Endless { time: *time, place, reason }
     }
 
     /// Looks at the rover: what became of it, and a record where one is due.
@@ -195,6 +213,9 @@ impl Leg<'_> {
         }
         let is_power_known = state.supply.is_some() || state.most_taken.is_some();
         let is_watched = is_multiple(now, WATCH_PERIOD);
+        if is_watched {
+            equations.renew_allowance();
+        }
         let has_belly = is_watched && equations.has_belly();
         let seen = (is_power_known || has_belly).then(wheels);
         let (without_power, high_centred) = match &seen {

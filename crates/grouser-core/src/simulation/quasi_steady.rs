@@ -152,6 +152,9 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
     ) -> Result<(), NotSteady> {
         let mut gone = 0.0;
         while gone < span {
+            if self.equations.is_spent() {
+                return Err(NotSteady::NoSteadyState);
+            }
             let yaw = point.state.yaw;
             let rate = self.stretch.velocities(yaw).z;
             let longest = STEP_SHARE * self.stretch.width.abs() / rate.abs();

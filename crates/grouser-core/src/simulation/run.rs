@@ -129,6 +129,18 @@ impl Run {
         self.led_to_end(Due::Samples)
     }
 
+    /// As [`to_end`](Self::to_end), of a run that is kept: where it cannot be computed to its end, the
+    /// [records](Self::records) until there are known.
+    ///
+    /// # Errors
+    /// As [`to_end`](Self::to_end).
+    pub fn run_to_end(&mut self) -> Result<(), RunError> {
+        let (mut drive, duration) = (self.scenario.drive.clone(), self.scenario.duration);
+        // At the start the wheels turn as it says already.
+        let is_asked = self.state.time > 0.0;
+        self.lead(&mut drive, [duration, duration], is_asked, Due::Samples)
+    }
+
     /// As [`to_end`](Self::to_end), with records of start and end alone: what a run costs beside them is its motion.
     ///
     /// # Errors

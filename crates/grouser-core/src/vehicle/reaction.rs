@@ -1,11 +1,14 @@
 //! All wheels settled under their share of the weight: load transfer and soil together.
 
+use nalgebra::DVector;
+
 use super::by_wheel::Differences;
 use super::load;
 use super::on_ground::{OnGround, ReactionError, Stance, WheelReaction, forces_of};
 use super::ruts::Ruts;
 use super::settling::{Known, Nearby};
 use crate::contact::{Contact, Slip, WheelForces, settle_from, settle_many};
+use crate::newton;
 use crate::soil::Soil;
 use crate::units::Vec2;
 
@@ -89,7 +92,35 @@ impl<'a> OnGround<'a> {
                 Err(_) => (next, self.settle_under(stance, next, contacts, &wheels)?),
             };
         }
-        Err(ReactionError::Unsettled { rounds: MOST_ROUNDS, change })
+        let unsettled = ReactionError::Unsettled { rounds: MOST_ROUNDS, change };
+        self.settle_by_damped_steps(stance, contacts, scale, AGREED).ok_or(unsettled)
+    }
+
+    /// The reaction on every wheel, the moments sought by Newton's steps, damped, where turns go round in circles.
+    ///
+    /// * `scale`: weight times reach [N·m]
+    /// * `agreed`: agreement of the moments, over that [-]
+    fn settle_by_damped_steps(
+        &self,
+        stance: &Stance,
+        contacts: &[Contact],
+        scale: f64,
+        agreed: f64,
+    ) -> Option<Vec<WheelReaction>> {
+        let Self { rover, sharing, own_moments, .. } = *self;
+        let of = |wheels: &[WheelReaction]| {
+            let forces: Vec<WheelForces> = forces_of(wheels).copied().collect();
+            load::moments(rover, stance.pull, sharing, own_moments, &forces)
+        };
+        let miss = |moments: &DVector<f64>| {
+            let moments = Vec2::new(moments[0], moments[1]);
+            let wheels = self.settle_under(stance, moments, contacts, &[]).ok()?;
+            let off = moments - of(&wheels);
+            Some((DVector::from_row_slice(off.as_slice()), wheels))
+        };
+        let still = of(&[]);
+        let guess = DVector::from_row_slice(still.as_slice());
+        newton::damped_zero(miss, &guess, scale, agreed * scale).map(|(_, wheels)| wheels)
     }
 
     /// As [`reactions`](Self::reactions), by what is known of a motion nearby; this one is known afterwards.

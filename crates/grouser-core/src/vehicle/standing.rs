@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector, Dyn};
 
 use super::load::Tipping;
 use super::on_ground::{OnGround, ReactionError, Stance, WheelReaction, forces_of};
-use super::posture::{Posture, StandingMotion};
+use super::posture::{OF_BODY, Posture, StandingMotion};
 use super::several_soils::Met;
 use super::state::RoverState;
 use super::statics::{Balance, Resultant};
@@ -164,7 +164,7 @@ impl OnGround<'_> {
                 (found.at, found.value)
             }
             // Where wheels lift, loads have corners, which Newton's steps do not find.
-            None => sought.by_small_steps(guess, NEARLY * weight)?,
+            None => sought.by_damped_steps(guess, weight)?,
         };
         if loads.iter().any(|load| *load < -NEARLY * weight) {
             return Err(Tipping.into());
@@ -325,7 +325,57 @@ impl Sought<'_> {
         newton::zero_near(|loads| self.next(loads).ok(), guess, inverse, size, 1.0, is_found)
     }
 
-    /// Loads that balance the rover and the wheels under them, by steps that go a part of the way.
+    /// Loads that balance the rover and the wheels under them: by small steps, and where these go round in circles or away
+    /// by Newton's steps, damped, from the guess and from the loads of wheels that only stand.
+    ///
+    /// * `weight`: m g [N]
+    fn by_damped_steps(
+        &self,
+        guess: DVector<f64>,
+        weight: f64,
+    ) -> Result<(DVector<f64>, Vec<WheelReaction>), ReactionError> {
+        let agreed = NEARLY * weight;
+        let small = self.by_small_steps(guess.clone(), agreed);
+        if !matches!(small, Err(ReactionError::LoadsDoNotSettle)) {
+            return small;
+        }
+        let still = DVector::from_vec(self.balanced(&[])?);
+        let found = [&guess, &still].into_iter().find_map(|guess| {
+            newton::damped_zero(|loads| self.next(loads).ok(), guess, weight, agreed)
+        });
+        found.ok_or_else(|| self.why_none(guess, weight))
+    }
+
+    /// Why no loads balance the rover: those that do not agree move load from wheel to wheel, and where that lifts all wheels
+    /// but two, the rover tips over.
+    ///
+    /// Loads that all but agree move slowly, so that one step in four is at least a twentieth of the weight long.
+    ///
+    /// * `weight`: m g [N]
+    fn why_none(&self, mut loads: DVector<f64>, weight: f64) -> ReactionError {
+        /// Share of the way that loads go at once [-], and how often.
+        const SHARE: f64 = 0.7;
+        const MOST_STEPS: usize = 200;
+        const LONG: usize = 4;
+        /// Over the weight [-].
+        const LEAST: f64 = 0.05;
+        for step in 1..=MOST_STEPS {
+            if loads.iter().filter(|load| **load > NEARLY * weight).count() < OF_BODY {
+                return Tipping.into();
+            }
+            let off = match self.next(&loads) {
+                Ok((off, _)) => off,
+                Err(error) => return error,
+            };
+            let size = off.amax();
+            let is_long = step % LONG == 0 && size > 0.0;
+            let share = if is_long { SHARE.max(LEAST * weight / size) } else { SHARE };
+            loads -= share * off;
+        }
+        ReactionError::LoadsDoNotSettle
+    }
+
+    /// The same by steps that go a part of the way.
     ///
     /// * `agreed`: the last step of a load [N]
     fn by_small_steps(
@@ -333,7 +383,7 @@ impl Sought<'_> {
         mut loads: DVector<f64>,
         agreed: f64,
     ) -> Result<(DVector<f64>, Vec<WheelReaction>), ReactionError> {
-        const MOST_STEPS: usize = 400;
+        const MOST_STEPS: usize = 100;
         let mut share = 0.7;
         let mut before = f64::INFINITY;
         for _ in 0..MOST_STEPS {
