@@ -44,7 +44,7 @@ class Legs(_tables.Tabular):
     """Work of the motors, with the turn before it [J]."""
     slip_ratio: Floats
     """1 less the way over the ground by that of the rims; of drives, arcs and ways to places [-]."""
-    turned_deg: Floats
+    yaw_turned_deg: Floats
     """Yaw that an arc or a turn on the spot really turned, positive to the left [°]."""
     radius_m: Floats
     """Radius of an arc as driven: the way over the ground by the turn [m]."""

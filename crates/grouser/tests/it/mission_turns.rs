@@ -64,14 +64,17 @@ fn an_arc_reaches_its_yaw_or_says_what_it_lacks() {
         for slope in [0.0, 8.0] {
             for radius in [0.3, 0.5, 1.0, 2.0, 3.0] {
                 for angle in [30.0, -30.0, 90.0, -90.0, 270.0, -270.0] {
-                    arcs.push((rover, steering, slope, radius, angle));
+                    // Longer ways say nothing more.
+                    if radius * deg(angle.abs()) < 6.0 {
+                        arcs.push((rover, steering, slope, radius, angle));
+                    }
                 }
             }
         }
     }
     let ends: Vec<(bool, String)> = arcs.par_iter().filter_map(end_of_arc).collect();
     let short = ends.iter().filter(|(is_short, _)| *is_short).count();
-    assert!(ends.len() > 150 && short > 0 && short < ends.len() / 2, "{short} of {}", ends.len());
+    assert!(ends.len() > 120 && short > 0 && short < ends.len() / 2, "{short} of {}", ends.len());
 }
 
 /// Whether an arc fell short, checked; nothing where the wheels cannot be steered so far.
@@ -152,7 +155,7 @@ fn a_table_of_legs_says_how_far_a_turn_fell_short() {
         reason.contains("of -180.0°") && reason.contains("° short: it drove twice"),
         "{reason}"
     );
-    let (turned, radius) = (table.numbers("turned_deg"), table.numbers("radius_m"));
+    let (turned, radius) = (table.numbers("yaw_turned_deg"), table.numbers("radius_m"));
     assert!((turned[1].expect("an arc") + 30.0).abs() < 1e-4);
     assert!((turned[2].expect("a turn") - 20.0).abs() < 1e-4);
     assert_eq!((turned[3], radius[2], radius[3]), (None, None, None));

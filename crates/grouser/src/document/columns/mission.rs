@@ -120,7 +120,7 @@ fn electrical<R>(
 /// What became of a mission or of a leg.
 pub(in super::super) const OUTCOME: &str = "outcome";
 /// Yaw that a leg turned.
-pub const TURNED: Quantity = quantity("turned_deg", DEG);
+pub const TURNED: Quantity = quantity("yaw_turned_deg", DEG);
 /// What stopped a leg.
 pub(in super::super) const STOPPED_BY: &str = "stopped_by";
 /// The name of an alternative.
