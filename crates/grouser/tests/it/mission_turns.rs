@@ -63,7 +63,7 @@ fn an_arc_reaches_its_yaw_or_says_what_it_lacks() {
     for (rover, steering) in DRIVES {
         for slope in [0.0, 8.0] {
             for radius in [0.3, 0.5, 1.0, 2.0, 3.0] {
-                for angle in [30.0, -30.0, 90.0, -90.0, 270.0, -270.0] {
+                for angle in [30.0_f64, -30.0, 90.0, -90.0, 270.0, -270.0] {
                     // Longer ways say nothing more.
                     if radius * deg(angle.abs()) < 6.0 {
                         arcs.push((rover, steering, slope, radius, angle));
@@ -73,11 +73,12 @@ fn an_arc_reaches_its_yaw_or_says_what_it_lacks() {
         }
     }
     let ends: Vec<(bool, String)> = arcs.par_iter().filter_map(end_of_arc).collect();
+    ends.iter().for_each(|(_, end)| println!("{end}"));
     let short = ends.iter().filter(|(is_short, _)| *is_short).count();
     assert!(ends.len() > 120 && short > 0 && short < ends.len() / 2, "{short} of {}", ends.len());
 }
 
-/// Whether an arc fell short, checked; nothing where the wheels cannot be steered so far.
+/// Whether an arc fell short, checked, and a line that says so; nothing where the wheels cannot be steered so far.
 fn end_of_arc(
     (rover, steering, slope, radius, angle): &(&str, &str, f64, f64, f64),
 ) -> Option<(bool, String)> {
@@ -88,16 +89,22 @@ fn end_of_arc(
     let read = read_mission(&Source::text("an arc", text.as_str()), &Overrides::none()).ok()?;
     let report = driven(&read.value.mission());
     let leg = &report.legs[0];
+    let line = format!(
+        "{rover}, {steering}, {slope}°: {radius} m, {angle}°: {} with {:.2}° on {:.3} m",
+        leg.outcome.name(),
+        turned(leg),
+        leg.distance,
+    );
     match &leg.outcome {
         LegOutcome::Completed => {
             assert!((turned(leg) - angle).abs() <= TOLERANCE_DEG, "{text}: {leg:?}");
-            Some((false, text))
+            Some((false, line))
         }
         LegOutcome::FellShort(short) => {
             let lacking = short.shortfall().to_degrees();
             assert!(lacking > TOLERANCE_DEG, "{text}: {short:?}");
             assert!(((turned(leg) - angle).abs() - lacking).abs() < 1e-9, "{text}: {short:?}");
-            Some((true, text))
+            Some((true, line))
         }
         other => panic!("{text}: {other:?}"),
     }
