@@ -25,6 +25,7 @@ mod run;
 mod steering;
 mod stop;
 mod turn;
+mod yaw_watch;
 
 pub use limits::Limits;
 pub use navigator::{Fix, Sensors};
@@ -34,4 +35,5 @@ pub use plan::{Heading, Leg, Manoeuvre, Measure, Mission, PlanError, Steering};
 pub use report::{BackOut, LegOutcome, LegReport, MissionReport, Taken};
 pub use route::{BesideRoute, Route};
 pub use run::{MissionError, MissionRun};
-pub use stop::{Cause, Kind, Limited, Stop, Stopped, Then};
+pub use stop::{Cause, Kind, Limited, LimitedRow, Stop, Stopped, Then, Where};
+pub use yaw_watch::{FellShort, ShortBecause};

@@ -14,6 +14,7 @@ pub(crate) use super::unit::{
     A, DEG, DEG_C, DEG_S, J_K, K_W, KG, KG_M2, KG_M3, KPA, M, M_PER_RAD, M_PER_RAD2, M_S, M_S2, N,
     NM, NM_A, OF_KEY, OHM, ONE, S, Unit, V, V_RAD, V_S_RAD, W, WH,
 };
+use super::unit::{DIRECTION_DEG, less_whole_turns};
 
 /// The keys of a document, or of a table in it, in the order in which they are written.
 ///
@@ -97,6 +98,8 @@ pub(crate) struct Number {
     pub most: f64,
     /// Whether the lower end itself is excluded.
     pub is_open: bool,
+    /// Whether it is a direction in degrees, of which whole turns do not count.
+    pub is_direction: bool,
 }
 
 /// A text, at least so many characters long.
@@ -210,6 +213,7 @@ pub struct Reached<'t> {
 impl Reached<'_> {
     /// Gives it another value, in the document's unit.
     pub fn set(self, value: f64) {
+        let value = if self.number.is_direction { less_whole_turns(value) } else { value };
         *self.value = self.number.unit.to_si(value);
     }
 
@@ -229,7 +233,24 @@ pub(crate) const fn number<T>(
     doc: &'static str,
     reach: Reach<T>,
 ) -> Field<T> {
-    let number = Number { unit, least: *range.start(), most: *range.end(), is_open: false };
+    let number = Number {
+        unit,
+        least: *range.start(),
+        most: *range.end(),
+        is_open: false,
+        is_direction: false,
+    };
+    field(key, doc, Shape::Number(number, reach))
+}
+
+/// A direction in degrees that must be there: any angle, of which whole turns do not count.
+pub(crate) const fn direction<T>(
+    key: &'static str,
+    doc: &'static str,
+    reach: Reach<T>,
+) -> Field<T> {
+    let (least, most) = (*DIRECTION_DEG.start(), *DIRECTION_DEG.end());
+    let number = Number { unit: DEG, least, most, is_open: false, is_direction: true };
     field(key, doc, Shape::Number(number, reach))
 }
 
@@ -241,7 +262,7 @@ pub(crate) const fn positive<T>(
     doc: &'static str,
     reach: Reach<T>,
 ) -> Field<T> {
-    let number = Number { unit, least: 0.0, most, is_open: true };
+    let number = Number { unit, least: 0.0, most, is_open: true, is_direction: false };
     field(key, doc, Shape::Number(number, reach))
 }
 
@@ -255,7 +276,13 @@ pub(crate) const fn numbers<T>(
     begin: fn(&mut T, Option<usize>),
     reach: fn(&mut T, usize) -> Option<&mut f64>,
 ) -> Field<T> {
-    let number = Number { unit, least: *range.start(), most: *range.end(), is_open: false };
+    let number = Number {
+        unit,
+        least: *range.start(),
+        most: *range.end(),
+        is_open: false,
+        is_direction: false,
+    };
     field(key, doc, Shape::Numbers(Numbers { number, form, begin, reach }))
 }
 
@@ -272,9 +299,9 @@ pub(crate) const fn pairs<T>(
 ) -> Field<T> {
     let [unit, other_unit] = units;
     let (least, most) = (*ranges[0].start(), *ranges[0].end());
-    let one = Number { unit, least, most, is_open: false };
+    let one = Number { unit, least, most, is_open: false, is_direction: false };
     let (least, most) = (*ranges[1].start(), *ranges[1].end());
-    let other = Number { unit: other_unit, least, most, is_open: false };
+    let other = Number { unit: other_unit, least, most, is_open: false, is_direction: false };
     field(key, doc, Shape::Pairs(Pairs { numbers: [one, other], begin, reach }))
 }
 

@@ -3,7 +3,7 @@
 use super::columns::{
     CURRENT, ENERGY, PITCH, Quantity, ROLL, SLIP_RATIO, TEMPERATURE, TIME, TORQUE, quantity,
 };
-use super::unit::{M, ONE};
+use super::unit::{DEG, M, ONE};
 use grouser_core::mission::{
     Heading, Leg, Limited, Manoeuvre, Measure, Mission, Sensors, Steering, Stop,
 };
@@ -46,6 +46,7 @@ pub const fn limited_quantity(limited: Limited) -> Quantity {
         Limited::Current => CURRENT,
         Limited::Temperature => TEMPERATURE,
         Limited::Discharge => quantity("depth_of_discharge", ONE),
+        Limited::Shortfall => quantity("shortfall_deg", DEG),
     }
 }
 

@@ -1,5 +1,36 @@
 //! Units at the end of names, and their conversion to and from SI, for documents and results.
 
+use std::ops::RangeInclusive;
+
+/// Directions that are taken [°]: any angle, of which whole turns do not count. Source: ours; far beyond, a number no longer
+/// says where between two turns it points.
+pub const DIRECTION_DEG: RangeInclusive<f64> = -1e9..=1e9;
+
+/// A direction less its whole turns, from −180 to 180 [°]; one that is there already is not touched, and no other is rounded:
+/// −179 for 181.
+///
+/// ```
+/// use grouser_io::unit::less_whole_turns;
+///
+/// assert_eq!([181.0, -190.5, 720.0, -180.0].map(less_whole_turns), [-179.0, 169.5, 0.0, -180.0]);
+/// ```
+#[must_use]
+pub fn less_whole_turns(degrees: f64) -> f64 {
+    if degrees.abs() <= 180.0 {
+        return degrees;
+    }
+    // All three are exact: the remainder always is, and so is a difference of two numbers of which neither is twice the other.
+    let within = degrees % 360.0;
+    if within > 180.0 {
+        within - 360.0
+    } else if within < -180.0 {
+        within + 360.0
+    } else {
+        // Not −0 for −360.
+        within + 0.0
+    }
+}
+
 /// A unit outside the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unit {

@@ -6,8 +6,8 @@ use grouser::document::columns::mission::in_words;
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
 use grouser::studies::validity::RoverOnSlope;
 use grouser_core::contact::validity::Flag;
-use grouser_core::mission::{BackOut, Leg, LegOutcome};
-use grouser_core::simulation::{Outcome, Record, Scenario, WheelRecord};
+use grouser_core::mission::{BackOut, Leg};
+use grouser_core::simulation::{Outcome, OutcomeKind, Record, Scenario, Severity, WheelRecord};
 use grouser_core::terrain::{Footprint, Terrain as _};
 use grouser_core::units::{Vec2, Vec3};
 use grouser_pictures::motion::{Follower, Pose};
@@ -195,7 +195,7 @@ impl<W: Write> Log<W> {
     /// # Errors
     /// As [`event`](Self::event).
     pub fn outcome(&mut self, time: f64, outcome: &Outcome) -> Result<(), LogError> {
-        self.event(time, level_of(outcome), "run", &words(outcome))
+        self.event(time, level_of(outcome.kind()), "run", &words(outcome))
     }
 
     /// Says that a leg of a mission begins.
@@ -223,7 +223,7 @@ impl<W: Write> Log<W> {
         let (became, name) = (format!("{}{reason}", report.outcome.name()), leg_name(leg.number));
         let way =
             format!("{:.3} m in {:.1} s with {:.1} J", report.distance, report.time, report.energy);
-        self.event(time, level_of_leg(&report.outcome), &name, &format!("{became}; {way}"))
+        self.event(time, level_of(report.outcome.kind()), &name, &format!("{became}; {way}"))
     }
 
     /// Says what became of a way back out of a leg.
@@ -235,11 +235,13 @@ impl<W: Write> Log<W> {
     /// As [`event`](Self::event).
     pub fn backed_out(&mut self, time: f64, number: usize, back: &BackOut) -> Result<(), LogError> {
         let way = format!("backed out by {:.3} m in {:.1} s", back.distance, back.time);
-        let became = match &back.outcome {
-            LegOutcome::Completed => way,
-            other => format!("{way}; {}", other.name()),
+        let kind = back.outcome.kind();
+        let became = if kind.row().severity == Severity::Good {
+            way
+        } else {
+            format!("{way}; {}", kind.name())
         };
-        self.event(time, level_of_leg(&back.outcome), &leg_name(number), &became)
+        self.event(time, level_of(kind), &leg_name(number), &became)
     }
 
     /// Appends a mission that was driven: the records of each leg between what is said of it.
@@ -265,8 +267,7 @@ impl<W: Write> Log<W> {
                 self.backed_out(time, leg.number, back)?;
             }
         }
-        let ended = mission.report.outcome();
-        self.event(time, Level::Info, "mission", &ended.replace('_', " "))
+        self.event(time, Level::Info, "mission", &mission.report.kind().in_words())
     }
 
     /// Puts a file into the log, such as the document that determined the run.
@@ -408,20 +409,16 @@ fn leg_name(number: usize) -> String {
     format!("leg {number}")
 }
 
-fn level_of_leg(outcome: &LegOutcome) -> Level {
-    match outcome {
-        LegOutcome::Completed => Level::Info,
-        LegOutcome::Stopped(_) => Level::Warning,
-        LegOutcome::Ended(outcome) => level_of(outcome),
+fn level_of(kind: OutcomeKind) -> Level {
+    match kind.row().severity {
+        Severity::Good => Level::Info,
+        Severity::Stopped => Level::Warning,
+        Severity::Stuck | Severity::Lost => Level::Error,
     }
-}
-
-fn level_of(outcome: &Outcome) -> Level {
-    if *outcome == Outcome::Completed { Level::Info } else { Level::Error }
 }
 
 /// An outcome with its reason.
 fn words(outcome: &Outcome) -> String {
-    let name = outcome.name().replace('_', " ");
+    let name = outcome.kind().in_words();
     outcome.reason().map_or(name.clone(), |reason| format!("{name}: {reason}"))
 }

@@ -239,16 +239,8 @@ fn times(end: f64, speed: f64) -> Vec<f64> {
 
 /// What becomes of a rover that does not complete its run, and when [s].
 fn outcome(outcome: &Outcome) -> Option<(f64, String)> {
-    let time = match outcome {
-        Outcome::Completed => return None,
-        Outcome::Immobilised { time, .. }
-        | Outcome::Sliding { time }
-        | Outcome::TippedOver { time }
-        | Outcome::BrownOut { time, .. }
-        | Outcome::OffTheMap { time, .. }
-        | Outcome::HighCentred { time, .. } => *time,
-    };
-    let name = outcome.name().replace('_', " ");
+    let time = outcome.time()?;
+    let name = outcome.kind().in_words();
     let reason = outcome.reason().unwrap_or_default();
     Some((time, format!("{name} after {time:.1} s: {reason}")))
 }

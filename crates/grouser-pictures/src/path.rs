@@ -1,7 +1,7 @@
 //! The path of a mission from above, to scale, leg by leg.
 
-use grouser_core::mission::{LegOutcome, MissionReport};
-use grouser_core::simulation::Record;
+use grouser_core::mission::MissionReport;
+use grouser_core::simulation::{Record, Severity};
 use grouser_core::units::Vec2;
 use grouser_core::vehicle::{Rover, RoverState};
 use grouser_page::{Anchor, Colour, Place, Shape, Sheet, Stroke, Text};
@@ -40,7 +40,7 @@ pub fn path_of(title: &str, rover: &Rover, report: &MissionReport) -> String {
         let path = records.iter().map(|record| at(record.state.position));
         sheet.draw(Shape::line(path, Stroke::new(0.7, colour).rounded()));
         rover_at(&mut sheet, &leg.end, &as_steered(rover, records.last()), &at, colour);
-        if leg.outcome != LegOutcome::Completed {
+        if leg.outcome.kind().row().severity != Severity::Good {
             cross(&mut sheet, at(leg.end.position));
         }
     }

@@ -22,6 +22,7 @@ mod learning;
 mod maps;
 mod measurements;
 mod missions;
+mod outcomes;
 mod paths;
 mod replay;
 mod rollouts;
@@ -72,6 +73,8 @@ mod _core {
     use super::measurements::import_wheel_tests;
     #[pymodule_export]
     use super::missions::drive_mission;
+    #[pymodule_export]
+    use super::outcomes::outcomes;
     #[pymodule_export]
     use super::paths::PathTask;
     #[pymodule_export]

@@ -1,6 +1,6 @@
 //! Paths that rovers follow under limits, for environments: read, and what a rover on one observes.
 
-use grouser::document::columns::mission::{stopped_by, why_stopped};
+use grouser::document::columns::mission::{stopped_by, why_short, why_stopped};
 use grouser::document::unit::DEG;
 use grouser::document::{Beside, Source, limited_quantity, read_limits, to_toml};
 use grouser::mission::{Cause, LegOutcome, PathRun, PathTask as Task, Route, Stop, Then};
@@ -180,6 +180,8 @@ pub(crate) fn outcome_of(path: &PathRun) -> PathOutcome {
     match outcome {
         LegOutcome::Completed => (name, None, None, None),
         LegOutcome::Ended(outcome) => (name, None, None, outcome.reason()),
+        // A path has no turns of its own.
+        LegOutcome::FellShort(short) => (name, None, None, Some(why_short(short))),
         LegOutcome::Stopped(stopped) => {
             let value = match &stopped.cause {
                 Cause::Limit { stop, value } => Some(in_its_unit(stop, *value).1),

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use grouser::document::columns::YAW;
 use grouser::document::route::RouteRecord;
 use grouser::document::study::{MAP_SPEED_M_S, MOST_SLOPE_DEG, SHARE, START_YAW_DEG};
+use grouser::document::unit::less_whole_turns;
 use grouser::mission::MissionError;
 use grouser::simulation::Scenario;
 use grouser::studies::ensemble::samples::BandInputs;
@@ -143,7 +144,7 @@ impl Sought<'_> {
 
 impl Task {
     fn yaw(&self) -> Option<f64> {
-        self.yaw_deg.map(|yaw| YAW.unit.to_si(yaw))
+        self.yaw_deg.map(|yaw| YAW.unit.to_si(less_whole_turns(yaw)))
     }
 }
 

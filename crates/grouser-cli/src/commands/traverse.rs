@@ -8,9 +8,9 @@ use grouser::document::LoadedScenario;
 use grouser::document::columns::run::{self, RUN_BAND, RunObject, TIME_BAND};
 use grouser::document::columns::{MODEL, Quantity, TIME, X, Y, YAW, Z};
 use grouser::document::table::{Row, Table};
-use grouser::simulation::{Outcome, Run, Scenario, Trajectory};
+use grouser::simulation::{Run, Scenario, Trajectory};
 use grouser::studies::ensemble::samples::BandInputs;
-use grouser::studies::traverse_band::RunBand;
+use grouser::studies::traverse_band::{Ends, RunBand};
 use grouser_pictures::{Shown, title_of};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -125,6 +125,7 @@ impl OfModel {
             Format::Table => output::show(table(&self.run, &self.scenario) + self.band_table()),
             Format::Csv => {
                 tell_end(&self.run);
+                self.band.iter().for_each(|band| tell_early(&band.run.ends));
                 output::print(&rows.to_csv()?)
             }
             Format::Json => output::print_json(&answer),
@@ -138,25 +139,16 @@ impl OfModel {
         let lines = LINES.min(last);
         let places: Vec<usize> = (0..=lines).map(|line| line * last / lines.max(1)).collect();
         let times = Table::of(&TIME_BAND, &band.times).rows_at(&places);
-        let RunBand {
-            completed,
-            immobilised,
-            sliding,
-            tipped_over,
-            brown_out,
-            off_map,
-            high_centred,
-            ..
-        } = band.run;
-        let some =
-            |count, word| if count > 0 { format!(", {count} {word}") } else { String::new() };
-        let (without_power, gone) =
-            (some(brown_out, "without power"), some(off_map, "off the map"));
-        let on_belly = some(high_centred, "high-centred");
+        let RunBand { completed, ends, .. } = band.run;
+        let early = ends.each().map(|(kind, count)| format!(", {count} {}", kind.in_words()));
         let samples = format!(
-            "{} samples: {} completed, {immobilised} immobilised, {sliding} sliding, {tipped_over} tipped over{without_power}{gone}{on_belly}\n",
-            completed.trials, completed.successes,
+            "{} samples: {} completed{}\n",
+            completed.trials,
+            completed.successes,
+            early.collect::<String>(),
         );
+        let notes = ends.sentences().into_iter().map(|it| format!("note: {it}\n"));
+        let samples = samples + &notes.collect::<String>();
         Text::from("\n") + Rows::of_table(&times).to_table(&run::bands_brief()) + samples
     }
 }
@@ -239,9 +231,14 @@ fn output_all(
     }
 }
 
+/// What becomes of samples that ended early, beside rows of numbers.
+fn tell_early(ends: &Ends) {
+    ends.sentences().iter().for_each(|it| output::message(&format!("note: {it}")));
+}
+
 /// Rows of numbers do not say that a run ended early, or why.
 fn tell_end(run: &Trajectory) {
-    if run.outcome != Outcome::Completed {
+    if !run.outcome.is_completed() {
         let (outcome, time) = (run.outcome.name(), four_digits(run.last().time));
         let reason = reason(run);
         output::message(&format!("note: {outcome} after {time} s{reason}"));

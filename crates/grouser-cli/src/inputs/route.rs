@@ -1,5 +1,6 @@
 //! What a route is made of.
 
+use grouser::document::unit::less_whole_turns;
 use grouser::document::{LoadedScenario, escape, study};
 use grouser::studies::mobility::MobilityStudy;
 use grouser::studies::route::{Ends, Limits, Line, LineError, RouteStudy};
@@ -50,7 +51,10 @@ pub(crate) fn route(args: &RouteArgs) -> Result<RouteInputs, Failure> {
 
 fn asked(args: &RouteArgs) -> Result<Asked, Failure> {
     let yaw = match &args.yaw_deg {
-        Some(yaw) => Some(single("--yaw-deg", yaw, &study::START_YAW_DEG)?.to_radians()),
+        Some(yaw) => {
+            let yaw = single("--yaw-deg", yaw, &study::START_YAW_DEG)?;
+            Some(less_whole_turns(yaw).to_radians())
+        }
         None => None,
     };
     if let Some(file) = &args.along {

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use grouser::document::measurements::motor_log::{LogChoice, MotorLog, read_motor_log};
 use grouser::document::measurements::read_bytes;
-use grouser::document::unit::DEG;
+use grouser::document::unit::{DEG, DIRECTION_DEG, less_whole_turns};
 use grouser::document::{self, LoadedScenario, escape};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::slip_from_current::{NoEstimator, SlipEstimator, SlipSettings, TorqueNoise};
@@ -29,7 +29,7 @@ pub(crate) struct SlipInputs {
 /// Noise that flags may state, as a share and in N·m.
 const NOISE: RangeInclusive<f64> = 0.0..=100.0;
 /// Yaws and courses that flags may state [°].
-const TURN_DEG: RangeInclusive<f64> = -180.0..=180.0;
+const TURN_DEG: RangeInclusive<f64> = DIRECTION_DEG;
 
 pub(crate) fn slip_from_current(args: &SlipFromCurrentArgs) -> Result<SlipInputs, Failure> {
     const COMMAND: &str = "slip-from-current";
@@ -87,7 +87,7 @@ fn settings(args: &SlipFromCurrentArgs) -> Result<SlipSettings, Failure> {
 fn choice(args: &SlipFromCurrentArgs) -> Result<LogChoice, Failure> {
     let angle = |flag: &str, numbers: &Option<Numbers>, range| {
         let number = numbers.as_ref().map(|numbers| single(flag, numbers, range)).transpose()?;
-        Ok::<_, Failure>(number.map(|number| DEG.to_si(number)))
+        Ok::<_, Failure>(number.map(|number| DEG.to_si(less_whole_turns(number))))
     };
     let mut choice = LogChoice {
         yaw: angle("--yaw-deg", &args.yaw_deg, &TURN_DEG)?,

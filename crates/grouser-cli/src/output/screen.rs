@@ -8,6 +8,7 @@ use grouser::document::columns::STATUS;
 use grouser::document::columns::card::VERDICT;
 use grouser::document::columns::flags::FLAGS;
 use grouser::document::escape;
+use grouser::simulation::{OutcomeKind, Severity};
 
 use super::text::{Grid, Part, Text};
 
@@ -28,20 +29,9 @@ const ERROR: Style = BAD.bold();
 const NOTE: Style = CAUTION.bold();
 const HINT: Style = AnsiColor::Cyan.on_default().bold();
 
-/// Words that begin a line, and their colours.
-const LABELS: [(&str, Style); 11] = [
-    ("error:", ERROR),
-    ("interrupted:", ERROR),
-    ("note:", NOTE),
-    ("hint:", HINT),
-    ("completed after", GOOD),
-    ("immobilised after", BAD),
-    ("sliding after", BAD),
-    ("tipped_over after", BAD),
-    ("brown_out after", BAD),
-    ("off_map after", BAD),
-    ("high_centred after", BAD),
-];
+/// Words that begin a line, and their colours; names of outcomes do, too.
+const LABELS: [(&str, Style); 4] =
+    [("error:", ERROR), ("interrupted:", ERROR), ("note:", NOTE), ("hint:", HINT)];
 
 /// A longer cell of a column of reasons stands under the table.
 const LONG_REASON: usize = 14;
@@ -68,8 +58,8 @@ impl Screen {
         if !self.has_colours {
             return shown.into_owned();
         }
-        let paint = |line: &str| match LABELS.iter().find(|(label, _)| line.starts_with(label)) {
-            Some((label, style)) => self.painted(label, *style) + &line[label.len()..],
+        let paint = |line: &str| match label_of(line) {
+            Some((label, style)) => self.painted(label, style) + &line[label.len()..],
             None => line.to_owned(),
         };
         shown.split_inclusive('\n').map(paint).collect()
@@ -157,15 +147,40 @@ impl Screen {
     }
 }
 
-/// The colour of a cell: its words say the same.
+/// The label with which a line begins, and its colour: a word of messages, or what became of a run.
+fn label_of(line: &str) -> Option<(&str, Style)> {
+    let of_messages = LABELS.iter().find(|(label, _)| line.starts_with(label)).copied();
+    of_messages.or_else(|| {
+        let (name, rest) = line.split_once(' ')?;
+        let kind = OutcomeKind::of_name(name).filter(|_| rest.starts_with(AFTER))?;
+        Some((&line[..name.len() + 1 + AFTER.len()], colour_of(kind.row().severity)))
+    })
+}
+
+/// What follows an outcome that begins a line.
+const AFTER: &str = "after";
+
+/// The colour of an outcome.
+fn colour_of(severity: Severity) -> Style {
+    match severity {
+        Severity::Good => GOOD,
+        Severity::Stopped => CAUTION,
+        Severity::Stuck | Severity::Lost => BAD,
+    }
+}
+
+/// The colour of a cell: its words say the same. What is as it should be has none, so that the rest is seen.
 fn style_of(column: &Column, cell: &[String]) -> Style {
     let words = cell.first().map_or("", String::as_str);
+    if let Some(kind) = OutcomeKind::of_name(words) {
+        let severity = kind.row().severity;
+        return if severity == Severity::Good { Style::new() } else { colour_of(severity) };
+    }
     match words {
         "go" => GOOD,
         "caution" => CAUTION,
-        "no-go" | "immobilised" | "sliding" | "tipped_over" | "brown_out" | "off_map"
-        | "high_centred" => BAD,
-        "-" | "ok" | "completed" => Style::new(),
+        "no-go" => BAD,
+        "-" | "ok" => Style::new(),
         _ if column.name == STATUS => BAD,
         _ if column.name == FLAGS => CAUTION,
         _ if words.starts_with('[') => BAD,

@@ -5,6 +5,7 @@ use super::navigator::Navigator;
 use super::odometer::mean_speed;
 use super::pilot::{Line, Pilot};
 use super::stop::{Limited, Stop, Stopped};
+use super::yaw_watch::{FellShort, Planned, YawWatch};
 use crate::simulation::{CONTROL_PERIOD, LEAST_STEP, Outcome, Run, RunError};
 use crate::units::Vec2;
 use crate::vehicle::RoverState;
@@ -25,6 +26,7 @@ const LONGEST_STRETCH: f64 = 3600.0;
 #[derive(Clone, Debug)]
 pub(super) enum End {
     Reached,
+    Short(FellShort),
     Stopped(Stopped),
     Ended(Outcome),
 }
@@ -38,6 +40,8 @@ pub(super) enum Goal {
     Rims(f64),
     /// A yaw [rad], and the fastest that the rover may turn towards it [rad/s].
     Yaw { yaw: f64, fastest: f64 },
+    /// A yaw at the end of an arc [rad], the turn that leads there [rad], and the way of the arc [m].
+    Arc { yaw: f64, angle: f64, way: f64 },
     /// A place, how near is near enough [m], and the line that leads there.
     Place { place: Vec2, within: f64, line: Line },
     /// A time since the start of the mission [s].
@@ -58,7 +62,13 @@ pub(super) struct Driven {
     rims_at_fix: f64,
     /// How fast it turned on the spot when it last did [rad/s].
     turn_rate: Option<f64>,
+    /// Whether a turn or an arc gets on, and what it may lack at its end.
+    yaw: Option<(YawWatch, Stop)>,
 }
+
+/// Yaw that a turn or an arc may lack, unless its leg says otherwise [rad]: 2°. Source: ours; what rovers measure of their
+/// heading after some minutes without the Sun.
+const MOST_SHORT: f64 = 2.0 * std::f64::consts::PI / 180.0;
 
 impl Driven {
     /// A manoeuvre that begins here.
@@ -72,10 +82,21 @@ impl Driven {
         stops: &[Stop],
     ) -> Self {
         let mut stops = stops.to_vec();
-        if stops.iter().all(|stop| stop.limited != Limited::Time) {
-            stops.push(Stop::above(Limited::Time, SLOWEST * nominal + MINUTE));
+        let (longest, seen) = (SLOWEST * nominal + MINUTE, navigator.seen());
+        let (start, from) = (run.state().time(), seen.yaw);
+        let planned = |to, way| Planned { from, to, way, start, nominal, longest };
+        let planned = match goal {
+            Goal::Yaw { yaw, .. } => Some(planned(yaw, None)),
+            Goal::Arc { yaw, way, .. } => Some(planned(yaw, Some(way))),
+            Goal::Ground(_) | Goal::Rims(_) | Goal::Place { .. } | Goal::Time(_) => None,
+        };
+        let short = stops.iter().position(|stop| stop.limited == Limited::Shortfall);
+        let short =
+            short.map_or(Stop::above(Limited::Shortfall, MOST_SHORT), |at| stops.remove(at));
+        // A turn that takes too long falls short.
+        if planned.is_none() && stops.iter().all(|stop| stop.limited != Limited::Time) {
+            stops.push(Stop::above(Limited::Time, longest));
         }
-        let seen = navigator.seen();
         Self {
             pilot,
             limits: Limits::begun(run, seen.position, stops),
@@ -84,6 +105,7 @@ impl Driven {
             gone: 0.0,
             rims_at_fix: 0.0,
             turn_rate: None,
+            yaw: planned.map(|planned| (YawWatch::new(&planned), short)),
         }
     }
 
@@ -131,7 +153,8 @@ impl Driven {
         }
         self.go_on(run, navigator, left, rate)?;
         let ended = run.outcome().map(|outcome| End::Ended(outcome.clone()));
-        Ok(ended.or_else(|| self.passed(run, navigator.seen()).map(End::Stopped)))
+        let stopped = ended.or_else(|| self.passed(run, navigator.seen()).map(End::Stopped));
+        Ok(stopped.or_else(|| self.given_up(run, navigator.seen())))
     }
 
     /// Drives to the next look, or to the end of the manoeuvre where that comes before.
@@ -172,7 +195,10 @@ impl Driven {
 
     /// Whether it leads somewhere: slip, drift and distance from the path are looked at.
     fn is_drive(&self) -> bool {
-        matches!(self.goal, Goal::Ground(_) | Goal::Rims(_) | Goal::Place { .. })
+        match self.goal {
+            Goal::Ground(_) | Goal::Rims(_) | Goal::Place { .. } | Goal::Arc { .. } => true,
+            Goal::Yaw { .. } | Goal::Time(_) => false,
+        }
     }
 
     /// What is left of the manoeuvre, and how fast that becomes less.
@@ -186,6 +212,10 @@ impl Driven {
                 let error = yaw - state.yaw;
                 // Whatever it does now, it may turn towards it next, and must not turn past it.
                 (error.abs(), self.turn_rate.unwrap_or(fastest))
+            }
+            Goal::Arc { yaw, angle, .. } => {
+                let side = angle.signum();
+                (side * (yaw - state.yaw), side * state.yaw_rate)
             }
             Goal::Place { place, within, line } => {
                 let away = (place - state.position).norm() - within;
@@ -204,6 +234,20 @@ impl Driven {
             return End::Reached;
         }
         End::Stopped(self.limits.stopped(Stop::above(Limited::OffPath, within), off))
+    }
+
+    /// How a turn or an arc ends of which no more is to be expected: what it lacks may be little enough.
+    fn given_up(&mut self, run: &Run, seen: &RoverState) -> Option<End> {
+        let ground = self.ground();
+        let (watch, short) = self.yaw.as_mut()?;
+        let because = watch.look(run.state().time(), seen.yaw, ground)?;
+        let left = watch.left(seen.yaw);
+        if left <= short.above {
+            return Some(End::Reached);
+        }
+        let (asked, turned) = (watch.to - watch.from, seen.yaw - watch.from);
+        let stopped = self.limits.stopped(*short, left);
+        Some(End::Short(FellShort { asked, turned, because, stopped }))
     }
 
     /// The first limit that is passed now.

@@ -1,7 +1,7 @@
 //! Limits on a rover that someone drives, looked at after every control period.
 
 use super::odometer::Odometer;
-use super::stop::{Cause, Limited, Stop, Stopped};
+use super::stop::{Cause, Limited, Stop, Stopped, Where};
 use crate::error::ParameterError;
 use crate::simulation::Run;
 use crate::units::Vec2;
@@ -128,8 +128,13 @@ impl Limits {
             Limited::Current => Some(current),
             Limited::Temperature => state.warmest(),
             Limited::Discharge => Some(1.0 - state.battery()?.charge),
+            Limited::Shortfall => None,
         };
-        let is_looked_at = |stop: &&Stop| known.is_drive || !stop.limited.is_of_a_drive();
+        let is_looked_at = |stop: &&Stop| match stop.limited.row().known {
+            Where::Everywhere => true,
+            Where::Drives | Where::Ways => known.is_drive,
+            Where::Ends => false,
+        };
         self.stops.iter().filter(is_looked_at).find_map(|stop| {
             let value = value(stop)?;
             (value > stop.above).then(|| self.stopped(*stop, value))
@@ -138,7 +143,7 @@ impl Limits {
 
     /// That the rover stops here at a limit.
     pub(super) fn stopped(&self, stop: Stop, value: f64) -> Stopped {
-        let (cause, kind) = (Cause::Limit { stop, value }, stop.limited.kind());
+        let (cause, kind) = (Cause::Limit { stop, value }, stop.limited.row().kind);
         Stopped { cause, kind, after: self.odometer.ground() }
     }
 
@@ -155,7 +160,7 @@ impl Limits {
     /// Largest sinkage over the shearing radius [-], largest torque [N·m] and largest current [A] of a wheel, if some limit
     /// needs them.
     fn of_wheels(&self, run: &Run) -> [f64; 3] {
-        if !self.stops.iter().any(|stop| stop.limited.needs_wheels()) {
+        if !self.stops.iter().any(|stop| stop.limited.row().needs_wheels) {
             return [0.0; 3];
         }
         let radii = run.scenario().rover.mounts().iter().map(Mount::shearing_radius);

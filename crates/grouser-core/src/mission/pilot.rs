@@ -288,7 +288,9 @@ impl Pilot {
                 (contour.yaw() + self.towards(contour.left_of(scenario, state)), 0.0)
             }
             Law::Circle { yaw, radius, angle, .. } => {
-                (*yaw + angle.signum() * self.gone / *radius, angle.signum() * speed / *radius)
+                // Beyond its own way, an arc goes on to its yaw.
+                let turn = (self.gone / *radius).min(angle.abs());
+                (*yaw + angle.signum() * turn, angle.signum() * speed / *radius)
             }
         };
         let most = MOST_STEER * speed / reach;

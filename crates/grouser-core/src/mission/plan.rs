@@ -182,6 +182,15 @@ impl Manoeuvre {
         if backward { -1.0 } else { 1.0 }
     }
 
+    /// Whether it is complete at a yaw: a turn on the spot, or an arc.
+    #[must_use]
+    pub fn turns(&self) -> bool {
+        match self {
+            Self::Turn { .. } | Self::Arc { .. } => true,
+            Self::Drive { .. } | Self::Goto { .. } | Self::Wait { .. } => false,
+        }
+    }
+
     fn check(&self) -> Result<(), ParameterError> {
         match self {
             Self::Drive { distance, .. } => finite("distance [m]", *distance),

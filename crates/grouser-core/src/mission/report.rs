@@ -2,8 +2,9 @@
 
 use super::driven::End;
 use super::navigator::Fix;
-use super::stop::Stopped;
-use crate::simulation::{Outcome, Record, SAME_TIME, Trajectory};
+use super::stop::{Stopped, Then};
+use super::yaw_watch::FellShort;
+use crate::simulation::{Outcome, OutcomeKind, Record, SAME_TIME, Trajectory};
 use crate::vehicle::RoverState;
 
 /// What became of a leg.
@@ -13,6 +14,8 @@ pub enum LegOutcome {
     Completed,
     /// It passed a limit.
     Stopped(Stopped),
+    /// Its turn or its arc did not reach the yaw.
+    FellShort(FellShort),
     /// It got stuck, slid or tipped over.
     Ended(Outcome),
 }
@@ -60,6 +63,9 @@ pub struct LegReport {
     /// Slip ratio over the manoeuvre, 1 less the way over the ground by that of the rims [-]; of drives, arcs and ways to
     /// places alone.
     pub slip_ratio: Option<f64>,
+    /// Yaw by which it really turned in an arc or a turn on the spot [rad], positive to the left; a turn to the leg's yaw before
+    /// it does not count.
+    pub turned: Option<f64>,
     /// The rover where it ended, before a way back out of it.
     pub end: RoverState,
     /// The way back out of it, if there was one.
@@ -97,20 +103,62 @@ impl From<End> for LegOutcome {
     fn from(end: End) -> Self {
         match end {
             End::Reached => Self::Completed,
+            End::Short(short) => Self::FellShort(short),
             End::Stopped(stopped) => Self::Stopped(stopped),
             End::Ended(outcome) => Self::Ended(outcome),
         }
     }
 }
 
+impl LegReport {
+    /// Radius of the circle that was really driven [m]: the way over the ground by the turn; of drives that turned alone.
+    #[must_use]
+    pub fn radius(&self) -> Option<f64> {
+        let turned = self.turned?.abs();
+        (self.slip_ratio.is_some() && turned > 0.0).then(|| self.distance / turned)
+    }
+}
+
 impl LegOutcome {
-    /// One word: `completed`, `stopped`, or that of an [`Outcome`].
+    /// Its kind, of which the [table](OutcomeKind::row) says name, meaning and severity.
+    #[must_use]
+    pub fn kind(&self) -> OutcomeKind {
+        match self {
+            Self::Completed => OutcomeKind::Completed,
+            Self::Stopped(_) => OutcomeKind::Stopped,
+            Self::FellShort(_) => OutcomeKind::FellShort,
+            Self::Ended(outcome) => outcome.kind(),
+        }
+    }
+
+    /// One word: that of its [kind](Self::kind).
     #[must_use]
     pub fn name(&self) -> &'static str {
+        self.kind().name()
+    }
+
+    /// Whether the rover did what the leg says.
+    #[must_use]
+    pub fn is_completed(&self) -> bool {
+        self.kind() == OutcomeKind::Completed
+    }
+
+    /// The limit that stopped the rover, or that its turn fell short by more than.
+    #[must_use]
+    pub fn stopped(&self) -> Option<&Stopped> {
         match self {
-            Self::Completed => "completed",
-            Self::Stopped(_) => "stopped",
-            Self::Ended(outcome) => outcome.name(),
+            Self::Stopped(stopped) | Self::FellShort(FellShort { stopped, .. }) => Some(stopped),
+            Self::Completed | Self::Ended(_) => None,
+        }
+    }
+
+    /// What the rover does next.
+    #[must_use]
+    pub fn then(&self) -> Then {
+        match self {
+            Self::Completed => Then::NextLeg,
+            Self::Ended(_) => Then::End,
+            Self::Stopped(stopped) | Self::FellShort(FellShort { stopped, .. }) => stopped.then(),
         }
     }
 }
@@ -118,11 +166,17 @@ impl LegOutcome {
 impl MissionReport {
     /// What became of the mission: the outcome of its last leg, and of the way back out of it.
     #[must_use]
-    pub fn outcome(&self) -> &'static str {
-        let Some(last) = self.legs.last() else { return LegOutcome::Completed.name() };
+    pub fn kind(&self) -> OutcomeKind {
+        let Some(last) = self.legs.last() else { return OutcomeKind::Completed };
         let back = last.back_out.as_ref().map(|back| &back.outcome);
-        let failed = back.filter(|outcome| **outcome != LegOutcome::Completed);
-        failed.unwrap_or(&last.outcome).name()
+        let failed = back.filter(|outcome| !outcome.is_completed());
+        failed.unwrap_or(&last.outcome).kind()
+    }
+
+    /// One word: that of its [kind](Self::kind).
+    #[must_use]
+    pub fn outcome(&self) -> &'static str {
+        self.kind().name()
     }
 
     /// The rover where the mission ended.

@@ -100,11 +100,7 @@ impl MissionRun {
         let place = self.reports.len();
         let leg = self.mission.legs[place].clone();
         let report = self.drive(&leg, watch)?;
-        let goes_on = match &report.outcome {
-            LegOutcome::Completed => true,
-            LegOutcome::Stopped(stopped) => stopped.then() == Then::NextLeg,
-            LegOutcome::Ended(_) => false,
-        };
+        let goes_on = report.outcome.then() == Then::NextLeg;
         self.reports.push(report);
         self.is_over = !goes_on || self.reports.len() == self.mission.legs.len();
         Ok(self.reports.last())
@@ -152,6 +148,8 @@ impl MissionRun {
             turned_to = self.drive_on(&mut turn, None, watch)?;
         }
         let (mut distance, mut slip_ratio) = (0.0, None);
+        let before = self.rover().yaw;
+        let is_begun = matches!(turned_to, End::Reached);
         let end = match turned_to {
             End::Reached => {
                 let pilot =
@@ -168,14 +166,12 @@ impl MissionRun {
         let taken = self.taken_since(electrical);
         let outcome = LegOutcome::from(end);
         let end = *self.rover();
-        let back_out = match &outcome {
-            LegOutcome::Stopped(stopped) => match stopped.then() {
-                Then::BackOut(way) => Some(self.back_out(leg, way, watch)?),
-                Then::End | Then::NextLeg => None,
-            },
-            LegOutcome::Completed | LegOutcome::Ended(_) => None,
+        let turned = Some(end.yaw - before).filter(|_| is_begun && leg.manoeuvre.turns());
+        let back_out = match outcome.then() {
+            Then::BackOut(way) => Some(self.back_out(leg, way, watch)?),
+            Then::End | Then::NextLeg => None,
         };
-        Ok(LegReport { outcome, distance, time, energy, taken, slip_ratio, end, back_out })
+        Ok(LegReport { outcome, distance, time, energy, taken, slip_ratio, turned, end, back_out })
     }
 
     /// Drives against the way of a leg.
@@ -208,7 +204,7 @@ impl MissionRun {
             Manoeuvre::Turn { angle } => self.turn_to(state.yaw + angle, leg),
             Manoeuvre::Arc { radius, angle, .. } => {
                 let way = radius * angle.abs();
-                (Goal::Ground(way), way / leg.speed())
+                (Goal::Arc { yaw: state.yaw + angle, angle, way }, way / leg.speed())
             }
             Manoeuvre::Goto { place, within, .. } => {
                 let nominal = (place - state.position).norm() / leg.speed();

@@ -47,6 +47,8 @@ pub enum Limited {
     Temperature,
     /// Depth of discharge of the battery: 1 less its state of charge [-].
     Discharge,
+    /// Yaw that a turn or an arc lacks where it ends [rad].
+    Shortfall,
 }
 
 /// What a rover does once it has stopped.
@@ -108,43 +110,108 @@ impl Stopped {
     }
 }
 
-impl Limited {
-    /// All of them.
-    pub const ALL: [Self; 12] = [
-        Self::SlipRatio,
-        Self::Drift,
-        Self::Sinkage,
-        Self::Roll,
-        Self::Pitch,
-        Self::Torque,
-        Self::Time,
-        Self::Energy,
-        Self::OffPath,
-        Self::Current,
-        Self::Temperature,
-        Self::Discharge,
-    ];
+/// What is known of a number that may be limited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LimitedRow {
+    /// What the number is: a sentence with its full stop.
+    pub meaning: &'static str,
+    /// How it is known, on the way, that the limit was passed.
+    pub kind: Kind,
+    /// Where it has a value.
+    pub known: Where,
+    /// Whether the wheels' forces and sinkage must be known for it.
+    pub(super) needs_wheels: bool,
+}
 
+/// Where a number that is limited has a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Where {
+    /// At every look.
+    Everywhere,
+    /// Where a manoeuvre leads somewhere: not in turns and waits.
+    Drives,
+    /// The same, over a way of the rims, once they have gone so far.
+    Ways,
+    /// At the end of a turn or an arc.
+    Ends,
+}
+
+/// The row of each number, from which the list of all numbers is made too.
+macro_rules! rows {
+    ($($limited:ident { $kind:ident, $known:ident, needs_wheels: $needs:literal, $meaning:literal })+) => {
+        impl Limited {
+            /// All of them.
+            pub const ALL: [Self; [$($meaning),+].len()] = [$(Self::$limited),+];
+
+            /// What is known of it.
+            #[must_use]
+            pub const fn row(self) -> &'static LimitedRow {
+                match self {
+                    $(Self::$limited => &LimitedRow {
+                        meaning: $meaning,
+                        kind: Kind::$kind,
+                        known: Where::$known,
+                        needs_wheels: $needs,
+                    },)+
+                }
+            }
+        }
+    };
+}
+
+rows! {
+    SlipRatio {
+        Reactive, Ways, needs_wheels: false,
+        "Slip ratio over a way: 1 less what the ground saw of the rims' way."
+    }
+    Drift { Reactive, Ways, needs_wheels: false, "Way straight down the slope over a way." }
+    Sinkage {
+        Reactive, Everywhere, needs_wheels: true,
+        "Largest sinkage of a wheel over its shearing radius."
+    }
+    Roll { Reactive, Everywhere, needs_wheels: false, "Roll to either side." }
+    Pitch { Reactive, Everywhere, needs_wheels: false, "Pitch, nose up or down." }
+    Torque { Reactive, Everywhere, needs_wheels: true, "Largest torque of a wheel's motor." }
+    Time { Command, Everywhere, needs_wheels: false, "Time since the leg began." }
+    Energy { Command, Everywhere, needs_wheels: false, "Work of the motors since the leg began." }
+    OffPath {
+        Reactive, Drives, needs_wheels: false,
+        "Distance from the straight line, or the circle, of the leg."
+    }
+    Current {
+        Reactive, Everywhere, needs_wheels: true,
+        "Largest current of a wheel's motor, driving or braking."
+    }
+    Temperature {
+        Reactive, Everywhere, needs_wheels: false, "Highest temperature of a motor's winding."
+    }
+    Discharge {
+        Reactive, Everywhere, needs_wheels: false,
+        "Depth of discharge: 1 less the battery's state of charge."
+    }
+    Shortfall {
+        Reactive, Ends, needs_wheels: false,
+        "Yaw that a turn or an arc lacks where it ends; without it 2°: beyond, the leg is `fell_short`."
+    }
+}
+
+impl Limited {
     /// Whether it is taken over a way.
     #[must_use]
-    pub fn is_of_a_way(self) -> bool {
-        matches!(self, Self::SlipRatio | Self::Drift)
+    pub const fn is_of_a_way(self) -> bool {
+        matches!(self.row().known, Where::Ways)
     }
+}
 
-    /// Whether it has a value only where a manoeuvre leads somewhere: not in turns and waits.
-    pub(super) fn is_of_a_drive(self) -> bool {
-        self.is_of_a_way() || self == Self::OffPath
-    }
-
-    /// Whether the wheels' forces and sinkage must be known for it.
-    pub(super) fn needs_wheels(self) -> bool {
-        matches!(self, Self::Sinkage | Self::Torque | Self::Current)
-    }
-
-    /// How it is known that it was passed, on the way.
+impl Kind {
+    /// One word: `command`, `reactive` or `predictive`.
     #[must_use]
-    pub fn kind(self) -> Kind {
-        if matches!(self, Self::Time | Self::Energy) { Kind::Command } else { Kind::Reactive }
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Command => "command",
+            Self::Reactive => "reactive",
+            Self::Predictive => "predictive",
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! What may become of a rover.
 
+use super::outcome_kind::OutcomeKind;
 use crate::units::Vec2;
 
 /// What became of the rover.
@@ -89,59 +90,94 @@ pub enum StuckBecause {
 }
 
 impl Outcome {
-    /// One word: `completed`, `immobilised`, `sliding`, `tipped_over`, `brown_out`, `off_map`, `high_centred`.
+    /// Its kind, of which the [table](OutcomeKind::row) says name, meaning, severity and what a band counts it as.
     #[must_use]
-    pub fn name(&self) -> &'static str {
+    pub fn kind(&self) -> OutcomeKind {
         match self {
-            Self::Completed => "completed",
-            Self::Immobilised { .. } => "immobilised",
-            Self::Sliding { .. } => "sliding",
-            Self::TippedOver { .. } => "tipped_over",
-            Self::BrownOut { .. } => "brown_out",
-            Self::OffTheMap { .. } => "off_map",
-            Self::HighCentred { .. } => "high_centred",
+            Self::Completed => OutcomeKind::Completed,
+            Self::Immobilised { .. } => OutcomeKind::Immobilised,
+            Self::Sliding { .. } => OutcomeKind::Sliding,
+            Self::TippedOver { .. } => OutcomeKind::TippedOver,
+            Self::BrownOut { .. } => OutcomeKind::BrownOut,
+            Self::OffTheMap { .. } => OutcomeKind::OffTheMap,
+            Self::HighCentred { .. } => OutcomeKind::HighCentred,
         }
     }
 
-    /// The reason, in a few words; none for a completed run.
+    /// One word: that of its [kind](Self::kind).
     #[must_use]
-    pub fn reason(&self) -> Option<String> {
+    pub fn name(&self) -> &'static str {
+        self.kind().name()
+    }
+
+    /// Whether the rover drove for its whole duration.
+    #[must_use]
+    pub fn is_completed(&self) -> bool {
+        *self == Self::Completed
+    }
+
+    /// When it was certain [s]; nothing for a run that was completed.
+    #[must_use]
+    pub fn time(&self) -> Option<f64> {
         match self {
             Self::Completed => None,
-            Self::Immobilised { because, .. } => Some(match because {
-                StuckBecause::WheelsSpin => "the wheels spin without moving the rover".into(),
-                StuckBecause::NoProgress => {
-                    "the rover gets ahead by less than 1 % of its rims".into()
-                }
-                StuckBecause::MotorsStall => {
-                    "its motors stall: they turn at less than 1 % of the speed that they are set to"
-                        .into()
-                }
-                StuckBecause::SunkToAxle { wheel, load, capacity } => format!(
-                    "wheel {wheel} sank to its axle: it bears {load:.3} N, the soil carries {capacity:.3} N"
-                ),
-            }),
+            Self::Immobilised { time, .. }
+            | Self::Sliding { time }
+            | Self::TippedOver { time }
+            | Self::BrownOut { time, .. }
+            | Self::OffTheMap { time, .. }
+            | Self::HighCentred { time, .. } => Some(*time),
+        }
+    }
+
+    /// Reason in a few words; nothing for a completed run.
+    #[must_use]
+    pub fn reason(&self) -> Option<String> {
+        let place = |place: &Vec2| format!("x = {:.3} m, y = {:.3} m", place.x, place.y);
+        match self {
+            Self::Completed => None,
+            Self::Immobilised { because, .. } => Some(because.sentence()),
             Self::Sliding { .. } => Some("it slides downhill faster than its wheels turn".into()),
             Self::TippedOver { .. } => Some("its weight falls outside its wheels".into()),
-            Self::BrownOut { because, .. } => Some(match because {
-                PowerLost::Empty => "its battery is empty".into(),
-                PowerLost::BelowCutoff { voltage, cutoff } => format!(
-                    "its battery falls to {voltage:.2} V, below the {cutoff:.2} V at which the electronics switch off"
-                ),
-                PowerLost::TooMuchDrawn { power } => {
-                    format!(
-                        "its battery cannot give the {power:.1} W that motors and electronics draw"
-                    )
-                }
-            }),
-            Self::OffTheMap { wheel, place, .. } => Some(format!(
-                "wheel {wheel} is at x = {:.3} m, y = {:.3} m, where the map has no heights",
-                place.x, place.y
-            )),
-            Self::HighCentred { place, .. } => Some(format!(
-                "its underside touches the ground at x = {:.3} m, y = {:.3} m",
-                place.x, place.y
-            )),
+            Self::BrownOut { because, .. } => Some(because.sentence()),
+            Self::OffTheMap { wheel, place: at, .. } => {
+                Some(format!("wheel {wheel} is at {}, where the map has no heights", place(at)))
+            }
+            Self::HighCentred { place: at, .. } => {
+                Some(format!("its underside touches the ground at {}", place(at)))
+            }
+        }
+    }
+}
+
+impl StuckBecause {
+    /// Reason in a few words.
+    fn sentence(&self) -> String {
+        match self {
+            Self::WheelsSpin => "the wheels spin without moving the rover".into(),
+            Self::NoProgress => "the rover gets ahead by less than 1 % of its rims".into(),
+            Self::MotorsStall => {
+                "its motors stall: they turn at less than 1 % of the speed that they are set to"
+                    .into()
+            }
+            Self::SunkToAxle { wheel, load, capacity } => format!(
+                "wheel {wheel} sank to its axle: it bears {load:.3} N, the soil carries {capacity:.3} N"
+            ),
+        }
+    }
+}
+
+impl PowerLost {
+    /// Reason in a few words.
+    fn sentence(self) -> String {
+        match self {
+            Self::Empty => "its battery is empty".into(),
+            Self::BelowCutoff { voltage, cutoff } => format!(
+                "its battery falls to {voltage:.2} V, below the {cutoff:.2} V at which the electronics switch off"
+            ),
+            Self::TooMuchDrawn { power } => {
+                format!("its battery cannot give the {power:.1} W that motors and electronics draw")
+            }
         }
     }
 }

@@ -1,8 +1,8 @@
 //! `mission/1`: legs that a rover drives one after the other, and limits at which it stops.
 
 use super::super::field::{
-    At, DEG, Each, Field, Fill, Form, Law, Laws, M, M_S, ONE, S, Table, flag, list, note, number,
-    numbers, positive, table, text, whole, word, words,
+    At, DEG, Each, Field, Fill, Form, Law, Laws, M, M_S, ONE, S, Table, direction, flag, list,
+    note, number, numbers, positive, table, text, whole, word, words,
 };
 use super::super::mission::{
     Alternative, Arc, Held, LEGS_FROM, LegKeys, LegLaw, Plan, Waypoint, limited_quantity,
@@ -245,11 +245,9 @@ static LEG: Table<LegKeys> = Table {
             &DRIVE,
         )
         .optional(),
-        number(
+        direction(
             "yaw_deg",
-            DEG,
-            -LARGEST_TURN..=LARGEST_TURN,
-            "Yaw before the leg, γ: of a first leg that of the start, of another turned to on the spot; held only where `heading` says so",
+            "Yaw before the leg, γ: of a first leg that of the start, of another turned to on the spot; held only where `heading` says so; whole turns do not count",
             |leg: &mut LegKeys| Some(leg.yaw.get_or_insert(0.0)),
         )
         .optional(),
@@ -363,7 +361,7 @@ static ARC: Table<Arc> = Table {
             "angle_deg",
             DEG,
             -LARGEST_TURN..=LARGEST_TURN,
-            "How far the rover turns on it, above 0 to its left",
+            "How far the rover turns on it, above 0 to its left: it drives on until its yaw has turned so far, for at most twice the circle's way",
             |arc: &mut Arc| Some(&mut arc.angle),
         ),
     ],
@@ -406,44 +404,25 @@ const fn place(
 static STOPS: Table<Vec<Stop>> = Table {
     doc: "Limits, each under the name of its number: `slip_ratio = { above = 0.4, over_m = 1.0 }`.",
     fields: &[
-        limit(
-            Limited::SlipRatio,
-            "Slip ratio over a way: 1 less what the ground saw of the rims' way.",
-            &SLIP_RATIO,
-        ),
-        limit(Limited::Drift, "Way straight down the slope over a way.", &DRIFT),
-        limit(Limited::Sinkage, "Largest sinkage of a wheel over its shearing radius.", &SINKAGE),
-        limit(Limited::Roll, "Roll to either side.", &ROLL),
-        limit(Limited::Pitch, "Pitch, nose up or down.", &PITCH),
-        limit(Limited::Torque, "Largest torque of a wheel's motor.", &TORQUE),
-        limit(Limited::Time, "Time since the leg began.", &TIME),
-        limit(Limited::Energy, "Work of the motors since the leg began.", &ENERGY),
-        limit(
-            Limited::OffPath,
-            "Distance from the straight line, or the circle, of the leg.",
-            &OFF_PATH,
-        ),
-        limit(
-            Limited::Current,
-            "Largest current of a wheel's motor, driving or braking.",
-            &CURRENT,
-        ),
-        limit(Limited::Temperature, "Highest temperature of a motor's winding.", &TEMPERATURE),
-        limit(
-            Limited::Discharge,
-            "Depth of discharge: 1 less the battery's state of charge.",
-            &DISCHARGE,
-        ),
+        limit(Limited::SlipRatio, &SLIP_RATIO),
+        limit(Limited::Drift, &DRIFT),
+        limit(Limited::Sinkage, &SINKAGE),
+        limit(Limited::Roll, &ROLL),
+        limit(Limited::Pitch, &PITCH),
+        limit(Limited::Torque, &TORQUE),
+        limit(Limited::Time, &TIME),
+        limit(Limited::Energy, &ENERGY),
+        limit(Limited::OffPath, &OFF_PATH),
+        limit(Limited::Current, &CURRENT),
+        limit(Limited::Temperature, &TEMPERATURE),
+        limit(Limited::Discharge, &DISCHARGE),
+        limit(Limited::Shortfall, &SHORTFALL),
     ],
 };
 
 /// A limit, in the list of all: a new one where there is none of this number yet.
-const fn limit(
-    limited: Limited,
-    doc: &'static str,
-    inner: &'static At<Vec<Stop>, Stop>,
-) -> Field<Vec<Stop>> {
-    table(limited_quantity(limited).name, doc, inner).optional()
+const fn limit(limited: Limited, inner: &'static At<Vec<Stop>, Stop>) -> Field<Vec<Stop>> {
+    table(limited_quantity(limited).name, limited.row().meaning, inner).optional()
 }
 
 fn of(stops: &mut Vec<Stop>, limited: Limited) -> &mut Stop {
@@ -507,6 +486,14 @@ static TEMPERATURE: At<Vec<Stop>, Stop> = At {
 static DISCHARGE: At<Vec<Stop>, Stop> = At {
     inner: &Table { doc: LIMIT, fields: &[above(Limited::Discharge, 1.0), THEN, BACK_OUT] },
     at: |stops| of(stops, Limited::Discharge),
+};
+
+static SHORTFALL: At<Vec<Stop>, Stop> = At {
+    inner: &Table {
+        doc: LIMIT,
+        fields: &[above(Limited::Shortfall, LARGEST_TURN), THEN, BACK_OUT],
+    },
+    at: |stops| of(stops, Limited::Shortfall),
 };
 
 const LIMIT: &str = "A limit: above which number, and what the rover does then.";

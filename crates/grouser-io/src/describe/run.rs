@@ -2,7 +2,9 @@
 
 use std::marker::PhantomData;
 
-use super::super::field::{At, DEG, Field, Fill, S, Table, number, part, table, word, words};
+use super::super::field::{
+    At, DEG, Field, Fill, S, Table, direction, number, part, table, word, words,
+};
 use super::super::kind::{DEFAULT_ROVER, DEFAULT_SOIL, Kind};
 use super::about::{gravity, model};
 use super::differences;
@@ -193,11 +195,9 @@ fn slope_of(ground: &mut Ground) -> Option<&mut f64> {
 static START: Table<Start> = Table {
     doc: "How the run starts.",
     fields: &[
-        number(
+        direction(
             "yaw_deg",
-            DEG,
-            -180.0..=180.0,
-            "Yaw, γ; above 0 with the nose uphill",
+            "Yaw, γ; above 0 with the nose uphill; whole turns do not count",
             |start: &mut Start| Some(&mut start.yaw),
         )
         .or(0.0),

@@ -115,7 +115,8 @@ const MEAN: Field<Parameter> = anywhere("mean", MEAN_DOC, Parameter::mean_mut).o
 const MEAN_ABOVE_ZERO: Field<Parameter> =
     field("mean", MEAN_DOC, Shape::Number(ABOVE_ZERO, Parameter::mean_mut)).optional();
 const MEAN_DOC: &str = "Its mean, in the unit of the key; without it, the value that the key has";
-const ABOVE_ZERO: Number = Number { unit: OF_KEY, least: 0.0, most: 1e12, is_open: true };
+const ABOVE_ZERO: Number =
+    Number { unit: OF_KEY, least: 0.0, most: 1e12, is_open: true, is_direction: false };
 
 const STANDARD_DEVIATION: Field<Parameter> = number(
     "standard_deviation",

@@ -58,6 +58,7 @@ from ._learning import Learner, learn
 from ._maps import map
 from ._measurements import ImportedWheelTests, import_wheel_tests
 from ._missions import Alternatives, DrivenMission, Legs, mission
+from ._outcomes import OUTCOMES
 from ._replay import replay
 from ._rollouts import Rollout, rollout
 from ._routes import route
@@ -115,6 +116,7 @@ __all__ = [
     "Learner",
     "Legs",
     "Mission",
+    "OUTCOMES",
     "OutsideDomainError",
     "ParameterError",
     "Ranking",

@@ -35,8 +35,7 @@ class Legs(_tables.Tabular):
     manoeuvre: NDArray[np.object_]
     """What the leg says, in a few words."""
     outcome: NDArray[np.object_]
-    """``completed``, ``stopped`` by a limit, ``immobilised``, ``sliding``, ``tipped_over``,
-    ``brown_out``, ``off_map`` or ``high_centred``."""
+    """What became of it: a name of `grouser.OUTCOMES`."""
     distance_m: Floats
     """Way over the ground; a turn to the yaw of the leg before it does not count [m]."""
     time_s: Floats
@@ -45,6 +44,10 @@ class Legs(_tables.Tabular):
     """Work of the motors, with the turn before it [J]."""
     slip_ratio: Floats
     """1 less the way over the ground by that of the rims; of drives, arcs and ways to places [-]."""
+    yaw_turned_deg: Floats
+    """Yaw that an arc or a turn on the spot really turned, positive to the left [°]."""
+    radius_m: Floats
+    """Radius of an arc as driven: the way over the ground by the turn [m]."""
     stopped_by: NDArray[np.object_]
     """The limit that stopped it, by its key, or what would have become of it."""
     stopped_kind: NDArray[np.object_]

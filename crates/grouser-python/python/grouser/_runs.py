@@ -232,9 +232,8 @@ class RunBatch:
 
     @property
     def outcome(self) -> NDArray[np.object_]:
-        """Outcome of each rover: None during its run, then ``immobilised``, ``sliding``,
-        ``tipped_over``, ``brown_out``, ``off_map``, ``high_centred``, or ``failed`` where the motion
-        cannot be computed."""
+        """Outcome of each rover: None during its run, then a name of `grouser.OUTCOMES`, or
+        ``failed`` where the motion cannot be computed."""
         return objects(status[0] for status in self._status())
 
     @property
@@ -450,9 +449,8 @@ class Run:
 
     @property
     def outcome(self) -> str | None:
-        """Outcome: None during the run, then ``immobilised``, ``sliding``,
-        ``tipped_over``, ``brown_out``, ``off_map``, ``high_centred``, or ``failed`` where the motion
-        could not be computed."""
+        """Outcome: None during the run, then a name of `grouser.OUTCOMES`, or ``failed`` where the
+        motion could not be computed."""
         outcome: str | None = self._batch.outcome[0]
         return outcome
 

@@ -42,8 +42,9 @@ class TraverseBand(_tables.Tabular):
     """A run over samples of soil and model: arrays of shape (times,).
 
     ``…_p2_5``, ``…_p50`` and ``…_p97_5`` are quantiles over the samples: 95 % of the values lie
-    between the first and the last. From the time at which its run ends early a sample counts as
-    slip 1, sunk to the axles, at the place where it ended.
+    between the first and the last. From the time at which its rover gets stuck a sample counts as
+    slip 1, sunk to the axles, at the place where it ended; one whose run ends early otherwise leaves
+    the band then, as `grouser.OUTCOMES` says.
 
     Examples
     --------
@@ -95,6 +96,12 @@ class TraverseBand(_tables.Tabular):
     """Its median [J]."""
     energy_j_p97_5: Floats
     """Its upper end [J]."""
+    draws_in_band: Floats
+    """Samples that are in the band."""
+    share_ended_early: Floats
+    """Share of all samples that ended early [-]."""
+    ended_early: NDArray[np.object_]
+    """How these ended, with the share of each way; None where none did."""
 
     def _table(self) -> dict[str, Any]:
         names = [field.name for field in fields(self) if field.name != "run"]
@@ -137,8 +144,8 @@ class Trajectory(_tables.Tabular):
     scenario: Scenario
     """The scenario of the run; of a `mission` its rover, ground, model and start."""
     outcome: str
-    """``completed``, ``immobilised``, ``sliding``, ``tipped_over``, ``brown_out``, ``off_map`` or
-    ``high_centred``; a mission that a limit ended counts as completed here."""
+    """What became of the rover: a name of `grouser.OUTCOMES`; a mission that a limit ended counts as
+    completed here."""
     message: str | None
     """The outcome explained; None for a completed run."""
     simulation: str
@@ -390,6 +397,7 @@ def simulate(
     if uncertainty:
         drawn = whole_number("seed", seed), whole_number("samples", samples, most=2**32 - 1)
         times, means = _core.simulate_band(run._document, *drawn)
+        times["ended_early"] = np.array(times["ended_early"], dtype=object)
         band = TraverseBand(run=means, **times)
     return trajectory_of(found, scenario=run, band=band)
 

@@ -2,6 +2,8 @@
 
 use std::ops::RangeInclusive;
 
+use super::unit::DIRECTION_DEG;
+
 /// Loads that a wheel test may ask for [N].
 pub const LOAD_N: RangeInclusive<f64> = 0.0..=1e5;
 /// Slip ratios that a wheel test may ask for [-].
@@ -18,5 +20,5 @@ pub const MAP_SPEED_M_S: RangeInclusive<f64> = 1e-6..=10.0;
 pub const MOST_SLOPE_DEG: RangeInclusive<f64> = 0.0..=60.0;
 /// Slip ratios, and shares of samples, that a route may be limited to [-].
 pub const SHARE: RangeInclusive<f64> = 0.0..=1.0;
-/// Yaws at the start of a route [°].
-pub const START_YAW_DEG: RangeInclusive<f64> = -360.0..=360.0;
+/// Yaws at the start of a route [°], of which whole turns do not count.
+pub const START_YAW_DEG: RangeInclusive<f64> = DIRECTION_DEG;

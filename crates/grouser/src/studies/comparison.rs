@@ -57,8 +57,8 @@ pub fn yaw_error(measured: f64, predicted: f64) -> f64 {
 /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
 /// let measured = experiment::table_4()[1];
 /// let start = Start { yaw: measured.initial_yaw, ..scenario.start };
-/// let site = scenario.site.with_slope(measured.slope);
-/// let run = Run::new(&Scenario { start, site, ..scenario })?.to_end()?;
+/// let ground = scenario.ground.with_slope(measured.slope);
+/// let run = Run::new(&Scenario { start, ground, ..scenario })?.to_end()?;
 /// let levelness = Levelness::of(&run);
 /// assert_eq!(format!("{:.1} mm", 1e3 * levelness.final_distance_error), "3.5 mm");
 /// assert_eq!(format!("{:.1} mm printed", 1e3 * measured.final_distance_error), "13.0 mm printed");

@@ -7,7 +7,7 @@
 
 use super::comparison::MeasuredTraverse;
 use super::ensemble::{Band, Probability, outputs};
-use crate::simulation::{Integrator, Numerics, Outcome, Run, RunError, Scatter, Scenario, Start};
+use crate::simulation::{Integrator, Numerics, Run, RunError, Scatter, Scenario, Start};
 use crate::terrain::SoilScatter;
 use crate::vehicle::Ruts;
 
@@ -183,7 +183,7 @@ impl LostYawPlan {
         let start = Start { yaw: measured.initial_yaw, ..base.start };
         let run = Run::new(&Scenario { scatter, ground, start, numerics, ..base })?.to_outcome()?;
         let loss = measured.initial_yaw - run.last().state.yaw;
-        Ok(Lost { loss, is_whole: run.outcome == Outcome::Completed })
+        Ok(Lost { loss, is_whole: run.outcome.is_completed() })
     }
 }
 

@@ -1,17 +1,23 @@
 //! A traverse where soil and model are uncertain: a run of each sample, and quantiles over them.
 //!
-//! Bands are over all samples. From the time at which a run ends early (immobilised, sliding or tipped over) its
-//! sample counts as slip 1, sunk to the axles, at the place where it ended; what it would cost to get on has no
-//! bound. (A rover that slides goes further downhill than that place: the probability of completing says how many
-//! of the samples do not.)
+//! What a run that ends early counts as is said by the [table of outcomes](crate::simulation::OutcomeRow). A rover that gets
+//! stuck counts from then on as slip 1, sunk to the axles, at the place where it ended; what it would cost to get on has no
+//! bound. One that ends otherwise (it leaves its map, its battery is empty, it slides, tips over or touches the ground)
+//! leaves the band from then on: nothing is known of where it would be, and it is not stuck. Until then it counts, so that
+//! means over a run are over its time in the band. [`Ends`] says which share ended early, and how.
+
+mod ends;
 
 use super::drive::Drive;
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability, outputs_while};
 use crate::simulation::{
-    Outcome, Record, Run, RunError, SAME_TIME, Scatter, Scenario, Trajectory, WheelRecord,
+    InBand, OutcomeKind, Record, Run, RunError, SAME_TIME, Scatter, Scenario, Trajectory,
+    WheelRecord,
 };
 use crate::vehicle::Rover;
+
+pub use ends::Ends;
 
 /// A traverse with quantiles over the samples.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +45,8 @@ pub struct TimeBand {
     pub sinkage: Option<Band>,
     /// Work of the motors so far [J].
     pub energy: Option<Band>,
+    /// Samples that ended early until then.
+    pub ends: Ends,
 }
 
 /// A run in a few numbers, with quantiles over the samples.
@@ -58,22 +66,12 @@ pub struct RunBand {
     pub sinkage: Option<Band>,
     /// Work of the motors [J].
     pub energy: Option<Band>,
-    /// Work of the motors over the length of the way [J/m]; infinite in a sample that does not complete it.
+    /// Work of the motors over the length of the way [J/m]; infinite in a sample that gets stuck.
     pub energy_per_metre: Option<Band>,
     /// Samples that completed the run.
     pub completed: Probability,
-    /// Samples that got stuck.
-    pub immobilised: usize,
-    /// Samples that slid downhill.
-    pub sliding: usize,
-    /// Samples that tipped over.
-    pub tipped_over: usize,
-    /// Samples whose battery failed.
-    pub brown_out: usize,
-    /// Samples that drove off their map.
-    pub off_map: usize,
-    /// Samples whose underside came to the ground.
-    pub high_centred: usize,
+    /// Samples that ended early.
+    pub ends: Ends,
 }
 
 /// The rover at one time in one sample.
@@ -87,14 +85,19 @@ struct At {
     energy: f64,
 }
 
-/// What the bands need of one sample.
+/// What the bands need of one sample. What is missing is so because the sample had left the band.
 #[derive(Clone)]
 struct OfSample {
-    outcome: Outcome,
-    at: Vec<At>,
-    end: At,
-    distance: f64,
-    energy_per_metre: f64,
+    kind: OutcomeKind,
+    /// When it ended [s].
+    ended: f64,
+    at: Vec<Option<At>>,
+    end: Option<At>,
+    distance: Option<f64>,
+    /// Means of slip ratio and sinkage over the time in the band.
+    slip_ratio: Option<f64>,
+    sinkage: Option<f64>,
+    energy_per_metre: Option<f64>,
 }
 
 impl TraverseBand {
@@ -177,38 +180,48 @@ pub fn record_times(run: &Trajectory, scenario: &Scenario) -> Vec<f64> {
 impl OfSample {
     fn of(run: &Trajectory, scenario: &Scenario, times: &[f64]) -> Self {
         let rover = &scenario.rover;
-        let (drive, last) = (Drive::of(run), run.last());
+        let (drive, last, kind) = (Drive::of(run), run.last(), run.outcome.kind());
+        let in_band = kind.row().in_band;
         let at = |time: &f64| {
             let past = run.records.partition_point(|record| record.time <= time + SAME_TIME);
             let record = &run.records[past.max(1) - 1];
-            let is_over = run.outcome != Outcome::Completed && last.time + SAME_TIME < *time;
-            if is_over { At::stuck(record, rover) } else { At::of(record, rover) }
-        };
-        // The means of a run that ended early go on to its scenario's end, as the rover is from then on.
-        let driven = (last.time / scenario.duration).min(1.0);
-        let mean = |mean: Option<f64>, stuck: f64| {
-            mean.map_or(stuck, |mean| {
-                if run.outcome == Outcome::Completed {
-                    mean
-                } else {
-                    mean * driven + stuck * (1.0 - driven)
-                }
-            })
+            match in_band {
+                InBand::Stuck if is_over(last.time, *time) => Some(At::stuck(record, rover)),
+                InBand::Leaves if is_over(last.time, *time) => None,
+                InBand::Counts | InBand::Stuck | InBand::Leaves => Some(At::of(record, rover)),
+            }
         };
         let stuck = At::stuck(last, rover);
-        let energy_per_metre = drive.energy_per_metre.filter(|_| run.outcome == Outcome::Completed);
+        // The means of a run that got stuck go on to its scenario's end, as the rover is from then on.
+        let driven = (last.time / scenario.duration).min(1.0);
+        let mean = |mean: Option<f64>, stuck: f64| match (in_band, mean) {
+            (InBand::Counts, mean) => Some(mean.unwrap_or(stuck)),
+            (InBand::Stuck, mean) => {
+                Some(mean.map_or(stuck, |mean| mean * driven + stuck * (1.0 - driven)))
+            }
+            (InBand::Leaves, mean) => mean,
+        };
+        let stays = in_band != InBand::Leaves;
         Self {
-            outcome: run.outcome.clone(),
+            kind,
+            ended: last.time,
             at: times.iter().map(at).collect(),
-            end: At {
-                slip_ratio: mean(drive.slip_ratio, stuck.slip_ratio),
-                sinkage: mean(drive.sinkage, stuck.sinkage),
-                ..stuck
+            end: stays.then_some(stuck),
+            distance: stays.then_some(drive.distance),
+            slip_ratio: mean(drive.slip_ratio, stuck.slip_ratio),
+            sinkage: mean(drive.sinkage, stuck.sinkage),
+            energy_per_metre: match in_band {
+                InBand::Counts => Some(drive.energy_per_metre.unwrap_or(f64::INFINITY)),
+                InBand::Stuck => Some(f64::INFINITY),
+                InBand::Leaves => drive.energy_per_metre,
             },
-            distance: drive.distance,
-            energy_per_metre: energy_per_metre.unwrap_or(f64::INFINITY),
         }
     }
+}
+
+/// Whether a run that ended is over at a time [s].
+fn is_over(ended: f64, time: f64) -> bool {
+    ended + SAME_TIME < time
 }
 
 impl At {
@@ -241,8 +254,10 @@ impl At {
 
 impl TimeBand {
     fn over(samples: &[OfSample], place: usize, time: f64) -> Self {
-        let band =
-            |of: fn(&At) -> f64| Band::of(samples.iter().map(|sample| of(&sample.at[place])));
+        let band = |of: fn(&At) -> f64| {
+            Band::of(samples.iter().filter_map(|sample| sample.at[place].as_ref()).map(of))
+        };
+        let ended = samples.iter().filter(|sample| is_over(sample.ended, time));
         Self {
             time,
             x: band(|at| at.x),
@@ -251,32 +266,30 @@ impl TimeBand {
             slip_ratio: band(|at| at.slip_ratio),
             sinkage: band(|at| at.sinkage),
             energy: band(|at| at.energy),
+            ends: Ends::of(samples.len(), ended.map(|sample| sample.kind)),
         }
     }
 }
 
 impl RunBand {
     fn over(samples: &[OfSample]) -> Self {
-        let end = |of: fn(&At) -> f64| Band::of(samples.iter().map(|sample| of(&sample.end)));
-        let band = |of: fn(&OfSample) -> f64| Band::of(samples.iter().map(of));
-        let count = |is: fn(&Outcome) -> bool| samples.iter().filter(|it| is(&it.outcome)).count();
-        let successes = count(|outcome| *outcome == Outcome::Completed);
+        let end = |of: fn(&At) -> f64| {
+            Band::of(samples.iter().filter_map(|sample| sample.end.as_ref()).map(of))
+        };
+        let band = |of: fn(&OfSample) -> Option<f64>| Band::of(samples.iter().filter_map(of));
+        let counts = |sample: &&OfSample| sample.kind.row().in_band == InBand::Counts;
+        let successes = samples.iter().filter(counts).count();
         Self {
             x: end(|at| at.x),
             y: end(|at| at.y),
             yaw: end(|at| at.yaw),
             distance: band(|sample| sample.distance),
-            slip_ratio: end(|at| at.slip_ratio),
-            sinkage: end(|at| at.sinkage),
+            slip_ratio: band(|sample| sample.slip_ratio),
+            sinkage: band(|sample| sample.sinkage),
             energy: end(|at| at.energy),
             energy_per_metre: band(|sample| sample.energy_per_metre),
             completed: Probability { successes, trials: samples.len() },
-            immobilised: count(|outcome| matches!(outcome, Outcome::Immobilised { .. })),
-            sliding: count(|outcome| matches!(outcome, Outcome::Sliding { .. })),
-            tipped_over: count(|outcome| matches!(outcome, Outcome::TippedOver { .. })),
-            brown_out: count(|outcome| matches!(outcome, Outcome::BrownOut { .. })),
-            off_map: count(|outcome| matches!(outcome, Outcome::OffTheMap { .. })),
-            high_centred: count(|outcome| matches!(outcome, Outcome::HighCentred { .. })),
+            ends: Ends::of(samples.len(), samples.iter().map(|sample| sample.kind)),
         }
     }
 }

@@ -4,7 +4,7 @@ use grouser::contact::{Contact, Slip, Theory};
 use grouser::document::{
     self, Campaign, DocumentError, Kind, LoadedScenario, LoadedSoil, Overrides, Source,
 };
-use grouser::simulation::Outcome;
+use grouser::simulation::{Outcome, OutcomeKind};
 use grouser::soil::{PressureSinkage, Soil};
 use grouser::studies::ensemble::models::{ModelSpread, OWN_SHARE, WEIGHTS};
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
@@ -283,7 +283,7 @@ fn a_traverse_of_one_model_is_its_run_and_of_several_contains_each() {
 
 /// A rover that gets stuck counts as slip 1 from then on, where it is.
 #[test]
-fn a_run_that_ends_early_is_not_left_out() {
+fn a_run_that_gets_stuck_is_not_left_out() {
     let good = scenario(&["scenario.duration_s=6", "scenario.slope_deg=5"]).value;
     let mut slick = good.ground.soil;
     slick.friction_angle = deg(5.0);
@@ -296,7 +296,9 @@ fn a_run_that_ends_early_is_not_left_out() {
     let band = TraverseBand::of(&good, &samples, &[0.1, 6.0], &|| true);
     let band = band.expect("it can be computed").expect("not stopped");
     assert_eq!(band.run.completed, Probability { successes: 1, trials: 3 });
-    assert_eq!(band.run.immobilised + band.run.sliding, 2);
+    let ends = band.run.ends;
+    let stuck = ends.count(OutcomeKind::Immobilised);
+    assert_eq!((stuck, ends.early(), ends.in_band()), (2, 2, 3));
     let at_end = band.times[1];
     let slip = at_end.slip_ratio.expect("there are samples");
     assert!(slip.median == 1.0 && slip.low < 0.2, "{slip:?}");
@@ -304,6 +306,42 @@ fn a_run_that_ends_early_is_not_left_out() {
     assert_eq!(x.median, run.last().state.position.x);
     let energy = band.run.energy_per_metre.expect("there are samples");
     assert!(energy.median == f64::INFINITY && energy.high == f64::INFINITY, "{energy:?}");
+}
+
+/// A rover that leaves its map is not stuck: until then it counts as it is, and then it leaves the band.
+#[test]
+fn a_run_that_leaves_its_map_leaves_the_band_then() {
+    // A level map of 2 m by 2 m; from its middle, its edge is 1 m ahead of the rover.
+    let file = std::env::temp_dir().join(format!("grouser-edge-{}.xyz", std::process::id()));
+    let points =
+        (0..81).map(|k| format!("{} {} 0\n", 0.25 * f64::from(k % 9), 0.25 * f64::from(k / 9)));
+    std::fs::write(&file, points.collect::<String>()).expect("it can be written");
+    let text = format!(
+        "schema = \"scenario/1\"\nduration_s = 30.0\n\
+         [terrain]\nfile = {:?}\n",
+        file.display().to_string()
+    );
+    let overrides = Overrides::parse([EXACT]).expect("settings");
+    let read = document::read_scenario(&Source::text("an edge", text), &overrides);
+    let good = read.expect("a scenario").value;
+    std::fs::remove_file(&file).expect("it was written");
+    let soil = good.ground.soil;
+    let run = given::run(&good);
+    assert!(matches!(run.outcome, Outcome::OffTheMap { .. }), "{:?}", run.outcome);
+    let off = run.last().time;
+    let samples = vec![Sample { soil, theory: good.theory }; 3];
+    let band = TraverseBand::of(&good, &samples, &[0.5 * off, 30.0], &|| true);
+    let band = band.expect("it can be computed").expect("not stopped");
+    let [before, after] = &band.times[..] else { panic!("two times") };
+    assert!(before.sinkage.is_some_and(|it| it.high < 0.03), "{before:?}");
+    assert_eq!((before.ends.early(), before.ends.in_band()), (0, 3));
+    assert_eq!((after.x, after.slip_ratio, after.sinkage), (None, None, None));
+    assert_eq!((after.ends.count(OutcomeKind::OffTheMap), after.ends.in_band()), (3, 0));
+    let sinkage = band.run.sinkage.expect("its time in the band");
+    assert!(sinkage.high < 0.03 && sinkage.low > 0.0, "{sinkage:?}");
+    assert_eq!((band.run.x, band.run.distance), (None, None));
+    assert!(band.run.energy_per_metre.is_some_and(|it| it.high.is_finite()));
+    assert_eq!(band.run.ends.in_words().as_deref(), Some("off_map 100.0 %"));
 }
 
 // ---- Campaigns ----

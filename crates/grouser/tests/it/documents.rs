@@ -685,7 +685,7 @@ fn wrong_scenarios_say_what_where_and_how_to_mend_it() {
         ("drive = { law = \"eq18\", speed_m_s = 0 }", "it must be above 0 and at most 10"),
         ("drive = { law = \"eq-18\" }", "did you mean \"eq18\"?"),
         ("drive = { reference_slip_ratio = 0.1 }", "unknown key `drive.reference_slip_ratio`"),
-        ("start.yaw_deg = 181", "`start.yaw_deg` is 181, it must be -180 to 180"),
+        ("start.yaw_deg = inf", "`start.yaw_deg`"),
         ("soil = \"hakuto\"", "there is no soil preset and no file called `hakuto`"),
         ("[soil]\ndensity_kg_m3 = 1500", "`soil.friction_angle_deg` is missing"),
         ("[rover.wheel_unit.wheel]\nradius = 1", "did you mean `radius_m`?"),

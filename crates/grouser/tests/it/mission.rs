@@ -146,9 +146,10 @@ fn an_arc_follows_its_circle() {
         assert_eq!(report.outcome(), "completed");
         let leg = &report.legs[0];
         let way = radius * deg(angle).abs();
-        assert!((leg.distance - way).abs() < 1e-6);
+        // The yaw lags behind the way, or is ahead of it, and the arc goes on until it is there.
+        assert!((leg.distance / way - 1.0).abs() < 0.1, "{} m for {way} m", leg.distance);
         let end = report.last().state;
-        assert!((end.yaw - deg(angle)).abs() < deg(3.0), "{}°", end.yaw.to_degrees());
+        assert!((end.yaw - deg(angle)).abs() < 1e-6, "{}°", end.yaw.to_degrees());
         let direction = if reverse { -1.0 } else { 1.0 };
         // A chord of the circle.
         let chord = 2.0 * radius * (deg(angle).abs() / 2.0).sin();
@@ -229,7 +230,7 @@ fn limits_stop_within_a_control_period() {
         let stop = Stop::above(limited, above);
         let report = driven(&mission(12.0, vec![Leg { stops: vec![stop], ..drive() }]));
         let (found, value, why) = stopped(&report.legs[0]);
-        assert_eq!((found.limited, why.kind), (limited, limited.kind()));
+        assert_eq!((found.limited, why.kind), (limited, limited.row().kind));
         assert!(
             value > above && value <= above + rate * CONTROL_PERIOD + 1e-9,
             "{limited:?}: {value}"

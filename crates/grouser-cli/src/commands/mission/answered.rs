@@ -68,7 +68,7 @@ pub(super) fn sentence(way: &DrivenMission) -> String {
         .map_or(String::new(), |taken| format!(", {} J electrical", four_digits(taken.energy)));
     format!(
         "{}, {legs}, after {} s: at x {} m, y {} m, yaw {}°, {} J{taken}",
-        capitalised(way.report.outcome()).replace('_', " "),
+        capitalised(&way.report.kind().in_words()),
         four_digits(end.time),
         metres(end.place().x),
         metres(end.place().y),

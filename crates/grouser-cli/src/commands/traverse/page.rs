@@ -6,6 +6,7 @@ use grouser::document::columns::{Column, MODEL, Quantity, SINKAGE, SLIP_RATIO, T
 use grouser::document::table::Table;
 use grouser::simulation::Trajectory;
 use grouser::studies::drive::Drive;
+use grouser::studies::traverse_band::Ends;
 use grouser::units::Vec2;
 
 use super::of_model::{OfModel, chart, reason};
@@ -64,7 +65,7 @@ fn sentence(run: &Trajectory) -> String {
         .map_or(String::new(), |it| format!(", {} J for each metre", four_digits(it)));
     format!(
         "{} after {} s{}: {place}. The motors did {} J{energy}.",
-        capitalised(run.outcome.name()).replace('_', " "),
+        capitalised(&run.outcome.kind().in_words()),
         four_digits(end.time),
         reason(run),
         four_digits(drive.energy),
@@ -97,13 +98,22 @@ fn what_was_run(first: &OfModel) -> Vec<String> {
 /// Every channel of a run over time.
 fn channels(page: &mut Page, of: &OfModel) {
     let table = of.rows();
-    if of.band.is_some() {
+    if let Some(bands) = &of.band {
         page.heading("What the samples say");
+        page.list(early(&bands.run.ends));
         page.charts(
             &TIME_BAND[1..].iter().filter_map(|column| band(&table, column)).collect::<Vec<_>>(),
         );
     }
     over_time(page, &table, &of.scenario.value);
+}
+
+/// What becomes of the samples that ended early, and when bands are over fewer samples from then on.
+fn early(ends: &Ends) -> Vec<String> {
+    match ends.sentences() {
+        none if none.is_empty() => vec![format!("none of {} samples ended early", ends.samples())],
+        some => some,
+    }
 }
 
 /// A quantity over time with its band.

@@ -46,8 +46,8 @@ class OneRoverEnv(gymnasium.Env[Floats, Floats]):
 
     @property
     def outcome(self) -> str | None:
-        """``immobilised``, ``sliding``, ``tipped_over``, ``brown_out``, ``off_map`` or
-        ``high_centred``, of a path also ``completed`` or ``stopped``; None during the run."""
+        """A name of `grouser.OUTCOMES`: ``completed`` and ``stopped`` of a path alone; None during the
+        run."""
         return self._rovers.outcome(0)
 
     @property

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use super::super::columns::OK;
 use super::Campaign;
-use crate::simulation::Outcome;
+use crate::simulation::{OutcomeKind, Severity};
 use crate::studies::ensemble::sensitivity::Sensitivity;
 use crate::studies::ensemble::statistics::{Convergence, Summary};
 use crate::studies::ensemble::{Ensemble, Probability};
@@ -152,8 +152,8 @@ impl Frequencies {
     }
 
     fn count(&mut self, status: String, outcome: Option<String>) {
-        let completed = Outcome::Completed.name();
-        let is_failure = status != OK || outcome.as_ref().is_some_and(|it| it != completed);
+        let kind = outcome.as_deref().map(OutcomeKind::of_name);
+        let is_failure = status != OK || kind.is_some_and(|it| !is_good(it));
         self.samples += 1;
         self.failures += usize::from(is_failure);
         *self.events.entry(outcome.clone().unwrap_or_else(|| status.clone())).or_default() += 1;
@@ -168,6 +168,11 @@ impl Frequencies {
     pub fn probability(&self, count: usize) -> Option<Probability> {
         (self.samples > 0).then_some(Probability { successes: count, trials: self.samples })
     }
+}
+
+/// Whether an end is that of a run that did what was asked for; a name that is not known is not.
+fn is_good(kind: Option<OutcomeKind>) -> bool {
+    kind.is_some_and(|kind| kind.row().severity == Severity::Good)
 }
 
 #[cfg(test)]

@@ -4,14 +4,15 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::super::limited_quantity;
 use super::super::table::Table;
-use super::super::unit::M;
+use super::super::unit::{DEG, M};
 use super::run::{BATTERY_ENERGY, DISTANCE, END, METHOD, STANDING, STATE_OF_CHARGE};
 use super::{
-    CURRENT, Column, ENERGY, SLIP_RATIO, TEMPERATURE, TIME, X, Y, YAW, maybe, text, whole,
+    CURRENT, Column, ENERGY, Quantity, SLIP_RATIO, TEMPERATURE, TIME, X, Y, YAW, maybe, quantity,
+    text, whole,
 };
 use crate::mission::{
-    Cause, Heading, Kind, Leg, LegOutcome, Limited, Manoeuvre, Measure, Steering, Stop, Stopped,
-    Taken,
+    Cause, FellShort, Heading, Kind, Leg, LegOutcome, Limited, Manoeuvre, Measure, Steering, Stop,
+    Stopped, Taken,
 };
 use crate::studies::mission::{DrivenLeg, DrivenMission};
 use crate::units::Vec2;
@@ -39,6 +40,7 @@ impl DrivenLeg {
         match &self.report.outcome {
             LegOutcome::Completed => None,
             LegOutcome::Stopped(stopped) => Some(why_stopped(stopped)),
+            LegOutcome::FellShort(short) => Some(why_short(short)),
             LegOutcome::Ended(outcome) => outcome.reason(),
         }
     }
@@ -49,11 +51,11 @@ pub const MISSION: [Column<DrivenMission>; 10] = [
     text(ALTERNATIVE, "The way that was driven", |it| Some(it.name.clone())),
     text(
         OUTCOME,
-        "That of the last leg that was begun: `completed`, `stopped` or what became of the rover",
+        "What became of the last leg that was begun, by its name in the table of outcomes",
         |it| Some(it.report.outcome().to_owned()),
     ),
     whole("legs_completed", "Legs that ended as they say", |it| {
-        let completed = |leg: &&DrivenLeg| leg.report.outcome == LegOutcome::Completed;
+        let completed = |leg: &&DrivenLeg| leg.report.outcome.is_completed();
         Some(it.legs.iter().filter(completed).count())
     }),
     whole("legs_planned", "Legs of the plan", |it| Some(it.planned)),
@@ -117,20 +119,20 @@ fn electrical<R>(
 
 /// What became of a mission or of a leg.
 pub(in super::super) const OUTCOME: &str = "outcome";
+/// Yaw that a leg turned.
+pub const TURNED: Quantity = quantity("yaw_turned_deg", DEG);
 /// What stopped a leg.
 pub(in super::super) const STOPPED_BY: &str = "stopped_by";
 /// The name of an alternative.
 const ALTERNATIVE: &str = "alternative";
 
 /// A leg.
-pub const LEG: [Column<DrivenLeg>; 15] = [
+pub const LEG: [Column<DrivenLeg>; 17] = [
     whole("leg", "Number of the leg, from 1", |it| Some(it.number)),
     text("manoeuvre", "What the leg says, in a few words", |it| Some(in_words(&it.leg, it.origin))),
-    text(
-        OUTCOME,
-        "`completed`, `stopped` by a limit, `immobilised`, `sliding`, `tipped_over`, `brown_out`, `off_map` or `high_centred`",
-        |it| Some(it.report.outcome.name().into()),
-    ),
+    text(OUTCOME, "What became of it, by its name in the table of outcomes", |it| {
+        Some(it.report.outcome.name().into())
+    }),
     DISTANCE.number(
         "Way over the ground; a turn to the yaw of the leg before it does not count",
         |it| it.report.distance,
@@ -141,6 +143,13 @@ pub const LEG: [Column<DrivenLeg>; 15] = [
         "1 less the way over the ground by that of the rims; of drives, arcs and ways to places",
         |it| it.report.slip_ratio,
     ),
+    TURNED
+        .maybe("Yaw that an arc or a turn on the spot really turned, positive to the left", |it| {
+            it.report.turned
+        }),
+    maybe("radius_m", M, "Radius of an arc as driven: the way over the ground by the turn", |it| {
+        it.report.radius()
+    }),
     text(
         STOPPED_BY,
         "The limit that stopped it, by its key, or what would have become of it",
@@ -149,7 +158,7 @@ pub const LEG: [Column<DrivenLeg>; 15] = [
     text(
         "stopped_kind",
         "`command`, `reactive`, or `predictive` for what was simulated ahead",
-        |it| stopped(it).map(|it| kind(it.kind).to_owned()),
+        |it| stopped(it).map(|it| it.kind.name().to_owned()),
     ),
     text("reason", "Why it did not end as it says", DrivenLeg::reason),
     X.number("Along the contour, where it ended, of the body's centre of mass", |it| {
@@ -185,7 +194,7 @@ const OF_MOTORS: usize = 2;
 pub(in super::super) fn kept_of_leg(
     has_motors: bool,
 ) -> impl Iterator<Item = &'static Column<DrivenLeg>> {
-    static ALL: [Column<DrivenLeg>; 15] = LEG;
+    static ALL: [Column<DrivenLeg>; 17] = LEG;
     static TAKEN: [Column<DrivenLeg>; 4] = ELECTRICAL_LEG;
     let names = [OUTCOME, DISTANCE.name, TIME.name, ENERGY.name, SLIP_RATIO.name, STOPPED_BY];
     let kept = ALL.iter().filter(move |column| names.contains(&column.name));
@@ -214,6 +223,7 @@ pub fn legs_brief(legs: &Table) -> Vec<String> {
         TEMPERATURE.name,
         STATE_OF_CHARGE.name,
         SLIP_RATIO.name,
+        TURNED.name,
         X.name,
         Y.name,
         YAW.name,
@@ -258,10 +268,7 @@ impl Serialize for MissionObject<'_> {
 }
 
 fn stopped(leg: &DrivenLeg) -> Option<&Stopped> {
-    match &leg.report.outcome {
-        LegOutcome::Stopped(stopped) => Some(stopped),
-        LegOutcome::Completed | LegOutcome::Ended(_) => None,
-    }
+    leg.report.outcome.stopped()
 }
 
 /// What stopped a rover: the limit by its key, or what would have become of it.
@@ -273,23 +280,29 @@ pub fn stopped_by(stopped: &Stopped) -> &'static str {
     }
 }
 
-fn kind(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Command => "command",
-        Kind::Reactive => "reactive",
-        Kind::Predictive => "predictive",
-    }
-}
-
 /// Why a rover stopped: `slip ratio 0.42 over 1 m after 3.70 m`.
 #[must_use]
 pub fn why_stopped(stopped: &Stopped) -> String {
     let ahead = if stopped.kind == Kind::Predictive { "ahead " } else { "" };
     let cause = match &stopped.cause {
         Cause::Limit { stop, value } => passed(stop, *value),
-        Cause::Outcome(outcome) => outcome.name().replace('_', " "),
+        Cause::Outcome(outcome) => outcome.kind().in_words(),
     };
     format!("{ahead}{cause} after {:.2} m", stopped.after)
+}
+
+/// How far a turn or an arc fell short: `turned 37.6° of 90°, 52.4° short: its yaw stands still, after 1.57 m`.
+#[must_use]
+pub fn why_short(short: &FellShort) -> String {
+    let deg = |angle: f64| DEG.from_si(angle);
+    format!(
+        "turned {:.1}° of {:.1}°, {:.1}° short: {}, after {:.2} m",
+        deg(short.turned),
+        deg(short.asked),
+        deg(short.shortfall()),
+        short.because.meaning(),
+        short.stopped.after,
+    )
 }
 
 /// The number that passed a limit, with so many digits that it is seen to have done so.

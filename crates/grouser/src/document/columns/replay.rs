@@ -344,7 +344,7 @@ pub fn notes(replay: &Replay) -> Vec<String> {
     }
     if let Some((time, ended)) = &replay.free_run.ended {
         let why = match ended {
-            Ended::Outcome(outcome) => outcome.name().replace('_', " "),
+            Ended::Outcome(outcome) => outcome.kind().in_words(),
             Ended::Failed(why) => why.clone(),
         };
         notes.push(format!("the free run ends at {time:.1} s: {why}"));

@@ -5,6 +5,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use super::super::table::ColumnKind;
 use super::super::table::Table;
 use super::super::unit::{A, DEG, DEG_S, J, M, M_PER_M, M_S, ONE, V, W};
+use super::ended::draws_ended;
 use super::flags;
 use super::heading::DRAWS;
 use super::wheel::{MAX_NORMAL_STRESS, WHEEL};
@@ -15,7 +16,7 @@ use super::{
 };
 use crate::contact::Settled;
 use crate::contact::validity::Finding;
-use crate::simulation::{Record, Scenario, Trajectory, WheelRecord};
+use crate::simulation::{OutcomeKind, Record, Scenario, Trajectory, WheelRecord};
 use crate::studies::drive::Drive;
 use crate::studies::traverse_band::{RunBand, TimeBand};
 use crate::studies::validity::{Raised, RoverOnSlope};
@@ -124,11 +125,9 @@ pub const DISTANCE: Quantity = quantity("distance_m", M);
 
 /// The outcome of a run.
 const RUN: [Column<Trajectory>; 6] = [
-    text(
-        "outcome",
-        "`completed`, `immobilised`, `sliding`, `tipped_over`, `brown_out`, `off_map` or `high_centred`",
-        |it| Some(it.outcome.name().into()),
-    ),
+    text("outcome", "What became of the rover, by its name in the table of outcomes", |it| {
+        Some(it.outcome.name().into())
+    }),
     text("reason", "What that means here; none for a completed run", |it| it.outcome.reason()),
     text("simulation", "`dynamic`, `quasi-steady`, or `fell-back` to the first", |it| {
         Some(it.method.name().into())
@@ -225,9 +224,9 @@ pub fn table(run: &Trajectory, scenario: &Scenario) -> Table {
     table
 }
 
-/// The rover at one time over samples of soil and model. From the time at which a sample's run ended early it counts
-/// as slip 1, sunk to the axles, at the place where it ended.
-pub const TIME_BAND: [Column<TimeBand>; 7] = [
+/// The rover at one time over samples of soil and model, and which of them ended early until then. What such a sample
+/// counts as from then on is said by the table of outcomes.
+pub const TIME_BAND: [Column<TimeBand>; 10] = [
     TIME.number("Time", |it| it.time),
     X.band("Along the contour", |it| it.x),
     Y.band("Uphill", |it| it.y),
@@ -235,35 +234,47 @@ pub const TIME_BAND: [Column<TimeBand>; 7] = [
     SLIP_RATIO.band("Mean slip ratio of the wheels", |it| it.slip_ratio),
     SINKAGE.band("Mean sinkage of the wheels", |it| it.sinkage),
     ENERGY.band("Work of the motors so far", |it| it.energy),
+    whole(DRAWS_IN_BAND, "Samples that are in the band", |it| Some(it.ends.in_band())),
+    SHARE_EARLY.number("Share of all samples that ended early", |it| it.ends.share_early()),
+    text(ENDED_EARLY, "How these ended, with the share of each way", |it| it.ends.in_words()),
 ];
 
-/// A run in a few numbers over samples of soil and model. Means are over the scenario's whole duration.
-pub const RUN_BAND: [Column<RunBand>; 16] = [
+/// A run in a few numbers over samples of soil and model. Means of a sample are over the scenario's whole duration, or over
+/// its time in the band.
+pub const RUN_BAND: [Column<RunBand>; 19] = [
     X.band("Along the contour, at the end", |it| it.x),
     Y.band("Uphill, at the end", |it| it.y),
     YAW.band("Yaw at the end", |it| it.yaw),
     DISTANCE.band("Length of the way", |it| it.distance),
-    SLIP_RATIO.band("Mean slip ratio; 1 from where a run ends early", |it| it.slip_ratio),
-    SINKAGE.band("Mean sinkage; down to the axles from where a run ends early", |it| it.sinkage),
+    SLIP_RATIO.band("Mean slip ratio; 1 from where a rover gets stuck", |it| it.slip_ratio),
+    SINKAGE.band("Mean sinkage; down to the axles from where a rover gets stuck", |it| it.sinkage),
     ENERGY.band("Work of the motors", |it| it.energy),
     ENERGY_PER_METRE.band(
-        "Work of the motors per metre travelled, without a bound in a run that ends early",
+        "Work of the motors per metre travelled, without a bound where a rover gets stuck",
         |it| it.energy_per_metre,
     ),
     PROBABILITY_COMPLETED.probability(
         "Probability that the run is completed: the share of the samples in which it is",
         |it| Some(it.completed),
     ),
-    whole("draws_immobilised", "Samples in which the rover gets stuck", |it| Some(it.immobilised)),
-    whole("draws_sliding", "Samples in which it slides downhill", |it| Some(it.sliding)),
-    whole("draws_tipped_over", "Samples in which it tips over", |it| Some(it.tipped_over)),
-    whole("draws_brown_out", "Samples in which its battery fails", |it| Some(it.brown_out)),
-    whole("draws_off_map", "Samples in which it drives off its map", |it| Some(it.off_map)),
-    whole("draws_high_centred", "Samples in which the ground touches its underside", |it| {
-        Some(it.high_centred)
-    }),
+    draws_ended::<{ OutcomeKind::Immobilised as usize }>(),
+    draws_ended::<{ OutcomeKind::Sliding as usize }>(),
+    draws_ended::<{ OutcomeKind::TippedOver as usize }>(),
+    draws_ended::<{ OutcomeKind::BrownOut as usize }>(),
+    draws_ended::<{ OutcomeKind::OffTheMap as usize }>(),
+    draws_ended::<{ OutcomeKind::HighCentred as usize }>(),
+    whole(DRAWS_IN_BAND, "Samples that are in the band at the end", |it| Some(it.ends.in_band())),
+    SHARE_EARLY.number("Share of all samples that ended early", |it| it.ends.share_early()),
+    text(ENDED_EARLY, "How these ended, with the share of each way", |it| it.ends.in_words()),
     whole(DRAWS, "All samples", |it| Some(it.completed.trials)),
 ];
+
+/// Number of samples that have not left a band.
+const DRAWS_IN_BAND: &str = "draws_in_band";
+/// Share of the samples that ended early.
+const SHARE_EARLY: Quantity = quantity("share_ended_early", ONE);
+/// How samples ended early.
+const ENDED_EARLY: &str = "ended_early";
 
 /// Records with the bands at the same times, and at those after them.
 ///

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::answer::{Ends, Route};
 use crate::elementary::wide::atan2;
-use crate::mission::{Leg, LegOutcome, Manoeuvre, Mission, MissionError, MissionRun};
-use crate::simulation::{Approach, Scenario};
+use crate::mission::{Leg, Manoeuvre, Mission, MissionError, MissionRun};
+use crate::simulation::{Approach, OutcomeKind, Scenario};
 use crate::terrain::{ElevationModel, Ground};
 use crate::units::Vec2;
 use crate::vehicle::DriveLaw;
@@ -86,12 +86,15 @@ impl Route {
         let rims =
             report.legs.iter().filter_map(|leg| Some(leg.distance / (1.0 - leg.slip_ratio?)));
         let rims: f64 = rims.sum();
-        let completed =
-            report.legs.iter().filter(|leg| leg.outcome == LegOutcome::Completed).count();
+        let completed = report.legs.iter().filter(|leg| leg.outcome.is_completed()).count();
         let end = report.legs.last().map_or_else(Vec2::zeros, |leg| leg.end.position);
         let target = self.waypoints[self.waypoints.len() - 1] - self.waypoints[0];
         Ok(DrivenRoute {
-            outcome: report.legs.last().map_or("completed", |leg| leg.outcome.name()),
+            outcome: report
+                .legs
+                .last()
+                .map_or(OutcomeKind::Completed, |leg| leg.outcome.kind())
+                .name(),
             legs: completed,
             distance,
             time: sum(|leg| leg.time),
@@ -106,7 +109,7 @@ impl DrivenRoute {
     /// Where start and target are one place.
     fn nowhere() -> Self {
         Self {
-            outcome: LegOutcome::Completed.name(),
+            outcome: OutcomeKind::Completed.name(),
             legs: 0,
             distance: 0.0,
             time: 0.0,
