@@ -180,7 +180,7 @@ pub enum NoHeading {
     /// The search gave up: whether a heading holds the course there is not known. A failure of the computation, and no
     /// finding about rover or soil.
     #[error(
-        "not found: the search for a heading that holds {} gave up beyond {:.2}° ({reason}), whether one does is not known",
+        "not found: whether a heading holds {} is not known beyond {:.2}°, {reason}",
         if *.course == 0.0 { "the contour" } else { "this course" },
         (.beyond.to_degrees() * 100.0).floor() / 100.0
     )]
@@ -442,11 +442,14 @@ impl HeadingCurve {
         NoHeading::NotFound { course: self.course(), beyond, reason: reason.into() }
     }
 
-    /// What ends the curve at its [`limit`](Self::limit): the wheels or the ground; nothing where the
-    /// rover cannot move.
+    /// What ends the curve at its [`limit`](Self::limit): the wheels, the ground or the search; nothing where
+    /// the rover cannot move.
     #[must_use]
     pub fn limited_by(&self) -> Option<LimitedBy> {
-        let (last, ground) = (self.points.last()?, self.study.ground_limit());
+        let ground = self.study.ground_limit();
+        let Some(last) = self.points.last() else {
+            return matches!(self.end, End::NotFound(_)).then_some(LimitedBy::NotFound);
+        };
         Some(match self.end {
             End::NotFound(_) if last.place.z < ground => LimitedBy::NotFound,
             _ if last.place.z < ground => LimitedBy::Wheels,

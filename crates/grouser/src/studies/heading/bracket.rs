@@ -86,6 +86,17 @@ impl Path<'_> {
         NEXT_SLOPES.iter().find_map(|rise| self.bracketed_on(here.place.z + rise, &here.place))
     }
 
+    /// The balance of wheels that skid more, beyond a fold where they skid: pull is not monotone in skid, and where it
+    /// no longer holds a rover that goes downhill the rover gets faster, until its wheels skid enough.
+    pub(super) fn deeper_skid(&self, here: &Point) -> Option<Point> {
+        /// Slopes above the last point on which it is looked for [rad]: the fold lies within a step.
+        const RISES: [f64; 3] = [2e-3, 1e-2, 5e-2];
+        if here.place.x >= 0.0 || !self.is_straight() {
+            return None;
+        }
+        RISES.iter().find_map(|rise| self.bracketed_on(here.place.z + rise, &here.place))
+    }
+
     /// The point on a slope that is nearest to another.
     fn bracketed_on(&self, slope: f64, near: &Place) -> Option<Point> {
         let crab = if self.is_straight() {

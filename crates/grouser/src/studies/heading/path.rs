@@ -121,8 +121,12 @@ impl End {
             ReactionError::Wheel { source: SettleError::SunkToAxle { .. }, .. } => {
                 Self::Shown(format!("{before}{error}"))
             }
-            _ => Self::NotFound(error.to_string()),
+            _ => Self::not_found(&error.to_string()),
         }
+    }
+
+    fn not_found(what: &str) -> Self {
+        Self::NotFound(format!("where the search gave up: {what}"))
     }
 
     pub(super) fn reason(&self) -> &str {
@@ -295,7 +299,7 @@ impl<'a> Path<'a> {
             // The slope's pull across the rover goes with the cosine of its yaw.
             slope = asin((sin(slope) + left_over / cos(yaw)).clamp(0.0, sin(STEEPEST_SLOPE)));
         }
-        Err(End::NotFound("slip and slope of the first crab did not settle on each other".into()))
+        Err(End::not_found("slip and slope of the first crab did not settle on each other"))
     }
 
     /// Follows the curve from its one point until it folds or ends, or until a point is not below a slope, or slips
@@ -327,6 +331,11 @@ impl<'a> Path<'a> {
                 return self.end_at_most_steering(points, &next.place);
             }
             if next.place.z < here.place.z {
+                if let Some(deeper) = self.deeper_skid(&here) {
+                    points.push(deeper);
+                    step = FIRST_STEP;
+                    continue;
+                }
                 self.end_at_fold(points, next);
                 return End::Shown(self.held.reason_to_fold().into());
             }
@@ -379,7 +388,7 @@ impl<'a> Path<'a> {
     /// Straight up or down a slope, where slip alone is to be found, all slips just above a point show whether there is
     /// a balance; on other courses they do not.
     fn what_slips_show(&self, here: &Place) -> End {
-        let unknown = || End::NotFound("no next point of the curve was found".into());
+        let unknown = || End::not_found("no next point of the curve was found");
         if !self.is_straight() {
             return unknown();
         }
