@@ -1,6 +1,6 @@
 //! The search for a heading loses no branch: what it says of a slope is what a drive does there.
 
-use grouser::document::{self, Kind, Overrides, Source};
+use grouser::document::{self, Kind, LoadedScenario, Overrides, Source};
 use grouser::simulation::{
     Approach, Motion, Numerics, Outcome, PrescribedYaw, Run, Scenario, Start,
 };
@@ -11,15 +11,17 @@ use grouser::units::{EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, deg};
 use grouser::vehicle::DriveLaw;
 use rayon::prelude::*;
 
-/// A ready rover on a ready soil, with the model that the soil was made for.
+/// A ready rover on a ready soil, with the model that both have by default.
 fn scenario(rover: &str, soil: &str, gravity: f64) -> Scenario {
-    let find = |kind, name| Source::find(kind, name).expect("a preset");
-    let none = Overrides::none();
-    let base = document::read_scenario(&Source::default_scenario(), &none).expect("read").value;
-    let rover = document::read_rover(&find(Kind::Rover, rover), &none).expect("read").value;
-    let soil = document::read_soil(&find(Kind::Soil, soil), &none).expect("read");
-    let theory = soil.document.theory().unwrap_or_default();
-    Scenario { rover, theory, site: Site::plane(soil.value, 0.0, gravity), ..base }
+    let loaded = loaded(rover, soil).value;
+    let site = Site { gravity, ..loaded.site };
+    Scenario { site: site.with_slope(0.0), ..loaded }
+}
+
+fn loaded(rover: &str, soil: &str) -> LoadedScenario {
+    let keys = [format!("scenario.soil={soil}"), format!("scenario.rover={rover}")];
+    let overrides = Overrides::parse(keys.iter().map(String::as_str)).expect("keys");
+    document::read_scenario(&Source::default_scenario(), &overrides).expect("presets")
 }
 
 fn curve(rover: &str, soil: &str, gravity: f64, course_deg: f64) -> HeadingCurve {
@@ -219,10 +221,7 @@ fn going_down_a_gentle_slope_is_no_harder_than_going_up() {
     /// No-go above it, by default [-].
     const MOST_SLIP: f64 = 0.6;
     for soil in ["dry-sand", "lunar-nominal", "mars-regolith", "fjs-1-loose", "hit-lss1"] {
-        let keys = [format!("scenario.soil={soil}"), "scenario.rover=hakuto".to_owned()];
-        let overrides = Overrides::parse(keys.iter().map(String::as_str)).expect("keys");
-        let loaded = document::read_scenario(&Source::default_scenario(), &overrides);
-        let loaded = loaded.expect("presets");
+        let loaded = loaded("hakuto", soil);
         let samples = BandInputs::of_scenario(&loaded).samples(7, 40).expect("samples");
         let study = HeadingStudy::of(&loaded.value);
         let no_go = |course: f64| {

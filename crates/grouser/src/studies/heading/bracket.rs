@@ -72,7 +72,7 @@ const NARROW: f64 = 1e-4;
 /// How often it is doubled: to 0.1.
 const DOUBLINGS: u32 = 10;
 /// Force left over, over the weight, that a bracketed balance may have [-]: the root of forces that are exact to 1e-12.
-const CLOSE: f64 = 1e-9;
+pub(super) const CLOSE: f64 = 1e-9;
 
 impl Path<'_> {
     /// Whether the course leads straight up or down the slope, so that nothing pulls sideways.

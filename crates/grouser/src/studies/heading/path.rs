@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::bracket::{NEXT_SLOPES, NoBalance, first_rise};
+use super::bracket::{CLOSE, NEXT_SLOPES, NoBalance, first_rise};
 use super::study::HeadingStudy;
 use crate::contact::{SettleError, Slip};
 use crate::elementary::wide::{asin, cos, sin};
@@ -145,6 +145,8 @@ const SHORTEST_STEP: f64 = 1e-7;
 const NEARBY: f64 = 0.1;
 /// A correction longer than this is of another part of the curve [-, rad].
 const LONGEST: f64 = 0.5;
+/// In skid this deep the wheels hold the rover back on any slope that they can be driven on [-].
+const DEEPEST_SKID: f64 = -0.9;
 /// Force left over, over the weight, below which a rover counts as balanced [-].
 const BALANCED: f64 = 1e-10;
 /// Stands for c = 0⁺, where a side-wall law that jumps has its full force [rad].
@@ -257,7 +259,16 @@ impl<'a> Path<'a> {
         let (below, above) = first_rise(&left_over).map_err(|none| self.no_balance(none))?;
         // Wheels that no sinkage carries move nothing.
         let thrust = |slip_ratio: f64| left_over(slip_ratio).unwrap_or(-1.0);
-        Ok(root::bracketed(thrust, below, above, 1e-13, 0.0).0)
+        let (slip_ratio, left) = root::bracketed(thrust, below, above, 1e-13, 0.0);
+        if left.abs() < CLOSE {
+            return Ok(slip_ratio);
+        }
+        // Loads that settle in more than one way depend on where they were looked at before: look anew from both ends.
+        let anew = root::between(thrust, DEEPEST_SKID, above.0, 1e-13);
+        if thrust(anew).abs() < CLOSE {
+            return Ok(anew);
+        }
+        Err(End::not_found("thrust jumps past its balance"))
     }
 
     fn no_balance(&self, none: NoBalance) -> End {
