@@ -20,9 +20,9 @@ use super::tree::{Beside, Entry, Node, Origin, Text, Value};
 ///
 /// let overrides = Overrides::parse(["soil.friction_angle_deg=35", "scenario.slope_deg=12"])?;
 /// let scenario = read_scenario(&Source::default_scenario(), &overrides)?.value;
-/// let plane = scenario.site.terrain;
-/// assert_eq!(format!("{:.3} rad", plane.soil.friction_angle), "0.611 rad");
-/// assert_eq!(format!("{:.3} rad", plane.slope), "0.209 rad");
+/// let ground = scenario.ground;
+/// assert_eq!(format!("{:.3} rad", ground.soil.friction_angle), "0.611 rad");
+/// assert_eq!(format!("{:.3} rad", ground.plane_slope().unwrap()), "0.209 rad");
 /// # Ok::<(), grouser_io::DocumentError>(())
 /// ```
 #[derive(Clone, Debug, Default)]

@@ -215,6 +215,11 @@ pub(crate) fn of_simulation(error: &RunError) -> PyErr {
     }
 }
 
+/// A steady motion that was not found, at no time of a run.
+pub(crate) fn not_found(reason: &str) -> PyErr {
+    classes::SimulationError::new_err((reason.to_owned(), 0.0))
+}
+
 /// A mission that cannot be driven.
 pub(crate) fn of_mission(error: &MissionError) -> PyErr {
     match error {

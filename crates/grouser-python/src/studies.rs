@@ -488,6 +488,7 @@ pub(crate) fn forecast<'py>(
         study.run(&band, &slopes, &|| !cancelled.is_set()).map_err(|error| match error {
             ForecastError::Parameter(error) => Problem::Parameter(error),
             ForecastError::NothingAccepted(error) => Problem::Sampling(error),
+            ForecastError::NotFound(_) => Problem::NotFound(error.to_string()),
         })
     })?;
     let dict = PyDict::new(py);
@@ -538,6 +539,8 @@ pub(crate) enum Problem {
     Sampling(NothingAccepted),
     Parameter(ParameterError),
     Run(RunError),
+    /// A search gave up: a failure of the computation, with its reason.
+    NotFound(String),
 }
 
 impl Problem {
@@ -549,6 +552,7 @@ impl Problem {
             }
             Self::Parameter(error) => errors::of_parameter(error),
             Self::Run(error) => errors::of_simulation(error),
+            Self::NotFound(reason) => errors::not_found(reason),
         }
     }
 }

@@ -30,6 +30,7 @@ impl From<ForecastError> for Failure {
                 "the uncertainty of a soil reaches too far: {error}\nhint: smaller standard \
                  deviations keep the samples within the ranges of their keys"
             )),
+            ForecastError::NotFound(_) => Self::Run(error.to_string()),
         }
     }
 }

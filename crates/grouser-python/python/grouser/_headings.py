@@ -48,8 +48,9 @@ class Headings(_tables.Tabular):
     limit_message: str
     """What ends the curve there."""
     limited_by: str | None
-    """The same in a word: ``wheels``; ``ground-strength``, where the ground itself would slide; or
-    ``range``, of the slopes; None where the rover cannot move."""
+    """The same in a word: ``wheels``; ``ground-strength``, where the ground itself would slide;
+    ``range``, of the slopes; or ``not-found``, where the search gave up and nothing is known of
+    steeper slopes; None where the rover cannot move."""
     status: NDArray[np.object_]
     """Of each slope: ``ok``, or why no heading offset holds the contour."""
     flags: NDArray[np.object_]
@@ -288,7 +289,8 @@ class HeadingMap(_tables.Tabular):
     limit_slope_deg: Floats
     """The steepest slope of the soil and course [°], the same on every slope."""
     limited_by: NDArray[np.object_]
-    """What ends the curve there: ``wheels``, ``ground-strength`` or ``range``, as in `Headings`."""
+    """What ends the curve there: ``wheels``, ``ground-strength``, ``range`` or
+    ``not-found``, as in `Headings`."""
     band: HeadingMapBand | None = None
     """The same over samples of soil and model, with ``uncertainty=True``; else None."""
 

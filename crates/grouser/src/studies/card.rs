@@ -17,7 +17,9 @@ use grouser_io::LoadedScenario;
 use super::ensemble::models::WEIGHTS;
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
-use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, STRAIGHT_DOWN, STUCK};
+use super::heading::{
+    HeadingCurve, HeadingOffset, HeadingStudy, LimitedBy, NoHeading, STRAIGHT_DOWN, STUCK,
+};
 use crate::contact::Theory;
 use crate::contact::validity::Finding;
 use crate::error::ParameterError;
@@ -103,8 +105,10 @@ pub struct Level {
 /// One slope over the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CardBands {
-    /// Samples in which a heading holds the contour: power is over them.
+    /// Samples in which a heading holds the contour, of those for which that is known: power is over them.
     pub level: Probability,
+    /// For how many samples the search for a heading gave up: they are in no band.
+    pub not_found: usize,
     /// Yaw, *γ* [rad], over all samples: above every number where no heading holds the contour.
     pub yaw: Option<Band>,
     /// Slip ratio, *s* [-], over all samples: 1 where no heading holds the contour.
@@ -121,10 +125,15 @@ pub struct CardBands {
 #[derive(Clone)]
 struct Draw {
     limit: Result<(f64, String), String>,
+    /// Whether the limit is one, and not only the last slope before the search gave up.
+    is_limit_known: bool,
+    /// On each slope whether the search gave up.
+    not_found: Vec<bool>,
     /// On each slope.
     levels: Vec<Option<Level>>,
     refusals: Vec<Option<String>>,
-    drifts: Vec<Option<f64>>,
+    /// Nothing where the search gave up; within it nothing where the rover slides.
+    drifts: Vec<Option<Option<f64>>>,
 }
 
 impl CardStudy {
@@ -193,7 +202,7 @@ impl CardStudy {
         let limit_of = |draw: &Draw| draw.limit.as_ref().map_or(0.0, |(slope, _)| *slope);
         Ok(self.rows(slopes, samples, &found, go_on).map(|rows| Card {
             rows,
-            limit_band: Band::of(draws.iter().map(limit_of)),
+            limit_band: Band::of(draws.iter().filter(|draw| draw.is_limit_known).map(limit_of)),
             draws: (!draws.is_empty()).then_some(draws.len()),
             limit: nominal.limit.clone(),
             has_motors: self.heading.rover.has_motors(),
@@ -230,7 +239,8 @@ impl CardStudy {
         let mut gentler: Option<DrivenMotion> = None;
         let row = |(place, slope): (usize, &f64)| {
             let mut driven = self.driven(found.judged(), place, *slope);
-            let by_slips = self.rule.verdict(&slips_at(found.judged(), place));
+            let slips = slips_at(found.judged(), place);
+            let by_slips = self.rule.verdict(&slips, found.judged().len() - slips.len());
             worst = worst.max(by_slips).max(self.best_verdict(*slope, driven.as_ref()));
             if let Some(driven) = driven.as_mut().filter(|_| worst != Verdict::NoGo) {
                 if !go_on() {
@@ -276,13 +286,21 @@ impl CardStudy {
         };
         let held: Vec<_> = slopes.iter().map(|slope| level.at(*slope)).collect();
         Ok(Draw {
+            is_limit_known: match level.limit() {
+                Ok(_) => level.limited_by() != Some(LimitedBy::NotFound),
+                Err(none) => !none.is_not_found(),
+            },
+            not_found: held
+                .iter()
+                .map(|it| it.as_ref().is_err_and(NoHeading::is_not_found))
+                .collect(),
             limit: level
                 .limit()
                 .map(|(slope, reason)| (slope, reason.to_owned()))
                 .map_err(|error| error.to_string()),
             refusals: held.iter().map(|it| Some(it.as_ref().err()?.to_string())).collect(),
             levels: held.iter().map(|it| it.as_ref().ok().map(keep)).collect(),
-            drifts: slopes.iter().map(|slope| Some(drift.at(*slope).ok()?.drift())).collect(),
+            drifts: slopes.iter().map(|slope| drift_at(&drift, *slope)).collect(),
         })
     }
 }
@@ -320,7 +338,7 @@ impl Found<'_> {
                 .collect(),
             driven,
             refusal: nominal.refusals[place].clone(),
-            drift: nominal.drifts[place],
+            drift: nominal.drifts[place].flatten(),
             bands: (!draws.is_empty()).then(|| CardBands::over(draws, place)),
             findings: self.curve.findings(slope, &self.curve.at(slope)),
         }
@@ -338,8 +356,21 @@ fn verdict_of(motion: Option<&DrivenMotion>) -> Verdict {
 
 /// Yaws of all samples on one of the slopes: above every number where no heading holds the contour.
 fn yaws_at(draws: &[Draw], place: usize) -> Option<Band> {
-    let yaw = |draw: &Draw| draw.levels[place].map_or(f64::INFINITY, |level| level.yaw);
-    Band::of(draws.iter().map(yaw))
+    let yaw = |level: Option<Level>| level.map_or(f64::INFINITY, |level| level.yaw);
+    Band::of(known_at(draws, place).map(yaw))
+}
+
+/// The contour traverses on one of the slopes, of the samples for which it is known whether there is one.
+fn known_at(draws: &[Draw], place: usize) -> impl Iterator<Item = Option<Level>> {
+    draws.iter().filter(move |draw| !draw.not_found[place]).map(move |draw| draw.levels[place])
+}
+
+/// The drift on a slope, nothing within where the rover slides; nothing where the search gave up.
+fn drift_at(curve: &HeadingCurve, slope: f64) -> Option<Option<f64>> {
+    match curve.at(slope) {
+        Err(none) if none.is_not_found() => None,
+        found => Some(found.ok().map(|heading| heading.drift())),
+    }
 }
 
 /// The heading on a slope, if one holds the course.
@@ -349,21 +380,23 @@ fn yaw_on(curve: &HeadingCurve, slope: f64) -> Option<f64> {
 
 /// Slip ratios of the contour traverses on one of the slopes.
 fn slips_at(draws: &[Draw], place: usize) -> Vec<Option<f64>> {
-    draws.iter().map(|draw| draw.levels[place].map(|level| level.slip_ratio)).collect()
+    known_at(draws, place).map(|level| level.map(|level| level.slip_ratio)).collect()
 }
 
 impl CardBands {
     fn over(draws: &[Draw], place: usize) -> Self {
         let levels: Vec<Level> = draws.iter().filter_map(|draw| draw.levels[place]).collect();
-        let drifts = || draws.iter().map(|draw| draw.drifts[place]);
-        let slips = slips_at(draws, place).into_iter().map(|slip| slip.unwrap_or(STUCK));
-        let trials = draws.len();
+        let drifts = || draws.iter().filter_map(|draw| draw.drifts[place]);
+        let slips = slips_at(draws, place);
+        let (known, trials) = (slips.len(), draws.len());
+        let slips = slips.into_iter().map(|slip| slip.unwrap_or(STUCK));
         Self {
-            level: Probability { successes: levels.len(), trials },
+            level: Probability { successes: levels.len(), trials: known },
+            not_found: trials - known,
             yaw: yaws_at(draws, place),
             slip_ratio: Band::of(slips),
             power: Band::of(levels.iter().map(|level| level.power)),
-            held: Probability { successes: drifts().flatten().count(), trials },
+            held: Probability { successes: drifts().flatten().count(), trials: drifts().count() },
             drift: Band::of(drifts().map(|drift| drift.unwrap_or(STRAIGHT_DOWN))),
         }
     }

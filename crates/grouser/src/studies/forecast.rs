@@ -16,14 +16,14 @@ mod case;
 mod choices;
 mod factor;
 
-use self::case::OfCase;
+use self::case::{OfCase, known};
 use self::choices::with_strength_of;
 pub use self::choices::{Choices, Ground, RoverMass, SiteSoil};
 pub use self::factor::{Factor, FactorKind, Level, REMEDY_OF_INTERACTIONS};
 use super::ensemble::factorial::{Factorial, VarianceBudget};
 use super::ensemble::samples::{BandInputs, Sample};
 use super::ensemble::{Band, NothingAccepted, outputs_while};
-use super::heading::{HeadingStudy, STUCK};
+use super::heading::{HeadingStudy, NoHeading, STUCK};
 use crate::contact::validity::{Finding, Flag};
 use crate::error::{ParameterError, positive};
 use crate::soil::GravityScaling;
@@ -54,6 +54,10 @@ pub enum ForecastError {
     /// No soil can be drawn.
     #[error(transparent)]
     NothingAccepted(#[from] NothingAccepted),
+    /// The search for a heading gave up in one of the cases. Each level of each factor has the same cases, so that none
+    /// can be left out.
+    #[error("a case of the forecast: {0}")]
+    NotFound(NoHeading),
 }
 
 /// A forecast.
@@ -274,7 +278,8 @@ impl ForecastStudy {
             let one = |case: usize| -> Result<Vec<Option<f64>>, ForecastError> {
                 let sample = self.sample(band, &design.levels(case))?;
                 let curve = here.of_sample(&sample).curve()?;
-                Ok(slopes.iter().map(|slope| Some(curve.at(*slope).ok()?.slip_ratio)).collect())
+                let slip = |slope: &f64| known(curve.at(*slope)).map(|it| Some(it?.slip_ratio));
+                slopes.iter().map(slip).collect()
             };
             let Some(found) = outputs_while(0..design.cases(), go_on, one) else { return Ok(None) };
             let found = found.into_iter().collect::<Result<Vec<_>, _>>()?;

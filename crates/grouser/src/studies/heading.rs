@@ -32,12 +32,13 @@
 //! with its nose along the contour, drifts: it holds γ = 0 instead of a course, and χ = −c is what
 //! becomes of it.
 
+mod bracket;
 mod path;
 mod study;
 
 use nalgebra::Vector3;
 
-use self::path::{Held, JUST_TURNED, Path, Place, Point, Reach};
+use self::path::{End, Held, JUST_TURNED, Path, Place, Point, Reach};
 pub use self::study::{HeadingStudy, STRAIGHT_UP, Steering};
 use super::validity::RoverOnSlope;
 use crate::contact::validity::Finding;
@@ -142,7 +143,7 @@ impl HeadingOffset {
     }
 }
 
-/// Why no heading holds a course on a slope.
+/// Why there is no heading that holds a course on a slope: none holds it, or none was found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoHeading {
     /// The rover cannot even drive on level ground.
@@ -175,6 +176,29 @@ pub enum NoHeading {
         /// The factor of safety that was asked of it [-].
         factor_of_safety: f64,
     },
+    /// The search gave up: whether a heading holds the course there is not known. A failure of the computation, and no
+    /// finding about rover or soil.
+    #[error(
+        "not found: whether a heading holds {} is not known beyond {:.2}°, {reason}",
+        if *.course == 0.0 { "the contour" } else { "this course" },
+        (.beyond.to_degrees() * 100.0).floor() / 100.0
+    )]
+    NotFound {
+        /// The course [rad]: 0 along the contour.
+        course: f64,
+        /// The steepest slope for which a heading was found [rad]; 0 if there is none.
+        beyond: f64,
+        /// Where the search gave up.
+        reason: String,
+    },
+}
+
+impl NoHeading {
+    /// Whether this is a failure of the search, which says nothing about rover and soil.
+    #[must_use]
+    pub const fn is_not_found(&self) -> bool {
+        matches!(self, Self::NotFound { .. })
+    }
 }
 
 /// What ends a curve of headings at its steepest slope.
@@ -186,16 +210,19 @@ pub enum LimitedBy {
     GroundStrength,
     /// Neither: the range of slopes that is looked at.
     Range,
+    /// The search, which gave up: the limit is only the steepest slope for which a heading was found.
+    NotFound,
 }
 
 impl LimitedBy {
-    /// One word: `wheels`, `ground-strength`, `range`.
+    /// One word: `wheels`, `ground-strength`, `range`, `not-found`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Wheels => "wheels",
             Self::GroundStrength => "ground-strength",
             Self::Range => "range",
+            Self::NotFound => "not-found",
         }
     }
 }
@@ -218,7 +245,7 @@ pub struct HeadingCurve {
     points: Vec<Point>,
     /// Below this slope the side walls hold the rover without any crab [rad]; 0 where the side-wall law does not jump.
     held_below: f64,
-    end: String,
+    end: End,
     settled_wheels: u64,
 }
 
@@ -399,24 +426,35 @@ impl HeadingCurve {
     /// [`NoHeading::CannotMove`] if there is none.
     pub fn limit(&self) -> Result<(f64, &str), NoHeading> {
         let Some(last) = self.points.last() else {
-            return Err(NoHeading::CannotMove(self.end.clone()));
+            return Err(match &self.end {
+                End::Shown(reason) => NoHeading::CannotMove(reason.clone()),
+                End::NotFound(reason) => self.not_found(0.0, reason),
+            });
         };
         let ground = self.study.ground_limit();
         Ok(match self.limited_by() {
             Some(LimitedBy::GroundStrength) => (ground, BEYOND_STRENGTH),
-            _ => (last.place.z.min(ground), &self.end),
+            _ => (last.place.z.min(ground), self.end.reason()),
         })
     }
 
-    /// What ends the curve at its [`limit`](Self::limit): the wheels or the ground; nothing where the
-    /// rover cannot move.
+    fn not_found(&self, beyond: f64, reason: &str) -> NoHeading {
+        NoHeading::NotFound { course: self.course(), beyond, reason: reason.into() }
+    }
+
+    /// What ends the curve at its [`limit`](Self::limit): the wheels, the ground or the search; nothing where
+    /// the rover cannot move.
     #[must_use]
     pub fn limited_by(&self) -> Option<LimitedBy> {
-        let (last, ground) = (self.points.last()?, self.study.ground_limit());
-        Some(match () {
-            () if last.place.z < ground => LimitedBy::Wheels,
-            () if ground < STEEPEST_SLOPE => LimitedBy::GroundStrength,
-            () => LimitedBy::Range,
+        let ground = self.study.ground_limit();
+        let Some(last) = self.points.last() else {
+            return matches!(self.end, End::NotFound(_)).then_some(LimitedBy::NotFound);
+        };
+        Some(match self.end {
+            End::NotFound(_) if last.place.z < ground => LimitedBy::NotFound,
+            _ if last.place.z < ground => LimitedBy::Wheels,
+            _ if ground < STEEPEST_SLOPE => LimitedBy::GroundStrength,
+            _ => LimitedBy::Range,
         })
     }
 
@@ -432,12 +470,18 @@ impl HeadingCurve {
             return Err(NoHeading::GroundStrength { limit: ground, factor_of_safety });
         }
         if slope > limit {
+            if self.limited_by() == Some(LimitedBy::NotFound) {
+                return Err(self.not_found(limit, reason));
+            }
             let reason = reason.into();
             return Err(NoHeading::TooSteep { course: self.course(), limit, reason });
         }
         let path = Path::new(&self.study, self.held);
         let point = if slope <= self.held_below {
-            let slip_ratio = path.slip_at(0.0, slope).map_err(NoHeading::CannotMove)?;
+            let slip_ratio = path.slip_at(0.0, slope).map_err(|end| match end {
+                End::Shown(reason) => NoHeading::CannotMove(reason),
+                End::NotFound(reason) => self.not_found(0.0, &reason),
+            })?;
             let place = Place::new(slip_ratio, 0.0, slope);
             path.point(place).map_err(|error| NoHeading::CannotMove(error.to_string()))?
         } else {

@@ -6,10 +6,12 @@
 //! Bands are over all samples. One in which no heading holds the course counts as slip 1, sunk to the axle, with
 //! work per metre without a bound: it is not left out, since what is left would be the strong soils alone. A
 //! yaw it has not: bands of the yaw are over the samples that hold the course, and their share is beside it.
+//! A sample for which the search for a heading gave up says nothing about the soil: it is in no band and no
+//! probability, and how many there are is counted.
 
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
-use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, NoHeading, STUCK};
+use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, LimitedBy, NoHeading, STUCK};
 use crate::error::ParameterError;
 use crate::vehicle::Rover;
 
@@ -23,6 +25,8 @@ pub struct HeadingBand {
     pub limit: Option<Band>,
     /// In how many of the samples the rover can drive on level ground.
     pub mobile: Probability,
+    /// In how many of the samples the search gave up before the end of the curve: their limits are not known.
+    pub not_found: usize,
 }
 
 /// Heading offset, slip, sinkage and energy on one slope, with quantiles over the samples.
@@ -30,8 +34,10 @@ pub struct HeadingBand {
 pub struct SlopeBand {
     /// Slope, *α* [rad].
     pub slope: f64,
-    /// In how many of the samples a heading holds the course.
+    /// In how many of the samples a heading holds the course, of those for which that is known.
     pub level: Probability,
+    /// For how many samples the search gave up on this slope.
+    pub not_found: usize,
     /// Yaw, *γ* [rad], positive uphill, over those samples.
     pub yaw: Option<Band>,
     /// Slip ratio of every wheel, *s* [-]; 1 where no heading holds the course.
@@ -55,9 +61,12 @@ struct Kept {
 /// One sample: the numbers of its curve that the bands need.
 #[derive(Clone)]
 struct OfSample {
-    /// Missing where the rover cannot drive on level ground.
+    /// 0 where the rover cannot drive on level ground; missing where the search gave up before the end.
     limit: Option<f64>,
-    on_slopes: Vec<Kept>,
+    /// Missing where the search found no start.
+    is_mobile: Option<bool>,
+    /// Missing where the search gave up.
+    on_slopes: Vec<Option<Kept>>,
 }
 
 impl HeadingBand {
@@ -132,22 +141,27 @@ impl HeadingBand {
 
     fn over(samples: &[OfSample], slopes: &[f64]) -> Self {
         let slopes = slopes.iter().enumerate().map(|(place, slope)| {
-            let kept = || samples.iter().map(|sample| &sample.on_slopes[place]);
+            let kept = || samples.iter().filter_map(|sample| sample.on_slopes[place].as_ref());
+            let trials = kept().count();
             let yaws: Vec<f64> = kept().filter_map(|kept| kept.yaw).collect();
             SlopeBand {
                 slope: *slope,
-                level: Probability { successes: yaws.len(), trials: samples.len() },
+                level: Probability { successes: yaws.len(), trials },
+                not_found: samples.len() - trials,
                 yaw: Band::of(yaws),
                 slip_ratio: Band::of(kept().map(|kept| kept.slip_ratio)),
                 sinkage: Band::of(kept().map(|kept| kept.sinkage)),
                 energy_per_metre: Band::of(kept().map(|kept| kept.energy_per_metre)),
             }
         });
-        let mobile = samples.iter().filter(|sample| sample.limit.is_some()).count();
+        let mobile = || samples.iter().filter_map(|sample| sample.is_mobile);
+        let successes = mobile().filter(|is_mobile| *is_mobile).count();
+        let limits: Vec<f64> = samples.iter().filter_map(|sample| sample.limit).collect();
         Self {
             slopes: slopes.collect(),
-            mobile: Probability { successes: mobile, trials: samples.len() },
-            limit: Band::of(samples.iter().map(|sample| sample.limit.unwrap_or(0.0))),
+            mobile: Probability { successes, trials: mobile().count() },
+            not_found: samples.len() - limits.len(),
+            limit: Band::of(limits),
         }
     }
 }
@@ -163,17 +177,22 @@ impl HeadingStudy {
 impl OfSample {
     fn of(curve: &HeadingCurve, rover: &Rover, slopes: &[f64]) -> Self {
         let on_slope = |slope: &f64| match curve.at(*slope) {
-            Ok(heading) => Kept::of(&heading, rover),
+            Ok(heading) => Some(Kept::of(&heading, rover)),
             Err(
                 NoHeading::CannotMove(_)
                 | NoHeading::TooSteep { .. }
                 | NoHeading::GroundStrength { .. },
-            ) => Kept::stuck(rover),
+            ) => Some(Kept::stuck(rover)),
+            Err(NoHeading::NotFound { .. }) => None,
         };
-        Self {
-            limit: curve.limit().ok().map(|(slope, _)| slope),
-            on_slopes: slopes.iter().map(on_slope).collect(),
-        }
+        let limit = match curve.limit() {
+            Ok((slope, _)) => (curve.limited_by() != Some(LimitedBy::NotFound)).then_some(slope),
+            Err(none) => (!none.is_not_found()).then_some(0.0),
+        };
+        let is_mobile = curve
+            .limit()
+            .map_or_else(|none| (!none.is_not_found()).then_some(false), |_| Some(true));
+        Self { limit, is_mobile, on_slopes: slopes.iter().map(on_slope).collect() }
     }
 }
 

@@ -114,7 +114,9 @@ impl SlopeComparison {
         /// Without progress [-].
         const DUG_IN: f64 = 1.0;
         let found = curve.at(point.slope);
-        let dug_in = (point.course >= 0.0).then_some(DUG_IN);
+        // Where the search gave up nothing is known of the slip.
+        let is_known = found.as_ref().map_or_else(|none| !none.is_not_found(), |_| true);
+        let dug_in = (point.course >= 0.0 && is_known).then_some(DUG_IN);
         Self {
             findings: curve.findings(point.slope, &found),
             point: point.clone(),

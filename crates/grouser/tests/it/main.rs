@@ -19,6 +19,7 @@ mod former_names;
 mod given;
 mod gravity;
 mod ground;
+mod heading_branches;
 mod heading_map;
 mod integration;
 mod kernel;

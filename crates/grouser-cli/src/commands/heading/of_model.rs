@@ -1,11 +1,11 @@
 //! What a wheel–soil model answers about headings.
 
 use grouser::document::LoadedScenario;
-use grouser::document::columns::heading::{self, LIMIT_REASON, turned};
+use grouser::document::columns::heading::{self, LIMIT_REASON, LIMITED_BY, turned};
 use grouser::document::columns::wheel_speeds::{self, NONE_FOUND, WHEELS};
 use grouser::document::columns::{ENERGY_PER_METRE, LIMIT_SLOPE, MODEL, SLOPE};
 use grouser::document::table::Table;
-use grouser::studies::heading::{HeadingCurve, Steering};
+use grouser::studies::heading::{HeadingCurve, LimitedBy, Steering};
 
 use crate::args::HeadingArgs;
 use crate::chart::{Chart, Series, Style};
@@ -101,6 +101,9 @@ fn limit_line(limit: &Table) -> String {
         Some(slope) => {
             let slope = rounded_down(slope);
             format!("steepest slope on which a heading holds the contour: {slope}°, {reason}\n")
+        }
+        None if limit.texts(LIMITED_BY)[0].as_deref() == Some(LimitedBy::NotFound.name()) => {
+            format!("{reason}\n")
         }
         None => format!("no heading holds the contour on any slope: {reason}\n"),
     }

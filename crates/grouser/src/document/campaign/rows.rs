@@ -309,6 +309,7 @@ fn heading(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
                 NoHeading::CannotMove(_) => CANNOT_MOVE,
                 NoHeading::TooSteep { .. } => NO_HEADING,
                 NoHeading::GroundStrength { .. } => GROUND_STRENGTH,
+                NoHeading::NotFound { .. } => NOT_COMPUTED,
             };
             Failure { status, reason: error.to_string() }
         })?;

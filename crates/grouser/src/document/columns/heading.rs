@@ -199,7 +199,9 @@ pub fn steepest(curve: &HeadingCurve) -> Table {
     let limit = match curve.limit() {
         Ok((slope, reason)) => Ok((slope, reason.to_owned())),
         Err(NoHeading::CannotMove(reason) | NoHeading::TooSteep { reason, .. }) => Err(reason),
-        Err(beyond @ NoHeading::GroundStrength { .. }) => Err(beyond.to_string()),
+        Err(other @ (NoHeading::GroundStrength { .. } | NoHeading::NotFound { .. })) => {
+            Err(other.to_string())
+        }
     };
     Table::of(&LIMIT, &[(limit, curve.limited_by())])
 }
@@ -208,8 +210,8 @@ pub fn steepest(curve: &HeadingCurve) -> Table {
 pub const LIMIT_REASON: &str = "limit_reason";
 /// The same as one of a few words.
 pub const LIMITED_BY: &str = "limited_by";
-const WHAT_LIMITS: &str = "What ends the curve there: the `wheels`, the ground's own strength (`ground-strength`) or the \
-     `range` of slopes";
+const WHAT_LIMITS: &str = "What ends the curve there: the `wheels`, the ground's own strength (`ground-strength`), the \
+     `range` of slopes, or the search, which gave up (`not-found`)";
 
 /// A row for each soil, course and slope of a map.
 ///
@@ -242,7 +244,7 @@ pub fn map_brief() -> Vec<String> {
 
 /// Quantiles and probabilities on one slope over samples of soil and model. A sample in which no heading holds the
 /// course counts as slip 1, sunk to the axles and with work without a bound, whose quantiles are missing; it has
-/// no yaw.
+/// no yaw. A sample for which the search gave up counts as nothing: it is in no quantile and no probability.
 pub const BAND: [Column<SlopeBand>; 7] = [
     YAW.band("Yaw, positive uphill, over the samples that hold the course", |it| it.yaw),
     SLIP_RATIO.band("Slip ratio", |it| it.slip_ratio),
@@ -256,7 +258,7 @@ pub const BAND: [Column<SlopeBand>; 7] = [
     whole(DRAWS_LEVEL, "Samples with a heading that holds the course", |it| {
         Some(it.level.successes)
     }),
-    whole(DRAWS, "All samples", |it| Some(it.level.trials)),
+    whole(DRAWS, "Samples for which it is known whether one does", |it| Some(it.level.trials)),
 ];
 
 /// How many samples have a heading that holds the contour.
@@ -272,7 +274,7 @@ pub const BAND_LIMIT: [Column<HeadingBand>; 3] = [
     whole(DRAWS_MOBILE, "Samples on which the rover can move on level ground", |it| {
         Some(it.mobile.successes)
     }),
-    whole(DRAWS, "All samples", |it| Some(it.mobile.trials)),
+    whole(DRAWS, "Samples for which it is known whether it can", |it| Some(it.mobile.trials)),
 ];
 
 /// A table with a row for each slope, and the columns of [`BAND`] added.

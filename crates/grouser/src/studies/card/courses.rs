@@ -180,7 +180,7 @@ impl CardStudy {
             motions.iter().map(|it| it.map(|it| it.slip_ratio.abs())).collect();
         let stuck = motions.iter().filter(|it| it.is_none()).count();
         let is_free = stuck as f64 <= STUCK_ON_GO * motions.len() as f64;
-        self.rule.verdict(&slips).max(if is_free { Verdict::Go } else { Verdict::Caution })
+        self.rule.verdict(&slips, 0).max(if is_free { Verdict::Go } else { Verdict::Caution })
     }
 
     /// The motion in each sample, if there is a steady one.

@@ -86,15 +86,17 @@ impl Rule {
 
     /// The verdict on a slope.
     ///
-    /// * `slips`: slip ratio of the contour traverse in each sample, `None` where no heading holds the contour
-    pub(super) fn verdict(&self, slips: &[Option<f64>]) -> Verdict {
-        let share_within = |most: f64| {
+    /// * `slips`: slip ratio of the contour traverse in each sample for which it is known, `None` where no heading holds
+    ///   the contour
+    /// * `not_found`: how many samples there are beside them, which make no slope a go and none a no-go
+    pub(super) fn verdict(&self, slips: &[Option<f64>], not_found: usize) -> Verdict {
+        let share_within = |most: f64, unknown: usize| {
             let count = slips.iter().flatten().filter(|slip| **slip <= most).count();
-            count as f64 / slips.len() as f64
+            (count + unknown) as f64 / (slips.len() + not_found) as f64
         };
-        if share_within(self.go_slip_ratio) >= self.go_probability {
+        if share_within(self.go_slip_ratio, 0) >= self.go_probability {
             Verdict::Go
-        } else if share_within(self.no_go_slip_ratio) < self.no_go_probability {
+        } else if share_within(self.no_go_slip_ratio, not_found) < self.no_go_probability {
             Verdict::NoGo
         } else {
             Verdict::Caution

@@ -1,7 +1,9 @@
 //! One case of a forecast: a rover of one mass on one soil, by one model.
 
-use crate::error::ParameterError;
-use crate::studies::heading::{HeadingOffset, HeadingStudy, STRAIGHT_DOWN, STUCK};
+use super::ForecastError;
+use crate::studies::heading::{
+    HeadingOffset, HeadingStudy, LimitedBy, NoHeading, STRAIGHT_DOWN, STUCK,
+};
 use crate::vehicle::Rover;
 
 /// The numbers that a forecast needs of a case.
@@ -33,19 +35,34 @@ impl OfCase {
         study: &HeadingStudy,
         rim_speed: f64,
         slopes: &[f64],
-    ) -> Result<Self, ParameterError> {
+    ) -> Result<Self, ForecastError> {
         let (level, drifting) = (study.curve()?, study.drift_curve()?);
         let on_slope = |slope: &f64| {
-            let drift = drifting.at(*slope).map_or(STRAIGHT_DOWN, |heading| heading.drift());
-            match level.at(*slope) {
-                Ok(heading) => OnSlope::held(&heading, &study.rover, rim_speed, drift),
-                Err(_) => OnSlope::stuck(&study.rover, drift),
-            }
+            let drift = known(drifting.at(*slope))?.map_or(STRAIGHT_DOWN, |it| it.drift());
+            Ok(match known(level.at(*slope))? {
+                Some(heading) => OnSlope::held(&heading, &study.rover, rim_speed, drift),
+                None => OnSlope::stuck(&study.rover, drift),
+            })
         };
-        Ok(Self {
-            limit: level.limit().map_or(0.0, |(slope, _)| slope),
-            slopes: slopes.iter().map(on_slope).collect(),
-        })
+        let limit = known(level.limit())?.map_or(0.0, |(slope, _)| slope);
+        if level.limited_by() == Some(LimitedBy::NotFound) {
+            // The slope beyond the last that was found, by its reason.
+            known(level.at(limit.next_up()))?;
+        }
+        let slopes = slopes.iter().map(on_slope).collect::<Result<_, ForecastError>>()?;
+        Ok(Self { limit, slopes })
+    }
+}
+
+/// What was found, or nothing where no heading holds the course.
+///
+/// # Errors
+/// [`ForecastError::NotFound`] where the search gave up.
+pub(super) fn known<T>(found: Result<T, NoHeading>) -> Result<Option<T>, ForecastError> {
+    match found {
+        Ok(it) => Ok(Some(it)),
+        Err(none) if none.is_not_found() => Err(ForecastError::NotFound(none)),
+        Err(_) => Ok(None),
     }
 }
 

@@ -6,8 +6,9 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::study::{HeadingStudy, STRAIGHT_UP};
-use crate::contact::Slip;
+use super::bracket::{CLOSE, NEXT_SLOPES, NoBalance, first_rise};
+use super::study::HeadingStudy;
+use crate::contact::{SettleError, Slip};
 use crate::elementary::wide::{asin, cos, sin};
 use crate::newton;
 use crate::root;
@@ -103,6 +104,37 @@ impl Reach {
     pub(super) const END: Self = Self { slope: STEEPEST_SLOPE, slip_ratio: f64::INFINITY };
 }
 
+/// What ends a curve.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum End {
+    /// The rover, the soil or the range: a fold, a bracket or a limit shows it.
+    Shown(String),
+    /// The search: it gave up, and nothing is known of what lies beyond.
+    NotFound(String),
+}
+
+impl End {
+    /// The end where wheels do not settle.
+    fn of_error(error: &ReactionError, before: &str) -> Self {
+        match error {
+            ReactionError::Tipping(_) => Self::Shown(format!("{before}the rover tips over")),
+            ReactionError::Wheel { source: SettleError::SunkToAxle { .. }, .. } => {
+                Self::Shown(format!("{before}{error}"))
+            }
+            _ => Self::not_found(&error.to_string()),
+        }
+    }
+
+    fn not_found(what: &str) -> Self {
+        Self::NotFound(format!("where the search gave up: {what}"))
+    }
+
+    pub(super) fn reason(&self) -> &str {
+        let (Self::Shown(reason) | Self::NotFound(reason)) = self;
+        reason
+    }
+}
+
 /// Longest step along the curve [-, rad].
 const LONGEST_STEP: f64 = 0.05;
 /// First step along the curve [-, rad].
@@ -111,6 +143,10 @@ const FIRST_STEP: f64 = 0.005;
 const SHORTEST_STEP: f64 = 1e-7;
 /// Places closer than this have wheels that are nearly alike [-, rad]: two of the longest steps.
 const NEARBY: f64 = 0.1;
+/// A correction longer than this is of another part of the curve [-, rad].
+const LONGEST: f64 = 0.5;
+/// In skid this deep the wheels hold the rover back on any slope that they can be driven on [-].
+const DEEPEST_SKID: f64 = -0.9;
 /// Force left over, over the weight, below which a rover counts as balanced [-].
 const BALANCED: f64 = 1e-10;
 /// Stands for c = 0⁺, where a side-wall law that jumps has its full force [rad].
@@ -160,6 +196,16 @@ impl<'a> Path<'a> {
         mounts.map(|mount| mount.steering_axis.map_or(straight, |_| turned)).collect()
     }
 
+    /// The yaw without any crab [rad].
+    pub(super) fn yaw_at_rest(&self) -> f64 {
+        self.held.yaw(0.0)
+    }
+
+    /// The imbalances at a place, if the wheels settle there.
+    pub(super) fn left_over(&self, place: &Place) -> Option<[f64; 2]> {
+        self.imbalance(place).ok()
+    }
+
     /// How many wheels were settled so far.
     pub(super) fn settled_wheels(&self) -> u64 {
         self.settled_wheels.get()
@@ -204,40 +250,36 @@ impl<'a> Path<'a> {
         self.balance(place).map(|(left_over, _)| left_over)
     }
 
-    /// Slip at which thrust and weight are in equilibrium along the rover, for a crab angle and a slope.
-    pub(super) fn slip_at(&self, crab: f64, slope: f64) -> Result<f64, String> {
-        /// In skid the wheels hold the rover back on any slope that they can be driven on.
-        const DEEPEST_SKID: f64 = -0.9;
+    /// Lowest slip at which thrust and weight are in equilibrium along the rover, for a crab angle and a slope. Where
+    /// pull falls again at high slip there are more of them, to which no rover comes that sets out rolling.
+    pub(super) fn slip_at(&self, crab: f64, slope: f64) -> Result<f64, End> {
         let left_over = |slip_ratio: f64| {
             self.imbalance(&Place::new(slip_ratio, crab, slope)).map(|left_over| left_over[0])
         };
+        let (below, above) = first_rise(&left_over).map_err(|none| self.no_balance(none))?;
         // Wheels that no sinkage carries move nothing.
         let thrust = |slip_ratio: f64| left_over(slip_ratio).unwrap_or(-1.0);
-        let enough = if thrust(MOST_SLIP) >= 0.0 { MOST_SLIP } else { self.enough(&left_over)? };
-        Ok(root::between(thrust, DEEPEST_SKID, enough, 1e-13))
+        let (slip_ratio, left) = root::bracketed(thrust, below, above, 1e-13, 0.0);
+        if left.abs() < CLOSE {
+            return Ok(slip_ratio);
+        }
+        // Loads that settle in more than one way depend on where they were looked at before: look anew from both ends.
+        let anew = root::between(thrust, DEEPEST_SKID, above.0, 1e-13);
+        if thrust(anew).abs() < CLOSE {
+            return Ok(anew);
+        }
+        Err(End::not_found("thrust jumps past its balance"))
     }
 
-    /// A slip at which the thrust suffices, below that at which the wheels have dug themselves in.
-    ///
-    /// * `left_over`: of the thrust at a slip, over the weight [-]
-    fn enough(&self, left_over: &dyn Fn(f64) -> Result<f64, ReactionError>) -> Result<f64, String> {
-        /// Pulls rise and fall over tenths of slip.
-        const STEPS: u32 = 25;
-        let mut best = f64::NEG_INFINITY;
-        let mut fault = None;
-        for step in 0..=STEPS {
-            let slip_ratio = MOST_SLIP * f64::from(step) / f64::from(STEPS);
-            match left_over(slip_ratio) {
-                Ok(enough) if enough >= 0.0 => return Ok(slip_ratio),
-                Ok(less) => best = best.max(less),
-                Err(error) => fault = fault.or(Some(error)),
+    fn no_balance(&self, none: NoBalance) -> End {
+        match none {
+            NoBalance::Lacks(share) => {
+                let lacking = share * self.study.rover.mass() * self.study.gravity;
+                End::Shown(format!("at any slip they lack {lacking:.2} N of thrust or more"))
             }
+            NoBalance::Pushed => End::Shown("even locked wheels do not hold the rover".into()),
+            NoBalance::Fault(error) => End::of_error(&error, ""),
         }
-        if let (Some(error), f64::NEG_INFINITY) = (fault, best) {
-            return Err(error.to_string());
-        }
-        let lacking = -best * self.study.rover.mass() * self.study.gravity;
-        Err(format!("at any slip they lack {lacking:.2} N of thrust or more"))
     }
 
     /// A point that is known to be on the curve.
@@ -248,53 +290,50 @@ impl<'a> Path<'a> {
     }
 
     /// The curve's first point, at c = 0⁺: slip and slope in equilibrium there.
-    pub(super) fn start(&self) -> Result<Point, String> {
+    pub(super) fn start(&self) -> Result<Point, End> {
         /// Rounds in which slip and slope settle on each other.
         const ROUNDS: usize = 100;
         // Straight up or down the slope nothing pulls sideways, and the rover does not crab.
-        let yaw = self.held.yaw(0.0);
-        if yaw.abs() >= STRAIGHT_UP {
+        let yaw = self.yaw_at_rest();
+        if self.is_straight() {
             let place = Place::new(self.slip_at(0.0, 0.0)?, 0.0, 0.0);
-            return self.point(place).map_err(|error| error.to_string());
+            return self.point(place).map_err(|error| End::of_error(&error, ""));
         }
         let mut slope = 0.0;
         for _ in 0..ROUNDS {
             let slip_ratio = self.slip_at(JUST_TURNED, slope)?;
             let place = Place::new(slip_ratio, JUST_TURNED, slope);
-            let left_over = self.imbalance(&place).map_err(|error| error.to_string())?[1];
+            let left_over = self.imbalance(&place).map_err(|error| End::of_error(&error, ""))?[1];
             if left_over.abs() < BALANCED {
-                return self.point(place).map_err(|error| error.to_string());
+                return self.point(place).map_err(|error| End::of_error(&error, ""));
             }
             // The slope's pull across the rover goes with the cosine of its yaw.
             slope = asin((sin(slope) + left_over / cos(yaw)).clamp(0.0, sin(STEEPEST_SLOPE)));
         }
-        Err("the start of the curve was not found".into())
+        Err(End::not_found("slip and slope of the first crab did not settle on each other"))
     }
 
     /// Follows the curve from its one point until it folds or ends, or until a point is not below a slope, or slips
     /// more than it need; says what ended it.
-    pub(super) fn follow(&self, points: &mut Vec<Point>, reach: Reach) -> String {
+    pub(super) fn follow(&self, points: &mut Vec<Point>, reach: Reach) -> End {
         let mut step = FIRST_STEP;
         loop {
             let here = points[points.len() - 1].clone();
             if here.place.z >= reach.slope {
-                return "the end of the range of slopes".into();
+                return End::Shown("the end of the range of slopes".into());
             }
             if here.place.x > reach.slip_ratio && self.climbs_at_last(points) {
-                return "the end of the range of slip ratios".into();
+                return End::Shown("the end of the range of slip ratios".into());
             }
-            let next = loop {
-                let Some(way) = self.predict(points, step) else {
-                    return self.why_not_beyond(&here.place, &Vector3::z());
-                };
-                let normal = way.normalize();
-                match self.correct(&(here.place + way), &normal, &here.gradients) {
-                    Some(next) if (next.place - here.place).norm() < 2.0 * step => break next,
-                    _ if step < SHORTEST_STEP => {
-                        return self.why_not_beyond(&here.place, &normal);
+            let next = match self.next_along(points, &mut step) {
+                Ok(next) => next,
+                Err(towards) => match self.next_by_bracket(&here) {
+                    Some(next) => {
+                        step = FIRST_STEP;
+                        next
                     }
-                    _ => step *= 0.5,
-                }
+                    None => return self.why_not_beyond(&here.place, &towards),
+                },
             };
             if next.place.x.abs() > MOST_SLIP {
                 return self.end_at_most_slip(points, &next.place);
@@ -303,11 +342,30 @@ impl<'a> Path<'a> {
                 return self.end_at_most_steering(points, &next.place);
             }
             if next.place.z < here.place.z {
+                if let Some(deeper) = self.deeper_skid(&here) {
+                    points.push(deeper);
+                    step = FIRST_STEP;
+                    continue;
+                }
                 self.end_at_fold(points, next);
-                return self.held.reason_to_fold().into();
+                return End::Shown(self.held.reason_to_fold().into());
             }
             points.push(next);
             step = (1.5 * step).min(LONGEST_STEP);
+        }
+    }
+
+    /// The next point along the curve, with the longest step that leads to one; or the direction in which none did.
+    fn next_along(&self, points: &[Point], step: &mut f64) -> Result<Point, Place> {
+        let here = &points[points.len() - 1];
+        loop {
+            let way = self.predict(points, *step).ok_or_else(Vector3::z)?;
+            let normal = way.normalize();
+            match self.correct(&(here.place + way), &normal, &here.gradients) {
+                Some(next) if (next.place - here.place).norm() < 2.0 * *step => return Ok(next),
+                _ if *step < SHORTEST_STEP => return Err(normal),
+                _ => *step *= 0.5,
+            }
         }
     }
 
@@ -331,11 +389,33 @@ impl<'a> Path<'a> {
         Some(slope * step + bend * (step * (step + length)))
     }
 
-    fn why_not_beyond(&self, here: &Place, towards: &Place) -> String {
+    fn why_not_beyond(&self, here: &Place, towards: &Place) -> End {
         match self.imbalance(&(here + towards * FIRST_STEP)) {
-            Err(ReactionError::Tipping(_)) => "where the rover tips over".into(),
-            Err(error) => format!("where {error}"),
-            Ok(_) => "where the equilibrium of forces ends".into(),
+            Err(error) => End::of_error(&error, "where "),
+            Ok(_) => self.what_slips_show(here),
+        }
+    }
+
+    /// Straight up or down a slope, where slip alone is to be found, all slips just above a point show whether there is
+    /// a balance; on other courses they do not.
+    fn what_slips_show(&self, here: &Place) -> End {
+        let unknown = || End::not_found("no next point of the curve was found");
+        if !self.is_straight() {
+            return unknown();
+        }
+        let slope = here.z + NEXT_SLOPES[NEXT_SLOPES.len() - 1];
+        let left_over = |slip_ratio: f64| {
+            self.imbalance(&Place::new(slip_ratio, 0.0, slope)).map(|left_over| left_over[0])
+        };
+        match first_rise(&left_over) {
+            Ok(_) => unknown(),
+            Err(NoBalance::Fault(error)) => End::of_error(&error, "where "),
+            Err(NoBalance::Pushed) => {
+                End::Shown("where even locked wheels do not hold the rover".into())
+            }
+            Err(NoBalance::Lacks(_)) => {
+                End::Shown("where the wheels lack thrust at any slip".into())
+            }
         }
     }
 
@@ -382,15 +462,50 @@ impl<'a> Path<'a> {
         normal: &Place,
         gradients: &Gradients,
     ) -> Option<Point> {
-        self.correct_with(guess, normal, gradients).or_else(|| {
-            let fresh = self.gradients(guess, self.imbalance(guess).ok()?)?;
-            self.correct_with(guess, normal, &fresh)
-        })
+        self.correct_with(guess, normal, gradients)
+            .or_else(|| {
+                let fresh = self.gradients(guess, self.imbalance(guess).ok()?)?;
+                self.correct_with(guess, normal, &fresh)
+            })
+            .or_else(|| self.correct_by_root(guess, normal))
+    }
+
+    /// The same where wheels begin to skid. There the part of the arc that slides forwards grows with the root of the slip,
+    /// and pull falls with it, without a finite slope: the root *u*, s = −u², is the unknown.
+    fn correct_by_root(&self, guess: &Place, normal: &Place) -> Option<Point> {
+        /// Above this slip a point is of the driven part of the curve [-].
+        const DRIVEN: f64 = 0.05;
+        /// A difference of the root: of slip it is 1e-14 next to zero, and forces are exact to 1e-12 [-].
+        const STEP: f64 = 1e-7;
+        if guess.x > DRIVEN {
+            return None;
+        }
+        let place_of = |it: &Place| Place::new(-(it.x * it.x.abs()), it.y, it.z);
+        let residual = |it: &Place| {
+            let place = place_of(it);
+            let ([along, across], wheels) = self.balance(&place).ok()?;
+            Some((Vector3::new(along, across, normal.dot(&(place - guess))), wheels))
+        };
+        let start = Place::new((-guess.x).max(0.0).sqrt(), guess.y, guess.z);
+        let (here, _) = residual(&start)?;
+        let mut jacobian = Matrix3::zeros();
+        for axis in 0..3 {
+            let mut beside = start;
+            beside[axis] += STEP;
+            jacobian.set_column(axis, &((residual(&beside)?.0 - here) / STEP));
+        }
+        let is_zero = |left_over: &Vector3<f64>, _: &Vector3<f64>| left_over.amax() < BALANCED;
+        let inverse = jacobian.try_inverse()?;
+        let zero = newton::zero_near(residual, &start, inverse, Vector3::norm, LONGEST, is_zero)?;
+        let place = place_of(&zero.at);
+        if place.y < -JUST_TURNED {
+            return None;
+        }
+        let gradients = self.gradients(&place, self.imbalance(&place).ok()?)?;
+        Some(Point { place, gradients, wheels: zero.value })
     }
 
     fn correct_with(&self, guess: &Place, normal: &Place, gradients: &Gradients) -> Option<Point> {
-        /// A correction longer than this is of another part of the curve [-, rad].
-        const LONGEST: f64 = 0.5;
         let [along, across] = gradients;
         let rows = [along.transpose(), across.transpose(), normal.transpose()];
         let zero = newton::zero_near(
@@ -416,7 +531,7 @@ impl<'a> Path<'a> {
     /// Ends a curve where slip reaches [`MOST_SLIP`], in drive or in skid.
     ///
     /// * `beyond`: a place past it
-    fn end_at_most_slip(&self, points: &mut Vec<Point>, beyond: &Place) -> String {
+    fn end_at_most_slip(&self, points: &mut Vec<Point>, beyond: &Place) -> End {
         let here = &points[points.len() - 1];
         let most = MOST_SLIP.copysign(beyond.x);
         let share = (most - here.place.x) / (beyond.x - here.place.x);
@@ -428,19 +543,19 @@ impl<'a> Path<'a> {
         } else {
             "where the wheels are all but locked"
         };
-        reason.into()
+        End::Shown(reason.into())
     }
 
     /// Ends a curve where wheels are steered as far as they can.
     ///
     /// * `beyond`: a place past it
-    fn end_at_most_steering(&self, points: &mut Vec<Point>, beyond: &Place) -> String {
+    fn end_at_most_steering(&self, points: &mut Vec<Point>, beyond: &Place) -> End {
         let here = &points[points.len() - 1];
         let share = (self.most_steering - here.place.y) / (beyond.y - here.place.y);
         let mut guess = here.place + (beyond - here.place) * share;
         guess.y = self.most_steering;
         points.extend(self.correct(&guess, &Vector3::y(), &here.gradients));
-        "where the wheels cannot be steered any further".into()
+        End::Shown("where the wheels cannot be steered any further".into())
     }
 
     /// Whether the curve still rises at its last point: where it does not, its end takes that point off.

@@ -60,7 +60,8 @@ pub struct OnSlope {
     pub motion: Option<Mobility>,
     /// Whether to drive there.
     pub verdict: Verdict,
-    /// In which share of the samples no heading holds the course, or it slips more than the rule allows [-].
+    /// In which share of the samples no heading holds the course, or it slips more than the rule allows [-]; over the
+    /// samples for which that is known, NaN where there is none.
     pub probability_no_go: f64,
 }
 
@@ -306,6 +307,12 @@ impl MobilityTable {
     #[must_use]
     pub fn probability_no_go(&self, slope: f64) -> f64 {
         self.thresholds.probability_no_go(slope)
+    }
+
+    /// For how many samples the search for a heading gave up before it was known whether a slope [rad] is a no-go.
+    #[must_use]
+    pub fn not_found(&self, slope: f64) -> usize {
+        self.thresholds.not_found(slope)
     }
 
     /// * `place`: in intervals from the first node

@@ -5,7 +5,8 @@ use crate::error::ParameterError;
 use crate::root;
 use crate::studies::card::{Rule, Verdict, best_slopes};
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
-use crate::studies::heading::{HeadingCurve, HeadingStudy};
+use crate::studies::heading::{HeadingCurve, HeadingStudy, LimitedBy};
+use crate::units::STEEPEST_SLOPE;
 
 /// By what slopes are judged.
 #[derive(Clone, Copy)]
@@ -21,8 +22,11 @@ pub(super) struct Thresholds {
     /// Up to here a go, and from there to the next a caution [rad].
     go: f64,
     caution: f64,
-    /// The steepest slope of each sample that is no no-go [rad], rising.
+    /// The steepest slope of each sample that is no no-go [rad], rising; of those samples for which it is known.
     steepest: Vec<f64>,
+    /// Of the other samples the steepest slope that is known to be no no-go [rad], rising: beyond it the search for a
+    /// heading gave up.
+    known_to: Vec<f64>,
     /// The same in the order of the samples.
     pub(super) of_samples: Vec<f64>,
 }
@@ -45,23 +49,27 @@ impl Thresholds {
         let one = |sample: &Sample| {
             let most = rule.go_slip_ratio.max(rule.no_go_slip_ratio);
             let curve = heading.of_sample(sample).curve_up_to(course, most)?;
-            Ok([rule.go_slip_ratio, rule.no_go_slip_ratio]
-                .map(|most| steepest(&curve, most, detail)))
+            let slopes = [rule.go_slip_ratio, rule.no_go_slip_ratio];
+            let is_known = is_known(&curve, rule.no_go_slip_ratio);
+            Ok((slopes.map(|most| steepest(&curve, most, detail)), is_known))
         };
         let Some(found) = outputs_of_samples(samples, go_on, one) else { return Ok(None) };
         // In order, so that the error is always that of the first soil.
-        let found = found.into_iter().collect::<Result<Vec<[f64; 2]>, ParameterError>>()?;
-        let sorted = |which: usize| {
-            let mut slopes: Vec<f64> = found.iter().map(|it| it[which]).collect();
+        let found = found.into_iter().collect::<Result<Vec<([f64; 2], bool)>, ParameterError>>()?;
+        let sorted = |mut slopes: Vec<f64>| {
             slopes.sort_by(f64::total_cmp);
             slopes
         };
-        let (easy, steepest) = (sorted(0), sorted(1));
+        let of = |known: bool| found.iter().filter(move |it| it.1 == known).map(|it| it.0[1]);
+        let easy = sorted(found.iter().map(|it| it.0[0]).collect());
+        let (steepest, known_to) = (sorted(of(true).collect()), sorted(of(false).collect()));
+        // A sample of which nothing is known makes no slope a go, and none a no-go.
+        let allowed = sorted(of(true).chain(known_to.iter().map(|_| STEEPEST_SLOPE)).collect());
         let (best_go, best_caution) = best_slopes(heading, is_uncertainty_stated);
-        let caution = held_by(&steepest, rule.no_go_probability).min(best_caution);
+        let caution = held_by(&allowed, rule.no_go_probability).min(best_caution);
         let go = held_by(&easy, rule.go_probability).min(best_go.unwrap_or(NOWHERE)).min(caution);
-        let of_samples = found.iter().map(|[_, steepest]| *steepest).collect();
-        Ok(Some(Self { go, caution, steepest, of_samples }))
+        let of_samples = found.iter().map(|([_, steepest], _)| *steepest).collect();
+        Ok(Some(Self { go, caution, steepest, known_to, of_samples }))
     }
 
     pub(super) fn verdict(&self, slope: f64) -> Verdict {
@@ -72,9 +80,27 @@ impl Thresholds {
         }
     }
 
+    /// Over the samples for which it is known; NaN where there is none.
     pub(super) fn probability_no_go(&self, slope: f64) -> f64 {
         let below = self.steepest.partition_point(|steepest| *steepest < slope);
-        below as f64 / self.steepest.len() as f64
+        let known = self.steepest.len() + self.known_to.len() - self.not_found(slope);
+        below as f64 / known as f64
+    }
+
+    /// For how many samples it is not known whether a slope [rad] is a no-go.
+    pub(super) fn not_found(&self, slope: f64) -> usize {
+        self.known_to.partition_point(|known_to| *known_to < slope)
+    }
+}
+
+/// Whether a curve was followed to a slip, or to its true end.
+fn is_known(curve: &HeadingCurve, most_slip: f64) -> bool {
+    match curve.limit() {
+        Err(none) => !none.is_not_found(),
+        Ok(_) => {
+            curve.limited_by() != Some(LimitedBy::NotFound)
+                || curve.points().any(|[_, slip, _]| slip > most_slip)
+        }
     }
 }
 

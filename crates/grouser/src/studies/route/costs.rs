@@ -7,7 +7,7 @@ use super::study::{Limits, Objective, RouteStudy, STUCK_WAY, WORST_SHARE};
 use crate::elementary::wide::{atan2, cos};
 use crate::error::ParameterError;
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
-use crate::studies::heading::{HeadingCurve, STRAIGHT_UP};
+use crate::studies::heading::{HeadingCurve, LimitedBy, STRAIGHT_UP};
 use crate::studies::mobility::{Detail, Mobility, MobilityTable};
 
 /// Courses from straight down to straight up are so far apart [rad]: 7.5°.
@@ -311,11 +311,17 @@ impl Risk {
                 let curve = mobility.heading.of_sample(sample).curve_up_to(course, most)?;
                 let time = |slip: f64, crab: f64| cos(crab) / (1.0 - slip) / mobility.rim_speed;
                 let times = times_of(&curve, most, time);
-                Ok((0..SLOPES).map(|slope| times(slope).unwrap_or(stuck)).collect())
+                // Where the search gave up nothing is known of the time: NaN is left out.
+                let gave_up = curve.limited_by() == Some(LimitedBy::NotFound)
+                    || curve.limit().is_err_and(|none| none.is_not_found());
+                let beyond = if gave_up { f64::NAN } else { stuck };
+                Ok((0..SLOPES).map(|slope| times(slope).unwrap_or(beyond)).collect())
             };
             let Some(found) = outputs_of_samples(samples, go_on, one) else { return Ok(None) };
             let found = found.into_iter().collect::<Result<Vec<_>, ParameterError>>()?;
-            times.push((0..SLOPES).map(|slope| mean_of_worst(&found, slope)).collect());
+            times.push(
+                (0..SLOPES).map(|slope| mean_of_worst(&found, slope).unwrap_or(stuck)).collect(),
+            );
         }
         Ok(Some(Self { times }))
     }
@@ -362,8 +368,14 @@ fn times_of(
 }
 
 /// The conditional value at risk: the mean of the worst of all samples.
-fn mean_of_worst(samples: &[Vec<f64>], slope: usize) -> f64 {
-    let mut times: Vec<f64> = samples.iter().map(|times| times[slope]).collect();
+///
+/// Over the samples of which the time is known, if there are any.
+fn mean_of_worst(samples: &[Vec<f64>], slope: usize) -> Option<f64> {
+    let known = samples.iter().map(|times| times[slope]).filter(|time| !time.is_nan());
+    let mut times: Vec<f64> = known.collect();
+    if times.is_empty() {
+        return None;
+    }
     times.sort_by(f64::total_cmp);
     #[expect(
         clippy::cast_possible_truncation,
@@ -371,5 +383,5 @@ fn mean_of_worst(samples: &[Vec<f64>], slope: usize) -> f64 {
         reason = "a share of a count"
     )]
     let worst = ((times.len() as f64 * WORST_SHARE).ceil() as usize).clamp(1, times.len());
-    times[times.len() - worst..].iter().sum::<f64>() / worst as f64
+    Some(times[times.len() - worst..].iter().sum::<f64>() / worst as f64)
 }

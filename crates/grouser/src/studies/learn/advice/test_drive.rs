@@ -309,7 +309,12 @@ impl Planner<'_> {
         let held = |at: &DVector<f64>, slopes: &[f64]| {
             let sample = self.filter.unknowns.sample(at.as_slice())?;
             let curve = self.study.of_sample(&sample).curve().ok()?;
-            Some(slopes.iter().map(|slope| curve.at(*slope).ok()).collect::<Vec<_>>())
+            let held = |slope: &f64| match curve.at(*slope) {
+                // Where the search gave up nothing is known, and nothing is learnt of it.
+                Err(none) if none.is_not_found() => None,
+                found => Some(found.ok()),
+            };
+            slopes.iter().map(held).collect::<Option<Vec<_>>>()
         };
         let of_mean = held(&belief.mean, slopes)?;
         let known = slopes.iter().zip(&of_mean).filter(|it| it.1.is_some());
