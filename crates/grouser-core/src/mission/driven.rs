@@ -177,8 +177,9 @@ impl Driven {
         let rims = run.state().rim_speeds().to_vec();
         run.go_on(&mut self.pilot, until, kept_until.max(until))?;
         run.set_off(&rims);
-        let (state, mounts) = (run.state(), run.scenario().rover.mounts());
-        self.gone += navigator.look(state.time(), state.rover(), mounts, state.rim_speeds());
+        let state = run.state();
+        self.gone +=
+            navigator.look(state.time(), state.rover(), run.scenario(), state.rim_speeds());
         let (place, ground) = (navigator.seen().position, navigator.ground() - self.start_ground);
         self.limits.look_from(run, place, ground);
         if navigator.is_fixed() {

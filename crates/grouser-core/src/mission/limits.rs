@@ -86,8 +86,9 @@ impl Limits {
 
     /// Looks at the rover, whose wheels kept their speeds since the last look.
     pub fn look(&mut self, run: &Run) {
-        let place = run.state().rover().position;
-        self.ground += (place - self.last).norm();
+        let rover = run.state().rover();
+        let place = rover.position;
+        self.ground += run.scenario().way_from(self.last, rover);
         self.look_from(run, place, self.ground);
     }
 

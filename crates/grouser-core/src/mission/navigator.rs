@@ -17,11 +17,11 @@ use super::odometer::mean_speed;
 use crate::elementary::wide;
 use crate::error::{ParameterError, not_negative, positive};
 use crate::random::{LARGEST_SEED, Random};
-use crate::simulation::SAME_TIME;
+use crate::simulation::{SAME_TIME, Scenario};
 use crate::units::Vec2;
+use crate::vehicle::RoverState;
 use crate::vehicle::kinematics::rolling_velocity;
 use crate::vehicle::state::rotation;
-use crate::vehicle::{Mount, RoverState};
 
 /// Sensors of a rover.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,12 +145,12 @@ impl Navigator {
         &mut self,
         time: f64,
         state: &RoverState,
-        mounts: &[Mount],
+        scenario: &Scenario,
         rim_speeds: &[f64],
     ) -> f64 {
         let (place, before) = self.last;
         self.last = (state.position, time);
-        let gone = (state.position - place).norm();
+        let gone = scenario.way_from(place, state);
         match &mut self.sensed {
             None => {
                 self.seen = *state;
@@ -158,7 +158,7 @@ impl Navigator {
             }
             Some(sensed) => {
                 sensed.turn(time, state.yaw);
-                let rolling = rolling_velocity(mounts, rim_speeds);
+                let rolling = rolling_velocity(scenario.rover.mounts(), rim_speeds);
                 sensed.reckon(time - before, rolling, rim_speeds, self.seen.yaw);
                 let yaw = sensed.yaw(time);
                 if sensed.rims >= sensed.sensors.odometry_interval {

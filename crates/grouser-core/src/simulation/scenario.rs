@@ -218,11 +218,24 @@ impl Scenario {
     #[must_use]
     pub fn way_down(&self, before: (Vec2, f64), state: &RoverState) -> f64 {
         let (place, down) = before;
-        match self.ground_under(state).0.uphill() {
+        let (lie, _) = self.ground_under(state);
+        match lie.uphill() {
             None => down,
             Some(uphill) if self.ground.is_plane() => 0.0 - state.position.dot(&uphill),
-            Some(uphill) => down - uphill.dot(&(state.position - place)),
+            Some(uphill) => down - uphill.dot(&(state.position - place)) / lie.normal.z,
         }
+    }
+
+    /// Length of the way along the ground from a place near by [m].
+    #[must_use]
+    pub fn way_from(&self, place: Vec2, state: &RoverState) -> f64 {
+        let level = state.position - place;
+        if self.ground.is_plane() {
+            return level.norm();
+        }
+        let normal = self.ground_under(state).0.normal;
+        let rise = normal.xy().dot(&level) / normal.z;
+        (level.norm_squared() + rise * rise).sqrt()
     }
 
     /// How the soil below each wheel differs from that of the ground.

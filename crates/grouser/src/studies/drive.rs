@@ -1,16 +1,16 @@
 //! A traverse in a few numbers: its length, drift, slip, sinkage and energy.
 
 use crate::elementary::wide::hypot;
-use crate::simulation::{Record, Trajectory, WheelRecord};
+use crate::simulation::{Record, Scenario, Trajectory, WheelRecord};
 
 /// Length, drift and means of a traverse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
     /// Length of the way [m], from record to record, with the height of ground that has heights.
     pub distance: f64,
-    /// Drift per metre travelled, −*y*/distance [m/m], −1 to 1: positive downhill, as
-    /// [`HeadingOffset::drift`](crate::studies::heading::HeadingOffset::drift). Missing for a rover that did not
-    /// move, and on ground with heights, which has no one direction uphill.
+    /// Drift per metre travelled [m/m], −1 to 1: the way straight down the ground, positive downhill, over the distance,
+    /// as [`HeadingOffset::drift`](crate::studies::heading::HeadingOffset::drift); 0 on level ground. Missing for a rover
+    /// that did not move.
     pub drift: Option<f64>,
     /// Slip ratio [-], the mean over wheels and records. Missing where no record has its wheels.
     pub slip_ratio: Option<f64>,
@@ -29,9 +29,9 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// The numbers of a run; means are over its records.
+    /// The numbers of a run of a scenario; means are over its records.
     #[must_use]
-    pub fn of(run: &Trajectory) -> Self {
+    pub fn of(run: &Trajectory, scenario: &Scenario) -> Self {
         /// A shorter way counts as standing still [m].
         const STILL: f64 = 1e-9;
         let last = run.last();
@@ -53,11 +53,7 @@ impl Drive {
         let current = currents.reduce(f64::max);
         Self {
             distance,
-            drift: if last.origin.is_none() {
-                per_metre(0.0 - last.state.position.y)
-            } else {
-                None
-            },
+            drift: per_metre(down(run, scenario)),
             slip_ratio: mean(run, |wheel| wheel.reaction.slip.ratio),
             sinkage: mean(run, |wheel| wheel.reaction.settled.sinkage),
             power: (last.time > 0.0).then(|| energy / last.time),
@@ -67,6 +63,16 @@ impl Drive {
             current,
         }
     }
+}
+
+/// Way straight down the ground, from record to record [m].
+fn down(run: &Trajectory, scenario: &Scenario) -> f64 {
+    let start = (run.records[0].state.position, 0.0);
+    let each = run.records.iter().skip(1);
+    let (_, down) = each.fold(start, |before, record| {
+        (record.state.position, scenario.way_down(before, &record.state))
+    });
+    down
 }
 
 fn mean(run: &Trajectory, quantity: fn(&WheelRecord) -> f64) -> Option<f64> {

@@ -180,7 +180,7 @@ pub fn record_times(run: &Trajectory, scenario: &Scenario) -> Vec<f64> {
 impl OfSample {
     fn of(run: &Trajectory, scenario: &Scenario, times: &[f64]) -> Self {
         let rover = &scenario.rover;
-        let (drive, last, kind) = (Drive::of(run), run.last(), run.outcome.kind());
+        let (drive, last, kind) = (Drive::of(run, scenario), run.last(), run.outcome.kind());
         let in_band = kind.row().in_band;
         let at = |time: &f64| {
             let past = run.records.partition_point(|record| record.time <= time + SAME_TIME);

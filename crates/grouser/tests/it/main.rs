@@ -57,6 +57,7 @@ mod steering;
 mod stepping;
 mod suspensions;
 mod time_step;
+mod turned;
 mod uncertain_documents;
 mod uncertainty;
 mod units;

@@ -340,7 +340,7 @@ fn traverse(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
     let run = Run::new(scenario)
         .and_then(Run::to_end)
         .map_err(|error| Failure { status: NOT_COMPUTED, reason: error.to_string() })?;
-    let (end, drive) = (run.last(), Drive::of(&run));
+    let (end, drive) = (run.last(), Drive::of(&run, scenario));
     let words = [
         Cell::Text(run.outcome.reason()),
         Cell::text(run.outcome.name()),

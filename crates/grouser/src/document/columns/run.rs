@@ -309,7 +309,7 @@ pub fn summary(run: &Trajectory, scenario: &Scenario) -> Table {
     let over = RoverOnSlope::of(scenario).over(run);
     let findings: Vec<Finding> = over.iter().map(|raised| raised.finding).collect();
     let outcome = RUN.iter().filter(|column| column.kind() == ColumnKind::Text);
-    let (run_row, end, drive) = ([Some(run)], [Some(run.last())], Drive::of(run));
+    let (run_row, end, drive) = ([Some(run)], [Some(run.last())], Drive::of(run, scenario));
     let has_motors = scenario.rover.has_motors();
     Table::default()
         .and(outcome, &run_row)

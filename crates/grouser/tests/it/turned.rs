@@ -1,0 +1,227 @@
+//! Which way the ground falls is nobody's choice: runs and missions on turned ground are the turned runs and missions.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use grouser::document::{self, Kind, Overrides, Source};
+use grouser::mission::{Heading, Manoeuvre, Mission, MissionReport, MissionRun};
+use grouser::simulation::{Approach, Outcome, OutcomeKind, Run, Scenario, Trajectory};
+use grouser::terrain::surface::{Cone, Crater, Incline, Surface};
+use grouser::terrain::{Ground, Shape};
+use grouser::units::{Vec2, deg};
+use rayon::prelude::*;
+
+/// Directions by which everything is turned [°]: two squarely, one obliquely, and one nearly not.
+const FEW: [f64; 4] = [90.0, 180.0, 217.0, -0.5];
+
+fn sixteen() -> Vec<f64> {
+    (1..=16).map(|step| 22.5 * f64::from(step) + if step % 4 == 0 { 7.0 } else { 0.0 }).collect()
+}
+
+fn turned(place: Vec2, angle: f64) -> Vec2 {
+    let (sin, cos) = angle.sin_cos();
+    Vec2::new(cos * place.x - sin * place.y, sin * place.x + cos * place.y)
+}
+
+/// Ground by formula that is turned about the origin of its coordinates; a plane as an incline.
+fn turned_ground(ground: &Ground, angle: f64) -> Ground {
+    let surface = match &ground.shape {
+        Shape::Plane(plane) => {
+            Surface::Incline(Incline { slope: plane.slope, uphill: FRAC_PI_2 + angle })
+        }
+        Shape::Formula(Surface::Incline(it)) => {
+            Surface::Incline(Incline { uphill: it.uphill + angle, ..*it })
+        }
+        Shape::Formula(Surface::Cone(it)) => {
+            Surface::Cone(Cone { tip: turned(it.tip, angle), ..*it })
+        }
+        Shape::Formula(Surface::Crater(it)) => {
+            Surface::Crater(Crater { centre: turned(it.centre, angle), ..*it })
+        }
+        other => panic!("not turned here: {other:?}"),
+    };
+    Ground::formula(ground.soil, surface).starting_at(turned(ground.start, angle))
+}
+
+fn turned_scenario(scenario: &Scenario, angle: f64) -> Scenario {
+    let mut scenario = scenario.clone();
+    scenario.ground = turned_ground(&scenario.ground, angle);
+    scenario.start.yaw += angle;
+    if let Some(yaw) = &mut scenario.yaw {
+        yaw.points.iter_mut().for_each(|(_, yaw)| *yaw += angle);
+    }
+    scenario
+}
+
+fn turned_mission(mission: &Mission, angle: f64) -> Mission {
+    let mut mission = mission.clone();
+    mission.scenario = turned_scenario(&mission.scenario, angle);
+    for leg in &mut mission.legs {
+        leg.yaw = leg.yaw.map(|yaw| yaw + angle);
+        if let Manoeuvre::Goto { place, .. } = &mut leg.manoeuvre {
+            *place = turned(*place, angle);
+        }
+        if let Heading::Toward(place) = &mut leg.heading {
+            *place = turned(*place, angle);
+        }
+    }
+    mission
+}
+
+/// How far two ends are apart, over the way, with angles in parts of a radian.
+fn apart(one: &Trajectory, other: &Trajectory, angle: f64) -> f64 {
+    let (one, other) = (one.last(), other.last());
+    let size = one.state.position.norm().max(0.1);
+    let place = (turned(one.state.position, angle) - other.state.position).norm() / size;
+    let yaw = (one.state.yaw + angle - other.state.yaw).rem_euclid(TAU);
+    let yaw = yaw.min(TAU - yaw);
+    let energy = (one.energy.motors - other.energy.motors).abs() / one.energy.motors.abs().max(0.1);
+    place.max(yaw).max(energy)
+}
+
+fn scenarios() -> Vec<(String, Scenario)> {
+    let read = |name: &str| {
+        let source = Source::find(Kind::Scenario, name).expect("a preset");
+        document::read_scenario(&source, &Overrides::none()).expect("it is valid").value
+    };
+    let ready = document::presets(Kind::Scenario).map(|it| (it.name.to_owned(), read(it.name)));
+    let mut all: Vec<(String, Scenario)> = ready.collect();
+    let base = read("traverse-10-deg-compensated");
+    let hill = Cone { tip: Vec2::new(0.0, 4.0), slope: deg(12.0), rounding: 0.5 };
+    let bowl = Crater::fresh(Vec2::new(0.0, 9.0), 16.0);
+    for (name, surface) in [("hill", Surface::Cone(hill)), ("bowl", Surface::Crater(bowl))] {
+        for approach in [Approach::Dynamic, Approach::QuasiSteady] {
+            let mut scenario = base.clone();
+            scenario.ground = Ground::formula(base.ground.soil, surface);
+            scenario.numerics.approach = approach;
+            all.push((format!("{name}, {approach:?}"), scenario));
+        }
+    }
+    for slope in [30.0, 45.0, 60.0] {
+        let mut scenario = base.clone();
+        scenario.ground = base.ground.with_slope(deg(slope));
+        all.push((format!("{slope}°"), scenario));
+    }
+    all
+}
+
+/// Relative to the way: what rounding leaves of runs whose steps are chosen by estimates of their error.
+const DYNAMIC: f64 = 1e-7;
+
+fn check_scenarios(angles: &[f64]) {
+    let off = scenarios().into_par_iter().filter_map(|(name, scenario)| {
+        let base = turned_scenario(&scenario, 0.0);
+        let one = Run::new(&base).and_then(Run::to_end);
+        let off = angles.iter().filter_map(|angle| {
+            let angle = deg(*angle);
+            let other = Run::new(&turned_scenario(&scenario, angle)).and_then(Run::to_end);
+            match (&one, other) {
+                (Ok(one), Ok(other)) => {
+                    let off = apart(one, &other, angle);
+                    let is_same = one.outcome.kind() == other.outcome.kind();
+                    (!is_same || off > DYNAMIC).then(|| {
+                        format!(
+                            "{name}, {angle:.2}: {off:e}, {:?}, {:?}",
+                            one.outcome, other.outcome
+                        )
+                    })
+                }
+                (one, other) => {
+                    let errors = (one.as_ref().err().map(ToString::to_string), other.err());
+                    matches!(errors, (None, _) | (_, None)).then(|| format!("{name}: {errors:?}"))
+                }
+            }
+        });
+        let off: Vec<String> = off.collect();
+        (!off.is_empty()).then(|| off.join("\n"))
+    });
+    let off: Vec<String> = off.collect();
+    assert!(off.is_empty(), "{}", off.join("\n"));
+}
+
+fn missions() -> Vec<(String, Mission)> {
+    let ready = document::presets(Kind::Mission).flat_map(|it| {
+        let source = Source::find(Kind::Mission, it.name).expect("a preset");
+        let read = document::read_mission(&source, &Overrides::none()).expect("it is valid").value;
+        read.missions()
+            .into_iter()
+            .map(move |(way, mission)| (format!("{} {way}", it.name), mission))
+    });
+    ready.collect()
+}
+
+fn drive(mission: &Mission) -> MissionReport {
+    MissionRun::new(mission).expect("it is valid").to_end().expect("it drives")
+}
+
+fn check_missions(angles: &[f64]) {
+    let off = missions().into_par_iter().filter_map(|(name, mission)| {
+        let one = drive(&turned_mission(&mission, 0.0));
+        let off = angles.iter().filter_map(|angle| {
+            let angle = deg(*angle);
+            let other = drive(&turned_mission(&mission, angle));
+            let off = apart(&one.trajectory, &other.trajectory, angle);
+            let kinds = |report: &MissionReport| -> Vec<OutcomeKind> {
+                report.legs.iter().map(|leg| leg.outcome.kind()).collect()
+            };
+            let is_same = kinds(&one) == kinds(&other);
+            (!is_same || off > DYNAMIC).then(|| {
+                format!("{name}, {angle:.2}: {off:e}, {:?}, {:?}", kinds(&one), kinds(&other))
+            })
+        });
+        let off: Vec<String> = off.collect();
+        (!off.is_empty()).then(|| off.join("\n"))
+    });
+    let off: Vec<String> = off.collect();
+    assert!(off.is_empty(), "{}", off.join("\n"));
+}
+
+/// Scenarios on planes, on a hill and in a bowl, and on slopes on which rovers slide and tip over.
+#[test]
+fn turned_scenarios_give_turned_runs() {
+    check_scenarios(&FEW);
+}
+
+#[test]
+fn turned_missions_give_turned_drives() {
+    check_missions(&FEW);
+}
+
+#[test]
+#[ignore = "a minute"]
+fn scenarios_and_missions_turned_in_sixteen_directions_give_turned_runs() {
+    check_scenarios(&sixteen());
+    check_missions(&sixteen());
+}
+
+/// A drive along the contour of a hill comes round it at the height at which it began: 12° of slope, 4 m from its tip.
+#[test]
+fn a_contour_leg_goes_round_a_hill() {
+    let text = r#"
+        schema = "mission/1"
+        name = "round a hill"
+        soil = "toyoura"
+        rover = "hakuto"
+        simulation = "quasi-steady"
+        [terrain]
+        surface = "cone"
+        slope_deg = 8.0
+        rounding_m = 0.2
+        start_m = [0.0, -4.0]
+        [[leg]]
+        drive_m = 12.0
+        speed_m_s = 0.06
+        yaw_deg = 0.0
+        heading = "contour"
+    "#;
+    let source = Source::text("hill.toml", text);
+    let mission = document::read_mission(&source, &Overrides::none()).expect("valid").value;
+    let report = drive(&mission.mission());
+    assert_eq!(report.trajectory.outcome, Outcome::Completed);
+    let start = mission.mission().scenario.ground.start;
+    let radii = report.trajectory.records.iter().map(|it| (start + it.state.position).norm());
+    let off = radii.map(|radius| (radius - 4.0).abs()).fold(0.0, f64::max);
+    // Half way round, within 5 cm of map: 7 mm of height.
+    let end = start + report.trajectory.last().state.position;
+    assert!(off < 0.05, "{off} m off the contour");
+    assert!(end.y > 3.5, "{end}");
+}
