@@ -491,11 +491,6 @@ fn zone_soils(run: &mut Scenario) -> &mut [Soil] {
 
 /// Checks that the ground can be.
 fn check_terrain(run: &Scenario) -> Result<(), Misfit> {
-    if run.yaw.is_some() && !run.ground.is_plane() {
-        let problem = Problem::Conflict("a yaw is held over time on planes alone");
-        let hint = "on ground with heights a mission's leg with a heading steers";
-        return Err(Misfit::new("drive.yaw_deg", problem).with_hint(hint));
-    }
     match &run.ground.shape {
         Shape::Formula(surface) => surface.check().map_err(Misfit::at(TERRAIN)),
         Shape::Plane(_) | Shape::Map(_) | Shape::Own(_) => Ok(()),

@@ -202,7 +202,6 @@ fn maps_that_cannot_be_driven_on_are_refused() {
         ("--terrain map.xyz --start-x-m 5 --start-y-m 5", "x is from -25000 to -24994 m"),
         ("--terrain map.xyz --start-x-m 5", "--start-y-m"),
         ("--terrain map.xyz --start-x-m nan --start-y-m 0", "finite"),
-        ("--terrain map.xyz --yaw-deg [[0,1],[5,2]]", "on planes alone"),
         ("--terrain map.xyz --animate a.gif", "--mcap a log with it"),
     ] {
         let refused = check_is_refusal(&place.line(&format!("traverse {line}")), 2);

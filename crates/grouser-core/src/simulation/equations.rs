@@ -57,10 +57,17 @@ struct Acting {
     hubs: Vec<Vec2>,
     /// How fast links turn about their axles [rad/s]; on a plane none does.
     turns: Vec<f64>,
+    /// What the soil gives the rover beside its forces along the ground [W]: by hubs that rise, and by wheels that lean or
+    /// turn.
+    beside: f64,
+    /// Yaw rate with which aligning moments act on a rover on a plane; 0 elsewhere [rad/s].
+    aligning_work_rate: f64,
     /// Velocity of the body's centre of mass, in the ground's coordinates [m/s].
     velocity: Vec2,
     /// [rad/s]
     yaw_rate: f64,
+    /// Rate at which the body turns about its own z axis where its yaw rate is held [rad/s].
+    held: Option<f64>,
 }
 
 /// How a rover on uneven ground stands with its wheels sunk.
@@ -245,24 +252,33 @@ impl<'a> Equations<'a> {
         wheel_speeds: &[f64],
         search: Search,
     ) -> Result<Evaluation, ReactionError> {
-        let OnGround { rover, own_moments, .. } = self.on_ground;
-        let Acting { wheels, pull, soil, hubs, turns, velocity, yaw_rate } =
-            if self.on_ground.is_uneven() {
-                self.acting_on_uneven_ground(state, rim_speeds, search)?
-            } else {
-                self.acting_on_a_plane(state, rim_speeds, search)?
-            };
-        let (acceleration, holding_moment) = match self.held_yaw_rate {
+        let rover = self.on_ground.rover;
+        let Acting {
+            wheels,
+            pull,
+            soil,
+            hubs,
+            turns,
+            beside,
+            aligning_work_rate,
+            velocity,
+            yaw_rate,
+            held,
+        } = if self.on_ground.is_uneven() {
+            self.acting_on_uneven_ground(state, rim_speeds, search)?
+        } else {
+            self.acting_on_a_plane(state, rim_speeds, search)?
+        };
+        let (acceleration, holding_moment) = match held {
             None => (dynamics::acceleration(rover, pull, state, soil), 0.0),
             Some(rate) => {
                 let back = (rate - state.yaw_rate) / BACK_TO_HELD_RATE;
                 dynamics::held_acceleration(rover, pull, state, soil, back)
             }
         };
-        let aligning_work_rate =
-            if own_moments == OwnMoments::Included { state.yaw_rate } else { 0.0 };
         let (motor_power, mut soil_power) =
             power::powers(&wheels, wheel_speeds, hubs.into_iter(), aligning_work_rate);
+        soil_power -= beside;
         for (forces, turn) in forces_of(&wheels).zip(turns) {
             soil_power += forces.torque * turn;
         }
@@ -290,7 +306,21 @@ impl<'a> Equations<'a> {
         let hubs = rover.mounts().iter().map(|mount| wheel_velocity(state, mount)).collect();
         let velocity = stance.slope_from_body * state.velocity;
         let (pull, yaw_rate, turns) = (stance.pull, state.yaw_rate, Vec::new());
-        Ok(Acting { wheels, pull, soil, hubs, turns, velocity, yaw_rate })
+        let held = self.held_yaw_rate;
+        let is_included = own_moments == OwnMoments::Included;
+        let aligning_work_rate = if is_included { state.yaw_rate } else { 0.0 };
+        Ok(Acting {
+            wheels,
+            pull,
+            soil,
+            hubs,
+            turns,
+            aligning_work_rate,
+            beside: 0.0,
+            velocity,
+            yaw_rate,
+            held,
+        })
     }
 
     fn acting_on_uneven_ground(
@@ -299,7 +329,7 @@ impl<'a> Equations<'a> {
         rim_speeds: &[f64],
         search: Search,
     ) -> Result<Acting, ReactionError> {
-        let OnGround { rover, gravity, .. } = self.on_ground;
+        let OnGround { rover, gravity, own_moments, .. } = self.on_ground;
         let standing = self.standing(state)?;
         let slips = slips_of(rover, &standing, rim_speeds);
         self.count(|work| work.settled_wheels += slips.len() as u64);
@@ -314,7 +344,10 @@ impl<'a> Equations<'a> {
         let resultant = self.on_ground.resultant(&standing, &wheels);
         let pull = standing.pull(rover.mass() * gravity);
         let motion = standing.motion;
+        let beside = power::beside_the_ground(&wheels, &motion, own_moments);
         Ok(Acting {
+            aligning_work_rate: 0.0,
+            beside,
             wheels,
             pull,
             soil: (resultant.force.xy(), resultant.moment.z),
@@ -322,6 +355,7 @@ impl<'a> Equations<'a> {
             turns: motion.turns,
             velocity: motion.velocity.xy(),
             yaw_rate: motion.yaw_rate,
+            held: self.held_yaw_rate.map(|_| motion.body_rate),
         })
     }
 
@@ -338,7 +372,7 @@ impl<'a> Equations<'a> {
                 &last.insert((state.position, state.yaw, posture)).2
             }
         };
-        self.on_ground.moving(posture.clone(), state)
+        self.on_ground.moving(posture.clone(), state, self.held_yaw_rate)
     }
 
     /// How a rover on uneven ground stands with its wheels sunk; none where it does not come to stand, and on a plane where

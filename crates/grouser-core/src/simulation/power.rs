@@ -1,9 +1,12 @@
 //! The energy balance of a run: what the motors put in, and where it went.
 
+use crate::contact::WheelForces;
 use crate::terrain::Ground;
 use crate::units::Vec2;
 use crate::vehicle::load;
-use crate::vehicle::{Electrical, Mount, Rover, RoverState, WheelReaction};
+use crate::vehicle::on_ground::forces_of;
+use crate::vehicle::posture::StandingMotion;
+use crate::vehicle::{Electrical, Mount, OwnMoments, Rover, RoverState, WheelReaction};
 
 /// Energy since the start of a run [J].
 ///
@@ -29,7 +32,7 @@ pub struct EnergyBalance {
 ///
 /// * `wheel_speeds`: ω of each wheel [rad/s]
 /// * `hub_velocities`: of each hub, in the wheel's frame [m/s]
-/// * `aligning_work_rate`: yaw rate where aligning moments act on the rover, else 0 [rad/s]
+/// * `aligning_work_rate`: yaw rate where aligning moments act on a rover on a plane, else 0 [rad/s]
 #[must_use]
 pub fn powers(
     wheels: &[WheelReaction],
@@ -46,6 +49,26 @@ pub fn powers(
         soil += motor - pull - forces.aligning_moment * aligning_work_rate;
     }
     (motors, soil)
+}
+
+/// Power that the soil gives a rover on uneven ground beside its forces along it [W]: by the normal forces on hubs that rise
+/// or sink, as those of a rigid rover on warped ground do, and by moments that act on the rover.
+pub(super) fn beside_the_ground(
+    wheels: &[WheelReaction],
+    motion: &StandingMotion,
+    own_moments: OwnMoments,
+) -> f64 {
+    let each = forces_of(wheels).zip(&motion.rises).zip(&motion.leans);
+    let of_one = |((forces, rise), lean): ((&WheelForces, &f64), &Vec2)| {
+        let of_moments = match own_moments {
+            OwnMoments::Neglected => 0.0,
+            OwnMoments::Included => {
+                forces.overturning_moment * lean.x + forces.aligning_moment * lean.y
+            }
+        };
+        forces.normal_force * rise + of_moments
+    };
+    each.map(of_one).sum()
 }
 
 /// Electrical power of the motors that are known [W].

@@ -164,10 +164,6 @@ impl Scenario {
         self.stability.check()?;
         finite("start yaw [rad]", self.start.yaw)?;
         if let Some(yaw) = &self.yaw {
-            if !self.ground.is_plane() {
-                let expected = "none: a yaw is held on planes alone";
-                return Err(ParameterError::new("yaw over time [rad]", yaw.at(0.0), expected));
-            }
             yaw.check()?;
             if self.start.yaw != 0.0 && self.start.yaw != yaw.at(0.0) {
                 let expected = "that of the yaw over time, or left out";

@@ -105,11 +105,17 @@ pub struct StandingMotion {
     pub velocity: Vec3,
     /// How fast its yaw changes, seen from above [rad/s].
     pub yaw_rate: f64,
+    /// How fast the body turns about its own z axis [rad/s].
+    pub body_rate: f64,
     /// Velocity of each hub along its wheel, and to the wheel's left, on the ground [m/s].
     pub hubs: Vec<Vec2>,
     /// How fast the link that carries each wheel turns about its axle [rad/s]: by so much more than its motor turns it on the
     /// link it turns on the ground.
     pub turns: Vec<f64>,
+    /// Velocity of each hub out of the ground, where that makes its wheel sink or rise [m/s].
+    pub rises: Vec<f64>,
+    /// How fast each wheel turns about its forward axis, and about the normal of its ground [rad/s].
+    pub leans: Vec<Vec2>,
 }
 
 /// No posture was found.
@@ -237,6 +243,7 @@ impl Posture {
         let lost = NoPosture { place: self.place.xy(), gap: f64::INFINITY };
         let rates = rates.ok_or(lost)?;
         let (mut hubs, mut turns) = (Vec::new(), Vec::new());
+        let (mut rises, mut leans) = (Vec::new(), Vec::new());
         for wheel in &self.wheels {
             let (mut velocity, mut turned) = (free(wheel), turning);
             for (twist, rate) in self.twists(wheel, [z, x, y], Vec3::zeros()).zip(rates.iter()) {
@@ -245,11 +252,30 @@ impl Posture {
             }
             hubs.push(Vec2::new(velocity.dot(&wheel.forward), velocity.dot(&wheel.left)));
             turns.push(turned.dot(&wheel.axle));
+            rises.push(velocity.dot(&wheel.normal));
+            leans.push(Vec2::new(turned.dot(&wheel.forward), turned.dot(&wheel.normal)));
         }
         let velocity = given + rates[0] * z;
         let nose = (turning + rates[1] * x + rates[2] * y).cross(&x);
         let yaw_rate = x.xy().perp(&nose.xy()) / x.xy().norm_squared();
-        Ok(StandingMotion { velocity, yaw_rate, hubs, turns })
+        let body_rate = state.yaw_rate;
+        Ok(StandingMotion { velocity, yaw_rate, body_rate, hubs, turns, rises, leans })
+    }
+
+    /// The same of a body whose yaw, seen from above, changes at a rate [rad/s], which is linear in the body's own.
+    ///
+    /// # Errors
+    /// As of [`motion`](Self::motion).
+    pub fn motion_at_yaw_rate(
+        &self,
+        state: &RoverState,
+        yaw_rate: f64,
+    ) -> Result<StandingMotion, NoPosture> {
+        let at = |body_rate: f64| self.motion(&RoverState { yaw_rate: body_rate, ..*state });
+        let (still, turning) = (at(0.0)?.yaw_rate, at(1.0)?.yaw_rate);
+        let motion = at((yaw_rate - still) / (turning - still))?;
+        // But for rounding it is so already.
+        Ok(StandingMotion { yaw_rate, ..motion })
     }
 
     /// What the freedoms do to a wheel: the body's, then those of the joints.

@@ -103,10 +103,21 @@ impl OnGround<'_> {
 
     /// How the rover moves that stands so in a state.
     ///
+    /// * `held_yaw_rate`: how fast the yaw, seen from above, is made to change, if it is [rad/s]; then the body turns as fast
+    ///   as that takes, whatever the state says
+    ///
     /// # Errors
     /// [`ReactionError`] where its wheels allow no motion along the ground.
-    pub fn moving(&self, posture: Posture, state: &RoverState) -> Result<Standing, ReactionError> {
-        let motion = posture.motion(state)?;
+    pub fn moving(
+        &self,
+        posture: Posture,
+        state: &RoverState,
+        held_yaw_rate: Option<f64>,
+    ) -> Result<Standing, ReactionError> {
+        let motion = match held_yaw_rate {
+            None => posture.motion(state)?,
+            Some(rate) => posture.motion_at_yaw_rate(state, rate)?,
+        };
         Ok(Standing { posture, motion, up: self.up(state) })
     }
 
