@@ -6,6 +6,8 @@ use grouser::simulation::Outcome;
 mod closed_loop;
 #[path = "../../examples/heading_on_a_slope.rs"]
 mod heading_on_a_slope;
+#[path = "../../examples/own_ground.rs"]
+mod own_ground;
 #[path = "../../examples/own_rover.rs"]
 pub(super) mod own_rover;
 #[path = "../../examples/uncertain_soil.rs"]
@@ -37,6 +39,19 @@ fn a_heading_offset_keeps_a_run_nearly_on_the_contour() {
         assert!((0.0..0.15).contains(&left), "{slope}°: {} mm", row.offset_mm);
         assert!(row.straight_mm < -40.0, "{slope}°: {} mm", row.straight_mm);
     }
+}
+
+/// The dune is steepest 3 m from its top, 11.4°. The rover starts there and comes half round it, at its height.
+#[test]
+fn a_rover_drives_along_the_contour_of_ground_of_your_own() {
+    own_ground::main().expect("it runs");
+    let report = own_ground::drive(9.5).expect("it can be computed");
+    assert_eq!(report.trajectory.outcome, Outcome::Completed);
+    for record in &report.trajectory.records {
+        let off = record.place().norm() - 3.0;
+        assert!(off.abs() < 0.06, "{off} m off the contour at {} s", record.time);
+    }
+    assert!(report.trajectory.last().place().y > 2.8, "{}", report.trajectory.last().place());
 }
 
 /// A larger steering angle gives a smaller circle. Without slip it would be that of a bicycle whose rear axle is half-way
