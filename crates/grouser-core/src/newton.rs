@@ -76,7 +76,7 @@ pub fn damped_zero<T>(
 ) -> Option<(DVector<f64>, T)> {
     const MOST_STEPS: usize = 100;
     /// Shares of a step that are tried, the longest first [-]: halves, down to a thousandth.
-    const SHARES: i32 = 11;
+    const SHARES: usize = 11;
     /// A step of this length promises so much less; a thousandth of it must come.
     const DESCENT: f64 = 1e-3;
     let mut at = guess.clone();
@@ -88,7 +88,10 @@ pub fn damped_zero<T>(
         let newton = jacobian(&f, &at, &here, scale).and_then(|it| it.lu().solve(&-&here));
         let ways = newton.into_iter().chain([-&here, here.clone()]);
         let next = ways
-            .flat_map(|way| (0..SHARES).map(move |half| (way.clone(), 0.5_f64.powi(half))))
+            .flat_map(|way| {
+                let shares = std::iter::successors(Some(1.0), |share: &f64| Some(0.5 * share));
+                shares.take(SHARES).map(move |share| (way.clone(), share))
+            })
             .find_map(|(way, share)| {
                 let there = &at + share * way;
                 let (values, value) = f(&there)?;

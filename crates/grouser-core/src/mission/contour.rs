@@ -1,6 +1,8 @@
 //! A contour line over ground with heights: that of the height at which a leg begins.
 
-use super::pilot::turned;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use super::pilot::{near_enough, turned};
 use super::plan::Leg;
 use crate::elementary::wide;
 use crate::simulation::Scenario;
@@ -26,7 +28,7 @@ pub(super) struct Contour {
     height: f64,
     /// Which way it is followed: 1 with uphill to the left, -1 to the right.
     side: f64,
-    /// The yaw with which the rover sets out [rad].
+    /// The yaw with which the rover sets out, [near enough](near_enough) to the contour [rad].
     start_yaw: f64,
     /// Direction of the contour at the last look [rad], and how far that has turned since the leg began [rad].
     direction: f64,
@@ -44,8 +46,10 @@ impl Contour {
         let direction = lie.contour()?;
         let off = turned(state.yaw - direction).abs();
         let ahead = if leg.manoeuvre.direction() < 0.0 { -1.0 } else { 1.0 };
-        let side = if off <= std::f64::consts::FRAC_PI_2 { ahead } else { -ahead };
-        Some(Self { height, side, start_yaw: state.yaw, direction, turned: 0.0 })
+        let side = if off <= FRAC_PI_2 { ahead } else { -ahead };
+        let along = if side * ahead < 0.0 { direction + PI } else { direction };
+        let start_yaw = near_enough(state.yaw, along);
+        Some(Self { height, side, start_yaw, direction, turned: 0.0 })
     }
 
     /// Sees how far the contour has turned to where the rover is.

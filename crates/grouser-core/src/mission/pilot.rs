@@ -406,13 +406,25 @@ pub(super) fn line_of(leg: &Leg, scenario: &Scenario, state: &RoverState) -> Lin
     }
     let (sin, cos) = wide::sin_cos(yaw);
     let ahead = if direction < 0.0 { -Vec2::new(cos, sin) } else { Vec2::new(cos, sin) };
-    let along = match leg.heading {
-        Heading::Contour if scenario.ground.is_plane() => {
-            Vec2::new(if ahead.x < 0.0 { -1.0 } else { 1.0 }, 0.0)
-        }
-        _ => ahead,
-    };
-    Line { from, along, yaw }
+    if leg.heading != Heading::Contour || !scenario.ground.is_plane() {
+        return Line { from, along: ahead, yaw };
+    }
+    let along = Vec2::new(if ahead.x < 0.0 { -1.0 } else { 1.0 }, 0.0);
+    let nose = if direction * along.x < 0.0 { std::f64::consts::PI } else { 0.0 };
+    Line { from, along, yaw: near_enough(yaw, nose) }
+}
+
+/// A yaw from which a rover is led to a line: its own, or where that is farther from the line than what leads back to it can
+/// turn the nose, the nearest that is not [rad].
+///
+/// * `along`: yaw of a nose along the line [rad]
+pub(super) fn near_enough(yaw: f64, along: f64) -> f64 {
+    let off = turned(yaw - along);
+    if off.abs() <= MOST_CROSS_YAW {
+        yaw
+    } else {
+        yaw - off + off.clamp(-MOST_CROSS_YAW, MOST_CROSS_YAW)
+    }
 }
 
 /// The yaw, less than half a turn away, at which the nose points to a place, or the tail where the direction is -1 [rad].

@@ -62,7 +62,8 @@ impl<F: FnMut(&Observation<'_>, &mut [f64])> Controller for F {
 impl Controller for DriveLaw {
     fn command(&mut self, seen: &Observation<'_>, rim_speeds: &mut [f64]) {
         let rover = &seen.scenario.rover;
-        self.rim_speeds(rover, seen.rover().yaw, seen.slip_ratios(), rim_speeds);
+        let crab = seen.scenario.yaw_from_contour(seen.rover());
+        self.rim_speeds(rover, crab, seen.slip_ratios(), rim_speeds);
     }
 
     fn period(&self) -> Option<f64> {

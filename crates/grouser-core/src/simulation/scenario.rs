@@ -4,6 +4,7 @@ use super::scatter::Scatter;
 pub use super::times::LONGEST_DURATION;
 use super::yaw::PrescribedYaw;
 use crate::contact::Theory;
+use crate::elementary::wide;
 use crate::error::{ParameterError, finite, positive};
 use crate::soil::SlopeStability;
 use crate::terrain::{Ground, Lie};
@@ -203,6 +204,18 @@ impl Scenario {
     #[must_use]
     pub fn ground_under(&self, state: &RoverState) -> (Lie, f64) {
         self.ground.lie(state.position, self.rover.footprint(&state.slope_from_body()))
+    }
+
+    /// How far the nose is turned uphill of the contour under the rover [rad]: on a plane the yaw; on level ground with heights
+    /// nothing.
+    #[must_use]
+    pub fn yaw_from_contour(&self, state: &RoverState) -> f64 {
+        if self.ground.is_plane() {
+            return state.yaw;
+        }
+        // The contour has two directions, of which the nose is near to one.
+        let uphill = self.ground_under(state).0.downhill_of_body(state.yaw).map(|down| -down);
+        uphill.map_or(0.0, |uphill| wide::asin(uphill.x.clamp(-1.0, 1.0)))
     }
 
     /// How far straight downhill a rover is [m] that came from a place near by.

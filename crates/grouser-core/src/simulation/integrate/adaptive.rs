@@ -21,7 +21,7 @@ use super::dormand_prince::{ExplicitStep, explicit_step};
 use super::rosenbrock::{Linear, implicit_step};
 use super::step::{COUPLED, COUPLED_BY_PLACE, Numbers, Step};
 use super::{OnSample, Point, SIZE, Stalled, WITH_MOTORS, rates_at};
-use crate::elementary::pow;
+use crate::elementary::{pow, wide};
 use crate::simulation::equations::Equations;
 
 /// Smallest error that a step may leave, besides the relative tolerance times the value, over that
@@ -108,7 +108,8 @@ fn led<const N: usize>(
     let coupled = coupled.start..coupled.end + more;
     let deciding = SIZE - 1 + more;
     let rates_at = |y: &Numbers<N>| rates_at(equations, y);
-    let motion = Motion { rates_at, coupled, deciding, tolerance };
+    let is_level = equations.has_relief();
+    let motion = Motion { rates_at, coupled, deciding, is_level, tolerance };
     let mut way = known.filter(|way| way.seen == from);
     let count = |step: &Way<N>| {
         equations.count(|work| {
@@ -153,6 +154,8 @@ struct Motion<F, const N: usize> {
     coupled: Range<usize>,
     /// How many decide how long a step is: all but the electrical energy, which goes with the motors' work, and comes last.
     deciding: usize,
+    /// Whether places are in level coordinates, whose axes mean nothing.
+    is_level: bool,
     tolerance: f64,
 }
 
@@ -258,12 +261,23 @@ impl<F: Fn(&Numbers<N>) -> Option<Numbers<N>>, const N: usize> Motion<F, N> {
         Some(Attempt { step, rates: Some(rates), fastest })
     }
 
+    /// Size of a component. On level coordinates no result may depend on which way x points: places count by their distance
+    /// from the start, and yaw as a radian.
+    fn size(&self, numbers: &Numbers<N>, i: usize) -> f64 {
+        match i {
+            0 | 1 if self.is_level => wide::hypot(numbers[0], numbers[1]),
+            2 if self.is_level => 1.0,
+            _ => numbers[i].abs(),
+        }
+    }
+
     /// A step's error over what is allowed, as a root mean square over the components that decide.
     ///
     /// * `excess`: of the estimate over the error [-], at least
     fn miss(&self, step: &Step<N>, excess: f64) -> f64 {
         let part = |i: usize| {
-            let size = step.from[i].abs().max(step.to[i].abs()) + small(i, &self.coupled);
+            let size = self.size(&step.from, i).max(self.size(&step.to, i));
+            let size = size + small(i, &self.coupled);
             let miss = step.error[i] / (excess * self.tolerance * size);
             miss * miss
         };
@@ -280,7 +294,7 @@ impl<F: Fn(&Numbers<N>) -> Option<Numbers<N>>, const N: usize> Motion<F, N> {
         /// Length of the trial that finds the second derivative, over the size of the motion [-].
         const TRIAL: f64 = 1e-3;
         let size = |rates: &Numbers<N>| {
-            let part = |i: usize| rates[i].abs() / (from[i].abs() + small(i, &self.coupled));
+            let part = |i: usize| rates[i].abs() / (self.size(from, i) + small(i, &self.coupled));
             self.coupled.clone().map(part).fold(0.0, f64::max)
         };
         let first = size(rates);
@@ -396,6 +410,7 @@ mod tests {
             rates_at: problem.rates(),
             coupled: COUPLED,
             deciding: DECIDING,
+            is_level: false,
             tolerance: 1e-6,
         };
         let mut way = None;
@@ -413,14 +428,26 @@ mod tests {
     fn motions_that_end_say_when_and_why() {
         let ends = |x: f64| (x < 1.0).then(|| pair(1.0, 0.0));
         let rates_at = |numbers: &Numbers<SIZE>| ends(of(numbers).0);
-        let motion = Motion { rates_at, coupled: COUPLED, deciding: DECIDING, tolerance: 1e-6 };
+        let motion = Motion {
+            rates_at,
+            coupled: COUPLED,
+            deciding: DECIDING,
+            is_level: false,
+            tolerance: 1e-6,
+        };
         let stalled = motion.reach(&(0.0, [0.0; SIZE]), None, 2.0, &|_| {}).err().expect("it ends");
         assert!((stalled.time - 1.0).abs() < 1e-6, "{stalled:?}");
         let from_nowhere = motion.reach(&(0.5, pair(3.0, 0.0)), None, 2.0, &|_| {});
         assert_eq!(from_nowhere.err().map(|stalled| stalled.time), Some(0.5));
         for wild in [f64::NAN, f64::INFINITY, f64::MAX] {
             let rates_at = |numbers: &Numbers<SIZE>| Some(pair(wild * (1.0 + of(numbers).0), wild));
-            let motion = Motion { rates_at, coupled: COUPLED, deciding: DECIDING, tolerance: 1e-6 };
+            let motion = Motion {
+                rates_at,
+                coupled: COUPLED,
+                deciding: DECIDING,
+                is_level: false,
+                tolerance: 1e-6,
+            };
             assert!(motion.reach(&(0.0, [0.0; SIZE]), None, 1.0, &|_| {}).is_err(), "{wild}");
         }
         for tolerance in [f64::MIN_POSITIVE, 1e300] {
@@ -429,6 +456,7 @@ mod tests {
                 rates_at: problem.rates(),
                 coupled: COUPLED,
                 deciding: DECIDING,
+                is_level: false,
                 tolerance,
             };
             let led = motion.reach(&problem.start(), None, 1.0, &|_| {});

@@ -90,8 +90,13 @@ impl Problem {
 
     /// Where it is led, in how many explicit and implicit steps.
     pub(super) fn led(&self, tolerance: f64) -> (Numbers<SIZE>, [u32; 2]) {
-        let motion =
-            Motion { rates_at: self.rates(), coupled: COUPLED, deciding: DECIDING, tolerance };
+        let motion = Motion {
+            rates_at: self.rates(),
+            coupled: COUPLED,
+            deciding: DECIDING,
+            is_level: false,
+            tolerance,
+        };
         let counts = std::cell::Cell::new([0, 0]);
         let count = |way: &Way<SIZE>| {
             let mut now = counts.get();
