@@ -203,7 +203,7 @@ fn runs_over_heights_are_animated() {
         ["ishigami", "bekker", "rft"].iter().all(|it| models.contains(&format!(">{it}</text>")))
     );
     let head = "schema = \"mission/1\"\nname = \"m\"\nsimulation = \"quasi-steady\"\n";
-    let leg = "[[leg]]\nspeed_m_s = 0.06\nheading = \"ahead\"\ndistance_m = 0.3\n";
+    let leg = "[[leg]]\nspeed_m_s = 0.06\nheading = \"hold\"\ndrive_m = 0.3\n";
     place.write("m.toml", format!("{head}{leg}"));
     let line = format!("mission m.toml --terrain map.xyz {start} --animate m.svg");
     let answer = place.line(&line);

@@ -28,7 +28,7 @@ use crate::style::Role;
 
 /// Width of the view from above where there is one run, and the most that it is high [mm].
 const COLUMN: f64 = 58.0;
-/// Width and height of a view where there are several runs [mm].
+/// Width of a view where there are several runs, and the most that it is high [mm].
 const CELL: Place = [72.0, 46.0];
 /// How high the cut along a way is at most [mm].
 const CUT: f64 = 20.0;
@@ -121,13 +121,16 @@ impl Stage {
 
     fn several(&mut self, runs: &[Shown<'_>], surfaces: &[Surface], poses: &[Vec<Pose>]) {
         let role_of = |index: usize| WAYS[index % WAYS.len()];
-        let mut cells = Cells { next: 0, top: TOP, lowest: TOP };
         let all: Vec<&Shown<'_>> = runs.iter().collect();
+        // Views are no higher than the highest needs to be.
+        let needed = surfaces.iter().map(height_in_cell).fold(0.0, f64::max);
+        let size = [CELL[0], CELL[1].min(needed)];
+        let mut cells = Cells { next: 0, high: size[1], top: TOP, lowest: TOP };
         let oblique =
-            |surface: &Surface, corner| View::oblique().framing(&surface.corners(), corner, CELL);
+            |surface: &Surface, corner| View::oblique().framing(&surface.corners(), corner, size);
         if let [surface] = surfaces {
             let [left, top] = cells.corner(BELOW);
-            let view = from_above_in(surface, [left + LEFT, top], [CELL[0] - LEFT - 4.0, CELL[1]]);
+            let view = from_above_in(surface, [left + LEFT, top], [size[0] - LEFT - 4.0, size[1]]);
             self.add(of_surface_from_above(surface, runs[0].scenario.ground.start, &view));
             let times = enlargement(&all, &oblique(surface, [0.0, 0.0]));
             for (index, run) in runs.iter().enumerate() {
@@ -142,7 +145,7 @@ impl Stage {
             let mut ground = of_surface_obliquely(surface, &view, "");
             let title = format!("{}{}", run.name, note(times));
             let [x, y] = corner;
-            ground.labels = vec![name(title, x, y - 3.0).coloured(role_of(index))];
+            ground.labels = vec![name(title, x, y - 3.0)];
             self.add(ground);
             self.drive(&view, run, &poses[index], (role_of(index), times));
         }
@@ -185,9 +188,21 @@ impl Stage {
     }
 }
 
+/// How high an oblique view is that is as wide as there is room [mm].
+fn height_in_cell(surface: &Surface) -> f64 {
+    let corners = surface.corners();
+    let view = View::oblique().framing(&corners, [0.0, 0.0], [CELL[0], 10.0 * CELL[0]]);
+    let ends = corners.iter().map(|corner| view.place(*corner)[1]);
+    let [low, high] = ends
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)]);
+    high - low
+}
+
 /// Rooms for views, two in a row.
 struct Cells {
     next: usize,
+    /// How high views are [mm].
+    high: f64,
     /// Where the row begins [mm].
     top: f64,
     /// How far down the views so far reach [mm].
@@ -205,7 +220,7 @@ impl Cells {
         }
         self.next += 1;
         let top = self.top + ABOVE;
-        self.lowest = self.lowest.max(top + CELL[1] + below);
+        self.lowest = self.lowest.max(top + self.high + below);
         [if is_first { 4.0 } else { WIDTH - 4.0 - CELL[0] }, top]
     }
 }

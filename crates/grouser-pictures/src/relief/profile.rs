@@ -15,6 +15,8 @@ use crate::style::Role;
 const STRETCHES: [f64; 6] = [50.0, 20.0, 10.0, 5.0, 2.0, 1.0];
 /// Half the side of what a height is the mean of [m].
 const POINT: f64 = 1e-3;
+/// Least distance of numbers one above the other [mm].
+const APART: f64 = 5.0;
 /// About as many numbers along either axis.
 const NUMBERS: [f64; 2] = [8.0, 5.0];
 
@@ -125,7 +127,9 @@ impl Profile {
             marks.push(Mark::line([[x, under], [x, under + 1.2]], tick));
             labels.push(number(along, [x, under + 4.8], Anchor::Middle));
         }
-        for height in multiples(round_step((high - low).max(1e-3) / NUMBERS[1]), low, high) {
+        let apart = APART / (self.stretch * self.scale);
+        let step = round_step(((high - low).max(1e-3) / NUMBERS[1]).max(apart));
+        for height in multiples(step, low, high) {
             let [x, y] = self.place(0.0, height);
             marks.push(Mark::line([[x - 1.2, y], [x, y]], tick));
             labels.push(number(height, [x - 1.8, y + 1.1], Anchor::End));

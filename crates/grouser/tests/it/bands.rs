@@ -412,7 +412,7 @@ fn campaigns_over_heights_have_height_and_attitude() {
     );
     let mission = format!(
         "study = \"mission\"\n[mission]\nsimulation = \"quasi-steady\"\nterrain = {{ {RIPPLE} }}\n\
-         [[mission.leg]]\nspeed_m_s = 0.06\nheading = \"ahead\"\ndistance_m = 0.5"
+         [[mission.leg]]\nspeed_m_s = 0.06\nheading = \"hold\"\ndrive_m = 0.5"
     );
     for base in [traverse, mission] {
         let campaign = campaign(&base).expect("a campaign");
