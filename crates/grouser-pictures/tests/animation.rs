@@ -297,7 +297,7 @@ fn film(run: &(LoadedScenario, Trajectory)) -> Animation {
 #[test]
 fn a_run_over_heights_is_drawn_in_every_form() {
     for yaw in [0.0, 90.0, -137.0] {
-        let run = over_ripples(yaw, "duration_s = 10");
+        let run = over_ripples(yaw, "duration_s = 3");
         let [once, again] = [film(&run), film(&run)];
         for form in [Form::Gif, Form::Html, Form::Glb, Form::Svg, Form::Png] {
             let [once, again] = [&once, &again]
