@@ -7,7 +7,7 @@
 use grouser_core::elementary::wide;
 use grouser_core::units::Vec3;
 use grouser_core::vehicle::Mount;
-use grouser_pictures::motion::{Pose as RoverPose, StandingWheel};
+use grouser_pictures::motion::{Pose as RoverPose, StandingWheel, quaternion_to};
 
 use crate::foxglove::{FrameTransform, Pose, Quaternion, Timestamp, Vector3};
 
@@ -76,20 +76,9 @@ impl Quaternion {
     /// The rotation that takes the coordinates' axes into these.
     ///
     /// * `axes`: unit vectors, at right angles
-    pub(crate) fn to_axes([x, y, z]: [Vec3; 3]) -> Self {
-        // Of four formulas the one that divides by the largest part (Shepperd 1978).
-        let trace = x.x + y.y + z.z;
-        let parts = [x.x, y.y, z.z, trace];
-        let largest =
-            (0..4).fold(0, |most, part| if parts[part] > parts[most] { part } else { most });
-        let (mut q, size) = match largest {
-            0 => ([1.0 + x.x - y.y - z.z, y.x + x.y, z.x + x.z, y.z - z.y], 1.0 + x.x - y.y - z.z),
-            1 => ([y.x + x.y, 1.0 - x.x + y.y - z.z, z.y + y.z, z.x - x.z], 1.0 - x.x + y.y - z.z),
-            2 => ([z.x + x.z, z.y + y.z, 1.0 - x.x - y.y + z.z, x.y - y.x], 1.0 - x.x - y.y + z.z),
-            _ => ([y.z - z.y, z.x - x.z, x.y - y.x, 1.0 + trace], 1.0 + trace),
-        };
-        q = q.map(|part| 0.5 * part / size.sqrt());
-        Self { x: q[0], y: q[1], z: q[2], w: q[3] }
+    pub(crate) fn to_axes(axes: [Vec3; 3]) -> Self {
+        let [x, y, z, w] = quaternion_to(axes);
+        Self { x, y, z, w }
     }
 
     /// A rotation that takes x into a direction.

@@ -5,7 +5,8 @@ use grouser_page::{Anchor, Face, Picture, Place, Sheet, Text, width};
 use rayon::prelude::*;
 
 use crate::marks::{Line, Mark, arrow};
-use crate::motion::{Motion, Pose};
+use crate::motion::Motion;
+use crate::relief;
 use crate::scene::{Actor, Label, Scene};
 use crate::step::round_step;
 use crate::style::{Ground, Role};
@@ -18,8 +19,8 @@ const LONGEST: f64 = 24.0;
 pub(crate) const STAYS: u16 = 20;
 /// Width of the picture [mm].
 pub(crate) const WIDTH: f64 = 160.0;
-/// Height of what is drawn above the numbers [mm].
-pub(crate) const SCENE: f64 = 88.0;
+/// Height of what is drawn above the numbers of runs on planes [mm].
+const SCENE: f64 = 88.0;
 /// Height of the lines of text above it [mm].
 pub(crate) const TOP: f64 = 12.0;
 const MARGIN: f64 = 5.0;
@@ -39,16 +40,16 @@ pub struct Shown<'a> {
     pub scenario: &'a Scenario,
 }
 
-/// One run or several on the same slope, as pictures in time.
+/// One run or several, as pictures in time.
 ///
-/// Each picture has the rover on a piece of the slope, its tracks, the soil's forces on its wheels, and a row
-/// of numbers. Wheels turn and sink as recorded, and nothing is computed but where it is drawn. The body is a
+/// Each picture of runs on planes has the rover on a piece of the slope, its tracks, the soil's forces on its wheels, and
+/// a row of numbers. Over ground with heights it has the drawing of [`relief_of`](crate::relief_of), the way behind the
+/// rover, and the same numbers; of several runs each has its own view. Wheels turn and sink as recorded, and nothing is computed but where it is drawn. The body is a
 /// likeness: a block with the inertia of the document's.
 #[derive(Clone, Debug)]
 pub struct Animation {
     pub(crate) title: String,
     pub(crate) actors: Vec<Actor>,
-    pub(crate) slope: f64,
     pub(crate) rows: Vec<Row>,
     pub(crate) scene: Scene,
     /// Time of each picture since the start of the run [s].
@@ -72,7 +73,7 @@ pub(crate) const COLUMNS: [&str; 4] = ["slip", "sinkage", "yaw", "downhill"];
 
 impl Animation {
     /// * `title`: a line above the picture
-    /// * `runs`: one at least; the slope is that of the first
+    /// * `runs`: one at least, either all on planes, whose slope is that of the first, or all over ground with heights
     ///
     /// # Panics
     ///
@@ -86,18 +87,22 @@ impl Animation {
         let end = actors.iter().map(|actor| actor.motion.end()).fold(0.0, f64::max);
         let speed = speed(end);
         let times = times(end, speed);
-        let slope = runs[0].scenario.ground.plane_slope().unwrap_or(0.0);
-        let area = [[MARGIN, TOP + 2.0], [WIDTH - 2.0 * MARGIN, SCENE - TOP - 4.0]];
-        let scene = Scene::of(&mut actors, slope, &times, area);
+        let scene = if runs.iter().any(|shown| shown.scenario.ground.is_plane()) {
+            let slope = runs[0].scenario.ground.plane_slope().unwrap_or(0.0);
+            let area = [[MARGIN, TOP + 2.0], [WIDTH - 2.0 * MARGIN, SCENE - TOP - 4.0]];
+            Scene::of(&mut actors, slope, &times, area)
+        } else {
+            relief::scene_of(&actors, runs, &times)
+        };
         let row = |(actor, shown): (&Actor, &Shown<'_>)| Row {
             name: shown.name.to_owned(),
-            numbers: times.iter().map(|&time| numbers(actor, &actor.motion.at(time))).collect(),
+            numbers: times.iter().map(|&time| numbers(&actor.motion, time)).collect(),
             outcome: outcome(&shown.run.outcome).map(|(time, text)| {
                 (times.partition_point(|at| *at < time).min(times.len() - 1), text)
             }),
         };
         let rows = actors.iter().zip(runs).map(row).collect();
-        Self { title: title.to_owned(), actors, slope, rows, scene, times, speed }
+        Self { title: title.to_owned(), actors, rows, scene, times, speed }
     }
 
     /// How many pictures there are.
@@ -122,7 +127,7 @@ impl Animation {
     #[must_use]
     pub fn picture(&self, index: usize, ground: Ground) -> Sheet {
         let rows = self.rows.len() as f64;
-        let height = SCENE + ROW * (rows + 1.0) + 1.0;
+        let height = self.scene.height + ROW * (rows + 1.0) + 1.0;
         let mut sheet = Sheet::new(&self.title, WIDTH, height).on(Role::Paper.on(ground));
         let scene = &self.scene;
         let frame = &scene.frames[index];
@@ -144,7 +149,7 @@ impl Animation {
             mark.draw(&mut sheet, ground);
         }
         for label in scene.labels.iter().chain(&labels) {
-            write.text(&mut sheet, (&label.text, LETTERS, Role::Ink), label.at, label.anchor);
+            write.text(&mut sheet, (&label.text, LETTERS, label.role), label.at, label.anchor);
         }
         write.heading(&mut sheet, self, index);
         write.numbers(&mut sheet, self, index);
@@ -172,12 +177,12 @@ impl Animation {
         let rows =
             [(Role::Force, "soil's force on a wheel"), (Role::Thrust, "its part along the slope")];
         let step = 5.2;
-        let mut y = SCENE - 3.0 - step * (rows.len() as f64);
+        let mut y = self.scene.height - 3.0 - step * (rows.len() as f64);
         let (x, along) = (MARGIN, 8.0);
         let mut marks = Vec::new();
         let mut labels = Vec::new();
         let mut label = |text: String, x: f64, y: f64| {
-            labels.push(Label { text, at: [x + 1.6, y], anchor: Anchor::Start });
+            labels.push(Label::new(text, [x + 1.6, y], Anchor::Start));
         };
         for (role, text) in rows {
             marks.extend(arrow([x, y - 1.3], [along, 0.0], role, 0.75));
@@ -245,11 +250,12 @@ fn outcome(outcome: &Outcome) -> Option<(f64, String)> {
     Some((time, format!("{name} after {time:.1} s: {reason}")))
 }
 
-/// Mean slip and sinkage of the wheels, the yaw, and how far the rover is below the contour of its start.
-fn numbers(actor: &Actor, pose: &Pose) -> [String; 4] {
+/// Mean slip and sinkage of the wheels, the yaw, and how far downhill the rover has come.
+fn numbers(motion: &Motion, time: f64) -> [String; 4] {
+    let pose = motion.at(time);
     let slip = pose.mean(|wheel| wheel.slip_ratio);
     let sinkage = 1e3 * pose.mean(|wheel| wheel.sinkage);
-    let down = 1e3 * (actor.motion.start().centre.y - pose.centre.y);
+    let down = 1e3 * motion.way_down(time);
     let downhill = if down.abs() < 9999.5 {
         format!("{} mm", plain(down, 0))
     } else {
@@ -306,9 +312,10 @@ impl Writer {
     }
 
     fn numbers(&self, sheet: &mut Sheet, animation: &Animation, index: usize) {
-        let y = SCENE + ROW - 1.4;
+        let under = animation.scene.height;
+        let y = under + ROW - 1.4;
         let line = Line::new(Role::Grid, 0.3);
-        let rule = [[MARGIN, SCENE], [WIDTH - MARGIN, SCENE]];
+        let rule = [[MARGIN, under], [WIDTH - MARGIN, under]];
         Mark::line(rule, line).draw(sheet, self.ground);
         let several = animation.rows.len() > 1;
         let first = if several { 52.0 } else { 44.0 };

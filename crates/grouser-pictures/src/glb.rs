@@ -1,20 +1,25 @@
 //! A run as a scene in three dimensions: binary glTF 2.0, for Blender and browsers.
 //!
 //! Below the node `slope`, which turns the slope's plane by its inclination, everything is in the slope frame
-//! [m]. Source of the format: Khronos Group, "glTF 2.0 Specification" (2021).
+//! [m]; over ground with heights it is below the node `map`, seen from the start of the run. Source of the format: Khronos Group, "glTF 2.0 Specification" (2021).
+
+mod file;
 
 use std::f64::consts::TAU;
 
 use grouser_core::elementary::wide;
 use grouser_core::units::Vec3;
+use grouser_core::vehicle::Mount;
 use grouser_core::wheel::Wheel;
-use serde_json::{Value, json};
+use serde_json::json;
 
+use self::file::File;
 use crate::animation::Animation;
-use crate::motion::Pose;
+use crate::motion::{Pose, StandingWheel, quaternion_to};
+use crate::relief::contour_step;
 use crate::rover::{Bar, Block, PlacedWheel, bars_of};
-use crate::scene::Actor;
-use crate::style::{Ground, Role};
+use crate::scene::{Actor, Around};
+use crate::style::Role;
 
 /// How far a wheel may turn between two samples [rad]: what turns by half a circle could turn back as well.
 const TURN: f64 = 1.0;
@@ -25,14 +30,8 @@ const PIECES: usize = 60;
 /// Flat faces around a wheel.
 const ROUND: u32 = 36;
 
-/// Kinds of numbers and uses of buffers, by their codes in the format.
-const FLOAT: u32 = 5126;
-const UNSIGNED: u32 = 5125;
-const VERTICES: u32 = 34962;
-const INDICES: u32 = 34963;
-
 impl Animation {
-    /// The run as binary glTF 2.0: body, wheels with their grousers, the plane with contour lines, and tracks
+    /// The run as binary glTF 2.0: body, wheels with their grousers, the ground with contour lines, and tracks
     /// that appear as they are made. A second of it is a second of the run, or as many as `extras` of its
     /// animation says.
     #[must_use]
@@ -47,9 +46,13 @@ impl Animation {
             let rover = rover(&mut file, actor, &row.name, &times, input);
             below.push(rover);
         }
-        let [sin, cos] = half(self.slope - 0.25 * TAU);
+        let (name, slope) = match self.scene.ground {
+            Around::Plane { slope, .. } => ("slope", slope),
+            Around::Heights(_) => ("map", 0.0),
+        };
+        let [sin, cos] = half(slope - 0.25 * TAU);
         let root = file.node(json!({
-            "name": "slope",
+            "name": name,
             "rotation": [sin, 0.0, 0.0, cos],
             "children": below,
         }));
@@ -74,25 +77,32 @@ impl Animation {
         times
     }
 
-    /// The plane and its contour lines.
+    /// The ground and its contour lines.
     fn ground(&self, file: &mut File) -> usize {
-        let patch = self.scene.whole;
-        let mut plane = Solid::default();
-        plane.face(&patch.corners(), Vec3::z());
-        let plane = file.mesh("ground", &plane, Role::Soil);
-        let lift = Vec3::new(0.0, 0.0, 1e-3);
-        let lines: Vec<Vec3> = self
-            .scene
-            .contours
-            .iter()
-            .flat_map(|y| [patch.low.x, patch.high.x].map(|x| Vec3::new(x, *y, 0.0) + lift))
-            .collect();
+        /// How far lines are above the ground, so that they are seen [m].
+        const LIFT: f64 = 1e-3;
+        let mut ground = Solid::default();
+        let lines: Vec<Vec3> = match &self.scene.ground {
+            Around::Plane { whole, contours, .. } => {
+                ground.face(&whole.corners(), Vec3::z());
+                let line = |y: &f64| [whole.low.x, whole.high.x].map(|x| Vec3::new(x, *y, 0.0));
+                contours.iter().flat_map(line).collect()
+            }
+            Around::Heights(surfaces) => {
+                // Runs on different ground are in one place: the first one's is shown.
+                let surface = &surfaces[0];
+                surface.cells().for_each(|cell| ground.cell(&cell));
+                surface.contours(contour_step(surface)).into_iter().flatten().collect()
+            }
+        };
+        let lines: Vec<Vec3> = lines.iter().map(|at| at + Vec3::new(0.0, 0.0, LIFT)).collect();
+        let ground = file.mesh("ground", &ground, Role::Soil);
         let mut children = Vec::new();
         if !lines.is_empty() {
             let mesh = file.lines("contour lines", &lines, Role::Contour);
             children.push(file.node(json!({ "name": "contour lines", "mesh": mesh })));
         }
-        let mut node = json!({ "name": "ground", "mesh": plane });
+        let mut node = json!({ "name": "ground", "mesh": ground });
         if !children.is_empty() {
             node["children"] = children.into();
         }
@@ -135,14 +145,29 @@ fn strip(strips: &mut Solid, actor: &Actor, poses: &[Pose; 2], frame: usize) {
     let lift = Vec3::new(0.0, 0.0, 1e-3 + 1e-6 * frame as f64);
     for (index, mount) in actor.mounts().iter().enumerate() {
         let [a, b] = poses.each_ref().map(|pose| {
-            let wheel = PlacedWheel::of(mount, &pose.wheels[index], pose, actor.lane());
-            let half = 0.5 * mount.unit.wheel.width * wheel.left;
-            [wheel.foot() - half + lift, wheel.foot() + half + lift]
+            let (foot, left) = footing(actor, pose, mount, index);
+            let half = 0.5 * mount.unit.wheel.width * left;
+            [foot - half + lift, foot + half + lift]
         });
         if (a[0] - b[0]).norm().max((a[1] - b[1]).norm()) > 1e-6 {
             strips.face(&[a[0], b[0], b[1], a[1]], Vec3::z());
         }
     }
+}
+
+/// The point of the ground under a wheel, and the direction of its axle.
+fn footing(actor: &Actor, pose: &Pose, mount: &Mount, index: usize) -> (Vec3, Vec3) {
+    let wheel = &pose.wheels[index];
+    if wheel.standing.is_none() {
+        let wheel = PlacedWheel::of(mount, wheel, pose, actor.lane());
+        return (wheel.foot(), wheel.left);
+    }
+    let [x, y, z] = pose.axes();
+    let turned = |vector: Vec3| x * vector.x + y * vector.y + z * vector.z;
+    let [forward, axle] = pose.wheel_in_body(mount, index);
+    let below = (mount.shearing_radius() - wheel.sinkage) * forward.cross(&axle);
+    let foot = pose.centre + turned(pose.hub_in_body(mount, index) - below);
+    (foot, turned(axle))
 }
 
 /// A rover with its wheels and their motion.
@@ -178,27 +203,32 @@ fn rover(file: &mut File, actor: &Actor, name: &str, times: &[f64], input: usize
             let [sin, cos] = half(pose.wheels[index].turned);
             [0.0, sin, 0.0, cos]
         });
-        let [sin, cos] = half(mount.steering);
         let spinning = file.node(json!({ "name": format!("{} wheel", mount.name), "mesh": mesh }));
         let output = file.numbers("VEC4", &turned.collect::<Vec<_>>(), false, None);
         file.channel(spinning, "rotation", [input, output], "LINEAR");
-        let steered = file.node(json!({
-            "name": mount.name,
-            "rotation": [0.0, 0.0, sin, cos],
-            "children": [spinning],
-        }));
+        let mut steered = json!({ "name": mount.name, "children": [spinning] });
+        // Over ground with heights the axle goes with the suspension.
+        let is_still = mount.steering_axis.is_none() && poses[0].wheels[index].standing.is_none();
+        if is_still {
+            let [sin, cos] = half(mount.steering);
+            steered["rotation"] = json!([0.0, 0.0, sin, cos]);
+        }
+        let steered = file.node(steered);
         let places = poses.iter().flat_map(|pose| {
             let hub = pose.hub_in_body(mount, index);
             [hub.x, hub.y, hub.z]
         });
         let output = file.numbers("VEC3", &places.collect::<Vec<_>>(), false, None);
         file.channel(steered, "translation", [input, output], "LINEAR");
-        if mount.steering_axis.is_some() {
-            let angles = poses.iter().flat_map(|pose| {
-                let [sin, cos] = half(pose.wheels[index].steering);
-                [0.0, 0.0, sin, cos]
+        if !is_still {
+            let wheel = |pose: &Pose| pose.wheels[index];
+            let angles = rotations(&poses, |pose| match wheel(pose).standing {
+                Some(StandingWheel { forward, axle, .. }) => {
+                    quaternion_to([forward, axle, forward.cross(&axle)])
+                }
+                None => about_z(wheel(pose).steering),
             });
-            let output = file.numbers("VEC4", &angles.collect::<Vec<_>>(), false, None);
+            let output = file.numbers("VEC4", &angles, false, None);
             file.channel(steered, "rotation", [input, output], "LINEAR");
         }
         children.push(steered);
@@ -210,13 +240,34 @@ fn rover(file: &mut File, actor: &Actor, name: &str, times: &[f64], input: usize
     });
     let output = file.numbers("VEC3", &places.collect::<Vec<_>>(), false, None);
     file.channel(node, "translation", [input, output], "LINEAR");
-    let yaws = poses.iter().flat_map(|pose| {
-        let [sin, cos] = half(pose.yaw);
-        [0.0, 0.0, sin, cos]
+    let rotations = rotations(&poses, |pose| match pose.leaning {
+        Some(_) => quaternion_to(pose.axes()),
+        None => about_z(pose.yaw),
     });
-    let output = file.numbers("VEC4", &yaws.collect::<Vec<_>>(), false, None);
+    let output = file.numbers("VEC4", &rotations, false, None);
     file.channel(node, "rotation", [input, output], "LINEAR");
     node
+}
+
+/// Rotations over time, of the two quaternions of each the one nearer to that before.
+fn rotations(poses: &[Pose], of: impl Fn(&Pose) -> [f64; 4]) -> Vec<f64> {
+    let mut last: Option<[f64; 4]> = None;
+    let mut all = Vec::with_capacity(4 * poses.len());
+    for pose in poses {
+        let mut next = of(pose);
+        if last.is_some_and(|last| last.iter().zip(&next).map(|(a, b)| a * b).sum::<f64>() < 0.0) {
+            next = next.map(|part| -part);
+        }
+        all.extend(next);
+        last = Some(next);
+    }
+    all
+}
+
+/// A rotation about z, as a quaternion.
+fn about_z(angle: f64) -> [f64; 4] {
+    let [sin, cos] = half(angle);
+    [0.0, 0.0, sin, cos]
 }
 
 /// Sine and cosine of half an angle: the parts of a quaternion.
@@ -243,6 +294,13 @@ impl Solid {
         for corner in 2..count {
             self.triangles.extend([first, first + corner - 1, first + corner]);
         }
+    }
+
+    /// A piece of uneven ground: two triangles.
+    fn cell(&mut self, corners: &[Vec3; 4]) {
+        let [a, b, c, d] = *corners;
+        let normal = (c - a).cross(&(d - b)).try_normalize(0.0).unwrap_or_else(Vec3::z);
+        self.face(corners, normal);
     }
 
     fn block(&mut self, block: &Block) {
@@ -319,199 +377,4 @@ impl Solid {
         }
         self.face(&corners, normal);
     }
-}
-
-/// The parts of the file.
-struct File {
-    bytes: Vec<u8>,
-    views: Vec<Value>,
-    accessors: Vec<Value>,
-    meshes: Vec<Value>,
-    materials: Vec<Role>,
-    nodes: Vec<Value>,
-    samplers: Vec<Value>,
-    channels: Vec<Value>,
-}
-
-impl File {
-    fn new() -> Self {
-        Self {
-            bytes: Vec::new(),
-            views: Vec::new(),
-            accessors: Vec::new(),
-            meshes: Vec::new(),
-            materials: Vec::new(),
-            nodes: Vec::new(),
-            samplers: Vec::new(),
-            channels: Vec::new(),
-        }
-    }
-
-    fn node(&mut self, node: Value) -> usize {
-        self.nodes.push(node);
-        self.nodes.len() - 1
-    }
-
-    fn material(&mut self, role: Role) -> usize {
-        let known = self.materials.iter().position(|other| *other == role);
-        known.unwrap_or_else(|| {
-            self.materials.push(role);
-            self.materials.len() - 1
-        })
-    }
-
-    fn view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
-        let mut view = json!({
-            "buffer": 0,
-            "byteOffset": self.bytes.len(),
-            "byteLength": bytes.len(),
-        });
-        if let Some(target) = target {
-            view["target"] = target.into();
-        }
-        self.bytes.extend_from_slice(bytes);
-        self.views.push(view);
-        self.views.len() - 1
-    }
-
-    /// Numbers of a shape, such as `VEC3`; returns their accessor.
-    ///
-    /// * `has_range`: whether least and largest are listed
-    #[expect(clippy::cast_possible_truncation)]
-    fn numbers(
-        &mut self,
-        shape: &str,
-        values: &[f64],
-        has_range: bool,
-        target: Option<u32>,
-    ) -> usize {
-        let size = match shape {
-            "VEC3" => 3,
-            "VEC4" => 4,
-            _ => 1,
-        };
-        let values: Vec<f32> = values.iter().map(|value| *value as f32).collect();
-        let bytes: Vec<u8> = values.iter().flat_map(|value| value.to_le_bytes()).collect();
-        let view = self.view(&bytes, target);
-        let mut accessor = json!({
-            "bufferView": view,
-            "componentType": FLOAT,
-            "count": values.len() / size,
-            "type": shape,
-        });
-        if has_range {
-            let end = |pick: fn(f32, f32) -> f32, start: f32| -> Vec<f32> {
-                let part = |k: usize| values[k..].iter().step_by(size).copied().fold(start, pick);
-                (0..size).map(part).collect()
-            };
-            accessor["min"] = json!(end(f32::min, f32::INFINITY));
-            accessor["max"] = json!(end(f32::max, f32::NEG_INFINITY));
-        }
-        self.accessors.push(accessor);
-        self.accessors.len() - 1
-    }
-
-    fn primitive(&mut self, solid: &Solid, role: Role) -> Value {
-        let flat = |vectors: &[Vec3]| -> Vec<f64> {
-            vectors.iter().flat_map(|vector| [vector.x, vector.y, vector.z]).collect()
-        };
-        let places = self.numbers("VEC3", &flat(&solid.places), true, Some(VERTICES));
-        let normals = self.numbers("VEC3", &flat(&solid.normals), false, Some(VERTICES));
-        let bytes: Vec<u8> = solid.triangles.iter().flat_map(|index| index.to_le_bytes()).collect();
-        let view = self.view(&bytes, Some(INDICES));
-        self.accessors.push(json!({
-            "bufferView": view,
-            "componentType": UNSIGNED,
-            "count": solid.triangles.len(),
-            "type": "SCALAR",
-        }));
-        json!({
-            "attributes": { "POSITION": places, "NORMAL": normals },
-            "indices": self.accessors.len() - 1,
-            "material": self.material(role),
-        })
-    }
-
-    fn mesh(&mut self, name: &str, solid: &Solid, role: Role) -> usize {
-        let primitive = self.primitive(solid, role);
-        self.meshes.push(json!({ "name": name, "primitives": [primitive] }));
-        self.meshes.len() - 1
-    }
-
-    fn wheel(&mut self, wheel: &Wheel) -> usize {
-        let [rim, bars] = wheel_solids(wheel);
-        let primitives = [self.primitive(&rim, Role::Wheel), self.primitive(&bars, Role::Grouser)];
-        self.meshes.push(json!({ "name": "wheel", "primitives": primitives }));
-        self.meshes.len() - 1
-    }
-
-    fn lines(&mut self, name: &str, ends: &[Vec3], role: Role) -> usize {
-        let flat: Vec<f64> = ends.iter().flat_map(|end| [end.x, end.y, end.z]).collect();
-        let places = self.numbers("VEC3", &flat, true, Some(VERTICES));
-        let material = self.material(role);
-        let primitive =
-            json!({ "attributes": { "POSITION": places }, "mode": 1, "material": material });
-        self.meshes.push(json!({ "name": name, "primitives": [primitive] }));
-        self.meshes.len() - 1
-    }
-
-    fn channel(&mut self, node: usize, path: &str, ends: [usize; 2], interpolation: &str) {
-        self.samplers.push(json!({
-            "input": ends[0],
-            "output": ends[1],
-            "interpolation": interpolation,
-        }));
-        self.channels.push(json!({
-            "sampler": self.samplers.len() - 1,
-            "target": { "node": node, "path": path },
-        }));
-    }
-
-    fn finish(mut self, root: usize, title: &str, speed: f64) -> Vec<u8> {
-        let document = json!({
-            "asset": { "version": "2.0", "generator": "Grouser" },
-            "scene": 0,
-            "scenes": [{ "name": title, "nodes": [root] }],
-            "nodes": self.nodes,
-            "meshes": self.meshes,
-            "materials": self.materials.iter().map(|role| material(*role)).collect::<Vec<_>>(),
-            "animations": [{
-                "name": "run",
-                "samplers": self.samplers,
-                "channels": self.channels,
-                "extras": { "run_seconds_per_second": speed },
-            }],
-            "accessors": self.accessors,
-            "bufferViews": self.views,
-            "buffers": [{ "byteLength": self.bytes.len() }],
-        });
-        let mut text = document.to_string().into_bytes();
-        text.resize(text.len().next_multiple_of(4), b' ');
-        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
-        let length = |count: usize| u32::try_from(count).unwrap_or(u32::MAX).to_le_bytes();
-        let mut file = Vec::with_capacity(28 + text.len() + self.bytes.len());
-        file.extend(*b"glTF");
-        file.extend(2_u32.to_le_bytes());
-        file.extend(length(28 + text.len() + self.bytes.len()));
-        for (kind, chunk) in [(*b"JSON", &text), (*b"BIN\0", &self.bytes)] {
-            file.extend(length(chunk.len()));
-            file.extend(kind);
-            file.extend(chunk);
-        }
-        file
-    }
-}
-
-fn material(role: Role) -> Value {
-    // The format has the light's strength, of which a screen's colour is the root.
-    let [red, green, blue] = role.on(Ground::Light).parts().map(|part| part * part);
-    json!({
-        "name": format!("{role:?}").to_lowercase(),
-        "doubleSided": true,
-        "pbrMetallicRoughness": {
-            "baseColorFactor": [red, green, blue, 1.0],
-            "metallicFactor": 0.0,
-            "roughnessFactor": 0.9,
-        },
-    })
 }

@@ -3,8 +3,9 @@
 use grouser_page::{Anchor, Place, markup};
 use serde_json::{Value, json};
 
-use crate::animation::{Animation, COLUMNS, LETTERS, RATE, SCENE, STAYS, TOP, WIDTH};
+use crate::animation::{Animation, COLUMNS, LETTERS, RATE, STAYS, TOP, WIDTH};
 use crate::marks::{DASHES, Mark};
+use crate::scene::Around;
 use crate::style::{Ground, Role};
 
 /// Steps in a millimetre: places are whole numbers of them.
@@ -16,10 +17,13 @@ impl Animation {
     /// less motion.
     #[must_use]
     pub fn to_html(&self) -> String {
-        let description = format!(
-            "Animation: {}. Rover, wheels, tracks and the soil's forces on the wheels, on a piece of the slope.",
-            self.title
-        );
+        let shown = match self.scene.ground {
+            Around::Plane { .. } => {
+                "Rover, wheels, tracks and the soil's forces on the wheels, on a piece of the slope."
+            }
+            Around::Heights(_) => "Rover, its way and the ground's heights.",
+        };
+        let description = format!("Animation: {}. {shown}", self.title);
         let data = self.data().to_string().replace('<', "\\u003c");
         // A title may look like a place for something else: each place is filled in its own part.
         let (page, program) = include_str!("player.html").split_once("{data}").unwrap_or_default();
@@ -37,7 +41,7 @@ impl Animation {
         let labels: Vec<Value> = labels
             .map(|label| {
                 let [x, y] = label.at.map(steps);
-                json!([label.text, x, y, align(label.anchor)])
+                json!([label.text, x, y, align(label.anchor), place_of(label.role)])
             })
             .collect();
         let left: Vec<Value> =
@@ -57,7 +61,7 @@ impl Animation {
             })
         });
         json!({
-            "size": [steps(WIDTH), steps(SCENE)],
+            "size": [steps(WIDTH), steps(scene.height)],
             "top": steps(TOP),
             "rate": RATE,
             "stays": STAYS,
@@ -66,7 +70,6 @@ impl Animation {
             "light": colours(Ground::Light),
             "dark": colours(Ground::Dark),
             "paper": place_of(Role::Paper),
-            "ink": place_of(Role::Ink),
             "columns": COLUMNS,
             "rows": rows.collect::<Vec<_>>(),
             "clock": (0..self.len()).map(|index| self.clock(index)).collect::<Vec<_>>(),

@@ -71,6 +71,8 @@ pub struct Follower {
     speeds: Vec<f64>,
     /// Time of the last record [s].
     time: Option<f64>,
+    /// Height [m], roll and pitch [rad] of the last record on ground with heights that has them.
+    stood: Option<(f64, [f64; 2])>,
 }
 
 impl Follower {
@@ -81,7 +83,7 @@ impl Follower {
         let at_rest =
             |mount: &Mount| WheelPose { steering: mount.steering, ..WheelPose::default() };
         let wheels = rover.mounts().iter().map(at_rest).collect();
-        Self { wheels, speeds: vec![0.0; count], time: None }
+        Self { wheels, speeds: vec![0.0; count], time: None, stood: None }
     }
 
     /// The pose of the next record. A wheel turns by the mean of its speeds in this record and the last.
@@ -109,19 +111,20 @@ impl Follower {
                 wheel.force = Vec3::zeros();
             }
         }
-        let leaning = self.stand(scenario, record);
+        self.stand(scenario, record);
         let mut pose = pose_of(record, &scenario.rover, self.wheels.clone());
-        if let (Some(_), Some(standing)) = (leaning, record.standing()) {
-            pose.centre.z = standing.height;
+        if let Some((height, leaning)) = self.stood {
+            pose.centre.z = height;
+            pose.leaning = Some(leaning);
         }
-        pose.leaning = leaning;
         pose
     }
 
-    /// Sets the wheels on ground with heights; gives roll and pitch [rad]. Where the rover has tipped over, the wheels stay
-    /// as they were.
-    fn stand(&mut self, scenario: &Scenario, record: &Record) -> Option<[f64; 2]> {
-        let (ground, standing) = (&scenario.ground, record.standing()?);
+    /// Sets the rover on ground with heights. Where it has tipped over or left its map, it stays as it was.
+    fn stand(&mut self, scenario: &Scenario, record: &Record) {
+        let Some(standing) = record.standing() else { return };
+        self.stood = Some((standing.height, [standing.roll, standing.pitch]));
+        let ground = &scenario.ground;
         let angles: Vec<f64> = self.wheels.iter().map(|wheel| wheel.steering).collect();
         let sinkages: Vec<f64> = self.wheels.iter().map(|wheel| wheel.sinkage).collect();
         let state = &record.state;
@@ -137,7 +140,6 @@ impl Follower {
                 });
             }
         }
-        Some([standing.roll, standing.pitch])
     }
 }
 
@@ -145,13 +147,16 @@ impl Follower {
 #[derive(Clone, Debug)]
 pub(crate) struct Motion {
     poses: Vec<Pose>,
+    /// How far downhill it has come, by each record [m].
+    ways_down: Vec<f64>,
 }
 
 impl Motion {
     pub(crate) fn of(trajectory: &Trajectory, scenario: &Scenario) -> Self {
         let mut follower = Follower::new(&scenario.rover);
         let pose = |record| follower.pose(scenario, record);
-        Self { poses: trajectory.records.iter().map(pose).collect() }
+        let poses = trajectory.records.iter().map(pose).collect();
+        Self { poses, ways_down: ways_down(trajectory, scenario) }
     }
 
     pub(crate) fn start(&self) -> &Pose {
@@ -176,6 +181,33 @@ impl Motion {
         };
         last.between(next, time)
     }
+
+    /// How far downhill the rover has come by a time [s], along the ground [m].
+    pub(crate) fn way_down(&self, time: f64) -> f64 {
+        let after = self.poses.partition_point(|pose| pose.time < time);
+        let (Some(next), Some(before)) = (self.poses.get(after), after.checked_sub(1)) else {
+            return self.ways_down[after.min(self.poses.len() - 1)];
+        };
+        let [from, to] = [self.poses[before].time, next.time];
+        let [down, further] = [self.ways_down[before], self.ways_down[after]];
+        down + (time - from) / (to - from) * (further - down)
+    }
+}
+
+/// How far downhill a rover has come, by each record [m].
+fn ways_down(trajectory: &Trajectory, scenario: &Scenario) -> Vec<f64> {
+    let mut before: Option<(Vec2, f64)> = None;
+    let mut start = 0.0;
+    let way = |record: &Record| {
+        let state = &record.state;
+        let down = scenario.way_down(before.unwrap_or((state.position, 0.0)), state);
+        if before.is_none() {
+            start = down;
+        }
+        before = Some((state.position, down));
+        down - start
+    };
+    trajectory.records.iter().map(way).collect()
 }
 
 /// The body stays parallel to the slope, as in the model; its height is the mean of what its wheels leave.
@@ -188,6 +220,24 @@ fn pose_of(record: &Record, rover: &Rover, wheels: Vec<WheelPose>) -> Pose {
     let RoverState { position, yaw, .. } = record.state;
     let centre = Vec3::new(position.x, position.y, sum / mounts.len() as f64);
     Pose { time: record.time, centre, yaw, leaning: None, wheels }
+}
+
+/// The rotation that takes the coordinates' axes into others, as a quaternion: x, y, z and w.
+///
+/// * `axes`: unit vectors, at right angles
+#[must_use]
+pub fn quaternion_to([x, y, z]: [Vec3; 3]) -> [f64; 4] {
+    // Of four formulas the one that divides by the largest part (Shepperd 1978).
+    let trace = x.x + y.y + z.z;
+    let parts = [x.x, y.y, z.z, trace];
+    let largest = (0..4).fold(0, |most, part| if parts[part] > parts[most] { part } else { most });
+    let (q, size) = match largest {
+        0 => ([1.0 + x.x - y.y - z.z, y.x + x.y, z.x + x.z, y.z - z.y], 1.0 + x.x - y.y - z.z),
+        1 => ([y.x + x.y, 1.0 - x.x + y.y - z.z, z.y + y.z, z.x - x.z], 1.0 - x.x + y.y - z.z),
+        2 => ([z.x + x.z, z.y + y.z, 1.0 - x.x - y.y + z.z, x.y - y.x], 1.0 - x.x - y.y + z.z),
+        _ => ([y.z - z.y, z.x - x.z, x.y - y.x, 1.0 + trace], 1.0 + trace),
+    };
+    q.map(|part| 0.5 * part / size.sqrt())
 }
 
 impl StandingWheel {
@@ -240,6 +290,19 @@ impl Pose {
         let height = mount.shearing_radius() - sinkage - self.centre.z;
         let hub = mount.at_angle(steering).position;
         Vec3::new(hub.x, hub.y, height)
+    }
+
+    /// A wheel's direction forward and that of its axle, to the left, in the body frame.
+    ///
+    /// * `index`: of the mount
+    #[must_use]
+    pub fn wheel_in_body(&self, mount: &Mount, index: usize) -> [Vec3; 2] {
+        let WheelPose { steering, standing, .. } = self.wheels[index];
+        if let Some(StandingWheel { forward, axle, .. }) = standing {
+            return [forward, axle];
+        }
+        let mount = mount.at_angle(steering);
+        [Vec2::x(), Vec2::y()].map(|axis| mount.body_from_wheel(axis).push(0.0))
     }
 
     /// The body's x, y and z axes, in the frame of its centre.

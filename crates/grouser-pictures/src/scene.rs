@@ -11,6 +11,7 @@ use grouser_page::{Anchor, Place};
 use crate::camera::Camera;
 use crate::marks::{Line, Mark, arrow, hull, over_ground};
 use crate::motion::{Motion, Pose};
+use crate::relief::Surface;
 use crate::rover::{Block, Likeness, PlacedWheel};
 use crate::style::Role;
 
@@ -79,6 +80,17 @@ pub(crate) struct Label {
     /// On its base line [mm].
     pub(crate) at: Place,
     pub(crate) anchor: Anchor,
+    pub(crate) role: Role,
+}
+
+impl Label {
+    pub(crate) fn new(text: impl Into<String>, at: Place, anchor: Anchor) -> Self {
+        Self { text: text.into(), at, anchor, role: Role::Ink }
+    }
+
+    pub(crate) fn coloured(self, role: Role) -> Self {
+        Self { role, ..self }
+    }
 }
 
 /// What is drawn, from back to front: `still`, then `left` inside of `window`, then a frame's marks, then `labels`.
@@ -91,12 +103,27 @@ pub(crate) struct Scene {
     pub(crate) left: Vec<(usize, Mark)>,
     pub(crate) frames: Vec<Frame>,
     pub(crate) labels: Vec<Label>,
-    /// The slope around all that is visited.
-    pub(crate) whole: Patch,
-    /// Its contour lines: how far uphill each is [m].
-    pub(crate) contours: Vec<f64>,
+    /// Where it ends on the picture, at its lower edge [mm].
+    pub(crate) height: f64,
+    /// The ground around all that is visited.
+    pub(crate) ground: Around,
     /// The force [N] of the arrow in the legend, and its length [mm].
     pub(crate) arrow: Option<(f64, f64)>,
+}
+
+/// The ground around all that is visited.
+#[derive(Clone, Debug)]
+pub(crate) enum Around {
+    /// A plane.
+    Plane {
+        whole: Patch,
+        /// Its contour lines: how far uphill each is [m].
+        contours: Vec<f64>,
+        /// Its inclination [rad].
+        slope: f64,
+    },
+    /// Ground with heights: of each run, or the one of all.
+    Heights(Vec<Surface>),
 }
 
 /// What moves, at one time.
@@ -177,8 +204,12 @@ impl Scene {
             still: painter.slab(&view.patch, slope, thickness),
             left,
             labels: painter.labels(&view.patch, slope),
-            contours: steps(contour_step(&view.patch), whole.low.y, whole.high.y).collect(),
-            whole,
+            height: area[0][1] + area[1][1] + 2.0,
+            ground: Around::Plane {
+                contours: steps(contour_step(&view.patch), whole.low.y, whole.high.y).collect(),
+                whole,
+                slope,
+            },
             arrow,
         }
     }
@@ -358,7 +389,7 @@ impl Painter {
             let [x, y] = self.camera.place(point);
             [x, y + by]
         };
-        let label = |text: String, at: Place| Label { text, at, anchor: Anchor::Middle };
+        let label = |text: String, at: Place| Label::new(text, at, Anchor::Middle);
         let (start, length) = Self::length(patch);
         let [x, y] = self.camera.place(start + length * Vec3::x());
         let mut labels = vec![label(format!("{length} m"), [x + 6.0, y + 2.6])];
@@ -366,7 +397,7 @@ impl Painter {
             let [_, tip] = self.uphill(patch);
             let [x, y] = self.camera.place(tip);
             let at = [x - 2.0, y + 0.6];
-            labels.push(Label { text: "uphill".to_owned(), at, anchor: Anchor::End });
+            labels.push(Label::new("uphill", at, Anchor::End));
             let ([corner, _], radius) = self.angle(patch);
             let at = corner + 0.75 * radius * self.camera.horizontal;
             let degrees = (10.0 * slope.to_degrees()).round() / 10.0;

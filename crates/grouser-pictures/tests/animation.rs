@@ -274,3 +274,107 @@ fn the_ending_of_a_name_decides_the_form() {
         assert!(Form::ALL.iter().all(|form| error.contains(&format!("`.{}`", form.ending()))));
     }
 }
+
+/// A run over ripples from a start of its own, 0.5 m for each 10 s.
+fn over_ripples(yaw: f64, more: &str) -> (LoadedScenario, Trajectory) {
+    let text = format!(
+        "schema = \"scenario/1\"\nname = \"s\"\nsimulation = \"quasi-steady\"\n\
+         [start]\nyaw_deg = {yaw:?}\n[terrain]\nsurface = \"ripple\"\namplitude_m = 0.03\n\
+         wavelength_m = 1.0\nstart_m = [3e5, 200.0]\n"
+    );
+    let text = format!("{more}\n{text}");
+    let overrides = Overrides::none();
+    let scenario = read_scenario(&Source::text("s", text), &overrides).expect("a scenario");
+    let run = run_of(&scenario);
+    (scenario, run)
+}
+
+fn film(run: &(LoadedScenario, Trajectory)) -> Animation {
+    Animation::of("Ripples", &[Shown { name: "rover", run: &run.1, scenario: &run.0.value }])
+}
+
+/// Ground with heights: every form is written, from every start, and the same run has the same bytes.
+#[test]
+fn a_run_over_heights_is_drawn_in_every_form() {
+    for yaw in [0.0, 90.0, -137.0] {
+        let run = over_ripples(yaw, "duration_s = 3");
+        let [once, again] = [film(&run), film(&run)];
+        for form in [Form::Gif, Form::Html, Form::Glb, Form::Svg, Form::Png] {
+            let [once, again] = [&once, &again]
+                .map(|it| it.to_bytes(form, &mut || ()).expect("no ffmpeg is needed"));
+            assert!(once == again && once.len() > 1000, "{form:?}");
+        }
+        let svg = once.picture(once.len() - 1, Ground::Dark).to_svg();
+        for text in ["from above, north up", "from the south-east", "along the way", "downhill"] {
+            assert!(svg.contains(text), "{text}");
+        }
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "yaw {yaw}");
+    }
+}
+
+/// The way behind the rover grows, and what stays does not: the first picture has none of it.
+#[test]
+fn the_way_is_drawn_behind_the_rover() {
+    let animation = film(&over_ripples(0.0, "duration_s = 10"));
+    let path = Role::Path.on(Ground::Light).code();
+    let pieces = |index: usize| {
+        let svg = animation.picture(index, Ground::Light).to_svg();
+        svg.matches(&format!("stroke=\"{path}\"")).count()
+    };
+    let counts = [0, animation.len() / 2, animation.len() - 1].map(pieces);
+    assert!(counts[0] < counts[1] && counts[1] < counts[2], "{counts:?}");
+}
+
+/// Runs on the same ground have a view each, and one from above for all of them.
+#[test]
+fn several_runs_over_heights_have_a_view_each() {
+    let runs = [over_ripples(0.0, "duration_s = 5"), over_ripples(30.0, "duration_s = 10")];
+    let names = ["first", "second"];
+    let shown: Vec<Shown<'_>> = names
+        .into_iter()
+        .zip(&runs)
+        .map(|(name, (scenario, run))| Shown { name, run, scenario: &scenario.value })
+        .collect();
+    let animation = Animation::of("Two", &shown);
+    let svg = animation.picture(animation.len() - 1, Ground::Light).to_svg();
+    assert_eq!(svg.matches("from above, north up").count(), 1);
+    for name in names {
+        // Above its view, and in the row of its numbers.
+        assert_eq!(svg.matches(&format!(">{name}</text>")).count(), 2, "{name}");
+    }
+}
+
+/// A scene over heights has the ground's heights, and the rover ends in its place, leaning as it stands.
+#[test]
+fn a_scene_over_heights_has_them() {
+    let run = over_ripples(0.0, "duration_s = 10");
+    let file = film(&run).to_glb();
+    let (document, bytes) = chunks(&file);
+    let nodes = document["nodes"].as_array().expect("nodes");
+    let named = |name: &str| nodes.iter().position(|node| node["name"] == name).expect("a node");
+    let ground = number(&nodes[named("ground")]["mesh"]);
+    let corners = &document["meshes"][ground]["primitives"][0]["attributes"]["POSITION"];
+    let accessor = &document["accessors"][number(corners)];
+    let [low, high] = ["min", "max"].map(|end| accessor[end][2].as_f64().expect("a number"));
+    assert!((low + 0.03).abs() < 2e-3 && (high - 0.03).abs() < 2e-3, "{low} {high}");
+    let motion = &document["animations"][0];
+    let last = |node: usize, path: &str| {
+        let channels = motion["channels"].as_array().expect("channels");
+        let channel = channels
+            .iter()
+            .find(|it| number(&it["target"]["node"]) == node && it["target"]["path"] == path);
+        let sampler = &motion["samplers"][number(&channel.expect("it moves")["sampler"])];
+        let (values, size) = numbers(&document, bytes, number(&sampler["output"]));
+        values[values.len() - size..].iter().map(|it| f64::from(*it)).collect::<Vec<_>>()
+    };
+    let end = run.1.last();
+    let standing = end.standing().expect("it stands");
+    let place = last(named("rover"), "translation");
+    assert!((place[0] - end.state.position.x).abs() < 1e-6, "{place:?}");
+    assert!((place[2] - standing.height).abs() < 1e-6, "{place:?}");
+    // The height of the nose, of the rotation's first column.
+    let [x, y, z, w] = last(named("rover"), "rotation")[..] else { panic!("a quaternion") };
+    let nose = 2.0 * (x * z - w * y);
+    assert!((nose - standing.pitch.sin()).abs() < 1e-6, "{nose} {}", standing.pitch);
+    assert!(standing.pitch.abs() > 0.01);
+}

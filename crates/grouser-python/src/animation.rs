@@ -33,6 +33,13 @@ pub(crate) fn animation<'py>(
     })?;
     let films = sources.iter().map(|(source, alternative)| film_of(source, alternative));
     let films = films.collect::<PyResult<Vec<_>>>()?;
+    let is_on_plane = |(_, scenario, _): &(String, Scenario, Drive)| scenario.ground.is_plane();
+    if films.iter().any(is_on_plane) && !films.iter().all(is_on_plane) {
+        let message =
+            "an animation shows runs on planes, or runs over ground with heights, not both";
+        let expected = "runs on planes alone, or over ground with heights alone";
+        return Err(errors::parameter(message.to_owned(), "beside", None, expected));
+    }
     let title = films.first().map_or(String::new(), |(title, ..)| title.clone());
     let found = listening(py, move |_| {
         let runs = films.into_iter().map(|(_, scenario, drive)| Ok((drive()?, scenario)));

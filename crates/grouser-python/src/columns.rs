@@ -4,7 +4,9 @@ use grouser::contact::Settled;
 use grouser::document::columns::Column;
 use grouser::document::columns::heading::{BAND, BAND_LIMIT, held};
 use grouser::document::columns::mission::{LEG, MISSION};
-use grouser::document::columns::run::{RECORD, RUN_BAND, STANDING, TIME_BAND, WHEEL_RECORD};
+use grouser::document::columns::run::{
+    RECORD, RUN_BAND, STANDING, STANDING_BAND, TIME_BAND, WHEEL_RECORD,
+};
 use grouser::document::columns::stand::TRIALS;
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{wheel_speeds, wheel_test};
@@ -54,6 +56,7 @@ pub(crate) fn result_columns(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     dict.set_item("wheel_test_band", declared(&wheel_test::BAND))?;
     dict.set_item("traverse_band", declared(&RUN_BAND))?;
     dict.set_item("traverse_band_over_time", declared(&TIME_BAND))?;
+    dict.set_item("traverse_band_standing", declared(&STANDING_BAND))?;
     dict.set_item("mission", declared(&MISSION))?;
     dict.set_item("leg", declared(&LEG))?;
     dict.set_item("stand", declared(&TRIALS))?;

@@ -5,8 +5,8 @@ use std::ops::RangeInclusive;
 use grouser::document::card::RuleRecord;
 use grouser::document::columns::flags::{self, FLAGS};
 use grouser::document::columns::run::{
-    ELECTRICAL, ELECTRICAL_RECORD, ENERGY_ERROR, RECORD, RUN_BAND, STANDING, STEERING_RECORD,
-    TIME_BAND, WHEEL_RECORD,
+    ELECTRICAL, ELECTRICAL_RECORD, ENERGY_ERROR, RECORD, STANDING, STEERING_RECORD, WHEEL_RECORD,
+    run_band, time_bands,
 };
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{
@@ -369,8 +369,8 @@ pub(crate) fn simulate_band<'py>(
         TraverseBand::of(&scenario, &samples, &times, &go_on).map_err(Problem::Run)
     })?;
     let band = found.map_err(|problem| problem.raised())?;
-    let times = Table::of(&TIME_BAND, band.as_ref().map_or(&[], |band| &band.times));
-    let run = band.map(|band| Table::of(&RUN_BAND, &[band.run]));
+    let times = time_bands(band.as_ref().map_or(&[], |band| &band.times), &scenario);
+    let run = band.map(|band| run_band(&band.run, &scenario));
     Ok((table_to_python(py, times)?, record_to_python(py, &run.as_ref().map(|it| it.row(0)))?))
 }
 

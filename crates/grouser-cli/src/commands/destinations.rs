@@ -1,7 +1,5 @@
 //! Where the results of a run go, besides what is printed.
 
-use grouser::simulation::Scenario;
-
 use super::{animation, log, telemetry};
 use crate::args::{OutputArgs, RunArgs};
 use crate::failure::Failure;
@@ -26,14 +24,5 @@ impl<'a> Destinations<'a> {
         let log = run.mcap.as_deref().map(|it| log::Target::of(it, has_folder, may_replace));
         let telemetry = telemetry::Target::of(run, has_folder, may_replace)?;
         Ok(Self { animation, log: log.transpose()?, telemetry, folder })
-    }
-
-    /// That animations can show the ground.
-    pub(super) fn check(&self, scenario: &Scenario) -> Result<(), Failure> {
-        if self.animation.is_none() || scenario.ground.is_plane() {
-            return Ok(());
-        }
-        let text = "--animate shows planes, not yet ground with heights\nhint: --out writes a page with the ground, --mcap a log with it";
-        Err(Failure::Usage(text.to_owned()))
     }
 }

@@ -27,7 +27,6 @@ use crate::report::answer::drawing_of_ground;
 pub(crate) fn run(args: &MissionArgs) -> Result<(), Failure> {
     let destinations = Destinations::of(&args.run, &args.output)?;
     let document = inputs::mission::read(args)?;
-    destinations.check(&document.value.scenario)?;
     let Destinations { mut folder, animation, log, telemetry } = destinations;
     let missions = document.value.missions();
     for (flag, is_given) in [("--mcap", log.is_some()), ("--telemetry", telemetry.is_some())] {

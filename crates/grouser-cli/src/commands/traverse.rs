@@ -5,7 +5,7 @@ mod page;
 
 use grouser::contact::validity::Flag;
 use grouser::document::LoadedScenario;
-use grouser::document::columns::run::{self, RUN_BAND, RunObject, TIME_BAND};
+use grouser::document::columns::run::{self, RunObject};
 use grouser::document::columns::{MODEL, Quantity, TIME, X, Y, YAW, Z};
 use grouser::document::table::{Row, Table};
 use grouser::simulation::{Run, Scenario, Trajectory};
@@ -46,7 +46,6 @@ pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
     let each = |setting| OfModel::of(args, &setting);
     let all: Vec<OfModel> =
         args.setting.each_model().into_iter().map(each).collect::<Result<_, _>>()?;
-    destinations.check(&all[0].scenario.value)?;
     let Destinations { mut folder, animation, log, telemetry } = destinations;
     if let Some(target) = animation {
         animate(args, &target, &all, folder.as_mut())?;
@@ -103,10 +102,10 @@ impl OfModel {
         let rows = Rows::of_table(&self.rows());
         let settings = settings(args, std::slice::from_ref(self));
         let run = RunObject { run: &self.run, scenario: &self.scenario.value };
-        let tables = self
-            .band
-            .as_ref()
-            .map(|band| (Table::of(&RUN_BAND, &[band.run]), Table::of(&TIME_BAND, &band.times)));
+        let scenario = &self.scenario.value;
+        let tables = self.band.as_ref().map(|band| {
+            (run::run_band(&band.run, scenario), run::time_bands(&band.times, scenario))
+        });
         let bands = tables.as_ref().map(|(run, times)| Bands { band: run.row(0), bands: times });
         let answer = Answer::new("traverse", settings, Results { run, bands });
         if let Some(mut folder) = folder {
@@ -138,7 +137,8 @@ impl OfModel {
         let last = band.times.len() - 1;
         let lines = LINES.min(last);
         let places: Vec<usize> = (0..=lines).map(|line| line * last / lines.max(1)).collect();
-        let times = Table::of(&TIME_BAND, &band.times).rows_at(&places);
+        let scenario = &self.scenario.value;
+        let times = run::time_bands(&band.times, scenario).rows_at(&places);
         let RunBand { completed, ends, .. } = band.run;
         let early = ends.each().map(|(kind, count)| format!(", {count} {}", kind.in_words()));
         let samples = format!(
@@ -149,7 +149,7 @@ impl OfModel {
         );
         let notes = ends.sentences().into_iter().map(|it| format!("note: {it}\n"));
         let samples = samples + &notes.collect::<String>();
-        Text::from("\n") + Rows::of_table(&times).to_table(&run::bands_brief()) + samples
+        Text::from("\n") + Rows::of_table(&times).to_table(&run::bands_brief(scenario)) + samples
     }
 }
 

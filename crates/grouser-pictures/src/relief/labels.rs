@@ -1,8 +1,9 @@
 //! Room and letters of the drawing: names of views, and numbers along axes.
 
-use grouser_page::{Place, Sheet, Text};
+use grouser_page::{Anchor, Place};
 
-use crate::style::{Ground, Role};
+use crate::scene::Label;
+use crate::style::Role;
 
 /// Width of the drawing [mm].
 pub(super) const WIDTH: f64 = 180.0;
@@ -16,14 +17,14 @@ pub(super) const BELOW: f64 = 14.0;
 pub(super) const LETTERS: f64 = 3.2;
 
 /// What a view is.
-pub(super) fn name(sheet: &mut Sheet, text: &str, at: Place) {
-    sheet.text(Text::new(text, LETTERS).colour(Role::Ink.on(Ground::Light)), at);
+pub(super) fn name(text: impl Into<String>, x: f64, y: f64) -> Label {
+    Label::new(text, [x, y], Anchor::Start)
 }
 
 /// A number of an axis [m].
-pub(super) fn number(value: f64) -> Text {
+pub(super) fn number(value: f64, at: Place, anchor: Anchor) -> Label {
     let shown = format!("{}", (value * 1e3).round() / 1e3 + 0.0);
-    Text::new(shown, LETTERS).colour(Role::Faint.on(Ground::Light))
+    Label::new(shown, at, anchor).coloured(Role::Faint)
 }
 
 /// The whole multiples of a step within a range.

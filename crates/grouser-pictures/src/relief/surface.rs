@@ -1,6 +1,5 @@
 //! The ground's heights at the points of a grid: shades and contour lines.
 
-use grouser_core::simulation::Record;
 use grouser_core::terrain::{Footprint, Terrain};
 use grouser_core::units::{Vec2, Vec3};
 use grouser_page::Place;
@@ -16,7 +15,8 @@ const SHADES: [Role; 4] = [Role::Soil, Role::SoilEdge, Role::Contour, Role::Trac
 const LIGHT: Vec3 = Vec3::new(-0.5, 0.5, std::f64::consts::FRAC_1_SQRT_2);
 
 /// Heights of the ground, from the start [m].
-pub(super) struct Surface {
+#[derive(Clone, Debug)]
+pub(crate) struct Surface {
     /// The south-western corner.
     pub(super) low: Vec2,
     /// Distance of neighbours.
@@ -30,9 +30,13 @@ pub(super) struct Surface {
 impl Surface {
     /// The ground around a way.
     ///
+    /// * `places`: along it [m]
     /// * `margin`: how far around it [m]
-    pub(super) fn around(terrain: &dyn Terrain, records: &[Record], margin: f64) -> Self {
-        let places = records.iter().map(|record| record.state.position);
+    pub(super) fn around(
+        terrain: &dyn Terrain,
+        places: impl Iterator<Item = Vec2>,
+        margin: f64,
+    ) -> Self {
         let far = Vec2::repeat(f64::INFINITY);
         let [low, high] = places.fold([far, -far], |[low, high], at| [low.inf(&at), high.sup(&at)]);
         // A way along an axis leaves room to either side.
@@ -127,19 +131,22 @@ impl Surface {
         pieces.into_iter().map(outline).collect()
     }
 
-    /// Lines of equal height, as pieces within cells, seen from above.
+    /// Its cells, each as a quadrilateral with its corners counter-clockwise as seen from above.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = [Vec3; 4]> + '_ {
+        let cells = (0..self.rows - 1)
+            .flat_map(|row| (0..self.columns - 1).map(move |column| (column, row)));
+        cells.filter_map(|(column, row)| {
+            let at = |right, up| self.point(column + right, row + up);
+            Some([at(0, 0)?, at(1, 0)?, at(1, 1)?, at(0, 1)?])
+        })
+    }
+
+    /// Lines of equal height, as pieces within cells.
     ///
     /// * `step`: between their heights [m]
-    pub(super) fn contours(&self, step: f64) -> Vec<[Vec2; 2]> {
+    pub(crate) fn contours(&self, step: f64) -> Vec<[Vec3; 2]> {
         let mut lines = Vec::new();
-        for (column, row) in
-            (0..self.rows - 1).flat_map(|row| (0..self.columns - 1).map(move |it| (it, row)))
-        {
-            let at = |right, up| self.point(column + right, row + up);
-            let (Some(a), Some(b), Some(c), Some(d)) = (at(0, 0), at(1, 0), at(1, 1), at(0, 1))
-            else {
-                continue;
-            };
+        for [a, b, c, d] in self.cells() {
             for triangle in [[a, b, c], [a, c, d]] {
                 let heights = triangle.map(|point| point.z);
                 let low = heights.into_iter().fold(f64::INFINITY, f64::min);
@@ -171,11 +178,11 @@ pub fn shade_of(normal: Vec3) -> Role {
 }
 
 /// Where a height runs through a triangle.
-fn across(triangle: &[Vec3; 3], level: f64) -> Option<[Vec2; 2]> {
+fn across(triangle: &[Vec3; 3], level: f64) -> Option<[Vec3; 2]> {
     let crossing = |from: Vec3, to: Vec3| {
         let is_between = (from.z < level) != (to.z < level);
         let share = (level - from.z) / (to.z - from.z);
-        is_between.then(|| from.xy() + share * (to.xy() - from.xy()))
+        is_between.then(|| (from.xy() + share * (to.xy() - from.xy())).push(level))
     };
     let [a, b, c] = *triangle;
     let mut ends = [crossing(a, b), crossing(b, c), crossing(c, a)].into_iter().flatten();

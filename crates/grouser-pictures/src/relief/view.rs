@@ -76,6 +76,13 @@ impl View {
         ]
     }
 
+    /// How long a length is on the sheet [mm].
+    ///
+    /// * `length`: [m]
+    pub(super) fn length(&self, length: f64) -> f64 {
+        self.scale * length
+    }
+
     /// How near a point is to the eye [m].
     pub(super) fn depth(&self, point: Vec3) -> f64 {
         self.towards.dot(&point)

@@ -102,10 +102,28 @@ class TraverseBand(_tables.Tabular):
     """Share of all samples that ended early [-]."""
     ended_early: NDArray[np.object_]
     """How these ended, with the share of each way; None where none did."""
+    z_m_p2_5: Floats | None = None
+    """Height of the body's centre of mass [m]; None on a plane."""
+    z_m_p50: Floats | None = None
+    """Its median [m]."""
+    z_m_p97_5: Floats | None = None
+    """Its upper end [m]."""
+    roll_deg_p2_5: Floats | None = None
+    """Roll [°], positive with the right side down; None on a plane."""
+    roll_deg_p50: Floats | None = None
+    """Its median [°]."""
+    roll_deg_p97_5: Floats | None = None
+    """Its upper end [°]."""
+    pitch_deg_p2_5: Floats | None = None
+    """Pitch [°], positive with the nose up; None on a plane."""
+    pitch_deg_p50: Floats | None = None
+    """Its median [°]."""
+    pitch_deg_p97_5: Floats | None = None
+    """Its upper end [°]."""
 
     def _table(self) -> dict[str, Any]:
-        names = [field.name for field in fields(self) if field.name != "run"]
-        return columns_of(self, names)
+        names = (field.name for field in fields(self) if field.name != "run")
+        return columns_of(self, [name for name in names if getattr(self, name) is not None])
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each time."""
@@ -269,7 +287,8 @@ class Trajectory(_tables.Tabular):
         beside: Sequence[Trajectory] = (),
         names: Sequence[str] | None = None,
     ) -> Animation:
-        """Draws the run: the rover on its slope, with turning wheels, tracks, forces and numbers.
+        """Draws the run: the rover on its slope, with turning wheels, tracks, forces and numbers; over
+        ground with heights from above, obliquely and cut along its way.
 
         Parameters
         ----------
@@ -278,7 +297,7 @@ class Trajectory(_tables.Tabular):
             or ``.glb`` (glTF 2.0) for the run, ``.svg`` or ``.png`` for its end. A file that is
             there already is replaced.
         beside : sequence of Trajectory, optional
-            Other runs, each on a lane of its own.
+            Other runs, each on a lane of its own, or over ground with heights in a view of its own.
         names : sequence of str, optional
             What the runs are called; by default their outcomes.
 

@@ -39,6 +39,12 @@ pub struct TimeBand {
     pub y: Option<Band>,
     /// Yaw [rad].
     pub yaw: Option<Band>,
+    /// Height of the body's centre of mass [m]; none on a plane.
+    pub height: Option<Band>,
+    /// Roll [rad]; none on a plane.
+    pub roll: Option<Band>,
+    /// Pitch [rad]; none on a plane.
+    pub pitch: Option<Band>,
     /// Slip ratio [-], mean of the wheels.
     pub slip_ratio: Option<Band>,
     /// Sinkage [m], mean of the wheels.
@@ -58,6 +64,12 @@ pub struct RunBand {
     pub y: Option<Band>,
     /// Yaw, at the end [rad].
     pub yaw: Option<Band>,
+    /// Height of the body's centre of mass, at the end [m]; none on a plane.
+    pub height: Option<Band>,
+    /// Roll, at the end [rad]; none on a plane.
+    pub roll: Option<Band>,
+    /// Pitch, at the end [rad]; none on a plane.
+    pub pitch: Option<Band>,
     /// Length of the way [m].
     pub distance: Option<Band>,
     /// Slip ratio [-], mean over wheels and time.
@@ -80,6 +92,8 @@ struct At {
     x: f64,
     y: f64,
     yaw: f64,
+    /// How it stands on ground with heights: height [m], roll and pitch [rad].
+    standing: Option<[f64; 3]>,
     slip_ratio: f64,
     sinkage: f64,
     energy: f64,
@@ -239,12 +253,18 @@ impl At {
         }
     }
 
+    /// Bands of height [m], roll and pitch [rad], over the samples that have them.
+    fn standing<'a>(all: impl Iterator<Item = &'a Self> + Clone) -> [Option<Band>; 3] {
+        [0, 1, 2].map(|part| Band::of(all.clone().filter_map(|at| Some(at.standing?[part]))))
+    }
+
     /// The rover where it is, with its wheels spinning, down to their axles.
     fn stuck(record: &Record, rover: &Rover) -> Self {
         Self {
             x: record.place().x,
             y: record.place().y,
             yaw: record.state.yaw,
+            standing: record.standing().map(|it| [it.height, it.roll, it.pitch]),
             slip_ratio: 1.0,
             sinkage: rover.mean_axle_height(),
             energy: record.energy.motors,
@@ -257,12 +277,17 @@ impl TimeBand {
         let band = |of: fn(&At) -> f64| {
             Band::of(samples.iter().filter_map(|sample| sample.at[place].as_ref()).map(of))
         };
+        let [height, roll, pitch] =
+            At::standing(samples.iter().filter_map(|sample| sample.at[place].as_ref()));
         let ended = samples.iter().filter(|sample| is_over(sample.ended, time));
         Self {
             time,
             x: band(|at| at.x),
             y: band(|at| at.y),
             yaw: band(|at| at.yaw),
+            height,
+            roll,
+            pitch,
             slip_ratio: band(|at| at.slip_ratio),
             sinkage: band(|at| at.sinkage),
             energy: band(|at| at.energy),
@@ -276,6 +301,8 @@ impl RunBand {
         let end = |of: fn(&At) -> f64| {
             Band::of(samples.iter().filter_map(|sample| sample.end.as_ref()).map(of))
         };
+        let [height, roll, pitch] =
+            At::standing(samples.iter().filter_map(|sample| sample.end.as_ref()));
         let band = |of: fn(&OfSample) -> Option<f64>| Band::of(samples.iter().filter_map(of));
         let counts = |sample: &&OfSample| sample.kind.row().in_band == InBand::Counts;
         let successes = samples.iter().filter(counts).count();
@@ -283,6 +310,9 @@ impl RunBand {
             x: end(|at| at.x),
             y: end(|at| at.y),
             yaw: end(|at| at.yaw),
+            height,
+            roll,
+            pitch,
             distance: band(|sample| sample.distance),
             slip_ratio: band(|sample| sample.slip_ratio),
             sinkage: band(|sample| sample.sinkage),

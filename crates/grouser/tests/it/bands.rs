@@ -1,6 +1,8 @@
 //! Bands over samples of soil and model: which models there are, and what a sample without an answer counts as.
 
 use grouser::contact::{Contact, Slip, Theory};
+use grouser::document::campaign::QuantityStatistics;
+use grouser::document::columns::run;
 use grouser::document::{
     self, Campaign, DocumentError, Kind, LoadedScenario, LoadedSoil, Overrides, Source,
 };
@@ -12,7 +14,7 @@ use grouser::studies::ensemble::{Band, Probability};
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::heading_band::HeadingBand;
 use grouser::studies::heading_map::HeadingMap;
-use grouser::studies::traverse_band::TraverseBand;
+use grouser::studies::traverse_band::{RunBand, TraverseBand};
 use grouser::studies::wheel_test::WheelTest;
 use grouser::studies::wheel_test_band::Sunk;
 use grouser::units::deg;
@@ -344,7 +346,94 @@ fn a_run_that_leaves_its_map_leaves_the_band_then() {
     assert_eq!(band.run.ends.in_words().as_deref(), Some("off_map 100.0 %"));
 }
 
+/// Ripples of 4 cm, over which a rover pitches.
+const RIPPLE: &str =
+    "surface = \"ripple\", amplitude_m = 0.02, wavelength_m = 2.0, start_m = [0.5, 3.0]";
+
+/// A scenario over ripples.
+fn over_ripples(settings: &[&str]) -> LoadedScenario {
+    let text = format!(
+        "schema = \"scenario/1\"\nsimulation = \"quasi-steady\"\nduration_s = 20.0\nterrain = {{ {RIPPLE} }}\n"
+    );
+    let overrides = Overrides::parse(settings.iter().copied()).expect("settings");
+    document::read_scenario(&Source::text("ripples", text), &overrides).expect("a scenario")
+}
+
+/// Over heights a band has how the rover stands; for one soil and model that is the run.
+#[test]
+fn a_band_over_heights_has_height_roll_and_pitch() {
+    let scenario = over_ripples(&[EXACT]);
+    let run = given::run(&scenario.value);
+    let end = run.last();
+    let standing = end.standing().expect("it stands");
+    assert!(standing.pitch.abs() > deg(0.5), "{standing:?}");
+    let times = [0.0, end.time];
+    let band = |scenario: &LoadedScenario, samples: &[Sample]| {
+        let band = TraverseBand::of(&scenario.value, samples, &times, &|| true);
+        band.expect("it can be computed").expect("not stopped")
+    };
+    let same = Sample { soil: scenario.value.ground.soil, theory: scenario.value.theory };
+    let alone = band(&scenario, &[same; 3]);
+    let exactly = |value| Some(Band { low: value, median: value, high: value });
+    for [height, roll, pitch] in [
+        [alone.times[1].height, alone.times[1].roll, alone.times[1].pitch],
+        [alone.run.height, alone.run.roll, alone.run.pitch],
+    ] {
+        assert_eq!(height, exactly(standing.height));
+        assert_eq!((roll, pitch), (exactly(standing.roll), exactly(standing.pitch)));
+    }
+    let table = run::time_bands(&alone.times, &scenario.value);
+    for name in ["x_m_p50", "y_m_p2_5", "z_m_p50", "roll_deg_p97_5", "pitch_deg_p50"] {
+        assert!(table.numbers(name).iter().all(Option::is_some), "{name}");
+    }
+    // Several soils and models spread along the way, and so in height.
+    let spread = over_ripples(&[]);
+    let of_all = band(&spread, &samples(&spread, 9));
+    let height = of_all.run.height.expect("there are samples");
+    assert!(height.low < height.high && contains(of_all.run.height, height.median));
+    // A plane has none of these.
+    let plane = band_on_a_plane();
+    assert_eq!((plane.height, plane.roll, plane.pitch), (None, None, None));
+}
+
+fn band_on_a_plane() -> RunBand {
+    let plane = scenario(&["scenario.duration_s=1", EXACT]);
+    let band = TraverseBand::of(&plane.value, &samples(&plane, 2), &[1.0], &|| true);
+    band.expect("it can be computed").expect("not stopped").run
+}
+
 // ---- Campaigns ----
+
+/// Rows of traverses and missions over heights have how the rover stands at the end, and their statistics read it.
+#[test]
+fn campaigns_over_heights_have_height_and_attitude() {
+    let traverse = format!(
+        "study = \"traverse\"\n[scenario]\nsimulation = \"quasi-steady\"\nduration_s = 10.0\nterrain = {{ {RIPPLE} }}"
+    );
+    let mission = format!(
+        "study = \"mission\"\n[mission]\nsimulation = \"quasi-steady\"\nterrain = {{ {RIPPLE} }}\n\
+         [[mission.leg]]\nspeed_m_s = 0.06\nheading = \"hold\"\ndrive_m = 0.5"
+    );
+    for base in [traverse, mission] {
+        let campaign = campaign(&base).expect("a campaign");
+        let names: Vec<&str> = campaign.columns().iter().map(|it| it.name.as_str()).collect();
+        let table = campaign.shard(0, &|| true).expect("not stopped");
+        for name in ["z_m", "roll_deg", "pitch_deg", "stability_margin_deg"] {
+            assert!(names.contains(&name), "{name} of {names:?}");
+            let values = table.numbers(name);
+            assert!(!values.is_empty() && values.iter().all(Option::is_some), "{name}");
+        }
+        assert!(!names.contains(&"belly_clearance_m"));
+        let all = 0..campaign.runs();
+        let runs = std::slice::from_ref(&all);
+        let values: Vec<Option<f64>> = table.numbers("z_m").to_vec();
+        let statistics = QuantityStatistics::of(&campaign, runs, &values, &[0.5]);
+        let summary = statistics.summary.expect("there are runs");
+        assert!((0.1..0.4).contains(&summary.mean.value), "{summary:?}");
+    }
+    let plane = campaign("study = \"traverse\"\n[scenario]\nduration_s = 1.0").expect("a campaign");
+    assert!(plane.columns().iter().all(|it| it.name != "z_m"));
+}
 
 fn campaign(base: &str) -> Result<Campaign, DocumentError> {
     let text = format!(

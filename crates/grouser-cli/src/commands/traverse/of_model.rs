@@ -2,12 +2,13 @@
 
 use grouser::document::columns::MODEL;
 use grouser::document::columns::TIME;
-use grouser::document::columns::run::{self, RUN_BAND};
+use grouser::document::columns::run;
 use grouser::document::table::Table;
 use grouser::document::{LoadedScenario, escape};
 use grouser::simulation::{Run, Trajectory};
+use grouser::studies::ensemble::Band;
 use grouser::studies::ensemble::samples::BandInputs;
-use grouser::studies::traverse_band::{TraverseBand, record_times};
+use grouser::studies::traverse_band::{TimeBand, TraverseBand, record_times};
 
 use crate::args::{SettingArgs, TraverseArgs, UncertaintyArgs};
 use crate::chart::{BAND_COLOUR, Chart, Series, Style};
@@ -53,16 +54,17 @@ impl OfModel {
     pub(super) fn rows(&self) -> Table {
         let table = run::table(&self.run, &self.scenario.value);
         match &self.band {
-            Some(band) => run::with_bands(table, &band.times),
+            Some(band) => run::with_bands(table, &band.times, &self.scenario.value),
             None => table,
         }
     }
 
     /// The end and the means, with their bands: one row.
     pub(super) fn summary(&self) -> Table {
-        let mut table = run::summary(&self.run, &self.scenario.value);
+        let scenario = &self.scenario.value;
+        let mut table = run::summary(&self.run, scenario);
         if let Some(band) = &self.band {
-            table = table.and(&RUN_BAND, &[Some(&band.run)]);
+            table = run::with_run_band(table, &band.run, scenario);
         }
         table.with_word(MODEL, self.name())
     }
@@ -70,20 +72,18 @@ impl OfModel {
 
 /// The paths, seen from above, each with its band if there is one.
 pub(super) fn chart(all: &[OfModel]) -> Chart {
+    let on_a_map = all.iter().any(|it| !it.scenario.value.ground.is_plane());
     let mut series = Vec::new();
     for (place, of_model) in all.iter().enumerate() {
         let Some(band) = &of_model.band else { continue };
-        // The band is over one time: it is drawn where the rover is then, in the middle of the samples.
-        let edges = band.times.iter().filter_map(|at| {
-            let (x, y) = (at.x?, at.y?);
-            Some((x.median, y.low, y.high))
-        });
         let name = if all.len() > 1 { of_model.name() } else { "the samples" };
-        series.push(Series::band(
-            format!("95 % of {name}"),
-            if all.len() > 1 { place + 1 } else { BAND_COLOUR },
-            edges,
-        ));
+        let name = format!("95 % of {name}");
+        let colour = if all.len() > 1 { place + 1 } else { BAND_COLOUR };
+        if on_a_map {
+            series.extend(spread(&band.times, name, colour));
+        } else {
+            series.push(Series::band(name, colour, along_contour(&band.times)));
+        }
     }
     for (place, of_model) in all.iter().enumerate() {
         let records = of_model.run.records.iter();
@@ -91,10 +91,38 @@ pub(super) fn chart(all: &[OfModel]) -> Chart {
         let name = if all.len() > 1 { of_model.name() } else { "" };
         series.push(Series::new(name, Style::Line, place + 1, points));
     }
-    if all.iter().any(|it| !it.scenario.value.ground.is_plane()) {
+    if on_a_map {
         return Chart::new("Path on the map", ("east, x [m]", "north, y [m]"), series);
     }
     Chart::new("Path on the slope", ("along the contour, x [m]", "uphill, y [m]"), series)
+}
+
+/// The edges of a band beside a path along the contour: it is over one time, and drawn where the rover is then, in the
+/// middle of the samples.
+fn along_contour(times: &[TimeBand]) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
+    times.iter().filter_map(|at| {
+        let (x, y) = (at.x?, at.y?);
+        Some((x.median, y.low, y.high))
+    })
+}
+
+/// The places of samples on a map at a few times, as crosses: a way there goes in any direction.
+fn spread(times: &[TimeBand], name: String, colour: usize) -> [Series; 2] {
+    /// At most as many, besides the start.
+    const CROSSES: usize = 8;
+    let last = times.len() - 1;
+    let count = CROSSES.min(last);
+    let chosen = (0..=count).map(|cross| &times[cross * last / count.max(1)]);
+    let bands: Vec<(Band, Band)> = chosen.filter_map(|at| Some((at.x?, at.y?))).collect();
+    let middle = |band: &Band| 0.5 * (band.low + band.high);
+    let half = |band: &Band| 0.5 * (band.high - band.low);
+    let points = || bands.iter().map(|(x, y)| (middle(x), middle(y)));
+    let upright = Series::new(name, Style::Dots, colour, points());
+    let across = Series::new("", Style::Dots, colour, points());
+    [
+        upright.with_error_bars(bands.iter().map(|(_, y)| half(y))),
+        across.with_bars_across(bands.iter().map(|(x, _)| half(x))),
+    ]
 }
 
 /// The reason of an outcome, after a colon, on one line.

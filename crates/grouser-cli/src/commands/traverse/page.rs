@@ -1,10 +1,9 @@
 //! The page of a traverse: where the rover ends up, its path, and every channel over time.
 
 use grouser::contact::validity::Finding;
-use grouser::document::columns::run::{self, TIME_BAND};
+use grouser::document::columns::run::{self, STANDING_BAND, TIME_BAND};
 use grouser::document::columns::{Column, MODEL, Quantity, SINKAGE, SLIP_RATIO, TIME, X, Y, YAW};
 use grouser::document::table::Table;
-use grouser::simulation::Trajectory;
 use grouser::studies::drive::Drive;
 use grouser::studies::traverse_band::Ends;
 use grouser::units::Vec2;
@@ -22,7 +21,7 @@ pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {
     let mut page = Page::new("A traverse");
     for of_model in all {
         let name = if all.len() > 1 { format!("{}: ", of_model.name()) } else { String::new() };
-        page.answer(&format!("{name}{}", sentence(&of_model.run)));
+        page.answer(&format!("{name}{}", sentence(of_model)));
     }
     page.list(what_was_run(&all[0]));
     let is_on_a_map = !all[0].scenario.value.ground.is_plane();
@@ -48,8 +47,9 @@ pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {
 }
 
 /// Where a rover ended up, and what that took.
-fn sentence(run: &Trajectory) -> String {
-    let (end, drive) = (run.last(), Drive::of(run));
+fn sentence(of: &OfModel) -> String {
+    let run = &of.run;
+    let (end, drive) = (run.last(), Drive::of(run, &of.scenario.value));
     let yaw = four_digits(YAW.unit.from_si(end.state.yaw));
     let place = match end.standing() {
         Some(standing) => format!(
@@ -101,9 +101,8 @@ fn channels(page: &mut Page, of: &OfModel) {
     if let Some(bands) = &of.band {
         page.heading("What the samples say");
         page.list(early(&bands.run.ends));
-        page.charts(
-            &TIME_BAND[1..].iter().filter_map(|column| band(&table, column)).collect::<Vec<_>>(),
-        );
+        let columns = TIME_BAND[1..].iter().chain(&STANDING_BAND);
+        page.charts(&columns.filter_map(|column| band(&table, column)).collect::<Vec<_>>());
     }
     over_time(page, &table, &of.scenario.value);
 }

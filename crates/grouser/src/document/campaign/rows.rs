@@ -3,7 +3,7 @@
 use super::super::columns::flags::{FLAGS, names as names_of};
 use super::super::columns::heading::{Held, held};
 use super::super::columns::mission::{OUTCOME, kept, kept_of_leg};
-use super::super::columns::run::{DRIVE, ELECTRICAL_DRIVE, END};
+use super::super::columns::run::{DRIVE, ELECTRICAL_DRIVE, END, standing};
 use super::super::columns::wheel::WHEEL;
 use super::super::columns::{
     self, DRAWBAR_PULL, MODEL, OK, SIDE_FORCE, SINKAGE, SLIP_RATIO, TORQUE,
@@ -106,10 +106,13 @@ pub(super) fn columns(
     let names: Vec<&str> = match study {
         Study::Traverse => {
             let electrical = names(&ELECTRICAL_DRIVE).filter(|_| has_motors);
-            names(END).chain(names(&DRIVE)).chain(electrical).collect()
+            names(END).chain(base.standing()).chain(names(&DRIVE)).chain(electrical).collect()
         }
         Study::Heading => names(&held()).collect(),
-        Study::Mission => names(END).chain(kept(has_motors).map(|column| column.name)).collect(),
+        Study::Mission => {
+            let kept = kept(has_motors).map(|column| column.name);
+            names(END).chain(base.standing()).chain(kept).collect()
+        }
         Study::WheelTest => names(&WHEEL).collect(),
     };
     all.extend(names.iter().map(|name| Column::new(*name, ColumnKind::Float, Role::Result)));
@@ -258,6 +261,16 @@ impl Base {
         }
     }
 
+    /// Names of the columns of how its rover stands at the end; none on a plane.
+    fn standing(&self) -> impl Iterator<Item = &'static str> + use<> {
+        let scenario = match self {
+            Self::Scenario(varied) => Some(&varied.value),
+            Self::Mission(varied) => Some(&varied.value.scenario),
+            Self::Stand(_) => None,
+        };
+        scenario.map(standing).into_iter().flatten().map(|column| column.name)
+    }
+
     /// How many legs its mission has; none for what is no mission.
     pub(super) fn legs(&self) -> usize {
         match self {
@@ -347,7 +360,9 @@ fn traverse(scenario: &Scenario) -> Result<Vec<Cell>, Failure> {
         Cell::text(run.method.name()),
     ];
     let flags = raised(scenario, &run);
-    let mut row: Vec<Cell> = cells(words, END, end).chain(cells([], &DRIVE, &drive)).collect();
+    let stands = standing(scenario).flat_map(|column| column.cells(end));
+    let mut row: Vec<Cell> =
+        cells(words, END, end).chain(stands).chain(cells([], &DRIVE, &drive)).collect();
     if scenario.rover.has_motors() {
         row.extend(cells([], &ELECTRICAL_DRIVE, &drive));
     }
@@ -376,6 +391,7 @@ fn mission(plan: &Plan) -> Result<Vec<Cell>, Failure> {
         Cell::text(run.method.name()),
     ];
     let mut row: Vec<Cell> = cells(words, END, run.last()).collect();
+    row.extend(standing(&plan.scenario).flat_map(|column| column.cells(run.last())));
     let has_motors = plan.scenario.rover.has_motors();
     row.extend(kept(has_motors).flat_map(|column| column.cells(&driven)));
     for place in 0..driven.planned {

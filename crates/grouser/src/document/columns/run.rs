@@ -66,6 +66,16 @@ pub const STANDING: [Column<Record>; 5] = [
     ),
 ];
 
+/// How the rover stands in a scenario: nothing on a plane, and no belly clearance where the rover's is not given.
+pub(in super::super) fn standing(
+    scenario: &Scenario,
+) -> impl Iterator<Item = &'static Column<Record>> + use<> {
+    const ALL: &[Column<Record>] = &STANDING;
+    let has_heights = !scenario.ground.is_plane();
+    let has_belly = scenario.rover.parts().belly_clearance.is_some();
+    ALL.iter().filter(move |it| has_heights && (has_belly || it.name != BELLY_CLEARANCE.name))
+}
+
 /// Height of a rover's underside over the ground.
 pub const BELLY_CLEARANCE: Quantity = quantity("belly_clearance_m", M);
 
@@ -239,6 +249,46 @@ pub const TIME_BAND: [Column<TimeBand>; 10] = [
     text(ENDED_EARLY, "How these ended, with the share of each way", |it| it.ends.in_words()),
 ];
 
+/// How the rover stands at one time on ground with heights, over samples of soil and model: beside [`TIME_BAND`].
+pub const STANDING_BAND: [Column<TimeBand>; 3] = [
+    Z.band("Height of the body's centre of mass", |it| it.height),
+    ROLL.band("Roll, positive with the right side down", |it| it.roll),
+    PITCH.band("Pitch, positive with the nose up", |it| it.pitch),
+];
+
+/// How the rover stands at the end on ground with heights, over samples of soil and model: beside [`RUN_BAND`].
+pub const RUN_STANDING_BAND: [Column<RunBand>; 3] = [
+    Z.band("Height of the body's centre of mass, at the end", |it| it.height),
+    ROLL.band("Roll at the end, positive with the right side down", |it| it.roll),
+    PITCH.band("Pitch at the end, positive with the nose up", |it| it.pitch),
+];
+
+/// The bands at some times.
+#[must_use]
+pub fn time_bands(bands: &[TimeBand], scenario: &Scenario) -> Table {
+    Table::of(&TIME_BAND, bands)
+        .and(standing_band(scenario), &bands.iter().map(Some).collect::<Vec<_>>())
+}
+
+/// The band of a whole run: one row.
+#[must_use]
+pub fn run_band(band: &RunBand, scenario: &Scenario) -> Table {
+    with_run_band(Table::default(), band, scenario)
+}
+
+/// One row about a run, with its band.
+#[must_use]
+pub fn with_run_band(table: Table, band: &RunBand, scenario: &Scenario) -> Table {
+    let standing = RUN_STANDING_BAND.iter().filter(|_| !scenario.ground.is_plane());
+    table.and(&RUN_BAND, &[Some(band)]).and(standing, &[Some(band)])
+}
+
+fn standing_band(scenario: &Scenario) -> impl Iterator<Item = &'static Column<TimeBand>> + use<> {
+    const ALL: &[Column<TimeBand>] = &STANDING_BAND;
+    let has_heights = !scenario.ground.is_plane();
+    ALL.iter().filter(move |_| has_heights)
+}
+
 /// A run in a few numbers over samples of soil and model. Means of a sample are over the scenario's whole duration, or over
 /// its time in the band.
 pub const RUN_BAND: [Column<RunBand>; 19] = [
@@ -280,7 +330,7 @@ const ENDED_EARLY: &str = "ended_early";
 ///
 /// * `bands`: at least as many as the table has rows
 #[must_use]
-pub fn with_bands(table: Table, bands: &[TimeBand]) -> Table {
+pub fn with_bands(table: Table, bands: &[TimeBand], scenario: &Scenario) -> Table {
     let mut table = table.padded(bands.len());
     let [time, results @ ..] = &TIME_BAND;
     let rows: Vec<_> = bands.iter().map(Some).collect();
@@ -290,17 +340,19 @@ pub fn with_bands(table: Table, bands: &[TimeBand]) -> Table {
             *values = times.clone();
         }
     }
-    table.and(results, &rows)
+    table.and(results, &rows).and(standing_band(scenario), &rows)
 }
 
-/// The columns of [`TIME_BAND`] for reading.
+/// The columns of [`time_bands`] for reading.
 #[must_use]
-pub fn bands_brief() -> Vec<String> {
-    let ends = [X, Y, YAW, SLIP_RATIO, SINKAGE].map(|it| {
+pub fn bands_brief(scenario: &Scenario) -> Vec<String> {
+    let height = (!scenario.ground.is_plane()).then_some(Z);
+    let quantities = [X, Y].into_iter().chain(height).chain([YAW, SLIP_RATIO, SINKAGE]);
+    let ends = quantities.flat_map(|it| {
         let [low, _, high] = it.quantiles();
         [low, high]
     });
-    std::iter::once(TIME.name.to_owned()).chain(ends.into_iter().flatten()).collect()
+    std::iter::once(TIME.name.to_owned()).chain(ends).collect()
 }
 
 /// The end of a run and its means: one row.
@@ -361,12 +413,9 @@ pub fn brief(run: &Trajectory, scenario: &Scenario, lines: usize) -> Table {
     let rows: Vec<_> =
         (0..=lines).map(|line| Some(&run.records[line * last / lines.max(1)])).collect();
     let power = RECORD.iter().position(|it| it.name == POWER.name).unwrap_or(0);
-    let has_belly = scenario.rover.parts().belly_clearance.is_some();
-    let is_known = |it: &&Column<Record>| it.name != BELLY_CLEARANCE.name || has_belly;
-    let standing = STANDING.iter().filter(|_| !scenario.ground.is_plane()).filter(is_known);
     Table::default()
         .and(END, &rows)
-        .and(standing, &rows)
+        .and(standing(scenario), &rows)
         .and(&MEANS, &rows)
         .and(&RECORD[power..=power], &rows)
 }
