@@ -103,7 +103,7 @@ pub(crate) fn run_meanings(scenario: &Scenario) -> Vec<Meaning> {
     let electrical = |columns: Vec<Meaning>| if has_motors { columns } else { Vec::new() };
     [
         meanings(&RECORD),
-        if !scenario.ground.is_plane() { meanings(&STANDING) } else { Vec::new() },
+        if scenario.ground.is_plane() { Vec::new() } else { meanings(&STANDING) },
         electrical(meanings(&ELECTRICAL_RECORD)),
         meanings(&WHEEL_RECORD),
         meanings(&WHEEL),

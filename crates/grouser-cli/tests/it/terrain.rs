@@ -226,7 +226,7 @@ fn bands_over_heights_have_place_height_and_attitude() {
     {
         for quantile in ["p2_5", "p50", "p97_5"] {
             let key = format!("{name}_{quantile}");
-            assert!(names.contains(&key), "{key} of {names:?}");
+            assert!(names.contains(&key.as_str()), "{key} of {names:?}");
             assert!(json["band"][&key].is_number(), "{key}");
         }
     }

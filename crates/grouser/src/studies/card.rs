@@ -132,8 +132,35 @@ struct Draw {
     /// On each slope.
     levels: Vec<Option<Level>>,
     refusals: Vec<Option<String>>,
-    /// Nothing where the search gave up; within it nothing where the rover slides.
-    drifts: Vec<Option<Option<f64>>>,
+    drifts: Vec<DrawnDrift>,
+}
+
+/// The drift of a sample on a slope.
+#[derive(Clone, Copy)]
+enum DrawnDrift {
+    Holds(f64),
+    Slides,
+    /// The search gave up.
+    NotFound,
+}
+
+impl DrawnDrift {
+    fn at(curve: &HeadingCurve, slope: f64) -> Self {
+        match curve.at(slope) {
+            Ok(heading) => Self::Holds(heading.drift()),
+            Err(none) if none.is_not_found() => Self::NotFound,
+            Err(_) => Self::Slides,
+        }
+    }
+
+    /// Per metre travelled, where the rover does not slide [m/m].
+    fn held(self) -> Option<f64> {
+        if let Self::Holds(drift) = self { Some(drift) } else { None }
+    }
+
+    fn is_known(self) -> bool {
+        !matches!(self, Self::NotFound)
+    }
 }
 
 impl CardStudy {
@@ -300,7 +327,7 @@ impl CardStudy {
                 .map_err(|error| error.to_string()),
             refusals: held.iter().map(|it| Some(it.as_ref().err()?.to_string())).collect(),
             levels: held.iter().map(|it| it.as_ref().ok().map(keep)).collect(),
-            drifts: slopes.iter().map(|slope| drift_at(&drift, *slope)).collect(),
+            drifts: slopes.iter().map(|slope| DrawnDrift::at(&drift, *slope)).collect(),
         })
     }
 }
@@ -338,7 +365,7 @@ impl Found<'_> {
                 .collect(),
             driven,
             refusal: nominal.refusals[place].clone(),
-            drift: nominal.drifts[place].flatten(),
+            drift: nominal.drifts[place].held(),
             bands: (!draws.is_empty()).then(|| CardBands::over(draws, place)),
             findings: self.curve.findings(slope, &self.curve.at(slope)),
         }
@@ -365,14 +392,6 @@ fn known_at(draws: &[Draw], place: usize) -> impl Iterator<Item = Option<Level>>
     draws.iter().filter(move |draw| !draw.not_found[place]).map(move |draw| draw.levels[place])
 }
 
-/// The drift on a slope, nothing within where the rover slides; nothing where the search gave up.
-fn drift_at(curve: &HeadingCurve, slope: f64) -> Option<Option<f64>> {
-    match curve.at(slope) {
-        Err(none) if none.is_not_found() => None,
-        found => Some(found.ok().map(|heading| heading.drift())),
-    }
-}
-
 /// The heading on a slope, if one holds the course.
 fn yaw_on(curve: &HeadingCurve, slope: f64) -> Option<f64> {
     curve.at(slope).ok().map(|heading| heading.yaw)
@@ -386,7 +405,7 @@ fn slips_at(draws: &[Draw], place: usize) -> Vec<Option<f64>> {
 impl CardBands {
     fn over(draws: &[Draw], place: usize) -> Self {
         let levels: Vec<Level> = draws.iter().filter_map(|draw| draw.levels[place]).collect();
-        let drifts = || draws.iter().filter_map(|draw| draw.drifts[place]);
+        let drifts = || draws.iter().map(|draw| draw.drifts[place]).filter(|it| it.is_known());
         let slips = slips_at(draws, place);
         let (known, trials) = (slips.len(), draws.len());
         let slips = slips.into_iter().map(|slip| slip.unwrap_or(STUCK));
@@ -396,8 +415,11 @@ impl CardBands {
             yaw: yaws_at(draws, place),
             slip_ratio: Band::of(slips),
             power: Band::of(levels.iter().map(|level| level.power)),
-            held: Probability { successes: drifts().flatten().count(), trials: drifts().count() },
-            drift: Band::of(drifts().map(|drift| drift.unwrap_or(STRAIGHT_DOWN))),
+            held: Probability {
+                successes: drifts().filter_map(DrawnDrift::held).count(),
+                trials: drifts().count(),
+            },
+            drift: Band::of(drifts().map(|drift| drift.held().unwrap_or(STRAIGHT_DOWN))),
         }
     }
 }

@@ -254,8 +254,8 @@ impl At {
     }
 
     /// Bands of height [m], roll and pitch [rad], over the samples that have them.
-    fn standing<'a>(all: impl Iterator<Item = &'a Self> + Clone) -> [Option<Band>; 3] {
-        [0, 1, 2].map(|part| Band::of(all.clone().filter_map(|at| Some(at.standing?[part]))))
+    fn standing(all: &[&Self]) -> [Option<Band>; 3] {
+        [0, 1, 2].map(|part| Band::of(all.iter().filter_map(|at| Some(at.standing?[part]))))
     }
 
     /// The rover where it is, with its wheels spinning, down to their axles.
@@ -277,8 +277,9 @@ impl TimeBand {
         let band = |of: fn(&At) -> f64| {
             Band::of(samples.iter().filter_map(|sample| sample.at[place].as_ref()).map(of))
         };
-        let [height, roll, pitch] =
-            At::standing(samples.iter().filter_map(|sample| sample.at[place].as_ref()));
+        let [height, roll, pitch] = At::standing(
+            &samples.iter().filter_map(|sample| sample.at[place].as_ref()).collect::<Vec<_>>(),
+        );
         let ended = samples.iter().filter(|sample| is_over(sample.ended, time));
         Self {
             time,
@@ -301,8 +302,9 @@ impl RunBand {
         let end = |of: fn(&At) -> f64| {
             Band::of(samples.iter().filter_map(|sample| sample.end.as_ref()).map(of))
         };
-        let [height, roll, pitch] =
-            At::standing(samples.iter().filter_map(|sample| sample.end.as_ref()));
+        let [height, roll, pitch] = At::standing(
+            &samples.iter().filter_map(|sample| sample.end.as_ref()).collect::<Vec<_>>(),
+        );
         let band = |of: fn(&OfSample) -> Option<f64>| Band::of(samples.iter().filter_map(of));
         let counts = |sample: &&OfSample| sample.kind.row().in_band == InBand::Counts;
         let successes = samples.iter().filter(counts).count();

@@ -6,8 +6,12 @@ use crate::vehicle::ReactionError;
 
 /// Slip between two looks at the thrust [-]. Source: ours, because pulls rise and fall over tenths of slip.
 const LOOK: f64 = 0.04;
-/// Slip of the last look, in drive and in skid [-].
+/// Slip of the last look, in drive and in skid [-], and which look that is.
 const LAST: f64 = 0.999;
+const LAST_LOOK: u32 = 25;
+
+/// A slip [-], and what is left over of the thrust there, over the weight [-].
+pub(super) type Looked = (f64, f64);
 
 /// Why no slip balances the thrust.
 pub(super) enum NoBalance {
@@ -25,7 +29,7 @@ pub(super) enum NoBalance {
 /// * `left_over`: of the thrust at a slip, over the weight [-]
 pub(super) fn first_rise(
     left_over: &dyn Fn(f64) -> Result<f64, ReactionError>,
-) -> Result<((f64, f64), (f64, f64)), NoBalance> {
+) -> Result<[Looked; 2], NoBalance> {
     // Wheels that no sinkage carries move nothing.
     const NOTHING: f64 = -1.0;
     let (mut best, mut fault) = (f64::NEG_INFINITY, None);
@@ -40,22 +44,21 @@ pub(super) fn first_rise(
         }
     };
     let slip_of = |place: u32| (LOOK * f64::from(place)).min(LAST);
-    let last = (LAST / LOOK).ceil() as u32;
     let mut here = look(0.0);
     if here.1 >= 0.0 {
-        for place in 1..=last {
+        for place in 1..=LAST_LOOK {
             let lower = look(-slip_of(place));
             if lower.1 < 0.0 {
-                return Ok((lower, here));
+                return Ok([lower, here]);
             }
             here = lower;
         }
         return Err(NoBalance::Pushed);
     }
-    for place in 1..=last {
+    for place in 1..=LAST_LOOK {
         let higher = look(slip_of(place));
         if higher.1 >= 0.0 {
-            return Ok((here, higher));
+            return Ok([here, higher]);
         }
         here = higher;
     }

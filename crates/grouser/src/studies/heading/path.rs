@@ -256,7 +256,7 @@ impl<'a> Path<'a> {
         let left_over = |slip_ratio: f64| {
             self.imbalance(&Place::new(slip_ratio, crab, slope)).map(|left_over| left_over[0])
         };
-        let (below, above) = first_rise(&left_over).map_err(|none| self.no_balance(none))?;
+        let [below, above] = first_rise(&left_over).map_err(|none| self.no_balance(none))?;
         // Wheels that no sinkage carries move nothing.
         let thrust = |slip_ratio: f64| left_over(slip_ratio).unwrap_or(-1.0);
         let (slip_ratio, left) = root::bracketed(thrust, below, above, 1e-13, 0.0);
