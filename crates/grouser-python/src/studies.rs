@@ -362,7 +362,9 @@ pub(crate) fn simulate_band<'py>(
     let scenario = scenario.scenario()?;
     let inputs = BandInputs::of_scenario(scenario);
     let scenario = scenario.value.clone();
+    let ran = scenario.clone();
     let found = listening(py, move |cancelled| {
+        let scenario = ran;
         let samples = inputs.samples(seed, samples).map_err(Problem::Sampling)?;
         let times = record_times(&run(&scenario).map_err(Problem::Run)?, &scenario);
         let go_on = || !cancelled.is_set();

@@ -147,7 +147,9 @@ pub(crate) fn over_ground(page: &mut Page, scenario: &Scenario, records: &[Recor
 /// * `table`: a row for each record
 pub(crate) fn over_time(page: &mut Page, table: &Table, scenario: &Scenario) {
     page.heading("The rover over time");
-    if !scenario.ground.is_plane() {
+    if scenario.ground.is_plane() {
+        page.charts(&by_unit(table, TIME, &RECORD));
+    } else {
         // Coordinates on a map are too far apart for one axis.
         for place in [X.name, Y.name] {
             let column: Vec<_> = RECORD.into_iter().filter(|it| it.name == place).collect();
@@ -159,8 +161,6 @@ pub(crate) fn over_time(page: &mut Page, table: &Table, scenario: &Scenario) {
         page.charts(&by_unit(table, TIME, &belly));
         let others = RECORD.into_iter().filter(|it| ![X.name, Y.name].contains(&it.name));
         page.charts(&by_unit(table, TIME, &others.collect::<Vec<_>>()));
-    } else {
-        page.charts(&by_unit(table, TIME, &RECORD));
     }
     page.charts(&by_unit(table, TIME, &ELECTRICAL_RECORD));
     page.heading("Each wheel over time");
