@@ -390,6 +390,14 @@ impl<'a> Equations<'a> {
         })
     }
 
+    /// Whether the weight falls outside the wheels of a rover on ground with heights: on a plane no loads then balance it.
+    pub(super) fn is_overhanging(&self, state: &RoverState) -> bool {
+        self.has_relief()
+            && self.standing(state).is_ok_and(|Standing { posture, up, .. }| {
+                stability_margin(self.on_ground.rover, &posture, up) < 0.0
+            })
+    }
+
     /// Whether the ground may touch the rover's underside.
     pub(super) fn has_belly(&self) -> bool {
         self.on_ground.rover.parts().belly_clearance.is_some() && self.has_relief()

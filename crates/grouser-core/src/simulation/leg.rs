@@ -231,7 +231,11 @@ impl Leg<'_> {
                 rim_speeds: &state.rim_speeds,
                 set: equations.rim_speeds(),
             };
-            state.outcome = state.watch.look(self.scenario, now, rover, turning);
+            state.outcome = if equations.is_overhanging(rover) {
+                Some(Outcome::TippedOver { time: now })
+            } else {
+                state.watch.look(self.scenario, now, rover, turning)
+            };
         }
         state.outcome = state.outcome.take().or(without_power).or(high_centred);
         let is_end = state.outcome.is_some();

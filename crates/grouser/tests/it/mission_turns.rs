@@ -73,7 +73,9 @@ fn an_arc_reaches_its_yaw_or_says_what_it_lacks() {
         }
     }
     let ends: Vec<(bool, String)> = arcs.par_iter().filter_map(end_of_arc).collect();
-    ends.iter().for_each(|(_, end)| println!("{end}"));
+    for (_, end) in &ends {
+        println!("{end}");
+    }
     let short = ends.iter().filter(|(is_short, _)| *is_short).count();
     assert!(ends.len() > 120 && short > 0 && short < ends.len() / 2, "{short} of {}", ends.len());
 }

@@ -201,6 +201,22 @@ fn scenarios_and_missions_turned_in_sixteen_directions_give_turned_runs() {
     check_missions(&sixteen());
 }
 
+/// On 45° a rover slides and on 60° its weight falls outside its wheels, on a plane as on the same plane by heights, whichever
+/// way that falls.
+#[test]
+fn a_rover_slides_and_tips_over_alike_on_any_ground() {
+    let base = scenarios().into_iter().find(|(name, _)| name == "60°").expect("it is there").1;
+    for (slope, kind) in [(45.0, OutcomeKind::Sliding), (60.0, OutcomeKind::TippedOver)] {
+        let mut plane = base.clone();
+        plane.ground = base.ground.with_slope(deg(slope));
+        let directions = FEW.map(|angle| turned_scenario(&plane, deg(angle)));
+        for scenario in std::iter::once(plane).chain(directions) {
+            let run = Run::new(&scenario).and_then(Run::to_end).expect("it is computed");
+            assert_eq!(run.outcome.kind(), kind, "{slope}°: {:?}", run.outcome);
+        }
+    }
+}
+
 /// A drive along the contour of a hill comes round it at the height at which it began: 12° of slope, 4 m from its tip.
 #[test]
 fn a_contour_leg_goes_round_a_hill() {
