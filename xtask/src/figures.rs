@@ -12,9 +12,12 @@ use crate::markers::{self, Block, Kind, Piece};
 use crate::workspace;
 
 /// Writes every block and picture anew.
-pub(crate) fn write() -> Result<bool> {
+///
+/// * `and_measurements`: what was measured, too, which takes long
+pub(crate) fn write(and_measurements: bool) -> Result<bool> {
+    let measurements = if and_measurements { Measurements::Anew } else { Measurements::AsTheyAre };
     let mut written = 0;
-    for file in made_files(Measurements::Anew)? {
+    for file in made_files(measurements)? {
         if !file.differences.is_empty() {
             let path = workspace::root().join(&file.path);
             if let Some(folder) = path.parent() {

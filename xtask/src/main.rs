@@ -45,7 +45,9 @@ cargo xtask CHORE
   alone [--full]      both commands of the README, in a clone that stands alone, with a home of its own
   program             build the optimised program
   schema [--check]    write schema/*.json from the program, or only compare
-  figures [--check]   write the program's output into the Markdown files, or only compare
+  figures [--check | --made]
+                      write the program's output into the Markdown files, or only compare; --made leaves what
+                      was measured as it is
   fuzz [--cases N] [--seed N] [--only N] [--program FILE]
                       damaged and hostile input for every command, under limits of memory and time
   instructions [--check]
@@ -93,7 +95,8 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["program"] => good(workspace::build_program().map(|_| libtest::Count::one(true))?),
         ["schema"] => schema::write()?,
         ["schema", "--check"] => schema::check()?,
-        ["figures"] => figures::write()?,
+        ["figures"] => figures::write(true)?,
+        ["figures", "--made"] => figures::write(false)?,
         ["figures", "--check"] => figures::check()?,
         ["fuzz", options @ ..] => {
             let count = fuzz::check(&fuzz::Plan::parse(options)?)?;
