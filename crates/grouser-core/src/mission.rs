@@ -10,6 +10,7 @@
 //!
 //! Source of the manoeuvres, and of the three kinds of limits: [BiesiadeckiMaimone2006], of the Mars Exploration Rovers.
 
+mod angles;
 mod contour;
 mod driven;
 mod limits;
@@ -27,10 +28,11 @@ mod stop;
 mod turn;
 mod yaw_watch;
 
+pub use angles::MOST_CROSS_YAW;
 pub use limits::Limits;
 pub use navigator::{Fix, Sensors};
 pub use path_run::{PathRun, PathTask};
-pub use pilot::{CROSS_TRACK_GAIN, CROSS_TRACK_INTEGRAL, MOST_CROSS_YAW, YAW_GAIN, YAW_INTEGRAL};
+pub use pilot::{CROSS_TRACK_GAIN, CROSS_TRACK_INTEGRAL, YAW_GAIN, YAW_INTEGRAL};
 pub use plan::{Heading, Leg, Manoeuvre, Measure, Mission, PlanError, Steering};
 pub use report::{BackOut, LegOutcome, LegReport, MissionReport, Taken};
 pub use route::{BesideRoute, Route};

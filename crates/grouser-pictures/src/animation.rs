@@ -1,6 +1,6 @@
 //! Runs as moving pictures: rovers on their slope, with a few numbers below.
 
-use grouser_core::simulation::{Outcome, Scenario, Trajectory};
+use grouser_core::simulation::Outcome;
 use grouser_page::{Anchor, Face, Picture, Place, Sheet, Text, width};
 use rayon::prelude::*;
 
@@ -8,6 +8,7 @@ use crate::marks::{Line, Mark, arrow};
 use crate::motion::Motion;
 use crate::relief;
 use crate::scene::{Actor, Label, Scene};
+use crate::shown::{Shown, TOP, WIDTH};
 use crate::step::round_step;
 use crate::style::{Ground, Role};
 
@@ -17,28 +18,13 @@ pub(crate) const RATE: f64 = 10.0;
 const LONGEST: f64 = 24.0;
 /// How many pictures the last one stays for.
 pub(crate) const STAYS: u16 = 20;
-/// Width of the picture [mm].
-pub(crate) const WIDTH: f64 = 160.0;
 /// Height of what is drawn above the numbers of runs on planes [mm].
 const SCENE: f64 = 88.0;
-/// Height of the lines of text above it [mm].
-pub(crate) const TOP: f64 = 12.0;
 const MARGIN: f64 = 5.0;
 /// Height of the letters on the scene [mm].
 pub(crate) const LETTERS: f64 = 3.8;
 /// Height of a row of numbers [mm].
 const ROW: f64 = 6.6;
-
-/// A run to be shown.
-#[derive(Clone, Copy, Debug)]
-pub struct Shown<'a> {
-    /// What it is called where there are several.
-    pub name: &'a str,
-    /// The run.
-    pub run: &'a Trajectory,
-    /// What determined it.
-    pub scenario: &'a Scenario,
-}
 
 /// One run or several, as pictures in time.
 ///

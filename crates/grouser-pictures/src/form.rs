@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use crate::animation::{Animation, WIDTH};
+use crate::animation::Animation;
 use crate::mp4::VideoError;
+use crate::shown::WIDTH;
 use crate::style::Ground;
 
 /// Width of a single picture [px].

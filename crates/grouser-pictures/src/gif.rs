@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, HashMap};
 use ::gif::{DisposalMethod, Encoder, Frame, Repeat};
 use grouser_page::Picture;
 
-use crate::animation::{Animation, RATE, STAYS, WIDTH};
+use crate::animation::{Animation, RATE, STAYS};
+use crate::shown::WIDTH;
 use crate::style::{Ground, Role};
 
 /// Width of the picture [px].

@@ -3,9 +3,10 @@
 use grouser_page::{Anchor, Place, markup};
 use serde_json::{Value, json};
 
-use crate::animation::{Animation, COLUMNS, LETTERS, RATE, STAYS, TOP, WIDTH};
+use crate::animation::{Animation, COLUMNS, LETTERS, RATE, STAYS};
 use crate::marks::{DASHES, Mark};
 use crate::scene::Around;
+use crate::shown::{TOP, WIDTH};
 use crate::style::{Ground, Role};
 
 /// Steps in a millimetre: places are whole numbers of them.

@@ -29,15 +29,17 @@ mod path;
 mod relief;
 pub mod rover;
 mod scene;
+mod shown;
 mod step;
 pub mod style;
 mod title;
 
-pub use animation::{Animation, Shown};
+pub use animation::Animation;
 pub use form::{Form, UnknownEnding};
 pub use mp4::VideoError;
 pub use outline::{draw_outline, reach};
 pub use path::path_of;
 pub use relief::{relief_of, shade_of};
+pub use shown::Shown;
 pub use step::round_step;
 pub use title::title_of;

@@ -4,7 +4,8 @@ use std::fs;
 use std::io::{ErrorKind, Write as _};
 use std::process::{Command, Stdio};
 
-use crate::animation::{Animation, RATE, STAYS, WIDTH};
+use crate::animation::{Animation, RATE, STAYS};
+use crate::shown::WIDTH;
 use crate::style::Ground;
 
 /// Width of the film [px].

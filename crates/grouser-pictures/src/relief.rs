@@ -1,5 +1,6 @@
 //! Ground with heights and a rover's way over it: from above, obliquely, and cut along the way.
 
+mod drawing;
 mod labels;
 mod moving;
 mod profile;
@@ -14,9 +15,10 @@ pub use surface::shade_of;
 use grouser_core::simulation::{Record, Scenario};
 use grouser_core::units::{Vec2, Vec3};
 use grouser_core::vehicle::Posture;
-use grouser_page::{Anchor, Place, Sheet, Text};
+use grouser_page::{Anchor, Place, Sheet};
 
-use self::labels::{ABOVE, BELOW, LEFT, LETTERS, WIDTH, multiples, name, number};
+use self::drawing::Drawing;
+use self::labels::{ABOVE, BELOW, LEFT, WIDTH, multiples, name, number};
 use self::profile::{Profile, Room};
 use self::rover::{Drawn, Stance};
 use self::view::View;
@@ -78,25 +80,6 @@ pub fn relief_of(title: &str, scenario: &Scenario, records: &[Record]) -> Option
     profile.ground().draw(&mut sheet);
     Mark::line(profile.way(), Line::new(Role::Path, WAY)).draw(&mut sheet, Ground::Light);
     Some(on_both_grounds(&sheet))
-}
-
-/// Marks, and the text over them.
-#[derive(Default)]
-struct Drawing {
-    marks: Vec<Mark>,
-    labels: Vec<Label>,
-}
-
-impl Drawing {
-    fn draw(&self, sheet: &mut Sheet) {
-        for mark in &self.marks {
-            mark.draw(sheet, Ground::Light);
-        }
-        for Label { text, at, anchor, role } in &self.labels {
-            let text = Text::new(text, LETTERS).colour(role.on(Ground::Light));
-            sheet.text(text.anchor(*anchor), *at);
-        }
-    }
 }
 
 fn way(records: &[Record]) -> Vec<Vec3> {

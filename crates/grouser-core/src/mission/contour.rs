@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::pilot::{near_enough, turned};
+use super::angles::{near_enough, turned};
 use super::plan::Leg;
 use crate::elementary::wide;
 use crate::simulation::Scenario;

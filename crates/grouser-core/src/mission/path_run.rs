@@ -1,7 +1,7 @@
 //! A run along a path, whose wheels are turned by commands from outside.
 
+use super::angles::turned;
 use super::limits::Limits;
-use super::pilot::turned;
 use super::report::LegOutcome;
 use super::route::{BesideRoute, Route};
 use super::stop::{Limited, Stop};

@@ -14,6 +14,7 @@
 //! Where wheels crab, the outer law sets their steering angle δ in place of γ_set, and the inner one holds the yaw. On an arc
 //! with steered wheels *w* sets the circle that their axles point to the centre of, and rims are as fast as the hubs on it.
 
+use super::angles::{MOST_CROSS_YAW, near_enough, turned};
 use super::contour::Contour;
 use super::plan::{Heading, Leg, Manoeuvre, Steering};
 use super::steering::{ackermann_angles, ackermann_motion, crab_angles, within_limits};
@@ -37,8 +38,6 @@ pub const CROSS_TRACK_GAIN: f64 = 2.0;
 /// The same per distance and time, *I_y* [rad/(m s)]. Source: ours; with [`CROSS_TRACK_GAIN`] the damping ratio at 5 cm/s,
 /// *K_y* √(*v* / *I_y*) / 2, is 1: what a slope asks for is learnt in half a minute, without overshoot.
 pub const CROSS_TRACK_INTEGRAL: f64 = 0.05;
-/// The most yaw by which a rover is turned towards its line [rad]: 45°. Source: ours.
-pub const MOST_CROSS_YAW: f64 = std::f64::consts::FRAC_PI_4;
 
 /// The most that a side is slowed down or sped up on the way, over the speed of the rims [-]. Source: ours; wheels never
 /// turn backward in a drive.
@@ -414,19 +413,6 @@ pub(super) fn line_of(leg: &Leg, scenario: &Scenario, state: &RoverState) -> Lin
     Line { from, along, yaw: near_enough(yaw, nose) }
 }
 
-/// A yaw from which a rover is led to a line: its own, or where that is farther from the line than what leads back to it can
-/// turn the nose, the nearest that is not [rad].
-///
-/// * `along`: yaw of a nose along the line [rad]
-pub(super) fn near_enough(yaw: f64, along: f64) -> f64 {
-    let off = turned(yaw - along);
-    if off.abs() <= MOST_CROSS_YAW {
-        yaw
-    } else {
-        yaw - off + off.clamp(-MOST_CROSS_YAW, MOST_CROSS_YAW)
-    }
-}
-
 /// The yaw, less than half a turn away, at which the nose points to a place, or the tail where the direction is -1 [rad].
 fn yaw_towards(place: Vec2, state: &RoverState, direction: f64) -> f64 {
     let ahead = direction * (place - state.position);
@@ -436,10 +422,4 @@ fn yaw_towards(place: Vec2, state: &RoverState, direction: f64) -> f64 {
 /// The outermost wheel's distance from the middle [m].
 pub(super) fn reach(mounts: &[Mount]) -> f64 {
     mounts.iter().map(|mount| mount.position.y.abs()).fold(f64::MIN_POSITIVE, f64::max)
-}
-
-/// An angle less its whole turns, from -π to π [rad].
-pub(super) fn turned(angle: f64) -> f64 {
-    use std::f64::consts::{PI, TAU};
-    angle - TAU * ((angle + PI) / TAU).floor()
 }

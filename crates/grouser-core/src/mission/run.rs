@@ -1,9 +1,10 @@
 //! A mission on its way.
 
+use super::angles::turned;
 use super::driven::{Driven, End, Goal};
 use super::look_ahead::Ahead;
 use super::navigator::Navigator;
-use super::pilot::{Pilot, line_of, reach, turned};
+use super::pilot::{Pilot, line_of, reach};
 use super::plan::{Heading, Leg, Manoeuvre, Measure, Mission, PlanError};
 use super::report::{BackOut, LegOutcome, LegReport, MissionReport, Taken};
 use super::stop::Then;

@@ -4,7 +4,7 @@ use grouser_core::units::Vec3;
 use grouser_core::wheel::Wheel;
 use serde_json::{Value, json};
 
-use super::{Solid, wheel_solids};
+use super::solid::{Solid, wheel_solids};
 use crate::style::{Ground, Role};
 
 /// Kinds of numbers and uses of buffers, by their codes in the format.

@@ -10,19 +10,19 @@ use grouser_core::terrain;
 use grouser_core::units::{Vec2, Vec3};
 use grouser_page::Place;
 
+use super::drawing::Drawing;
 use super::labels::{ABOVE, BELOW, LEFT, name};
 use super::profile::{Profile, Room};
 use super::rover::{Drawn, Stance};
 use super::view::View;
 use super::{
-    AROUND, Drawing, Surface, WAY, from_above_in, of_surface_from_above, of_surface_obliquely,
-    views,
+    AROUND, Surface, WAY, from_above_in, of_surface_from_above, of_surface_obliquely, views,
 };
-use crate::animation::{Shown, TOP, WIDTH};
 use crate::marks::{Line, Mark};
 use crate::motion::Pose;
 use crate::outline::reach;
 use crate::scene::{Actor, Around, Frame, Scene};
+use crate::shown::{Shown, TOP, WIDTH};
 use crate::step::round_step;
 use crate::style::Role;
 

@@ -5,7 +5,7 @@ use grouser_core::terrain::{Footprint, Terrain};
 use grouser_core::units::{Vec2, Vec3};
 use grouser_page::{Anchor, Place};
 
-use super::Drawing;
+use super::drawing::Drawing;
 use super::labels::{ABOVE, BELOW, multiples, name, number};
 use crate::marks::{Line, Mark};
 use crate::step::round_step;

@@ -14,18 +14,20 @@
 
 mod case;
 mod choices;
+mod error;
 mod factor;
 
 use self::case::{OfCase, known};
 use self::choices::with_strength_of;
 pub use self::choices::{Choices, Ground, RoverMass, SiteSoil};
+pub use self::error::ForecastError;
 pub use self::factor::{Factor, FactorKind, Level, REMEDY_OF_INTERACTIONS};
 use super::ensemble::factorial::{Factorial, VarianceBudget};
 use super::ensemble::samples::{BandInputs, Sample};
 use super::ensemble::{Band, NothingAccepted, outputs_while};
-use super::heading::{HeadingStudy, NoHeading, STUCK};
+use super::heading::{HeadingStudy, STUCK};
 use crate::contact::validity::{Finding, Flag};
-use crate::error::{ParameterError, positive};
+use crate::error::positive;
 use crate::soil::GravityScaling;
 
 /// What a forecast is made for.
@@ -43,21 +45,6 @@ pub struct ForecastStudy {
     pub samples: [u32; 2],
     /// Seed of the samples.
     pub seed: u64,
-}
-
-/// Why there is no forecast.
-#[derive(Debug, thiserror::Error)]
-pub enum ForecastError {
-    /// A value is out of its range.
-    #[error(transparent)]
-    Parameter(#[from] ParameterError),
-    /// No soil can be drawn.
-    #[error(transparent)]
-    NothingAccepted(#[from] NothingAccepted),
-    /// The search for a heading gave up in one of the cases. Each level of each factor has the same cases, so that none
-    /// can be left out.
-    #[error("a case of the forecast: {0}")]
-    NotFound(NoHeading),
 }
 
 /// A forecast.

@@ -33,6 +33,7 @@
 //! becomes of it.
 
 mod bracket;
+mod first_rise;
 mod path;
 mod study;
 

@@ -1,6 +1,6 @@
 //! One case of a forecast: a rover of one mass on one soil, by one model.
 
-use super::ForecastError;
+use super::error::ForecastError;
 use crate::studies::heading::{
     HeadingOffset, HeadingStudy, LimitedBy, NoHeading, STRAIGHT_DOWN, STUCK,
 };

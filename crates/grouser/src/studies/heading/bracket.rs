@@ -1,81 +1,13 @@
 //! Balances of a heading by brackets: slower than following the curve, and sure where its forces are continuous.
 
-use super::path::{Path, Place, Point};
+use super::first_rise::LAST;
+use super::path::{CLOSE, NEXT_SLOPES, Path, Place, Point};
 use crate::root;
-use crate::vehicle::ReactionError;
 
-/// Slip between two looks at the thrust [-]. Source: ours, because pulls rise and fall over tenths of slip.
-const LOOK: f64 = 0.04;
-/// Slip of the last look, in drive and in skid [-], and which look that is.
-const LAST: f64 = 0.999;
-const LAST_LOOK: u32 = 25;
-
-/// A slip [-], and what is left over of the thrust there, over the weight [-].
-pub(super) type Looked = (f64, f64);
-
-/// Why no slip balances the thrust.
-pub(super) enum NoBalance {
-    /// At any slip the thrust lacks this much or more, over the weight [-].
-    Lacks(f64),
-    /// At any slip the rover is pushed on: its wheels do not brake enough.
-    Pushed,
-    /// At no slip do the wheels settle.
-    Fault(ReactionError),
-}
-
-/// The lowest slip around which the thrust comes to suffice, as two slips with what is left over there, over the
-/// weight.
-///
-/// * `left_over`: of the thrust at a slip, over the weight [-]
-pub(super) fn first_rise(
-    left_over: &dyn Fn(f64) -> Result<f64, ReactionError>,
-) -> Result<[Looked; 2], NoBalance> {
-    // Wheels that no sinkage carries move nothing.
-    const NOTHING: f64 = -1.0;
-    let (mut best, mut fault) = (f64::NEG_INFINITY, None);
-    let mut look = |slip: f64| match left_over(slip) {
-        Ok(thrust) => {
-            best = best.max(thrust);
-            (slip, thrust)
-        }
-        Err(error) => {
-            fault.get_or_insert(error);
-            (slip, NOTHING)
-        }
-    };
-    let slip_of = |place: u32| (LOOK * f64::from(place)).min(LAST);
-    let mut here = look(0.0);
-    if here.1 >= 0.0 {
-        for place in 1..=LAST_LOOK {
-            let lower = look(-slip_of(place));
-            if lower.1 < 0.0 {
-                return Ok([lower, here]);
-            }
-            here = lower;
-        }
-        return Err(NoBalance::Pushed);
-    }
-    for place in 1..=LAST_LOOK {
-        let higher = look(slip_of(place));
-        if higher.1 >= 0.0 {
-            return Ok([here, higher]);
-        }
-        here = higher;
-    }
-    Err(match fault {
-        Some(error) if best == f64::NEG_INFINITY => NoBalance::Fault(error),
-        _ => NoBalance::Lacks(-best),
-    })
-}
-
-/// Slopes at which a next point is looked for, above the last [rad].
-pub(super) const NEXT_SLOPES: [f64; 4] = [2e-3, 4e-4, 5e-5, 5e-6];
 /// The first half-width of a bracket around the last point [-, rad].
 const NARROW: f64 = 1e-4;
 /// How often it is doubled: to 0.1.
 const DOUBLINGS: u32 = 10;
-/// Force left over, over the weight, that a bracketed balance may have [-]: the root of forces that are exact to 1e-12.
-pub(super) const CLOSE: f64 = 1e-9;
 
 impl Path<'_> {
     /// Whether the course leads straight up or down the slope, so that nothing pulls sideways.

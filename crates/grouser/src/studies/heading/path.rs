@@ -6,7 +6,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::bracket::{CLOSE, NEXT_SLOPES, NoBalance, first_rise};
+use super::first_rise::{NoBalance, first_rise};
 use super::study::HeadingStudy;
 use crate::contact::{SettleError, Slip};
 use crate::elementary::wide::{asin, cos, sin};
@@ -103,6 +103,11 @@ impl Reach {
     /// To its end.
     pub(super) const END: Self = Self { slope: STEEPEST_SLOPE, slip_ratio: f64::INFINITY };
 }
+
+/// Slopes at which a next point is looked for, above the last [rad].
+pub(super) const NEXT_SLOPES: [f64; 4] = [2e-3, 4e-4, 5e-5, 5e-6];
+/// Force left over, over the weight, that a bracketed balance may have [-]: the root of forces that are exact to 1e-12.
+pub(super) const CLOSE: f64 = 1e-9;
 
 /// What ends a curve.
 #[derive(Clone, Debug, PartialEq)]
