@@ -89,7 +89,7 @@ fn numbers_out_of_range() {
             "attitude --slope-deg -5",
             "attitude --gravity-m-s2 -9.8",
             "traverse --slope-deg 61",
-            "traverse --yaw-deg 181",
+            "traverse --yaw-deg 2e9",
             "traverse --duration-s 0",
             "traverse --duration-s 1e9",
             "traverse --duration-s -20",
