@@ -63,7 +63,7 @@ class HeadingBand(_tables.Tabular):
     draws_level: Floats
     """Samples with a heading that holds the course."""
     draws: int
-    """All samples."""
+    """Samples for which it is known whether one does."""
     draws_mobile: int
     """Samples on which the rover can move on level ground."""
     limit_slope_deg_p2_5: float | None
@@ -129,7 +129,7 @@ class HeadingMapBand(_tables.Tabular):
     draws_level: Floats
     """Samples with a heading that holds the course."""
     draws: Floats
-    """All samples."""
+    """Samples for which it is known whether one does."""
     draws_mobile: Floats
     """Samples on which the rover can move on level ground."""
     limit_slope_deg_p2_5: Floats
