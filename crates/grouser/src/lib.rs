@@ -16,7 +16,7 @@
 //! | simulation | [`simulation`] | a run, from its scenario to its trajectory |
 //! | vehicle | [`vehicle`] | the rover: loads, motion, drives |
 //! | contact | [`contact`] | what the soil does to one wheel |
-//! | foundations | [`units`] [`error`] [`soil`] [`wheel`] [`terrain`] [`site`] | what things are |
+//! | foundations | [`units`] [`error`] [`soil`] [`wheel`] [`terrain`] | what things are |
 //!
 //! Inside, everything is in SI units and radians; [`document`] converts. There is no file, clock or printing in the
 //! physics: a [`Scenario`](simulation::Scenario) alone determines its

@@ -1042,7 +1042,7 @@ class ScenarioStart(TypedDict, total=False):
     """How the run starts."""
 
     yaw_deg: float
-    """Yaw, γ; above 0 with the nose uphill [°]."""
+    """Yaw, γ; above 0 with the nose uphill; whole turns do not count [°]."""
     motion: str
     """Whether the rover already moves."""
 
@@ -1295,6 +1295,18 @@ class MissionStopDepthOfDischarge(TypedDict, total=False):
     """How far it backs out, where `then` says so [m]."""
 
 
+class MissionStopShortfallDeg(TypedDict, total=False):
+    """Yaw that a turn or an arc lacks where it ends; without it 2°: beyond, the leg is
+    `fell_short`."""
+
+    above: float
+    """The rover stops above this [°]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
 class MissionStop(TypedDict, total=False):
     """Limits at which the rover stops in every leg that has none of its own for the same
     number."""
@@ -1323,6 +1335,9 @@ class MissionStop(TypedDict, total=False):
     """Highest temperature of a motor's winding."""
     depth_of_discharge: MissionStopDepthOfDischarge
     """Depth of discharge: 1 less the battery's state of charge."""
+    shortfall_deg: MissionStopShortfallDeg
+    """Yaw that a turn or an arc lacks where it ends; without it 2°: beyond, the leg is
+    `fell_short`."""
 
 
 class MissionSensors(TypedDict, total=False):
@@ -1349,7 +1364,8 @@ class MissionLegArc(TypedDict, total=False):
     radius_m: float
     """Radius of the circle of the centre of mass [m]."""
     angle_deg: float
-    """How far the rover turns on it, above 0 to its left [°]."""
+    """How far the rover turns on it, above 0 to its left: it drives on until its yaw has turned so
+    far, for at most twice the circle's way [°]."""
 
 
 class MissionLegGoto(TypedDict, total=False):
@@ -1412,6 +1428,9 @@ class MissionLegStop(TypedDict, total=False):
     """Highest temperature of a motor's winding."""
     depth_of_discharge: MissionStopDepthOfDischarge
     """Depth of discharge: 1 less the battery's state of charge."""
+    shortfall_deg: MissionStopShortfallDeg
+    """Yaw that a turn or an arc lacks where it ends; without it 2°: beyond, the leg is
+    `fell_short`."""
 
 
 class MissionLeg(TypedDict, total=False):
@@ -1443,7 +1462,7 @@ class MissionLeg(TypedDict, total=False):
     speeds."""
     yaw_deg: float
     """Yaw before the leg, γ: of a first leg that of the start, of another turned to on the spot;
-    held only where `heading` says so [°]."""
+    held only where `heading` says so; whole turns do not count [°]."""
     heading: str
     """What `drive_m` holds on its way; without it nothing: the wheels keep one speed. `goto` knows
     `crab` alone."""

@@ -23,4 +23,4 @@ class OutcomeRow(NamedTuple):
 
 
 #: Every outcome of runs and of legs of missions, by its name.
-OUTCOMES: dict[str, OutcomeRow] = {name: OutcomeRow(*row) for name, *row in _core.outcomes()}
+OUTCOMES: dict[str, OutcomeRow] = {row[0]: OutcomeRow(*row[1:]) for row in _core.outcomes()}
