@@ -61,7 +61,7 @@ impl Accuracy {
 }
 
 fn force(fixtures: &Fixtures) -> f64 {
-    let (model, reference) = (fixtures.scenario.theory.model(), Ishigami::reference());
+    let (model, reference) = (fixtures.scenario.model.as_ref(), Ishigami::reference());
     let errors = fixtures.wheels.iter().map(|wheel| {
         let found = model.forces(&wheel.contact, wheel.sinkage);
         let exact = reference.forces(&wheel.contact, wheel.sinkage);
@@ -88,7 +88,7 @@ fn facets(fixtures: &Fixtures) -> f64 {
 }
 
 fn carried(fixtures: &Fixtures) -> f64 {
-    let model = fixtures.scenario.theory.model();
+    let model = fixtures.scenario.model.as_ref();
     let errors = fixtures.wheels.iter().map(|wheel| {
         let settled = settle(model, &wheel.contact, wheel.load).expect("it is carried");
         (settled.forces.normal_force / wheel.load - 1.0).abs()

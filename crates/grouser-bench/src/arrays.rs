@@ -1,8 +1,6 @@
 //! The work behind Python's calls on arrays, prepared once, to measure the calls' overhead against.
 
-use grouser::contact::{
-    Contact, Slip, Theory, WheelForces, WheelSoilModel, forces_many, settle_many,
-};
+use grouser::contact::{Contact, Model, Slip, WheelForces, forces_many, settle_many};
 use grouser::document::{self, DocumentError, Kind, Overrides, Source};
 use grouser::simulation::{Approach, Run, Scenario};
 use grouser::units::EARTH_GRAVITY;
@@ -60,12 +58,12 @@ impl Arrays {
     pub fn compute(&self) -> usize {
         match self {
             Self::Wheels(wheels) => {
-                let some = |wheels: &[(Contact, f64)]| settle_many(model(), wheels);
+                let some = |wheels: &[(Contact, f64)]| settle_many(model().as_ref(), wheels);
                 let settled: Vec<_> = wheels.par_chunks(SHARE).flat_map_iter(some).collect();
                 settled.into_iter().flatten().count()
             }
             Self::Sunk(wheels) => {
-                let some = |wheels: &[(Contact, f64)]| forces_many(model(), wheels);
+                let some = |wheels: &[(Contact, f64)]| forces_many(model().as_ref(), wheels);
                 let forces: Vec<WheelForces> =
                     wheels.par_chunks(SHARE).flat_map_iter(some).collect();
                 forces.into_iter().filter(|it| it.normal_force > 0.0).count()
@@ -83,8 +81,8 @@ impl Arrays {
 }
 
 /// The model of a scenario that names none.
-fn model() -> &'static dyn WheelSoilModel {
-    Theory::default().model()
+fn model() -> Model {
+    Model::default()
 }
 
 /// Wheels with the first number of each row, and slip ratio and slip angle [°] of the others.

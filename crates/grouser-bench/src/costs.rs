@@ -8,7 +8,7 @@
 use std::fmt::{self, Display, Formatter};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use grouser::contact::{Contact, SettleError, Slip, Theory, WheelForces, WheelSoilModel, settle};
+use grouser::contact::{Contact, Model, SettleError, Slip, WheelForces, WheelSoilModel, settle};
 use grouser::document::{self, DocumentError, Kind, Overrides, Source};
 use grouser::soil::Soil;
 use grouser::units::EARTH_GRAVITY;
@@ -33,12 +33,12 @@ pub struct CostMap {
 }
 
 /// A wheel of the map, in one motion.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Stand {
     /// The soil's name.
     pub soil: &'static str,
     /// The wheel–soil model.
-    pub theory: Theory,
+    pub model: Model,
     /// The contact.
     pub contact: Contact,
     /// The most that the soil carries down to axle depth [N].
@@ -63,22 +63,27 @@ impl CostMap {
 
     /// The wheel in a motion on each soil.
     #[must_use]
-    pub fn stands(&self, theory: Theory, slip_ratio: f64, slip_angle_deg: f64) -> Vec<Stand> {
+    pub fn stands(&self, model: &Model, slip_ratio: f64, slip_angle_deg: f64) -> Vec<Stand> {
         let slip = Slip::on_test_stand(slip_ratio, slip_angle_deg.to_radians());
         let stand = |&(name, soil): &(&'static str, Soil)| {
             let contact = Contact { wheel: self.wheel, soil, slip, gravity: EARTH_GRAVITY };
-            let capacity = capacity(theory, &contact)?;
-            (capacity > 0.0).then_some(Stand { soil: name, theory, contact, capacity })
+            let capacity = capacity(model, &contact)?;
+            (capacity > 0.0).then_some(Stand {
+                soil: name,
+                model: model.clone(),
+                contact,
+                capacity,
+            })
         };
         self.soils.iter().filter_map(stand).collect()
     }
 
     /// Looks of a driving wheel, the mean over the soils.
     #[must_use]
-    pub fn driving(&self, theory: Theory) -> f64 {
+    pub fn driving(&self, model: &Model) -> f64 {
         let (slip_ratio, slip_angle_deg, share) = DRIVING;
         let looks: Vec<u32> = self
-            .stands(theory, slip_ratio, slip_angle_deg)
+            .stands(model, slip_ratio, slip_angle_deg)
             .iter()
             .map(|stand| stand.looks(share))
             .collect();
@@ -88,12 +93,12 @@ impl CostMap {
     /// The most looks over all soils and slip angles, over those of a driving wheel: a row for each of
     /// [`SLIP_RATIOS`], a column for each of [`LOAD_SHARES`].
     #[must_use]
-    pub fn worst(&self, theory: Theory) -> Vec<[f64; LOAD_SHARES.len()]> {
-        let driving = self.driving(theory);
+    pub fn worst(&self, model: &Model) -> Vec<[f64; LOAD_SHARES.len()]> {
+        let driving = self.driving(model);
         let row = |&ratio: &f64| {
             let stands: Vec<Stand> = SLIP_ANGLES_DEG
                 .iter()
-                .flat_map(|angle| self.stands(theory, ratio, *angle))
+                .flat_map(|angle| self.stands(model, ratio, *angle))
                 .collect();
             LOAD_SHARES.map(|share| {
                 let most = stands.iter().map(|stand| stand.looks(share)).max().unwrap_or(0);
@@ -110,7 +115,7 @@ impl Stand {
     /// * `share`: of the most that the soil carries [-]
     #[must_use]
     pub fn looks(&self, share: f64) -> u32 {
-        let counted = Counted { model: self.theory.model(), looks: AtomicU32::new(0) };
+        let counted = Counted { model: self.model.as_ref(), looks: AtomicU32::new(0) };
         // Both answers count alike.
         let _ = settle(&counted, &self.contact, share * self.capacity);
         counted.looks.into_inner()
@@ -118,22 +123,22 @@ impl Stand {
 }
 
 /// The most that the soil carries down to axle depth [N]; none where it carries any load.
-fn capacity(theory: Theory, contact: &Contact) -> Option<f64> {
+fn capacity(model: &Model, contact: &Contact) -> Option<f64> {
     /// More than any soil of the map carries of a wheel [N].
     const TOO_MUCH: f64 = 1e12;
-    match settle(theory.model(), contact, TOO_MUCH) {
+    match settle(model.as_ref(), contact, TOO_MUCH) {
         Err(SettleError::SunkToAxle { capacity, .. }) => Some(capacity),
         _ => None,
     }
 }
 
 /// A model that counts how often it is asked; asked for all forces each time, it hides no look.
-struct Counted {
-    model: &'static dyn WheelSoilModel,
+struct Counted<'a> {
+    model: &'a dyn WheelSoilModel,
     looks: AtomicU32,
 }
 
-impl WheelSoilModel for Counted {
+impl WheelSoilModel for Counted<'_> {
     fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces {
         self.looks.fetch_add(1, Ordering::Relaxed);
         self.model.forces(contact, sinkage)
@@ -147,13 +152,13 @@ impl WheelSoilModel for Counted {
 impl Display for CostMap {
     /// A table for each model.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        for theory in Theory::ALL {
-            let driving = self.driving(theory);
-            writeln!(f, "{}: 1 is a driving wheel's {driving:.1} looks", theory.name())?;
+        for model in &Model::ALL {
+            let driving = self.driving(model);
+            writeln!(f, "{}: 1 is a driving wheel's {driving:.1} looks", model.name())?;
             write!(f, "slip ratio  load ")?;
             LOAD_SHARES.iter().try_for_each(|share| write!(f, "{:>6.0} %", 100.0 * share))?;
             writeln!(f, "  of what the soil carries")?;
-            for (ratio, row) in SLIP_RATIOS.iter().zip(self.worst(theory)) {
+            for (ratio, row) in SLIP_RATIOS.iter().zip(self.worst(model)) {
                 write!(f, "{ratio:>10.1}       ")?;
                 row.iter().try_for_each(|cost| write!(f, "{cost:>8.1}"))?;
                 writeln!(f)?;

@@ -1,6 +1,6 @@
 //! Inputs of the units of work.
 
-use grouser::contact::{Contact, Slip, Theory};
+use grouser::contact::{Contact, Model, Slip};
 use grouser::document::{self, DocumentError, Kind, Overrides, Source};
 use grouser::simulation::{Approach, Scenario, Start};
 use grouser::soil::Soil;
@@ -64,7 +64,7 @@ impl Fixtures {
         let batch: Vec<_> = wheels.iter().map(|wheel| (wheel.contact, wheel.load)).collect();
         let sunk = wheels.iter().map(|wheel| (wheel.contact, wheel.sinkage)).collect();
         let carried = |(contact, load): &&(Contact, f64)| {
-            grouser::contact::settle(Theory::Rft.model(), contact, *load).is_ok()
+            grouser::contact::settle(Model::Rft.as_ref(), contact, *load).is_ok()
         };
         let faceted = batch.iter().filter(carried).take(FACETED).copied().collect();
         let mut loads = Draws::of_stream(2);
@@ -83,7 +83,7 @@ fn wheel(scenario: &Scenario, soil: Soil, draws: &mut Draws) -> LoadedWheel {
             Slip::on_test_stand(draws.between(-0.3, 0.9), draws.between(-45.0, 45.0).to_radians());
         let wheel = scenario.rover.mounts()[0].unit.wheel;
         let contact = Contact { wheel, soil, slip, gravity: EARTH_GRAVITY };
-        if let Ok(settled) = grouser::contact::settle(Theory::Ishigami.model(), &contact, load) {
+        if let Ok(settled) = grouser::contact::settle(Model::Ishigami.as_ref(), &contact, load) {
             return LoadedWheel { contact, load, sinkage: settled.sinkage };
         }
     }
@@ -91,7 +91,7 @@ fn wheel(scenario: &Scenario, soil: Soil, draws: &mut Draws) -> LoadedWheel {
 
 /// The same wheel under a load [N] from a little more than the soil carries to ten times that.
 fn overloaded(wheel: &LoadedWheel, draws: &mut Draws) -> (Contact, f64) {
-    let model = Theory::Ishigami.model();
+    let model = Model::Ishigami.as_ref();
     let contact = wheel.contact;
     let at_axle = model.forces(&contact, contact.wheel.shearing_radius()).normal_force;
     loop {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use grouser::contact::{
-    Contact, InstructionSet, SettleError, Theory, forces_many, settle, settle_many,
+    Contact, InstructionSet, Model, SettleError, forces_many, settle, settle_many,
 };
 use grouser::simulation::equations::Equations;
 use grouser::simulation::{Approach, Run, Scenario};
@@ -116,9 +116,9 @@ impl Fixtures {
             Unit::Operation => operations(),
             Unit::ForceSingle => self.force_single(),
             Unit::ForceBatched => self.force_batched(),
-            Unit::SettleSingle => settle_one_by_one(self.scenario.theory, &self.batch),
+            Unit::SettleSingle => settle_one_by_one(&self.scenario.model, &self.batch),
             Unit::SettleBatched => self.settle_batched(),
-            Unit::SettleFacets => settle_one_by_one(Theory::Rft, &self.faceted),
+            Unit::SettleFacets => settle_one_by_one(&Model::Rft, &self.faceted),
             Unit::SettleOverloaded => self.settle_overloaded(),
             Unit::RoverRates => self.rover_rates(),
             Unit::TraverseDynamic => traverse(&self.scenario),
@@ -133,7 +133,7 @@ impl Fixtures {
     }
 
     fn force_single(&self) -> Done {
-        let model = self.scenario.theory.model();
+        let model = self.scenario.model.as_ref();
         // Each wheel waits for the one before: its sinkage carries a trace of the last force.
         let mut trace = 0.0;
         for wheel in &self.wheels {
@@ -143,19 +143,19 @@ impl Fixtures {
     }
 
     fn force_batched(&self) -> Done {
-        let forces = forces_many(self.scenario.theory.model(), &self.sunk);
+        let forces = forces_many(self.scenario.model.as_ref(), &self.sunk);
         let count = forces.len();
         Done { count, checksum: forces.iter().map(|it| it.drawbar_pull).sum() }
     }
 
     fn settle_batched(&self) -> Done {
-        let settled = settle_many(self.scenario.theory.model(), &self.batch);
+        let settled = settle_many(self.scenario.model.as_ref(), &self.batch);
         let sinkages = settled.iter().map(|it| it.as_ref().expect("it is carried").sinkage);
         Done { count: self.batch.len(), checksum: sinkages.sum() }
     }
 
     fn settle_overloaded(&self) -> Done {
-        let model = self.scenario.theory.model();
+        let model = self.scenario.model.as_ref();
         let capacity = |(contact, load): &(Contact, f64)| match settle(model, contact, *load) {
             Err(SettleError::SunkToAxle { capacity, .. }) => capacity,
             answer => unreachable!("the soil does not carry it: {answer:?}"),
@@ -207,10 +207,10 @@ impl Fixtures {
 }
 
 /// Each wheel waits for the one before: its load [N] carries a trace of the last sinkage.
-fn settle_one_by_one(theory: Theory, wheels: &[(Contact, f64)]) -> Done {
+fn settle_one_by_one(model: &Model, wheels: &[(Contact, f64)]) -> Done {
     let mut trace = 0.0;
     for (contact, load) in wheels {
-        let settled = settle(theory.model(), contact, load + trace).expect("it is carried");
+        let settled = settle(model.as_ref(), contact, load + trace).expect("it is carried");
         trace = settled.sinkage * 1e-300;
     }
     Done { count: wheels.len(), checksum: trace }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use grouser::contact::{Theory, settle};
+use grouser::contact::{Model, settle};
 use grouser::document::{self, Overrides, Source};
 use grouser::simulation::{Approach, Run, Scenario};
 use grouser_bench::{Fixtures, Unit, controlled};
@@ -12,17 +12,16 @@ use grouser_bench::{Fixtures, Unit, controlled};
 fn the_work_is_as_much_as_it_was() {
     let fixtures = Fixtures::new().expect("the presets can be read");
     let mut text = String::from("evaluations of the theory for a settled wheel: mean, most\n");
-    for theory in Theory::ALL {
-        let model = theory.model();
+    for model in Model::ALL {
         let counts: Vec<u32> = fixtures
             .wheels
             .iter()
-            .filter_map(|wheel| settle(model, &wheel.contact, wheel.load).ok())
+            .filter_map(|wheel| settle(model.as_ref(), &wheel.contact, wheel.load).ok())
             .map(|settled| settled.evaluations)
             .collect();
         let mean = f64::from(counts.iter().sum::<u32>()) / counts.len() as f64;
         let most = counts.iter().max().expect("some settle");
-        let _ = writeln!(text, "{:<10} {mean:.2} {most}", theory.name());
+        let _ = writeln!(text, "{:<10} {mean:.2} {most}", model.name());
     }
     text.push_str("\nwork for a traverse of 20 s on 10°\n");
     let read = |file: &str| -> Scenario {

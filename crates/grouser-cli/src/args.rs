@@ -28,7 +28,7 @@ use std::path::PathBuf;
 
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use grouser::contact::Theory;
+use grouser::contact::Model;
 
 use crate::output::Format;
 
@@ -211,8 +211,8 @@ impl SettingArgs {
         if !self.has_every_model() {
             return vec![self.clone()];
         }
-        let named = |theory: Theory| Self { model: Some(theory.name().to_owned()), ..self.clone() };
-        Theory::ALL.map(named).into()
+        let named = |model: Model| Self { model: Some(model.name().to_owned()), ..self.clone() };
+        Model::ALL.map(named).into()
     }
 }
 

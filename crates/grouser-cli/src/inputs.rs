@@ -181,12 +181,12 @@ fn single(flag: &str, numbers: &Numbers, range: &RangeInclusive<f64>) -> Result<
 /// * `document`: of a soil, or of a scenario with its soil
 /// * `soil`: the key of the soil, or nothing if the document is one
 pub(crate) fn model_line(document: &Document, soil: &str) -> String {
-    let of_soil = if soil.is_empty() { None } else { document.theory_of_soil() };
-    let is_named = document.theory().or(of_soil).is_some();
+    let of_soil = if soil.is_empty() { None } else { document.model_of_soil() };
+    let is_named = document.model().or(of_soil).is_some();
     if is_named || !document.leaves_sinkage_ratio_to_priors(soil) {
         return String::new();
     }
-    let model = document.usual_theory(soil).name();
+    let model = document.usual_model(soil).name();
     format!("model: {model}, as the soil leaves its wheel sinkage ratio to priors\n")
 }
 

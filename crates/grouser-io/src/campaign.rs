@@ -2,7 +2,7 @@
 
 use super::mission::Plan;
 use super::stated::Stated;
-use grouser_core::contact::Theory;
+use grouser_core::contact::Model;
 use grouser_core::simulation::Scenario;
 use grouser_core::soil::Soil;
 use grouser_core::wheel::Wheel;
@@ -101,7 +101,7 @@ pub struct Stand {
     /// Wheel under test.
     pub wheel: Wheel,
     /// Wheel–soil model.
-    pub theory: Theory,
+    pub model: Model,
     /// *g* [m/s²].
     pub gravity: f64,
     /// *W* [N].

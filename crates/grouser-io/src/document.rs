@@ -5,7 +5,7 @@ use serde_json::{Map, Value as Json};
 
 use super::describe;
 use super::kind::{Kind, PRIORS_KEY};
-use grouser_core::contact::Theory;
+use grouser_core::contact::Model;
 
 /// The keys of a document in their own units: every named part in its place, every default filled in, keys
 /// in the order of its kind. Serialised it is the document.
@@ -115,14 +115,14 @@ impl Document {
 
     /// The wheel–soil model that a soil was made for, or a scenario asks for, if stated.
     #[must_use]
-    pub fn theory(&self) -> Option<Theory> {
-        self.theory_at("model")
+    pub fn model(&self) -> Option<Model> {
+        self.model_at("model")
     }
 
     /// The wheel–soil model that a scenario's soil was made for, if stated.
     #[must_use]
-    pub fn theory_of_soil(&self) -> Option<Theory> {
-        self.theory_at("soil.model")
+    pub fn model_of_soil(&self) -> Option<Model> {
+        self.model_at("soil.model")
     }
 
     /// The wheel–soil model that a soil is computed with where nobody asks for another: that which it
@@ -131,12 +131,12 @@ impl Document {
     ///
     /// * `place`: the key of the soil, or nothing if the document is one
     #[must_use]
-    pub fn usual_theory(&self, place: &str) -> Theory {
+    pub fn usual_model(&self, place: &str) -> Model {
         let key =
             |key: &str| if place.is_empty() { key.to_owned() } else { format!("{place}.{key}") };
         let left_to_priors = || self.leaves_sinkage_ratio_to_priors(place);
-        let usual = || if left_to_priors() { Theory::SmallWheel } else { Theory::Ishigami };
-        self.theory_at(&key("model")).unwrap_or_else(usual)
+        let usual = || if left_to_priors() { Model::SmallWheel } else { Model::Ishigami };
+        self.model_at(&key("model")).unwrap_or_else(usual)
     }
 
     /// Whether a soil leaves its wheel sinkage ratio to priors.
@@ -155,9 +155,9 @@ impl Document {
 
     /// The wheel–soil model that stands under a dotted key, if there is one.
     #[must_use]
-    pub fn theory_at(&self, path: &str) -> Option<Theory> {
+    pub fn model_at(&self, path: &str) -> Option<Model> {
         let name = self.text(path)?;
-        Theory::ALL.into_iter().find(|theory| theory.name() == name)
+        Model::ALL.into_iter().find(|model| model.name() == name)
     }
 
     /// The document as TOML.

@@ -24,7 +24,7 @@ use super::priors;
 use super::terrain_file;
 use super::tree::Node;
 use super::unit::DEG;
-use grouser_core::contact::{Theory, validity};
+use grouser_core::contact::validity;
 use grouser_core::error::ParameterError;
 use grouser_core::simulation::{PrescribedYaw, Scenario, TooFast};
 use grouser_core::soil::{AssumedValues, Exit, PressureSinkage, Shear, ShearModulus, Soil};
@@ -184,31 +184,27 @@ impl Described for Soil {
 
 /// How many values of a soil stand in for ones that its document does not state, of those that each model uses.
 fn assumed_values(soil: Option<&Document>) -> AssumedValues {
-    /// Beginnings of the keys that a model leaves aside.
-    const LEFT_ASIDE: [(Theory, &[&str]); 4] = [
-        (Theory::Ishigami, &["small_wheel.", "rft."]),
-        (Theory::Bekker, &["small_wheel.", "rft.", "exit.", "stress_peak."]),
-        (Theory::SmallWheel, &["rft."]),
-        (
-            Theory::Rft,
-            &[
-                "small_wheel.",
-                "exit.",
-                "stress_peak.",
-                "shear.",
-                "bulldozing.",
-                "cohesion_kpa",
-                "pressure_sinkage.",
-            ],
-        ),
-    ];
     let assumed = soil.map_or_else(Vec::new, priors::assumed);
-    let [ishigami, bekker, small_wheel, rft] = LEFT_ASIDE.map(|(_, left_aside)| {
+    // Each has the beginnings of the keys that a model leaves aside.
+    let but = |left_aside: &[&str]| {
         let is_used = |key: &str| !left_aside.iter().any(|start| key.starts_with(start));
         let count = assumed.iter().filter(|it| is_used(&it.key)).count();
         u32::try_from(count).unwrap_or(u32::MAX)
-    });
-    AssumedValues { ishigami, bekker, small_wheel, rft }
+    };
+    AssumedValues {
+        ishigami: but(&["small_wheel.", "rft."]),
+        bekker: but(&["small_wheel.", "rft.", "exit.", "stress_peak."]),
+        small_wheel: but(&["rft."]),
+        rft: but(&[
+            "small_wheel.",
+            "exit.",
+            "stress_peak.",
+            "shear.",
+            "bulldozing.",
+            "cohesion_kpa",
+            "pressure_sinkage.",
+        ]),
+    }
 }
 
 /// A document has one limit for both axes.
@@ -433,7 +429,7 @@ impl Described for Scenario {
     }
 
     fn follow(&mut self, document: &Document) {
-        self.theory = document.theory().unwrap_or_else(|| document.usual_theory("soil"));
+        self.model = document.model().unwrap_or_else(|| document.usual_model("soil"));
         let soil = document.part(Kind::Soil, "soil");
         self.ground.soil.domain.assumed_values = assumed_values(soil.as_ref());
         for (number, soil) in zone_soils(self).iter_mut().enumerate() {
@@ -559,7 +555,7 @@ impl Described for Stand {
     }
 
     fn follow(&mut self, document: &Document) {
-        self.theory = document.theory().unwrap_or_else(|| document.usual_theory("soil"));
+        self.model = document.model().unwrap_or_else(|| document.usual_model("soil"));
         let soil = document.part(Kind::Soil, "soil");
         self.soil.domain.assumed_values = assumed_values(soil.as_ref());
     }

@@ -80,7 +80,7 @@ impl<W: Write> Log<W> {
         let mut out = Container::begin(out, library)?;
         let about = [
             ("title", title),
-            ("model", scenario.theory.name()),
+            ("model", scenario.model.name()),
             ("time", "since the start of the run, which is 0 ns"),
         ];
         let about = about.map(|(key, value)| (key.to_owned(), value.to_owned()));

@@ -149,7 +149,7 @@ pub(crate) fn calibrate_wheel_tests<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let conditions = conditions_of(&conditions)?;
     let choice = Choice { conditions, wheel: wheel_label, ..Choice::default() };
-    let (theory, gravity) = model_and_gravity(soil, setting)?;
+    let (model, gravity) = model_and_gravity(soil, setting)?;
     let (soil, wheel) = (soil.soil()?.document.clone(), wheel.wheel()?.value);
     let sampling = sampling_of(seed, steps)?;
     let (target, propose, load_n, slip_ratio, slip_angle_deg) = aim;
@@ -165,7 +165,7 @@ pub(crate) fn calibrate_wheel_tests<'py>(
             measured: &measured,
             file: &file,
             wheel,
-            theory,
+            model,
             gravity,
             sampling,
             aim,

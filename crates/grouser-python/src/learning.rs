@@ -212,7 +212,7 @@ impl Learner {
     /// The wheel–soil models with their shares [-].
     fn models(&self) -> BTreeMap<&'static str, f64> {
         let models = self.drive().learner().models();
-        models.shares().iter().map(|(theory, share)| (theory.name(), *share)).collect()
+        models.shares().iter().map(|(model, share)| (model.name(), *share)).collect()
     }
 
     /// How much was learnt from.

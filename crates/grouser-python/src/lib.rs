@@ -118,7 +118,7 @@ mod _core {
         for (name, value) in super::time_step::DEFAULTS {
             module.add(name, value)?;
         }
-        let models = grouser::contact::Theory::ALL.map(grouser::contact::Theory::name);
+        let models = grouser::contact::Model::ALL.map(|model| model.name());
         module.add("MODELS", models.to_vec())?;
         module.add("FAILED_STATUSES", grouser::document::campaign::FAILED.to_vec())?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))

@@ -1,6 +1,6 @@
 //! Many runs at once: scenarios, soils and numbers that vary from run to run.
 
-use grouser::contact::Theory;
+use grouser::contact::Model;
 use grouser::document::columns::Column;
 use grouser::document::columns::run::{RECORD, STANDING};
 use grouser::document::{
@@ -26,7 +26,7 @@ pub(crate) struct Runs {
     /// The scenarios, and whether each names its wheel–soil model itself.
     bases: Vec<(Scenario, bool)>,
     base_of: Option<Vec<usize>>,
-    soils: Vec<(Soil, Theory)>,
+    soils: Vec<(Soil, Model)>,
     soil_of: Option<Vec<usize>>,
     /// Arguments, and the keys of scenarios that they set, with a value for each run.
     varied: Vec<([&'static str; 2], Vec<f64>)>,
@@ -76,8 +76,8 @@ impl Runs {
         let of_soils = VariedKeys::taken(varied, prefix, &documents, count)?;
         let documents: Vec<_> = bases.iter().map(|base| varied::parts(base)).collect();
         let of_bases = VariedKeys::taken(varied, "", &documents, count)?;
-        let named = |it: &&LoadedScenario| (it.value.clone(), it.document.theory().is_some());
-        let usual = |it: &&LoadedSoil| (it.value, it.document.usual_theory(""));
+        let named = |it: &&LoadedScenario| (it.value.clone(), it.document.model().is_some());
+        let usual = |it: &&LoadedSoil| (it.value, it.document.usual_model(""));
         let runs = Self {
             bases: bases.iter().map(named).collect(),
             base_of,
@@ -105,11 +105,11 @@ impl Runs {
     fn scenario(&self, place: usize) -> Result<Scenario, ParameterError> {
         let (base, names_its_model) = &self.bases[self.base_at(place)];
         let mut scenario = base.clone();
-        if let Some((soil, theory)) = self.soils.get(self.soil_at(place)) {
+        if let Some((soil, model)) = self.soils.get(self.soil_at(place)) {
             let numbers = self.of_soils.at(self.soil_at(place), place);
             scenario.ground.soil = soil.with(numbers).map_err(Misfit::of_numbers)?;
             if !names_its_model {
-                scenario.theory = *theory;
+                scenario.model = model.clone();
             }
         }
         let arguments = self.varied.iter().map(|([_, key], values)| (*key, values[place]));

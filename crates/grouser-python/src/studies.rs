@@ -340,7 +340,7 @@ pub(crate) fn wheel_test_band<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     check("samples", &[f64::from(samples)], &SAMPLES)?;
     let test = plan(soil, wheel, setting, &load_n, &slip_angle_deg, &slip_ratio)?;
-    let named = setting.scenario()?.document.theory();
+    let named = setting.scenario()?.document.model();
     let inputs = BandInputs::of_soil(soil.soil()?, named);
     let found = listening(py, move |cancelled| {
         let samples = inputs.samples(seed, samples).map_err(Problem::Sampling)?;
@@ -568,7 +568,7 @@ fn plan(
     slip_angle_deg: &PyReadonlyArray1<'_, f64>,
     slip_ratio: &PyReadonlyArray1<'_, f64>,
 ) -> PyResult<WheelTest> {
-    let (theory, gravity) = model_and_gravity(soil, setting)?;
+    let (model, gravity) = model_and_gravity(soil, setting)?;
     check(LOAD.name, load_n.as_slice()?, &study::LOAD_N)?;
     check(SLIP_ANGLE.name, slip_angle_deg.as_slice()?, &study::SLIP_ANGLE_DEG)?;
     check(SLIP_RATIO.name, slip_ratio.as_slice()?, &study::SLIP_RATIO)?;
@@ -576,7 +576,7 @@ fn plan(
         wheel: wheel.wheel()?.value,
         soil: soil.soil()?.value,
         gravity,
-        theory,
+        model,
         loads: load_n.as_slice()?.to_vec(),
         slip_angles: in_si(SLIP_ANGLE, slip_angle_deg.as_slice()?),
         slip_ratios: slip_ratio.as_slice()?.to_vec(),

@@ -2,7 +2,7 @@
 
 use grouser::contact::mechanism::{Mechanism, MountedWheel, Wrench};
 use grouser::contact::time_step::{REST_SPEED, SINKAGE_DAMPING};
-use grouser::contact::{Settled, SteppedWheel, SteppingWheel, Theory, TimeStep};
+use grouser::contact::{Model, Settled, SteppedWheel, SteppingWheel, TimeStep};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{SLIP_ANGLE, SLIP_RATIO};
 use grouser::soil::Soil;
@@ -22,7 +22,7 @@ use crate::wheels::model_and_gravity;
 /// Wheels and the soils under them, whose reaction is computed at every step.
 #[pyclass(frozen, module = "grouser._core")]
 pub(crate) struct SteppingWheels {
-    wheels: Vec<(Wheel, Soil, Theory)>,
+    wheels: Vec<(Wheel, Soil, Model)>,
     gravity: f64,
     damping: f64,
     rest_speed: f64,
@@ -56,8 +56,8 @@ impl SteppingWheels {
             }
         }
         let made = soils.iter().zip(&wheels).map(|(soil, wheel)| {
-            let (theory, _) = model_and_gravity(soil, setting)?;
-            Ok((wheel.wheel()?.value, soil.soil()?.value, theory))
+            let (model, _) = model_and_gravity(soil, setting)?;
+            Ok((wheel.wheel()?.value, soil.soil()?.value, model))
         });
         Ok(Self {
             wheels: made.collect::<PyResult<_>>()?,
@@ -127,8 +127,8 @@ impl SteppingWheels {
             free: &free,
         };
         let stepping = self.wheels.iter().zip(sinkages);
-        let stepping = stepping.map(|(&(wheel, soil, theory), sinkage)| SteppingWheel {
-            model: theory.model(),
+        let stepping = stepping.map(|(&(wheel, soil, ref model), sinkage)| SteppingWheel {
+            model: model.as_ref(),
             wheel,
             soil,
             sinkage,
@@ -168,7 +168,7 @@ impl SteppingWheels {
         if !are_rows || distances.dim() != count || held.dim() != (count, 6) {
             return None;
         }
-        let mounted = |(place, (wheel, ..)): (usize, &(Wheel, Soil, Theory))| {
+        let mounted = |(place, (wheel, ..)): (usize, &(Wheel, Soil, Model))| {
             let vector = |all: &ArrayView2<'_, f64>, start: usize| {
                 Vec3::new(all[[place, start]], all[[place, start + 1]], all[[place, start + 2]])
             };

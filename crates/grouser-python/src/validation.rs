@@ -37,12 +37,12 @@ pub(crate) fn validate<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let conditions = conditions_of(&conditions)?;
     let choice = Choice { conditions, wheel: wheel_label, ..Choice::default() };
-    let (theory, gravity) = model_and_gravity(soil, setting)?;
+    let (model, gravity) = model_and_gravity(soil, setting)?;
     let (soil, wheel) = (soil.soil()?.value, wheel.wheel()?.value);
     let file = data.label();
     let found = listening(py, move |_| {
         let measured = data.source()?.read(&choice)?;
-        let study = ValidationStudy { tests: &measured.tests, wheel, soil, theory, gravity };
+        let study = ValidationStudy { tests: &measured.tests, wheel, soil, model, gravity };
         let validation = study.run();
         Ok((measured, validation))
     })?;

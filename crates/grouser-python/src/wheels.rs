@@ -4,7 +4,7 @@ use std::ops::{Range, RangeInclusive};
 use std::time::{Duration, Instant};
 
 use grouser::contact::validity::{Finding, Situation};
-use grouser::contact::{Contact, SettleError, Settled, Slip, Theory, forces_many, settle_many};
+use grouser::contact::{Contact, Model, SettleError, Settled, Slip, forces_many, settle_many};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{LOAD, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO};
 use grouser::document::{Described, Kind, Misfit, range, study};
@@ -35,7 +35,7 @@ const SHARES: usize = 32;
 
 /// What all wheels share, and the keys of it that differ from wheel to wheel.
 struct Stand {
-    soils: Vec<(Soil, Theory)>,
+    soils: Vec<(Soil, Model)>,
     wheel: Wheel,
     gravity: f64,
     of_soils: VariedKeys,
@@ -85,8 +85,8 @@ impl Stand {
             "a key such as soil.cohesion_kpa, wheel.radius_m or gravity_m_s2",
         )?;
         let soils = soils.iter().map(|soil| {
-            let (theory, _) = model_and_gravity(soil, setting)?;
-            Ok((soil.soil()?.value, theory))
+            let (model, _) = model_and_gravity(soil, setting)?;
+            Ok((soil.soil()?.value, model))
         });
         let soils = soils.collect::<PyResult<Vec<_>>>()?;
         let gravity = setting.scenario()?.value.gravity;
@@ -106,9 +106,9 @@ impl Stand {
         &self,
         inputs: &Inputs<'_>,
         place: usize,
-    ) -> Result<(Contact, Theory), ParameterError> {
+    ) -> Result<(Contact, Model), ParameterError> {
         let of = inputs.soil_of(place);
-        let (mut soil, theory) = self.soils[of];
+        let &(mut soil, ref model) = &self.soils[of];
         let mut wheel = self.wheel;
         if !self.of_soils.is_empty() {
             soil = soil.with(self.of_soils.at(of, place)).map_err(Misfit::of_numbers)?;
@@ -119,11 +119,11 @@ impl Stand {
         let gravity = self.gravities.as_ref().map_or(self.gravity, |all| all[place]);
         let angle = SLIP_ANGLE.unit.to_si(inputs.slip_angles_deg[place]);
         let slip = Slip::on_test_stand(inputs.slip_ratios[place], angle);
-        Ok((Contact { wheel, soil, slip, gravity }, theory))
+        Ok((Contact { wheel, soil, slip, gravity }, model.clone()))
     }
 
     /// The same of a wheel whose numbers are all there and go together.
-    fn known_contact(&self, inputs: &Inputs<'_>, place: usize) -> Option<(Contact, Theory)> {
+    fn known_contact(&self, inputs: &Inputs<'_>, place: usize) -> Option<(Contact, Model)> {
         let contact = self.contact(inputs, place).ok();
         contact.filter(|_| !self.is_missing(inputs, place))
     }
@@ -141,9 +141,9 @@ impl Stand {
         let mut by_model = Vec::new();
         for place in share.places.clone() {
             match self.known_contact(inputs, place) {
-                Some((contact, theory)) => {
+                Some((contact, model)) => {
                     let pressed = inputs.quantity.unit.to_si(inputs.pressed[place]);
-                    OfModel::add(&mut by_model, theory, place, (contact, pressed));
+                    OfModel::add(&mut by_model, model, place, (contact, pressed));
                 }
                 None => share.write(place, &NO_WHEEL, last(place), &[]),
             }
@@ -234,14 +234,14 @@ fn first_outside(
 }
 
 /// The wheel–soil model that a setting names, or else the soil's own; and the setting's gravity [m/s²].
-pub(crate) fn model_and_gravity(soil: &Document, setting: &Document) -> PyResult<(Theory, f64)> {
+pub(crate) fn model_and_gravity(soil: &Document, setting: &Document) -> PyResult<(Model, f64)> {
     let setting = setting.scenario()?;
-    let named = setting.document.theory().is_some().then_some(setting.value.theory);
-    let theory = match named {
-        Some(theory) => theory,
-        None => soil.soil()?.document.usual_theory(""),
+    let named = setting.document.model().is_some().then_some(setting.value.model.clone());
+    let model = match named {
+        Some(model) => model,
+        None => soil.soil()?.document.usual_model(""),
     };
-    Ok((theory, setting.value.gravity))
+    Ok((model, setting.value.gravity))
 }
 
 /// A column for each of [`WHEEL`], then what one of them adds, and its flags as bits.
@@ -273,16 +273,16 @@ impl Share<'_> {
 
 /// Wheels of one model, each with its load [N] or sinkage [m], and their places.
 struct OfModel {
-    theory: Theory,
+    model: Model,
     places: Vec<usize>,
     wheels: Vec<(Contact, f64)>,
 }
 
 impl OfModel {
     /// Adds a wheel to those of its model.
-    fn add(all: &mut Vec<Self>, theory: Theory, place: usize, wheel: (Contact, f64)) {
-        let known = all.iter().position(|it| it.theory == theory).unwrap_or_else(|| {
-            all.push(Self { theory, places: Vec::new(), wheels: Vec::new() });
+    fn add(all: &mut Vec<Self>, model: Model, place: usize, wheel: (Contact, f64)) {
+        let known = all.iter().position(|it| it.model == model).unwrap_or_else(|| {
+            all.push(Self { model, places: Vec::new(), wheels: Vec::new() });
             all.len() - 1
         });
         all[known].places.push(place);
@@ -294,12 +294,12 @@ impl OfModel {
 fn find_flags(
     found: &mut Vec<Finding>,
     contact: &Contact,
-    theory: Theory,
+    model: &Model,
     load: f64,
     settled: Option<&Settled>,
 ) {
     let situation = Situation {
-        theory,
+        model,
         wheel: &contact.wheel,
         soil: &contact.soil,
         gravity: contact.gravity,
@@ -400,11 +400,10 @@ pub(crate) fn settle<'py>(
     stand.check(py, &inputs)?;
     let compute = |mut share: Share<'_>| {
         let mut flags = Vec::new();
-        for OfModel { theory, places, wheels } in stand.by_model(&inputs, &mut share, |_| f64::NAN)
-        {
-            let found = settle_many(theory.model(), &wheels);
+        for OfModel { model, places, wheels } in stand.by_model(&inputs, &mut share, |_| f64::NAN) {
+            let found = settle_many(model.as_ref(), &wheels);
             for ((place, (contact, load)), found) in places.into_iter().zip(&wheels).zip(found) {
-                find_flags(&mut flags, contact, theory, *load, found.as_ref().ok());
+                find_flags(&mut flags, contact, &model, *load, found.as_ref().ok());
                 match found {
                     Ok(settled) => share.write(place, &wheel_row(&settled), f64::NAN, &flags),
                     Err(SettleError::SunkToAxle { capacity, .. }) => {
@@ -466,8 +465,8 @@ pub(crate) fn wheel_forces<'py>(
     }
     let compute = |mut share: Share<'_>| {
         let given = |place: usize| inputs.pressed[place];
-        for OfModel { theory, places, wheels } in stand.by_model(&inputs, &mut share, given) {
-            let found = forces_many(theory.model(), &wheels);
+        for OfModel { model, places, wheels } in stand.by_model(&inputs, &mut share, given) {
+            let found = forces_many(model.as_ref(), &wheels);
             for ((place, (_, sinkage)), forces) in places.into_iter().zip(&wheels).zip(found) {
                 let settled = Settled { sinkage: *sinkage, forces, evaluations: 1 };
                 // Forces at a given depth are no equilibrium: they carry no flags.

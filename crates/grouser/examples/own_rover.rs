@@ -7,7 +7,7 @@
 
 use std::error::Error;
 
-use grouser::contact::Theory;
+use grouser::contact::Model;
 use grouser::document::{Kind, Overrides, Source, read_soil};
 use grouser::error::ParameterError;
 use grouser::simulation::{Motion, Numerics, Run, Scatter, Scenario, Start, Trajectory};
@@ -71,7 +71,7 @@ pub(crate) fn drive(steering_deg: f64) -> Result<Trajectory, Box<dyn Error>> {
         rover: six_wheels(deg(steering_deg))?,
         ground: Ground::plane(soil, 0.0),
         gravity: EARTH_GRAVITY,
-        theory: Theory::Ishigami,
+        model: Model::Ishigami,
         sharing: LoadSharing::QuasiStatic,
         own_moments: OwnMoments::Neglected,
         drive: DriveLaw::Constant(0.06),

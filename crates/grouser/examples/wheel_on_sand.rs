@@ -7,7 +7,7 @@
 
 use std::error::Error;
 
-use grouser::contact::Theory;
+use grouser::contact::Model;
 use grouser::document::{DocumentError, Kind, Overrides, Source, read_soil, read_wheel};
 use grouser::studies::wheel_test::{WheelTest, WheelTestRow};
 use grouser::units::EARTH_GRAVITY;
@@ -34,7 +34,7 @@ pub(crate) fn rows() -> Result<Vec<WheelTestRow>, DocumentError> {
         wheel: read_wheel(&Source::find(Kind::Wheel, "hakuto")?, &none)?.value,
         soil: read_soil(&Source::find(Kind::Soil, "toyoura")?, &none)?.value,
         gravity: EARTH_GRAVITY,
-        theory: Theory::Ishigami,
+        model: Model::Ishigami,
         loads: vec![17.0],
         slip_angles: vec![0.0],
         slip_ratios: (-2..=9).map(|tenths| f64::from(tenths) / 10.0).collect(),

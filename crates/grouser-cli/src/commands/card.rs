@@ -202,7 +202,7 @@ fn settings(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Value {
         "rover": document.get("rover"),
         "soil": document.get("soil"),
         "gravity_m_s2": document.get("gravity_m_s2"),
-        "model": inputs.scenario.value.theory.name(),
+        "model": inputs.scenario.value.model.name(),
         "loads": document.get("loads"),
         "moments": document.get("moments"),
         "uphill": if args.uphill == SideChoice::Left { "left" } else { "right" },

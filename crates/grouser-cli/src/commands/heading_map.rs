@@ -104,7 +104,7 @@ fn table(
     if args.setting.has_every_model() {
         let rows = scenarios.iter().flat_map(|scenario| {
             let count = args.course_deg.0.len() * args.slope_deg.0.len();
-            std::iter::repeat_n(scenario.value.theory.name(), count)
+            std::iter::repeat_n(scenario.value.model.name(), count)
         });
         let words = rows.map(|name| Some(name.to_owned())).collect();
         table.columns.insert(0, (MODEL.to_owned(), Values::Text(words)));
@@ -136,7 +136,7 @@ fn brief(args: &HeadingMapArgs) -> Vec<String> {
 
 /// What a figure is of: the soil, and the model where there are several.
 fn title(args: &HeadingMapArgs, scenario: &LoadedScenario, soil: &str) -> String {
-    let model = scenario.value.theory.name();
+    let model = scenario.value.model.name();
     if args.setting.has_every_model() { format!("{soil}, {model}") } else { soil.to_owned() }
 }
 
@@ -153,7 +153,7 @@ fn soil_name(scenario: &LoadedScenario) -> String {
 fn settings(args: &HeadingMapArgs, scenarios: &[LoadedScenario]) -> Value {
     let first = &scenarios[0].document;
     let soils: Vec<_> = scenarios.iter().map(|scenario| scenario.document.get("soil")).collect();
-    let models: Vec<_> = scenarios.iter().map(|scenario| scenario.value.theory.name()).collect();
+    let models: Vec<_> = scenarios.iter().map(|scenario| scenario.value.model.name()).collect();
     let mut settings = json!({
         "rover": first.get("rover"),
         "soils": soils,

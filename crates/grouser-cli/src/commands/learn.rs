@@ -278,7 +278,7 @@ fn settings(args: &LearnArgs, scenario: &LoadedScenario) -> Value {
         "gravity_m_s2": document.get("gravity_m_s2"),
         "load_transfer": document.get("load_transfer"),
         "wheel_moments": document.get("wheel_moments"),
-        "model": document.theory().map(grouser::contact::Theory::name),
+        "model": document.model().map(|model| model.name()),
         "predict_slope_deg": args.predict_slope_deg.0,
         "samples": args.samples,
         "seed": args.seed,

@@ -230,7 +230,7 @@ fn settings(args: &MapArgs, inputs: &MapInputs) -> Value {
         "dem": args.dem,
         "rover": document.get("rover"),
         "soil": document.get("soil"),
-        "model": inputs.scenario.value.theory.name(),
+        "model": inputs.scenario.value.model.name(),
         "gravity_m_s2": document.get("gravity_m_s2"),
         "loads": document.get("loads"),
         "moments": document.get("moments"),

@@ -130,7 +130,7 @@ fn settings(args: &ReplayArgs, scenario: &LoadedScenario) -> Value {
         "gravity_m_s2": document.get("gravity_m_s2"),
         "load_transfer": document.get("load_transfer"),
         "wheel_moments": document.get("wheel_moments"),
-        "model": scenario.value.theory.name(),
+        "model": scenario.value.model.name(),
         "samples": sampled.then_some(args.uncertainty.sampling.samples),
         "seed": sampled.then_some(args.uncertainty.seed),
         (sampling::SHARES): sampled.then(|| sampling::shares(&BandInputs::of_scenario(scenario))),

@@ -184,7 +184,7 @@ fn settings(args: &RouteArgs, inputs: &RouteInputs) -> Value {
         "dem": args.dem,
         "rover": document.get("rover"),
         "soil": document.get("soil"),
-        "model": inputs.scenario.value.theory.name(),
+        "model": inputs.scenario.value.model.name(),
         "gravity_m_s2": document.get("gravity_m_s2"),
         "from_m": from,
         "to_m": to,

@@ -22,9 +22,8 @@ pub(super) const SHARES: &str = "model_shares";
 
 /// The models of the samples, each with its share [-].
 pub(super) fn shares(inputs: &BandInputs) -> Value {
-    let pair = |(theory, share): &(grouser::contact::Theory, f64)| {
-        (theory.name().to_owned(), json!(share))
-    };
+    let pair =
+        |(model, share): &(grouser::contact::Model, f64)| (model.name().to_owned(), json!(share));
     Value::Object(inputs.models().shares().iter().map(pair).collect::<Map<_, _>>())
 }
 

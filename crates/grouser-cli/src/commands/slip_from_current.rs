@@ -107,7 +107,7 @@ fn settings(args: &SlipFromCurrentArgs, inputs: &SlipInputs) -> Value {
         "gravity_m_s2": document.get("gravity_m_s2"),
         "load_transfer": document.get("load_transfer"),
         "wheel_moments": document.get("wheel_moments"),
-        "model": inputs.scenario.value.theory.name(),
+        "model": inputs.scenario.value.model.name(),
         "relative_noise": inputs.settings.noise.relative,
         "noise_nm": inputs.settings.noise.absolute,
         "slip_ratio": inputs.settings.slips,

@@ -104,7 +104,7 @@ fn judge(measured: &Measurements, stand: &StandInputs) -> Validation {
         tests: &measured.tests,
         wheel: stand.wheel.value,
         soil: stand.soil.value,
-        theory: stand.theory,
+        model: stand.model.clone(),
         gravity: stand.gravity,
     }
     .run()
@@ -118,7 +118,7 @@ fn settings(args: &ValidateArgs, data: &Path, stand: &StandInputs) -> Value {
         "soil": stand.soil.document,
         "wheel": stand.wheel.document,
         "gravity_m_s2": stand.gravity,
-        "model": stand.theory.name(),
+        "model": stand.model.name(),
     })
 }
 

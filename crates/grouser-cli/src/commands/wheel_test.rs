@@ -29,7 +29,7 @@ pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
     for stand in &stands {
         let mut of_model = of_model(args, stand)?;
         if args.setting.has_every_model() {
-            of_model = of_model.with_word(MODEL, stand.theory.name());
+            of_model = of_model.with_word(MODEL, stand.model.name());
         }
         results.rows.append(of_model);
     }
@@ -61,7 +61,7 @@ fn settings(args: &WheelTestArgs, stand: &StandInputs) -> Value {
         "soil": stand.soil.document,
         "wheel": stand.wheel.document,
         "gravity_m_s2": stand.gravity,
-        "model": if every { EVERY_MODEL } else { stand.theory.name() },
+        "model": if every { EVERY_MODEL } else { stand.model.name() },
         "load_n": args.load_n.0,
         "slip_angle_deg": args.slip_angle_deg.0,
         "slip_ratio": args.slip_ratio.0,
@@ -158,7 +158,7 @@ fn dense(args: &WheelTestArgs, stands: &[StandInputs]) -> Option<Table> {
         let test = WheelTest { slip_ratios: slip_ratios.clone(), ..plan(args, stand) };
         let of_model = columns::wheel_test::table(&test.run());
         let every = args.setting.has_every_model();
-        table.append(if every { of_model.with_word(MODEL, stand.theory.name()) } else { of_model });
+        table.append(if every { of_model.with_word(MODEL, stand.model.name()) } else { of_model });
     }
     Some(table)
 }

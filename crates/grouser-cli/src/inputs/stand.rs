@@ -1,6 +1,6 @@
 //! The inputs of test stands: wheel, soil, gravity and model.
 
-use grouser::contact::Theory;
+use grouser::contact::Model;
 use grouser::document::{self, Kind, Overrides, Source};
 use grouser::simulation::Scenario;
 use grouser::studies::ensemble::samples::BandInputs;
@@ -17,7 +17,7 @@ pub(crate) struct StandInputs {
     pub(crate) soil: document::LoadedSoil,
     pub(crate) wheel: document::LoadedWheel,
     pub(crate) gravity: f64,
-    pub(crate) theory: Theory,
+    pub(crate) model: Model,
     /// What its bands are drawn from.
     pub(crate) band: BandInputs,
 }
@@ -89,8 +89,8 @@ pub(crate) fn stand(
     let soil = document::read_soil(&flag_source("--soil", Kind::Soil, soil)?, &overrides)?;
     let wheel = document::read_wheel(&flag_source("--wheel", Kind::Wheel, wheel)?, &overrides)?;
     let run = default_run(setting)?;
-    let chosen = setting.model.as_ref().map(|_| run.theory);
-    let theory = chosen.unwrap_or_else(|| soil.document.usual_theory(""));
+    let chosen = setting.model.as_ref().map(|_| run.model);
+    let model = chosen.clone().unwrap_or_else(|| soil.document.usual_model(""));
     let band = BandInputs::of_soil(&soil, chosen);
-    Ok(StandInputs { soil, wheel, gravity: run.gravity, theory, band })
+    Ok(StandInputs { soil, wheel, gravity: run.gravity, model, band })
 }

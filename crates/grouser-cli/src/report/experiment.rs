@@ -1,7 +1,7 @@
 //! The reproduction against the experiment: what was compared and how far off it is, other models, drift, and the yaw
 //! lost on the way.
 
-use grouser::contact::Theory;
+use grouser::contact::Model;
 use grouser::document::columns::{SLOPE, YAW};
 use grouser::document::unit::MM;
 use grouser::studies::comparison::{Levelness, MeasuredTraverse};
@@ -153,11 +153,12 @@ pub(crate) fn caveats(study: &Study) -> String {
 
 /// Headings by all models beside the mean of the measured yaw.
 pub(crate) fn by_model(study: &Reproduction) -> Table {
-    let key = |theory: Theory| match theory {
-        Theory::Ishigami => ("ishigami_yaw_deg", "ishigami"),
-        Theory::SmallWheel => ("small_wheel_yaw_deg", "small-wheel"),
-        Theory::Bekker => ("bekker_yaw_deg", "bekker"),
-        Theory::Rft => ("rft_yaw_deg", "rft"),
+    let key = |model: &Model| match model {
+        Model::Ishigami => "ishigami_yaw_deg",
+        Model::SmallWheel => "small_wheel_yaw_deg",
+        Model::Bekker => "bekker_yaw_deg",
+        Model::Rft => "rft_yaw_deg",
+        Model::Own(_) => "own_yaw_deg",
     };
     let row = |runs: &SlopeRuns| {
         let slope = runs.measured.slope;
@@ -166,9 +167,9 @@ pub(crate) fn by_model(study: &Reproduction) -> Table {
             "measured_mean_yaw_deg": printed(runs.measured.mean_yaw()),
             "ishigami_yaw_deg": runs.heading.as_ref().ok().map(|it| YAW.unit.from_si(it.yaw)),
         }));
-        for (theory, curve) in &study.other_headings {
+        for (model, curve) in &study.other_headings {
             let yaw = curve.at(slope).ok().map(|it| YAW.unit.from_si(it.yaw));
-            row.insert(key(*theory).0.to_owned(), json!(yaw));
+            row.insert(key(model).to_owned(), json!(yaw));
         }
         row
     };
@@ -177,8 +178,8 @@ pub(crate) fn by_model(study: &Reproduction) -> Table {
         column("measured_mean_yaw_deg", "measured, mean", 2),
         column("ishigami_yaw_deg", "ishigami", 2),
     ];
-    let others = study.other_headings.iter().map(|(theory, _)| key(*theory));
-    columns.extend(others.map(|(key, header)| column(key, header, 2)));
+    let others = study.other_headings.iter();
+    columns.extend(others.map(|(model, _)| column(key(model), model.name(), 2)));
     Table {
         caption: "Heading offset that holds the contour by each wheel-soil model, in degrees; a dash where none does",
         file: "models",

@@ -1,7 +1,7 @@
 // Toyoura sand and the HAKUTO rover, value by value. The examples in the library's documentation use
 // this file, too.
 
-use grouser_core::contact::Theory;
+use grouser_core::contact::Model;
 use grouser_core::error::ParameterError;
 use grouser_core::simulation::{Motion, Numerics, Scatter, Scenario, Start};
 use grouser_core::soil::{
@@ -75,7 +75,7 @@ pub(crate) fn traverse() -> Result<Scenario, ParameterError> {
         rover: rover()?,
         ground: Ground::plane(sand(), deg(10.0)),
         gravity: EARTH_GRAVITY,
-        theory: Theory::Ishigami,
+        model: Model::Ishigami,
         sharing: LoadSharing::QuasiStatic,
         own_moments: OwnMoments::Neglected,
         drive: DriveLaw::Constant(0.06),

@@ -18,16 +18,27 @@ use super::coulomb::bounded;
 use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::mirror::from_both_sides;
-use super::model::WheelSoilModel;
+use super::model::{SHALLOW, WheelSoilModel};
 use super::patch::ContactPatch;
 use crate::elementary::wide::{exp_m1, hypot};
-use crate::soil::Shear;
+use crate::soil::{Domain, Shear, Span};
 
 /// Bekker's closed-form model of a rigid wheel.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bekker;
 
 impl WheelSoilModel for Bekker {
+    fn domain(&self) -> Domain {
+        Domain {
+            depth: SHALLOW,
+            // Source: Bekker (1969), in Wong, Theory of Ground Vehicles: less accurate for wheels below 20 inches
+            // in diameter, the more so the smaller they are.
+            radius: Span::at_least(0.25),
+            slip_ratio: Span::new(-0.1, 0.9),
+            ..Domain::UNSTATED
+        }
+    }
+
     fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces {
         from_both_sides(contact, sinkage, |contact, _| {
             bounded(contact, sinkage, entering_front(contact, sinkage))

@@ -12,14 +12,17 @@
 //!
 //! `docs/models/ishigami.md` has the assumptions and how to get the parameters.
 
+use std::f64::consts::FRAC_PI_4;
+
 use super::bulldozing::{self, SideWallLoad};
 use super::coulomb::bounded;
 use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::kernel::InstructionSet;
 use super::load_sinkage::{LoadSinkage, Numerics, Reaction};
-use super::model::WheelSoilModel;
+use super::model::{SHALLOW, WheelSoilModel};
 use super::stress::Response;
+use crate::soil::{Domain, Span};
 
 /// The model of Ishigami, Miwa, Nagatani and Yoshida (2007), with the options of its successors.
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +60,20 @@ impl Ishigami {
 }
 
 impl WheelSoilModel for Ishigami {
+    fn domain(&self) -> Domain {
+        Domain {
+            depth: SHALLOW,
+            // Source: the smallest wheel of Ishigami et al. (2007), and the largest of Wong and Reece (1967).
+            radius: Span::new(0.09, 0.63),
+            // Source: driven wheels, 0 to 0.8, in Ishigami et al. (2007). A tenth more on both sides is ours,
+            // so that wheels that barely skid on level ground are not flagged.
+            slip_ratio: Span::new(-0.1, 0.9),
+            // Source: Ishigami et al. (2007).
+            slip_angle: Span::at_most(FRAC_PI_4),
+            ..Domain::UNSTATED
+        }
+    }
+
     fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces {
         self.relation(contact).forces(contact, sinkage)
     }

@@ -33,6 +33,7 @@ use super::kernel::InstructionSet;
 use super::kernel::dispatch::Work;
 use super::model::WheelSoilModel;
 use super::patch::ContactPatch;
+use crate::soil::{Domain, Span};
 use nodes::Nodes;
 use surface::FacetedWheel;
 
@@ -72,6 +73,11 @@ impl Rft {
 }
 
 impl WheelSoilModel for Rft {
+    fn domain(&self) -> Domain {
+        // Any motion. Source: Agarwal, Goldman and Kamrin (2023). Down to the axle, where our surface ends.
+        Domain { depth: Span::at_most(1.0), ..Domain::UNSTATED }
+    }
+
     fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces {
         if sinkage <= 0.0 {
             return WheelForces::default();

@@ -21,6 +21,8 @@
 //!
 //! [`Slip::total`]: super::slip::Slip::total
 
+use std::f64::consts::FRAC_PI_4;
+
 use super::bulldozing::{self, SideWallLoad, WallResistance};
 use super::coulomb_cone;
 use super::forces::WheelForces;
@@ -31,6 +33,7 @@ use super::load_sinkage::{LoadSinkage, Numerics, Reaction};
 use super::model::WheelSoilModel;
 use super::stress::Response;
 use crate::elementary::{self, wide};
+use crate::soil::{Domain, Span};
 
 /// The classical model with the terms of [`crate::soil::SmallWheel`].
 #[derive(Clone, Copy, Debug)]
@@ -68,6 +71,17 @@ impl SmallWheel {
 }
 
 impl WheelSoilModel for SmallWheel {
+    // Source: the single-wheel tests of Pavlov and Johnson (2022) to which the model was made, without the
+    // slip angle of 90°.
+    fn domain(&self) -> Domain {
+        Domain {
+            depth: Span::at_most(0.95),
+            slip_ratio: Span::new(-1.0, 0.975),
+            slip_angle: Span::at_most(75.0 / 45.0 * FRAC_PI_4),
+            ..Domain::UNSTATED
+        }
+    }
+
     fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces {
         self.relation(contact).forces(contact, sinkage)
     }

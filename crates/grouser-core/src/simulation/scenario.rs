@@ -3,7 +3,7 @@
 use super::scatter::Scatter;
 pub use super::times::LONGEST_DURATION;
 use super::yaw::PrescribedYaw;
-use crate::contact::Theory;
+use crate::contact::Model;
 use crate::elementary::wide;
 use crate::error::{ParameterError, finite, positive};
 use crate::soil::SlopeStability;
@@ -42,7 +42,7 @@ pub struct Scenario {
     /// Gravity, *g* [m/s²].
     pub gravity: f64,
     /// The wheel–soil model.
-    pub theory: Theory,
+    pub model: Model,
     /// How the weight is shared.
     pub sharing: LoadSharing,
     /// Whether the wheels' own moments act on the rover.
@@ -193,7 +193,7 @@ impl Scenario {
             rover: &self.rover,
             ground: &self.ground,
             gravity: self.gravity,
-            model: self.theory.model(),
+            model: self.model.as_ref(),
             sharing: self.sharing,
             own_moments: self.own_moments,
             differences: self.differences(),

@@ -3,7 +3,7 @@
 use super::super::field::{
     Field, Fill, Keyword, M_S2, Reach, Shape, day, field, note, nothing, number, texts, word, words,
 };
-use grouser_core::contact::Theory;
+use grouser_core::contact::Model;
 use grouser_core::units::EARTH_GRAVITY;
 
 /// Which kind of document it is, and of which version.
@@ -51,22 +51,22 @@ pub(super) const fn date<T>() -> Field<T> {
 
 /// A wheel-soil model, by its name.
 pub(super) const fn model<T>(doc: &'static str) -> Field<T> {
-    words("model", doc, Theories::<T>::WORDS).optional()
+    words("model", doc, &Models::<T>::WORDS).optional()
 }
 
-struct Theories<T>(std::marker::PhantomData<T>);
+struct Models<T>(std::marker::PhantomData<T>);
 
-impl<T: 'static> Theories<T> {
-    const WORDS: &'static [Keyword<T>] = &[
-        word(Theory::Ishigami.name(), "Stresses along the arc (Ishigami et al. 2007).", nothing),
-        word(Theory::Bekker.name(), "Bekker's closed form.", nothing),
+impl<T: 'static> Models<T> {
+    const WORDS: [Keyword<T>; Model::COUNT] = [
+        word(Model::Ishigami.name(), "Stresses along the arc (Ishigami et al. 2007).", nothing),
+        word(Model::Bekker.name(), "Bekker's closed form.", nothing),
         word(
-            Theory::SmallWheel.name(),
+            Model::SmallWheel.name(),
             "Stresses along the arc, with the terms that small wheels need.",
             nothing,
         )
         .formerly("extended"),
-        word(Theory::Rft.name(), "Resistive force theory on the wheel's facets.", nothing),
+        word(Model::Rft.name(), "Resistive force theory on the wheel's facets.", nothing),
     ];
 }
 

@@ -18,7 +18,7 @@ use super::uncertainty::{
     put_file,
 };
 use super::wheel::{self, WHEEL};
-use grouser_core::contact::Theory;
+use grouser_core::contact::Model;
 use grouser_core::simulation::Scenario;
 use grouser_core::soil::Soil;
 use grouser_core::wheel::Wheel;
@@ -162,7 +162,7 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
 pub(crate) const BLANK_STAND: Stand = Stand {
     soil: soil::BLANK,
     wheel: wheel::BLANK,
-    theory: Theory::Ishigami,
+    model: Model::Ishigami,
     gravity: 0.0,
     load: 0.0,
     slip_ratio: 0.0,

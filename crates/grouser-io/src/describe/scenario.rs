@@ -12,7 +12,7 @@ use super::differences::room;
 use super::rover;
 use super::run::Run;
 use super::soil;
-use grouser_core::contact::Theory;
+use grouser_core::contact::Model;
 use grouser_core::simulation::scenario::LONGEST_DURATION;
 use grouser_core::simulation::{Motion, Numerics, PrescribedYaw, Scatter, Scenario, Start};
 use grouser_core::soil::SlopeStability;
@@ -44,7 +44,7 @@ pub(crate) fn blank() -> Scenario {
         rover: Rover::draft(rover::BLANK),
         ground: Ground::plane(soil::BLANK, 0.0),
         gravity: 0.0,
-        theory: Theory::default(),
+        model: Model::default(),
         sharing: LoadSharing::Complete,
         own_moments: OwnMoments::Included,
         drive: DriveLaw::Constant(0.0),

@@ -5,7 +5,7 @@
 
 use std::ops::{Index, IndexMut};
 
-use grouser_core::contact::{Contact, SettleError, Settled, Slip, Theory, settle};
+use grouser_core::contact::{Contact, SettleError, Settled, Slip, WheelSoilModel, settle};
 use grouser_core::soil::Soil;
 use grouser_core::wheel::Wheel;
 
@@ -117,13 +117,13 @@ impl Trial {
     /// [`SettleError`] if the soil cannot carry the load.
     pub fn predict(
         &self,
-        theory: Theory,
+        model: &dyn WheelSoilModel,
         wheel: &Wheel,
         soil: &Soil,
         gravity: f64,
     ) -> Result<Settled, SettleError> {
         let contact = Contact { wheel: *wheel, soil: *soil, slip: self.slip, gravity };
-        settle(theory.model(), &contact, self.load)
+        settle(model, &contact, self.load)
     }
 }
 

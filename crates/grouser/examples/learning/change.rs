@@ -42,7 +42,7 @@ impl Change {
             Self::ShearAlong(factor) => scale(&mut soil, [factor, 1.0]),
             Self::ShearAcross(factor) => scale(&mut soil, [1.0, factor]),
         }
-        Sample { soil, ..*sample }
+        Sample { soil, ..sample.clone() }
     }
 }
 

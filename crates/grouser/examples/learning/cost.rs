@@ -31,8 +31,8 @@ pub(crate) fn costs(trial: &Trial<'_>) -> Vec<Cost> {
 fn cost(trial: &Trial<'_>, settings: &[&str]) -> Option<Cost> {
     let prior = scenario(settings);
     let mut learner: Learner = learner(&prior);
-    let truth = learner.samples(trial.seed, 1).ok()?[0].sample;
-    let mut drive = Drive::uneven(&prior, &truth, trial.seed);
+    let truth = &learner.samples(trial.seed, 1).ok()?[0].sample;
+    let mut drive = Drive::uneven(&prior, truth, trial.seed);
     for leg in LEGS {
         drive.leg(leg)?;
     }

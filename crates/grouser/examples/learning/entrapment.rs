@@ -76,12 +76,12 @@ impl Way {
     /// Slope [°] and soil where the ground has changed so far [m].
     fn at(self, truth: &Sample, changed: f64) -> (f64, Sample) {
         match self {
-            Self::Steepening(by) => (3.0 + by * changed, *truth),
+            Self::Steepening(by) => (3.0 + by * changed, truth.clone()),
             Self::WeakerAhead(by) | Self::DiggingIn(by) => {
                 let left = (1.0 - by * changed).max(0.05);
                 let mut soil = truth.soil;
                 soil.friction_angle = (soil.friction_angle.tan() * left).atan();
-                (8.0, Sample { soil, ..*truth })
+                (8.0, Sample { soil, ..truth.clone() })
             }
         }
     }

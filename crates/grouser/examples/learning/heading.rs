@@ -24,7 +24,7 @@ pub(crate) fn errors(trial: &Trial<'_>, repeats: u32) -> Vec<[f64; 2]> {
     let one = |index: u64| {
         let soil = scaled(&study.soil, FACTORS[(index % 2) as usize]);
         let seed = 1000 * trial.seed + index;
-        let mut drive = trial.drive(&Sample { soil, theory: study.theory }, seed);
+        let mut drive = trial.drive(&Sample { soil, model: study.model.clone() }, seed);
         for leg in LEGS {
             drive.leg(leg)?;
         }

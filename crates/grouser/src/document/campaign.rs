@@ -197,13 +197,13 @@ impl Campaign {
             row.push(Cell::Whole(Some(place.point)));
             row.push(Cell::text(self.prepared.matrix(place.matrix)));
         }
-        let (values, theory) = self.prepared.split(&inputs.values);
+        let (values, model) = self.prepared.split(&inputs.values);
         row.extend(values.iter().map(|value| Cell::Float(Some(*value))));
-        row.extend(theory.map(|theory| Cell::text(theory.name())));
+        row.extend(model.as_ref().map(|model| Cell::text(model.name())));
         // The runs of a point of a design for sensitivities differ by their inputs alone.
         let bed = inputs.place.map_or(index, |place| place.point);
         let keys = self.prepared.keys();
-        let case = rows::Case { keys, values, theory, seed: self.seed(), bed };
+        let case = rows::Case { keys, values, model, seed: self.seed(), bed };
         rows::run(self.study, &self.base, &case, &mut row);
         // A row without an answer has its status, and nothing in the columns after it.
         let missing = self.columns[row.len()..].iter().map(|column| Cell::none(column.kind));

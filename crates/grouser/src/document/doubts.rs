@@ -30,7 +30,7 @@ pub fn doubts(source: &Source) -> Result<Vec<String>, DocumentError> {
             scenario.ground.soil = soil.value;
             let wheel = &scenario.rover.mounts()[0].unit.wheel;
             let situation = Situation {
-                theory: soil.document.usual_theory(""),
+                model: &soil.document.usual_model(""),
                 wheel,
                 soil: &soil.value,
                 gravity: scenario.gravity,
@@ -61,7 +61,8 @@ fn modulus_question(finding: &Finding) -> String {
 
 /// The rover of a scenario at rest on level ground.
 fn of_standing(scenario: &Scenario) -> Vec<String> {
-    let &Scenario { ref rover, ref ground, gravity, theory, .. } = scenario;
+    let Scenario { rover, ground, gravity, model, .. } = scenario;
+    let gravity = *gravity;
     let weight = rover.mass() * gravity;
     let Ok(loads) = wheel_loads(rover, LoadSharing::QuasiStatic, weight, Vec2::zeros()) else {
         return vec!["the rover tips over on level ground".to_owned()];
@@ -70,7 +71,7 @@ fn of_standing(scenario: &Scenario) -> Vec<String> {
     let (mut doubts, mut standing) = (Vec::new(), Vec::new());
     for (mount, load) in rover.mounts().iter().zip(loads) {
         let contact = Contact { wheel: mount.unit.wheel, soil: ground.soil, slip, gravity };
-        match settle(theory.model(), &contact, load) {
+        match settle(model.as_ref(), &contact, load) {
             Ok(settled) => standing.push(WheelReaction { slip, load, settled }),
             Err(error) => doubts.push(format!("the wheel `{}` finds no hold: {error}", mount.name)),
         }

@@ -10,7 +10,7 @@ use super::{
     Companion, Document, DocumentError, Kind, Loaded, LoadedScenario, Overrides, SAMPLES_FILE,
     Source, UncertainSoil, read_scenario, with_priors_held, without_uncertainty,
 };
-use crate::contact::Theory;
+use crate::contact::Model;
 use crate::soil::Discrepancy;
 use crate::soil::discrepancy::{SIDE_VALUES, VALUES};
 use crate::studies::learn::{Learner, LearntSample};
@@ -53,13 +53,13 @@ impl LearntSoil {
     ) -> Result<Option<Self>, NothingAccepted> {
         let prior = scenario.document.part(Kind::Soil, "soil").zip(scenario.uncertain.as_ref());
         let Some((document, uncertain)) = prior else { return Ok(None) };
-        let (theory, samples) = learner.samples_of_best(seed, count)?;
+        let (model, samples) = learner.samples_of_best(seed, count)?;
         let source = format!(
             "learnt by Grouser {} from {:.1} m of the drive {log}",
             env!("CARGO_PKG_VERSION"),
             learner.learnt().way,
         );
-        Ok(Some(Self::of((&document, uncertain), theory, &samples, &source)))
+        Ok(Some(Self::of((&document, uncertain), &model, &samples, &source)))
     }
 
     /// The file of samples that the document names.
@@ -83,12 +83,12 @@ impl LearntSoil {
     }
 
     /// * `prior`: the soil's document before the drive, and its uncertain keys
-    /// * `theory`: the model that the samples belong to
+    /// * `model`: the model that the samples belong to
     /// * `source`: of the drive, in words
     #[must_use]
     pub fn of(
         prior: (&Document, &UncertainSoil),
-        theory: Theory,
+        model: &Model,
         samples: &[LearntSample],
         source: &str,
     ) -> Self {
@@ -112,7 +112,7 @@ impl LearntSoil {
             if let Some(Json::Array(assumed)) = keys.get_mut("assumed") {
                 assumed.retain(|one| !is_about(one, &learnt));
             }
-            keys.insert("model".to_owned(), theory.name().into());
+            keys.insert("model".to_owned(), model.name().into());
             keys.insert("uncertainty".to_owned(), json!({ "samples": SAMPLES_FILE }));
             if !lists.is_empty() {
                 keys.insert(DISCREPANCY.to_owned(), none(lists));

@@ -11,7 +11,7 @@ use super::{
     DataSetCase, DocumentError, Kind, LoadedDataSet, LoadedRover, LoadedSoil, LoadedWheel,
     Overrides, Source, Tested, check, place_of, presets, read_data_set, read_scenario,
 };
-use crate::contact::Theory;
+use crate::contact::Model;
 use crate::error::ParameterError;
 use crate::simulation::Scenario;
 use crate::soil::SmallWheel;
@@ -25,7 +25,7 @@ use crate::studies::validation::{Validation, ValidationStudy, Yardstick, mean_sc
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Ranking {
     /// Part by part, best first.
-    pub rows: Vec<RankedTheory>,
+    pub rows: Vec<RankedModel>,
     /// Predictions without physics, part by part.
     pub yardsticks: Vec<RankedYardstick>,
     /// Each model, and each yardstick, over all parts, best first.
@@ -34,7 +34,7 @@ pub struct Ranking {
 
 /// A wheel–soil model with a soil on a part of a data set.
 #[derive(Clone, Debug, Serialize)]
-pub struct RankedTheory {
+pub struct RankedModel {
     /// The data set's name.
     pub data_set: String,
     /// Its part.
@@ -305,7 +305,7 @@ impl Part<'_> {
             }
         };
         // What has no prediction for a trial ranks below whatever has one for each.
-        let key = |one: &RankedTheory| (one.unsettled_trials, one.score.unwrap_or(f64::INFINITY));
+        let key = |one: &RankedModel| (one.unsettled_trials, one.score.unwrap_or(f64::INFINITY));
         all.sort_by(|one, other| {
             let ((unsettled, score), (others, other_score)) = (key(one), key(other));
             unsettled.cmp(&others).then(score.total_cmp(&other_score))
@@ -321,28 +321,28 @@ impl Part<'_> {
     }
 
     /// Each soil with each model that may be judged with it.
-    fn pairs(&self) -> impl Iterator<Item = (&String, &LoadedSoil, Theory)> {
+    fn pairs(&self) -> impl Iterator<Item = (&String, &LoadedSoil, Model)> {
         self.case.soils.iter().flat_map(|(name, soil)| {
-            Theory::ALL.into_iter().filter_map(move |theory| {
-                let for_another = soil.document.theory().is_some_and(|own| own != theory);
+            Model::ALL.into_iter().filter_map(move |model| {
+                let for_another = soil.document.model().is_some_and(|own| own != model);
                 // Without its terms the small-wheel model is the classical one.
-                let same =
-                    theory == Theory::SmallWheel && soil.value.small_wheel == SmallWheel::OFF;
-                (!for_another && !same).then_some((name, soil, theory))
+                let same = model == Model::SmallWheel && soil.value.small_wheel == SmallWheel::OFF;
+                (!for_another && !same).then_some((name, soil, model))
             })
         })
     }
 
-    fn of_wheel(&self, wheel: &LoadedWheel, tests: &WheelTests) -> Vec<RankedTheory> {
-        let one = |(name, soil, theory): (&String, &LoadedSoil, Theory)| {
+    fn of_wheel(&self, wheel: &LoadedWheel, tests: &WheelTests) -> Vec<RankedModel> {
+        let one = |(name, soil, model): (&String, &LoadedSoil, Model)| {
             let (wheel, soil, gravity) = (wheel.value, soil.value, self.set.value.gravity);
-            let validation = ValidationStudy { tests, wheel, soil, theory, gravity }.run();
-            RankedTheory {
+            let validation =
+                ValidationStudy { tests, wheel, soil, model: model.clone(), gravity }.run();
+            RankedModel {
                 score: validation.overall.score(),
                 unsettled_trials: validation.overall.unsettled,
                 driven: validation.driven.as_ref().map(GroupRecord::from),
                 overall: PartErrors::Wheel(GroupRecord::from(&validation.overall)),
-                ..self.ranked(theory, name, Found::Wheel(Box::new(validation)))
+                ..self.ranked(&model, name, Found::Wheel(Box::new(validation)))
             }
         };
         self.pairs().map(one).collect()
@@ -352,29 +352,29 @@ impl Part<'_> {
         &self,
         rover: &LoadedRover,
         tests: &SlopeTests,
-    ) -> Result<Vec<RankedTheory>, RankingError> {
+    ) -> Result<Vec<RankedModel>, RankingError> {
         let usual = read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
-        let one = |(name, soil, theory): (&String, &LoadedSoil, Theory)| {
+        let one = |(name, soil, model): (&String, &LoadedSoil, Model)| {
             let gravity = self.set.value.gravity;
-            let heading = heading_study(&usual, rover, soil, theory, gravity);
+            let heading = heading_study(&usual, rover, soil, model.clone(), gravity);
             let validation = SlopeValidationStudy { tests, heading: &heading }.run()?;
-            Ok(RankedTheory {
+            Ok(RankedModel {
                 score: validation.score(),
                 unsettled_trials: validation.no_prediction(),
                 overall: PartErrors::Slope(SlopeErrorsRecord::from(&validation)),
-                ..self.ranked(theory, name, Found::Slope(Box::new(validation)))
+                ..self.ranked(&model, name, Found::Slope(Box::new(validation)))
             })
         };
         self.pairs().map(one).collect()
     }
 
     /// A model with a soil, before its errors are put in.
-    fn ranked(&self, theory: Theory, soil: &str, found: Found) -> RankedTheory {
-        RankedTheory {
+    fn ranked(&self, model: &Model, soil: &str, found: Found) -> RankedModel {
+        RankedModel {
             data_set: self.set.document.name().to_owned(),
             case: self.case.name.clone(),
             rank: 0,
-            model: theory.name(),
+            model: model.name(),
             soil: soil.to_owned(),
             in_sample: self.case.is_fitted(soil),
             score: None,
@@ -414,11 +414,11 @@ fn heading_study(
     usual: &Scenario,
     rover: &LoadedRover,
     soil: &LoadedSoil,
-    theory: Theory,
+    model: Model,
     gravity: f64,
 ) -> HeadingStudy {
     let (rover, soil) = (rover.value.clone(), soil.value);
-    HeadingStudy { rover, soil, gravity, theory, ..HeadingStudy::of(usual) }
+    HeadingStudy { rover, soil, gravity, model, ..HeadingStudy::of(usual) }
 }
 
 /// Each model and each yardstick over all parts: first the models, then the yardsticks, best first.
@@ -430,15 +430,15 @@ fn over_all(ranking: &Ranking) -> Vec<OverAll> {
             parts.push(part);
         }
     }
-    let models = Theory::ALL.into_iter().map(|theory| {
-        let rows = ranking.rows.iter().filter(|row| row.model == theory.name() && !row.in_sample);
+    let models = Model::ALL.into_iter().map(|model| {
+        let rows = ranking.rows.iter().filter(|row| row.model == model.name() && !row.in_sample);
         let rows = rows.map(|row| Judged {
             part: (&row.data_set, &row.case),
             score: row.score,
             unsettled_trials: row.unsettled_trials,
             errors: &row.overall,
         });
-        OverAll { model: Some(theory.name()), ..OverAll::of(&parts, &rows.collect::<Vec<_>>()) }
+        OverAll { model: Some(model.name()), ..OverAll::of(&parts, &rows.collect::<Vec<_>>()) }
     });
     let yardsticks = Yardstick::ALL.into_iter().map(|yardstick| {
         let name = yardstick.name();

@@ -6,7 +6,7 @@ use serde_json::{Value as Json, json};
 
 use super::varied::{Key, Numbers, Varied, meant_number};
 use super::{Described, Document, Kind, Misfit, range, without_priors_of, without_uncertainty};
-use crate::contact::Theory;
+use crate::contact::Model;
 use crate::error::ParameterError;
 use crate::soil::Soil;
 use crate::studies::calibration::{Parameter, Scale};
@@ -149,14 +149,14 @@ impl SoilFamily {
     /// The same as a calibration's result: with its source, and its samples as uncertainty.
     ///
     /// * `source`: where the fitted values come from, before the source of the others
-    /// * `theory`: that the values belong to, if they belong to one
+    /// * `model`: that the values belong to, if they belong to one
     /// * `samples`: name of the file of samples beside the document, if there is one
     #[must_use]
     pub fn fitted(
         &self,
         values: &[f64],
         source: &str,
-        theory: Option<Theory>,
+        model: Option<Model>,
         samples: Option<&str>,
     ) -> Document {
         let keys: Vec<&str> = self.keys().collect();
@@ -176,8 +176,8 @@ impl SoilFamily {
                 assumed.retain(|one| !is_fitted(one));
             }
             // Bands keep it with the greater share.
-            if let Some(theory) = theory {
-                keys.insert("model".to_owned(), theory.name().into());
+            if let Some(model) = model {
+                keys.insert("model".to_owned(), model.name().into());
             }
             if let Some(file) = samples {
                 keys.insert("uncertainty".to_owned(), json!({ "samples": file }));

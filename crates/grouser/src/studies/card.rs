@@ -14,13 +14,13 @@ mod slip_check;
 
 use grouser_io::LoadedScenario;
 
-use super::ensemble::models::WEIGHTS;
+use super::ensemble::models::weight;
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
 use super::heading::{
     HeadingCurve, HeadingOffset, HeadingStudy, LimitedBy, NoHeading, STRAIGHT_DOWN, STUCK,
 };
-use crate::contact::Theory;
+use crate::contact::Model;
 use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 pub use driven::{DRIFT_WAY, Driven, DrivenMotion, HEADING_ERROR, SHORTEST_LEG};
@@ -76,7 +76,7 @@ pub struct CardRow {
     /// On the soil as written; `None` where no heading holds the contour.
     pub level: Option<Level>,
     /// Heading of each of the other models on the soil as written, *γ* [rad]; `None` where none holds the contour.
-    pub other_models: Vec<(Theory, Option<f64>)>,
+    pub other_models: Vec<(Model, Option<f64>)>,
     /// Driven by the card's heading, the median over all samples, or on the soil as written where there are none;
     /// `None` where no heading holds the contour in half of them. Its motion is computed where the slope is no no-go.
     pub driven: Option<Driven>,
@@ -238,18 +238,17 @@ impl CardStudy {
 
     /// Soil and model without uncertainty.
     fn nominal(&self) -> Sample {
-        Sample { soil: self.heading.soil, theory: self.heading.theory }
+        Sample { soil: self.heading.soil, model: self.heading.model.clone() }
     }
 
     /// The contour traverses of the models that the soil as written is not computed with.
-    fn other_curves(&self) -> Result<Vec<(Theory, HeadingCurve)>, ParameterError> {
-        let is_other =
-            |(theory, weight): &&(Theory, f64)| *weight > 0.0 && *theory != self.heading.theory;
-        let curve = |(theory, _): &(Theory, f64)| {
-            let study = HeadingStudy { theory: *theory, ..self.heading.clone() };
-            Ok((*theory, study.curve()?))
+    fn other_curves(&self) -> Result<Vec<(Model, HeadingCurve)>, ParameterError> {
+        let is_other = |model: &Model| weight(model) > 0.0 && *model != self.heading.model;
+        let curve = |model: Model| {
+            let study = HeadingStudy { model: model.clone(), ..self.heading.clone() };
+            Ok((model, study.curve()?))
         };
-        WEIGHTS.iter().filter(is_other).map(curve).collect()
+        Model::ALL.into_iter().filter(is_other).map(curve).collect()
     }
 
     /// * `go_on`: asked before each slope that is driven
@@ -336,7 +335,7 @@ impl CardStudy {
 struct Found<'a> {
     /// On the soil as written, and those of the other models.
     curve: HeadingCurve,
-    others: Vec<(Theory, HeadingCurve)>,
+    others: Vec<(Model, HeadingCurve)>,
     nominal: &'a Draw,
     draws: &'a [Draw],
 }
@@ -361,7 +360,7 @@ impl Found<'_> {
             other_models: self
                 .others
                 .iter()
-                .map(|(it, curve)| (*it, yaw_on(curve, slope)))
+                .map(|(it, curve)| (it.clone(), yaw_on(curve, slope)))
                 .collect(),
             driven,
             refusal: nominal.refusals[place].clone(),

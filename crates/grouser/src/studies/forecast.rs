@@ -232,8 +232,8 @@ impl ForecastStudy {
 
     /// Model and soil at levels of model, soil and discrepancy, as under the gravity of the measurement.
     fn sample(&self, band: &BandInputs, levels: &[usize]) -> Result<Sample, NothingAccepted> {
-        let (theory, _) = band.models().shares()[levels[0]];
-        band.crossed(theory, self.seed, [levels[1] as u64, levels[2] as u64])
+        let (model, _) = &band.models().shares()[levels[0]];
+        band.crossed(model.clone(), self.seed, [levels[1] as u64, levels[2] as u64])
     }
 
     /// Rovers that could be tested where the soil was measured: as heavy as the first of the choices, and lightened

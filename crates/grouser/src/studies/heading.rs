@@ -272,7 +272,7 @@ impl HeadingStudy {
             rover: scenario.rover.clone(),
             soil: scenario.ground.soil,
             gravity: scenario.gravity,
-            theory: scenario.theory,
+            model: scenario.model.clone(),
             sharing: scenario.sharing,
             own_moments: scenario.own_moments,
             stability: scenario.stability,
@@ -531,9 +531,8 @@ impl HeadingCurve {
     /// The flags of what was found on a slope [rad]; without a heading, those that need no motion.
     #[must_use]
     pub fn findings(&self, slope: f64, found: &Result<HeadingOffset, NoHeading>) -> Vec<Finding> {
-        let HeadingStudy { rover, soil, gravity, theory, .. } = &self.study;
-        let on_slope =
-            RoverOnSlope { rover, soil, zones: None, gravity: *gravity, theory: *theory, slope };
+        let HeadingStudy { rover, soil, gravity, model, .. } = &self.study;
+        let on_slope = RoverOnSlope { rover, soil, zones: None, gravity: *gravity, model, slope };
         on_slope.findings(found.iter().flat_map(|heading| &heading.wheels))
     }
 

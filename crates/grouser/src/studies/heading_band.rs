@@ -70,7 +70,7 @@ struct OfSample {
 }
 
 impl HeadingBand {
-    /// Follows the curve of contour traverses of each sample; `study.soil` and `study.theory` are not used. The
+    /// Follows the curve of contour traverses of each sample; `study.soil` and `study.model` are not used. The
     /// samples are shared among threads and keep their order: the result is the same for any number of
     /// threads.
     ///
@@ -170,7 +170,7 @@ impl HeadingStudy {
     /// The study with a sample's soil and model.
     #[must_use]
     pub fn of_sample(&self, sample: &Sample) -> Self {
-        Self { soil: sample.soil, theory: sample.theory, ..self.clone() }
+        Self { soil: sample.soil, model: sample.model.clone(), ..self.clone() }
     }
 }
 

@@ -61,7 +61,7 @@ use super::ensemble::models::ModelSpread;
 use super::ensemble::samples::{BandInputs, Sample};
 use super::heading::HeadingStudy;
 use super::heading_band::HeadingBand;
-use crate::contact::Theory;
+use crate::contact::Model;
 use crate::error::ParameterError;
 use crate::vehicle::Mount;
 use grouser_io::LoadedScenario;
@@ -296,10 +296,11 @@ impl Learner {
         &self,
         seed: u64,
         count: u32,
-    ) -> Result<(Theory, Vec<LearntSample>), NothingAccepted> {
-        let theory = self.bank.best(&self.settings).unknowns.theory();
-        let all = (0..count).map(|index| self.bank.sample_of(theory, seed, index.into()));
-        Ok((theory, all.collect::<Result<_, _>>()?))
+    ) -> Result<(Model, Vec<LearntSample>), NothingAccepted> {
+        let model = self.bank.best(&self.settings).unknowns.model().clone();
+        let all = (0..count).map(|index| self.bank.sample_of(&model, seed, index.into()));
+        let all = all.collect::<Result<_, _>>()?;
+        Ok((model, all))
     }
 
     /// The keys of the soil that are uncertain, as samples have their values.
@@ -322,7 +323,7 @@ impl Learner {
         slopes: &[f64],
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<HeadingBand>, ParameterError> {
-        let samples: Vec<Sample> = samples.iter().map(|it| it.sample).collect();
+        let samples: Vec<Sample> = samples.iter().map(|it| it.sample.clone()).collect();
         HeadingBand::of(&self.study, &samples, slopes, go_on)
     }
 }

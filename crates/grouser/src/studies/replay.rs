@@ -238,7 +238,7 @@ impl Replayer {
         if self.kept.is_empty() {
             return Err(NothingToReplay);
         }
-        let nominal = Sample { soil: self.study.soil, theory: self.study.theory };
+        let nominal = Sample { soil: self.study.soil, model: self.study.model.clone() };
         let slope = self.plane();
         let motions: Vec<Motion> =
             self.kept.par_iter().map(|it| self.predicted(&it.stretch)).collect();

@@ -4,7 +4,7 @@
 use super::comparison::MeasuredTraverse;
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, NoHeading};
 use super::wheel_test::{WheelTest, WheelTestRow};
-use crate::contact::Theory;
+use crate::contact::Model;
 use crate::error::ParameterError;
 use crate::simulation::{
     Motion, Numerics, PrescribedYaw, Run, RunError, Scenario, Start, Trajectory,
@@ -56,7 +56,7 @@ pub struct Plan {
     /// Loads under which it is tested at slip angle 0 [N].
     pub loads: Vec<f64>,
     /// Wheel–soil models whose headings stand beside the scenario's.
-    pub other_models: Vec<Theory>,
+    pub other_models: Vec<Model>,
 }
 
 /// The results of the study: wheel tests, heading offsets, traverses.
@@ -71,7 +71,7 @@ pub struct Reproduction {
     /// The heading offset over the slope.
     pub headings: HeadingCurve,
     /// The same by the other models.
-    pub other_headings: Vec<(Theory, HeadingCurve)>,
+    pub other_headings: Vec<(Model, HeadingCurve)>,
     /// The traverses on each measured slope.
     pub slopes: Vec<SlopeRuns>,
     /// The first moments of a run from rest, on the slope of [`START_UP_ROW`], finely sampled.
@@ -147,8 +147,8 @@ impl Plan {
         progress("heading offsets");
         let study = HeadingStudy::of(&self.scenario);
         let headings = study.curve()?;
-        let by_model = |theory: &Theory| {
-            Ok((*theory, HeadingStudy { theory: *theory, ..study.clone() }.curve()?))
+        let by_model = |model: &Model| {
+            Ok((model.clone(), HeadingStudy { model: model.clone(), ..study.clone() }.curve()?))
         };
         let other_headings =
             self.other_models.iter().map(by_model).collect::<Result<_, ParameterError>>()?;
@@ -181,12 +181,12 @@ impl Plan {
     fn wheel_test(&self, loads: &[f64], slip_angles: &[f64]) -> WheelTest {
         /// Steps from slip ratio 0 to 1.
         const STEPS: u32 = 50;
-        let Scenario { rover, ground, gravity, theory, .. } = &self.scenario;
+        let Scenario { rover, ground, gravity, model, .. } = &self.scenario;
         WheelTest {
             wheel: rover.mounts()[0].unit.wheel,
             soil: ground.soil,
             gravity: *gravity,
-            theory: *theory,
+            model: model.clone(),
             loads: loads.to_vec(),
             slip_angles: slip_angles.to_vec(),
             slip_ratios: (0..=STEPS).map(|step| f64::from(step) / f64::from(STEPS)).collect(),

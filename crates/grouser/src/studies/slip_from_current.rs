@@ -286,8 +286,8 @@ impl SlipEstimator {
             return Err(NoEstimator::NoMotor);
         }
         settings.check()?;
-        let &Scenario { ref ground, gravity, theory, .. } = scenario;
-        let known = || vec![Sample { soil: ground.soil, theory }];
+        let &Scenario { ref ground, gravity, ref model, .. } = scenario;
+        let known = || vec![Sample { soil: ground.soil, model: model.clone() }];
         let samples = if samples.is_empty() { known() } else { samples };
         let table = TorqueTable::new(&scenario.rover, gravity, samples, settings.slips);
         Ok(Self {

@@ -153,7 +153,8 @@ impl TraverseBand {
     ) -> Result<Option<Self>, RunError> {
         assert!(!samples.is_empty(), "a band needs samples");
         let run = |sample: &Sample, scatter: Scatter| {
-            let mut scenario = Scenario { theory: sample.theory, scatter, ..scenario.clone() };
+            let mut scenario =
+                Scenario { model: sample.model.clone(), scatter, ..scenario.clone() };
             scenario.ground.soil = sample.soil;
             let run = Run::new(&scenario)?.to_end()?;
             Ok(OfSample::of(&run, &scenario, times))

@@ -10,7 +10,7 @@ use self::errors::root_mean_square;
 pub use self::errors::{Aim, Comparison, Errors, mean_score};
 pub use self::yardstick::{Placed, Yardstick};
 use crate::contact::validity::{self, Finding, Situation};
-use crate::contact::{SettleError, Settled, Theory};
+use crate::contact::{Model, SettleError, Settled};
 use crate::soil::Soil;
 use crate::studies::measurement::{Cell, PerQuantity, Quantity, WheelTests};
 use crate::wheel::Wheel;
@@ -20,7 +20,7 @@ use crate::wheel::Wheel;
 /// How far is the predicted drawbar pull of a smooth wheel from the measured one?
 ///
 /// ```
-/// use grouser::contact::Theory;
+/// use grouser::contact::Model;
 /// use grouser::document::measurements::{self, Choice};
 /// use grouser::document::{self, Kind, Overrides, Source};
 /// use grouser::studies::validation::ValidationStudy;
@@ -36,7 +36,7 @@ use crate::wheel::Wheel;
 ///     tests: &tests,
 ///     wheel: smooth.tested.wheel().expect("it is a wheel test").value,
 ///     soil: smooth.soils[0].1.value,
-///     theory: Theory::SmallWheel,
+///     model: Model::SmallWheel,
 ///     gravity: data_set.gravity,
 /// }
 /// .run();
@@ -53,7 +53,7 @@ pub struct ValidationStudy<'a> {
     /// The soil it was tested on.
     pub soil: Soil,
     /// The wheel–soil model.
-    pub theory: Theory,
+    pub model: Model,
     /// Gravity, *g* [m/s²].
     pub gravity: f64,
 }
@@ -135,7 +135,7 @@ impl ValidationStudy<'_> {
     #[must_use]
     pub fn run(&self) -> Validation {
         let predict = |trial: &crate::studies::measurement::Trial| {
-            trial.predict(self.theory, &self.wheel, &self.soil, self.gravity)
+            trial.predict(self.model.as_ref(), &self.wheel, &self.soil, self.gravity)
         };
         let predictions = self.tests.trials.par_iter().map(predict).collect();
         let mut validation = Validation::of(self.tests, predictions);
@@ -153,7 +153,7 @@ impl ValidationStudy<'_> {
     fn situation<'a>(&'a self, trial: usize, settled: Option<&'a Settled>) -> Situation<'a> {
         let trial = &self.tests.trials[trial];
         Situation {
-            theory: self.theory,
+            model: &self.model,
             wheel: &self.wheel,
             soil: &self.soil,
             gravity: self.gravity,

@@ -1,6 +1,6 @@
 //! Flags of validity of a rover: those of its wheels together, at rest or in motion, on a slope or over a run.
 
-use crate::contact::Theory;
+use crate::contact::Model;
 use crate::contact::validity::{Finding, Situation, union};
 use crate::simulation::{Record, Scenario, Trajectory};
 use crate::soil::Soil;
@@ -19,7 +19,7 @@ pub struct RoverOnSlope<'a> {
     /// Gravity, *g* [m/s²].
     pub gravity: f64,
     /// The wheel–soil model.
-    pub theory: Theory,
+    pub model: &'a Model,
     /// Slope, *α* [rad]; on ground with heights that of the body is in its place.
     pub slope: f64,
 }
@@ -42,7 +42,7 @@ impl<'a> RoverOnSlope<'a> {
             soil: &scenario.ground.soil,
             zones: scenario.ground.zones.as_deref(),
             gravity: scenario.gravity,
-            theory: scenario.theory,
+            model: &scenario.model,
             slope: scenario.ground.plane_slope().unwrap_or(0.0),
         }
     }
@@ -70,7 +70,7 @@ impl<'a> RoverOnSlope<'a> {
         union(self.rover.mounts().iter().map(|mount| {
             let reaction = wheels.next();
             Situation {
-                theory: self.theory,
+                model: self.model,
                 wheel: &mount.unit.wheel,
                 soil: soil(mount),
                 gravity: self.gravity,

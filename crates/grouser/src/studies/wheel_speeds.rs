@@ -158,9 +158,8 @@ impl WheelSpeeds {
     /// The flags of a motion on a slope [rad]; without one, those that need no motion.
     #[must_use]
     pub fn findings(&self, slope: f64, motion: Option<&StraightMotion>) -> Vec<Finding> {
-        let HeadingStudy { rover, soil, gravity, theory, .. } = &self.study.heading;
-        let on_slope =
-            RoverOnSlope { rover, soil, zones: None, gravity: *gravity, theory: *theory, slope };
+        let HeadingStudy { rover, soil, gravity, model, .. } = &self.study.heading;
+        let on_slope = RoverOnSlope { rover, soil, zones: None, gravity: *gravity, model, slope };
         on_slope.findings(motion.iter().flat_map(|motion| &motion.wheels))
     }
 }

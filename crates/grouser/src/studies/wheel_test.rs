@@ -2,7 +2,7 @@
 //! ([FourWheel], section 4 and Fig. 7).
 
 use crate::contact::validity::{Finding, Situation};
-use crate::contact::{Contact, SettleError, Settled, Slip, Theory, settle_many};
+use crate::contact::{Contact, Model, SettleError, Settled, Slip, settle_many};
 use crate::soil::Soil;
 use crate::wheel::Wheel;
 
@@ -11,7 +11,7 @@ use crate::wheel::Wheel;
 /// How hard does the wheel of HAKUTO pull under 17 N, and which torque does that take?
 ///
 /// ```
-/// use grouser::contact::Theory;
+/// use grouser::contact::Model;
 /// use grouser::document::{self, Overrides, Source};
 /// use grouser::studies::wheel_test::WheelTest;
 ///
@@ -20,7 +20,7 @@ use crate::wheel::Wheel;
 ///     wheel: scenario.rover.mounts()[0].unit.wheel,
 ///     soil: scenario.ground.soil,
 ///     gravity: scenario.gravity,
-///     theory: Theory::Ishigami,
+///     model: Model::Ishigami,
 ///     loads: vec![17.0],
 ///     slip_angles: vec![0.0],
 ///     slip_ratios: vec![0.1, 0.2, 0.4],
@@ -41,7 +41,7 @@ pub struct WheelTest {
     /// Gravity, *g* [m/s²].
     pub gravity: f64,
     /// The wheel–soil model.
-    pub theory: Theory,
+    pub model: Model,
     /// Loads [N].
     pub loads: Vec<f64>,
     /// Slip angles [rad].
@@ -81,7 +81,7 @@ impl WheelTest {
             .iter()
             .map(|&(load, slip_angle, slip_ratio)| (self.contact(slip_angle, slip_ratio), load))
             .collect();
-        let results = settle_many(self.theory.model(), &wheels);
+        let results = settle_many(self.model.as_ref(), &wheels);
         let rows = settings.into_iter().zip(&wheels).zip(results);
         rows.map(|((setting, (contact, _)), result)| self.row(setting, contact, result)).collect()
     }
@@ -99,7 +99,7 @@ impl WheelTest {
         result: Result<Settled, SettleError>,
     ) -> WheelTestRow {
         let situation = Situation {
-            theory: self.theory,
+            model: &self.model,
             wheel: &self.wheel,
             soil: &self.soil,
             gravity: self.gravity,

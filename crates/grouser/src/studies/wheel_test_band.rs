@@ -8,7 +8,7 @@
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
 use super::wheel_test::{WheelTest, WheelTestRow};
-use crate::contact::{Contact, SettleError, Theory};
+use crate::contact::{Contact, Model, SettleError};
 
 /// One setting of the test stand, with quantiles over the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,16 +53,16 @@ pub struct Sunk {
 impl Sunk {
     /// * `load`: [N]
     #[must_use]
-    pub fn of(theory: Theory, contact: &Contact, load: f64) -> Self {
+    pub fn of(model: &Model, contact: &Contact, load: f64) -> Self {
         let sinkage = contact.wheel.shearing_radius();
-        let at_axle = theory.model().forces(contact, sinkage);
+        let at_axle = model.as_ref().forces(contact, sinkage);
         let torque = (load * sinkage).max(at_axle.torque.abs()).copysign(contact.slip.ratio);
         Self { sinkage, drawbar_pull: at_axle.drawbar_pull.min(-load), side_force: 0.0, torque }
     }
 }
 
 impl WheelTest {
-    /// The bands of each setting, in the order of [`run`](Self::run); `self.soil` and `self.theory` are not
+    /// The bands of each setting, in the order of [`run`](Self::run); `self.soil` and `self.model` are not
     /// used. `None` if `go_on` was false before the end. The samples are shared among threads and keep their order: the
     /// result is the same for any number of threads.
     ///
@@ -80,7 +80,7 @@ impl WheelTest {
     ///     wheel: scenario.value.rover.mounts()[0].unit.wheel,
     ///     soil: scenario.value.ground.soil,
     ///     gravity: scenario.value.gravity,
-    ///     theory: scenario.value.theory,
+    ///     model: scenario.value.model,
     ///     loads: vec![17.0],
     ///     slip_angles: vec![0.0],
     ///     slip_ratios: vec![0.4],
@@ -101,7 +101,7 @@ impl WheelTest {
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Option<Vec<SettledBand>> {
         let one = |sample: &Sample| {
-            let test = Self { soil: sample.soil, theory: sample.theory, ..self.clone() };
+            let test = Self { soil: sample.soil, model: sample.model.clone(), ..self.clone() };
             test.run().iter().map(|row| Kept::of(row, &test)).collect::<Vec<_>>()
         };
         let all = outputs_of_samples(samples, go_on, one)?;
@@ -139,7 +139,7 @@ impl Kept {
             }),
             Err(SettleError::SunkToAxle { load, .. }) => {
                 let contact = test.contact(row.slip_angle, row.slip_ratio);
-                let sunk = Sunk::of(test.theory, &contact, load);
+                let sunk = Sunk::of(&test.model, &contact, load);
                 Some(Self {
                     is_carried: false,
                     sinkage: sunk.sinkage,

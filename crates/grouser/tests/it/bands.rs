@@ -1,6 +1,6 @@
 //! Bands over samples of soil and model: which models there are, and what a sample without an answer counts as.
 
-use grouser::contact::{Contact, Slip, Theory};
+use grouser::contact::{Contact, Model, Slip};
 use grouser::document::campaign::QuantityStatistics;
 use grouser::document::columns::run;
 use grouser::document::{
@@ -8,7 +8,7 @@ use grouser::document::{
 };
 use grouser::simulation::{Outcome, OutcomeKind};
 use grouser::soil::{PressureSinkage, Soil};
-use grouser::studies::ensemble::models::{ModelSpread, OWN_SHARE, WEIGHTS};
+use grouser::studies::ensemble::models::{ModelSpread, OWN_SHARE, weight};
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::ensemble::{Band, Probability};
 use grouser::studies::heading::HeadingStudy;
@@ -40,12 +40,12 @@ fn samples(scenario: &LoadedScenario, count: u32) -> Vec<Sample> {
     BandInputs::of_scenario(scenario).samples(SEED, count).expect("they can be drawn")
 }
 
-fn stand(soil: Soil, theory: Theory) -> WheelTest {
+fn stand(soil: Soil, model: Model) -> WheelTest {
     WheelTest {
         wheel: given::hakuto_wheel(),
         soil,
         gravity: 9.80665,
-        theory,
+        model,
         loads: vec![10.0, 17.0],
         slip_angles: vec![0.0, deg(15.0)],
         slip_ratios: vec![-0.2, 0.1, 0.4],
@@ -61,17 +61,17 @@ fn contains(band: Option<Band>, value: f64) -> bool {
 /// Any number of samples in a row has the models by their shares, to within a few samples.
 #[test]
 fn samples_have_the_models_by_their_shares() {
-    for spread in [ModelSpread::all(None), ModelSpread::all(Some(Theory::SmallWheel))] {
+    for spread in [ModelSpread::all(None), ModelSpread::all(Some(&Model::SmallWheel))] {
         for seed in 0..20 {
             let mut counts = [0.0; 4];
             for index in 0..2000 {
-                let theory = spread.theory(seed, index);
-                let place = Theory::ALL.iter().position(|it| *it == theory).expect("one of them");
+                let model = spread.model(seed, index);
+                let place = Model::ALL.iter().position(|it| *it == model).expect("one of them");
                 counts[place] += 1.0;
-                for (theory, share) in spread.shares() {
-                    let place = Theory::ALL.iter().position(|it| it == theory).expect("one");
+                for (model, share) in spread.shares() {
+                    let place = Model::ALL.iter().position(|it| it == model).expect("one");
                     let expected = share * (index + 1) as f64;
-                    assert!((counts[place] - expected).abs() < 5.0, "{theory:?}, seed {seed}");
+                    assert!((counts[place] - expected).abs() < 5.0, "{model:?}, seed {seed}");
                 }
             }
         }
@@ -80,25 +80,26 @@ fn samples_have_the_models_by_their_shares() {
 
 #[test]
 fn a_model_has_its_share_and_the_rest_is_shared_by_weight() {
-    let share = |spread: &ModelSpread, theory| {
-        spread.shares().iter().find(|it| it.0 == theory).map_or(0.0, |it| it.1)
+    let share = |spread: &ModelSpread, model| {
+        spread.shares().iter().find(|it| it.0 == model).map_or(0.0, |it| it.1)
     };
-    let sum: f64 = WEIGHTS.iter().map(|it| it.1).sum();
-    for made_for in [None, Some(Theory::Rft), Some(Theory::Bekker)] {
-        let spread = ModelSpread::all(made_for);
+    let sum: f64 = Model::ALL.iter().map(weight).sum();
+    for made_for in [None, Some(Model::Rft), Some(Model::Bekker)] {
+        let spread = ModelSpread::all(made_for.as_ref());
         let total: f64 = spread.shares().iter().map(|it| it.1).sum();
         assert!((total - 1.0).abs() < 1e-12 && spread.shares().iter().all(|it| it.1 > 0.0));
         match made_for {
-            Some(theory) => assert_eq!(share(&spread, theory), OWN_SHARE),
+            Some(model) => assert_eq!(share(&spread, model), OWN_SHARE),
             None => {
-                for (theory, weight) in WEIGHTS {
-                    assert!((share(&spread, theory) - weight / sum).abs() < 1e-12);
+                for model in Model::ALL {
+                    let expected = weight(&model) / sum;
+                    assert!((share(&spread, model) - expected).abs() < 1e-12);
                 }
             }
         }
     }
-    let one = ModelSpread::one(Theory::Bekker);
-    assert!((0..50).all(|index| one.theory(SEED, index) == Theory::Bekker));
+    let one = ModelSpread::one(Model::Bekker);
+    assert!((0..50).all(|index| one.model(SEED, index) == Model::Bekker));
 }
 
 /// A model that is asked for by name is alone; a soil keeps the one that it was made for, with the greater share.
@@ -108,14 +109,14 @@ fn documents_decide_which_models_there_are() {
     let default = ModelSpread::all(None).shares().to_vec();
     assert_eq!(shares(BandInputs::of_scenario(&scenario(&[]))), default);
     let chosen = scenario(&["scenario.model=rft"]);
-    assert_eq!(shares(BandInputs::of_scenario(&chosen)), [(Theory::Rft, 1.0)]);
-    let own = ModelSpread::all(Some(Theory::SmallWheel)).shares().to_vec();
+    assert_eq!(shares(BandInputs::of_scenario(&chosen)), [(Model::Rft, 1.0)]);
+    let own = ModelSpread::all(Some(&Model::SmallWheel)).shares().to_vec();
     let fitted = scenario(&["scenario.soil=cmu-direct90-smooth"]);
     assert_eq!(shares(BandInputs::of_scenario(&fitted)), own);
     let fitted = soil("cmu-direct90-smooth");
     assert_eq!(shares(BandInputs::of_soil(&fitted, None)), own);
-    let chosen = BandInputs::of_soil(&fitted, Some(Theory::Bekker));
-    assert_eq!(shares(chosen), [(Theory::Bekker, 1.0)]);
+    let chosen = BandInputs::of_soil(&fitted, Some(Model::Bekker));
+    assert_eq!(shares(chosen), [(Model::Bekker, 1.0)]);
 }
 
 #[test]
@@ -127,8 +128,8 @@ fn a_sample_depends_on_the_seed_and_its_number_alone() {
     assert_eq!(many[33], inputs.sample(SEED, 33).expect("it can be drawn"));
     let other = inputs.samples(SEED + 1, 40).expect("they can be drawn");
     assert!(many.iter().zip(&other).all(|(one, other)| one.soil != other.soil));
-    let starts = (0..40).map(|seed| ModelSpread::all(None).theory(seed, 0));
-    let rft = starts.filter(|theory| *theory == Theory::Rft).count();
+    let starts = (0..40).map(|seed| ModelSpread::all(None).model(seed, 0));
+    let rft = starts.filter(|model| *model == Model::Rft).count();
     assert!((4..=26).contains(&rft), "{rft} of 40 seeds start with rft");
 }
 
@@ -139,26 +140,26 @@ fn the_band_of_an_exact_soil_contains_every_model_of_the_spread() {
     let scenario = scenario(&[EXACT]);
     let soil = scenario.value.ground.soil;
     let samples = samples(&scenario, 200);
-    let test = stand(soil, Theory::Ishigami);
+    let test = stand(soil, Model::Ishigami);
     let bands = test.bands(&samples, &|| true).expect("not stopped");
     let study = HeadingStudy::of(&scenario.value);
     let slopes = [5.0, 10.0, 15.0].map(deg);
     let band = HeadingBand::of(&study, &samples, &slopes, &|| true);
     let band = band.expect("sand").expect("not stopped");
-    for (theory, _) in ModelSpread::all(None).shares() {
-        for (row, band) in stand(soil, *theory).run().iter().zip(&bands) {
+    for (model, _) in ModelSpread::all(None).shares() {
+        for (row, band) in stand(soil, model.clone()).run().iter().zip(&bands) {
             let settled = row.result.expect("sand carries it");
-            assert!(contains(band.sinkage, settled.sinkage), "{theory:?} {row:?}");
-            assert!(contains(band.drawbar_pull, settled.forces.drawbar_pull), "{theory:?}");
-            assert!(contains(band.side_force, settled.forces.side_force), "{theory:?}");
-            assert!(contains(band.torque, settled.forces.torque), "{theory:?}");
+            assert!(contains(band.sinkage, settled.sinkage), "{model:?} {row:?}");
+            assert!(contains(band.drawbar_pull, settled.forces.drawbar_pull), "{model:?}");
+            assert!(contains(band.side_force, settled.forces.side_force), "{model:?}");
+            assert!(contains(band.torque, settled.forces.torque), "{model:?}");
         }
-        let curve = HeadingStudy { theory: *theory, ..study.clone() }.curve().expect("sand");
+        let curve = HeadingStudy { model: model.clone(), ..study.clone() }.curve().expect("sand");
         for on_slope in &band.slopes {
             let heading = curve.at(on_slope.slope).expect("not steep");
-            assert!(contains(on_slope.yaw, heading.yaw), "{theory:?}");
-            assert!(contains(on_slope.slip_ratio, heading.slip_ratio), "{theory:?}");
-            assert!(contains(on_slope.sinkage, heading.mean_sinkage()), "{theory:?}");
+            assert!(contains(on_slope.yaw, heading.yaw), "{model:?}");
+            assert!(contains(on_slope.slip_ratio, heading.slip_ratio), "{model:?}");
+            assert!(contains(on_slope.sinkage, heading.mean_sinkage()), "{model:?}");
         }
     }
 }
@@ -167,7 +168,7 @@ fn the_band_of_an_exact_soil_contains_every_model_of_the_spread() {
 fn one_model_on_an_exact_soil_is_a_point() {
     let scenario = scenario(&["scenario.model=rft", EXACT]);
     let samples = samples(&scenario, 20);
-    let test = stand(scenario.value.ground.soil, Theory::Rft);
+    let test = stand(scenario.value.ground.soil, Model::Rft);
     let mut computed = std::sync::atomic::AtomicUsize::new(0);
     let count = || {
         computed.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
@@ -201,8 +202,8 @@ fn mire() -> Soil {
 #[test]
 fn a_wheel_that_sinks_to_its_axle_is_not_left_out() {
     let sand = scenario(&[]).value.ground.soil;
-    let of = |soil| Sample { soil, theory: Theory::Ishigami };
-    let test = stand(sand, Theory::Ishigami);
+    let of = |soil| Sample { soil, model: Model::Ishigami };
+    let test = stand(sand, Model::Ishigami);
     let bands = test.bands(&[of(sand), of(mire()), of(mire())], &|| true).expect("not stopped");
     let radius = given::hakuto_wheel().shearing_radius();
     for (row, band) in test.run().iter().zip(&bands) {
@@ -242,7 +243,7 @@ fn a_row_without_a_nominal_value_keeps_its_band() {
 fn the_number_of_threads_changes_no_band() {
     let scenario = scenario(&["scenario.soil=toyoura-uncertain"]);
     let study = HeadingStudy::of(&scenario.value);
-    let test = stand(study.soil, study.theory);
+    let test = stand(study.soil, study.model.clone());
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("threads can be started").install(|| {
@@ -267,8 +268,8 @@ fn a_traverse_of_one_model_is_its_run_and_of_several_contains_each() {
     };
     let of_all = band(&spread, 9);
     assert_eq!(of_all.run.completed, Probability { successes: 9, trials: 9 });
-    for theory in ["ishigami", "rft"] {
-        let model = format!("scenario.model={theory}");
+    for model in ["ishigami", "rft"] {
+        let model = format!("scenario.model={model}");
         let one = scenario(&[settings[0], settings[1], settings[2], &model]);
         let run = given::run(&one.value);
         let alone = band(&one, 3);
@@ -289,7 +290,7 @@ fn a_run_that_gets_stuck_is_not_left_out() {
     let good = scenario(&["scenario.duration_s=6", "scenario.slope_deg=5"]).value;
     let mut slick = good.ground.soil;
     slick.friction_angle = deg(5.0);
-    let of = |soil| Sample { soil, theory: Theory::Ishigami };
+    let of = |soil| Sample { soil, model: Model::Ishigami };
     let samples = [of(good.ground.soil), of(slick), of(slick)];
     let mut stuck = good.clone();
     stuck.ground.soil = slick;
@@ -331,7 +332,7 @@ fn a_run_that_leaves_its_map_leaves_the_band_then() {
     let run = given::run(&good);
     assert!(matches!(run.outcome, Outcome::OffTheMap { .. }), "{:?}", run.outcome);
     let off = run.last().time;
-    let samples = vec![Sample { soil, theory: good.theory }; 3];
+    let samples = vec![Sample { soil, model: good.model.clone() }; 3];
     let band = TraverseBand::of(&good, &samples, &[0.5 * off, 30.0], &|| true);
     let band = band.expect("it can be computed").expect("not stopped");
     let [before, after] = &band.times[..] else { panic!("two times") };
@@ -372,8 +373,8 @@ fn a_band_over_heights_has_height_roll_and_pitch() {
         let band = TraverseBand::of(&scenario.value, samples, &times, &|| true);
         band.expect("it can be computed").expect("not stopped")
     };
-    let same = Sample { soil: scenario.value.ground.soil, theory: scenario.value.theory };
-    let alone = band(&scenario, &[same; 3]);
+    let same = Sample { soil: scenario.value.ground.soil, model: scenario.value.model.clone() };
+    let alone = band(&scenario, &[same.clone(), same.clone(), same]);
     let exactly = |value| Some(Band { low: value, median: value, high: value });
     for [height, roll, pitch] in [
         [alone.times[1].height, alone.times[1].roll, alone.times[1].pitch],
@@ -457,13 +458,13 @@ fn a_campaign_draws_models_and_leaves_no_run_out() {
     let yaws = campaign.counted("yaw_deg", runs, table.numbers("yaw_deg"), statuses);
     let study = HeadingStudy::of(&scenario(&[]).value);
     let (mut held, mut lost) = (0, 0);
-    for (theory, _) in ModelSpread::all(None).shares() {
-        let of_model = HeadingStudy { theory: *theory, ..study.clone() };
+    for (model, _) in ModelSpread::all(None).shares() {
+        let of_model = HeadingStudy { model: model.clone(), ..study.clone() };
         let found = of_model.on_slope(deg(22.0)).expect("sand").ok();
-        let is_own = |run: &usize| models[*run].as_deref() == Some(theory.name());
+        let is_own = |run: &usize| models[*run].as_deref() == Some(model.name());
         let own: Vec<usize> = (0..table.rows()).filter(is_own).collect();
         // A Latin hypercube has the models by their shares.
-        assert_eq!(own.len(), 10, "{theory:?}");
+        assert_eq!(own.len(), 10, "{model:?}");
         for run in own {
             assert_eq!(slips[run], found.as_ref().map(|heading| heading.slip_ratio));
             assert_eq!(counted[run], slips[run].or(Some(1.0)));
@@ -503,15 +504,15 @@ fn a_campaign_counts_wheels_that_sink() {
 /// itself in.
 #[test]
 fn a_locked_wheel_that_sinks_counts_with_the_drag_at_the_axle() {
-    let test = stand(soil("fjs-1-loose").value, Theory::SmallWheel);
+    let test = stand(soil("fjs-1-loose").value, Model::SmallWheel);
     let slip = Slip::on_test_stand(-1.0, 0.0);
     let contact = Contact { wheel: test.wheel, soil: test.soil, slip, gravity: test.gravity };
-    let at_axle = test.theory.model().forces(&contact, contact.wheel.shearing_radius());
+    let at_axle = test.model.as_ref().forces(&contact, contact.wheel.shearing_radius());
     let load = 10.0 * at_axle.normal_force;
-    let light = Sunk::of(test.theory, &contact, 0.1);
+    let light = Sunk::of(&test.model, &contact, 0.1);
     assert!(at_axle.drawbar_pull < -0.1 && light.drawbar_pull == at_axle.drawbar_pull);
     assert!(light.torque == at_axle.torque && light.torque < 0.0);
-    let heavy = Sunk::of(test.theory, &contact, load.max(-10.0 * at_axle.drawbar_pull));
+    let heavy = Sunk::of(&test.model, &contact, load.max(-10.0 * at_axle.drawbar_pull));
     assert!(heavy.drawbar_pull <= 10.0 * at_axle.drawbar_pull);
 }
 
@@ -521,8 +522,8 @@ fn a_locked_wheel_that_sinks_counts_with_the_drag_at_the_axle() {
 fn the_guide_has_the_weights_of_the_models() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/guide/uncertainty.md");
     let guide = std::fs::read_to_string(path).expect("the guide");
-    for (theory, weight) in WEIGHTS {
-        let row = format!("| `{}` | {weight} |", theory.name());
+    for model in &Model::ALL {
+        let row = format!("| `{}` | {} |", model.name(), weight(model));
         assert!(guide.contains(&row), "{row}");
     }
     assert!(guide.contains(&format!("{} %", 100.0 * OWN_SHARE)), "the own share");

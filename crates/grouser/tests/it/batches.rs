@@ -1,7 +1,7 @@
 //! Many wheels at once: the bits of single wheels, in any company, and what answers cost.
 
 use grouser::contact::{
-    Contact, InstructionSet, Ishigami, LoadedWheel, SettleError, Settled, Slip, SmallWheel, Theory,
+    Contact, InstructionSet, Ishigami, LoadedWheel, Model, SettleError, Settled, Slip, SmallWheel,
     WheelSoilModel, forces_many, settle, settle_counted, settle_each, settle_from, settle_many,
 };
 use grouser::soil::{Bulldozing, Shear, ShearBound, ShearModulus};
@@ -30,11 +30,11 @@ fn bits(answer: &Answer) -> Vec<u64> {
 
 /// A wheel anywhere in the domain, in any motion, some of them backward, locked, dragged or without a
 /// load.
-fn any_wheel(case: u64) -> (Theory, Contact, f64) {
+fn any_wheel(case: u64) -> (Model, Contact, f64) {
     let mut draw = Draw::of_case(case);
-    let theory = Theory::ALL[usize::from(draw.once_in(2)) * 2];
-    let theory = if draw.once_in(40) { Theory::Bekker } else { theory };
-    let found = any_case(theory, case);
+    let model = if draw.once_in(2) { Model::SmallWheel } else { Model::Ishigami };
+    let model = if draw.once_in(40) { Model::Bekker } else { model };
+    let found = any_case(&model, case);
     let mut contact = found.contact;
     if draw.once_in(4) {
         contact.slip = contact.slip.front_to_back();
@@ -44,7 +44,7 @@ fn any_wheel(case: u64) -> (Theory, Contact, f64) {
     }
     let load = if draw.once_in(50) { 0.0 } else { found.load };
     let load = if draw.once_in(200) { -load } else { load };
-    (theory, contact, load)
+    (model, contact, load)
 }
 
 #[test]
@@ -52,12 +52,12 @@ fn mixed_wheels_settle_as_they_do_alone() {
     let wheels: Vec<_> = (0..6_000).map(any_wheel).collect();
     let alone: Vec<Answer> = wheels
         .iter()
-        .map(|(theory, contact, load)| settle(theory.model(), contact, *load))
+        .map(|(model, contact, load)| settle(model.as_ref(), contact, *load))
         .collect();
     let loaded: Vec<_> = wheels
         .iter()
-        .map(|(theory, contact, load)| LoadedWheel {
-            model: theory.model(),
+        .map(|(model, contact, load)| LoadedWheel {
+            model: model.as_ref(),
             contact,
             load: *load,
             guess: None,
@@ -82,8 +82,8 @@ fn guesses_count_among_others_as_they_do_alone() {
     let loaded: Vec<_> = wheels
         .iter()
         .enumerate()
-        .map(|(case, (theory, contact, load))| LoadedWheel {
-            model: theory.model(),
+        .map(|(case, (model, contact, load))| LoadedWheel {
+            model: model.as_ref(),
             contact,
             load: *load,
             guess: Some(guess(case, contact)),
@@ -123,22 +123,22 @@ fn forces_of_many_are_those_of_each() {
             (contact, if draw.once_in(50) { 0.0 } else { sinkage })
         })
         .collect();
-    for theory in Theory::ALL {
-        let model = theory.model();
+    for model in Model::ALL {
         for size in SIZES {
-            let count = if theory == Theory::Rft { 300 } else { wheels.len() };
-            let together = wheels[..count].chunks(size).flat_map(|some| forces_many(model, some));
+            let count = if model == Model::Rft { 300 } else { wheels.len() };
+            let together =
+                wheels[..count].chunks(size).flat_map(|some| forces_many(model.as_ref(), some));
             for (case, ((contact, sinkage), many)) in wheels.iter().zip(together).enumerate() {
-                let alone = model.forces(contact, *sinkage);
+                let alone = model.as_ref().forces(contact, *sinkage);
                 let bits = |it| numbers_of(it).map(f64::to_bits);
-                assert_eq!(bits(&alone), bits(&many), "case {case} of {theory:?} among {size}");
+                assert_eq!(bits(&alone), bits(&many), "case {case} of {model:?} among {size}");
             }
         }
     }
 }
 
 /// Wheels of the reference rover on sand under more than it carries, in all motions.
-fn overloaded(case: u64) -> (Theory, Contact, f64) {
+fn overloaded(case: u64) -> (Model, Contact, f64) {
     let mut draw = Draw::of_case(case);
     let beta = draw.between(deg(-80.0), deg(80.0));
     let mut soil = given::toyoura();
@@ -150,8 +150,8 @@ fn overloaded(case: u64) -> (Theory, Contact, f64) {
     }
     let slip = Slip::on_test_stand(draw.between(-1.0, 1.0), beta);
     let contact = Contact { wheel: given::hakuto_wheel(), soil, slip, gravity: EARTH_GRAVITY };
-    let theory = if draw.once_in(2) { Theory::Ishigami } else { Theory::SmallWheel };
-    (theory, contact, draw.sized(1e2, 1e6))
+    let model = if draw.once_in(2) { Model::Ishigami } else { Model::SmallWheel };
+    (model, contact, draw.sized(1e2, 1e6))
 }
 
 /// The capacity that is stated is the highest F_z of a dense scan, and it is found in as few evaluations
@@ -165,8 +165,8 @@ fn a_wheel_that_the_soil_cannot_carry_costs_no_more_than_three_that_it_carries()
     const MOST_NEARBY: u32 = 12 * USUAL;
     let (mut sunk, mut sum, mut most) = (0, 0, 0);
     for case in 0..2_000 {
-        let (theory, contact, load) = overloaded(case);
-        let (answer, evaluations) = settle_counted(theory.model(), &contact, load);
+        let (model, contact, load) = overloaded(case);
+        let (answer, evaluations) = settle_counted(model.as_ref(), &contact, load);
         let Err(SettleError::SunkToAxle { capacity, .. }) = answer else { continue };
         let is_near = load < 1.0011 * capacity;
         assert!(evaluations <= if is_near { MOST_NEARBY } else { MOST }, "case {case}");
@@ -174,7 +174,7 @@ fn a_wheel_that_the_soil_cannot_carry_costs_no_more_than_three_that_it_carries()
         let radius = contact.wheel.shearing_radius();
         let scan = (0..=2_000).map(|step| {
             let sinkage = radius * f64::exp(-8.0 * f64::from(step) / 2_000.0);
-            theory.model().forces(&contact, sinkage).normal_force
+            model.as_ref().forces(&contact, sinkage).normal_force
         });
         let highest = scan.fold(0.0, f64::max);
         let apart = capacity / highest - 1.0;

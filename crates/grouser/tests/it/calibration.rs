@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use grouser::contact::{Slip, Theory};
+use grouser::contact::{Model, Slip};
 use grouser::error::ParameterError;
 use grouser::soil::{Discrepancy, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil};
 use grouser::studies::calibration::cross_validation::{
@@ -424,7 +424,7 @@ fn wheel() -> Wheel {
 fn setup() -> Setup<'static> {
     Setup {
         wheel: wheel(),
-        theory: Theory::Ishigami,
+        model: &Model::Ishigami,
         gravity: EARTH_GRAVITY,
         soil_of: &sand,
         resolution: Resolution::Cells,
@@ -441,12 +441,12 @@ const NOISE: PerQuantity<f64> =
 /// * `noise`: as a multiple of [`NOISE`]
 fn wheel_tests(seed: u64, noise: f64) -> WheelTests {
     let soil = sand(&TRUTH).expect("a sand");
-    wheel_tests_by(Theory::Ishigami, &soil, &[0.0, 15.0, 30.0], seed, noise)
+    wheel_tests_by(&Model::Ishigami, &soil, &[0.0, 15.0, 30.0], seed, noise)
 }
 
 /// The same, of a soil under a model, at some slip angles [°].
 fn wheel_tests_by(
-    theory: Theory,
+    model: &Model,
     soil: &Soil,
     slip_angles: &[f64],
     seed: u64,
@@ -471,7 +471,7 @@ fn wheel_tests_by(
             for trial in 0..3 {
                 let load = 20.0 + f64::from(trial);
                 let blank = Trial { slip, load, readings: PerQuantity::default() };
-                let truth = blank.predict(theory, &wheel(), soil, EARTH_GRAVITY);
+                let truth = blank.predict(model.as_ref(), &wheel(), soil, EARTH_GRAVITY);
                 let truth = truth.expect("the sand carries the wheel");
                 let mut readings = PerQuantity::default();
                 for quantity in [Quantity::DrawbarPull, Quantity::SideForce, Quantity::Sinkage] {
@@ -675,11 +675,11 @@ fn intervals_cover_the_truth_as_often_as_they_say() {
 
 /// How bands hold the cells of slip angles left out, over some simulated wheel tests of a model: of all
 /// quantities together, and of those at an angle between others, and at one beyond them.
-fn coverage_of_left_out_cells(theory: Theory, seeds: std::ops::Range<u64>) -> [Coverage; 3] {
+fn coverage_of_left_out_cells(model: &Model, seeds: std::ops::Range<u64>) -> [Coverage; 3] {
     const SLIP_ANGLES: [f64; 5] = [0.0, 10.0, 20.0, 30.0, 45.0];
     let soil = sand(&TRUTH).expect("a sand");
     let one_repeat = |seed: u64| {
-        let tests = wheel_tests_by(theory, &soil, &SLIP_ANGLES, 2000 + seed, 1.0);
+        let tests = wheel_tests_by(&model, &soil, &SLIP_ANGLES, 2000 + seed, 1.0);
         let settings = FitSettings { starts: 2, tried: 8, ..FitSettings::default() };
         let sampler = SamplerSettings {
             seed,
@@ -708,7 +708,7 @@ fn coverage_of_left_out_cells(theory: Theory, seeds: std::ops::Range<u64>) -> [C
 /// fit. Six stands; the slow test has twenty, and two more models.
 #[test]
 fn bands_of_a_wrong_model_hold_the_cells_left_out() {
-    let [all, between, _] = coverage_of_left_out_cells(Theory::Rft, 0..6);
+    let [all, between, _] = coverage_of_left_out_cells(&Model::Rft, 0..6);
     println!("{all:?}, between {between:?}");
     assert!(all.share_within_95 >= 0.90, "{all:?}");
     assert!(between.share_within_95 >= 0.85, "{between:?}");
@@ -718,10 +718,10 @@ fn bands_of_a_wrong_model_hold_the_cells_left_out() {
 #[test]
 #[ignore = "slow: samples the posteriors of 20 simulated wheel tests, each angle left out"]
 fn bands_hold_the_cells_left_out_under_the_right_model_and_under_wrong_ones() {
-    for theory in [Theory::Ishigami, Theory::Rft, Theory::Bekker] {
-        let [all, between, beyond] = coverage_of_left_out_cells(theory, 0..20);
-        println!("{theory:?}: {all:?}, between {between:?}, beyond {beyond:?}");
-        assert!(all.share_within_95 >= 0.90, "{theory:?}: {all:?}");
+    for model in [Model::Ishigami, Model::Rft, Model::Bekker] {
+        let [all, between, beyond] = coverage_of_left_out_cells(&model, 0..20);
+        println!("{model:?}: {all:?}, between {between:?}, beyond {beyond:?}");
+        assert!(all.share_within_95 >= 0.90, "{model:?}: {all:?}");
     }
 }
 

@@ -40,7 +40,7 @@ fn slopes(to: u32) -> Vec<f64> {
 }
 
 fn card(study: &CardStudy, soils: &[Soil], slopes: &[f64]) -> Card {
-    let sample = |soil: &Soil| Sample { soil: *soil, theory: study.heading.theory };
+    let sample = |soil: &Soil| Sample { soil: *soil, model: study.heading.model.clone() };
     let samples: Vec<Sample> = soils.iter().map(sample).collect();
     let card = study.card(&samples, slopes, &|| true);
     card.expect("rule, slopes and soils are in order").expect("not stopped")

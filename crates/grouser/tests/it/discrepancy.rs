@@ -2,7 +2,7 @@
 
 use grouser::contact::time_step::{FORCES, MOTIONS, REST_SPEED, SINKAGE_DAMPING};
 use grouser::contact::{
-    Contact, Settled, Slip, SteppingWheel, Theory, TimeStep, WheelForces, settle, settle_from,
+    Contact, Model, Settled, Slip, SteppingWheel, TimeStep, WheelForces, settle, settle_from,
     settle_many,
 };
 use grouser::document::{self, Kind, LoadedSoil, Overrides, Source};
@@ -34,8 +34,8 @@ fn contact(soil: Soil, slip: Slip) -> Contact {
     Contact { wheel: hakuto_wheel(), soil, slip, gravity: EARTH_GRAVITY }
 }
 
-fn settled(theory: Theory, discrepancy: Option<Discrepancy>, slip: Slip, load: f64) -> Settled {
-    settle(theory.model(), &contact(sand(discrepancy), slip), load).expect("the sand carries it")
+fn settled(model: &Model, discrepancy: Option<Discrepancy>, slip: Slip, load: f64) -> Settled {
+    settle(model.as_ref(), &contact(sand(discrepancy), slip), load).expect("the sand carries it")
 }
 
 /// Motions of every kind: rim speed, and the hub's along and across the wheel [m/s].
@@ -56,11 +56,11 @@ fn slip_of((rim, v_x, v_y): (f64, f64, f64)) -> Slip {
 
 #[test]
 fn a_discrepancy_of_zeros_changes_no_bit() {
-    for theory in Theory::ALL {
+    for model in Model::ALL {
         for motion in MOTIONS_TRIED {
             let slip = slip_of(motion);
-            let zeros = settled(theory, Some(Discrepancy::NONE), slip, LOAD);
-            assert_eq!(zeros, settled(theory, None, slip, LOAD), "{theory:?} {motion:?}");
+            let zeros = settled(&model, Some(Discrepancy::NONE), slip, LOAD);
+            assert_eq!(zeros, settled(&model, None, slip, LOAD), "{model:?} {motion:?}");
         }
     }
 }
@@ -74,10 +74,10 @@ fn a_discrepancy_is_added_in_shares_of_the_load() {
         sinkage: [0.2; VALUES],
         torque: [0.07; VALUES],
     };
-    for theory in Theory::ALL {
+    for model in Model::ALL {
         let slip = Slip::on_test_stand(0.3, deg(15.0));
         let (plain, with) =
-            (settled(theory, None, slip, LOAD), settled(theory, Some(even), slip, LOAD));
+            (settled(&model, None, slip, LOAD), settled(&model, Some(even), slip, LOAD));
         // u = (1 + 0.7)/(1 + 0.7/cos 15°): the sense of rolling is 1 to 2e-4 there.
         let (share, radius) = (|force: f64| force / LOAD, hakuto_wheel().shearing_radius());
         let (one, other) = (&plain.forces, &with.forces);
@@ -91,33 +91,33 @@ fn a_discrepancy_is_added_in_shares_of_the_load() {
 
 #[test]
 fn mirrored_motions_have_mirrored_discrepancies() {
-    for theory in Theory::ALL {
+    for model in Model::ALL {
         for (rim, v_x, v_y) in MOTIONS_TRIED {
-            let of = |motion| settled(theory, Some(uneven()), slip_of(motion), LOAD);
+            let of = |motion| settled(&model, Some(uneven()), slip_of(motion), LOAD);
             let (one, left, back) =
                 (of((rim, v_x, v_y)), of((rim, v_x, -v_y)), of((-rim, -v_x, v_y)));
             // Sinkages repeat to the last digits.
             let near = |a: f64, b: f64| (a - b).abs() < 1e-9 * LOAD;
-            assert!(near(left.forces.side_force, -one.forces.side_force), "{theory:?}");
-            assert!(near(left.forces.drawbar_pull, one.forces.drawbar_pull), "{theory:?}");
+            assert!(near(left.forces.side_force, -one.forces.side_force), "{model:?}");
+            assert!(near(left.forces.drawbar_pull, one.forces.drawbar_pull), "{model:?}");
             assert!(near(left.sinkage, one.sinkage) && near(back.sinkage, one.sinkage));
-            assert!(near(back.forces.drawbar_pull, -one.forces.drawbar_pull), "{theory:?}");
-            assert!(near(back.forces.torque, -one.forces.torque), "{theory:?}");
-            assert!(near(back.forces.side_force, one.forces.side_force), "{theory:?}");
+            assert!(near(back.forces.drawbar_pull, -one.forces.drawbar_pull), "{model:?}");
+            assert!(near(back.forces.torque, -one.forces.torque), "{model:?}");
+            assert!(near(back.forces.side_force, one.forces.side_force), "{model:?}");
         }
     }
 }
 
 #[test]
 fn a_wheel_without_load_or_at_rest_has_no_discrepancy() {
-    for theory in Theory::ALL {
+    for model in Model::ALL {
         let slip = slip_of((0.06, 0.03, 0.01));
-        let unloaded = settled(theory, Some(uneven()), slip, 0.0);
+        let unloaded = settled(&model, Some(uneven()), slip, 0.0);
         assert_eq!((unloaded.sinkage, unloaded.forces), (0.0, WheelForces::default()));
         let rest = slip_of((0.0, 0.0, 0.0));
         let (with, plain) =
-            (settled(theory, Some(uneven()), rest, LOAD), settled(theory, None, rest, LOAD));
-        assert_eq!(with.forces, plain.forces, "{theory:?}");
+            (settled(&model, Some(uneven()), rest, LOAD), settled(&model, None, rest, LOAD));
+        assert_eq!(with.forces, plain.forces, "{model:?}");
     }
 }
 
@@ -127,7 +127,7 @@ fn a_wheel_without_load_or_at_rest_has_no_discrepancy() {
 fn what_a_discrepancy_adds_never_jumps() {
     let added = |motion: (f64, f64, f64)| {
         let slip = slip_of(motion);
-        let of = |discrepancy| settled(Theory::Bekker, discrepancy, slip, LOAD).forces;
+        let of = |discrepancy| settled(&Model::Bekker, discrepancy, slip, LOAD).forces;
         let (with, plain) = (of(Some(uneven())), of(None));
         [
             with.drawbar_pull - plain.drawbar_pull,
@@ -164,7 +164,7 @@ fn what_a_discrepancy_adds_never_jumps() {
 
 #[test]
 fn every_way_to_a_reaction_has_the_discrepancy() {
-    let model = Theory::Ishigami.model();
+    let model = Model::Ishigami.as_ref();
     let slip = Slip::on_test_stand(0.2, deg(10.0));
     let contact = contact(sand(Some(uneven())), slip);
     let one = settle(model, &contact, LOAD).expect("it settles");
@@ -175,7 +175,7 @@ fn every_way_to_a_reaction_has_the_discrepancy() {
 
     // A step of another engine, at the sinkage where the model carries the load, with nothing free
     // to move: the same forces.
-    let plain = settled(Theory::Ishigami, None, slip, LOAD);
+    let plain = settled(&Model::Ishigami, None, slip, LOAD);
     let inverse_mass = DMatrix::zeros(MOTIONS, FORCES);
     let (rim, v_x) = (1.0, 0.8);
     let free = DVector::from_row_slice(&[v_x, v_x * deg(10.0).tan(), 0.0, rim]);
@@ -202,14 +202,14 @@ fn every_way_to_a_reaction_has_the_discrepancy() {
 fn a_guess_has_the_discrepancy_of_an_answer() {
     let deep = Discrepancy { sinkage: [1.5; VALUES], ..Discrepancy::NONE };
     let slip = Slip::on_test_stand(0.2, deg(10.0));
-    for theory in Theory::ALL {
+    for model in Model::ALL {
         let again = |discrepancy: Option<Discrepancy>| {
             let contact = contact(sand(discrepancy), slip);
-            let first = settle(theory.model(), &contact, LOAD).expect("it settles");
-            settle_from(theory.model(), &contact, LOAD, first.sinkage).expect("it settles")
+            let first = settle(model.as_ref(), &contact, LOAD).expect("it settles");
+            settle_from(model.as_ref(), &contact, LOAD, first.sinkage).expect("it settles")
         };
         let (plain, with) = (again(None), again(Some(deep)));
-        assert!(with.evaluations <= plain.evaluations + 1, "{theory:?}: {}", with.evaluations);
+        assert!(with.evaluations <= plain.evaluations + 1, "{model:?}: {}", with.evaluations);
     }
 }
 
@@ -281,7 +281,7 @@ fn a_discrepancy_goes_with_the_model_that_it_was_found_with() {
     let pull =
         |sample: &Sample| sample.soil.discrepancy.expect("every sample has one").drawbar_pull;
     let (own, others): (Vec<&Sample>, Vec<&Sample>) =
-        samples.iter().partition(|sample| sample.theory == Theory::Ishigami);
+        samples.iter().partition(|sample| sample.model == Model::Ishigami);
     assert!(own.iter().all(|it| [0.05, 0.06].contains(&pull(it)[2]) && pull(it)[0] == 0.0));
     assert!(!others.is_empty() && others.iter().all(|it| pull(it)[0] != 0.0));
 }

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use grouser::contact::{Contact, Ishigami, Slip, Theory, settle};
+use grouser::contact::{Contact, Ishigami, Model, Slip, settle};
 use grouser::document::{self, DocumentError, Kind, Overrides, Problem, Source};
 use grouser::soil::{
     Bulldozing, Domain, Exit, PressureSinkage, Shear, ShearBound, ShearModulus, SinkageExponent,
@@ -273,7 +273,7 @@ fn a_scenario_that_says_nothing_is_the_traverse_on_10_degrees() {
     assert_eq!(run.ground.plane_slope().expect("a plane"), deg(10.0));
     assert_eq!(run.gravity, 9.80665);
     assert_eq!(run.duration, 20.0);
-    assert_eq!(run.theory, Theory::Ishigami);
+    assert_eq!(run.model, Model::Ishigami);
     assert_eq!(run.drive, DriveLaw::Constant(0.06));
     assert_eq!((run.sharing, run.own_moments), (LoadSharing::Complete, OwnMoments::Included));
     assert_eq!((run.yaw, run.stability), (None, SlopeStability::USUAL));
@@ -421,9 +421,9 @@ fn a_new_law_needs_no_cleaning_up() {
 
 #[test]
 fn a_soil_names_its_theory_and_a_scenario_overrules_it() {
-    let theory = |settings: &[&str]| override_scenario(settings).expect("allowed").value.theory;
-    assert_eq!(theory(&["soil.model=bekker"]), Theory::Bekker);
-    assert_eq!(theory(&["soil.model=bekker", "scenario.model=ishigami"]), Theory::Ishigami);
+    let model = |settings: &[&str]| override_scenario(settings).expect("allowed").value.model;
+    assert_eq!(model(&["soil.model=bekker"]), Model::Bekker);
+    assert_eq!(model(&["soil.model=bekker", "scenario.model=ishigami"]), Model::Ishigami);
 }
 
 #[test]

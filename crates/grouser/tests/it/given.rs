@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use grouser::contact::{Contact, Settled, Slip, Theory, WheelSoilModel, settle};
+use grouser::contact::{Contact, Model, Settled, Slip, WheelSoilModel, settle};
 use grouser::simulation::{Motion, Numerics, Run, Scenario, Start, Trajectory};
 use grouser::soil::{
     Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
@@ -117,7 +117,7 @@ pub(crate) fn traverse(slope: f64, yaw: f64) -> Scenario {
         rover: hakuto(),
         ground: Ground::plane(toyoura(), slope),
         gravity: EARTH_GRAVITY,
-        theory: Theory::Ishigami,
+        model: Model::Ishigami,
         sharing: LoadSharing::QuasiStatic,
         own_moments: OwnMoments::Neglected,
         drive: DriveLaw::Constant(RIM_SPEED),

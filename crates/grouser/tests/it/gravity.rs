@@ -4,7 +4,7 @@
 //!
 //! `laws.rs` has it for one wheel of the source paper's model; here are all models, and the rover.
 
-use grouser::contact::{Contact, Theory};
+use grouser::contact::{Contact, Model};
 use grouser::simulation::SteadyMotion;
 use grouser::soil::{
     GravityScaling, PressureSinkage, Rft, Shear, ShearModulus, SinkageExponent, SmallWheel, Soil,
@@ -132,23 +132,23 @@ fn near(one: f64, other: f64, size: f64) -> bool {
 
 /// The same of a motion at a speed. Resistive force theory takes every wheel to sink by a creep of 1 µm/s, which is a
 /// share of 3e-6 of the slowest rims here, and no scaling law's; torque multiplies it by ten.
-fn within(theory: Theory) -> f64 {
-    if theory == Theory::Rft { 1e-4 } else { WITHIN }
+fn within(model: &Model) -> f64 {
+    if *model == Model::Rft { 1e-4 } else { WITHIN }
 }
 
 /// One wheel under a load, here and scaled: every force over its load, torque over load times radius.
 fn check_wheel(
-    theory: Theory,
+    model: &Model,
     contact: &Contact,
     depth: f64,
     scaling: Scaling,
 ) -> Result<(), TestCaseError> {
     let radius = contact.wheel.shearing_radius();
-    let load = theory.model().forces(contact, depth * radius).normal_force;
+    let load = model.as_ref().forces(contact, depth * radius).normal_force;
     if load <= 0.0 {
         return Ok(());
     }
-    let here = given::settled(theory.model(), contact, load);
+    let here = given::settled(model.as_ref(), contact, load);
     let scaled = Contact {
         wheel: scaling.wheel(contact.wheel),
         soil: scaling.soil(contact.soil),
@@ -156,7 +156,7 @@ fn check_wheel(
         ..*contact
     };
     let force = scaling.q * scaling.s;
-    let there = given::settled(theory.model(), &scaled, force * load);
+    let there = given::settled(model.as_ref(), &scaled, force * load);
     let pairs = [
         ("sinkage", here.sinkage / radius, there.sinkage / (scaling.r * radius)),
         (
@@ -172,7 +172,7 @@ fn check_wheel(
         ),
     ];
     for (name, one, other) in pairs {
-        prop_assert!(near(one, other, one.abs().max(1.0)), "{theory:?}, {name}: {one} and {other}");
+        prop_assert!(near(one, other, one.abs().max(1.0)), "{model:?}, {name}: {one} and {other}");
     }
     Ok(())
 }
@@ -191,20 +191,20 @@ proptest! {
         r in given::log_range(0.1, 10.0),
     ) {
         let contact = given::on_stand(sand, wheel, slip, angle);
-        for theory in Theory::ALL {
-            check_wheel(theory, &contact, depth, Scaling::gravity(q))?;
-            check_wheel(theory, &contact, depth, Scaling::size(q, r))?;
+        for model in Model::ALL {
+            check_wheel(&model, &contact, depth, Scaling::gravity(q))?;
+            check_wheel(&model, &contact, depth, Scaling::size(q, r))?;
         }
     }
 }
 
 /// HAKUTO on its sand, whose constants Reece's law and the weight make; with all load transfer.
-fn study(theory: Theory) -> HeadingStudy {
+fn study(model: Model) -> HeadingStudy {
     HeadingStudy {
         rover: given::hakuto(),
         soil: given::toyoura(),
         gravity: EARTH_GRAVITY,
-        theory,
+        model,
         sharing: LoadSharing::Complete,
         own_moments: OwnMoments::Included,
         stability: grouser::soil::SlopeStability::USUAL,
@@ -250,14 +250,14 @@ const SIZES: [f64; 4] = [0.1, 0.3, 3.0, 10.0];
 
 #[test]
 fn a_rover_in_weighing_sand_holds_the_contour_by_one_heading_under_any_gravity_and_at_any_size() {
-    for theory in Theory::ALL {
-        let here = study(theory);
+    for model in Model::ALL {
+        let here = study(model.clone());
         let scalings = GRAVITIES.map(Scaling::gravity).into_iter();
         let scalings = scalings.chain(SIZES.map(|r| Scaling::size(0.3, r)));
         for scaling in scalings {
             let there = scaling.study(&here);
             let same = same_headings(&here, &there, scaling);
-            assert!(same.is_ok(), "{theory:?}, {scaling:?}: {same:?}");
+            assert!(same.is_ok(), "{model:?}, {scaling:?}: {same:?}");
         }
     }
 }
@@ -290,14 +290,14 @@ fn power_and_speed_of_a_rover_on_a_slope_scale_as_granular_scaling_says() {
         .into_iter()
         .chain(SIZES.map(|r| Scaling::size(0.3, r)))
         .collect();
-    for theory in [Theory::Ishigami, Theory::SmallWheel, Theory::Rft] {
-        let here = study(theory);
+    for model in [Model::Ishigami, Model::SmallWheel, Model::Rft] {
+        let here = study(model.clone());
         for yaw in [0.0, 4.0] {
             let (one, power) = moved(&here, deg(yaw), RIM_SPEED);
             for scaling in &scalings {
                 let there = scaling.study(&here);
                 let (other, scaled) = moved(&there, deg(yaw), scaling.speed() * RIM_SPEED);
-                let case = format!("{theory:?}, {yaw}°, {scaling:?}");
+                let case = format!("{model:?}, {yaw}°, {scaling:?}");
                 let pairs = [
                     ("slip", one.slip_ratio(), other.slip_ratio(), 1.0),
                     ("course", one.course(), other.course(), 1.0),
@@ -306,7 +306,7 @@ fn power_and_speed_of_a_rover_on_a_slope_scale_as_granular_scaling_says() {
                 ];
                 for (name, here, there, size) in pairs {
                     let error = (here - there) / size;
-                    assert!(error.abs() <= within(theory), "{name} by {error:.1e}, {case}");
+                    assert!(error.abs() <= within(&model), "{name} by {error:.1e}, {case}");
                 }
             }
         }
@@ -317,7 +317,7 @@ fn power_and_speed_of_a_rover_on_a_slope_scale_as_granular_scaling_says() {
 #[test]
 fn a_rover_does_not_do_the_same_where_scaling_does_not_hold() {
     let moon = Scaling::gravity(MOON_GRAVITY / EARTH_GRAVITY);
-    let here = study(Theory::Ishigami);
+    let here = study(Model::Ishigami);
     let differ = |here: &HeadingStudy, there: &HeadingStudy, scaling| {
         let same = same_headings(here, there, scaling);
         same.expect_err("it should not hold");
@@ -366,12 +366,12 @@ fn soils() -> [Soil; 4] {
 #[test]
 fn by_granular_scaling_the_test_of_the_same_rover_is_the_forecast() {
     for soil in soils() {
-        for theory in Theory::ALL {
-            let here = HeadingStudy { soil, ..study(theory) };
+        for model in Model::ALL {
+            let here = HeadingStudy { soil, ..study(model.clone()) };
             for gravity in [MOON_GRAVITY, MARS_GRAVITY] {
                 let there = carried(&here, gravity, GravityScaling::Granular);
                 let same = same_headings(&here, &there, Scaling::gravity(gravity / EARTH_GRAVITY));
-                assert!(same.is_ok(), "{theory:?}, {soil:?}: {same:?}");
+                assert!(same.is_ok(), "{model:?}, {soil:?}: {same:?}");
             }
         }
     }
@@ -379,7 +379,7 @@ fn by_granular_scaling_the_test_of_the_same_rover_is_the_forecast() {
 
 #[test]
 fn without_cohesion_unit_weight_and_granular_scaling_are_one() {
-    let here = study(Theory::Ishigami);
+    let here = study(Model::Ishigami);
     let [reece, granular] = [GravityScaling::Reece, GravityScaling::Granular]
         .map(|scaling| carried(&here, MOON_GRAVITY, scaling).soil);
     assert_eq!(reece, granular);
@@ -423,7 +423,7 @@ fn at_home_every_choice_leaves_the_soil_as_it_is() {
 #[test]
 fn cohesion_helps_more_on_the_moon() {
     let soil = Soil { cohesion: 200.0, ..given::toyoura() };
-    let here = HeadingStudy { soil, ..study(Theory::Ishigami) };
+    let here = HeadingStudy { soil, ..study(Model::Ishigami) };
     let slip = |scaling| {
         let curve = carried(&here, MOON_GRAVITY, scaling).curve().expect("a soil");
         curve.at(deg(10.0)).expect("a heading").slip_ratio

@@ -1,7 +1,7 @@
 //! The ground's own strength: slopes that it holds, what it resists under a wheel, and the experiment's
 //! second, untuned test.
 
-use grouser::contact::{Contact, Ishigami, Slip, Theory, WheelSoilModel, coulomb};
+use grouser::contact::{Contact, Ishigami, Model, Slip, WheelSoilModel, coulomb};
 use grouser::document::{self, Kind, Overrides, Source, experiment};
 use grouser::simulation::{
     Approach, Motion, Numerics, Outcome, PrescribedYaw, Run, Scenario, Start,
@@ -22,20 +22,20 @@ use rayon::prelude::*;
 use super::given::{self, run, traverse};
 
 /// Every soil that comes with the library, with the model that it was made for.
-fn preset_soils() -> Vec<(&'static str, Soil, Theory)> {
+fn preset_soils() -> Vec<(&'static str, Soil, Model)> {
     let read = |preset: &'static document::Preset| {
         let source = Source::find(Kind::Soil, preset.name).expect("a preset");
         let loaded = document::read_soil(&source, &Overrides::none()).expect("it is read");
-        (preset.name, loaded.value, loaded.document.theory().unwrap_or_default())
+        (preset.name, loaded.value, loaded.document.model().unwrap_or_default())
     };
     document::presets(Kind::Soil).map(read).collect()
 }
 
 /// With the complete load transfer, as everything that predicts has it.
-fn study(soil: Soil, theory: Theory, gravity: f64) -> HeadingStudy {
+fn study(soil: Soil, model: Model, gravity: f64) -> HeadingStudy {
     let (sharing, own_moments) = (LoadSharing::Complete, OwnMoments::Included);
     let base = HeadingStudy::of(&traverse(0.0, 0.0));
-    HeadingStudy { soil, theory, gravity, sharing, own_moments, ..base }
+    HeadingStudy { soil, model, gravity, sharing, own_moments, ..base }
 }
 
 // ---- slopes ----
@@ -45,9 +45,9 @@ fn study(soil: Soil, theory: Theory, gravity: f64) -> HeadingStudy {
 fn no_slope_limit_is_above_what_the_ground_holds() {
     let places: Vec<_> = preset_soils()
         .into_iter()
-        .flat_map(|(name, soil, theory)| {
+        .flat_map(|(name, soil, model)| {
             [MOON_GRAVITY, MARS_GRAVITY, EARTH_GRAVITY]
-                .map(|gravity| (name, study(soil, theory, gravity)))
+                .map(|gravity| (name, study(soil, model.clone(), gravity)))
         })
         .collect();
     let ends: Vec<_> = places
@@ -81,7 +81,7 @@ fn no_slope_limit_is_above_what_the_ground_holds() {
 /// safety of 1.3, and 38° with one of 1.
 #[test]
 fn downhill_the_ground_ends_the_curve() {
-    let study = study(given::toyoura(), Theory::Ishigami, EARTH_GRAVITY);
+    let study = study(given::toyoura(), Model::Ishigami, EARTH_GRAVITY);
     for (factor_of_safety, limit) in [(1.3, (deg(38.0).tan() / 1.3).atan()), (1.0, deg(38.0))] {
         let stability = SlopeStability { factor_of_safety, ..SlopeStability::USUAL };
         let study = HeadingStudy { stability, ..study.clone() };
@@ -97,7 +97,7 @@ fn downhill_the_ground_ends_the_curve() {
 
 #[test]
 fn the_wheels_end_the_curve_of_the_paper_below_the_grounds_own_limit() {
-    let curve = study(given::toyoura(), Theory::Ishigami, EARTH_GRAVITY).curve().expect("sand");
+    let curve = study(given::toyoura(), Model::Ishigami, EARTH_GRAVITY).curve().expect("sand");
     assert_eq!(curve.limited_by(), Some(LimitedBy::Wheels));
     assert!((curve.limit().expect("it moves").0.to_degrees() - 20.2).abs() < 0.5);
     // Between the two the wheels are the reason, and beyond both the ground is.
@@ -108,13 +108,13 @@ fn the_wheels_end_the_curve_of_the_paper_below_the_grounds_own_limit() {
 #[test]
 fn a_card_says_no_go_where_the_ground_slides() {
     let soil = Soil { friction_angle: deg(24.0), ..given::toyoura() };
-    let heading = study(soil, Theory::Ishigami, EARTH_GRAVITY);
+    let heading = study(soil, Model::Ishigami, EARTH_GRAVITY);
     let ground = heading.ground_limit();
     let rule = Rule { go_slip_ratio: 0.9, no_go_slip_ratio: 0.95, ..Rule::DEFAULT };
     let slopes = [ground - deg(12.0), ground + deg(0.1)];
     // Of the samples, all hold the contour; the soil as written does not stand.
     let soil = Soil { friction_angle: deg(45.0), ..soil };
-    let samples = [Sample { soil, theory: Theory::Ishigami }];
+    let samples = [Sample { soil, model: Model::Ishigami }];
     let study = CardStudy { heading, rim_speed: 0.06, rule, is_uncertainty_stated: true };
     let card = study.card(&samples, &slopes, &|| true).expect("a card").expect("not stopped");
     assert_eq!(card.rows[1].verdict, Verdict::NoGo);
@@ -180,11 +180,11 @@ proptest! {
     ) {
         let contact = given::on_stand(bounded(soil), given::hakuto_wheel(), s, beta);
         let sinkage = depth * contact.wheel.shearing_radius();
-        for theory in [Theory::Ishigami, Theory::Bekker, Theory::Rft] {
-            let forces = theory.model().forces(&contact, sinkage);
+        for model in [Model::Ishigami, Model::Bekker, Model::Rft] {
+            let forces = model.as_ref().forces(&contact, sinkage);
             let most = coulomb::most_resistance(&contact, sinkage, &forces);
             let horizontal = forces.drawbar_pull.hypot(forces.side_force);
-            prop_assert!(horizontal <= most * (1.0 + 1e-9), "{theory:?}: {horizontal} of {most} N");
+            prop_assert!(horizontal <= most * (1.0 + 1e-9), "{model:?}: {horizontal} of {most} N");
         }
     }
 }
@@ -209,11 +209,11 @@ fn a_locked_wheel_resists_within_its_soils_friction() {
 }
 
 /// The steepest slope on which a rover with locked wheels stays, nose along or against the slope [rad].
-fn steepest_to_park_on(soil: Soil, theory: Theory, yaw: f64) -> f64 {
+fn steepest_to_park_on(soil: Soil, model: &Model, yaw: f64) -> f64 {
     let stays = |slope: f64| {
         let parked = Scenario {
             ground: Ground::plane(soil, slope),
-            theory,
+            model: model.clone(),
             drive: DriveLaw::Constant(0.0),
             start: Start { yaw, motion: Motion::Rest },
             duration: 3.0,
@@ -237,17 +237,17 @@ fn a_parked_rover_on_sand_slides_at_about_the_friction_angle() {
     let sands = preset_soils()
         .into_iter()
         .filter(|(_, soil, _)| soil.shear_bound == ShearBound::Coulomb)
-        .map(|(name, soil, theory)| (name, Soil { cohesion: 0.0, ..soil }, theory))
+        .map(|(name, soil, model)| (name, Soil { cohesion: 0.0, ..soil }, model))
         // A law by cohesion alone carries nothing without it.
         .filter(|(_, soil, _)| soil.check().is_ok() && carries(soil))
         // On steeper slopes the rover tips over its rear wheels before it slides.
         .filter(|(_, soil, _)| soil.friction_angle < deg(47.0))
-        .chain([("toyoura, bounded", bounded(given::toyoura()), Theory::Ishigami)]);
-    let places: Vec<_> = sands.flat_map(|sand| [(sand, 0.0), (sand, deg(90.0))]).collect();
+        .chain([("toyoura, bounded", bounded(given::toyoura()), Model::Ishigami)]);
+    let places: Vec<_> = sands.flat_map(|sand| [(sand.clone(), 0.0), (sand, deg(90.0))]).collect();
     assert!(places.len() > 20);
     let found: Vec<f64> = places
         .par_iter()
-        .map(|((_, soil, theory), yaw)| steepest_to_park_on(*soil, *theory, *yaw).to_degrees())
+        .map(|((_, soil, model), yaw)| steepest_to_park_on(*soil, &model, *yaw).to_degrees())
         .collect();
     for (((name, soil, _), yaw), found) in places.iter().zip(found) {
         let phi = soil.friction_angle.to_degrees();
@@ -256,7 +256,7 @@ fn a_parked_rover_on_sand_slides_at_about_the_friction_angle() {
             "{name} at a yaw of {yaw}: {found}°, φ {phi}°"
         );
     }
-    let unbounded = steepest_to_park_on(given::toyoura(), Theory::Ishigami, 0.0).to_degrees();
+    let unbounded = steepest_to_park_on(given::toyoura(), &Model::Ishigami, 0.0).to_degrees();
     assert!(unbounded > 40.0, "without the bound: {unbounded}°");
 }
 

@@ -1,6 +1,6 @@
 //! The attitude over slope, course and soil.
 
-use grouser::contact::Theory;
+use grouser::contact::Model;
 use grouser::simulation::{Approach, Numerics, Scenario};
 use grouser::studies::heading::{HeadingStudy, Steering};
 use grouser::studies::heading_map::HeadingMap;
@@ -14,7 +14,7 @@ fn study() -> HeadingStudy {
         rover: given::hakuto(),
         soil: given::toyoura(),
         gravity: EARTH_GRAVITY,
-        theory: Theory::Ishigami,
+        model: Model::Ishigami,
         sharing: LoadSharing::QuasiStatic,
         own_moments: OwnMoments::Neglected,
         stability: grouser::soil::SlopeStability::USUAL,

@@ -1,7 +1,7 @@
 //! The force integral: the same bits on every instruction set, its accuracy, and the search on it.
 
 use grouser::contact::{
-    Contact, InstructionSet, Ishigami, Slip, SmallWheel, Theory, WheelSoilModel, settle,
+    Contact, InstructionSet, Ishigami, Model, Slip, SmallWheel, WheelSoilModel, settle,
     settle_from, settle_many,
 };
 use grouser::soil::{
@@ -70,7 +70,7 @@ fn any_contact(draw: &mut Draw, motion: Motion, isotropic: bool) -> (Contact, f6
 /// cohesion holds a wheel harder than its load presses it, that is the scale.
 fn error(contact: &Contact, sinkage: f64) -> f64 {
     let [coarse, exact] =
-        [Ishigami::default(), Ishigami::reference()].map(|theory| theory.forces(contact, sinkage));
+        [Ishigami::default(), Ishigami::reference()].map(|model| model.forces(contact, sinkage));
     let Contact { wheel, soil, .. } = contact;
     let radius = wheel.shearing_radius();
     let held = soil.cohesion * wheel.width * radius * (exact.patch.entry - exact.patch.exit);
@@ -169,7 +169,7 @@ fn every_instruction_set_gives_the_same_bits() {
     let sets = InstructionSet::ALL.map(|set| (set, set.is_available()));
     println!("{sets:?}");
     for case in 0..20_000 {
-        let contact = any_case(Theory::Ishigami, case).contact;
+        let contact = any_case(&Model::Ishigami, case).contact;
         let mut draw = Draw::of_case(!case);
         let sinkage = draw.sized(1e-6, 1.0) * contact.wheel.shearing_radius();
         let extended = with_terms(&contact, &mut draw);
@@ -189,11 +189,11 @@ fn every_instruction_set_gives_the_same_bits() {
 #[test]
 fn a_load_sinkage_relation_has_the_bits_of_the_normal_force() {
     for case in 0..5_000 {
-        let contact = any_case(Theory::Ishigami, case).contact;
+        let contact = any_case(&Model::Ishigami, case).contact;
         let sinkage = Draw::of_case(!case).sized(1e-6, 1.0) * contact.wheel.shearing_radius();
-        for theory in [Theory::Ishigami, Theory::SmallWheel] {
-            let numbers = bits(theory.model(), &contact, sinkage);
-            assert_eq!(numbers[2], numbers[14], "case {case}, {theory:?}: {contact:?}");
+        for model in [Model::Ishigami, Model::SmallWheel] {
+            let numbers = bits(model.as_ref(), &contact, sinkage);
+            assert_eq!(numbers[2], numbers[14], "case {case}, {model:?}: {contact:?}");
         }
     }
 }
@@ -205,16 +205,16 @@ fn settling_does_not_depend_on_the_guess() {
         let (contact, sinkage) = any_contact(&mut draw, Motion::Driving, false);
         // Without cohesion F_z grows with the sinkage, so that one sinkage carries the load.
         let contact = Contact { soil: Soil { cohesion: 0.0, ..contact.soil }, ..contact };
-        for theory in [Theory::Ishigami, Theory::Bekker, Theory::SmallWheel] {
-            let model = theory.model();
-            let load = model.forces(&contact, sinkage).normal_force;
-            let cold = settle(model, &contact, load).expect("it is carried there");
+        for model in [Model::Ishigami, Model::Bekker, Model::SmallWheel] {
+            let load = model.as_ref().forces(&contact, sinkage).normal_force;
+            let cold = settle(model.as_ref(), &contact, load).expect("it is carried there");
             let guess = draw.sized(1e-6, 3.0) * contact.wheel.shearing_radius();
             for guess in [guess, cold.sinkage, 1.001 * cold.sinkage, 0.0, f64::NAN] {
-                let warm = settle_from(model, &contact, load, guess).expect("it is carried there");
+                let warm = settle_from(model.as_ref(), &contact, load, guess)
+                    .expect("it is carried there");
                 let apart = (warm.sinkage / sinkage - 1.0).abs();
                 // F_z agrees to 1e-12 and grows at least with a root of the sinkage.
-                assert!(apart < 1e-10, "case {case}, {theory:?} from {guess}: {apart:.1e}");
+                assert!(apart < 1e-10, "case {case}, {model:?} from {guess}: {apart:.1e}");
             }
         }
     }
@@ -222,16 +222,16 @@ fn settling_does_not_depend_on_the_guess() {
 
 #[test]
 fn a_wheel_settles_alike_alone_and_among_others() {
-    for theory in Theory::ALL {
+    for model in Model::ALL {
         let wheels: Vec<(Contact, f64)> = (0..100)
-            .map(|case| any_case(theory, case))
+            .map(|case| any_case(&model, case))
             .map(|case| (case.contact, case.load))
             .collect();
         let alone: Vec<_> =
-            wheels.iter().map(|(contact, load)| settle(theory.model(), contact, *load)).collect();
-        assert_eq!(settle_many(theory.model(), &wheels), alone);
+            wheels.iter().map(|(contact, load)| settle(model.as_ref(), contact, *load)).collect();
+        assert_eq!(settle_many(model.as_ref(), &wheels), alone);
         let reversed: Vec<_> = wheels.iter().rev().copied().collect();
-        let mut backward = settle_many(theory.model(), &reversed);
+        let mut backward = settle_many(model.as_ref(), &reversed);
         backward.reverse();
         assert_eq!(backward, alone);
     }

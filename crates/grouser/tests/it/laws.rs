@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use grouser::contact::stress::StressField;
-use grouser::contact::{Bekker, Contact, Ishigami, Rft, Slip, Theory, WheelForces, WheelSoilModel};
+use grouser::contact::{Bekker, Contact, Ishigami, Model, Rft, Slip, WheelForces, WheelSoilModel};
 use grouser::soil::{
     Bulldozing, Exit, PressureSinkage, Shear, ShearBound, ShearModulus, SinkageExponent, Soil,
     StressPeak,
@@ -14,8 +14,8 @@ use proptest::prelude::*;
 
 use super::given::{self, cases};
 
-/// Every theory: a law of mechanics is one for each of them.
-const THEORIES: [Theory; 4] = Theory::ALL;
+/// Every model: a law of mechanics is one for each of them.
+const MODELS: [Model; 4] = Model::ALL;
 
 /// Forces over a load, moments over load times radius, largest stress over load per square radius,
 /// angles: everything a theory says about a wheel, without units.
@@ -164,9 +164,9 @@ proptest! {
         // The blended views of opposed rim and hub may have two exponents, and Bekker's moduli then
         // have no units at all.
         prop_assume!(contact.slip.entering_side.abs() == 1.0 || has_one_exponent(&contact.soil));
-        for theory in THEORIES {
-            let ours = sunk(theory.model(), &contact, depth);
-            let theirs = sunk(theory.model(), &units.contact(&contact), depth);
+        for model in MODELS {
+            let ours = sunk(model.as_ref(), &contact, depth);
+            let theirs = sunk(model.as_ref(), &units.contact(&contact), depth);
             let (load, radius) = (force_scale(&contact, &ours), contact.wheel.shearing_radius());
             // Rounding, and where the shear turns, a corner that is found to 1e-12 rad.
             check_alike(
@@ -208,9 +208,9 @@ proptest! {
     ) {
         let Slip { angle, lateral, sideways, .. } = contact.slip;
         let slip = Slip { angle: -angle, lateral: -lateral, sideways: -sideways, ..contact.slip };
-        for theory in THEORIES {
-            let here = sunk(theory.model(), &contact, depth);
-            let there = sunk(theory.model(), &Contact { slip, ..contact }, depth);
+        for model in MODELS {
+            let here = sunk(model.as_ref(), &contact, depth);
+            let there = sunk(model.as_ref(), &Contact { slip, ..contact }, depth);
             let expected = WheelForces {
                 side_force: -here.side_force,
                 side_force_from_shear: -here.side_force_from_shear,
@@ -233,9 +233,9 @@ proptest! {
             let slip = Slip::of_motion(sense * rim, Vec2::new(sense * forward, lateral));
             Contact { slip, ..given::on_stand(soil, wheel, 0.0, 0.0) }
         };
-        for theory in THEORIES {
-            let here = sunk(theory.model(), &moving(1.0), depth);
-            let there = sunk(theory.model(), &moving(-1.0), depth);
+        for model in MODELS {
+            let here = sunk(model.as_ref(), &moving(1.0), depth);
+            let there = sunk(model.as_ref(), &moving(-1.0), depth);
             let expected = WheelForces {
                 drawbar_pull: -here.drawbar_pull,
                 torque: -here.torque,
@@ -253,10 +253,10 @@ proptest! {
     fn a_second_evaluation_changes_nothing(
         (one, other) in (given::any_contact(), given::any_contact()), depth in given::any_depth(),
     ) {
-        for theory in THEORIES {
-            let first = sunk(theory.model(), &one, depth);
-            let _ = sunk(theory.model(), &other, depth);
-            prop_assert_eq!(first, sunk(theory.model(), &one, depth));
+        for model in MODELS {
+            let first = sunk(model.as_ref(), &one, depth);
+            let _ = sunk(model.as_ref(), &other, depth);
+            prop_assert_eq!(first, sunk(model.as_ref(), &one, depth));
         }
     }
 }
@@ -326,10 +326,10 @@ proptest! {
     /// Every wheel that settles does so on its load, with angles in order and nothing infinite.
     #[test]
     fn a_settled_wheel_carries_its_load(contact in given::any_contact(), depth in given::any_depth()) {
-        for theory in THEORIES {
-            let load = sunk(theory.model(), &contact, depth).normal_force;
+        for model in MODELS {
+            let load = sunk(model.as_ref(), &contact, depth).normal_force;
             prop_assume!(load > 0.0);
-            let settled = given::settled(theory.model(), &contact, load);
+            let settled = given::settled(model.as_ref(), &contact, load);
             let forces = settled.forces;
             prop_assert!((forces.normal_force / load - 1.0).abs() < 1e-9);
             let sought = depth * contact.wheel.shearing_radius();
@@ -348,8 +348,8 @@ proptest! {
 
     #[test]
     fn a_wheel_without_load_touches_nothing(contact in given::any_contact()) {
-        for theory in THEORIES {
-            let settled = given::settled(theory.model(), &contact, 0.0);
+        for model in MODELS {
+            let settled = given::settled(model.as_ref(), &contact, 0.0);
             prop_assert_eq!((settled.sinkage, settled.forces), (0.0, WheelForces::default()));
         }
     }
@@ -685,8 +685,8 @@ proptest! {
         contact in given::any_contact(), depth in given::any_depth(),
     ) {
         let contact = Contact { slip: Slip::of_motion(0.0, Vec2::zeros()), ..contact };
-        for theory in THEORIES {
-            let forces = sunk(theory.model(), &contact, depth);
+        for model in MODELS {
+            let forces = sunk(model.as_ref(), &contact, depth);
             prop_assert_eq!(forces.drawbar_pull, 0.0);
             prop_assert_eq!((forces.side_force, forces.torque, forces.thrust), (0.0, 0.0, 0.0));
             prop_assert!(forces.normal_force > 0.0);

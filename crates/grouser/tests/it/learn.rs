@@ -46,7 +46,7 @@ fn without_telemetry_predictions_are_those_of_the_soil() {
     let before = BandInputs::of_scenario(&prior).samples(7, 50).unwrap();
     let found = learner(&prior).samples(7, 50).unwrap();
     for (one, other) in found.iter().zip(&before) {
-        assert_eq!(one.sample.theory, other.theory);
+        assert_eq!(one.sample.model, other.model);
         let (one, other) = (&one.sample.soil, &other.soil);
         assert!((one.friction_angle / other.friction_angle - 1.0).abs() < 1e-9);
         let pulls = |it: &grouser::soil::Soil| it.discrepancy.unwrap().drawbar_pull;

@@ -4,7 +4,7 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use grouser::contact::{Contact, Slip, Theory, settle};
+use grouser::contact::{Contact, Model, Slip, settle};
 use grouser::document::measurements::{self, Choice, Condition, Measurements};
 use grouser::document::{self, FitKey, Kind, Overrides, SoilFamily, Source, Tested};
 use grouser::soil::Soil;
@@ -50,7 +50,7 @@ fn validation_with(
         tests: &measured.tests,
         wheel: wheel.value,
         soil: soil.value,
-        theory: soil.document.theory().unwrap_or(Theory::Ishigami),
+        model: soil.document.model().unwrap_or(Model::Ishigami),
         gravity: EARTH_GRAVITY,
     }
     .run()
@@ -127,7 +127,7 @@ fn a_fit_from_other_starts_predicts_the_same_at_twice_the_load() {
         let soil_of = |values: &[f64]| family.soil(values);
         let setup = Setup {
             wheel,
-            theory: Theory::SmallWheel,
+            model: &Model::SmallWheel,
             gravity: EARTH_GRAVITY,
             soil_of: &soil_of,
             resolution: Resolution::Cells,
@@ -142,7 +142,7 @@ fn a_fit_from_other_starts_predicts_the_same_at_twice_the_load() {
             let slip = Slip::on_test_stand(slip, f64::to_radians(degrees));
             let under = |soil: Soil| {
                 let contact = Contact { wheel, soil, slip, gravity: EARTH_GRAVITY };
-                settle(Theory::SmallWheel.model(), &contact, 60.0).expect("the sand carries it")
+                settle(Model::SmallWheel.as_ref(), &contact, 60.0).expect("the sand carries it")
             };
             let (one, two) = (under(shipped.value), under(fitted));
             let pull = (one.forces.drawbar_pull - two.forces.drawbar_pull).abs();
@@ -338,7 +338,7 @@ fn case(set: &str, place: usize) -> document::DataSetCase {
 }
 
 /// The errors of a model on a part of the published tests, with settings of its soil.
-fn published(place: usize, theory: Theory, settings: &[&str]) -> Group {
+fn published(place: usize, model: Model, settings: &[&str]) -> Group {
     let case = case("published-wheel-tests", place);
     let rows = measurements::Source::preset("published-wheel-tests").expect("a data set");
     let choice = Choice { conditions: case.conditions.clone(), ..Choice::default() };
@@ -349,7 +349,7 @@ fn published(place: usize, theory: Theory, settings: &[&str]) -> Group {
     let soil = document::read_soil(&soil, &overrides).expect("it is read").value;
     let wheel = case.tested.wheel().expect("a wheel test").value;
     let study =
-        ValidationStudy { tests: &measured.tests, wheel, soil, theory, gravity: EARTH_GRAVITY };
+        ValidationStudy { tests: &measured.tests, wheel, soil, model, gravity: EARTH_GRAVITY };
     study.run().overall
 }
 
@@ -359,7 +359,7 @@ fn published(place: usize, theory: Theory, settings: &[&str]) -> Group {
 #[test]
 fn rft_predicts_the_published_wheels_as_well_as_elsewhere() {
     for (place, pull, sinkage) in [(0, 3.2, Some(3.4)), (1, 1.8, Some(6.0)), (2, 24.0, None)] {
-        let group = published(place, Theory::Rft, &[]);
+        let group = published(place, Model::Rft, &[]);
         let found = group.errors[Quantity::DrawbarPull].expect("it was measured").rmse;
         assert!((found - pull).abs() < 0.9, "{place}: {found} N");
         let found = group.errors[Quantity::Sinkage].map(|errors| 1e3 * errors.rmse);
@@ -376,7 +376,7 @@ fn torque_tells_the_wheel_sinkage_ratio_from_the_shear_modulus() {
     let rmse = |ratio: &str, modulus: &str, quantity| {
         let settings = [format!("exit.ratio={ratio}"), format!("shear.longitudinal_m={modulus}")];
         let settings = settings.each_ref().map(String::as_str);
-        published(0, Theory::Ishigami, &settings).errors[quantity].expect("it was measured").rmse
+        published(0, Model::Ishigami, &settings).errors[quantity].expect("it was measured").rmse
     };
     let pulls = ["0,0.011", "1,0.0385"].map(|pair| {
         let (ratio, modulus) = pair.split_once(',').expect("a pair");

@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 
-use grouser::contact::{Slip, Theory};
+use grouser::contact::{Model, Slip};
 use grouser::document::measurements::{
     Choice, Condition, MeasurementError, Measurements, columns, read_from, slope_tests,
 };
@@ -278,7 +278,7 @@ fn judge(text: &str) -> Validation {
         tests: &tests,
         wheel: hakuto_wheel(),
         soil: toyoura(),
-        theory: Theory::Ishigami,
+        model: Model::Ishigami,
         gravity: EARTH_GRAVITY,
     }
     .run()

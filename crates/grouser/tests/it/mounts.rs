@@ -1,6 +1,6 @@
 //! Wheels that differ from mount to mount, and wheels that are steered.
 
-use grouser::contact::{Theory, WheelForces};
+use grouser::contact::{Model, WheelForces};
 use grouser::document::{Overrides, Source, read_rover, read_scenario};
 use grouser::simulation::{Approach, Motion, Numerics, Scenario, Start};
 use grouser::soil::{PressureSinkage, Soil};
@@ -139,7 +139,7 @@ fn wide_wheels_on_one_side_turn_the_rover_to_the_side_that_pulls_less() {
         };
         let pull = |wheel: Wheel| {
             let contact = given::on_stand(soil, wheel, 0.2, 0.0);
-            given::settled(Theory::Ishigami.model(), &contact, 17.0).forces.drawbar_pull
+            given::settled(Model::Ishigami.as_ref(), &contact, 17.0).forces.drawbar_pull
         };
         let lacking = pull(given::hakuto_wheel()) - pull(wide(given::hakuto_wheel()));
         assert!(lacking.signum() == side && lacking.abs() > 0.05, "{name}: {lacking} N");

@@ -1,7 +1,7 @@
 //! Every table and every number of the source paper, with what we make of it.
 
 use grouser::contact::{Contact, Ishigami};
-use grouser::contact::{Slip, Theory, WheelForces};
+use grouser::contact::{Model, Slip, WheelForces};
 use grouser::simulation::Scenario;
 use grouser::soil::{Bulldozing, Exit, PressureSinkage, Shear, SinkageExponent, Soil};
 use grouser::studies::comparison::{Levelness, yaw_error};
@@ -178,7 +178,7 @@ fn drawbar_pulls(soil: Soil) -> Vec<WheelForces> {
         wheel: given::smooth_wheel(0.11, 0.08),
         soil,
         gravity: EARTH_GRAVITY,
-        theory: Theory::Ishigami,
+        model: Model::Ishigami,
         loads: vec![20.0],
         slip_angles: vec![0.0],
         slip_ratios: (0..=10).map(|k| 0.1 * f64::from(k)).collect(),
@@ -255,7 +255,7 @@ fn curve_with(soil: Soil, sharing: LoadSharing) -> HeadingCurve {
         rover: given::hakuto(),
         soil,
         gravity: EARTH_GRAVITY,
-        theory: Theory::Ishigami,
+        model: Model::Ishigami,
         sharing,
         own_moments: OwnMoments::Neglected,
         stability: grouser::soil::SlopeStability::USUAL,
@@ -438,7 +438,7 @@ fn the_assumed_wheel_decides_little_on_10_degrees() {
                 rover: given::rover_on(wheel, &given::HAKUTO_HUBS),
                 soil: given::toyoura(),
                 gravity: EARTH_GRAVITY,
-                theory: Theory::Ishigami,
+                model: Model::Ishigami,
                 sharing: LoadSharing::QuasiStatic,
                 own_moments: OwnMoments::Neglected,
                 stability: grouser::soil::SlopeStability::USUAL,

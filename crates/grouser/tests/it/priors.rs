@@ -500,7 +500,7 @@ fn a_calibrated_key_is_no_longer_assumed() {
     let keys = [FitKey::parse("soil.exit.ratio").expect("a key")];
     let family = SoilFamily::new(&sand.document, &keys).expect("it has a value to start from");
     assert_eq!(family.parameters()[0].start, ratio(&sand.value));
-    let fitted = family.fitted(&[0.4], "a test", Some(grouser::contact::Theory::Ishigami), None);
+    let fitted = family.fitted(&[0.4], "a test", Some(grouser::contact::Model::Ishigami), None);
     let loaded = soil(&fitted.to_toml());
     assert_eq!(ratio(&loaded.value), 0.4);
     let keys = assumed(&loaded);

@@ -1,6 +1,6 @@
 //! Numbers of an independent implementation (`reference/README.md` says how they were made).
 
-use grouser::contact::{Contact, Ishigami, Settled, Slip, Theory, WheelForces};
+use grouser::contact::{Contact, Ishigami, Model, Settled, Slip, WheelForces};
 use grouser::simulation::Scenario;
 use grouser::soil::{
     Bulldozing, Domain, Exit, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil,
@@ -158,7 +158,7 @@ fn hakuto_study(sharing: LoadSharing) -> HeadingStudy {
         rover: given::hakuto(),
         soil: given::toyoura(),
         gravity: EARTH_GRAVITY,
-        theory: Theory::Ishigami,
+        model: Model::Ishigami,
         sharing,
         own_moments: OwnMoments::Neglected,
         stability: grouser::soil::SlopeStability::USUAL,

@@ -114,7 +114,7 @@ impl On<'_> {
         let mut scenario: Scenario = self.loaded.value.clone();
         scenario.ground.soil = self.sample.soil;
         scenario.ground = scenario.ground.with_slope(self.slope);
-        scenario.theory = self.sample.theory;
+        scenario.model = self.sample.model.clone();
         scenario.drive = DriveLaw::Constant(rim_speed);
         scenario.numerics.approach = Approach::QuasiSteady;
         scenario.yaw = Some(PrescribedYaw { points: vec![(0.0, yaw)] });

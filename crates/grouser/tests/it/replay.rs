@@ -30,7 +30,7 @@ const MODEL: &str = "scenario.model=ishigami";
 /// The telemetry of a drive over legs, with the rover and on the soil of settings.
 fn telemetry(settings: &[&str], legs: &[Leg], models: SensorModels) -> Vec<TelemetryRecord> {
     let truth = scenario(&[&[MODEL], settings].concat());
-    let sample = Sample { soil: truth.value.ground.soil, theory: truth.value.theory };
+    let sample = Sample { soil: truth.value.ground.soil, model: truth.value.model };
     driven(&settings_of(settings), &sample, legs, models, 11)
 }
 
@@ -109,7 +109,7 @@ fn check_named(replay: &Replay, parameter: Parameter, size: f64) {
 #[test]
 fn where_nothing_is_off_nothing_is_pointed_to() {
     let nominal = scenario(&[MODEL]);
-    let sample = Sample { soil: nominal.value.ground.soil, theory: nominal.value.theory };
+    let sample = Sample { soil: nominal.value.ground.soil, model: nominal.value.model };
     for (seed, outliers) in [(1, 0.0), (2, 0.0), (3, 0.05)] {
         let models = SensorModels { outliers, ..SensorModels::USUAL };
         let found = replay(driven(&[MODEL], &sample, &LEGS, models, seed));

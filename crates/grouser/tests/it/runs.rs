@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use grouser::contact::Theory;
+use grouser::contact::Model;
 use grouser::document::{self, Kind, Overrides, Source};
 use grouser::simulation::steady_state::LONGEST_SETTLING;
 use grouser::simulation::{
@@ -77,7 +77,7 @@ pub(crate) fn all_kinds() -> Vec<(&'static str, Scenario)> {
         ),
         ("equal loads", Scenario { sharing: LoadSharing::Uniform, ..base.clone() }),
         ("isotropic", with_shear(isotropic, base.clone())),
-        ("Bekker's theory", Scenario { theory: Theory::Bekker, ..base.clone() }),
+        ("Bekker's theory", Scenario { model: Model::Bekker, ..base.clone() }),
         ("sliding", Scenario { ground: base.ground.with_slope(deg(35.0)), ..base }),
     ]
 }
@@ -413,7 +413,7 @@ fn the_level_attitude_does_not_depend_on_gravity_in_weighing_sand() {
             rover: given::hakuto(),
             soil: given::toyoura(),
             gravity,
-            theory: Theory::Ishigami,
+            model: Model::Ishigami,
             sharing: LoadSharing::QuasiStatic,
             own_moments: OwnMoments::Neglected,
             stability: grouser::soil::SlopeStability::USUAL,

@@ -1,7 +1,7 @@
 //! All wheels of a rover settle under loads that depend on their forces: loads, sinkages and forces are those of each
 //! other, wherever the search began.
 
-use grouser::contact::{Contact, Slip, Theory};
+use grouser::contact::{Contact, Model, Slip};
 use grouser::simulation::Scenario;
 use grouser::units::deg;
 use grouser::vehicle::load;
@@ -48,11 +48,11 @@ proptest! {
         slope in 0.0..deg(25.0),
         yaw in -1.0..1.0,
         slips in prop::array::uniform4((-0.3..0.9, -0.6..0.6)),
-        theory in prop::sample::select(vec![Theory::Ishigami, Theory::Bekker, Theory::SmallWheel]),
+        model in prop::sample::select(vec![Model::Ishigami, Model::Bekker, Model::SmallWheel]),
         sharing in prop::sample::select(vec![LoadSharing::Complete, LoadSharing::QuasiStaticTorque]),
     ) {
         let own_moments = OwnMoments::Included;
-        let scenario = Scenario { theory, sharing, own_moments, ..given::traverse(slope, 0.0) };
+        let scenario = Scenario { model, sharing, own_moments, ..given::traverse(slope, 0.0) };
         let ground = scenario.on_ground();
         let state = RoverState { yaw, ..RoverState::default() };
         let stance = ground.stance(&state);

@@ -1,6 +1,6 @@
 //! Simulated wheel tests: a known truth with known noise.
 
-use grouser::contact::Theory;
+use grouser::contact::Model;
 use grouser::studies::measurement::{PerQuantity, Quantity};
 use grouser::studies::simulated_test::{SimulatedTest, SimulatedTrial};
 use grouser::studies::wheel_test::WheelTest;
@@ -16,7 +16,7 @@ fn test(slip_ratios: &[f64], trials: usize, seed: u64) -> SimulatedTest {
         wheel: hakuto_wheel(),
         soil: toyoura(),
         gravity: EARTH_GRAVITY,
-        theory: Theory::Ishigami,
+        model: Model::Ishigami,
         loads: vec![20.0],
         slip_angles: vec![0.1],
         slip_ratios: slip_ratios.to_vec(),

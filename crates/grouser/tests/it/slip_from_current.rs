@@ -1,6 +1,6 @@
 //! Slip from the currents of motors: how well it holds, where it is ill-posed, and what a wrong soil does to it.
 
-use grouser::contact::{Contact, Slip, Theory, settle};
+use grouser::contact::{Contact, Model, Slip, settle};
 use grouser::document::measurements::motor_log::{LogChoice, read_motor_log};
 use grouser::document::statistics::{Probability, random};
 use grouser::document::{self, Overrides, Source};
@@ -68,7 +68,7 @@ fn estimator(scenario: &Scenario, settings: SlipSettings) -> SlipEstimator {
 fn torque(soil: Soil, load: f64, slip_ratio: f64, slip_angle: f64) -> f64 {
     let slip = Slip::on_test_stand(slip_ratio, slip_angle);
     let contact = Contact { wheel: hakuto_wheel(), soil, slip, gravity: EARTH_GRAVITY };
-    let settled = settle(Theory::Ishigami.model(), &contact, load).expect("it is carried");
+    let settled = settle(Model::Ishigami.as_ref(), &contact, load).expect("it is carried");
     settled.forces.torque
 }
 

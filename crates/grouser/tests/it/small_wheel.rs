@@ -2,7 +2,7 @@
 
 use grouser::contact::coulomb_cone::largest_horizontal_force;
 use grouser::contact::{
-    Contact, Ishigami, SettleError, Settled, Slip, SmallWheel, Theory, WheelForces, WheelSoilModel,
+    Contact, Ishigami, Model, SettleError, Settled, Slip, SmallWheel, WheelForces, WheelSoilModel,
     settle,
 };
 use grouser::document::{self, Kind, Overrides, Source};
@@ -382,11 +382,11 @@ fn no_contour_is_held_on_sand_steeper_than_its_angle_of_friction() {
 fn steepest_contour(soil: Soil, gravity: f64) -> f64 {
     // The wheels alone: the ground's own strength ends no curve with so small a factor of safety.
     let stability = SlopeStability { factor_of_safety: 0.1, ..SlopeStability::USUAL };
-    let theory = Theory::SmallWheel;
+    let model = Model::SmallWheel;
     // Without the wheels' torque in the loads: beyond any mound a rover would tip over first.
     let (sharing, own_moments) = (LoadSharing::QuasiStatic, OwnMoments::Neglected);
     let base = heading_study();
-    let study = HeadingStudy { soil, gravity, theory, stability, sharing, own_moments, ..base };
+    let study = HeadingStudy { soil, gravity, model, stability, sharing, own_moments, ..base };
     study.curve().expect("a soil").limit().expect("it moves").0
 }
 

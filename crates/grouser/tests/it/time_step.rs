@@ -2,7 +2,7 @@
 
 use grouser::contact::slip::CREEP_SPEED;
 use grouser::contact::time_step::{FORCES, MOTIONS, REST_SPEED, SINKAGE_DAMPING};
-use grouser::contact::{Contact, Slip, Stepped, SteppingWheel, Theory, TimeStep};
+use grouser::contact::{Contact, Model, Slip, Stepped, SteppingWheel, TimeStep};
 use grouser::units::{EARTH_GRAVITY, Vec2, mm};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -37,7 +37,7 @@ fn reaction(
         inverse_mass,
         free: &DVector::from_row_slice(&free),
     };
-    let (wheel, soil, model) = (hakuto_wheel(), toyoura(), Theory::Ishigami.model());
+    let (wheel, soil, model) = (hakuto_wheel(), toyoura(), Model::Ishigami.as_ref());
     step.reaction(&[SteppingWheel { model, wheel, soil, sinkage }])
 }
 
@@ -47,8 +47,8 @@ fn where_nothing_yields_the_reaction_is_the_theorys() {
     let measure = CREEP_SPEED / REST_SPEED;
     let slip = Slip::of_motion(0.06 * measure, Vec2::new(0.05, -0.01) * measure);
     let contact = Contact { wheel: hakuto_wheel(), soil: toyoura(), slip, gravity: EARTH_GRAVITY };
-    let theory = Theory::Ishigami.model().forces(&contact, mm(12.0));
-    assert_eq!(stepped.wheels[0].forces, theory);
+    let model = Model::Ishigami.as_ref().forces(&contact, mm(12.0));
+    assert_eq!(stepped.wheels[0].forces, model);
     assert_eq!((stepped.residual, stepped.rounds), (0.0, 0));
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use grouser::contact::Theory;
+use grouser::contact::Model;
 use grouser::document::{self, LoadedScenario, Overrides, Source};
 use grouser::soil::{Exit, Soil};
 use grouser::studies::ensemble::samples::Sample;
@@ -280,7 +280,7 @@ fn soils(count: u64) -> Vec<Soil> {
 
 /// Soils in the source paper's model.
 fn samples(soils: &[Soil]) -> Vec<Sample> {
-    soils.iter().map(|soil| Sample { soil: *soil, theory: Theory::Ishigami }).collect()
+    soils.iter().map(|soil| Sample { soil: *soil, model: Model::Ishigami }).collect()
 }
 
 fn band(soils: &[Soil], slopes: &[f64]) -> HeadingBand {

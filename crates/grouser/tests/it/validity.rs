@@ -1,7 +1,7 @@
 //! Flags of validity: each is raised where its rule says so, and not where it does not.
 
 use grouser::contact::validity::{Flag, Situation};
-use grouser::contact::{Settled, Slip, Theory, settle};
+use grouser::contact::{Model, Settled, Slip, settle};
 use grouser::document::validity::OutsideDomain;
 use grouser::document::{self, Kind, Overrides, Source, doubts, presets};
 use grouser::simulation::{Run, Scenario};
@@ -16,7 +16,7 @@ use crate::given;
 
 /// A wheel on a test stand, or on a slope, by which a flag is tried.
 struct Trial {
-    theory: Theory,
+    model: Model,
     wheel: Wheel,
     soil: Soil,
     gravity: f64,
@@ -30,7 +30,7 @@ impl Trial {
     /// The paper's wheel under its load on its soil, of which nothing is stated: no flag.
     fn quiet() -> Self {
         Self {
-            theory: Theory::Ishigami,
+            model: Model::Ishigami,
             wheel: given::hakuto_wheel(),
             soil: given::toyoura(),
             gravity: EARTH_GRAVITY,
@@ -51,12 +51,12 @@ impl Trial {
     }
 
     fn flags(&self) -> Vec<Flag> {
-        let Self { theory, wheel, soil, gravity, .. } = *self;
+        let Self { ref model, wheel, soil, gravity, .. } = *self;
         let slip = Slip::on_test_stand(self.slip_ratio, self.slip_angle);
         let contact = grouser::contact::Contact { wheel, soil, slip, gravity };
-        let settled: Option<Settled> = settle(theory.model(), &contact, self.load).ok();
+        let settled: Option<Settled> = settle(model.as_ref(), &contact, self.load).ok();
         let situation = Situation {
-            theory,
+            model,
             wheel: &wheel,
             soil: &soil,
             gravity,
@@ -84,7 +84,7 @@ fn trials_of(flag: Flag) -> [Trial; 2] {
             let small = given::smooth_wheel(0.0625, 0.05);
             [
                 Trial { wheel: small, ..quiet() },
-                Trial { theory: Theory::SmallWheel, wheel: small, ..quiet() },
+                Trial { model: Model::SmallWheel, wheel: small, ..quiet() },
             ]
         }
         Flag::OtherWheel => {
@@ -127,10 +127,7 @@ fn trials_of(flag: Flag) -> [Trial; 2] {
         }
         Flag::GrousersExposed => {
             let high = grousers(0.02, 24);
-            [
-                Trial { wheel: high, ..quiet() },
-                Trial { wheel: high, theory: Theory::Rft, ..quiet() },
-            ]
+            [Trial { wheel: high, ..quiet() }, Trial { wheel: high, model: Model::Rft, ..quiet() }]
         }
         Flag::GrousersApart => [
             Trial { wheel: grousers(0.01, 12), ..quiet() },
@@ -149,17 +146,17 @@ fn trials_of(flag: Flag) -> [Trial; 2] {
             [locked, quiet()]
         }
         Flag::NoSideForce => {
-            let sideways = |theory| Trial { theory, slip_angle: deg(5.0), ..quiet() };
-            [sideways(Theory::Bekker), sideways(Theory::Ishigami)]
+            let sideways = |model| Trial { model, slip_angle: deg(5.0), ..quiet() };
+            [sideways(Model::Bekker), sideways(Model::Ishigami)]
         }
         Flag::NoCohesion => {
-            let cohesive = |theory| Trial { theory, ..Trial::bekker_soil() };
-            [cohesive(Theory::Rft), cohesive(Theory::Ishigami)]
+            let cohesive = |model| Trial { model, ..Trial::bekker_soil() };
+            [cohesive(Model::Rft), cohesive(Model::Ishigami)]
         }
         Flag::TermsMissing => {
             let small = |small_wheel: SmallWheel| {
                 let soil = Soil { small_wheel, ..given::toyoura() };
-                Trial { theory: Theory::SmallWheel, soil, ..quiet() }
+                Trial { model: Model::SmallWheel, soil, ..quiet() }
             };
             let mut terms = SmallWheel::GENERAL;
             terms.mounds.rear_mound = 1.0;
@@ -260,7 +257,7 @@ fn strictness_names_flag_row_value_and_range() {
         wheel: given::hakuto_wheel(),
         soil: given::toyoura(),
         gravity: EARTH_GRAVITY,
-        theory: Theory::Ishigami,
+        model: Model::Ishigami,
         loads: vec![17.0],
         slip_angles: vec![deg(50.0)],
         slip_ratios: vec![0.2, 0.95],
@@ -372,7 +369,7 @@ fn a_preset_without_terms_is_flagged_under_the_small_wheel_model() {
     {
         let soil = Source::find(Kind::Soil, name).unwrap();
         let soil = document::read_soil(&soil, &Overrides::none()).unwrap().value;
-        let trial = Trial { theory: Theory::SmallWheel, soil, ..Trial::quiet() };
+        let trial = Trial { model: Model::SmallWheel, soil, ..Trial::quiet() };
         assert_eq!(trial.flags().contains(&Flag::TermsMissing), is_raised, "{name}");
     }
 }

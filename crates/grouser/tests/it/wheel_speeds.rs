@@ -202,7 +202,7 @@ fn speeds_keep_their_bound() {
 fn wheels_that_turn_backward_outweigh_those_that_drive() {
     let base = scenario(&[]);
     let load = 17.0;
-    let model = base.theory.model();
+    let model = base.model.as_ref();
     let pull = |slip_ratio: f64| {
         let soil = base.ground.soil.on_slope(0.0);
         let slip = Slip::on_test_stand(slip_ratio, 0.0);

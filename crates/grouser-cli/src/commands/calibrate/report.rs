@@ -211,10 +211,10 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
     let mut page = Page::new("Calibration");
     let soil = problem.stand.soil.document.name();
     let wheel = problem.stand.wheel.document.name();
-    let theory = problem.stand.theory.name();
+    let model = problem.stand.model.name();
     page.answer(&fitted(&found.solved.records));
     page.paragraph(&format!(
-        "Fitted to {} ({} trials in {} cells) with the model {theory}, {wheel}; keys that are not fitted are those of \
+        "Fitted to {} ({} trials in {} cells) with the model {model}, {wheel}; keys that are not fitted are those of \
          {soil}.",
         problem.file,
         problem.measured.tests.trials.len(),

@@ -90,7 +90,7 @@ fn settings(
         "soil": stand.soil.document,
         "wheel": stand.wheel.document,
         "gravity_m_s2": stand.gravity,
-        "model": stand.theory.name(),
+        "model": stand.model.name(),
         "seed": args.seed,
         "steps": args.steps,
     })
@@ -107,7 +107,7 @@ fn find(
         measured,
         file,
         wheel: stand.wheel.value,
-        theory: stand.theory,
+        model: stand.model.clone(),
         gravity: stand.gravity,
         sampling: sampling(args, checkpoint),
         aim: aim(args, &measured.tests.trials)?,

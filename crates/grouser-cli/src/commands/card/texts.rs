@@ -1,6 +1,6 @@
 //! The sentences of the card.
 
-use grouser::contact::Theory;
+use grouser::contact::Model;
 use grouser::contact::validity::Flag;
 use grouser::document::columns::SLOPE;
 use grouser::soil::SlopeStability;
@@ -243,10 +243,9 @@ fn known(args: &CardArgs, inputs: &CardInputs, card: &Card) -> String {
 
 /// The model of the soil as written, and those of the samples.
 fn model(inputs: &CardInputs) -> String {
-    let nominal = inputs.scenario.value.theory.name();
+    let nominal = inputs.scenario.value.model.name();
     let band = BandInputs::of_scenario(&inputs.scenario);
-    let share =
-        |(theory, share): &(Theory, f64)| format!("{} {:.0} %", theory.name(), share * 100.0);
+    let share = |(model, share): &(Model, f64)| format!("{} {:.0} %", model.name(), share * 100.0);
     match band.models().shares() {
         [_] => nominal.to_owned(),
         all => {
@@ -315,10 +314,10 @@ fn other_models(inputs: &CardInputs, card: &Card) -> String {
         return "no heading".to_owned();
     };
     let degrees = |yaw: f64| four_digits((SLOPE.unit.from_si(yaw) * 2.0).round() / 2.0);
-    let own = (inputs.scenario.value.theory, row.level.map(|level| level.yaw));
-    let say = |(theory, yaw): &(Theory, Option<f64>)| match yaw {
-        Some(yaw) => format!("{} {}°", theory.name(), degrees(*yaw)),
-        None => format!("{} none", theory.name()),
+    let own = (inputs.scenario.value.model.clone(), row.level.map(|level| level.yaw));
+    let say = |(model, yaw): &(Model, Option<f64>)| match yaw {
+        Some(yaw) => format!("{} {}°", model.name(), degrees(*yaw)),
+        None => format!("{} none", model.name()),
     };
     let all: Vec<String> = std::iter::once(&own).chain(&row.other_models).map(say).collect();
     let slope = four_digits(SLOPE.unit.from_si(row.slope));

@@ -27,7 +27,7 @@ pub(super) struct OfModel {
 
 impl OfModel {
     pub(super) fn name(&self) -> &'static str {
-        self.scenario.value.theory.name()
+        self.scenario.value.model.name()
     }
 
     /// A table of its results, with its name where there are several.

@@ -24,7 +24,7 @@ pub(in crate::commands) struct Found {
 
 /// The models with their shares.
 pub(in crate::commands) fn shares(learner: &Learner) -> BTreeMap<&'static str, f64> {
-    learner.models().shares().iter().map(|(theory, share)| (theory.name(), *share)).collect()
+    learner.models().shares().iter().map(|(model, share)| (model.name(), *share)).collect()
 }
 
 /// What one slope comes to, for a sentence: yaw and slip with their bands.

@@ -55,7 +55,7 @@ pub(super) fn html(args: &ReplayArgs, scenario: &LoadedScenario, found: &Found) 
     page.list([
         format!("rover: {}", name("rover.name")),
         format!("soil: {}", name("soil.name")),
-        format!("model: {}", scenario.value.theory.name()),
+        format!("model: {}", scenario.value.model.name()),
     ]);
     page.list(whole(found));
     page.list(&found.notes);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use grouser::contact::Theory;
+use grouser::contact::Model;
 use grouser::document::{self, LoadedScenario, Overrides, Source, experiment};
 use grouser::simulation::Scatter;
 use grouser::studies::ensemble::samples::BandInputs;
@@ -29,7 +29,7 @@ const LONGITUDINAL_MODULI: [f64; 3] = [0.036, 0.030, 0.3];
 /// Slip angles of the wheel curves [°]; the rover's own are below 22°.
 const SLIP_ANGLES_DEG: [f64; 3] = [0.0, 15.0, 30.0];
 /// Models whose headings stand beside those of the paper's.
-const OTHER_MODELS: [Theory; 2] = [Theory::Rft, Theory::Bekker];
+const OTHER_MODELS: [Model; 2] = [Model::Rft, Model::Bekker];
 /// What scatters where the yaw that is lost is explained: 1° of friction, a tenth of stiffness, half a per cent of
 /// speed. Source: assumed, for a raked bed and motors under speed control.
 pub(super) const SCATTER: Scatter = Scatter {

@@ -47,7 +47,7 @@ impl OfModel {
     }
 
     pub(super) fn name(&self) -> &'static str {
-        self.scenario.value.theory.name()
+        self.scenario.value.model.name()
     }
 
     /// A row for each record, with the bands at its time.

@@ -72,12 +72,12 @@ fn answer(stand: &StandInputs, validation: &Validation) -> String {
         Some(format!("{name} {} {unit}{itself}", four_digits(errors.rmse)))
     });
     let words: Vec<String> = words.collect();
-    let theory = stand.theory.name();
+    let model = stand.model.name();
     if words.is_empty() {
-        return format!("The model {theory} predicts no trial.");
+        return format!("The model {model} predicts no trial.");
     }
     let (cells, words) = (overall.0.cells, words.join(", "));
-    format!("Root mean square errors of the model {theory} over {cells} cells: {words}.")
+    format!("Root mean square errors of the model {model} over {cells} cells: {words}.")
 }
 
 fn what_was_compared(args: &ValidateArgs, data: &Path, stand: &StandInputs) -> Vec<String> {

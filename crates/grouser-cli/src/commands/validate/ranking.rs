@@ -5,7 +5,7 @@ use std::path::Path;
 
 use grouser::document::columns::{COURSE, Quantity, SLIP_RATIO, SLOPE, YAW, slope};
 use grouser::document::ranking::{
-    Found, OverAll, RankedTheory, RankedYardstick, Ranking, RankingError, rank_all, rank_one,
+    Found, OverAll, RankedModel, RankedYardstick, Ranking, RankingError, rank_all, rank_one,
 };
 use grouser::document::table::Table;
 use grouser::document::validation::{ErrorsRecord, PartErrors};
@@ -116,7 +116,7 @@ fn csv_of_rows(ranking: &Ranking) -> Result<String, Failure> {
     #[derive(Serialize)]
     #[serde(untagged)]
     enum Row<'a> {
-        Model(&'a RankedTheory),
+        Model(&'a RankedModel),
         Yardstick(&'a RankedYardstick),
     }
     let models = ranking.rows.iter().map(Row::Model);
@@ -126,7 +126,7 @@ fn csv_of_rows(ranking: &Ranking) -> Result<String, Failure> {
 
 /// Every slope of every ranked model of a rover.
 fn slopes(ranking: &Ranking) -> Vec<Map<String, Value>> {
-    let of_row = |row: &RankedTheory| {
+    let of_row = |row: &RankedModel| {
         let Found::Slope(validation) = &row.found else { return Vec::new() };
         let table = slope::slopes(&validation.points);
         let of_slope = |place: usize| {
@@ -185,7 +185,7 @@ score: 0 is perfect, 1 no better than the mean of what was measured. Rows withou
 /// A block for each part of each data set, and one for all together.
 fn text_of(ranking: &Ranking) -> Text {
     let mut blocks = vec![Text::from(LEGEND)];
-    let is_same = |one: &RankedTheory, other: &RankedTheory| {
+    let is_same = |one: &RankedModel, other: &RankedModel| {
         (&one.data_set, &one.case) == (&other.data_set, &other.case)
     };
     for part in ranking.rows.chunk_by(is_same) {
@@ -222,7 +222,7 @@ fn header(quantities: &[Quantity]) -> Vec<String> {
     names.into_iter().chain(quantities.iter().map(|it| it.name.to_owned())).collect()
 }
 
-fn all_cells(part: &[RankedTheory], yardsticks: &[&RankedYardstick]) -> Text {
+fn all_cells(part: &[RankedModel], yardsticks: &[&RankedYardstick]) -> Text {
     let measured = measured_in(yardsticks.iter().map(|it| it.reference.overall.measured()));
     let models = part.iter().map(|row| {
         let errors = row.overall.measured();
@@ -236,7 +236,7 @@ fn all_cells(part: &[RankedTheory], yardsticks: &[&RankedYardstick]) -> Text {
     aligned(&header(&measured), &models.chain(references).collect::<Vec<_>>())
 }
 
-fn driven_cells(part: &[RankedTheory], yardsticks: &[&RankedYardstick]) -> Text {
+fn driven_cells(part: &[RankedModel], yardsticks: &[&RankedYardstick]) -> Text {
     let errors = |driven: &Option<_>| {
         driven
             .as_ref()
@@ -268,7 +268,7 @@ fn measured_in(all: impl Iterator<Item = Vec<(Quantity, ErrorsRecord)>>) -> Vec<
     found
 }
 
-fn named(row: &RankedTheory) -> [String; 3] {
+fn named(row: &RankedModel) -> [String; 3] {
     let fitted = if row.in_sample { " (fitted to these)" } else { "" };
     [row.rank.to_string(), row.model.to_owned(), format!("{}{fitted}", row.soil)]
 }
@@ -314,7 +314,7 @@ fn repeatability(overall: &PartErrors) -> String {
 }
 
 /// A quantity of a rover, slope by slope: measured, then each model.
-fn over_slopes(part: &[RankedTheory], quantity: Quantity) -> Text {
+fn over_slopes(part: &[RankedModel], quantity: Quantity) -> Text {
     let tables: Vec<(String, Table)> = part
         .iter()
         .filter_map(|row| match &row.found {

@@ -92,7 +92,7 @@ fn html(
     page.list([
         format!("rover: {}", scenario.document.text("rover.name").unwrap_or("unnamed")),
         format!("soil: {}", scenario.document.text("soil.name").unwrap_or("unnamed")),
-        format!("wheel–soil model: {}", scenario.value.theory.name()),
+        format!("wheel–soil model: {}", scenario.value.model.name()),
     ]);
     page.list(&tests.notes);
     page.heading("Every slope, and the errors");
@@ -130,7 +130,7 @@ fn settings(
         "gravity_m_s2": document.get("gravity_m_s2"),
         "load_transfer": document.get("load_transfer"),
         "wheel_moments": document.get("wheel_moments"),
-        "model": scenario.value.theory.name(),
+        "model": scenario.value.model.name(),
         "slopes": tests.points.len(),
     })
 }

@@ -16,7 +16,7 @@ pub(super) fn plan(args: &WheelTestArgs, stand: &StandInputs) -> WheelTest {
         wheel: stand.wheel.value,
         soil: stand.soil.value,
         gravity: stand.gravity,
-        theory: stand.theory,
+        model: stand.model.clone(),
         loads: args.load_n.0.clone(),
         slip_angles: angles.collect(),
         slip_ratios: args.slip_ratio.0.clone(),

@@ -50,7 +50,7 @@ fn sentence(charted: &Charted<'_>) -> String {
 }
 
 fn what_was_tested(args: &WheelTestArgs, stand: &StandInputs) -> Vec<String> {
-    let model = if args.setting.has_every_model() { "every model" } else { stand.theory.name() };
+    let model = if args.setting.has_every_model() { "every model" } else { stand.model.name() };
     vec![
         format!("wheel: {}", stand.wheel.document.name()),
         format!("soil: {}", stand.soil.document.name()),
@@ -71,7 +71,7 @@ fn caption(quantity: Quantity) -> &'static str {
 fn basis(args: &WheelTestArgs, stand: &StandInputs) -> Basis {
     let list =
         |numbers: &[f64]| numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
-    let model = if args.setting.has_every_model() { EVERY_MODEL } else { stand.theory.name() };
+    let model = if args.setting.has_every_model() { EVERY_MODEL } else { stand.model.name() };
     let mut repeat = format!(
         "grouser wheel-test --soil soil.toml --wheel wheel.toml --model {model} --gravity-m-s2 {} --load-n {} \
          --slip-angle-deg {} --slip-ratio {}",

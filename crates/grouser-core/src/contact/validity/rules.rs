@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::super::theory::Theory;
+use super::super::model::Model;
 use super::situation::{DOUBTFUL_MODULUS, Flag, Rule, Situation};
 use crate::elementary::wide;
 use crate::soil::{PressureSinkage, ShearBound, SlopeStability, SmallWheel, Span};
@@ -37,7 +37,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         criterion: "the radius of the rim is outside 0.09 to 0.63 m (`ishigami`), or below 0.25 m (`bekker`)",
         source: "wheels of Ishigami et al. (2007) and of Wong and Reece (1967); Bekker (1969): less accurate below \
                  20 inches in diameter",
-        judge: |it| Some((it.wheel.radius, it.theory.domain().radius)),
+        judge: |it| Some((it.wheel.radius, it.model.domain().radius)),
     },
     Rule {
         flag: Flag::OtherWheel,
@@ -178,7 +178,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         source: "Bekker (1969), plane motion only",
         judge: |it| {
             let angle = it.slip?.angle.abs();
-            (it.theory == Theory::Bekker).then_some((angle, NONE))
+            (*it.model == Model::Bekker).then_some((angle, NONE))
         },
     },
     Rule {
@@ -188,7 +188,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         quantity: "cohesion",
         criterion: "`rft` with a cohesion above 0",
         source: "Agarwal, Goldman and Kamrin (2023): a law of dry, cohesionless media",
-        judge: |it| (it.theory == Theory::Rft).then_some((it.soil.cohesion, NONE)),
+        judge: |it| (*it.model == Model::Rft).then_some((it.soil.cohesion, NONE)),
     },
     Rule {
         flag: Flag::TermsMissing,
@@ -199,7 +199,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         source: "two wheels on one sand, Pavlov and Johnson (2022); Lyasko (2010)",
         judge: |it| {
             let terms = if has_general_terms(&it.soil.small_wheel) { 0.0 } else { 1.0 };
-            (it.theory == Theory::SmallWheel).then_some((terms, Span::at_least(1.0)))
+            (*it.model == Model::SmallWheel).then_some((terms, Span::at_least(1.0)))
         },
     },
     Rule {
@@ -211,11 +211,12 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         source: "the soil's document",
         judge: |it| {
             let assumed = it.soil.domain.assumed_values;
-            let count = match it.theory {
-                Theory::Ishigami => assumed.ishigami,
-                Theory::Bekker => assumed.bekker,
-                Theory::SmallWheel => assumed.small_wheel,
-                Theory::Rft => assumed.rft,
+            let count = match it.model {
+                Model::Ishigami => assumed.ishigami,
+                Model::Bekker => assumed.bekker,
+                Model::SmallWheel => assumed.small_wheel,
+                Model::Rft => assumed.rft,
+                Model::Own(_) => return None,
             };
             Some((f64::from(count), NONE))
         },
@@ -252,7 +253,7 @@ fn bekker_gravity(it: &Situation<'_>) -> Option<(f64, Span)> {
 /// k_c/b + k_φ [N/m^(n+2)], where the model uses Bekker's law.
 fn bekker_modulus(it: &Situation<'_>) -> Option<f64> {
     match it.soil.pressure_sinkage {
-        PressureSinkage::Bekker { k_c, k_phi, .. } if it.theory != Theory::Rft => {
+        PressureSinkage::Bekker { k_c, k_phi, .. } if *it.model != Model::Rft => {
             Some(k_c / it.wheel.width + k_phi)
         }
         _ => None,
@@ -261,7 +262,7 @@ fn bekker_modulus(it: &Situation<'_>) -> Option<f64> {
 
 /// Grousers that the model takes as dense: those of all models but resistive force theory.
 fn dense_grousers(it: &Situation<'_>) -> Option<Grousers> {
-    let has_faces = it.theory == Theory::Rft;
+    let has_faces = *it.model == Model::Rft;
     it.wheel.grousers.filter(|grousers| !has_faces && grousers.height > 0.0 && grousers.count > 0)
 }
 

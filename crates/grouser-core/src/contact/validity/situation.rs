@@ -3,8 +3,8 @@
 use std::ops::RangeInclusive;
 
 use super::super::equilibrium::Settled;
+use super::super::model::Model;
 use super::super::slip::Slip;
-use super::super::theory::Theory;
 use crate::soil::{Domain, Soil, Span};
 use crate::wheel::Wheel;
 
@@ -99,14 +99,14 @@ pub struct Rule {
 /// ```
 /// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
 /// use grouser_core::contact::validity::Situation;
-/// use grouser_core::contact::{Contact, Slip, Theory, settle};
+/// use grouser_core::contact::{Contact, Slip, Model, settle};
 /// use grouser_core::units::{EARTH_GRAVITY, deg};
 ///
 /// let slip = Slip::on_test_stand(0.95, deg(15.0));
 /// let contact = Contact { wheel: hakuto::wheel(), soil: hakuto::sand(), slip, gravity: EARTH_GRAVITY };
-/// let settled = settle(Theory::Ishigami.model(), &contact, 17.0)?;
+/// let settled = settle(Model::Ishigami.as_ref(), &contact, 17.0)?;
 /// let situation = Situation {
-///     theory: Theory::Ishigami,
+///     model: &Model::Ishigami,
 ///     wheel: &contact.wheel,
 ///     soil: &contact.soil,
 ///     gravity: contact.gravity,
@@ -122,7 +122,7 @@ pub struct Rule {
 #[derive(Clone, Copy, Debug)]
 pub struct Situation<'a> {
     /// The wheel–soil model.
-    pub theory: Theory,
+    pub model: &'a Model,
     /// The wheel.
     pub wheel: &'a Wheel,
     /// The soil under it.
@@ -142,7 +142,7 @@ pub struct Situation<'a> {
 impl Situation<'_> {
     /// The ranges of the model and the soil together.
     pub(super) fn domain(&self, of: fn(&Domain) -> Span) -> Span {
-        of(&self.theory.domain()).and(of(&self.soil.domain))
+        of(&self.model.domain()).and(of(&self.soil.domain))
     }
 }
 

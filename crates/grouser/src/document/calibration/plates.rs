@@ -151,7 +151,7 @@ impl PlateProblem {
         );
         let samples = solved.solution.posterior.as_ref().map(|_| SAMPLES_FILE);
         // Plates know no wheel: the soil keeps the model that it was made for, if any.
-        self.family.fitted(&solved.solution.fit.values, &source, self.soil.theory(), samples)
+        self.family.fitted(&solved.solution.fit.values, &source, self.soil.model(), samples)
     }
 }
 

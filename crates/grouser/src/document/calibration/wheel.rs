@@ -10,7 +10,7 @@ use super::{
     DiscrepancyRecord, LeftOutRecord, LengthRecord, ParameterRecord, ProposalRecord, SamplerRecord,
     Solved, handed_on,
 };
-use crate::contact::Theory;
+use crate::contact::Model;
 use crate::error::ParameterError;
 use crate::soil::Soil;
 use crate::studies::calibration::design::Aim;
@@ -33,7 +33,7 @@ pub struct WheelProblem<'a> {
     /// The wheel.
     pub wheel: Wheel,
     /// The wheel–soil model.
-    pub theory: Theory,
+    pub model: Model,
     /// Gravity, *g* [m/s²].
     pub gravity: f64,
     /// How the posterior is sampled; least squares alone without.
@@ -96,7 +96,7 @@ impl WheelProblem<'_> {
             tests: &self.measured.tests,
             setup: Setup {
                 wheel: self.wheel,
-                theory: self.theory,
+                model: &self.model,
                 gravity: self.gravity,
                 soil_of: &soil_of,
                 resolution: Resolution::Cells,
@@ -136,7 +136,7 @@ impl WheelProblem<'_> {
         );
         let samples = solved.solution.posterior.as_ref().map(|_| SAMPLES_FILE);
         let values = &solved.solution.fit.values;
-        let fitted = self.family.fitted(values, &source, Some(self.theory), samples);
+        let fitted = self.family.fitted(values, &source, Some(self.model.clone()), samples);
         let fitted = handed_on::nominal(solved).map_or_else(
             || fitted.clone(),
             |none| fitted.changed(|keys| drop(keys.insert(DISCREPANCY.to_owned(), none))),

@@ -7,7 +7,7 @@ use super::super::uncertainty::{Inputs, Stated, Statement};
 use super::super::varied::{Key, NoNumber, Numbers};
 use super::super::{Document, Kind, Misfit, Node, stated_by_priors, stated_of};
 use super::rows::Base;
-use crate::contact::Theory;
+use crate::contact::Model;
 use crate::studies::ensemble::design::SOBOL_DIMENSIONS;
 use crate::studies::ensemble::models::ModelSpread;
 use crate::studies::ensemble::{Distribution, Ensemble, Marginal, Matrix};
@@ -42,7 +42,7 @@ impl Prepared {
     }
 
     /// The values of the keys, and the model, if it is drawn.
-    pub(super) fn split<'v>(&self, values: &'v [f64]) -> (&'v [f64], Option<Theory>) {
+    pub(super) fn split<'v>(&self, values: &'v [f64]) -> (&'v [f64], Option<Model>) {
         let (keys, place) = values.split_at(self.keys.len());
         (keys, self.models.as_ref().zip(place.first()).map(|(models, place)| models.at(*place)))
     }
@@ -159,14 +159,14 @@ fn models(
     if !settings.model_uncertainty {
         return Ok(None);
     }
-    if document.theory_at(&format!("{place}.model")).is_some() {
+    if document.model_at(&format!("{place}.model")).is_some() {
         let problem = Problem::Conflict("the base names its model, which is then that of all runs");
         let origin = tree.origin_of("model_uncertainty");
         return Err(DocumentError::at(origin, problem)
             .with_hint(format!("leave out `{place}.model` or `model_uncertainty`")));
     }
-    let made_for = document.theory_at(&format!("{place}.soil.model"));
-    Ok(Some(ModelSpread::all(made_for)))
+    let made_for = document.model_at(&format!("{place}.soil.model"));
+    Ok(Some(ModelSpread::all(made_for.as_ref())))
 }
 
 /// What keys of the base's soil begin with.

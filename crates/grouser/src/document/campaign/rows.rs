@@ -14,7 +14,7 @@ use super::super::varied::{Key, Numbers, Varied};
 use super::super::{Document, Misfit, Node, Plan};
 use super::table::{Column, Role};
 use crate::contact::validity::{Finding, Situation};
-use crate::contact::{Contact, SettleError, Slip, Theory, settle};
+use crate::contact::{Contact, Model, SettleError, Slip, settle};
 use crate::mission::MissionError;
 use crate::simulation::{Run, Scenario, Trajectory};
 use crate::studies::drive::Drive;
@@ -39,7 +39,7 @@ pub(super) struct Case<'a> {
     pub keys: &'a [Key],
     pub values: &'a [f64],
     /// The model, where it is not the base's.
-    pub theory: Option<Theory>,
+    pub model: Option<Model>,
     /// The campaign's seed.
     pub seed: u64,
     /// Which realisation of what scatters it has.
@@ -50,7 +50,7 @@ pub(super) struct Case<'a> {
 enum Sampled {
     Scenario(Box<Scenario>),
     Mission(Box<Plan>),
-    WheelTest { contact: Box<Contact>, theory: Theory, load: f64 },
+    WheelTest { contact: Box<Contact>, model: Model, load: f64 },
 }
 
 /// A run without a result: a status that is the same for all such rows, and the reason of this one.
@@ -152,7 +152,7 @@ pub(super) fn run(study: Study, base: &Base, case: &Case<'_>, row: &mut Vec<Cell
         (Study::Heading, Sampled::Scenario(scenario)) => heading(&scenario),
         (_, Sampled::Scenario(scenario)) => traverse(&scenario),
         (_, Sampled::Mission(plan)) => mission(&plan),
-        (_, Sampled::WheelTest { contact, theory, load }) => wheel_test(&contact, theory, load),
+        (_, Sampled::WheelTest { contact, model, load }) => wheel_test(&contact, &model, load),
     });
     match answer {
         Ok(cells) => {
@@ -188,8 +188,8 @@ pub(super) fn counted(
         },
         // A rover that gets stuck is an answer of a mission.
         Sampled::Mission(_) => None,
-        Sampled::WheelTest { contact, theory, load } => {
-            let sunk = Sunk::of(theory, &contact, load);
+        Sampled::WheelTest { contact, model, load } => {
+            let sunk = Sunk::of(&model, &contact, load);
             let quantities = [
                 (SINKAGE, sunk.sinkage),
                 (DRAWBAR_PULL, sunk.drawbar_pull),
@@ -206,13 +206,19 @@ impl Sampled {
     /// The same in the model and the realisation of a run.
     fn of(mut self, case: &Case<'_>) -> Self {
         let of_case = |scenario: &mut Scenario| {
-            scenario.theory = case.theory.unwrap_or(scenario.theory);
+            if let Some(model) = &case.model {
+                scenario.model = model.clone();
+            }
             scenario.scatter = scenario.scatter.of_case(case.seed, case.bed);
         };
         match &mut self {
             Self::Scenario(scenario) => of_case(scenario),
             Self::Mission(plan) => of_case(&mut plan.scenario),
-            Self::WheelTest { theory, .. } => *theory = case.theory.unwrap_or(*theory),
+            Self::WheelTest { model, .. } => {
+                if let Some(drawn) = &case.model {
+                    *model = drawn.clone();
+                }
+            }
         }
         self
     }
@@ -305,8 +311,8 @@ impl Base {
                     slip: Slip::on_test_stand(stand.slip_ratio, stand.slip_angle),
                     gravity: stand.gravity,
                 };
-                let (theory, load) = (stand.theory, stand.load);
-                Sampled::WheelTest { contact: Box::new(contact), theory, load }
+                let (model, load) = (stand.model, stand.load);
+                Sampled::WheelTest { contact: Box::new(contact), model, load }
             }
         })
     }
@@ -407,8 +413,8 @@ fn mission(plan: &Plan) -> Result<Vec<Cell>, Failure> {
     Ok(row)
 }
 
-fn wheel_test(contact: &Contact, theory: Theory, load: f64) -> Result<Vec<Cell>, Failure> {
-    let settled = settle(theory.model(), contact, load).map_err(|error| {
+fn wheel_test(contact: &Contact, model: &Model, load: f64) -> Result<Vec<Cell>, Failure> {
+    let settled = settle(model.as_ref(), contact, load).map_err(|error| {
         let status = match error {
             SettleError::SunkToAxle { .. } => SUNK,
             SettleError::BadLoad { .. } => UNFIT,
@@ -416,7 +422,7 @@ fn wheel_test(contact: &Contact, theory: Theory, load: f64) -> Result<Vec<Cell>,
         Failure { status, reason: error.to_string() }
     })?;
     let situation = Situation {
-        theory,
+        model,
         wheel: &contact.wheel,
         soil: &contact.soil,
         gravity: contact.gravity,

@@ -8,8 +8,9 @@ use super::{
     CURRENT, Column, LIMIT_SLOPE, OK, PITCH, POWER, PROBABILITY_LEVEL, Quantity, ROLL, SINKAGE,
     SLIP_RATIO, SLOPE, STATUS, TORQUE, YAW, quantity, text, whole,
 };
-use crate::contact::Theory;
+use crate::contact::Model;
 use crate::studies::card::{Card, CardRow, Driven, DrivenMotion, Verdict};
+use crate::studies::ensemble::models::WEIGHTED;
 
 /// Drift at yaw 0.
 pub const DRIFT: Quantity = quantity("downhill_m_per_m", M_PER_M);
@@ -39,10 +40,10 @@ pub const PROBABILITY_STUCK_WITH_CHECKS: Quantity = quantity("probability_stuck_
 /// The heading on the soil as written.
 pub const YAW_AS_WRITTEN: Quantity = quantity("yaw_deg_as_written", DEG);
 /// The headings of the models on the soil as written.
-pub const YAWS_OF_MODELS: [(Theory, Quantity); 3] = [
-    (Theory::Ishigami, quantity("yaw_deg_ishigami", DEG)),
-    (Theory::SmallWheel, quantity("yaw_deg_small_wheel", DEG)),
-    (Theory::Rft, quantity("yaw_deg_rft", DEG)),
+pub const YAWS_OF_MODELS: [(Model, Quantity); WEIGHTED] = [
+    (Model::Ishigami, quantity("yaw_deg_ishigami", DEG)),
+    (Model::SmallWheel, quantity("yaw_deg_small_wheel", DEG)),
+    (Model::Rft, quantity("yaw_deg_rft", DEG)),
 ];
 /// The verdict on a slope: go, caution or no-go.
 pub const VERDICT: &str = "verdict";
@@ -73,8 +74,8 @@ impl OnCard<'_> {
 
     /// The heading of a model on the soil as written, which is that of the row for the card's own model.
     fn yaw_of(&self, place: usize) -> Option<f64> {
-        let (theory, _) = YAWS_OF_MODELS[place];
-        match self.row.other_models.iter().find(|(it, _)| *it == theory) {
+        let (model, _) = &YAWS_OF_MODELS[place];
+        match self.row.other_models.iter().find(|(it, _)| it == model) {
             Some((_, yaw)) => *yaw,
             None => self.row.level.map(|level| level.yaw),
         }

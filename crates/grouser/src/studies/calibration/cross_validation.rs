@@ -141,8 +141,12 @@ pub fn leave_one_angle_out(
         let soil = experiment.soil(&fit.values)?;
         let cells = tests.cells.iter().filter(|cell| cell.slip_angle == slip_angle);
         let predict = |&trial: &usize| {
-            let settled =
-                tests.trials[trial].predict(setup.theory, &setup.wheel, &soil, setup.gravity);
+            let settled = tests.trials[trial].predict(
+                setup.model.as_ref(),
+                &setup.wheel,
+                &soil,
+                setup.gravity,
+            );
             (trial, settled)
         };
         let predictions = cells.flat_map(|cell| &cell.trials).map(predict).collect();

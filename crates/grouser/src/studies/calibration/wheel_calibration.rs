@@ -100,8 +100,8 @@ impl WheelCalibration<'_> {
     }
 
     fn judge(&self, soil: Soil) -> Validation {
-        let Setup { wheel, theory, gravity, .. } = self.setup;
-        ValidationStudy { tests: self.tests, wheel, soil, theory, gravity }.run()
+        let Setup { wheel, model, gravity, .. } = self.setup;
+        ValidationStudy { tests: self.tests, wheel, soil, model: model.clone(), gravity }.run()
     }
 
     /// What would fail after hours of sampling fails at once.

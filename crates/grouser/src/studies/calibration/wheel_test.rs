@@ -3,7 +3,7 @@
 use super::experiment::{Channel, Experiment, Measure, Observation, Place, Regime, Site};
 use super::scatter::{self, Repeats};
 use crate::contact::discrepancy::sense_of_rolling;
-use crate::contact::{Contact, SettleError, Settled, Slip, Theory, settle, settle_many};
+use crate::contact::{Contact, Model, SettleError, Settled, Slip, settle, settle_many};
 use crate::elementary::wide::{ln, sin};
 use crate::error::{ParameterError, finite, not_negative};
 use crate::soil::Soil;
@@ -62,7 +62,7 @@ pub struct Setup<'a> {
     /// The wheel.
     pub wheel: Wheel,
     /// The wheel–soil model.
-    pub theory: Theory,
+    pub model: &'a Model,
     /// Gravity, *g* [m/s²].
     pub gravity: f64,
     /// Makes a soil from parameter values.
@@ -137,7 +137,7 @@ impl<'a> WheelTestExperiment<'a> {
     #[must_use]
     pub fn readings(&self, soil: &Soil, slip: Slip, load: f64) -> PerQuantity<f64> {
         let run = self.contact(soil, slip);
-        self.read(&run, load, settle(self.setup.theory.model(), &run, load))
+        self.read(&run, load, settle(self.setup.model.as_ref(), &run, load))
     }
 
     fn contact(&self, soil: &Soil, slip: Slip) -> Contact {
@@ -163,7 +163,7 @@ impl<'a> WheelTestExperiment<'a> {
                 };
                 let overload = (ln(load) - ln(capacity)).clamp(0.0, WEAKEST);
                 let sinkage = contact.wheel.shearing_radius();
-                let forces = self.setup.theory.model().forces(contact, sinkage);
+                let forces = self.setup.model.as_ref().forces(contact, sinkage);
                 let sunk = Settled { sinkage, forces, evaluations: 0 };
                 PerQuantity::from_fn(|quantity| quantity.of(&sunk) * (1.0 + overload))
             }
@@ -176,7 +176,7 @@ impl<'a> WheelTestExperiment<'a> {
         let runs = cells.iter().flat_map(|&cell| &self.runs[cell]);
         let wheels: Vec<(Contact, f64)> =
             runs.map(|run| (self.contact(soil, run.slip), run.load)).collect();
-        let settled = settle_many(self.setup.theory.model(), &wheels);
+        let settled = settle_many(self.setup.model.as_ref(), &wheels);
         let mut readings = wheels
             .iter()
             .zip(settled)

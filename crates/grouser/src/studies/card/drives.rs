@@ -130,7 +130,7 @@ impl CardDrives<'_> {
             ground: study.plane(course.slope),
             gravity: study.gravity,
             rover: study.rover,
-            theory: study.theory,
+            model: study.model,
             sharing: study.sharing,
             own_moments: study.own_moments,
             by_wheel: ByWheel::ALIKE,
@@ -236,7 +236,7 @@ mod tests {
     fn legs_between_headings_are_interpolated() {
         let scenario = read_scenario(&Source::default_scenario(), &Overrides::none());
         let heading = HeadingStudy::of(&scenario.expect("a preset").value);
-        let sample = Sample { soil: heading.soil, theory: heading.theory };
+        let sample = Sample { soil: heading.soil, model: heading.model.clone() };
         let study = CardStudy {
             heading,
             rim_speed: 0.06,

@@ -5,18 +5,18 @@ use rayon::prelude::*;
 use super::model_discrepancy::with_discrepancy;
 use super::models::ModelSpread;
 use super::outputs_while;
-use crate::contact::Theory;
+use crate::contact::Model;
 use crate::soil::Soil;
 use grouser_io::statistics::NothingAccepted;
 use grouser_io::{LoadedScenario, LoadedSoil, UncertainSoil};
 
 /// One sample: a soil, and the wheel–soil model that is taken for right.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Sample {
     /// The soil.
     pub soil: Soil,
     /// The wheel–soil model.
-    pub theory: Theory,
+    pub model: Model,
 }
 
 /// What a band is drawn from.
@@ -27,7 +27,7 @@ pub struct BandInputs {
     /// The soils that it may be, if its document leaves any of that open.
     soils: Option<UncertainSoil>,
     /// The model that its values, and their discrepancy, were found with.
-    made_for: Option<Theory>,
+    made_for: Option<Model>,
     models: ModelSpread,
 }
 
@@ -35,13 +35,13 @@ impl BandInputs {
     /// The soil of a scenario, with the model that the scenario names, or else the spread of models.
     #[must_use]
     pub fn of_scenario(scenario: &LoadedScenario) -> Self {
-        let chosen = scenario.document.theory().map(|_| scenario.value.theory);
-        let made_for = scenario.document.theory_of_soil();
+        let chosen = scenario.document.model().map(|_| scenario.value.model.clone());
+        let made_for = scenario.document.model_of_soil();
         Self {
             soil: scenario.value.ground.soil,
             soils: scenario.uncertain.clone(),
+            models: spread(chosen, made_for.as_ref()),
             made_for,
-            models: spread(chosen, made_for),
         }
     }
 
@@ -49,9 +49,9 @@ impl BandInputs {
     ///
     /// * `chosen`: the model that is asked for by name
     #[must_use]
-    pub fn of_soil(soil: &LoadedSoil, chosen: Option<Theory>) -> Self {
-        let made_for = soil.document.theory();
-        let models = spread(chosen, made_for);
+    pub fn of_soil(soil: &LoadedSoil, chosen: Option<Model>) -> Self {
+        let made_for = soil.document.model();
+        let models = spread(chosen, made_for.as_ref());
         Self { soil: soil.value, soils: soil.uncertain.clone(), made_for, models }
     }
 
@@ -74,7 +74,7 @@ impl BandInputs {
     /// # Errors
     /// [`NothingAccepted`] if no soil can be drawn.
     pub fn sample(&self, seed: u64, index: u64) -> Result<Sample, NothingAccepted> {
-        self.crossed(self.models.theory(seed, index), seed, [index, index])
+        self.crossed(self.models.model(seed, index), seed, [index, index])
     }
 
     /// A model with the soil of one sample and what a model may get wrong in another, so that the two can be told
@@ -86,24 +86,24 @@ impl BandInputs {
     /// As [`sample`](Self::sample).
     pub fn crossed(
         &self,
-        theory: Theory,
+        model: Model,
         seed: u64,
         numbers: [u64; 2],
     ) -> Result<Sample, NothingAccepted> {
         let [number, discrepancy] = numbers;
         let soil = match &self.soils {
             Some(soils) => {
-                let drawn = self.as_known_to(theory, soils.draw(seed, number)?);
+                let drawn = self.as_known_to(&model, soils.draw(seed, number)?);
                 with_discrepancy(drawn, seed, discrepancy)
             }
             None => self.soil,
         };
-        Ok(Sample { soil, theory })
+        Ok(Sample { soil, model })
     }
 
     /// The soil as its document has it, without what a calibration found wrong with another model than this.
-    pub(in crate::studies) fn nominal(&self, theory: Theory) -> Soil {
-        self.as_known_to(theory, self.soil)
+    pub(in crate::studies) fn nominal(&self, model: &Model) -> Soil {
+        self.as_known_to(model, self.soil)
     }
 
     /// The soils that it may be, if its document leaves any of that open.
@@ -118,9 +118,9 @@ impl BandInputs {
     }
 
     /// A soil without what a calibration found wrong with another model than this.
-    pub(in crate::studies) fn as_known_to(&self, theory: Theory, soil: Soil) -> Soil {
-        match self.made_for {
-            Some(own) if own != theory => Soil { discrepancy: None, ..soil },
+    pub(in crate::studies) fn as_known_to(&self, model: &Model, soil: Soil) -> Soil {
+        match &self.made_for {
+            Some(own) if own != model => Soil { discrepancy: None, ..soil },
             _ => soil,
         }
     }
@@ -136,7 +136,7 @@ impl BandInputs {
     }
 }
 
-fn spread(chosen: Option<Theory>, made_for: Option<Theory>) -> ModelSpread {
+fn spread(chosen: Option<Model>, made_for: Option<&Model>) -> ModelSpread {
     chosen.map_or_else(|| ModelSpread::all(made_for), ModelSpread::one)
 }
 
@@ -163,7 +163,7 @@ pub(in crate::studies) fn outputs_of_places<T: Clone + Send>(
     // Where the soil is the same in all samples there is one result for each model: looking at the first sample
     // of a model is enough to find it.
     let source = |(place, sample): (usize, &Sample)| {
-        let first = samples.iter().position(|it| it.theory == sample.theory);
+        let first = samples.iter().position(|it| it.model == sample.model);
         first.filter(|first| samples[*first] == *sample).unwrap_or(place)
     };
     let sources: Vec<usize> = samples.iter().enumerate().map(source).collect();

@@ -98,11 +98,11 @@ impl Factor {
     pub(super) fn of_models(models: &ModelSpread) -> Self {
         let shares = models.shares();
         let least = shares.iter().map(|(_, share)| *share).fold(1.0, f64::min);
-        let level = |(theory, share): &(crate::contact::Theory, f64)| {
+        let level = |(model, share): &(crate::contact::Model, f64)| {
             // A share is a small multiple of the least one, and no negative number.
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
             let count = (share / least).round() as u32;
-            Level { name: theory.name().to_owned(), count }
+            Level { name: model.name().to_owned(), count }
         };
         Self { kind: FactorKind::Model, levels: shares.iter().map(level).collect() }
     }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::contact::Theory;
+use crate::contact::Model;
 use crate::elementary::wide::{cos, sin, tan};
 use crate::root;
 use crate::simulation::{NotSteady, SteadyMotion};
@@ -21,7 +21,7 @@ pub struct HeadingStudy {
     /// Gravity, *g* [m/s²].
     pub gravity: f64,
     /// The wheel–soil model.
-    pub theory: Theory,
+    pub model: Model,
     /// How the weight is transferred between the wheels.
     pub sharing: LoadSharing,
     /// Whether the wheels' own moments act on the rover.
@@ -128,7 +128,7 @@ impl HeadingStudy {
             rover: &self.rover,
             ground: plane,
             gravity: self.gravity,
-            model: self.theory.model(),
+            model: self.model.as_ref(),
             sharing: self.sharing,
             own_moments: self.own_moments,
             differences: Differences::NONE,

@@ -139,7 +139,7 @@ impl Learner {
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Advice>, NoAdvice> {
         settings.check()?;
-        let samples: Vec<Sample> = samples.iter().map(|it| it.sample).collect();
+        let samples: Vec<Sample> = samples.iter().map(|it| it.sample.clone()).collect();
         let mut slopes = Vec::new();
         for band in &band.slopes {
             let limits = &settings.limits;
@@ -199,10 +199,10 @@ impl Learner {
         places: &[f64],
     ) -> Result<Vec<Sample>, NothingAccepted> {
         let mut soil = SoilWay::new((&self.bank, &self.settings), ahead, (seed, index))?;
-        let mut soils = vec![*soil.sample()];
+        let mut soils = vec![soil.sample().clone()];
         for way in places {
             soil.advance(*way)?;
-            soils.push(*soil.sample());
+            soils.push(soil.sample().clone());
         }
         Ok(soils)
     }

@@ -5,7 +5,7 @@ use super::filter::{Filter, Taken};
 use super::motion::{NotUsed, SeenMotion};
 use super::settings::LearnSettings;
 use super::unknowns::{LearntSample, Unknowns};
-use crate::contact::Theory;
+use crate::contact::Model;
 use crate::elementary::exp;
 use crate::studies::ensemble::models::ModelSpread;
 use crate::studies::ensemble::samples::BandInputs;
@@ -39,7 +39,7 @@ impl Bank {
         let models = inputs.models().shares();
         let filters: Option<Vec<Filter>> = models
             .iter()
-            .map(|(theory, _)| Unknowns::of(*theory, inputs).map(Filter::new))
+            .map(|(model, _)| Unknowns::of(model.clone(), inputs).map(Filter::new))
             .collect();
         let shares = models.iter().map(|(_, share)| *share).collect();
         Some(Self { filters: filters?, shares, evidence: vec![0.0; models.len()] })
@@ -64,8 +64,8 @@ impl Bank {
             .iter()
             .zip(told)
             .map(|(before, told)| kept * before + (1.0 - kept) * told / sum);
-        let theories = self.filters.iter().map(|it| it.unknowns.theory());
-        ModelSpread::of_shares(theories.zip(shares).collect())
+        let models = self.filters.iter().map(|it| it.unknowns.model().clone());
+        ModelSpread::of_shares(models.zip(shares).collect())
     }
 
     /// The filter of the model with the greatest share.
@@ -143,7 +143,7 @@ impl Bank {
         seed: u64,
         index: u64,
     ) -> Result<LearntSample, NothingAccepted> {
-        self.sample_of(self.models(settings).theory(seed, index), seed, index)
+        self.sample_of(&self.models(settings).model(seed, index), seed, index)
     }
 
     /// The same under one model.
@@ -152,16 +152,16 @@ impl Bank {
     /// As [`sample`](Self::sample).
     pub(super) fn sample_of(
         &self,
-        theory: Theory,
+        model: &Model,
         seed: u64,
         index: u64,
     ) -> Result<LearntSample, NothingAccepted> {
-        self.of_model(theory).sample(seed, index)
+        self.of_model(model).sample(seed, index)
     }
 
     /// What one model believes.
-    pub(super) fn of_model(&self, theory: Theory) -> &Filter {
-        let of_model = self.filters.iter().find(|it| it.unknowns.theory() == theory);
+    pub(super) fn of_model(&self, model: &Model) -> &Filter {
+        let of_model = self.filters.iter().find(|it| it.unknowns.model() == model);
         of_model.unwrap_or(&self.filters[0])
     }
 

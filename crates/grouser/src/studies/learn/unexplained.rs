@@ -158,7 +158,7 @@ mod tests {
             ..Stretch::default()
         };
         let motion = SeenMotion::of(&stretch, &study.rover).unwrap();
-        let sample = Sample { soil: study.soil, theory: study.theory };
+        let sample = Sample { soil: study.soil, model: study.model.clone() };
         (study, motion, sample)
     }
 

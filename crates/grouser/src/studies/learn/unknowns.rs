@@ -1,6 +1,6 @@
 //! What driving may tell of a soil under one wheel–soil model, in coordinates that are standard normal beforehand.
 
-use crate::contact::Theory;
+use crate::contact::Model;
 use crate::soil::{Discrepancy, Soil};
 use crate::studies::ensemble::model_discrepancy::{DiscrepancyCoordinates, drawn};
 use crate::studies::ensemble::samples::{BandInputs, Sample};
@@ -10,7 +10,7 @@ use grouser_io::statistics::NothingAccepted;
 /// The coordinates: of the soil's numbers, and of what the model gets wrong in it.
 #[derive(Clone, Debug)]
 pub(super) struct Unknowns {
-    theory: Theory,
+    model: Model,
     inputs: BandInputs,
     soil: SoilCoordinates,
     /// Of what the model gets wrong, where the soil's samples do not bring it.
@@ -37,16 +37,16 @@ pub struct LearntSample {
 
 impl Unknowns {
     /// `None` of a soil that is known exactly.
-    pub(super) fn of(theory: Theory, inputs: &BandInputs) -> Option<Self> {
+    pub(super) fn of(model: Model, inputs: &BandInputs) -> Option<Self> {
         let soil = SoilCoordinates::of(inputs.soils()?);
-        let brings_own = inputs.nominal(theory).discrepancy.is_some();
+        let brings_own = inputs.nominal(&model).discrepancy.is_some();
         let discrepancy = (!brings_own).then(DiscrepancyCoordinates::new);
-        Some(Self { theory, inputs: inputs.clone(), soil, discrepancy })
+        Some(Self { model, inputs: inputs.clone(), soil, discrepancy })
     }
 
     /// The model.
-    pub(super) fn theory(&self) -> Theory {
-        self.theory
+    pub(super) fn model(&self) -> &Model {
+        &self.model
     }
 
     /// How many there are.
@@ -72,24 +72,24 @@ impl Unknowns {
     /// The sample at a place; `None` where there is no such soil.
     pub(super) fn sample(&self, coordinates: &[f64]) -> Option<Sample> {
         let (of_soil, of_model) = coordinates.split_at(self.soil.count());
-        let soil = self.inputs.as_known_to(self.theory, self.soil.soil(of_soil)?);
+        let soil = self.inputs.as_known_to(&self.model, self.soil.soil(of_soil)?);
         let discrepancy = self.discrepancy.as_ref();
         let moved = discrepancy.map(|it| it.moved(&Discrepancy::NONE, of_model));
         let soil = Soil { discrepancy: moved.or(soil.discrepancy), ..soil };
-        Some(Sample { soil, theory: self.theory })
+        Some(Sample { soil, model: self.model.clone() })
     }
 
     /// Sample number `index` of what is believed beforehand: that of [`BandInputs::sample`], for this model.
     pub(super) fn draw(&self, seed: u64, index: u64) -> Result<Draw, NothingAccepted> {
         let soil = self.soil.draw(seed, index)?;
         let mut coordinates = soil.coordinates.clone();
-        let mut drawn_soil = self.inputs.as_known_to(self.theory, soil.soil);
+        let mut drawn_soil = self.inputs.as_known_to(&self.model, soil.soil);
         if let Some(axes) = &self.discrepancy {
             let discrepancy = drawn(seed, index);
             coordinates.extend(axes.of(&discrepancy));
             drawn_soil.discrepancy = Some(discrepancy);
         }
-        let sample = Sample { soil: drawn_soil, theory: self.theory };
+        let sample = Sample { soil: drawn_soil, model: self.model.clone() };
         Ok(Draw { soil, sample, coordinates })
     }
 
@@ -98,12 +98,12 @@ impl Unknowns {
     pub(super) fn moved(&self, draw: &Draw, coordinates: &[f64]) -> Option<(Vec<f64>, Sample)> {
         let (of_soil, of_model) = coordinates.split_at(self.soil.count());
         let (values, moved) = self.soil.moved(&draw.soil, of_soil)?;
-        let mut soil = self.inputs.as_known_to(self.theory, moved);
+        let mut soil = self.inputs.as_known_to(&self.model, moved);
         if let (Some(axes), Some(own)) = (&self.discrepancy, draw.sample.soil.discrepancy) {
             let before = &draw.coordinates[self.soil.count()..];
             let step: Vec<f64> = of_model.iter().zip(before).map(|(to, from)| to - from).collect();
             soil.discrepancy = Some(axes.moved(&own, &step));
         }
-        Some((values, Sample { soil, theory: self.theory }))
+        Some((values, Sample { soil, model: self.model.clone() }))
     }
 }

@@ -44,7 +44,7 @@ impl Thresholds {
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Self>, ParameterError> {
         let Judged { heading, rule, is_uncertainty_stated } = *judged;
-        let nominal = [Sample { soil: heading.soil, theory: heading.theory }];
+        let nominal = [Sample { soil: heading.soil, model: heading.model.clone() }];
         let samples = if samples.is_empty() { &nominal } else { samples };
         let one = |sample: &Sample| {
             let most = rule.go_slip_ratio.max(rule.no_go_slip_ratio);

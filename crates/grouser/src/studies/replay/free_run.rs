@@ -118,7 +118,7 @@ impl Piece {
         numerics.sample_interval = duration;
         Scenario {
             ground: Ground::plane(sample.soil, slope),
-            theory: sample.theory,
+            model: sample.model.clone(),
             yaw: None,
             by_wheel: ByWheel::ALIKE,
             scatter: Scatter::NONE,

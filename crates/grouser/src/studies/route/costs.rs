@@ -301,7 +301,8 @@ impl Risk {
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Self>, ParameterError> {
         let mobility = &study.mobility;
-        let nominal = [Sample { soil: mobility.heading.soil, theory: mobility.heading.theory }];
+        let nominal =
+            [Sample { soil: mobility.heading.soil, model: mobility.heading.model.clone() }];
         let samples = if samples.is_empty() { &nominal } else { samples };
         let stuck = STUCK_WAY / mobility.rim_speed;
         let mut times = Vec::new();

@@ -154,7 +154,7 @@ impl TorqueTable {
                 let slip = Slip::on_test_stand(*slip, angle);
                 let wheel = self.wheels[kind];
                 let contact = Contact { wheel, soil, slip, gravity: self.gravity };
-                let settled = settle(sample.theory.model(), &contact, load);
+                let settled = settle(sample.model.as_ref(), &contact, load);
                 settled.map_or(f64::NAN, |settled| settled.forces.torque / load)
             };
             self.slips.iter().map(torque).collect()

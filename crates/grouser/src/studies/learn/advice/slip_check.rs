@@ -218,7 +218,7 @@ impl SlipWay {
             let mut samples = Vec::new();
             for _ in 0..count {
                 soil.advance((1.0 - first).max(0.0) * STEP)?;
-                samples.push(*soil.sample());
+                samples.push(soil.sample().clone());
             }
             let last = slip(&samples[count - 1]);
             if is_calm(first, last) {

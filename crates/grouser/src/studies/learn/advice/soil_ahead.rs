@@ -52,7 +52,7 @@ impl<'a> SoilWay<'a> {
         ahead: SoilAhead,
         (seed, index): (u64, u64),
     ) -> Result<Self, NothingAccepted> {
-        let filter = bank.of_model(bank.models(settings).theory(seed, index));
+        let filter = bank.of_model(&bank.models(settings).model(seed, index));
         let unknowns = &filter.unknowns;
         let draw = unknowns.draw(seed, index)?;
         let coordinates = filter.place(&draw).as_slice().to_vec();
