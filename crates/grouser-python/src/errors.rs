@@ -246,7 +246,8 @@ pub(crate) fn of_calibration(error: &CalibrationError) -> PyErr {
             let message = format!("cross_validate: {message}");
             parameter(message, "cross_validate", None, "trials at several slip angles")
         }
-        CalibrationError::BadObservation { .. }
+        CalibrationError::OwnModel
+        | CalibrationError::BadObservation { .. }
         | CalibrationError::NoStart { .. }
         | CalibrationError::Interrupted
         | CalibrationError::ForeignState { .. } => classes::CalibrationError::new_err(message),

@@ -679,7 +679,7 @@ fn coverage_of_left_out_cells(model: &Model, seeds: std::ops::Range<u64>) -> [Co
     const SLIP_ANGLES: [f64; 5] = [0.0, 10.0, 20.0, 30.0, 45.0];
     let soil = sand(&TRUTH).expect("a sand");
     let one_repeat = |seed: u64| {
-        let tests = wheel_tests_by(&model, &soil, &SLIP_ANGLES, 2000 + seed, 1.0);
+        let tests = wheel_tests_by(model, &soil, &SLIP_ANGLES, 2000 + seed, 1.0);
         let settings = FitSettings { starts: 2, tried: 8, ..FitSettings::default() };
         let sampler = SamplerSettings {
             seed,

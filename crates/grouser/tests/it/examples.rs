@@ -1,6 +1,8 @@
 //! The programs in `examples/` run, and answer their questions.
 
 use grouser::simulation::Outcome;
+use grouser::studies::heading::HeadingStudy;
+use grouser::units::deg;
 
 #[path = "../../examples/closed_loop.rs"]
 mod closed_loop;
@@ -8,6 +10,8 @@ mod closed_loop;
 mod heading_on_a_slope;
 #[path = "../../examples/own_ground.rs"]
 mod own_ground;
+#[path = "../../examples/own_model.rs"]
+pub(super) mod own_model;
 #[path = "../../examples/own_rover.rs"]
 pub(super) mod own_rover;
 #[path = "../../examples/uncertain_soil.rs"]
@@ -53,6 +57,26 @@ fn a_rover_drives_along_the_contour_of_ground_of_your_own() {
         assert!(off.abs() < 0.1, "{off} m off the contour at {} s", record.time);
     }
     assert!(report.trajectory.last().place().y > 2.8, "{}", report.trajectory.last().place());
+}
+
+/// The closed form is that of the steady motion on the contour; on gentle slopes the drive from rest keeps to it.
+#[test]
+fn a_model_of_your_own_has_the_heading_of_its_closed_form() {
+    own_model::main().expect("it runs");
+    let scenario = own_model::scenario().expect("the preset is read");
+    let curve = HeadingStudy::of(&scenario).curve().expect("it can be computed");
+    for slope_deg in [1.0, 5.0, 10.0, 15.0, 20.0] {
+        let heading = curve.at(deg(slope_deg)).expect("the contour is held");
+        let by_hand = own_model::closed_form(deg(slope_deg));
+        assert!(
+            (heading.yaw - by_hand).abs() < 1e-7,
+            "{slope_deg}°: {} for {by_hand}",
+            heading.yaw
+        );
+    }
+    let end = own_model::traverse(&scenario, 5.0, own_model::closed_form(deg(5.0)));
+    let end = end.expect("it runs").last().state.position;
+    assert!(end.x > 0.9 && end.y.abs() < 1e-3, "{end}");
 }
 
 /// A larger steering angle gives a smaller circle. Without slip it would be that of a bicycle whose rear axle is half-way

@@ -247,7 +247,7 @@ fn a_parked_rover_on_sand_slides_at_about_the_friction_angle() {
     assert!(places.len() > 20);
     let found: Vec<f64> = places
         .par_iter()
-        .map(|((_, soil, model), yaw)| steepest_to_park_on(*soil, &model, *yaw).to_degrees())
+        .map(|((_, soil, model), yaw)| steepest_to_park_on(*soil, model, *yaw).to_degrees())
         .collect();
     for (((name, soil, _), yaw), found) in places.iter().zip(found) {
         let phi = soil.friction_angle.to_degrees();

@@ -38,6 +38,7 @@ mod motor_presets;
 mod motors;
 mod mounts;
 mod outcomes;
+mod own_model;
 mod paper;
 mod path_run;
 mod priors;

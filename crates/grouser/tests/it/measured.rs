@@ -24,7 +24,7 @@ fn rows() -> measurements::Source {
 }
 
 /// The trials of a wheel at slip angles up to 75°: 90° is another regime.
-fn trials(kind: &str) -> Measurements {
+pub(super) fn trials(kind: &str) -> Measurements {
     let conditions = vec![Condition::parse("slip_angle_deg!=90").expect("a condition")];
     let choice = Choice { conditions, wheel: Some(format!("cmu-{kind}")), ..Choice::default() };
     rows().read(&choice).unwrap_or_else(|error| panic!("{error}"))

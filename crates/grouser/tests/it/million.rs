@@ -222,7 +222,7 @@ pub(crate) fn numbers_of(forces: &WheelForces) -> [f64; 14] {
 /// That a wheel either carries its load with finite forces, or is said to sink to its axle where
 /// no depth is known that carries it.
 fn check_case(model: &Model, case: u64, tally: &mut Tally) {
-    let Case { contact, load, carried } = any_case(&model, case);
+    let Case { contact, load, carried } = any_case(model, case);
     match settle(model.as_ref(), &contact, load) {
         Ok(settled) => {
             let forces = &settled.forces;

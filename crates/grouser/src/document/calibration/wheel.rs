@@ -87,9 +87,12 @@ impl WheelProblem<'_> {
     /// Calibrates.
     ///
     /// # Errors
-    /// [`CalibrationError`] for measurements and keys that do not go together, and if the observer
-    /// stopped it.
+    /// [`CalibrationError`] for measurements and keys that do not go together, for a model of your own, and if
+    /// the observer stopped it.
     pub fn solve(&self, observer: &dyn Observer) -> Result<WheelFound, CalibrationError> {
+        if matches!(self.model, Model::Own(_)) {
+            return Err(CalibrationError::OwnModel);
+        }
         let family = self.family;
         let soil_of = |values: &[f64]| -> Result<Soil, ParameterError> { family.soil(values) };
         let calibration = WheelCalibration {

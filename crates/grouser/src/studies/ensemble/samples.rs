@@ -32,10 +32,14 @@ pub struct BandInputs {
 }
 
 impl BandInputs {
-    /// The soil of a scenario, with the model that the scenario names, or else the spread of models.
+    /// The soil of a scenario, with the model that the scenario names, or that is your own, or else the spread of
+    /// models.
     #[must_use]
     pub fn of_scenario(scenario: &LoadedScenario) -> Self {
-        let chosen = scenario.document.model().map(|_| scenario.value.model.clone());
+        let model = &scenario.value.model;
+        // No document names a model of your own, so that its scenario is the only one to ask for it.
+        let is_asked_for = scenario.document.model().is_some() || matches!(model, Model::Own(_));
+        let chosen = is_asked_for.then(|| model.clone());
         let made_for = scenario.document.model_of_soil();
         Self {
             soil: scenario.value.ground.soil,
