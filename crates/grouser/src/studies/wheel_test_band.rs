@@ -80,7 +80,7 @@ impl WheelTest {
     ///     wheel: scenario.value.rover.mounts()[0].unit.wheel,
     ///     soil: scenario.value.ground.soil,
     ///     gravity: scenario.value.gravity,
-    ///     model: scenario.value.model,
+    ///     model: scenario.value.model.clone(),
     ///     loads: vec![17.0],
     ///     slip_angles: vec![0.0],
     ///     slip_ratios: vec![0.4],
