@@ -4,11 +4,15 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use grouser::document::{self, Kind, Overrides, Source};
 use grouser::mission::{Heading, Manoeuvre, Mission, MissionReport, MissionRun};
+use grouser::simulation::equations::Equations;
 use grouser::simulation::{Approach, Outcome, OutcomeKind, Run, Scenario, Trajectory};
 use grouser::terrain::surface::{Cone, Crater, Incline, Surface};
 use grouser::terrain::{Ground, Shape};
 use grouser::units::{Vec2, deg};
+use grouser::vehicle::RoverState;
 use rayon::prelude::*;
+
+use crate::million::Draw;
 
 /// Directions by which everything is turned [°]: two squarely, one obliquely, and one nearly not.
 const FEW: [f64; 4] = [90.0, 180.0, 217.0, -0.5];
@@ -106,6 +110,11 @@ fn scenarios() -> Vec<(String, Scenario)> {
     all
 }
 
+/// The same for so long at most [s].
+fn for_at_most(longest: f64, scenario: Scenario) -> Scenario {
+    Scenario { duration: scenario.duration.min(longest), ..scenario }
+}
+
 /// Relative to the way: what rounding leaves of dynamic runs, whose steps are chosen by estimates of their error and kept to
 /// a tolerance of 1e-6.
 const DYNAMIC: f64 = 1e-6;
@@ -114,8 +123,10 @@ const MISSION: f64 = 3e-6;
 /// The same of a mission with turns on the spot, which begin and end their shifts by thresholds: a millimetre in a metre.
 const WITH_TURNS: f64 = 1e-3;
 
-fn check_scenarios(angles: &[f64]) {
+/// * `longest`: so long the runs are at most [s]
+fn check_scenarios(angles: &[f64], longest: f64) {
     let off = scenarios().into_par_iter().filter_map(|(name, scenario)| {
+        let scenario = for_at_most(longest, scenario);
         let base = turned_scenario(&scenario, 0.0);
         let one = Run::new(&base).and_then(Run::to_end);
         let off = angles.iter().filter_map(|angle| {
@@ -186,7 +197,7 @@ fn check_missions(angles: &[f64]) {
 /// Scenarios on planes, on a hill and in a bowl, and on slopes on which rovers slide and tip over.
 #[test]
 fn turned_scenarios_give_turned_runs() {
-    check_scenarios(&FEW);
+    check_scenarios(&FEW, 6.0);
 }
 
 #[test]
@@ -195,10 +206,77 @@ fn turned_missions_give_turned_drives() {
 }
 
 #[test]
-#[ignore = "a minute"]
+#[ignore = "minutes"]
 fn scenarios_and_missions_turned_in_sixteen_directions_give_turned_runs() {
-    check_scenarios(&sixteen());
+    check_scenarios(&sixteen(), f64::INFINITY);
     check_missions(&sixteen());
+}
+
+/// Twenty random rovers on random soils on a plane, in a crater and on a cone, in random motion.
+fn random_states() -> Vec<(Scenario, RoverState, Vec<f64>)> {
+    let names = |kind| document::presets(kind).map(|it| it.name).collect::<Vec<_>>();
+    let (rovers, soils) = (names(Kind::Rover), names(Kind::Soil));
+    let one = |case: u64| {
+        let mut draw = Draw::of_case(case);
+        let mut among = |all: &[&str]| all[draw.between(0.0, all.len() as f64) as usize].to_owned();
+        let keys = [
+            format!("scenario.rover={}", among(&rovers)),
+            format!("scenario.soil={}", among(&soils)),
+            "scenario.load_transfer=quasi-static".to_owned(),
+        ];
+        let keys = Overrides::parse(keys.iter().map(String::as_str)).expect("keys");
+        let read = document::read_scenario(&Source::default_scenario(), &keys);
+        let mut scenario = read.expect("presets").value;
+        let soil = scenario.ground.soil;
+        let mut within = |low: f64, high: f64| draw.between(low, high);
+        let (slope, place) =
+            (deg(within(2.0, 15.0)), Vec2::new(within(-3.0, 3.0), within(2.0, 5.0)));
+        scenario.ground = match case % 3 {
+            0 => Ground::plane(soil, slope),
+            1 => Ground::formula(soil, Surface::Crater(Crater::fresh(place, 12.0))),
+            _ => Ground::formula(soil, Surface::Cone(Cone { tip: place, slope, rounding: 0.5 })),
+        };
+        let state = RoverState {
+            position: Vec2::new(within(-0.5, 0.5), within(-0.5, 0.5)),
+            yaw: within(-3.0, 3.0),
+            velocity: Vec2::new(within(0.02, 0.06), within(-0.02, 0.02)),
+            yaw_rate: within(-0.05, 0.05),
+        };
+        let rims = scenario.rover.mounts().iter().map(|_| within(0.02, 0.08)).collect();
+        (scenario, state, rims)
+    };
+    (0..20).map(one).collect()
+}
+
+/// What the motion of a run is made of, where no solver's tolerance stands between: rates turn with the ground.
+#[test]
+fn rates_turn_with_the_ground() {
+    let mut compared = 0;
+    for (scenario, state, rims) in random_states() {
+        let rates = |angle: f64| {
+            let turned_state = RoverState {
+                position: turned(state.position, angle),
+                yaw: state.yaw + angle,
+                ..state
+            };
+            let scenario = turned_scenario(&scenario, angle);
+            Equations::of(&scenario, &rims).rates(&turned_state)
+        };
+        let Ok(one) = rates(0.0) else { continue };
+        let size = one.acceleration.velocity_rate.norm().max(1.0);
+        for angle in sixteen().into_iter().map(deg) {
+            let other = rates(angle).expect("as it is not turned");
+            let velocity = turned(one.velocity_slope, angle) - other.velocity_slope;
+            let acceleration = one.acceleration.velocity_rate - other.acceleration.velocity_rate;
+            let yaw = one.acceleration.yaw_acceleration - other.acceleration.yaw_acceleration;
+            let power = (one.motor_power - other.motor_power).abs()
+                + (one.soil_power - other.soil_power).abs();
+            let off = [velocity.norm(), acceleration.norm(), yaw.abs(), power];
+            assert!(off.iter().all(|it| *it < 1e-9 * size), "{angle}: {off:?}, {state:?}");
+        }
+        compared += 1;
+    }
+    assert!(compared >= 15, "{compared}");
 }
 
 /// On 45° a rover slides and on 60° its weight falls outside its wheels, on a plane as on the same plane by heights, whichever
