@@ -21,6 +21,8 @@ pub(crate) struct Bands {
     pub(crate) asked: Vec<SlopeBand>,
     /// Of the steepest slope: one row.
     pub(crate) limit: Table,
+    /// Samples whose steepest slope was not found.
+    not_found: usize,
     /// On the slopes of the charts, from level ground up; empty without charts.
     along: Table,
 }
@@ -59,6 +61,7 @@ pub(crate) fn bands(
     Ok(Bands {
         asked: asked.to_vec(),
         limit: heading::band_limit(&band),
+        not_found: band.not_found,
         along: heading::bands(along),
     })
 }
@@ -86,7 +89,13 @@ impl Bands {
             0 => String::new(),
             stuck => format!("; in {stuck} of them the rover cannot move at all"),
         };
-        format!("over {draws} samples: {low}° to {high}° (95 %), median {median}°{stuck}\n")
+        let not_found = match self.not_found {
+            0 => String::new(),
+            some => format!("; the search gave up in {some} more, which count as nothing"),
+        };
+        format!(
+            "over {draws} samples: {low}° to {high}° (95 %), median {median}°{stuck}{not_found}\n"
+        )
     }
 
     fn draws(&self) -> u64 {

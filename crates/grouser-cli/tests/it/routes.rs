@@ -85,6 +85,15 @@ fn a_line_over_a_ridge_is_not_safe_and_is_told_where() {
     assert!(answer["energy_j"].is_null() && answer["simulated"].is_null());
     assert!(place.read("out/report.html").contains("no heading holds the course"));
     assert_eq!(place.read("out/route.geojson").matches("LineString").count(), 0);
+    // There and back, a metre beside it: two stretches, and what lies between them is safe.
+    let line = json!({
+        "type": "LineString",
+        "coordinates": [[7002, -298], [7010.5, -298], [7010.5, -297], [7002, -297]],
+    });
+    place.write("line.geojson", line.to_string());
+    let answer = place.json("route ridge.xyz --along line.geojson --samples 2 --out twice");
+    let reason = answer["reason"].as_str().expect("a reason");
+    assert!(reason.contains("more stretch"), "{reason}");
 }
 
 /// A square of GeoJSON, as a start and a size [m].

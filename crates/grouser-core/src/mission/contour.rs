@@ -6,6 +6,7 @@ use super::angles::{near_enough, turned};
 use super::plan::Leg;
 use crate::elementary::wide;
 use crate::simulation::Scenario;
+use crate::terrain::Lie;
 use crate::units::Vec2;
 use crate::vehicle::RoverState;
 
@@ -36,8 +37,8 @@ pub(super) struct Contour {
 }
 
 impl Contour {
-    /// That of a leg that begins here: the way that is nearer to the nose, backward to the tail. None on level ground, and on
-    /// a plane, whose contours are straight lines.
+    /// The contour of a leg that begins here, followed the way that is nearer to the nose, backward to the tail. None on level
+    /// ground, and on a plane, whose contours are straight lines.
     pub(super) fn of_leg(leg: &Leg, scenario: &Scenario, state: &RoverState) -> Option<Self> {
         if scenario.ground.is_plane() {
             return None;
@@ -52,12 +53,14 @@ impl Contour {
         Some(Self { height, side, start_yaw, direction, turned: 0.0 })
     }
 
-    /// Sees how far the contour has turned to where the rover is.
-    pub(super) fn look(&mut self, scenario: &Scenario, state: &RoverState) {
-        if let Some(direction) = scenario.ground_under(state).0.contour() {
+    /// Sees how far the contour has turned to where the rover is; how far it lies to the rover's left [m].
+    pub(super) fn look(&mut self, scenario: &Scenario, state: &RoverState) -> f64 {
+        let (lie, height) = scenario.ground_under(state);
+        if let Some(direction) = lie.contour() {
             self.turned += turned(direction - self.direction);
             self.direction = direction;
         }
+        self.left(&lie, height)
     }
 
     /// The yaw of a rover that turns with the contour [rad].
@@ -68,6 +71,11 @@ impl Contour {
     /// How far it lies to the left of a rover that follows it [m].
     pub(super) fn left_of(&self, scenario: &Scenario, state: &RoverState) -> f64 {
         let (lie, height) = scenario.ground_under(state);
+        self.left(&lie, height)
+    }
+
+    /// * `height`: of the ground under the rover [m]
+    fn left(&self, lie: &Lie, height: f64) -> f64 {
         self.side * (self.height - height) / lie.steepness().max(LEAST_STEEPNESS)
     }
 

@@ -282,9 +282,9 @@ impl Pilot {
                 (line.yaw + self.towards(line.left_of(state.position)), 0.0)
             }
             Law::FollowContour(contour) => {
-                contour.look(scenario, state);
-                let contour = *contour;
-                (contour.yaw() + self.towards(contour.left_of(scenario, state)), 0.0)
+                let left = contour.look(scenario, state);
+                let yaw = contour.yaw();
+                (yaw + self.towards(left), 0.0)
             }
             Law::Circle { yaw, radius, angle, .. } => {
                 // Beyond its own way, an arc goes on to its yaw.

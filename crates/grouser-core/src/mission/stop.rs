@@ -164,7 +164,7 @@ rows! {
         Reactive, Ways, needs_wheels: false,
         "Slip ratio over a way: 1 less what the ground saw of the rims' way."
     }
-    Drift { Reactive, Ways, needs_wheels: false, "Way straight down the slope over a way." }
+    Drift { Reactive, Ways, needs_wheels: false, "Way down the ground under the rover over a way." }
     Sinkage {
         Reactive, Everywhere, needs_wheels: true,
         "Largest sinkage of a wheel over its shearing radius."

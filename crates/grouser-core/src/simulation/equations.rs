@@ -621,7 +621,7 @@ impl<'a> Equations<'a> {
         self.failure.borrow_mut().take()
     }
 
-    /// That as much may be computed from here on as between two looks of the watch: beyond it every attempt fails.
+    /// Allows from here on what a run may compute between two looks of the watch: beyond it every attempt fails.
     pub(super) fn renew_allowance(&self) {
         self.allowance.renew(self.work());
     }

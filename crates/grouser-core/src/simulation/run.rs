@@ -129,7 +129,7 @@ impl Run {
         self.led_to_end(Due::Samples)
     }
 
-    /// As [`to_end`](Self::to_end), of a run that is kept: where it cannot be computed to its end, the
+    /// Leads the run to its end and keeps it: where it cannot be computed to its end, the
     /// [records](Self::records) until there are known.
     ///
     /// # Errors
