@@ -93,7 +93,7 @@ fn a_line_over_a_ridge_is_not_safe_and_is_told_where() {
     place.write("line.geojson", line.to_string());
     let answer = place.json("route ridge.xyz --along line.geojson --samples 2 --out twice");
     let reason = answer["reason"].as_str().expect("a reason");
-    assert!(reason.contains("more stretch"), "{reason}");
+    assert!(reason.contains("another stretch is not safe"), "{reason}");
 }
 
 /// A square of GeoJSON, as a start and a size [m].

@@ -4,7 +4,7 @@
 //! rims. And how far it came since the last fix of visual odometry, one of which it takes whenever the rims have gone so
 //! far. Between two fixes it reckons on: that a metre of its rims brings it as far along and across its nose as before.
 //!
-//! A fix over a way *d* errs by *q d* along each axis, and is turned by the error of the heading, *σ_γ*. Errors of fixes
+//! A fix over a way *d* errs by *q d* along it and as much across it, and is turned by the error of the heading, *σ_γ*. Errors of fixes
 //! add up and nothing takes them back, so that after a way *L* the place is uncertain across it by
 //!
 //! ```text
@@ -32,7 +32,7 @@ pub struct Sensors {
     pub heading_interval: f64,
     /// How old a heading is when it is known [s].
     pub heading_delay: f64,
-    /// Standard deviation of a fix along each axis, over the way since the last one, *q* [-].
+    /// Standard deviation of a fix along the way since the last one, and across it, over that way, *q* [-].
     pub odometry_deviation: f64,
     /// Way of the rims between two fixes [m].
     pub odometry_interval: f64,
@@ -228,8 +228,9 @@ impl Sensed {
     fn take_fix(&mut self, time: f64, truth: Vec2, yaw: f64) {
         let way = truth - self.fix.truth;
         let turned = rotation(self.sensors.heading_deviation * self.random.normal());
-        let noise = Vec2::new(self.random.normal(), self.random.normal());
-        let measured = turned * way + self.sensors.odometry_deviation * way.norm() * noise;
+        // Along the way and to its left, so that a turned drive has the turned errors.
+        let noise = self.random.normal() * way + self.random.normal() * Vec2::new(-way.y, way.x);
+        let measured = turned * way + self.sensors.odometry_deviation * noise;
         self.ground += measured.norm();
         if self.forward.abs() > SAYS_NOTHING {
             self.per_rim = rotation(yaw).transpose() * measured / self.forward;

@@ -123,7 +123,7 @@ static SENSORS: Table<Sensors> = Table {
             "odometry_std",
             ONE,
             0.0..=1.0,
-            "Standard deviation of a fix of visual odometry along each axis, over the way since the last one",
+            "Standard deviation of a fix of visual odometry along the way since the last one and across it, over that way",
             |it: &mut Sensors| Some(&mut it.odometry_deviation),
         )
         .or(0.02),

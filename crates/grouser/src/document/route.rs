@@ -135,6 +135,7 @@ impl RouteRecord {
             found.hazards.iter().map(|hazard| HazardRecord::of(hazard, limits)).collect();
         let reason = hazards.first().map(|first| match hazards.len() {
             1 => first.sentence.clone(),
+            2 => format!("{}; another stretch is not safe", first.sentence),
             count => format!("{}; {} more stretches are not safe", first.sentence, count - 1),
         });
         Self {

@@ -53,8 +53,8 @@ fn a_rover_drives_along_the_contour_of_ground_of_your_own() {
     assert_eq!(report.trajectory.outcome, Outcome::Completed);
     for record in &report.trajectory.records {
         let off = record.place().norm() - 3.0;
-        // Until the heading offset that the slope asks for is learnt.
-        assert!(off.abs() < 0.1, "{off} m off the contour at {} s", record.time);
+        // Until the heading offset that the slope asks for is learnt: 7.6 cm of map, 1.5 cm of height.
+        assert!(off.abs() < 0.08, "{off} m off the contour at {} s", record.time);
     }
     assert!(report.trajectory.last().place().y > 2.8, "{}", report.trajectory.last().place());
 }

@@ -9,7 +9,7 @@ use grouser::simulation::{Approach, Outcome, OutcomeKind, Run, Scenario, Traject
 use grouser::terrain::surface::{Cone, Crater, Incline, Surface};
 use grouser::terrain::{Ground, Shape};
 use grouser::units::{Vec2, deg};
-use grouser::vehicle::RoverState;
+use grouser::vehicle::{DriveLaw, RoverState};
 use rayon::prelude::*;
 
 use crate::million::Draw;
@@ -124,8 +124,8 @@ const MISSION: f64 = 3e-6;
 const WITH_TURNS: f64 = 1e-3;
 
 /// * `longest`: so long the runs are at most [s]
-fn check_scenarios(angles: &[f64], longest: f64) {
-    let off = scenarios().into_par_iter().filter_map(|(name, scenario)| {
+fn check_scenarios(scenarios: Vec<(String, Scenario)>, angles: &[f64], longest: f64) {
+    let off = scenarios.into_par_iter().filter_map(|(name, scenario)| {
         let scenario = for_at_most(longest, scenario);
         let base = turned_scenario(&scenario, 0.0);
         let one = Run::new(&base).and_then(Run::to_end);
@@ -197,7 +197,7 @@ fn check_missions(angles: &[f64]) {
 /// Scenarios on planes, on a hill and in a bowl, and on slopes on which rovers slide and tip over.
 #[test]
 fn turned_scenarios_give_turned_runs() {
-    check_scenarios(&FEW, 6.0);
+    check_scenarios(scenarios(), &FEW, 6.0);
 }
 
 #[test]
@@ -208,7 +208,14 @@ fn turned_missions_give_turned_drives() {
 #[test]
 #[ignore = "minutes"]
 fn scenarios_and_missions_turned_in_sixteen_directions_give_turned_runs() {
-    check_scenarios(&sixteen(), f64::INFINITY);
+    check_scenarios(scenarios(), &sixteen(), f64::INFINITY);
+    let random =
+        random_states().into_iter().enumerate().map(|(case, (mut scenario, state, rims))| {
+            scenario.start.yaw = state.yaw;
+            scenario.drive = DriveLaw::Constant(rims[0]);
+            (format!("random {case}"), scenario)
+        });
+    check_scenarios(random.collect(), &sixteen(), 5.0);
     check_missions(&sixteen());
 }
 
