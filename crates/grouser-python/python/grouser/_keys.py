@@ -1172,7 +1172,7 @@ class MissionStopSlipRatio(TypedDict, total=False):
 
 
 class MissionStopDriftM(TypedDict, total=False):
-    """Way straight down the slope over a way."""
+    """Way down the ground under the rover over a way."""
 
     above: float
     """The rover stops above this [m]."""
@@ -1314,7 +1314,7 @@ class MissionStop(TypedDict, total=False):
     slip_ratio: MissionStopSlipRatio
     """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
     drift_m: MissionStopDriftM
-    """Way straight down the slope over a way."""
+    """Way down the ground under the rover over a way."""
     sinkage_ratio: MissionStopSinkageRatio
     """Largest sinkage of a wheel over its shearing radius."""
     roll_deg: MissionStopRollDeg
@@ -1350,8 +1350,8 @@ class MissionSensors(TypedDict, total=False):
     heading_delay_s: float
     """How old a heading is when it is known [s]."""
     odometry_std: float
-    """Standard deviation of a fix of visual odometry along each axis, over the way since the last
-    one [-]."""
+    """Standard deviation of a fix of visual odometry along the way since the last one and across
+    it, over that way [-]."""
     odometry_interval_m: float
     """Way of the rims between two fixes [m]."""
     seed: int
@@ -1407,7 +1407,7 @@ class MissionLegStop(TypedDict, total=False):
     slip_ratio: MissionStopSlipRatio
     """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
     drift_m: MissionStopDriftM
-    """Way straight down the slope over a way."""
+    """Way down the ground under the rover over a way."""
     sinkage_ratio: MissionStopSinkageRatio
     """Largest sinkage of a wheel over its shearing radius."""
     roll_deg: MissionStopRollDeg
