@@ -300,12 +300,10 @@ fn jumps(curve: &HeadingCurve) -> Vec<String> {
 /// So many curves of random rovers, soils, gravities and courses: where slip jumps, and on how many.
 fn check_continuity(count: u32) {
     let all = triples();
-    let step = |index: u32, by: f64| (f64::from(index) * by).fract();
     let found = (0..count).into_par_iter().filter(|index| {
-        // Steps of the golden ratio and of its square's inverse: evenly, and in no order.
-        let place = step(*index, 0.618_033_988_749_895) * all.len() as f64;
-        let course = -90.0 + 180.0 * step(*index, 0.754_877_666_246_693);
-        let (rover, soil, gravity) = all[place as usize];
+        // All in turn but in no order, on courses by steps of the golden ratio.
+        let (rover, soil, gravity) = all[*index as usize * 617 % all.len()];
+        let course = -90.0 + 180.0 * (f64::from(*index) * 0.618_033_988_749_895).fract();
         let found = jumps(&curve(rover, soil, gravity, course));
         if !found.is_empty() {
             println!("{rover} {soil} {gravity} {course:.1}: {found:?}");

@@ -84,7 +84,9 @@ fn bands_have_it_in_every_sample() {
         read_scenario(&Source::default_scenario(), &Overrides::none()).expect("the preset is read");
     loaded.value.model = Model::own(FRICTION);
     let mut samples = BandInputs::of_scenario(&loaded).samples(1, 5).expect("soils are drawn");
-    samples.iter_mut().for_each(|sample| sample.soil.discrepancy = None);
+    for sample in &mut samples {
+        sample.soil.discrepancy = None;
+    }
     assert!(samples.iter().all(|sample| sample.model == loaded.value.model));
     let slopes = [deg(5.0), deg(15.0)];
     let study = HeadingStudy::of(&loaded.value);

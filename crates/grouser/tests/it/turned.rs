@@ -225,7 +225,7 @@ fn random_states() -> Vec<(Scenario, RoverState, Vec<f64>)> {
     let (rovers, soils) = (names(Kind::Rover), names(Kind::Soil));
     let one = |case: u64| {
         let mut draw = Draw::of_case(case);
-        let mut among = |all: &[&str]| all[draw.between(0.0, all.len() as f64) as usize].to_owned();
+        let mut among = |all: &[&str]| draw.one_of(all).to_owned();
         let keys = [
             format!("scenario.rover={}", among(&rovers)),
             format!("scenario.soil={}", among(&soils)),

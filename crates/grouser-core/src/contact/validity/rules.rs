@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::super::model::Model;
+use super::super::models::Model;
 use super::situation::{DOUBTFUL_MODULUS, Flag, Rule, Situation};
 use crate::elementary::wide;
 use crate::soil::{PressureSinkage, ShearBound, SlopeStability, SmallWheel, Span};

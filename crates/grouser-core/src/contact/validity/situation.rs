@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use super::super::equilibrium::Settled;
-use super::super::model::Model;
+use super::super::models::Model;
 use super::super::slip::Slip;
 use crate::soil::{Domain, Soil, Span};
 use crate::wheel::Wheel;
