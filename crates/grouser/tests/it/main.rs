@@ -46,6 +46,7 @@ mod reference;
 mod reliability;
 mod replay;
 mod rft;
+mod rollouts;
 mod rover;
 mod runs;
 mod ruts;

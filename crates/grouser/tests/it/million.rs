@@ -49,7 +49,7 @@ impl Draw {
         self.bits().is_multiple_of(count)
     }
 
-    fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
+    pub(crate) fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
         let count = choices.len() as u64;
         let index = usize::try_from(self.bits() % count).expect("an index");
         choices[index]
