@@ -355,7 +355,7 @@ impl Sought<'_> {
     ) -> Result<(DVector<f64>, Vec<WheelReaction>), ReactionError> {
         let agreed = NEARLY * weight;
         let small = self.by_small_steps(guess.clone(), agreed);
-        if !matches!(small, Err(ReactionError::LoadsDoNotSettle)) {
+        if !matches!(small, Err(ReactionError::LoadsDoNotSettle { .. })) {
             return small;
         }
         let still = DVector::from_vec(self.balanced(&[])?);
@@ -457,6 +457,7 @@ impl Sought<'_> {
         const LONG: usize = 4;
         /// Over the weight [-].
         const LEAST: f64 = 0.05;
+        let mut last = DVector::zeros(loads.len());
         for step in 1..=MOST_STEPS {
             if loads.iter().filter(|load| **load > NEARLY * weight).count() < OF_BODY {
                 return Tipping.into();
@@ -468,9 +469,16 @@ impl Sought<'_> {
             let size = off.amax();
             let is_long = step % LONG == 0 && size > 0.0;
             let share = if is_long { SHARE.max(LEAST * weight / size) } else { SHARE };
-            loads -= share * off;
+            loads -= share * &off;
+            last = off;
         }
-        ReactionError::LoadsDoNotSettle
+        self.unsettled(&last)
+    }
+
+    /// * `off`: how far each load is from those that balance the rover [N]
+    fn unsettled(&self, off: &DVector<f64>) -> ReactionError {
+        let wheel = self.ground.rover.mounts()[off.iamax()].name.clone();
+        ReactionError::LoadsDoNotSettle { wheel, change: off.amax() / self.weight.norm() }
     }
 
     /// The same by steps that go a part of the way.
@@ -484,6 +492,7 @@ impl Sought<'_> {
         const MOST_STEPS: usize = 100;
         let mut share = 0.7;
         let mut before = f64::INFINITY;
+        let mut last = DVector::zeros(loads.len());
         for _ in 0..MOST_STEPS {
             let (off, wheels) = self.next(&loads)?;
             let size = off.amax();
@@ -494,9 +503,10 @@ impl Sought<'_> {
                 share = f64::max(0.7 * share, 0.05);
             }
             before = size;
-            loads -= share * off;
+            loads -= share * &off;
+            last = off;
         }
-        Err(ReactionError::LoadsDoNotSettle)
+        Err(self.unsettled(&last))
     }
 
     fn balanced(&self, forces: &[WheelForces]) -> Result<Vec<f64>, Tipping> {

@@ -11,6 +11,7 @@ mod differences;
 mod directions;
 mod discrepancy;
 mod documents;
+mod endless;
 mod examples;
 mod files;
 mod flown;

@@ -3,19 +3,19 @@
 //! Each case depends on its number alone, so that one that fails can be run again by itself. Scenarios are documents, as
 //! users write them.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use grouser::document::{Kind, Overrides, Source, presets, read_rover, read_scenario};
 use grouser::simulation::{Run, RunError, Scenario};
 use grouser::terrain::{Footprint, Ground, Patch, Terrain};
 use grouser::units::Vec2;
+use rayon::prelude::*;
 
 use super::million::Draw;
 
 /// The fastest rim [m/s].
 const FASTEST: f64 = 0.2;
-/// Time between two commands of a run whose wheels change their speeds [s].
-const PERIOD: f64 = 1.0;
 
 /// Ground by a sum of waves in random directions.
 struct Rough {
@@ -59,7 +59,7 @@ impl Terrain for Rough {
 }
 
 /// A random scenario, and the document of it.
-pub(crate) fn scenario(case: u64, draw: &mut Draw) -> (Scenario, String) {
+fn scenario(case: u64, draw: &mut Draw) -> (Scenario, String) {
     let is_own = draw.once_in(6);
     let text = document(draw, is_own);
     let source = Source::text("a random scenario", text.clone());
@@ -106,7 +106,7 @@ fn wheels_of(rover: &str) -> usize {
 }
 
 /// Speeds of the rims [m/s]: all forward, or each in any sense; once in four one stands.
-pub(crate) fn rim_speeds(draw: &mut Draw, count: usize) -> Vec<f64> {
+fn rim_speeds(draw: &mut Draw, count: usize) -> Vec<f64> {
     let slowest = if draw.once_in(3) { 0.0 } else { -FASTEST };
     let mut speeds: Vec<f64> = (0..count).map(|_| draw.between(slowest, FASTEST)).collect();
     if draw.once_in(4) {
@@ -146,73 +146,105 @@ fn surface(draw: &mut Draw) -> String {
 
 /// How a case ended.
 #[derive(Debug)]
-pub(crate) enum Ending {
+enum Ending {
     /// With an outcome, by its name.
     Outcome(&'static str),
     /// With its start refused by name.
     Refused(String),
     /// With an error.
     Failed(String),
+    /// It was not led further: the rest would take too long for a test.
+    LeftOff,
 }
 
-/// What became of a case, and what it took.
-pub(crate) struct Rollout {
-    pub(crate) ending: Ending,
-    pub(crate) evaluations: u64,
-    /// The document of its scenario.
-    pub(crate) text: String,
-}
-
-/// Leads a case to its end: by its own drive, or by new speeds of the wheels once in a while.
-pub(crate) fn rollout(case: u64) -> Rollout {
+/// Leads a case to its end: by its own drive, or by new speeds of the wheels once in a while; and its document.
+fn rollout(case: u64) -> (Ending, String) {
+    /// Evaluations of the motion after which a case is left off [-].
+    const MOST_EVALUATIONS: u64 = 5_000;
+    /// A case is looked at so often in a second.
+    const LOOKS: u32 = 10;
     let mut draw = Draw::of_case(case);
     let (scenario, text) = scenario(case, &mut draw);
     let mut run = match Run::new(&scenario) {
         Ok(run) => run,
-        Err(error) => {
-            let ending = match error {
-                RunError::Parameter(_) | RunError::HighCentred { .. } => {
-                    Ending::Refused(error.to_string())
-                }
-                error => Ending::Failed(format!("start: {error}")),
-            };
-            return Rollout { ending, evaluations: 0, text };
+        Err(
+            error @ (RunError::Parameter(_)
+            | RunError::HighCentred { .. }
+            | RunError::UnbalancedStart { .. }),
+        ) => return (Ending::Refused(error.to_string()), text),
+        Err(error) => return (Ending::Failed(format!("start: {error}")), text),
+    };
+    let keeps_speeds = draw.once_in(2);
+    let mut drive = scenario.drive.clone();
+    let mut speeds = Vec::new();
+    let looks = (scenario.duration * f64::from(LOOKS)).ceil() as u32;
+    for look in 0..looks {
+        if look % LOOKS == 0 {
+            speeds = rim_speeds(&mut draw, scenario.rover.wheel_count());
         }
-    };
-    let done = if draw.once_in(2) {
-        run.run_to_end()
-    } else {
-        let periods = (scenario.duration / PERIOD).ceil() as usize;
-        (0..periods).try_for_each(|_| {
-            run.step(&rim_speeds(&mut draw, scenario.rover.wheel_count()), PERIOD)
-        })
-    };
-    let ending = match done {
-        Ok(()) => Ending::Outcome(run.outcome().map_or("completed", |it| it.name())),
-        Err(error) => Ending::Failed(error.to_string()),
-    };
-    Rollout { ending, evaluations: run.state().work().evaluations, text }
+        let led = if keeps_speeds {
+            run.advance(&mut drive, f64::from(look + 1) / f64::from(LOOKS))
+        } else {
+            run.step(&speeds, 1.0 / f64::from(LOOKS))
+        };
+        if let Err(error) = led {
+            return (Ending::Failed(error.to_string()), text);
+        }
+        if let Some(outcome) = run.outcome() {
+            return (Ending::Outcome(outcome.name()), text);
+        }
+        if run.state().work().evaluations > MOST_EVALUATIONS {
+            return (Ending::LeftOff, text);
+        }
+    }
+    (Ending::Outcome("completed"), text)
 }
 
-fn check(cases: std::ops::Range<u64>) {
-    let failed: Vec<String> = cases
-        .filter_map(|case| match rollout(case) {
-            Rollout { ending: Ending::Failed(error), text, .. } => {
-                Some(format!("case {case}: {error}\n{text}"))
+/// How many cases had each ending, by its name. None fails.
+fn check(cases: impl IntoParallelIterator<Item = u64>) -> BTreeMap<&'static str, usize> {
+    let endings: Vec<(&str, Option<String>)> = cases
+        .into_par_iter()
+        .map(|case| match rollout(case) {
+            (Ending::Outcome(name), _) => (name, None),
+            (Ending::Refused(_), _) => ("refused", None),
+            (Ending::LeftOff, _) => ("left off", None),
+            (Ending::Failed(error), text) => {
+                ("failed", Some(format!("case {case}: {error}\n{text}")))
             }
-            _ => None,
         })
         .collect();
+    let failed: Vec<&str> = endings.iter().filter_map(|(_, failed)| failed.as_deref()).collect();
     assert!(failed.is_empty(), "{} failed:\n{}", failed.len(), failed.join("\n"));
+    let mut counts = BTreeMap::new();
+    for (name, _) in endings {
+        *counts.entry(name).or_default() += 1;
+    }
+    counts
 }
 
+/// Some of them, and those whose loads did not settle: two wheels lift at once over ripples and in a crater, and a rigid rover
+/// of six wheels that turn against each other.
 #[test]
 fn random_rollouts_end_with_an_outcome() {
-    check(0..40);
+    let cases: Vec<u64> = (0..24).chain([1380, 1681, 1705, 1774]).collect();
+    check(cases);
+}
+
+/// Wheels that turn against each other in cohesive soil pull and brake with more than the weight: no loads balance a rover on
+/// rockers then, and the start says so and which wheel it is.
+#[test]
+fn a_start_that_no_loads_balance_is_refused_by_name() {
+    let (Ending::Refused(message), text) = rollout(1681) else { panic!("it is not refused") };
+    assert!(text.contains("hakuto-rockers"), "{text}");
+    let expected = ["where the rover starts", "of rear-right most", "start from rest"];
+    assert!(expected.iter().all(|it| message.contains(it)), "{message}");
 }
 
 #[test]
 #[ignore = "minutes: all of them"]
 fn all_random_rollouts_end_with_an_outcome() {
-    check(0..1920);
+    let counts = check(0..1920_u64);
+    println!("{counts:?}");
+    let left_off = counts.get("left off").copied().unwrap_or_default();
+    assert!(left_off <= 100, "{counts:?}");
 }
