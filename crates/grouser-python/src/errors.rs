@@ -211,7 +211,9 @@ pub(crate) fn of_simulation(error: &RunError) -> PyErr {
         | RunError::Stalled { time, .. } => {
             classes::SimulationError::new_err((error.to_string(), *time))
         }
-        RunError::HighCentred { .. } => classes::SimulationError::new_err((error.to_string(), 0.0)),
+        RunError::HighCentred { .. } | RunError::UnbalancedStart { .. } => {
+            classes::SimulationError::new_err((error.to_string(), 0.0))
+        }
     }
 }
 

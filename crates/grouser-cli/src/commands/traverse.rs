@@ -15,7 +15,7 @@ use grouser_pictures::{Shown, title_of};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use self::of_model::{OfModel, chart, reason};
+use self::of_model::{OfModel, RECORDS, chart, reason};
 use super::animation::Target;
 use super::destinations::Destinations;
 use super::{Answer, sampling};
@@ -43,10 +43,10 @@ pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
             )));
         }
     }
-    let each = |setting| OfModel::of(args, &setting);
+    let Destinations { mut folder, animation, log, telemetry } = destinations;
+    let each = |setting| OfModel::of(args, &setting, &mut folder);
     let all: Vec<OfModel> =
         args.setting.each_model().into_iter().map(each).collect::<Result<_, _>>()?;
-    let Destinations { mut folder, animation, log, telemetry } = destinations;
     if let Some(target) = animation {
         animate(args, &target, &all, folder.as_mut())?;
     }
@@ -110,7 +110,7 @@ impl OfModel {
         let answer = Answer::new("traverse", settings, Results { run, bands });
         if let Some(mut folder) = folder {
             folder.add("traverse.json", answer.to_text());
-            folder.add("traverse.csv", rows.to_csv()?);
+            folder.add(RECORDS, rows.to_csv()?);
             let all = std::slice::from_ref(self);
             folder.add("traverse.svg", chart(all).to_svg());
             if let Some(drawing) = drawing_of_ground(&self.scenario.value, &self.run.records) {

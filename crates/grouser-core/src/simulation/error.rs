@@ -31,6 +31,16 @@ pub enum RunError {
         /// How far the underside is below the ground there [m].
         depth: f64,
     },
+    /// At its start no loads of the wheels balance the rover.
+    #[error(
+        "where the rover starts no wheel loads balance it: what wheels that turn so pull and brake takes the load from wheel \
+         to wheel, of {wheel} most; wheels that turn against each other are the usual reason: let it start from rest, or with \
+         other wheel speeds"
+    )]
+    UnbalancedStart {
+        /// Name of the wheel whose load moves most.
+        wheel: String,
+    },
     /// The motion takes more and more evaluations for less and less time.
     #[error(
         "the run cannot be computed beyond {time:.3} s, at x = {x:.3} m, y = {y:.3} m: {reason}; ground or wheel speeds \

@@ -303,6 +303,11 @@ fn outcome_of(time: f64, error: ReactionError) -> Result<Outcome, RunError> {
         ReactionError::OffTheMap { wheel, place } if time > 0.0 => {
             Ok(Outcome::OffTheMap { time, wheel, place })
         }
+        ReactionError::LoadsDoNotSettle { wheel, .. } | ReactionError::Unsettled { wheel, .. }
+            if time == 0.0 =>
+        {
+            Err(RunError::UnbalancedStart { wheel })
+        }
         source => Err(RunError::Reaction { time, source }),
     }
 }

@@ -71,13 +71,23 @@ pub enum ReactionError {
         source: SettleError,
     },
     /// Loads and reactions of wheels on uneven ground did not settle on each other.
-    #[error("no wheel loads were found that balance the rover with the soil's forces under them")]
-    LoadsDoNotSettle,
+    #[error(
+        "no wheel loads were found that balance the rover with the soil's forces under them: the last ones change that of \
+         wheel {wheel} most, by {change:.1e} of the weight"
+    )]
+    LoadsDoNotSettle {
+        /// Name of the wheel whose load changes most.
+        wheel: String,
+        /// The change over the weight [-].
+        change: f64,
+    },
     /// Loads and torques did not settle on each other.
     #[error(
-        "the wheel loads did not settle: after {rounds} rounds they still move by {change:.1e}"
+        "the wheel loads did not settle: after {rounds} rounds they still move by {change:.1e}, that of wheel {wheel} most"
     )]
     Unsettled {
+        /// Name of the wheel whose load moves most.
+        wheel: String,
         /// How often they were computed.
         rounds: u32,
         /// Change of the moments in the last round, over weight times track [-].

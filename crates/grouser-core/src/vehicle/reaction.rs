@@ -92,8 +92,24 @@ impl<'a> OnGround<'a> {
                 Err(_) => (next, self.settle_under(stance, next, contacts, &wheels)?),
             };
         }
-        let unsettled = ReactionError::Unsettled { rounds: MOST_ROUNDS, change };
-        self.settle_by_damped_steps(stance, contacts, scale, AGREED).ok_or(unsettled)
+        if let Some(settled) = self.settle_by_damped_steps(stance, contacts, scale, AGREED) {
+            return Ok(settled);
+        }
+        let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
+        let next = load::moments(rover, stance.pull, sharing, own_moments, &forces);
+        // Where the weight then falls outside the wheels, the heaviest one loses most.
+        let loads = load::wheel_loads(rover, sharing, stance.weight, next)
+            .unwrap_or_else(|_| vec![0.0; wheels.len()]);
+        let each = loads.iter().zip(&wheels).map(|(load, wheel)| (load - wheel.load).abs());
+        let (most, _) =
+            each.enumerate().fold(
+                (0, 0.0),
+                |most, (wheel, change)| {
+                    if change > most.1 { (wheel, change) } else { most }
+                },
+            );
+        let wheel = rover.mounts()[most].name.clone();
+        Err(ReactionError::Unsettled { wheel, rounds: MOST_ROUNDS, change })
     }
 
     /// The reaction on every wheel, the moments sought by Newton's steps, damped, where turns go round in circles.
@@ -118,9 +134,16 @@ impl<'a> OnGround<'a> {
             let off = moments - of(&wheels);
             Some((DVector::from_row_slice(off.as_slice()), wheels))
         };
-        let still = of(&[]);
-        let guess = DVector::from_row_slice(still.as_slice());
-        newton::damped_zero(miss, &guess, scale, agreed * scale).map(|(_, wheels)| wheels)
+        /// How far from the middle towards each wheel the weight is taken to act [-], where steps from the wheels that only
+        /// stand end in a corner.
+        const TOWARDS_WHEELS: [f64; 2] = [0.5, 0.9];
+        let towards = TOWARDS_WHEELS.iter().flat_map(|share| {
+            rover.load_arms().iter().map(move |arm| *share * stance.weight * *arm)
+        });
+        std::iter::once(of(&[])).chain(towards).find_map(|guess| {
+            let guess = DVector::from_row_slice(guess.as_slice());
+            newton::damped_zero(miss, &guess, scale, agreed * scale).map(|(_, wheels)| wheels)
+        })
     }
 
     /// As [`reactions`](Self::reactions), by what is known of a motion nearby; this one is known afterwards.

@@ -177,9 +177,14 @@ impl OnGround<'_> {
             // Where wheels lift, loads have corners, which Newton's steps do not find.
             None => sought.by_damped_steps(guess, weight)?,
         };
-        if loads.iter().any(|load| *load < -NEARLY * weight) {
-            return Err(Tipping.into());
-        }
+        let wheels = if loads.iter().any(|load| *load < -NEARLY * weight) {
+            // A rigid rover stands on the others, as on a plane.
+            let (_, wheels) = sought.on_others(&loads, weight).ok_or(Tipping)?;
+            near.inverse = None;
+            wheels
+        } else {
+            wheels
+        };
         near.wheels.clone_from(&wheels);
         Ok(wheels)
     }
@@ -286,6 +291,8 @@ pub(crate) struct NearbyStanding {
 const AGREED: f64 = 1e-13;
 /// This is enough where rounding lets steps become no shorter [-].
 const NEARLY: f64 = 1e-11;
+/// The lightest load of a wheel that a search begins with, over the weight [-].
+const LIGHT: f64 = 1e-4;
 
 /// Loads of wheels that stand, on their way to those that balance the rover.
 struct Sought<'a> {
@@ -337,7 +344,8 @@ impl Sought<'_> {
     }
 
     /// Loads that balance the rover and the wheels under them: by small steps, and where these go round in circles or away
-    /// by Newton's steps, damped, from the guess and from the loads of wheels that only stand.
+    /// with each of a rigid rover's wheels lifted, then by Newton's steps, damped; from the guess and from the loads of wheels
+    /// that only stand.
     ///
     /// * `weight`: m g [N]
     fn by_damped_steps(
@@ -347,14 +355,93 @@ impl Sought<'_> {
     ) -> Result<(DVector<f64>, Vec<WheelReaction>), ReactionError> {
         let agreed = NEARLY * weight;
         let small = self.by_small_steps(guess.clone(), agreed);
-        if !matches!(small, Err(ReactionError::LoadsDoNotSettle)) {
+        if !matches!(small, Err(ReactionError::LoadsDoNotSettle { .. })) {
             return small;
         }
         let still = DVector::from_vec(self.balanced(&[])?);
-        let found = [&guess, &still].into_iter().find_map(|guess| {
-            newton::damped_zero(|loads| self.next(loads).ok(), guess, weight, agreed)
+        let guesses = [&guess, &still];
+        let found = guesses.into_iter().find_map(|guess| self.on_others(guess, weight));
+        let found = found.or_else(|| {
+            guesses.into_iter().find_map(|guess| {
+                newton::damped_zero(|loads| self.next(loads).ok(), guess, weight, agreed)
+            })
         });
         found.ok_or_else(|| self.why_none(guess, weight))
+    }
+
+    /// Loads that balance a rigid rover with one of its wheels lifted, and the wheels under them; none where it stands on all of
+    /// them or tips, and none for a rover whose links load every wheel.
+    ///
+    /// Where one wheel lifts and another is about to, loads have a corner; and a wheel's forces grow without bound with the
+    /// first of its load, in cohesive soil like its root. With the lifted wheel given and roots of the loads sought, neither is
+    /// left: Newton's steps, damped, then find loads that turns and steps over all wheels do not.
+    ///
+    /// * `guess`: loads near which they are sought; its lightest wheel is lifted first [N]
+    /// * `weight`: m g [N]
+    fn on_others(
+        &self,
+        guess: &DVector<f64>,
+        weight: f64,
+    ) -> Option<(DVector<f64>, Vec<WheelReaction>)> {
+        let mut order: Vec<usize> = (0..guess.len()).collect();
+        order.sort_by(|one, other| guess[*one].total_cmp(&guess[*other]));
+        let warp = self.warp();
+        // What lifts a wheel of a warped rover is the warp: it lies where that takes load off.
+        let is_lifted = |wheel: &usize| warp.as_ref().is_none_or(|gaps| gaps[*wheel] > 0.0);
+        order.into_iter().filter(is_lifted).find_map(|lifted| {
+            let others = |wheel: &usize| *wheel != lifted;
+            let loads_of = |roots: &DVector<f64>| {
+                // Below zero a load is none of the forces' business.
+                let load = |root: f64| weight * if root > 0.0 { root * root } else { root };
+                roots.map(load).insert_row(lifted, 0.0)
+            };
+            let miss = |roots: &DVector<f64>| {
+                let loads = loads_of(roots);
+                let (next, wheels) = self.next_on_others(&loads, lifted, warp.as_ref())?;
+                let off = (&loads - &next).remove_row(lifted) / weight;
+                Some((off, (loads, next, wheels)))
+            };
+            let roots = (0..guess.len()).filter(others).map(|wheel| {
+                // Of a wheel without a load forces say nothing yet.
+                (guess[wheel] / weight).max(LIGHT).sqrt()
+            });
+            let roots = DVector::from_iterator(guess.len() - 1, roots);
+            let (_, (loads, next, wheels)) = newton::damped_zero(miss, &roots, 1.0, NEARLY)?;
+            let is_carried = loads.iter().all(|load| *load >= 0.0);
+            let stays = match &warp {
+                Some(_) => self.next(&loads).ok()?.0.amax() <= 2.0 * NEARLY * weight,
+                None => next[lifted] <= 0.0,
+            };
+            (is_carried && stays).then_some((loads, wheels))
+        })
+    }
+
+    /// The loads that balance the forces under loads [N] with a wheel lifted, and the wheels under them.
+    ///
+    /// * `warp`: the gaps of a rover on warped ground: then the lifted wheel's load is none; else what it would have
+    fn next_on_others(
+        &self,
+        loads: &DVector<f64>,
+        lifted: usize,
+        warp: Option<&DVector<f64>>,
+    ) -> Option<(DVector<f64>, Vec<WheelReaction>)> {
+        let Self { ground, posture, weight, .. } = self;
+        let wheels = ground.settle_standing(&self.met, loads.as_slice(), |_| None).ok()?;
+        let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
+        let next = match warp {
+            Some(gaps) => {
+                let balanced = DVector::from_vec(self.balanced(&forces).ok()?);
+                let along = -balanced[lifted] / gaps[lifted];
+                balanced + along * gaps
+            }
+            None => {
+                let balance = ground.balance();
+                let (rover, weight) = (ground.rover, *weight);
+                let loads = balance.loads_on_others(rover, posture, weight, &forces, lifted)?;
+                DVector::from_vec(loads)
+            }
+        };
+        Some((next, wheels))
     }
 
     /// Why no loads balance the rover: those that do not agree move load from wheel to wheel, and where that lifts all wheels
@@ -370,6 +457,7 @@ impl Sought<'_> {
         const LONG: usize = 4;
         /// Over the weight [-].
         const LEAST: f64 = 0.05;
+        let mut last = DVector::zeros(loads.len());
         for step in 1..=MOST_STEPS {
             if loads.iter().filter(|load| **load > NEARLY * weight).count() < OF_BODY {
                 return Tipping.into();
@@ -381,9 +469,16 @@ impl Sought<'_> {
             let size = off.amax();
             let is_long = step % LONG == 0 && size > 0.0;
             let share = if is_long { SHARE.max(LEAST * weight / size) } else { SHARE };
-            loads -= share * off;
+            loads -= share * &off;
+            last = off;
         }
-        ReactionError::LoadsDoNotSettle
+        self.unsettled(&last)
+    }
+
+    /// * `off`: how far each load is from those that balance the rover [N]
+    fn unsettled(&self, off: &DVector<f64>) -> ReactionError {
+        let wheel = self.ground.rover.mounts()[off.iamax()].name.clone();
+        ReactionError::LoadsDoNotSettle { wheel, change: off.amax() / self.weight.norm() }
     }
 
     /// The same by steps that go a part of the way.
@@ -397,6 +492,7 @@ impl Sought<'_> {
         const MOST_STEPS: usize = 100;
         let mut share = 0.7;
         let mut before = f64::INFINITY;
+        let mut last = DVector::zeros(loads.len());
         for _ in 0..MOST_STEPS {
             let (off, wheels) = self.next(&loads)?;
             let size = off.amax();
@@ -407,9 +503,10 @@ impl Sought<'_> {
                 share = f64::max(0.7 * share, 0.05);
             }
             before = size;
-            loads -= share * off;
+            loads -= share * &off;
+            last = off;
         }
-        Err(ReactionError::LoadsDoNotSettle)
+        Err(self.unsettled(&last))
     }
 
     fn balanced(&self, forces: &[WheelForces]) -> Result<Vec<f64>, Tipping> {

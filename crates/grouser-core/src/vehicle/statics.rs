@@ -74,11 +74,49 @@ impl Balance {
         weight: Vec3,
         forces: &[WheelForces],
     ) -> Result<Vec<f64>, Tipping> {
-        let wheels = &posture.wheels;
         if self.sharing == LoadSharing::Uniform {
             let into = weight.dot(&posture.axes()[2]);
-            return Ok(vec![into / wheels.len() as f64; wheels.len()]);
+            return Ok(vec![into / posture.wheels.len() as f64; posture.wheels.len()]);
         }
+        let (matrix, side) = self.equations(rover, posture, weight, forces);
+        least_norm(&matrix, &side).ok_or(Tipping)
+    }
+
+    /// Loads of least norm that balance a rigid rover on the wheels that are left when one is lifted, in the mounts'
+    /// order [N]. In the lifted wheel's place is the load that it would have as one of them: where that is negative, it
+    /// would have to be held down.
+    ///
+    /// None where the others do not balance the rover, and none for a rover with as many freedoms as wheels.
+    ///
+    /// * `weight`, `forces`: as for [`loads`](Self::loads)
+    pub(super) fn loads_on_others(
+        self,
+        rover: &Rover,
+        posture: &Posture,
+        weight: Vec3,
+        forces: &[WheelForces],
+        lifted: usize,
+    ) -> Option<Vec<f64>> {
+        if self.sharing == LoadSharing::Uniform || posture.freedoms() >= posture.wheels.len() {
+            return None;
+        }
+        let (matrix, side) = self.equations(rover, posture, weight, forces);
+        let mut others = matrix.clone();
+        others.column_mut(lifted).fill(0.0);
+        let solved = (&others * others.transpose()).lu().solve(&side)?;
+        let loads = matrix.transpose() * solved;
+        loads.iter().all(|load| load.is_finite()).then(|| loads.iter().copied().collect())
+    }
+
+    /// What each wheel's load does in the balance of each freedom, a row, and what the loads together have to do there.
+    fn equations(
+        self,
+        rover: &Rover,
+        posture: &Posture,
+        weight: Vec3,
+        forces: &[WheelForces],
+    ) -> (DMatrix<f64>, DVector<f64>) {
+        let wheels = &posture.wheels;
         let centre = centre_of_mass(rover, posture);
         let [x, y, z] = posture.axes();
         // Links: what all wheels' share of the acceleration and the weight takes of each force.
@@ -105,7 +143,7 @@ impl Balance {
                 side[row] -= force.dot(&way) + moment.dot(&twist.angular);
             }
         }
-        least_norm(&matrix, &side).ok_or(Tipping)
+        (matrix, side)
     }
 
     /// The soil's forces together.

@@ -5,7 +5,7 @@ use grouser::document::columns::TIME;
 use grouser::document::columns::run;
 use grouser::document::table::Table;
 use grouser::document::{LoadedScenario, escape};
-use grouser::simulation::{Run, Trajectory};
+use grouser::simulation::{Run, RunError, Trajectory};
 use grouser::studies::ensemble::Band;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::traverse_band::{TimeBand, TraverseBand, record_times};
@@ -15,6 +15,11 @@ use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::commands::{sampling, strict};
 use crate::failure::Failure;
 use crate::inputs;
+use crate::output::folder::OutputFolder;
+use crate::output::rows::Rows;
+
+/// The file of a run's records.
+pub(super) const RECORDS: &str = "traverse.csv";
 
 /// What a model answers.
 pub(super) struct OfModel {
@@ -25,9 +30,19 @@ pub(super) struct OfModel {
 
 impl OfModel {
     /// * `setting`: with one model
-    pub(super) fn of(args: &TraverseArgs, setting: &SettingArgs) -> Result<Self, Failure> {
+    /// * `folder`: takes the records until an error
+    pub(super) fn of(
+        args: &TraverseArgs,
+        setting: &SettingArgs,
+        folder: &mut Option<OutputFolder>,
+    ) -> Result<Self, Failure> {
         let scenario = inputs::traverse(args, setting, args.yaw_deg.as_deref())?;
-        let run = Run::new(&scenario.value)?.to_end()?;
+        let mut run = Run::new(&scenario.value)?;
+        let done = run.run_to_end();
+        let run = run.finish();
+        if let Err(error) = done {
+            return Err(unfinished(&scenario, &run, error, folder.take()));
+        }
         if args.strict.strict {
             let flags = run::each_findings(&run, &scenario.value);
             let records = run::table(&run, &scenario.value);
@@ -67,6 +82,29 @@ impl OfModel {
             table = run::with_run_band(table, &band.run, scenario);
         }
         table.with_word(MODEL, self.name())
+    }
+}
+
+/// The failure of a run that ends with an error, whose records until then go to the folder, if there is one.
+fn unfinished(
+    scenario: &LoadedScenario,
+    run: &Trajectory,
+    error: RunError,
+    folder: Option<OutputFolder>,
+) -> Failure {
+    let Some(mut folder) = folder else { return error.into() };
+    let kept = Rows::of_table(&run::table(run, &scenario.value)).to_csv().and_then(|rows| {
+        folder.add(RECORDS, rows);
+        folder.add_document("scenario.toml", scenario);
+        folder.finish()
+    });
+    let count = run.records.len();
+    match kept {
+        Ok(()) => Failure::Run(format!(
+            "{}; the {count} records until then are in {RECORDS}",
+            escape::line(&error.to_string())
+        )),
+        Err(failure) => failure,
     }
 }
 
