@@ -428,18 +428,13 @@ impl Sought<'_> {
         let Self { ground, posture, weight, .. } = self;
         let wheels = ground.settle_standing(&self.met, loads.as_slice(), |_| None).ok()?;
         let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
-        let next = match warp {
-            Some(gaps) => {
-                let balanced = DVector::from_vec(self.balanced(&forces).ok()?);
-                let along = -balanced[lifted] / gaps[lifted];
-                balanced + along * gaps
-            }
-            None => {
-                let balance = ground.balance();
-                let (rover, weight) = (ground.rover, *weight);
-                let loads = balance.loads_on_others(rover, posture, weight, &forces, lifted)?;
-                DVector::from_vec(loads)
-            }
+        let next = if let Some(gaps) = warp {
+            let balanced = DVector::from_vec(self.balanced(&forces).ok()?);
+            let along = -balanced[lifted] / gaps[lifted];
+            balanced + along * gaps
+        } else {
+            let (balance, rover) = (ground.balance(), ground.rover);
+            DVector::from_vec(balance.loads_on_others(rover, posture, *weight, &forces, lifted)?)
         };
         Some((next, wheels))
     }

@@ -177,8 +177,7 @@ fn rollout(case: u64) -> (Ending, String) {
     let keeps_speeds = draw.once_in(2);
     let mut drive = scenario.drive.clone();
     let mut speeds = Vec::new();
-    let looks = (scenario.duration * f64::from(LOOKS)).ceil() as u32;
-    for look in 0..looks {
+    for look in (0..).take_while(|look| f64::from(*look) < scenario.duration * f64::from(LOOKS)) {
         if look % LOOKS == 0 {
             speeds = rim_speeds(&mut draw, scenario.rover.wheel_count());
         }
