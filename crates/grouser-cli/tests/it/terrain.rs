@@ -274,3 +274,35 @@ fn maps_that_cannot_be_driven_on_are_refused() {
     let last = gone["samples"].as_array().and_then(|samples| samples.last());
     assert!(last.is_some_and(|last| last["time_s"].as_f64() > Some(1.0)), "{last:?}");
 }
+
+/// Wheels that turn against each other on an incline: 2 ms after the start no loads are found that balance the rover.
+#[test]
+fn records_until_an_error_are_kept() {
+    let place = Place::new();
+    let document = r#"
+        schema = "scenario/1"
+        rover = "mgru3"
+        soil = "lunar-30-60-cm"
+        gravity_m_s2 = 3.71
+        load_transfer = "complete"
+        duration_s = 1.0
+        [start]
+        yaw_deg = 149.36432159986919
+        [drive]
+        law = "constant"
+        rim_speed_m_s = [0.1819479748384682, 0.04642286608673571, -0.16731717111073519, -0.16446917055779153]
+        [terrain]
+        surface = "incline"
+        slope_deg = 6.2408963189508
+        direction_deg = -141.4859465271653
+        start_m = [2.537584704845827, 2.2423018904523584]
+    "#;
+    place.write("scenario.toml", document);
+    let answer = place.line("traverse scenario.toml --out out");
+    assert_eq!(answer.code(), 1, "{}", answer.stderr);
+    let said = "the records until then are in traverse.csv";
+    assert!(answer.stderr.contains(said), "{}", answer.stderr);
+    let records = place.read("out/traverse.csv");
+    assert!(records.starts_with("time_s,x_m") && records.lines().count() >= 2, "{records}");
+    assert!(place.read("out/scenario.toml").contains("mgru3"));
+}

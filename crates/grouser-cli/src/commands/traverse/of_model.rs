@@ -98,10 +98,9 @@ fn unfinished(
         folder.add_document("scenario.toml", scenario);
         folder.finish()
     });
-    let count = run.records.len();
     match kept {
         Ok(()) => Failure::Run(format!(
-            "{}; the {count} records until then are in {RECORDS}",
+            "{}; the records until then are in {RECORDS}",
             escape::line(&error.to_string())
         )),
         Err(failure) => failure,
