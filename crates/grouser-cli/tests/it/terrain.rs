@@ -304,5 +304,5 @@ fn records_until_an_error_are_kept() {
     assert!(answer.stderr.contains(said), "{}", answer.stderr);
     let records = place.read("out/traverse.csv");
     assert!(records.starts_with("time_s,x_m") && records.lines().count() >= 2, "{records}");
-    assert!(place.read("out/scenario.toml").contains("mgru3"));
+    assert!(place.read("out/scenario.toml").contains("scenario/1"));
 }
