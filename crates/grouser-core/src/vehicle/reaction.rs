@@ -100,14 +100,8 @@ impl<'a> OnGround<'a> {
         // Where the weight then falls outside the wheels, the heaviest one loses most.
         let loads = load::wheel_loads(rover, sharing, stance.weight, next)
             .unwrap_or_else(|_| vec![0.0; wheels.len()]);
-        let each = loads.iter().zip(&wheels).map(|(load, wheel)| (load - wheel.load).abs());
-        let (most, _) =
-            each.enumerate().fold(
-                (0, 0.0),
-                |most, (wheel, change)| {
-                    if change > most.1 { (wheel, change) } else { most }
-                },
-            );
+        let changes = loads.iter().zip(&wheels).map(|(load, wheel)| load - wheel.load);
+        let most = DVector::from_iterator(wheels.len(), changes).iamax();
         let wheel = rover.mounts()[most].name.clone();
         Err(ReactionError::Unsettled { wheel, rounds: MOST_ROUNDS, change })
     }

@@ -103,7 +103,7 @@ struct Counts {
     differ: usize,
     /// Of all curves those that end where the ground slides by itself.
     ground: usize,
-    /// Of the others, those on which a drive 1° above the limit keeps its course all the same.
+    /// Curves with another end, on which a drive 1° above the limit keeps its course all the same.
     above: usize,
 }
 

@@ -110,7 +110,7 @@ fn scenarios() -> Vec<(String, Scenario)> {
     all
 }
 
-/// The same for so long at most [s].
+/// A scenario that lasts so long at most [s].
 fn for_at_most(longest: f64, scenario: Scenario) -> Scenario {
     Scenario { duration: scenario.duration.min(longest), ..scenario }
 }
