@@ -43,6 +43,7 @@ use crate::error::{ParameterError, finite, not_negative, positive};
 /// let sand = Soil {
 ///     cohesion: 0.0,
 ///     friction_angle: deg(38.0),
+///     constant_volume_share: 0.0,
 ///     density: 1490.0,
 ///     pressure_sinkage: PressureSinkage::Reece { k_c: 0.0, k_phi: 122.727, exponent },
 ///     stress_peak: StressPeak { a0: 0.40, a1: 0.15 },
@@ -66,6 +67,9 @@ pub struct Soil {
     pub cohesion: f64,
     /// Angle of internal friction, *φ* [rad].
     pub friction_angle: f64,
+    /// How far friction under a wheel has gone from its peak, tan φ, to that of soil which shears on
+    /// at constant volume, sin φ [-]: 0 to 1 ([`mobilised_friction`](Self::mobilised_friction)).
+    pub constant_volume_share: f64,
     /// Bulk density, *ρ* [kg/m³].
     pub density: f64,
     /// How pressure grows with sinkage.
@@ -291,6 +295,28 @@ impl Soil {
         sin / cos
     }
 
+    /// Coefficient of friction in the soil that a wheel shears, tan *φ_m* [-].
+    ///
+    /// ```text
+    /// tan φ_m = (1 − w) tan φ + w sin φ
+    /// ```
+    ///
+    /// with w the [`constant_volume_share`](Self::constant_volume_share). On a surface along which soil
+    /// slips with a dilation ψ, φ gives tan φ_m = sin φ cos ψ/(1 − sin φ sin ψ) (Davis 1968): tan φ
+    /// with ψ = φ, and sin φ where the volume does not change any more, as in soil that a wheel shears
+    /// by centimetres. A peak found in triaxial or plane-strain tests is φ; a shear box measures
+    /// tan φ_m itself, on its own surface of slip.
+    ///
+    /// Wedges that break out of the ground, and the ground's own stability, are at their peak and have
+    /// tan φ.
+    #[inline]
+    #[must_use]
+    pub fn mobilised_friction(&self) -> f64 {
+        let (sin, cos) = elementary::sin_cos(self.friction_angle);
+        let share = self.constant_volume_share;
+        (1.0 - share) * (sin / cos) + share * sin
+    }
+
     /// The same soil on a slope, where wedges of it resist less against being pushed downhill.
     ///
     /// ```text
@@ -318,6 +344,10 @@ impl Soil {
     pub fn check(&self) -> Result<(), ParameterError> {
         not_negative("cohesion [Pa]", self.cohesion)?;
         positive("density [kg/m³]", self.density)?;
+        if !(0.0..=1.0).contains(&self.constant_volume_share) {
+            let name = "share of constant-volume friction";
+            return Err(ParameterError::new(name, self.constant_volume_share, "0 to 1"));
+        }
         if !(self.friction_angle > 0.0 && self.friction_angle < 2.0 * FRAC_PI_4) {
             let expected = "above 0 and below π/2";
             return Err(ParameterError::new("friction angle [rad]", self.friction_angle, expected));

@@ -80,6 +80,7 @@ static PRESETS: &[Preset] = &[
     preset!(Soil, "soils", "hit-lss1-2011"),
     preset!(Soil, "soils", "fjs-1-loose"),
     preset!(Soil, "soils", "grc-1"),
+    preset!(Soil, "soils", "grc-1-second-hand"),
     preset!(Soil, "soils", "grc-3"),
     preset!(Soil, "soils", "mars-simulant"),
     preset!(Soil, "soils", "mars-regolith"),

@@ -14,6 +14,7 @@
 //! | [`simulated_telemetry`] | what instruments with their faults say of a drive |
 //! | [`measurement`], [`simulated_test`] | measured wheel tests, and simulated ones whose soil is known |
 //! | [`validation`], [`slope_validation`] | the errors of a wheel–soil model against measured wheels, and a measured rover on slopes |
+//! | [`evidence`] | what the models have achieved, and the weights that follow |
 //! | [`calibration`] | soil parameters, with confidence intervals, from measurements |
 //! | [`ensemble`] | Monte Carlo: samples of uncertain inputs, and statistics of the results |
 //! | [`drive`], [`comparison`] | a traverse in a few numbers, and the source paper's metrics of one |
@@ -31,6 +32,7 @@ pub mod card;
 pub mod comparison;
 pub mod drive;
 pub mod ensemble;
+pub mod evidence;
 pub mod forecast;
 pub mod heading;
 pub mod heading_band;

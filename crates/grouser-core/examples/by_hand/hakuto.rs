@@ -21,6 +21,7 @@ pub(crate) fn sand() -> Soil {
     Soil {
         cohesion: 0.0,
         friction_angle: deg(38.0),
+        constant_volume_share: 0.0,
         density: 1490.0,
         pressure_sinkage: PressureSinkage::Reece {
             k_c: 0.0,

@@ -116,7 +116,7 @@ impl Response {
         Self {
             sinkage_growth: 1.0,
             exit_ratio: contact.soil.exit.ratio(contact.slip.ratio),
-            friction: contact.soil.friction(),
+            friction: contact.soil.mobilised_friction(),
         }
     }
 }

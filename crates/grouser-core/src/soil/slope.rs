@@ -112,6 +112,7 @@ mod tests {
         Soil {
             cohesion,
             friction_angle,
+            constant_volume_share: 0.0,
             density: 1500.0,
             pressure_sinkage: PressureSinkage::Reece { k_c: 0.0, k_phi: 100.0, exponent },
             stress_peak: StressPeak { a0: 0.4, a1: 0.15 },

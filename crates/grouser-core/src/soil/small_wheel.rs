@@ -130,7 +130,7 @@ impl SmallWheel {
         exit: ExitShift { fading: 1.0, with_slip: 0.0, with_slip_angle: 0.0 },
         interface: Interface { friction_angle: None, friction_share: 2.0 / 3.0 },
         side_wall: SideWall { pressure_factor: 2.0, fading: 0.6, friction: 0.2 },
-        mounds: Mounds { bow_wave: 1.5, rear_mound: 0.0 },
+        mounds: Mounds { bow_wave: 1.5, rear_mound: 0.85 },
         wedge_share: 1.0,
     };
 

@@ -31,6 +31,7 @@ pub(crate) use pressure_sinkage::{LARGEST_EXPONENT, SMALLEST_EXPONENT};
 pub(crate) const BLANK: Soil = Soil {
     cohesion: 0.0,
     friction_angle: 0.0,
+    constant_volume_share: 0.0,
     density: 0.0,
     pressure_sinkage: REECE,
     stress_peak: StressPeak { a0: 0.0, a1: 0.0 },
@@ -70,6 +71,27 @@ pub(crate) static SOIL: Table<Soil> = Table {
         number("friction_angle_deg", DEG, 5.0..=60.0, "Angle of internal friction, φ", |soil| {
             Some(&mut soil.friction_angle)
         }),
+        words(
+            "friction_test",
+            "The kind of test that the friction angle is from, which tells what of it a wheel mobilises; \
+             without it, not printed.",
+            &[
+                word("triaxial", "The peak of triaxial tests.", at_constant_volume),
+                word("plane-strain", "The peak of tests in plane strain.", at_constant_volume),
+                word("direct-shear", "A shear box, or an annular shear test of a bevameter.", at_peak),
+                word("repose", "The angle of repose.", at_peak),
+            ],
+        )
+        .optional(),
+        number(
+            "constant_volume_share",
+            ONE,
+            0.0..=1.0,
+            "How far friction under a wheel has gone from tan φ, 0, to sin φ of soil that shears on at \
+             constant volume, 1; without it, as the kind of test says, or else the priors",
+            |soil: &mut Soil| Some(&mut soil.constant_volume_share),
+        )
+        .optional(),
         number("density_kg_m3", KG_M3, 200.0..=4000.0, "Bulk density, ρ", |soil: &mut Soil| {
             Some(&mut soil.density)
         })
@@ -143,6 +165,16 @@ pub(crate) static SOIL: Table<Soil> = Table {
         .optional(),
     ],
 };
+
+/// A peak of φ in the soil's mass: a surface of slip under a wheel has sin φ.
+fn at_constant_volume(soil: &mut Soil) {
+    soil.constant_volume_share = 1.0;
+}
+
+/// Measured on a surface of slip: under a wheel too it is tan φ.
+fn at_peak(soil: &mut Soil) {
+    soil.constant_volume_share = 0.0;
+}
 
 static STRESS_PEAK: Table<StressPeak> = Table {
     doc: "θ_m = (a0 + a1 |s|) θ_f.",

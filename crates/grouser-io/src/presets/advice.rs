@@ -38,7 +38,7 @@ impl Preset {
     }
 }
 
-const SOILS: [(&str, &str, &str); 30] = [
+const SOILS: [(&str, &str, &str); 31] = [
     (
         "toyoura",
         "earth",
@@ -82,7 +82,12 @@ const SOILS: [(&str, &str, &str); 30] = [
         "earth",
         "the wheel rashid-1; its friction angle is printed, the rest second-hand",
     ),
-    ("grc-1", "earth", "simulated climbs of mgru3; its density is printed, the rest second-hand"),
+    ("grc-1", "earth", "a lunar simulant with its own plates, loose; friction interpolated over density"),
+    (
+        "grc-1-second-hand",
+        "earth",
+        "simulated climbs of mgru3, with the constants printed beside them; its plates refute them",
+    ),
     (
         "grc-3",
         "earth",
@@ -102,7 +107,7 @@ const SOILS: [(&str, &str, &str); 30] = [
     (
         "mines-lunar",
         "earth",
-        "a mean over the literature on lunar analogues; its shear modulus is hardly known",
+        "a warning: a mean over the literature with which no rover moves; unfit for prediction",
     ),
     ("dry-sand", "earth", "vehicles on dry sand: a textbook's example, second-hand"),
     ("clay", "earth", "vehicles on clay: a textbook's example, second-hand"),

@@ -15,6 +15,8 @@ use crate::contact::Model;
 use crate::error::ParameterError;
 use crate::simulation::Scenario;
 use crate::soil::SmallWheel;
+use crate::studies::ensemble::samples::BandInputs;
+use crate::studies::evidence::{self, Evidence};
 use crate::studies::heading::HeadingStudy;
 use crate::studies::measurement::WheelTests;
 use crate::studies::slope_tests::SlopeTests;
@@ -406,6 +408,65 @@ impl Part<'_> {
                 .map(|it| ranked(ReferenceRecord::from(it).map(PartErrors::Slope), it.score()))
                 .collect(),
         }
+    }
+}
+
+/// What every model predicts of every part of the data sets that come with the program, sample by sample, on soils that
+/// were not fitted to it; a heading has no other soil.
+///
+/// * `samples`: of each model
+///
+/// # Errors
+/// As [`rank_all`].
+pub fn evidence(samples: u64, seed: u64, limits: Limits) -> Result<Vec<Evidence>, RankingError> {
+    let mut all = Vec::new();
+    for DataSet { set, rows, .. } in data_sets_of_the_program()? {
+        for case in &set.value.cases {
+            all.extend(Part { set: &set, case }.evidence(&rows, limits, samples, seed)?);
+        }
+    }
+    Ok(all)
+}
+
+impl Part<'_> {
+    fn evidence(
+        &self,
+        rows: &measurements::Source,
+        limits: Limits,
+        samples: u64,
+        seed: u64,
+    ) -> Result<Vec<Evidence>, RankingError> {
+        let choice = Choice { conditions: self.case.conditions.clone(), wheel: None, limits };
+        let usual = read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
+        let gravity = self.set.value.gravity;
+        let is_fitted = |name: &String| self.case.is_fitted(name);
+        let all_fitted = self.case.soils.iter().all(|(name, _)| is_fitted(name));
+        let mut found = Vec::new();
+        for (name, soil) in &self.case.soils {
+            if is_fitted(name) && !all_fitted {
+                continue;
+            }
+            let inputs = BandInputs::of_soil(soil, None);
+            let tested = evidence::Tested { soil: &inputs, gravity, samples, seed };
+            let answers = match &self.case.tested {
+                Tested::Wheel(wheel) => {
+                    tested.of_wheel(wheel.value, &rows.read(&choice)?.tests).unwrap_or_default()
+                }
+                Tested::Rover(rover) => {
+                    let tests = rows.read_slopes(&choice, &rover.value)?;
+                    let heading = heading_study(&usual, rover, soil, Model::default(), gravity);
+                    tested.of_rover(&heading, &tests)?.unwrap_or_default()
+                }
+            };
+            found.push(Evidence {
+                data_set: self.set.document.name().to_owned(),
+                case: self.case.name.clone(),
+                soil: name.clone(),
+                source: soil.document.text("source").unwrap_or_default().to_owned(),
+                answers,
+            });
+        }
+        Ok(found)
     }
 }
 

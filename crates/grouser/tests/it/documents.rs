@@ -147,6 +147,7 @@ fn reference_soil(case: &str) -> Soil {
     Soil {
         cohesion: number(&soil["cohesion_pa"]),
         friction_angle: deg(number(&soil["friction_angle_deg"])),
+        constant_volume_share: 0.0,
         density: number(&soil["density_kg_m3"]),
         pressure_sinkage: if law["law"] == "reece" {
             PressureSinkage::Reece { k_c, k_phi, exponent }

@@ -48,6 +48,7 @@ pub(crate) fn toyoura() -> Soil {
     Soil {
         cohesion: 0.0,
         friction_angle: deg(38.0),
+        constant_volume_share: 0.0,
         density: 1490.0,
         pressure_sinkage: PressureSinkage::Reece {
             k_c: 0.0,
@@ -261,6 +262,7 @@ pub(crate) fn any_soil() -> impl Strategy<Value = Soil> {
             Soil {
                 cohesion,
                 friction_angle,
+                constant_volume_share: 0.0,
                 density,
                 pressure_sinkage,
                 stress_peak,

@@ -46,6 +46,7 @@ fn any_contact(draw: &mut Draw, motion: Motion, isotropic: bool) -> (Contact, f6
     let soil = Soil {
         cohesion: if draw.once_in(2) { 0.0 } else { draw.sized(10.0, 2000.0) },
         friction_angle: draw.between(deg(20.0), deg(45.0)),
+        constant_volume_share: draw.between(0.0, 1.0),
         density: 1500.0,
         pressure_sinkage: PressureSinkage::Reece {
             k_c: 10.0,

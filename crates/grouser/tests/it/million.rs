@@ -116,6 +116,7 @@ fn any_soil(draw: &mut Draw) -> Soil {
     Soil {
         cohesion,
         friction_angle: draw.between(deg(5.0), deg(60.0)),
+        constant_volume_share: draw.between(0.0, 1.0),
         density: draw.sized(200.0, 4000.0),
         pressure_sinkage,
         stress_peak: StressPeak {

@@ -40,6 +40,7 @@ fn soil_of(soil: &Value) -> Soil {
     Soil {
         cohesion: number(&soil["cohesion_pa"]),
         friction_angle: deg(number(&soil["friction_angle_deg"])),
+        constant_volume_share: 0.0,
         density: number(&soil["density_kg_m3"]),
         pressure_sinkage: match law["law"].as_str() {
             Some("reece") => PressureSinkage::Reece { k_c, k_phi, exponent },

@@ -18,6 +18,41 @@ pub const fn weight(model: &Model) -> f64 {
     }
 }
 
+/// Which forces a question needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Question {
+    /// Those along a wheel alone: straight ahead on level ground, straight up or down a slope.
+    Along,
+    /// Those across it too.
+    Across,
+}
+
+impl Question {
+    /// Of a wheel at a slip angle [rad].
+    #[must_use]
+    pub fn at_slip_angle(slip_angle: f64) -> Self {
+        if slip_angle == 0.0 { Self::Along } else { Self::Across }
+    }
+
+    /// Of a rover on a slope.
+    ///
+    /// * `course`: from the contour [rad]
+    #[must_use]
+    pub fn on_course(course: f64) -> Self {
+        /// Straight up or down, but for round-off [rad].
+        const STRAIGHT: f64 = 1e-9;
+        let off = (course.abs() - std::f64::consts::FRAC_PI_2).abs();
+        if off < STRAIGHT { Self::Along } else { Self::Across }
+    }
+}
+
+/// Whether a model has the forces that a question needs. Bekker's closed form has one stress under the whole wheel and no
+/// measured side force: across a slope it finds headings where nobody else does, or none.
+#[must_use]
+pub fn answers(model: &Model, question: Question) -> bool {
+    question == Question::Along || *model != Model::Bekker
+}
+
 /// How many models have a weight.
 pub const WEIGHTED: usize = {
     const ALL: &[Model] = &Model::ALL;
