@@ -47,14 +47,20 @@ pub(crate) struct Answer<R> {
     schema: String,
     version: &'static str,
     inputs: Value,
+    /// The models of a band with their shares, where there is a band.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    model_weights: Option<Value>,
     #[serde(flatten)]
     results: R,
 }
 
 impl<R: Serialize> Answer<R> {
-    pub(crate) fn new(command: &str, inputs: Value, results: R) -> Self {
+    /// * `inputs`: [`sampling::WEIGHTS`] among them stand beside them in the answer
+    pub(crate) fn new(command: &str, mut inputs: Value, results: R) -> Self {
         let schema = format!("grouser.{command}.v1");
-        Self { schema, version: env!("CARGO_PKG_VERSION"), inputs, results }
+        let model_weights =
+            inputs.as_object_mut().and_then(|inputs| inputs.remove(sampling::WEIGHTS));
+        Self { schema, version: env!("CARGO_PKG_VERSION"), inputs, model_weights, results }
     }
 
     /// The text of a line.

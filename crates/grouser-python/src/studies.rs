@@ -22,6 +22,7 @@ use grouser::simulation::{Run, RunError, Scenario, Trajectory, WheelRecord};
 use grouser::soil::GravityScaling;
 use grouser::studies::card::{CardStudy, Rule, Side};
 use grouser::studies::ensemble::NothingAccepted;
+use grouser::studies::ensemble::models::Question;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::forecast::{Choices, ForecastError, ForecastStudy, Ground};
 use grouser::studies::heading::{HeadingStudy, Steering};
@@ -302,9 +303,11 @@ pub(crate) fn heading_map_band<'py>(
     check("samples", &[f64::from(samples)], &SAMPLES)?;
     check(COURSE.name, course_deg.as_slice()?, &COURSE_DEG)?;
     let courses = in_si(COURSE, course_deg.as_slice()?);
+    let question = Question::of_all(courses.iter().map(|course| Question::on_course(*course)));
     let all = scenarios.iter().map(|scenario| {
         let scenario = scenario.scenario()?;
-        Ok((HeadingStudy::of(&scenario.value), BandInputs::of_scenario(scenario)))
+        let inputs = BandInputs::of_scenario(scenario).asked(question);
+        Ok((HeadingStudy::of(&scenario.value), inputs))
     });
     let all = all.collect::<PyResult<Vec<_>>>()?;
     let found = listening(py, move |cancelled| {
@@ -341,7 +344,8 @@ pub(crate) fn wheel_test_band<'py>(
     check("samples", &[f64::from(samples)], &SAMPLES)?;
     let test = plan(soil, wheel, setting, &load_n, &slip_angle_deg, &slip_ratio)?;
     let named = setting.scenario()?.document.model();
-    let inputs = BandInputs::of_soil(soil.soil()?, named);
+    let angles = test.slip_angles.iter().map(|angle| Question::at_slip_angle(*angle));
+    let inputs = BandInputs::of_soil(soil.soil()?, named).asked(Question::of_all(angles));
     let found = listening(py, move |cancelled| {
         let samples = inputs.samples(seed, samples).map_err(Problem::Sampling)?;
         let bands = test.bands(&samples, &|| !cancelled.is_set()).unwrap_or_default();

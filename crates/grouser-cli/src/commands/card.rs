@@ -212,7 +212,7 @@ fn settings(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Value {
     if card.draws.is_some() {
         settings["samples"] = args.samples.into();
         settings["seed"] = args.seed.into();
-        settings[sampling::SHARES] = sampling::shares(&BandInputs::of_scenario(&inputs.scenario));
+        settings[sampling::WEIGHTS] = sampling::weights(&BandInputs::of_scenario(&inputs.scenario));
     }
     if args.drives.is_some() {
         settings["seed_of_drives"] = other_seed(args.seed).into();

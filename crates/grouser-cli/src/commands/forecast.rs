@@ -100,7 +100,7 @@ fn settings(args: &ForecastArgs, inputs: &ForecastInputs) -> Value {
         "samples": args.samples,
         "discrepancies": args.discrepancies,
         "seed": args.seed,
-        sampling::SHARES: sampling::shares(band),
+        sampling::WEIGHTS: sampling::weights(band),
     })
 }
 

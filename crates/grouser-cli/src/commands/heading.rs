@@ -137,8 +137,8 @@ fn settings(args: &HeadingArgs, first: &OfModel) -> Value {
         settings["samples"] = sampling.samples.into();
         settings["seed"] = seed.into();
         if !every {
-            settings[sampling::SHARES] =
-                sampling::shares(&BandInputs::of_scenario(&first.scenario));
+            settings[sampling::WEIGHTS] =
+                sampling::weights(&BandInputs::of_scenario(&first.scenario));
         }
     }
     settings

@@ -6,6 +6,7 @@ mod pivot;
 use grouser::document::columns::{COURSE, MODEL, Quantity, SLIP_RATIO, SLOPE, YAW, heading};
 use grouser::document::table::{Table, Values};
 use grouser::document::{LoadedScenario, escape};
+use grouser::studies::ensemble::models::Question;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::heading::{HeadingOffset, HeadingStudy};
 use grouser::studies::heading_map::HeadingMap;
@@ -80,6 +81,12 @@ pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
     }
 }
 
+/// What bands are drawn from. Straight up or down a slope no model needs forces across the wheels.
+fn band_inputs(args: &HeadingMapArgs, scenario: &LoadedScenario) -> BandInputs {
+    let courses = args.course_deg.0.iter().map(|course| Question::on_course(course.to_radians()));
+    BandInputs::of_scenario(scenario).asked(Question::of_all(courses))
+}
+
 /// A row for each model that is asked for, soil, course and slope, with the bands that are asked for.
 fn table(
     args: &HeadingMapArgs,
@@ -94,7 +101,7 @@ fn table(
     if sampling.uncertainty {
         let draw = |scenario: &LoadedScenario| {
             inputs::refuse_sampled_keys(&args.setting, scenario.uncertain.as_ref())?;
-            sampling::draw(&BandInputs::of_scenario(scenario), sampling.samples, seed)
+            sampling::draw(&band_inputs(args, scenario), sampling.samples, seed)
         };
         let samples = scenarios.iter().map(draw).collect::<Result<Vec<_>, _>>()?;
         let count = samples.iter().map(Vec::len).sum::<usize>() * args.course_deg.0.len();
@@ -169,8 +176,8 @@ fn settings(args: &HeadingMapArgs, scenarios: &[LoadedScenario]) -> Value {
     if sampling.uncertainty {
         settings["samples"] = sampling.samples.into();
         settings["seed"] = seed.into();
-        let shares = |scenario| sampling::shares(&BandInputs::of_scenario(scenario));
-        settings[sampling::SHARES] = scenarios.iter().map(shares).collect();
+        let weights = scenarios.iter().map(|it| sampling::weights(&band_inputs(args, it)));
+        settings[sampling::WEIGHTS] = sampling::one_or_each(weights.collect());
     }
     settings
 }

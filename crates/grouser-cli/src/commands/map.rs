@@ -243,6 +243,6 @@ fn settings(args: &MapArgs, inputs: &MapInputs) -> Value {
         "no_go_probability": inputs.study.rule.no_go_probability,
         "samples": args.samples,
         "seed": args.seed,
-        (sampling::SHARES): sampling::shares(&band),
+        (sampling::WEIGHTS): sampling::weights(&band),
     })
 }

@@ -133,6 +133,6 @@ fn settings(args: &ReplayArgs, scenario: &LoadedScenario) -> Value {
         "model": scenario.value.model.name(),
         "samples": sampled.then_some(args.uncertainty.sampling.samples),
         "seed": sampled.then_some(args.uncertainty.seed),
-        (sampling::SHARES): sampled.then(|| sampling::shares(&BandInputs::of_scenario(scenario))),
+        (sampling::WEIGHTS): sampled.then(|| sampling::weights(&BandInputs::of_scenario(scenario))),
     })
 }

@@ -197,6 +197,6 @@ fn settings(args: &RouteArgs, inputs: &RouteInputs) -> Value {
         "rim_speed_m_s": inputs.study.mobility.rim_speed,
         "samples": args.samples,
         "seed": args.seed,
-        (sampling::SHARES): sampling::shares(&band),
+        (sampling::WEIGHTS): sampling::weights(&band),
     })
 }

@@ -17,14 +17,34 @@ pub(crate) fn draw(inputs: &BandInputs, samples: u32, seed: u64) -> Result<Vec<S
     })
 }
 
-/// The key of [`shares`].
-pub(super) const SHARES: &str = "model_shares";
+/// The key of [`weights`].
+pub(super) const WEIGHTS: &str = "model_weights";
 
 /// The models of the samples, each with its share [-].
-pub(super) fn shares(inputs: &BandInputs) -> Value {
+pub(super) fn weights(inputs: &BandInputs) -> Value {
     let pair =
         |(model, share): &(grouser::contact::Model, f64)| (model.name().to_owned(), json!(share));
     Value::Object(inputs.models().shares().iter().map(pair).collect::<Map<_, _>>())
+}
+
+/// The weights of several scenarios, in their order; one object where all are alike.
+pub(super) fn one_or_each(mut weights: Vec<Value>) -> Value {
+    match weights.pop() {
+        Some(last) if weights.iter().all(|it| *it == last) => last,
+        Some(last) => weights.into_iter().chain([last]).collect(),
+        None => Value::Null,
+    }
+}
+
+/// The models of the samples with their shares, as a line to read.
+pub(super) fn line(inputs: &BandInputs) -> String {
+    let mut shares = inputs.models().shares().to_vec();
+    shares.sort_by(|one, other| other.1.total_cmp(&one.1));
+    let share = |(model, share): &(grouser::contact::Model, f64)| {
+        format!("{} {:.0} %", model.name(), 100.0 * share)
+    };
+    let shares: Vec<String> = shares.iter().map(share).collect();
+    format!("models of the samples: {}\n", shares.join(", "))
 }
 
 /// Computes with a bar that goes on with every sample. The study asks whether to go on, and is never stopped:

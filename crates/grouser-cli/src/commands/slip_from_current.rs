@@ -115,7 +115,7 @@ fn settings(args: &SlipFromCurrentArgs, inputs: &SlipInputs) -> Value {
     if sampling.uncertainty {
         settings["samples"] = sampling.samples.into();
         settings["seed"] = args.uncertainty.seed.into();
-        settings[sampling::SHARES] = sampling::shares(&inputs.band);
+        settings[sampling::WEIGHTS] = sampling::weights(&inputs.band);
     }
     settings
 }

@@ -5,6 +5,8 @@ mod page;
 
 use grouser::document::columns::{self, DRAWBAR_PULL, MODEL, SINKAGE, TORQUE};
 use grouser::document::table::Table;
+use grouser::studies::ensemble::models::Question;
+use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::measurement::PerQuantity;
 use grouser::studies::simulated_test::SimulatedTest;
 use grouser::studies::wheel_test::WheelTest;
@@ -49,7 +51,7 @@ fn of_model(args: &WheelTestArgs, stand: &StandInputs) -> Result<Table, Failure>
     if !args.sampling.uncertainty {
         return Ok(table);
     }
-    let samples = sampling::draw(&stand.band, args.sampling.samples, args.stand.seed)?;
+    let samples = sampling::draw(&band_inputs(args, stand), args.sampling.samples, args.stand.seed)?;
     let bands = sampling::with_bar(samples.len(), |go_on| test.bands(&samples, go_on));
     Ok(columns::wheel_test::with_bands(table, &sampling::whole(bands)))
 }
@@ -79,10 +81,16 @@ fn settings(args: &WheelTestArgs, stand: &StandInputs) -> Value {
         settings["samples"] = args.sampling.samples.into();
         settings["seed"] = args.stand.seed.into();
         if !every {
-            settings[sampling::SHARES] = sampling::shares(&stand.band);
+            settings[sampling::WEIGHTS] = sampling::weights(&band_inputs(args, stand));
         }
     }
     settings
+}
+
+/// What bands are drawn from. A wheel that runs straight needs no force across it.
+fn band_inputs(args: &WheelTestArgs, stand: &StandInputs) -> BandInputs {
+    let angles = args.slip_angle_deg.0.iter().map(|angle| Question::at_slip_angle(*angle));
+    stand.band.clone().asked(Question::of_all(angles))
 }
 
 fn on_a_stand(plan: WheelTest, args: &StandArgs, trials: usize) -> SimulatedTest {

@@ -174,7 +174,7 @@ fn a_wheel_test_has_bands_beside_its_values() {
         assert_eq!((number(&row["probability_carried"]), number(&row["draws"])), (1.0, 40.0));
     }
     assert_eq!((&json["inputs"]["samples"], &json["inputs"]["seed"]), (&json!(40), &json!(1)));
-    assert!(json["inputs"]["model_shares"]["rft"].is_number());
+    assert!(json["model_weights"]["rft"].is_number());
     let one = format!("wheel-test {flags} --uncertainty --samples 40 --model rft");
     let one = place.json(&one);
     for row in one["rows"].as_array().expect("rows") {

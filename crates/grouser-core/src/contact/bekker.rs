@@ -65,7 +65,7 @@ fn entering_front(contact: &Contact, sinkage: f64) -> WheelForces {
     let normal_force = b * pressure * length * mean_pressure(n);
     let compaction = b * pressure * h / (n + 1.0);
 
-    let strength = b * length * soil.cohesion + normal_force * soil.mobilised_friction();
+    let strength = b * length * soil.cohesion + normal_force * soil.friction();
     let (thrust, side_shear) = shear_forces(contact, length, strength);
 
     // ∫ R_b over the parabola: its mean depth is 2/3 h, its mean square 8/15 h².

@@ -324,9 +324,12 @@ impl Part<'_> {
 
     /// Each soil with each model that may be judged with it.
     fn pairs(&self) -> impl Iterator<Item = (&String, &LoadedSoil, Model)> {
-        self.case.soils.iter().flat_map(|(name, soil)| {
+        self.case.soils.iter().flat_map(move |(name, soil)| {
             Model::ALL.into_iter().filter_map(move |model| {
-                let for_another = soil.document.model().is_some_and(|own| own != model);
+                let is_for = |soil: &LoadedSoil| soil.document.model().is_none_or(|it| it == model);
+                // A soil that was made for another model is judged only where there is no other.
+                let for_another =
+                    !is_for(soil) && self.case.soils.iter().any(|(_, soil)| is_for(soil));
                 // Without its terms the small-wheel model is the classical one.
                 let same = model == Model::SmallWheel && soil.value.small_wheel == SmallWheel::OFF;
                 (!for_another && !same).then_some((name, soil, model))
@@ -463,6 +466,7 @@ impl Part<'_> {
                 case: self.case.name.clone(),
                 soil: name.clone(),
                 source: soil.document.text("source").unwrap_or_default().to_owned(),
+                in_sample: is_fitted(name).then(|| soil.document.usual_model("")),
                 answers,
             });
         }

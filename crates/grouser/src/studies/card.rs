@@ -14,7 +14,7 @@ mod slip_check;
 
 use grouser_io::LoadedScenario;
 
-use super::ensemble::models::weight;
+use super::ensemble::models::{Question, answers};
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
 use super::heading::{
@@ -243,7 +243,9 @@ impl CardStudy {
 
     /// The contour traverses of the models that the soil as written is not computed with.
     fn other_curves(&self) -> Result<Vec<(Model, HeadingCurve)>, ParameterError> {
-        let is_other = |model: &Model| weight(model) > 0.0 && *model != self.heading.model;
+        let is_other = |model: &Model| {
+            answers(model, Question::Across) && *model != self.heading.model
+        };
         let curve = |model: Model| {
             let study = HeadingStudy { model: model.clone(), ..self.heading.clone() };
             Ok((model, study.curve()?))

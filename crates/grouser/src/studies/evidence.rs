@@ -11,7 +11,7 @@ mod stacking;
 
 use grouser_io::statistics::NothingAccepted;
 
-pub use self::stacking::{Shares, judged, stacked};
+pub use self::stacking::{Judged, SHRINKAGE, Shares, judged, stacked, without};
 use super::ensemble::models::Question;
 use super::ensemble::samples::{BandInputs, Sample};
 use super::heading::HeadingStudy;
@@ -90,6 +90,8 @@ pub struct Evidence {
     pub soil: String,
     /// Where its constants are from: parts of one source are left out together.
     pub source: String,
+    /// The model that the soil was made for with these rows in view: they are no evidence then.
+    pub in_sample: Option<Model>,
     /// What was measured.
     pub answers: Vec<Answer>,
 }

@@ -8,7 +8,7 @@ use grouser::document::{
 };
 use grouser::simulation::{Outcome, OutcomeKind};
 use grouser::soil::{PressureSinkage, Soil};
-use grouser::studies::ensemble::models::{ModelSpread, OWN_SHARE, weight};
+use grouser::studies::ensemble::models::{ModelSpread, OWN_SHARE, Question, weight};
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::ensemble::{Band, Probability};
 use grouser::studies::heading::HeadingStudy;
@@ -61,7 +61,7 @@ fn contains(band: Option<Band>, value: f64) -> bool {
 /// Any number of samples in a row has the models by their shares, to within a few samples.
 #[test]
 fn samples_have_the_models_by_their_shares() {
-    for spread in [ModelSpread::all(None), ModelSpread::all(Some(&Model::SmallWheel))] {
+    for spread in [ModelSpread::all(None, Question::Across), ModelSpread::all(Some(&Model::SmallWheel), Question::Across)] {
         for seed in 0..20 {
             let mut counts = [0.0; 4];
             for index in 0..2000 {
@@ -85,7 +85,7 @@ fn a_model_has_its_share_and_the_rest_is_shared_by_weight() {
     };
     let sum: f64 = Model::ALL.iter().map(weight).sum();
     for made_for in [None, Some(Model::Rft), Some(Model::Bekker)] {
-        let spread = ModelSpread::all(made_for.as_ref());
+        let spread = ModelSpread::all(made_for.as_ref(), Question::Along);
         let total: f64 = spread.shares().iter().map(|it| it.1).sum();
         assert!((total - 1.0).abs() < 1e-12 && spread.shares().iter().all(|it| it.1 > 0.0));
         match made_for {
@@ -106,11 +106,11 @@ fn a_model_has_its_share_and_the_rest_is_shared_by_weight() {
 #[test]
 fn documents_decide_which_models_there_are() {
     let shares = |inputs: BandInputs| inputs.models().shares().to_vec();
-    let default = ModelSpread::all(None).shares().to_vec();
+    let default = ModelSpread::all(None, Question::Across).shares().to_vec();
     assert_eq!(shares(BandInputs::of_scenario(&scenario(&[]))), default);
     let chosen = scenario(&["scenario.model=rft"]);
     assert_eq!(shares(BandInputs::of_scenario(&chosen)), [(Model::Rft, 1.0)]);
-    let own = ModelSpread::all(Some(&Model::SmallWheel)).shares().to_vec();
+    let own = ModelSpread::all(Some(&Model::SmallWheel), Question::Across).shares().to_vec();
     let fitted = scenario(&["scenario.soil=cmu-direct90-smooth"]);
     assert_eq!(shares(BandInputs::of_scenario(&fitted)), own);
     let fitted = soil("cmu-direct90-smooth");
@@ -128,7 +128,7 @@ fn a_sample_depends_on_the_seed_and_its_number_alone() {
     assert_eq!(many[33], inputs.sample(SEED, 33).expect("it can be drawn"));
     let other = inputs.samples(SEED + 1, 40).expect("they can be drawn");
     assert!(many.iter().zip(&other).all(|(one, other)| one.soil != other.soil));
-    let starts = (0..40).map(|seed| ModelSpread::all(None).model(seed, 0));
+    let starts = (0..40).map(|seed| ModelSpread::all(None, Question::Across).model(seed, 0));
     let rft = starts.filter(|model| *model == Model::Rft).count();
     assert!((4..=26).contains(&rft), "{rft} of 40 seeds start with rft");
 }
@@ -146,7 +146,7 @@ fn the_band_of_an_exact_soil_contains_every_model_of_the_spread() {
     let slopes = [5.0, 10.0, 15.0].map(deg);
     let band = HeadingBand::of(&study, &samples, &slopes, &|| true);
     let band = band.expect("sand").expect("not stopped");
-    for (model, _) in ModelSpread::all(None).shares() {
+    for (model, _) in ModelSpread::all(None, Question::Across).shares() {
         for (row, band) in stand(soil, model.clone()).run().iter().zip(&bands) {
             let settled = row.result.expect("sand carries it");
             assert!(contains(band.sinkage, settled.sinkage), "{model:?} {row:?}");
@@ -458,7 +458,7 @@ fn a_campaign_draws_models_and_leaves_no_run_out() {
     let yaws = campaign.counted("yaw_deg", runs, table.numbers("yaw_deg"), statuses);
     let study = HeadingStudy::of(&scenario(&[]).value);
     let (mut held, mut lost) = (0, 0);
-    for (model, _) in ModelSpread::all(None).shares() {
+    for (model, _) in ModelSpread::all(None, Question::Across).shares() {
         let of_model = HeadingStudy { model: model.clone(), ..study.clone() };
         let found = of_model.on_slope(deg(22.0)).expect("sand").ok();
         let is_own = |run: &usize| models[*run].as_deref() == Some(model.name());

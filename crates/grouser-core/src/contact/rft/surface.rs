@@ -152,7 +152,7 @@ impl FacetedWheel {
             comb: Comb::of(wheel),
             surface: radius - sinkage,
             stiffness: soil.rft.scale * facet::stiffness(soil.unit_weight(*gravity), internal),
-            friction: Friction { wheel: surface_friction(soil, soil.mobilised_friction()), soil: soil.mobilised_friction() },
+            friction: Friction { wheel: surface_friction(soil, internal), soil: internal },
         }
     }
 

@@ -9,7 +9,7 @@ use super::super::{Document, Kind, Misfit, Node, stated_by_priors, stated_of};
 use super::rows::Base;
 use crate::contact::Model;
 use crate::studies::ensemble::design::SOBOL_DIMENSIONS;
-use crate::studies::ensemble::models::ModelSpread;
+use crate::studies::ensemble::models::{ModelSpread, Question};
 use crate::studies::ensemble::{Distribution, Ensemble, Marginal, Matrix};
 use grouser_io::campaign::{Sampling, Settings, Study};
 
@@ -166,7 +166,7 @@ fn models(
             .with_hint(format!("leave out `{place}.model` or `model_uncertainty`")));
     }
     let made_for = document.model_at(&format!("{place}.soil.model"));
-    Ok(Some(ModelSpread::all(made_for.as_ref())))
+    Ok(Some(ModelSpread::all(made_for.as_ref(), Question::Across)))
 }
 
 /// What keys of the base's soil begin with.

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::model_discrepancy::with_discrepancy;
-use super::models::ModelSpread;
+use super::models::{ModelSpread, Question};
 use super::outputs_while;
 use crate::contact::Model;
 use crate::soil::Soil;
@@ -28,12 +28,14 @@ pub struct BandInputs {
     soils: Option<UncertainSoil>,
     /// The model that its values, and their discrepancy, were found with.
     made_for: Option<Model>,
+    /// The model that is asked for by name.
+    chosen: Option<Model>,
     models: ModelSpread,
 }
 
 impl BandInputs {
     /// The soil of a scenario, with the model that the scenario names, or that is your own, or else the spread of
-    /// models.
+    /// models that know forces across a wheel ([`asked`](Self::asked)).
     #[must_use]
     pub fn of_scenario(scenario: &LoadedScenario) -> Self {
         let model = &scenario.value.model;
@@ -41,12 +43,7 @@ impl BandInputs {
         let is_asked_for = scenario.document.model().is_some() || matches!(model, Model::Own(_));
         let chosen = is_asked_for.then(|| model.clone());
         let made_for = scenario.document.model_of_soil();
-        Self {
-            soil: scenario.value.ground.soil,
-            soils: scenario.uncertain.clone(),
-            models: spread(chosen, made_for.as_ref()),
-            made_for,
-        }
+        Self::new(scenario.value.ground.soil, scenario.uncertain.clone(), made_for, chosen)
     }
 
     /// A soil, with a model or else the spread of models.
@@ -54,9 +51,24 @@ impl BandInputs {
     /// * `chosen`: the model that is asked for by name
     #[must_use]
     pub fn of_soil(soil: &LoadedSoil, chosen: Option<Model>) -> Self {
-        let made_for = soil.document.model();
-        let models = spread(chosen, made_for.as_ref());
-        Self { soil: soil.value, soils: soil.uncertain.clone(), made_for, models }
+        Self::new(soil.value, soil.uncertain.clone(), soil.document.model(), chosen)
+    }
+
+    fn new(
+        soil: Soil,
+        soils: Option<UncertainSoil>,
+        made_for: Option<Model>,
+        chosen: Option<Model>,
+    ) -> Self {
+        let models = spread(chosen.clone(), made_for.as_ref(), Question::Across);
+        Self { soil, soils, made_for, chosen, models }
+    }
+
+    /// The same for a question, whose forces not every model has.
+    #[must_use]
+    pub fn asked(self, question: Question) -> Self {
+        let models = spread(self.chosen.clone(), self.made_for.as_ref(), question);
+        Self { models, ..self }
     }
 
     /// The models with their shares.
@@ -140,8 +152,8 @@ impl BandInputs {
     }
 }
 
-fn spread(chosen: Option<Model>, made_for: Option<&Model>) -> ModelSpread {
-    chosen.map_or_else(|| ModelSpread::all(made_for), ModelSpread::one)
+fn spread(chosen: Option<Model>, made_for: Option<&Model>, question: Question) -> ModelSpread {
+    chosen.map_or_else(|| ModelSpread::all(made_for, question), ModelSpread::one)
 }
 
 /// Computes samples in their order, those that are alike once; nothing if `go_on` was false before the end.

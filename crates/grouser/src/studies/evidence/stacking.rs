@@ -3,14 +3,29 @@
 use super::density::density;
 use super::{Answer, AnswerKind, Evidence};
 use crate::contact::Model;
-use crate::studies::ensemble::models::{self, Question};
+use crate::studies::ensemble::models;
 
 /// A share for each model, in the order of [`Model::ALL`], with the sum 1 [-].
 pub type Shares = [f64; Model::COUNT];
 
 /// How strongly shares are drawn towards equal ones [-]: as much as evidence of this weight, where one is all that there
 /// is. Source: ours; sets are few, and each has one wheel on one bed.
-pub(super) const SHRINKAGE: f64 = 0.1;
+pub const SHRINKAGE: f64 = 0.1;
+
+/// The shares by which a set is judged: those of all sets whose soils are from elsewhere. A soil that was made for a model
+/// with the set in view has that model with [`OWN_SHARE`](models::OWN_SHARE).
+#[must_use]
+pub fn without(set: &Evidence, all: &[Evidence]) -> Shares {
+    let others = all.iter().filter(|it| it.in_sample.is_none() && it.source != set.source);
+    let shares = stacked(&others.collect::<Vec<_>>());
+    let Some(own) = &set.in_sample else { return shares };
+    let rest: f64 =
+        Model::ALL.iter().zip(shares).filter(|(model, _)| *model != own).map(|(_, share)| share).sum();
+    std::array::from_fn(|place| match Model::ALL[place] == *own {
+        true => models::OWN_SHARE,
+        false => (1.0 - models::OWN_SHARE) * shares[place] / rest,
+    })
+}
 
 /// The shares w under which the mixture of all models makes what was measured most probable:
 ///
@@ -166,13 +181,4 @@ impl Judged {
         }
         Self { rmse: all.rmse.sqrt(), ..all }
     }
-}
-
-/// The shares of a question: those of the models that can answer it.
-#[must_use]
-#[allow(dead_code)]
-pub(super) fn of_question(shares: &Shares, question: Question) -> Shares {
-    let asked = |place: usize| models::answers(&Model::ALL[place], question);
-    let sum: f64 = (0..Model::COUNT).filter(|place| asked(*place)).map(|place| shares[place]).sum();
-    std::array::from_fn(|place| if asked(place) { shares[place] / sum } else { 0.0 })
 }

@@ -97,11 +97,12 @@ impl Factor {
     /// Models by their shares.
     pub(super) fn of_models(models: &ModelSpread) -> Self {
         let shares = models.shares();
-        let least = shares.iter().map(|(_, share)| *share).fold(1.0, f64::min);
+        /// Into how many parts shares are cut: outputs are repeated as often as they count.
+        const PARTS: f64 = 20.0;
         let level = |(model, share): &(crate::contact::Model, f64)| {
-            // A share is a small multiple of the least one, and no negative number.
+            // At most all parts, and no negative number.
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-            let count = (share / least).round() as u32;
+            let count = (PARTS * share).round().max(1.0) as u32;
             Level { name: model.name().to_owned(), count }
         };
         Self { kind: FactorKind::Model, levels: shares.iter().map(level).collect() }
