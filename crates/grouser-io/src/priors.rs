@@ -156,11 +156,13 @@ pub(crate) fn fill(tree: &mut Node, is_resolved: bool) {
     );
     // Samples belong to the soil's other numbers as they are, unless its own rows say otherwise.
     let is_exact = !is_resolved && at(&soil.written, "uncertainty.samples").is_some();
-    let stated: Vec<&str> = rows
-        .stated
-        .iter()
-        .map(|row| if !is_exact && soil.is_stated(row, &own) { &*row.key } else { "" })
-        .collect();
+    let mut stated: Vec<&str> = Vec::new();
+    for row in &rows.stated {
+        // Of several rows for a key the first that applies is taken.
+        let is_first = !stated.contains(&&*row.key);
+        let is_kept = is_first && !is_exact && soil.is_stated(row, &own);
+        stated.push(if is_kept { &row.key } else { "" });
+    }
     keep(&mut kept, "stated", stated.iter().map(|key| !key.is_empty()));
     let is_kept = |key: &String| stated.contains(&&**key) || soil.missing.contains(key);
     let are_kept = |pair: &Pair| pair.between.iter().all(is_kept);
@@ -175,7 +177,7 @@ pub(crate) fn fill(tree: &mut Node, is_resolved: bool) {
 
 /// Keeps some rows of a list, without the conditions that they meet and without their reasons.
 fn keep(priors: &mut Node, list: &str, is_kept: impl Iterator<Item = bool>) {
-    const DROPPED: [&str; 4] = ["soils", "unless", "reason", "source"];
+    const DROPPED: [&str; 5] = ["soils", "unless", "when", "reason", "source"];
     let mut is_kept = is_kept.collect::<Vec<_>>().into_iter();
     let Some(Value::List(nodes)) = priors.entry_mut(list).map(|entry| &mut entry.node.value) else {
         return;
@@ -294,7 +296,15 @@ impl Filled<'_> {
             Soils::Firm => is_firm,
         };
         let unless = &row.belief.unless;
-        is_meant && (unless.is_empty() || at(&self.written, unless).is_none())
+        is_meant
+            && (unless.is_empty() || at(&self.written, unless).is_none())
+            && self.has_word(&row.belief.when)
+    }
+
+    /// Whether the soil has a keyword, given as `key=word`.
+    fn has_word(&self, when: &str) -> bool {
+        let Some((key, word)) = when.split_once('=') else { return true };
+        matches!(at(&self.written, key).map(|node| &node.value), Some(Value::String(it)) if it == word)
     }
 
     fn marginal(&self, row: &Parameter) -> Option<Marginal> {
@@ -415,6 +425,9 @@ fn check_row(row: &Parameter, is_missing: bool) -> Result<(), (&'static str, Pro
     let Some(range) = range(Kind::Soil, &row.key) else { return unknown("key", &row.key) };
     if !relative_to.is_empty() && self::range(Kind::Soil, relative_to).is_none() {
         return unknown("relative_to", relative_to);
+    }
+    if !row.belief.when.is_empty() && !row.belief.when.contains('=') {
+        return Err(("when", Problem::Conflict("a condition is written key=word")));
     }
     let has_median = !row.belief.median.is_nan();
     if is_missing && row.has_no_mean() && !has_median {

@@ -48,6 +48,8 @@ pub(crate) struct Belief {
     pub soils: Soils,
     /// The table or key that a soil must not state; empty if there is none.
     pub unless: String,
+    /// A keyword of the soil and what it has to be, as `key=word`; empty for all soils.
+    pub when: String,
     /// Why it is so.
     pub reason: String,
 }
@@ -107,6 +109,7 @@ impl Belief {
         relative_to: String::new(),
         soils: Soils::Any,
         unless: String::new(),
+        when: String::new(),
         reason: String::new(),
     };
 }

@@ -16,7 +16,9 @@ fn main() -> Result<(), RankingError> {
                 let mut sorted = samples.clone();
                 sorted.sort_by(f64::total_cmp);
                 let middle = sorted[sorted.len() / 2];
-                for it in samples.iter_mut() { *it = middle + factor * (*it - middle); }
+                for it in samples.iter_mut() {
+                    *it = middle + factor * (*it - middle);
+                }
             }
         }
     }
@@ -32,15 +34,36 @@ fn main() -> Result<(), RankingError> {
     for set in &all {
         if set.case == "contour" {
             for answer in &set.answers {
-                let ones: Vec<f64> = (0..4).map(|place| { let mut one = [0.0; 4]; one[place] = 1.0; answer.quantile(&one, 0.5).to_degrees() }).collect();
-                println!("yaw measured {:.2} whole {:.2} equal {:.2} models {:.2?}", answer.measured.to_degrees(), answer.quantile(&without(set, &all), 0.5).to_degrees(), answer.quantile(&named, 0.5).to_degrees(), ones);
+                let ones: Vec<f64> = (0..4)
+                    .map(|place| {
+                        let mut one = [0.0; 4];
+                        one[place] = 1.0;
+                        answer.quantile(&one, 0.5).to_degrees()
+                    })
+                    .collect();
+                println!(
+                    "yaw measured {:.2} whole {:.2} equal {:.2} models {:.2?}",
+                    answer.measured.to_degrees(),
+                    answer.quantile(&without(set, &all), 0.5).to_degrees(),
+                    answer.quantile(&named, 0.5).to_degrees(),
+                    ones
+                );
             }
         }
         let shares = without(set, &all);
         println!("{} {} {}: {:.2?}", set.data_set, set.case, set.soil, shares);
         for (label, shares) in [("equal", named), ("stacked", shares)] {
             for it in judged(set, &shares) {
-                println!("  {label:8} {:13} n {:3} rmse {:.3} worst {:.3} held {:.2} width {:.3} score {:.3}", it.kind.name(), it.count, it.rmse, it.worst, it.held as f64 / it.count as f64, it.width, it.interval_score);
+                println!(
+                    "  {label:8} {:13} n {:3} rmse {:.3} worst {:.3} held {:.2} width {:.3} score {:.3}",
+                    it.kind.name(),
+                    it.count,
+                    it.rmse,
+                    it.worst,
+                    it.held as f64 / it.count as f64,
+                    it.width,
+                    it.interval_score
+                );
             }
         }
         for (place, model) in Model::ALL.iter().enumerate() {
@@ -48,7 +71,16 @@ fn main() -> Result<(), RankingError> {
             one[place] = 1.0;
             for it in judged(set, &one) {
                 if it.rmse.is_finite() {
-                    println!("  {:11} {:13} rmse {:.3} worst {:.3} held {:.2} width {:.3} score {:.3}", model.name(), it.kind.name(), it.rmse, it.worst, it.held as f64 / it.count as f64, it.width, it.interval_score);
+                    println!(
+                        "  {:11} {:13} rmse {:.3} worst {:.3} held {:.2} width {:.3} score {:.3}",
+                        model.name(),
+                        it.kind.name(),
+                        it.rmse,
+                        it.worst,
+                        it.held as f64 / it.count as f64,
+                        it.width,
+                        it.interval_score
+                    );
                 }
             }
         }
@@ -57,9 +89,17 @@ fn main() -> Result<(), RankingError> {
     let mut ratio = Vec::new();
     for set in &all {
         let shares = without(set, &all);
-        for it in judged(set, &shares) { n += it.count; held += it.held; ratio.push((it.interval_score, it.width)); }
+        for it in judged(set, &shares) {
+            n += it.count;
+            held += it.held;
+            ratio.push((it.interval_score, it.width));
+        }
     }
-    println!("TOTAL held {:.3} scores {:?}", held as f64 / n as f64, ratio.iter().map(|it| (it.0 * 1000.0).round() / 1000.0).collect::<Vec<_>>());
+    println!(
+        "TOTAL held {:.3} scores {:?}",
+        held as f64 / n as f64,
+        ratio.iter().map(|it| (it.0 * 1000.0).round() / 1000.0).collect::<Vec<_>>()
+    );
     println!("TOTAL whole {whole:.3?}");
     Ok(())
 }

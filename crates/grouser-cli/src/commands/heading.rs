@@ -61,7 +61,13 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
         Format::Table => {
             let lines = all.iter().map(|of_model| of_model.lines(all.len())).collect::<String>();
             let model = inputs::model_line(&all[0].scenario.document, "soil");
-            output::show(rows.to_table(&brief(args, &all[0])) + lines + model)
+            let weights = match args.uncertainty.sampling.uncertainty {
+                true if !args.setting.has_every_model() => {
+                    sampling::line(&BandInputs::of_scenario(&all[0].scenario))
+                }
+                _ => String::new(),
+            };
+            output::show(rows.to_table(&brief(args, &all[0])) + lines + model + weights)
         }
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),

@@ -74,7 +74,7 @@ pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
                 Some(_) => pivot::text(&table, args, &titles),
                 None => rows.to_table(&brief(args)),
             };
-            output::show(text + model_lines(&scenarios, &names))
+            output::show(text + model_lines(args, &scenarios, &names))
         }
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
@@ -122,9 +122,13 @@ fn table(
 /// Which model the rows of a soil have, where nobody names one; with the soil's name if there are several.
 ///
 /// * `names`: of the soils
-fn model_lines(scenarios: &[LoadedScenario], names: &[String]) -> String {
+fn model_lines(args: &HeadingMapArgs, scenarios: &[LoadedScenario], names: &[String]) -> String {
     let line = |(scenario, name): (&LoadedScenario, &String)| {
-        let line = inputs::model_line(&scenario.document, "soil");
+        let weights = match args.uncertainty.sampling.uncertainty {
+            true if !args.setting.has_every_model() => sampling::line(&band_inputs(args, scenario)),
+            _ => String::new(),
+        };
+        let line = inputs::model_line(&scenario.document, "soil") + &weights;
         let is_named = scenarios.len() > 1 && !line.is_empty();
         if is_named { format!("{}: {line}", escape::line(name)) } else { line }
     };

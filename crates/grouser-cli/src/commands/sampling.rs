@@ -36,8 +36,11 @@ pub(super) fn one_or_each(mut weights: Vec<Value>) -> Value {
     }
 }
 
-/// The models of the samples with their shares, as a line to read.
+/// The models of the samples with their shares, as a line to read; nothing where there is one alone.
 pub(super) fn line(inputs: &BandInputs) -> String {
+    if inputs.models().shares().len() < 2 {
+        return String::new();
+    }
     let mut shares = inputs.models().shares().to_vec();
     shares.sort_by(|one, other| other.1.total_cmp(&one.1));
     let share = |(model, share): &(grouser::contact::Model, f64)| {

@@ -168,7 +168,8 @@ fn settings(args: &TraverseArgs, all: &[OfModel]) -> Value {
         settings["samples"] = sampling.samples.into();
         settings["seed"] = seed.into();
         if let [one] = all {
-            settings[sampling::WEIGHTS] = sampling::weights(&BandInputs::of_scenario(&one.scenario));
+            settings[sampling::WEIGHTS] =
+                sampling::weights(&BandInputs::of_scenario(&one.scenario));
         }
     }
     settings

@@ -51,7 +51,8 @@ fn of_model(args: &WheelTestArgs, stand: &StandInputs) -> Result<Table, Failure>
     if !args.sampling.uncertainty {
         return Ok(table);
     }
-    let samples = sampling::draw(&band_inputs(args, stand), args.sampling.samples, args.stand.seed)?;
+    let samples =
+        sampling::draw(&band_inputs(args, stand), args.sampling.samples, args.stand.seed)?;
     let bands = sampling::with_bar(samples.len(), |go_on| test.bands(&samples, go_on));
     Ok(columns::wheel_test::with_bands(table, &sampling::whole(bands)))
 }
@@ -140,11 +141,15 @@ fn output_results(
     }
 }
 
-/// Which model the rows have, where nobody names one.
+/// Which model the rows have, where nobody names one, and which ones their bands.
 fn model_line(args: &WheelTestArgs, stand: &StandInputs) -> String {
+    let weights = match args.sampling.uncertainty {
+        true => sampling::line(&band_inputs(args, stand)),
+        false => String::new(),
+    };
     match args.setting.model {
         Some(_) => String::new(),
-        None => inputs::model_line(&stand.soil.document, ""),
+        None => inputs::model_line(&stand.soil.document, "") + &weights,
     }
 }
 

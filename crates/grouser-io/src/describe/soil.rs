@@ -8,7 +8,7 @@ mod shear;
 mod small_wheel;
 
 use super::super::field::{
-    At, Beside, DEG, KG_M3, KPA, ONE, Table, nothing, number, part, table, word, words,
+    At, Beside, DEG, KG_M3, KPA, Keyword, ONE, Table, nothing, number, part, table, word, words,
 };
 use super::super::kind::Kind;
 use super::about::{assumed, date, model, name, notes, schema, source};
@@ -62,6 +62,12 @@ pub(crate) static SOIL: Table<Soil> = Table {
                 word("loose", "Sand, regolith, simulant as a wheel sinks into it.", nothing),
                 word("firm", "Clay, loam, tamped ground.", nothing),
             ],
+        )
+        .optional(),
+        table(
+            "known_from",
+            "Where the constants are from, for priors: how widely bands draw about them.",
+            &KNOWN_FROM,
         )
         .optional(),
         number("cohesion_kpa", KPA, 0.0..=100.0, "Cohesion, c", |soil: &mut Soil| {
@@ -165,6 +171,22 @@ pub(crate) static SOIL: Table<Soil> = Table {
         .optional(),
     ],
 };
+
+static KNOWN_FROM: Table<Soil> = Table {
+    doc: "Where a soil's constants are from.",
+    fields: &[
+        words("strength", "Cohesion and friction angle; without it, this soil.", &ORIGINS)
+            .optional(),
+        words("pressure_sinkage", "Moduli and exponent of sinkage; likewise.", &ORIGINS).optional(),
+        words("shear", "Shear moduli; likewise.", &ORIGINS).optional(),
+    ],
+};
+
+static ORIGINS: [Keyword<Soil>; 3] = [
+    word("this-bed", "Measured on the bed that is driven on, as it was prepared.", nothing),
+    word("this-soil", "Measured on this soil, elsewhere or prepared otherwise.", nothing),
+    word("copied", "Taken from a table for a soil of this name, or of its kind.", nothing),
+];
 
 /// A peak of φ in the soil's mass: a surface of slip under a wheel has sin φ.
 fn at_constant_volume(soil: &mut Soil) {

@@ -175,6 +175,7 @@ pub(super) static OF_PRIOR: Laws<Parameter> = Laws {
                     STANDARD_DEVIATION,
                     SOILS,
                     UNLESS,
+                    WHEN,
                     REASON,
                     SOURCE,
                 ],
@@ -194,6 +195,7 @@ pub(super) static OF_PRIOR: Laws<Parameter> = Laws {
                     STANDARD_DEVIATION,
                     SOILS,
                     UNLESS,
+                    WHEN,
                     REASON,
                     SOURCE,
                 ],
@@ -205,7 +207,17 @@ pub(super) static OF_PRIOR: Laws<Parameter> = Laws {
             choose: uniform,
             table: Table {
                 doc: "Every value between two alike.",
-                fields: &[KEY_OF_PRIOR, RELATIVE_TO, LOW, HIGH, SOILS, UNLESS, REASON, SOURCE],
+                fields: &[
+                    KEY_OF_PRIOR,
+                    RELATIVE_TO,
+                    LOW,
+                    HIGH,
+                    SOILS,
+                    UNLESS,
+                    WHEN,
+                    REASON,
+                    SOURCE,
+                ],
             },
         },
         Law {
@@ -222,6 +234,7 @@ pub(super) static OF_PRIOR: Laws<Parameter> = Laws {
                     HIGH,
                     SOILS,
                     UNLESS,
+                    WHEN,
                     REASON,
                     SOURCE,
                 ],
@@ -265,6 +278,14 @@ const UNLESS: Field<Parameter> = text(
     0,
     "A table, or a key, of the soil: the row is only for soils that do not have it.",
     |it: &mut Parameter, key| key.clone_into(&mut it.belief.unless),
+)
+.optional();
+const WHEN: Field<Parameter> = text(
+    "when",
+    0,
+    "A keyword of the soil and what it has to be, as `known_from.shear=copied`: the row is only for soils \
+     that have it.",
+    |it: &mut Parameter, when| when.clone_into(&mut it.belief.when),
 )
 .optional();
 const REASON: Field<Parameter> = text("reason", 0, REASON_DOC, |it: &mut Parameter, reason| {

@@ -82,7 +82,11 @@ const SOILS: [(&str, &str, &str); 31] = [
         "earth",
         "the wheel rashid-1; its friction angle is printed, the rest second-hand",
     ),
-    ("grc-1", "earth", "a lunar simulant with its own plates, loose; friction interpolated over density"),
+    (
+        "grc-1",
+        "earth",
+        "a lunar simulant with its own plates, loose; friction interpolated over density",
+    ),
     (
         "grc-1-second-hand",
         "earth",

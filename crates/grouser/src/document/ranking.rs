@@ -1,9 +1,13 @@
 //! Ranks every wheel–soil model on every data set: those that come with the program, or those of a folder.
 
+mod sets;
+
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
+
+pub use self::sets::{AnswersRecord, SetRecord, evidence};
 
 use super::measurements::{self, Choice, Limits, MeasurementError};
 use super::validation::{GroupRecord, PartErrors, ReferenceRecord, SlopeErrorsRecord};
@@ -15,8 +19,6 @@ use crate::contact::Model;
 use crate::error::ParameterError;
 use crate::simulation::Scenario;
 use crate::soil::SmallWheel;
-use crate::studies::ensemble::samples::BandInputs;
-use crate::studies::evidence::{self, Evidence};
 use crate::studies::heading::HeadingStudy;
 use crate::studies::measurement::WheelTests;
 use crate::studies::slope_tests::SlopeTests;
@@ -32,6 +34,8 @@ pub struct Ranking {
     pub yardsticks: Vec<RankedYardstick>,
     /// Each model, and each yardstick, over all parts, best first.
     pub models: Vec<OverAll>,
+    /// The band of all models together on each part, and the slips at which the pull vanishes.
+    pub sets: Vec<SetRecord>,
 }
 
 /// A wheel–soil model with a soil on a part of a data set.
@@ -195,11 +199,11 @@ pub fn rank_one(source: &Source, limits: Limits) -> Result<Ranking, RankingError
 
 fn rank_sets(sets: Vec<DataSet>, limits: Limits) -> Result<Ranking, RankingError> {
     let mut ranking = Ranking::default();
-    for DataSet { set, rows, named_at } in sets {
+    for DataSet { set, rows, named_at } in &sets {
         for case in &set.value.cases {
-            let part = Part { set: &set, case };
-            let ranked = part.rank(&rows, limits, &mut ranking);
-            ranked.map_err(|error| match (error, &named_at) {
+            let part = Part { set, case };
+            let ranked = part.rank(rows, limits, &mut ranking);
+            ranked.map_err(|error| match (error, named_at) {
                 (RankingError::Measurements(error), Some(place)) => {
                     RankingError::Measurements(error.named_at(place.clone()))
                 }
@@ -208,6 +212,7 @@ fn rank_sets(sets: Vec<DataSet>, limits: Limits) -> Result<Ranking, RankingError
         }
     }
     ranking.models = over_all(&ranking);
+    ranking.sets = sets::records(&sets, limits)?;
     Ok(ranking)
 }
 
@@ -411,66 +416,6 @@ impl Part<'_> {
                 .map(|it| ranked(ReferenceRecord::from(it).map(PartErrors::Slope), it.score()))
                 .collect(),
         }
-    }
-}
-
-/// What every model predicts of every part of the data sets that come with the program, sample by sample, on soils that
-/// were not fitted to it; a heading has no other soil.
-///
-/// * `samples`: of each model
-///
-/// # Errors
-/// As [`rank_all`].
-pub fn evidence(samples: u64, seed: u64, limits: Limits) -> Result<Vec<Evidence>, RankingError> {
-    let mut all = Vec::new();
-    for DataSet { set, rows, .. } in data_sets_of_the_program()? {
-        for case in &set.value.cases {
-            all.extend(Part { set: &set, case }.evidence(&rows, limits, samples, seed)?);
-        }
-    }
-    Ok(all)
-}
-
-impl Part<'_> {
-    fn evidence(
-        &self,
-        rows: &measurements::Source,
-        limits: Limits,
-        samples: u64,
-        seed: u64,
-    ) -> Result<Vec<Evidence>, RankingError> {
-        let choice = Choice { conditions: self.case.conditions.clone(), wheel: None, limits };
-        let usual = read_scenario(&Source::default_scenario(), &Overrides::none())?.value;
-        let gravity = self.set.value.gravity;
-        let is_fitted = |name: &String| self.case.is_fitted(name);
-        let all_fitted = self.case.soils.iter().all(|(name, _)| is_fitted(name));
-        let mut found = Vec::new();
-        for (name, soil) in &self.case.soils {
-            if is_fitted(name) && !all_fitted {
-                continue;
-            }
-            let inputs = BandInputs::of_soil(soil, None);
-            let tested = evidence::Tested { soil: &inputs, gravity, samples, seed };
-            let answers = match &self.case.tested {
-                Tested::Wheel(wheel) => {
-                    tested.of_wheel(wheel.value, &rows.read(&choice)?.tests).unwrap_or_default()
-                }
-                Tested::Rover(rover) => {
-                    let tests = rows.read_slopes(&choice, &rover.value)?;
-                    let heading = heading_study(&usual, rover, soil, Model::default(), gravity);
-                    tested.of_rover(&heading, &tests)?.unwrap_or_default()
-                }
-            };
-            found.push(Evidence {
-                data_set: self.set.document.name().to_owned(),
-                case: self.case.name.clone(),
-                soil: name.clone(),
-                source: soil.document.text("source").unwrap_or_default().to_owned(),
-                in_sample: is_fitted(name).then(|| soil.document.usual_model("")),
-                answers,
-            });
-        }
-        Ok(found)
     }
 }
 

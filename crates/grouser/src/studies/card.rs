@@ -243,9 +243,8 @@ impl CardStudy {
 
     /// The contour traverses of the models that the soil as written is not computed with.
     fn other_curves(&self) -> Result<Vec<(Model, HeadingCurve)>, ParameterError> {
-        let is_other = |model: &Model| {
-            answers(model, Question::Across) && *model != self.heading.model
-        };
+        let is_other =
+            |model: &Model| answers(model, Question::Across) && *model != self.heading.model;
         let curve = |model: Model| {
             let study = HeadingStudy { model: model.clone(), ..self.heading.clone() };
             Ok((model, study.curve()?))

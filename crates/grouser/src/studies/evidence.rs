@@ -120,7 +120,11 @@ impl Tested<'_> {
     ///
     /// # Errors
     /// [`NothingAccepted`] if no soil can be drawn.
-    pub fn of_wheel(&self, wheel: Wheel, tests: &WheelTests) -> Result<Vec<Answer>, NothingAccepted> {
+    pub fn of_wheel(
+        &self,
+        wheel: Wheel,
+        tests: &WheelTests,
+    ) -> Result<Vec<Answer>, NothingAccepted> {
         let measured: Vec<_> = tests.cells.iter().map(|cell| means(tests, cell)).collect();
         let mut answers = Vec::new();
         for (place, model) in Model::ALL.into_iter().enumerate() {
@@ -190,7 +194,8 @@ fn add(answers: &mut Vec<Answer>, model: usize, found: Vec<Found>) {
 /// What was measured in a cell, the mean over its trials.
 fn means(tests: &WheelTests, cell: &Cell) -> PerQuantity<Option<f64>> {
     PerQuantity::from_fn(|quantity| {
-        let readings = cell.trials.iter().filter_map(|trial| tests.trials[*trial].readings[quantity]);
+        let readings =
+            cell.trials.iter().filter_map(|trial| tests.trials[*trial].readings[quantity]);
         let values: Vec<f64> = readings.map(|reading| reading.value).collect();
         (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
     })

@@ -61,7 +61,10 @@ fn contains(band: Option<Band>, value: f64) -> bool {
 /// Any number of samples in a row has the models by their shares, to within a few samples.
 #[test]
 fn samples_have_the_models_by_their_shares() {
-    for spread in [ModelSpread::all(None, Question::Across), ModelSpread::all(Some(&Model::SmallWheel), Question::Across)] {
+    for spread in [
+        ModelSpread::all(None, Question::Across),
+        ModelSpread::all(Some(&Model::SmallWheel), Question::Across),
+    ] {
         for seed in 0..20 {
             let mut counts = [0.0; 4];
             for index in 0..2000 {

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use grouser::document::columns::{COURSE, Quantity, SLIP_RATIO, SLOPE, YAW, slope};
 use grouser::document::ranking::{
-    Found, OverAll, RankedModel, RankedYardstick, Ranking, RankingError, rank_all, rank_one,
+    Found, OverAll, RankedModel, RankedYardstick, Ranking, RankingError, SetRecord, rank_all,
+    rank_one,
 };
 use grouser::document::table::Table;
 use grouser::document::validation::{ErrorsRecord, PartErrors};
@@ -213,7 +214,44 @@ fn text_of(ranking: &Ranking) -> Text {
     if ranking.models.first().is_some_and(|first| first.scores.len() > 1) {
         blocks.push(all_parts(&ranking.models));
     }
+    blocks.push(together(&ranking.sets));
     Text::blocks(blocks)
+}
+
+/// The band of all models on each part.
+fn together(sets: &[SetRecord]) -> Text {
+    let header = ["set", "answers", "numbers", "rmse", "worst", "held", "width", "interval score"];
+    let rows = sets.iter().flat_map(|set| {
+        set.answers.iter().map(move |it| {
+            let numbers = [it.rmse, it.worst, it.held, it.width, it.interval_score];
+            let own = if set.in_sample { " (in sample)" } else { "" };
+            let names = [format!("{}, {}{own}", set.data_set, set.case), it.kind.to_owned()];
+            let numbers = numbers.into_iter().map(|it| format!("{it:.3}"));
+            names.into_iter().chain([it.numbers.to_string()]).chain(numbers).collect::<Vec<_>>()
+        })
+    });
+    let title = "All models together, by weights found without the set: the median's errors and the 95 % band. \
+                 Forces over the\nload, sinkage over the shearing radius, slip without a unit, yaw in degrees.\n";
+    Text::from(title)
+        + aligned(&header.map(str::to_owned), &rows.collect::<Vec<_>>())
+        + zero_pulls(sets)
+}
+
+/// The slips at which the pull vanishes.
+fn zero_pulls(sets: &[SetRecord]) -> Text {
+    let number = |it: Option<f64>| it.map_or_else(|| "-".to_owned(), |it| format!("{it:.3}"));
+    let rows = sets.iter().filter(|it| it.zero_pull_slip_predicted.is_some()).map(|set| {
+        let doubt = if set.zero_pull_is_doubtful { "a radius or a zero may be off" } else { "" };
+        vec![
+            format!("{}, {}", set.data_set, set.case),
+            number(set.zero_pull_slip_measured),
+            number(set.zero_pull_slip_predicted),
+            doubt.to_owned(),
+        ]
+    });
+    let rows: Vec<Vec<String>> = rows.collect();
+    let header = ["slip without pull", "measured", "predicted", ""].map(str::to_owned);
+    if rows.is_empty() { Text::from("") } else { Text::from("\n") + aligned(&header, &rows) }
 }
 
 /// Columns of the errors of a part.

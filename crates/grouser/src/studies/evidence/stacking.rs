@@ -19,8 +19,12 @@ pub fn without(set: &Evidence, all: &[Evidence]) -> Shares {
     let others = all.iter().filter(|it| it.in_sample.is_none() && it.source != set.source);
     let shares = stacked(&others.collect::<Vec<_>>());
     let Some(own) = &set.in_sample else { return shares };
-    let rest: f64 =
-        Model::ALL.iter().zip(shares).filter(|(model, _)| *model != own).map(|(_, share)| share).sum();
+    let rest: f64 = Model::ALL
+        .iter()
+        .zip(shares)
+        .filter(|(model, _)| *model != own)
+        .map(|(_, share)| share)
+        .sum();
     std::array::from_fn(|place| match Model::ALL[place] == *own {
         true => models::OWN_SHARE,
         false => (1.0 - models::OWN_SHARE) * shares[place] / rest,

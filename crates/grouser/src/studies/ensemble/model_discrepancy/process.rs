@@ -7,7 +7,7 @@ use crate::soil::discrepancy::{LARGEST, SLIP_ANGLES, SLIPS};
 use crate::studies::random;
 
 /// Of the drawbar pull, and of the side force [shares of the load].
-pub(super) const FORCE: f64 = 0.05;
+pub(super) const FORCE: f64 = 0.03;
 
 /// Of the logarithm of the sinkage [-].
 pub(super) const SINKAGE: f64 = 0.25;
