@@ -5,7 +5,7 @@ use grouser::contact::{Model, Settled, Slip, settle};
 use grouser::document::validity::OutsideDomain;
 use grouser::document::{self, Kind, Overrides, Source, doubts, presets};
 use grouser::simulation::{Run, Scenario};
-use grouser::soil::{AssumedValues, Domain, SmallWheel, Soil, Span};
+use grouser::soil::{AssumedValues, Domain, ShearBound, SmallWheel, Soil, Span};
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::validity::RoverOnSlope;
 use grouser::studies::wheel_test::WheelTest;
@@ -176,6 +176,21 @@ fn every_flag_is_raised_by_its_rule_and_not_beside_it() {
         let (raised, not) = (raising.flags(), beside.flags());
         assert!(raised.contains(&flag), "{}: {raised:?}", flag.name());
         assert!(!not.contains(&flag), "{}: {not:?}", flag.name());
+    }
+}
+
+/// A soil that keeps forces within what it resists hides nothing: where it has reduced a force the law asked for more.
+#[test]
+fn a_force_that_the_soils_bound_has_reduced_is_flagged() {
+    let bounded = Soil { shear_bound: ShearBound::Coulomb, ..given::toyoura() };
+    let on = |model| Trial { model, soil: bounded, ..Trial::quiet() };
+    let is_raised = |trial: Trial| trial.flags().contains(&Flag::ForceBeyondFriction);
+    for model in [Model::Ishigami, Model::SmallWheel] {
+        let sideways = Trial { slip_ratio: -1.0, slip_angle: deg(45.0), ..on(model.clone()) };
+        assert!(is_raised(sideways), "{}", model.name());
+    }
+    for model in Model::ALL {
+        assert!(!is_raised(on(model.clone())), "{}", model.name());
     }
 }
 

@@ -2,10 +2,15 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::super::equilibrium::Settled;
+use super::super::forces::WheelForces;
+use super::super::inputs::Contact;
 use super::super::models::Model;
+use super::super::small_wheel::SmallWheel as SmallWheelModel;
+use super::super::{coulomb, coulomb_cone, discrepancy};
 use super::situation::{DOUBTFUL_MODULUS, Flag, Rule, Situation};
 use crate::elementary::wide;
-use crate::soil::{PressureSinkage, ShearBound, SlopeStability, SmallWheel, Span};
+use crate::soil::{PressureSinkage, ShearBound, SlopeStability, SmallWheel, Soil, Span};
 use crate::units::EARTH_GRAVITY;
 use crate::wheel::Grousers;
 
@@ -162,11 +167,11 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::ForceBeyondFriction,
         name: "force-beyond-friction",
-        meaning: "The soil holds the wheel along the ground by more than its friction and cohesion allow.",
+        meaning: "The model asks more of the soil along the ground than its friction and cohesion allow.",
         quantity: "force along the ground",
-        criterion: "√(F_x² + F_y²) is above c A + F_z tan φ, A the arc in contact times the width; not where \
-                    `shear.bound` keeps it within what the soil resists",
-        source: "Mohr-Coulomb",
+        criterion: "√(F_x² + F_y²) is above c A + F_z tan φ, A the arc in contact times the width; where \
+                    `shear.bound` keeps it within what the soil resists: above that bound, before it was reduced to it",
+        source: "Mohr-Coulomb; with the bound, a wedge of soil ahead, Chen (1975)",
         judge: force_beyond_friction,
     },
     Rule {
@@ -288,10 +293,42 @@ fn grousers_apart(it: &Situation<'_>) -> Option<(f64, Span)> {
 
 fn force_beyond_friction(it: &Situation<'_>) -> Option<(f64, Span)> {
     if it.soil.shear_bound == ShearBound::Coulomb {
-        return None;
+        return force_beyond_bound(it);
     }
     let forces = &it.settled?.forces;
     let arc = (forces.patch.entry - forces.patch.exit).abs() * it.wheel.shearing_radius();
     let most = it.soil.cohesion * arc * it.wheel.width + forces.normal_force * it.soil.friction();
-    Some((wide::hypot(forces.drawbar_pull, forces.side_force), Span::at_most(most)))
+    Some((horizontal(forces), Span::at_most(most)))
+}
+
+/// The force of the model's law, before the soil bounds it, and the bound.
+fn force_beyond_bound(it: &Situation<'_>) -> Option<(f64, Span)> {
+    /// A bounded force has the bound but for its last digits.
+    const DIGITS: f64 = 1e-9;
+    let Settled { sinkage, ref forces, .. } = *it.settled?;
+    let Situation { wheel, soil, gravity, .. } = *it;
+    let contact = Contact { wheel: *wheel, soil: *soil, slip: it.slip?, gravity };
+    let sinkage = discrepancy::own_sinkage(&contact, sinkage);
+    let most = match it.model {
+        Model::SmallWheel => coulomb_cone::largest_horizontal_force(&contact, forces, sinkage),
+        _ => coulomb::most_resistance(&contact, sinkage, forces),
+    };
+    let is_bounded = horizontal(forces) >= (1.0 - DIGITS) * most;
+    let of_law = is_bounded.then(|| horizontal(&unbounded_forces(it.model, &contact, sinkage)));
+    let allowed = Span::at_most((1.0 + DIGITS) * most);
+    Some((of_law.unwrap_or_else(|| horizontal(forces)), allowed))
+}
+
+/// The forces of a model's law as it is published.
+fn unbounded_forces(model: &Model, contact: &Contact, sinkage: f64) -> WheelForces {
+    let soil = Soil { shear_bound: ShearBound::None, ..contact.soil };
+    match model {
+        Model::SmallWheel => SmallWheelModel::DEFAULT.unbounded_forces(contact, sinkage),
+        _ => model.as_ref().forces(&Contact { soil, ..*contact }, sinkage),
+    }
+}
+
+/// √(F_x² + F_y²) [N]
+fn horizontal(forces: &WheelForces) -> f64 {
+    wide::hypot(forces.drawbar_pull, forces.side_force)
 }
