@@ -5,7 +5,7 @@ use std::f64::consts::SQRT_2;
 use grouser::contact::stress::StressField;
 use grouser::contact::{Contact, Ishigami, Model, Slip, WheelForces, WheelSoilModel};
 use grouser::document::{self, Kind, Overrides, Source, presets};
-use grouser::soil::{Shear, ShearBound, SmallWheel, Soil};
+use grouser::soil::{Shear, ShearBound, SmallWheel, Soil, StressPeak};
 use grouser::units::{EARTH_GRAVITY, deg};
 use grouser::wheel::Wheel;
 use proptest::prelude::*;
@@ -143,8 +143,10 @@ fn locked_on_direct_90(load: f64) -> (f64, f64) {
 #[test]
 fn a_locked_wheel_without_a_load_is_no_anchor() {
     let (sinkage, force) = locked_on_direct_90(0.022);
-    assert!(sinkage < 6e-3 && force < 1.0, "{sinkage} m, {force} N");
-    let loads = [0.022, 0.22, 2.2, 22.0, 70.0].map(locked_on_direct_90);
+    assert!(sinkage < 1e-3 && force < 0.1, "{sinkage} m, {force} N");
+    let loads = [0.022, 0.22, 2.2, 22.0, 220.0].map(locked_on_direct_90);
+    // It was 20 times the load under 22 N. Source: wheels of Pavlov and Johnson (2022), up to 2.8 times.
+    assert!(loads[3].1 < 3.0 * 22.0, "{loads:?}");
     assert!(loads.is_sorted_by(|one, other| one.0 < other.0 && one.1 < other.1), "{loads:?}");
 }
 
@@ -153,7 +155,9 @@ fn a_locked_wheel_without_a_load_is_no_anchor() {
 /// A wheel on the stiff, cohesive granite, straight ahead, at a fixed sinkage.
 fn pull_on_granite(shear_of: impl Fn(Shear) -> Shear, s: f64) -> f64 {
     let granite = preset_soil("krex-granite");
-    let soil = Soil { shear: shear_of(granite.shear), ..granite };
+    // A peak that moves with |s| would bend the pull at zero slip by itself.
+    let stress_peak = StressPeak { a1: 0.0, ..granite.stress_peak };
+    let soil = Soil { shear: shear_of(granite.shear), stress_peak, ..granite };
     let contact = given::on_stand(soil, preset_wheel("yutu-2"), s, 0.0);
     Ishigami::reference().forces(&contact, SINKAGE).drawbar_pull
 }
@@ -172,7 +176,7 @@ fn isotropic_shear_gives_the_pull_the_root_of_the_slip_from_below() {
     let (soil, wheel) = (preset_soil("krex-granite"), preset_wheel("yutu-2"));
     let field = StressField::new(&given::on_stand(soil, wheel, 0.0, 0.0), SINKAGE);
     // At s = 0 the rim slips forward everywhere but straight down.
-    let stress = field.at(1e-9).longitudinal;
+    let stress = field.at(1e-4).longitudinal;
     assert!(stress > 0.0);
     let root = 4.0 * SQRT_2 * wheel.radius * wheel.width * stress;
     for s in [1e-6, 4e-6] {

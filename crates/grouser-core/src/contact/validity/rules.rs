@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::super::cohesion::Cohesion;
 use super::super::equilibrium::Settled;
 use super::super::forces::WheelForces;
 use super::super::inputs::Contact;
@@ -170,7 +171,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         meaning: "The model asks more of the soil along the ground than its friction and cohesion allow.",
         quantity: "force along the ground",
         criterion: "√(F_x² + F_y²) is above c A + F_z tan φ, A the arc in contact times the width; where \
-                    `shear.bound` keeps it within what the soil resists: above that bound, before it was reduced to it",
+                    `shear.bound` keeps it within what the soil resists: above that bound, before bound and cut-off reduced it",
         source: "Mohr-Coulomb; with the bound, a wedge of soil ahead, Chen (1975)",
         judge: force_beyond_friction,
     },
@@ -301,10 +302,12 @@ fn force_beyond_friction(it: &Situation<'_>) -> Option<(f64, Span)> {
     Some((horizontal(forces), Span::at_most(most)))
 }
 
-/// The force of the model's law, before the soil bounds it, and the bound.
+/// The force of the model's law as it is published, where the soil's bound has reduced it, and the bound.
 fn force_beyond_bound(it: &Situation<'_>) -> Option<(f64, Span)> {
     /// A bounded force has the bound but for its last digits.
     const DIGITS: f64 = 1e-9;
+    /// Share of the cohesion [-] up to which it counts as cut off. Source: ours.
+    const WHOLE: f64 = 0.9;
     let Settled { sinkage, ref forces, .. } = *it.settled?;
     let Situation { wheel, soil, gravity, .. } = *it;
     let contact = Contact { wheel: *wheel, soil: *soil, slip: it.slip?, gravity };
@@ -313,8 +316,9 @@ fn force_beyond_bound(it: &Situation<'_>) -> Option<(f64, Span)> {
         Model::SmallWheel => coulomb_cone::largest_horizontal_force(&contact, forces, sinkage),
         _ => coulomb::most_resistance(&contact, sinkage, forces),
     };
-    let is_bounded = horizontal(forces) >= (1.0 - DIGITS) * most;
-    let of_law = is_bounded.then(|| horizontal(&unbounded_forces(it.model, &contact, sinkage)));
+    let is_cut_off = Cohesion::of(soil).share(forces.max_normal_stress) < WHOLE;
+    let is_reduced = is_cut_off || horizontal(forces) >= (1.0 - DIGITS) * most;
+    let of_law = is_reduced.then(|| horizontal(&unbounded_forces(it.model, &contact, sinkage)));
     let allowed = Span::at_most((1.0 + DIGITS) * most);
     Some((of_law.unwrap_or_else(|| horizontal(forces)), allowed))
 }
@@ -322,9 +326,10 @@ fn force_beyond_bound(it: &Situation<'_>) -> Option<(f64, Span)> {
 /// The forces of a model's law as it is published.
 fn unbounded_forces(model: &Model, contact: &Contact, sinkage: f64) -> WheelForces {
     let soil = Soil { shear_bound: ShearBound::None, ..contact.soil };
+    let contact = Contact { soil, ..*contact };
     match model {
-        Model::SmallWheel => SmallWheelModel::DEFAULT.unbounded_forces(contact, sinkage),
-        _ => model.as_ref().forces(&Contact { soil, ..*contact }, sinkage),
+        Model::SmallWheel => SmallWheelModel::DEFAULT.unbounded_forces(&contact, sinkage),
+        _ => model.as_ref().forces(&contact, sinkage),
     }
 }
 
