@@ -16,6 +16,7 @@
 pub mod batch;
 pub mod bekker;
 pub mod bulldozing;
+pub mod cohesion;
 pub mod coulomb;
 pub mod coulomb_cone;
 pub mod discrepancy;

@@ -129,6 +129,9 @@ pub enum Shear {
         lateral: ShearModulus,
     },
     /// One stress, against the slip velocity; respects |τ| ≤ c + σ tan φ.
+    ///
+    /// Under a wheel that begins to skid the velocity is reversed straight down, so the pull falls like the root
+    /// of the slip: at zero slip it has a slope from above alone (`docs/models/ishigami.md`).
     Isotropic {
         /// In every direction, *K*.
         modulus: ShearModulus,
@@ -159,7 +162,8 @@ pub enum ShearBound {
     #[default]
     None,
     /// The resultant shear stress stays within c + σ tan φ, and a wheel's horizontal force within what
-    /// the soil under and ahead of it resists ([`coulomb`](crate::contact::coulomb)).
+    /// the soil under and ahead of it resists ([`coulomb`](crate::contact::coulomb)). Soil that a wheel hardly
+    /// presses takes no tension ([`cohesion`](crate::contact::cohesion)).
     Coulomb,
 }
 

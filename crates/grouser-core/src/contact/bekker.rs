@@ -14,6 +14,7 @@
 //! thrust has a side force with it. Nothing is integrated numerically.
 
 use super::bulldozing::{self, WallResistance};
+use super::cohesion::Cohesion;
 use super::coulomb::bounded;
 use super::forces::WheelForces;
 use super::inputs::Contact;
@@ -65,11 +66,12 @@ fn entering_front(contact: &Contact, sinkage: f64) -> WheelForces {
     let normal_force = b * pressure * length * mean_pressure(n);
     let compaction = b * pressure * h / (n + 1.0);
 
-    let strength = b * length * soil.cohesion + normal_force * soil.friction();
+    let cohesion = Cohesion::of(soil);
+    let strength = b * length * cohesion.mobilised(pressure) + normal_force * soil.friction();
     let (thrust, side_shear) = shear_forces(contact, length, strength);
 
     // ∫ R_b over the parabola: its mean depth is 2/3 h, its mean square 8/15 h².
-    let wall = WallResistance::new(soil, unit_weight);
+    let wall = WallResistance::new(soil, unit_weight).pressed(cohesion.share(pressure));
     let wall_load = length * wall.mean_over_parabola(h);
     let (across, along) = bulldozing::shares(soil.bulldozing, slip);
     let motion_resistance = along * wall_load - compaction;

@@ -46,6 +46,13 @@ impl WallResistance {
         Self::new(&contact.soil, contact.soil.unit_weight(contact.gravity))
     }
 
+    /// The same where soil mobilises a share [-] of its cohesion.
+    #[expect(clippy::inline_always, reason = "part of the kernel")]
+    #[inline(always)]
+    pub(super) fn pressed(&self, cohesion_share: f64) -> Self {
+        Self { cohesive: self.cohesive * cohesion_share, ..*self }
+    }
+
     /// *R_b* [N/m] at a depth [m].
     #[must_use]
     #[expect(clippy::inline_always, reason = "part of the kernel")]

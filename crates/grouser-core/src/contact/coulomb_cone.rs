@@ -17,7 +17,8 @@
 //! wedge, cot X_c times the depth, at the angle of repose φ. G has the soil on top of the wedge,
 //! piled at φ again (Hegedus 1960). In front the wall is the rim, of width b and depth h; beside
 //! the wheel it is the buried segment of one side wall, taken as a parabola: h(l) = h (1 − l²/a²),
-//! a² = h (2 r_s − h), which at the axle is a fifth less than the segment. A is the rim's contact.
+//! a² = h (2 r_s − h), which at the axle is a fifth less than the segment. A is the rim's contact, and c the
+//! cohesion that the wheel's pressure mobilises ([`cohesion`](super::cohesion)).
 //!
 //! [`coulomb`](super::coulomb) has a tighter bound, by bare wedges, for the other models on soils
 //! that state it. The mounds and the side wall of the small-wheel model are of piled-up soil, and it has
@@ -33,6 +34,7 @@
 //! [`Bulldozing::SineSquared`]: crate::soil::Bulldozing::SineSquared
 //! [`Soil::on_slope`]: crate::soil::Soil::on_slope
 
+use super::cohesion::Cohesion;
 use super::coulomb::shrunk;
 use super::forces::WheelForces;
 use super::inputs::Contact;
@@ -47,7 +49,8 @@ const PARABOLA: [f64; 2] = [16.0 / 15.0, 4.0 / 3.0];
 #[must_use]
 pub fn largest_horizontal_force(contact: &Contact, forces: &WheelForces, sinkage: f64) -> f64 {
     let Contact { wheel, soil, gravity, .. } = contact;
-    let (cot, tan_phi, c) = (soil.destructive_cot(), soil.friction(), soil.cohesion);
+    let (cot, tan_phi) = (soil.destructive_cot(), soil.friction());
+    let c = Cohesion::of(soil).mobilised(forces.max_normal_stress);
     let r = wheel.shearing_radius();
     let depth = sinkage.clamp(0.0, r);
     let half_chord = (depth * (2.0 * r - depth)).sqrt();

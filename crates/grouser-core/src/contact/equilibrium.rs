@@ -22,8 +22,9 @@ use super::model::WheelSoilModel;
 /// of all forces. Where they do not close in as they should, the root is bracketed before it is
 /// closed in on, and where the growth ends before the load is reached (deep, skidding
 /// wheels on strong soil) the highest F_z is sought before the wheel is given up. (In cohesive soil
-/// F_z may also rise and fall while the wheel has hardly sunk and shear outweighs pressure; there
-/// the answer is one of the sinkages with F_z = W, not always the smallest.)
+/// without [`ShearBound::Coulomb`](crate::soil::ShearBound::Coulomb) F_z may also rise and fall while the
+/// wheel has hardly sunk and shear outweighs pressure; there the answer is one of the sinkages with F_z = W,
+/// not always the smallest.)
 ///
 /// Where the soil has a [`Discrepancy`](crate::soil::Discrepancy), it is added to what the model
 /// finds.

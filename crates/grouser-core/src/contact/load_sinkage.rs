@@ -240,9 +240,10 @@ impl Work for All<'_> {
     #[inline(always)]
     fn run(self) -> Reaction {
         let field = self.arc.law.sunk(self.sinkage);
+        let wall = self.wall.pressed(field.cohesion_share());
         Reaction {
             sums: integral::all(&field, self.arc.rule),
-            side_wall: bulldozing::side_wall_load(self.wall, &field.patch, self.arc.law.radius()),
+            side_wall: bulldozing::side_wall_load(&wall, &field.patch, self.arc.law.radius()),
             max_normal_stress: field.max_normal(),
             patch: field.patch,
         }

@@ -16,6 +16,9 @@
 //! X_b = f_behind b R_b(h) S⁺²                          rear mound behind a spinning wheel
 //! ```
 //!
+//! In skid the sinkage grows by ζ alone: where a soil has the term, its exponent's growth in skid is another form of
+//! the same and does not count.
+//!
 //! S is the slip by the total speed ([`Slip::total`]), S⁺ its driving part and S⁻ its skid.
 //! `docs/models/small-wheel.md` shows what each term brings, out of sample.
 //!
@@ -24,12 +27,13 @@
 use std::f64::consts::FRAC_PI_4;
 
 use super::bulldozing::{self, SideWallLoad, WallResistance};
+use super::cohesion::Cohesion;
 use super::coulomb_cone;
 use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::ishigami;
 use super::kernel::InstructionSet;
-use super::load_sinkage::{LoadSinkage, Numerics, Reaction};
+use super::load_sinkage::{Finish, LoadSinkage, Numerics, Reaction};
 use super::model::WheelSoilModel;
 use super::stress::Response;
 use crate::elementary::{self, wide};
@@ -66,7 +70,16 @@ impl SmallWheel {
     }
 
     fn relation(&self, contact: &Contact) -> LoadSinkage {
-        LoadSinkage::new(contact, |it| self.numerics.arc(it, &response(it)), finished)
+        self.finished_by(contact, finished)
+    }
+
+    fn finished_by(&self, contact: &Contact, finish: Finish) -> LoadSinkage {
+        LoadSinkage::new(contact, |it| self.numerics.arc(&counted_once(it), &response(it)), finish)
+    }
+
+    /// The forces without the ground's bound, of a wheel sunk by `sinkage` [m].
+    pub(super) fn unbounded_forces(&self, contact: &Contact, sinkage: f64) -> WheelForces {
+        self.finished_by(contact, added_up).forces(contact, sinkage)
     }
 }
 
@@ -93,15 +106,30 @@ impl WheelSoilModel for SmallWheel {
 
 /// The soil's reaction on a wheel that enters it with its front.
 fn finished(contact: &Contact, reaction: &Reaction, sinkage: f64) -> WheelForces {
+    coulomb_cone::within_the_cone(contact, added_up(contact, reaction, sinkage), sinkage)
+}
+
+/// The terms of the model, which the ground has not bounded yet.
+fn added_up(contact: &Contact, reaction: &Reaction, sinkage: f64) -> WheelForces {
     let wall_load = on_side_wall(contact, &reaction.side_wall);
-    let pushed = contact.wheel.width * WallResistance::of(contact).at(sinkage);
+    let share = Cohesion::of(&contact.soil).share(reaction.max_normal_stress);
+    let wall = WallResistance::of(contact).pressed(share);
+    let pushed = contact.wheel.width * wall.at(sinkage);
 
     // Only the first of them carries.
-    let forces = ishigami::forces(contact, reaction, &wall_load)
+    ishigami::forces(contact, reaction, &wall_load)
         + face_friction(contact, &wall_load)
         + bow_wave(contact, pushed, sinkage)
-        + rear_mound(contact, pushed);
-    coulomb_cone::within_the_cone(contact, forces, sinkage)
+        + rear_mound(contact, pushed)
+}
+
+/// The contact, with the sinkage that skid adds counted once: by the model's term, where the soil has one.
+fn counted_once(contact: &Contact) -> Contact {
+    let mut soil = contact.soil;
+    if soil.small_wheel.sinkage.locked > 0.0 {
+        soil.pressure_sinkage = soil.pressure_sinkage.unchanged_in_skid();
+    }
+    Contact { soil, ..*contact }
 }
 
 /// What the soil makes of a wheel's motion.

@@ -10,6 +10,7 @@ pub(super) mod wheels;
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::cohesion::Cohesion;
 use super::inputs::Contact;
 use super::patch::ContactPatch;
 use super::slip::Slip;
@@ -91,7 +92,7 @@ pub(super) struct StressLaw {
     /// Depth of the pressure-sinkage law [radii].
     scale: f64,
     exponent: f64,
-    cohesion: f64,
+    cohesion: Cohesion,
     friction: f64,
     shear: MobilisedShear,
     /// θ_m/θ_f [-].
@@ -137,7 +138,7 @@ impl StressLaw {
             // σ = K (z/ζ)ⁿ
             scale: scale * response.sinkage_growth / radius,
             exponent,
-            cohesion: soil.cohesion,
+            cohesion: Cohesion::of(soil),
             friction: response.friction,
             shear: MobilisedShear::new(soil, slip.angle),
             peak_share: soil.stress_peak.share(slip.ratio),
@@ -203,8 +204,11 @@ impl StressLaw {
             entry_height: height,
             per_scale: 1.0 / self.scale,
             squeeze: if behind > 0.0 { ahead / behind } else { 0.0 },
+            max_normal: 0.0,
+            cohesion: 0.0,
             law: *self,
         }
+        .pressed()
     }
 
     /// More than ∫ (τ_x sin θ + σ cos θ) dθ [Pa·rad] at this sinkage [m] and at all that are shallower.
@@ -220,7 +224,7 @@ impl StressLaw {
         let reach = |angle: f64| elementary::sin(angle.min(FRAC_PI_2));
         let rise = |angle: f64| RimPoint::new(angle, 0.0).height;
         pressure * (reach(ahead) + reach(behind))
-            + (self.cohesion + pressure * self.friction) * (rise(ahead) + rise(behind))
+            + (self.cohesion.full + pressure * self.friction) * (rise(ahead) + rise(behind))
     }
 
     /// F_z of a shallow wheel without shear over r_s b: the factor [Pa/m^p] and the power p of its
@@ -404,6 +408,10 @@ pub struct StressField {
     /// How much longer the arc before the stress peak is than the one behind it,
     /// (θ_f − θ_m)/(θ_m − θ_r) [-].
     squeeze: f64,
+    /// σ_m = σ(θ_m) [Pa].
+    max_normal: f64,
+    /// Mobilised, *c_m* [Pa].
+    cohesion: f64,
 }
 
 /// A rim slightly faster than its hub is never as fast as the soil, but nearly so under the hub, where
@@ -473,7 +481,7 @@ impl StressField {
         unmobilised: [f64; 2],
         slipping: &Slipping,
     ) -> (f64, f64) {
-        let strength = self.law.cohesion + normal * self.law.friction;
+        let strength = self.cohesion + normal * self.law.friction;
         shear.stresses(strength, unmobilised, slipping)
     }
 
@@ -487,8 +495,22 @@ impl StressField {
     #[must_use]
     #[inline(always)]
     pub fn max_normal(&self) -> f64 {
+        self.max_normal
+    }
+
+    /// Share of the cohesion that is mobilised [-].
+    #[inline(always)]
+    pub(super) fn cohesion_share(&self) -> f64 {
+        self.law.cohesion.share(self.max_normal)
+    }
+
+    /// The same with its largest normal stress, and the cohesion under it.
+    #[inline(always)]
+    fn pressed(self) -> Self {
         let sin_half = elementary::sin(0.5 * self.patch.max_stress);
-        self.front_normal(2.0 * sin_half * sin_half)
+        let max_normal = self.front_normal(2.0 * sin_half * sin_half);
+        let cohesion = self.law.cohesion.mobilised(max_normal);
+        Self { max_normal, cohesion, ..self }
     }
 
     /// Normal stress, *σ* [Pa].

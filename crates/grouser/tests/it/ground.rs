@@ -150,10 +150,10 @@ proptest! {
         }
     }
 
-    /// Along one axis alone the bound changes nothing, bit for bit.
+    /// Along one axis alone the bound changes nothing in sand, bit for bit.
     #[test]
     fn a_wheel_that_does_not_slip_sideways_shears_as_without_the_bound(
-        soil in given::any_soil(),
+        soil in given::any_sand(),
         s in 0.0..1.0,
     ) {
         let at = |soil: Soil, angle: f64| {
@@ -294,6 +294,9 @@ fn a_cohesive_soil_resists_by_its_cohesion_over_the_contact() {
             gravity: EARTH_GRAVITY,
         };
         let forces = Ishigami::DEFAULT.forces(&contact, mm(10.0));
+        // As much of it as the wheel's pressure keeps from tension.
+        let tension = cohesion * deg(38.0).cos() / forces.max_normal_stress;
+        let cohesion = cohesion / (1.0 + tension * tension).sqrt();
         let (patch, r) = (forces.patch, contact.wheel.shearing_radius());
         let length = r * (patch.entry.sin() - patch.exit.sin());
         let root = 1.0 / soil(cohesion).destructive_angle().tan();

@@ -27,6 +27,7 @@ mod kernel;
 mod laws;
 mod layers;
 mod learn;
+mod light_wheels;
 mod measured;
 mod measurements;
 mod messages;

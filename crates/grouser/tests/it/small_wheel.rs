@@ -63,7 +63,7 @@ fn horizontal(forces: &WheelForces) -> f64 {
 
 /// tan φ N + c A, and what the wedges of soil in front and at one side resist [N]: each weighs as much
 /// as the piled-up wall's own wedge with the pile on it, and slides up a plane at 45° − φ/2.
-fn friction_and_wedges(contact: &Contact, load: f64, sinkage: f64) -> f64 {
+pub(crate) fn friction_and_wedges(contact: &Contact, load: f64, sinkage: f64) -> f64 {
     const STRIPS: u32 = 2000;
     let Contact { wheel, soil, gravity, .. } = contact;
     let (phi, r) = (soil.friction_angle, wheel.shearing_radius());

@@ -5,7 +5,7 @@ use grouser::contact::{Model, Settled, Slip, settle};
 use grouser::document::validity::OutsideDomain;
 use grouser::document::{self, Kind, Overrides, Source, doubts, presets};
 use grouser::simulation::{Run, Scenario};
-use grouser::soil::{AssumedValues, Domain, SmallWheel, Soil, Span};
+use grouser::soil::{AssumedValues, Domain, ShearBound, SmallWheel, Soil, Span};
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::validity::RoverOnSlope;
 use grouser::studies::wheel_test::WheelTest;
@@ -176,6 +176,32 @@ fn every_flag_is_raised_by_its_rule_and_not_beside_it() {
         let (raised, not) = (raising.flags(), beside.flags());
         assert!(raised.contains(&flag), "{}: {raised:?}", flag.name());
         assert!(!not.contains(&flag), "{}: {not:?}", flag.name());
+    }
+}
+
+/// A soil that keeps forces within what it resists hides nothing: where it has reduced a force the law asked for more.
+#[test]
+fn a_force_that_the_soils_bound_has_reduced_is_flagged() {
+    let bounded = Soil { shear_bound: ShearBound::Coulomb, ..given::toyoura() };
+    let on = |model| Trial { model, soil: bounded, ..Trial::quiet() };
+    let is_raised = |trial: Trial| trial.flags().contains(&Flag::ForceBeyondFriction);
+    let sideways = Trial { slip_ratio: -1.0, slip_angle: deg(45.0), ..on(Model::Ishigami) };
+    assert!(is_raised(sideways));
+    for model in Model::ALL {
+        assert!(!is_raised(on(model.clone())), "{}", model.name());
+    }
+}
+
+/// Cohesion holds a locked wheel by more than its light load's friction: as published, of 800 Pa over its contact.
+#[test]
+fn a_light_wheel_that_cohesion_alone_would_hold_is_flagged() {
+    let cohesive = Soil { shear_bound: ShearBound::Coulomb, ..given::simulant_2007() };
+    for model in [Model::Ishigami, Model::SmallWheel] {
+        let locked = |load| {
+            let trial = Trial { model: model.clone(), soil: cohesive, load, ..Trial::quiet() };
+            Trial { slip_ratio: -1.0, ..trial }.flags().contains(&Flag::ForceBeyondFriction)
+        };
+        assert!(locked(0.02) && !locked(17.0), "{}", model.name());
     }
 }
 

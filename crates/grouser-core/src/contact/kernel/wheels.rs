@@ -317,9 +317,7 @@ pub(in crate::contact) fn reactions(
         *sum = sums(of_nodes);
     }
     all.up = up;
-    for wheel in 0..WIDE {
-        all.max_normal_stress[wheel] = fields.field(wheel).max_normal();
-    }
+    all.max_normal_stress = fields.max_normal;
     all.patch = [fields.entry, fields.max_stress, fields.exit];
     side_walls(&fields, walls, &mut all.side_wall);
     up
@@ -363,7 +361,7 @@ fn side_walls(fields: &StressFields<'_>, walls: &Walls, loads: &mut [Each; 3]) {
         let (abscissa, width) = (EVEN.abscissa[node], EVEN.width[node]);
         let [force, below, ahead] = &mut strips;
         for wheel in 0..WIDE {
-            let wall = walls.at(wheel);
+            let wall = walls.at(wheel).pressed(fields.field(wheel).cohesion_share());
             let (patch, radius) = (fields.patch(wheel), fields.laws.radius[wheel]);
             (force[node][wheel], below[node][wheel], ahead[node][wheel]) =
                 bulldozing::strip(&wall, &patch, radius, (abscissa, width));

@@ -5,6 +5,7 @@ use super::{
     AnisotropicShear, BoundedShear, IsotropicShear, MobilisedShear, RimMotion, ShearLaw,
     StressField, StressLaw,
 };
+use crate::contact::cohesion::Cohesion;
 use crate::contact::lanes::{Each, WIDE, each};
 use crate::contact::patch::ContactPatch;
 
@@ -65,6 +66,7 @@ pub(in crate::contact) struct StressLaws {
     scale: Each,
     exponent: Each,
     cohesion: Each,
+    tension: Each,
     friction: Each,
     shear: [Each; 2],
     peak_share: Each,
@@ -84,7 +86,8 @@ impl StressLaws {
             pressure: each_of(laws, |law| law.pressure),
             scale: each_of(laws, |law| law.scale),
             exponent: each_of(laws, |law| law.exponent),
-            cohesion: each_of(laws, |law| law.cohesion),
+            cohesion: each_of(laws, |law| law.cohesion.full),
+            tension: each_of(laws, |law| law.cohesion.tension),
             friction: each_of(laws, |law| law.friction),
             shear: [
                 each_of(laws, |law| law.shear.numbers()[0]),
@@ -115,7 +118,7 @@ impl StressLaws {
             pressure: self.pressure[wheel],
             scale: self.scale[wheel],
             exponent: self.exponent[wheel],
-            cohesion: self.cohesion[wheel],
+            cohesion: Cohesion { full: self.cohesion[wheel], tension: self.tension[wheel] },
             friction: self.friction[wheel],
             shear: self.kind,
             peak_share: self.peak_share[wheel],
@@ -140,6 +143,8 @@ pub(in crate::contact) struct StressFields<'a> {
     entry_height: Each,
     per_scale: Each,
     squeeze: Each,
+    pub(in crate::contact) max_normal: Each,
+    cohesion: Each,
 }
 
 impl<'a> StressFields<'a> {
@@ -156,6 +161,8 @@ impl<'a> StressFields<'a> {
             entry_height: zeros,
             per_scale: zeros,
             squeeze: zeros,
+            max_normal: zeros,
+            cohesion: zeros,
         };
         for (wheel, &sinkage) in sinkages.iter().enumerate() {
             let field = fields.laws.law(wheel).sunk(sinkage);
@@ -166,6 +173,8 @@ impl<'a> StressFields<'a> {
             fields.entry_height[wheel] = field.entry_height;
             fields.per_scale[wheel] = field.per_scale;
             fields.squeeze[wheel] = field.squeeze;
+            fields.max_normal[wheel] = field.max_normal;
+            fields.cohesion[wheel] = field.cohesion;
         }
         fields
     }
@@ -180,6 +189,8 @@ impl<'a> StressFields<'a> {
             entry_height: self.entry_height[wheel],
             per_scale: self.per_scale[wheel],
             squeeze: self.squeeze[wheel],
+            max_normal: self.max_normal[wheel],
+            cohesion: self.cohesion[wheel],
         }
     }
 

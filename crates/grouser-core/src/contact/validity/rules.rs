@@ -2,10 +2,16 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::super::cohesion::Cohesion;
+use super::super::equilibrium::Settled;
+use super::super::forces::WheelForces;
+use super::super::inputs::Contact;
 use super::super::models::Model;
+use super::super::small_wheel::SmallWheel as SmallWheelModel;
+use super::super::{coulomb, coulomb_cone, discrepancy};
 use super::situation::{DOUBTFUL_MODULUS, Flag, Rule, Situation};
 use crate::elementary::wide;
-use crate::soil::{PressureSinkage, ShearBound, SlopeStability, SmallWheel, Span};
+use crate::soil::{PressureSinkage, ShearBound, SlopeStability, SmallWheel, Soil, Span};
 use crate::units::EARTH_GRAVITY;
 use crate::wheel::Grousers;
 
@@ -162,11 +168,11 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::ForceBeyondFriction,
         name: "force-beyond-friction",
-        meaning: "The soil holds the wheel along the ground by more than its friction and cohesion allow.",
+        meaning: "The model asks more of the soil along the ground than its friction and cohesion allow.",
         quantity: "force along the ground",
-        criterion: "√(F_x² + F_y²) is above c A + F_z tan φ, A the arc in contact times the width; not where \
-                    `shear.bound` keeps it within what the soil resists",
-        source: "Mohr-Coulomb",
+        criterion: "√(F_x² + F_y²) is above c A + F_z tan φ, A the arc in contact times the width; where \
+                    `shear.bound` keeps it within what the soil resists: above that bound, before bound and cut-off reduced it",
+        source: "Mohr-Coulomb; with the bound, a wedge of soil ahead, Chen (1975)",
         judge: force_beyond_friction,
     },
     Rule {
@@ -288,10 +294,46 @@ fn grousers_apart(it: &Situation<'_>) -> Option<(f64, Span)> {
 
 fn force_beyond_friction(it: &Situation<'_>) -> Option<(f64, Span)> {
     if it.soil.shear_bound == ShearBound::Coulomb {
-        return None;
+        return force_beyond_bound(it);
     }
     let forces = &it.settled?.forces;
     let arc = (forces.patch.entry - forces.patch.exit).abs() * it.wheel.shearing_radius();
     let most = it.soil.cohesion * arc * it.wheel.width + forces.normal_force * it.soil.friction();
-    Some((wide::hypot(forces.drawbar_pull, forces.side_force), Span::at_most(most)))
+    Some((horizontal(forces), Span::at_most(most)))
+}
+
+/// The force of the model's law as it is published, where the soil's bound has reduced it, and the bound.
+fn force_beyond_bound(it: &Situation<'_>) -> Option<(f64, Span)> {
+    /// A bounded force has the bound but for its last digits.
+    const DIGITS: f64 = 1e-9;
+    /// Share of the cohesion [-] up to which it counts as cut off. Source: ours.
+    const WHOLE: f64 = 0.9;
+    let Settled { sinkage, ref forces, .. } = *it.settled?;
+    let Situation { wheel, soil, gravity, .. } = *it;
+    let contact = Contact { wheel: *wheel, soil: *soil, slip: it.slip?, gravity };
+    let sinkage = discrepancy::own_sinkage(&contact, sinkage);
+    let most = match it.model {
+        Model::SmallWheel => coulomb_cone::largest_horizontal_force(&contact, forces, sinkage),
+        _ => coulomb::most_resistance(&contact, sinkage, forces),
+    };
+    let is_cut_off = Cohesion::of(soil).share(forces.max_normal_stress) < WHOLE;
+    let is_reduced = is_cut_off || horizontal(forces) >= (1.0 - DIGITS) * most;
+    let of_law = is_reduced.then(|| horizontal(&unbounded_forces(it.model, &contact, sinkage)));
+    let allowed = Span::at_most((1.0 + DIGITS) * most);
+    Some((of_law.unwrap_or_else(|| horizontal(forces)), allowed))
+}
+
+/// The forces of a model's law as it is published.
+fn unbounded_forces(model: &Model, contact: &Contact, sinkage: f64) -> WheelForces {
+    let soil = Soil { shear_bound: ShearBound::None, ..contact.soil };
+    let contact = Contact { soil, ..*contact };
+    match model {
+        Model::SmallWheel => SmallWheelModel::DEFAULT.unbounded_forces(&contact, sinkage),
+        _ => model.as_ref().forces(&contact, sinkage),
+    }
+}
+
+/// √(F_x² + F_y²) [N]
+fn horizontal(forces: &WheelForces) -> f64 {
+    wide::hypot(forces.drawbar_pull, forces.side_force)
 }
