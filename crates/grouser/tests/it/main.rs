@@ -38,6 +38,7 @@ mod mission_turns;
 mod motor_presets;
 mod motors;
 mod mounts;
+mod negative_moduli;
 mod outcomes;
 mod own_model;
 mod paper;
