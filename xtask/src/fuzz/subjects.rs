@@ -175,6 +175,11 @@ const LINES: [(&str, &str, &[&str]); 41] = [
         &["plates.csv", "soil.toml"],
     ),
     (
+        "calibrate, plates and shear",
+        "calibrate --plates plates.csv --shear shear.csv --soil soil.toml --plate-law bekker --point-fit",
+        &["plates.csv", "shear.csv", "soil.toml"],
+    ),
+    (
         "import",
         "import lab.csv --delimiter ; --decimal-comma --column load_n=W --column slip_ratio=slip:% --column sinkage_mm=z:cm --out ours.csv",
         &["lab.csv"],
@@ -332,6 +337,10 @@ fn documents(program: &Path) -> Result<Vec<(String, Vec<u8>)>> {
         (
             "plates.csv",
             "plate_width_mm,sinkage_mm,pressure_kpa\n50,5,8\n50,10,19\n50,20,45\n80,5,9\n80,10,20\n80,20,47\n",
+        ),
+        (
+            "shear.csv",
+            "normal_stress_kpa,shear_displacement_mm,shear_stress_kpa,repeat\n10,5,2.3,a\n10,40,5.7,a\n20,5,4.5,a\n20,40,11,a\n20,5,4.6,b\n20,40,11.4,b\n",
         ),
         ("lab.csv", "W;slip;z;note\n17,5;10;1,25;first\n17,5;20;1,31;second\n18;40;1,5;third\n"),
     ];

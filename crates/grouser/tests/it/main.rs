@@ -2,6 +2,7 @@
 
 mod bands;
 mod batches;
+mod bevameter;
 mod calibration;
 mod campaign;
 mod campaign_documents;
