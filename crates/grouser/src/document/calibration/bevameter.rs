@@ -32,8 +32,7 @@ const SEARCHED_SIZES: f64 = 30.0;
 /// A shear modulus is searched within this factor of the displacement in which the curves rise [-]. Source: ours.
 const SEARCHED_RISES: f64 = 30.0;
 
-/// The key of a soil that says how its friction angle was measured belongs into what a fit on shear tests writes:
-/// [`BevameterProblem::fitted`] is the place for it.
+/// The keys that shear tests determine.
 const SHEAR_KEYS: [&str; 3] = ["cohesion_kpa", "friction_angle_deg", "shear.longitudinal_m"];
 
 /// Curves of plate and shear tests, as they were read.
@@ -240,6 +239,7 @@ impl BevameterProblem {
             parts.join(", ")
         );
         let samples = solved.solution.posterior.as_ref().map(|_| SAMPLES_FILE);
+        // What a soil says of how its friction angle was measured is written here, where there are shear tests.
         // A bevameter knows no wheel: the soil keeps the model that it was made for, if any.
         self.family.fitted(&solved.solution.fit.values, &source, self.soil.model(), samples)
     }

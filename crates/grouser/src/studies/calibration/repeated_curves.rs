@@ -32,6 +32,9 @@ pub const INTERVALS: usize = 50;
 /// repeats alone hardly determine it at one place.
 const NEIGHBOURS: usize = 2;
 
+/// Of fewer degrees of freedom Student's t has no variance [-].
+const LEAST_FREEDOM: f64 = 3.0;
+
 /// A curve with at most [`INTERVALS`] points, rising in their places: the means over intervals of equal length
 /// where it has more. Their scatter is that of a single reading: readings of one log are not independent.
 #[must_use]
@@ -67,16 +70,19 @@ fn mean_point(points: &[CurvePoint]) -> CurvePoint {
 /// The standard deviation of a mean is s √(D/n), with s between n repeats and the design effect D (Kish 1965) of
 /// all settings together: repeats that differ along the whole curve alike, by the plate's place in the bin,
 /// say as little about it as one reading. D is 1 where they differ from place to place at random, and the number
-/// of places where they differ by one factor.
+/// of places where they differ by one factor. A scatter that is known from few repeats is enlarged to the standard
+/// deviation of Student's t, by √(ν/(ν − 2)) with ν = Σ (n − 1) of all settings, at least 3.
 ///
 /// * `settings`: for each setting, the curves that repeat each other, each [`thinned`]
 #[must_use]
 pub fn means(settings: &[Vec<Vec<CurvePoint>>]) -> Vec<MeanCurve> {
-    let mut spreads: Vec<Spread> = settings.iter().map(|curves| Spread::of(curves)).collect();
+    let spreads: Vec<Spread> = settings.iter().map(|curves| Spread::of(curves)).collect();
     let levels: f64 = spreads.iter().map(Spread::squared_levels).sum();
     let freedom: f64 = spreads.iter().map(Spread::freedom).sum();
     let design_effect = if freedom > 0.0 { (levels / freedom).max(1.0) } else { 1.0 };
-    spreads.iter_mut().map(|spread| spread.mean(design_effect)).collect()
+    let known_freedom = freedom.max(LEAST_FREEDOM);
+    let of_few = known_freedom / (known_freedom - 2.0);
+    spreads.iter().map(|spread| spread.mean(design_effect * of_few)).collect()
 }
 
 /// Curves at common places.
@@ -138,8 +144,9 @@ impl Spread {
         self.values.iter().map(|curve| curve[place]).sum::<f64>() / self.values.len() as f64
     }
 
-    fn mean(&self, design_effect: f64) -> MeanCurve {
-        let of_mean = (design_effect / self.values.len() as f64).sqrt();
+    /// * `enlarged`: the variance of the mean over that of independent readings [-]
+    fn mean(&self, enlarged: f64) -> MeanCurve {
+        let of_mean = (enlarged / self.values.len() as f64).sqrt();
         let point = |place: usize| {
             let between = self.deviations.get(place).map_or(0.0, |one| one * of_mean);
             let scatter = between.max(self.own_scatter[place]);
@@ -217,15 +224,15 @@ mod tests {
     /// Closed form: repeats that differ by a constant know their mean as well as one reading each does.
     #[test]
     fn repeats_that_differ_as_a_whole_count_once() {
-        let curves: Vec<_> = [-1.0, 0.0, 1.0].map(line).to_vec();
+        let curves: Vec<_> = [-1.0, -1.0, 0.0, 1.0, 1.0].map(line).to_vec();
         let [mean] = &means(&[curves])[..] else { panic!("one setting") };
-        // s = 1 between three: D is the number of places, 40.
-        let expected = (40.0_f64 / 3.0).sqrt();
+        // s = 1 between five: D is the number of places, 40, and ν/(ν − 2) is 2.
+        let expected = (40.0_f64 * 2.0 / 5.0).sqrt();
         for point in &mean.points {
             assert!((point.value - point.at).abs() < 1e-12);
             assert!((point.scatter - expected).abs() < 1e-9, "{point:?}");
         }
-        assert_eq!((mean.points.len(), mean.repeats), (40, 3));
+        assert_eq!((mean.points.len(), mean.repeats), (40, 5));
     }
 
     #[test]
