@@ -30,7 +30,7 @@ pub(super) static PRESSURE_SINKAGE: Laws<PressureSinkage> = Laws {
                         "k_c",
                         ONE,
                         -1e4..=1e4,
-                        "Cohesive modulus, k'_c; a negative one needs `domain.width_m`",
+                        "Cohesive modulus, k'_c []; a negative one needs `domain.width_m`",
                         |law| match law {
                             PressureSinkage::Reece { k_c, .. } => Some(k_c),
                             PressureSinkage::Bekker { .. } => None,
@@ -40,7 +40,7 @@ pub(super) static PRESSURE_SINKAGE: Laws<PressureSinkage> = Laws {
                         "k_phi",
                         ONE,
                         -1e5..=1e5,
-                        "Frictional modulus, k'_φ; a negative one needs `domain.width_m`",
+                        "Frictional modulus, k'_φ []; a negative one needs `domain.width_m`",
                         |law| match law {
                             PressureSinkage::Reece { k_phi, .. } => Some(k_phi),
                             PressureSinkage::Bekker { .. } => None,
@@ -63,7 +63,7 @@ pub(super) static PRESSURE_SINKAGE: Laws<PressureSinkage> = Laws {
                         "k_c",
                         Unit::si("N/m^(n+1)"),
                         -1e9..=1e9,
-                        "Cohesive modulus, k_c; a negative one needs `domain.width_m`",
+                        "Cohesive modulus, k_c []; a negative one needs `domain.width_m`",
                         |law| match law {
                             PressureSinkage::Bekker { k_c, .. } => Some(k_c),
                             PressureSinkage::Reece { .. } => None,
@@ -74,7 +74,7 @@ pub(super) static PRESSURE_SINKAGE: Laws<PressureSinkage> = Laws {
                         "k_phi",
                         Unit::si("N/m^(n+2)"),
                         -1e12..=1e12,
-                        "Frictional modulus, k_φ; a negative one needs `domain.width_m`",
+                        "Frictional modulus, k_φ []; a negative one needs `domain.width_m`",
                         |law| match law {
                             PressureSinkage::Bekker { k_phi, .. } => Some(k_phi),
                             PressureSinkage::Reece { .. } => None,
