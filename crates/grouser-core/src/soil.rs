@@ -27,6 +27,8 @@ pub use small_wheel::SmallWheel;
 
 use crate::elementary;
 use crate::error::{ParameterError, finite, not_negative, positive};
+use crate::units::EARTH_GRAVITY;
+use crate::wheel::Wheel;
 
 /// A homogeneous soil.
 ///
@@ -358,11 +360,11 @@ impl Soil {
         }
         not_negative("stress peak a0", self.stress_peak.a0)?;
         finite("stress peak a1", self.stress_peak.a1)?;
-        self.pressure_sinkage.check(self.cohesion)?;
+        self.domain.check()?;
+        self.check_pressure_sinkage()?;
         self.shear.check()?;
         self.small_wheel.check()?;
         self.rft.check()?;
-        self.domain.check()?;
         self.discrepancy.as_ref().map_or(Ok(()), Discrepancy::check)?;
         match self.exit {
             Exit::Ratio(ratio) => not_negative("exit ratio", ratio),
@@ -372,5 +374,29 @@ impl Soil {
                 finite("exit ratio per slip squared", per_slip_squared)
             }
         }
+    }
+    /// Checks that the soil resists plates and wheels of the widths that its domain states, of every width where
+    /// it states none, under the gravities that it states, or else the Earth's.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first number of the pressure-sinkage law that does not.
+    pub fn check_pressure_sinkage(&self) -> Result<(), ParameterError> {
+        let Domain { gravity, width, .. } = self.domain;
+        let is_bounded = gravity.low > 0.0 && gravity.high.is_finite();
+        let gravity = if is_bounded { gravity } else { Span::new(EARTH_GRAVITY, EARTH_GRAVITY) };
+        let weights = Span::new(self.unit_weight(gravity.low), self.unit_weight(gravity.high));
+        self.pressure_sinkage.check(self.cohesion, weights, width)
+    }
+
+    /// Checks that the soil resists a wheel: with a negative modulus of pressure-sinkage it may resist wider or
+    /// narrower ones alone. No model is asked for what it cannot know.
+    ///
+    /// * `gravity`: *g* [m/s²]
+    ///
+    /// # Errors
+    /// [`ParameterError`] with the wheel's width, if it does not.
+    pub fn check_under(&self, wheel: &Wheel, gravity: f64) -> Result<(), ParameterError> {
+        let weight = self.unit_weight(gravity);
+        self.pressure_sinkage.check_width(wheel.width, self.cohesion, weight)
     }
 }

@@ -15,6 +15,7 @@ use super::read::{
 };
 use super::source::Source;
 use super::tree::{Node, Value};
+use grouser_core::wheel::Wheel;
 
 /// A file of measured wheel tests, or of a rover on slopes, and the wheels, rovers and soils in it.
 ///
@@ -110,6 +111,24 @@ impl DataSetCase {
     pub fn is_fitted(&self, soil: &str) -> bool {
         self.fitted.iter().any(|fitted| fitted == soil)
     }
+
+    /// Checks that each soil resists the wheels that were tested on it.
+    fn check_soils(&self, gravity: f64, node: &Node) -> Result<(), DocumentError> {
+        let wheels: Vec<Wheel> = match &self.tested {
+            Tested::Wheel(wheel) => vec![wheel.value],
+            Tested::Rover(rover) => {
+                rover.value.mounts().iter().map(|mount| mount.unit.wheel).collect()
+            }
+        };
+        for (place, (_, soil)) in self.soils.iter().enumerate() {
+            for wheel in &wheels {
+                soil.value.check_under(wheel, gravity).map_err(|error| {
+                    DocumentError::at(node.origin_of(&format!("soils.{place}")), error.into())
+                })?;
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Reads a data set with the wheels and soils that it names; the measurements themselves are read
@@ -130,9 +149,13 @@ pub fn read_data_set(
     };
     let sections = document.get("case").cloned().unwrap_or_default();
     let sections: Vec<CaseSection> = serde_json::from_value(sections).unwrap_or_default();
-    let cases = sections.iter().zip(nodes).map(|(case, node)| case.read(node));
     let Common { file, gravity } = common;
-    let value = DataSet { file, gravity, cases: cases.collect::<Result<_, _>>()? };
+    let cases = sections.iter().zip(nodes).map(|(section, node)| {
+        let case = section.read(node)?;
+        case.check_soils(gravity, node)?;
+        Ok(case)
+    });
+    let value = DataSet { file, gravity, cases: cases.collect::<Result<_, DocumentError>>()? };
     let (assumed, companions) = (Vec::new(), Vec::new());
     Ok(Loaded { document, value, uncertain: None, assumptions, assumed, companions })
 }

@@ -16,6 +16,8 @@
 //!
 //! What `grouser wheel-test` writes is such a file. Rows whose `status` is not `ok` are left out.
 
+pub mod bevameter_columns;
+pub mod bevameter_sets;
 pub mod columns;
 mod condition;
 mod dimension;

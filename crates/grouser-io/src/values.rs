@@ -27,7 +27,7 @@ use super::unit::DEG;
 use grouser_core::contact::validity;
 use grouser_core::error::ParameterError;
 use grouser_core::simulation::{PrescribedYaw, Scenario, TooFast};
-use grouser_core::soil::{AssumedValues, Exit, PressureSinkage, Shear, ShearModulus, Soil};
+use grouser_core::soil::{AssumedValues, Exit, PressureSinkage, Shear, ShearModulus, Soil, Span};
 use grouser_core::terrain::Shape;
 use grouser_core::vehicle::{Inertia, LoadSharing, Motor, Mount, OwnMoments, Rover};
 use grouser_core::wheel::Wheel;
@@ -169,14 +169,14 @@ impl Described for Soil {
 
     fn settled(mut self) -> Result<Self, Misfit> {
         share_angle_limit(&mut self.shear);
-        self.pressure_sinkage.check(self.cohesion).map_err(Misfit::at("pressure_sinkage"))?;
-        check_moduli(self.pressure_sinkage).map_err(Misfit::at("pressure_sinkage"))?;
+        self.domain.check().map_err(Misfit::at("domain"))?;
+        self.check_pressure_sinkage().map_err(Misfit::at("pressure_sinkage"))?;
+        check_moduli(&self).map_err(Misfit::at("pressure_sinkage"))?;
         check_exponent(self.pressure_sinkage).map_err(Misfit::at("pressure_sinkage"))?;
         self.shear.check().map_err(Misfit::at("shear"))?;
         self.small_wheel.check().map_err(Misfit::at("small_wheel"))?;
         self.rft.check().map_err(Misfit::at("rft"))?;
         check_exit(self.exit).map_err(Misfit::at("exit"))?;
-        self.domain.check().map_err(Misfit::at("domain"))?;
         self.check().map_err(Misfit::at("schema"))?;
         Ok(self)
     }
@@ -218,15 +218,22 @@ fn share_angle_limit(shear: &mut Shear) {
     }
 }
 
-/// That Bekker's moduli are no thousandth or millionth of a soil's.
-fn check_moduli(law: PressureSinkage) -> Result<(), ParameterError> {
-    let PressureSinkage::Bekker { k_c, k_phi, .. } = law else { return Ok(()) };
+/// That Bekker's moduli are no thousandth or millionth of a soil's: by their sum, and where one is negative by
+/// the stiffness over the widths for which they hold.
+fn check_moduli(soil: &Soil) -> Result<(), ParameterError> {
+    let PressureSinkage::Bekker { k_c, k_phi, .. } = soil.pressure_sinkage else { return Ok(()) };
     let least = *validity::DOUBTFUL_MODULUS.start();
-    if k_c + k_phi >= least {
+    let (name, value) = if soil.pressure_sinkage.has_negative_modulus() {
+        let Span { low, high } = soil.domain.width;
+        let softest = f64::min(k_c / low + k_phi, k_c / high + k_phi);
+        ("the least stiffness k_c/b + k_phi over `domain.width_m`, in N/m^(n+2),", softest)
+    } else {
+        ("the moduli k_c and k_phi together, in N/m^(n+1) and N/m^(n+2),", k_c + k_phi)
+    };
+    if value >= least {
         return Ok(());
     }
-    let name = "the moduli k_c and k_phi together, in N/m^(n+1) and N/m^(n+2),";
-    Err(ParameterError::new(name, k_c + k_phi, "at least 10: in kN they are k_c_kn and k_phi_kn"))
+    Err(ParameterError::new(name, value, "at least 10: in kN they are k_c_kn and k_phi_kn"))
 }
 
 /// That n stays in its range at every slip: it is linear, so its ends suffice.
@@ -563,6 +570,8 @@ impl Described for Stand {
     fn settled(self) -> Result<Self, Misfit> {
         let wheel = self.wheel.settled().map_err(|misfit| misfit.within("wheel"))?;
         let soil = self.soil.settled().map_err(|misfit| misfit.within("soil"))?;
+        soil.check_under(&wheel, self.gravity)
+            .map_err(|error| Misfit::new("pressure_sinkage", error).within("soil"))?;
         Ok(Self { soil, wheel, ..self })
     }
 }

@@ -4,10 +4,11 @@ use std::ops::ControlFlow;
 use std::sync::Mutex;
 
 use grouser::document::calibration::{
-    AimError, AimWords, PlateProblem, STEPS, Solved, WheelProblem, fit_notes, samples_csv, sampling,
+    AimError, AimWords, BevameterProblem, BevameterTests, STEPS, Solved, WheelProblem, fit_notes,
+    samples_csv, sampling,
 };
 use grouser::document::measurements::{Choice, Limits, MeasurementError};
-use grouser::document::{self, Companion, FitKey, SAMPLES_FILE, SoilFamily, plates};
+use grouser::document::{self, Companion, FitKey, SAMPLES_FILE, SoilFamily, plates, shear_tests};
 use grouser::studies::calibration::diagnostics::correlations_of;
 use grouser::studies::calibration::{CalibrationError, Fit, Observer, PosteriorState, Sampling};
 use numpy::PyArray2;
@@ -189,12 +190,16 @@ pub(crate) fn calibrate_wheel_tests<'py>(
     Ok(dict)
 }
 
-/// Fits a pressure-sinkage law to plate tests.
+/// Fits a soil to plate tests, shear tests, or both.
+///
+/// * `plates`, `shear`: rows of each; at least one of them
+/// * `law`: `bekker` or `reece`; without it the soil's own
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "arguments, as they come from Python")]
-pub(crate) fn calibrate_plate_tests<'py>(
+pub(crate) fn calibrate_bevameter<'py>(
     py: Python<'py>,
-    data: Data,
+    plates: Option<Data>,
+    shear: Option<Data>,
     soil: &Document,
     setting: &Document,
     law: Option<String>,
@@ -208,21 +213,51 @@ pub(crate) fn calibrate_plate_tests<'py>(
     let gravity = setting.scenario()?.value.gravity;
     let soil = soil.soil()?.document.clone();
     let sampling = sampling_of(seed, steps)?;
-    let (label, file) = (data.label(), data.name());
+    let each = || plates.iter().chain(&shear);
+    let label = each().map(Data::label).collect::<Vec<_>>().join(" and ");
+    let file = each().map(Data::name).collect::<Vec<_>>().join(" and ");
     let found = listening(py, move |cancelled| {
-        let (source, limits) = (data.file(), Limits::default());
-        let measured = plates::read_from(&source.label(), &*source.bytes(limits)?, limits)?;
-        let problem = PlateProblem::new(&soil, law.as_deref(), gravity, measured.curves)
-            .map_err(Failure::Fit)?;
+        let (tests, notes) = bevameter_tests(plates, shear)?;
+        let problem =
+            BevameterProblem::new(&soil, law.as_deref(), gravity, &tests).map_err(Failure::Fit)?;
         let listener = Listener::new(cancelled);
         let found = problem.solve(&file, sampling, &listener)?;
-        let notes = [measured.notes, listener.notes(), found.solved.notes()].concat();
+        let notes =
+            [notes, problem.notes().to_vec(), listener.notes(), found.solved.notes()].concat();
         Ok((found, notes, problem))
     })?;
     let (found, notes, problem) = found.map_err(|failure: Failure| failure.to_python(&label))?;
     let dict = solved_to_python(py, &found.solved, &found.soil, problem.family(), notes)?;
-    dict.set_item("curves", columns(py, &problem.records(&found))?)?;
+    let (plates, shear) = (problem.plate_records(&found), problem.shear_records(&found));
+    if !plates.is_empty() {
+        dict.set_item("curves", columns(py, &plates)?)?;
+    }
+    if !shear.is_empty() {
+        dict.set_item("shear_curves", columns(py, &shear)?)?;
+    }
     Ok(dict)
+}
+
+/// The curves of a bevameter, and what was noticed in them.
+fn bevameter_tests(
+    plates: Option<Data>,
+    shear: Option<Data>,
+) -> Result<(BevameterTests, Vec<String>), MeasurementError> {
+    let limits = Limits::default();
+    let (mut tests, mut notes) = (BevameterTests::default(), Vec::new());
+    if let Some(data) = plates {
+        let (label, rows) = (data.label(), data.bevameter_rows(limits)?);
+        let read = plates::read_from(&label, &*rows, limits)?;
+        tests.plates = read.curves;
+        notes.extend(read.notes);
+    }
+    if let Some(data) = shear {
+        let (label, rows) = (data.label(), data.bevameter_rows(limits)?);
+        let read = shear_tests::read_from(&label, &*rows, limits)?;
+        tests.shear = read.curves;
+        notes.extend(read.notes);
+    }
+    Ok((tests, notes))
 }
 
 /// The results that every calibration has.

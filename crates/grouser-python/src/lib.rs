@@ -49,7 +49,7 @@ mod _core {
     #[pymodule_export]
     use super::arrow::arrow_stream;
     #[pymodule_export]
-    use super::calibration::{calibrate_plate_tests, calibrate_wheel_tests};
+    use super::calibration::{calibrate_bevameter, calibrate_wheel_tests};
     #[pymodule_export]
     use super::campaign::{
         CampaignFolder, CampaignManifest, campaign_facts, campaign_frequencies, campaign_manifest,

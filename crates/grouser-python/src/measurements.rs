@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use grouser::document::escape;
+use grouser::document::measurements::bevameter_sets::rows_of;
 use grouser::document::measurements::{
     self, Choice, Imported, Layout, Limits, Mapping, MeasurementError, SlipDefinition, Source,
     import,
@@ -51,11 +52,14 @@ impl Data {
         }
     }
 
-    /// The same for what no data set of Grouser has: a path is always a file.
-    pub(crate) fn file(self) -> Source {
+    /// The rows of a bevameter: of a table, of a set of Grouser by its name, or of a file.
+    ///
+    /// # Errors
+    /// [`MeasurementError`] for a file that cannot be read.
+    pub(crate) fn bevameter_rows(self, limits: Limits) -> Result<Vec<u8>, MeasurementError> {
         match self {
-            Self::Text((label, rows)) => Source::Text { label, rows },
-            Self::Named(path) => Source::File(path),
+            Self::Text((_, rows)) => Ok(rows.into()),
+            Self::Named(path) => Ok(rows_of(&path, limits)?.into_owned()),
         }
     }
 }

@@ -576,7 +576,7 @@ fn plan(
     check(LOAD.name, load_n.as_slice()?, &study::LOAD_N)?;
     check(SLIP_ANGLE.name, slip_angle_deg.as_slice()?, &study::SLIP_ANGLE_DEG)?;
     check(SLIP_RATIO.name, slip_ratio.as_slice()?, &study::SLIP_RATIO)?;
-    Ok(WheelTest {
+    let test = WheelTest {
         wheel: wheel.wheel()?.value,
         soil: soil.soil()?.value,
         gravity,
@@ -584,7 +584,9 @@ fn plan(
         loads: load_n.as_slice()?.to_vec(),
         slip_angles: in_si(SLIP_ANGLE, slip_angle_deg.as_slice()?),
         slip_ratios: slip_ratio.as_slice()?.to_vec(),
-    })
+    };
+    test.check().map_err(|error| errors::of_parameter(&error))?;
+    Ok(test)
 }
 
 /// A wheel test on a simulated stand: a row for each run of each setting, runs fastest, then slip

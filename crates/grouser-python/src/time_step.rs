@@ -17,7 +17,7 @@ use pyo3::prelude::*;
 use crate::columns::{wheel_names, wheel_row};
 use crate::descriptions::Document;
 use crate::errors;
-use crate::wheels::model_and_gravity;
+use crate::wheels::{check_under, model_and_gravity};
 
 /// Wheels and the soils under them, whose reaction is computed at every step.
 #[pyclass(frozen, module = "grouser._core")]
@@ -55,13 +55,16 @@ impl SteppingWheels {
                 return Err(errors::parameter(message, name, Some(value), expected));
             }
         }
+        let gravity = setting.scenario()?.value.gravity;
         let made = soils.iter().zip(&wheels).map(|(soil, wheel)| {
             let (model, _) = model_and_gravity(soil, setting)?;
-            Ok((wheel.wheel()?.value, soil.soil()?.value, model))
+            let (soil, wheel) = (soil.soil()?.value, wheel.wheel()?.value);
+            check_under(&soil, &wheel, gravity)?;
+            Ok((wheel, soil, model))
         });
         Ok(Self {
             wheels: made.collect::<PyResult<_>>()?,
-            gravity: setting.scenario()?.value.gravity,
+            gravity,
             damping: sinkage_damping_s_m,
             rest_speed: rest_speed_m_s,
         })

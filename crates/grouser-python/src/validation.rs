@@ -17,7 +17,7 @@ use crate::columns::table_to_python;
 use crate::descriptions::Document;
 use crate::interrupt::listening;
 use crate::measurements::Data;
-use crate::wheels::model_and_gravity;
+use crate::wheels::{check_under, model_and_gravity};
 use crate::{errors, values};
 
 /// Predicts every trial of a file and compares the means of its cells with the measured ones.
@@ -39,6 +39,7 @@ pub(crate) fn validate<'py>(
     let choice = Choice { conditions, wheel: wheel_label, ..Choice::default() };
     let (model, gravity) = model_and_gravity(soil, setting)?;
     let (soil, wheel) = (soil.soil()?.value, wheel.wheel()?.value);
+    check_under(&soil, &wheel, gravity)?;
     let file = data.label();
     let found = listening(py, move |_| {
         let measured = data.source()?.read(&choice)?;

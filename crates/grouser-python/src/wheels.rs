@@ -90,12 +90,16 @@ impl Stand {
         });
         let soils = soils.collect::<PyResult<Vec<_>>>()?;
         let gravity = setting.scenario()?.value.gravity;
-        Ok(Self { soils, wheel: loaded_wheel.value, gravity, of_soils, of_wheels, gravities })
+        let wheel = loaded_wheel.value;
+        if of_soils.is_empty() && of_wheels.is_empty() && gravities.is_none() {
+            soils.iter().try_for_each(|(soil, _)| check_under(soil, &wheel, gravity))?;
+        }
+        Ok(Self { soils, wheel, gravity, of_soils, of_wheels, gravities })
     }
 
     /// Whether anything of it differs from wheel to wheel.
     fn is_varied(&self) -> bool {
-        !self.of_soils.is_empty() || !self.of_wheels.is_empty()
+        !self.of_soils.is_empty() || !self.of_wheels.is_empty() || self.gravities.is_some()
     }
 
     /// A wheel's contact and model.
@@ -117,6 +121,7 @@ impl Stand {
             wheel = wheel.with(self.of_wheels.at(0, place)).map_err(Misfit::of_numbers)?;
         }
         let gravity = self.gravities.as_ref().map_or(self.gravity, |all| all[place]);
+        soil.check_under(&wheel, gravity)?;
         let angle = SLIP_ANGLE.unit.to_si(inputs.slip_angles_deg[place]);
         let slip = Slip::on_test_stand(inputs.slip_ratios[place], angle);
         Ok((Contact { wheel, soil, slip, gravity }, model.clone()))
@@ -231,6 +236,11 @@ fn first_outside(
     let error =
         |place: usize| errors::out_of_range(name, values[place], place, values.len(), range);
     misfit.map_or(Ok(()), |place| Err(error(place)))
+}
+
+/// Checks that a soil resists a wheel of this width.
+pub(crate) fn check_under(soil: &Soil, wheel: &Wheel, gravity: f64) -> PyResult<()> {
+    soil.check_under(wheel, gravity).map_err(|error| errors::of_parameter(&error))
 }
 
 /// The wheel–soil model that a setting names, or else the soil's own; and the setting's gravity [m/s²].

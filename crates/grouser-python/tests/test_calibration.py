@@ -160,6 +160,36 @@ def test_plate_tests_as_the_program_has_them(program: Program, plates_file: Path
     assert np.abs(measured - fitted).max() < 0.02
 
 
+def test_shear_tests_as_the_program_has_them(program: Program, plates_file: Path) -> None:
+    answer = program(
+        "calibrate", "--shear", "cullinan-shear", "--plates", str(plates_file), "--plate-law", "bekker",
+        "--soil", "dry-sand", "--steps", "100", "--seed", "7",
+    )  # fmt: skip
+    found = gr.calibrate_plates(
+        plates_file, "dry-sand", shear="cullinan-shear", plate_law="bekker", steps=100, seed=7
+    )
+    check_same_as_program(found, answer)
+    assert found.shear_curves is not None and found.curves is not None
+    alone = gr.calibrate_shear("cullinan-shear", "dry-sand", point_fit=True)
+    assert alone.curves is None and alone.shear_curves is not None
+    assert alone.shear_curves["normal_stress_kpa"].tolist() == [93.0] * 50
+    # One normal stress leaves cohesion and friction angle open.
+    assert any("one normal stress" in reason for reason in alone.unidentifiable)
+
+
+def test_a_wheel_without_stiffness_under_it_is_refused() -> None:
+    """k_c/b + k_phi is above zero from b = 0.1 m on; HAKUTO's wheel is 0.08 m wide."""
+    soil = gr.Soil(
+        "toyoura",
+        pressure_sinkage={"law": "bekker", "k_c": -1e5, "k_phi": 1e6, "n": 1.1},
+        domain={"width_m": [0.12, 0.2]},
+    )
+    with pytest.raises(gr.ParameterError, match="width b of 0.08 m"):
+        gr.wheel_test(soil, "hakuto", load_n=[17.0], slip_ratio=[0.1])
+    with pytest.raises(gr.ParameterError, match="width b of 0.08 m"):
+        gr.settle(soil, "hakuto", load_n=[17.0], slip_ratio=[0.1])
+
+
 def test_a_point_fit_has_no_samples(stand_file: Path) -> None:
     soil = gr.Soil("toyoura", **START)
     bounds = {"shear.longitudinal_m": (0.001, 0.2), "pressure_sinkage.k_phi": None}
@@ -206,7 +236,8 @@ def test_tables_and_pictures(found: gr.Calibration, plates_file: Path) -> None:
     assert data.samples.dims == ("sample", "key") and data.unit.values.tolist() == ["", "m"]
     assert data.fit.sel(key="soil.shear.longitudinal_m") == found.fit[1]
     plates = gr.calibrate_plates(plates_file, "dry-sand", plate_law="bekker", point_fit=True)
-    for result in (found, plates):
+    shear = gr.calibrate_shear("cullinan-shear", "dry-sand", point_fit=True)
+    for result in (found, plates, shear):
         axes = plt.subplots()[1]
         assert result.plot(axes) is axes and axes.get_xlabel()
         assert result.plot() is not axes

@@ -1,6 +1,7 @@
 //! Documents with units in their names, and what they mean: those of `grouser-io`, and beside them the documents
 //! and results of studies.
 
+mod bevameter;
 pub mod calibration;
 pub mod campaign;
 pub mod card;
@@ -14,6 +15,7 @@ pub mod plates;
 pub mod ranking;
 pub mod route;
 pub mod sensors;
+pub mod shear_tests;
 pub mod simulated_test;
 mod soil_family;
 pub mod study;

@@ -53,7 +53,7 @@ impl Subject {
 }
 
 /// Quick lines of every command, each with the names of its files among [`documents`].
-const LINES: [(&str, &str, &[&str]); 41] = [
+const LINES: [(&str, &str, &[&str]); 42] = [
     (
         "wheel-test",
         "wheel-test --soil soil.toml --wheel wheel.toml --load-n 17 --slip-ratio -0.4:0.8:0.4 --format json",
@@ -173,6 +173,11 @@ const LINES: [(&str, &str, &[&str]); 41] = [
         "calibrate, plates",
         "calibrate --plates plates.csv --soil soil.toml --plate-law bekker --fit soil.pressure_sinkage.k_phi --point-fit",
         &["plates.csv", "soil.toml"],
+    ),
+    (
+        "calibrate, plates and shear",
+        "calibrate --plates plates.csv --shear shear.csv --soil soil.toml --plate-law bekker --point-fit",
+        &["plates.csv", "shear.csv", "soil.toml"],
     ),
     (
         "import",
@@ -300,7 +305,7 @@ fn documents(program: &Path) -> Result<Vec<(String, Vec<u8>)>> {
             "wheel-test --load-n 20 --slip-ratio 0:0.6:0.2 --slip-angle-deg 0,15 --trials 3 --format csv",
         ),
     ];
-    const WRITTEN: [(&str, &str); 12] = [
+    const WRITTEN: [(&str, &str); 13] = [
         (
             "scenario.toml",
             "schema = \"scenario/1\"\nname = \"a run\"\nrover = \"rover.toml\"\nsoil = \"soil.toml\"\nslope_deg = 10.0\nduration_s = 1.0\n[drive]\nlaw = \"constant\"\nspeed_m_s = [0.06, 0.06, 0.05, 0.05]\n[start]\nyaw_deg = 5.0\n",
@@ -332,6 +337,10 @@ fn documents(program: &Path) -> Result<Vec<(String, Vec<u8>)>> {
         (
             "plates.csv",
             "plate_width_mm,sinkage_mm,pressure_kpa\n50,5,8\n50,10,19\n50,20,45\n80,5,9\n80,10,20\n80,20,47\n",
+        ),
+        (
+            "shear.csv",
+            "normal_stress_kpa,shear_displacement_mm,shear_stress_kpa,repeat\n10,5,2.3,a\n10,40,5.7,a\n20,5,4.5,a\n20,40,11,a\n20,5,4.6,b\n20,40,11.4,b\n",
         ),
         ("lab.csv", "W;slip;z;note\n17,5;10;1,25;first\n17,5;20;1,31;second\n18;40;1,5;third\n"),
     ];

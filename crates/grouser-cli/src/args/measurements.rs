@@ -76,7 +76,8 @@ pub(crate) struct ValidateArgs {
 #[command(
     after_help = "Examples:\n  grouser calibrate --data tests.csv --wheel hakuto --soil toyoura \\\n    \
                         --fit soil.pressure_sinkage.k_phi,soil.shear.longitudinal_m=0.001:0.1 --out fit\n  \
-                        grouser calibrate --plates plates.csv --plate-law bekker --soil dry-sand --out fit\n\
+                        grouser calibrate --plates plates.csv --shear shear.csv --plate-law bekker \\\n    \
+                        --soil dry-sand --out fit\n\
                         The same command goes on with a run that was interrupted."
 )]
 pub(crate) struct CalibrateArgs {
@@ -85,7 +86,7 @@ pub(crate) struct CalibrateArgs {
     #[arg(
         long,
         value_name = "NAME|FILE.csv",
-        required_unless_present = "plates",
+        required_unless_present_any = ["plates", "shear"],
         requires = "wheel",
         requires = "fit"
     )]
@@ -102,9 +103,14 @@ pub(crate) struct CalibrateArgs {
     /// Only rows where a column has one of some values, or none of them; can be repeated.
     #[arg(long = "where", value_name = "COLUMN=VALUES", value_parser = Condition::parse, requires = "data")]
     pub(crate) conditions: Vec<Condition>,
-    /// A file of plate-sinkage curves instead: `plate_width_mm`, `sinkage_mm`, `pressure_kpa`.
+    /// A file of plate-sinkage curves instead: `plate_width_mm`, `plate_diameter_mm` or `plate_radius_mm`;
+    /// `sinkage_mm`, `pressure_kpa`.
     #[arg(long, value_name = "FILE.csv", conflicts_with = "data")]
     pub(crate) plates: Option<PathBuf>,
+    /// A file of shear tests, alone or beside plates: `shear_displacement_mm`, `shear_stress_kpa`,
+    /// `normal_stress_kpa`.
+    #[arg(long, value_name = "FILE.csv", conflicts_with = "data")]
+    pub(crate) shear: Option<PathBuf>,
     /// The law of the plates; without it the soil's own.
     #[arg(long, value_enum, requires = "plates")]
     pub(crate) plate_law: Option<PlateLawChoice>,

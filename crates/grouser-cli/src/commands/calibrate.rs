@@ -1,8 +1,8 @@
-//! `grouser calibrate`: estimates soil parameters, with confidence intervals, from wheel or plate tests.
+//! `grouser calibrate`: estimates soil parameters, with confidence intervals, from wheel tests, plate tests or shear tests.
 
+mod bevameter;
 mod checkpoint;
 mod next_runs;
-mod plates;
 mod progress;
 mod report;
 mod wheel;
@@ -11,8 +11,9 @@ use crate::args::CalibrateArgs;
 use crate::failure::Failure;
 
 pub(crate) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
-    match &args.plates {
-        Some(file) => plates::run(args, file),
-        None => wheel::run(args),
+    if args.plates.is_some() || args.shear.is_some() {
+        bevameter::run(args)
+    } else {
+        wheel::run(args)
     }
 }

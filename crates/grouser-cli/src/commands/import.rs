@@ -1,10 +1,13 @@
 //! `grouser import`: converts another laboratory's CSV file.
 
-use grouser::document::escape;
+use grouser::document::measurements::bevameter_columns::{
+    PLATE_DIAMETER, PLATE_RADIUS, PLATE_WIDTH, PRESSURE, SHEAR_DISPLACEMENT, SHEAR_STRESS,
+};
 use grouser::document::measurements::{
     self, Choice, Imported, Layout, Limits, MeasurementError, MeasurementProblem, SlipDefinition,
     import,
 };
+use grouser::document::{escape, plates, shear_tests};
 use grouser::studies::measurement::Quantity;
 
 use crate::args::{ImportArgs, SlipChoice};
@@ -44,6 +47,14 @@ fn check(label: &str, text: &str, limits: Limits) -> Result<(), Failure> {
     let label = format!("{label} as imported");
     // Numbers that are converted may have more digits, and so more bytes.
     let limits = Limits { rows: limits.rows.saturating_mul(4) };
+    let header = text.lines().next().unwrap_or_default();
+    let has = |name: &str| header.split(',').any(|column| column == name);
+    if [PLATE_WIDTH, PLATE_DIAMETER, PLATE_RADIUS, PRESSURE].into_iter().any(has) {
+        return check_plates(&label, text, limits);
+    }
+    if has(SHEAR_STRESS) || has(SHEAR_DISPLACEMENT) {
+        return check_shear(&label, text, limits);
+    }
     let choice = Choice { limits, ..Choice::default() };
     // Rows of several wheels are no fault here.
     let measured = match measurements::read_from(&label, text.as_bytes(), &choice) {
@@ -64,6 +75,33 @@ fn check(label: &str, text: &str, limits: Limits) -> Result<(), Failure> {
     let (trials, cells) = (tests.trials.len(), tests.cells.len());
     output::message(&format!("{trials} trials in {cells} cells; readings: {}", counts.join(", ")));
     Ok(())
+}
+
+/// The same of plate tests.
+fn check_plates(label: &str, text: &str, limits: Limits) -> Result<(), Failure> {
+    let read = plates::read_from(label, text.as_bytes(), limits);
+    let plates::PlateMeasurements { curves, notes } =
+        read.map_err(|error| of_import(label, error))?;
+    let rows: usize = curves.iter().map(|curve| curve.points.len()).sum();
+    tell_curves(&notes, rows, curves.len(), "plates");
+    Ok(())
+}
+
+/// The same of shear tests.
+fn check_shear(label: &str, text: &str, limits: Limits) -> Result<(), Failure> {
+    let read = shear_tests::read_from(label, text.as_bytes(), limits);
+    let shear_tests::ShearMeasurements { curves, notes } =
+        read.map_err(|error| of_import(label, error))?;
+    let rows: usize = curves.iter().map(|curve| curve.points.len()).sum();
+    tell_curves(&notes, rows, curves.len(), "shear tests");
+    Ok(())
+}
+
+fn tell_curves(notes: &[String], rows: usize, curves: usize, what: &str) {
+    for note in notes {
+        output::message(&format!("note: {note}"));
+    }
+    output::message(&format!("{rows} rows in {curves} curves of {what}"));
 }
 
 /// What is missing was not mapped: the hint to import the file would lead in a circle.

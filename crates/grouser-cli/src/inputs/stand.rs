@@ -89,6 +89,7 @@ pub(crate) fn stand(
     let soil = document::read_soil(&flag_source("--soil", Kind::Soil, soil)?, &overrides)?;
     let wheel = document::read_wheel(&flag_source("--wheel", Kind::Wheel, wheel)?, &overrides)?;
     let run = default_run(setting)?;
+    soil.value.check_under(&wheel.value, run.gravity)?;
     let chosen = setting.model.as_ref().map(|_| run.model);
     let model = chosen.clone().unwrap_or_else(|| soil.document.usual_model(""));
     let band = BandInputs::of_soil(&soil, chosen);

@@ -267,6 +267,35 @@ fn plates_give_the_moduli_and_one_width_says_what_it_cannot() {
     assert_eq!(place.run(&["check", "fit/soil.toml"]).code(), 0);
 }
 
+/// τ = (c + σ tan φ)(1 − e^(−j/K)) without noise, after an import from other units: c 2 kPa, φ 30°, K 10 mm.
+#[test]
+fn shear_tests_of_another_laboratory_give_their_soil() {
+    let place = Place::new();
+    let mut rows = "sigma,j,tau\n".to_owned();
+    for sigma in [10.0, 20.0, 40.0] {
+        for step in 1..=8 {
+            let j_cm = 0.5 * f64::from(step);
+            let strength = 2.0 + sigma * 30.0_f64.to_radians().tan();
+            let tau = strength * (1.0 - (-j_cm).exp());
+            rows += &format!("{},{j_cm},{}\n", 1e-2 * sigma, 1e3 * tau);
+        }
+    }
+    place.write("lab.csv", rows);
+    let import = "import lab.csv --column normal_stress_kpa=sigma:bar --column shear_displacement_mm=j:cm \
+                  --column shear_stress_kpa=tau:Pa --out shear.csv";
+    let answer = place.run(&words(import));
+    assert_eq!(answer.code(), 0, "{}", answer.conversation());
+    let found = json(&place, "calibrate --soil dry-sand --shear shear.csv --point-fit");
+    let rows = found["rows"].as_array().expect("rows");
+    for (row, truth) in rows.iter().zip([2.0, 30.0, 0.01]) {
+        assert!((number(&row["fit"]) / truth - 1.0).abs() < 1e-3, "{row}");
+    }
+    let answer =
+        place.run(&words("calibrate --soil dry-sand --shear shear.csv --steps 100 --out fit"));
+    assert_eq!(answer.code(), 0, "{}", answer.conversation());
+    assert_eq!(place.run(&["check", "fit/soil.toml"]).code(), 0);
+}
+
 #[test]
 fn what_cannot_be_fitted_is_refused() {
     let place = with_test();

@@ -159,6 +159,7 @@ impl Scenario {
     pub fn check(&self) -> Result<(), ParameterError> {
         self.ground.check()?;
         positive("gravity [m/s²]", self.gravity)?;
+        self.on_ground().check_soils()?;
         self.drive.check(&self.rover)?;
         self.by_wheel.check(self.rover.wheel_count())?;
         self.scatter.check()?;

@@ -3,8 +3,9 @@
 //! Both read σ = K_σ zⁿ; they differ in what K_σ is made of, and so in how a soil changes with
 //! the wheel's width and with gravity. Each variant has constants in units of its own.
 
+use super::domain::Span;
 use crate::elementary;
-use crate::error::{ParameterError, not_negative, positive};
+use crate::error::{ParameterError, finite, positive};
 
 /// A pressure-sinkage law, σ = K_σ zⁿ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -131,21 +132,99 @@ impl PressureSinkage {
         self
     }
 
-    /// That the law gives a pressure, for a soil of this cohesion [Pa].
+    /// Checks that the law gives a pressure: with moduli that are not negative under every width, with a
+    /// negative one over a range of widths that is stated.
+    ///
+    /// Negative moduli are published, and predict well near the plates they were fitted to; K_σ changes its
+    /// sign at a width not far from theirs. It is monotone in the width, so that the ends of the range suffice.
+    ///
+    /// * `cohesion`: *c* [Pa]
+    /// * `unit_weight`: the range of *γ* [N/m³], which Reece's law reads
+    /// * `widths`: the range of *b* [m] for which the moduli are known to hold
     ///
     /// # Errors
-    /// [`ParameterError`] for the first one that does not.
-    pub fn check(&self, cohesion: f64) -> Result<(), ParameterError> {
-        let (k_c, k_phi, exponent) = match *self {
-            Self::Bekker { k_c, k_phi, exponent } => (k_c, k_phi, exponent),
-            Self::Reece { k_c, k_phi, exponent } => (cohesion * k_c, k_phi, exponent),
-        };
-        not_negative("pressure-sinkage modulus k_c", k_c)?;
-        not_negative("pressure-sinkage modulus k_phi", k_phi)?;
-        positive("pressure-sinkage moduli, k_c (with cohesion) and k_phi together", k_c + k_phi)?;
+    /// [`ParameterError`] for the first number that gives none.
+    pub fn check(
+        &self,
+        cohesion: f64,
+        unit_weight: Span,
+        widths: Span,
+    ) -> Result<(), ParameterError> {
+        let (k_c, k_phi, exponent) = self.moduli();
         for slip_ratio in [-1.0, 0.0, 1.0] {
             positive("sinkage exponent n, at any slip from -1 to 1,", exponent.at(slip_ratio))?;
         }
+        let modulus = |name: &str| format!("pressure-sinkage modulus {name}");
+        for (name, value) in [("k_c", k_c), ("k_phi", k_phi)] {
+            finite(&modulus(name), value)?;
+        }
+        if !self.has_negative_modulus() {
+            let together = if self.is_without_cohesion(cohesion) { k_phi } else { k_c + k_phi };
+            return positive(
+                "pressure-sinkage moduli, k_c (with cohesion) and k_phi together",
+                together,
+            );
+        }
+        if !(widths.low > 0.0 && widths.high.is_finite()) {
+            let (name, value) = if k_c < 0.0 { ("k_c", k_c) } else { ("k_phi", k_phi) };
+            return Err(ParameterError::new(modulus(name), value, WITHOUT_WIDTHS));
+        }
+        for unit_weight in [unit_weight.low, unit_weight.high] {
+            for width in [widths.low, widths.high] {
+                self.check_width(width, cohesion, unit_weight)?;
+            }
+        }
         Ok(())
     }
+
+    /// Checks that the law gives a pressure under a rim or a plate of one width.
+    ///
+    /// * `width`: *b* [m]
+    /// * `cohesion`: *c* [Pa]
+    /// * `unit_weight`: *γ* [N/m³]
+    ///
+    /// # Errors
+    /// [`ParameterError`] with the width, if K_σ is not above zero there.
+    pub fn check_width(
+        &self,
+        width: f64,
+        cohesion: f64,
+        unit_weight: f64,
+    ) -> Result<(), ParameterError> {
+        let stiffness = self.scaled(width, cohesion, unit_weight, 0.0).at_scale;
+        if stiffness.is_finite() && stiffness > 0.0 {
+            return Ok(());
+        }
+        let sum = match self {
+            Self::Bekker { .. } => "k_c/b + k_phi",
+            Self::Reece { .. } => "c k_c + density g b k_phi",
+        };
+        let name = format!("the soil's stiffness {sum} under a width b of {width} m");
+        Err(ParameterError::new(name, stiffness, NOT_STIFF))
+    }
+
+    /// Whether one of the moduli is below zero, so that the law holds for some widths only.
+    #[must_use]
+    pub fn has_negative_modulus(&self) -> bool {
+        let (k_c, k_phi, _) = self.moduli();
+        k_c < 0.0 || k_phi < 0.0
+    }
+
+    /// k_c, k_φ and n, in the law's own units.
+    fn moduli(&self) -> (f64, f64, SinkageExponent) {
+        let (Self::Bekker { k_c, k_phi, exponent } | Self::Reece { k_c, k_phi, exponent }) = *self;
+        (k_c, k_phi, exponent)
+    }
+
+    /// Whether k_c has nothing to act on.
+    fn is_without_cohesion(&self, cohesion: f64) -> bool {
+        matches!(self, Self::Reece { .. }) && cohesion == 0.0
+    }
 }
+
+/// What a negative modulus asks of a soil.
+const WITHOUT_WIDTHS: &str = "finite and not negative, unless the soil states for which widths it holds: with \
+                              `domain.width_m = [smallest, largest]`, over which the stiffness must be above zero";
+
+/// What a stiffness must be under a wheel.
+const NOT_STIFF: &str = "above zero: a negative modulus holds for the widths of its plates, `domain.width_m`, and near them";

@@ -8,6 +8,7 @@ use super::posture::NoPosture;
 use super::rover::Rover;
 use super::state::RoverState;
 use crate::contact::{SettleError, Settled, Slip, WheelForces, WheelSoilModel};
+use crate::error::ParameterError;
 use crate::terrain::Ground;
 use crate::units::Vec2;
 
@@ -111,6 +112,21 @@ pub struct Stance {
 }
 
 impl OnGround<'_> {
+    /// Checks that each soil of the ground resists each wheel of the rover, as a soil with a negative modulus of
+    /// pressure-sinkage does for some widths only. A [`Terrain`](crate::terrain::Terrain) with soils of its own is
+    /// not asked for them.
+    ///
+    /// # Errors
+    /// [`ParameterError`] for the first wheel that has no stiffness under it.
+    pub fn check_soils(&self) -> Result<(), ParameterError> {
+        let zones = self.ground.zones.iter().flat_map(|zones| &zones.soils);
+        let wheels = || self.rover.mounts().iter().map(|mount| &mount.unit.wheel);
+        std::iter::once(&self.ground.soil)
+            .chain(zones)
+            .flat_map(|soil| wheels().map(move |wheel| (soil, wheel)))
+            .try_for_each(|(soil, wheel)| soil.check_under(wheel, self.gravity))
+    }
+
     /// Where the rover stands in a state, and how its weight acts there.
     #[must_use]
     pub fn stance(&self, state: &RoverState) -> Stance {

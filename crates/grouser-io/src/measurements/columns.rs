@@ -45,6 +45,10 @@ pub enum Meaning {
     Cell,
     /// Whether the row counts: `ok` or nothing; anything else says why it does not.
     Status,
+    /// A length of a plate or shear test.
+    BevameterLength,
+    /// A pressure or stress of a plate or shear test.
+    BevameterStress,
     /// Known, and of no use here.
     Unused,
 }

@@ -7,6 +7,8 @@ pub enum Dimension {
     Length,
     /// A force.
     Force,
+    /// A pressure, a stress.
+    Stress,
     /// A torque.
     Moment,
     /// An angle.
@@ -24,7 +26,7 @@ pub enum Dimension {
 }
 
 /// Units by name, with what they measure and their size in SI.
-const UNITS: [(&str, Dimension, f64); 32] = [
+const UNITS: [(&str, Dimension, f64); 38] = [
     ("m", Dimension::Length, 1.0),
     ("cm", Dimension::Length, 1e-2),
     ("mm", Dimension::Length, 1e-3),
@@ -36,6 +38,12 @@ const UNITS: [(&str, Dimension, f64); 32] = [
     ("kgf", Dimension::Force, 9.806_65),
     ("gf", Dimension::Force, 9.806_65e-3),
     ("lbf", Dimension::Force, 4.448_221_615_260_5),
+    ("Pa", Dimension::Stress, 1.0),
+    ("kPa", Dimension::Stress, 1e3),
+    ("MPa", Dimension::Stress, 1e6),
+    ("N/cm2", Dimension::Stress, 1e4),
+    ("bar", Dimension::Stress, 1e5),
+    ("psi", Dimension::Stress, 4.448_221_615_260_5 / (0.0254 * 0.0254)),
     ("Nm", Dimension::Moment, 1.0),
     ("N.m", Dimension::Moment, 1.0),
     ("mNm", Dimension::Moment, 1e-3),

@@ -6,6 +6,7 @@ use csv::{StringRecord, Writer};
 
 use super::super::check::nearest;
 use super::super::escape;
+use super::bevameter_columns::{PLATE_COLUMNS, SHEAR_COLUMNS};
 use super::columns::{self, COLUMNS, Column, Meaning};
 use super::dimension::Dimension;
 use super::error::{MeasurementError, MeasurementProblem as Problem, QUOTED};
@@ -83,9 +84,10 @@ fn dimension(column: &Column) -> Dimension {
         Meaning::SlipRatio | Meaning::TotalSlip => Dimension::Share,
         Meaning::SlipAngle => Dimension::Angle,
         Meaning::TravelSpeed | Meaning::RimSpeed | Meaning::RimSpeedSetting => Dimension::Speed,
-        Meaning::Reading(Quantity::Sinkage) | Meaning::Scatter(Quantity::Sinkage) => {
-            Dimension::Length
-        }
+        Meaning::Reading(Quantity::Sinkage)
+        | Meaning::Scatter(Quantity::Sinkage)
+        | Meaning::BevameterLength => Dimension::Length,
+        Meaning::BevameterStress => Dimension::Stress,
         Meaning::Reading(Quantity::Torque) | Meaning::Scatter(Quantity::Torque) => {
             Dimension::Moment
         }
@@ -100,6 +102,16 @@ fn dimension(column: &Column) -> Dimension {
     }
 }
 
+/// The columns of plate and shear tests.
+fn of_bevameters() -> impl Iterator<Item = &'static Column> + Clone {
+    PLATE_COLUMNS.iter().chain(&SHEAR_COLUMNS)
+}
+
+/// A column of wheel, plate or shear tests.
+fn known(name: &str) -> Option<&'static Column> {
+    columns::known(name).or_else(|| of_bevameters().find(|column| column.name == name))
+}
+
 impl Mapping {
     /// Reads `ours=theirs`, `ours=theirs:unit` or, with the other sign, `ours=-theirs:unit`.
     ///
@@ -112,8 +124,8 @@ impl Mapping {
             .split_once('=')
             .ok_or_else(|| format!("'{text}' is not of the form our_column=their column[:unit]"))?;
         let ours = ours.trim();
-        let column = columns::known(ours).ok_or_else(|| {
-            let names = COLUMNS.iter().map(|column| column.name);
+        let column = known(ours).ok_or_else(|| {
+            let names = COLUMNS.iter().chain(of_bevameters()).map(|column| column.name);
             let all: Vec<&str> = names.clone().collect();
             nearest(ours, names).map_or_else(
                 || format!("`{ours}` is not a column of measurements; they are {}", all.join(", ")),
@@ -229,7 +241,7 @@ fn plan(
         let is_ours = |(mapping, of): &(Mapping, usize)| {
             *of == place || (mapping.column.name == name && mapping.theirs != *name)
         };
-        if let Some(column) = columns::known(name)
+        if let Some(column) = known(name)
             && !plan.iter().any(is_ours)
         {
             plan.push((Mapping { column, theirs: name.clone(), factor: 1.0 }, place));
@@ -298,6 +310,23 @@ mod tests {
         let mappings = ["drawbar_pull_n=-Fx, kN:kN", "sinkage_mm=z (m):m"];
         let ours = imported(text, &mappings, &Layout::default());
         assert_eq!(ours, "drawbar_pull_n,sinkage_mm,load_n\n-5,20,24\n");
+    }
+
+    #[test]
+    fn plate_and_shear_tests_have_their_own_units() {
+        let text = "D (in),psi,z\n2,1,0.5\n";
+        let mappings = ["plate_diameter_mm=D (in):in", "pressure_kpa=psi:psi", "sinkage_mm=z:cm"];
+        let ours = imported(text, &mappings, &Layout::default());
+        assert_eq!(ours, "plate_diameter_mm,pressure_kpa,sinkage_mm\n50.8,6.8947572931683,5\n");
+        let text = "j,tau,sigma,repeat\n1,-2,3,a\n";
+        let mappings = [
+            "shear_displacement_mm=j:cm",
+            "shear_stress_kpa=-tau:Pa",
+            "normal_stress_kpa=sigma:bar",
+        ];
+        let ours = imported(text, &mappings, &Layout::default());
+        let header = "shear_displacement_mm,shear_stress_kpa,normal_stress_kpa,repeat";
+        assert_eq!(ours, format!("{header}\n10,0.002,300,a\n"));
     }
 
     /// In binary 1.38 times 10 is not 13.8.

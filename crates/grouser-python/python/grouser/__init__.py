@@ -33,7 +33,7 @@ from typing import TYPE_CHECKING as _TYPE_CHECKING
 from . import _former_names, campaign, style
 from ._core import EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, __version__
 from ._animations import Animation
-from ._calibration import Calibration, calibrate, calibrate_plates
+from ._calibration import Calibration, calibrate, calibrate_plates, calibrate_shear
 from ._descriptions import Mission, Rover, Scenario, Site, Soil, Wheel
 from ._errors import (
     CalibrationError,
@@ -144,6 +144,7 @@ __all__ = [
     "__version__",
     "calibrate",
     "calibrate_plates",
+    "calibrate_shear",
     "campaign",
     "card",
     "check",

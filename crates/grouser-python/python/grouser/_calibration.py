@@ -143,7 +143,10 @@ class Calibration(_tables.Tabular):
     ``std_after``."""
     curves: Mapping[str, Floats] | None = None
     """Of plate tests, columns over points: ``plate_width_mm``, ``sinkage_mm``,
-    ``measured_pressure_kpa``, ``pressure_kpa``."""
+    ``measured_pressure_kpa``, ``pressure_kpa``. Repeats are one curve, their mean."""
+    shear_curves: Mapping[str, Floats] | None = None
+    """Of shear tests, columns over points: ``normal_stress_kpa``, ``shear_displacement_mm``,
+    ``measured_shear_stress_kpa``, ``shear_stress_kpa``."""
 
     @property
     def chains(self) -> Floats | None:
@@ -257,19 +260,25 @@ class Calibration(_tables.Tabular):
         """
         if self.validation is not None:
             return self.validation.plot(axes, name=name, **style)
-        axes, curves = _tables.axes_or_new(axes), self.curves or {}
-        for width in dict.fromkeys(curves["plate_width_mm"].tolist()):
-            own = np.flatnonzero(curves["plate_width_mm"] == width)
-            own = own[np.argsort(curves["sinkage_mm"][own], kind="stable")]
+        axes = _tables.axes_or_new(axes)
+        if self.curves is not None:
+            setting, place, value, unit = "plate_width_mm", "sinkage_mm", "pressure_kpa", "mm"
+            curves = self.curves
+        else:
+            setting, place, unit = "normal_stress_kpa", "shear_displacement_mm", "kPa"
+            value, curves = "shear_stress_kpa", self.shear_curves or {}
+        for one in dict.fromkeys(curves[setting].tolist()):
+            own = np.flatnonzero(curves[setting] == one)
+            own = own[np.argsort(curves[place][own], kind="stable")]
             line = axes.plot(
-                curves["sinkage_mm"][own],
-                curves["pressure_kpa"][own],
-                **{"label": f"{width:g} mm", **style},
+                curves[place][own],
+                curves[value][own],
+                **{"label": f"{one:g} {unit}", **style},
             )[0]
-            measured = curves["measured_pressure_kpa"][own]
-            axes.plot(curves["sinkage_mm"][own], measured, ".", color=line.get_color())
-        axes.set_xlabel("sinkage [mm]")
-        axes.set_ylabel("pressure [kPa]")
+            measured = curves[f"measured_{value}"][own]
+            axes.plot(curves[place][own], measured, ".", color=line.get_color())
+        axes.set_xlabel("sinkage [mm]" if self.curves is not None else "displacement [mm]")
+        axes.set_ylabel("pressure [kPa]" if self.curves is not None else "shear stress [kPa]")
         axes.legend()
         return axes
 
@@ -439,21 +448,26 @@ def calibrate_plates(
     data: Data,
     soil: Soil | Source,
     *,
+    shear: Data | None = None,
     plate_law: str | None = None,
     gravity_m_s2: float = _core.EARTH_GRAVITY,
     point_fit: bool = False,
     steps: int = 400,
     seed: int = 1,
 ) -> Calibration:
-    """Fits the moduli of a pressure-sinkage law to curves of a plate test. Results equal the
-    program's, bit for bit.
+    """Fits the moduli of a pressure-sinkage law to plate tests, and cohesion, friction angle and
+    shear modulus to shear tests beside them. Results equal the program's, bit for bit.
 
     Parameters
     ----------
     data : str, path or table
-        A CSV file, or a table as for `validate`, with ``plate_width_mm``, ``sinkage_mm`` and ``pressure_kpa``.
+        A CSV file, a set that comes with the program (``grc-1-plates``), or a table as for `validate`, with
+        ``plate_width_mm``, ``plate_diameter_mm`` or ``plate_radius_mm``, and ``sinkage_mm``, ``pressure_kpa``;
+        ``repeat`` tells curves of one plate apart.
     soil : Soil, name, path or mapping
         The soil, for all other values.
+    shear : str, path or table, optional
+        Shear tests of the same soil, as for `calibrate_shear`.
     plate_law : {"bekker", "reece"}, optional
         The law; by default the soil's own.
     gravity_m_s2 : float
@@ -489,15 +503,75 @@ def calibrate_plates(
     if not isinstance(plate_law, (str, type(None))):
         given = type(plate_law).__name__
         raise ParameterError(f"plate_law is of type {given}, it must be a name", "plate_law")
-    found = _core.calibrate_plate_tests(
+    found = _core.calibrate_bevameter(
         rows_of(data),
+        None if shear is None else rows_of(shear),
         soil_of(soil)._document,
         setting(gravity_m_s2, None)._document,
         plate_law,
         whole_number("seed", seed),
         None if point_fit else whole_number("steps", steps),
     )
-    return Calibration(**_common(found), curves=found["curves"])
+    return Calibration(
+        **_common(found), curves=found["curves"], shear_curves=found.get("shear_curves")
+    )
+
+
+def calibrate_shear(
+    data: Data,
+    soil: Soil | Source,
+    *,
+    point_fit: bool = False,
+    steps: int = 400,
+    seed: int = 1,
+) -> Calibration:
+    """Fits cohesion, friction angle and shear modulus to shear tests under several normal
+    stresses. Results equal the program's, bit for bit.
+
+    Parameters
+    ----------
+    data : str, path or table
+        A CSV file, a set that comes with the program (``cullinan-shear``), or a table as for `validate`, with
+        ``shear_displacement_mm``, ``shear_stress_kpa`` and ``normal_stress_kpa``; ``repeat`` tells tests under
+        one normal stress apart.
+    soil : Soil, name, path or mapping
+        The soil, for all other values.
+    point_fit, steps, seed
+        As for `calibrate`.
+
+    Returns
+    -------
+    Calibration
+
+    Raises
+    ------
+    ParameterError, DocumentError, DocumentNotFoundError, CalibrationError
+        As `calibrate`.
+
+    Examples
+    --------
+    A sand without cohesion was sheared under two normal stresses:
+
+    >>> import grouser as gr
+    >>> test = {
+    ...     "normal_stress_kpa": [10.0, 10.0, 10.0, 20.0, 20.0, 20.0],
+    ...     "shear_displacement_mm": [5.0, 10.0, 40.0, 5.0, 10.0, 40.0],
+    ...     "shear_stress_kpa": [2.3, 3.7, 5.7, 4.5, 7.3, 11.3],
+    ... }
+    >>> found = gr.calibrate_shear(test, "toyoura", point_fit=True)
+    >>> f"{found.best['soil.friction_angle_deg']:.0f}"
+    '30'
+    """
+    found = _core.calibrate_bevameter(
+        None,
+        rows_of(data),
+        soil_of(soil)._document,
+        setting(_core.EARTH_GRAVITY, None)._document,
+        None,
+        whole_number("seed", seed),
+        None if point_fit else whole_number("steps", steps),
+    )
+    return Calibration(**_common(found), shear_curves=found["shear_curves"])
 
 
 def _common(found: dict[str, Any]) -> dict[str, Any]:

@@ -29,7 +29,7 @@ __all__ = [
     "__version__",
     "animation",
     "arrow_stream",
-    "calibrate_plate_tests",
+    "calibrate_bevameter",
     "calibrate_wheel_tests",
     "campaign_facts",
     "campaign_frequencies",
@@ -507,8 +507,9 @@ def calibrate_wheel_tests(
     steps: int | None,
     cross_validate: bool,
 ) -> dict[str, Any]: ...
-def calibrate_plate_tests(
-    data: _Data,
+def calibrate_bevameter(
+    plates: _Data | None,
+    shear: _Data | None,
     soil: Document,
     setting: Document,
     law: str | None,

@@ -11,9 +11,9 @@ class SoilPressureSinkage(TypedDict, total=False):
 
     law: str
     k_c: float
-    """Cohesive modulus, k'_c [-]."""
+    """Cohesive modulus, k'_c [-]; a negative one needs `domain.width_m`."""
     k_phi: float
-    """Frictional modulus, k'_φ [-]."""
+    """Frictional modulus, k'_φ [-]; a negative one needs `domain.width_m`."""
     n: float
     """Sinkage exponent at zero slip, n [-]."""
     n_per_slip: float
@@ -165,7 +165,7 @@ class SoilDomain(TypedDict, total=False):
     radius_m: tuple[float, ...]
     """Radii of the rims, without grousers, r [m]."""
     width_m: tuple[float, ...]
-    """Widths of the wheels, b [m]."""
+    """Widths of the wheels or plates, b [m]."""
     sinkage_over_radius: tuple[float, ...]
     """Sinkages, as h/r_s [-]."""
     slip_ratio: tuple[float, ...]

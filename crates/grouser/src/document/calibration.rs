@@ -1,18 +1,20 @@
 //! Results of a calibration as records for tables, JSON and CSV.
 
 mod aim;
+mod bevameter;
 mod handed_on;
 mod left_out;
-mod plates;
 mod solved;
 mod wheel;
 
 use serde::Serialize;
 
 pub use aim::{AimError, AimWords, MOST_CANDIDATES};
+pub use bevameter::{
+    BevameterFound, BevameterProblem, BevameterResults, BevameterTests, PlateRecord, ShearRecord,
+};
 pub use handed_on::samples_csv;
 pub use left_out::{CoverageRecord, LeftOutRecord};
-pub use plates::{PlateFound, PlateProblem, PlateRecord, PlateResults};
 pub use solved::{
     DiscrepancyRecord, LengthRecord, STEPS, SamplerRecord, Solved, fit_notes, sampling,
 };
@@ -103,6 +105,7 @@ pub fn channel_name(channel: &Channel) -> String {
             format!("{}{regime}", column_of(*quantity).name)
         }
         Channel::PlatePressure => "pressure_kpa".to_owned(),
+        Channel::ShearStress => "shear_stress_kpa".to_owned(),
         Channel::Other => "other".to_owned(),
     }
 }
@@ -112,7 +115,7 @@ pub fn channel_name(channel: &Channel) -> String {
 pub fn channel_unit(channel: &Channel) -> f64 {
     match channel {
         Channel::Wheel { quantity: Quantity::Sinkage, .. } => 1e3,
-        Channel::PlatePressure => 1e-3,
+        Channel::PlatePressure | Channel::ShearStress => 1e-3,
         Channel::Wheel { .. } | Channel::Other => 1.0,
     }
 }

@@ -1,43 +1,34 @@
 //! Plate-sinkage curves of a bevameter, from CSV.
 //!
-//! Columns: `plate_width_mm` (the smaller side, or the diameter of a disc), `sinkage_mm`,
-//! `pressure_kpa`, and, where it is known, `pressure_std_kpa`. Other columns are not used.
+//! Columns: one of `plate_width_mm` (the smaller side of a rectangular plate), `plate_diameter_mm` and
+//! `plate_radius_mm` (of a round one, for which *b* is the radius); `sinkage_mm`, `pressure_kpa`; where they are
+//! known, `pressure_std_kpa`, and `repeat`, which tells curves of one plate apart. Other columns are not used.
+//!
+//! Noise about zero is data: pressures below zero are kept. Rows with a sinkage below zero, before the plate met
+//! the soil, have no place in a law of sinkage and are left out.
 
 use std::io::Read;
 use std::path::Path;
 
+use super::bevameter::{Rows, left_out_note};
 use super::escape;
-use super::measurements::table::{Table, other_delimiter};
-use super::measurements::{Limits, MeasurementError, MeasurementProblem as Problem, read_bytes};
+use super::measurements::bevameter_columns::{
+    PLATE_COLUMNS, PLATE_DIAMETER, PLATE_RADIUS, PLATE_WIDTH, PRESSURE, PRESSURE_SCATTER, SINKAGE,
+};
+use super::measurements::{Limits, MeasurementError, read_bytes};
 use crate::studies::calibration::PlateCurve;
 use crate::studies::calibration::plate_test::PlatePoint;
 
-/// A number of a plate test.
-struct Column {
-    name: &'static str,
-    to_si: f64,
-    /// What it may be, in its own unit.
-    least: f64,
-    most: f64,
-}
-
-/// No plate is narrower than a millimetre: one that is was written in another unit.
-const COLUMNS: [Column; 4] = [
-    Column { name: "plate_width_mm", to_si: 1e-3, least: 1.0, most: 1e4 },
-    Column { name: "sinkage_mm", to_si: 1e-3, least: 0.0, most: 1e4 },
-    Column { name: "pressure_kpa", to_si: 1e3, least: 0.0, most: 1e5 },
-    Column { name: "pressure_std_kpa", to_si: 1e3, least: 0.0, most: 1e5 },
-];
-
-/// The columns that must be there, first of all.
-const NEEDED: usize = 3;
+/// Columns of a plate's size, each with *b* over what stands there: for a round plate b is the radius (Wong,
+/// Theory of Ground Vehicles).
+const SIZES: [(&str, f64); 3] = [(PLATE_WIDTH, 1.0), (PLATE_DIAMETER, 0.5), (PLATE_RADIUS, 1.0)];
 
 /// Curves that were read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlateMeasurements {
-    /// A curve for each width, in the order in which the widths appear.
+    /// A curve for each width and repeat, in the order in which they appear.
     pub curves: Vec<PlateCurve>,
-    /// What was noticed and left: columns not used, values that look like another unit's.
+    /// What was noticed and left: columns not used, rows left out, values that look like another unit's.
     pub notes: Vec<String>,
 }
 
@@ -62,89 +53,46 @@ pub fn read_from(
     source: impl Read,
     limits: Limits,
 ) -> Result<PlateMeasurements, MeasurementError> {
-    let mut table = Table::new(label, source, b',', limits);
-    let header: Vec<String> = table.header()?.iter().map(str::to_owned).collect();
-    let places = places(label, &header)?;
-    let mut curves: Vec<PlateCurve> = Vec::new();
-    let mut record = csv::StringRecord::new();
-    while table.next_row(&mut record)? {
-        let line = record.position().map_or(0, csv::Position::line);
-        let wrong = |problem| MeasurementError::at(label, line, problem);
-        if record.iter().eq(header.iter().map(String::as_str)) {
-            return Err(wrong(Problem::RepeatedHeader));
+    let sizes = SIZES.map(|(name, _)| name);
+    let needed: [&[&str]; 3] = [&sizes, &[SINKAGE], &[PRESSURE]];
+    let mut rows =
+        Rows::open(label, source, limits, &PLATE_COLUMNS, "a column of plate tests", &needed)?;
+    let (size, share) = SIZES.into_iter().find(|(name, _)| rows.has(name)).unwrap_or(SIZES[0]);
+    let (mut curves, mut repeats) = (Vec::<PlateCurve>::new(), Vec::<String>::new());
+    let mut before_contact = 0;
+    while rows.advance()? {
+        let width = share * rows.number(size)?;
+        let (sinkage, pressure) = (rows.number(SINKAGE)?, rows.number(PRESSURE)?);
+        let point =
+            PlatePoint { sinkage, pressure, scatter: rows.number_or_zero(PRESSURE_SCATTER)? };
+        if sinkage < 0.0 {
+            before_contact += 1;
+            continue;
         }
-        let number = |column: usize| {
-            let text = places[column].map_or("", |place| &record[place]);
-            // What is not needed may be unknown.
-            if text.is_empty() && column >= NEEDED {
-                return Ok(0.0);
+        let repeat = rows.repeat();
+        let mut known = curves.iter_mut().zip(&repeats);
+        match known.find(|(curve, of)| curve.width == width && *of == repeat) {
+            Some((curve, _)) => curve.points.push(point),
+            None => {
+                curves.push(PlateCurve { width, points: vec![point] });
+                repeats.push(repeat.to_owned());
             }
-            number(&COLUMNS[column], text).map_err(|problem| {
-                let is_width = matches!(problem, Problem::OutOfRange { .. }) && column == 0;
-                let hint = is_width.then(|| "is it in millimetres?".to_owned());
-                wrong(problem).with_hint(hint)
-            })
-        };
-        let [width, sinkage, pressure, scatter] = [number(0)?, number(1)?, number(2)?, number(3)?];
-        let point = PlatePoint { sinkage, pressure, scatter };
-        match curves.iter_mut().find(|curve| curve.width == width) {
-            Some(curve) => curve.points.push(point),
-            None => curves.push(PlateCurve { width, points: vec![point] }),
         }
     }
     if curves.is_empty() {
-        return Err(MeasurementError::whole(label, Problem::NoRows));
+        return Err(rows.no_rows());
     }
-    let notes = notes(&header, &curves);
+    let mut notes = rows.unused_notes();
+    notes.extend(left_out_note(before_contact, "their sinkage is below zero, before contact"));
+    notes.extend(doubts(&curves));
     Ok(PlateMeasurements { curves, notes })
 }
 
-/// Where each of the columns stands.
-fn places(label: &str, header: &[String]) -> Result<[Option<usize>; 4], MeasurementError> {
-    if header.iter().all(String::is_empty) {
-        return Err(MeasurementError::whole(label, Problem::NoHeader));
-    }
-    let mut places = [None; COLUMNS.len()];
-    for (place, Column { name, .. }) in places.iter_mut().zip(&COLUMNS) {
-        let mut own = (0..header.len()).filter(|place| header[*place] == *name);
-        *place = own.next();
-        if own.next().is_some() {
-            let problem = Problem::RepeatedColumn((*name).to_owned());
-            return Err(MeasurementError::at(label, 1, problem));
-        }
-    }
-    if let Some(missing) = places[..NEEDED].iter().position(Option::is_none) {
-        let expected = format!("`{}`", COLUMNS[missing].name);
-        let problem = Problem::MissingColumn { what: "a column of plate tests", expected };
-        let hint = match other_delimiter(header) {
-            Some(_) => "part the fields with commas, and write decimals with a point".to_owned(),
-            None => format!("the columns are {}", header.join(", ")),
-        };
-        return Err(MeasurementError::at(label, 1, problem).with_hint(hint));
-    }
-    Ok(places)
-}
-
-/// A number in SI.
-fn number(column: &Column, text: &str) -> Result<f64, Problem> {
-    let Column { name, to_si, least, most } = *column;
-    let column = name.to_owned();
-    let Ok(value) = text.parse::<f64>() else {
-        return Err(Problem::NotANumber { column, value: escape::short_line(text, 60) });
-    };
-    if !(least..=most).contains(&value) {
-        return Err(Problem::OutOfRange { column, value, least, most });
-    }
-    Ok(value * to_si)
-}
-
-fn notes(header: &[String], curves: &[PlateCurve]) -> Vec<String> {
+/// What looks like another unit's.
+fn doubts(curves: &[PlateCurve]) -> Vec<String> {
     /// Sinkages that are all below this were hardly read in millimetres [m]. Source: ours.
     const TINY: f64 = 2e-4;
-    let known = |name: &String| name.is_empty() || COLUMNS.iter().any(|it| it.name == name);
-    let unknown = header.iter().filter(|name| !known(name));
-    let mut notes: Vec<String> =
-        unknown.map(|name| format!("column `{}` is not used", escape::line(name))).collect();
+    let mut notes = Vec::new();
     let points = || curves.iter().flat_map(|curve| &curve.points);
     if points().all(|point| point.sinkage < TINY) {
         notes.push("all sinkages are below 0.2 mm: are they in metres?".to_owned());
@@ -175,6 +123,30 @@ mod tests {
         assert_eq!((wide.points[0].sinkage, wide.points[0].pressure), (0.003, 4000.0));
         assert_eq!((narrow.points[0].scatter, wide.points[0].scatter), (0.0, 500.0));
         assert_eq!(found.notes, ["column `by` is not used"]);
+    }
+
+    /// b is the radius of a round plate, and the smaller side of another.
+    #[test]
+    fn a_round_plate_s_width_is_its_radius() {
+        for (column, size) in
+            [("plate_width_mm", 38), ("plate_radius_mm", 38), ("plate_diameter_mm", 76)]
+        {
+            let text = format!("{column},sinkage_mm,pressure_kpa\n{size},1,2\n");
+            let found = read_from("plates.csv", text.as_bytes(), Limits::default()).unwrap();
+            assert!((found.curves[0].width - 0.038).abs() < 1e-15, "{column}");
+        }
+        let both = refusal("plate_width_mm,plate_radius_mm,sinkage_mm,pressure_kpa\n");
+        assert!(both.contains("`plate_width_mm` and `plate_radius_mm`"), "{both}");
+    }
+
+    #[test]
+    fn noise_about_zero_is_kept_and_what_was_before_contact_is_not() {
+        let text = format!("{HEADER},repeat\n50,-1,-0.1,a\n50,0,-0.2,a\n50,1,2,a\n50,1,3,b\n");
+        let found = read_from("plates.csv", text.as_bytes(), Limits::default()).unwrap();
+        let [one, other] = &found.curves[..] else { panic!("two repeats: {found:?}") };
+        assert_eq!((one.points.len(), one.points[0].pressure, other.points.len()), (2, -200.0, 1));
+        let note = "1 row is left out: their sinkage is below zero, before contact";
+        assert_eq!(found.notes, [note]);
     }
 
     #[test]

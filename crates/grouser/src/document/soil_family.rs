@@ -39,6 +39,10 @@ const OPEN_ENDED: f64 = 10.0;
 /// Positive bounds farther apart than this factor are searched by the logarithm.
 const DECADES: f64 = 30.0;
 
+/// A number of either sign whose range ends here or further away is a modulus: it keeps its sign where it is
+/// positive, as most are.
+const MODULUS: f64 = 1e4;
+
 /// How far from the document's value an open-ended number is searched [-]. Source: ours; stiffnesses and
 /// moduli of published soils of one kind differ less.
 const SEARCHED_FACTOR: f64 = 30.0;
@@ -204,9 +208,14 @@ fn parameter(
     bounds: Option<(f64, f64)>,
 ) -> Result<Parameter, String> {
     let (least, most) = (*allowed.start(), *allowed.end());
-    let open_ended = start > 0.0 && least >= 0.0 && most > OPEN_ENDED * start;
-    let (lower, upper) = bounds.unwrap_or(if open_ended {
+    let is_open_ended = start != 0.0 && most > OPEN_ENDED * start.abs();
+    let (lower, upper) = bounds.unwrap_or(if !is_open_ended {
+        (least, most)
+    } else if start > 0.0 && (least >= 0.0 || most >= MODULUS) {
         (least.max(start / SEARCHED_FACTOR), most.min(start * SEARCHED_FACTOR))
+    } else if most >= MODULUS {
+        // Of one that is negative, either sign.
+        (least.max(start * SEARCHED_FACTOR), most.min(-start * SEARCHED_FACTOR))
     } else {
         (least, most)
     });

@@ -2,7 +2,8 @@
 //! next.
 //!
 //! An [`Experiment`] is measurements and the model that predicts them: [`WheelTestExperiment`] for
-//! a wheel on a test stand, [`PlateTest`] for a bevameter. A [`Calibration`] has one, and the
+//! a wheel on a test stand, [`BevameterTest`](bevameter::BevameterTest) for plates and shear tests,
+//! [`PlateTest`] for plates alone. A [`Calibration`] has one, and the
 //! [`ParameterSpace`] to search. An observation y_i of channel k, the mean over repeated trials, is taken as
 //!
 //! ```text
@@ -29,6 +30,7 @@
 //!
 //! Everything has the same bits for any number of threads.
 
+pub mod bevameter;
 pub mod cross_validation;
 pub mod design;
 pub mod diagnostics;
@@ -42,19 +44,24 @@ mod least_squares;
 pub mod parameter;
 pub mod plate_test;
 pub mod posterior;
+pub mod repeated_curves;
 pub mod scatter;
+pub mod shear_test;
 pub mod solution;
 pub mod wheel_calibration;
 pub mod wheel_test;
+pub mod wong;
 
 pub use experiment::{Channel, Experiment, Measure, Observation, Place, Regime, Site};
 pub use fit::{Fit, FitSettings};
 pub use parameter::{Parameter, ParameterSpace, Scale};
 pub use plate_test::{PlateCurve, PlateLaw, PlateTest};
 pub use posterior::{Advanced, PosteriorState, SamplerSettings};
+pub use shear_test::ShearCurve;
 pub use solution::{Observer, Posterior, Sampling, Solution, Work};
 pub use wheel_calibration::{LeftOutGroup, WheelCalibration, WheelFindings};
 pub use wheel_test::{Resolution, WheelTestExperiment};
+pub use wong::WongFit;
 
 use crate::error::ParameterError;
 use errors::Errors;

@@ -360,8 +360,10 @@ impl HeadingStudy {
 
     /// The curve of a held course or yaw, as far as it is to reach, or to its end.
     fn follow(&self, held: Held, reach: Reach) -> Result<HeadingCurve, ParameterError> {
-        self.plane(0.0).check()?;
+        let level = self.plane(0.0);
+        level.check()?;
         positive("gravity [m/s²]", self.gravity)?;
+        self.on_ground(&level).check_soils()?;
         self.stability.check()?;
         if self.sharing == LoadSharing::Complete && self.own_moments == OwnMoments::Neglected {
             return Err(neglected_moments());

@@ -3,6 +3,7 @@
 
 use crate::contact::validity::{Finding, Situation};
 use crate::contact::{Contact, Model, SettleError, Settled, Slip, settle_many};
+use crate::error::ParameterError;
 use crate::soil::Soil;
 use crate::wheel::Wheel;
 
@@ -66,6 +67,14 @@ pub struct WheelTestRow {
 }
 
 impl WheelTest {
+    /// Checks that the soil resists the wheel, which [`run`](Self::run) takes for granted.
+    ///
+    /// # Errors
+    /// [`ParameterError`] if the soil has no stiffness under a wheel of this width.
+    pub fn check(&self) -> Result<(), ParameterError> {
+        self.soil.check_under(&self.wheel, self.gravity)
+    }
+
     /// Settles the wheel at every setting; slip ratios change fastest, then slip angles.
     #[must_use]
     pub fn run(&self) -> Vec<WheelTestRow> {

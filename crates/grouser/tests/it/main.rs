@@ -2,6 +2,7 @@
 
 mod bands;
 mod batches;
+mod bevameter;
 mod calibration;
 mod campaign;
 mod campaign_documents;
@@ -39,6 +40,7 @@ mod mission_turns;
 mod motor_presets;
 mod motors;
 mod mounts;
+mod negative_moduli;
 mod outcomes;
 mod own_model;
 mod paper;

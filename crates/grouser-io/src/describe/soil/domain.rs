@@ -13,7 +13,7 @@ pub(super) static DOMAIN: Table<Domain> = Table {
         range("radius_m", M, 0.01..=1.0, "Radii of the rims, without grousers, r", |it, place| {
             end(&mut it.radius, place)
         }),
-        range("width_m", M, 0.01..=1.0, "Widths of the wheels, b", |it, place| {
+        range("width_m", M, 0.001..=1.0, "Widths of the wheels or plates, b", |it, place| {
             end(&mut it.width, place)
         }),
         range("sinkage_over_radius", ONE, 0.0..=2.0, "Sinkages, as h/r_s", |it, place| {

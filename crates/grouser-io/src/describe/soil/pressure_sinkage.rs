@@ -26,14 +26,26 @@ pub(super) static PRESSURE_SINKAGE: Laws<PressureSinkage> = Laws {
             table: Table {
                 doc: "K_σ = (c k_c + γ b k_phi) / bⁿ (Reece 1965).",
                 fields: &[
-                    number("k_c", ONE, 0.0..=1e4, "Cohesive modulus, k'_c", |law| match law {
-                        PressureSinkage::Reece { k_c, .. } => Some(k_c),
-                        PressureSinkage::Bekker { .. } => None,
-                    }),
-                    number("k_phi", ONE, 0.0..=1e5, "Frictional modulus, k'_φ", |law| match law {
-                        PressureSinkage::Reece { k_phi, .. } => Some(k_phi),
-                        PressureSinkage::Bekker { .. } => None,
-                    }),
+                    number(
+                        "k_c",
+                        ONE,
+                        -1e4..=1e4,
+                        "Cohesive modulus, k'_c []; a negative one needs `domain.width_m`",
+                        |law| match law {
+                            PressureSinkage::Reece { k_c, .. } => Some(k_c),
+                            PressureSinkage::Bekker { .. } => None,
+                        },
+                    ),
+                    number(
+                        "k_phi",
+                        ONE,
+                        -1e5..=1e5,
+                        "Frictional modulus, k'_φ []; a negative one needs `domain.width_m`",
+                        |law| match law {
+                            PressureSinkage::Reece { k_phi, .. } => Some(k_phi),
+                            PressureSinkage::Bekker { .. } => None,
+                        },
+                    ),
                     EXPONENT,
                     EXPONENT_PER_SLIP,
                     EXPONENT_PER_SKID,
@@ -50,8 +62,8 @@ pub(super) static PRESSURE_SINKAGE: Laws<PressureSinkage> = Laws {
                     number(
                         "k_c",
                         Unit::si("N/m^(n+1)"),
-                        0.0..=1e9,
-                        "Cohesive modulus, k_c",
+                        -1e9..=1e9,
+                        "Cohesive modulus, k_c []; a negative one needs `domain.width_m`",
                         |law| match law {
                             PressureSinkage::Bekker { k_c, .. } => Some(k_c),
                             PressureSinkage::Reece { .. } => None,
@@ -61,8 +73,8 @@ pub(super) static PRESSURE_SINKAGE: Laws<PressureSinkage> = Laws {
                     number(
                         "k_phi",
                         Unit::si("N/m^(n+2)"),
-                        0.0..=1e12,
-                        "Frictional modulus, k_φ",
+                        -1e12..=1e12,
+                        "Frictional modulus, k_φ []; a negative one needs `domain.width_m`",
                         |law| match law {
                             PressureSinkage::Bekker { k_phi, .. } => Some(k_phi),
                             PressureSinkage::Reece { .. } => None,

@@ -16,6 +16,8 @@ pub enum Channel {
     },
     /// Pressure under a plate [Pa].
     PlatePressure,
+    /// Shear stress of a sheared patch [Pa].
+    ShearStress,
     /// Any other kind.
     Other,
 }

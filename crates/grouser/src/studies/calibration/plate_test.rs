@@ -4,15 +4,16 @@
 //! such data reports it ([`identifiability`](super::identifiability)).
 
 use super::experiment::{Channel, Experiment, Observation};
+use super::wong::{WongFit, WongPlate, straight_line};
 use crate::elementary::wide::ln;
 use crate::elementary::{exp, pow};
-use crate::error::{ParameterError, not_negative, positive};
+use crate::error::{ParameterError, finite, not_negative, positive};
 use crate::soil::{PressureSinkage, SinkageExponent};
 
 /// A plate pressed into the soil.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlateCurve {
-    /// The plate's smaller dimension, *b* [m].
+    /// The smaller side of a rectangular plate, the radius of a round one, *b* [m].
     pub width: f64,
     /// Sinkage [m] and pressure [Pa], as they were read.
     pub points: Vec<PlatePoint>,
@@ -57,25 +58,64 @@ impl PlateLaw {
         }
     }
 
-    /// k_c, k_φ and n near some curves, to search from: the slope of log pressure over log sinkage
-    /// of the widest plate, with hardly a cohesive part.
+    /// k_c, k_φ and n near some curves, to search from: by Wong's procedure ([`WongFit`]), or, with one width,
+    /// those of its own line with hardly a cohesive part.
     #[must_use]
     pub fn first_guess(&self, curves: &[PlateCurve]) -> [f64; 3] {
+        match WongFit::of(curves) {
+            Some(fit) => self.guess_of(&fit),
+            None => self.guess_of_one_width(curves),
+        }
+    }
+
+    /// How large k_c and k_φ could be at most, if one of them made up all the stiffness of the stiffest plate; nothing
+    /// where no plate has a stiffness.
+    #[must_use]
+    pub fn largest_moduli(&self, curves: &[PlateCurve]) -> Option<[f64; 2]> {
+        let fit = WongFit::of(curves)?;
+        let largest =
+            |of: &dyn Fn(&WongPlate) -> f64| fit.plates.iter().map(of).fold(0.0, f64::max);
+        Some(match self {
+            Self::Bekker => [largest(&|it| it.stiffness * it.width), largest(&|it| it.stiffness)],
+            Self::Reece { cohesion, unit_weight } => {
+                let at_width = |it: &WongPlate| it.stiffness * pow(it.width, fit.exponent);
+                let cohesive = if *cohesion > 0.0 { *cohesion } else { 1.0 };
+                [
+                    largest(&|it| at_width(it) / cohesive),
+                    largest(&|it| at_width(it) / (unit_weight * it.width)),
+                ]
+            }
+        })
+    }
+
+    fn guess_of(&self, fit: &WongFit) -> [f64; 3] {
+        let n = fit.exponent.clamp(LEAST_EXPONENT, MOST_EXPONENT);
+        match *self {
+            Self::Bekker => [fit.k_c, fit.k_phi, n],
+            Self::Reece { cohesion, unit_weight } => {
+                // K bⁿ = c k'_c + γ b k'_φ is a straight line over b.
+                let line = fit.plates.iter().map(|it| (it.width, it.stiffness * pow(it.width, n)));
+                let line = straight_line(&line.collect::<Vec<_>>());
+                let (slope, at_zero) = line.unwrap_or((unit_weight, 0.0));
+                let k_c = if cohesion > 0.0 { at_zero / cohesion } else { 1.0 };
+                [k_c, slope / unit_weight, n]
+            }
+        }
+    }
+
+    fn guess_of_one_width(&self, curves: &[PlateCurve]) -> [f64; 3] {
         let widest = curves.iter().max_by(|one, other| one.width.total_cmp(&other.width));
         let points = widest.map_or(&[][..], |curve| curve.points.as_slice());
         let positive = points.iter().filter(|point| point.sinkage > 0.0 && point.pressure > 0.0);
         let logs: Vec<(f64, f64)> =
             positive.map(|point| (ln(point.sinkage), ln(point.pressure))).collect();
-        let count = logs.len().max(1) as f64;
+        let count = (logs.len() as f64).max(1.0);
         let (x, y) = logs.iter().fold((0.0, 0.0), |sum, log| (sum.0 + log.0, sum.1 + log.1));
-        let (x, y) = (x / count, y / count);
-        let (above, below) = logs.iter().fold((0.0, 0.0), |sum, log| {
-            (sum.0 + (log.0 - x) * (log.1 - y), sum.1 + (log.0 - x).powi(2))
-        });
-        let slope = if below > 0.0 { above / below } else { 1.0 };
-        let n = slope.clamp(LEAST_EXPONENT, MOST_EXPONENT);
+        let n = straight_line(&logs).map_or(1.0, |(slope, _)| slope);
+        let n = n.clamp(LEAST_EXPONENT, MOST_EXPONENT);
         let width = widest.map_or(1.0, |curve| curve.width);
-        let stiffness = exp(y - n * x);
+        // Through the middle of the points.
+        let stiffness = exp((y - n * x) / count);
         match self {
             Self::Bekker => [0.1 * stiffness * width, stiffness, n],
             Self::Reece { unit_weight, .. } => {
@@ -112,7 +152,7 @@ impl PlateTest {
             positive("plate width [m]", curve.width)?;
             for point in &curve.points {
                 not_negative("plate sinkage [m]", point.sinkage)?;
-                not_negative("plate pressure [Pa]", point.pressure)?;
+                finite("plate pressure [Pa]", point.pressure)?;
                 not_negative("scatter of a plate pressure [Pa]", point.scatter)?;
                 let PlatePoint { pressure: value, scatter, .. } = *point;
                 observations.push(Observation { value, scatter, channel: 0 });

@@ -118,9 +118,11 @@ impl<'a> WheelTestExperiment<'a> {
     /// The soil of parameter values: the first ones, if there are more.
     ///
     /// # Errors
-    /// [`ParameterError`] if they make none.
+    /// [`ParameterError`] if they make none, or one without stiffness under a wheel of this width.
     pub fn soil(&self, values: &[f64]) -> Result<Soil, ParameterError> {
-        (self.setup.soil_of)(values)
+        let soil = (self.setup.soil_of)(values)?;
+        soil.check_under(&self.setup.wheel, self.setup.gravity)?;
+        Ok(soil)
     }
 
     /// The quantity and the place of the cell of each observation.
