@@ -114,9 +114,9 @@ impl SmallWheel {
     /// Slip makes a wheel sink as the published slip-sinkage law has it, ζ = (1 + s)/(1 − 0.5 s)
     /// (Lyasko 2010), and a smooth rim has two thirds of the soil's friction angle, the usual value
     /// for steel in sand. The soil behind the wheel stays as low as the wheel while that spins on the
-    /// spot, λ = λ₀ (1 − S⁺): it passes no new soil. That form, and that there is no rear mound, were
-    /// chosen on the smooth wheel of Ding et al. (2011), whose pull does not rise at high slip. All else
-    /// was chosen on both wheels of Pavlov and Johnson (2022), at slip angles of 0 to 75°, with their
+    /// spot, λ = λ₀ (1 − S⁺): it passes no new soil. That form was chosen on the smooth wheel of Ding
+    /// et al. (2011), whose pull does not rise at high slip. The rear mound is that of both fitted
+    /// wheels of Pavlov and Johnson (2022). All else was chosen on both wheels of Pavlov and Johnson (2022), at slip angles of 0 to 75°, with their
     /// sand's published constants, under which a wheel lies deeper than with fitted ones: growths, side wall
     /// and bow wave are smaller than the presets' (`docs/models/small-wheel.md`).
     pub const GENERAL: Self = Self {
