@@ -189,7 +189,7 @@ fn anisotropic_shear_gives_the_pull_one_slope_at_zero_slip() {
         Shear::Isotropic { modulus } => {
             Shear::Anisotropic { longitudinal: modulus, lateral: modulus }
         }
-        other => other,
+        other @ Shear::Anisotropic { .. } => other,
     };
     let pull = |s| pull_on_granite(anisotropic, s);
     let step = 1e-6;

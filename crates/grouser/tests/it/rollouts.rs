@@ -150,7 +150,7 @@ enum Ending {
     /// With an outcome, by its name.
     Outcome(&'static str),
     /// With its start refused by name.
-    Refused(String),
+    Refused,
     /// With an error.
     Failed(String),
     /// It was not led further: the rest would take too long for a test.
@@ -168,10 +168,10 @@ fn rollout(case: u64) -> (Ending, String) {
     let mut run = match Run::new(&scenario) {
         Ok(run) => run,
         Err(
-            error @ (RunError::Parameter(_)
+            RunError::Parameter(_)
             | RunError::HighCentred { .. }
-            | RunError::UnbalancedStart { .. }),
-        ) => return (Ending::Refused(error.to_string()), text),
+            | RunError::UnbalancedStart { .. },
+        ) => return (Ending::Refused, text),
         Err(error) => return (Ending::Failed(format!("start: {error}")), text),
     };
     let keeps_speeds = draw.once_in(2);
@@ -209,7 +209,7 @@ fn check(cases: impl IntoParallelIterator<Item = u64>) -> BTreeMap<&'static str,
         .into_par_iter()
         .map(|case| match rollout(case) {
             (Ending::Outcome(name), _) => (name, None),
-            (Ending::Refused(_), _) => ("refused", None),
+            (Ending::Refused, _) => ("refused", None),
             (Ending::LeftOff, _) => ("left off", None),
             (Ending::Failed(_), _) if IN_VAIN.contains(&case) => ("in vain", None),
             (Ending::Failed(error), text) => {
