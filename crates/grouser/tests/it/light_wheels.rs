@@ -34,12 +34,7 @@ fn any_forward_contact() -> impl Strategy<Value = Contact> {
     let slip = prop_oneof![4 => -1.0..1.0, 1 => Just(-1.0), 1 => Just(0.0), 1 => Just(1.0)];
     let angle = prop_oneof![1 => Just(0.0), 2 => -80.0..80.0];
     (any_bounded_soil(), given::any_wheel(), slip, angle).prop_map(|(soil, wheel, s, degrees)| {
-        Contact {
-            wheel,
-            soil,
-            slip: Slip::on_test_stand(s, deg(degrees)),
-            gravity: EARTH_GRAVITY,
-        }
+        Contact { wheel, soil, slip: Slip::on_test_stand(s, deg(degrees)), gravity: EARTH_GRAVITY }
     })
 }
 
@@ -191,8 +186,10 @@ fn isotropic_shear_gives_the_pull_the_root_of_the_slip_from_below() {
 #[test]
 fn anisotropic_shear_gives_the_pull_one_slope_at_zero_slip() {
     let anisotropic = |shear| match shear {
-        Shear::Isotropic { modulus } => Shear::Anisotropic { longitudinal: modulus, lateral: modulus },
-        other => other,
+        Shear::Isotropic { modulus } => {
+            Shear::Anisotropic { longitudinal: modulus, lateral: modulus }
+        }
+        other @ Shear::Anisotropic { .. } => other,
     };
     let pull = |s| pull_on_granite(anisotropic, s);
     let step = 1e-6;
