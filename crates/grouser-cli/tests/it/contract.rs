@@ -183,6 +183,49 @@ fn a_wheel_test_has_bands_beside_its_values() {
     }
 }
 
+/// What scripts read of the band of all models on each set.
+#[test]
+fn each_set_has_its_zero_pull_and_its_interval_score() {
+    let place = Place::new();
+    let json = place.json("validate --all");
+    let sets = json["sets"].as_array().expect("sets");
+    let case = |name: &str| sets.iter().find(|it| it["case"] == name).expect("it is there");
+    assert_eq!(sets.len(), 7);
+    for set in sets {
+        assert!(number(&set["interval_score"]) > 0.0, "{set}");
+        assert!(set["zero_pull_slip_measured"].is_null() || set["answers"][0]["kind"] != "yaw");
+    }
+    // A tenth in the radius would move it by a tenth.
+    let viper = case("viper-trec-grc3");
+    let [measured, predicted] = ["measured", "predicted"]
+        .map(|end| number(&viper[format!("zero_pull_slip_{end}")]));
+    assert!((measured - 0.007).abs() < 0.001 && (measured - predicted).abs() < 0.03, "{viper}");
+    assert_eq!(viper["zero_pull_is_doubtful"], false);
+    assert!(case("mgru3-grc1")["zero_pull_slip_measured"].is_null());
+}
+
+/// Bekker's closed form has a part in what needs no force across a wheel.
+#[test]
+fn model_weights_go_with_the_question() {
+    let place = Place::new();
+    let flags = "--soil grc-3 --wheel viper-engineering --load-n 171.7 --slip-ratio 0.2";
+    let weights = |angle: &str| {
+        let line = format!("wheel-test {flags} --slip-angle-deg {angle} --uncertainty --samples 20");
+        place.json(&line)["model_weights"].clone()
+    };
+    let (along, across) = (weights("0"), weights("5"));
+    assert!(number(&along["bekker"]) > 0.0 && across["bekker"].is_null(), "{along} {across}");
+    for weights in [along, across] {
+        let sum: f64 = weights.as_object().expect("an object").values().map(number).sum();
+        assert!((sum - 1.0).abs() < 1e-12, "{weights}");
+    }
+    let up = "heading-map --rover mgru3 --soil grc-1-second-hand --slope-deg 10 --samples 10";
+    let up = place.json(&format!("{up} --course-deg 90 --uncertainty"));
+    assert!(number(&up["model_weights"]["bekker"]) > 0.0);
+    let card = place.json("card --soil toyoura-uncertain --samples 20 --slope-deg 5");
+    assert!(number(&card["model_weights"]["ishigami"]) > 0.7);
+}
+
 /// Straight up, on slopes of which the last is too steep for the soil as written.
 #[test]
 fn a_map_has_bands_where_it_has_no_value_too() {

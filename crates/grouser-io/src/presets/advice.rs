@@ -111,7 +111,7 @@ const SOILS: [(&str, &str, &str); 31] = [
     (
         "mines-lunar",
         "earth",
-        "a warning: a mean over the literature with which no rover moves; unfit for prediction",
+        "a warning: a mean over unlike soils of the literature; unfit for prediction",
     ),
     ("dry-sand", "earth", "vehicles on dry sand: a textbook's example, second-hand"),
     ("clay", "earth", "vehicles on clay: a textbook's example, second-hand"),

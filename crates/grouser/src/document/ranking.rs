@@ -175,7 +175,7 @@ pub fn rank_all(folder: Option<&Path>, limits: Limits) -> Result<Ranking, Rankin
         Some(folder) => data_sets_in(folder)?,
         None => data_sets_of_the_program()?,
     };
-    rank_sets(sets, limits)
+    rank_sets(&sets, folder.is_none(), limits)
 }
 
 /// Ranks every model on one data set: a preset, or a document beside its file of measurements. A text in memory has
@@ -194,12 +194,17 @@ pub fn rank_one(source: &Source, limits: Limits) -> Result<Ranking, RankingError
         // A text in memory has no file beside it.
         Source::Text { .. } => None,
     };
-    rank_sets(data_set.into_iter().collect(), limits)
+    rank_sets(data_set.as_slice(), false, limits)
 }
 
-fn rank_sets(sets: Vec<DataSet>, limits: Limits) -> Result<Ranking, RankingError> {
+/// * `are_known`: whether these are all sets of the program
+fn rank_sets(
+    sets: &[DataSet],
+    are_known: bool,
+    limits: Limits,
+) -> Result<Ranking, RankingError> {
     let mut ranking = Ranking::default();
-    for DataSet { set, rows, named_at } in &sets {
+    for DataSet { set, rows, named_at } in sets {
         for case in &set.value.cases {
             let part = Part { set, case };
             let ranked = part.rank(rows, limits, &mut ranking);
@@ -212,7 +217,7 @@ fn rank_sets(sets: Vec<DataSet>, limits: Limits) -> Result<Ranking, RankingError
         }
     }
     ranking.models = over_all(&ranking);
-    ranking.sets = sets::records(&sets, limits)?;
+    ranking.sets = sets::records(sets, are_known, limits)?;
     Ok(ranking)
 }
 

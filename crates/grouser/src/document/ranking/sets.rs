@@ -76,38 +76,48 @@ const DOUBTFUL: f64 = 0.03;
 /// # Errors
 /// As [`rank_all`](super::rank_all).
 pub fn evidence(samples: u64, seed: u64, limits: Limits) -> Result<Vec<Evidence>, RankingError> {
-    gathered(&data_sets_of_the_program()?, limits, samples, seed)
+    let mut all = Vec::new();
+    for DataSet { set, rows, .. } in data_sets_of_the_program()? {
+        for case in &set.value.cases {
+            all.extend(Part { set: &set, case }.evidence(&rows, limits, samples, seed)?);
+        }
+    }
+    Ok(all)
 }
 
-fn gathered(
+/// Each part of some data sets.
+///
+/// * `are_known`: whether these are the sets of the program, from which the weights are: each is judged by weights that
+///   are found without it
+pub(super) fn records(
     sets: &[DataSet],
+    are_known: bool,
     limits: Limits,
-    samples: u64,
-    seed: u64,
-) -> Result<Vec<Evidence>, RankingError> {
-    let mut all = Vec::new();
-    for DataSet { set, rows, .. } in sets {
-        for case in &set.value.cases {
-            all.extend(Part { set, case }.evidence(rows, limits, samples, seed)?);
-        }
-    }
-    Ok(all)
+) -> Result<Vec<SetRecord>, RankingError> {
+    let parts = sets.iter().flat_map(|it| {
+        it.set.value.cases.iter().map(move |case| (Part { set: &it.set, case }, &it.rows))
+    });
+    let found = parts.filter_map(|(part, rows)| {
+        let found = part.evidence(rows, limits, SAMPLES, SEED).transpose()?;
+        Some(found.map(|found| (part, rows, found)))
+    });
+    let found: Vec<_> = found.collect::<Result<_, _>>()?;
+    let known: Vec<Evidence> = match are_known {
+        true => found.iter().map(|(_, _, evidence)| evidence.clone()).collect(),
+        false => Vec::new(),
+    };
+    let record = |(part, rows, found): &(Part<'_>, &measurements::Source, Evidence)| {
+        let shares = if are_known { without(found, &known) } else { shares_in_force(found) };
+        part.record(found, &shares, rows, limits)
+    };
+    found.iter().map(record).collect()
 }
 
-/// Each part of some data sets. Those of the program are judged by weights that were found without them.
-pub(super) fn records(sets: &[DataSet], limits: Limits) -> Result<Vec<SetRecord>, RankingError> {
-    let known = evidence(SAMPLES, SEED, limits)?;
-    let mut all = Vec::new();
-    for DataSet { set, rows, .. } in sets {
-        for case in &set.value.cases {
-            let part = Part { set, case };
-            if let Some(found) = part.evidence(rows, limits, SAMPLES, SEED)? {
-                let shares = without(&found, &known);
-                all.push(part.record(&found, &shares, rows, limits)?);
-            }
-        }
-    }
-    Ok(all)
+/// The shares of a band on the set's soil.
+fn shares_in_force(found: &Evidence) -> Shares {
+    let spread = ModelSpread::all(found.in_sample.as_ref(), Question::Along);
+    let share = |model: &Model| spread.shares().iter().find(|it| it.0 == *model).map(|it| it.1);
+    std::array::from_fn(|place| share(&Model::ALL[place]).unwrap_or(0.0))
 }
 
 impl Part<'_> {
