@@ -271,16 +271,16 @@ fn plates_give_the_moduli_and_one_width_says_what_it_cannot() {
 #[test]
 fn shear_tests_of_another_laboratory_give_their_soil() {
     let place = Place::new();
-    let mut rows = "sigma,j,tau\n".to_owned();
+    let mut rows = vec!["sigma,j,tau".to_owned()];
     for sigma in [10.0, 20.0, 40.0] {
         for step in 1..=8 {
             let j_cm = 0.5 * f64::from(step);
             let strength = 2.0 + sigma * 30.0_f64.to_radians().tan();
             let tau = strength * (1.0 - (-j_cm).exp());
-            rows += &format!("{},{j_cm},{}\n", 1e-2 * sigma, 1e3 * tau);
+            rows.push(format!("{},{j_cm},{}", 1e-2 * sigma, 1e3 * tau));
         }
     }
-    place.write("lab.csv", rows);
+    place.write("lab.csv", rows.join("\n"));
     let import = "import lab.csv --column normal_stress_kpa=sigma:bar --column shear_displacement_mm=j:cm \
                   --column shear_stress_kpa=tau:Pa --out shear.csv";
     let answer = place.run(&words(import));

@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use super::super::columns as results;
 use super::super::unit::{KPA, MM, ONE};
 use super::columns::{Column, Meaning};
 
@@ -12,7 +13,7 @@ pub const PLATE_DIAMETER: &str = "plate_diameter_mm";
 /// The radius of a round plate.
 pub const PLATE_RADIUS: &str = "plate_radius_mm";
 /// The sinkage of a plate.
-pub const SINKAGE: &str = "sinkage_mm";
+pub const SINKAGE: &str = results::SINKAGE.name;
 /// The pressure under a plate.
 pub const PRESSURE: &str = "pressure_kpa";
 /// Standard deviation of that pressure.

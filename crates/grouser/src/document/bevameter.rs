@@ -59,10 +59,7 @@ impl<'a, R: Read> Rows<'a, R> {
                     Some(_) => {
                         "part the fields with commas, and write decimals with a point".into()
                     }
-                    None => format!(
-                        "the columns are {}; `grouser import` renames and converts them",
-                        self.header.join(", ")
-                    ),
+                    None => format!("the columns are {}", self.header.join(", ")),
                 };
                 Err(self.of_header(problem).with_hint(hint))
             }

@@ -71,12 +71,12 @@ pub fn read_from(
         }
         let repeat = rows.repeat();
         let mut known = curves.iter_mut().zip(&repeats);
-        match known.find(|(curve, of)| curve.width == width && *of == repeat) {
-            Some((curve, _)) => curve.points.push(point),
-            None => {
-                curves.push(PlateCurve { width, points: vec![point] });
-                repeats.push(repeat.to_owned());
-            }
+        let same = known.find(|(curve, of)| curve.width == width && *of == repeat);
+        if let Some((curve, _)) = same {
+            curve.points.push(point);
+        } else {
+            curves.push(PlateCurve { width, points: vec![point] });
+            repeats.push(repeat.to_owned());
         }
     }
     if curves.is_empty() {

@@ -124,7 +124,10 @@ mod tests {
         for (text, parts) in [
             (HEADER.to_owned(), ["shear.csv: ", "no rows"]),
             (format!("{HEADER}\n1,2,0\n"), ["shear.csv:2: ", "in kilopascals"]),
-            ("shear_displacement_mm,tau\n".to_owned(), ["`shear_stress_kpa`", "grouser import"]),
+            (
+                "shear_displacement_mm,tau\n".to_owned(),
+                ["`shear_stress_kpa`", "columns are shear_disp"],
+            ),
         ] {
             let found = read_from("shear.csv", text.as_bytes(), Limits::default());
             let message = found.unwrap_err().to_string();

@@ -132,10 +132,9 @@ fn is_a_key_too(name: &str) -> bool {
 }
 
 /// Where a name that only results have stands once more, and why.
-const OTHER_PLACES: [(&str, &str); 10] = [
-    // Plates sink, too, in files and results of their own.
-    ("sinkage_mm", "document/plates.rs"),
-    ("sinkage_mm", "document/calibration/plates.rs"),
+const OTHER_PLACES: [(&str, &str); 9] = [
+    // Plates sink, too, in results of their own.
+    ("sinkage_mm", "document/calibration/bevameter.rs"),
     // Options of the program and arguments of Python's functions, which results repeat.
     ("course_deg", "src/args/heading.rs"),
     ("course_deg", "src/args/slip_from_current.rs"),

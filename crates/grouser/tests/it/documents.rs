@@ -562,7 +562,7 @@ fn wrong_soils_say_what_where_and_how_to_mend_it() {
         ("n     = 1.703", "", "`pressure_sinkage.n` is missing"),
         ("n     = 1.703", "n     = 2.9\nn_per_slip = 1", "at a slip ratio of 1 is 3.9"),
         ("k_phi = 122.72692509674557", "k_phi = 0", "together is 0, it must be"),
-        ("k_phi = 122.72692509674557", "k_phi = 1e6", "it must be 0 to 100000"),
+        ("k_phi = 122.72692509674557", "k_phi = 1e6", "it must be -100000 to 100000"),
         ("longitudinal_per_rad_m = 0.043", "longitudinal_per_rad_m = -0.1", "at a slip angle of"),
         ("ratio = 1.0", "ratios = 1.0", "did you mean `ratio`?"),
         ("ratio = 1.0", "law = \"quadratic-in-slip\"", "`exit.at_zero` is missing"),

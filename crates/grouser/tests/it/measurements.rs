@@ -4,6 +4,7 @@
 use std::fmt::Write as _;
 
 use grouser::contact::{Model, Slip};
+use grouser::document::measurements::bevameter_columns::{PLATE_COLUMNS, SHEAR_COLUMNS};
 use grouser::document::measurements::{
     Choice, Condition, MeasurementError, Measurements, columns, read_from, slope_tests,
 };
@@ -173,9 +174,14 @@ fn the_guide_tells_every_column() {
     for column in &slope_tests::COLUMNS {
         assert!(told.contains(&column.name), "`{}` is in no row of the tables", column.name);
     }
-    let of_slopes = |name: &str| slope_tests::COLUMNS.iter().any(|column| column.name == name);
+    let of_bevameters = PLATE_COLUMNS.iter().chain(&SHEAR_COLUMNS).map(|column| column.name);
+    for name in of_bevameters.clone() {
+        assert!(told.contains(&name), "`{name}` is in no row of the tables");
+    }
+    let of_slopes = slope_tests::COLUMNS.iter().map(|column| column.name);
+    let others: Vec<&str> = of_slopes.chain(of_bevameters).collect();
     for name in told {
-        assert!(columns::known(name).is_some() || of_slopes(name), "`{name}` is no column");
+        assert!(columns::known(name).is_some() || others.contains(&name), "`{name}` is no column");
     }
 }
 

@@ -308,21 +308,21 @@ fn plate_keys(
     const NAMES: [&str; 3] =
         ["pressure_sinkage.k_c", "pressure_sinkage.k_phi", "pressure_sinkage.n"];
     let value = Soil::of(soil);
-    let (law, most) = match value.pressure_sinkage {
+    let law = match value.pressure_sinkage {
         PressureSinkage::Reece { .. } => {
-            let unit_weight = value.unit_weight(gravity);
-            (PlateLaw::Reece { cohesion, unit_weight }, [1e4, 1e5])
+            PlateLaw::Reece { cohesion, unit_weight: value.unit_weight(gravity) }
         }
-        PressureSinkage::Bekker { .. } => (PlateLaw::Bekker, [1e9, 1e12]),
+        PressureSinkage::Bekker { .. } => PlateLaw::Bekker,
     };
+    let most = |at: usize| value.range(NAMES[at]).map_or(f64::MAX, |range| *range.end());
     let [k_c, k_phi, n] = law.first_guess(plates);
     let exponent = Searched { key: NAMES[2], start: n, bounds: (0.3, 3.0) };
     let moduli = match law.largest_moduli(plates) {
         Some(sizes) => [(k_c, 0), (k_phi, 1)]
-            .map(|(start, at)| Searched::signed(NAMES[at], start, sizes[at], most[at])),
+            .map(|(start, at)| Searched::signed(NAMES[at], start, sizes[at], most(at))),
         // Which of the two carries is open; both stay positive.
         None => [(k_c, 0), (k_phi, 1)]
-            .map(|(start, at)| Searched::positive(NAMES[at], start, SEARCHED_SIZES, most[at])),
+            .map(|(start, at)| Searched::positive(NAMES[at], start, SEARCHED_SIZES, most(at))),
     };
     moduli.into_iter().chain([exponent]).collect()
 }

@@ -46,12 +46,15 @@ pub fn thinned(points: &[CurvePoint]) -> Vec<CurvePoint> {
     if points.len() <= INTERVALS || length <= 0.0 {
         return points;
     }
-    let interval = |point: &CurvePoint| {
-        let share = (point.at - low) / length;
-        ((share * INTERVALS as f64) as usize).min(INTERVALS - 1)
+    let mut rest = points.as_slice();
+    let interval = |number: usize| {
+        let end = low + length * number as f64 / INTERVALS as f64;
+        let is_last = number == INTERVALS;
+        let (own, beyond) = rest.split_at(rest.partition_point(|point| is_last || point.at <= end));
+        rest = beyond;
+        (!own.is_empty()).then(|| mean_point(own))
     };
-    let neighbours = points.chunk_by(|one, other| interval(one) == interval(other));
-    neighbours.map(mean_point).collect()
+    (1..=INTERVALS).filter_map(interval).collect()
 }
 
 /// The mean place and value of some readings, with their root mean square scatter.
