@@ -197,8 +197,8 @@ fn each_set_has_its_zero_pull_and_its_interval_score() {
     }
     // A tenth in the radius would move it by a tenth.
     let viper = case("viper-trec-grc3");
-    let [measured, predicted] = ["measured", "predicted"]
-        .map(|end| number(&viper[format!("zero_pull_slip_{end}")]));
+    let [measured, predicted] =
+        ["measured", "predicted"].map(|end| number(&viper[format!("zero_pull_slip_{end}")]));
     assert!((measured - 0.007).abs() < 0.001 && (measured - predicted).abs() < 0.03, "{viper}");
     assert_eq!(viper["zero_pull_is_doubtful"], false);
     assert!(case("mgru3-grc1")["zero_pull_slip_measured"].is_null());
@@ -210,7 +210,8 @@ fn model_weights_go_with_the_question() {
     let place = Place::new();
     let flags = "--soil grc-3 --wheel viper-engineering --load-n 171.7 --slip-ratio 0.2";
     let weights = |angle: &str| {
-        let line = format!("wheel-test {flags} --slip-angle-deg {angle} --uncertainty --samples 20");
+        let line =
+            format!("wheel-test {flags} --slip-angle-deg {angle} --uncertainty --samples 20");
         place.json(&line)["model_weights"].clone()
     };
     let (along, across) = (weights("0"), weights("5"));

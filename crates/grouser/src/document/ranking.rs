@@ -198,11 +198,7 @@ pub fn rank_one(source: &Source, limits: Limits) -> Result<Ranking, RankingError
 }
 
 /// * `are_known`: whether these are all sets of the program
-fn rank_sets(
-    sets: &[DataSet],
-    are_known: bool,
-    limits: Limits,
-) -> Result<Ranking, RankingError> {
+fn rank_sets(sets: &[DataSet], are_known: bool, limits: Limits) -> Result<Ranking, RankingError> {
     let mut ranking = Ranking::default();
     for DataSet { set, rows, named_at } in sets {
         for case in &set.value.cases {

@@ -2,10 +2,10 @@
 //! cohesion, friction angle and shear modulus.
 
 use serde::Serialize;
-use serde_json::json;
+use serde_json::{Map, Value as Json, json};
 
 use super::super::Described;
-use super::super::{Document, FitKey, SAMPLES_FILE, SoilFamily};
+use super::super::{Document, FitKey, SAMPLES_FILE, SoilFamily, without_priors_of};
 use super::{DiscrepancyRecord, ParameterRecord, SamplerRecord, Solved};
 use crate::soil::{PressureSinkage, Soil};
 use crate::studies::calibration::bevameter::{BevameterCurves, BevameterTest};
@@ -239,11 +239,38 @@ impl BevameterProblem {
             parts.join(", ")
         );
         let samples = solved.solution.posterior.as_ref().map(|_| SAMPLES_FILE);
-        // What a soil says of how its friction angle was measured is written here, where there are shear tests.
         // A bevameter knows no wheel: the soil keeps the model that it was made for, if any.
-        self.family.fitted(&solved.solution.fit.values, &source, self.soil.model(), samples)
+        let values = &solved.solution.fit.values;
+        let fitted = self.family.fitted(values, &source, self.soil.model(), samples);
+        self.with_origin(&fitted)
+    }
+
+    /// The soil with what it says of how its constants were measured.
+    fn with_origin(&self, soil: &Document) -> Document {
+        let sheared = !self.curves.shear.is_empty();
+        let mut known: Vec<&str> = Vec::new();
+        if !self.curves.plates.is_empty() {
+            known.push("pressure_sinkage");
+        }
+        if sheared {
+            known.extend(["strength", "shear"]);
+        }
+        let told = soil.changed(|keys| {
+            if sheared {
+                keys.remove(SHARE);
+                keys.insert("friction_test".to_owned(), "direct-shear".into());
+            }
+            let origin = keys.entry("known_from").or_insert_with(|| Json::Object(Map::default()));
+            for group in known {
+                origin[group] = "this-bed".into();
+            }
+        });
+        if sheared { without_priors_of(&told, &[SHARE]) } else { told }
     }
 }
+
+/// The key that the kind of test decides.
+const SHARE: &str = "constant_volume_share";
 
 /// How many points of how many curves: `150 points of 3 plates`.
 fn counted(points: impl Iterator<Item = usize>, what: &str) -> String {
