@@ -193,7 +193,7 @@ fn assumed_values(soil: Option<&Document>) -> AssumedValues {
     };
     AssumedValues {
         ishigami: but(&["small_wheel.", "rft."]),
-        bekker: but(&["small_wheel.", "rft.", "exit.", "stress_peak."]),
+        bekker: but(&["small_wheel.", "rft.", "exit.", "stress_peak.", "constant_volume_share"]),
         small_wheel: but(&["rft."]),
         rft: but(&[
             "small_wheel.",
@@ -202,6 +202,7 @@ fn assumed_values(soil: Option<&Document>) -> AssumedValues {
             "shear.",
             "bulldozing.",
             "cohesion_kpa",
+            "constant_volume_share",
             "pressure_sinkage.",
         ]),
     }

@@ -6,6 +6,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, TypedDict
 
 
+class SoilKnownFrom(TypedDict, total=False):
+    """Where the constants are from, for priors: how widely bands draw about them."""
+
+    strength: str
+    """Cohesion and friction angle; without it, this soil."""
+    pressure_sinkage: str
+    """Moduli and exponent of sinkage; likewise."""
+    shear: str
+    """Shear moduli; likewise."""
+
+
 class SoilPressureSinkage(TypedDict, total=False):
     """How pressure grows with sinkage."""
 
@@ -256,6 +267,9 @@ class SoilPriorsMissing(TypedDict, total=False):
     """The soils that it is about, by their `consistency`; without it, all."""
     unless: str
     """A table, or a key, of the soil: the row is only for soils that do not have it."""
+    when: str
+    """A keyword of the soil and what it has to be, as `known_from.shear=copied`: the row is only
+    for soils that have it."""
     reason: str
     """Why it is so, in a sentence; a document of its own must have it."""
     source: str
@@ -364,6 +378,11 @@ class SoilKeys:
             ...
 
         @property
+        def known_from(self) -> SoilKnownFrom:
+            """Where the constants are from, for priors: how widely bands draw about them."""
+            ...
+
+        @property
         def cohesion_kpa(self) -> float:
             """Cohesion, c [kPa]."""
             ...
@@ -371,6 +390,19 @@ class SoilKeys:
         @property
         def friction_angle_deg(self) -> float:
             """Angle of internal friction, φ [°]."""
+            ...
+
+        @property
+        def friction_test(self) -> str:
+            """The kind of test that the friction angle is from, which tells what of it a wheel
+            mobilises; without it, not printed."""
+            ...
+
+        @property
+        def constant_volume_share(self) -> float:
+            """How far friction under a wheel has gone from tan φ, 0, to sin φ of soil that shears
+            on at constant volume, 1; without it, as the kind of test says, or else the priors
+            [-]."""
             ...
 
         @property
@@ -877,10 +909,18 @@ class ScenarioTerrainZoneSoil(TypedDict, total=False):
     """The wheel–soil model that the values were made for; without it, `ishigami`."""
     consistency: str
     """Whether the soil is loose or firm, for priors; without it, loose."""
+    known_from: SoilKnownFrom
+    """Where the constants are from, for priors: how widely bands draw about them."""
     cohesion_kpa: float
     """Cohesion, c [kPa]."""
     friction_angle_deg: float
     """Angle of internal friction, φ [°]."""
+    friction_test: str
+    """The kind of test that the friction angle is from, which tells what of it a wheel mobilises;
+    without it, not printed."""
+    constant_volume_share: float
+    """How far friction under a wheel has gone from tan φ, 0, to sin φ of soil that shears on at
+    constant volume, 1; without it, as the kind of test says, or else the priors [-]."""
     density_kg_m3: float
     """Bulk density, ρ [kg/m³]."""
     pressure_sinkage: SoilPressureSinkage

@@ -175,10 +175,12 @@ fn reference_soil(case: &str) -> Soil {
 /// All equal; the moduli to the last but one bit, which is how well the JSON is read here.
 fn check_constants(soil: &Soil, reference: &Soil) {
     let pressure_sinkage = reference.pressure_sinkage;
-    // The reference has no bound of the shear stresses and no small-wheel model, and what a preset states
+    // The reference has no bound of the shear stresses, no small-wheel model and tan φ under a wheel, and what a preset states
     // of its domain is no constant.
-    let Soil { shear_bound, domain, small_wheel, .. } = *reference;
-    assert_eq!(&Soil { pressure_sinkage, shear_bound, domain, small_wheel, ..*soil }, reference);
+    let Soil { shear_bound, domain, small_wheel, constant_volume_share, .. } = *reference;
+    let soil_there =
+        Soil { pressure_sinkage, shear_bound, domain, small_wheel, constant_volume_share, ..*soil };
+    assert_eq!(&soil_there, reference);
     let stiffness = |soil: &Soil| soil.pressure_sinkage.stiffness(0.1, soil.cohesion, 1e4, 0.0);
     let (ours, theirs) = (stiffness(soil), stiffness(reference));
     assert_eq!(ours.exponent, theirs.exponent);

@@ -11,8 +11,8 @@ use grouser::studies::evidence::{
     Answer, AnswerKind, Evidence, SHRINKAGE, Shares, judged, stacked, without,
 };
 
-/// As in `validate`: half as many move a weight by a hundredth.
-const SAMPLES: u64 = 60;
+/// As in `validate`; half as many move a weight by a hundredth or two.
+const SAMPLES: u64 = 100;
 
 static ALL: LazyLock<Vec<Evidence>> =
     LazyLock::new(|| evidence(SAMPLES, 1, Limits::default()).expect("the library's own sets"));

@@ -109,8 +109,10 @@ fn check_part(kind: FactorKind, whole: &Forecast, known: &[Forecast]) {
     let place = whole.place(kind).expect("a factor");
     assert_eq!(whole.factors[place].levels.len(), known.len());
     for (quantity, budget) in budgets(whole).into_iter().enumerate() {
-        let left = known.iter().map(|it| budgets(it)[quantity].variance).sum::<f64>();
-        let shrunk = budget.variance - left / known.len() as f64;
+        let factor = &whole.factors[place];
+        let shares = factor.levels.iter().map(|level| factor.share(level));
+        let left = known.iter().zip(shares).map(|(it, w)| w * budgets(it)[quantity].variance);
+        let shrunk = budget.variance - left.sum::<f64>();
         let said = budget.parts[place].first;
         assert!((shrunk - said).abs() < WITHIN, "{kind:?}: {shrunk} and {said}");
     }

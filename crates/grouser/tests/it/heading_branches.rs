@@ -29,7 +29,9 @@ fn curve(rover: &str, soil: &str, gravity: f64, course_deg: f64) -> HeadingCurve
 
 /// All ready rovers on all ready soils under three gravities.
 fn triples() -> Vec<(&'static str, &'static str, f64)> {
-    let soils = || document::presets(Kind::Soil).map(|soil| soil.name);
+    // Another bed of the same simulant, so that places on the list keep their soils.
+    let is_kept = |name: &&str| *name != "grc-1-second-hand";
+    let soils = || document::presets(Kind::Soil).map(|soil| soil.name).filter(is_kept);
     let gravities = [EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY];
     document::presets(Kind::Rover)
         .flat_map(|rover| soils().map(move |soil| (rover.name, soil)))

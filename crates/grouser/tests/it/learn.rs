@@ -172,7 +172,7 @@ fn entrapment_is_called_ahead() {
 #[test]
 fn another_soil_is_flagged() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
-    let all = flagged(&trial(&prior, &prior, 77), Change::ShearAlong(3.0), 3);
+    let all = flagged(&trial(&prior, &prior, 77), Change::ShearAlong(3.0), 6);
     let matter: Vec<_> = all.iter().filter(|it| it.matters).collect();
     assert!(matter.len() >= 2, "{all:?}");
     let is_in_time = |it: &change::Flagged| !it.early && it.way.is_some_and(|way| way <= 0.5);

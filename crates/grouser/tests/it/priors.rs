@@ -15,9 +15,10 @@ const STATED: &str =
 const TABLES: &str = "[pressure_sinkage]\nlaw = \"bekker\"\nk_c = 0.0\nk_phi = 1e6\nn = 1.0\n\
      [shear]\nlaw = \"anisotropic\"\nlongitudinal_m = 0.02\n";
 /// All that it then leaves to priors.
-const MISSING: [&str; 11] = [
+const MISSING: [&str; 12] = [
     "cohesion_kpa",
     "density_kg_m3",
+    "constant_volume_share",
     "stress_peak.a0",
     "stress_peak.a1",
     "exit.ratio",
@@ -83,7 +84,7 @@ fn a_single_answer_takes_the_medians() {
         ("density_kg_m3", 1500.0),
         ("stress_peak.a0", 0.4),
         ("stress_peak.a1", 0.15),
-        ("exit.ratio", corner),
+        ("exit.ratio", 0.74 - (0.5_f64 * 0.74 * 0.54).sqrt()),
         ("shear.lateral_m", 0.6 * 0.02),
         ("shear.longitudinal_per_rad_m", 1.2 * corner * 0.02),
         ("shear.lateral_per_rad_m", 1.55 * corner * 0.6 * 0.02),
@@ -172,8 +173,8 @@ fn samples_spread_as_the_priors_say() {
     assert!((share(&|soil| soil.stress_peak.a1 < 0.15) - 0.5).abs() < 0.032);
     assert!((share(&|soil| soil.friction_angle < nominal.friction_angle) - 0.5).abs() < 0.032);
     assert!(soils.iter().all(|soil| (0.0..=1.0).contains(&ratio(soil))));
-    // λ: the lower half of a triangle from 0 to 1 holds 3/4.
-    assert!((share(&|soil| ratio(soil) < 0.5) - 0.75).abs() < 0.028);
+    // λ: a triangle from 0 over 0.2 to 0.74 has 1 − 0.24²/(0.74 · 0.54) below 0.5.
+    assert!((share(&|soil| ratio(soil) < 0.5) - 0.8559).abs() < 0.023);
     let angles: Vec<f64> = soils.iter().map(|it| it.friction_angle.to_degrees()).collect();
     let mean = angles.iter().sum::<f64>() / 4000.0;
     let variance = angles.iter().map(|it| (it - mean).powi(2)).sum::<f64>() / 3999.0;
@@ -259,9 +260,10 @@ fn a_key_that_is_set_is_stated_and_not_drawn() {
 
 #[test]
 fn rows_of_priors_are_set_like_other_keys() {
-    let loaded = with(&sand("", ""), &["soil.priors.missing.5.high=0.5"]);
-    assert_eq!(assumed(&loaded)[4], "exit.ratio");
-    assert!((ratio(&loaded.value) - 0.5 * (1.0 - 0.5_f64.sqrt())).abs() < 1e-12);
+    let loaded = with(&sand("", ""), &["soil.priors.missing.6.high=0.5"]);
+    assert_eq!(assumed(&loaded)[5], "exit.ratio");
+    // A triangle from 0 over 0.2 to 0.5.
+    assert!((ratio(&loaded.value) - (0.5 - (0.5_f64 * 0.5 * 0.3).sqrt())).abs() < 1e-12);
     let error = Overrides::parse(["wheel.radius_m=1", "prior.missing.0.high=1"])
         .expect("they are written so")
         .check_kinds(&[Kind::Wheel]);

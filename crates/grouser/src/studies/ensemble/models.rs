@@ -16,10 +16,10 @@ use crate::studies::random;
 #[must_use]
 pub const fn weight(model: &Model) -> f64 {
     match model {
-        Model::Ishigami => 0.16,
+        Model::Ishigami => 0.15,
         Model::Bekker => 0.21,
-        Model::SmallWheel => 0.43,
-        Model::Rft => 0.20,
+        Model::SmallWheel => 0.50,
+        Model::Rft => 0.14,
         Model::Own(_) => 0.0,
     }
 }

@@ -1,6 +1,7 @@
 //! The probability density that samples give to a number.
 
 use crate::elementary::pow;
+use crate::elementary::wide::hypot;
 
 /// Degrees of freedom of the kernel [-]: a number that no sample is near still has a chance, so that one miss does not
 /// decide a weight alone. Source: ours.
@@ -16,7 +17,7 @@ const AT_MIDDLE: f64 = 0.375;
 /// * `noise`: standard deviation with which the number was read, in its unit
 pub(super) fn density(samples: &[f64], noise: f64, at: f64) -> f64 {
     let silverman = 0.9 * spread(samples) * pow(samples.len().max(1) as f64, -0.2);
-    let width = silverman.hypot(noise);
+    let width = hypot(silverman, noise);
     let kernel = |sample: &f64| {
         let t = (at - sample) / width;
         AT_MIDDLE / width * pow(1.0 + t * t / FREEDOM, -0.5 * (FREEDOM + 1.0))
