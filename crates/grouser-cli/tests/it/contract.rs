@@ -223,7 +223,7 @@ fn model_weights_go_with_the_question() {
     let up = "heading-map --rover mgru3 --soil grc-1-second-hand --slope-deg 10 --samples 10";
     let up = place.json(&format!("{up} --course-deg 90 --uncertainty"));
     assert!(number(&up["model_weights"]["bekker"]) > 0.0);
-    let card = place.json("card --soil toyoura-uncertain --samples 20 --slope-deg 5");
+    let card = place.json("card --soil toyoura-uncertain --samples 20");
     assert!(number(&card["model_weights"]["ishigami"]) > 0.7);
 }
 
@@ -479,7 +479,8 @@ fn the_theory_is_the_flags_or_the_soils_or_ishigami() {
     let place = Place::new();
     assert_eq!(place.json("wheel-test")["inputs"]["model"], "ishigami");
     assert_eq!(place.json("wheel-test --model bekker")["inputs"]["model"], "bekker");
-    let soil = format!("model = \"bekker\"\n{}", place.results("presets toyoura"));
+    let soil =
+        place.results("presets toyoura").replace("model = \"ishigami\"", "model = \"bekker\"");
     place.write("sand.toml", soil);
     assert_eq!(place.json("wheel-test --soil sand.toml")["inputs"]["model"], "bekker");
     assert_eq!(place.json("attitude --soil sand.toml")["inputs"]["model"], "bekker");
@@ -769,7 +770,7 @@ fn soil_document(soil: &Value) -> String {
     // Writing to a string does not fail.
     let _ = write!(
         text,
-        "cohesion_kpa = {:?}\nfriction_angle_deg = {}\ndensity_kg_m3 = {}\n\
+        "cohesion_kpa = {:?}\nfriction_angle_deg = {}\nconstant_volume_share = 0.0\ndensity_kg_m3 = {}\n\
          [pressure_sinkage]\nlaw = {}\nk_c = {}\nk_phi = {}\nn = {}\n\
          [stress_peak]\na0 = {}\na1 = {}\n\
          [shear]\nlaw = {}\nlongitudinal_m = {}\nlongitudinal_per_rad_m = {}\nlateral_m = {}\n\

@@ -298,7 +298,9 @@ fn records_until_an_error_are_kept() {
         start_m = [2.537584704845827, 2.2423018904523584]
     "#;
     place.write("scenario.toml", document);
-    let answer = place.line("traverse scenario.toml --out out");
+    // On soil as strong as this the loads of wheels that turn against each other do not settle.
+    let strong = "--set soil.constant_volume_share=0 --set soil.small_wheel.mounds.rear_mound=0";
+    let answer = place.line(&format!("traverse scenario.toml --out out {strong}"));
     assert_eq!(answer.code(), 1, "{}", answer.stderr);
     let said = "the records until then are in traverse.csv";
     assert!(answer.stderr.contains(said), "{}", answer.stderr);

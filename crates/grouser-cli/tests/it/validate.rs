@@ -306,7 +306,7 @@ fn with_data_set() -> Place {
     place.write("lab/test.csv", place.results(&format!("{} --format csv", simulate())));
     place.write("lab/set.toml", DATA_SET);
     let soil = place.results("presets toyoura");
-    place.write("lab/sand.toml", format!("model = \"ishigami\"\n{soil}"));
+    place.write("lab/sand.toml", soil);
     place
 }
 

@@ -333,9 +333,10 @@ impl Part<'_> {
         self.case.soils.iter().flat_map(move |(name, soil)| {
             Model::ALL.into_iter().filter_map(move |model| {
                 let is_for = |soil: &LoadedSoil| soil.document.model().is_none_or(|it| it == model);
-                // A soil that was made for another model is judged only where there is no other.
-                let for_another =
-                    !is_for(soil) && self.case.soils.iter().any(|(_, soil)| is_for(soil));
+                // A soil that was made for a model is judged with that one; where these rows chose it and there is no
+                // other, the rest stand beside it.
+                let is_alone = self.case.is_fitted(name) && self.case.soils.len() == 1;
+                let for_another = !is_for(soil) && !is_alone;
                 // Without its terms the small-wheel model is the classical one.
                 let same = model == Model::SmallWheel && soil.value.small_wheel == SmallWheel::OFF;
                 (!for_another && !same).then_some((name, soil, model))
