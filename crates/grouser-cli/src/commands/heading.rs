@@ -61,12 +61,10 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
         Format::Table => {
             let lines = all.iter().map(|of_model| of_model.lines(all.len())).collect::<String>();
             let model = inputs::model_line(&all[0].scenario.document, "soil");
-            let weights = match args.uncertainty.sampling.uncertainty {
-                true if !args.setting.has_every_model() => {
-                    sampling::line(&BandInputs::of_scenario(&all[0].scenario))
-                }
-                _ => String::new(),
-            };
+            let is_spread =
+                args.uncertainty.sampling.uncertainty && !args.setting.has_every_model();
+            let weights = || sampling::line(&BandInputs::of_scenario(&all[0].scenario));
+            let weights = is_spread.then(weights).unwrap_or_default();
             output::show(rows.to_table(&brief(args, &all[0])) + lines + model + weights)
         }
         Format::Csv => output::print(&rows.to_csv()?),

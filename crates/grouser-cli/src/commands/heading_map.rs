@@ -124,10 +124,9 @@ fn table(
 /// * `names`: of the soils
 fn model_lines(args: &HeadingMapArgs, scenarios: &[LoadedScenario], names: &[String]) -> String {
     let line = |(scenario, name): (&LoadedScenario, &String)| {
-        let weights = match args.uncertainty.sampling.uncertainty {
-            true if !args.setting.has_every_model() => sampling::line(&band_inputs(args, scenario)),
-            _ => String::new(),
-        };
+        let is_spread = args.uncertainty.sampling.uncertainty && !args.setting.has_every_model();
+        let weights = || sampling::line(&band_inputs(args, scenario));
+        let weights = is_spread.then(weights).unwrap_or_default();
         let line = inputs::model_line(&scenario.document, "soil") + &weights;
         let is_named = scenarios.len() > 1 && !line.is_empty();
         if is_named { format!("{}: {line}", escape::line(name)) } else { line }

@@ -143,9 +143,10 @@ fn output_results(
 
 /// Which model the rows have, where nobody names one, and which ones their bands.
 fn model_line(args: &WheelTestArgs, stand: &StandInputs) -> String {
-    let weights = match args.sampling.uncertainty {
-        true => sampling::line(&band_inputs(args, stand)),
-        false => String::new(),
+    let weights = if args.sampling.uncertainty {
+        sampling::line(&band_inputs(args, stand))
+    } else {
+        String::new()
     };
     match args.setting.model {
         Some(_) => String::new(),

@@ -102,10 +102,8 @@ pub(super) fn records(
         Some(found.map(|found| (part, rows, found)))
     });
     let found: Vec<_> = found.collect::<Result<_, _>>()?;
-    let known: Vec<Evidence> = match are_known {
-        true => found.iter().map(|(_, _, evidence)| evidence.clone()).collect(),
-        false => Vec::new(),
-    };
+    let known = found.iter().filter(|_| are_known).map(|(_, _, evidence)| evidence.clone());
+    let known: Vec<Evidence> = known.collect();
     let record = |(part, rows, found): &(Part<'_>, &measurements::Source, Evidence)| {
         let shares = if are_known { without(found, &known) } else { shares_in_force(found) };
         part.record(found, &shares, rows, limits)

@@ -25,9 +25,9 @@ pub fn without(set: &Evidence, all: &[Evidence]) -> Shares {
         .filter(|(model, _)| *model != own)
         .map(|(_, share)| share)
         .sum();
-    std::array::from_fn(|place| match Model::ALL[place] == *own {
-        true => models::OWN_SHARE,
-        false => (1.0 - models::OWN_SHARE) * shares[place] / rest,
+    std::array::from_fn(|place| {
+        let is_own = Model::ALL[place] == *own;
+        if is_own { models::OWN_SHARE } else { (1.0 - models::OWN_SHARE) * shares[place] / rest }
     })
 }
 
