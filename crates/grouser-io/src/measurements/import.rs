@@ -317,7 +317,7 @@ mod tests {
         let text = "D (in),psi,z\n2,1,0.5\n";
         let mappings = ["plate_diameter_mm=D (in):in", "pressure_kpa=psi:psi", "sinkage_mm=z:cm"];
         let ours = imported(text, &mappings, &Layout::default());
-        assert_eq!(ours, "plate_diameter_mm,pressure_kpa,sinkage_mm\n50.8,6.8947572931683,5\n");
+        assert_eq!(ours, "plate_diameter_mm,pressure_kpa,sinkage_mm\n50.8,6.89475729316836,5\n");
         let text = "j,tau,sigma,repeat\n1,-2,3,a\n";
         let mappings = [
             "shear_displacement_mm=j:cm",

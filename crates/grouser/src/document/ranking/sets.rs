@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{DataSet, Part, RankingError, data_sets_of_the_program, heading_study};
+use super::parts::{DataSet, Part, RankingError, data_sets_of_the_program, heading_study};
 use crate::contact::{Contact, Model, Slip, settle};
 use crate::document::measurements::{self, Choice, Limits};
 use crate::document::{LoadedSoil, LoadedWheel, Overrides, Source, Tested, read_scenario};

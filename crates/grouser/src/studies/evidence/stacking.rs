@@ -1,7 +1,7 @@
 //! Weights of models by stacking, and bands of the weighted models.
 
+use super::answer::{Answer, AnswerKind, Evidence};
 use super::density::density;
-use super::{Answer, AnswerKind, Evidence};
 use crate::contact::Model;
 use crate::studies::ensemble::models;
 
