@@ -17,7 +17,7 @@ use super::measurements::bevameter_columns::{
 };
 use super::measurements::{Limits, MeasurementError, read_bytes};
 use crate::studies::calibration::PlateCurve;
-use crate::studies::calibration::plate_test::PlatePoint;
+use crate::studies::calibration::plate_curve::PlatePoint;
 
 /// Columns of a plate's size, each with *b* over what stands there: for a round plate b is the radius (Wong,
 /// Theory of Ground Vehicles).

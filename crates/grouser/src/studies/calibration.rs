@@ -42,6 +42,7 @@ pub mod handed_on;
 pub mod identifiability;
 mod least_squares;
 pub mod parameter;
+pub mod plate_curve;
 pub mod plate_test;
 pub mod posterior;
 pub mod repeated_curves;
@@ -55,7 +56,8 @@ pub mod wong;
 pub use experiment::{Channel, Experiment, Measure, Observation, Place, Regime, Site};
 pub use fit::{Fit, FitSettings};
 pub use parameter::{Parameter, ParameterSpace, Scale};
-pub use plate_test::{PlateCurve, PlateLaw, PlateTest};
+pub use plate_curve::PlateCurve;
+pub use plate_test::{PlateLaw, PlateTest};
 pub use posterior::{Advanced, PosteriorState, SamplerSettings};
 pub use shear_test::ShearCurve;
 pub use solution::{Observer, Posterior, Sampling, Solution, Work};
@@ -73,7 +75,7 @@ use errors::Errors;
 /// ```
 /// use std::ops::ControlFlow;
 ///
-/// use grouser::studies::calibration::plate_test::PlatePoint;
+/// use grouser::studies::calibration::plate_curve::PlatePoint;
 /// use grouser::studies::calibration::{
 ///     Calibration, FitSettings, Parameter, ParameterSpace, PlateCurve, PlateLaw, PlateTest, Scale,
 /// };

@@ -8,7 +8,7 @@ use grouser::document::measurements::bevameter_sets::BEVAMETER_SETS;
 use grouser::document::{self, Described, Document, Kind, Overrides, Source, plates, shear_tests};
 use grouser::soil::Soil;
 use grouser::studies::calibration::bevameter::shear_strength;
-use grouser::studies::calibration::plate_test::PlatePoint;
+use grouser::studies::calibration::plate_curve::PlatePoint;
 use grouser::studies::calibration::repeated_curves::CurvePoint;
 use grouser::studies::calibration::{
     Fit, Observer, PlateCurve, PosteriorState, ShearCurve, WongFit,

@@ -11,7 +11,7 @@ use grouser::studies::calibration::cross_validation::{
 use grouser::studies::calibration::design::{Outlook, Setting, Target};
 use grouser::studies::calibration::diagnostics::{Samples, Summary};
 use grouser::studies::calibration::identifiability::Identifiability;
-use grouser::studies::calibration::plate_test::PlatePoint;
+use grouser::studies::calibration::plate_curve::PlatePoint;
 use grouser::studies::calibration::posterior::Advanced;
 use grouser::studies::calibration::wheel_test::{Discrepancies, Setup};
 use grouser::studies::calibration::{

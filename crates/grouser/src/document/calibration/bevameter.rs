@@ -9,7 +9,7 @@ use super::super::{Document, FitKey, SAMPLES_FILE, SoilFamily, without_priors_of
 use super::{DiscrepancyRecord, ParameterRecord, SamplerRecord, Solved};
 use crate::soil::{PressureSinkage, Soil};
 use crate::studies::calibration::bevameter::{BevameterCurves, BevameterTest};
-use crate::studies::calibration::plate_test::PlatePoint;
+use crate::studies::calibration::plate_curve::PlatePoint;
 use crate::studies::calibration::repeated_curves::{CurvePoint, INTERVALS};
 use crate::studies::calibration::shear_test::{ShearStrength, largest_stress};
 use crate::studies::calibration::{

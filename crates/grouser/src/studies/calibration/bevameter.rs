@@ -5,7 +5,7 @@
 //! too. So a soil is predicted as a whole, and both kinds of curves are fitted together.
 
 use super::experiment::{Channel, Experiment, Observation};
-use super::plate_test::{PlateCurve, PlatePoint};
+use super::plate_curve::{PlateCurve, PlatePoint};
 use super::repeated_curves::{CurvePoint, MeanCurve, means, thinned};
 use super::shear_test::{ShearCurve, ShearStrength};
 use super::wheel_test::SoilOf;

@@ -13,7 +13,7 @@
 //! Nothing keeps a modulus positive, and little keeps them certain: of plates whose exponents differ, a percent in
 //! the pressures moves k_c by tens. A [`Calibration`](super::Calibration) says how well they are known.
 
-use super::plate_test::PlateCurve;
+use super::plate_curve::PlateCurve;
 use crate::elementary::exp;
 use crate::elementary::wide::ln;
 
