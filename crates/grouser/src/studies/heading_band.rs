@@ -92,7 +92,7 @@ impl HeadingBand {
     /// let band = HeadingBand::of(&study, &samples, &[deg(10.0)], &|| true)?.expect("not stopped");
     /// let yaw = band.slopes[0].yaw.expect("some samples hold the contour");
     /// assert_eq!(format!("{:.1}°", yaw.low.to_degrees()), "2.1°");
-    /// assert_eq!(format!("{:.1}°", yaw.high.to_degrees()), "11.0°");
+    /// assert_eq!(format!("{:.1}°", yaw.high.to_degrees()), "14.0°");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///

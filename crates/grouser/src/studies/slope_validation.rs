@@ -27,7 +27,7 @@ const AIM: f64 = 0.1;
 /// use grouser::studies::heading::HeadingStudy;
 /// use grouser::studies::slope_validation::SlopeValidationStudy;
 ///
-/// let overrides = Overrides::parse(["scenario.rover=mgru3", "scenario.soil=grc-1"])?;
+/// let overrides = Overrides::parse(["scenario.rover=mgru3", "scenario.soil=grc-1-second-hand"])?;
 /// let scenario = document::read_scenario(&Source::default_scenario(), &overrides)?.value;
 /// let rows = Rows::preset("viper-slip-slope").expect("it comes with the library");
 /// let tests = rows.read_slopes(&Choice::default(), &scenario.rover)?;

@@ -88,7 +88,7 @@ impl WheelTest {
     /// let samples = BandInputs::of_scenario(&scenario).samples(1, 30)?;
     /// let bands = test.bands(&samples, &|| true).expect("not stopped");
     /// let pull = bands[0].drawbar_pull.expect("there are samples");
-    /// assert_eq!(format!("{:.1} N", pull.low), "3.2 N");
+    /// assert_eq!(format!("{:.1} N", pull.low), "3.6 N");
     /// assert!(pull.high > 5.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
