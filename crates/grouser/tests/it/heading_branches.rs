@@ -6,7 +6,7 @@ use grouser::simulation::{
 };
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::heading::{HeadingCurve, HeadingOffset, HeadingStudy, LimitedBy};
-use grouser::units::{EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, deg};
+use grouser::units::{EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, Vec2, deg};
 use grouser::vehicle::DriveLaw;
 use rayon::prelude::*;
 
@@ -66,11 +66,21 @@ fn level_ground_has_the_balance_with_the_least_slip() {
 
 /// What a drive with its yaw held does on a slope.
 fn drive(scenario: &Scenario, slope: f64, yaw: f64) -> Option<(Outcome, f64)> {
+    end_of_drive(scenario, slope, yaw).map(|(outcome, way)| (outcome, way.y.atan2(way.x)))
+}
+
+/// Rim speed of the drives [m/s].
+const RIM_SPEED: f64 = 0.05;
+/// How long they are looked at, at their end [s].
+const LOOK: f64 = 3.0;
+
+/// The outcome of a drive, and its way at its end [m].
+fn end_of_drive(scenario: &Scenario, slope: f64, yaw: f64) -> Option<(Outcome, Vec2)> {
     let scenario = Scenario {
         ground: scenario.ground.with_slope(slope),
         yaw: Some(PrescribedYaw { points: vec![(0.0, yaw)] }),
         start: Start { yaw, motion: Motion::Rolling },
-        drive: DriveLaw::Constant(0.05),
+        drive: DriveLaw::Constant(RIM_SPEED),
         duration: 10.0,
         numerics: Numerics {
             approach: Approach::QuasiSteady,
@@ -83,7 +93,7 @@ fn drive(scenario: &Scenario, slope: f64, yaw: f64) -> Option<(Outcome, f64)> {
     // At high slip it swings in for seconds.
     let before = run.records[run.records.len().saturating_sub(4)].state.position;
     let way = run.last().state.position - before;
-    Some((run.outcome, way.y.atan2(way.x)))
+    Some((run.outcome, way))
 }
 
 /// How curves of headings agree with drives half a degree below their limits.
@@ -143,9 +153,12 @@ fn compare(rover: &str, soil: &str, gravity: f64, course_deg: f64) -> Counts {
     if counts.ground == 0 {
         // By any yaw near those that were held last.
         let last = curve.at(limit - deg(0.01)).map_or(heading.yaw, |it| it.yaw);
+        // Wheels that spin on the spot creep straight up where the rear mound pushes: that is no climb.
+        let climbs = |way: Vec2| way.x.hypot(way.y) > 0.1 * RIM_SPEED * LOOK;
         let holds = |off: &f64| {
-            let driven = drive(&scenario, limit + deg(1.0), last + deg(*off));
-            matches!(driven, Some((Outcome::Completed, course)) if keeps(course))
+            let driven = end_of_drive(&scenario, limit + deg(1.0), last + deg(*off));
+            matches!(driven, Some((Outcome::Completed, way))
+                if climbs(way) && keeps(way.y.atan2(way.x)))
         };
         let held = [0.0, 2.0, -2.0, 5.0, -5.0].iter().find(|off| holds(off));
         if let Some(off) = held {
@@ -186,8 +199,7 @@ fn check_counts(counts: &Counts) {
     assert!(counts.not_found * 50 <= counts.curves, "{counts:?}");
     assert!(counts.differ * 100 <= counts.curves, "{counts:?}");
     assert!(counts.steeper * 10 <= counts.curves, "{counts:?}");
-    // Straight up wheels creep on at slips near 1, where the rear mound pushes.
-    assert!(counts.above * 30 <= counts.curves, "{counts:?}");
+    assert!(counts.above * 50 <= counts.curves, "{counts:?}");
 }
 
 /// Every 67th of all triples: rovers, soils and gravities in turn.
