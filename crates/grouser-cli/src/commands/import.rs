@@ -77,7 +77,7 @@ fn check(label: &str, text: &str, limits: Limits) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The same of plate tests.
+/// Reads plate tests as a calibration does, and tells what it finds.
 fn check_plates(label: &str, text: &str, limits: Limits) -> Result<(), Failure> {
     let read = plates::read_from(label, text.as_bytes(), limits);
     let plates::PlateMeasurements { curves, notes } =
@@ -87,7 +87,7 @@ fn check_plates(label: &str, text: &str, limits: Limits) -> Result<(), Failure> 
     Ok(())
 }
 
-/// The same of shear tests.
+/// Reads shear tests as a calibration does, and tells what it finds.
 fn check_shear(label: &str, text: &str, limits: Limits) -> Result<(), Failure> {
     let read = shear_tests::read_from(label, text.as_bytes(), limits);
     let shear_tests::ShearMeasurements { curves, notes } =

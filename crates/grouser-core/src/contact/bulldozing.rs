@@ -46,7 +46,7 @@ impl WallResistance {
         Self::new(&contact.soil, contact.soil.unit_weight(contact.gravity))
     }
 
-    /// The same where soil mobilises a share [-] of its cohesion.
+    /// The wall's resistance in soil that mobilises a share [-] of its cohesion.
     #[expect(clippy::inline_always, reason = "part of the kernel")]
     #[inline(always)]
     pub(super) fn pressed(&self, cohesion_share: f64) -> Self {

@@ -39,7 +39,7 @@ pub struct Cohesion {
 }
 
 impl Cohesion {
-    /// That of a soil.
+    /// The cohesion of a soil, with the cut-off where its shear is bounded.
     #[must_use]
     pub fn of(soil: &Soil) -> Self {
         let (_, cos) = elementary::sin_cos(soil.friction_angle);
@@ -59,7 +59,7 @@ impl Cohesion {
         1.0 / (1.0 + ratio * ratio).sqrt()
     }
 
-    /// *c_m* [Pa] under the same.
+    /// The cohesion *c_m* [Pa] under a wheel whose largest normal stress is `pressure` [Pa].
     #[must_use]
     #[inline(always)]
     pub fn mobilised(&self, pressure: f64) -> f64 {

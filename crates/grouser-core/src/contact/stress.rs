@@ -504,7 +504,7 @@ impl StressField {
         self.law.cohesion.share(self.max_normal)
     }
 
-    /// The same with its largest normal stress, and the cohesion under it.
+    /// These stresses with their largest normal one filled in, and the cohesion under it.
     #[inline(always)]
     fn pressed(self) -> Self {
         let sin_half = elementary::sin(0.5 * self.patch.max_stress);

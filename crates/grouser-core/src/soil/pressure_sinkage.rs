@@ -125,7 +125,7 @@ impl PressureSinkage {
         ScaledPressure { at_scale, scale, exponent: exponent.at(slip_ratio) }
     }
 
-    /// The same law with an exponent that does not change in skid.
+    /// This law with an exponent that does not change in skid.
     pub(crate) fn unchanged_in_skid(mut self) -> Self {
         let (Self::Bekker { exponent, .. } | Self::Reece { exponent, .. }) = &mut self;
         exponent.per_skid = 0.0;

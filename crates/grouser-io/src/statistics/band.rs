@@ -43,6 +43,36 @@ pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     Some(if is_between { below + (above - below) * place.fract() } else { below })
 }
 
+/// The draw below which, with itself, a share of the draws' weight lies; `None` if there are none.
+///
+/// * `draws`: value and weight of each
+#[must_use]
+pub fn weighted_quantile(mut draws: Vec<(f64, f64)>, share: f64) -> Option<f64> {
+    draws.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let total: f64 = draws.iter().map(|(_, weight)| weight).sum();
+    let mut below = 0.0;
+    let found = draws.iter().find(|(_, weight)| {
+        below += weight / total;
+        below >= share
+    });
+    // Round-off may leave the last sum just below 1.
+    found.or(draws.last()).map(|(value, _)| *value)
+}
+
+/// Interval score of the middle 95 %: its width, and forty times by how much it misses.
+///
+/// ```text
+/// S = (u − l) + (2/α) max(l − y, 0) + (2/α) max(y − u, 0)      α = 0.05
+/// ```
+///
+/// Source: Gneiting and Raftery (2007), Eq. 43.
+#[must_use]
+pub fn interval_score([low, high]: [f64; 2], value: f64) -> f64 {
+    const ALPHA: f64 = 0.05;
+    let outside = (low - value).max(0.0) + (value - high).max(0.0);
+    high - low + 2.0 / ALPHA * outside
+}
+
 /// How often something happened in independent trials.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Probability {

@@ -17,10 +17,10 @@ pub use self::stacking::{Judged, SHRINKAGE, Shares, judged, stacked, without};
 use super::ensemble::models::Question;
 use super::ensemble::samples::{BandInputs, Sample};
 use super::heading::HeadingStudy;
-use super::measurement::{Cell, PerQuantity, Quantity, WheelTests};
+use super::measurement::{Quantity, WheelTests};
 use super::slope_tests::SlopeTests;
 use super::slope_validation::{SlopeComparison, SlopeValidationStudy};
-use super::validation::{CellComparison, ValidationStudy};
+use super::validation::{CellComparison, ValidationStudy, measured_alone};
 use crate::contact::Model;
 use crate::error::ParameterError;
 use crate::wheel::Wheel;
@@ -54,7 +54,7 @@ impl Tested<'_> {
         wheel: Wheel,
         tests: &WheelTests,
     ) -> Result<Vec<Answer>, NothingAccepted> {
-        let measured: Vec<_> = tests.cells.iter().map(|cell| means(tests, cell)).collect();
+        let measured: Vec<_> = tests.cells.iter().map(|cell| measured_alone(tests, cell)).collect();
         let mut answers = Vec::new();
         for (place, model) in Model::ALL.into_iter().enumerate() {
             for Sample { soil, model } in self.draw(&model)? {
@@ -62,7 +62,7 @@ impl Tested<'_> {
                 let study = ValidationStudy { tests, wheel, soil, model, gravity };
                 let cells = study.run().cells;
                 let driven = cells.iter().zip(&measured).filter(|(cell, _)| cell.driven);
-                let found = driven.flat_map(|(cell, means)| of_cell(cell, means, &wheel)).collect();
+                let found = driven.flat_map(|(cell, alone)| of_cell(cell, alone, &wheel)).collect();
                 add(&mut answers, place, found);
             }
         }
@@ -120,22 +120,10 @@ fn add(answers: &mut Vec<Answer>, model: usize, found: Vec<Found>) {
     }
 }
 
-/// What was measured in a cell, the mean over its trials.
-fn means(tests: &WheelTests, cell: &Cell) -> PerQuantity<Option<f64>> {
-    PerQuantity::from_fn(|quantity| {
-        let readings =
-            cell.trials.iter().filter_map(|trial| tests.trials[*trial].readings[quantity]);
-        let values: Vec<f64> = readings.map(|reading| reading.value).collect();
-        (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
-    })
-}
-
 /// The numbers of a cell. Where the soil carries no trial of it the wheel counts as sunk to its axle.
-fn of_cell(
-    cell: &CellComparison,
-    measured: &PerQuantity<Option<f64>>,
-    wheel: &Wheel,
-) -> Vec<Found> {
+///
+/// * `measured`: the cell with what was measured in all of its trials
+fn of_cell(cell: &CellComparison, measured: &CellComparison, wheel: &Wheel) -> Vec<Found> {
     let r = wheel.shearing_radius();
     let question = Question::at_slip_angle(cell.slip_angle);
     let kinds = [
@@ -145,7 +133,7 @@ fn of_cell(
     ];
     let one = |(kind, quantity, scale, sunk): (AnswerKind, Quantity, f64, f64)| {
         let is_asked = kind != AnswerKind::SideForce || question == Question::Across;
-        let measured = measured[quantity].filter(|_| is_asked)?;
+        let measured = measured.quantities[quantity].filter(|_| is_asked)?.measured;
         let predicted = cell.quantities[quantity].map_or(sunk, |it| it.predicted);
         Some(Found { kind, question, measured: measured / scale, predicted: predicted / scale })
     };

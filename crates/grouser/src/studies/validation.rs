@@ -240,7 +240,8 @@ fn compare(
 }
 
 /// A cell with its measurements, each in place of its prediction.
-fn measured_alone(tests: &WheelTests, cell: &Cell) -> CellComparison {
+#[must_use]
+pub fn measured_alone(tests: &WheelTests, cell: &Cell) -> CellComparison {
     let as_measured = |trial: usize, quantity: Quantity| {
         tests.trials[trial].readings[quantity].map(|reading| reading.value)
     };

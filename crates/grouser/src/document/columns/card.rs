@@ -10,6 +10,7 @@ use super::{
 };
 use crate::contact::Model;
 use crate::studies::card::{Card, CardRow, Driven, DrivenMotion, Verdict};
+use crate::studies::ensemble::models::ACROSS;
 
 /// Drift at yaw 0.
 pub const DRIFT: Quantity = quantity("downhill_m_per_m", M_PER_M);
@@ -39,7 +40,7 @@ pub const PROBABILITY_STUCK_WITH_CHECKS: Quantity = quantity("probability_stuck_
 /// The heading on the soil as written.
 pub const YAW_AS_WRITTEN: Quantity = quantity("yaw_deg_as_written", DEG);
 /// The headings of the models that know forces across a wheel, on the soil as written.
-pub const YAWS_OF_MODELS: [(Model, Quantity); 3] = [
+pub const YAWS_OF_MODELS: [(Model, Quantity); ACROSS] = [
     (Model::Ishigami, quantity("yaw_deg_ishigami", DEG)),
     (Model::SmallWheel, quantity("yaw_deg_small_wheel", DEG)),
     (Model::Rft, quantity("yaw_deg_rft", DEG)),

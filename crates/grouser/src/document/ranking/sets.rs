@@ -1,5 +1,6 @@
 //! The parts of data sets under the band of all models together: how good it is, and at which slip the pull vanishes.
 
+use grouser_io::statistics::weighted_quantile;
 use serde::Serialize;
 
 use super::parts::{DataSet, Part, RankingError, data_sets_of_the_program, heading_study};
@@ -12,7 +13,8 @@ use crate::studies::ensemble::samples::BandInputs;
 use crate::studies::evidence::{
     self, Answer, AnswerKind, Evidence, Judged, Shares, judged, without,
 };
-use crate::studies::measurement::{Cell, Quantity, WheelTests};
+use crate::studies::measurement::{Quantity, WheelTests};
+use crate::studies::validation::{CellComparison, mean_score, measured_alone};
 
 /// A part of a data set under the 95 % band of all models by their weights.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -105,17 +107,11 @@ pub(super) fn records(
     let known = found.iter().filter(|_| are_known).map(|(_, _, evidence)| evidence.clone());
     let known: Vec<Evidence> = known.collect();
     let record = |(part, rows, found): &(Part<'_>, &measurements::Source, Evidence)| {
-        let shares = if are_known { without(found, &known) } else { shares_in_force(found) };
+        let in_force = || ModelSpread::all(found.in_sample.as_ref(), Question::Along).in_order();
+        let shares = if are_known { without(found, &known) } else { in_force() };
         part.record(found, &shares, rows, limits)
     };
     found.iter().map(record).collect()
-}
-
-/// The shares of a band on the set's soil.
-fn shares_in_force(found: &Evidence) -> Shares {
-    let spread = ModelSpread::all(found.in_sample.as_ref(), Question::Along);
-    let share = |model: &Model| spread.shares().iter().find(|it| it.0 == *model).map(|it| it.1);
-    std::array::from_fn(|place| share(&Model::ALL[place]).unwrap_or(0.0))
 }
 
 impl Part<'_> {
@@ -204,20 +200,13 @@ impl Part<'_> {
 
     /// The slips at which the pull vanishes straight ahead: measured, and predicted with the soil as written.
     fn zero_pull(&self, wheel: &LoadedWheel, tests: &WheelTests) -> [Option<f64>; 2] {
-        let straight: Vec<&Cell> = tests.cells.iter().filter(|it| it.slip_angle == 0.0).collect();
-        let means = |cell: &&Cell| {
-            let trials: Vec<_> = cell.trials.iter().map(|place| &tests.trials[*place]).collect();
-            let count = trials.len() as f64;
-            let pull = |it: &&&crate::studies::measurement::Trial| {
-                Some(it.readings[Quantity::DrawbarPull]?.value)
-            };
-            let pulls: Vec<f64> = trials.iter().filter_map(|it| pull(&it)).collect();
-            let slip = trials.iter().map(|it| it.slip.ratio).sum::<f64>() / count;
-            let load = trials.iter().map(|it| it.load).sum::<f64>() / count;
-            (!pulls.is_empty())
-                .then(|| (slip, pulls.iter().sum::<f64>() / pulls.len() as f64, load))
+        let cells = tests.cells.iter().map(|cell| measured_alone(tests, cell));
+        let straight = cells.filter(|cell| cell.slip_angle == 0.0);
+        let point = |cell: CellComparison| {
+            let pull = cell.quantities[Quantity::DrawbarPull]?.measured;
+            Some((cell.total_slip, pull, cell.load))
         };
-        let mut points: Vec<(f64, f64, f64)> = straight.iter().filter_map(means).collect();
+        let mut points: Vec<(f64, f64, f64)> = straight.filter_map(point).collect();
         points.sort_by(|one, other| one.0.total_cmp(&other.0));
         if points.is_empty() {
             return [None, None];
@@ -239,17 +228,7 @@ impl Part<'_> {
             };
             first_zero(pull).map(|slip| (slip, *share))
         };
-        let mut zeros: Vec<(f64, f64)> = spread.shares().iter().filter_map(zero).collect();
-        zeros.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let half = 0.5 * zeros.iter().map(|it| it.1).sum::<f64>();
-        let mut below = 0.0;
-        zeros
-            .iter()
-            .find(|(_, share)| {
-                below += share;
-                below >= half
-            })
-            .map(|it| it.0)
+        weighted_quantile(spread.shares().iter().filter_map(zero).collect(), 0.5)
     }
 }
 
@@ -282,7 +261,7 @@ fn score(found: &Evidence, judged: &[Judged]) -> Option<f64> {
         let deviation = (squares / values.len() as f64).sqrt();
         (deviation > 0.0).then(|| it.interval_score / deviation)
     };
-    crate::studies::validation::mean_score(judged.iter().filter_map(of))
+    mean_score(judged.iter().filter_map(of))
 }
 
 impl AnswersRecord {

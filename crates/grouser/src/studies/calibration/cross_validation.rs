@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use grouser_io::statistics::normal::normal_share;
-use grouser_io::statistics::quantile;
+use grouser_io::statistics::{interval_score, quantile};
 
 use super::diagnostics::Samples;
 use super::solution::DISCARDED;
@@ -85,19 +85,11 @@ impl Coverage {
 }
 
 impl LeftOutBand {
-    /// Interval score of the 95 % band:
-    ///
-    /// ```text
-    /// S = (u − l) + (2/α) max(l − y, 0) + (2/α) max(y − u, 0)      α = 0.05
-    /// ```
-    ///
-    /// Source: Gneiting and Raftery (2007), Eq. 43.
+    /// The [`interval_score`] of the 95 % band.
     #[must_use]
     pub fn interval_score(&self) -> f64 {
-        const ALPHA: f64 = 0.05;
         let [low, _, _, high] = self.quantiles;
-        let outside = (low - self.measured).max(0.0) + (self.measured - high).max(0.0);
-        high - low + 2.0 / ALPHA * outside
+        interval_score([low, high], self.measured)
     }
 }
 

@@ -61,9 +61,20 @@ impl Question {
 /// Whether a model has the forces that a question needs. Bekker's closed form has one stress under the whole wheel and no
 /// measured side force: across a slope it finds headings where nobody else does, or none.
 #[must_use]
-pub fn answers(model: &Model, question: Question) -> bool {
-    question == Question::Along || *model != Model::Bekker
+pub const fn answers(model: &Model, question: Question) -> bool {
+    !matches!((model, question), (Model::Bekker, Question::Across))
 }
+
+/// How many models have the forces across a wheel.
+pub const ACROSS: usize = {
+    const ALL: &[Model] = &Model::ALL;
+    let (mut count, mut place) = (0, 0);
+    while place < ALL.len() {
+        count += answers(&ALL[place], Question::Across) as usize;
+        place += 1;
+    }
+    count
+};
 
 /// The share of the model that a soil was made for [-]; the others have the rest, by their [`weight`]. Source:
 /// ours: constants fitted with one model mean less in another, but a fit does not make its model right elsewhere.
@@ -101,6 +112,16 @@ impl ModelSpread {
     /// for, whatever the question.
     #[must_use]
     pub fn all(made_for: Option<&Model>, question: Question) -> Self {
+        Self::by(weight, made_for, question)
+    }
+
+    /// All models that can answer a question, by weights of which only the ratios count; with [`OWN_SHARE`] for one
+    /// that the soil was made for.
+    pub(in crate::studies) fn by(
+        weight: impl Fn(&Model) -> f64,
+        made_for: Option<&Model>,
+        question: Question,
+    ) -> Self {
         let can_answer = |model: &Model| answers(model, question);
         let others = || Model::ALL.into_iter().filter(|model| Some(model) != made_for);
         let others = || others().filter(can_answer);
@@ -116,6 +137,13 @@ impl ModelSpread {
     #[must_use]
     pub(in crate::studies) fn of_shares(shares: Vec<(Model, f64)>) -> Self {
         Self { shares }
+    }
+
+    /// The share of each listed model [-], in the order of [`Model::ALL`].
+    #[must_use]
+    pub fn in_order(&self) -> [f64; Model::COUNT] {
+        let share = |model: &Model| self.shares.iter().find(|it| it.0 == *model).map(|it| it.1);
+        std::array::from_fn(|place| share(&Model::ALL[place]).unwrap_or(0.0))
     }
 
     /// The models with their shares [-].

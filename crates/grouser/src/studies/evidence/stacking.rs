@@ -3,7 +3,8 @@
 use super::answer::{Answer, AnswerKind, Evidence};
 use super::density::density;
 use crate::contact::Model;
-use crate::studies::ensemble::models;
+use crate::studies::ensemble::models::{self, ModelSpread, Question};
+use grouser_io::statistics::{interval_score, weighted_quantile};
 
 /// A share for each model, in the order of [`Model::ALL`], with the sum 1 [-].
 pub type Shares = [f64; Model::COUNT];
@@ -19,16 +20,10 @@ pub fn without(set: &Evidence, all: &[Evidence]) -> Shares {
     let others = all.iter().filter(|it| it.in_sample.is_none() && it.source != set.source);
     let shares = stacked(&others.collect::<Vec<_>>());
     let Some(own) = &set.in_sample else { return shares };
-    let rest: f64 = Model::ALL
-        .iter()
-        .zip(shares)
-        .filter(|(model, _)| *model != own)
-        .map(|(_, share)| share)
-        .sum();
-    std::array::from_fn(|place| {
-        let is_own = Model::ALL[place] == *own;
-        if is_own { models::OWN_SHARE } else { (1.0 - models::OWN_SHARE) * shares[place] / rest }
-    })
+    let stacked = |model: &Model| {
+        Model::ALL.iter().zip(shares).find(|(it, _)| *it == model).map_or(0.0, |(_, share)| share)
+    };
+    ModelSpread::by(stacked, Some(own), Question::Along).in_order()
 }
 
 /// The shares w under which the mixture of all models makes what was measured most probable:
@@ -119,14 +114,7 @@ impl Answer {
                 all.extend(samples.iter().map(|sample| (*sample, weight)));
             }
         }
-        all.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let total: f64 = all.iter().map(|(_, weight)| weight).sum();
-        let mut below = 0.0;
-        let found = all.iter().find(|(_, weight)| {
-            below += weight / total;
-            below >= share
-        });
-        found.or(all.last()).map_or(f64::NAN, |(value, _)| *value)
+        weighted_quantile(all, share).unwrap_or(f64::NAN)
     }
 }
 
@@ -161,8 +149,6 @@ pub fn judged(evidence: &Evidence, shares: &Shares) -> Vec<Judged> {
 
 impl Judged {
     fn of(kind: AnswerKind, answers: &[&Answer], shares: &Shares) -> Self {
-        /// 2/α of the 95 % band.
-        const PENALTY: f64 = 40.0;
         let mut all = Self {
             kind,
             count: answers.len(),
@@ -176,12 +162,11 @@ impl Judged {
         for answer in answers {
             let [low, middle, high] = [0.025, 0.5, 0.975].map(|it| answer.quantile(shares, it));
             let error = middle - answer.measured;
-            let outside = (low - answer.measured).max(0.0) + (answer.measured - high).max(0.0);
             all.rmse += share * error * error;
             all.worst = all.worst.max(error.abs());
-            all.held += usize::from(outside == 0.0);
+            all.held += usize::from((low..=high).contains(&answer.measured));
             all.width += share * (high - low);
-            all.interval_score += share * (high - low + PENALTY * outside);
+            all.interval_score += share * interval_score([low, high], answer.measured);
         }
         Self { rmse: all.rmse.sqrt(), ..all }
     }
