@@ -22,7 +22,7 @@ use grouser::simulation::{Run, RunError, Scenario, Trajectory, WheelRecord};
 use grouser::soil::GravityScaling;
 use grouser::studies::card::{CardStudy, Rule, Side};
 use grouser::studies::ensemble::NothingAccepted;
-use grouser::studies::ensemble::models::Question;
+use grouser::studies::ensemble::models::{ModelSpread, Question};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::forecast::{Choices, ForecastError, ForecastStudy, Ground};
 use grouser::studies::heading::{HeadingStudy, Steering};
@@ -276,6 +276,7 @@ pub(crate) fn heading_band<'py>(
     check("samples", &[f64::from(samples)], &SAMPLES)?;
     let scenario = scenario.scenario()?;
     let inputs = BandInputs::of_scenario(scenario);
+    let weights = inputs.models().clone();
     let study = HeadingStudy::of(&scenario.value);
     let found = listening(py, move |cancelled| {
         let samples = inputs.samples(seed, samples).map_err(Problem::Sampling)?;
@@ -284,11 +285,13 @@ pub(crate) fn heading_band<'py>(
     })?;
     let band = found.map_err(|problem| problem.raised())?;
     let table = Table::of(&columns::heading::BAND, band.as_ref().map_or(&[], |band| &band.slopes));
+    let table = with_weights(table_to_python(py, table)?, &weights)?;
     let limit = band.as_ref().map(columns::heading::band_limit);
-    Ok((table_to_python(py, table)?, record_to_python(py, &limit.as_ref().map(|it| it.row(0)))?))
+    Ok((table, record_to_python(py, &limit.as_ref().map(|it| it.row(0)))?))
 }
 
-/// Statistics over samples of soil and model for each soil, course and slope of a map, in the order of its rows.
+/// Statistics over samples of soil and model for each soil, course and slope of a map, in the order of its rows, and
+/// the weights of the models for each soil.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
 pub(crate) fn heading_map_band<'py>(
@@ -298,7 +301,7 @@ pub(crate) fn heading_map_band<'py>(
     course_deg: PyReadonlyArray1<'py, f64>,
     seed: u64,
     samples: u32,
-) -> PyResult<Bound<'py, PyDict>> {
+) -> PyResult<(Bound<'py, PyDict>, Vec<Bound<'py, PyDict>>)> {
     let slopes = slopes(&slope_deg)?;
     check("samples", &[f64::from(samples)], &SAMPLES)?;
     check(COURSE.name, course_deg.as_slice()?, &COURSE_DEG)?;
@@ -310,6 +313,7 @@ pub(crate) fn heading_map_band<'py>(
         Ok((HeadingStudy::of(&scenario.value), inputs))
     });
     let all = all.collect::<PyResult<Vec<_>>>()?;
+    let weights: Vec<_> = all.iter().map(|(_, inputs)| inputs.models().clone()).collect();
     let found = listening(py, move |cancelled| {
         let go_on = || !cancelled.is_set();
         let mut bands = Vec::new();
@@ -322,7 +326,9 @@ pub(crate) fn heading_map_band<'py>(
         }
         Ok(columns::heading::map_with_bands(Table::default(), &bands))
     })?;
-    table_to_python(py, found.map_err(|problem: Problem| problem.raised())?)
+    let table = table_to_python(py, found.map_err(|problem: Problem| problem.raised())?)?;
+    let weights = weights.iter().map(|it| weights_to_python(py, it));
+    Ok((table, weights.collect::<PyResult<_>>()?))
 }
 
 /// Statistics over samples of soil and model for each setting of a test stand: slip ratios fastest, then slip
@@ -346,12 +352,14 @@ pub(crate) fn wheel_test_band<'py>(
     let named = setting.scenario()?.document.model();
     let angles = test.slip_angles.iter().map(|angle| Question::at_slip_angle(*angle));
     let inputs = BandInputs::of_soil(soil.soil()?, named).asked(Question::of_all(angles));
+    let weights = inputs.models().clone();
     let found = listening(py, move |cancelled| {
         let samples = inputs.samples(seed, samples).map_err(Problem::Sampling)?;
         let bands = test.bands(&samples, &|| !cancelled.is_set()).unwrap_or_default();
         Ok(columns::wheel_test::with_bands(Table::default(), &bands))
     })?;
-    table_to_python(py, found.map_err(|problem: Problem| problem.raised())?)
+    let table = found.map_err(|problem: Problem| problem.raised())?;
+    with_weights(table_to_python(py, table)?, &weights)
 }
 
 /// Statistics over samples of soil and model: of a run over time, and of its end and means.
@@ -365,6 +373,7 @@ pub(crate) fn simulate_band<'py>(
     check("samples", &[f64::from(samples)], &SAMPLES)?;
     let scenario = scenario.scenario()?;
     let inputs = BandInputs::of_scenario(scenario);
+    let weights = inputs.models().clone();
     let scenario = scenario.value.clone();
     let ran = scenario.clone();
     let found = listening(py, move |cancelled| {
@@ -377,7 +386,26 @@ pub(crate) fn simulate_band<'py>(
     let band = found.map_err(|problem| problem.raised())?;
     let times = time_bands(band.as_ref().map_or(&[], |band| &band.times), &scenario);
     let run = band.map(|band| run_band(&band.run, &scenario));
-    Ok((table_to_python(py, times)?, record_to_python(py, &run.as_ref().map(|it| it.row(0)))?))
+    let times = with_weights(table_to_python(py, times)?, &weights)?;
+    Ok((times, record_to_python(py, &run.as_ref().map(|it| it.row(0)))?))
+}
+
+/// A table with the weights of the models whose samples it is of.
+fn with_weights<'py>(
+    table: Bound<'py, PyDict>,
+    weights: &ModelSpread,
+) -> PyResult<Bound<'py, PyDict>> {
+    table.set_item("model_weights", weights_to_python(table.py(), weights)?)?;
+    Ok(table)
+}
+
+/// The models of samples, each with its share [-].
+fn weights_to_python<'py>(py: Python<'py>, weights: &ModelSpread) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    for (model, share) in weights.shares() {
+        dict.set_item(model.name(), share)?;
+    }
+    Ok(dict)
 }
 
 /// The operator's card over samples of soil and model: its rows, the other courses, and the steepest slope.

@@ -123,29 +123,35 @@ def test_validate(program: Program) -> None:
 
 
 def test_bands_of_a_wheel_test(program: Program) -> None:
-    rows = program(
+    answer = program(
         "wheel-test", "--soil", "toyoura-uncertain", "--load-n", "10,17", "--slip-angle-deg", "0,15",
         "--slip-ratio", "0:0.4:0.2", "--uncertainty", "--samples", "30", "--seed", "9",
-    )["rows"]  # fmt: skip
+    )  # fmt: skip
+    rows = answer["rows"]
     ratios = [row["slip_ratio"] for row in rows[:3]]
     test = gr.wheel_test(
         "toyoura-uncertain", load_n=[10, 17], slip_angle_deg=[0, 15], slip_ratio=ratios,
         uncertainty=True, samples=30, seed=9,
     )  # fmt: skip
+    assert test.band is not None and test.band.model_weights == answer["model_weights"]
     table = test.to_pandas()
     for name in rows[0]:
         assert same(table[name], rows, name), name
 
 
 def test_bands_of_a_map(program: Program) -> None:
-    rows = program(
+    answer = program(
         "heading-map", "--soil", "toyoura,toyoura-uncertain", "--course-deg", "0,90",
         "--slope-deg", "5,21.5", "--uncertainty", "--samples", "20",
-    )["rows"]  # fmt: skip
+    )  # fmt: skip
+    rows = answer["rows"]
     found = gr.heading_map(
         soil=["toyoura", "toyoura-uncertain"], course_deg=[0, 90], slope_deg=[5, 21.5],
         uncertainty=True, samples=20,
     )  # fmt: skip
+    weights = answer["model_weights"]
+    each = weights if isinstance(weights, list) else 2 * [weights]
+    assert found.band is not None and list(found.band.model_weights) == each
     table = found.to_pandas()
     for name in rows[0]:
         assert same(table[name], rows, name), name
@@ -161,6 +167,7 @@ def test_bands_of_a_traverse(program: Program) -> None:
         uncertainty=True, samples=9, seed=3,
     )  # fmt: skip
     assert run.band is not None and run.band.run == answer["band"]
+    assert run.band.model_weights == answer["model_weights"]
     for name in answer["bands"][0]:
         assert same(getattr(run.band, name), answer["bands"], name), name
 
@@ -176,7 +183,7 @@ def test_heading_on_an_uncertain_soil(program: Program) -> None:
     table = level.to_pandas()
     for name in answer["rows"][0].keys() - {"status", "draws"}:
         assert same(table[name], answer["rows"], name), name
-    assert level.band is not None
+    assert level.band is not None and level.band.model_weights == answer["model_weights"]
     for name in ("limit_slope_deg_p2_5", "limit_slope_deg_p97_5", "draws_mobile", "draws"):
         assert getattr(level.band, name) == answer[name]
 
@@ -233,7 +240,7 @@ def test_ranking_of_all_theories(program: Program, tmp_path: Path) -> None:
 def test_ranking_on_the_data_sets_of_the_program(program: Program) -> None:
     answer = program("validate", "--all")
     ranking = gr.validate_all()
-    for name in ("rows", "yardsticks", "models"):
+    for name in ("rows", "yardsticks", "models", "sets"):
         assert list(getattr(ranking, name)) == answer[name], name
     assert {row["data_set"] for row in ranking.rows} == {
         "CMU single wheel",

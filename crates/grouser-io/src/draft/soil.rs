@@ -19,7 +19,7 @@ pub(super) const KEYS: [&str; 10] = [
     "name",
     "source",
     LIKE,
-    "friction_angle_deg",
+    FRICTION_ANGLE,
     "cohesion_kpa",
     "density_kg_m3",
     "pressure_sinkage.k_c",
@@ -31,9 +31,21 @@ pub(super) const KEYS: [&str; 10] = [
 /// The preset that the soil is like.
 pub(super) const LIKE: &str = "like";
 /// Which preset, if none is named.
-const USUAL_PRESET: &str = "lunar-nominal";
+const USUAL_PRESET: &str = "lunar-0-15-cm";
 /// Tables that are of the preset's own tests, not of a soil like it.
-const NOT_KEPT: [&str; 5] = ["domain", "uncertainty", "priors", "discrepancy", "small_wheel"];
+const NOT_KEPT: [&str; 6] =
+    ["domain", "known_from", "uncertainty", "priors", "discrepancy", "small_wheel"];
+/// The key of the table that says where constants are from.
+const KNOWN_FROM: &str = "known_from";
+/// Its keys, each with the questions whose constants it is of.
+const CONSTANTS: [(&str, &[&str]); 3] = [
+    ("strength", &["cohesion_kpa", FRICTION_ANGLE]),
+    ("pressure_sinkage", &["pressure_sinkage.k_c", "pressure_sinkage.k_phi", "pressure_sinkage.n"]),
+    ("shear", &["shear.longitudinal_m"]),
+];
+const FRICTION_ANGLE: &str = "friction_angle_deg";
+/// Keys that say how the preset's friction angle was found, and with it what a wheel mobilises of it.
+const OF_THE_FRICTION_ANGLE: [&str; 2] = ["friction_test", "constant_volume_share"];
 
 /// The usual value of a question.
 pub(super) fn usual(answers: &Answers, key: &str) -> Usual {
@@ -43,7 +55,7 @@ pub(super) fn usual(answers: &Answers, key: &str) -> Usual {
 impl Answers {
     pub(super) fn usual_of_soil(&self, key: &str) -> Usual {
         if key == LIKE {
-            return Usual::of(USUAL_PRESET, "a loose soil of the Moon");
+            return Usual::of(USUAL_PRESET, "the surface of the Moon between craters");
         }
         let name = self.like();
         match self.keys_of_preset().pointer(&format!("/{}", key.replace('.', "/"))) {
@@ -74,6 +86,13 @@ impl Answers {
         keys
     }
 
+    /// Which constants are all the preset's, so that bands draw about them as about copied ones.
+    fn copied_constants(&self) -> Vec<&'static str> {
+        let is_given = |question: &&str| self.given.contains_key(*question);
+        let copied = CONSTANTS.iter().filter(|(_, questions)| !questions.iter().any(is_given));
+        copied.map(|(key, _)| *key).collect()
+    }
+
     pub(super) fn soil(&self) -> String {
         let like = self.like();
         let mut keys = self.keys_of_preset();
@@ -84,7 +103,10 @@ impl Answers {
                 set(&mut keys, key, answer.clone());
             }
         }
-        let Json::Object(keys) = keys else { return String::new() };
+        let Json::Object(mut keys) = keys else { return String::new() };
+        if self.given.contains_key(FRICTION_ANGLE) {
+            keys.retain(|key, _| !OF_THE_FRICTION_ANGLE.contains(&key.as_str()));
+        }
         let is_told = |key: &str| ["schema", "name", "source", "notes", "assumed"].contains(&key);
         let rest = keys.iter().filter(|(key, _)| !is_told(key));
         for (key, value) in rest.clone() {
@@ -104,6 +126,13 @@ impl Answers {
         let (tables, numbers): (Vec<_>, Vec<_>) = rest.partition(|(_, value)| value.is_object());
         for (key, value) in numbers {
             lines.key(key, Some(value), "");
+        }
+        let copied = self.copied_constants();
+        if !copied.is_empty() {
+            lines.table(&format!("[{KNOWN_FROM}]"), KNOWN_FROM);
+            for key in copied {
+                lines.key(key, Some(&Json::from("copied")), "");
+            }
         }
         for (table, keys) in tables {
             lines.table(&format!("[{table}]"), table);

@@ -130,6 +130,11 @@ fn soils_may_be_like_any_preset() {
         let assumed = soil.document.get("assumed").map(ToString::to_string).unwrap_or_default();
         assert!(assumed.contains(&format!("that of the preset `{}`", preset.name)), "{assumed}");
         assert!(!assumed.contains("friction_angle_deg"), "{assumed}");
+        // Nobody said how this angle was found, and nobody measured the rest on this bed.
+        assert!(soil.document.get("friction_test").is_none(), "{}", preset.name);
+        let known = |key: &str| soil.document.get(key).map(|it| it.to_string().contains("copied"));
+        assert_eq!(known("known_from.pressure_sinkage"), Some(true), "{}", preset.name);
+        assert_eq!(known("known_from.strength"), None, "{}", preset.name);
     }
 }
 

@@ -56,14 +56,14 @@ const SOILS: [(&str, &str, &str); 31] = [
     (
         "lunar-nominal",
         "moon",
-        "the Moon to start with: Apollo and Lunar Roving Vehicle constants, second-hand, without bands",
+        "the Moon under traffic: Lunar Roving Vehicle constants, second-hand; slips more than rovers did",
     ),
     ("lunar-umd", "moon", "a second opinion on the Moon: a course's values, not traced further"),
     ("lunar-chrono", "moon", "to compare with Project Chrono's Apollo-site demonstration"),
     (
         "lunar-0-15-cm",
         "moon",
-        "a card on the Moon: recommended values of the surface between craters, with bands",
+        "the Moon to start with: recommended values of the surface between craters, with bands",
     ),
     (
         "lunar-0-30-cm",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -72,6 +73,8 @@ class HeadingBand(_tables.Tabular):
     """Its median [°]."""
     limit_slope_deg_p97_5: float | None
     """Its upper end [°]."""
+    model_weights: Mapping[str, float]
+    """The share of the samples that each wheel–soil model computes [-]."""
 
     @classmethod
     def _of(cls, run: Scenario, slopes: Floats, seed: int, samples: int) -> HeadingBand:
@@ -138,9 +141,12 @@ class HeadingMapBand(_tables.Tabular):
     """Its median [°]."""
     limit_slope_deg_p97_5: Floats
     """Its upper end [°]."""
+    model_weights: tuple[Mapping[str, float], ...]
+    """The share of the samples that each wheel–soil model computes [-], for each soil."""
 
     def _table(self) -> dict[str, Any]:
-        return {field.name: getattr(self, field.name) for field in fields(self)}
+        names = (field.name for field in fields(self) if field.name != "model_weights")
+        return {name: getattr(self, name) for name in names}
 
     def __repr__(self) -> str:
         shape = " × ".join(map(str, self.draws.shape))

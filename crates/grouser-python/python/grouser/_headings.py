@@ -417,8 +417,9 @@ def heading_map(
     if uncertainty:
         drawn = whole_number("seed", seed), whole_number("samples", samples, most=2**32 - 1)
         documents = [run._document for run in runs]
-        bands = _core.heading_map_band(documents, slopes, courses, *drawn)
-        band = HeadingMapBand(**{name: values.reshape(shape) for name, values in bands.items()})
+        bands, weights = _core.heading_map_band(documents, slopes, courses, *drawn)
+        columns = {name: values.reshape(shape) for name, values in bands.items()}
+        band = HeadingMapBand(**columns, model_weights=tuple(weights))
     return HeadingMap(
         soil=tuple(run.soil.name for run in runs),
         course_deg=courses,

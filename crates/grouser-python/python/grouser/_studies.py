@@ -37,6 +37,10 @@ def standing_of(result: Any) -> dict[str, Any]:
     return {} if result.z_m is None else columns_of(result, _STANDING)
 
 
+# Fields of a `TraverseBand` that are no columns of its table.
+_NOT_OVER_TIME = ("run", "model_weights")
+
+
 @dataclass(frozen=True, eq=False)
 class TraverseBand(_tables.Tabular):
     """A run over samples of soil and model: arrays of shape (times,).
@@ -102,6 +106,8 @@ class TraverseBand(_tables.Tabular):
     """Share of all samples that ended early [-]."""
     ended_early: NDArray[np.object_]
     """How these ended, with the share of each way; None where none did."""
+    model_weights: Mapping[str, float]
+    """The share of the samples that each wheel–soil model computes [-]."""
     z_m_p2_5: Floats | None = None
     """Height of the body's centre of mass [m]; None on a plane."""
     z_m_p50: Floats | None = None
@@ -122,7 +128,7 @@ class TraverseBand(_tables.Tabular):
     """Its upper end [°]."""
 
     def _table(self) -> dict[str, Any]:
-        names = (field.name for field in fields(self) if field.name != "run")
+        names = (field.name for field in fields(self) if field.name not in _NOT_OVER_TIME)
         return columns_of(self, [name for name in names if getattr(self, name) is not None])
 
     def to_pandas(self) -> pandas.DataFrame:

@@ -241,7 +241,8 @@ def validate_slopes(
     Examples
     --------
     >>> import grouser as gr
-    >>> found = gr.validate_slopes("viper-slip-slope", "grc-1", "mgru3", gravity_m_s2=gr.MOON_GRAVITY)
+    >>> soil = "grc-1-second-hand"                                  # of the simulated climbs
+    >>> found = gr.validate_slopes("viper-slip-slope", soil, "mgru3", gravity_m_s2=gr.MOON_GRAVITY)
     >>> slip = found.overall["slip_ratio"]
     >>> found.overall["cells"], slip["bias"] < 0.0                  # predicts too little slip
     (7, True)
@@ -274,6 +275,8 @@ class Ranking(_tables.Tabular):
     models: tuple[Mapping[str, Any], ...] = ()
     """Each model, then each yardstick, over all parts with soils that were not fitted to them:
     ``model`` or ``yardstick``, ``parts``, ``score``, ``aims_met`` of ``aims``, ``scores``."""
+    sets: tuple[Mapping[str, Any], ...] = ()
+    """Each data set and case: the band of the weighted models beside what was measured.
 
     def __len__(self) -> int:
         return len(self.rows)

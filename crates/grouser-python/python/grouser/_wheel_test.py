@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, Literal, overload
 
@@ -76,9 +77,12 @@ class WheelTestBand(_tables.Tabular):
     """Upper end of that interval [-]."""
     draws: Floats
     """All samples."""
+    model_weights: Mapping[str, float]
+    """The share of the samples that each wheel–soil model computes [-]."""
 
     def _table(self) -> dict[str, Any]:
-        return {field.name: getattr(self, field.name) for field in fields(self)}
+        names = (field.name for field in fields(self) if field.name != "model_weights")
+        return {name: getattr(self, name) for name in names}
 
     def __repr__(self) -> str:
         return f"<WheelTestBand of {' × '.join(map(str, self.draws.shape))} loads, angles, ratios>"
@@ -445,7 +449,9 @@ def wheel_test(
         drawn = whole_number("seed", seed), whole_number("samples", samples, most=2**32 - 1)
         found = _core.wheel_test_band(*documents, loads, angles, ratios, *drawn)
         sizes = (len(loads), len(angles), len(ratios))
-        band = WheelTestBand(**{name: values.reshape(sizes) for name, values in found.items()})
+        weights = found.pop("model_weights")
+        numbers = {name: values.reshape(sizes) for name, values in found.items()}
+        band = WheelTestBand(**numbers, model_weights=weights)
     return WheelTest(
         load_n=loads, slip_angle_deg=angles, slip_ratio=ratios, wheels=wheels, band=band
     )
