@@ -10,102 +10,188 @@ use anyhow::{Context, Result};
 
 use crate::extent::Extent;
 use crate::libtest::Count;
+use crate::workspace::Profile;
 use crate::{
-    count, cpu, crates, figures, fuzz, packages, pages, python, rustdoc, schema, texts, tools,
-    wasm, workflows, workspace,
+    changed, count, cpu, crates, figures, fuzz, packages, pages, python, rustdoc, schema, texts,
+    tools, wasm, workflows, workspace, yardstick,
 };
 
-/// A step that was taken.
+/// A step of the checks.
 struct Step {
     name: &'static str,
-    count: Count,
-    duration: Duration,
-    /// What the step's programs computed, on all cores together: on a busy machine the number that repeats.
-    computed: Option<Duration>,
+    /// What its programs compute on a fresh checkout, on all cores together [s of the machine on which
+    /// the yardstick takes its usual time].
+    budget: f64,
+    /// Where a change begins that asks for it, as paths from the root; nothing: any change does.
+    asks: &'static [&'static str],
+    /// Whether only `ci --full` takes it.
+    is_long: bool,
+    take: Take,
 }
 
-/// Takes every step and prints a summary, the closing line last; whether nothing failed.
-///
-/// The quick steps come first. Those up to the documentation share the build of the dev profile, the
-/// others that of the release profile, which is made beside the tests.
+/// How a step is taken.
+enum Take {
+    Here(fn(Extent) -> Result<Count>),
+    /// By another process of this program, the chore whose words these are, beside the steps that
+    /// follow: one core is enough for it.
+    Beside(&'static [&'static str]),
+    /// After all that was taken beside.
+    Last(fn() -> Result<Count>),
+}
+
+/// All of them, the quick ones first. Those up to the documentation, the figures and the wheel share one
+/// build.
+const STEPS: [Step; 21] = {
+    use Take::{Beside, Here, Last};
+    const fn step(name: &'static str, budget: f64, take: Take) -> Step {
+        Step { name, budget, asks: &[], is_long: false, take }
+    }
+    const PAGES: &[&str] = &["docs", "crates/grouser-cli", "crates/grouser-python", "xtask"];
+    const PACKED: &[&str] = &["Cargo", "crates/grouser-python", "xtask"];
+    const COUNTED: &[&str] = &["Cargo", "crates/grouser/", "crates/grouser-core", "xtask"];
+    [
+        step("tools", 1.0, Here(|_| Ok(tools::check()))),
+        step(
+            "format",
+            10.0,
+            Here(|_| succeeds(workspace::cargo().args(["fmt", "--all", "--check"]))),
+        ),
+        step("texts", 15.0, Here(|_| texts::check().map(Count::one))),
+        step("crates", 5.0, Here(|_| crates::check())),
+        step("count", 10.0, Here(|_| count::check())),
+        step("build", 900.0, Here(|_| build())),
+        step("wasm", 30.0, Here(|_| wasm::check())),
+        step("tests", 700.0, Here(tests)),
+        step("doctests", 30.0, Here(doctests)),
+        step("documentation", 100.0, Here(|_| rustdoc::check().map(Count::one))),
+        step("schemas", 2.0, Here(|_| schema::check().map(Count::one))),
+        step("figures", 250.0, Here(|_| figures::check().map(Count::one))),
+        step("fuzz", 150.0, Here(|extent| fuzz::check(&fuzz::Plan::of(extent)))),
+        Step { asks: PACKED, ..step("packages", 20.0, Here(packages::check)) },
+        step("wheel", 60.0, Here(|_| python::installed().map(|_| Count::one(true)))),
+        Step { asks: PAGES, ..step("site", 200.0, Beside(&["site", "--as-it-is"])) },
+        Step { asks: COUNTED, ..step("instructions", 80.0, Beside(&["instructions", "--check"])) },
+        step("python", 550.0, Here(python::check)),
+        step("workflows", 2.0, Here(|_| workflows::check().map(Count::one))),
+        Step { asks: PAGES, ..step("pages", 180.0, Last(pages::check)) },
+        Step { is_long: true, ..step("release", 600.0, Here(|_| release())) },
+    ]
+};
+
+/// Over its budget by this share a step is named at the end.
+const NAMED_OVER: f64 = 0.15;
+/// Over its budget by this share a step fails.
+const FAILED_OVER: f64 = 0.5;
+/// Shorter steps are not judged: the clock of CPU time has hundredths of a second [s].
+const JUDGED_FROM: f64 = 20.0;
+
+/// A step that was taken.
+struct Taken {
+    step: &'static Step,
+    count: Count,
+    duration: Duration,
+    /// What the step's programs computed, on all cores together: on a busy machine the number that
+    /// repeats.
+    computed: Option<Duration>,
+    /// How slow the machine was meanwhile.
+    slowness: f64,
+}
+
+/// Takes every step that is asked for, and prints a summary, the closing line last; whether nothing
+/// failed.
 pub(crate) fn run(extent: Extent) -> bool {
     // Fetching packages waits for the network more than it computes.
     std::thread::spawn(python::environment);
-    let mut steps = vec![
-        step("tools", || Ok(tools::check())),
-        step("format", || succeeds(workspace::cargo().args(["fmt", "--all", "--check"]))),
-        step("texts", || texts::check().map(Count::one)),
-        step("crates", crates::check),
-        step("count", count::check),
-        step("lints", || {
-            let lint = ["clippy", "--workspace", "--all-targets", "--", "--deny", "warnings"];
-            succeeds(workspace::cargo().args(lint))
-        }),
-        step("wasm", wasm::check),
-    ];
-    // Both profiles compile their largest crates on one core, and the longest tests run on one: together they need
-    // less time than one after the other. The profiles have folders of their own, so neither waits for the other.
-    let program = Beside::start("program", &["program"]);
-    steps.extend([
-        step("tests", || {
-            let kinds = ["--lib", "--bins", "--tests", "--examples"];
-            tests(
-                workspace::cargo().args(["test", "--workspace", "--no-fail-fast"]).args(kinds),
-                extent,
-            )
-        }),
-        step("doctests", || {
-            tests(
-                workspace::cargo().args(["test", "--workspace", "--no-fail-fast", "--doc"]),
-                extent,
-            )
-        }),
-        step("documentation", || rustdoc::check().map(Count::one)),
-    ]);
-    steps.push(program.end());
-    steps.extend([
-        step("schemas", || schema::check().map(Count::one)),
-        step("figures", || figures::check().map(Count::one)),
-        step("fuzz", || fuzz::check(&fuzz::Plan::of(extent))),
-        step("packages", || packages::check(extent)),
-        step("wheel", || python::installed().map(|_| Count::one(true))),
-    ]);
-    // Each of these computes on one core for most of its time.
-    let site = Beside::start("site", &["site", "--as-it-is"]);
-    let instructions = Beside::start("instructions", &["instructions", "--check"]);
-    steps.push(step("python", || python::check(extent)));
-    steps.push(step("workflows", || workflows::check().map(Count::one)));
-    steps.extend([site.end(), instructions.end()]);
-    steps.push(step("pages", pages::check));
+    let changed = if extent == Extent::Full { None } else { changed::files() };
+    let steps = STEPS.iter().filter(|step| extent == Extent::Full || !step.is_long);
+    let (asked, left): (Vec<&Step>, Vec<&Step>) =
+        steps.partition(|step| step.is_asked(changed.as_deref()));
+    let (mut taken, mut beside) = (Vec::new(), Vec::new());
+    for step in asked {
+        match step.take {
+            Take::Here(take) => taken.push(step.taken(|| take(extent))),
+            Take::Beside(arguments) => beside.push(Beside::start(step, arguments)),
+            Take::Last(take) => {
+                taken.extend(beside.drain(..).map(Beside::end));
+                taken.push(step.taken(take));
+            }
+        }
+    }
+    taken.extend(beside.drain(..).map(Beside::end));
+    close(&mut taken, &left)
+}
+
+impl Step {
+    /// Whether some changed file asks for the step.
+    ///
+    /// * `changed`: paths from the root; nothing: all steps are taken
+    fn is_asked(&self, changed: Option<&[String]>) -> bool {
+        let asks = |file: &String| self.asks.iter().any(|start| file.starts_with(start));
+        self.asks.is_empty() || changed.is_none_or(|files| files.iter().any(asks))
+    }
+
+    /// Takes a step. One that cannot be taken has failed; the next ones are taken all the same.
+    fn taken(&'static self, take: impl FnOnce() -> Result<Count>) -> Taken {
+        println!("\n── {} ──", self.name);
+        let is_judged = self.budget >= JUDGED_FROM;
+        let slowness = if is_judged { yardstick::slowness() } else { 1.0 };
+        let (start, before) = (Instant::now(), cpu::of_children());
+        let count = take().unwrap_or_else(|error| {
+            println!("{error:#}");
+            Count::one(false)
+        });
+        let after = cpu::of_children();
+        let computed = after.zip(before).map(|(after, before)| after.saturating_sub(before));
+        let slowness = if is_judged { slowness.max(yardstick::slowness()) } else { slowness };
+        Taken { step: self, count, duration: start.elapsed(), computed, slowness }
+    }
+}
+
+impl Taken {
+    /// CPU time over the step's budget on this machine [-].
+    fn over_budget(&self) -> f64 {
+        let budget = self.step.budget * self.slowness;
+        let computed = self.computed.unwrap_or_default().as_secs_f64();
+        if self.step.budget < JUDGED_FROM { 0.0 } else { computed / budget - 1.0 }
+    }
+}
+
+/// Prints a row for each step, what was not checked, and the closing line; whether nothing failed.
+fn close(taken: &mut [Taken], left: &[&Step]) -> bool {
     let mut total = Count::default();
     let heads = ["passed", "failed", "skipped"].map(|head| format!(" {head:>7}")).concat();
-    println!("\n{:<14}{heads} {:>9} {:>9}", "step", "seconds", "CPU s");
-    for Step { name, count, duration, computed } in steps {
-        let Count { passed, failed, skipped } = count;
+    println!("\n{:<14}{heads} {:>9} {:>9} {:>9}", "step", "seconds", "CPU s", "budget");
+    for taken in taken.iter_mut() {
+        let over = taken.over_budget();
+        taken.count.failed += u64::from(over > FAILED_OVER);
+        let Count { passed, failed, skipped } = taken.count;
         let numbers = [passed, failed, skipped].map(|number| format!(" {number:>7}")).concat();
-        let computed = computed.map_or("-".into(), |time| format!("{:.1}", time.as_secs_f64()));
-        println!("{name:<14}{numbers} {:>9.1} {computed:>9}", duration.as_secs_f64());
-        total += count;
+        let computed = taken.computed.map_or("-".into(), |it| format!("{:.1}", it.as_secs_f64()));
+        let seconds = taken.duration.as_secs_f64();
+        let budget = taken.step.budget * taken.slowness;
+        print!("{:<14}{numbers} {seconds:>9.1} {computed:>9} {budget:>9.0}", taken.step.name);
+        let remark = match over {
+            over if over > FAILED_OVER => "  <- fails: far over its budget",
+            over if over > NAMED_OVER => "  <- over its budget",
+            _ => "",
+        };
+        println!("{remark}");
+        total += taken.count;
+    }
+    for step in left {
+        println!("not checked: {}, since nothing that it looks at was changed", step.name);
+        total += Count::skipped();
+    }
+    for taken in taken.iter().filter(|taken| taken.count.passed == 0 && taken.count.skipped > 0) {
+        println!("not checked: {}, for want of a tool", taken.step.name);
     }
     println!("\n{total}");
     total.failed == 0
 }
 
-/// Takes a step. One that cannot be taken has failed; the next ones are taken all the same.
-fn step(name: &'static str, take: impl FnOnce() -> Result<Count>) -> Step {
-    println!("\n── {name} ──");
-    let (start, before) = (Instant::now(), cpu::of_children());
-    let count = take().unwrap_or_else(|error| {
-        println!("{error:#}");
-        Count::one(false)
-    });
-    let computed = cpu::of_children().zip(before).map(|(now, before)| now.saturating_sub(before));
-    Step { name, count, duration: start.elapsed(), computed }
-}
-
 /// A step that another process of this program takes, while we take others.
 struct Beside {
-    name: &'static str,
+    step: &'static Step,
     start: Instant,
     /// The process, and the file that it prints to.
     running: Result<(Child, PathBuf)>,
@@ -113,22 +199,22 @@ struct Beside {
 
 impl Beside {
     /// * `arguments`: the chore, whose last line is its counts
-    fn start(name: &'static str, arguments: &[&str]) -> Self {
+    fn start(step: &'static Step, arguments: &[&str]) -> Self {
         let run = || {
             let folder = workspace::target().join("xtask");
             fs::create_dir_all(&folder)?;
-            let path = folder.join(format!("{name}.txt"));
+            let path = folder.join(format!("{}.txt", step.name));
             let file = fs::File::create(&path)?;
             let mut chore = Command::new(std::env::current_exe()?);
             chore.args(arguments).stdin(Stdio::null()).stdout(file.try_clone()?).stderr(file);
             Ok((chore.spawn()?, path))
         };
-        Self { name, start: Instant::now(), running: run() }
+        Self { step, start: Instant::now(), running: run() }
     }
 
     /// Waits for the step and shows what it printed.
-    fn end(self) -> Step {
-        let Self { name, start, running } = self;
+    fn end(self) -> Taken {
+        let Self { step, start, running } = self;
         let end = || {
             let (mut child, path) = running?;
             child.wait()?;
@@ -136,8 +222,8 @@ impl Beside {
             print!("{printed}");
             Ok(Count::of_closing_line(&printed))
         };
-        let ended = step(name, end);
-        Step { duration: start.elapsed(), ..ended }
+        let ended = step.taken(end);
+        Taken { duration: start.elapsed(), ..ended }
     }
 }
 
@@ -146,8 +232,33 @@ fn succeeds(command: &mut Command) -> Result<Count> {
     Ok(Count::one(status.success()))
 }
 
+/// Compiles everything with its tests, and lints it on the way.
+fn build() -> Result<Count> {
+    succeeds(workspace::linting_cargo().args(["test", "--workspace", "--all-targets", "--no-run"]))
+}
+
+/// Whether the program that users have says what the one of the tests says, bit for bit.
+fn release() -> Result<Count> {
+    let question = ["heading", "--slope-deg", "0:20:1", "--uncertainty", "--format", "csv"];
+    let question = question.map(String::from);
+    let programs = [Profile::Dev, Profile::Release].map(|it| workspace::build("grouser", it));
+    let [tested, used] = programs.map(|it| workspace::output_of(&it?, &question));
+    Ok(Count::one(tested? == used?))
+}
+
+fn tests(extent: Extent) -> Result<Count> {
+    let kinds = ["--lib", "--bins", "--tests", "--examples"];
+    run_tests(&kinds, extent)
+}
+
+fn doctests(extent: Extent) -> Result<Count> {
+    run_tests(&["--doc"], extent)
+}
+
 /// Runs test programs, shows what they print, and counts their results.
-fn tests(command: &mut Command, extent: Extent) -> Result<Count> {
+fn run_tests(kinds: &[&str], extent: Extent) -> Result<Count> {
+    let mut command = workspace::linting_cargo();
+    command.args(["test", "--workspace", "--no-fail-fast"]).args(kinds);
     if extent == Extent::Full {
         command.args(["--", "--include-ignored"]);
     }
@@ -162,4 +273,34 @@ fn tests(command: &mut Command, extent: Extent) -> Result<Count> {
         }
     }
     Ok(Count::of_run(&output, child.wait()?.success()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_step_waits_where_nothing_that_it_looks_at_changed() {
+        let step = |name: &str| STEPS.iter().find(|step| step.name == name).expect("a step");
+        let of_core = ["crates/grouser-core/src/soil.rs".to_owned()];
+        let of_docs = ["docs/start.md".to_owned()];
+        assert!(step("tests").is_asked(Some(&of_core)) && step("tests").is_asked(Some(&of_docs)));
+        assert!(!step("site").is_asked(Some(&of_core)) && step("site").is_asked(Some(&of_docs)));
+        assert!(step("site").is_asked(None));
+    }
+
+    #[test]
+    fn time_over_the_budget_is_relative_to_the_machine() {
+        let step = STEPS.iter().find(|step| step.name == "tests").expect("a step");
+        let taken = |share: f64, slowness: f64| Taken {
+            step,
+            count: Count::one(true),
+            duration: Duration::ZERO,
+            computed: Some(Duration::from_secs_f64(share * step.budget)),
+            slowness,
+        };
+        assert!((taken(1.2, 1.0).over_budget() - 0.2).abs() < 1e-9);
+        assert!(taken(1.2, 1.2).over_budget().abs() < 1e-9);
+        assert!(close(&mut [taken(1.4, 1.0)], &[]) && !close(&mut [taken(1.6, 1.0)], &[]));
+    }
 }

@@ -14,7 +14,7 @@ const MAP: &str = "made by: cargo xtask costs";
 
 /// Counts the looks of all wheels of the map, and writes it.
 pub(crate) fn write() -> Result<()> {
-    let mut command = Command::new(workspace::build_work()?);
+    let mut command = Command::new(workspace::build_work(workspace::Profile::Dev)?);
     let output = command.arg("costs").stderr(Stdio::inherit()).output().context("the map")?;
     ensure!(output.status.success(), "the costs cannot be counted");
     let (path, map) = (workspace::root().join(FILE), String::from_utf8(output.stdout)?);

@@ -4,6 +4,7 @@
 //! `ARCHITECTURE.md` keeps the numbers. Crates and cycles are compared at every check; lines and what a build
 //! takes are recorded, since they move with every commit or from machine to machine.
 
+mod homes;
 mod lines;
 mod modules;
 
@@ -17,6 +18,7 @@ use serde_json::Value;
 
 use crate::libtest::Count;
 use crate::{cpu, crates, diff, markers, python, workspace};
+use homes::{Home, Sources};
 use lines::Lines;
 use modules::{Cycle, Modules};
 
@@ -66,7 +68,17 @@ pub(crate) fn check() -> Result<Count> {
     println!("{cycles} cycles of modules, {MOST_CYCLES} are the most that may be");
     let mut count = Count::one(difference.is_empty());
     count += Count::one(cycles <= MOST_CYCLES);
+    for Home { what, most, found } in homes()? {
+        println!("{found:>7} {what}, {most} are the most that may be");
+        count += Count::one(found <= most);
+    }
     Ok(count)
+}
+
+/// Things that are declared more than once, with the most that may be.
+fn homes() -> Result<Vec<Home>> {
+    let [rust, python] = ["rs", "py"].map(workspace::texts_with_extension);
+    Ok(homes::counted(&Sources::of(&rust?, &python?)))
 }
 
 /// Measures a first build of the program in an empty folder, and writes it.

@@ -98,7 +98,7 @@ impl Counts {
 }
 
 fn count() -> Result<Counts> {
-    let program = workspace::build_work()?;
+    let program = workspace::build_work(workspace::Profile::Dev)?;
     let units = UNITS.iter().map(|key| {
         // What is prepared, and what the first time alone takes, is in both.
         let (once, done_once) = instructions(&program, key, 1)?;

@@ -2,6 +2,7 @@
 
 mod address;
 mod alone;
+mod changed;
 mod ci;
 mod cited;
 mod costs;
@@ -21,6 +22,7 @@ mod licence;
 mod links;
 mod markdown;
 mod markers;
+mod outputs;
 mod packages;
 mod pages;
 mod python;
@@ -33,7 +35,9 @@ mod tools;
 mod wasm;
 mod workflows;
 mod workspace;
+mod yardstick;
 
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Result, bail};
@@ -43,7 +47,6 @@ cargo xtask CHORE
 
   ci [--full]         run all checks; --full runs the slow tests too
   alone [--full]      both commands of the README, in a clone that stands alone, with a home of its own
-  program             build the optimised program
   schema [--check]    write schema/*.json from the program, or only compare
   figures [--check | --made]
                       write the program's output into the Markdown files, or only compare; --made leaves what
@@ -61,6 +64,10 @@ cargo xtask CHORE
                       light and dark
   costs               count what wheels cost over the domain, and write the map into
                       docs/performance.md
+  outputs FOLDER [PROGRAM]
+                      what the program says to every example of the documents, into a folder
+  outputs --compare FOLDER FOLDER
+                      whether two such folders are the same but for the keys of xtask/renamed.txt
   learning [STUDY]    measure what learning from drives is worth, and write it into docs/guide/learn.md
   python-times        measure what Python costs, and write it into docs/performance.md
   count [--check | --build]
@@ -92,7 +99,6 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["ci"] => ci::run(extent::Extent::Usual),
         ["ci", "--full"] => ci::run(extent::Extent::Full),
         ["alone", options @ ..] => alone::check(options)?,
-        ["program"] => good(workspace::build_program().map(|_| libtest::Count::one(true))?),
         ["schema"] => schema::write()?,
         ["schema", "--check"] => schema::check()?,
         ["figures"] => figures::write(true)?,
@@ -116,6 +122,13 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["python", "--lowest"] => good(python::check_lowest()?),
         ["site"] => good(site::build(&python::installed()?)?),
         ["site", "--as-it-is"] => good(site::build(&python::as_it_is())?),
+        ["outputs", "--compare", before, after] => {
+            outputs::compare(Path::new(before), Path::new(after))?
+        }
+        ["outputs", folder, program @ ..] => {
+            outputs::write(Path::new(folder), program.first().map(PathBuf::from))?;
+            true
+        }
         ["costs"] => {
             costs::write()?;
             true

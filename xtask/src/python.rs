@@ -102,7 +102,7 @@ const TIMES: &str = "measured by: cargo xtask python-times";
 pub(crate) fn write_times() -> Result<()> {
     let mut command = Command::new(installed()?);
     command.arg(workspace::root().join(PACKAGE).join("benches/ratios.py"));
-    command.arg(workspace::build_work()?);
+    command.arg(workspace::build_work(workspace::Profile::Release)?);
     let output = command.stderr(Stdio::inherit()).output().context("Python did not start")?;
     ensure!(output.status.success(), "the times cannot be measured");
     let (path, times) = (workspace::root().join(PERFORMANCE), String::from_utf8(output.stdout)?);
@@ -197,7 +197,7 @@ pub(crate) fn wheels() -> PathBuf {
     folder().join("wheels")
 }
 
-/// The wheel, optimised, built once in a run.
+/// The wheel, built once in a run.
 fn wheel() -> Result<PathBuf> {
     static WHEEL: OnceLock<PathBuf> = OnceLock::new();
     if let Some(wheel) = WHEEL.get() {
@@ -208,8 +208,9 @@ fn wheel() -> Result<PathBuf> {
         fs::remove_dir_all(&wheels).context("old wheels")?;
     }
     let mut build = Command::new(environment()?);
-    build.args(["-m", "maturin", "build", "--release", "--quiet", "--out"]).arg(&wheels);
+    build.args(["-m", "maturin", "build", "--quiet", "--out"]).arg(&wheels);
     build.arg("--manifest-path").arg(manifest());
+    workspace::with_lints(&mut build);
     done(&mut build, "the wheel does not build")?;
     let mut made = fs::read_dir(wheels).context("the folder of the wheel")?;
     let wheel = made.next().context("maturin made no wheel")??.path();

@@ -14,7 +14,7 @@ pub(crate) fn root() -> PathBuf {
 
 /// Cargo itself, to be run at the root.
 pub(crate) fn cargo() -> Command {
-    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    let mut command = Command::new(cargo_program());
     command.current_dir(root()).stdin(Stdio::null());
     // What `cargo run` told this program about its own package must not leak into other builds.
     for (name, _) in std::env::vars_os() {
@@ -24,6 +24,27 @@ pub(crate) fn cargo() -> Command {
     }
     command.env_remove("CARGO_MANIFEST_DIR").env_remove("CARGO_MANIFEST_PATH");
     command
+}
+
+fn cargo_program() -> PathBuf {
+    std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()).into()
+}
+
+/// Cargo with the linter for our crates' compiler, see `with_lints`.
+pub(crate) fn linting_cargo() -> Command {
+    let mut command = cargo();
+    with_lints(&mut command);
+    command
+}
+
+/// Has the linter compile our crates, each lint an error, so that compiling once does for both. What it
+/// compiles is kept apart from what cargo compiles for somebody at work here, and is not incremental,
+/// which takes longer the first time and computes slower.
+pub(crate) fn with_lints(command: &mut Command) {
+    command.env("RUSTC_WORKSPACE_WRAPPER", cargo_program().with_file_name("clippy-driver"));
+    // How the linter takes its arguments from cargo: each with this word after it.
+    command.env("CLIPPY_ARGS", "--deny__CLIPPY_HACKERY__warnings__CLIPPY_HACKERY__");
+    command.env("CARGO_INCREMENTAL", "0");
 }
 
 /// Files of the repository, as paths from its root: those under version control and new ones
@@ -61,26 +82,36 @@ pub(crate) fn texts_with_extension(extension: &str) -> Result<Vec<(String, Strin
     Ok(texts)
 }
 
-/// Builds the program `grouser`, optimised, and returns its path.
+/// What is built for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Profile {
+    /// The tests, and all that is checked: what computes long is optimised.
+    Dev,
+    /// Users, and what is timed.
+    Release,
+}
+
+/// Builds the program `grouser` as the tests use it, and returns its path.
 pub(crate) fn build_program() -> Result<PathBuf> {
-    build(&format!("grouser{}", std::env::consts::EXE_SUFFIX))
+    build("grouser", Profile::Dev)
 }
 
 /// Builds the program that does what is counted and measured, and returns its path.
-pub(crate) fn build_work() -> Result<PathBuf> {
-    build(&format!("work{}", std::env::consts::EXE_SUFFIX))
+pub(crate) fn build_work(profile: Profile) -> Result<PathBuf> {
+    build("work", profile)
 }
 
 /// Builds all that is measured and shown, at once: alone, the units of work would choose other features
 /// of the libraries that they share with the program.
-fn build(program: &str) -> Result<PathBuf> {
-    let status = cargo()
-        .args(["build", "--release", "--bins"])
-        .args(["-p", "grouser-cli", "-p", "grouser-bench"])
-        .status()
-        .context("cargo did not start")?;
+pub(crate) fn build(program: &str, profile: Profile) -> Result<PathBuf> {
+    let (mut command, more, folder) = match profile {
+        Profile::Dev => (linting_cargo(), None, "debug"),
+        Profile::Release => (cargo(), Some("--release"), "release"),
+    };
+    command.args(["build", "--bins", "-p", "grouser-cli", "-p", "grouser-bench"]).args(more);
+    let status = command.status().context("cargo did not start")?;
     ensure!(status.success(), "`{program}` does not build");
-    Ok(target().join("release").join(program))
+    Ok(target().join(folder).join(format!("{program}{}", std::env::consts::EXE_SUFFIX)))
 }
 
 /// The folder that cargo builds into.
