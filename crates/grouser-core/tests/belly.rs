@@ -1,8 +1,6 @@
 //! Belly clearance: closed forms on planes, over crests and ripples, and runs that end on their belly.
 
-#[path = "../examples/by_hand/hakuto.rs"]
-mod hakuto;
-
+use grouser_core::paper;
 use grouser_core::simulation::{Approach, Outcome, Run, RunError, Scenario, Trajectory};
 use grouser_core::terrain::surface::{Incline, Ripple, Surface};
 use grouser_core::terrain::{ElevationGrid, ElevationModel, Footprint, Ground, Patch, Terrain};
@@ -13,13 +11,13 @@ use grouser_core::vehicle::{BellyPoint, Posture, Rover, Suspension, Underside};
 const CLEARANCE: f64 = 0.10;
 
 fn rover(clearance: f64) -> Rover {
-    let mut rover = hakuto::rover().expect("it stands");
+    let mut rover = paper::hakuto().expect("it stands");
     rover.parts_mut().belly_clearance = Some(clearance);
     rover.checked().expect("it still does")
 }
 
 fn on(surface: Surface) -> Ground {
-    Ground::formula(hakuto::sand(), surface)
+    Ground::formula(paper::toyoura(), surface)
 }
 
 /// How near the ground is to a rover that stands on it, its wheels sunk by as much each.
@@ -69,7 +67,7 @@ const RIDGE: Ridge = Ridge { height: 0.04, width: 0.2 };
 #[test]
 fn astride_a_ridge_it_is_less_by_the_ridge() {
     let Ridge { height, width } = RIDGE;
-    let ridge = Ground::own(hakuto::sand(), RIDGE);
+    let ridge = Ground::own(paper::toyoura(), RIDGE);
     let rover = rover(CLEARANCE);
     let middle = rover.mounts().iter().map(|mount| mount.position.x).sum::<f64>() / 4.0;
     let found = belly(&rover, &ridge, (Vec2::new(-middle, 5.0), 0.0), 0.0);
@@ -132,7 +130,7 @@ fn on_a_map_it_is_that_of_the_ground() {
     let grid = ElevationGrid { columns: 201, rows: 201, south_west, spacing: Vec2::repeat(0.02) };
     let heights = grid.points().map(|at| -1800.0 + Surface::Ripple(ripple).height(at - middle));
     let map = ElevationModel::new(grid, heights).expect("a map");
-    let map = Ground::map(hakuto::sand(), map);
+    let map = Ground::map(paper::toyoura(), map);
     for at in [Vec2::zeros(), Vec2::new(0.4, -0.3)] {
         let formula = belly(&rover(CLEARANCE), &on(Surface::Ripple(ripple)), (at, 0.7), 0.01);
         let mapped = belly(&rover(CLEARANCE), &map, (middle + at, 0.7), 0.01);
@@ -143,7 +141,7 @@ fn on_a_map_it_is_that_of_the_ground() {
 
 /// Over ripples across the way, from a trough on.
 fn over_ripples(amplitude: f64, clearance: Option<f64>, approach: Approach) -> Scenario {
-    let mut scenario = hakuto::traverse().expect("it stands");
+    let mut scenario = paper::traverse().expect("it stands");
     let ripple = Ripple { amplitude, wavelength: 1.2, across: 0.0, phase: deg(-90.0) };
     scenario.ground = on(Surface::Ripple(ripple));
     if let Some(clearance) = clearance {
@@ -221,7 +219,7 @@ fn a_clearance_that_suffices_changes_no_motion() {
         assert!(other.belly_clearance.is_some_and(|clearance| clearance > 0.1));
         assert_eq!((one.state, &one.wheels), (other.state, &other.wheels));
     }
-    let mut plane = hakuto::traverse().expect("it stands");
+    let mut plane = paper::traverse().expect("it stands");
     plane.duration = 1.0;
     let before = drive(&plane).expect("it drives");
     plane.rover = rover(0.001);
@@ -230,7 +228,7 @@ fn a_clearance_that_suffices_changes_no_motion() {
 
 #[test]
 fn a_negative_clearance_is_refused() {
-    let mut rover = hakuto::rover().expect("it stands");
+    let mut rover = paper::hakuto().expect("it stands");
     rover.parts_mut().belly_clearance = Some(-0.1);
     let message = rover.checked().expect_err("it has none").to_string();
     assert_eq!(message, "belly clearance [m] is -0.1, it must be finite and not negative");

@@ -1,8 +1,6 @@
 //! Runs over uneven ground: a tilted plane is the plane, both ways of computing agree, and energy is kept.
 
-#[path = "../examples/by_hand/hakuto.rs"]
-mod hakuto;
-
+use grouser_core::paper;
 use grouser_core::simulation::{
     Approach, Method, Outcome, PrescribedYaw, Record, Run, Scenario, Trajectory,
 };
@@ -45,7 +43,7 @@ fn run(scenario: &Scenario) -> Trajectory {
 
 /// Every kind of rover, both ways of computing.
 fn scenarios() -> Vec<Scenario> {
-    let mut base = hakuto::traverse().expect("it stands");
+    let mut base = paper::traverse().expect("it stands");
     base.start.yaw = deg(8.0);
     let mut all = Vec::new();
     for rover in [base.rover.clone(), on_rockers(&base.rover)] {

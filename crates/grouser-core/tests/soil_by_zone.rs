@@ -1,10 +1,8 @@
 //! Runs over zones of soil, and over soil that scatters, on ground with heights.
 
-#[path = "../examples/by_hand/hakuto.rs"]
-mod hakuto;
-
 use grouser_core::contact::discrepancy::sense_of_rolling;
 use grouser_core::contact::{Contact, Slip};
+use grouser_core::paper;
 use grouser_core::simulation::{Approach, Method, Record, Run, Scenario, Trajectory};
 use grouser_core::soil::discrepancy::{Discrepancy, VALUES};
 use grouser_core::soil::{PressureSinkage, SinkageExponent, Soil};
@@ -23,12 +21,12 @@ const BORDER: f64 = 0.4;
 fn loose() -> Soil {
     let exponent = SinkageExponent::constant(1.5);
     let pressure_sinkage = PressureSinkage::Reece { k_c: 0.0, k_phi: 20.0, exponent };
-    Soil { friction_angle: deg(30.0), pressure_sinkage, ..hakuto::sand() }
+    Soil { friction_angle: deg(30.0), pressure_sinkage, ..paper::toyoura() }
 }
 
 /// The scenario on a slope given by heights, which rises to the left of the start.
 fn on_slope(slope: f64, approach: Approach) -> Scenario {
-    let mut scenario = hakuto::traverse().expect("it stands");
+    let mut scenario = paper::traverse().expect("it stands");
     let surface = Surface::Incline(Incline { slope, uphill: deg(90.0) });
     scenario.ground = Ground::formula(scenario.ground.soil, surface);
     scenario.numerics.approach = approach;
@@ -265,7 +263,7 @@ fn soil_scatters_on_ground_with_heights() {
     assert!((dynamic.yaw - steady.yaw).abs() < deg(0.1), "{dynamic:?} and {steady:?}");
     assert!((end(Approach::QuasiSteady, 2, 6.0).yaw - steady.yaw).abs() > deg(0.1));
     // On level ground it is the field that a plane has.
-    let mut plane = hakuto::traverse().expect("it stands");
+    let mut plane = paper::traverse().expect("it stands");
     plane.ground = plane.ground.with_slope(0.0);
     plane.scatter.soil = soil;
     plane.scatter.seed = 1;

@@ -1,9 +1,7 @@
 //! Postures and loads on uneven ground: planes, closed forms, balances and virtual work.
 
-#[path = "../examples/by_hand/hakuto.rs"]
-mod hakuto;
-
 use grouser_core::contact::{Slip, WheelForces};
+use grouser_core::paper;
 use grouser_core::terrain::{Footprint, Ground, Patch, Terrain};
 use grouser_core::units::{Vec2, Vec3, deg};
 use grouser_core::vehicle::{
@@ -38,7 +36,7 @@ fn hills(at: Vec2) -> f64 {
 }
 
 fn rigid() -> Rover {
-    hakuto::rover().expect("it stands")
+    paper::hakuto().expect("it stands")
 }
 
 fn rocker() -> Rover {
@@ -285,7 +283,7 @@ fn it_tips_where_the_weight_falls_outside() {
 /// lifted; rockers turn, and their wheels share as on a plane.
 #[test]
 fn twisted_ground_loads_a_rigid_rover_across_and_turns_rockers() {
-    let scenario = hakuto::traverse().expect("it stands");
+    let scenario = paper::traverse().expect("it stands");
     let settled = |rover: &Rover, twist: f64| -> (Posture, Vec<WheelReaction>) {
         let terrain = ground(move |at: Vec2| twist * at.x * at.y);
         let terrain = Ground::own(scenario.ground.soil, terrain);

@@ -21,7 +21,7 @@
 //! How does a mission become a log?
 //!
 //! ```
-//! # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser-core/examples/by_hand/hakuto.rs")); }
+//! use grouser_core::paper;
 //! use grouser::studies::mission::DrivenMission;
 //! use grouser_core::mission::{Leg, Manoeuvre, Mission};
 //! use grouser_core::units::deg;
@@ -31,7 +31,7 @@
 //!     Leg::new(Manoeuvre::drive(0.5)),
 //!     Leg::new(Manoeuvre::Turn { angle: deg(45.0) }),
 //! ];
-//! let mission = Mission { scenario: hakuto::traverse()?, legs, stops: Vec::new(), sensors: None };
+//! let mission = Mission { scenario: paper::traverse()?, legs, stops: Vec::new(), sensors: None };
 //! let driven = DrivenMission::drive("there", &mission)?;
 //! let mut log = Log::begin(Vec::new(), "HAKUTO on sand", &mission.scenario)?;
 //! log.mission(&driven)?;

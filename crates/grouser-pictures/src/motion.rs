@@ -1,11 +1,11 @@
 //! Where rover and wheels are at every time of a run, from its records.
 //!
 //! ```
-//! # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser-core/examples/by_hand/hakuto.rs")); }
+//! use grouser_core::paper;
 //! use grouser_core::simulation::Run;
 //! use grouser_pictures::motion::Follower;
 //!
-//! let scenario = hakuto::traverse()?;
+//! let scenario = paper::traverse()?;
 //! let mut follower = Follower::new(&scenario.rover);
 //! let run = Run::new(&scenario)?.to_end()?;
 //! let poses = run.records.iter().map(|record| follower.pose(&scenario, record));

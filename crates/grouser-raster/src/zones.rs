@@ -7,7 +7,7 @@
 //! Which zone of a file lies at a place?
 //!
 //! ```
-//! # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser-core/examples/by_hand/hakuto.rs")); }
+//! use grouser_core::paper;
 //! use grouser_core::units::Vec2;
 //! use grouser_raster::zones::{ZoneKey, geojson};
 //!
@@ -16,7 +16,7 @@
 //! let map = geojson::decode(file)?;
 //! assert_eq!(map.keys(), [ZoneKey::Name("dune".into())]);
 //! let legend = [(ZoneKey::Name("dune".into()), Some(0))];
-//! let zones = map.with_legend(&legend, vec![hakuto::sand()])?;
+//! let zones = map.with_legend(&legend, vec![paper::toyoura()])?;
 //! assert_eq!(zones.zone(Vec2::new(800.0, 100.0)), Some(0));
 //! # Ok::<(), grouser_raster::Fault>(())
 //! ```

@@ -52,7 +52,9 @@
 //! The folder `examples` has programs to start from: a wheel on sand, a heading on a slope, a rover of your own, a
 //! controller that holds the contour, and the band of an uncertain soil.
 
-pub use grouser_core::{contact, error, mission, simulation, soil, terrain, units, vehicle, wheel};
+pub use grouser_core::{
+    contact, error, mission, paper, simulation, soil, terrain, units, vehicle, wheel,
+};
 use grouser_core::{elementary, newton, root};
 
 pub mod document;

@@ -114,11 +114,11 @@ impl Lanes {
 /// How much harder does a wheel pull the more it slips, at the same sinkage?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::contact::{Contact, Ishigami, Slip, forces_many};
 /// use grouser_core::units::{EARTH_GRAVITY, mm};
 ///
-/// let (wheel, soil, gravity) = (hakuto::wheel(), hakuto::sand(), EARTH_GRAVITY);
+/// let (wheel, soil, gravity) = (paper::hakuto_wheel(), paper::toyoura(), EARTH_GRAVITY);
 /// let sunk = [0.1, 0.2, 0.4].map(|ratio| {
 ///     (Contact { wheel, soil, slip: Slip::on_test_stand(ratio, 0.0), gravity }, mm(13.0))
 /// });

@@ -32,12 +32,12 @@ use super::model::WheelSoilModel;
 /// How deep does a wheel of HAKUTO sink under 17 N, and how hard does it pull at a slip ratio of 0.2?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::contact::{Contact, Ishigami, Slip, settle};
 /// use grouser_core::units::EARTH_GRAVITY;
 ///
 /// let slip = Slip::on_test_stand(0.2, 0.0);
-/// let (wheel, soil) = (hakuto::wheel(), hakuto::sand());
+/// let (wheel, soil) = (paper::hakuto_wheel(), paper::toyoura());
 /// let contact = Contact { wheel, soil, slip, gravity: EARTH_GRAVITY };
 /// let settled = settle(&Ishigami::DEFAULT, &contact, 17.0)?;
 ///

@@ -10,11 +10,11 @@ use crate::wheel::Wheel;
 /// law for cohesionless sand not at all: load and soil lose weight alike.
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::contact::{Contact, Ishigami, SettleError, Slip, settle};
 /// use grouser_core::units::{EARTH_GRAVITY, MOON_GRAVITY};
 ///
-/// let (wheel, soil, slip) = (hakuto::wheel(), hakuto::sand(), Slip::on_test_stand(0.2, 0.0));
+/// let (wheel, soil, slip) = (paper::hakuto_wheel(), paper::toyoura(), Slip::on_test_stand(0.2, 0.0));
 /// let sinkage_mm = |gravity: f64| -> Result<String, SettleError> {
 ///     let contact = Contact { wheel, soil, slip, gravity };
 ///     let settled = settle(&Ishigami::DEFAULT, &contact, 1.7 * gravity)?;

@@ -22,12 +22,12 @@ use super::stress::{Response, StressLaw};
 /// Which load does the soil carry under a rolling wheel at sinkages of 10 and 20 mm?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::contact::{Contact, Ishigami, Slip, WheelSoilModel};
 /// use grouser_core::units::mm;
 ///
 /// let slip = Slip::on_test_stand(0.0, 0.0);
-/// let contact = Contact { wheel: hakuto::wheel(), soil: hakuto::sand(), slip, gravity: 9.81 };
+/// let contact = Contact { wheel: paper::hakuto_wheel(), soil: paper::toyoura(), slip, gravity: 9.81 };
 /// let relation = Ishigami::DEFAULT.load_sinkage(&contact).expect("this model has one");
 /// assert_eq!(format!("{:.1} N", relation.normal_force(mm(10.0))), "10.2 N");
 /// assert_eq!(format!("{:.1} N", relation.normal_force(mm(20.0))), "46.4 N");

@@ -19,7 +19,7 @@ pub(super) const SHALLOW: Span = Span::at_most(1.0 / 3.0);
 /// sinkage, and resists the motion with a tenth of the load?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::contact::{Contact, Slip, WheelForces, WheelSoilModel, settle};
 ///
 /// struct Springs {
@@ -33,7 +33,7 @@ pub(super) const SHALLOW: Span = Span::at_most(1.0 / 3.0);
 /// }
 ///
 /// let slip = Slip::on_test_stand(0.0, 0.0);
-/// let contact = Contact { wheel: hakuto::wheel(), soil: hakuto::sand(), slip, gravity: 9.81 };
+/// let contact = Contact { wheel: paper::hakuto_wheel(), soil: paper::toyoura(), slip, gravity: 9.81 };
 /// let settled = settle(&Springs { stiffness: 2e3 }, &contact, 17.0)?;
 /// assert_eq!(format!("{:.1} mm", 1e3 * settled.sinkage), "8.5 mm");
 /// assert_eq!(format!("{:.1} N", settled.forces.drawbar_pull), "-1.7 N");

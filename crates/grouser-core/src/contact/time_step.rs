@@ -65,7 +65,7 @@ pub struct SteppingWheel<'a> {
 /// Which force does the soil put on a locked wheel of 1.7 kg that is dragged along at 5 cm/s, over a step of 2 ms?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::contact::time_step::{FORCES, MOTIONS, REST_SPEED, SINKAGE_DAMPING};
 /// use grouser_core::contact::{Ishigami, SteppingWheel, TimeStep};
 /// use grouser_core::units::mm;
@@ -80,7 +80,7 @@ pub struct SteppingWheel<'a> {
 /// let (damping, rest_speed) = (SINKAGE_DAMPING, REST_SPEED);
 /// let step =
 ///     TimeStep { duration, gravity, damping, rest_speed, inverse_mass: &inverse_mass, free: &free };
-/// let (wheel, soil) = (hakuto::wheel(), hakuto::sand());
+/// let (wheel, soil) = (paper::hakuto_wheel(), paper::toyoura());
 /// let wheel = SteppingWheel { model: &Ishigami::DEFAULT, wheel, soil, sinkage: mm(20.0) };
 /// let stepped = step.reaction(&[wheel]);
 /// let forces = stepped.wheels[0].forces;

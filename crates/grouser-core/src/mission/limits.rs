@@ -16,11 +16,11 @@ use crate::vehicle::{Mount, RoverState, roll_and_pitch};
 /// Straight across a slope of 10°, where is a rover stopped that must not drift more than 5 cm on a metre of its rims' way?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::mission::{Limited, Limits, Stop};
 /// use grouser_core::simulation::{CONTROL_PERIOD, Run};
 ///
-/// let mut run = Run::new(&hakuto::traverse()?)?;
+/// let mut run = Run::new(&paper::traverse()?)?;
 /// let mut limits = Limits::new(&run, &[Stop::above(Limited::Drift, 0.05)])?;
 /// let stopped = loop {
 ///     run.step(&[0.06; 4], CONTROL_PERIOD)?;

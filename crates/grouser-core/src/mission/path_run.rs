@@ -22,7 +22,7 @@ use crate::units::Vec2;
 /// a rover?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::mission::{Limited, PathRun, PathTask, Route, Stop};
 /// use grouser_core::simulation::Run;
 /// use grouser_core::units::Vec2;
@@ -32,7 +32,7 @@ use crate::units::Vec2;
 ///     within: 0.1,
 ///     stops: vec![Stop::above(Limited::OffPath, 0.05)],
 /// };
-/// let mut path = PathRun::new(Run::new(&hakuto::traverse()?)?, task)?;
+/// let mut path = PathRun::new(Run::new(&paper::traverse()?)?, task)?;
 /// while path.outcome().is_none() {
 ///     path.step(&[0.06; 4], 0.5)?;
 /// }

@@ -14,7 +14,7 @@ use crate::vehicle::{DriveLaw, Rover};
 /// left on the spot and goes back a metre?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::mission::{Leg, Manoeuvre, Mission, MissionRun};
 /// use grouser_core::units::deg;
 ///
@@ -23,7 +23,7 @@ use crate::vehicle::{DriveLaw, Rover};
 ///     Leg::new(Manoeuvre::Turn { angle: deg(90.0) }),
 ///     Leg::new(Manoeuvre::drive(-1.0)),
 /// ];
-/// let mission = Mission { scenario: hakuto::traverse()?, legs, stops: Vec::new(), sensors: None };
+/// let mission = Mission { scenario: paper::traverse()?, legs, stops: Vec::new(), sensors: None };
 /// let report = MissionRun::new(&mission)?.to_end()?;
 /// let distances: Vec<String> =
 ///     report.legs.iter().map(|leg| format!("{:.2}", leg.distance)).collect();

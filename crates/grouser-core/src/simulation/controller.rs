@@ -17,7 +17,7 @@ pub const CONTROL_PERIOD: f64 = 0.1;
 /// turns the wheels on its right faster while its nose is less than 5° uphill?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::simulation::{Observation, Run};
 /// use grouser_core::units::deg;
 ///
@@ -27,7 +27,7 @@ pub const CONTROL_PERIOD: f64 = 0.1;
 ///         *rim_speed = 0.06 - turn * mount.position.y.signum();
 ///     }
 /// };
-/// let scenario = hakuto::traverse()?;
+/// let scenario = paper::traverse()?;
 /// let mut run = Run::with_controller(&scenario, &mut steer)?;
 /// run.advance(&mut steer, scenario.duration)?;
 /// let end = run.now().state;

@@ -13,10 +13,10 @@ use crate::vehicle::{Electrical, RoverState, WheelReaction};
 /// Which wheel carries most after 10 s across a slope, and what power does its motor give?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::simulation::Run;
 ///
-/// let scenario = hakuto::traverse()?;
+/// let scenario = paper::traverse()?;
 /// let trajectory = Run::new(&scenario)?.to_end()?;
 /// let record = &trajectory.records[100];
 /// assert_eq!(format!("{:.1} s", record.time), "10.0 s");

@@ -40,10 +40,10 @@ pub const LEAST_STEP: f64 = 1e-6;
 /// metre if the wheels on its right turn faster?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::simulation::Run;
 ///
-/// let scenario = hakuto::traverse()?;
+/// let scenario = paper::traverse()?;
 /// let trajectory = Run::new(&scenario)?.to_end()?;
 /// assert_eq!(format!("{:.0} mm", 1e3 * trajectory.last().state.position.y), "-97 mm");
 ///

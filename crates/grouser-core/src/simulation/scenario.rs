@@ -8,7 +8,7 @@ use crate::elementary::wide;
 use crate::error::{ParameterError, finite, positive};
 use crate::soil::SlopeStability;
 use crate::terrain::{Ground, Lie};
-use crate::units::Vec2;
+use crate::units::{EARTH_GRAVITY, Vec2};
 use crate::vehicle::kinematics::rolling_velocity;
 use crate::vehicle::{
     ByWheel, Differences, DriveLaw, LoadSharing, OnGround, OwnMoments, Rover, RoverState, Ruts,
@@ -19,11 +19,11 @@ use crate::vehicle::{
 /// How much farther does the rover drift on a slope of 15° than on one of 10°, in the same 20 s?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::simulation::{Run, RunError, Scenario};
 /// use grouser_core::units::deg;
 ///
-/// let on_10 = hakuto::traverse()?;
+/// let on_10 = paper::traverse()?;
 /// let on_15 = Scenario { ground: on_10.ground.with_slope(deg(15.0)), ..on_10.clone() };
 /// let drift_mm = |scenario: &Scenario| -> Result<String, RunError> {
 ///     let end = Run::new(scenario)?.to_end()?.last().state.position;
@@ -65,6 +65,43 @@ pub struct Scenario {
     pub duration: f64,
     /// How it is computed.
     pub numerics: Numerics,
+}
+
+impl Scenario {
+    /// Twenty seconds on the Earth, with rims that turn at 6 cm/s and the nose along the contour, by
+    /// `ishigami` and with complete loads: what a document has that says no more.
+    ///
+    /// ```
+    /// use grouser_core::paper;
+    /// use grouser_core::simulation::{Run, Scenario};
+    /// use grouser_core::terrain::Ground;
+    /// use grouser_core::units::deg;
+    ///
+    /// let slope = Ground::plane(paper::toyoura(), deg(5.0));
+    /// let short = Scenario { duration: 2.0, ..Scenario::new(paper::hakuto()?, slope) };
+    /// assert!(Run::new(&short)?.to_end()?.last().state.position.x > 0.1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn new(rover: Rover, ground: Ground) -> Self {
+        Self {
+            rover,
+            ground,
+            gravity: EARTH_GRAVITY,
+            model: Model::Ishigami,
+            sharing: LoadSharing::Complete,
+            own_moments: OwnMoments::Included,
+            drive: DriveLaw::Constant(0.06),
+            yaw: None,
+            by_wheel: ByWheel::ALIKE,
+            scatter: Scatter::NONE,
+            ruts: Ruts::Fresh,
+            stability: SlopeStability::USUAL,
+            start: Start { yaw: 0.0, motion: Motion::Rolling },
+            duration: 20.0,
+            numerics: Numerics::DEFAULT,
+        }
+    }
 }
 
 /// How a run is computed and recorded.

@@ -10,10 +10,10 @@ use super::work::Work;
 /// How much energy did the motors spend for each metre, and does the energy balance close?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::simulation::Run;
 ///
-/// let trajectory = Run::new(&hakuto::traverse()?)?.to_end()?;
+/// let trajectory = Run::new(&paper::traverse()?)?.to_end()?;
 /// let end = trajectory.last();
 /// let per_metre = end.energy.motors / end.state.position.x;
 /// assert_eq!(format!("{per_metre:.2} J/m"), "5.87 J/m");

@@ -12,12 +12,12 @@ use crate::error::{ParameterError, finite};
 /// How far downhill does a rover drift on 10° whose yaw was seen to go from 5.5° to 3.1° in 20 s?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::simulation::{PrescribedYaw, Run, Scenario};
 /// use grouser_core::units::deg;
 ///
 /// let points = vec![(0.0, deg(5.5)), (20.0, deg(3.1))];
-/// let scenario = Scenario { yaw: Some(PrescribedYaw { points }), ..hakuto::traverse()? };
+/// let scenario = Scenario { yaw: Some(PrescribedYaw { points }), ..paper::traverse()? };
 /// let end = Run::new(&scenario)?.to_end()?.last().state;
 /// assert_eq!(format!("{:.2}°", end.yaw.to_degrees()), "3.10°");
 /// assert_eq!(format!("{:.0} mm downhill", -1e3 * end.position.y), "14 mm downhill");

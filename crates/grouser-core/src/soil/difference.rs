@@ -10,11 +10,11 @@ use super::{PressureSinkage, Rft, Soil};
 /// by a tenth?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::soil::SoilDifference;
 /// use grouser_core::units::{EARTH_GRAVITY, deg};
 ///
-/// let sand = hakuto::sand();
+/// let sand = paper::toyoura();
 /// let loose = sand.differing(SoilDifference { friction_angle: deg(-1.0), stiffness: 0.9 });
 /// assert_eq!(format!("{:.1}°", loose.friction_angle.to_degrees()), "37.0°");
 /// let pressure = |soil: &grouser_core::soil::Soil| {

@@ -53,12 +53,12 @@ impl Soil {
     /// What bears a plate of 8 cm width that has sunk 2 cm into Toyoura sand on the Moon?
     ///
     /// ```
-    /// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+    /// use grouser_core::paper;
     /// use grouser_core::soil::GravityScaling;
     /// use grouser_core::units::{EARTH_GRAVITY, MOON_GRAVITY};
     ///
     /// let pressure = |scaling: GravityScaling| {
-    ///     let sand = hakuto::sand().under(MOON_GRAVITY, EARTH_GRAVITY, scaling)?;
+    ///     let sand = paper::toyoura().under(MOON_GRAVITY, EARTH_GRAVITY, scaling)?;
     ///     let unit_weight = sand.unit_weight(MOON_GRAVITY);
     ///     let stiffness = sand.pressure_sinkage.stiffness(0.08, sand.cohesion, unit_weight, 0.0);
     ///     Ok(format!("{:.1} kPa", 1e-3 * stiffness.pressure(0.02)))

@@ -74,11 +74,11 @@ impl Soil {
     /// How steep may dry sand of 38° be with the usual factor of safety of 1.3?
     ///
     /// ```
-    /// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+    /// use grouser_core::paper;
     /// use grouser_core::soil::SlopeStability;
     /// use grouser_core::units::MOON_GRAVITY;
     ///
-    /// let steepest = hakuto::sand().stable_slope(MOON_GRAVITY, SlopeStability::USUAL);
+    /// let steepest = paper::toyoura().stable_slope(MOON_GRAVITY, SlopeStability::USUAL);
     /// assert_eq!(format!("{:.1}°", steepest.to_degrees()), "31.0°");
     /// ```
     ///

@@ -18,7 +18,7 @@ use crate::units::{Vec2, Vec3};
 /// How high above its start is a place 3 m uphill of it, on a slope of 10° and on a hill of one's own?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::terrain::{Footprint, Ground, Patch, Terrain};
 /// use grouser_core::units::{Vec2, deg};
 ///
@@ -34,8 +34,8 @@ use crate::units::{Vec2, Vec3};
 ///     let height = |at: Vec2| ground.patch(at, footprint).height;
 ///     format!("{:.2} m", height(Vec2::new(0.0, 3.0)) - height(Vec2::zeros()))
 /// };
-/// assert_eq!(rise(Ground::plane(hakuto::sand(), deg(10.0))), "0.52 m");
-/// let hill = Ground::own(hakuto::sand(), Hill).starting_at(Vec2::new(0.0, -5.0));
+/// assert_eq!(rise(Ground::plane(paper::toyoura(), deg(10.0))), "0.52 m");
+/// let hill = Ground::own(paper::toyoura(), Hill).starting_at(Vec2::new(0.0, -5.0));
 /// assert_eq!(rise(hill), "2.10 m");
 /// ```
 #[derive(Clone, Debug, PartialEq)]

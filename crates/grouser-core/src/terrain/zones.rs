@@ -43,13 +43,13 @@ use polygons::PolygonZones;
 /// How much of a wheel has passed a border from sand to firm ground, 1 cm before its middle does?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::terrain::{Footprint, SoilZones, ZonePolygon};
 /// use grouser_core::units::Vec2;
 ///
 /// let corners = [(2.0, -5.0), (9.0, -5.0), (9.0, 5.0), (2.0, 5.0)];
 /// let rings = vec![corners.map(|(x, y)| Vec2::new(x, y)).to_vec()];
-/// let zones = SoilZones::from_polygons(&[ZonePolygon { soil: Some(0), rings }], vec![hakuto::sand()])?;
+/// let zones = SoilZones::from_polygons(&[ZonePolygon { soil: Some(0), rings }], vec![paper::toyoura()])?;
 /// let wheel = Footprint { forward: Vec2::x(), half_length: 0.05, half_width: 0.04 };
 /// let shares = zones.under(Vec2::zeros(), Vec2::new(1.99, 0.0), wheel);
 /// let passed = shares.iter().find(|share| share.soil.is_some()).map(|share| share.weight);

@@ -66,12 +66,12 @@ impl PerWheel {
 /// How far does the nose fall if the sand below the downhill wheels has 1° less of friction?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::simulation::{Run, RunError, Scenario};
 /// use grouser_core::units::deg;
 /// use grouser_core::vehicle::{ByWheel, PerWheel};
 ///
-/// let alike = hakuto::traverse()?;
+/// let alike = paper::traverse()?;
 /// let weaker = |mount: &grouser_core::vehicle::Mount| if mount.position.y < 0.0 { deg(-1.0) } else { 0.0 };
 /// let offsets = alike.rover.mounts().iter().map(weaker).collect();
 /// let by_wheel = ByWheel { friction_angle: PerWheel::Each(offsets), ..ByWheel::ALIKE };

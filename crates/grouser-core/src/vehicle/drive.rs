@@ -11,14 +11,14 @@ use crate::error::{ParameterError, finite, positive};
 /// the contour?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::units::deg;
 /// use grouser_core::vehicle::DriveLaw;
 /// use grouser_core::vehicle::drive::SlipTarget;
 ///
 /// let law = DriveLaw::Eq18(SlipTarget { speed: 0.06, slip_ratio: 0.2 });
 /// let mut rim_speeds = [0.0; 4];
-/// law.rim_speeds(&hakuto::rover()?, deg(5.0), &[0.2; 4], &mut rim_speeds);
+/// law.rim_speeds(&paper::hakuto()?, deg(5.0), &[0.2; 4], &mut rim_speeds);
 /// assert_eq!(format!("{:.1} mm/s", 1e3 * rim_speeds[0]), "74.7 mm/s");
 /// # Ok::<(), grouser_core::error::ParameterError>(())
 /// ```

@@ -112,11 +112,11 @@ impl SteeringAxis {
 /// How does a front wheel see the rover's motion at 5 cm/s straight ahead, if it is steered by 10° to the left?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::units::{Vec2, deg};
 /// use grouser_core::vehicle::Mount;
 ///
-/// let front_left = Mount { steering: deg(10.0), ..hakuto::rover()?.mounts()[0].clone() };
+/// let front_left = Mount { steering: deg(10.0), ..paper::hakuto()?.mounts()[0].clone() };
 /// let velocity = front_left.wheel_from_body(Vec2::new(0.05, 0.0));
 /// assert_eq!(format!("{:.1} mm/s forward", 1e3 * velocity.x), "49.2 mm/s forward");
 /// assert_eq!(format!("{:.1} mm/s to the left", 1e3 * velocity.y), "-8.7 mm/s to the left");

@@ -19,13 +19,13 @@ use crate::units::{Vec2, Vec3};
 /// What do a body and four wheels of HAKUTO weigh together, and how high is their centre of mass?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::units::Vec3;
 /// use grouser_core::vehicle::{Body, Inertia, Mount, Rover, WheelUnit};
 ///
 /// let body = Body { mass: 5.24, inertia: Inertia { xx: 0.138, yy: 0.142, zz: 0.230 } };
 /// let inertia = Inertia { xx: 0.00100, yy: 0.00154, zz: 0.00100 };
-/// let unit = WheelUnit { mass: 0.422, inertia, wheel: hakuto::wheel(), motor: None };
+/// let unit = WheelUnit { mass: 0.422, inertia, wheel: paper::hakuto_wheel(), motor: None };
 /// let mount = |(name, x, y): (&str, f64, f64)| Mount {
 ///     name: name.to_owned(),
 ///     position: Vec3::new(x, y, -0.06),
@@ -230,11 +230,11 @@ impl Rover {
     /// Four wheels that turn up to 30° to either side crab by 12°:
     ///
     /// ```
-    /// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+    /// use grouser_core::paper;
     /// use grouser_core::units::{Vec2, deg};
     /// use grouser_core::vehicle::{Rover, SteeringAxis};
     ///
-    /// let rover = hakuto::rover()?;
+    /// let rover = paper::hakuto()?;
     /// let axis = SteeringAxis { limit: deg(30.0), rate: deg(10.0), kingpin_offset: Vec2::zeros() };
     /// let mut mounts = rover.mounts().to_vec();
     /// mounts.iter_mut().for_each(|mount| mount.steering_axis = Some(axis));

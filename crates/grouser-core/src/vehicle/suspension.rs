@@ -11,11 +11,11 @@ use crate::units::Vec2;
 /// Which wheels does a bogie of six wheels carry that is at the rear?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::units::{Vec2, Vec3};
 /// use grouser_core::vehicle::{Bogie, End, Mount, Suspension};
 ///
-/// let unit = hakuto::rover()?.mounts()[0].unit;
+/// let unit = paper::hakuto()?.mounts()[0].unit;
 /// let mount = |(name, x): (&str, f64)| Mount {
 ///     name: name.to_owned(),
 ///     position: Vec3::new(x, 0.3, -0.1),

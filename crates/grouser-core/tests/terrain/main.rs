@@ -4,7 +4,3 @@ mod elevation;
 mod lunar;
 mod surface;
 mod zones;
-
-#[path = "../../examples/by_hand/hakuto.rs"]
-#[allow(dead_code, unused_imports, reason = "of the rover only its sand is needed here")]
-mod hakuto;

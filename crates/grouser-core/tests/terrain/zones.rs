@@ -1,16 +1,15 @@
 //! Zones of soil: which lies where, and how much of each below a wheel.
 
 use grouser_core::elementary::wide::sin_cos;
+use grouser_core::paper;
 use grouser_core::terrain::zones::{NO_ZONE, Share};
 use grouser_core::terrain::{ElevationGrid, Footprint, SoilZones, ZonePolygon, ZonesError};
 use grouser_core::units::{Vec2, deg};
 
-use crate::hakuto;
-
 fn soils(count: u8) -> Vec<grouser_core::soil::Soil> {
     let soil = |number: u8| {
         let friction_angle = deg(30.0 + f64::from(number));
-        grouser_core::soil::Soil { friction_angle, ..hakuto::sand() }
+        grouser_core::soil::Soil { friction_angle, ..paper::toyoura() }
     };
     (0..count).map(soil).collect()
 }

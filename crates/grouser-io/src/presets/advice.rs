@@ -15,14 +15,14 @@ pub struct Advice {
 impl Preset {
     /// What it is good for; soils and rovers have such advice.
     ///
-    /// Which soil is a card on the Moon made with?
+    /// Which soil does one begin with on the Moon?
     ///
     /// ```
     /// use grouser_io::{Kind, presets};
     ///
     /// let soils = presets(Kind::Soil).filter_map(|soil| Some((soil.name, soil.advice()?)));
     /// let mut of_the_moon = soils.filter(|(_, advice)| advice.world == "moon");
-    /// let (name, advice) = of_the_moon.find(|(_, advice)| advice.text.contains("card")).expect("one");
+    /// let (name, advice) = of_the_moon.find(|(_, advice)| advice.text.contains("start with")).expect("one");
     /// assert_eq!(name, "lunar-0-15-cm");
     /// assert!(advice.text.ends_with("with bands"));
     /// ```

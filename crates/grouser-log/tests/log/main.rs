@@ -1,10 +1,6 @@
 //! Logs, read back. The readers of others are asked in `crates/grouser-python/tests/test_logs.py`; the one below
 //! reads just enough.
 
-mod hakuto {
-    include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser-core/examples/by_hand/hakuto.rs"));
-}
-
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::f64::consts::PI;
@@ -14,6 +10,7 @@ use grouser::studies::mission::DrivenMission;
 use grouser::studies::replay::Replayer;
 use grouser::studies::simulated_telemetry::truth;
 use grouser_core::mission::{Leg, Limited, Manoeuvre, Mission, Stop};
+use grouser_core::paper;
 use grouser_core::simulation::{Record, Run, Scenario, Trajectory};
 use grouser_core::terrain::Ground;
 use grouser_core::terrain::surface::{Ripple, Surface};
@@ -33,7 +30,7 @@ fn run_of(scenario: &Scenario) -> Trajectory {
 }
 
 fn short() -> Scenario {
-    Scenario { duration: 2.0, ..hakuto::traverse().expect("a scenario") }
+    Scenario { duration: 2.0, ..paper::traverse().expect("a scenario") }
 }
 
 fn log_of(scenario: &Scenario, records: &[Record]) -> Result<Vec<u8>, LogError> {
@@ -162,7 +159,7 @@ fn every_record_is_a_message_of_rover_wheels_and_transforms() -> Outcomes {
 /// A replayed drive has both sides under the same names, with the times of the telemetry.
 #[test]
 fn a_replay_is_logged_measured_beside_predicted() -> Outcomes {
-    let scenario = Scenario { duration: 10.0, ..hakuto::traverse()? };
+    let scenario = Scenario { duration: 10.0, ..paper::traverse()? };
     let mut replayer = Replayer::new(&scenario, None);
     for record in truth(&run_of(&scenario), &scenario) {
         replayer.update(record);
@@ -208,7 +205,7 @@ fn turned([x, y, z, w]: [f64; 4], v: Vec3) -> Vec3 {
 
 /// Six wheels, four of them steered; names that readers could take for something else.
 fn six() -> Rover {
-    let four = hakuto::rover().expect("a rover");
+    let four = paper::hakuto().expect("a rover");
     let unit = four.mounts()[0].unit;
     let names = ["body", "a b", "a/b", "räder<&>", "front-left", "front-left_rim"];
     let mounts = names.iter().enumerate().map(|(place, name)| {
@@ -241,7 +238,7 @@ const MOTOR: Motor = Motor {
 #[test]
 fn what_motors_take_is_logged() -> Outcomes {
     for (place, has_all) in [(None, true), (Some(2), false)] {
-        let mut parts = hakuto::rover().expect("a rover").parts().clone();
+        let mut parts = paper::hakuto().expect("a rover").parts().clone();
         match place {
             None => parts.wheel_unit.motor = Some(MOTOR),
             Some(place) => parts.mounts[place].motor = Some(MOTOR),
@@ -282,7 +279,7 @@ fn battery_and_windings_are_logged() -> Outcomes {
         electronics: 3.0,
         charge: 0.9,
     };
-    let mut parts = hakuto::rover().expect("a rover").parts().clone();
+    let mut parts = paper::hakuto().expect("a rover").parts().clone();
     parts.wheel_unit.motor = Some(Motor { winding: Some(winding), ..MOTOR });
     parts.battery = Some(battery);
     let rover = Rover::draft(parts).checked().expect("a rover");

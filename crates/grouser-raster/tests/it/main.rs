@@ -6,7 +6,3 @@ mod ground;
 mod npy;
 mod xyz;
 mod zones;
-
-#[path = "../../../grouser-core/examples/by_hand/hakuto.rs"]
-#[allow(dead_code, unused_imports, reason = "of the rover only its sand is needed here")]
-mod hakuto;

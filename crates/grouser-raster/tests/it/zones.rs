@@ -1,5 +1,6 @@
 use std::fs;
 
+use grouser_core::paper;
 use grouser_core::soil::Soil;
 use grouser_core::terrain::Extent;
 use grouser_core::units::{Vec2, deg};
@@ -7,11 +8,10 @@ use grouser_raster::zones::geojson;
 use grouser_raster::{Fault, ReadOptions, ZoneKey, ZoneMap, read, read_zones};
 
 use crate::ground::fixture;
-use crate::hakuto;
 
 fn soils(count: u8) -> Vec<Soil> {
     let soil =
-        |number: u8| Soil { friction_angle: deg(30.0 + f64::from(number)), ..hakuto::sand() };
+        |number: u8| Soil { friction_angle: deg(30.0 + f64::from(number)), ..paper::toyoura() };
     (0..count).map(soil).collect()
 }
 

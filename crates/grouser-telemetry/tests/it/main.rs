@@ -2,9 +2,6 @@
 //! `crates/grouser-python/tests/test_telemetry.py`.
 
 mod container;
-mod hakuto {
-    include!(concat!(env!("CARGO_MANIFEST_DIR"), "/../grouser-core/examples/by_hand/hakuto.rs"));
-}
 mod hostile;
 mod robots;
 mod runs;
@@ -14,6 +11,7 @@ use std::path::Path;
 
 use grouser::document::measurements::telemetry::{TelemetryRecord, WheelTelemetry};
 use grouser::vehicle::Rover;
+use grouser_core::paper;
 use grouser_telemetry::{Mapping, TelemetryError, TelemetryLog, TopicChoices};
 use tempfile::TempDir;
 
@@ -21,7 +19,7 @@ use tempfile::TempDir;
 type Read = Result<(Vec<TelemetryRecord>, Vec<String>), TelemetryError>;
 
 fn rover() -> Rover {
-    hakuto::traverse().expect("a scenario").rover
+    paper::traverse().expect("a scenario").rover
 }
 
 fn read_file(path: &Path, mapping: Option<&str>, choices: &[(&str, &str)]) -> Read {

@@ -4,13 +4,14 @@ use std::path::Path;
 
 use grouser::simulation::{Run, Scenario, Trajectory};
 use grouser::studies::simulated_telemetry::truth;
+use grouser_core::paper;
 use grouser_log::Log;
 use grouser_telemetry::TelemetryWriter;
 
 use super::*;
 
 fn run() -> (Scenario, Trajectory) {
-    let scenario = Scenario { duration: 2.0, ..hakuto::traverse().expect("a scenario") };
+    let scenario = Scenario { duration: 2.0, ..paper::traverse().expect("a scenario") };
     let run = Run::new(&scenario).and_then(Run::to_end).expect("a run");
     (scenario, run)
 }

@@ -2,15 +2,16 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use grouser::contact::{Contact, Model, Settled, Slip, WheelSoilModel, settle};
-use grouser::simulation::{Motion, Numerics, Run, Scenario, Start, Trajectory};
+use grouser::contact::{Contact, Settled, Slip, WheelSoilModel, settle};
+use grouser::paper;
+use grouser::simulation::{Motion, Run, Scenario, Start, Trajectory};
 use grouser::soil::{
     Bulldozing, Domain, Exit, PressureSinkage, Rft, Shear, ShearBound, ShearModulus,
     SinkageExponent, SmallWheel, Soil, StressPeak,
 };
 use grouser::terrain::Ground;
 use grouser::units::{EARTH_GRAVITY, Vec3, deg};
-use grouser::vehicle::{Body, DriveLaw, Inertia, LoadSharing, Mount, OwnMoments, Rover, WheelUnit};
+use grouser::vehicle::{Body, Inertia, LoadSharing, Mount, OwnMoments, Rover, WheelUnit};
 use grouser::wheel::{Grousers, Wheel};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
@@ -30,7 +31,7 @@ pub(crate) fn cases(count: u32) -> Config {
 
 /// Assumed: the paper prints no wheel (theory, section 5).
 pub(crate) fn hakuto_wheel() -> Wheel {
-    Wheel { radius: 0.10, width: 0.08, grousers: Some(Grousers { height: 0.010, count: 24 }) }
+    paper::hakuto_wheel()
 }
 
 /// A wheel without grousers.
@@ -43,31 +44,9 @@ pub(crate) fn linear(at_zero: f64, per_radian: f64) -> ShearModulus {
     ShearModulus::Linear { at_zero, per_radian }
 }
 
-/// [FourWheel], Table 3, with k'φ = 1203.54/9.80665: printed for use without g (theory, 2.7).
+/// [FourWheel], Table 3, without the domain of its measurements.
 pub(crate) fn toyoura() -> Soil {
-    Soil {
-        cohesion: 0.0,
-        friction_angle: deg(38.0),
-        constant_volume_share: 0.0,
-        density: 1490.0,
-        pressure_sinkage: PressureSinkage::Reece {
-            k_c: 0.0,
-            k_phi: 1203.54 / EARTH_GRAVITY,
-            exponent: SinkageExponent::constant(1.703),
-        },
-        stress_peak: StressPeak { a0: 0.40, a1: 0.15 },
-        shear: Shear::Anisotropic {
-            longitudinal: linear(0.036, 0.043),
-            lateral: linear(0.013, 0.020),
-        },
-        shear_bound: ShearBound::None,
-        exit: Exit::Ratio(1.0),
-        bulldozing: Bulldozing::Sine,
-        small_wheel: SmallWheel::OFF,
-        rft: Rft::PUBLISHED,
-        domain: Domain::UNSTATED,
-        discrepancy: None,
-    }
+    Soil { domain: Domain::UNSTATED, ..paper::toyoura() }
 }
 
 /// Lunar regolith simulant of Ishigami et al. (2007): theory, section 2.9.
@@ -115,21 +94,10 @@ pub(crate) const RIM_SPEED: f64 = 0.06;
 /// The experiment of [FourWheel], section 5.2: 20 s across a slope at 6 cm/s.
 pub(crate) fn traverse(slope: f64, yaw: f64) -> Scenario {
     Scenario {
-        rover: hakuto(),
-        ground: Ground::plane(toyoura(), slope),
-        gravity: EARTH_GRAVITY,
-        model: Model::Ishigami,
         sharing: LoadSharing::QuasiStatic,
         own_moments: OwnMoments::Neglected,
-        drive: DriveLaw::Constant(RIM_SPEED),
-        yaw: None,
-        by_wheel: grouser::vehicle::ByWheel::ALIKE,
-        scatter: grouser::simulation::Scatter::NONE,
-        ruts: grouser::vehicle::Ruts::Fresh,
-        stability: grouser::soil::SlopeStability::USUAL,
         start: Start { yaw, motion: Motion::Rolling },
-        duration: 20.0,
-        numerics: Numerics::default(),
+        ..Scenario::new(hakuto(), Ground::plane(toyoura(), slope))
     }
 }
 

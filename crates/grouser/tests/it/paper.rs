@@ -2,17 +2,34 @@
 
 use grouser::contact::{Contact, Ishigami};
 use grouser::contact::{Model, Slip, WheelForces};
+use grouser::document::{Overrides, Source, read_scenario};
+use grouser::paper;
 use grouser::simulation::Scenario;
 use grouser::soil::{Bulldozing, Exit, PressureSinkage, Shear, SinkageExponent, Soil};
 use grouser::studies::comparison::{Levelness, yaw_error};
 use grouser::studies::heading::{HeadingCurve, HeadingStudy, NoHeading, Steering};
 use grouser::studies::wheel_test::WheelTest;
+use grouser::terrain::Ground;
 use grouser::units::{EARTH_GRAVITY, Vec2, deg};
 use grouser::vehicle::drive::SlipTarget;
 use grouser::vehicle::{DriveLaw, LoadSharing, OwnMoments};
 use grouser::wheel::Wheel;
 
 use super::given;
+
+// ---- What the core has of it ----
+
+/// Tables 1 to 3 of the core and of the documents are the same bits, and what a scenario has that says
+/// no more.
+#[test]
+fn the_cores_sand_and_rover_are_those_of_the_documents() {
+    let scenario = read_scenario(&Source::default_scenario(), &Overrides::none()).expect("it");
+    let (read, made) = (scenario.value, paper::hakuto().expect("it stands"));
+    let ground = Ground::plane(paper::toyoura(), deg(10.0));
+    assert_eq!(read.ground.soil, paper::toyoura());
+    assert_eq!(read.rover, made);
+    assert_eq!(read, Scenario::new(made, ground));
+}
 
 // ---- Tables 1 and 2: the rover ----
 

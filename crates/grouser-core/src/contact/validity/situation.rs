@@ -97,13 +97,13 @@ pub struct Rule {
 /// Which flags does a wheel of HAKUTO carry on 15° of slip angle and a slip ratio of 0.95?
 ///
 /// ```
-/// # mod hakuto { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/by_hand/hakuto.rs")); }
+/// use grouser_core::paper;
 /// use grouser_core::contact::validity::Situation;
 /// use grouser_core::contact::{Contact, Slip, Model, settle};
 /// use grouser_core::units::{EARTH_GRAVITY, deg};
 ///
 /// let slip = Slip::on_test_stand(0.95, deg(15.0));
-/// let contact = Contact { wheel: hakuto::wheel(), soil: hakuto::sand(), slip, gravity: EARTH_GRAVITY };
+/// let contact = Contact { wheel: paper::hakuto_wheel(), soil: paper::toyoura(), slip, gravity: EARTH_GRAVITY };
 /// let settled = settle(Model::Ishigami.as_ref(), &contact, 17.0)?;
 /// let situation = Situation {
 ///     model: &Model::Ishigami,

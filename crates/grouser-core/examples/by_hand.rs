@@ -5,17 +5,16 @@
 //! cargo run --release -p grouser-core --example by_hand
 //! ```
 
-mod hakuto;
-
 use std::error::Error;
 
+use grouser_core::paper;
 use grouser_core::simulation::{Run, Scenario, Start};
 use grouser_core::units::deg;
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("yaw_deg  x_m    y_m     outcome");
     for yaw_deg in [0.0, 2.5, 5.0, 7.5] {
-        let traverse = hakuto::traverse()?;
+        let traverse = paper::traverse()?;
         let start = Start { yaw: deg(yaw_deg), ..traverse.start };
         let trajectory = Run::new(&Scenario { start, ..traverse })?.to_end()?;
         let position = trajectory.last().state.position;
