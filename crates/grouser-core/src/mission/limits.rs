@@ -9,7 +9,7 @@ use crate::vehicle::{Mount, RoverState, roll_and_pitch};
 
 /// Limits on a rover under way, and what is measured for them since the drive began.
 ///
-/// It drives nothing: whoever leads the [`Run`] has it [look](Self::look) at the rover once a
+/// It drives nothing: whoever leads the [`Run`] has it [record](Self::record) the rover once a
 /// [control period](crate::simulation::CONTROL_PERIOD), and asks it what was [passed](Self::passed). A
 /// [`MissionRun`](super::MissionRun) and a [`PathRun`](super::PathRun) do so.
 ///
