@@ -276,7 +276,7 @@ class Ranking(_tables.Tabular):
     """Each model, then each yardstick, over all parts with soils that were not fitted to them:
     ``model`` or ``yardstick``, ``parts``, ``score``, ``aims_met`` of ``aims``, ``scores``."""
     sets: tuple[Mapping[str, Any], ...] = ()
-    """Each data set and case: the band of the weighted models beside what was measured.
+    """Each data set and case: the band of the weighted models beside what was measured."""
 
     def __len__(self) -> int:
         return len(self.rows)
