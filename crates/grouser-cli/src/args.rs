@@ -295,11 +295,11 @@ pub(crate) struct RunArgs {
 pub(crate) struct BalanceArgs {
     /// Load transfer between the wheels: `complete` (the default), `quasi-static` (the paper's),
     /// `quasi-static-torque` or `uniform`.
-    #[arg(long, alias = "loads", value_name = "LAW")]
+    #[arg(long, value_name = "LAW")]
     pub(crate) load_transfer: Option<String>,
     /// The wheels' own overturning and aligning moments: `neglected` or `included`; a complete load
     /// transfer includes them.
-    #[arg(long, alias = "moments", value_name = "WORD")]
+    #[arg(long, value_name = "WORD")]
     pub(crate) wheel_moments: Option<String>,
 }
 

@@ -1,7 +1,10 @@
 //! The library's hints as flags of the command line: it names keys, columns and conditions, and here
 //! stand the flags and commands that set them.
 
-use grouser::document::Kind;
+use std::ffi::OsString;
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use grouser::document::{Kind, present_names};
 
 /// Words of the library's messages, and the same with the program's flags.
 const WORDS: [(&str, &str); 13] = [
@@ -32,6 +35,31 @@ pub(crate) fn with_flags(message: &str) -> String {
     });
     let all = words.into_iter().chain(kinds);
     all.fold(message.to_owned(), |text, (library, program)| text.replace(&library, &program))
+}
+
+/// Puts the present option in place of what the parser takes for similar, where an option is withdrawn.
+///
+/// * `command`: the program's
+/// * `arguments`: those that were given
+pub(crate) fn with_present_option(
+    mut answer: clap::Error,
+    command: &clap::Command,
+    arguments: impl IntoIterator<Item = OsString>,
+) -> clap::Error {
+    let Some(ContextValue::String(given)) = answer.get(ContextKind::InvalidArg) else {
+        return answer;
+    };
+    let name = given.trim_start_matches('-').replace('-', "_");
+    let words = arguments.into_iter().filter_map(|argument| argument.into_string().ok());
+    let named = words.filter_map(|word| command.find_subcommand(word)).next().unwrap_or(command);
+    let has = |option: &str| named.get_arguments().any(|one| one.get_long() == Some(option));
+    let present = present_names(&name).iter().map(|name| name.replace('_', "-"));
+    let present: Vec<_> =
+        present.filter(|option| has(option)).map(|option| format!("--{option}")).collect();
+    if answer.kind() == ErrorKind::UnknownArgument && !present.is_empty() {
+        answer.insert(ContextKind::SuggestedArg, ContextValue::Strings(present));
+    }
+    answer
 }
 
 #[cfg(test)]

@@ -29,7 +29,8 @@ fn main() -> ExitCode {
         Ok(matches) => parsed(&matches),
         Err(answer) => {
             output::terminal::set_colours(args::colours_of(std::env::args_os()));
-            output::print_answer(&answer)
+            let (command, arguments) = (Cli::command(), std::env::args_os().skip(1));
+            output::print_answer(&hints::with_present_option(answer, &command, arguments))
         }
     };
     match done {

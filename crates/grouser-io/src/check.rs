@@ -5,30 +5,20 @@
 
 use serde_json::Value as Json;
 
-use super::describe;
 use super::error::{DocumentError, Problem};
 use super::json_schema::{self, FROM_PRIOR};
 use super::kind::Kind;
 use super::schema::{alternatives, keys, paths_of, root, under, words};
 use super::tree::{Entry, Node, Origin, Value, number};
 use super::unit::UNITS;
+use super::withdrawn::{is_now, present_names};
 
 /// That a tree is a document of its kind.
 ///
 /// * `prefix`: where the document stands in a larger one, such as `wheel_unit.wheel`, or nothing
 pub(crate) fn check(kind: Kind, tree: &Node, prefix: &str) -> Result<(), DocumentError> {
     let root = root(kind);
-    let todays = |path: &str| todays_key(kind, tree, prefix, path);
-    Checker { root, prefix, todays: &todays }.value(root, tree, prefix, &tree.origin)
-}
-
-/// The name of today of a key that is given by its former one.
-///
-/// * `path`: with `prefix` before it
-fn todays_key(kind: Kind, tree: &Node, prefix: &str, path: &str) -> Option<String> {
-    let inside = path.strip_prefix(prefix)?.trim_start_matches('.');
-    let today = describe::todays_key(kind, inside, &tree.to_json());
-    (today != inside).then(|| join(prefix, &today))
+    Checker { root, prefix }.value(root, tree, prefix, &tree.origin)
 }
 
 /// That an answer to a question is what one of some schemas allows.
@@ -40,7 +30,7 @@ pub(crate) fn answer(
     node: &Node,
     key: &str,
 ) -> Result<(), DocumentError> {
-    let checker = Checker { root, prefix: "", todays: &|_| None };
+    let checker = Checker { root, prefix: "" };
     let mut found = Ok(());
     for schema in schemas {
         found = checker.value(schema, node, key, &node.origin);
@@ -69,7 +59,7 @@ fn table_at<'s>(
     path: impl Iterator<Item = &'s str>,
 ) -> Option<&'static Json> {
     let root = root(kind);
-    let checker = Checker { root, prefix: "", todays: &|_| None };
+    let checker = Checker { root, prefix: "" };
     let (mut schema, mut node) = (root, tree);
     for step in path {
         let table = checker.choose(schema, node, "", &node.origin).ok()?;
@@ -79,12 +69,16 @@ fn table_at<'s>(
     checker.choose(schema, node, "", &node.origin).ok()
 }
 
-/// The keyword that was probably meant.
+/// The keyword or key that was probably meant: the present name of a withdrawn one, or the most alike.
 #[must_use]
 pub fn nearest<'w>(word: &str, words: impl IntoIterator<Item = &'w str>) -> Option<&'w str> {
     /// Likeness (Jaro and Winkler) above which a word counts as a misspelling [-]. Source: ours;
     /// `cohesion` finds `cohesion_kpa`, `sand` does not find `sine`.
     const ALIKE: f64 = 0.8;
+    let words: Vec<_> = words.into_iter().collect();
+    if let Some(present) = words.iter().find(|known| is_now(word, known)) {
+        return Some(present);
+    }
     let word = word.to_lowercase();
     words
         .into_iter()
@@ -126,6 +120,10 @@ fn meant(root: &Json, key: &Misplaced<'_>, beside: &[&str]) -> Vec<String> {
     }
     if let Some(alike) = nearest(key.name, beside.iter().copied()) {
         return vec![join(key.table, alike)];
+    }
+    let present: Vec<_> = present_names(key.name).iter().flat_map(|name| elsewhere(name)).collect();
+    if !present.is_empty() {
+        return present;
     }
     // Spelling alone says too little of keys in all tables; a unit that was left out does.
     let with_unit = UNITS.iter().map(|(unit, _)| elsewhere(&format!("{}{unit}", key.name)));
@@ -170,8 +168,6 @@ fn law_key(tables: &[&Json]) -> &'static str {
 struct Checker<'a> {
     root: &'static Json,
     prefix: &'a str,
-    /// The name of today of a former key.
-    todays: &'a dyn Fn(&str) -> Option<String>,
 }
 
 impl Checker<'_> {
@@ -294,11 +290,6 @@ impl Checker<'_> {
         entry: &Entry,
         path: String,
     ) -> DocumentError {
-        if let Some(today) = (self.todays)(&path) {
-            let problem = Problem::GivenTwice { key: path, today };
-            return DocumentError::at(&entry.key_origin, problem)
-                .with_hint("remove one of them".to_owned());
-        }
         if let Some(other) = json_schema::of_thousands(schema, &entry.key) {
             let hint = if entry.key_origin.text.is_argument {
                 format!("the document has `{other}`: that is the key to set")

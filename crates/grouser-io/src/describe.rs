@@ -17,8 +17,6 @@ pub(crate) mod uncertainty;
 pub(crate) mod wheel;
 pub(crate) mod zones;
 
-use serde_json::Value as Json;
-
 use super::field::Rows;
 use super::kind::Kind;
 
@@ -35,13 +33,4 @@ pub(crate) fn rows(kind: Kind) -> &'static dyn Rows {
         Kind::Campaign => &campaign::CAMPAIGN,
         Kind::Prior => &prior::PRIORS,
     }
-}
-
-/// A dotted key by the names of today.
-///
-/// * `given`: the document, which says the laws on the way
-pub(crate) fn todays_key(kind: Kind, path: &str, given: &Json) -> String {
-    let mut steps: Vec<String> = path.split('.').map(str::to_owned).collect();
-    rows(kind).rename_path(&mut steps, Some(given));
-    steps.join(".")
 }

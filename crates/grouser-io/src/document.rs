@@ -71,22 +71,13 @@ impl Document {
         Self { keys: self.keys.get(key).cloned().unwrap_or_default(), kind: self.kind }
     }
 
-    /// What stands under a dotted key, entries of lists by their place. Keys may have the names of
-    /// earlier versions.
+    /// What stands under a dotted key, entries of lists by their place.
     #[must_use]
     pub fn get(&self, path: &str) -> Option<&Json> {
-        let under = |path: &str| {
-            path.split('.').try_fold(&self.keys, |given, step| match given {
-                Json::Array(all) => all.get(step.parse::<usize>().ok()?),
-                given => given.get(step),
-            })
-        };
-        under(path).or_else(|| under(&self.todays_key(path)))
-    }
-
-    /// A dotted key by the names of today.
-    pub(crate) fn todays_key(&self, path: &str) -> String {
-        describe::todays_key(self.kind, path, &self.keys)
+        path.split('.').try_fold(&self.keys, |given, step| match given {
+            Json::Array(all) => all.get(step.parse::<usize>().ok()?),
+            given => given.get(step),
+        })
     }
 
     /// The text under a dotted key.

@@ -116,14 +116,6 @@ pub enum Problem {
         /// The key, with the tables it stands in.
         key: String,
     },
-    /// A key by its former name beside the one of today.
-    #[error("`{key}` is the former name of `{today}`, which is given too")]
-    GivenTwice {
-        /// The former key, with the tables it stands in.
-        key: String,
-        /// The key of today.
-        today: String,
-    },
     /// A number under its key and under that for thousands of its unit.
     #[error("`{key}` is `{other}` in thousands of its unit, and that is given too")]
     GivenInThousands {

@@ -28,8 +28,6 @@ pub(crate) struct Table<T: 'static> {
 /// A key.
 pub(crate) struct Field<T: 'static> {
     pub key: &'static str,
-    /// What documents of earlier versions call it.
-    pub formerly: Option<&'static str>,
     /// The key under which its number may stand in thousands of its unit.
     pub in_thousands: Option<&'static str>,
     /// What it is: a sentence; of a number without its unit and full stop.
@@ -127,8 +125,6 @@ pub(crate) struct Whole<T: 'static> {
 /// A keyword of a closed set, and its effect on the domain's value.
 pub(crate) struct Keyword<T: 'static> {
     pub name: &'static str,
-    /// What documents of earlier versions call it.
-    pub formerly: Option<&'static str>,
     pub doc: &'static str,
     pub(crate) put: fn(&mut T),
 }
@@ -167,15 +163,6 @@ pub(crate) enum Form {
     OneOrEach(&'static str, &'static str),
 }
 
-/// Which names keys get.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Names {
-    /// Those of this version.
-    Today,
-    /// Those of earlier versions, where they had others.
-    Former,
-}
-
 /// The keys of a document, or of a table in it, whatever the type of the domain's value.
 pub trait Rows: Sync {
     /// Its JSON Schema.
@@ -186,13 +173,9 @@ pub trait Rows: Sync {
     /// The same in the table's order, with all that it leaves out; of one that was checked.
     fn complete(&self, given: &Json) -> Json;
 
-    /// Changes keys and keywords of earlier versions to those of today, or keys of today to theirs.
-    fn rename(&self, table: &mut Node, to: Names);
-
-    /// The same of a dotted key, entries of lists by their place.
-    ///
-    /// * `table`: the document that the key leads into, which says the laws on the way
-    fn rename_path(&self, path: &mut [String], table: Option<&Json>);
+    /// Reads numbers in thousands of a unit, under the keys that say so, as numbers in the unit.
+    /// One under both its keys stays, and is reported as unknown.
+    fn read_thousands(&self, table: &mut Node);
 }
 
 /// Rows whose numbers go to a value of one type.
@@ -365,15 +348,7 @@ pub(crate) const fn words<T>(
 
 /// A keyword, and its effect on the domain's value.
 pub(crate) const fn word<T>(name: &'static str, doc: &'static str, put: fn(&mut T)) -> Keyword<T> {
-    Keyword { name, formerly: None, doc, put }
-}
-
-impl<T> Keyword<T> {
-    /// The same, which had another name in earlier versions.
-    pub(crate) const fn formerly(mut self, name: &'static str) -> Self {
-        self.formerly = Some(name);
-        self
-    }
+    Keyword { name, doc, put }
 }
 
 /// A table.
@@ -414,7 +389,7 @@ pub(crate) const fn preset<T>(doc: &'static str) -> Field<T> {
 pub(crate) const PRESET: &str = "preset";
 
 pub(crate) const fn field<T>(key: &'static str, doc: &'static str, shape: Shape<T>) -> Field<T> {
-    Field { key, formerly: None, in_thousands: None, doc, presence: Presence::Needed, shape }
+    Field { key, in_thousands: None, doc, presence: Presence::Needed, shape }
 }
 
 /// For words that do not go into the domain's value.
@@ -455,12 +430,6 @@ impl<T> Field<T> {
     /// The same, with a value where there is no prior.
     pub(crate) const fn or_prior_or(mut self, number: f64) -> Self {
         self.presence = Presence::Prior(Some(number));
-        self
-    }
-
-    /// The same, which had another key in earlier versions.
-    pub(crate) const fn formerly(mut self, key: &'static str) -> Self {
-        self.formerly = Some(key);
         self
     }
 

@@ -76,6 +76,7 @@ pub mod unit;
 pub mod urdf;
 mod values;
 pub mod varied;
+mod withdrawn;
 mod zones_file;
 
 pub use check::{meant_keys, nearest};
@@ -104,5 +105,6 @@ pub use uncertain_soil::{SAMPLES_FILE, UncertainSoil, stated_of, without_uncerta
 pub use unit::{UNITS, Unit, unit_of};
 pub use values::{Described, Misfit};
 pub use varied::scenario_with;
+pub use withdrawn::present_names;
 
 pub use grouser_raster::{BEYOND, Placement, ReadOptions};

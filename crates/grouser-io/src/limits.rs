@@ -6,7 +6,7 @@ use super::check;
 use super::describe::mission::{self, MISSION};
 use super::document::Document;
 use super::error::{DocumentError, Problem};
-use super::field::{Inner, Names};
+use super::field::Inner;
 use super::kind::Kind;
 use super::schema::{root, under};
 use super::source::Source;
@@ -32,8 +32,7 @@ const STOP: &str = "stop";
 /// # Errors
 /// [`DocumentError`] for whatever is wrong first, with its key and what it may be.
 pub fn read_limits(source: &Source) -> Result<Vec<Stop>, DocumentError> {
-    let mut tree = text::parse(&source.read()?)?;
-    super::describe::rows(Kind::Mission).rename(&mut tree, Names::Today);
+    let tree = text::parse(&source.read()?)?;
     if let Some(other) = tree.entries().iter().find(|entry| entry.key != STOP) {
         let problem = Problem::UnknownKey { key: other.key.clone() };
         let hint = format!("limits stand in the table `{STOP}`");

@@ -36,7 +36,7 @@ pub const fn limited_quantity(limited: Limited) -> Quantity {
     match limited {
         Limited::SlipRatio => SLIP_RATIO,
         Limited::Drift => quantity("drift_m", M),
-        Limited::Sinkage => quantity("sinkage_ratio", ONE),
+        Limited::Sinkage => quantity("sinkage_over_radius", ONE),
         Limited::Roll => ROLL,
         Limited::Pitch => PITCH,
         Limited::Torque => TORQUE,

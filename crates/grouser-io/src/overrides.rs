@@ -3,9 +3,7 @@
 use std::sync::Arc;
 
 use super::check::{did_you_mean, keys_at, nearest, places};
-use super::describe;
 use super::error::{DocumentError, Problem};
-use super::field::Names;
 use super::kind::Kind;
 use super::schema::{names_in, root};
 use super::text::parse;
@@ -251,8 +249,7 @@ impl Overrides {
         }
         let start = text.content.find(key).unwrap_or(0);
         let key_origin = Origin { text: text.clone(), span: start..start + key.len() };
-        let (kind, mut path) = without_parts(kind, path);
-        describe::rows(kind).rename_path(&mut path, None);
+        let (kind, path) = without_parts(kind, path);
         self.all.push(Override { kind, path, key_origin, value, changes_a_source });
         Ok(())
     }
@@ -285,16 +282,11 @@ impl Overrides {
         let meant = self.all.iter().filter(|one| one.kind == kind && is_meant(one));
         let (laws, others): (Vec<_>, Vec<_>) = meant.partition(|one| one.is_a_law());
         for one in laws {
-            // What another law calls otherwise it keeps, by the name that both had.
-            describe::rows(kind).rename(tree, Names::Former);
             one.put(&one.path, tree)?;
-            describe::rows(kind).rename(tree, Names::Today);
-            one.drop_keys_of_the_former_law(tree);
+            one.drop_keys_of_the_other_law(tree);
         }
         for one in others {
-            let mut path = one.path.clone();
-            describe::rows(kind).rename_path(&mut path, Some(&tree.to_json()));
-            one.put(&path, tree)?;
+            one.put(&one.path, tree)?;
         }
         Ok(())
     }
@@ -367,13 +359,35 @@ impl Override {
             .with_hint(format!("it has {count}, counted from 0"))
     }
 
-    /// A new law has keys of its own: what only the old one knew would be an error nobody made.
-    fn drop_keys_of_the_former_law(&self, tree: &mut Node) {
+    /// A new law has keys of its own: what only the old one knew would be an error nobody made. The
+    /// speed of a drive stays, under the key that it has there.
+    fn drop_keys_of_the_other_law(&self, tree: &mut Node) {
         let Some((_, table)) = self.path.split_last() else { return };
         let Some(known) = keys_at(self.kind, tree, table) else { return };
+        if let Some(speed) = SPEEDS.into_iter().find(|speed| known.contains(speed)) {
+            rename(tree, table, SPEEDS, speed);
+        }
         keep_entries(tree, table, |entry| {
             known.contains(&entry.key.as_str()) || entry.node.origin.text.is_argument
         });
+    }
+}
+
+/// The keys of a drive's speed, of which each law has one.
+const SPEEDS: [&str; 2] = ["rim_speed_m_s", "ground_speed_m_s"];
+
+/// Gives one key in place of some to an entry of the table under some keys, if there is one.
+fn rename(mut node: &mut Node, tables: &[String], keys: [&str; 2], to: &str) {
+    for step in tables {
+        match node.entry_mut(step) {
+            Some(entry) => node = &mut entry.node,
+            None => return,
+        }
+    }
+    if let Some(key) = keys.into_iter().find(|key| node.entry(key).is_some())
+        && let Some(entry) = node.entry_mut(key)
+    {
+        to.clone_into(&mut entry.key);
     }
 }
 

@@ -24,7 +24,7 @@ pub fn presets(kind: Kind) -> impl Iterator<Item = &'static Preset> {
     PRESETS.iter().filter(move |preset| preset.kind == kind)
 }
 
-/// The preset of a kind and a name, which may be the one that it had in earlier versions.
+/// The preset of a kind and a name.
 ///
 /// Where do the values of the soil `lunar-nominal` come from?
 ///
@@ -38,13 +38,8 @@ pub fn presets(kind: Kind) -> impl Iterator<Item = &'static Preset> {
 /// ```
 #[must_use]
 pub fn preset(kind: Kind, name: &str) -> Option<&'static Preset> {
-    let former = FORMER_NAMES.iter().find(|(former, _)| *former == name);
-    let name = former.map_or(name, |(_, name)| name);
     presets(kind).find(|preset| preset.name == name)
 }
-
-/// Names of presets in earlier versions, and those of today.
-const FORMER_NAMES: [(&str, &str); 1] = [("campaign-attitude", "campaign-heading")];
 
 macro_rules! preset {
     ($kind:ident, $folder:literal, $name:literal) => {

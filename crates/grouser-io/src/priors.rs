@@ -10,7 +10,6 @@ use std::sync::Arc;
 use serde_json::Value as Json;
 
 use super::check::keys_at;
-use super::describe;
 use super::describe::prior::PRIORS;
 use super::describe::uncertainty::UNCERTAINTY;
 use super::document::Document;
@@ -212,10 +211,9 @@ impl Filled<'_> {
         let (given, origin) = (entry.node.to_json(), entry.key_origin.clone());
         let mut own = Stated::default();
         UNCERTAINTY.put(&mut own, &given);
-        let json = self.tree.to_json();
         let mut keys = Vec::new();
         for parameter in own.parameters {
-            let key = describe::todays_key(Kind::Soil, &parameter.key, &json);
+            let key = parameter.key.clone();
             if number_at(self.tree, &key).is_none()
                 && let Some(range) = range(Kind::Soil, &key)
                 && let Some(marginal) = parameter.scaled(None, 1.0, &range)

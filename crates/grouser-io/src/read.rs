@@ -10,7 +10,6 @@ use super::check;
 use super::describe;
 use super::document::Document;
 use super::error::{DocumentError, Place, Problem};
-use super::field::Names;
 use super::kind::{EACH, Kind, PRIORS_KEY, Part};
 use super::legs_file;
 use super::loaded::Loaded;
@@ -232,10 +231,10 @@ fn complete(
     overrides: &Overrides,
     prefix: &str,
 ) -> Result<(), DocumentError> {
-    describe::rows(kind).rename(tree, Names::Today);
+    describe::rows(kind).read_thousands(tree);
     overrides.apply(kind, tree)?;
-    // What was set may be a keyword, or a table, of an earlier version.
-    describe::rows(kind).rename(tree, Names::Today);
+    // What was set may be in thousands as well.
+    describe::rows(kind).read_thousands(tree);
     if kind == Kind::Motor {
         base::take(tree)?;
     }

@@ -1,11 +1,11 @@
-//! What tables do with a document: complete it, rename its keys, put its numbers into the domain's value, and reach
-//! a number of that under a key.
+//! What tables do with a document: complete it, read numbers in thousands, put its numbers into the
+//! domain's value, and reach a number of that under a key.
 
 use serde_json::Value as Json;
 
 use super::field::{
-    At, Beside, Each, Field, Inner, Law, Laws, Names, Numbers, Pairs, Presence, Reached, Rows,
-    Shape, Table, Text, Texts, Whole,
+    At, Beside, Each, Field, Inner, Law, Laws, Numbers, Pairs, Presence, Reached, Rows, Shape,
+    Table, Text, Texts, Whole,
 };
 use super::json_schema;
 use super::tree::{Node, Value};
@@ -55,33 +55,17 @@ impl<T> Field<T> {
         }
     }
 
-    /// Former names inside what the key takes. Documents inside documents are renamed as they are read.
-    fn rename(&self, node: &mut Node, to: Names) {
+    /// Numbers in thousands inside what the key takes. Documents inside documents are read on their own.
+    fn read_thousands(&self, node: &mut Node) {
         match (&self.shape, &mut node.value) {
-            (Shape::Words(words), Value::String(given)) if to == Names::Today => {
-                if let Some(word) = words.iter().find(|word| word.formerly == Some(given)) {
-                    word.name.clone_into(given);
-                }
-            }
             (Shape::Inner(inner) | Shape::TextOr(_, _, inner), Value::Table(_)) => {
-                inner.rename(node, to);
+                inner.read_thousands(node);
             }
             (Shape::List(inner, _), Value::List(nodes)) => {
                 for node in nodes {
-                    inner.rename(node, to);
+                    inner.read_thousands(node);
                 }
             }
-            _ => {}
-        }
-    }
-
-    fn rename_path(&self, path: &mut [String], given: Option<&Json>) {
-        match (&self.shape, path) {
-            (Shape::Inner(inner) | Shape::Part(_, inner) | Shape::TextOr(_, _, inner), path) => {
-                inner.rename_path(path, given);
-            }
-            // Entries of one list have one law, or no former names.
-            (Shape::List(inner, _), [_, path @ ..]) => inner.rename_path(path, None),
             _ => {}
         }
     }
@@ -129,30 +113,9 @@ impl<T> Table<T> {
         words.iter().find(|(of_leader, _)| word == *of_leader).map(|(_, word)| Json::from(*word))
     }
 
-    /// The row of a key, by its name of today or its former one.
+    /// The row of a key.
     fn field(&self, key: &str) -> Option<&Field<T>> {
-        let by_name = self.fields.iter().find(|field| field.key == key);
-        by_name.or_else(|| self.fields.iter().find(|field| field.formerly == Some(key)))
-    }
-}
-
-impl<T> Table<T> {
-    /// Numbers in thousands of a unit, under the keys that say so, as numbers in the unit. One under both its keys
-    /// stays, and is reported as unknown.
-    fn read_thousands(&self, table: &mut Node) {
-        for field in self.fields {
-            let Some(key) = field.in_thousands else { continue };
-            if table.entry(field.key).is_some() {
-                continue;
-            }
-            let Some(entry) = table.entry_mut(key) else { continue };
-            match &mut entry.node.value {
-                Value::Float(number) => *number *= 1e3,
-                Value::Integer(number) => entry.node.value = Value::Float(*number as f64 * 1e3),
-                _ => {}
-            }
-            field.key.clone_into(&mut entry.key);
-        }
+        self.fields.iter().find(|field| field.key == key)
     }
 }
 
@@ -178,33 +141,22 @@ impl<T> Rows for Table<T> {
         keys.collect()
     }
 
-    fn rename(&self, table: &mut Node, to: Names) {
-        let named = |field: &Field<T>| match to {
-            Names::Today => field.key,
-            Names::Former => field.formerly.unwrap_or(field.key),
-        };
-        if to == Names::Today {
-            self.read_thousands(table);
-        }
-        // A key under both its names stays unknown by the former one, and is reported so.
-        let is_there = |field: &&Field<T>| table.entry(named(field)).is_some();
-        let there: Vec<_> = self.fields.iter().filter(is_there).map(named).collect();
-        let Value::Table(entries) = &mut table.value else { return };
-        for entry in entries {
-            let Some(field) = self.field(&entry.key) else { continue };
-            let name = named(field);
-            if entry.key == name || !there.contains(&name) {
-                name.clone_into(&mut entry.key);
-                field.rename(&mut entry.node, to);
+    fn read_thousands(&self, table: &mut Node) {
+        for field in self.fields {
+            if let Some(key) = field.in_thousands
+                && table.entry(field.key).is_none()
+                && let Some(entry) = table.entry_mut(key)
+            {
+                match &mut entry.node.value {
+                    Value::Float(number) => *number *= 1e3,
+                    Value::Integer(number) => entry.node.value = Value::Float(*number as f64 * 1e3),
+                    _ => {}
+                }
+                field.key.clone_into(&mut entry.key);
             }
-        }
-    }
-
-    fn rename_path(&self, path: &mut [String], table: Option<&Json>) {
-        let Some((key, rest)) = path.split_first_mut() else { return };
-        if let Some(field) = self.field(key) {
-            field.key.clone_into(key);
-            field.rename_path(rest, table.and_then(|table| table.get(field.key)));
+            if let Some(entry) = table.entry_mut(field.key) {
+                field.read_thousands(&mut entry.node);
+            }
         }
     }
 }
@@ -240,12 +192,8 @@ impl<A: Around> Rows for A {
         self.inner().complete(given)
     }
 
-    fn rename(&self, table: &mut Node, to: Names) {
-        self.inner().rename(table, to);
-    }
-
-    fn rename_path(&self, path: &mut [String], table: Option<&Json>) {
-        self.inner().rename_path(path, table);
+    fn read_thousands(&self, table: &mut Node) {
+        self.inner().read_thousands(table);
     }
 }
 
@@ -327,15 +275,9 @@ impl<T> Rows for Laws<T> {
         Json::Object(keys)
     }
 
-    fn rename(&self, table: &mut Node, to: Names) {
+    fn read_thousands(&self, table: &mut Node) {
         let word = table.entry(self.key).map(|entry| entry.node.to_json());
-        self.by_word(word.as_ref()).table.rename(table, to);
-    }
-
-    fn rename_path(&self, path: &mut [String], table: Option<&Json>) {
-        // Without the table nothing says which law it is, and laws may share a former name.
-        let Some(table) = table else { return };
-        self.named(table).table.rename_path(path, Some(table));
+        self.by_word(word.as_ref()).table.read_thousands(table);
     }
 }
 

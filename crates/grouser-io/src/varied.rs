@@ -73,7 +73,6 @@ impl<V: Described> Varied<V> {
 
 impl<V: Described> Numbers for Varied<V> {
     fn key(&self, path: &str) -> Result<Key, NoNumber> {
-        let path = &*self.document.todays_key(path);
         let value = self.document.number(path);
         value
             .zip(self.value.range(path))
@@ -169,28 +168,27 @@ mod tests {
         let numbers = [
             ("slope_deg", 21.5),
             ("start.yaw_deg", -7.25),
-            ("drive.speed_m_s", 0.045),
             ("gravity_m_s2", 1.62),
             ("duration_s", 12.5),
             ("soil.cohesion_kpa", 0.25),
         ];
-        for law in ["constant", "eq18"] {
-            let law = format!("scenario.drive.law={law}");
-            for (key, value) in numbers {
+        for (law, speed) in [("constant", "rim_speed_m_s"), ("eq18", "ground_speed_m_s")] {
+            let (law, speed) = (format!("scenario.drive.law={law}"), format!("drive.{speed}"));
+            for (key, value) in numbers.into_iter().chain([(&*speed, 0.045)]) {
                 let put = scenario_with(&with(&[&law]), [(key, value)]).unwrap();
                 assert_eq!(put, with(&[&law, &format!("scenario.{key}={value}")]));
             }
         }
-        let each = with(&["scenario.drive.speed_m_s=[0.01, 0.02, 0.03, 0.04]"]);
-        let one = scenario_with(&each, [("drive.speed_m_s", 0.045)]).unwrap();
-        assert_eq!(one, with(&["scenario.drive.speed_m_s=0.045"]));
+        let each = with(&["scenario.drive.rim_speed_m_s=[0.01, 0.02, 0.03, 0.04]"]);
+        let one = scenario_with(&each, [("drive.rim_speed_m_s", 0.045)]).unwrap();
+        assert_eq!(one, with(&["scenario.drive.rim_speed_m_s=0.045"]));
     }
 
     #[test]
     fn numbers_that_do_not_go_together_are_refused() {
         let eq18 = with(&["scenario.drive.law=eq18"]);
         for (key, value) in
-            [("duration_s", 1e6), ("drive.speed_m_s", -1.0), ("slope_deg", f64::NAN)]
+            [("duration_s", 1e6), ("drive.ground_speed_m_s", -1.0), ("slope_deg", f64::NAN)]
         {
             assert!(scenario_with(&eq18, [(key, value)]).is_err(), "{key}");
         }

@@ -273,7 +273,7 @@ fn solved_to_python<'py>(
     dict.set_item("parameters", columns(py, &solved.records)?)?;
     dict.set_item("discrepancies", columns(py, &solved.discrepancies)?)?;
     dict.set_item("correlation_lengths", columns(py, &solved.correlation_lengths)?)?;
-    dict.set_item("cannot_tell_apart", &solved.unidentifiable)?;
+    dict.set_item("unidentifiable", &solved.unidentifiable)?;
     dict.set_item(
         "sampler",
         solved.sampler.as_ref().map(|it| record_to_python(py, it)).transpose()?,

@@ -310,6 +310,12 @@ pub(crate) fn meant_keys(kind: &str, name: &str) -> PyResult<Vec<String>> {
     Ok(document::meant_keys(kind_of(kind)?, name))
 }
 
+/// The present names of a withdrawn one; none of any other.
+#[pyfunction]
+pub(crate) fn present_names(name: &str) -> Vec<&'static str> {
+    document::present_names(name).to_vec()
+}
+
 /// Reads a document with changes; errors in those are the caller's.
 fn changed(kind: Kind, source: &Source, changes: &Bound<'_, PyDict>) -> PyResult<Document> {
     read_changed(kind, source, changes, Vec::new(), None)

@@ -60,8 +60,8 @@ mod _core {
     use super::columns::{result_columns, unit_of};
     #[pymodule_export]
     use super::descriptions::{
-        Document, check_document, find_document, meant_keys, presets, read_document_file,
-        read_document_table, read_document_text, to_toml,
+        Document, check_document, find_document, meant_keys, present_names, presets,
+        read_document_file, read_document_table, read_document_text, to_toml,
     };
     #[pymodule_export]
     use super::ground::Footprints;

@@ -10,6 +10,7 @@ use grouser::error::ParameterError;
 use grouser::simulation::{Record, Run, Scenario};
 use grouser::soil::Soil;
 use grouser::studies::ensemble::outputs_while;
+use grouser::vehicle::DriveLaw;
 use numpy::{PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -37,17 +38,17 @@ pub(crate) struct Runs {
     count: usize,
 }
 
-/// What may vary: the argument, the scenario's key that it sets, and the key that has its range.
-///
-/// `drive.speed_m_s`, a former key, is the speed of any drive: of the rims at constant speed, over the
-/// ground under Eq. 18.
-const KEYS: [[&str; 3]; 5] = [
-    ["slope_deg", "slope_deg", "slope_deg"],
-    ["yaw_deg", "start.yaw_deg", "start.yaw_deg"],
-    ["rim_speed_m_s", "drive.speed_m_s", "drive.rim_speed_m_s"],
-    ["gravity_m_s2", "gravity_m_s2", "gravity_m_s2"],
-    ["duration_s", "duration_s", "duration_s"],
+/// What may vary: the argument, and the scenario's key that it sets.
+const KEYS: [[&str; 2]; 5] = [
+    ["slope_deg", "slope_deg"],
+    ["yaw_deg", "start.yaw_deg"],
+    ["rim_speed_m_s", RIM_SPEED],
+    ["gravity_m_s2", "gravity_m_s2"],
+    ["duration_s", "duration_s"],
 ];
+
+/// The key of the rims' speed. Where a drive follows Eq. 18, that number is its speed over the ground.
+const RIM_SPEED: &str = "drive.rim_speed_m_s";
 
 /// Which of some things each run has, if there are several.
 type Index<'py> = Option<PyReadonlyArray1<'py, i64>>;
@@ -112,7 +113,12 @@ impl Runs {
                 scenario.model = model.clone();
             }
         }
-        let arguments = self.varied.iter().map(|([_, key], values)| (*key, values[place]));
+        let drives_over_ground =
+            matches!(scenario.drive, DriveLaw::Eq18(_) | DriveLaw::Eq18AsPrinted(_));
+        let arguments = self.varied.iter().map(|([_, key], values)| {
+            let is_ground_speed = drives_over_ground && *key == RIM_SPEED;
+            (if is_ground_speed { "drive.ground_speed_m_s" } else { *key }, values[place])
+        });
         scenario_with(&scenario, self.of_bases.at(self.base_at(place), place).chain(arguments))
     }
 
@@ -155,13 +161,13 @@ fn arguments_of(
     count: usize,
 ) -> PyResult<Vec<([&'static str; 2], Vec<f64>)>> {
     let mut all = Vec::new();
-    for [name, key, ranged] in KEYS {
+    for [name, key] in KEYS {
         if !varied.contains(name)? {
             continue;
         }
         let values = varied::numbers(varied, name, count)?;
         varied.del_item(name)?;
-        let allowed = range(Kind::Scenario, ranged).unwrap_or(f64::MIN..=f64::MAX);
+        let allowed = range(Kind::Scenario, key).unwrap_or(f64::MIN..=f64::MAX);
         check_or_nan(name, &values, &allowed)?;
         all.push(([name, key], values));
     }

@@ -59,7 +59,7 @@ def test_units_stand_in_the_fields_metadata() -> None:
     assert gr.Scenario.from_toml(schema.metadata[b"scenario"].decode()) == run.scenario
     fit = gr.calibrate(READINGS, "toyoura", "hakuto", fit="cohesion_kpa", point_fit=True).to_arrow()
     assert fit.schema.field("fit").metadata is None, "its unit is the key's"
-    assert fit.schema.field("narrowing").metadata == {b"units": b"1"}
+    assert fit.schema.field("posterior_contraction").metadata == {b"units": b"1"}
     texts = gr.heading(slope_deg=[5.0]).to_arrow().schema.field("status")
     assert texts.type == pyarrow.string() and texts.metadata is None
 

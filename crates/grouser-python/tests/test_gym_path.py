@@ -104,7 +104,7 @@ def test_a_limit_on_slip_ends_an_episode_beyond_the_limit_of_the_rover() -> None
         (14.0, 60.0, "slip_ratio", {"above": 0.3, "over_m": 0.5}),
         (10.0, 30.0, "energy_j", {"above": 3.0}),
         (10.0, 30.0, "time_s", {"above": 6.25}),
-        (14.0, 60.0, "sinkage_ratio", {"above": 0.05}),
+        (14.0, 60.0, "sinkage_over_radius", {"above": 0.05}),
     ],
 )
 def test_a_straight_drive_stops_where_a_mission_does(

@@ -20,7 +20,7 @@ use rayon::prelude::*;
 const STUDY: &str = r#"
 schema = "campaign/1"
 name = "The attitude on 10 degrees of sand that is known roughly"
-study = "attitude"
+study = "heading"
 scenario = "traverse-10-deg"
 parameter = [
     { key = "soil.friction_angle_deg", distribution = "normal", standard_deviation = 1.5 },

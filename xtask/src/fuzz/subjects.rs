@@ -60,7 +60,7 @@ const LINES: [(&str, &str, &[&str]); 42] = [
         &["soil.toml", "wheel.toml"],
     ),
     (
-        "wheel-test, extended",
+        "wheel-test, small wheel",
         "wheel-test --soil small.toml --wheel wheel.toml --load-n 17 --slip-ratio 0.2 --format csv",
         &["small.toml", "wheel.toml"],
     ),

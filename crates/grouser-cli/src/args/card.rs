@@ -29,7 +29,7 @@ pub(crate) struct CardArgs {
     #[arg(long, value_enum, default_value_t)]
     pub(crate) uphill: SideChoice,
     /// Rim speed [m/s], for the power; without it the scenario's.
-    #[arg(long, value_name = "V", value_parser = list::parse, allow_hyphen_values = true, alias = "speed-m-s")]
+    #[arg(long, value_name = "V", value_parser = list::parse, allow_hyphen_values = true)]
     pub(crate) rim_speed_m_s: Option<Numbers>,
     /// Number of samples, 2 to 100000.
     #[arg(long, value_name = "N", default_value_t = 200)]

@@ -49,7 +49,6 @@ pub(crate) struct HeadingArgs {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum SteeringArg {
     #[default]
-    #[value(alias = "yaw")]
     None,
     Crab,
 }
@@ -86,7 +85,7 @@ pub(crate) struct HeadingMapArgs {
     #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "-60:60:15", allow_hyphen_values = true)]
     pub(crate) course_deg: Numbers,
     /// Rim speed [m/s], for the power.
-    #[arg(long, alias = "speed-m-s", value_name = "V", value_parser = list::parse, default_value = "0.06", allow_hyphen_values = true)]
+    #[arg(long, value_name = "V", value_parser = list::parse, default_value = "0.06", allow_hyphen_values = true)]
     pub(crate) rim_speed_m_s: Numbers,
     #[command(flatten)]
     pub(crate) uncertainty: UncertaintyArgs,

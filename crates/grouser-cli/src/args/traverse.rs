@@ -31,10 +31,6 @@ pub(crate) struct TraverseArgs {
     /// Desired speed along the contour [m/s], for the Eq. 18 drives.
     #[arg(long, value_name = "V", allow_hyphen_values = true)]
     pub(crate) ground_speed_m_s: Option<String>,
-    /// Either of both, as earlier versions had it.
-    #[arg(long, hide = true, value_name = "LIST", allow_hyphen_values = true)]
-    #[arg(conflicts_with_all = ["rim_speed_m_s", "ground_speed_m_s"])]
-    pub(crate) speed_m_s: Option<String>,
     /// What turns the wheels: `constant`, `eq18-as-printed`, `eq18` or `slip-limiting`.
     #[arg(long, value_name = "LAW")]
     pub(crate) drive: Option<String>,

@@ -203,10 +203,10 @@ fn settings(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Value {
         "soil": document.get("soil"),
         "gravity_m_s2": document.get("gravity_m_s2"),
         "model": inputs.scenario.value.model.name(),
-        "loads": document.get("loads"),
-        "moments": document.get("moments"),
+        "load_transfer": document.get("load_transfer"),
+        "wheel_moments": document.get("wheel_moments"),
         "uphill": if args.uphill == SideChoice::Left { "left" } else { "right" },
-        "speed_m_s": inputs.rim_speed,
+        "rim_speed_m_s": inputs.rim_speed,
         "rule": RuleRecord::from(&inputs.rule),
     });
     if card.draws.is_some() {

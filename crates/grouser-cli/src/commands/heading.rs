@@ -125,8 +125,8 @@ fn settings(args: &HeadingArgs, first: &OfModel) -> Value {
         "soil": document.get("soil"),
         "gravity_m_s2": document.get("gravity_m_s2"),
         "model": if every { EVERY_MODEL } else { first.name() },
-        "loads": document.get("loads"),
-        "moments": document.get("moments"),
+        "load_transfer": document.get("load_transfer"),
+        "wheel_moments": document.get("wheel_moments"),
         "slope_deg": args.slope_deg.0,
     });
     let steering = Steering::from(args.steering);

@@ -169,11 +169,11 @@ fn settings(args: &HeadingMapArgs, scenarios: &[LoadedScenario]) -> Value {
         "soils": soils,
         "models": models,
         "gravity_m_s2": first.get("gravity_m_s2"),
-        "loads": first.get("loads"),
-        "moments": first.get("moments"),
+        "load_transfer": first.get("load_transfer"),
+        "wheel_moments": first.get("wheel_moments"),
         "course_deg": args.course_deg.0,
         "slope_deg": args.slope_deg.0,
-        "speed_m_s": args.rim_speed_m_s.0[0],
+        "rim_speed_m_s": args.rim_speed_m_s.0[0],
     });
     let UncertaintyArgs { sampling, seed } = args.uncertainty;
     if sampling.uncertainty {

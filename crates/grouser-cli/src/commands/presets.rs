@@ -57,11 +57,7 @@ fn print_preset(
     kind: Option<Kind>,
     presets: &[&'static Preset],
 ) -> Result<(), Failure> {
-    // A former name is that of the preset that has another now.
-    let is_named = |preset: &&&Preset| {
-        document::preset(preset.kind, name).is_some_and(|named| named.name == preset.name)
-    };
-    let named: Vec<_> = presets.iter().filter(is_named).collect();
+    let named: Vec<_> = presets.iter().filter(|preset| preset.name == name).collect();
     match named[..] {
         [] => {
             let hint = match document::nearest(name, presets.iter().map(|preset| preset.name)) {

@@ -47,8 +47,6 @@ pub(crate) fn traverse(
     let speeds = [
         ("--rim-speed-m-s", "scenario.drive.rim_speed_m_s", &args.rim_speed_m_s),
         ("--ground-speed-m-s", "scenario.drive.ground_speed_m_s", &args.ground_speed_m_s),
-        // The former key of both, each under its law.
-        ("--speed-m-s", "scenario.drive.speed_m_s", &args.speed_m_s),
     ];
     for (flag, key, value) in speeds {
         if let Some(value) = value {

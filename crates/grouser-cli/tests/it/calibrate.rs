@@ -55,7 +55,7 @@ fn the_truth_is_found_within_its_uncertainty() {
         assert!(low < number(&row["p50"]) && number(&row["p50"]) < high);
         assert!((low - 2.0 * std..high + 2.0 * std).contains(&truth), "{row}");
     }
-    assert_eq!(found["cannot_tell_apart"], Value::Array(Vec::new()));
+    assert_eq!(found["unidentifiable"], Value::Array(Vec::new()));
     assert_eq!(found["proposals"].as_array().map(Vec::len), Some(3));
     for proposal in found["proposals"].as_array().expect("proposals") {
         assert!(number(&proposal["std_after"]) < number(&proposal["std_before"]));
@@ -260,7 +260,7 @@ fn plates_give_the_moduli_and_one_width_says_what_it_cannot() {
         assert!((number(&row["fit"]) / truth - 1.0).abs() < 1e-3, "{row}");
     }
     let found = json(&place, &format!("{line} --plates one.csv --steps 100"));
-    let open = found["cannot_tell_apart"].to_string();
+    let open = found["unidentifiable"].to_string();
     assert!(open.contains("k_c"), "{open}");
     let answer = place.run(&words(&format!("{line} --plates plates.csv --steps 100 --out fit")));
     assert_eq!(answer.code(), 0, "{}", answer.conversation());

@@ -224,7 +224,7 @@ fn the_folders_study_is_the_same_campaign() {
 /// An exit-angle ratio that is above its largest at full slip for half of the draws.
 const UNFIT: &str = r#"
 schema = "campaign/1"
-study = "attitude"
+study = "heading"
 runs = 40
 shard_runs = 8
 [scenario.soil]

@@ -505,14 +505,14 @@ fn drives_are_told_beside_what_the_card_states() {
 #[test]
 fn an_uncorrected_traverse_ends_low_with_its_nose_down_and_the_card_says_to_correct() {
     let place = Place::new();
-    let line = "traverse --slope-deg 13 --yaw-deg 6.863 --loads quasi-static-torque --duration-s 167 --set soil.priors=none";
+    let line = "traverse --slope-deg 13 --yaw-deg 6.863 --load-transfer quasi-static-torque --duration-s 167 --set soil.priors=none";
     let end = &place.json(line)["final"];
     assert!(
         (number(&end["y_m"]) + 1.47).abs() < 0.01 && (number(&end["yaw_deg"]) + 9.7).abs() < 0.1,
         "{end}"
     );
-    let answer =
-        place.json("card --loads quasi-static-torque --model ishigami --set soil.priors=none");
+    let answer = place
+        .json("card --load-transfer quasi-static-torque --model ishigami --set soil.priors=none");
     // Over that way the nose fell by 16.5°: by 2° it may fall until it is set again.
     let way = number(&end["x_m"]).hypot(number(&end["y_m"]));
     let fall = (6.863 - number(&end["yaw_deg"])) / way;

@@ -75,7 +75,7 @@ fn rows_are_ordered_by_load_then_angle_then_slip() {
 
 #[test]
 fn attitude_rows_have_the_words_of_the_design_and_the_limit_stands_beside_them() {
-    let json = Place::new().json("attitude --loads quasi-static --slope-deg 5,10,15,20");
+    let json = Place::new().json("attitude --load-transfer quasi-static --slope-deg 5,10,15,20");
     let limit = number(&json["limit_slope_deg"]);
     assert!((20.0..21.0).contains(&limit), "{limit}");
     for row in json["rows"].as_array().expect("rows") {
@@ -516,12 +516,12 @@ fn loads_and_moments_change_the_balance() {
         number(&json["rows"][0]["yaw_deg"])
     };
     let plain = attitude("");
-    assert_eq!(plain, attitude("--loads complete"));
+    assert_eq!(plain, attitude("--load-transfer complete"));
     for flags in [
-        "--loads uniform",
-        "--loads quasi-static",
-        "--loads quasi-static-torque",
-        "--loads quasi-static --moments included",
+        "--load-transfer uniform",
+        "--load-transfer quasi-static",
+        "--load-transfer quasi-static-torque",
+        "--load-transfer quasi-static --wheel-moments included",
     ] {
         assert_ne!(plain, attitude(flags), "{flags}");
     }
@@ -623,14 +623,14 @@ fn check_repeats(line: &str, from_documents: &str, results: &str) {
 #[test]
 fn a_run_is_repeated_from_its_folder() {
     check_repeats(
-        "traverse spot-turn --slope-deg 4 --duration-s 2 --loads quasi-static-torque \
+        "traverse spot-turn --slope-deg 4 --duration-s 2 --load-transfer quasi-static-torque \
          --set soil.cohesion_kpa=0.2 --gravity-m-s2 moon --model bekker",
         "traverse first/scenario.toml",
         "traverse.json",
     );
     check_repeats(
         "attitude --soil simulant-2007 --rover hakuto-flight --slope-deg 3,6 --gravity-m-s2 mars \
-         --loads uniform --moments included --set wheel.radius_m=0.12",
+         --load-transfer uniform --wheel-moments included --set wheel.radius_m=0.12",
         "attitude first/scenario.toml --slope-deg 3,6",
         "attitude.json",
     );
@@ -882,7 +882,7 @@ fn check_reference_row(expected: &Value, row: &Value) {
 
 #[test]
 fn attitudes_of_the_reference_through_the_program() {
-    let json = Place::new().json("attitude --loads quasi-static --slope-deg 5,10,15,20");
+    let json = Place::new().json("attitude --load-transfer quasi-static --slope-deg 5,10,15,20");
     let rows = json["rows"].as_array().expect("rows");
     let expected = reference(include_str!("../../../grouser/tests/it/reference/attitude.json"));
     assert_eq!(rows.len(), expected.len());

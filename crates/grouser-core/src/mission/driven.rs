@@ -175,13 +175,13 @@ impl Driven {
         let kept_until =
             if self.pilot.is_steady() { now + eta.min(LONGEST_STRETCH) } else { until };
         let rims = run.state().rim_speeds().to_vec();
-        run.go_on(&mut self.pilot, until, kept_until.max(until))?;
-        run.set_off(&rims);
+        run.advance_unrecorded(&mut self.pilot, until, kept_until.max(until))?;
+        run.start_rolling(&rims);
         let state = run.state();
         self.gone +=
             navigator.look(state.time(), state.rover(), run.scenario(), state.rim_speeds());
         let (place, ground) = (navigator.seen().position, navigator.ground() - self.start_ground);
-        self.limits.look_from(run, place, ground);
+        self.limits.record_from(run, place, ground);
         if navigator.is_fixed() {
             self.limits.lay_anew(self.rims_at_fix);
             self.rims_at_fix = self.limits.odometer().rims();

@@ -9,7 +9,7 @@ use crate::vehicle::{Mount, RoverState, roll_and_pitch};
 
 /// Limits on a rover under way, and what is measured for them since the drive began.
 ///
-/// It drives nothing: whoever leads the [`Run`] has it [look](Self::look) at the rover once a
+/// It drives nothing: whoever leads the [`Run`] has it [record](Self::record) the rover once a
 /// [control period](crate::simulation::CONTROL_PERIOD), and asks it what was [passed](Self::passed). A
 /// [`MissionRun`](super::MissionRun) and a [`PathRun`](super::PathRun) do so.
 ///
@@ -24,7 +24,7 @@ use crate::vehicle::{Mount, RoverState, roll_and_pitch};
 /// let mut limits = Limits::new(&run, &[Stop::above(Limited::Drift, 0.05)])?;
 /// let stopped = loop {
 ///     run.step(&[0.06; 4], CONTROL_PERIOD)?;
-///     limits.look(&run);
+///     limits.record(&run);
 ///     if let Some(stopped) = limits.passed(&run, 0.0) {
 ///         break stopped;
 ///     }
@@ -84,18 +84,18 @@ impl Limits {
         }
     }
 
-    /// Looks at the rover, whose wheels kept their speeds since the last look.
-    pub fn look(&mut self, run: &Run) {
+    /// Records how far the rover, whose wheels kept their speeds since the last record, has come.
+    pub fn record(&mut self, run: &Run) {
         let rover = run.state().rover();
         let place = rover.position;
         self.ground += run.scenario().way_from(self.last, rover);
-        self.look_from(run, place, self.ground);
+        self.record_from(run, place, self.ground);
     }
 
     /// The same for one that takes itself to be at a place.
     ///
     /// * `place`, `ground`: where that is [m], and its way over the ground since the drive began [m]
-    pub(super) fn look_from(&mut self, run: &Run, place: Vec2, ground: f64) {
+    pub(super) fn record_from(&mut self, run: &Run, place: Vec2, ground: f64) {
         let state = run.state();
         let at = RoverState { position: place, ..*state.rover() };
         let down = run.scenario().way_down((self.last, self.odometer.down()), &at);

@@ -166,7 +166,7 @@ impl Follower {
         let BesideRoute { along, cross_track, .. } = self.beside;
         let around = FURTHEST * (moved + cross_track.abs());
         self.beside = self.task.route.nearest(place, along - around..=along + around);
-        self.limits.look(run);
+        self.limits.record(run);
         let ended = run.outcome().map(|outcome| LegOutcome::Ended(outcome.clone()));
         let off_path = self.beside.cross_track.abs();
         let stopped = || self.limits.passed(run, off_path).map(LegOutcome::Stopped);

@@ -343,8 +343,8 @@ impl Controller for Pilot {
             }
             _ => None,
         };
-        let rolled = |mount: &Mount, told: f64| {
-            motion.as_ref().map(|motion| told * (wheel_velocity(motion, mount).x / forward))
+        let rolled = |mount: &Mount, commanded: f64| {
+            motion.as_ref().map(|motion| commanded * (wheel_velocity(motion, mount).x / forward))
         };
         match &self.drive {
             _ if self.direction == 0.0 => {
@@ -355,8 +355,8 @@ impl Controller for Pilot {
             DriveLaw::SlipLimiting(limit) => {
                 let each = rim_speeds.iter_mut().zip(mounts).zip(self.slip_ratios(seen));
                 for (wheel, ((rim, mount), slip_ratio)) in each.enumerate() {
-                    let told = self.direction * limit.speed.of(wheel);
-                    let wanted = rolled(mount, told).unwrap_or(told - turned_by(mount));
+                    let commanded = self.direction * limit.speed.of(wheel);
+                    let wanted = rolled(mount, commanded).unwrap_or(commanded - turned_by(mount));
                     *rim = slip_limited(wanted, *rim, slip_ratio, limit.slip_ratio);
                 }
             }
@@ -366,8 +366,8 @@ impl Controller for Pilot {
                     self.slip_ratios(seen).iter().map(|slip| self.direction * slip).collect();
                 law.rim_speeds(rover, self.crab(seen.scenario(), &state), &slip_ratios, rim_speeds);
                 for (rim, mount) in rim_speeds.iter_mut().zip(mounts) {
-                    let told = self.direction * *rim;
-                    *rim = rolled(mount, told).unwrap_or(told - turned_by(mount));
+                    let commanded = self.direction * *rim;
+                    *rim = rolled(mount, commanded).unwrap_or(commanded - turned_by(mount));
                 }
             }
         }

@@ -110,7 +110,7 @@ impl MissionRun {
     /// What became of it so far.
     #[must_use]
     pub fn finish(mut self) -> MissionReport {
-        self.run.look();
+        self.run.record();
         let mut trajectory = self.run.finish();
         trajectory.method = self.fell_back.unwrap_or(trajectory.method);
         MissionReport { legs: self.reports, trajectory, fixes: self.navigator.into_fixes() }

@@ -36,8 +36,8 @@ pub const CONTROL_PERIOD: f64 = 0.1;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Controller {
-    /// Sets the rim speed ω r_s that each wheel is told to have [m/s], in the mounts' order; they hold those that
-    /// it was told before.
+    /// Sets the commanded rim speed ω r_s of each wheel [m/s], in the mounts' order; they hold those that
+    /// were commanded before.
     fn command(&mut self, seen: &Observation<'_>, rim_speeds: &mut [f64]);
 
     /// Sets the steering angle *δ* that each wheel is to have [rad], in the mounts' order; they hold those that the wheels
@@ -101,7 +101,7 @@ impl Observation<'_> {
     }
 
     /// Rim speed that each wheel has so far, *ω r_s* [m/s]; zeros before the start. Where a scenario has wheels that
-    /// turn [at another speed](Scenario::by_wheel) than they are told to, it is not what they were told.
+    /// turn [at another speed](Scenario::by_wheel) than commanded, it is not what was commanded.
     #[must_use]
     pub fn rim_speeds(&self) -> &[f64] {
         self.rim_speeds

@@ -87,9 +87,9 @@ impl Run {
         scenario.check()?;
         let standing = vec![0.0; scenario.rover.wheel_count()];
         let mut state = State::new(scenario, standing.clone());
-        let told = ask(controller, scenario, &mut state)?;
+        let commanded = ask(controller, scenario, &mut state)?;
         let work = state.work;
-        state = State { work, ..State::new(scenario, told) };
+        state = State { work, ..State::new(scenario, commanded) };
         state.settle_motors(scenario);
         let kept_until = if controller.period().is_some() { 0.0 } else { scenario.duration };
         let mut records = Vec::new();
@@ -112,7 +112,7 @@ impl Run {
         if let Some(steered) = &run.state.steered {
             run.scenario.rover = Rover::clone(steered);
         }
-        run.look();
+        run.record();
         run
     }
 
@@ -126,7 +126,7 @@ impl Run {
     /// # Errors
     /// [`RunError`] if the run cannot be computed.
     pub fn to_end(self) -> Result<Trajectory, RunError> {
-        self.led_to_end(Due::Samples)
+        self.into_trajectory(Due::Samples)
     }
 
     /// Leads the run to its end and keeps it: where it cannot be computed to its end, the
@@ -147,10 +147,10 @@ impl Run {
     /// As [`to_end`](Self::to_end).
     pub fn to_outcome(self) -> Result<Trajectory, RunError> {
         let end = Due::At(self.scenario.duration);
-        self.led_to_end(end)
+        self.into_trajectory(end)
     }
 
-    fn led_to_end(mut self, due: Due) -> Result<Trajectory, RunError> {
+    fn into_trajectory(mut self, due: Due) -> Result<Trajectory, RunError> {
         let (mut drive, duration) = (self.scenario.drive.clone(), self.scenario.duration);
         // At the start the wheels turn as it says already.
         let is_asked = self.state.time > 0.0;
@@ -171,7 +171,7 @@ impl Run {
     /// As [`advance`](Self::advance), without a record of where that leads.
     ///
     /// * `kept_until`: until when a controller that is asked once expects to keep its speeds [s]
-    pub(crate) fn go_on(
+    pub(crate) fn advance_unrecorded(
         &mut self,
         controller: &mut dyn Controller,
         until: f64,
@@ -194,7 +194,7 @@ impl Run {
     /// the slip at which it pulls most.
     ///
     /// * `before`: speeds of the rims before [m/s]
-    pub(crate) fn set_off(&mut self, before: &[f64]) {
+    pub(crate) fn start_rolling(&mut self, before: &[f64]) {
         let mounts = self.scenario.rover.mounts();
         let State { set_speeds, point, .. } = &self.state;
         let [old, new] = [before, set_speeds].map(|rims| rolling_velocity(mounts, rims));
@@ -226,7 +226,7 @@ impl Run {
     }
 
     /// Records where the run has come to.
-    pub(crate) fn look(&mut self) {
+    pub(crate) fn record(&mut self) {
         self.forget_now();
         if !self.is_recorded() {
             self.records.push(self.record_now());
@@ -379,9 +379,9 @@ impl Run {
             let mut is_new_command = controller.period().is_some();
             if is_asked {
                 is_new_command |= self.steer(controller)?;
-                let told = ask(controller, &self.scenario, &mut self.state)?;
-                is_new_command |= told != self.state.told;
-                self.state.turn(&self.scenario, &told);
+                let commanded = ask(controller, &self.scenario, &mut self.state)?;
+                is_new_command |= commanded != self.state.commanded;
+                self.state.turn(&self.scenario, &commanded);
             }
             is_asked = true;
             let [next, kept] = controller.period().map_or([until, kept_until], |period| {
@@ -507,19 +507,19 @@ fn observation<'a>(scenario: &'a Scenario, state: &'a State) -> Observation<'a> 
     }
 }
 
-/// What a controller makes of a rover: the speed that each rim is told to have [m/s].
+/// What a controller makes of a rover: the speed that is commanded of each rim [m/s].
 fn ask(
     controller: &mut dyn Controller,
     scenario: &Scenario,
     state: &mut State,
 ) -> Result<Vec<f64>, RunError> {
     let seen = observation(scenario, state);
-    let mut told = state.told.clone();
-    controller.command(&seen, &mut told);
+    let mut commanded = state.commanded.clone();
+    controller.command(&seen, &mut commanded);
     let work = seen.work.get();
     state.work += work;
-    check(&told, scenario)?;
-    Ok(told)
+    check(&commanded, scenario)?;
+    Ok(commanded)
 }
 
 /// That there is a finite speed for each wheel.

@@ -11,7 +11,7 @@ use crate::terrain::{SoilField, SoilScatter};
 pub struct Scatter {
     /// Of the soil, from place to place.
     pub soil: SoilScatter,
-    /// Of the logarithm of each wheel's speed over what its motor is told [-]; it stays as it is over a run.
+    /// Standard deviation of the logarithm of each wheel's speed over the commanded one [-]; it stays over a run.
     pub speed: f64,
     /// Which realisation.
     pub seed: u64,

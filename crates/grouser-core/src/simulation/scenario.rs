@@ -292,13 +292,13 @@ impl Scenario {
         Differences { by_wheel, by_place: self.scatter.soil_field(), ruts: self.ruts }
     }
 
-    /// The rim speeds, *ω r_s* [m/s], of wheels that are told to turn at others [m/s].
+    /// The rim speeds, *ω r_s* [m/s], of wheels of which others are commanded [m/s].
     #[must_use]
-    pub fn rim_speeds(&self, told: &[f64]) -> Vec<f64> {
-        let differ = |(wheel, (told, scatter)): (usize, (&f64, f64))| {
-            told * self.by_wheel.speed.of(wheel) * scatter
+    pub fn rim_speeds(&self, commanded: &[f64]) -> Vec<f64> {
+        let differ = |(wheel, (commanded, scatter)): (usize, (&f64, f64))| {
+            commanded * self.by_wheel.speed.of(wheel) * scatter
         };
-        told.iter().zip(self.scatter.speed_factors()).enumerate().map(differ).collect()
+        commanded.iter().zip(self.scatter.speed_factors()).enumerate().map(differ).collect()
     }
 
     /// The state at time 0.

@@ -28,8 +28,8 @@ use crate::vehicle::{Rover, RoverState, WheelReaction};
 pub struct State {
     pub(super) time: f64,
     pub(super) point: Point,
-    /// The rim speed that each wheel is told to have [m/s].
-    pub(super) told: Vec<f64>,
+    /// The rim speed that is commanded of each wheel [m/s].
+    pub(super) commanded: Vec<f64>,
     /// The one that its motor is set to, *ω_0 r_s* [m/s].
     pub(super) set_speeds: Vec<f64>,
     /// The one that it has, *ω r_s* [m/s], when the rover was last looked at.
@@ -59,9 +59,9 @@ pub struct State {
 impl State {
     /// At the start of a scenario, before the rover was looked at.
     ///
-    /// * `told`: the rim speed that each wheel is told to have [m/s]
-    pub(super) fn new(scenario: &Scenario, told: Vec<f64>) -> Self {
-        let rim_speeds = scenario.rim_speeds(&told);
+    /// * `commanded`: the rim speed that is commanded of each wheel [m/s]
+    pub(super) fn new(scenario: &Scenario, commanded: Vec<f64>) -> Self {
+        let rim_speeds = scenario.rim_speeds(&commanded);
         let state = scenario.start_state(&rim_speeds);
         let rover = &scenario.rover;
         let turning = rover.has_droop().then(|| match scenario.start.motion {
@@ -72,7 +72,7 @@ impl State {
             time: 0.0,
             point: Point::start(rover, state, turning),
             slip_ratios: vec![0.0; rim_speeds.len()],
-            told,
+            commanded,
             rim_speeds: turning.map_or_else(|| rim_speeds.clone(), |it| it.rim_speeds().to_vec()),
             set_speeds: rim_speeds,
             steered: None,
@@ -235,11 +235,11 @@ impl State {
         scenario.rover = rover;
     }
 
-    /// That the motors are told to turn the wheels at other speeds from now on.
+    /// Commands other speeds of the wheels from now on.
     ///
-    /// * `told`: of each rim [m/s]
-    pub(super) fn turn(&mut self, scenario: &Scenario, told: &[f64]) {
-        let (rover, set_speeds) = (&scenario.rover, scenario.rim_speeds(told));
+    /// * `commanded`: of each rim [m/s]
+    pub(super) fn turn(&mut self, scenario: &Scenario, commanded: &[f64]) {
+        let (rover, set_speeds) = (&scenario.rover, scenario.rim_speeds(commanded));
         if let Some(turning) = &mut self.point.turning {
             // Motors with a controller follow in their time, others at once.
             for (wheel, mount) in rover.mounts().iter().enumerate() {
@@ -256,7 +256,7 @@ impl State {
             self.point.motors += spin_energy(&set_speeds) - spin_energy(&self.set_speeds);
             self.rim_speeds.clone_from(&set_speeds);
         }
-        self.told.copy_from_slice(told);
+        self.commanded.copy_from_slice(commanded);
         if set_speeds != self.set_speeds {
             self.history.clear();
             self.set_speeds = set_speeds;

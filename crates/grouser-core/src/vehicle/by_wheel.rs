@@ -88,7 +88,7 @@ pub struct ByWheel {
     pub friction_angle: PerWheel,
     /// Factor on the soil's stiffness [-]; see [`SoilDifference::stiffness`].
     pub stiffness: PerWheel,
-    /// Factor on the speed that the motor is told [-].
+    /// Factor on the speed that is commanded of the motor [-].
     pub speed: PerWheel,
 }
 

@@ -103,7 +103,7 @@ impl DriveLaw {
     ///
     /// * `crab`: how far the nose is turned off the way that is to be gone [rad]: along the contour the yaw, *γ*
     /// * `slip_ratios`: of each wheel when it was last looked at [-]; zeros at the start
-    /// * `rim_speeds`: those that the wheels were told before; zeros at the start
+    /// * `rim_speeds`: those that were commanded before; zeros at the start
     pub fn rim_speeds(
         &self,
         rover: &Rover,
@@ -172,7 +172,7 @@ const LEAST_SHARE: f64 = 0.1;
 /// ```
 ///
 /// * `wanted`: what it turns at where that is less [m/s]
-/// * `before`: what it was told before [m/s]
+/// * `before`: the speed commanded before [m/s]
 /// * `slip_ratio`: what it slipped by then [-], below 0 where it drives backward
 /// * `most`: *s_max* [-]
 #[must_use]

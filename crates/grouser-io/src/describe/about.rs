@@ -64,8 +64,7 @@ impl<T: 'static> Models<T> {
             Model::SmallWheel.name(),
             "Stresses along the arc, with the terms that small wheels need.",
             nothing,
-        )
-        .formerly("extended"),
+        ),
         word(Model::Rft.name(), "Resistive force theory on the wheel's facets.", nothing),
     ];
 }

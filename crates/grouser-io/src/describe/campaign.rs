@@ -47,8 +47,7 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
                     Study::Heading.name(),
                     "The heading offset that holds the contour of the scenario's slope.",
                     |all: &mut Settings| all.study = Study::Heading,
-                )
-                .formerly("attitude"),
+                ),
                 word(Study::Mission.name(), "A mission, and what became of each of its legs.", |all| {
                     all.study = Study::Mission;
                 }),

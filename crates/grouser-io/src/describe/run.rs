@@ -114,8 +114,7 @@ impl<T: OfScenario> Run<T> {
                 word("uniform", "Equal loads.", |all: &mut T| all.scenario().sharing = LoadSharing::Uniform),
             ],
         )
-        .otherwise(Fill::Keyword("complete"))
-        .formerly("loads");
+        .otherwise(Fill::Keyword("complete"));
     pub(super) const WHEEL_MOMENTS: Field<T> = words(
             "wheel_moments",
             "Whether the wheels' own overturning and aligning moments act on the rover; without it they do where the load transfer is complete.",
@@ -136,8 +135,7 @@ impl<T: OfScenario> Run<T> {
                 ("quasi-static-torque", "neglected"),
                 ("uniform", "neglected"),
             ],
-        )
-        .formerly("moments");
+        );
     pub(super) const SIMULATION: Field<T> = words(
             "simulation",
             "Whether velocities are integrated, or those of a steady state at every instant.",

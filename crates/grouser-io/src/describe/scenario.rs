@@ -187,8 +187,7 @@ const RIM_SPEED: Field<Scenario> = numbers(
         _ => None,
     },
 )
-.or(PAPERS_SPEED)
-.formerly("speed_m_s");
+.or(PAPERS_SPEED);
 const DESIRED_SPEED: Field<Scenario> = positive(
     "ground_speed_m_s",
     M_S,
@@ -196,8 +195,7 @@ const DESIRED_SPEED: Field<Scenario> = positive(
     "Desired speed along the contour, v_des",
     |run: &mut Scenario| Some(&mut target(run)?.speed),
 )
-.or(PAPERS_SPEED)
-.formerly("speed_m_s");
+.or(PAPERS_SPEED);
 const REFERENCE_SLIP: Field<Scenario> = number(
     "reference_slip_ratio",
     ONE,

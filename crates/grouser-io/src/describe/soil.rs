@@ -131,8 +131,7 @@ pub(crate) static SOIL: Table<Soil> = Table {
             "Terms of the model `small-wheel`, for one wheel on this soil; general values without it.",
             &At { inner: &SMALL_WHEEL, at: |soil: &mut Soil| &mut soil.small_wheel },
         )
-        .optional()
-        .formerly("extended"),
+        .optional(),
         table(
             "rft",
             "Constants of the model `rft`, resistive force theory; as published without it.",

@@ -107,8 +107,8 @@ impl Answers {
         if self.given.contains_key(FRICTION_ANGLE) {
             keys.retain(|key, _| !OF_THE_FRICTION_ANGLE.contains(&key.as_str()));
         }
-        let is_told = |key: &str| ["schema", "name", "source", "notes", "assumed"].contains(&key);
-        let rest = keys.iter().filter(|(key, _)| !is_told(key));
+        let is_stated = |key: &str| ["schema", "name", "source", "notes", "assumed"].contains(&key);
+        let rest = keys.iter().filter(|(key, _)| !is_stated(key));
         for (key, value) in rest.clone() {
             let inner = value.as_object().into_iter().flatten();
             let paths = inner.map(|(inner, _)| format!("{key}.{inner}"));

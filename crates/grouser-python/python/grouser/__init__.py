@@ -30,11 +30,12 @@ Examples
 
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
-from . import _former_names, campaign, style
+from . import campaign, style
 from ._core import EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, __version__
 from ._animations import Animation
 from ._calibration import Calibration, calibrate, calibrate_plates, calibrate_shear
 from ._descriptions import Mission, Rover, Scenario, Site, Soil, Wheel
+from ._errors import present_name as _present_name
 from ._errors import (
     CalibrationError,
     CampaignDiskError,
@@ -182,5 +183,6 @@ del _name, _thing
 if not _TYPE_CHECKING:
 
     def __getattr__(name: str) -> object:
-        """A member by its name of version 0.1."""
-        return _former_names.in_package(name, globals())
+        """Refuses a name, with the present one where it is withdrawn."""
+        meant = _present_name(name, __all__)
+        raise AttributeError(f"module 'grouser' has no attribute {name!r}{meant}")

@@ -42,10 +42,10 @@ _SAME_NAMES = (
     "r_hat",
     "effective_samples",
 )
-#: Columns over keys, each with its field.
-_PARAMETERS = {**{name: name for name in _SAME_NAMES}, "narrowing": "posterior_contraction"}
+#: Columns over keys.
+_PARAMETERS = (*_SAME_NAMES, "posterior_contraction")
 #: Columns of numbers without a unit.
-_RATIOS = ("r_hat", "effective_samples", "narrowing")
+_RATIOS = ("r_hat", "effective_samples", "posterior_contraction")
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +92,7 @@ class Calibration(_tables.Tabular):
     """Effective sample size [-]: the number of independent samples with the same information."""
     posterior_contraction: Floats
     """Standard deviation of the posterior over that of the prior [-]: near 1 the data do not inform
-    the key. Tables call it ``narrowing``."""
+    the key."""
     samples: Floats | None
     """Posterior samples, shape (samples, keys): ensemble by ensemble, step by step, walker by
     walker. Neighbours are of different walkers: taken as one chain they look independent, which
@@ -107,9 +107,8 @@ class Calibration(_tables.Tabular):
     ``std``, a row for the slip by the total speed and one for the slip angle [°]. Plate tests have
     none."""
     outcome: str
-    """``determined``; ``open`` if the problem is underdetermined: some keys are unidentifiable from
-    these data; ``not_mixed`` if the sampler has not converged; ``not_settled`` if least squares has
-    not converged."""
+    """``determined``; ``underdetermined`` if some keys are unidentifiable from these data;
+    ``not_converged`` if least squares or the sampler has not converged."""
     message: str | None
     """The outcome explained; None for ``determined``."""
     unidentifiable: tuple[str, ...]
@@ -243,7 +242,7 @@ class Calibration(_tables.Tabular):
         return arviz.from_dict({"posterior": posterior})
 
     def _parameters(self) -> dict[str, Any]:
-        return {name: getattr(self, field) for name, field in _PARAMETERS.items()}
+        return {name: getattr(self, name) for name in _PARAMETERS}
 
     def plot(self, axes: Axes | None = None, *, name: str = "drawbar_pull_n", **style: Any) -> Axes:
         """Plots predictions of the fitted model over measurements, a dot for each cell; for plate
@@ -577,7 +576,7 @@ def calibrate_shear(
 def _common(found: dict[str, Any]) -> dict[str, Any]:
     """The fields that every calibration has."""
     parameters = found["parameters"]
-    reasons = [*found["notes"], *found["cannot_tell_apart"]]
+    reasons = [*found["notes"], *found["unidentifiable"]]
     is_determined = found["outcome"] == "determined"
     names = (
         "samples",
@@ -591,11 +590,11 @@ def _common(found: dict[str, Any]) -> dict[str, Any]:
     soil._take(found["soil"])
     return {
         "key": tuple(parameters["key"]),
-        **{field: parameters[name] for name, field in _PARAMETERS.items()},
+        **{name: parameters[name] for name in _PARAMETERS},
         **{name: found[name] for name in names},
         "outcome": found["outcome"],
         "message": None if is_determined else "; ".join(reasons),
-        "unidentifiable": tuple(found["cannot_tell_apart"]),
+        "unidentifiable": tuple(found["unidentifiable"]),
         "notes": tuple(found["notes"]),
         "sampler": found["sampler"],
         "soil": soil,

@@ -9,7 +9,7 @@ from functools import lru_cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, Union
 
-from . import _core, _former_names, _keys
+from . import _core, _keys
 from ._arrays import whole_number
 from ._errors import ParameterError
 from ._terrain import Terrain
@@ -173,12 +173,9 @@ class _Description:
             if name.startswith("_"):
                 raise AttributeError(name)
             if name not in self._items:
-                now = _former_names.key_of(self._items, name)
-                if now is None:
-                    meant = " or ".join(self._meant(name))
-                    hint = f"did you mean {meant}?" if meant else f"it has {', '.join(self._items)}"
-                    raise AttributeError(f"{type(self).__name__} has no key {name!r}; {hint}")
-                name = now
+                meant = " or ".join(self._meant(name))
+                hint = f"did you mean {meant}?" if meant else f"it has {', '.join(self._items)}"
+                raise AttributeError(f"{type(self).__name__} has no key {name!r}; {hint}")
             return _frozen(self._items[name])
 
     def _meant(self, name: str) -> list[str]:
@@ -229,16 +226,6 @@ class _Description:
         return f"<b>{type(self).__name__}</b> {title}{_html_table(self._items)}"
 
 
-class _Keys(dict[str, Any]):
-    """Keys of a table; a subscript finds those of version 0.1 as well."""
-
-    def __missing__(self, name: object) -> Any:
-        now = _former_names.key_of(self, name)
-        if now is None:
-            raise KeyError(name)
-        return self[now]
-
-
 def _file(content: str | _core.Terrain) -> str | Terrain:
     """The content of a file, as a caller has it."""
     return content if isinstance(content, str) else Terrain._of(content)
@@ -255,7 +242,7 @@ def _given(files: Mapping[str, str | Terrain] | None) -> dict[str, str | _core.T
 def _frozen(value: Any) -> Any:
     """A read-only view of a value."""
     if isinstance(value, dict):
-        return MappingProxyType(_Keys({key: _frozen(item) for key, item in value.items()}))
+        return MappingProxyType({key: _frozen(item) for key, item in value.items()})
     if isinstance(value, list):
         return tuple(_frozen(item) for item in value)
     return value

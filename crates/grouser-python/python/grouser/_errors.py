@@ -4,6 +4,7 @@ them."""
 from __future__ import annotations
 
 import errno
+from collections.abc import Container
 
 
 class GrouserError(Exception):
@@ -198,3 +199,12 @@ class CampaignDiskError(CampaignError, OSError):
 
     def __reduce__(self) -> tuple[object, ...]:
         return type(self), (str(self), self.errno, self.filename)
+
+
+def present_name(name: str, known: Container[str]) -> str:
+    """The end of a message about an unknown name: its present one, where it is withdrawn and that is
+    among the known ones."""
+    from . import _core
+
+    present = [it for it in _core.present_names(name) if it in known]
+    return f"; did you mean {' or '.join(present)}?" if present else ""

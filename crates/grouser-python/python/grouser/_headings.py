@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core, _former_names, _tables
+from . import _core, _tables
 from ._arrays import Floats, line, number, whole_number
 from ._heading_band import HeadingBand, HeadingMapBand
 from ._descriptions import Scenario, Soil, Source
@@ -343,7 +343,6 @@ class HeadingMap(_tables.Tabular):
         return f"<HeadingMap of {' × '.join(map(str, self.status.shape))} soils, courses, slopes>"
 
 
-@_former_names.takes("speed_m_s")
 def heading_map(
     scenario: Scenario | Source | None = None,
     /,

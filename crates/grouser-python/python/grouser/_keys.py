@@ -1225,7 +1225,7 @@ class MissionStopDriftM(TypedDict, total=False):
     """How far it backs out, where `then` says so [m]."""
 
 
-class MissionStopSinkageRatio(TypedDict, total=False):
+class MissionStopSinkageOverRadius(TypedDict, total=False):
     """Largest sinkage of a wheel over its shearing radius."""
 
     above: float
@@ -1355,7 +1355,7 @@ class MissionStop(TypedDict, total=False):
     """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
     drift_m: MissionStopDriftM
     """Way down the ground under the rover over a way."""
-    sinkage_ratio: MissionStopSinkageRatio
+    sinkage_over_radius: MissionStopSinkageOverRadius
     """Largest sinkage of a wheel over its shearing radius."""
     roll_deg: MissionStopRollDeg
     """Roll to either side."""
@@ -1448,7 +1448,7 @@ class MissionLegStop(TypedDict, total=False):
     """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
     drift_m: MissionStopDriftM
     """Way down the ground under the rover over a way."""
-    sinkage_ratio: MissionStopSinkageRatio
+    sinkage_over_radius: MissionStopSinkageOverRadius
     """Largest sinkage of a wheel over its shearing radius."""
     roll_deg: MissionStopRollDeg
     """Roll to either side."""

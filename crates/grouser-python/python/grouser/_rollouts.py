@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core, _former_names, _tables
+from . import _core, _tables
 from ._arrays import Floats, broadcast, varied
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError
@@ -160,7 +160,6 @@ class Rollout(_tables.Tabular):
         return f"<Rollout of {len(self)} runs: {ended}>"
 
 
-@_former_names.takes("speed_m_s")
 def rollout(
     scenarios: Scenario | Source | Iterable[Scenario | Source] | None = None,
     /,

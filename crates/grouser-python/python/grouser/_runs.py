@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core, _former_names
+from . import _core
 from ._arrays import Floats, mask as mask_of, number, numbers
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError, SimulationError
@@ -68,7 +68,6 @@ class RunBatch:
     ) -> None:
         if isinstance(scenarios, (str, Scenario)):
             raise ParameterError("scenarios is one scenario, it must be several", "scenarios")
-        commands = _former_names.commands(commands)
         if commands not in ("wheel_speed_rad_s", "rim_speed_m_s"):
             raise ParameterError(
                 f"commands is {commands!r}, it must be 'wheel_speed_rad_s' or 'rim_speed_m_s'",

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core, _former_names, _shown
+from . import _core, _shown
+from ._errors import present_name
 
 if TYPE_CHECKING:
     import pandas
@@ -129,8 +130,9 @@ class Tabular:
     if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> object:
-            """An attribute by its name of version 0.1."""
-            return _former_names.attribute_of(self, name)
+            """Refuses a name, with the present one where it is withdrawn."""
+            meant = present_name(name, self.__dict__)
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}{meant}")
 
 
 def _arrow_column(unit: str | None, cells: Any) -> tuple[str | None, Any]:

@@ -57,8 +57,7 @@ pub struct ParameterRecord {
     /// Effective sample size: independent samples with the same standard error [-].
     pub effective_samples: Option<f64>,
     /// Posterior contraction: standard deviation over that of the prior [-]; near 1 the data do not constrain it.
-    #[serde(rename = "narrowing")]
-    pub contraction: Option<f64>,
+    pub posterior_contraction: Option<f64>,
 }
 
 impl ParameterRecord {
@@ -87,7 +86,7 @@ impl ParameterRecord {
             p97_5: of(|it| it.upper),
             r_hat: of(|it| it.r_hat),
             effective_samples: of(|it| it.effective_samples),
-            contraction: found.contraction.get(place).copied(),
+            posterior_contraction: found.contraction.get(place).copied(),
         }
     }
 }

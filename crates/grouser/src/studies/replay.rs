@@ -190,7 +190,7 @@ impl Replayer {
         let turned =
             stretch.yaw_rate.map_or(0.0, |it| it.value) * (stretch.time[1] - stretch.time[0]);
         // Roll and pitch tell the yaw in the middle of the stretch, and the mean of what was read is that, too.
-        let middle = stretch.told_yaw.or(stretch.attitude.map(|it| it[1]));
+        let middle = stretch.reported_yaw.or(stretch.attitude.map(|it| it[1]));
         if self.taken.stretches == 0
             && let Some(middle) = middle
         {
@@ -200,7 +200,7 @@ impl Replayer {
             (start, pose) = (first.unwrap_or(start), last.unwrap_or(pose));
         }
         // One reading of the yaw has its noise.
-        start.yaw = stretch.told_yaw.map_or(start.yaw, |it| it - 0.5 * turned);
+        start.yaw = stretch.reported_yaw.map_or(start.yaw, |it| it - 0.5 * turned);
         self.commands.push(&stretch, start);
         if self.taken.stretches.is_multiple_of(self.every) {
             self.keep(Kept { stretch, pose });

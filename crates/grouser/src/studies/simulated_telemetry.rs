@@ -125,11 +125,11 @@ pub struct Sensors {
     random: ChaCha8Rng,
     /// When they last read [s].
     last: Option<f64>,
-    /// Ways and rotation that no reading has told yet.
-    untold: [f64; 3],
+    /// Ways and rotation that no reading has reported yet.
+    unreported: [f64; 3],
 }
 
-/// What perfect instruments say of a run: of a rover whose motors are known currents, of another torques. Yaw is told on a
+/// What perfect instruments say of a run: of a rover whose motors are known currents, of another torques. Yaw is reported on a
 /// plane, where it counts from the contour.
 #[must_use]
 pub fn truth(run: &Trajectory, scenario: &Scenario) -> Vec<TelemetryRecord> {
@@ -195,7 +195,12 @@ impl Sensors {
     /// As [`SensorModels::check`].
     pub fn new(models: SensorModels, seed: u64) -> Result<Self, ParameterError> {
         models.check()?;
-        Ok(Self { models, random: random::generator(seed, STREAM), last: None, untold: [0.0; 3] })
+        Ok(Self {
+            models,
+            random: random::generator(seed, STREAM),
+            last: None,
+            unreported: [0.0; 3],
+        })
     }
 
     /// What they say of a drive, at their rate.
@@ -214,8 +219,9 @@ impl Sensors {
             return Some(self.read(truth));
         }
         let [forward, leftward] = truth.displacement;
-        for (untold, way) in self.untold.iter_mut().zip([forward, leftward, truth.rotation]) {
-            *untold += way.unwrap_or(0.0);
+        for (unreported, way) in self.unreported.iter_mut().zip([forward, leftward, truth.rotation])
+        {
+            *unreported += way.unwrap_or(0.0);
         }
         None
     }
@@ -237,18 +243,18 @@ impl Sensors {
             (leftward, models.odometry),
             (truth.rotation, models.rotation),
         ];
-        let mut told = [None; 3];
+        let mut reported = [None; 3];
         for (place, (way, fault)) in ways.into_iter().enumerate() {
             let Some(way) = way else { continue };
-            self.untold[place] += way;
-            let whole = self.untold[place];
-            told[place] = self.reading(whole, fault, 10.0 * (whole.abs() + fault.noise));
-            if told[place].is_some() {
-                self.untold[place] = 0.0;
+            self.unreported[place] += way;
+            let whole = self.unreported[place];
+            reported[place] = self.reading(whole, fault, 10.0 * (whole.abs() + fault.noise));
+            if reported[place].is_some() {
+                self.unreported[place] = 0.0;
             }
         }
-        seen.displacement = [told[0], told[1]];
-        seen.rotation = told[2];
+        seen.displacement = [reported[0], reported[1]];
+        seen.rotation = reported[2];
         for wheel in &mut seen.wheels {
             let far = |value: Option<f64>| value.map_or(0.0, |it| 3.0 * it.abs());
             let (speed, torque) = (far(wheel.speed), far(wheel.torque));
@@ -322,7 +328,7 @@ mod tests {
                 None => gaps += 1,
             }
         }
-        assert!((sum + sensors.untold[0] - 20.0).abs() < 1e-9);
+        assert!((sum + sensors.unreported[0] - 20.0).abs() < 1e-9);
         assert!((700..900).contains(&gaps), "{gaps}");
     }
 

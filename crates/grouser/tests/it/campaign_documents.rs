@@ -31,7 +31,7 @@ fn text(study: &str, keys: &str, tables: &str) -> String {
 }
 
 fn attitude(keys: &str) -> String {
-    text("attitude", keys, "[scenario]\nslope_deg = 8.0\n")
+    text("heading", keys, "[scenario]\nslope_deg = 8.0\n")
 }
 
 fn whole(campaign: &Campaign) -> Vec<Table> {
@@ -208,7 +208,7 @@ fn an_attitude_on_one_slope_is_that_of_the_whole_curve() {
 /// Rows without an answer keep their inputs and say why; nothing else is in them.
 #[test]
 fn rows_without_an_answer_have_a_status() {
-    let steep = text("attitude", "runs = 200", "[scenario]\nslope_deg = 20.0\n");
+    let steep = text("heading", "runs = 200", "[scenario]\nslope_deg = 20.0\n");
     let tables = whole(&campaign(&steep));
     let (statuses, reasons) = (texts(&tables, "status"), texts(&tables, "reason"));
     let yaws = floats(&tables, "yaw_deg");
@@ -238,7 +238,7 @@ fn draws_that_are_no_soil_together_are_rows_with_a_status() {
         shear = { law = \"isotropic\", longitudinal_m = 0.02 }\n\
         exit = { law = \"quadratic-in-slip\", at_zero = 0.5, per_slip = 0.9, per_slip2 = 0.0 }\n\
         [[parameter]]\nkey = \"soil.exit.per_slip\"\ndistribution = \"uniform\"\nlow = 0.5\nhigh = 1.5\n";
-    let tables = whole(&campaign(&text("attitude", "runs = 40", soil)));
+    let tables = whole(&campaign(&text("heading", "runs = 40", soil)));
     let unfit = texts(&tables, "status")
         .iter()
         .filter(|s| s.as_deref() == Some("not possible together"))
@@ -449,7 +449,7 @@ fn samples_are_rows_that_stay_together_and_go_into_the_resolved_document() {
 fn draws_stay_in_the_range_of_their_key() {
     let tables = "[scenario]\n[[parameter]]\nkey = \"soil.exit.ratio\"\ndistribution = \"normal\"\n\
                   mean = 1.4\nstandard_deviation = 0.5\n";
-    let campaign = campaign(&text("attitude", "runs = 400", tables));
+    let campaign = campaign(&text("heading", "runs = 400", tables));
     let draws: Vec<f64> = (0..400)
         .filter_map(|run| campaign.ensemble().inputs(run).values.first().copied())
         .collect();
@@ -460,12 +460,14 @@ fn draws_stay_in_the_range_of_their_key() {
 /// The range is that of the law in force: speeds of Eq. (18) are positive, constant ones may be negative.
 #[test]
 fn draws_stay_in_the_range_that_their_law_gives_the_key() {
-    for (law, allows_reverse) in [("constant", true), ("eq18", false)] {
+    for (law, speed, allows_reverse) in
+        [("constant", "rim_speed_m_s", true), ("eq18", "ground_speed_m_s", false)]
+    {
         let tables = format!(
-            "[scenario]\ndrive = {{ law = \"{law}\" }}\n[[parameter]]\nkey = \"drive.speed_m_s\"\n\
+            "[scenario]\ndrive = {{ law = \"{law}\" }}\n[[parameter]]\nkey = \"drive.{speed}\"\n\
              distribution = \"normal\"\nmean = 0.05\nstandard_deviation = 0.05\n"
         );
-        let campaign = campaign(&text("attitude", "runs = 400", &tables));
+        let campaign = campaign(&text("heading", "runs = 400", &tables));
         let speeds = (0..400).map(|run| campaign.ensemble().inputs(run).values[0]);
         assert_eq!(speeds.into_iter().any(|speed| speed < 0.0), allows_reverse, "{law}");
     }
@@ -487,7 +489,7 @@ fn any_number_of_the_base_can_be_drawn() {
             "[scenario]\n[[parameter]]\nkey = \"{key}\"\ndistribution = \"normal\"\n\
              standard_deviation = 1e-3\n"
         );
-        let campaign = campaign(&text("attitude", "runs = 2", &own));
+        let campaign = campaign(&text("heading", "runs = 2", &own));
         let tables = whole(&campaign);
         assert_eq!(texts(&tables, "status"), vec![Some("ok".to_owned()); 2], "{key}");
         let drawn = floats(&tables, key);
@@ -500,7 +502,7 @@ fn any_number_of_the_base_can_be_drawn() {
 fn values_are_set_from_outside() {
     let sets = ["campaign.runs=3", "scenario.slope_deg=12", "soil.cohesion_kpa=0.25"];
     let overrides = Overrides::parse(sets).expect("they are written so");
-    let source = Source::find(Kind::Campaign, "campaign-attitude").expect("a preset");
+    let source = Source::find(Kind::Campaign, "campaign-heading").expect("a preset");
     let campaign = document::read_campaign(&source, &overrides).expect("it is one");
     assert_eq!(campaign.runs(), 3 * 8);
     for part in ["slope_deg = 12.0", "cohesion_kpa = 0.25"] {
@@ -576,23 +578,23 @@ fn what_is_wrong_with_a_campaign_is_told_where_it_stands() {
     let error = document::read_campaign(&whole, &exact).expect_err("it is exact").to_string();
     assert!(error.contains("how well it is known"), "{error}");
     check_refused(&attitude(""), &["`runs` is missing"]);
-    check_refused(&text("attitude", "runs = 4", ""), &["`scenario` is missing", "traverse-10-deg"]);
+    check_refused(&text("heading", "runs = 4", ""), &["`scenario` is missing", "traverse-10-deg"]);
     check_refused(&text("wheel-test", "runs = 4", "[scenario]\n"), &["does not use this table"]);
     check_refused(&text("wheel-test", "runs = 4", ""), &["`wheel_test` is missing"]);
     let pair = "[scenario]\n[[correlation]]\nbetween = [\"soil.friction_angle_deg\", \"slope_deg\"]\n\
                 value = 0.5\n[[parameter]]\nkey = \"slope_deg\"\ndistribution = \"normal\"\n\
                 standard_deviation = 1.0\n";
-    assert!(read(&text("attitude", "runs = 4", pair)).is_ok());
+    assert!(read(&text("heading", "runs = 4", pair)).is_ok());
     check_refused(
-        &text("attitude", "runs = 4\nsensitivity = true", pair),
+        &text("heading", "runs = 4\nsensitivity = true", pair),
         &["no Sobol indices of their own"],
     );
     check_refused(
-        &text("attitude", "runs = 4", &pair.replace("\"slope_deg\"]", "\"gravity_m_s2\"]")),
+        &text("heading", "runs = 4", &pair.replace("\"slope_deg\"]", "\"gravity_m_s2\"]")),
         &["`gravity_m_s2` has a correlation"],
     );
     check_refused(
-        &text("attitude", "runs = 4", &pair.replace("0.5", "1.0")),
+        &text("heading", "runs = 4", &pair.replace("0.5", "1.0")),
         &["positive definite"],
     );
     check_refused(

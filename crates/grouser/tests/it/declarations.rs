@@ -16,7 +16,7 @@ use grouser::mission::Limited;
 use serde_json::Value;
 
 /// Keys that name different numbers in different places, and how many rows they have.
-const DIFFERENT_NUMBERS: [(&str, usize); 12] = [
+const DIFFERENT_NUMBERS: [(&str, usize); 11] = [
     // Of the soil in itself, and between soil and wheel.
     ("friction_angle_deg", 2),
     // Of the body, and of a wheel with its motor.
@@ -34,8 +34,6 @@ const DIFFERENT_NUMBERS: [(&str, usize); 12] = [
     ("depth_m", 2),
     // At the start, over time, and before a leg.
     ("yaw_deg", 3),
-    // Of a leg, and formerly of two drives.
-    ("speed_m_s", 3),
 ];
 
 /// The keys of all kinds of documents that end with a unit.

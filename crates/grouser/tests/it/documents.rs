@@ -296,9 +296,12 @@ fn the_complete_load_transfer_includes_the_wheels_own_moments() {
     for (settings, expected) in [
         (&[][..], (Complete, Included)),
         (&["scenario.load_transfer=complete"], (Complete, Included)),
-        (&["scenario.loads=quasi-static"], (QuasiStatic, Neglected)),
+        (&["scenario.load_transfer=quasi-static"], (QuasiStatic, Neglected)),
         (&["scenario.load_transfer=quasi-static-torque"], (QuasiStaticTorque, Neglected)),
-        (&["scenario.load_transfer=uniform", "scenario.moments=included"], (Uniform, Included)),
+        (
+            &["scenario.load_transfer=uniform", "scenario.wheel_moments=included"],
+            (Uniform, Included),
+        ),
         (&["scenario.wheel_moments=included"], (Complete, Included)),
     ] {
         let read = scenario_with(settings).expect("it is read");
@@ -382,7 +385,7 @@ fn overrides_reach_every_part_of_a_scenario() {
         "wheel.radius_m=0.2",
         "rover.body.mass_kg=20",
         "rover.mount.0.position_m=[0.31, 0.275, -0.14]",
-        "scenario.drive.speed_m_s=[0.1, 0.1, -0.1, -0.1]",
+        "scenario.drive.rim_speed_m_s=[0.1, 0.1, -0.1, -0.1]",
     ]);
     let error = run.expect_err("the hubs are no longer level");
     assert!(error.to_string().contains("height z of wheel"), "{error}");
@@ -392,7 +395,7 @@ fn overrides_reach_every_part_of_a_scenario() {
         "soil.cohesion_kpa=0.5",
         "wheel.radius_m=0.2",
         "rover.body.mass_kg=20",
-        "scenario.drive={speed_m_s=[0.1, 0.1, -0.1, -0.1]}",
+        "scenario.drive={rim_speed_m_s=[0.1, 0.1, -0.1, -0.1]}",
     ]);
     let run = run.expect("all are allowed");
     assert_eq!(run.value.ground.plane_slope().expect("a plane"), deg(5.0));
@@ -418,7 +421,8 @@ fn a_new_law_needs_no_cleaning_up() {
     let soil = run.expect("allowed").value.ground.soil;
     assert!(matches!(soil.shear, Shear::Isotropic { .. }));
     assert_eq!(soil.bulldozing, Bulldozing::None);
-    let run = override_scenario(&["scenario.drive.law=eq18", "scenario.drive.speed_m_s=0.1"]);
+    let run =
+        override_scenario(&["scenario.drive.law=eq18", "scenario.drive.ground_speed_m_s=0.1"]);
     assert!(matches!(run.expect("allowed").value.drive, DriveLaw::Eq18(_)));
 }
 
@@ -679,13 +683,16 @@ fn wrong_scenarios_say_what_where_and_how_to_mend_it() {
         ("gravity_m_s2 = -1.62", "`gravity_m_s2` is -1.62, it must be 0.01 to 30"),
         ("duration_s = 0", "`duration_s` is 0, it must be above 0 and at most 86400"),
         ("slope_deg = 60.1", "`slope_deg` is 60.1, it must be 0 to 60"),
-        ("loads = \"quasistatic\"", "did you mean \"quasi-static\"?"),
-        ("moments = true", "it must be \"neglected\" or \"included\""),
+        ("load_transfer = \"quasistatic\"", "did you mean \"quasi-static\"?"),
+        ("wheel_moments = true", "it must be \"neglected\" or \"included\""),
         ("drive = 1", "`drive` is the integer 1, it must be a table"),
-        ("drive.speed_m_s = [1, 2, 3]", "the number of rim speeds is 3"),
-        ("drive.speed_m_s = [1, 2, 3, 11]", "`drive.rim_speed_m_s.3` is 11, it must be -10 to 10"),
-        ("drive.speed_m_s = \"fast\"", "it must be a number or a list"),
-        ("drive = { law = \"eq18\", speed_m_s = 0 }", "it must be above 0 and at most 10"),
+        ("drive.rim_speed_m_s = [1, 2, 3]", "the number of rim speeds is 3"),
+        (
+            "drive.rim_speed_m_s = [1, 2, 3, 11]",
+            "`drive.rim_speed_m_s.3` is 11, it must be -10 to 10",
+        ),
+        ("drive.rim_speed_m_s = \"fast\"", "it must be a number or a list"),
+        ("drive = { law = \"eq18\", ground_speed_m_s = 0 }", "it must be above 0 and at most 10"),
         ("drive = { law = \"eq-18\" }", "did you mean \"eq18\"?"),
         ("drive = { reference_slip_ratio = 0.1 }", "unknown key `drive.reference_slip_ratio`"),
         ("start.yaw_deg = inf", "`start.yaw_deg`"),
@@ -718,8 +725,8 @@ fn every_end_of_every_range_is_kept() {
                 let overrides = Overrides::parse([&setting]).expect("it is a value");
                 let error = read(preset.kind, &Source::text("resolved", &resolved), &overrides);
                 let error = error.expect_err(&setting);
-                let is_told = matches!(error.problem(), Problem::OutOfRange { .. });
-                assert!(is_told, "{}: {error}", preset.name);
+                let is_out_of_range = matches!(error.problem(), Problem::OutOfRange { .. });
+                assert!(is_out_of_range, "{}: {error}", preset.name);
                 ends += 1;
             }
         });
@@ -848,7 +855,7 @@ fn paths_start_from_the_folder_of_the_document_that_names_them() {
 }
 
 #[test]
-fn what_a_document_leaves_out_is_told() {
+fn what_a_document_leaves_out_is_out_of_range() {
     let text = "schema = \"soil/1\"\ncohesion_kpa = 1\nfriction_angle_deg = 30\n\
                 density_kg_m3 = 1500\npressure_sinkage = { law = \"bekker\", k_c = 0, k_phi = 1e6, n = 1 }\n\
                 stress_peak = { a0 = 0.4, a1 = 0.15 }\n\

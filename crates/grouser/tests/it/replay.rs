@@ -179,7 +179,7 @@ fn what_a_drive_does_not_tell_apart_is_said() {
     let causes = pointed(&found);
     assert!(causes.contains(&Cause::Slope) && causes.contains(&Cause::RollMounting), "{causes:?}");
     let verdict = &finding(&found, Parameter::Slope).verdict;
-    let Verdict::NotToldApart(rivals) = verdict else { panic!("{verdict:?}") };
+    let Verdict::Underdetermined(rivals) = verdict else { panic!("{verdict:?}") };
     assert!(rivals.contains(&Cause::RollMounting), "{rivals:?}");
 }
 

@@ -330,7 +330,7 @@ fn short(record: &ParameterRecord) -> &str {
 /// Places of the keys whose deviation is largest beside that of the prior, in the keys' order.
 fn least_known(records: &[ParameterRecord]) -> Vec<usize> {
     let mut places: Vec<usize> = (0..records.len()).collect();
-    let left = |place: usize| records[place].contraction.unwrap_or(1.0);
+    let left = |place: usize| records[place].posterior_contraction.unwrap_or(1.0);
     places.sort_by(|&one, &other| left(other).total_cmp(&left(one)));
     places.truncate(KEYS_ON_PAGE);
     places.sort_unstable();

@@ -274,8 +274,8 @@ fn facts(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Vec<(&'static str
             format!(
                 "{}; load transfer {}; wheel moments {}",
                 model(inputs),
-                document.text("loads").unwrap_or("unknown"),
-                document.text("moments").unwrap_or("unknown")
+                document.text("load_transfer").unwrap_or("unknown"),
+                document.text("wheel_moments").unwrap_or("unknown")
             ),
         ),
         (

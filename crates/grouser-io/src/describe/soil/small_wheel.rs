@@ -27,22 +27,19 @@ pub(super) static SMALL_WHEEL: Table<SmallWheel> = Table {
             "Friction between wheel and soil.",
             &At { inner: &INTERFACE, at: |terms: &mut SmallWheel| &mut terms.interface },
         )
-        .otherwise(DEFAULTS)
-        .formerly("rim"),
+        .otherwise(DEFAULTS),
         table(
             "side_wall",
             "The soil's load on the side wall of the wheel.",
             &At { inner: &SIDE_WALL, at: |terms: &mut SmallWheel| &mut terms.side_wall },
         )
-        .otherwise(DEFAULTS)
-        .formerly("flank"),
+        .otherwise(DEFAULTS),
         table(
             "mounds",
             "Soil pushed by the width of the rim.",
             &At { inner: &MOUNDS, at: |terms: &mut SmallWheel| &mut terms.mounds },
         )
-        .otherwise(DEFAULTS)
-        .formerly("heap"),
+        .otherwise(DEFAULTS),
     ],
 };
 
@@ -184,8 +181,7 @@ static MOUNDS: Table<Mounds> = Table {
             "In front of a wheel that skids",
             |mounds: &mut Mounds| Some(&mut mounds.bow_wave),
         )
-        .or(GENERAL.mounds.bow_wave)
-        .formerly("front"),
+        .or(GENERAL.mounds.bow_wave),
         number(
             "rear_mound",
             ONE,
@@ -193,7 +189,6 @@ static MOUNDS: Table<Mounds> = Table {
             "Behind a wheel that spins",
             |mounds: &mut Mounds| Some(&mut mounds.rear_mound),
         )
-        .or(GENERAL.mounds.rear_mound)
-        .formerly("behind"),
+        .or(GENERAL.mounds.rear_mound),
     ],
 };

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import _core, _former_names
+from .. import _core
 from .._arrays import number
 from .._descriptions import Soil, Source, Wheel
 from .._errors import ParameterError
@@ -89,7 +89,6 @@ class SoilContact:
     1.0
     """
 
-    @_former_names.takes("moments")
     def __init__(
         self,
         mj_model: mujoco.MjModel,

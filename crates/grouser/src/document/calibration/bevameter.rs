@@ -68,7 +68,6 @@ pub struct BevameterFound {
 pub struct BevameterResults<'a> {
     rows: &'a [ParameterRecord],
     discrepancies: &'a [DiscrepancyRecord],
-    #[serde(rename = "cannot_tell_apart")]
     unidentifiable: &'a [String],
     sampler: &'a Option<SamplerRecord>,
 }

@@ -131,19 +131,17 @@ impl Solved {
         }
     }
 
-    /// The outcome: `determined`; `open`, if a parameter or combination is underdetermined; `not_mixed`,
-    /// if the sampler has not converged; `not_settled`, if least squares has not converged.
+    /// The outcome: `determined`; `underdetermined`, if the measurements do not determine a parameter
+    /// or a combination; `not_converged`, if least squares or the sampler has not converged.
     #[must_use]
     pub fn outcome(&self) -> &'static str {
         let worst = self.sampler.as_ref().map_or(1.0, |sampler| sampler.worst_r_hat);
-        if !self.solution.fit.converged {
-            "not_settled"
-        } else if worst > GOOD_R_HAT {
-            "not_mixed"
+        if !self.solution.fit.converged || worst > GOOD_R_HAT {
+            "not_converged"
         } else if self.unidentifiable.is_empty() {
             "determined"
         } else {
-            "open"
+            "underdetermined"
         }
     }
 

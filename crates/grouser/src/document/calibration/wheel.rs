@@ -69,7 +69,6 @@ pub struct WheelResults<'a> {
     rows: &'a [ParameterRecord],
     discrepancies: &'a [DiscrepancyRecord],
     correlation_lengths: &'a [LengthRecord],
-    #[serde(rename = "cannot_tell_apart")]
     unidentifiable: &'a [String],
     target: &'a str,
     proposals: &'a [ProposalRecord],

@@ -163,9 +163,9 @@ pub fn sentence(evidence: &Evidence) -> String {
             degrees(*limit),
             degrees(*slope)
         ),
-        Evidence::Contradiction { told, by_attitude } => format!(
+        Evidence::Contradiction { reported, by_attitude } => format!(
             "the yaw is {:.0}°, but {:.0}° by roll and pitch",
-            degrees(*told),
+            degrees(*reported),
             degrees(*by_attitude)
         ),
         Evidence::Outrun { slip_ratio } => format!(

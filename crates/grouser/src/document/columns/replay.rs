@@ -40,7 +40,7 @@ pub const SHARE: &str = "share";
 /// What the differences say of it.
 pub const FINDING: &str = "finding";
 /// What cannot be told apart from it.
-pub const RIVALS: &str = "not_told_apart_from";
+pub const RIVALS: &str = "indistinguishable_from";
 
 /// The quantity of a channel.
 #[must_use]
@@ -209,7 +209,7 @@ pub const fn quantity_of_parameter(parameter: Parameter) -> Quantity {
 /// The columns of [`findings`].
 pub const FINDINGS: [Column<Finding>; 9] = [
     text(CAUSE, "What may be wrong", |it| Some(it.parameter.cause().name().to_owned())),
-    text(FINDING, "`points-to`, `not-told-apart` or `nothing`", |it| {
+    text(FINDING, "`points-to`, `underdetermined` or `nothing`", |it| {
         Some(verdict_name(&it.verdict).to_owned())
     }),
     text(
@@ -239,7 +239,7 @@ pub const FINDINGS: [Column<Finding>; 9] = [
         |it| it.evidence,
     ),
     words(RIVALS, "Causes that explain the differences as well", |it| match &it.verdict {
-        Verdict::NotToldApart(rivals) => rivals.iter().map(|it| it.name()).collect(),
+        Verdict::Underdetermined(rivals) => rivals.iter().map(|it| it.name()).collect(),
         _ => Vec::new(),
     }),
     text("meaning", "What the cause means", |it| Some(it.parameter.cause().meaning().to_owned())),
@@ -254,7 +254,7 @@ pub fn brief_findings() -> [&'static str; 7] {
 const fn verdict_name(verdict: &Verdict) -> &'static str {
     match verdict {
         Verdict::PointsTo => "points-to",
-        Verdict::NotToldApart(_) => "not-told-apart",
+        Verdict::Underdetermined(_) => "underdetermined",
         Verdict::Nothing => "nothing",
     }
 }
@@ -293,7 +293,7 @@ fn sentence(replay: &Replay, cause: Cause) -> String {
     let numbers: Vec<String> = of_cause.iter().map(|it| estimate_of(it)).collect();
     let share = of_cause.first().map_or(0.0, |it| it.share);
     let rivals = match of_cause.first().map(|it| &it.verdict) {
-        Some(Verdict::NotToldApart(rivals)) => {
+        Some(Verdict::Underdetermined(rivals)) => {
             let names: Vec<&str> = rivals.iter().map(|it| it.name()).collect();
             format!("; on this drive that cannot be told apart from {}", names.join(", "))
         }

@@ -98,7 +98,7 @@ impl Stretch {
             time: [from, to],
             way,
             attitude,
-            told_yaw,
+            reported_yaw,
             rim_speeds,
             rim_scatter,
             steering,
@@ -115,7 +115,7 @@ impl Stretch {
         let mut of_attitude: Vec<f64> = attitude.iter().flatten().copied().collect();
         numbers(archive, "attitude", &mut of_attitude);
         *attitude = of_attitude.try_into().ok();
-        archive.maybe("told_yaw", told_yaw);
+        archive.maybe("reported_yaw", reported_yaw);
         numbers(archive, "rim_speeds", rim_speeds);
         archive.number("rim_scatter", rim_scatter);
         maybes(archive, "steering", steering);
@@ -179,7 +179,7 @@ impl Evidence {
             Self::Growing { slip_ratio: zero },
             Self::Weakening { slip_ratio: zero, loss: zero, spare: zero },
             Self::Rising { slip_ratio: zero, slope: zero, limit: zero },
-            Self::Contradiction { told: zero, by_attitude: zero },
+            Self::Contradiction { reported: zero, by_attitude: zero },
             Self::Outrun { slip_ratio: zero },
             Self::Idle { wheel: String::new(), share: zero },
         ]
@@ -227,8 +227,8 @@ impl Evidence {
                 archive.number("slope", slope);
                 archive.number("limit", limit);
             }
-            Self::Contradiction { told, by_attitude } => {
-                archive.number("told", told);
+            Self::Contradiction { reported, by_attitude } => {
+                archive.number("reported", reported);
                 archive.number("by_attitude", by_attitude);
             }
             Self::Idle { wheel, share } => {

@@ -17,7 +17,7 @@ pub struct Stretch {
     /// Slope of the ground and yaw of the body, *α*, *γ* [rad], from roll and pitch; `None` without them.
     pub attitude: Option<[f64; 2]>,
     /// Yaw as the telemetry has it, *γ* [rad].
-    pub told_yaw: Option<f64>,
+    pub reported_yaw: Option<f64>,
     /// Rim speed of each wheel [m/s].
     pub rim_speeds: Vec<f64>,
     /// How much rim speeds scatter, over their size [-].
@@ -189,7 +189,7 @@ impl Gatherer {
         let scatter = grouser_io::statistics::quantile(&scatters, 0.5).unwrap_or(0.0);
         let value = |it: Option<Middle>| it.map(|it| it.value);
         let (roll, pitch) = (value(of(&|it| it.roll)), value(of(&|it| it.pitch)));
-        let told_yaw = value(of(&|it| it.yaw));
+        let reported_yaw = value(of(&|it| it.yaw));
         let each = 0..self.rover.wheel_count();
         let torques = each.clone().map(|wheel| {
             let found = of(&|it| self.torque(wheel, &it.wheels[wheel]))?;
@@ -210,8 +210,8 @@ impl Gatherer {
         Some(Stretch {
             time: [first.time, last.time],
             way: self.way,
-            attitude: attitude(roll, pitch, told_yaw, self.slope),
-            told_yaw,
+            attitude: attitude(roll, pitch, reported_yaw, self.slope),
+            reported_yaw,
             rim_scatter: if fastest > 0.0 { scatter / fastest } else { 0.0 },
             rim_speeds: rims.iter().map(|it| it.value).collect(),
             steering,

@@ -63,8 +63,8 @@ pub enum Evidence {
     },
     /// A yaw that contradicts roll and pitch.
     Contradiction {
-        /// The yaw as it was told [rad].
-        told: f64,
+        /// The yaw as it was reported [rad].
+        reported: f64,
         /// The yaw by roll and pitch [rad].
         by_attitude: f64,
     },

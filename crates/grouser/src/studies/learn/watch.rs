@@ -247,14 +247,14 @@ impl Watch {
         const STEEP: f64 = 0.09;
         /// More than this is no mounting [rad].
         const APART: f64 = 0.17;
-        let ([slope, yaw], told) = (stretch.attitude?, stretch.told_yaw?);
-        let apart = cos(told - yaw) < cos(APART);
+        let ([slope, yaw], reported) = (stretch.attitude?, stretch.reported_yaw?);
+        let apart = cos(reported - yaw) < cos(APART);
         self.contradicted =
             if slope > STEEP && apart { self.contradicted + stretch.way } else { 0.0 };
         if self.contradicted < LASTS {
             return None;
         }
-        let evidence = Evidence::Contradiction { told, by_attitude: yaw };
+        let evidence = Evidence::Contradiction { reported, by_attitude: yaw };
         self.raise(WarningKind::LyingSensor, 0, [None; 2], evidence)
     }
 

@@ -51,7 +51,7 @@ pub enum Verdict {
     /// They point to it.
     PointsTo,
     /// They point to it or to others, which cannot be told apart.
-    NotToldApart(Vec<Cause>),
+    Underdetermined(Vec<Cause>),
     /// They do not point to it.
     Nothing,
 }
@@ -124,10 +124,10 @@ impl Sums {
             let rival = taken.iter().find(|(_, rivals)| rivals.contains(&cause));
             let verdict = match (found.map(|place| &taken[place].1), rival) {
                 (Some(rivals), _) if rivals.is_empty() => Verdict::PointsTo,
-                (Some(rivals), _) => Verdict::NotToldApart(rivals.clone()),
+                (Some(rivals), _) => Verdict::Underdetermined(rivals.clone()),
                 (None, Some((best, rivals))) => {
                     let others = rivals.iter().filter(|it| **it != cause);
-                    Verdict::NotToldApart([*best].into_iter().chain(others.copied()).collect())
+                    Verdict::Underdetermined([*best].into_iter().chain(others.copied()).collect())
                 }
                 (None, None) => Verdict::Nothing,
             };

@@ -87,7 +87,7 @@ impl Instruments {
             time: [0.0, way / rim_speed],
             way,
             attitude: Some([leg.slope, leg.yaw]),
-            told_yaw: Some(leg.yaw),
+            reported_yaw: Some(leg.yaw),
             rim_speeds: vec![rim_speed; wheels],
             rim_scatter: 0.0,
             steering: vec![None; wheels],
