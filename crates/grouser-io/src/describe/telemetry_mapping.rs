@@ -2,8 +2,8 @@
 //! telemetry.
 
 use super::super::field::{
-    Allowed, Each, Field, ONE, S, Shape, Table, Text, Texts, field, flag, list, note, number, text,
-    word, words,
+    Allowed, Each, Field, OF_KEY, ONE, S, Shape, Table, Text, Texts, field, flag, list, note,
+    number, text, word, words,
 };
 use super::super::telemetry_mapping::given::{
     Axes, Given, GivenReading, PoseColumn, column_pattern, units,
@@ -35,7 +35,7 @@ pub(crate) static TELEMETRY_MAPPING: Table<Given> = Table {
     fields: &[
         schema("telemetry-mapping/1"),
         text("name", 0, "What messages call it.", |it: &mut Given, name| {
-            name.clone_into(&mut it.name)
+            name.clone_into(&mut it.name);
         }),
         note("source", "Where it is from.").optional(),
         number(
@@ -143,7 +143,7 @@ static READING: Table<GivenReading> = Table {
         .only_with("field"),
         number(
             "offset",
-            ONE,
+            OF_KEY,
             -LARGEST..=LARGEST,
             "What is added to a `field` at last, in its column's unit",
             |it: &mut GivenReading| Some(&mut it.offset),

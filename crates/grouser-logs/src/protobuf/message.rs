@@ -152,7 +152,9 @@ macro_rules! scalars {
             fn put(&self, number: u32, out: &mut Vec<u8>) {
                 let $it = self;
                 let written: Option<Encoded<'_>> = $written;
-                written.into_iter().for_each(|encoded| encoded.put(number, out));
+                if let Some(encoded) = written {
+                    encoded.put(number, out);
+                }
             }
 
             fn take(&mut self, encoded: Encoded<'_>, _: u32) -> Option<()> {

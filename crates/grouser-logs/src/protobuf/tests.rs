@@ -18,7 +18,7 @@ const DEPTH: u32 = 8;
 
 messages! {
     /// A message with words.
-    Words = "test.Words" {
+    Said = "test.Said" {
         1 words: Vec<String>,
         2 is_said: bool,
         70000 number: Option<i32>,
@@ -35,10 +35,10 @@ fn line() -> impl Strategy<Value = LinePrimitive> {
     (kind, points, vec(any::<u32>(), 0..9), finite(), any::<bool>()).prop_map(
         |(r#type, points, indices, thickness, scale_invariant)| LinePrimitive {
             r#type,
-            points,
-            indices,
             thickness,
             scale_invariant,
+            points,
+            indices,
             ..LinePrimitive::default()
         },
     )
@@ -46,8 +46,8 @@ fn line() -> impl Strategy<Value = LinePrimitive> {
 
 fn scene() -> impl Strategy<Value = SceneUpdate> {
     let model = (vec(any::<u8>(), 0..20), any::<String>()).prop_map(|(data, url)| ModelPrimitive {
-        data,
         url,
+        data,
         ..ModelPrimitive::default()
     });
     let entity =
@@ -71,9 +71,9 @@ fn log() -> impl Strategy<Value = Log> {
     )
 }
 
-fn words() -> impl Strategy<Value = Words> {
+fn words() -> impl Strategy<Value = Said> {
     (vec(any::<String>(), 0..4), any::<bool>(), any::<Option<i32>>())
-        .prop_map(|(words, is_said, number)| Words { words, is_said, number })
+        .prop_map(|(words, is_said, number)| Said { words, is_said, number })
 }
 
 /// A message is read as it was written; no part of its bytes is, nor is it where messages may not

@@ -80,7 +80,7 @@ impl McapLog {
                 .next_message()
                 .map_err(|error| TelemetryError::new(&self.label, Problem::Unreadable(error)))?;
             if let Some(message) = message {
-                self.add(message);
+                self.add(&message);
             } else {
                 self.is_read = true;
                 self.rows.end();
@@ -102,7 +102,7 @@ impl McapLog {
         })
     }
 
-    fn add(&mut self, message: Message) {
+    fn add(&mut self, message: &Message) {
         let decoder = self.decoders.get(&message.channel).and_then(Option::as_ref);
         let Some(decoder) = decoder else { return };
         let data = self.messages.data();
