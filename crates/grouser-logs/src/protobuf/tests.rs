@@ -18,7 +18,7 @@ const DEPTH: u32 = 8;
 
 messages! {
     /// A message with words.
-    Said = "test.Said" {
+    Mixed = "test.Mixed" {
         1 words: Vec<String>,
         2 is_said: bool,
         70000 number: Option<i32>,
@@ -71,9 +71,9 @@ fn log() -> impl Strategy<Value = Log> {
     )
 }
 
-fn words() -> impl Strategy<Value = Said> {
+fn words() -> impl Strategy<Value = Mixed> {
     (vec(any::<String>(), 0..4), any::<bool>(), any::<Option<i32>>())
-        .prop_map(|(words, is_said, number)| Said { words, is_said, number })
+        .prop_map(|(words, is_said, number)| Mixed { words, is_said, number })
 }
 
 /// A message is read as it was written; no part of its bytes is, nor is it where messages may not
