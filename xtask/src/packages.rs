@@ -16,10 +16,10 @@ const IN_THE_SOURCES: [&str; 9] = [
     "crates/grouser/src/",
     "crates/grouser-core/src/",
     "crates/grouser-io/src/",
+    "crates/grouser-logs/src/",
     "crates/grouser-page/src/",
     "crates/grouser-pictures/src/",
     "crates/grouser-store/src/",
-    "crates/grouser-telemetry/src/",
     "crates/grouser-python/src/",
     "crates/grouser-python/python/",
 ];

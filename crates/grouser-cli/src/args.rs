@@ -38,7 +38,7 @@ pub(crate) use campaign::{
     CampaignRerunArgs, CampaignRunArgs, CampaignSummariseArgs, ExecutorChoice,
 };
 pub(crate) use card::{CardArgs, RuleArgs, SideChoice};
-pub(crate) use documents::{CheckArgs, CompletionsArgs, PresetsArgs, SchemaArgs, SchemaChoice};
+pub(crate) use documents::{CheckArgs, CompletionsArgs, PresetsArgs, SchemaArgs};
 pub(crate) use draw::DrawArgs;
 pub(crate) use forecast::ForecastArgs;
 pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
@@ -129,7 +129,7 @@ pub(crate) enum Command {
     Bench(BenchArgs),
     /// Make a rover, a wheel, a soil or a scenario of your own: asks, or takes answers by flags.
     New(NewArgs),
-    /// Check documents: soils, wheels, motors, rovers, scenarios, missions, data sets, campaigns, priors.
+    /// Check documents: soils, wheels, motors, rovers, scenarios, missions, data sets, campaigns, priors, mappings.
     Check(CheckArgs),
     /// List the presets with their sources, or print one as TOML.
     Presets(PresetsArgs),

@@ -190,7 +190,8 @@ impl Checker<'_> {
             Value::List(nodes) => self.list(schema, node, nodes, path),
             Value::Integer(integer) => check_range(schema, node, *integer as f64, path),
             Value::Float(float) => check_range(schema, node, *float, path),
-            Value::String(_) | Value::Boolean(_) | Value::Date(_) => Ok(()),
+            Value::String(text) => check_characters(schema, node, text, path),
+            Value::Boolean(_) | Value::Date(_) => Ok(()),
         }
     }
 
@@ -262,6 +263,8 @@ impl Checker<'_> {
                 None => return Err(self.unknown_key(schema, all, node, entry, path)),
             }
         }
+        check_partners(schema, entries, path)?;
+        check_choices(schema, node, path, key)?;
         let missing = keys(schema).find(|(key, key_schema)| {
             // A file's own `schema` is asked for where the file is read.
             let is_needed = requires(schema, key) || waits_for_prior(key_schema);
@@ -338,6 +341,60 @@ impl Checker<'_> {
         }
         Ok(())
     }
+}
+
+/// That no key is there without one that it goes with.
+fn check_partners(schema: &Json, entries: &[Entry], path: &str) -> Result<(), DocumentError> {
+    let has = |key: &str| entries.iter().any(|entry| entry.key == key);
+    for entry in entries {
+        let partners = schema.pointer(&format!("/dependentRequired/{}", entry.key));
+        let mut partners = partners.and_then(Json::as_array).into_iter().flatten();
+        let Some(other) = partners.find_map(|it| it.as_str().filter(|it| !has(it))) else {
+            continue;
+        };
+        let about = schema.pointer(&format!("/properties/{other}/description"));
+        let key = join(path, &entry.key);
+        let problem = Problem::GoesWith { key, other: other.to_owned() };
+        return Err(DocumentError::at(&entry.key_origin, problem)
+            .with_hint(about.and_then(Json::as_str).map(first_line)));
+    }
+    Ok(())
+}
+
+/// That a table has one of the keys of every choice, and no two that exclude each other.
+fn check_choices(
+    schema: &Json,
+    node: &Node,
+    path: &str,
+    key: &Origin,
+) -> Result<(), DocumentError> {
+    for (keys, may_be_several) in json_schema::choices_of(schema) {
+        let there: Vec<_> = keys.iter().copied().filter(|key| node.entry(key).is_some()).collect();
+        let table = if path.is_empty() { "the document".to_owned() } else { format!("`{path}`") };
+        let problem = match there[..] {
+            [] => Problem::NoneOf(table, quoted(&keys, '`')),
+            [one, other, ..] if !may_be_several => {
+                Problem::SeveralOf(table, format!("`{one}` and `{other}`"))
+            }
+            _ => continue,
+        };
+        return Err(DocumentError::at(key, problem));
+    }
+    Ok(())
+}
+
+/// That a text has as many characters as it must have.
+fn check_characters(
+    schema: &Json,
+    node: &Node,
+    text: &str,
+    path: &str,
+) -> Result<(), DocumentError> {
+    let least = schema.get("minLength").and_then(Json::as_u64).unwrap_or(0);
+    if text.chars().count() as u64 >= least {
+        return Ok(());
+    }
+    Err(DocumentError::at(&node.origin, Problem::TooShort { key: path.to_owned(), least }))
 }
 
 fn check_word(allowed: &[&str], node: &Node, path: &str) -> Result<(), DocumentError> {

@@ -175,20 +175,19 @@ impl CaseSection {
                 read_soil(&source, &none).map_err(|error| blame_name(error, &origin, &source))?;
             Ok((name.clone(), loaded))
         };
-        let tested = || match (&self.wheel, &self.rover) {
-            (Some(name), None) => {
+        let tested = || {
+            if let Some(name) = &self.wheel {
                 let (source, origin) = find(Kind::Wheel, "wheel", name)?;
                 let wheel = read_wheel(&source, &none);
                 let wheel = wheel.map_err(|error| blame_name(error, &origin, &source))?;
-                Ok(Tested::Wheel(Box::new(wheel)))
+                return Ok(Tested::Wheel(Box::new(wheel)));
             }
-            (None, Some(name)) => {
-                let (source, origin) = find(Kind::Rover, "rover", name)?;
-                let rover = read_rover(&source, &none);
-                let rover = rover.map_err(|error| blame_name(error, &origin, &source))?;
-                Ok(Tested::Rover(Box::new(rover)))
-            }
-            _ => Err(DocumentError::at(&node.origin, Problem::WheelOrRover)),
+            // A part without a wheel has a rover.
+            let name = self.rover.as_deref().unwrap_or_default();
+            let (source, origin) = find(Kind::Rover, "rover", name)?;
+            let rover = read_rover(&source, &none);
+            let rover = rover.map_err(|error| blame_name(error, &origin, &source))?;
+            Ok(Tested::Rover(Box::new(rover)))
         };
         let fitted = |name: &String| {
             if self.soils.contains(name) {

@@ -12,6 +12,7 @@ pub(crate) mod rover;
 pub(crate) mod run;
 pub(crate) mod scenario;
 pub(crate) mod soil;
+pub(crate) mod telemetry_mapping;
 pub(crate) mod terrain;
 pub(crate) mod uncertainty;
 pub(crate) mod wheel;
@@ -32,5 +33,6 @@ pub(crate) fn rows(kind: Kind) -> &'static dyn Rows {
         Kind::DataSet => &data_set::DATA_SET,
         Kind::Campaign => &campaign::CAMPAIGN,
         Kind::Prior => &prior::PRIORS,
+        Kind::TelemetryMapping => &telemetry_mapping::TELEMETRY_MAPPING,
     }
 }

@@ -106,7 +106,12 @@ impl Draft {
             Kind::Wheel => wheel::usual,
             Kind::Soil => soil::usual,
             Kind::Scenario => scenario::usual,
-            Kind::Motor | Kind::Mission | Kind::DataSet | Kind::Campaign | Kind::Prior => {
+            Kind::Motor
+            | Kind::Mission
+            | Kind::DataSet
+            | Kind::Campaign
+            | Kind::Prior
+            | Kind::TelemetryMapping => {
                 return None;
             }
         };
@@ -121,7 +126,12 @@ impl Draft {
             Kind::Wheel => &wheel::KEYS,
             Kind::Soil => &soil::KEYS,
             Kind::Scenario => &scenario::KEYS,
-            Kind::Motor | Kind::Mission | Kind::DataSet | Kind::Campaign | Kind::Prior => &[],
+            Kind::Motor
+            | Kind::Mission
+            | Kind::DataSet
+            | Kind::Campaign
+            | Kind::Prior
+            | Kind::TelemetryMapping => &[],
         }
     }
 
@@ -222,9 +232,12 @@ impl Draft {
             Kind::Wheel => Ok(self.answers.wheel()),
             Kind::Soil => Ok(self.answers.soil()),
             Kind::Scenario => Ok(self.answers.scenario()),
-            Kind::Motor | Kind::Mission | Kind::DataSet | Kind::Campaign | Kind::Prior => {
-                Ok(String::new())
-            }
+            Kind::Motor
+            | Kind::Mission
+            | Kind::DataSet
+            | Kind::Campaign
+            | Kind::Prior
+            | Kind::TelemetryMapping => Ok(String::new()),
         }
     }
 

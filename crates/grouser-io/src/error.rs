@@ -170,9 +170,28 @@ pub enum Problem {
         /// The allowed ones.
         allowed: String,
     },
-    /// A part of a data set that is about neither, or about both.
-    #[error("a case has either a `wheel`, tested on a stand, or a `rover`, tested on slopes")]
-    WheelOrRover,
+    /// A table, named first, with none of some keys.
+    #[error("{0} needs {1}")]
+    NoneOf(String, String),
+    /// A table, named first, with two keys that exclude each other.
+    #[error("{0} has {1}, which exclude each other")]
+    SeveralOf(String, String),
+    /// A key that means nothing without another one.
+    #[error("`{key}` goes with `{other}`, which is not given")]
+    GoesWith {
+        /// The key.
+        key: String,
+        /// The other key of its table.
+        other: String,
+    },
+    /// A text with too few characters.
+    #[error("`{key}` is too short a text, it must have {least} or more characters")]
+    TooShort {
+        /// The key.
+        key: String,
+        /// How many characters it must have.
+        least: u64,
+    },
     /// A list that is too short or too long.
     #[error("`{key}` has {count} entries, it must have {allowed}")]
     WrongLength {

@@ -33,6 +33,8 @@ pub(crate) struct Field<T: 'static> {
     /// What it is: a sentence; of a number without its unit and full stop.
     pub doc: &'static str,
     pub presence: Presence,
+    /// The key without which it means nothing.
+    pub only_with: Option<&'static str>,
     pub shape: Shape<T>,
 }
 
@@ -43,6 +45,10 @@ pub(crate) enum Presence {
     Needed,
     /// Nothing; a resolved document does not have it either, nor an empty text or list.
     Optional,
+    /// That another one of these keys is there. The table has at least one of them.
+    AnyOf(&'static [&'static str]),
+    /// The same, where the table has no more than one of them.
+    OneOf(&'static [&'static str]),
     /// This value.
     Otherwise(Fill),
     /// The keyword that goes with the one of another key of the table.
@@ -100,10 +106,22 @@ pub(crate) struct Number {
     pub is_direction: bool,
 }
 
+/// What a text may be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Allowed {
+    All,
+    /// A format of JSON Schema, such as `date`.
+    Format(&'static str),
+    /// One of these, which mean what they say.
+    Words(fn() -> Vec<&'static str>),
+    /// What a regular expression fits, for editors; the reader checks it where it understands the text.
+    Pattern(fn() -> String),
+}
+
 /// A text, at least so many characters long.
 pub(crate) struct Text<T: 'static> {
     pub least: u64,
-    pub format: Option<&'static str>,
+    pub allowed: Allowed,
     pub(crate) put: fn(&mut T, &str),
 }
 
@@ -111,6 +129,7 @@ pub(crate) struct Text<T: 'static> {
 pub(crate) struct Texts<T: 'static> {
     pub least: u64,
     pub most: Option<u64>,
+    pub allowed: Allowed,
     pub put: fn(&mut T, usize, &str),
 }
 
@@ -318,7 +337,7 @@ pub(crate) const fn text<T>(
     doc: &'static str,
     put: fn(&mut T, &str),
 ) -> Field<T> {
-    field(key, doc, Shape::Text(Text { least, format: None, put }))
+    field(key, doc, Shape::Text(Text { least, allowed: Allowed::All, put }))
 }
 
 /// A text that does not go into the domain's value.
@@ -328,13 +347,14 @@ pub(crate) const fn note<T>(key: &'static str, doc: &'static str) -> Field<T> {
 
 /// A day, as text.
 pub(crate) const fn day<T>(key: &'static str, doc: &'static str) -> Field<T> {
-    let text = Text { least: 0, format: Some("date"), put: nothing_with };
+    let text = Text { least: 0, allowed: Allowed::Format("date"), put: nothing_with };
     field(key, doc, Shape::Text(text)).optional()
 }
 
 /// Some texts; none are left out.
 pub(crate) const fn texts<T>(key: &'static str, doc: &'static str) -> Field<T> {
-    field(key, doc, Shape::Texts(Texts { least: 0, most: None, put: |_, _, _| {} })).optional()
+    let texts = Texts { least: 0, most: None, allowed: Allowed::All, put: |_, _, _| {} };
+    field(key, doc, Shape::Texts(texts)).optional()
 }
 
 /// One of some keywords.
@@ -389,7 +409,8 @@ pub(crate) const fn preset<T>(doc: &'static str) -> Field<T> {
 pub(crate) const PRESET: &str = "preset";
 
 pub(crate) const fn field<T>(key: &'static str, doc: &'static str, shape: Shape<T>) -> Field<T> {
-    Field { key, in_thousands: None, doc, presence: Presence::Needed, shape }
+    let presence = Presence::Needed;
+    Field { key, in_thousands: None, doc, presence, only_with: None, shape }
 }
 
 /// For words that do not go into the domain's value.
@@ -402,6 +423,24 @@ impl<T> Field<T> {
     /// The same, that may be left out.
     pub(crate) const fn optional(mut self) -> Self {
         self.presence = Presence::Optional;
+        self
+    }
+
+    /// The same, where a table has at least one of some keys.
+    pub(crate) const fn any_of(mut self, keys: &'static [&'static str]) -> Self {
+        self.presence = Presence::AnyOf(keys);
+        self
+    }
+
+    /// The same, where a table has exactly one of some keys.
+    pub(crate) const fn one_of(mut self, keys: &'static [&'static str]) -> Self {
+        self.presence = Presence::OneOf(keys);
+        self
+    }
+
+    /// The same, which means nothing without another key.
+    pub(crate) const fn only_with(mut self, key: &'static str) -> Self {
+        self.only_with = Some(key);
         self
     }
 
@@ -490,6 +529,8 @@ impl<T> Table<T> {
             Presence::Prior(Some(number)) => Some(Json::from(number)),
             Presence::Needed
             | Presence::Optional
+            | Presence::AnyOf(_)
+            | Presence::OneOf(_)
             | Presence::Follows(..)
             | Presence::Prior(None) => None,
         }

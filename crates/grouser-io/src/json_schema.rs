@@ -3,7 +3,7 @@
 use serde_json::{Map, Value as Json, json};
 
 use super::field::{
-    Field, Form, Keyword, Laws, Number, PRESET, Presence, Shape, Table, Text, Whole,
+    Allowed, Field, Form, Keyword, Laws, Number, PRESET, Presence, Shape, Table, Text, Whole,
 };
 
 /// The remark on a key that the soil's priors have a value for. The reader asks for the key where they have none.
@@ -20,7 +20,7 @@ pub(crate) fn of_table<T>(
 ) -> Json {
     let mut properties = Map::new();
     let mut needed: Vec<&str> = Vec::new();
-    let mut thousands = Map::new();
+    let (mut thousands, mut partners, mut choices) = (Map::new(), Map::new(), Vec::new());
     if let Some((key, word, may_be_left_out)) = law {
         properties.insert(key.to_owned(), word);
         needed.extend((!may_be_left_out).then_some(key));
@@ -28,6 +28,8 @@ pub(crate) fn of_table<T>(
     for field in table.fields {
         properties.insert(field.key.to_owned(), of_field(field, defs));
         needed.extend(matches!(field.presence, Presence::Needed).then_some(field.key));
+        choices.extend(choice_of(field));
+        partners.extend(field.only_with.map(|other| (field.key.to_owned(), json!([other]))));
         thousands.extend(field.in_thousands.map(|key| (key.to_owned(), field.key.into())));
     }
     let mut schema = json!({
@@ -42,7 +44,49 @@ pub(crate) fn of_table<T>(
     if !thousands.is_empty() {
         schema[IN_THOUSANDS] = thousands.into();
     }
+    if !partners.is_empty() {
+        schema["dependentRequired"] = partners.into();
+    }
+    choices.dedup();
+    if !choices.is_empty() {
+        schema["allOf"] = choices.into();
+    }
     schema
+}
+
+/// The schema of a table that has one of some keys, where the key is one of them.
+fn choice_of<T>(field: &Field<T>) -> Option<Json> {
+    let (word, keys) = match field.presence {
+        Presence::AnyOf(keys) => ("anyOf", keys),
+        Presence::OneOf(keys) => ("oneOf", keys),
+        _ => return None,
+    };
+    let required = keys.iter().map(|key| json!({ "required": [key] }));
+    Some(json!({ word: required.collect::<Vec<_>>() }))
+}
+
+/// The keys of which a table has one, for each choice of keys; whether it may have several of them.
+pub(crate) fn choices_of(schema: &Json) -> impl Iterator<Item = (Vec<&str>, bool)> {
+    let all = schema.get("allOf").and_then(Json::as_array).into_iter().flatten();
+    all.filter_map(|choice| {
+        let (several, one) = (choice.get("anyOf"), choice.get("oneOf"));
+        let keys = several.or(one)?.as_array()?.iter();
+        let keys = keys.filter_map(|it| it.pointer("/required/0")?.as_str());
+        Some((keys.collect(), several.is_some()))
+    })
+}
+
+/// A text, and what it may be.
+fn of_text(allowed: Allowed) -> Json {
+    match allowed {
+        Allowed::All => json!({ "type": "string" }),
+        Allowed::Format(format) => json!({ "type": "string", "format": format }),
+        Allowed::Pattern(pattern) => json!({ "type": "string", "pattern": pattern() }),
+        Allowed::Words(words) => {
+            let words = words().into_iter().map(|word| json!({ "type": "string", "const": word }));
+            json!({ "oneOf": words.collect::<Vec<_>>() })
+        }
+    }
 }
 
 /// In a table of the reader's schema: keys of numbers in thousands of a unit, each with the key of the number.
@@ -142,17 +186,14 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
             let tag = Table::implied(field);
             json!({ "oneOf": [{ "type": "string", "const": tag, "description": "This version." }] })
         }
-        Shape::Text(Text { least, format, .. }) => {
-            let mut text = json!({ "type": "string" });
+        Shape::Text(Text { least, allowed, .. }) => {
+            let mut text = of_text(*allowed);
             if *least > 0 {
                 text["minLength"] = (*least).into();
             }
-            if let Some(format) = format {
-                text["format"] = (*format).into();
-            }
             text
         }
-        Shape::Texts(texts) => list_of(&json!({ "type": "string" }), texts.least, texts.most),
+        Shape::Texts(texts) => list_of(&of_text(texts.allowed), texts.least, texts.most),
         Shape::Flag(_) => json!({ "type": "boolean" }),
         Shape::Whole(Whole { least, most, format, .. }) => {
             json!({ "type": "integer", "format": format, "minimum": least, "maximum": most })

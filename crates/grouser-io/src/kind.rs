@@ -33,11 +33,13 @@ pub enum Kind {
     Campaign,
     /// What is believed of a soil's numbers that its source does not print, `prior/1`.
     Prior,
+    /// Which topics and fields of a log of messages are which columns of telemetry, `telemetry-mapping/1`.
+    TelemetryMapping,
 }
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Soil,
         Self::Wheel,
         Self::Motor,
@@ -47,6 +49,7 @@ impl Kind {
         Self::DataSet,
         Self::Campaign,
         Self::Prior,
+        Self::TelemetryMapping,
     ];
 
     /// Its name in commands and overrides.
@@ -62,6 +65,7 @@ impl Kind {
             Self::DataSet => "data-set",
             Self::Campaign => "campaign",
             Self::Prior => "prior",
+            Self::TelemetryMapping => "telemetry-mapping",
         }
     }
 
@@ -78,6 +82,7 @@ impl Kind {
             Self::DataSet => "data-set/1",
             Self::Campaign => "campaign/1",
             Self::Prior => "prior/1",
+            Self::TelemetryMapping => "telemetry-mapping/1",
         }
     }
 
@@ -91,7 +96,8 @@ impl Kind {
             | Self::Rover
             | Self::DataSet
             | Self::Campaign
-            | Self::Prior => None,
+            | Self::Prior
+            | Self::TelemetryMapping => None,
         }
     }
 
@@ -99,7 +105,7 @@ impl Kind {
     /// not.
     pub(super) const fn parts(self) -> &'static [Part] {
         match self {
-            Self::Wheel | Self::Motor | Self::DataSet | Self::Prior => &[],
+            Self::Wheel | Self::Motor | Self::DataSet | Self::Prior | Self::TelemetryMapping => &[],
             Self::Soil => {
                 &[Part { kind: Self::Prior, path: &[PRIORS_KEY], default: Some(DEFAULT_PRIORS) }]
             }

@@ -67,6 +67,7 @@ mod source;
 mod stated;
 pub mod statistics;
 pub mod table;
+pub mod telemetry_mapping;
 mod terrain_file;
 mod text;
 mod tree;
@@ -99,6 +100,7 @@ pub use read::{
 };
 pub use schema::{range, schema};
 pub use source::{LARGEST_FILE, Source};
+pub use telemetry_mapping::read_telemetry_mapping;
 pub use terrain_file::{map_of, read_map};
 pub use tree::{Beside, Companion, Entry, HeldMap, Node, Origin};
 pub use uncertain_soil::{SAMPLES_FILE, UncertainSoil, stated_of, without_uncertainty};

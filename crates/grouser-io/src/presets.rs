@@ -156,4 +156,7 @@ static PRESETS: &[Preset] = &[
     preset!(Campaign, "campaigns", "campaign-wheel-test"),
     preset!(Prior, "priors", "general"),
     preset!(Prior, "priors", "none"),
+    preset!(TelemetryMapping, "mappings", "grouser"),
+    preset!(TelemetryMapping, "mappings", "ros"),
+    preset!(TelemetryMapping, "mappings", "foxglove"),
 ];

@@ -133,6 +133,10 @@ impl<T> Rows for Table<T> {
         let keys = self.fields.iter().filter_map(|field| {
             let given = match given.get(field.key) {
                 Some(given) => field.complete(given),
+                // What means nothing without another key is not filled in without it.
+                None if field.only_with.is_some_and(|other| given.get(other).is_none()) => {
+                    return None;
+                }
                 None => Self::implied(field).or_else(|| self.followed(field, given))?,
             };
             let is_left_out = matches!(field.presence, Presence::Optional) && is_empty(&given);

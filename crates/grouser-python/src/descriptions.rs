@@ -40,7 +40,7 @@ impl Read {
             Kind::Rover => Self::Rover(document::read_rover(source, overrides)?.into()),
             Kind::Campaign => Self::Campaign(LoadedCampaign::read(source, overrides)?.into()),
             Kind::Mission => Self::Mission(document::read_mission(source, overrides)?.into()),
-            Kind::Scenario | Kind::Motor | Kind::DataSet | Kind::Prior => {
+            Kind::Scenario | Kind::Motor | Kind::DataSet | Kind::Prior | Kind::TelemetryMapping => {
                 Self::Scenario(document::read_scenario(source, overrides)?.into())
             }
         })

@@ -10,9 +10,9 @@ use grouser::error::ParameterError;
 use grouser::mission::MissionError;
 use grouser::simulation::RunError;
 use grouser::studies::calibration::CalibrationError;
+use grouser_logs::{Problem as TelemetryProblem, TelemetryError};
 use grouser_raster::{Fault, RasterError};
 use grouser_store::StoreError;
-use grouser_telemetry::{Problem as TelemetryProblem, TelemetryError};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 
@@ -76,6 +76,8 @@ fn facts(problem: &Problem) -> Facts {
         | Problem::MissingKey { key }
         | Problem::RepeatedName { key, .. }
         | Problem::NotANumber { key, .. }
+        | Problem::GoesWith { key, .. }
+        | Problem::TooShort { key, .. }
         | Problem::NotUncertain { key } => (Some(key.clone()), None, None),
         Problem::WrongType { key, expected, .. } => {
             (Some(key.clone()), None, Some(expected.clone()))
@@ -143,6 +145,7 @@ pub(crate) fn of_telemetry(error: &TelemetryError) -> PyErr {
     let (message, file) = (error.to_string(), error.label().to_owned());
     match error.problem() {
         TelemetryProblem::Table(error) => of_measurements(error, &file),
+        TelemetryProblem::Document(error) => of_document(error, &[]),
         TelemetryProblem::NoSuchFile => {
             classes::DocumentNotFoundError::new_err((message, file, None::<String>))
         }

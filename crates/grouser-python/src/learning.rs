@@ -10,7 +10,7 @@ use grouser::document::columns::learn as columns;
 use grouser::document::learn::{KeptDrive, LearntSoil, StateError, state_text};
 use grouser::document::measurements::telemetry::{Cell, TelemetryRows};
 use grouser::studies::learn::{Drive, LearnSettings, Learner as Learning, LearntSample, Lesson};
-use grouser_telemetry::{TelemetryError, TelemetryLog, TopicChoices};
+use grouser_logs::{TelemetryError, TelemetryLog, TopicChoices};
 use numpy::{PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

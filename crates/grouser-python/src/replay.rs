@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use grouser::document::columns::replay as columns;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::replay::{NothingToReplay, Replay, Replayer};
-use grouser_telemetry::{TelemetryError, TelemetryLog, TopicChoices};
+use grouser_logs::{TelemetryError, TelemetryLog, TopicChoices};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 

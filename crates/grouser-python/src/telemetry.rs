@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use grouser::document::escape;
 use grouser::document::measurements::telemetry::TelemetryRecord;
 use grouser::vehicle::Rover;
-use grouser_telemetry::{
+use grouser_logs::{
     Mapping, MessageRows, TelemetryError, TelemetryLog, TelemetryWriter, Topic, TopicChoices,
 };
 use pyo3::exceptions::{PyOSError, PyValueError};

@@ -62,6 +62,7 @@ pub fn checked(source: &Source) -> Result<Checked, DocumentError> {
         Kind::DataSet => read_data_set(source, &overrides)?.assumed,
         Kind::Campaign => read_campaign(source, &overrides).map(|_| Vec::new())?,
         Kind::Prior => read_priors(source, &overrides).map(|_| Vec::new())?,
+        Kind::TelemetryMapping => read_telemetry_mapping(source, &overrides)?.assumed,
     };
     Ok(Checked { kind, assumed })
 }

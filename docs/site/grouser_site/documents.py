@@ -10,10 +10,6 @@ from typing import Any
 from .pages import escaped, write
 
 
-# What checks documents that are read by one command alone.
-CHECKS = {"telemetry-mapping": "`grouser import-telemetry LOG --mapping FILE` reads one"}
-
-
 def write_pages(app) -> None:
     schemas = sorted(Path(app.srcdir, "..", "schema").glob("*.json"))
     kinds = {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in schemas}
@@ -34,9 +30,8 @@ class Kind:
         self.say(
             f"# {self.schema['title']}: {article(self.name)}", escaped(self.schema["description"])
         )
-        check = CHECKS.get(self.name, "`grouser check FILE` checks one")
         self.say(
-            f"{check}, `schema/{self.name}.json` lets an editor complete and check the keys. "
+            f"`grouser check FILE` checks one, `schema/{self.name}.json` lets an editor complete and check the keys. "
             "Keys in **bold** are needed."
         )
         self.table(self.schema, "")

@@ -1,20 +1,18 @@
 //! Arguments of commands on documents.
 
 use std::path::PathBuf;
-use std::sync::LazyLock;
 
-use clap::builder::{NonEmptyStringValueParser, PossibleValue, PossibleValuesParser};
+use clap::builder::{NonEmptyStringValueParser, PossibleValuesParser};
 use clap::{Args, ValueEnum};
 use clap_complete::Shell;
 use grouser::document::{GRAVITIES, Kind};
-use grouser_telemetry::Mapping;
 
 use crate::output::Format;
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
-    /// Documents to check: soils, wheels, motors, rovers, scenarios, data sets, campaigns or priors, each by its
-    /// `schema`.
+    /// Documents to check: soils, wheels, motors, rovers, scenarios, data sets, campaigns, priors or mappings of
+    /// telemetry, each by its `schema`.
     #[arg(required_unless_present = "flags", value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
     /// Print the list of flags of validity, with meanings and rules, instead.
@@ -53,7 +51,7 @@ pub(crate) struct PresetsArgs {
 pub(crate) struct SchemaArgs {
     /// The kind of document; without it, the names of all kinds.
     #[arg(value_enum)]
-    pub(crate) kind: Option<SchemaChoice>,
+    pub(crate) kind: Option<KindChoice>,
 }
 
 #[derive(Debug, Args)]
@@ -75,32 +73,7 @@ pub(crate) enum KindChoice {
     DataSet,
     Campaign,
     Prior,
-}
-
-/// A kind of document that has a schema.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum SchemaChoice {
-    /// One that the library reads.
-    Document(KindChoice),
-    /// Which fields of a log are which columns of telemetry.
     TelemetryMapping,
-}
-
-impl ValueEnum for SchemaChoice {
-    fn value_variants<'a>() -> &'a [Self] {
-        static ALL: LazyLock<Vec<SchemaChoice>> = LazyLock::new(|| {
-            let documents = KindChoice::value_variants().iter().copied();
-            documents.map(SchemaChoice::Document).chain([SchemaChoice::TelemetryMapping]).collect()
-        });
-        &ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        match self {
-            Self::Document(kind) => kind.to_possible_value(),
-            Self::TelemetryMapping => Some(PossibleValue::new(Mapping::KIND)),
-        }
-    }
 }
 
 impl From<KindChoice> for Kind {
@@ -115,6 +88,7 @@ impl From<KindChoice> for Kind {
             KindChoice::DataSet => Self::DataSet,
             KindChoice::Campaign => Self::Campaign,
             KindChoice::Prior => Self::Prior,
+            KindChoice::TelemetryMapping => Self::TelemetryMapping,
         }
     }
 }

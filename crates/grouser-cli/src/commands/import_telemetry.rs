@@ -5,9 +5,9 @@ mod dialogue;
 use std::io::{BufReader, IsTerminal as _, Write, stderr, stdin};
 use std::path::Path;
 
-use grouser::document::escape;
+use grouser::document::{self, Kind, escape};
 use grouser::vehicle::Rover;
-use grouser_telemetry::{Mapping, Problem, TelemetryLog, TelemetryWriter, TopicChoices};
+use grouser_logs::{Problem, TelemetryLog, TelemetryWriter, TopicChoices};
 
 use crate::args::ImportTelemetryArgs;
 use crate::failure::Failure;
@@ -36,13 +36,15 @@ pub(crate) fn run(args: &ImportTelemetryArgs) -> Result<(), Failure> {
 }
 
 fn print_mapping(name: &str) -> Result<(), Failure> {
-    let text = Mapping::built_in_text(name).ok_or_else(|| {
-        let (name, names) = (escape::line(name), Mapping::built_in_names().join(", "));
+    let kind = Kind::TelemetryMapping;
+    let mapping = document::preset(kind, name).ok_or_else(|| {
+        let names: Vec<_> = document::presets(kind).map(|preset| preset.name).collect();
+        let (name, names) = (escape::line(name), names.join(", "));
         Failure::Usage(format!(
             "--print-mapping {name}: there is no such mapping\nhint: it is one of {names}"
         ))
     })?;
-    output::print(text)
+    output::print(mapping.text)
 }
 
 /// The log, after questions on what is ambiguous in it, where somebody can answer.

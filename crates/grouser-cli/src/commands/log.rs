@@ -7,7 +7,7 @@ use grouser::document::{Loaded, LoadedMission, LoadedScenario, escape};
 use grouser::simulation::Trajectory;
 use grouser::studies::mission::DrivenMission;
 use grouser::studies::replay::Replay;
-use grouser_log::{Log, LogError, write_replay};
+use grouser_logs::{Log, LogError, write_replay};
 use grouser_pictures::title_of;
 
 use super::place::Place;

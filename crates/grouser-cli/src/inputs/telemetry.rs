@@ -5,7 +5,7 @@ use std::path::Path;
 
 use grouser::document::{self, Kind, Overrides, Source, escape};
 use grouser::vehicle::Rover;
-use grouser_telemetry::{Mapping, TelemetryError, TelemetryLog};
+use grouser_logs::{Mapping, TelemetryError, TelemetryLog};
 
 use super::flag_source;
 use super::follow::Following;

@@ -52,7 +52,10 @@ fn what_cannot_be_imported_says_what_to_do() {
         ("import-telemetry bag.db3", "python -m grouser import-telemetry"),
         ("import-telemetry nowhere.mcap", "there is no such file"),
         ("import-telemetry drive.csv --mapping ros", "which has columns and no topics"),
-        ("import-telemetry drive.csv --mapping wrong.toml", "has no [[reading]]"),
+        (
+            "import-telemetry drive.csv --mapping wrong.toml",
+            "wrong.toml:3:11: `reading` has 0 entries, it must have 1 or more",
+        ),
         ("import-telemetry drive.csv --mapping nowhere.toml", "grouser, ros, foxglove"),
         ("import-telemetry drive.csv --topic imu", "is not of the form TYPE=TOPIC"),
         ("import-telemetry empty.csv", "has no rows of telemetry"),

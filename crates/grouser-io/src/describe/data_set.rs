@@ -1,6 +1,6 @@
 //! `data-set/1`: wheel or rover, soils and gravity of a file of measurements.
 
-use super::super::field::{Field, Shape, Table, Texts, field, list, note, text, texts};
+use super::super::field::{Allowed, Field, Shape, Table, Texts, field, list, note, text, texts};
 use super::about::{NOT_STATED, gravity, name, notes, schema};
 
 /// What a data set says besides its parts.
@@ -38,16 +38,20 @@ pub(crate) static DATA_SET: Table<Common> = Table {
     ],
 };
 
+/// What a part is about.
+const TESTED: &[&str] = &["wheel", "rover"];
+
 static CASE: Table<Common> = Table {
     doc: "A part of a data set: one wheel on a test stand, or one rover on slopes.",
     fields: &[
         note("name", "What people call it."),
-        note("wheel", "The wheel: a preset, or a path from the folder of this document.").optional(),
+        note("wheel", "The wheel: a preset, or a path from the folder of this document.")
+            .one_of(TESTED),
         note(
             "rover",
             "The rover, in place of a wheel: a preset, or a path. The rows are slip, yaw or both, over slope.",
         )
-        .optional(),
+        .one_of(TESTED),
         texts(
             "where",
             "Which rows of the file belong to it, such as `wheel=smooth`; all conditions together.",
@@ -64,5 +68,5 @@ const SOILS: Field<Common> = field(
     "soils",
     "Soils of the predictions: presets, or paths. A soil that names its `model` is used with it, another\n\
      with every model.",
-    Shape::Texts(Texts { least: 1, most: None, put: |_, _, _| {} }),
+    Shape::Texts(Texts { least: 1, most: None, allowed: Allowed::All, put: |_, _, _| {} }),
 );

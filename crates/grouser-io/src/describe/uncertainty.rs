@@ -1,8 +1,8 @@
 //! Uncertainty of numbers: the same keys for soils and campaigns.
 
 use super::super::field::{
-    Each, Field, Law, Laws, Number, OF_KEY, ONE, Reach, Shape, Table, Texts, field, list, note,
-    number, text, word, words,
+    Allowed, Each, Field, Law, Laws, Number, OF_KEY, ONE, Reach, Shape, Table, Texts, field, list,
+    note, number, text, word, words,
 };
 use super::super::stated::{NORMAL, Pair, Parameter, Samples, Soils, Stated, UNSET};
 use crate::statistics::Marginal;
@@ -321,6 +321,7 @@ const BETWEEN: Field<Pair> = field(
     Shape::Texts(Texts {
         least: 2,
         most: Some(2),
+        allowed: Allowed::All,
         put: |pair, end, key| key.clone_into(&mut pair.between[end]),
     }),
 );

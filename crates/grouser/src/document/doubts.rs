@@ -51,7 +51,12 @@ pub fn doubts(source: &Source) -> Result<Vec<String>, DocumentError> {
         }
         Kind::Scenario => of_standing(&read_scenario(source, &none)?.value),
         Kind::Mission => of_standing(&read_mission(source, &none)?.value.scenario),
-        Kind::Wheel | Kind::Motor | Kind::DataSet | Kind::Campaign | Kind::Prior => Vec::new(),
+        Kind::Wheel
+        | Kind::Motor
+        | Kind::DataSet
+        | Kind::Campaign
+        | Kind::Prior
+        | Kind::TelemetryMapping => Vec::new(),
     })
 }
 

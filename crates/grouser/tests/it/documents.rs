@@ -52,6 +52,7 @@ fn read(kind: Kind, source: &Source, overrides: &Overrides) -> Result<Read, Docu
             let resolved = document::read_priors(source, overrides)?.to_toml();
             Ok(Read { meaning: resolved.clone(), resolved, assumptions: Vec::new() })
         }
+        Kind::TelemetryMapping => read!(read_telemetry_mapping),
     }
 }
 
@@ -97,6 +98,7 @@ fn every_file_of_the_data_is_a_preset() {
         ("measurements", Kind::DataSet),
         ("campaigns", Kind::Campaign),
         ("priors", Kind::Prior),
+        ("mappings", Kind::TelemetryMapping),
     ] {
         let entries = fs::read_dir(data.join(folder)).expect("the folder is there");
         let mut files: Vec<_> = entries

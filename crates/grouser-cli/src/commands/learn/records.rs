@@ -5,7 +5,7 @@ use std::thread;
 use std::time::Duration;
 
 use grouser::document::measurements::telemetry::{Lost, TelemetryRecord};
-use grouser_telemetry::TelemetryLog;
+use grouser_logs::TelemetryLog;
 
 use crate::failure::Failure;
 use crate::interrupt;

@@ -1,0 +1,165 @@
+//! Why telemetry could not be read.
+
+use std::fmt;
+use std::io;
+use std::path::Path;
+
+use grouser_io::measurements::MeasurementError;
+use grouser_io::{DocumentError, escape};
+
+/// Why telemetry could not be read: the file, and what is wrong with it.
+#[derive(Debug)]
+pub struct TelemetryError {
+    /// What messages call the file.
+    label: String,
+    problem: Box<Problem>,
+    hint: Option<String>,
+}
+
+/// What is wrong.
+#[derive(Debug, thiserror::Error)]
+pub enum Problem {
+    /// A path that leads nowhere.
+    #[error("there is no such file")]
+    NoSuchFile,
+    /// A folder where a file should be.
+    #[error("this is a folder, not a file")]
+    Folder,
+    /// The disk, or permission for it, failed.
+    #[error("cannot be read: {0}")]
+    Unreadable(io::Error),
+    /// Its table cannot be understood.
+    #[error("{}", .0.problem())]
+    Table(MeasurementError),
+    /// A document, such as a mapping, that cannot be used.
+    #[error("{}", .0.problem())]
+    Document(DocumentError),
+    /// A mapping that does not fit the log.
+    #[error("{0}")]
+    Mapping(String),
+    /// A mapping that reads none of a log's topics.
+    #[error("the mapping '{mapping}' reads none of its topics, which are {}", listed(topics))]
+    NothingMapped {
+        /// The mapping's name.
+        mapping: String,
+        /// The topics, each with the type of its messages.
+        topics: Vec<String>,
+    },
+    /// Several topics that a mapping could mean.
+    #[error("several topics have what the mapping calls `{what}`: {}", topics.join(", "))]
+    Ambiguous {
+        /// The type of messages or the pattern of topics in the mapping.
+        what: String,
+        /// The topics that fit.
+        topics: Vec<String>,
+    },
+    /// Messages that are not decoded here.
+    #[error(
+        "messages of {topic} are encoded as {encoding}; JSON and Protocol Buffers are read here"
+    )]
+    Encoding {
+        /// The topic.
+        topic: String,
+        /// As the log calls it.
+        encoding: String,
+    },
+    /// A mapping, or a choice of topics, for a file that has none.
+    #[error("this is a table, which has columns and no topics: a mapping is for logs of messages")]
+    NoMessages,
+    /// A file of Parquet that is damaged, or written in a way that is not read.
+    #[error("{0}")]
+    Parquet(String),
+    /// A log of another kind.
+    #[error("this is {0}, which is not read here")]
+    OtherKind(&'static str),
+}
+
+impl TelemetryError {
+    pub(crate) fn new(label: &str, problem: Problem) -> Self {
+        let hint = match &problem {
+            Problem::NothingMapped { .. } => Some(
+                "--mapping FILE.toml says which topics and fields are which columns".to_owned(),
+            ),
+            Problem::Ambiguous { what, topics } => topics
+                .first()
+                .map(|topic| format!("say which is meant, such as by --topic {what}={topic}")),
+            Problem::Encoding { .. } | Problem::OtherKind(_) => Some(
+                "Python converts it: python -m grouser import-telemetry LOG --out drive.csv"
+                    .to_owned(),
+            ),
+            _ => None,
+        };
+        Self { label: label.to_owned(), problem: Box::new(problem), hint }
+    }
+
+    /// A failure while a file is opened.
+    pub(crate) fn open(path: &Path, error: io::Error) -> Self {
+        let problem = match error.kind() {
+            io::ErrorKind::NotFound => Problem::NoSuchFile,
+            _ if path.is_dir() => Problem::Folder,
+            _ => Problem::Unreadable(error),
+        };
+        Self::new(&escape::path(path), problem)
+    }
+
+    /// What messages call the file.
+    #[must_use]
+    pub fn label(&self) -> &str {
+        &self.label
+    }
+
+    /// What is wrong.
+    #[must_use]
+    pub fn problem(&self) -> &Problem {
+        &self.problem
+    }
+
+    /// Whether the disk or its permissions failed, rather than the file.
+    #[must_use]
+    pub fn is_environment(&self) -> bool {
+        match &*self.problem {
+            Problem::Unreadable(_) => true,
+            Problem::Table(error) => error.is_environment(),
+            Problem::Document(error) => error.is_environment(),
+            _ => false,
+        }
+    }
+}
+
+/// Topics as a sentence bears them.
+fn listed(topics: &[String]) -> String {
+    if topics.is_empty() { "none".to_owned() } else { topics.join(", ") }
+}
+
+impl From<MeasurementError> for TelemetryError {
+    fn from(error: MeasurementError) -> Self {
+        Self::new(error.file(), Problem::Table(error.clone()))
+    }
+}
+
+impl From<DocumentError> for TelemetryError {
+    fn from(error: DocumentError) -> Self {
+        Self::new(&error.place().document.clone(), Problem::Document(error))
+    }
+}
+
+impl fmt::Display for TelemetryError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        /// Characters of a problem or a hint: a log may have a thousand topics.
+        const LONGEST: usize = 2000;
+        // Errors of tables and documents have their lines and their own hints.
+        match &*self.problem {
+            Problem::Table(error) => return error.fmt(f),
+            Problem::Document(error) => return error.fmt(f),
+            _ => {}
+        }
+        let problem = escape::short_line(&self.problem.to_string(), LONGEST);
+        write!(f, "{}: {problem}", escape::line(&self.label))?;
+        match &self.hint {
+            Some(hint) => write!(f, "\nhint: {}", escape::short_line(hint, LONGEST)),
+            None => Ok(()),
+        }
+    }
+}
+
+impl std::error::Error for TelemetryError {}

@@ -1,0 +1,392 @@
+//! Messages, decoded, become records of telemetry by a mapping.
+
+use std::collections::HashMap;
+
+use grouser_core::vehicle::Rover;
+use grouser_io::measurements::telemetry::{
+    Cell, FORWARD, LEFTWARD, ROTATION, TelemetryRecord, TelemetryRows,
+};
+use grouser_io::telemetry_mapping::{Axes, FieldPath, Found, PoseColumn, PoseOf, RowRule};
+use serde_json::Value;
+
+use crate::error::{Problem, TelemetryError};
+use crate::mapping::Mapping;
+use crate::mapping::merge::{Merge, Readings};
+use crate::mapping::plan::{Plan, Planned, PlannedReading, TopicChoices};
+use crate::mapping::pose::{Frames, Pose, Rotation};
+use crate::mapping::topic::Topic;
+
+/// Records of messages, which are added as they come.
+pub struct MessageRows {
+    plan: Plan,
+    mapping: String,
+    /// The readings of each topic.
+    by_topic: HashMap<String, Vec<usize>>,
+    merge: Merge,
+    table: TelemetryRows,
+    frames: Frames,
+    /// The last pose of each slot that was in a row.
+    last: Vec<Option<Pose>>,
+    counts: Counts,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Counts {
+    /// Messages without a time of their own, which have that of the log.
+    without_stamp: u64,
+    with_stamp: u64,
+    /// Messages that have a time that no log has.
+    outside: u64,
+    /// Messages that cannot be decoded.
+    damaged: u64,
+    /// Readings whose field is not there, or is several, by topic.
+    without_field: HashMap<String, u64>,
+    several: HashMap<String, u64>,
+    /// Readings that are no numbers or no rotations, by topic.
+    damaged_fields: HashMap<String, u64>,
+}
+
+impl MessageRows {
+    /// * `label`: what messages call the log
+    /// * `mapping`: which topics and fields are which columns; without it the built-in one that fits
+    /// * `choices`: the topic that is meant where several fit
+    ///
+    /// # Errors
+    /// [`TelemetryError`] where the mapping reads none of the topics or is ambiguous, or names a
+    /// wheel that the rover does not have.
+    pub fn new(
+        label: &str,
+        mapping: Option<&Mapping>,
+        topics: &[Topic],
+        rover: &Rover,
+        choices: &TopicChoices,
+    ) -> Result<Self, TelemetryError> {
+        let built_in;
+        let mapping = if let Some(mapping) = mapping {
+            mapping
+        } else {
+            built_in = Mapping::for_topics(topics).ok_or_else(|| {
+                let topics = topics.iter().map(|it| format!("{} ({})", it.name, it.message));
+                let mapping = "built-in ones".to_owned();
+                let problem = Problem::NothingMapped { mapping, topics: topics.collect() };
+                TelemetryError::new(label, problem)
+            })?;
+            &built_in
+        };
+        let plan = Plan::new(&mapping.rules, topics, rover, choices)
+            .map_err(|problem| TelemetryError::new(label, problem))?;
+        let table = TelemetryRows::new(&mapping.label, plan.columns.clone(), rover)?;
+        let mut by_topic: HashMap<String, Vec<usize>> = HashMap::new();
+        for (place, reading) in plan.readings.iter().enumerate() {
+            for topic in &reading.topics {
+                by_topic.entry(topic.clone()).or_default().push(place);
+            }
+        }
+        if let RowRule::Topic(topic) = &plan.rows {
+            by_topic.entry(topic.clone()).or_default();
+        }
+        let is_way = |name: &String| [FORWARD, LEFTWARD, ROTATION].iter().any(|it| it.name == name);
+        let ways = plan.columns.iter().map(is_way).collect();
+        let merge = Merge::new(plan.window, plan.rows.clone(), ways);
+        let last = vec![None; plan.poses];
+        let mapping = mapping.rules.name.clone();
+        let (frames, counts) = (Frames::default(), Counts::default());
+        Ok(Self { plan, mapping, by_topic, merge, table, frames, last, counts })
+    }
+
+    /// Whether messages of a topic are read.
+    #[must_use]
+    pub fn wants(&self, topic: &str) -> bool {
+        self.by_topic.contains_key(topic)
+    }
+
+    /// Adds a message; messages may be out of order within the mapping's window.
+    ///
+    /// * `log_time`: when it was recorded [ns]
+    /// * `message`: its fields as a tree, a quaternion's, say, as `{"x": 0, "y": 0, "z": 0, "w": 1}`
+    pub fn add(&mut self, topic: &str, log_time: i64, message: &Value) {
+        let Some(places) = self.by_topic.get(topic) else { return };
+        let ends_row = matches!(&self.plan.rows, RowRule::Topic(it) if it == topic);
+        if places.is_empty() && ends_row {
+            return self.merge.add(log_time, Readings { ends_row, ..Readings::default() });
+        }
+        let is_transform = |it: &PlannedReading| {
+            matches!(&it.what, Planned::Pose { of: PoseOf::Transform { .. }, .. })
+        };
+        let readings = places.iter().map(|place| &self.plan.readings[*place]);
+        let moved =
+            if readings.clone().any(is_transform) { self.frames.take(message) } else { Vec::new() };
+        let mut by_time: Vec<(i64, Readings)> = Vec::new();
+        let context = Context { topic, message, moved: &moved, frames: &self.frames, log_time };
+        for reading in readings {
+            let Some((time, readings)) = context.read(reading, &mut self.counts) else { continue };
+            match by_time.iter_mut().find(|(known, _)| *known == time) {
+                Some((_, known)) => {
+                    known.cells.extend(readings.cells);
+                    known.poses.extend(readings.poses);
+                }
+                None => by_time.push((time, readings)),
+            }
+        }
+        for (time, mut readings) in by_time {
+            readings.ends_row = ends_row;
+            self.merge.add(time, readings);
+        }
+    }
+
+    /// Counts a message that cannot be decoded.
+    pub fn damaged_message(&mut self) {
+        self.counts.damaged += 1;
+    }
+
+    /// No more messages come: what waited for earlier ones becomes records.
+    pub fn end(&mut self) {
+        self.merge.end();
+    }
+
+    /// The next record that is complete, if there is one.
+    pub fn next_record(&mut self) -> Option<TelemetryRecord> {
+        loop {
+            let (time, readings) = self.merge.next_row()?;
+            let cells = self.cells(time, &readings);
+            if let Some(record) = self.table.record(cells.into_iter()) {
+                return Some(record);
+            }
+        }
+    }
+
+    fn cells(&mut self, time: i64, readings: &Readings) -> Vec<Cell> {
+        let mut cells = vec![Cell::Gap; self.plan.columns.len()];
+        cells[0] = Cell::Number(time as f64 / 1e9);
+        for (column, cell) in &readings.cells {
+            cells[*column] = *cell;
+        }
+        for reading in &self.plan.readings {
+            let Planned::Pose { columns, axes, slot, .. } = &reading.what else { continue };
+            let Some((_, pose)) = readings.poses.iter().find(|(known, _)| known == slot) else {
+                continue;
+            };
+            let last = self.last[*slot].replace(*pose);
+            let numbers = numbers_of(pose, last.as_ref(), *axes);
+            for (what, column) in columns {
+                cells[*column] = numbers(*what).map_or(Cell::Gap, Cell::of_number);
+            }
+        }
+        cells
+    }
+
+    /// The rows so far, with what was lost of them.
+    #[must_use]
+    pub fn rows(&self) -> &TelemetryRows {
+        &self.table
+    }
+
+    /// What was noticed so far, beside what was lost of rows: a sentence each.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        let columns = self.plan.columns.len() - 1;
+        let mut notes = vec![format!("the mapping '{}' looks for {columns} columns", self.mapping)];
+        let Counts { without_stamp, with_stamp, outside, damaged, .. } = self.counts;
+        if without_stamp > 0 && with_stamp > 0 {
+            notes.push(format!("{without_stamp} messages have no time of their own, and count at the time at which they were recorded"));
+        }
+        let window = self.plan.window as f64 / 1e9;
+        for (count, what) in [
+            (
+                self.merge.late,
+                format!(
+                    "readings came more than {window} s too late and are left out (window_s in the mapping)"
+                ),
+            ),
+            (
+                self.merge.leaps,
+                "readings leap ahead by ten minutes or more, alone, and are left out".to_owned(),
+            ),
+            (damaged, "messages cannot be decoded, and are left out".to_owned()),
+            (outside, "messages have a time that no log has, and are left out".to_owned()),
+        ] {
+            if count > 0 {
+                notes.push(format!("{count} {what}"));
+            }
+        }
+        for (counts, what) in [
+            (&self.counts.damaged_fields, "are no numbers or no rotations, and count as gaps"),
+            (&self.counts.without_field, "without a field that the mapping reads there"),
+            (
+                &self.counts.several,
+                "in which several elements fit a name of the mapping, and none is read",
+            ),
+        ] {
+            let mut counts: Vec<_> = counts.iter().collect();
+            counts.sort();
+            notes.extend(
+                counts.iter().map(|(topic, count)| format!("{count} readings of {topic} {what}")),
+            );
+        }
+        notes
+    }
+}
+
+/// What a pose says, in the columns' units.
+fn numbers_of(pose: &Pose, last: Option<&Pose>, axes: Axes) -> impl Fn(PoseColumn) -> Option<f64> {
+    let attitude = pose.attitude(axes).map(f64::to_degrees);
+    let [forward, leftward, turned] = last.map_or([None; 3], |last| pose.since(last, axes));
+    let position = pose.position;
+    move |column| match column {
+        PoseColumn::Roll => Some(attitude[0]),
+        PoseColumn::Pitch => Some(attitude[1]),
+        PoseColumn::Yaw => Some(attitude[2]),
+        PoseColumn::Forward => forward,
+        PoseColumn::Leftward => leftward,
+        PoseColumn::Rotation => turned.map(f64::to_degrees),
+        PoseColumn::X => position.map(|it| it.x),
+        PoseColumn::Y => position.map(|it| it.y),
+    }
+}
+
+/// A message with what it is read by.
+struct Context<'m> {
+    topic: &'m str,
+    message: &'m Value,
+    /// Frames that it moved, each with its transform.
+    moved: &'m [(&'m str, &'m Value)],
+    frames: &'m Frames,
+    log_time: i64,
+}
+
+impl Context<'_> {
+    /// What a reading reads of it, with its time.
+    fn read(&self, reading: &PlannedReading, counts: &mut Counts) -> Option<(i64, Readings)> {
+        let mut readings = Readings::default();
+        match &reading.what {
+            Planned::Number { field, column, factor, offset } => {
+                let value = self.field(field, reading.is_optional, counts)?;
+                if value.is_null() {
+                    return None;
+                }
+                let number = number(value).map(|it| it * factor + offset);
+                let Some(number) = number.filter(|it| !it.is_nan()) else {
+                    return self.damaged(counts);
+                };
+                let cell = Cell::Number(number);
+                readings.cells.push((*column, cell));
+            }
+            Planned::Pose { of: PoseOf::Transform { parent, child }, slot, .. } => {
+                return self.transform(parent, child, *slot, counts);
+            }
+            Planned::Pose { of, slot, .. } => {
+                let pose = self.pose(of, reading.is_optional, counts)?;
+                readings.poses.push((*slot, pose));
+            }
+        }
+        let time = match &reading.time {
+            Some(path) => match path.find(self.message) {
+                Found::One(value) => stamp(value),
+                _ => None,
+            },
+            None => return Some((self.log_time, readings)),
+        };
+        Some((self.stamped(time, counts)?, readings))
+    }
+
+    /// The time of a message that should have one.
+    fn stamped(&self, time: Option<f64>, counts: &mut Counts) -> Option<i64> {
+        let Some(time) = time else {
+            // At the log's very start no time is the time.
+            counts.without_stamp += u64::from(self.log_time != 0);
+            return Some(self.log_time);
+        };
+        /// Times of logs are below [ns]: 64 bits hold them.
+        const LAST: f64 = 9.2e18;
+        if time.abs() > LAST {
+            counts.outside += 1;
+            return None;
+        }
+        counts.with_stamp += 1;
+        // Within the range that was just asked for.
+        #[expect(clippy::cast_possible_truncation)]
+        Some(time as i64)
+    }
+
+    /// Counts a reading that is none.
+    fn damaged<T>(&self, counts: &mut Counts) -> Option<T> {
+        *counts.damaged_fields.entry(self.topic.to_owned()).or_default() += 1;
+        None
+    }
+
+    fn field(&self, field: &FieldPath, is_optional: bool, counts: &mut Counts) -> Option<&Value> {
+        let count = match field.find(self.message) {
+            Found::One(value) => return Some(value),
+            Found::Nothing if is_optional => return None,
+            Found::Nothing => &mut counts.without_field,
+            Found::Several => &mut counts.several,
+        };
+        *count.entry(self.topic.to_owned()).or_default() += 1;
+        None
+    }
+
+    /// The pose in a field; one that is damaged is counted.
+    fn pose(&self, of: &PoseOf, is_optional: bool, counts: &mut Counts) -> Option<Pose> {
+        let (PoseOf::Attitude(field) | PoseOf::Pose(field)) = of else { return None };
+        let value = self.field(field, is_optional, counts)?;
+        if value.is_null() || self.is_unknown(field) {
+            return None;
+        }
+        let pose = match of {
+            PoseOf::Attitude(_) => {
+                Rotation::read(value).map(|rotation| Pose { position: None, rotation })
+            }
+            _ => Pose::read(value),
+        };
+        pose.or_else(|| self.damaged(counts))
+    }
+
+    /// Whether a covariance beside the field says that it is not measured, as `sensor_msgs/Imu`
+    /// does by −1.
+    fn is_unknown(&self, field: &FieldPath) -> bool {
+        let beside = field
+            .parent(self.message)
+            .and_then(|(parent, name)| parent.get(format!("{name}_covariance"))?.get(0)?.as_f64());
+        beside == Some(-1.0)
+    }
+
+    /// The pose of a frame in another, at the time of the transform that moved it.
+    fn transform(
+        &self,
+        parent: &str,
+        child: &str,
+        slot: usize,
+        counts: &mut Counts,
+    ) -> Option<(i64, Readings)> {
+        let is_between =
+            |(frame, _): &&(&str, &Value)| self.frames.is_between(frame, child, parent);
+        let (_, moved) = self.moved.iter().rev().find(is_between)?;
+        let pose = self.frames.pose(child, parent)?;
+        let own = moved.get("timestamp").or_else(|| moved.get("header")?.get("stamp"));
+        let time = own.and_then(stamp);
+        let readings = Readings { poses: vec![(slot, pose)], ..Readings::default() };
+        Some((self.stamped(time, counts)?, readings))
+    }
+}
+
+/// A number, also one that is written as a text or a truth.
+fn number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Number(number) => number.as_f64(),
+        Value::String(text) => text.trim().parse().ok(),
+        Value::Bool(is_true) => Some(f64::from(u8::from(*is_true))),
+        _ => None,
+    }
+}
+
+/// A time [ns]: seconds with nanoseconds, or seconds; nothing for one that was not set.
+fn stamp(value: &Value) -> Option<f64> {
+    let part = |names: [&str; 4]| names.into_iter().find_map(|name| value.get(name)?.as_f64());
+    let time = if let Some(seconds) = value.as_f64() {
+        (seconds * 1e9).round()
+    } else {
+        let nanoseconds = part(["nanosec", "nsec", "nanos", "nsecs"]).unwrap_or(0.0);
+        part(["sec", "seconds", "secs", "s"])? * 1e9 + nanoseconds
+    };
+    (time != 0.0).then_some(time)
+}

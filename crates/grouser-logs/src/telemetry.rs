@@ -1,0 +1,189 @@
+//! A log of any kind, record by record.
+
+mod mcap;
+mod parquet;
+pub(crate) mod writer;
+
+use std::cell::Cell;
+use std::fs::File;
+use std::io::{self, BufReader, Read, Seek as _};
+use std::path::Path;
+use std::rc::Rc;
+
+use grouser_core::vehicle::Rover;
+use grouser_io::escape;
+use grouser_io::measurements::telemetry::{Lost, TelemetryReader, TelemetryRecord, TelemetryRows};
+
+use self::mcap::McapLog;
+use self::parquet::ParquetLog;
+use crate::error::{Problem, TelemetryError};
+use crate::mapping::Mapping;
+use crate::mapping::plan::TopicChoices;
+use crate::mcap::format::MAGIC;
+
+/// Telemetry of a drive, opened.
+pub struct TelemetryLog {
+    label: String,
+    source: Source,
+}
+
+enum Source {
+    Csv { reader: TelemetryReader<'static, LastByte>, ended_in_row: Rc<Cell<bool>> },
+    Parquet(ParquetLog),
+    Mcap(Box<McapLog>),
+}
+
+impl TelemetryLog {
+    /// Opens a file; its first bytes say what it is.
+    ///
+    /// * `rover`: the rover that was driven, for the names of its wheels
+    /// * `mapping`: of a log of messages, which fields are which columns; without it the built-in one that fits
+    /// * `choices`: of such a log, the topic that is meant where several fit
+    ///
+    /// # Errors
+    /// [`TelemetryError`] for a file that cannot be opened, or is no telemetry of this rover; with
+    /// [`Problem::Ambiguous`] another call can make the choice.
+    pub fn open(
+        path: &Path,
+        rover: &Rover,
+        mapping: Option<&Mapping>,
+        choices: &TopicChoices,
+    ) -> Result<Self, TelemetryError> {
+        let failed = |error| TelemetryError::open(path, error);
+        let mut file = File::open(path).map_err(failed)?;
+        if file.metadata().map_err(failed)?.is_dir() {
+            return Err(TelemetryError::new(&escape::path(path), Problem::Folder));
+        }
+        let start = first_bytes(&mut file).map_err(failed)?;
+        file.rewind().map_err(failed)?;
+        let label = escape::path(path);
+        let bags: [(&[u8], &str); 2] =
+            [(b"#ROSBAG V", "a bag of ROS 1"), (b"SQLite format 3", "a bag of ROS 2 in SQLite")];
+        if let Some((_, kind)) = bags.iter().find(|(magic, _)| start.starts_with(magic)) {
+            return Err(TelemetryError::new(&label, Problem::OtherKind(kind)));
+        }
+        if start.starts_with(&MAGIC) {
+            let log = McapLog::new(&label, file, mapping, rover, choices)?;
+            return Ok(Self { label, source: Source::Mcap(Box::new(log)) });
+        }
+        if mapping.is_some() || !choices.is_empty() {
+            return Err(TelemetryError::new(&label, Problem::NoMessages));
+        }
+        if start.starts_with(parquet::MAGIC) {
+            let log = ParquetLog::new(&label, file, rover)?;
+            return Ok(Self { label, source: Source::Parquet(log) });
+        }
+        Self::of_csv(&label, Box::new(BufReader::new(file)), rover)
+    }
+
+    /// Reads CSV as it comes, such as from standard input.
+    ///
+    /// * `label`: what messages call the source
+    ///
+    /// # Errors
+    /// [`TelemetryError`] for a header that is no telemetry of this rover.
+    pub fn of_csv(
+        label: &str,
+        source: Box<dyn Read>,
+        rover: &Rover,
+    ) -> Result<Self, TelemetryError> {
+        let ended_in_row = Rc::new(Cell::new(false));
+        let source = LastByte { source, last: b'\n', ended_in_row: ended_in_row.clone() };
+        let reader = TelemetryReader::new(label.to_owned(), source, rover)?;
+        Ok(Self { label: label.to_owned(), source: Source::Csv { reader, ended_in_row } })
+    }
+
+    /// What messages call it.
+    #[must_use]
+    pub fn label(&self) -> &str {
+        &self.label
+    }
+
+    /// The next record, if there is one; times rise from record to record.
+    ///
+    /// # Errors
+    /// [`TelemetryError`] where reading fails, or what comes cannot be telemetry.
+    pub fn next_record(&mut self) -> Result<Option<TelemetryRecord>, TelemetryError> {
+        match &mut self.source {
+            Source::Csv { reader, .. } => Ok(reader.next_record()?),
+            Source::Parquet(log) => log.next_record(),
+            Source::Mcap(log) => log.next_record(),
+        }
+    }
+
+    /// How many rows were read so far.
+    #[must_use]
+    pub fn rows(&self) -> u64 {
+        self.table().rows()
+    }
+
+    /// Whether the row of the last record has its end: the last row of CSV that is being written
+    /// may not.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        match &self.source {
+            Source::Csv { ended_in_row, .. } => !ended_in_row.get(),
+            Source::Parquet(_) | Source::Mcap(_) => true,
+        }
+    }
+
+    /// What was left out of its rows so far.
+    #[must_use]
+    pub fn lost(&self) -> &Lost {
+        self.table().lost()
+    }
+
+    /// What was left out so far, and what is not used: a sentence each.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        self.lost().sentences().into_iter().chain(self.notes_of_source()).collect()
+    }
+
+    /// The same without what was left out of its rows, which is [`lost`](Self::lost).
+    #[must_use]
+    pub fn notes_of_source(&self) -> Vec<String> {
+        let of_kind = match &self.source {
+            Source::Csv { .. } => Vec::new(),
+            Source::Parquet(log) => log.notes(),
+            Source::Mcap(log) => log.notes(),
+        };
+        of_kind.into_iter().chain(self.table().sentence_of_unused()).collect()
+    }
+
+    fn table(&self) -> &TelemetryRows {
+        match &self.source {
+            Source::Csv { reader, .. } => reader.rows(),
+            Source::Parquet(log) => log.rows(),
+            Source::Mcap(log) => log.rows(),
+        }
+    }
+}
+
+/// As many bytes as tell what a file is, or all that it has.
+fn first_bytes(file: &mut File) -> io::Result<Vec<u8>> {
+    const ENOUGH: u64 = 16;
+    let mut start = Vec::new();
+    file.take(ENOUGH).read_to_end(&mut start)?;
+    Ok(start)
+}
+
+/// Notices whether a source ends within a row.
+struct LastByte {
+    source: Box<dyn Read>,
+    last: u8,
+    ended_in_row: Rc<Cell<bool>>,
+}
+
+impl Read for LastByte {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.source.read(buffer)?;
+        match buffer[..count].last() {
+            Some(last) => self.last = *last,
+            None if !buffer.is_empty() => {
+                self.ended_in_row.set(!matches!(self.last, b'\n' | b'\r'));
+            }
+            None => {}
+        }
+        Ok(count)
+    }
+}

@@ -1,0 +1,215 @@
+//! Telemetry of MCAP logs, whose messages are JSON or Protocol Buffers.
+
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::rc::Rc;
+
+use grouser_core::vehicle::Rover;
+use grouser_io::measurements::telemetry::{TelemetryRecord, TelemetryRows};
+use serde_json::Value;
+
+use crate::error::{Problem, TelemetryError};
+use crate::mapping::Mapping;
+use crate::mapping::messages::MessageRows;
+use crate::mapping::plan::TopicChoices;
+use crate::mapping::topic::Topic;
+use crate::mcap::format::{Footer, Head, MAGIC, Message, Part as _, Record as _};
+use crate::mcap::read::{Known, Messages, known_of};
+use crate::protobuf::decode::Description;
+
+/// An MCAP log, record by record.
+pub(crate) struct McapLog {
+    label: String,
+    messages: Messages<BufReader<File>>,
+    rows: MessageRows,
+    /// How messages of a channel are decoded; nothing for channels that are not read.
+    decoders: HashMap<u16, Option<Decoder>>,
+    /// Types that were read already, by their schemas' numbers.
+    descriptions: HashMap<u16, Option<Rc<Description>>>,
+    /// Messages whose channel the log does not describe.
+    without_channel: u64,
+    is_read: bool,
+}
+
+#[derive(Clone, Debug)]
+enum Decoder {
+    Json(String),
+    Protobuf(String, Rc<Description>),
+    /// Of a topic that is read, but whose messages the log does not describe.
+    Unknown,
+}
+
+impl McapLog {
+    pub(crate) fn new(
+        label: &str,
+        mut file: File,
+        mapping: Option<&Mapping>,
+        rover: &Rover,
+        choices: &TopicChoices,
+    ) -> Result<Self, TelemetryError> {
+        let failed = |error| TelemetryError::new(label, Problem::Unreadable(error));
+        let topics = topics(&mut file).map_err(failed)?;
+        let rows = MessageRows::new(label, mapping, &topics, rover, choices)?;
+        file.rewind().map_err(failed)?;
+        let messages = Messages::new(BufReader::new(file)).map_err(failed)?;
+        let messages = messages
+            .ok_or_else(|| failed(io::Error::other("the file changed while it was read")))?;
+        let (decoders, descriptions) = (HashMap::new(), HashMap::new());
+        let label = label.to_owned();
+        Ok(Self {
+            label,
+            messages,
+            rows,
+            decoders,
+            descriptions,
+            without_channel: 0,
+            is_read: false,
+        })
+    }
+
+    pub(crate) fn next_record(&mut self) -> Result<Option<TelemetryRecord>, TelemetryError> {
+        loop {
+            if let Some(record) = self.rows.next_record() {
+                return Ok(Some(record));
+            }
+            if self.is_read {
+                return Ok(None);
+            }
+            let message = self
+                .next_message()
+                .map_err(|error| TelemetryError::new(&self.label, Problem::Unreadable(error)))?;
+            if let Some(message) = message {
+                self.add(&message);
+            } else {
+                self.is_read = true;
+                self.rows.end();
+            }
+        }
+    }
+
+    fn next_message(&mut self) -> io::Result<Option<Message>> {
+        let Self { messages, rows, decoders, descriptions, without_channel, .. } = self;
+        messages.next_message(|known, channel| {
+            if !known.channels.contains_key(&channel) {
+                *without_channel += 1;
+                return false;
+            }
+            let decoder = decoders
+                .entry(channel)
+                .or_insert_with(|| decoder(known, channel, rows, descriptions));
+            decoder.is_some()
+        })
+    }
+
+    fn add(&mut self, message: &Message) {
+        let decoder = self.decoders.get(&message.channel).and_then(Option::as_ref);
+        let Some(decoder) = decoder else { return };
+        let data = self.messages.data();
+        let (topic, tree) = match decoder {
+            Decoder::Json(topic) => (topic, serde_json::from_slice::<Value>(data).ok()),
+            Decoder::Protobuf(topic, description) => (topic, description.decode(data)),
+            Decoder::Unknown => return self.rows.damaged_message(),
+        };
+        match (tree, i64::try_from(message.log_time)) {
+            (Some(tree), Ok(time)) => self.rows.add(topic, time, &tree),
+            _ => self.rows.damaged_message(),
+        }
+    }
+
+    pub(crate) fn rows(&self) -> &TelemetryRows {
+        self.rows.rows()
+    }
+
+    pub(crate) fn notes(&self) -> Vec<String> {
+        let count = self.without_channel;
+        let lost = (count > 0).then(|| {
+            format!("{count} messages are of channels that the log does not describe, and left out")
+        });
+        let damage = self.messages.damage.sentences().into_iter();
+        damage.chain(lost).chain(self.rows.notes()).collect()
+    }
+}
+
+/// How messages of a channel are decoded, if its topic is read.
+fn decoder(
+    known: &Known,
+    channel: u16,
+    rows: &MessageRows,
+    descriptions: &mut HashMap<u16, Option<Rc<Description>>>,
+) -> Option<Decoder> {
+    let channel = known.channels.get(&channel)?;
+    if !rows.wants(&channel.topic) {
+        return None;
+    }
+    match channel.encoding.as_str() {
+        "json" => Some(Decoder::Json(channel.topic.clone())),
+        "protobuf" => {
+            let read = || {
+                let schema = known.schemas.get(&channel.schema)?;
+                Description::read(&schema.data, &schema.name).map(Rc::new)
+            };
+            let description = descriptions.entry(channel.schema).or_insert_with(read).clone();
+            Some(description.map_or(Decoder::Unknown, |description| {
+                Decoder::Protobuf(channel.topic.clone(), description)
+            }))
+        }
+        _ => Some(Decoder::Unknown),
+    }
+}
+
+/// The topics of a log: from the index at its end, or, without one, from all that it has.
+fn topics(file: &mut File) -> io::Result<Vec<Topic>> {
+    let known = match indexed(file)? {
+        Some(known) => known,
+        None => scanned(file)?,
+    };
+    let mut topics = Vec::new();
+    for channel in known.channels.values() {
+        let schema = known.schemas.get(&channel.schema);
+        let topic = Topic {
+            name: channel.topic.clone(),
+            message: schema.map(|it| it.name.clone()).unwrap_or_default(),
+            encoding: Some(channel.encoding.clone()),
+        };
+        if !topics.contains(&topic) {
+            topics.push(topic);
+        }
+    }
+    topics.sort_by(|one, other| one.name.cmp(&other.name));
+    Ok(topics)
+}
+
+/// Channels and schemas of the index; nothing without a whole one.
+fn indexed(file: &mut File) -> io::Result<Option<Known>> {
+    /// The footer's record with the magic behind it [bytes].
+    const END: u64 = (Head::SIZE + Footer::SIZE + MAGIC.len()) as u64;
+    /// The largest index that is read.
+    const MOST: u64 = 256 << 20;
+    let size = file.metadata()?.len();
+    let Some(start) = size.checked_sub(END) else { return Ok(None) };
+    file.seek(SeekFrom::Start(start))?;
+    let mut end = Vec::new();
+    file.take(END).read_to_end(&mut end)?;
+    let mut rest = &end[..];
+    let is_footer = Head::take(&mut rest).is_some_and(|head| head.opcode == Footer::OPCODE);
+    let footer = Footer::take(&mut rest).filter(|_| is_footer && rest == MAGIC);
+    let summary = footer.map(|it| it.summary).filter(|summary| (1..start).contains(summary));
+    let Some(summary) = summary else { return Ok(None) };
+    if start - summary > MOST {
+        return Ok(None);
+    }
+    file.seek(SeekFrom::Start(summary))?;
+    let known = known_of(BufReader::new(&*file).take(start - summary))?;
+    Ok(known.filter(|known| !known.channels.is_empty()))
+}
+
+/// Channels and schemas of all chunks.
+fn scanned(file: &mut File) -> io::Result<Known> {
+    file.rewind()?;
+    let Some(mut messages) = Messages::new(BufReader::new(&*file))? else {
+        return Ok(Known::default());
+    };
+    while messages.next_message(|_, _| false)?.is_some() {}
+    Ok(messages.known)
+}

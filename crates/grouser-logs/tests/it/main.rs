@@ -1,0 +1,49 @@
+//! Logs of every kind, read as telemetry. Logs that the libraries of others write are read in
+//! `crates/grouser-python/tests/test_telemetry.py`.
+
+mod container;
+#[expect(dead_code, reason = "the crate uses all of it")]
+#[path = "../../src/mcap/format.rs"]
+mod format;
+mod hostile;
+mod robots;
+mod runs;
+#[expect(dead_code, reason = "the crate uses all of it")]
+#[path = "../../src/protobuf/wire.rs"]
+mod wire;
+mod written;
+
+use std::fs;
+use std::path::Path;
+
+use grouser::document::measurements::telemetry::{TelemetryRecord, WheelTelemetry};
+use grouser::vehicle::Rover;
+use grouser_core::paper;
+use grouser_logs::{Mapping, TelemetryError, TelemetryLog, TopicChoices};
+use tempfile::TempDir;
+
+/// All records of a log, and its notes.
+type Read = Result<(Vec<TelemetryRecord>, Vec<String>), TelemetryError>;
+
+fn rover() -> Rover {
+    paper::traverse().expect("a scenario").rover
+}
+
+fn read_file(path: &Path, mapping: Option<&str>, choices: &[(&str, &str)]) -> Read {
+    let mapping = mapping.map(|text| Mapping::parse("mapping.toml", text)).transpose()?;
+    let own = |(what, topic): &(&str, &str)| ((*what).to_owned(), (*topic).to_owned());
+    let choices: TopicChoices = choices.iter().map(own).collect();
+    let mut log = TelemetryLog::open(path, &rover(), mapping.as_ref(), &choices)?;
+    let mut records = Vec::new();
+    while let Some(record) = log.next_record()? {
+        records.push(record);
+    }
+    Ok((records, log.notes()))
+}
+
+fn read(bytes: &[u8], mapping: Option<&str>) -> Read {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("log");
+    fs::write(&path, bytes).unwrap();
+    read_file(&path, mapping, &[])
+}

@@ -1,0 +1,187 @@
+//! Logs of robots: signs, times, names of joints, and what is ambiguous.
+
+use serde_json::{Value, json};
+
+use super::container::{Container, Packed};
+use super::*;
+
+const SECOND: u64 = 1_000_000_000;
+
+/// A rotation by the right-hand rule about an axis, as ROS writes it.
+fn about(axis: &str, degrees: f64) -> Value {
+    let (sin, cos) = (0.5 * degrees.to_radians()).sin_cos();
+    let mut quaternion = json!({"x": 0.0, "y": 0.0, "z": 0.0, "w": cos});
+    quaternion[axis] = sin.into();
+    quaternion
+}
+
+fn header(seconds: f64) -> Value {
+    let nanoseconds = (seconds.fract() * 1e9).round();
+    json!({"stamp": {"sec": seconds.trunc(), "nanosec": nanoseconds}, "frame_id": "odom"})
+}
+
+fn bytes(value: &Value) -> Vec<u8> {
+    serde_json::to_vec(value).unwrap()
+}
+
+/// A rover that leans, turns and goes on: an IMU, odometry and joints, each with its own times.
+fn robot(packed: Packed) -> Container {
+    let mut log = Container::begin(packed);
+    let imu = log.channel("/imu/data", "sensor_msgs/msg/Imu");
+    let odometry = log.channel("/odom", "nav_msgs/msg/Odometry");
+    let joints = log.channel("/joint_states", "sensor_msgs/msg/JointState");
+    let picture = log.channel("/camera", "sensor_msgs/msg/Image");
+    log.message(picture, SECOND, &[0; 5000]);
+    // Nose up is a negative rotation about y to the left; the right side down a positive one about
+    // x.
+    for (time, axis, degrees) in [(1.0, "y", -10.0), (2.0, "x", 5.0)] {
+        let message = json!({"header": header(time), "orientation": about(axis, degrees),
+            "orientation_covariance": [0.1, 0.0]});
+        log.message(imu, 5 * SECOND, &bytes(&message));
+    }
+    let unknown = json!({"header": header(3.0), "orientation": about("x", 0.0), "orientation_covariance": [-1.0]});
+    log.message(imu, 5 * SECOND, &bytes(&unknown));
+    log.end_chunk();
+    // Two metres along an axis that is 90° to the left, then a turn of 20° to the left on the spot.
+    for (time, y, yaw) in [(1.0, 0.0, 90.0), (2.0, 2.0, 90.0), (3.0, 2.0, 110.0)] {
+        let pose =
+            json!({"position": {"x": 7.0, "y": y, "z": 0.0}, "orientation": about("z", yaw)});
+        let message = json!({"header": header(time), "pose": {"pose": pose}});
+        log.message(odometry, 5 * SECOND, &bytes(&message));
+    }
+    let message = json!({"header": header(2.0),
+        "name": ["FL_steer", "front_left_wheel", "front-right wheel joint", "rear_left", "arm"],
+        "position": [0.1, 1.0, 1.0, 1.0, 0.0], "velocity": [0.0, 0.5, 0.25, -0.5, 9.0], "effort": [0.0, 0.2, 0.1]});
+    log.message(joints, 5 * SECOND, &bytes(&message));
+    log
+}
+
+fn place(wheel: &str) -> usize {
+    rover().mounts().iter().position(|mount| mount.name == wheel).unwrap()
+}
+
+#[test]
+fn signs_of_ros_become_ours_whatever_the_compression() {
+    for packed in [Packed::Not, Packed::Zstd, Packed::Lz4] {
+        let (records, notes) = read(&robot(packed).finish(), None).unwrap();
+        assert_eq!(records.iter().map(|it| it.time).collect::<Vec<_>>(), [1.0, 2.0, 3.0]);
+        let [first, second, third] = &records[..] else { panic!("three records") };
+        let check = |found: Option<f64>, expected: f64| {
+            let found = found.expect("it was read");
+            assert!((found - expected).abs() < 1e-12, "{found} for {expected}, {packed:?}");
+        };
+        check(first.pitch, 10_f64.to_radians());
+        check(first.roll, 0.0);
+        check(second.roll, 5_f64.to_radians());
+        assert_eq!((third.roll, first.displacement), (None, [None; 2]));
+        check(second.displacement[0], 2.0);
+        check(second.displacement[1], 0.0);
+        check(second.rotation, 0.0);
+        check(third.rotation, 20_f64.to_radians());
+        check(third.displacement[0], 0.0);
+        check(second.wheels[place("front-left")].speed, 0.5);
+        check(second.wheels[place("front-right")].speed, 0.25);
+        check(second.wheels[place("rear-left")].speed, -0.5);
+        check(second.wheels[place("front-left")].torque, 0.2);
+        assert_eq!(second.wheels[place("rear-right")].speed, None);
+        assert!(notes.iter().any(|it| it.contains("/joint_states without a field")), "{notes:?}");
+        assert!(!notes.iter().any(|it| it.contains("damaged") || it.contains("end")), "{notes:?}");
+    }
+}
+
+#[test]
+fn a_mapping_says_units_signs_and_axes() {
+    let mut log = Container::begin(Packed::Not);
+    let channel = log.channel("/hk/FRONT_LEFT", "housekeeping");
+    let pose = log.channel("/nav", "navigation");
+    log.message(
+        channel,
+        SECOND,
+        &bytes(&json!({"motor": [{"rpm": -60.0}], "sag": 1.5, "pitch": 0.1, "steer": 90})),
+    );
+    log.message(pose, SECOND, &bytes(&json!({"q": about("z", 10.0), "t": 1.0})));
+    log.message(
+        pose,
+        SECOND + 400,
+        &bytes(&json!({"q": {"x": 0.0, "y": 0.0, "z": 0.0, "w": 0.0}})),
+    );
+    let mapping = "schema = \"telemetry-mapping/1\"\nname = \"ours\"\nrow_interval_s = 0.1\n\
+        [[reading]]\ntopic = \"/hk/{wheel}\"\nfield = \"motor[0].rpm\"\nunit = \"rpm\"\nsign = -1\nscale = 0.5\ncolumn = \"wheel_speed_rad_s_{wheel}\"\n\
+        [[reading]]\ntopic = \"/hk/{wheel}\"\nfield = \"sag\"\nunit = \"cm\"\ncolumn = \"sinkage_mm_{wheel}\"\n\
+        [[reading]]\ntopic = \"/hk/{wheel}\"\nfield = \"steer\"\naxes = \"ned\"\noffset = 1.0\ncolumn = \"steering_deg_{wheel}\"\n\
+        [[reading]]\ntopic = \"/hk/front-left\"\nfield = \"pitch\"\nunit = \"rad\"\naxes = \"ros\"\ncolumn = \"pitch_deg\"\n\
+        [[reading]]\nmessage = \"navigation\"\nattitude = \"q\"\naxes = \"ned\"\ncolumns = [\"yaw_deg\"]\n";
+    let (records, notes) = read(&log.finish(), Some(mapping)).unwrap();
+    let [record] = &records[..] else { panic!("one record: {records:?}") };
+    let wheel = &record.wheels[place("front-left")];
+    let close = |found: Option<f64>, expected: f64| (found.unwrap() - expected).abs() < 1e-12;
+    assert!(close(wheel.speed, std::f64::consts::PI) && close(wheel.sinkage, 0.015));
+    assert!(close(wheel.steering, (-89_f64).to_radians()) && close(record.pitch, -0.1));
+    // A quaternion of zeros is damage, which is counted.
+    assert!(close(record.yaw, (-10_f64).to_radians()), "{:?}", record.yaw);
+    assert!(
+        notes.iter().any(|it| it.starts_with("1 readings of /nav are no numbers or no rotations")),
+        "{notes:?}"
+    );
+}
+
+/// Times before the window has passed are put in order, those after it counted.
+#[test]
+fn messages_out_of_order_are_put_in_order() {
+    let mut log = Container::begin(Packed::Not);
+    let channel = log.channel("/roll", "roll");
+    for time in [10, 12, 11, 30, 5, 31] {
+        log.message(channel, time * SECOND / 10, &bytes(&json!({"roll": 1.0})));
+    }
+    let mapping = "schema = \"telemetry-mapping/1\"\nname = \"ours\"\n[[reading]]\ntopic = \"/roll\"\nfield = \"roll\"\ncolumn = \"roll_deg\"\n";
+    let (records, notes) = read(&log.finish(), Some(mapping)).unwrap();
+    let times: Vec<f64> = records.iter().map(|it| it.time).collect();
+    assert_eq!(times, [1.0, 1.1, 1.2, 3.0, 3.1]);
+    assert!(
+        notes.iter().any(|it| it.starts_with("1 readings came more than 1 s too late")),
+        "{notes:?}"
+    );
+}
+
+#[test]
+fn what_cannot_be_meant_is_an_error_that_names_the_choices() {
+    let mut log = Container::begin(Packed::Not);
+    for topic in ["/imu/left", "/imu/right"] {
+        let channel = log.channel(topic, "sensor_msgs/Imu");
+        let degrees = if topic.ends_with("left") { 3.0 } else { 4.0 };
+        log.message(
+            channel,
+            SECOND,
+            &bytes(&json!({"header": header(1.0), "orientation": about("x", degrees)})),
+        );
+    }
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("log.mcap");
+    fs::write(&path, log.finish()).unwrap();
+    let error = read_file(&path, None, &[]).unwrap_err().to_string();
+    for part in ["/imu/left, /imu/right", "hint", "--topic sensor_msgs/Imu=/imu/left"] {
+        assert!(error.contains(part), "{error}");
+    }
+    let (records, _) = read_file(&path, None, &[("sensor_msgs/Imu", "/imu/right")]).unwrap();
+    assert!((records[0].roll.unwrap() - 4_f64.to_radians()).abs() < 1e-12);
+
+    let check = |topic: &str, message: &str, encoding: &str, part: &str| {
+        let mut log = Container::begin(Packed::Not);
+        log.channel_of(topic, message, encoding);
+        let error = read(&log.finish(), None).unwrap_err().to_string();
+        assert!(error.contains(part), "{error}");
+    };
+    check(
+        "/lidar",
+        "sensor_msgs/PointCloud2",
+        "json",
+        "none of its topics, which are /lidar (sensor_msgs/PointCloud2)",
+    );
+    check("/imu", "sensor_msgs/msg/Imu", "cdr", "python -m grouser import-telemetry");
+    for (start, part) in
+        [(&b"#ROSBAG V2.0\n"[..], "a bag of ROS 1"), (b"SQLite format 3\0", "a bag of ROS 2")]
+    {
+        let error = read(start, None).unwrap_err().to_string();
+        assert!(error.contains(part) && error.contains("python -m grouser"), "{error}");
+    }
+}
