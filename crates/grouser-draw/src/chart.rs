@@ -1,7 +1,8 @@
 //! Charts: axes, series and marks as data, drawn on a [`Sheet`] in one style.
 //!
-//! A curve has its name at its end, in the right margin, and no legend stands in a box. Colours stay apart for
-//! colour-blind eyes; dashes, shapes and names distinguish in grey. A chart brings its colours for a dark screen.
+//! A curve has its name at its end, in the right margin, and no legend stands in a box. Colours
+//! stay apart for colour-blind eyes; dashes, shapes and names distinguish in grey. A chart brings
+//! its colours for a dark screen.
 //!
 //! ```
 //! use grouser_draw::chart::{Chart, Series, Style};

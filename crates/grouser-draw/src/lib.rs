@@ -1,12 +1,14 @@
-//! All pictures of Grouser: sheets as SVG, PDF or PNG, charts, drawings of the theory, maps, and animations of runs.
+//! All pictures of Grouser: sheets as SVG, PDF or PNG, charts, drawings of the theory, maps, and
+//! animations of runs.
 //!
-//! A [`Sheet`] holds shapes and lines of text in millimetres. Its letters are outlines of a font that comes along
-//! (DejaVu Sans Condensed), so that it looks the same on a machine without fonts, and the same sheet has the same
-//! bytes; text can still be searched and copied from SVG and PDF. Everything else is drawn on sheets: a [`chart`] is
-//! data, [`drawings`] and animations show recorded results. None of them computes a force.
+//! A [`Sheet`] holds shapes and lines of text in millimetres. Its letters are outlines of a font
+//! that comes along (DejaVu Sans Condensed), so that it looks the same on a machine without fonts,
+//! and the same sheet has the same bytes; text can still be searched and copied from SVG and PDF.
+//! Everything else is drawn on sheets: a [`chart`] is data, [`drawings`] and animations show
+//! recorded results. None of them computes a force.
 //!
-//! Colours are named by what they stand for ([`style`]), so that every picture has a light and a dark form, and all of
-//! them look alike.
+//! Colours are named by what they stand for ([`style`]), so that every picture has a light and a
+//! dark form, and all of them look alike.
 //!
 //! ```
 //! use grouser_draw::style::{Ground, Role};

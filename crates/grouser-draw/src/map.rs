@@ -84,7 +84,7 @@ impl Window {
         let size = [CORNER[0] + width + RIGHT, CORNER[1] + height + BOTTOM];
         let mut sheet = Sheet::new(&title, size[0], size[1]).on(Role::Paper.on(Ground::Light));
         sheet.text(text(&title, TITLE, Role::Ink), [CORNER[0], 6.5]);
-        let round = |at: f64| ((at * 10.0).round() / 10.0).to_string();
+        let round = |at: f64| ((at * 10.0).round() / 10.0 + 0.0).to_string().replace('-', "−");
         let (low, high) = (self.south_west, self.north_east);
         let corners = format!(
             "x {} … {} m, y {} … {} m",
@@ -100,4 +100,68 @@ impl Window {
 
 fn text(content: &str, size: f64, role: Role) -> Text {
     Text::new(content, size).colour(role.on(Ground::Light)).anchor(Anchor::Start)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scale::Scale;
+
+    fn grid(columns: usize, rows: usize) -> ElevationGrid {
+        let (south_west, spacing) = (Vec2::new(100.0, -50.0), Vec2::new(2.0, 1.0));
+        ElevationGrid { columns, rows, south_west, spacing }
+    }
+
+    #[test]
+    fn a_map_is_north_up_and_thinned_to_what_can_be_seen() {
+        let window = Window::new(&grid(5, 3), [0, 0], [4, 2], 200);
+        assert_eq!((window.cells(), window.size()), ([5, 3], [140.0, 42.0]));
+        let places: Vec<[usize; 2]> = window.places().collect();
+        assert_eq!((places[0], places[5], places[14]), ([0, 2], [0, 1], [4, 0]));
+        assert_eq!(window.at(Vec2::new(99.0, -50.5)), [CORNER[0], CORNER[1] + 42.0]);
+        let thinned = Window::new(&grid(1000, 10), [0, 0], [999, 9], 100);
+        assert_eq!((thinned.cells(), thinned.step), ([100, 1], 10));
+        assert!(thinned.places().all(|[column, row]| column < 1000 && row < 10));
+    }
+
+    /// Of 15 places one is not known and one is not a number.
+    #[test]
+    fn places_without_a_number_are_empty() {
+        let number = |column: usize, row: usize| match (column, row) {
+            (0, 0) => None,
+            (1, 0) => Some(f64::NAN),
+            _ => Some(if column < 3 { 0.0 } else { 1.0 }),
+        };
+        let scale = Scale::ramp(0.0, 1.0);
+        let svg = map_picture("slope < [°]", &grid(5, 3), &number, &scale);
+        roxmltree::Document::parse(&svg).unwrap();
+        assert!(
+            svg.contains("d=\"M0 0h3M0 1h3M2 2h1\"") && svg.contains("d=\"M3 0h2M3 1h2M3 2h2\"")
+        );
+        assert!(svg.contains(">slope &lt; [°]</text>") && svg.contains(">0.5</text>"));
+        assert!(svg.contains(">x 99 … 109 m, y −50.5 … −47.5 m</text>"), "{svg}");
+    }
+
+    #[test]
+    fn verdicts_have_their_words_beside_them() {
+        let [green, red] = [0x00_9e73, 0xd5_5e00].map(crate::sheet::Colour::hex);
+        let scale = Scale::words([(1.0, green, "go"), (2.0, red, "no-go")]);
+        let svg =
+            map_picture("verdict", &grid(2, 2), &|column, _| Some(1.0 + column as f64), &scale);
+        assert!(svg.contains(">go</text>") && svg.contains(">no-go</text>"));
+        assert!(svg.contains("stroke=\"#009e73\" d=\"M0 0h1M0 1h1\""), "{svg}");
+    }
+
+    #[test]
+    fn ways_lie_on_their_ground_with_names() {
+        let places = [Vec2::new(110.0, -45.0), Vec2::new(130.0, -40.0)];
+        let tracks = [Track { name: "least <time>".into(), places: &places }];
+        let flat = |_: usize, _: usize| Some(Vec2::zeros());
+        let svg = ways_over_ground("Ways", &grid(50, 40), &flat, &tracks);
+        roxmltree::Document::parse(&svg).unwrap();
+        assert_eq!(svg.matches("<circle").count(), 2, "a ring for each place");
+        for text in [">least &lt;time&gt;</text>", ">start</text>", ">goal</text>"] {
+            assert!(svg.contains(text), "{text}");
+        }
+    }
 }

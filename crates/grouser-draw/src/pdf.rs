@@ -262,7 +262,8 @@ fn trace(content: &mut Content, outline: &Outline, place: &impl Fn(Place) -> [f3
     }
 }
 
-/// Cells a little wider and higher than they are: readers smooth edges, and the ground would shine through.
+/// Cells a little wider and higher than they are: readers smooth edges, and the ground would shine
+/// through.
 fn draw_cells(content: &mut Content, cells: &Cells, place: &impl Fn(Place) -> [f32; 2]) {
     let ([left, top], [width, height]) = (cells.place, cells.cell());
     content.save_state();
@@ -316,7 +317,8 @@ fn set_stroke(content: &mut Content, colour: Colour) {
     }
 }
 
-/// The percentages by which shapes hide what is below them. A shape has one: its fill's if it has one.
+/// The percentages by which shapes hide what is below them. A shape has one: its fill's if it has
+/// one.
 fn veils(sheet: &Sheet) -> BTreeSet<u8> {
     let hides = sheet.items.iter().filter_map(|item| match item {
         Item::Shape(shape) => shape.fill.or(shape.stroke.map(|stroke| stroke.colour)),

@@ -1,7 +1,7 @@
 //! Styles with which QGIS shows bands.
 //!
-//! Colours are those of our own pictures of maps: a [`Scale`], with the green, orange and vermilion of Okabe and Ito for
-//! go, caution and no-go.
+//! Colours are those of our own pictures of maps: a [`Scale`], with the green, orange and vermilion
+//! of Okabe and Ito for go, caution and no-go.
 
 // Colours are written as style sheets write them.
 #![allow(clippy::unreadable_literal)]

@@ -53,7 +53,7 @@ impl Axis {
     pub(super) fn linear(range: Option<[f64; 2]>, most: usize) -> Self {
         let [low, high] = widened(range.unwrap_or([0.0, 1.0]));
         // Around zero, two intervals are the least.
-        let most = most.max(2) as i64;
+        let most = i64::try_from(most.max(2)).unwrap_or(i64::MAX);
         let mut digits = [1, 2, 5].into_iter().cycle();
         let mut step = Round { digits: 1, power: power_of((high - low) / most as f64) - 1 };
         loop {
@@ -206,7 +206,7 @@ impl Round {
         if self.digits == 0 {
             return i32::MIN;
         }
-        self.power + self.digits.unsigned_abs().ilog10() as i32
+        self.power + self.digits.unsigned_abs().ilog10().cast_signed()
     }
 
     /// The number for people, with the digits that tell it from the next of its kind.

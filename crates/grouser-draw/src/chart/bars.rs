@@ -16,7 +16,8 @@ const WIDEST: f64 = 50.0;
 /// Side of the sample beside a part's name [mm].
 const SAMPLE: f64 = 3.4;
 
-/// Horizontal bars, each of parts that are laid end to end: those above zero to the right, others to the left.
+/// Horizontal bars, each of parts that are laid end to end: those above zero to the right, others
+/// to the left.
 #[derive(Clone, Debug)]
 pub struct Bars {
     /// What they show.

@@ -123,8 +123,8 @@ pub(super) fn write(sheet: &mut Sheet, lines: &[String], [x, y]: Place, size: f6
     }
 }
 
-/// A text from anywhere in lines of a width, its hidden characters written out. What would need more than
-/// three lines, or is a single word wider than a line, ends in `…`.
+/// A text from anywhere in lines of a width, its hidden characters written out. What would need
+/// more than three lines, or is a single word wider than a line, ends in `…`.
 pub(super) fn lines(content: &str, size: f64, most: f64) -> Vec<String> {
     let mut lines = wrap(&escape::line(content), Face::Regular, size, most);
     if lines.len() > LINES {

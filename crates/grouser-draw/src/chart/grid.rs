@@ -13,11 +13,12 @@ const FRAME: [f64; 2] = [38.0, 32.0];
 const SIZE: f64 = 2.7;
 /// Intervals between numbers along a horizontal axis, at most.
 const INTERVALS: usize = 3;
-/// Between charts [mm].
+/// Between charts, and room for the half of a number that stands under the last one's edge [mm].
 const APART: f64 = 3.5;
+const OVER: f64 = 7.0;
 
-/// Small charts in rows and columns, some places empty, without names of curves. Below each other they have
-/// their numbers once where their horizontal axes are the same.
+/// Small charts in rows and columns, some places empty, without names of curves. Below each other
+/// they have their numbers once where their horizontal axes are the same.
 #[derive(Clone, Debug)]
 pub struct Grid {
     /// What they show.
@@ -75,7 +76,7 @@ impl Grid {
             tops.push(bottom + above(row) + 0.5);
             bottom += above(row) + 0.5 + FRAME[1] + below(row) + APART;
         }
-        let mut sheet = sheet(&self.title, [(right + EDGE).max(60.0), bottom.max(20.0)]);
+        let mut sheet = sheet(&self.title, [(right + OVER).max(60.0), bottom.max(20.0)]);
         write(&mut sheet, &title, [EDGE, EDGE], TITLE, Role::Ink);
         for cell in &cells {
             let (left, top) = (lefts[cell.column], tops[cell.row]);

@@ -1,5 +1,5 @@
-//! The names of curves beside them, in the right margin: each at the height where its curve ends, as far as
-//! others leave room, with a sample of how it is drawn.
+//! The names of curves beside them, in the right margin: each at the height where its curve ends,
+//! as far as others leave room, with a sample of how it is drawn.
 
 use super::axis::is_drawn;
 use super::frame::{LINE, MIDDLE, lines, text, thin};

@@ -44,7 +44,8 @@ pub enum Style {
 }
 
 impl Style {
-    /// A line that differs from those before it by its dashes too: curves that coincide all stay visible.
+    /// A line that differs from those before it by its dashes too: curves that coincide all stay
+    /// visible.
     #[must_use]
     pub fn of_line(place: usize) -> Self {
         [Self::Line, Self::Dashed, Self::Dotted, Self::DashDot][place % 4]

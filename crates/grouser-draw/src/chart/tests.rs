@@ -30,7 +30,8 @@ fn charts() -> Vec<(&'static str, Chart)> {
             Series::new(format!("curve {it} of a family"), Style::of_line(it), it, points)
         })
     };
-    let long = "a name that goes on and on, with_a_word_that_is_much_longer_than_any_margin_of_a_chart_is ".repeat(3);
+    let long = "a name that goes on and on, ".to_owned() + &"with_a_very_long_word".repeat(5);
+    let long = (long + " ").repeat(3);
     let styles = [Style::Dots, Style::Squares, Style::Triangles, Style::Band, Style::Dashed];
     let hostile = styles.map(|style| Series::new(HOSTILE, style, 0, [(0.0, 0.0), (1.0, 1.0)]));
     vec![
@@ -321,7 +322,8 @@ fn a_heat_map_has_a_cell_for_each_value_from_the_bottom_up() {
     check_sheet("no values", &heat_map(2, 2, |_| None).sheet());
 }
 
-/// Of a triangle of charts only the lowest of a column have numbers under them, where they share an axis.
+/// Of a triangle of charts only the lowest of a column have numbers under them, where they share an
+/// axis.
 #[test]
 fn charts_of_a_grid_share_their_numbers() {
     let chart = || Chart::new("", ("x", "y"), vec![dots([(0.0, 1.0), (10.0, 2.0)])]);

@@ -13,8 +13,8 @@ const CELLS: usize = 200;
 /// Shades of colours that are mixed.
 const SHADES: usize = 48;
 
-/// A number of each place as a stand-alone SVG document: the map north up, its corners, and the scale of its colours.
-/// Where nothing is known the picture is empty.
+/// A number of each place as a stand-alone SVG document: the map north up, its corners, and the
+/// scale of its colours. Where nothing is known the picture is empty.
 ///
 /// * `number`: by column and row of the grid; `None` or NaN where it is not known
 /// * `scale`: from the least to the largest number

@@ -24,7 +24,8 @@ const SHADES: f64 = 24.0;
 /// Where the light comes from: a unit vector to the north-west, 30° above the horizon.
 const LIGHT: [f64; 3] = [-0.612_372_435_695_794_5, 0.612_372_435_695_794_5, 0.5];
 
-/// The part of a map about some ways in the light of a low Sun, and the ways, as a stand-alone SVG document.
+/// The part of a map about some ways in the light of a low Sun, and the ways, as a stand-alone SVG
+/// document.
 ///
 /// * `gradient`: of the ground, by column and row of the grid; `None` where it is not known
 #[must_use]

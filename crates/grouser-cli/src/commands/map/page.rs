@@ -62,7 +62,7 @@ pub(super) fn picture(
     band: &MapColumn,
     of: &BandSummary,
 ) -> String {
-    let number = |column: usize, row: usize| band.number(&ground.at(map, column, row)?);
+    let number = |column: usize, row: usize| Some(band.number(&ground.at(map, column, row)?));
     let scale = Look::of(band.name).scale(of);
     map_picture(&label(band), &ground.raster().grid, &number, &scale)
 }
