@@ -92,6 +92,8 @@ impl Frame {
         let first = self.bottom() + height_below(0, size) + 0.9 * size;
         for (place, line) in lines.iter().enumerate() {
             let text = text(line, size, Role::Ink).anchor(Anchor::Middle);
+            // A line that is wider than the frame begins at the edge of the sheet.
+            let middle = middle.max(GAP + 0.5 * text.width());
             sheet.text(text, [middle, first + place as f64 * LINE * size]);
         }
     }

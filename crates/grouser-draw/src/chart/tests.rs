@@ -179,12 +179,12 @@ fn in_colour(chart: &Chart, place: usize) -> Vec<Shape> {
 #[test]
 fn each_datum_has_one_mark() {
     for style in [Style::Dots, Style::Squares, Style::Triangles] {
-        for count in [0, 1, 7, 200] {
+        for count in [0_u32, 1, 7, 200] {
             let points = (0..count).map(|it| (f64::from(it), f64::from(it % 3)));
             let missing = [(f64::NAN, 1.0), (1.0, f64::NAN)];
             let series = Series::new("", style, 2, points.chain(missing));
             let marks = in_colour(&chart(vec![series]), 2).len();
-            assert_eq!(marks, count as usize, "{style:?}");
+            assert_eq!(u32::try_from(marks), Ok(count), "{style:?}");
         }
     }
 }
