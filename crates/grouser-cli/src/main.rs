@@ -4,7 +4,6 @@
 //! results, [`report`] makes the page of `reproduce`.
 
 mod args;
-mod chart;
 mod commands;
 mod failure;
 mod hints;

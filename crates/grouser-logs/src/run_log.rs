@@ -16,7 +16,7 @@ use grouser_core::mission::{BackOut, Leg};
 use grouser_core::simulation::{Outcome, OutcomeKind, Record, Scenario, Severity, WheelRecord};
 use grouser_core::terrain::{Footprint, Terrain as _};
 use grouser_core::units::{Vec2, Vec3};
-use grouser_pictures::motion::{Follower, Pose};
+use grouser_draw::motion::{Follower, Pose};
 
 use self::error::{LONGEST, LogError};
 use self::frames::WheelName;

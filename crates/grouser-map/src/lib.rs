@@ -1,24 +1,22 @@
-//! Mobility maps as files: for each number a cloud-optimised GeoTIFF in the coordinates of the elevation model that it
-//! was made from, and a style with which QGIS shows it.
+//! Mobility maps as files for other programs: for each number a cloud-optimised GeoTIFF in the
+//! coordinates of the elevation model that it was made from, the style with which QGIS shows it,
+//! and the slip that Gazebo reads.
 //!
 //! A map is a [`Ground`](grouser::studies::mobility::Ground), whose places have gradients, and a
-//! [`MobilityMap`](grouser::studies::mobility::MobilityMap), which says what a rover does on them. A band is written
-//! tile by tile, so that no more of it is in memory than a tile. Nothing is computed from one place for another: a
-//! band that was written again is the same to the byte, whatever else was going on.
+//! [`MobilityMap`](grouser::studies::mobility::MobilityMap), which says what a rover does on them.
+//! A band is written tile by tile, so that no more of it is in memory than a tile. Nothing is
+//! computed from one place for another: a band that was written again is the same to the byte,
+//! whatever else was going on.
 
 mod error;
 mod gazebo;
 mod geotiff;
-mod picture;
-mod relief;
 mod style;
 mod summary;
 
 pub use error::MapError;
 pub use gazebo::SlipTexture;
 pub use geotiff::{elevation_model, write_band};
-pub use picture::picture;
-pub use relief::{Track, relief};
 pub use style::{Look, style};
 pub use summary::{BandSummary, summaries};
 

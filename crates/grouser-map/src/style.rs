@@ -1,9 +1,14 @@
 //! Styles with which QGIS shows bands.
 //!
-//! Colours: *viridis* of matplotlib for numbers that go one way, a cyclic scale for directions, and the green, orange
-//! and vermilion of Okabe and Ito for go, caution and no-go.
+//! Colours are those of our own pictures of maps: a [`Scale`], with the green, orange and vermilion
+//! of Okabe and Ito for go, caution and no-go.
+
+// Colours are written as style sheets write them.
+#![allow(clippy::unreadable_literal)]
 
 use std::fmt::Write as _;
+
+use grouser_draw::{Colour, Scale, Stop};
 
 use crate::BandSummary;
 
@@ -18,19 +23,9 @@ pub enum Look {
     Verdicts,
 }
 
-/// Of numbers that go one way, from the least to the largest.
-const RAMP: [&str; 9] = [
-    "#440154", "#472d7b", "#3b528b", "#2c728e", "#21918c", "#28ae80", "#5ec962", "#addc30",
-    "#fde725",
-];
-/// Of directions, from −180° to 180°: the ends are alike.
-const CYCLE: [&str; 9] = [
-    "#e2d9e2", "#9ebbc9", "#6276ba", "#5e43a5", "#2f1436", "#7b1e50", "#b25652", "#cfa28a",
-    "#e2d9e2",
-];
-/// Of verdicts: the number, the colour and the word.
-const VERDICTS: [(u8, &str, &str); 3] =
-    [(1, "#009e73", "go"), (2, "#e69f00", "caution"), (3, "#d55e00", "no-go")];
+/// Verdicts: the number, the colour and the word.
+const VERDICTS: [(u8, u32, &str); 3] =
+    [(1, 0x009e73, "go"), (2, 0xe69f00, "caution"), (3, 0xd55e00, "no-go")];
 
 impl Look {
     /// How a band of this name is shown.
@@ -43,32 +38,20 @@ impl Look {
         }
     }
 
-    /// The words of verdicts, in the order of their numbers.
-    pub(crate) fn verdict_words() -> [&'static str; 3] {
-        VERDICTS.map(|(_, _, word)| word)
-    }
-
-    /// Numbers and their colours, rising; between them colours are mixed, but for verdicts.
+    /// Colours by number.
     ///
     /// * `of`: the numbers that are shown
     #[must_use]
-    pub fn stops(self, of: &BandSummary) -> Vec<(f64, &'static str)> {
-        let spread = |colours: &[&'static str], low: f64, high: f64| {
-            let last = (colours.len() - 1) as f64;
-            let stop = |(place, colour): (usize, &&'static str)| {
-                (low + (high - low) * place as f64 / last, *colour)
-            };
-            colours.iter().enumerate().map(stop).collect()
-        };
+    pub fn scale(self, of: &BandSummary) -> Scale {
         match self {
             Self::Ramp => {
                 let (low, high) = range(of);
-                spread(&RAMP, low, high)
+                Scale::ramp(low, high)
             }
-            Self::Cycle => spread(&CYCLE, -180.0, 180.0),
-            Self::Verdicts => {
-                VERDICTS.iter().map(|(number, colour, _)| (f64::from(*number), *colour)).collect()
-            }
+            Self::Cycle => Scale::cycle(-180.0, 180.0),
+            Self::Verdicts => Scale::words(
+                VERDICTS.map(|(number, code, word)| (f64::from(number), Colour::hex(code), word)),
+            ),
         }
     }
 }
@@ -84,21 +67,22 @@ fn range(of: &BandSummary) -> (f64, f64) {
 /// * `label`: what it is, with the unit
 #[must_use]
 pub fn style(look: Look, of: &BandSummary, label: &str) -> String {
-    let stops = look.stops(of);
+    let scale = look.scale(of);
     let mut text = String::from(
         "<!DOCTYPE qgis>\n<qgis version=\"3.22\" styleCategories=\"Symbology\">\n  <pipe>\n",
     );
     if look == Look::Verdicts {
         text += "    <rasterrenderer type=\"paletted\" band=\"1\" opacity=\"1\" alphaBand=\"-1\" nodataColor=\"\">\n      <rasterTransparency/>\n      <colorPalette>\n";
-        for (number, colour, word) in VERDICTS {
+        for Stop { at, colour, word } in scale.stops() {
+            let (colour, word) = (colour.code(), word.unwrap_or_default());
             let _ = writeln!(
                 text,
-                "        <paletteEntry value=\"{number}\" color=\"{colour}\" alpha=\"255\" label=\"{word}\"/>"
+                "        <paletteEntry value=\"{at}\" color=\"{colour}\" alpha=\"255\" label=\"{word}\"/>"
             );
         }
         text += "      </colorPalette>\n    </rasterrenderer>\n";
     } else {
-        let (low, high) = (stops[0].0, stops[stops.len() - 1].0);
+        let [low, high] = scale.ends();
         let _ = writeln!(
             text,
             "    <rasterrenderer type=\"singlebandpseudocolor\" band=\"1\" opacity=\"1\" alphaBand=\"-1\" nodataColor=\"\" classificationMin=\"{low}\" classificationMax=\"{high}\">"
@@ -108,11 +92,12 @@ pub fn style(look: Look, of: &BandSummary, label: &str) -> String {
             text,
             "        <colorrampshader colorRampType=\"INTERPOLATED\" classificationMode=\"2\" clip=\"0\" minimumValue=\"{low}\" maximumValue=\"{high}\" labelPrecision=\"4\">"
         );
-        for (number, colour) in stops {
+        for Stop { at, colour, .. } in scale.stops() {
+            let colour = colour.code();
             let _ = writeln!(
                 text,
-                "          <item value=\"{number}\" color=\"{colour}\" alpha=\"255\" label=\"{}\"/>",
-                rounded(number)
+                "          <item value=\"{at}\" color=\"{colour}\" alpha=\"255\" label=\"{}\"/>",
+                rounded(*at)
             );
         }
         text += "        </colorrampshader>\n      </rastershader>\n    </rasterrenderer>\n";
@@ -123,7 +108,7 @@ pub fn style(look: Look, of: &BandSummary, label: &str) -> String {
 }
 
 /// A number with four digits.
-pub(crate) fn rounded(number: f64) -> String {
+fn rounded(number: f64) -> String {
     let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
     rounded.to_string()
 }

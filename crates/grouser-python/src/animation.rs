@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use grouser::mission::MissionError;
 use grouser::simulation::Scenario;
-use grouser_pictures::{Animation, Form, Shown, VideoError, title_of};
+use grouser_draw::{Animation, Form, Shown, VideoError, title_of};
 use pyo3::exceptions::{PyFileNotFoundError, PyOSError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;

@@ -1,8 +1,8 @@
 //! The colours of pictures, and where names of curves find room.
 
-use grouser_page::Colour;
-use grouser_pictures::labels;
-use grouser_pictures::style::{Ground, Role, series};
+use grouser_draw::Colour;
+use grouser_draw::labels;
+use grouser_draw::style::{Ground, Role, series};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 

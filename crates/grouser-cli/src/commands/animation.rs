@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use grouser::document::escape;
-use grouser_pictures::{Animation, Form, Shown, VideoError};
+use grouser_draw::{Animation, Form, Shown, VideoError};
 
 use super::place::Place;
 use crate::failure::Failure;

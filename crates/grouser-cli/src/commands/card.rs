@@ -19,7 +19,7 @@ use grouser::simulation::Approach;
 use grouser::studies::card::drives::{CardDrives, RowDrives};
 use grouser::studies::card::{Card, CardStudy, Side};
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
-use grouser_page::{Sheet, markup, pdf_of};
+use grouser_draw::{Sheet, markup, pdf_of};
 use serde::Serialize;
 use serde_json::{Value, json};
 

@@ -3,7 +3,7 @@
 use grouser::contact::{Contact, Ishigami, Slip, settle};
 use grouser::document::columns::SLOPE;
 use grouser::studies::heading::HeadingStudy;
-use grouser_pictures::drawings::{self, Crossing, WheelInSoil};
+use grouser_draw::drawings::{self, Crossing, WheelInSoil};
 
 use crate::args::DrawArgs;
 use crate::failure::Failure;

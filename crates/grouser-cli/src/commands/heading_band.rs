@@ -7,10 +7,10 @@ use grouser::document::table::Table;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::heading::{HeadingCurve, HeadingStudy};
 use grouser::studies::heading_band::{HeadingBand, SlopeBand};
+use grouser_draw::chart::{Chart, Series, Style};
 
 use super::sampling;
 use crate::args::{HeadingArgs, UncertaintyArgs};
-use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output::rows::rounded_down;

@@ -10,12 +10,12 @@ use grouser::studies::ensemble::models::Question;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::heading::{HeadingOffset, HeadingStudy};
 use grouser::studies::heading_map::HeadingMap;
+use grouser_draw::chart::HeatMap;
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{Answer, sampling, strict};
 use crate::args::{HeadingMapArgs, UncertaintyArgs};
-use crate::chart::HeatMap;
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output::folder::OutputFolder;

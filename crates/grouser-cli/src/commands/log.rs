@@ -7,8 +7,8 @@ use grouser::document::{Loaded, LoadedMission, LoadedScenario, escape};
 use grouser::simulation::Trajectory;
 use grouser::studies::mission::DrivenMission;
 use grouser::studies::replay::Replay;
+use grouser_draw::title_of;
 use grouser_logs::{Log, LogError, write_replay};
-use grouser_pictures::title_of;
 
 use super::place::Place;
 use crate::failure::Failure;

@@ -9,7 +9,7 @@ use grouser::document::columns::LIMIT_SLOPE;
 use grouser::document::columns::map::{bands, chosen};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::mobility::{CourseChoice, Ground, MobilityMap};
-use grouser_map::{BandSummary, Look, MapColumn, picture, style, summaries, write_band};
+use grouser_map::{BandSummary, Look, MapColumn, style, summaries, write_band};
 use rayon::prelude::*;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -102,7 +102,7 @@ pub(crate) fn run(args: &MapArgs) -> Result<(), Failure> {
     for (band, of) in bands.iter().zip(&of) {
         let text = style(Look::of(band.name), of, &label(band));
         output.add(format!("{}.qml", band.name), text);
-        output.add(format!("{}.svg", band.name), picture(ground, &map, band, of, &label(band)));
+        output.add(format!("{}.svg", band.name), page::picture((ground, &map), band, of));
     }
     if let Some(texture) = gazebo::texture(args, &inputs, ground)? {
         gazebo::add(&mut output, &inputs, texture);

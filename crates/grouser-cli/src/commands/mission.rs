@@ -7,7 +7,7 @@ use grouser::document::columns::TIME;
 use grouser::document::columns::mission::{MissionObject, legs_brief, missions_brief};
 use grouser::document::columns::run;
 use grouser::studies::mission::DrivenMission;
-use grouser_pictures::{Shown, title_of};
+use grouser_draw::{Shown, title_of};
 use serde::Serialize;
 use serde_json::json;
 

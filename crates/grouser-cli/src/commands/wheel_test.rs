@@ -10,13 +10,13 @@ use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::measurement::PerQuantity;
 use grouser::studies::simulated_test::SimulatedTest;
 use grouser::studies::wheel_test::WheelTest;
+use grouser_draw::chart::Style;
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use self::charted::{Charted, brief, plan};
 use super::{Answer, sampling, strict};
 use crate::args::{EVERY_MODEL, StandArgs, WheelTestArgs};
-use crate::chart::Style;
 use crate::failure::Failure;
 use crate::inputs::{self, StandInputs};
 use crate::output::folder::OutputFolder;

@@ -11,10 +11,10 @@ use grouser::document::table::Table;
 use grouser::document::unit::ONE;
 use grouser::document::{Document, Loaded};
 use grouser::simulation::{Record, Scenario};
-use grouser_pictures::relief_of;
+use grouser_draw::chart::{Chart, Series, Style};
+use grouser_draw::relief_of;
 
 use super::page::Page;
-use crate::chart::{Chart, Series, Style};
 use crate::output::rows::four_digits;
 use crate::output::text::capitalised;
 

@@ -8,11 +8,11 @@ use grouser::studies::comparison::{Levelness, MeasuredTraverse};
 use grouser::studies::heading_band::SlopeBand;
 use grouser::studies::lost_yaw::SlopeLoss;
 use grouser::studies::reproduction::{Reproduction, SlopeRuns};
+use grouser_draw::chart::{Chart, Series, Style};
 use serde_json::{Map, Value, json};
 
 use super::figures::Figure;
 use super::tables::{Table, column, printed, row_of};
-use crate::chart::{Chart, Series, Style};
 use crate::output::rows::rounded_down;
 
 /// All that the report is made of.

@@ -8,9 +8,9 @@ use grouser::studies::heading_band::SlopeBand;
 use grouser::studies::reproduction::{Reproduction, START_UP_ROW, SlopeRuns};
 use grouser::studies::wheel_test::WheelTestRow;
 use grouser::vehicle::Rover;
+use grouser_draw::chart::{Chart, Series, Style};
 use serde_json::{Map, Value, json};
 
-use crate::chart::{Chart, Series, Style};
 use crate::output::rows::Rows;
 
 /// A figure and the numbers it draws.

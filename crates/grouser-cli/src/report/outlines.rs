@@ -4,8 +4,7 @@ use grouser::simulation::Trajectory;
 use grouser::studies::reproduction::{Reproduction, SlopeRuns};
 use grouser::units::Vec2;
 use grouser::vehicle::Rover;
-use grouser_page::{Place, Shape, Sheet, Stroke, Text};
-use grouser_pictures::{draw_outline, reach};
+use grouser_draw::{Place, Shape, Sheet, Stroke, Text, draw_outline, reach};
 
 /// Name of the drawing's file, without ending.
 pub(crate) const FILE: &str = "fig9-outlines";

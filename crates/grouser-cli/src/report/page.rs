@@ -1,6 +1,7 @@
 //! The page: one HTML file that needs nothing from outside.
 
 use grouser::contact::validity::{Finding, Flag};
+use grouser_draw::chart::Chart;
 use std::fmt::Write as _;
 
 use grouser::document::escape;
@@ -8,7 +9,6 @@ use grouser::document::table as results;
 
 use super::figures::Figure;
 use super::tables::Table;
-use crate::chart::Chart;
 use crate::output::rows::Rows;
 use crate::output::text::{Part, Text, capitalised};
 
@@ -240,7 +240,7 @@ fn element(svg: &str) -> &str {
 
 /// A text from anywhere as HTML, its hidden characters written out.
 fn escaped(text: &str) -> String {
-    grouser_page::markup(&escape::visible(text))
+    grouser_draw::markup(&escape::visible(text))
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@
 use grouser_core::elementary::wide;
 use grouser_core::units::Vec3;
 use grouser_core::vehicle::Mount;
-use grouser_pictures::motion::{Pose as RoverPose, StandingWheel, quaternion_to};
+use grouser_draw::motion::{Pose as RoverPose, StandingWheel, quaternion_to};
 
 use crate::foxglove::{FrameTransform, Pose, Quaternion, Timestamp, Vector3};
 

@@ -10,10 +10,10 @@ use grouser_core::simulation::Scenario;
 use grouser_core::terrain::{Footprint, Terrain};
 use grouser_core::units::{Vec2, Vec3};
 use grouser_core::vehicle::{Mount, Rover};
-use grouser_pictures::motion::Pose as RoverPose;
-use grouser_pictures::rover::{Bar, Block, Likeness, bars_of};
-use grouser_pictures::style::{Ground as Paper, Role};
-use grouser_pictures::{round_step, shade_of};
+use grouser_draw::motion::Pose as RoverPose;
+use grouser_draw::rover::{Bar, Block, Likeness, bars_of};
+use grouser_draw::style::{Ground as Paper, Role};
+use grouser_draw::{round_step, shade_of};
 
 use crate::foxglove::{
     ArrowPrimitive, Color, CubePrimitive, CylinderPrimitive, KeyValuePair, LinePrimitive, LineType,

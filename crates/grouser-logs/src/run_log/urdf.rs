@@ -9,8 +9,8 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
 use grouser_core::vehicle::{Inertia, Rover};
-use grouser_pictures::rover::{Block, Likeness};
-use grouser_pictures::style::{Ground, Role};
+use grouser_draw::rover::{Block, Likeness};
+use grouser_draw::style::{Ground, Role};
 
 use crate::run_log::frames::{BODY, WheelName};
 

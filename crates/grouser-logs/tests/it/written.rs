@@ -19,12 +19,11 @@ use grouser_core::terrain::Ground;
 use grouser_core::terrain::surface::{Ripple, Surface};
 use grouser_core::units::{Vec2, Vec3, deg};
 use grouser_core::vehicle::{Battery, Motor, Mount, Rover, Winding};
+use grouser_draw::motion::Follower;
+use grouser_draw::rover::PlacedWheel;
 use grouser_logs::{Level, Log, LogError, write_replay};
-use grouser_pictures::motion::Follower;
-use grouser_pictures::rover::PlacedWheel;
 use reader::{Message, Summary};
 
-use super::hakuto;
 use super::wire::{Encoded, Encoding};
 
 type Outcomes = Result<(), Box<dyn Error>>;

@@ -8,6 +8,7 @@ use grouser::document::checkpoint::fingerprint;
 use grouser::document::measurements::Limits;
 use grouser::document::measurements::bevameter_sets::rows_of;
 use grouser::document::{Document, escape, plates, shear_tests};
+use grouser_draw::chart::{Chart, Series, Style};
 use serde_json::{Value, json};
 
 use super::super::Answer;
@@ -15,7 +16,6 @@ use super::checkpoint::{Checkpoint, open_folder};
 use super::progress::{Progress, sampling};
 use super::report;
 use crate::args::{CalibrateArgs, PlateLawChoice};
-use crate::chart::{Chart, Series, Style};
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output;

@@ -10,12 +10,12 @@ use grouser::document::{Document, SAMPLES_FILE, SoilFamily};
 use grouser::studies::calibration::Posterior;
 use grouser::studies::calibration::diagnostics::{Samples, correlations_of};
 use grouser::studies::measurement::Quantity;
+use grouser_draw::chart::{Chart, Grid, Series, Style};
 use serde::Serialize;
 
 use super::super::{Answer, validate};
 use super::wheel::Problem;
 use crate::args::CalibrateArgs;
-use crate::chart::{Chart, Grid, Series, Style};
 use crate::failure::Failure;
 use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, aligned, four_digits};

@@ -4,7 +4,7 @@ use grouser::document::columns::card::{
     CORRECT_EVERY, DRIVEN_DRIFT, PITCH_ENDS, RIM_WAY, SLIP_LIMIT, TIPPING_MARGIN,
 };
 use grouser::document::columns::{CURRENT, Quantity, ROLL, SINKAGE, TORQUE};
-use grouser_page::{Anchor, BLACK, Face, Shape, Sheet, Stroke, WHITE};
+use grouser_draw::{Anchor, BLACK, Face, Shape, Sheet, Stroke, WHITE};
 
 use super::layout::{LEFT, RIGHT, fitting, shown};
 use super::row::{CardRow, in_steps, upwards};
@@ -186,7 +186,7 @@ fn broken(sheet: &mut Sheet, parts: [&str; 2], [x, y]: [f64; 2]) {
     sheet.text(below, [x, y + size - 0.4]);
 }
 
-fn strip_word(word: &str, height: f64) -> grouser_page::Text {
+fn strip_word(word: &str, height: f64) -> grouser_draw::Text {
     let size = if height >= LOW_STRIP {
         fitting(word, 6.4, height - 3.0)
     } else {

@@ -7,7 +7,7 @@
 //! The page is A4; what is on it fits into the margins of a letter page as well.
 
 use grouser::document::{escape, table};
-use grouser_page::{Anchor, BLACK, Face, Shape, Sheet, Stroke, Text, WHITE, width, wrap};
+use grouser_draw::{Anchor, BLACK, Face, Shape, Sheet, Stroke, Text, WHITE, width, wrap};
 
 use super::columns::{self, Table};
 use super::picture::Picture;

@@ -1,7 +1,7 @@
 //! The rover from above, its nose turned uphill of the way it goes.
 
 use grouser::vehicle::Rover;
-use grouser_page::{Anchor, BLACK, Face, Place, Shape, Sheet, Stroke, WHITE};
+use grouser_draw::{Anchor, BLACK, Face, Place, Shape, Sheet, Stroke, WHITE};
 
 use super::layout::shown;
 use crate::args::SideChoice;

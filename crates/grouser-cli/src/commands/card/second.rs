@@ -9,7 +9,7 @@ use grouser::studies::card::courses::{Course, TURN};
 use grouser::studies::card::{
     BELOW_FRICTION_ANGLE, DRIFT_WAY, MOST_CHECKED_SLIP, SOIL_LENGTH, STUCK_WITH_CHECKS,
 };
-use grouser_page::{Anchor, BLACK, Face, Shape, Sheet, Stroke, WHITE};
+use grouser_draw::{Anchor, BLACK, Face, Shape, Sheet, Stroke, WHITE};
 
 use super::layout::{
     BAR, BLANKS, LEAST_SIZE, LEFT, PAGE, RIGHT, TOP, bar, blanks, date, fitting, lines, lines_of,

@@ -7,9 +7,9 @@ use grouser::document::columns::forecast::{
 use grouser::document::columns::{LIMIT_SLOPE, Quantity, SLIP_RATIO, SLOPE, YAW};
 use grouser::document::table::Table;
 use grouser::studies::forecast::{FactorKind, Forecast};
+use grouser_draw::chart::{Bars, Chart, Series, Style};
 
 use super::tables::Tables;
-use crate::chart::{Bars, Chart, Series, Style};
 use crate::output::rows::four_digits;
 
 /// A figure.

@@ -6,9 +6,9 @@ use grouser::document::columns::wheel_speeds::{self, NONE_FOUND, WHEELS};
 use grouser::document::columns::{ENERGY_PER_METRE, LIMIT_SLOPE, MODEL, SLOPE};
 use grouser::document::table::Table;
 use grouser::studies::heading::{HeadingCurve, LimitedBy, Steering};
+use grouser_draw::chart::{Chart, Series, Style};
 
 use crate::args::HeadingArgs;
-use crate::chart::{Chart, Series, Style};
 use crate::commands::heading_band::Bands;
 use crate::output::rows::rounded_down;
 

@@ -4,12 +4,11 @@ use grouser::contact::validity::Finding;
 use grouser::document::columns::heading::{self, held, steered};
 use grouser::document::columns::{Quantity, SLOPE};
 use grouser::document::table::Table;
-
 use grouser::studies::heading::Steering;
+use grouser_draw::chart::{Chart, Series, Style};
 
 use super::of_model::{OfModel, brief, figures};
 use crate::args::HeadingArgs;
-use crate::chart::{Chart, Series, Style};
 use crate::commands::sampling;
 use crate::output::text::capitalised;
 use crate::report::answer::{self, Basis, axis, by_unit, meanings};

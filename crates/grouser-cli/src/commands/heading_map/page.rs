@@ -4,9 +4,9 @@ use grouser::document::LoadedScenario;
 use grouser::document::columns::heading::{held, map_brief};
 use grouser::document::table::Table;
 use grouser::studies::heading_map::HeadingMap;
+use grouser_draw::chart::HeatMap;
 
 use crate::args::HeadingMapArgs;
-use crate::chart::HeatMap;
 use crate::commands::sampling;
 use crate::report::answer::{self, Basis, meanings};
 use crate::report::page::Page;

@@ -4,7 +4,7 @@ use grouser::document::LoadedScenario;
 use grouser::document::columns::card_days;
 use grouser::document::learn::LearntSoil;
 use grouser::document::table::Table;
-use grouser_page::{markup, pdf_of};
+use grouser_draw::{markup, pdf_of};
 
 use crate::args::LearnArgs;
 use crate::commands::card::Pages;
@@ -59,7 +59,7 @@ impl Cards {
     /// Both cards side by side; below each other where there is no room.
     fn html(&self) -> String {
         let sides = [("Yesterday", &self.before), ("Today", &self.after)].map(|(name, pages)| {
-            let sheets = pages.sheets.iter().map(grouser_page::Sheet::to_svg);
+            let sheets = pages.sheets.iter().map(grouser_draw::Sheet::to_svg);
             let sheets: String = sheets.collect();
             format!("<section aria-label=\"{name}\">\n<h2>{name}</h2>\n{sheets}</section>\n")
         });

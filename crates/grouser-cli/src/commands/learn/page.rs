@@ -9,13 +9,13 @@ use grouser::document::columns::slip_from_current::{TRUE_SLIP, WHEEL};
 use grouser::document::columns::{SLIP_RATIO, SLOPE, TIME};
 use grouser::document::table::Table;
 use grouser::vehicle::Rover;
+use grouser_draw::chart::{BAND_COLOUR, Chart, Series, Style};
 
 use super::advice;
 use super::cards::Cards;
 use super::found::{Found, of_row, shares, warning};
 use super::tables::Tables;
 use crate::args::LearnArgs;
-use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::output::rows::{Rows, four_digits};
 use crate::output::text::Text;
 use crate::report::answer::{self, Basis, axis, meanings};

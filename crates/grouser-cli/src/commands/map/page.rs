@@ -3,7 +3,8 @@
 use grouser::document::columns::map::{HEADING, bands};
 use grouser::document::columns::{POWER, SINKAGE, SLIP_RATIO};
 use grouser::studies::mobility::{Ground, MobilityMap};
-use grouser_map::{BandSummary, MapColumn, picture};
+use grouser_draw::map::map_picture;
+use grouser_map::{BandSummary, Look, MapColumn};
 
 use super::numbers::{errors, label};
 use crate::args::MapArgs;
@@ -27,7 +28,7 @@ pub(super) fn html(
     page.answer(sentence.trim_end());
     page.paragraph(&course(&args.course_deg));
     for (band, of) in all {
-        let drawing = picture(ground, map, band, of, &label(band));
+        let drawing = picture((ground, map), band, of);
         page.drawing(&drawing, &format!("{}. Empty: no number.", band.doc));
     }
     page.heading("How exact the map is");
@@ -53,6 +54,17 @@ pub(super) fn html(
     );
     let basis = Basis::new(repeat).with("scenario.toml", &inputs.scenario);
     answer::close(page, [], &meanings(&bands()), &basis)
+}
+
+/// A band in colours, north up.
+pub(super) fn picture(
+    (ground, map): (Ground<'_>, &MobilityMap),
+    band: &MapColumn,
+    of: &BandSummary,
+) -> String {
+    let number = |column: usize, row: usize| Some(band.number(&ground.at(map, column, row)?));
+    let scale = Look::of(band.name).scale(of);
+    map_picture(&label(band), &ground.raster().grid, &number, &scale)
 }
 
 fn course(asked: &str) -> String {

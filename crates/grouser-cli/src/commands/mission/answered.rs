@@ -5,7 +5,7 @@ use grouser::document::columns::run;
 use grouser::document::table::Table;
 use grouser::document::{LoadedMission, escape};
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
-use grouser_pictures::path_of;
+use grouser_draw::path_of;
 
 use crate::output::rows::{four_digits, metres};
 use crate::output::text::capitalised;

@@ -5,11 +5,10 @@ use grouser::document::columns::mission::{
     ELECTRICAL_LEG, ELECTRICAL_MISSION, LEG, MISSION, legs_brief, missions_brief,
 };
 use grouser::document::columns::run;
-
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
+use grouser_draw::chart::Bars;
 
 use super::answered::{Answered, reasons, sentence};
-use crate::chart::Bars;
 use crate::report::answer::{self, Basis, axis, meanings, over_ground, over_time, run_meanings};
 use crate::report::page::Page;
 

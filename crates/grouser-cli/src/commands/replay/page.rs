@@ -9,10 +9,10 @@ use grouser::document::columns::{ENERGY, TIME};
 use grouser::document::table::Table;
 use grouser::studies::replay::{Channel, Prediction};
 use grouser::vehicle::Rover;
+use grouser_draw::chart::{BAND_COLOUR, Chart, Series, Style};
 
 use super::found::Found;
 use crate::args::ReplayArgs;
-use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::commands::sampling;
 use crate::output::rows::{Rows, four_digits};
 use crate::output::text::{Text, capitalised};

@@ -1,7 +1,7 @@
 //! The page of a route.
 
 use grouser::document::route::RouteRecord;
-use grouser_map::{Track, relief};
+use grouser_draw::map::{Track, ways_over_ground};
 
 use super::record::{self, Brief};
 use super::way::Way;
@@ -55,7 +55,9 @@ pub(super) fn picture(inputs: &RouteInputs, ways: &[Way]) -> String {
         .filter(|way| !way.places.is_empty())
         .map(|way| Track { name: record::name(&way.record), places: &way.places })
         .collect();
-    relief(&inputs.raster, &tracks, "Ways over the ground")
+    let raster = &inputs.raster;
+    let gradient = |column: usize, row: usize| raster.gradient(column, row, [1, 1]);
+    ways_over_ground("Ways over the ground", &raster.grid, &gradient, &tracks)
 }
 
 /// How the numbers of ways that were sought come about.

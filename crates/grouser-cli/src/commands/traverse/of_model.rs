@@ -9,9 +9,9 @@ use grouser::simulation::{Run, RunError, Trajectory};
 use grouser::studies::ensemble::Band;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::traverse_band::{TimeBand, TraverseBand, record_times};
+use grouser_draw::chart::{BAND_COLOUR, Chart, Series, Style};
 
 use crate::args::{SettingArgs, TraverseArgs, UncertaintyArgs};
-use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::commands::{sampling, strict};
 use crate::failure::Failure;
 use crate::inputs;

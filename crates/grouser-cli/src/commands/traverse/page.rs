@@ -7,10 +7,10 @@ use grouser::document::table::Table;
 use grouser::studies::drive::Drive;
 use grouser::studies::traverse_band::Ends;
 use grouser::units::Vec2;
+use grouser_draw::chart::{BAND_COLOUR, Chart, Series, Style};
 
 use super::of_model::{OfModel, chart, reason};
 use crate::args::{EVERY_MODEL, TraverseArgs};
-use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::commands::sampling;
 use crate::output::rows::{four_digits, metres};
 use crate::output::text::capitalised;

@@ -7,8 +7,8 @@ use grouser::document::table::Table;
 use grouser::studies::measurement::Quantity;
 use grouser::studies::slope_validation::SlopeValidation;
 use grouser::studies::validation::Validation;
+use grouser_draw::chart::{Chart, Series, Style};
 
-use crate::chart::{Chart, Series, Style};
 use crate::output::text::capitalised;
 
 /// A chart with its file's name, without ending, and its caption.

@@ -3,9 +3,9 @@
 use grouser::document::columns::{self, LOAD, MODEL, Quantity, SLIP_ANGLE, SLIP_RATIO};
 use grouser::document::table::Table;
 use grouser::studies::wheel_test::WheelTest;
+use grouser_draw::chart::{BAND_COLOUR, Chart, Series, Style};
 
 use crate::args::WheelTestArgs;
-use crate::chart::{BAND_COLOUR, Chart, Series, Style};
 use crate::inputs::StandInputs;
 use crate::output::text::capitalised;
 use crate::report::answer::axis;

@@ -1,7 +1,8 @@
 //! The figures of a summary: distributions, convergence, sensitivities.
 
+use grouser_draw::chart::{Chart, Series, Style};
+
 use super::statistics::{ConvergenceRecord, Curve, SensitivityRecord, Statistics};
-use crate::chart::{Chart, Series, Style};
 
 /// A figure.
 pub(super) struct Figure {

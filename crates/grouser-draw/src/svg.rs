@@ -1,0 +1,171 @@
+//! A page as SVG: outlines to be seen, and unseen text to be searched and copied.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+
+use crate::sheet::{Cells, Colour, Face, Item, Outline, Place, Shape, Sheet, Step, Text, markup};
+
+impl Sheet {
+    /// The page as an SVG document.
+    #[must_use]
+    pub fn to_svg(&self) -> String {
+        write(self)
+    }
+}
+
+fn write(sheet: &Sheet) -> String {
+    let [width, height] = [sheet.width, sheet.height].map(short);
+    let title = markup(&sheet.title);
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}mm\" height=\"{height}mm\" \
+         viewBox=\"0 0 {width} {height}\" role=\"img\">\n<title>{title}</title>\n<defs>\n"
+    );
+    for (face, character) in letters(sheet) {
+        let outline = outline(&face.glyph(character).outline);
+        let _ = writeln!(svg, "<path id=\"{}\" d=\"{outline}\"/>", id(face, character));
+    }
+    svg.push_str("</defs>\n");
+    let ground = sheet.ground.code();
+    let _ = writeln!(svg, "<path d=\"M0 0H{width}V{height}H0Z\" fill=\"{ground}\"/>");
+    for item in &sheet.items {
+        match item {
+            Item::Shape(shape) => write_shape(&mut svg, shape),
+            Item::Cells(cells) => write_cells(&mut svg, cells),
+            Item::Text { text, at } => write_text(&mut svg, text, *at),
+        }
+    }
+    svg.push_str("</svg>\n");
+    svg
+}
+
+/// The letters that a page needs.
+pub(crate) fn letters(sheet: &Sheet) -> BTreeSet<(Face, char)> {
+    let texts = sheet.items.iter().filter_map(|item| match item {
+        Item::Text { text, .. } => Some(text),
+        Item::Shape(_) | Item::Cells(_) => None,
+    });
+    texts.flat_map(|text| text.content.chars().map(|letter| (text.face, letter))).collect()
+}
+
+fn write_shape(svg: &mut String, shape: &Shape) {
+    let form = match &shape.outline {
+        Outline::Points { points, closed } => format!("path d=\"{}\"", path(points, *closed)),
+        Outline::Circle { centre: [x, y], radius } => {
+            format!("circle cx=\"{}\" cy=\"{}\" r=\"{}\"", short(*x), short(*y), short(*radius))
+        }
+    };
+    let fill = shape.fill.map_or(" fill=\"none\"".to_owned(), |fill| ink("fill", fill));
+    let _ = write!(svg, "<{form}{fill}");
+    if let Some(stroke) = shape.stroke {
+        let (line, width) = (ink("stroke", stroke.colour), short(stroke.width));
+        let _ = write!(svg, "{line} stroke-width=\"{width}\"");
+        if stroke.round {
+            svg.push_str(" stroke-linecap=\"round\" stroke-linejoin=\"round\"");
+        }
+        if let Some(lengths) = stroke.dash {
+            // Dashes that are all alike are written once.
+            let count = if lengths[..2] == lengths[2..] { 2 } else { 4 };
+            let lengths = lengths[..count].iter().map(|length| short(*length));
+            let _ = write!(svg, " stroke-dasharray=\"{}\"", lengths.collect::<Vec<_>>().join(" "));
+        }
+    }
+    svg.push_str("/>\n");
+}
+
+fn path(points: &[Place], closed: bool) -> String {
+    let mut path = String::new();
+    for (index, point) in points.iter().enumerate() {
+        let letter = if index == 0 { 'M' } else { 'L' };
+        let _ = write!(path, "{letter}{} {}", short(point[0]), short(point[1]));
+    }
+    if closed {
+        path.push('Z');
+    }
+    path
+}
+
+/// A path for each colour, of lines through the middles of cells, as wide as a row.
+fn write_cells(svg: &mut String, cells: &Cells) {
+    let mut paths: BTreeMap<String, String> = BTreeMap::new();
+    for run in cells.runs() {
+        let path = paths.entry(ink("stroke", run.colour)).or_default();
+        let _ = write!(path, "M{} {}h{}", run.first, run.row, run.count);
+    }
+    let ([left, top], [width, height]) = (cells.place.map(short), cells.cell());
+    // Smoothed edges would let the ground shine through between cells.
+    let _ = writeln!(
+        svg,
+        "<g transform=\"translate({left} {top}) scale({width:.5} {height:.5}) translate(0 .5)\" \
+         stroke-width=\"1.02\" fill=\"none\" shape-rendering=\"crispEdges\">"
+    );
+    for (ink, path) in paths {
+        let _ = writeln!(svg, "<path{ink} d=\"{path}\"/>");
+    }
+    svg.push_str("</g>\n");
+}
+
+fn write_text(svg: &mut String, text: &Text, at: Place) {
+    let ([x, y], _) = text.base_line(at);
+    let scale = text.size / text.face.units();
+    let turn = if text.upright { " rotate(-90)" } else { "" };
+    let (left, top) = (short(x), short(y));
+    let _ = write!(
+        svg,
+        "<g transform=\"translate({left} {top}){turn}\"><g transform=\"scale({scale:.7} {:.7})\"{}>",
+        -scale,
+        ink("fill", text.colour)
+    );
+    let mut gone = 0.0;
+    for letter in text.content.chars() {
+        if letter != ' ' {
+            let _ = write!(svg, "<use href=\"#{}\" x=\"{gone}\"/>", id(text.face, letter));
+        }
+        gone += text.face.glyph(letter).advance;
+    }
+    // Any font will do for what is not seen: its width is given.
+    let _ = writeln!(
+        svg,
+        "</g><text font-size=\"{}\" textLength=\"{}\" lengthAdjust=\"spacingAndGlyphs\" \
+         fill-opacity=\"0\">{}</text></g>",
+        short(text.size),
+        short(text.width()),
+        markup(&text.content)
+    );
+}
+
+fn outline(steps: &[Step]) -> String {
+    let mut path = String::new();
+    for step in steps {
+        // Writing to a string does not fail.
+        let _ = match step {
+            Step::Move([x, y]) => write!(path, "M{x} {y}"),
+            Step::Line([x, y]) => write!(path, "L{x} {y}"),
+            Step::Curve([u, v], [x, y]) => write!(path, "Q{u} {v} {x} {y}"),
+            Step::Close => write!(path, "Z"),
+        };
+    }
+    path
+}
+
+fn id(face: Face, letter: char) -> String {
+    let name = match face {
+        Face::Regular => 'r',
+        Face::Bold => 'b',
+    };
+    format!("{name}{:x}", u32::from(letter))
+}
+
+/// The attributes of a fill or a stroke in a colour.
+fn ink(of: &str, colour: Colour) -> String {
+    let ink = format!(" {of}=\"{}\"", colour.code());
+    if colour.hides() < 1.0 {
+        return format!("{ink} {of}-opacity=\"{}\"", short(colour.hides()));
+    }
+    ink
+}
+
+/// A micrometre is fine enough.
+fn short(length: f64) -> String {
+    let text = format!("{length:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
