@@ -50,8 +50,8 @@ pub(crate) fn with_present_option(
         return answer;
     };
     let name = given.trim_start_matches('-').replace('-', "_");
-    let words = arguments.into_iter().filter_map(|argument| argument.into_string().ok());
-    let named = words.filter_map(|word| command.find_subcommand(word)).next().unwrap_or(command);
+    let mut words = arguments.into_iter().filter_map(|argument| argument.into_string().ok());
+    let named = words.find_map(|word| command.find_subcommand(word)).unwrap_or(command);
     let has = |option: &str| named.get_arguments().any(|one| one.get_long() == Some(option));
     let present = present_names(&name).iter().map(|name| name.replace('_', "-"));
     let present: Vec<_> =
