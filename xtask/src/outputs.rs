@@ -146,13 +146,12 @@ fn said(program: &Path, arguments: &[String], place: &Path) -> Result<String> {
     let mut command = Command::new(program);
     command.args(arguments).current_dir(place).env("NO_COLOR", "1");
     let mut child = command.stdin(Stdio::null()).stdout(out).stderr(err).spawn()?;
-    let end = match child.wait_timeout(MOST_TIME)? {
-        Some(status) => status.to_string(),
-        None => {
-            child.kill()?;
-            child.wait()?;
-            "too long".to_owned()
-        }
+    let end = if let Some(status) = child.wait_timeout(MOST_TIME)? {
+        status.to_string()
+    } else {
+        child.kill()?;
+        child.wait()?;
+        "too long".to_owned()
     };
     let [out, err] = streams.each_ref().map(|path| fs::read(path).unwrap_or_default());
     streams.iter().try_for_each(fs::remove_file)?;

@@ -12,8 +12,11 @@ pub(super) struct Home {
     pub(super) found: usize,
 }
 
-/// What is counted, by which rule, and the most that there may be. A limit only ever gets smaller.
-const COUNTS: [(&str, usize, fn(&Sources) -> usize); 9] = [
+/// How something is counted.
+type Rule = fn(&Sources) -> usize;
+
+/// What is counted, the most that there may be, and by which rule. A limit only ever gets smaller.
+const COUNTS: [(&str, usize, Rule); 9] = [
     ("lines of Rust without comments and tests", 100_000, |all| all.rust.iter().map(lines).sum()),
     ("lines of Python without comments and tests", 20_000, |all| {
         all.python.iter().map(lines).sum()
@@ -41,11 +44,7 @@ pub(super) struct Sources {
 
 /// Counts everything.
 pub(super) fn counted(sources: &Sources) -> Vec<Home> {
-    let home = |&(what, most, count): &(_, _, fn(&Sources) -> usize)| Home {
-        what,
-        most,
-        found: count(sources),
-    };
+    let home = |&(what, most, count): &(_, _, Rule)| Home { what, most, found: count(sources) };
     COUNTS.iter().map(home).collect()
 }
 
