@@ -15,6 +15,7 @@
 mod axis;
 mod bars;
 mod colour_bar;
+mod data;
 mod frame;
 mod grid;
 mod heat_map;
@@ -26,6 +27,7 @@ use grouser_io::escape;
 
 pub use self::bars::Bars;
 pub(crate) use self::colour_bar::colour_bar;
+pub use self::data::Chart;
 pub use self::grid::Grid;
 pub use self::heat_map::HeatMap;
 pub use self::series::{BAND_COLOUR, Series, Style};
@@ -47,23 +49,6 @@ const TITLE: f64 = 4.2;
 const EDGE: f64 = 2.0;
 /// Intervals between numbers along a horizontal axis, at most.
 const INTERVALS: usize = 10;
-
-/// A chart: axes and series.
-#[derive(Clone, Debug)]
-pub struct Chart {
-    /// The chart's title.
-    pub title: String,
-    /// Horizontal quantity and unit.
-    pub x_label: String,
-    /// Vertical quantity and unit.
-    pub y_label: String,
-    /// Curves and points, drawn in this order, but for points, which lie above curves.
-    pub series: Vec<Series>,
-    /// Whether the horizontal axis is logarithmic.
-    log_x: bool,
-    /// What stands at 1, 2, … on the vertical axis instead of numbers, from the bottom up.
-    y_names: Vec<String>,
-}
 
 impl Chart {
     /// A chart with linear axes.
@@ -144,17 +129,6 @@ impl Chart {
             return Panel::y_axis(self, height, LETTERS);
         }
         Axis::named(self.y_names.iter().map(|name| lines(name, LETTERS, widest).join("\n")))
-    }
-
-    /// All that must lie within the axes.
-    fn extent(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.series.iter().flat_map(Series::extent)
-    }
-
-    /// The range of a coordinate over all marks and error bars.
-    fn marked(&self, coordinate: impl Fn((f64, f64)) -> f64) -> Option<[f64; 2]> {
-        let marks = self.series.iter().filter(|series| series.style.is_marks());
-        range(marks.flat_map(Series::extent).map(coordinate))
     }
 }
 

@@ -24,6 +24,7 @@ mod dimension;
 mod error;
 mod import;
 mod limits;
+pub mod log_column;
 pub mod motor_log;
 mod notes;
 mod row;

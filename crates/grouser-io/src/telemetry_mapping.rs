@@ -15,7 +15,7 @@ use super::field::Inner as _;
 use super::kind::Kind;
 use super::loaded::Loaded;
 use super::measurements::Dimension;
-use super::measurements::motor_log::LogColumn;
+use super::measurements::log_column::LogColumn;
 use super::measurements::telemetry::{COLUMNS, FORWARD, LEFTWARD, ROTATION};
 use super::overrides::Overrides;
 use super::read::{Written, written};

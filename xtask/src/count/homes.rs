@@ -17,21 +17,21 @@ type Rule = fn(&Sources) -> usize;
 
 /// What is counted, the most that there may be, and by which rule. A limit only ever gets smaller.
 const COUNTS: [(&str, usize, Rule); 9] = [
-    ("lines of Rust without comments and tests", 100_000, |all| all.rust.iter().map(lines).sum()),
-    ("lines of Python without comments and tests", 20_000, |all| {
+    ("lines of Rust without comments and tests", 98_800, |all| all.rust.iter().map(lines).sum()),
+    ("lines of Python without comments and tests", 8_120, |all| {
         all.python.iter().map(lines).sum()
     }),
-    ("files that name three outcomes or more as text", 100, outcome_homes),
-    ("inputs of an answer written by hand (`fn settings`)", 100, |all| {
+    ("files that name three outcomes or more as text", 1, outcome_homes),
+    ("inputs of an answer written by hand (`fn settings`)", 19, |all| {
         all.rust_count("fn settings(")
     }),
-    ("records of results beside column tables (`derive(Serialize)`)", 200, |all| {
+    ("records of results beside column tables (`derive(Serialize)`)", 63, |all| {
         all.rust.iter().map(|(_, text)| text.matches("Serialize)]").count()).sum()
     }),
-    ("columns of results written by hand in Python", 1000, python_columns),
-    ("conversions of units above the documents", 500, conversions),
-    ("names of types used more than once", 500, |all| repeated(&all.type_names())),
-    ("names of types used more than once in one crate", 500, |all| {
+    ("columns of results written by hand in Python", 247, python_columns),
+    ("conversions of units above the documents", 143, conversions),
+    ("names of types used more than once", 191, |all| repeated(&all.type_names())),
+    ("names of types used more than once in one crate", 108, |all| {
         all.type_names_by_crate().values().map(repeated).sum()
     }),
 ];

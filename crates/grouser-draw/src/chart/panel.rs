@@ -1,7 +1,7 @@
 //! Series within their axes.
 
-use super::Chart;
 use super::axis::{Axis, is_drawn, range};
+use super::data::Chart;
 use super::frame::{Frame, colour, text};
 use super::series::{Series, Style};
 use crate::sheet::{Anchor, Place, Shape, Sheet, Stroke};

@@ -19,6 +19,7 @@ use super::super::escape;
 use super::super::unit::Unit;
 use super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::limits::Limits;
+use super::log_column::{LogColumn, column};
 use super::row::{name_of, number_of};
 use super::table;
 
@@ -64,21 +65,6 @@ pub struct MotorReading {
     pub slip_ratio: Option<f64>,
 }
 
-/// A column that is known.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LogColumn {
-    /// Its name in the header; of a wheel's column, without the wheel's.
-    pub name: &'static str,
-    /// Whether each wheel has one.
-    pub is_of_wheel: bool,
-    /// What it is.
-    pub doc: &'static str,
-    /// Its unit.
-    pub unit: Unit,
-    /// What its values may be, in its own unit.
-    pub range: RangeInclusive<f64>,
-}
-
 const ANY: RangeInclusive<f64> = f64::MIN..=f64::MAX;
 
 /// Every column that is known.
@@ -109,15 +95,6 @@ pub const COLUMNS: [LogColumn; 10] = [
     column(YAW, false, "yaw, positive uphill", ANY),
     column(COURSE, false, "direction of travel from the contour, positive uphill", -180.0..=180.0),
 ];
-
-pub(super) const fn column(
-    quantity: Quantity,
-    is_of_wheel: bool,
-    doc: &'static str,
-    range: RangeInclusive<f64>,
-) -> LogColumn {
-    LogColumn { name: quantity.name, is_of_wheel, doc, unit: quantity.unit, range }
-}
 
 /// Which part of a log is read.
 #[derive(Clone, Debug, Default)]

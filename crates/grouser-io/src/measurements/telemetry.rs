@@ -22,7 +22,7 @@ use super::super::columns::{
     quantity,
 };
 use super::super::unit::{A, DEG, M, NM};
-use super::motor_log::{LogColumn, column};
+use super::log_column::{LogColumn, column};
 pub use reader::TelemetryReader;
 pub use rows::{Cell, TelemetryRows, is_same_wheel};
 

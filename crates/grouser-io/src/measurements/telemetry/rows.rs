@@ -7,7 +7,7 @@ use super::super::super::check::nearest;
 use super::super::super::columns::TIME;
 use super::super::super::escape;
 use super::super::error::{MeasurementError, MeasurementProblem as Problem};
-use super::super::motor_log::LogColumn;
+use super::super::log_column::LogColumn;
 use super::{COLUMNS, Lost, OF_ROVER, OF_WHEEL, OTHER_NAMES, TelemetryRecord, WheelTelemetry};
 
 /// A cell of a row, whatever its source.
