@@ -244,7 +244,7 @@ def validate_slopes(
     >>> soil = "grc-1-second-hand"                                  # of the simulated climbs
     >>> found = gr.validate_slopes("viper-slip-slope", soil, "mgru3", gravity_m_s2=gr.MOON_GRAVITY)
     >>> slip = found.overall["slip_ratio"]
-    >>> found.overall["cells"], slip["bias"] < 0.0                  # predicts too little slip
+    >>> found.overall["cells"], slip["rmse"] < 0.15                 # slopes to 25°
     (7, True)
     """
     scenario = scenario_of(None, {"soil": soil, "rover": rover, **changes})
