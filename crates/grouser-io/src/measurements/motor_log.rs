@@ -16,7 +16,6 @@ use super::super::columns::{
     YAW,
 };
 use super::super::escape;
-use super::super::unit::Unit;
 use super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::limits::Limits;
 use super::log_column::{LogColumn, column};
