@@ -78,14 +78,15 @@ impl Window {
     }
 
     /// A page with the title above the ground and its corners below it.
-    fn sheet(&self, title: &str) -> Sheet {
+    ///
+    /// * `corners`: south-west and north-east [m], as they are written
+    fn sheet(&self, title: &str, [low, high]: [Vec2; 2]) -> Sheet {
         let [width, height] = self.size();
         let title = escape::line(title);
         let size = [CORNER[0] + width + RIGHT, CORNER[1] + height + BOTTOM];
         let mut sheet = Sheet::new(&title, size[0], size[1]).on(Role::Paper.on(Ground::Light));
         sheet.text(text(&title, TITLE, Role::Ink), [CORNER[0], 6.5]);
         let round = |at: f64| ((at * 10.0).round() / 10.0 + 0.0).to_string().replace('-', "−");
-        let (low, high) = (self.south_west, self.north_east);
         let corners = format!(
             "x {} … {} m, y {} … {} m",
             round(low.x),
@@ -139,7 +140,7 @@ mod tests {
             svg.contains("d=\"M0 0h3M0 1h3M2 2h1\"") && svg.contains("d=\"M3 0h2M3 1h2M3 2h2\"")
         );
         assert!(svg.contains(">slope &lt; [°]</text>") && svg.contains(">0.5</text>"));
-        assert!(svg.contains(">x 99 … 109 m, y −50.5 … −47.5 m</text>"), "{svg}");
+        assert!(svg.contains(">x 100 … 108 m, y −50 … −48 m</text>"), "{svg}");
     }
 
     #[test]

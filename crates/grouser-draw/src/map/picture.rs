@@ -26,7 +26,8 @@ pub fn map_picture(
     scale: &Scale,
 ) -> String {
     let window = Window::new(grid, [0, 0], [grid.columns - 1, grid.rows - 1], CELLS);
-    let mut sheet = window.sheet(title);
+    let extent = grid.extent();
+    let mut sheet = window.sheet(title, [extent.south_west, extent.north_east]);
     let size = window.size();
     let colour = |[column, row]: [usize; 2]| {
         let number = number(column, row).filter(|number| !number.is_nan())?;

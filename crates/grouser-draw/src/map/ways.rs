@@ -36,7 +36,7 @@ pub fn ways_over_ground(
     tracks: &[Track<'_>],
 ) -> String {
     let window = about(grid, tracks);
-    let mut sheet = window.sheet(title);
+    let mut sheet = window.sheet(title, [window.south_west, window.north_east]);
     let shades = window.places().map(|[column, row]| gradient(column, row).map(shade));
     sheet.cells(Cells::new(CORNER, window.size(), window.cells()[0], shades));
     for (place, track) in tracks.iter().enumerate().rev() {
