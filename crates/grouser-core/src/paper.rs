@@ -5,9 +5,7 @@
 
 use crate::error::ParameterError;
 use crate::simulation::Scenario;
-use crate::soil::{
-    AssumedValues, Domain, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil, Span,
-};
+use crate::soil::{Domain, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil, Span};
 use crate::terrain::Ground;
 use crate::units::{Vec3, deg};
 use crate::vehicle::{Body, Inertia, LoadSharing, Mount, OwnMoments, Rover, WheelUnit};
@@ -31,7 +29,6 @@ pub fn toyoura() -> Soil {
         load: span(8.0, 26.0),
         slip_angle: span(0.0, deg(45.0)),
         gravity: span(9.78, 9.84),
-        assumed_values: AssumedValues { ishigami: 2, bekker: 0, small_wheel: 2, rft: 0 },
         ..Domain::UNSTATED
     };
     Soil { domain, ..Soil::new(0.0, deg(38.0), 1490.0, pressure_sinkage, shear) }

@@ -401,7 +401,7 @@ fn columns_say_their_kind_role_and_unit() {
 
 #[test]
 fn the_soils_own_uncertainty_becomes_the_campaigns() {
-    let keys = "schema = \"campaign/1\"\nname = \"own\"\nstudy = \"attitude\"\nruns = 1000\n";
+    let keys = "schema = \"campaign/1\"\nname = \"own\"\nstudy = \"heading\"\nruns = 1000\n";
     let own = campaign(&format!(
         "{keys}soil_uncertainty = true\nscenario = {{ soil = \"toyoura-uncertain\" }}\n"
     ));
@@ -423,7 +423,7 @@ fn samples_are_rows_that_stay_together_and_go_into_the_resolved_document() {
     std::fs::create_dir_all(&folder).expect("a folder");
     let rows = "soil.friction_angle_deg, soil.cohesion_kpa\n36.5,0.1\n37.25,0.2\n38,0.3\n";
     std::fs::write(folder.join("posterior.csv"), rows).expect("it is written");
-    let keys = "schema = \"campaign/1\"\nname = \"rows\"\nstudy = \"attitude\"\nruns = 30\n";
+    let keys = "schema = \"campaign/1\"\nname = \"rows\"\nstudy = \"heading\"\nruns = 30\n";
     let document = format!("{keys}samples = \"posterior.csv\"\n[scenario]\nslope_deg = 5.0\n");
     std::fs::write(folder.join("campaign.toml"), document).expect("it is written");
     let source = Source::file(folder.join("campaign.toml"));
@@ -598,7 +598,7 @@ fn what_is_wrong_with_a_campaign_is_told_where_it_stands() {
         &["positive definite"],
     );
     check_refused(
-        "schema = \"campaign/1\"\nstudy = \"attitude\"\nruns = 4\nscenario = \"traverse-10-deg\"\n",
+        "schema = \"campaign/1\"\nstudy = \"heading\"\nruns = 4\nscenario = \"traverse-10-deg\"\n",
         &["`parameter` is missing", "soil_uncertainty = true"],
     );
     check_refused(

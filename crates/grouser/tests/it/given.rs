@@ -44,9 +44,9 @@ pub(crate) fn linear(at_zero: f64, per_radian: f64) -> ShearModulus {
     ShearModulus::Linear { at_zero, per_radian }
 }
 
-/// [FourWheel], Table 3, without the domain of its measurements.
+/// [FourWheel], Table 3, without the domain of its measurements and what `small-wheel` adds.
 pub(crate) fn toyoura() -> Soil {
-    Soil { domain: Domain::UNSTATED, ..paper::toyoura() }
+    Soil { domain: Domain::UNSTATED, small_wheel: SmallWheel::OFF, ..paper::toyoura() }
 }
 
 /// Lunar regolith simulant of Ishigami et al. (2007): theory, section 2.9.

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of each layer, from the foundations up.
-const LAYERS: [&[&str]; 7] = [
+const LAYERS: [&[&str]; 8] = [
     &[
         "units",
         "error",
@@ -24,12 +24,13 @@ const LAYERS: [&[&str]; 7] = [
     &["contact"],
     &["vehicle"],
     &["simulation"],
+    &["paper"],
     &["mission"],
     &["studies"],
     &["document"],
 ];
-const STUDIES: usize = 5;
-const IO: usize = 6;
+const STUDIES: usize = 6;
+const IO: usize = 7;
 
 /// A broken rule.
 #[derive(Clone, Debug, PartialEq)]
