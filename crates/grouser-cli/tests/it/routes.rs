@@ -32,7 +32,10 @@ fn a_route_goes_around_and_can_be_driven() {
     assert_eq!(named.iter().map(|it| &it["minimise"]).collect::<Vec<_>>(), ["energy", "risk"]);
     assert!(named.iter().all(|it| number(&it["time_s"]) >= 0.999 * number(&route["time_s"])));
     let page = place.read("out/report.html");
-    assert!(page.contains("<polyline") && page.contains("least risk"), "a picture of the ways");
+    assert!(
+        page.contains("Ways over the ground") && page.contains(">least risk<"),
+        "their picture"
+    );
     // A short one is driven at once, and its line is a mission.
     let short =
         place.json("route ridge.xyz --from 7002,-298 --to 7003,-296 --samples 2 --out short");
