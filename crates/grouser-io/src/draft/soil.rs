@@ -81,7 +81,12 @@ impl Answers {
         let text = Text { label: String::new(), content: text.to_owned(), ..Text::default() };
         let mut keys = text::parse(&Arc::new(text)).map_or(Json::Null, |node| node.to_json());
         if let Json::Object(keys) = &mut keys {
-            keys.retain(|key, _| !NOT_KEPT.contains(&key.as_str()));
+            let has_other_angle = self.given.contains_key(FRICTION_ANGLE);
+            keys.retain(|key, _| {
+                let key = key.as_str();
+                let is_of_another = has_other_angle && OF_THE_FRICTION_ANGLE.contains(&key);
+                !NOT_KEPT.contains(&key) && !is_of_another
+            });
         }
         keys
     }
@@ -103,10 +108,7 @@ impl Answers {
                 set(&mut keys, key, answer.clone());
             }
         }
-        let Json::Object(mut keys) = keys else { return String::new() };
-        if self.given.contains_key(FRICTION_ANGLE) {
-            keys.retain(|key, _| !OF_THE_FRICTION_ANGLE.contains(&key.as_str()));
-        }
+        let Json::Object(keys) = keys else { return String::new() };
         let is_stated = |key: &str| ["schema", "name", "source", "notes", "assumed"].contains(&key);
         let rest = keys.iter().filter(|(key, _)| !is_stated(key));
         for (key, value) in rest.clone() {

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
-
-import numpy as np
 
 from . import _core, _tables
 from ._arrays import Floats
@@ -83,8 +81,7 @@ class HeadingBand(_tables.Tabular):
         return cls(**found, **limit)
 
     def _table(self) -> dict[str, Any]:
-        arrays = {field.name: getattr(self, field.name) for field in fields(self)}
-        return {name: values for name, values in arrays.items() if isinstance(values, np.ndarray)}
+        return _tables.columns_of_band(self)
 
     def __repr__(self) -> str:
         ends = f"{self.limit_slope_deg_p2_5}° to {self.limit_slope_deg_p97_5}°"
@@ -145,8 +142,7 @@ class HeadingMapBand(_tables.Tabular):
     """The share of the samples that each wheel–soil model computes [-], for each soil."""
 
     def _table(self) -> dict[str, Any]:
-        names = (field.name for field in fields(self) if field.name != "model_weights")
-        return {name: getattr(self, name) for name in names}
+        return _tables.columns_of_band(self)
 
     def __repr__(self) -> str:
         shape = " × ".join(map(str, self.draws.shape))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
@@ -35,10 +35,6 @@ _STANDING = _tables.COLUMNS["standing"]
 def standing_of(result: Any) -> dict[str, Any]:
     """How a rover stands on ground with heights; empty on a plane."""
     return {} if result.z_m is None else columns_of(result, _STANDING)
-
-
-# Fields of a `TraverseBand` that are no columns of its table.
-_NOT_OVER_TIME = ("run", "model_weights")
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,8 +124,7 @@ class TraverseBand(_tables.Tabular):
     """Its upper end [°]."""
 
     def _table(self) -> dict[str, Any]:
-        names = (field.name for field in fields(self) if field.name not in _NOT_OVER_TIME)
-        return columns_of(self, [name for name in names if getattr(self, name) is not None])
+        return _tables.columns_of_band(self)
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each time."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -34,6 +35,12 @@ def arrays_of(table: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
         name: values if isinstance(values, np.ndarray) else np.array(values, dtype=object)
         for name, values in table.items()
     }
+
+
+def columns_of_band(band: Any) -> dict[str, Any]:
+    """The fields of a band that are arrays: what else it has is no column."""
+    values = {field.name: getattr(band, field.name) for field in fields(band)}
+    return {name: found for name, found in values.items() if isinstance(found, np.ndarray)}
 
 
 def variable(dims: tuple[str, ...], name: str, values: Any) -> tuple[Any, ...]:

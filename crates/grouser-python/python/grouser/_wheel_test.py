@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
@@ -81,8 +81,7 @@ class WheelTestBand(_tables.Tabular):
     """The share of the samples that each wheel–soil model computes [-]."""
 
     def _table(self) -> dict[str, Any]:
-        names = (field.name for field in fields(self) if field.name != "model_weights")
-        return {name: getattr(self, name) for name in names}
+        return _tables.columns_of_band(self)
 
     def __repr__(self) -> str:
         return f"<WheelTestBand of {' × '.join(map(str, self.draws.shape))} loads, angles, ratios>"

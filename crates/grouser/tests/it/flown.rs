@@ -1,8 +1,10 @@
 //! Presets of rovers that flew, or were to: their numbers go together, and estimates are those of the library.
 
-use grouser::document::{Kind, LoadedRover, Overrides, Source, presets, read_rover, read_scenario};
 use std::f64::consts::FRAC_PI_2;
 
+use grouser::document::{
+    Kind, LoadedRover, LoadedScenario, Overrides, Source, presets, read_rover, read_scenario,
+};
 use grouser::studies::ensemble::Band;
 use grouser::studies::ensemble::models::Question;
 use grouser::studies::ensemble::samples::BandInputs;
@@ -31,6 +33,16 @@ const FLOWN: [Flown; 8] = [
 fn rover(name: &str) -> LoadedRover {
     let source = Source::find(Kind::Rover, name).expect("a preset");
     read_rover(&source, &Overrides::none()).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// A rover on a soil, on a world.
+fn scenario_of(rover: &str, soil: &str, world: &str) -> LoadedScenario {
+    let mut overrides = Overrides::none();
+    overrides.flag_text("--rover", "scenario.rover", rover).expect("a key");
+    overrides.flag_text("--soil", "scenario.soil", soil).expect("a key");
+    let gravity = grouser::document::gravity(world).expect("a world").to_string();
+    overrides.flag("--gravity-m-s2", "scenario.gravity_m_s2", &gravity).expect("a key");
+    read_scenario(&Source::default_scenario(), &overrides).expect(rover)
 }
 
 /// Masses are written with six digits.
@@ -88,12 +100,7 @@ fn assumed_inertias_are_the_estimates_of_the_library() {
 #[test]
 fn each_holds_a_contour_of_its_world() {
     for (name, .., soil, gravity) in FLOWN {
-        let mut overrides = Overrides::none();
-        overrides.flag_text("--rover", "scenario.rover", name).expect("a key");
-        overrides.flag_text("--soil", "scenario.soil", soil).expect("a key");
-        let gravity = grouser::document::gravity(gravity).expect("a world").to_string();
-        overrides.flag("--gravity-m-s2", "scenario.gravity_m_s2", &gravity).expect("a key");
-        let scenario = read_scenario(&Source::default_scenario(), &overrides).expect(name);
+        let scenario = scenario_of(name, soil, gravity);
         let curve = HeadingStudy::of(&scenario.value).curve().expect(name);
         let heading = curve.at(deg(3.0)).unwrap_or_else(|error| panic!("{name}: {error}"));
         assert!(heading.yaw.is_finite() && heading.yaw > 0.0, "{name}: {heading:?}");
@@ -136,78 +143,57 @@ fn sizes_are_those_of_the_presets_within_a_factor() {
 }
 
 /// What was seen of a rover straight up a slope.
-struct Seen {
-    rover: &'static str,
-    soil: &'static str,
-    gravity: &'static str,
-    /// [°]
-    slope: f64,
-    what: What,
-}
-
-enum What {
-    /// [-]
-    Slip(f64),
-    /// From, to [mm].
-    Sinkage(f64, f64),
+enum Seen {
+    /// On a slope [°], [-].
+    Slip(f64, f64),
+    /// On a slope [°], from, to [mm].
+    Sinkage(f64, f64, f64),
     /// The steepest slope [°].
     Limit(f64),
 }
 
-/// Beside `docs/validation.md`, *Rovers on Moon and Mars*, which has the sources.
-const SEEN: [Seen; 9] = {
-    use What::{Limit, Sinkage, Slip};
-    const fn seen(
-        (rover, soil, gravity): (&'static str, &'static str, &'static str),
-        slope: f64,
-        what: What,
-    ) -> Seen {
-        Seen { rover, soil, gravity, slope, what }
-    }
-    const YUTU: (&str, &str, &str) = ("yutu-2", "lunar-0-15-cm", "moon");
-    const LRV: (&str, &str, &str) = ("lrv", "lunar-0-15-cm", "moon");
-    const MER: (&str, &str, &str) = ("spirit", "mars-regolith", "mars");
-    const MER_ON_SAND: (&str, &str, &str) = ("spirit", "mars-sand", "mars");
-    const MSL_ON_SAND: (&str, &str, &str) = ("curiosity", "mars-sand", "mars");
+/// Rover, soil, world, and what was seen there. Beside `docs/validation.md`, *Rovers on Moon and Mars*, which has the
+/// sources.
+const SEEN: [(&str, &str, &str, &[Seen]); 5] = {
+    use Seen::{Limit, Sinkage, Slip};
     [
-        seen(YUTU, 8.9, Slip(0.075)),
-        seen(YUTU, 8.9, Sinkage(5.0, 15.0)),
-        seen(LRV, 0.5, Slip(0.025)),
-        seen(LRV, 20.0, Limit(23.0)),
-        seen(MER, 0.5, Slip(0.025)),
-        seen(MER, 16.0, Slip(1.0)),
-        seen(MER_ON_SAND, 16.0, Slip(1.0)),
-        seen(MSL_ON_SAND, 15.0, Limit(15.0)),
-        seen(MSL_ON_SAND, 21.0, Limit(23.0)),
+        ("yutu-2", "lunar-0-15-cm", "moon", &[Slip(8.9, 0.075), Sinkage(8.9, 5.0, 15.0)]),
+        ("lrv", "lunar-0-15-cm", "moon", &[Slip(0.5, 0.025), Limit(23.0)]),
+        ("spirit", "mars-regolith", "mars", &[Slip(0.5, 0.025), Slip(16.0, 1.0)]),
+        ("spirit", "mars-sand", "mars", &[Slip(16.0, 1.0)]),
+        ("curiosity", "mars-sand", "mars", &[Limit(15.0), Limit(23.0)]),
     ]
 };
 
 /// What was seen on Moon and Mars beside the bands of the ready soils: `--nocapture` prints the table.
 #[test]
 fn bands_hold_what_was_seen_on_moon_and_mars() {
-    for Seen { rover, soil, gravity, slope, what } in SEEN {
-        let mut overrides = Overrides::none();
-        overrides.flag_text("--rover", "scenario.rover", rover).expect("a key");
-        overrides.flag_text("--soil", "scenario.soil", soil).expect("a key");
-        let gravity = grouser::document::gravity(gravity).expect("a world").to_string();
-        overrides.flag("--gravity-m-s2", "scenario.gravity_m_s2", &gravity).expect("a key");
-        let scenario = read_scenario(&Source::default_scenario(), &overrides).expect(rover);
+    const SLOPES: [f64; 3] = [0.5, 8.9, 16.0];
+    for (rover, soil, world, all) in SEEN {
+        let scenario = scenario_of(rover, soil, world);
         let inputs = BandInputs::of_scenario(&scenario).asked(Question::Along);
         let samples = inputs.samples(1, 200).expect("samples");
         let study = HeadingStudy::of(&scenario.value);
-        let band = HeadingBand::on_course(&study, FRAC_PI_2, &samples, &[deg(slope)], &|| true);
+        let band = HeadingBand::on_course(&study, FRAC_PI_2, &samples, &SLOPES.map(deg), &|| true);
         let band = band.expect(rover).expect("a band");
-        let on_slope = &band.slopes[0];
-        let (name, found, unit, from, to) = match what {
-            What::Slip(slip) => ("slip", on_slope.slip_ratio, 1.0, slip, slip),
-            What::Sinkage(from, to) => ("sinkage [mm]", on_slope.sinkage, 1e-3, from, to),
-            What::Limit(limit) => ("limit [°]", band.limit, deg(1.0), limit, limit),
+        let on = |slope: f64| {
+            let place = SLOPES.iter().position(|it| *it == slope);
+            &band.slopes[place.expect("one of the slopes")]
         };
-        let Band { low, median, high } = found.expect("a band");
-        let [low, median, high] = [low, median, high].map(|it| it / unit);
-        let on = format!("{rover} on {soil}, {slope}°: {name}");
-        println!("{on} {from} to {to}, {low:.3} {median:.3} {high:.3}");
-        let holds = (low..=high).contains(&from) && (low..=high).contains(&to);
-        assert!(holds, "{on}: {from} to {to} is outside {low} to {high}");
+        for seen in all {
+            let (name, found, unit, from, to) = match *seen {
+                Seen::Slip(slope, slip) => ("slip", on(slope).slip_ratio, 1.0, slip, slip),
+                Seen::Sinkage(slope, from, to) => {
+                    ("sinkage [mm]", on(slope).sinkage, 1e-3, from, to)
+                }
+                Seen::Limit(limit) => ("limit [°]", band.limit, deg(1.0), limit, limit),
+            };
+            let Band { low, median, high } = found.expect("a band");
+            let [low, median, high] = [low, median, high].map(|it| it / unit);
+            let what = format!("{rover} on {soil}: {name}");
+            println!("{what} {from} to {to}, {low:.3} {median:.3} {high:.3}");
+            let holds = (low..=high).contains(&from) && (low..=high).contains(&to);
+            assert!(holds, "{what}: {from} to {to} is outside {low} to {high}");
+        }
     }
 }
