@@ -44,9 +44,9 @@ def test_a_key_of_a_description() -> None:
 @pytest.mark.parametrize(
     "keywords, hint",
     [
-        ({"loads": "uniform"}, "`load_transfer`"),
-        ({"moments": "included"}, "`wheel_moments`"),
-        ({"drive": {"speed_m_s": 0.03}}, "`rim_speed_m_s`"),
+        ({"loads": "uniform"}, "load_transfer="),
+        ({"moments": "included"}, "wheel_moments="),
+        ({"drive": {"speed_m_s": 0.03}}, "rim_speed_m_s"),
         ({"model": "extended"}, "\"small-wheel\""),
     ],
 )
