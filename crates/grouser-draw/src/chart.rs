@@ -1,11 +1,11 @@
-//! Charts: axes, series and marks as data, drawn on a [`Sheet`] in one style.
+//! Figures, which are data (`grouser_io::figure`), drawn on a [`Sheet`] in one style.
 //!
 //! A curve has its name at its end, in the right margin, and no legend stands in a box. Colours
 //! stay apart for colour-blind eyes; dashes, shapes and names distinguish in grey. A chart brings
 //! its colours for a dark screen.
 //!
 //! ```
-//! use grouser_draw::chart::{Chart, Series, Style};
+//! use grouser_draw::chart::{Chart, Draw, Series, Style};
 //!
 //! let pull = Series::new("dry sand", Style::Line, 1, [(0.0, -2.0), (0.2, 5.0), (0.4, 8.0)]);
 //! let chart = Chart::new("Drawbar pull", ("slip ratio", "drawbar pull [N]"), vec![pull]);
@@ -15,24 +15,18 @@
 mod axis;
 mod bars;
 mod colour_bar;
-mod data;
 mod frame;
 mod grid;
 mod heat_map;
 mod names;
 mod panel;
-mod series;
 
 use grouser_io::escape;
+pub use grouser_io::figure::{BAND_COLOUR, Bars, Chart, Figure, Grid, HeatMap, Series, Style};
 
-pub use self::bars::Bars;
 pub(crate) use self::colour_bar::colour_bar;
-pub use self::data::Chart;
-pub use self::grid::Grid;
-pub use self::heat_map::HeatMap;
-pub use self::series::{BAND_COLOUR, Series, Style};
 
-use self::axis::{Axis, range};
+use self::axis::Axis;
 use self::frame::{Frame, LINE, height_below, height_beside, lines, width_beside, write};
 use self::panel::{Panel, Weight};
 use crate::sheet::Sheet;
@@ -50,86 +44,81 @@ const EDGE: f64 = 2.0;
 /// Intervals between numbers along a horizontal axis, at most.
 const INTERVALS: usize = 10;
 
-impl Chart {
-    /// A chart with linear axes.
-    ///
-    /// * `axes`: quantity and unit of the horizontal and of the vertical axis
-    pub fn new(
-        title: impl Into<String>,
-        axes: (impl Into<String>, impl Into<String>),
-        series: Vec<Series>,
-    ) -> Self {
-        let (log_x, y_names) = (false, Vec::new());
-        let (x_label, y_label) = (axes.0.into(), axes.1.into());
-        Self { title: title.into(), x_label, y_label, series, log_x, y_names }
-    }
+/// A figure that can be drawn.
+pub trait Draw {
+    /// The figure on a sheet as wide as a page.
+    fn sheet(&self) -> Sheet;
 
-    /// The same with a logarithmic horizontal axis, if all its numbers are above zero.
+    /// The figure as a stand-alone SVG document, as wide as a page.
     #[must_use]
-    pub fn with_log_x(self) -> Self {
-        let log_x = range(self.extent().map(|(x, _)| x)).is_none_or(|[low, _]| low > 0.0);
-        Self { log_x, ..self }
+    fn to_svg(&self) -> String {
+        on_both_grounds(&self.sheet())
     }
+}
 
-    /// The same with names at 1, 2, … of the vertical axis, from the bottom up.
-    #[must_use]
-    pub fn with_y_names(self, names: impl IntoIterator<Item = String>) -> Self {
-        Self { y_names: names.into_iter().collect(), ..self }
-    }
-
-    /// The chart as a stand-alone SVG document, as wide as a page.
-    #[must_use]
-    pub fn to_svg(&self) -> String {
-        on_both_grounds(&self.sheet(PAGE))
-    }
-
-    /// The same for one chart among many: less wide.
-    #[must_use]
-    pub fn to_small_svg(&self) -> String {
-        on_both_grounds(&self.sheet(SMALL))
-    }
-
-    /// The chart on a sheet of a size [mm]; the sheet is higher where names need more room.
-    fn sheet(&self, [width, height]: [f64; 2]) -> Sheet {
-        let title = lines(&self.title, TITLE, width - 2.0 * EDGE);
-        let y_label = lines(&self.y_label, LETTERS, width - 2.0 * EDGE);
-        let x_label = lines(&self.x_label, LETTERS, 0.6 * width);
-        let under_title = EDGE + title.len() as f64 * LINE * TITLE;
-        let top = under_title + y_label.len() as f64 * LINE * LETTERS + 2.0;
-        let below = height_below(x_label.len(), LETTERS) + EDGE;
-        let inside = (height - top - below).max(names::height(&self.series, LETTERS));
-        let y = self.y_axis(inside, 0.35 * width);
-        let inside = inside.max(self.height_of_names(&y));
-        let left = EDGE + width_beside(&y, LETTERS);
-        let across = width - left - names::margin(&self.series, LETTERS);
-        let x = Panel::x_axis(self, INTERVALS, across, LETTERS);
-        let frame = Frame { left, top, width: across, height: inside };
-
-        let mut sheet = sheet(&self.title, [width, top + inside + below]);
-        write(&mut sheet, &title, [EDGE, EDGE], TITLE, Role::Ink);
-        write(&mut sheet, &y_label, [EDGE, under_title], LETTERS, Role::Ink);
-        let panel = Panel { chart: self, x, y, frame, weight: Weight::Full };
-        panel.draw(&mut sheet);
-        frame.numbers_below(&mut sheet, &panel.x, LETTERS);
-        frame.numbers_beside(&mut sheet, &panel.y, LETTERS);
-        frame.label_below(&mut sheet, &x_label, LETTERS);
-        names::write(&mut sheet, &panel, LETTERS);
-        sheet
-    }
-
-    /// Height that names along the vertical axis need [mm].
-    fn height_of_names(&self, y: &Axis) -> f64 {
-        if self.y_names.is_empty() { 0.0 } else { height_beside(y, LETTERS) }
-    }
-
-    /// * `height`: of the frame [mm]
-    /// * `widest`: of its names [mm]
-    fn y_axis(&self, height: f64, widest: f64) -> Axis {
-        if self.y_names.is_empty() {
-            return Panel::y_axis(self, height, LETTERS);
+impl Draw for Figure {
+    fn sheet(&self) -> Sheet {
+        match self {
+            Self::Chart(chart) => chart.sheet(),
+            Self::HeatMap(map) => map.sheet(),
+            Self::Bars(bars) => bars.sheet(),
+            Self::Grid(grid) => grid.sheet(),
         }
-        Axis::named(self.y_names.iter().map(|name| lines(name, LETTERS, widest).join("\n")))
     }
+}
+
+impl Draw for Chart {
+    fn sheet(&self) -> Sheet {
+        sheet_of(self, PAGE)
+    }
+}
+
+/// A chart among many as an SVG document, less wide than a page.
+#[must_use]
+pub fn small_svg(chart: &Chart) -> String {
+    on_both_grounds(&sheet_of(chart, SMALL))
+}
+
+/// The chart on a sheet of a size [mm]; the sheet is higher where names need more room.
+fn sheet_of(chart: &Chart, [width, height]: [f64; 2]) -> Sheet {
+    let title = lines(&chart.title, TITLE, width - 2.0 * EDGE);
+    let y_label = lines(&chart.y_label, LETTERS, width - 2.0 * EDGE);
+    let x_label = lines(&chart.x_label, LETTERS, 0.6 * width);
+    let under_title = EDGE + title.len() as f64 * LINE * TITLE;
+    let top = under_title + y_label.len() as f64 * LINE * LETTERS + 2.0;
+    let below = height_below(x_label.len(), LETTERS) + EDGE;
+    let inside = (height - top - below).max(names::height(&chart.series, LETTERS));
+    let y = y_axis(chart, inside, 0.35 * width);
+    let inside = inside.max(height_of_names(chart, &y));
+    let left = EDGE + width_beside(&y, LETTERS);
+    let across = width - left - names::margin(&chart.series, LETTERS);
+    let x = Panel::x_axis(chart, INTERVALS, across, LETTERS);
+    let frame = Frame { left, top, width: across, height: inside };
+
+    let mut sheet = sheet(&chart.title, [width, top + inside + below]);
+    write(&mut sheet, &title, [EDGE, EDGE], TITLE, Role::Ink);
+    write(&mut sheet, &y_label, [EDGE, under_title], LETTERS, Role::Ink);
+    let panel = Panel { chart, x, y, frame, weight: Weight::Full };
+    panel.draw(&mut sheet);
+    frame.numbers_below(&mut sheet, &panel.x, LETTERS);
+    frame.numbers_beside(&mut sheet, &panel.y, LETTERS);
+    frame.label_below(&mut sheet, &x_label, LETTERS);
+    names::write(&mut sheet, &panel, LETTERS);
+    sheet
+}
+
+/// Height that names along the vertical axis need [mm].
+fn height_of_names(chart: &Chart, y: &Axis) -> f64 {
+    if chart.y_names.is_empty() { 0.0 } else { height_beside(y, LETTERS) }
+}
+
+/// * `height`: of the frame [mm]
+/// * `widest`: of its names [mm]
+fn y_axis(chart: &Chart, height: f64, widest: f64) -> Axis {
+    if chart.y_names.is_empty() {
+        return Panel::y_axis(chart, height, LETTERS);
+    }
+    Axis::named(chart.y_names.iter().map(|name| lines(name, LETTERS, widest).join("\n")))
 }
 
 /// An empty sheet of a size [mm].

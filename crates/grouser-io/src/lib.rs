@@ -43,6 +43,7 @@ pub mod draft;
 pub mod error;
 pub mod escape;
 mod field;
+pub mod figure;
 pub mod file;
 mod gravity;
 mod json_schema;

@@ -11,6 +11,7 @@ use grouser::document::table::{Row, Table};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::heading::{HeadingCurve, HeadingStudy, Steering};
 use grouser::studies::wheel_speeds::{WheelSpeedStudy, WheelSpeeds};
+use grouser_draw::chart::Draw;
 use serde::Serialize;
 use serde_json::{Value, json};
 

@@ -10,7 +10,7 @@ use grouser::studies::ensemble::models::Question;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::heading::{HeadingOffset, HeadingStudy};
 use grouser::studies::heading_map::HeadingMap;
-use grouser_draw::chart::HeatMap;
+use grouser_draw::chart::{Draw, HeatMap};
 use serde::Serialize;
 use serde_json::{Value, json};
 

@@ -7,6 +7,7 @@ use grouser::document::columns::slip_from_current as columns;
 use grouser::document::columns::{COURSE, SLOPE};
 use grouser::document::table::Table;
 use grouser::studies::slip_from_current::{MotorReading, MotorRecord};
+use grouser_draw::chart::Draw;
 use serde::Serialize;
 use serde_json::{Value, json};
 

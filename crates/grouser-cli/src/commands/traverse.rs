@@ -11,6 +11,7 @@ use grouser::document::table::{Row, Table};
 use grouser::simulation::{Run, Scenario, Trajectory};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::traverse_band::{Ends, RunBand};
+use grouser_draw::chart::Draw;
 use grouser_draw::{Shown, title_of};
 use serde::Serialize;
 use serde_json::{Value, json};

@@ -10,7 +10,7 @@ use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::measurement::PerQuantity;
 use grouser::studies::simulated_test::SimulatedTest;
 use grouser::studies::wheel_test::WheelTest;
-use grouser_draw::chart::Style;
+use grouser_draw::chart::{Draw, Style};
 use serde::Serialize;
 use serde_json::{Value, json};
 

@@ -1,7 +1,7 @@
 //! The page: one HTML file that needs nothing from outside.
 
 use grouser::contact::validity::{Finding, Flag};
-use grouser_draw::chart::Chart;
+use grouser_draw::chart::{Chart, small_svg};
 use std::fmt::Write as _;
 
 use grouser::document::escape;
@@ -95,7 +95,7 @@ impl Page {
     pub(crate) fn charts<'c>(&mut self, charts: impl IntoIterator<Item = &'c Chart>) {
         self.push("<div class=\"charts\">\n");
         for chart in charts {
-            self.push(&format!("<figure>{}</figure>\n", element(&chart.to_small_svg())));
+            self.push(&format!("<figure>{}</figure>\n", element(&small_svg(chart))));
         }
         self.push("</div>\n");
     }

@@ -4,9 +4,9 @@ use super::axis::{Axis, range};
 use super::frame::{
     Frame, LINE, MIDDLE, colour, height_below, height_beside, lines, text, width_beside, write,
 };
-use super::{EDGE, INTERVALS, LETTERS, PAGE, TITLE, sheet};
+use super::{Bars, Draw, EDGE, INTERVALS, LETTERS, PAGE, TITLE, sheet};
 use crate::sheet::{Colour, Face, Shape, Sheet, width};
-use crate::style::{Ground, Role, on_both_grounds, series};
+use crate::style::{Ground, Role, series};
 
 /// From bar to bar, and the height of one [mm].
 const APART: f64 = 9.5;
@@ -16,42 +16,20 @@ const WIDEST: f64 = 50.0;
 /// Side of the sample beside a part's name [mm].
 const SAMPLE: f64 = 3.4;
 
-/// Horizontal bars, each of parts that are laid end to end: those above zero to the right, others
-/// to the left.
-#[derive(Clone, Debug)]
-pub struct Bars {
-    /// What they show.
-    pub title: String,
-    /// Quantity and unit along them.
-    pub x_label: String,
-    /// The names of the parts, in their order.
-    pub parts: Vec<String>,
-    /// Whether the last part is what is left over: it is grey.
-    pub has_rest: bool,
-    /// From the top down: of each a name, and the length of each part.
-    pub rows: Vec<(String, Vec<f64>)>,
-}
-
-impl Bars {
-    /// The bars as a stand-alone SVG document, as wide as a page.
-    #[must_use]
-    pub fn to_svg(&self) -> String {
-        on_both_grounds(&self.sheet())
-    }
-
-    pub(super) fn sheet(&self) -> Sheet {
+impl Draw for Bars {
+    fn sheet(&self) -> Sheet {
         let title = lines(&self.title, TITLE, PAGE[0] - 2.0 * EDGE);
         let x_label = lines(&self.x_label, LETTERS, 0.6 * PAGE[0]);
         let top = EDGE + title.len() as f64 * LINE * TITLE + 2.0;
         let names = self.rows.iter().rev().map(|(name, _)| lines(name, LETTERS, WIDEST).join("\n"));
         let names = Axis::named(names);
         let left = EDGE + width_beside(&names, LETTERS);
-        let legend = self.legend();
+        let legend = legend_of(self);
         let across = PAGE[0] - left - legend_width(&legend);
         let height = APART * self.rows.len().max(1) as f64;
         let height = height.max(height_beside(&names, LETTERS)).max(legend_height(&legend));
         let frame = Frame { left, top, width: across, height };
-        let ends = range(self.pieces().flat_map(|piece| [piece.from, piece.to]).chain([0.0]));
+        let ends = range(pieces(self).flat_map(|piece| [piece.from, piece.to]).chain([0.0]));
         let ends = ends.filter(|[low, high]| low < high).or(Some([0.0, 1.0]));
         let x = Axis::fitting(INTERVALS, |most| Axis::linear(ends, most), across, LETTERS);
 
@@ -59,11 +37,11 @@ impl Bars {
         let mut sheet = sheet(&self.title, [PAGE[0], top + height + below]);
         write(&mut sheet, &title, [EDGE, EDGE], TITLE, Role::Ink);
         frame.upright_lines(&mut sheet, &x);
-        for piece in self.pieces() {
+        for piece in pieces(self) {
             let middle = frame.y(&names, (self.rows.len() - piece.row) as f64);
             let [from, to] = [piece.from, piece.to].map(|end| frame.x(&x, end));
             let (place, size) = ([from.min(to), middle - 0.5 * THICK], [(to - from).abs(), THICK]);
-            sheet.draw(Shape::rectangle(place, size, self.colour(piece.part)));
+            sheet.draw(Shape::rectangle(place, size, colour_of(self, piece.part)));
         }
         frame.edges(&mut sheet);
         frame.numbers_below(&mut sheet, &x, LETTERS);
@@ -72,39 +50,38 @@ impl Bars {
         write_legend(&mut sheet, &legend, [frame.right() + 4.0, top]);
         sheet
     }
-
-    /// All parts of all bars that have a length.
-    fn pieces(&self) -> impl Iterator<Item = Piece> {
-        self.rows.iter().enumerate().flat_map(|(row, (_, lengths))| {
-            // Where the parts above zero, and those below, have come to.
-            let mut ends = [0.0, 0.0];
-            let piece = move |(part, length): (usize, &f64)| {
-                let end = &mut ends[usize::from(*length < 0.0)];
-                let from = *end;
-                *end += length;
-                Piece { row, part, from, to: *end }
-            };
-            let lengths = lengths.iter().enumerate();
-            lengths.filter(|(_, length)| length.is_finite() && **length != 0.0).map(piece)
-        })
-    }
-
-    fn colour(&self, part: usize) -> Colour {
-        if self.has_rest && part + 1 == self.parts.len() {
-            return colour(Role::Grid);
-        }
-        // Black is for text.
-        let colours = series(Ground::Light);
-        colours[1 + part % (colours.len() - 1)]
-    }
-
-    /// The parts' names in lines with their colours; none where there is one part.
-    fn legend(&self) -> Vec<(Vec<String>, Colour)> {
-        let named = self.parts.iter().enumerate().filter(|_| self.parts.len() > 1);
-        named.map(|(part, name)| (lines(name, LETTERS, WIDEST), self.colour(part))).collect()
-    }
 }
 
+/// All parts of all bars that have a length.
+fn pieces(bars: &Bars) -> impl Iterator<Item = Piece> {
+    bars.rows.iter().enumerate().flat_map(|(row, (_, lengths))| {
+        // Where the parts above zero, and those below, have come to.
+        let mut ends = [0.0, 0.0];
+        let piece = move |(part, length): (usize, &f64)| {
+            let end = &mut ends[usize::from(*length < 0.0)];
+            let from = *end;
+            *end += length;
+            Piece { row, part, from, to: *end }
+        };
+        let lengths = lengths.iter().enumerate();
+        lengths.filter(|(_, length)| length.is_finite() && **length != 0.0).map(piece)
+    })
+}
+
+fn colour_of(bars: &Bars, part: usize) -> Colour {
+    if bars.has_rest && part + 1 == bars.parts.len() {
+        return colour(Role::Grid);
+    }
+    // Black is for text.
+    let colours = series(Ground::Light);
+    colours[1 + part % (colours.len() - 1)]
+}
+
+/// The parts' names in lines with their colours; none where there is one part.
+fn legend_of(bars: &Bars) -> Vec<(Vec<String>, Colour)> {
+    let named = bars.parts.iter().enumerate().filter(|_| bars.parts.len() > 1);
+    named.map(|(part, name)| (lines(name, LETTERS, WIDEST), colour_of(bars, part))).collect()
+}
 /// A part of a bar.
 struct Piece {
     row: usize,

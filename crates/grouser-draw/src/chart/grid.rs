@@ -3,9 +3,9 @@
 use super::axis::Axis;
 use super::frame::{Frame, LINE, height_below, lines, width_beside, write};
 use super::panel::{Panel, Weight};
-use super::{Chart, EDGE, TITLE, sheet};
+use super::{Chart, Draw, EDGE, Grid, TITLE, sheet};
 use crate::sheet::Sheet;
-use crate::style::{Role, on_both_grounds};
+use crate::style::Role;
 
 /// Width and height of a chart within its axes [mm].
 const FRAME: [f64; 2] = [38.0, 32.0];
@@ -17,16 +17,6 @@ const INTERVALS: usize = 3;
 const APART: f64 = 3.5;
 const OVER: f64 = 7.0;
 
-/// Small charts in rows and columns, some places empty, without names of curves. Below each other
-/// they have their numbers once where their horizontal axes are the same.
-#[derive(Clone, Debug)]
-pub struct Grid {
-    /// What they show.
-    pub title: String,
-    /// Row by row.
-    pub cells: Vec<Vec<Option<Chart>>>,
-}
-
 /// A chart with its axes, and its place in the grid.
 struct Cell<'c> {
     chart: &'c Chart,
@@ -36,15 +26,9 @@ struct Cell<'c> {
     y: Axis,
 }
 
-impl Grid {
-    /// The charts as one stand-alone SVG document.
-    #[must_use]
-    pub fn to_svg(&self) -> String {
-        on_both_grounds(&self.sheet())
-    }
-
-    pub(super) fn sheet(&self) -> Sheet {
-        let cells = self.cells();
+impl Draw for Grid {
+    fn sheet(&self) -> Sheet {
+        let cells = cells_of(self);
         let (rows, columns) =
             (self.cells.len(), self.cells.iter().map(Vec::len).max().unwrap_or(0));
         let most = |of: &dyn Fn(&Cell) -> f64, is_in: &dyn Fn(&Cell) -> bool| {
@@ -84,19 +68,20 @@ impl Grid {
         }
         sheet
     }
+}
 
-    fn cells(&self) -> Vec<Cell<'_>> {
-        let mut cells = Vec::new();
-        for (row, charts) in self.cells.iter().enumerate() {
-            for (column, chart) in charts.iter().enumerate() {
-                let Some(chart) = chart else { continue };
-                let x = Panel::x_axis(chart, INTERVALS, FRAME[0], SIZE);
-                let y = Panel::y_axis(chart, FRAME[1], 1.4 * SIZE);
-                cells.push(Cell { chart, row, column, x, y });
-            }
+/// The charts with their axes.
+fn cells_of(grid: &Grid) -> Vec<Cell<'_>> {
+    let mut cells = Vec::new();
+    for (row, charts) in grid.cells.iter().enumerate() {
+        for (column, chart) in charts.iter().enumerate() {
+            let Some(chart) = chart else { continue };
+            let x = Panel::x_axis(chart, INTERVALS, FRAME[0], SIZE);
+            let y = Panel::y_axis(chart, FRAME[1], 1.4 * SIZE);
+            cells.push(Cell { chart, row, column, x, y });
         }
-        cells
     }
+    cells
 }
 
 /// Whether a chart has numbers under it: none has them where the next one below has the same.

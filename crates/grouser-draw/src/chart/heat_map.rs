@@ -3,39 +3,16 @@
 use super::axis::{Axis, is_drawn, range};
 use super::colour_bar::{colour_bar, colour_bar_width};
 use super::frame::{Frame, LINE, colour, height_below, lines, width_beside, write};
-use super::{EDGE, LETTERS, PAGE, TITLE, sheet};
+use super::{Draw, EDGE, HeatMap, LETTERS, PAGE, TITLE, sheet};
 use crate::scale::Scale;
 use crate::sheet::{Cells, Face, Sheet, width};
-use crate::style::{Role, on_both_grounds};
+use crate::style::Role;
 
 /// From the table to the colours of its numbers [mm].
 const GAP: f64 = 5.0;
 
-/// A table drawn in colours: a value for each row and column, or none, which stays grey.
-#[derive(Clone, Debug)]
-pub struct HeatMap {
-    /// What it shows, with the unit.
-    pub title: String,
-    /// Quantity and unit of the columns.
-    pub x_label: String,
-    /// What the columns are.
-    pub columns: Vec<f64>,
-    /// Quantity and unit of the rows.
-    pub y_label: String,
-    /// What the rows are, from the bottom up.
-    pub rows: Vec<f64>,
-    /// Row by row.
-    pub values: Vec<Vec<Option<f64>>>,
-}
-
-impl HeatMap {
-    /// The map as a stand-alone SVG document, as wide as a page.
-    #[must_use]
-    pub fn to_svg(&self) -> String {
-        on_both_grounds(&self.sheet())
-    }
-
-    pub(super) fn sheet(&self) -> Sheet {
+impl Draw for HeatMap {
+    fn sheet(&self) -> Sheet {
         let [title, y_label] = [(&self.title, TITLE), (&self.y_label, LETTERS)]
             .map(|(text, size)| lines(text, size, PAGE[0] - 2.0 * EDGE));
         let x_label = lines(&self.x_label, LETTERS, 0.6 * PAGE[0]);
@@ -56,7 +33,7 @@ impl HeatMap {
         let mut sheet = sheet(&self.title, PAGE);
         write(&mut sheet, &title, [EDGE, EDGE], TITLE, Role::Ink);
         write(&mut sheet, &y_label, [EDGE, under_title], LETTERS, Role::Ink);
-        self.table(&mut sheet, &scale, &frame);
+        table(self, &mut sheet, &scale, &frame);
         frame.edges(&mut sheet);
         frame.numbers_below(&mut sheet, &x, LETTERS);
         frame.numbers_beside(&mut sheet, &y, LETTERS);
@@ -64,21 +41,22 @@ impl HeatMap {
         colour_bar(&mut sheet, &scale, [frame.right() + GAP, top], height, LETTERS);
         sheet
     }
+}
 
-    fn table(&self, sheet: &mut Sheet, scale: &Scale, frame: &Frame) {
-        let of_value = |value: Option<f64>| match value {
-            Some(value) if is_drawn(value) => scale.colour(value),
-            _ => colour(Role::Grid),
-        };
-        let (columns, rows) = (self.columns.len(), self.rows.len());
-        // Cells are listed from the top.
-        let value = |row: usize, column: usize| *self.values.get(row)?.get(column)?;
-        let cells = (0..rows)
-            .rev()
-            .flat_map(|row| (0..columns).map(move |column| Some(of_value(value(row, column)))));
-        let (place, size) = ([frame.left, frame.top], [frame.width, frame.height]);
-        sheet.cells(Cells::new(place, size, columns, cells));
-    }
+/// The cells in their colours.
+fn table(map: &HeatMap, sheet: &mut Sheet, scale: &Scale, frame: &Frame) {
+    let of_value = |value: Option<f64>| match value {
+        Some(value) if is_drawn(value) => scale.colour(value),
+        _ => colour(Role::Grid),
+    };
+    let (columns, rows) = (map.columns.len(), map.rows.len());
+    // Cells are listed from the top.
+    let value = |row: usize, column: usize| *map.values.get(row)?.get(column)?;
+    let cells = (0..rows)
+        .rev()
+        .flat_map(|row| (0..columns).map(move |column| Some(of_value(value(row, column)))));
+    let (place, size) = ([frame.left, frame.top], [frame.width, frame.height]);
+    sheet.cells(Cells::new(place, size, columns, cells));
 }
 
 /// Names of cells, which are as wide as each other whatever their numbers are.

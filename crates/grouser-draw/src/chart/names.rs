@@ -3,8 +3,8 @@
 
 use super::axis::is_drawn;
 use super::frame::{LINE, MIDDLE, lines, text, thin};
-use super::panel::{BAND, Panel, Weight, mark, stroke_of};
-use super::series::{Series, Style};
+use super::panel::{BAND, Panel, Weight, ink, mark, stroke_of};
+use super::{Series, Style};
 use crate::labels::spread;
 use crate::sheet::{Face, Place, Shape, Sheet, width};
 use crate::style::Role;
@@ -83,7 +83,7 @@ fn end(series: &Series, panel: &Panel) -> Option<Place> {
 fn sample(sheet: &mut Sheet, series: &Series, [left, y]: Place) {
     let ends = [[left, y], [left + SAMPLE, y]];
     sheet.draw(match series.style {
-        Style::Band => Shape::rectangle([left, y - 1.3], [SAMPLE, 2.6], series.ink().opacity(BAND)),
+        Style::Band => Shape::rectangle([left, y - 1.3], [SAMPLE, 2.6], ink(series).opacity(BAND)),
         style if style.is_marks() => mark(series, [left + 0.5 * SAMPLE, y], 1.1, 0.7),
         _ => Shape::line(ends, stroke_of(series, Weight::Full)),
     });

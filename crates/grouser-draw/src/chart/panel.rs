@@ -1,11 +1,10 @@
 //! Series within their axes.
 
 use super::axis::{Axis, is_drawn, range};
-use super::data::Chart;
 use super::frame::{Frame, colour, text};
-use super::series::{Series, Style};
-use crate::sheet::{Anchor, Place, Shape, Sheet, Stroke};
-use crate::style::Role;
+use super::{Chart, Series, Style};
+use crate::sheet::{Anchor, Colour, Place, Shape, Sheet, Stroke};
+use crate::style::{Ground, Role};
 
 /// From as many points on, marks are small.
 const MANY: usize = 60;
@@ -41,7 +40,7 @@ impl Panel<'_> {
         let numbers = range(chart.extent().map(|(_, y)| y));
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few")]
         let most = (height / (APART * size)).clamp(2.0, 8.0) as usize;
-        Axis::linear(numbers, most).with_room(chart.marked(|(_, y)| y), ROOM / height)
+        Axis::linear(numbers, most).with_room(marked(chart, |(_, y)| y), ROOM / height)
     }
 
     /// The horizontal axis of a chart in a frame.
@@ -51,8 +50,9 @@ impl Panel<'_> {
     /// * `size`: height of letters [mm]
     pub(super) fn x_axis(chart: &Chart, most: usize, width: f64, size: f64) -> Axis {
         let numbers = range(chart.extent().map(|(x, _)| x));
-        let kind = if chart.log_x { Axis::log } else { Axis::linear };
-        let marked = chart.marked(|(x, _)| x);
+        let is_log = chart.log_x && numbers.is_none_or(|[low, _]| low > 0.0);
+        let kind = if is_log { Axis::log } else { Axis::linear };
+        let marked = marked(chart, |(x, _)| x);
         let make = |most| kind(numbers, most).with_room(marked, ROOM / width);
         Axis::fitting(most, make, width, size)
     }
@@ -102,7 +102,7 @@ impl Panel<'_> {
         for piece in places.split(Option::is_none) {
             let piece: Vec<Place> = piece.iter().flatten().copied().collect();
             if let [only] = piece[..] {
-                sheet.draw(Shape::circle(only, stroke.width, series.ink()));
+                sheet.draw(Shape::circle(only, stroke.width, ink(series)));
             }
             sheet.draw(Shape::line(piece, stroke));
         }
@@ -117,11 +117,11 @@ impl Panel<'_> {
         for piece in edges.split(Option::is_none) {
             let (low, high): (Vec<Place>, Vec<Place>) = piece.iter().flatten().copied().unzip();
             if let ([low], [high]) = (&low[..], &high[..]) {
-                let stroke = Stroke::new(1.0, series.ink().opacity(BAND));
+                let stroke = Stroke::new(1.0, ink(series).opacity(BAND));
                 sheet.draw(Shape::line([*low, *high], stroke));
             } else {
                 let around = low.into_iter().chain(high.into_iter().rev());
-                sheet.draw(Shape::area(around, series.ink().opacity(BAND)));
+                sheet.draw(Shape::area(around, ink(series).opacity(BAND)));
             }
         }
     }
@@ -129,7 +129,7 @@ impl Panel<'_> {
     fn marks(&self, sheet: &mut Sheet, series: &Series) {
         for [from, to] in series.bars() {
             let (Some(from), Some(to)) = (self.at(from), self.at(to)) else { continue };
-            let stroke = Stroke::new(0.3, series.ink());
+            let stroke = Stroke::new(0.3, ink(series));
             sheet.draw(Shape::line([from, to], stroke));
             // Caps across the bar.
             let is_level = from[1] == to[1];
@@ -146,10 +146,22 @@ impl Panel<'_> {
         };
         for place in series.points.iter().filter_map(|point| self.at(*point)) {
             let mark = mark(series, place, radius, hides);
-            let edge = Stroke::new(0.25, series.ink());
+            let edge = Stroke::new(0.25, ink(series));
             sheet.draw(if self.weight == Weight::Thin { mark } else { mark.outlined(edge) });
         }
     }
+}
+
+/// The range of a coordinate over all marks and error bars.
+fn marked(chart: &Chart, coordinate: impl Fn((f64, f64)) -> f64) -> Option<[f64; 2]> {
+    let marks = chart.series.iter().filter(|series| series.style.is_marks());
+    range(marks.flat_map(Series::extent).map(coordinate))
+}
+
+/// The colour of a series on light ground.
+pub(super) fn ink(series: &Series) -> Colour {
+    let colours = crate::style::series(Ground::Light);
+    colours[series.colour % colours.len()]
 }
 
 /// How much of what is below a band hides [-].
@@ -160,7 +172,7 @@ pub(super) const BAND: f64 = 0.3;
 /// * `radius`: half its width [mm]
 /// * `hides`: opacity of its inside [-]
 pub(super) fn mark(series: &Series, [x, y]: Place, radius: f64, hides: f64) -> Shape {
-    let fill = series.ink().opacity(hides);
+    let fill = ink(series).opacity(hides);
     match series.style {
         Style::Squares => {
             let half = 0.9 * radius;
@@ -177,7 +189,7 @@ pub(super) fn mark(series: &Series, [x, y]: Place, radius: f64, hides: f64) -> S
 /// The line of a series.
 pub(super) fn stroke_of(series: &Series, weight: Weight) -> Stroke {
     let width = if weight == Weight::Thin { 0.3 } else { 0.5 };
-    let stroke = Stroke::new(width, series.ink());
+    let stroke = Stroke::new(width, ink(series));
     match series.style {
         Style::Dashed => stroke.dashed(1.8, 1.0),
         Style::Dotted => stroke.dashed(0.6, 0.8),

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::frame::{Frame, colour};
-use super::panel::{Panel, Weight};
+use super::panel::{Panel, Weight, ink};
 use super::*;
 use crate::sheet::{Colour, Item, Outline, Place, Shape, Text};
 use crate::style::rules_for_dark;
@@ -136,8 +136,8 @@ fn check_sheet(what: &str, sheet: &Sheet) {
 #[test]
 fn no_text_lies_over_another_and_all_is_on_the_page() {
     for (what, chart) in charts() {
-        check_sheet(what, &chart.sheet(PAGE));
-        check_sheet(what, &chart.sheet(SMALL));
+        check_sheet(what, &sheet_of(&chart, PAGE));
+        check_sheet(what, &sheet_of(&chart, SMALL));
         check_sheet(what, &Grid { title: what.into(), cells: vec![vec![Some(chart)]] }.sheet());
     }
 }
@@ -149,7 +149,7 @@ fn nothing_of_the_data_is_outside_of_the_frame() {
     let frame = Frame { left: 20.0, top: 10.0, width: 120.0, height: 70.0 };
     for (what, chart) in charts() {
         let x = Panel::x_axis(&chart, INTERVALS, frame.width, LETTERS);
-        let y = chart.y_axis(frame.height, 60.0);
+        let y = y_axis(&chart, frame.height, 60.0);
         let mut sheet = sheet("", PAGE);
         Panel { chart: &chart, x, y, frame, weight: Weight::Full }.draw(&mut sheet);
         for shape in shapes(&sheet) {
@@ -166,7 +166,7 @@ fn nothing_of_the_data_is_outside_of_the_frame() {
 /// The shapes of a chart in the colour of a series.
 fn in_colour(chart: &Chart, place: usize) -> Vec<Shape> {
     let series = Series::new("", Style::Line, place, []);
-    let ink = series.ink().code();
+    let ink = ink(&series).code();
     let has = |colour: Option<Colour>| colour.is_some_and(|colour| colour.code() == ink);
     let mut sheet = sheet("", PAGE);
     let frame = Frame { left: 0.0, top: 0.0, width: 100.0, height: 100.0 };
@@ -238,7 +238,7 @@ fn texts_from_anywhere_are_escaped() {
 fn every_colour_of_a_chart_has_one_for_a_dark_screen() {
     let rules = rules_for_dark();
     for (what, chart) in charts() {
-        let sheet = chart.sheet(PAGE);
+        let sheet = sheet_of(&chart, PAGE);
         let of_shapes =
             shapes(&sheet).flat_map(|it| [it.fill, it.stroke.map(|stroke| stroke.colour)]);
         let of_texts = texts(&sheet).into_iter().map(|(text, _)| text.colour);

@@ -4,6 +4,7 @@ mod figures;
 mod page;
 mod statistics;
 
+use grouser_draw::chart::Draw;
 use serde::Serialize;
 
 use self::statistics::Statistics;

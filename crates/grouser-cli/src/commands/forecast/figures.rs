@@ -7,7 +7,7 @@ use grouser::document::columns::forecast::{
 use grouser::document::columns::{LIMIT_SLOPE, Quantity, SLIP_RATIO, SLOPE, YAW};
 use grouser::document::table::Table;
 use grouser::studies::forecast::{FactorKind, Forecast};
-use grouser_draw::chart::{Bars, Chart, Series, Style};
+use grouser_draw::chart::{Bars, Chart, Draw, Series, Style};
 
 use super::tables::Tables;
 use crate::output::rows::four_digits;

@@ -5,7 +5,7 @@ use grouser::document::columns::heading::{self, held, steered};
 use grouser::document::columns::{Quantity, SLOPE};
 use grouser::document::table::Table;
 use grouser::studies::heading::Steering;
-use grouser_draw::chart::{Chart, Series, Style};
+use grouser_draw::chart::{Chart, Draw, Series, Style};
 
 use super::of_model::{OfModel, brief, figures};
 use crate::args::HeadingArgs;

@@ -4,7 +4,7 @@ use grouser::document::LoadedScenario;
 use grouser::document::columns::heading::{held, map_brief};
 use grouser::document::table::Table;
 use grouser::studies::heading_map::HeadingMap;
-use grouser_draw::chart::HeatMap;
+use grouser_draw::chart::{Draw, HeatMap};
 
 use crate::args::HeadingMapArgs;
 use crate::commands::sampling;

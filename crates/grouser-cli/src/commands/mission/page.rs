@@ -6,7 +6,7 @@ use grouser::document::columns::mission::{
 };
 use grouser::document::columns::run;
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
-use grouser_draw::chart::Bars;
+use grouser_draw::chart::{Bars, Draw};
 
 use super::answered::{Answered, reasons, sentence};
 use crate::report::answer::{self, Basis, axis, meanings, over_ground, over_time, run_meanings};

@@ -6,6 +6,7 @@ use grouser::document::columns::run::table as run_table;
 use grouser::simulation::{Scenario, Trajectory};
 use grouser::studies::reproduction::{Reproduction, SlopeRuns};
 use grouser::studies::validity::RoverOnSlope;
+use grouser_draw::chart::Draw;
 
 use super::study::SCATTER;
 use crate::failure::Failure;

@@ -7,7 +7,7 @@ use grouser::document::columns::{SLIP_RATIO, STATUS, TIME};
 use grouser::document::table::Table;
 use grouser::studies::slip_from_current::SlipStatus;
 use grouser::vehicle::Rover;
-use grouser_draw::chart::{BAND_COLOUR, Chart, Series, Style};
+use grouser_draw::chart::{BAND_COLOUR, Chart, Draw, Series, Style};
 
 use super::tables::{self, Tables};
 use crate::args::SlipFromCurrentArgs;

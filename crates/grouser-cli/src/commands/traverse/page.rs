@@ -7,7 +7,7 @@ use grouser::document::table::Table;
 use grouser::studies::drive::Drive;
 use grouser::studies::traverse_band::Ends;
 use grouser::units::Vec2;
-use grouser_draw::chart::{BAND_COLOUR, Chart, Series, Style};
+use grouser_draw::chart::{BAND_COLOUR, Chart, Draw, Series, Style};
 
 use super::of_model::{OfModel, chart, reason};
 use crate::args::{EVERY_MODEL, TraverseArgs};

@@ -1,5 +1,6 @@
 //! The page of a validation: the answer, the errors, the figures.
 
+use grouser_draw::chart::Draw;
 use std::path::Path;
 
 use grouser::document::columns::fit::column_of;

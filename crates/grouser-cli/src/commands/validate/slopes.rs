@@ -1,5 +1,6 @@
 //! `grouser validate --rover`: errors of a wheel–soil model against a rover's measured slip and yaw on slopes.
 
+use grouser_draw::chart::Draw;
 use std::path::Path;
 
 use grouser::document::LoadedScenario;

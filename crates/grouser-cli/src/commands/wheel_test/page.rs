@@ -1,5 +1,6 @@
 //! The page of a wheel test: forces, sinkage and torque over slip, and the rows.
 
+use grouser_draw::chart::Draw;
 use std::fmt::Write as _;
 
 use grouser::contact::validity::Finding;

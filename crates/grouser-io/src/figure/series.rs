@@ -1,8 +1,5 @@
 //! Curves, points and bands of a chart.
 
-use crate::sheet::Colour;
-use crate::style::{Ground, series};
-
 /// A named curve or set of points.
 #[derive(Clone, Debug)]
 pub struct Series {
@@ -11,7 +8,7 @@ pub struct Series {
     /// Its points; of a band those of its lower edge. Where a number is missing, a line breaks.
     pub points: Vec<(f64, f64)>,
     /// Heights of a band's upper edge, one for each point.
-    pub(super) upper: Vec<f64>,
+    pub upper: Vec<f64>,
     /// Its colour, by its place among those of series.
     pub colour: usize,
     /// How it is drawn.
@@ -52,7 +49,8 @@ impl Style {
     }
 
     /// Whether it is drawn as separate marks.
-    pub(super) fn is_marks(self) -> bool {
+    #[must_use]
+    pub fn is_marks(self) -> bool {
         matches!(self, Self::Dots | Self::Squares | Self::Triangles)
     }
 }
@@ -99,13 +97,8 @@ impl Series {
         Self { upper, ..Self::new(name, Style::Band, colour, points) }
     }
 
-    pub(super) fn ink(&self) -> Colour {
-        let colours = series(Ground::Light);
-        colours[self.colour % colours.len()]
-    }
-
     /// The error bars by their ends.
-    pub(super) fn bars(&self) -> impl Iterator<Item = [(f64, f64); 2]> {
+    pub fn bars(&self) -> impl Iterator<Item = [(f64, f64); 2]> {
         let bars = self.points.iter().zip(&self.error_bars).filter(|(_, half)| half.is_finite());
         bars.map(|(&(x, y), half)| {
             let way = if self.across { (*half, 0.0) } else { (0.0, *half) };
@@ -113,8 +106,8 @@ impl Series {
         })
     }
 
-    /// All that must lie within the axes.
-    pub(super) fn extent(&self) -> impl Iterator<Item = (f64, f64)> {
+    /// All points that must lie within the axes.
+    pub fn extent(&self) -> impl Iterator<Item = (f64, f64)> {
         let upper = self.points.iter().zip(&self.upper).map(|((x, _), upper)| (*x, *upper));
         self.points.iter().copied().chain(upper).chain(self.bars().flatten())
     }
