@@ -37,7 +37,7 @@ struct Package {
     /// How many crates it builds, itself included.
     crates: usize,
     lines: Lines,
-    /// Of its library and its programs together.
+    /// Modules of its library and its programs together.
     modules: usize,
     cycles: Vec<Cycle>,
 }

@@ -1,4 +1,4 @@
-//! Builds the documentation without warnings, but for one kind that is none.
+//! Builds the documentation and refuses all warnings but one kind, which is mistaken.
 //!
 //! Our docs write units and sources in brackets, `[m]` or `[FourWheel]`, which rustdoc takes for
 //! links. So `Cargo.toml` switches its lint of broken links off, and here it is switched on by

@@ -13,7 +13,7 @@ use crate::workspace;
 #[derive(Clone, Copy)]
 pub(crate) struct SystemTool {
     name: &'static str,
-    /// Of Debian and what descends from it.
+    /// Packages of Debian and of the distributions derived from it.
     packages: &'static [&'static str],
     /// What is skipped without it.
     checks: &'static str,

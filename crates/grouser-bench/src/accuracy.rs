@@ -12,22 +12,23 @@ use crate::unit::controlled;
 /// The largest errors over the fixtures.
 #[derive(Clone, Copy, Debug)]
 pub struct Accuracy {
-    /// Of a wheel's forces against four times as many nodes, over its load [-].
+    /// Error of a wheel's forces against four times as many nodes, over its load [-].
     pub force: f64,
-    /// Of the force that carries a settled wheel against its load, over the load [-].
+    /// Error of the force that carries a settled wheel against its load, over the load [-].
     pub settle: f64,
-    /// Of a settled wheel's forces by resistive force theory against four times as many nodes over the
-    /// arc and twenty times as many across, over its load [-].
+    /// Error of a settled wheel's forces by resistive force theory against four times as many nodes
+    /// over the arc and twenty times as many across, over its load [-].
     pub settle_facets: f64,
-    /// Of the end of a dynamic traverse against a tolerance a thousand times as tight [m].
+    /// Error of the end of a dynamic traverse against a tolerance a thousand times as tight [m].
     pub traverse_dynamic: f64,
-    /// Of the end of a quasi-steady traverse against the same [m].
+    /// Error of the end of a quasi-steady traverse against the same dynamic one [m].
     pub traverse_quasi_steady: f64,
-    /// Of where 250 steps of 20 ms under changing speeds lead, against a tolerance a thousand times as tight [m].
+    /// Error of where 250 steps of 20 ms under changing speeds lead, against a tolerance a thousand
+    /// times as tight [m].
     pub control_step: f64,
     /// The same of quasi-steady steps [m].
     pub control_step_quasi_steady: f64,
-    /// Of the equilibrium of forces on the curve of heading offsets, over the weight [-].
+    /// Error of the equilibrium of forces on the curve of heading offsets, over the weight [-].
     pub heading_curve: f64,
 }
 

@@ -98,7 +98,7 @@ impl From<grouser::simulation::RunError> for Failure {
     }
 }
 
-/// A plan that is none was seen when it was read: what is left is the motion.
+/// An invalid plan is found when it is read: the failures that are left are those of the motion.
 impl From<grouser::mission::MissionError> for Failure {
     fn from(error: grouser::mission::MissionError) -> Self {
         use grouser::mission::MissionError;

@@ -148,7 +148,7 @@ fn balanced_overrides(
     Ok(overrides)
 }
 
-/// That samples of so many rows are not more than anyone can have meant.
+/// Checks that samples of so many rows are not more rows than anyone can have meant.
 pub(crate) fn check_samples(samples: u32, rows: usize) -> Result<(), Failure> {
     check_rows(f64::from(samples) * rows as f64)
 }
@@ -284,13 +284,13 @@ fn scenario_source(command: &str, name: Option<&str>) -> Result<Source, Failure>
     }
 }
 
-/// The document that an argument names; if there is none, the message shows the argument.
+/// The document that an argument names; if it does not exist, the message shows the argument.
 fn flag_source(flag: &str, kind: Kind, name: &str) -> Result<Source, Failure> {
     let source = Source::find(kind, name);
     Ok(source.map_err(|error| error.in_argument(format!("{flag} {}", name.escape_debug())))?)
 }
 
-/// That lists together do not ask for more than anyone can have meant.
+/// Checks that lists together do not ask for more rows than anyone can have meant.
 fn check_count(lists: &[&Numbers]) -> Result<(), Failure> {
     check_rows(lists.iter().map(|list| list.0.len() as f64).product())
 }

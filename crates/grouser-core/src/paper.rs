@@ -69,7 +69,7 @@ pub fn hakuto() -> Result<Rover, ParameterError> {
 /// shares of the load.
 ///
 /// # Errors
-/// As [`hakuto`].
+/// The same as [`hakuto`].
 pub fn traverse() -> Result<Scenario, ParameterError> {
     Ok(Scenario {
         sharing: LoadSharing::QuasiStatic,

@@ -13,8 +13,8 @@ pub fn between(mut f: impl FnMut(f64) -> f64, low: f64, high: f64, tolerance: f6
 /// Twice as many halvings as a double has digits.
 const MOST_STEPS: usize = 106;
 
-/// As [`between`], from two points whose values are known: the root and its value. Ends early at
-/// a point whose |value| is at most `close`.
+/// Finds a root as [`between`] does, from two points whose values are known; returns the root and
+/// its value. Ends early at a point whose |value| is at most `close`.
 pub fn bracketed(
     mut f: impl FnMut(f64) -> f64,
     one_end: (f64, f64),

@@ -142,10 +142,10 @@ pub enum Shear {
 }
 
 impl Shear {
-    /// That the law's constants belong to a soil.
+    /// Checks that the law's constants are within their ranges.
     ///
     /// # Errors
-    /// [`ParameterError`] for the first one that does not.
+    /// [`ParameterError`] for the first one that is not.
     pub fn check(&self) -> Result<(), ParameterError> {
         match self {
             Self::Anisotropic { longitudinal, lateral } => {
@@ -344,10 +344,11 @@ impl Soil {
         Self { small_wheel: SmallWheel { wedge_share, ..self.small_wheel }, ..*self }
     }
 
-    /// That the constants belong to a soil at all. (Documents have narrower ranges of their own.)
+    /// Checks that a soil can have these constants at all. (Documents have narrower ranges of their
+    /// own.)
     ///
     /// # Errors
-    /// [`ParameterError`] for the first constant that does not.
+    /// [`ParameterError`] for the first constant that it cannot have.
     pub fn check(&self) -> Result<(), ParameterError> {
         not_negative("cohesion [Pa]", self.cohesion)?;
         positive("density [kg/m³]", self.density)?;

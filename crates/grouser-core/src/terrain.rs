@@ -56,7 +56,8 @@ pub trait Terrain: Send + Sync {
     /// * `footprint`: how far from there the ground counts
     fn patch(&self, at: Vec2, footprint: Footprint) -> Patch;
 
-    /// As [`patch`](Self::patch), of a place seen from an origin, so that the numbers of a far origin cost no precision.
+    /// Does what [`patch`](Self::patch) does, for a place seen from an origin, so that the numbers
+    /// of a far origin cost no precision.
     ///
     /// * `origin`: in the ground's coordinates [m]
     /// * `at`: seen from there [m]

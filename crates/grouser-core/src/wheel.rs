@@ -43,10 +43,10 @@ impl Wheel {
         self.radius + self.grousers.map_or(0.0, |grousers| grousers.height)
     }
 
-    /// That the lengths belong to a wheel.
+    /// Checks that a wheel can have these lengths.
     ///
     /// # Errors
-    /// [`ParameterError`] for the first that does not.
+    /// [`ParameterError`] for the first that it cannot have.
     pub fn check(&self) -> Result<(), ParameterError> {
         positive("wheel radius [m]", self.radius)?;
         positive("wheel width [m]", self.width)?;

@@ -27,7 +27,7 @@ pub enum Form {
     Png,
 }
 
-/// The ending of a name is none of a form.
+/// The ending of a name is not that of a form.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "the ending decides what is written: `.gif`, `.mp4`, `.html` or `.glb` for the run, `.svg` or `.png` for its last picture"
@@ -54,7 +54,7 @@ impl Form {
     /// The form that a file's name asks for.
     ///
     /// # Errors
-    /// [`UnknownEnding`] if its ending is none of a form.
+    /// [`UnknownEnding`] if its ending is not that of a form.
     pub fn of_path(path: &Path) -> Result<Self, UnknownEnding> {
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default();
         let ending = ending.to_ascii_lowercase();

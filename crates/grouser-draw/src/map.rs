@@ -125,7 +125,7 @@ mod tests {
         assert!(thinned.places().all(|[column, row]| column < 1000 && row < 10));
     }
 
-    /// Of 15 places one is not known and one is not a number.
+    /// One of 15 places is not known and one is not a number.
     #[test]
     fn places_without_a_number_are_empty() {
         let number = |column: usize, row: usize| match (column, row) {

@@ -105,7 +105,7 @@ struct Map {
     most: Vec2,
     /// [mm/m]
     scale: f64,
-    /// Of the rover [m].
+    /// Half the room that the rover needs [m].
     reach: f64,
 }
 

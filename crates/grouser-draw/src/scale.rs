@@ -7,10 +7,10 @@
 
 use crate::sheet::Colour;
 
-/// Of numbers that go one way, from the least to the largest.
+/// Colours of numbers that go one way, from the least to the largest.
 const RAMP: [u32; 9] =
     [0x440154, 0x472d7b, 0x3b528b, 0x2c728e, 0x21918c, 0x28ae80, 0x5ec962, 0xaddc30, 0xfde725];
-/// Of directions: the ends are alike.
+/// Colours of directions: the ends are alike.
 const CYCLE: [u32; 9] =
     [0xe2d9e2, 0x9ebbc9, 0x6276ba, 0x5e43a5, 0x2f1436, 0x7b1e50, 0xb25652, 0xcfa28a, 0xe2d9e2];
 

@@ -318,7 +318,7 @@ pub(crate) fn nice(most: f64) -> f64 {
 
 struct Painter {
     camera: Camera,
-    /// Of the largest rover [m].
+    /// How far the largest rover reaches from its centre, seen from above [m].
     reach: f64,
 }
 

@@ -13,7 +13,7 @@ use super::tree::{Entry, Node, Origin, Value, number};
 use super::unit::UNITS;
 use super::withdrawn::{is_now, present_names};
 
-/// That a tree is a document of its kind.
+/// Checks that a tree is a document of its kind.
 ///
 /// * `prefix`: where the document stands in a larger one, such as `wheel_unit.wheel`, or nothing
 pub(crate) fn check(kind: Kind, tree: &Node, prefix: &str) -> Result<(), DocumentError> {
@@ -21,7 +21,7 @@ pub(crate) fn check(kind: Kind, tree: &Node, prefix: &str) -> Result<(), Documen
     Checker { root, prefix }.value(root, tree, prefix, &tree.origin)
 }
 
-/// That an answer to a question is what one of some schemas allows.
+/// Checks that an answer to a question is what one of some schemas allows.
 ///
 /// * `schemas`: of the key, one for each law that has it
 pub(crate) fn answer(
@@ -135,7 +135,7 @@ fn meant(root: &Json, key: &Misplaced<'_>, beside: &[&str]) -> Vec<String> {
 /// * `name`: the key, or the end of its path
 /// * `value`: what it is given; keys that take other types do not count, unless all do
 pub(crate) fn places(root: &Json, name: &str, value: Option<&Node>) -> Vec<String> {
-    /// As many as a hint can name. Source: ours.
+    /// The most places that a hint can name. Source: ours.
     const MOST: usize = 3;
     let all = paths_of(root, name);
     if all.iter().any(|path| path == name) {
@@ -212,7 +212,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Of several tables, the one whose `law` the value names.
+    /// Chooses the one of several tables whose `law` the value names.
     fn choose_law(
         &self,
         tables: &[&'static Json],
@@ -343,7 +343,7 @@ impl Checker<'_> {
     }
 }
 
-/// That no key is there without one that it goes with.
+/// Checks that no key is there without one that it goes with.
 fn check_partners(schema: &Json, entries: &[Entry], path: &str) -> Result<(), DocumentError> {
     let has = |key: &str| entries.iter().any(|entry| entry.key == key);
     for entry in entries {
@@ -361,7 +361,7 @@ fn check_partners(schema: &Json, entries: &[Entry], path: &str) -> Result<(), Do
     Ok(())
 }
 
-/// That a table has one of the keys of every choice, and no two that exclude each other.
+/// Checks that a table has one of the keys of every choice, and no two that exclude each other.
 fn check_choices(
     schema: &Json,
     node: &Node,
@@ -383,7 +383,7 @@ fn check_choices(
     Ok(())
 }
 
-/// That a text has as many characters as it must have.
+/// Checks that a text has as many characters as it must have.
 fn check_characters(
     schema: &Json,
     node: &Node,

@@ -41,7 +41,7 @@ use crate::statistics::{Band, Probability};
 pub struct Column<R> {
     /// With its unit: `sinkage_mm`.
     pub name: &'static str,
-    /// Of the number that leaves.
+    /// Unit of the number that leaves.
     pub unit: Unit,
     /// What it is: a sentence without its unit and full stop.
     pub doc: &'static str,
@@ -77,7 +77,7 @@ enum Value<R> {
 pub struct Quantity {
     /// With its unit: `yaw_deg`.
     pub name: &'static str,
-    /// Of the number that leaves.
+    /// Unit of the number that leaves.
     pub unit: Unit,
 }
 
@@ -149,7 +149,7 @@ pub const MODEL: &str = "model";
 /// How many samples a band is of.
 pub const DRAWS: &str = "draws";
 
-/// Of rows with a result and without.
+/// The status of rows, with a result or without.
 pub const STATUS: &str = "status";
 
 /// Status of a row that has its results.
@@ -344,7 +344,7 @@ impl<R> Column<R> {
         }
     }
 
-    /// The number of a row, in the column's unit; NaN, what arrays have for none, if there is none.
+    /// The number of a row, in the column's unit; NaN, as in arrays, if there is no number.
     #[must_use]
     pub fn number(&self, row: &R) -> f64 {
         match self.value {

@@ -207,7 +207,7 @@ impl Draft {
         height.is_some_and(|table| self.answers.number(&format!("{table}height_m")) <= 0.0)
     }
 
-    /// That a document that is named is there, and without a fault.
+    /// Checks that a document that an answer names exists and has no fault.
     fn check_name(&self, key: &str, answer: &str) -> Result<(), DocumentError> {
         match (self.answers.kind, key) {
             (Kind::Scenario, "rover") => {

@@ -50,7 +50,7 @@ pub struct Spot {
     excerpt: Option<Excerpt>,
 }
 
-/// As much of a line as a terminal holds, and what to mark in it.
+/// The part of a line that a terminal holds, and what to mark in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Excerpt {
     shown: String,
@@ -243,10 +243,10 @@ pub enum Problem {
         /// What is wrong with it, as the rest of a sentence.
         what: String,
     },
-    /// A file of legs that is none.
+    /// An invalid file of legs.
     #[error("not a file of legs: {0}")]
     NoLegs(String),
-    /// A map of heights that is none, or a place beyond it.
+    /// An invalid map of heights, or a place beyond it.
     #[error("{0}")]
     NoTerrain(String),
     /// Parts of a document that do not go together.

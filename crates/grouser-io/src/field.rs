@@ -41,11 +41,11 @@ pub(crate) struct Field<T: 'static> {
 /// What a document that does not have a key means.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Presence {
-    /// That something is missing.
+    /// Something is missing.
     Needed,
     /// Nothing; a resolved document does not have it either, nor an empty text or list.
     Optional,
-    /// That another one of these keys is there. The table has at least one of them.
+    /// Another one of these keys is there. The table has at least one of them.
     AnyOf(&'static [&'static str]),
     /// The same, where the table has no more than one of them.
     OneOf(&'static [&'static str]),

@@ -74,10 +74,10 @@ pub fn broken_link(path: &Path) -> Option<PathBuf> {
     is_broken.then(|| fs::read_link(path).ok()).flatten()
 }
 
-/// That a path leads to a file that ends, for those who open it themselves.
+/// Checks that a path leads to a file that ends, for callers that open it themselves.
 ///
 /// # Errors
-/// As [`read`].
+/// The same as [`read`].
 pub(crate) fn check_regular(path: &Path) -> Result<(), FileProblem> {
     open(path).map(drop)
 }

@@ -30,7 +30,7 @@ pub(crate) fn cells(line: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
-/// That a line has a cell for each name of the first line.
+/// Checks that a line has a cell for each name of the first line.
 ///
 /// * `names`: how many that has, and what they are called
 /// * `at`: where the line is

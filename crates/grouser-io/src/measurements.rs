@@ -152,7 +152,7 @@ pub fn read_texts(path: &Path, limits: Limits) -> Result<TextTable, MeasurementE
 /// * `label`: what messages call the source
 ///
 /// # Errors
-/// As for [`read`].
+/// The same as [`read`].
 pub fn read_from(
     label: &str,
     source: impl Read,

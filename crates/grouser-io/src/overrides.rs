@@ -61,7 +61,7 @@ impl Overrides {
     /// The same, as a command line has them: messages quote each with the flag before it.
     ///
     /// # Errors
-    /// As [`parse`](Self::parse).
+    /// The same as [`parse`](Self::parse).
     pub fn parse_flags<S: AsRef<str>>(
         flag: &str,
         settings: impl IntoIterator<Item = S>,
@@ -159,7 +159,7 @@ impl Overrides {
         self.add(&text, key, Node { value: Value::String(value.to_owned()), origin }, false)
     }
 
-    /// That every value belongs to one of the documents that a command reads.
+    /// Checks that every value belongs to one of the documents that a command reads.
     ///
     /// # Errors
     /// [`DocumentError`] for the first that does not.
@@ -184,8 +184,8 @@ impl Overrides {
         }
     }
 
-    /// That no value is set at some keys of a document, or under them, for which a command has no
-    /// use.
+    /// Checks that no value is set at some keys of a document, or under them, for which a command
+    /// has no use.
     ///
     /// * `keys`: with the tables they stand in, joined by dots
     ///

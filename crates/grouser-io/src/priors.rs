@@ -191,7 +191,7 @@ fn keep(priors: &mut Node, list: &str, is_kept: impl Iterator<Item = bool>) {
 
 /// A soil's tree while it is filled.
 struct Filled<'t> {
-    /// As its author wrote it.
+    /// The soil, as its author wrote it.
     written: Node,
     tree: &'t mut Node,
     /// The name of its priors.
@@ -391,7 +391,7 @@ fn three_digits(value: f64) -> String {
 /// The most of a prior's distribution that may lie outside its key's range [-]: its median stands for the whole.
 const MOST_OUTSIDE: f64 = 0.01;
 
-/// That the rows of priors are about numbers of soils, and can be.
+/// Checks that the rows of priors are about numbers of soils, and possible.
 pub(crate) fn check(tree: &Node) -> Result<(), DocumentError> {
     let priors = priors_of(&tree.to_json());
     for (list, rows) in [("missing", &priors.missing), ("stated", &priors.stated)] {
@@ -414,7 +414,7 @@ pub(crate) fn check(tree: &Node) -> Result<(), DocumentError> {
     Ok(())
 }
 
-/// That a row can be, or the name of what is wrong in it.
+/// Checks that a row is possible; the error has the name of what is wrong in it.
 fn check_row(row: &Parameter, is_missing: bool) -> Result<(), (&'static str, Problem)> {
     let unknown = |name: &'static str, key: &str| {
         Err((name, Problem::UnknownKey { key: key.escape_debug().to_string() }))
@@ -448,7 +448,7 @@ fn check_row(row: &Parameter, is_missing: bool) -> Result<(), (&'static str, Pro
     Err(("key", Problem::Conflict(problem)))
 }
 
-/// That every row of a document of priors says why.
+/// Checks that every row of a document of priors gives a reason.
 pub(crate) fn check_reasons(tree: &Node) -> Result<(), DocumentError> {
     for list in ["missing", "keyword", "stated", "correlation"] {
         let Some(Value::List(rows)) = tree.entry(list).map(|entry| &entry.node.value) else {

@@ -282,7 +282,7 @@ fn fetch(
         });
     }
     if !further.is_empty() {
-        // A table that is missing, or is none, is for the check to report.
+        // A missing or invalid table is for the check to report.
         let Some(entry) = table.entry_mut(key) else { return Ok(()) };
         return fetch(part, further, &mut entry.node, overrides, &within(key));
     }
@@ -325,7 +325,7 @@ fn fetch(
     }
 }
 
-/// That a document says it is of the kind that is needed.
+/// Checks that a document states the kind that is needed.
 fn check_kind(expected: Kind, tree: &Node) -> Result<(), DocumentError> {
     let found = kind_of(tree).map_err(|error| match error.problem() {
         Problem::MissingKey { .. } => {

@@ -41,7 +41,7 @@ struct Rows {
     /// Which keys count by their logarithms.
     are_logarithms: Vec<bool>,
     mean: DVector<f64>,
-    /// Of each coordinate, a column: what a coordinate of 1 adds.
+    /// A column for each coordinate: what a coordinate of 1 adds.
     axes: DMatrix<f64>,
     /// The keys as they count, a column for each row of samples, and its coordinates.
     samples: DMatrix<f64>,
@@ -51,7 +51,7 @@ struct Rows {
 /// The most principal components that are coordinates.
 const MOST_COMPONENTS: usize = 12;
 
-/// Components with a smaller share of the variance are none [-].
+/// Least share of the variance of a component that is a coordinate [-].
 const LEAST_VARIANCE: f64 = 0.005;
 
 impl SoilCoordinates {

@@ -61,7 +61,7 @@ impl UncertainSoil {
     /// The first soils.
     ///
     /// # Errors
-    /// As [`draw`](Self::draw), for the first soil that cannot be drawn.
+    /// The same as [`draw`](Self::draw), for the first soil that cannot be drawn.
     pub fn draws(&self, seed: u64, count: u32) -> Result<Vec<Soil>, NothingAccepted> {
         (0..count).map(|index| self.draw(seed, index.into())).collect()
     }
@@ -69,7 +69,7 @@ impl UncertainSoil {
     /// The same soil as a document of its own, whose numbers are exact.
     ///
     /// # Errors
-    /// As [`draw`](Self::draw).
+    /// The same as [`draw`](Self::draw).
     pub fn draw_document(&self, seed: u64, index: u64) -> Result<Document, NothingAccepted> {
         let accept = |values: &[f64]| self.soil(values).map(|_| values.to_vec());
         let values = self.distribution.draw(seed, index, accept)?;
@@ -113,7 +113,7 @@ impl UncertainSoil {
         are_inside.then(|| self.base.with(&self.keys, values).ok())?
     }
 
-    /// That samples can be had: one that takes too many tries here takes them everywhere.
+    /// Checks that samples can be drawn: if one takes too many tries here, every one does.
     fn check_first_draw(&self, tree: &Node) -> Result<(), DocumentError> {
         self.draw(0, 0).map(drop).map_err(|error| {
             let range = |key: &Key| format!("`{}` {}", key.path, key.range_in_words());

@@ -35,12 +35,12 @@ pub struct Inputs {
     pub is_correlated: bool,
     /// The table of samples, and what its keys begin with.
     pub samples: Option<(SampleTable, &'static str)>,
-    /// Of the keys' values.
+    /// Distribution of the keys' values.
     pub distribution: Distribution,
 }
 
-/// Of the values of a key as many must be in its range [-]: with fewer, the distribution is far from
-/// the one that was written down.
+/// Least share of a key's values that must be in its range [-]: with fewer, the distribution is far
+/// from the one that was written down.
 const LEAST_INSIDE: f64 = 0.01;
 
 impl Inputs {
@@ -181,7 +181,7 @@ impl Statement<'_> {
     }
 }
 
-/// That a key is not uncertain twice.
+/// Checks that a key is not uncertain twice.
 ///
 /// * `path`: what messages call the place in which it is
 fn check_new(keys: &[Key], key: &Key, origin: &Origin, path: &str) -> Result<(), DocumentError> {
@@ -192,7 +192,8 @@ fn check_new(keys: &[Key], key: &Key, origin: &Origin, path: &str) -> Result<(),
     Err(DocumentError::at(origin, problem))
 }
 
-/// That a distribution is one, and mostly in its key's range; or the name of the number that is wrong.
+/// Checks that a distribution is valid, and mostly in its key's range; the error has the name of
+/// the number that is wrong.
 ///
 /// * `is_around_value`: whether its mean is the key's value
 fn check_marginal(
@@ -277,7 +278,7 @@ fn correlations(
 /// Correlations that no values can have, where the last of them are stated.
 fn contradiction(statements: &[Statement<'_>], error: Contradiction) -> DocumentError {
     let stating = |it: &&Statement<'_>| !it.stated.correlations.is_empty();
-    // There are none without a statement of some; priors are the last to blame.
+    // Without stated correlations there is no contradiction; priors are the last to blame.
     let own = statements.iter().filter(|it| !it.yields).rfind(stating);
     let origin = own.or(statements.iter().rfind(stating)).unwrap_or(&statements[0]);
     let origin = origin.origin("correlation");
@@ -288,7 +289,7 @@ fn contradiction(statements: &[Statement<'_>], error: Contradiction) -> Document
     )
 }
 
-/// That each row of a table is in the ranges of its keys, and possible together.
+/// Checks that each row of a table is in the ranges of its keys, and possible together.
 fn check_rows(
     numbers: &dyn Numbers,
     keys: &[Key],

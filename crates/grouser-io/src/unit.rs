@@ -34,7 +34,7 @@ pub fn less_whole_turns(degrees: f64) -> f64 {
 /// A unit outside the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unit {
-    /// As tables and labels write it: `kPa`.
+    /// Symbol in tables and labels: `kPa`.
     pub symbol: &'static str,
     scale: Scale,
 }
@@ -166,7 +166,7 @@ pub const J: Unit = Unit::si("J");
 pub const WH: Unit = Unit::scaled("W·h", Scale::Hours);
 /// Joules per metre.
 pub const J_PER_M: Unit = Unit::si("J/m");
-/// Of a number without a unit.
+/// The unit of a dimensionless number.
 pub const ONE: Unit = Unit::si("-");
 /// The unit of another key.
 pub const OF_KEY: Unit = Unit::si("");

@@ -219,8 +219,8 @@ fn share_angle_limit(shear: &mut Shear) {
     }
 }
 
-/// That Bekker's moduli are no thousandth or millionth of a soil's: by their sum, and where one is negative by
-/// the stiffness over the widths for which they hold.
+/// Checks that Bekker's moduli are not a thousandth or millionth of a soil's: by their sum, and
+/// where one is negative by the stiffness over the widths for which they hold.
 fn check_moduli(soil: &Soil) -> Result<(), ParameterError> {
     let PressureSinkage::Bekker { k_c, k_phi, .. } = soil.pressure_sinkage else { return Ok(()) };
     let least = *validity::DOUBTFUL_MODULUS.start();
@@ -237,7 +237,7 @@ fn check_moduli(soil: &Soil) -> Result<(), ParameterError> {
     Err(ParameterError::new(name, value, "at least 10: in kN they are k_c_kn and k_phi_kn"))
 }
 
-/// That n stays in its range at every slip: it is linear, so its ends suffice.
+/// Checks that n stays in its range at every slip: it is linear, so its ends suffice.
 fn check_exponent(law: PressureSinkage) -> Result<(), ParameterError> {
     let (PressureSinkage::Reece { exponent, .. } | PressureSinkage::Bekker { exponent, .. }) = law;
     for slip_ratio in [-1.0, 1.0] {
@@ -250,7 +250,7 @@ fn check_exponent(law: PressureSinkage) -> Result<(), ParameterError> {
     Ok(())
 }
 
-/// That λ stays in its range at every slip.
+/// Checks that λ stays in its range at every slip.
 fn check_exit(exit: Exit) -> Result<(), ParameterError> {
     for percent in 0..=100 {
         let slip_ratio = f64::from(percent) / 100.0;

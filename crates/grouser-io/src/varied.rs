@@ -43,7 +43,7 @@ pub trait Numbers {
     /// [`NoNumber`] if there is none.
     fn key(&self, path: &str) -> Result<Key, NoNumber>;
 
-    /// That some keys may have these values together.
+    /// Checks that some keys may have these values together.
     ///
     /// # Errors
     /// [`Misfit`] if they may not.

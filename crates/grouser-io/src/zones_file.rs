@@ -123,7 +123,7 @@ fn zones(
     soils: Vec<Soil>,
 ) -> Result<SoilZones, Found> {
     file::check_regular(path).map_err(|problem| (Problem::from(problem), None))?;
-    // A band, and a height that is none, are those of the map.
+    // A band, and the height that stands for a missing one, are those of the map.
     let options = ReadOptions { band: None, missing: None, ..*options };
     let map = read_zones(path, &options, ground.as_ref());
     let map = map.map_err(|error| found("file of zones", &error.fault))?;

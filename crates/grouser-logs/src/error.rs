@@ -60,10 +60,10 @@ pub enum Problem {
     Encoding {
         /// The topic.
         topic: String,
-        /// As the log calls it.
+        /// Their encoding, as the log calls it.
         encoding: String,
     },
-    /// A mapping, or a choice of topics, for a file that has none.
+    /// A mapping, or a choice of topics, for a file without topics.
     #[error("this is a table, which has columns and no topics: a mapping is for logs of messages")]
     NoMessages,
     /// A file of Parquet that is damaged, or written in a way that is not read.

@@ -223,7 +223,7 @@ messages! {
         14 models: Vec<ModelPrimitive>,
     }
 
-    /// That something goes.
+    /// Removal of an entity from a scene.
     SceneEntityDeletion = "foxglove.SceneEntityDeletion" {
         1 timestamp: Timestamp,
         2 r#type: DeletionType,

@@ -29,8 +29,8 @@ const SIDES: [(&str, Side); 2] = [("measured", |it| it.measured), ("predicted", 
 /// Writes a log of a replayed drive, with the topics `/measured/…` and `/predicted/…`; what it was
 /// written to comes back.
 ///
-/// A message has all numbers of its topic; where one of them is missing, there is none. Times are
-/// those of the telemetry.
+/// A message has all numbers of its topic; where one of them is missing, there is no message.
+/// Times are those of the telemetry.
 ///
 /// * `title`: what was driven, a line
 /// * `attachments`: names and texts of documents

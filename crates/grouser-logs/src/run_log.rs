@@ -40,7 +40,7 @@ struct Channels {
     path: ChannelId,
     forces: ChannelId,
     rover: ChannelId,
-    /// Of a rover whose battery is known.
+    /// Channel of the battery, for a rover whose battery is known.
     battery: Option<ChannelId>,
     /// On ground with heights.
     standing: Option<ChannelId>,
@@ -198,7 +198,7 @@ impl<W: Write> Log<W> {
     /// * `time`: its end [s]
     ///
     /// # Errors
-    /// As [`event`](Self::event).
+    /// The same as [`event`](Self::event).
     pub fn outcome(&mut self, time: f64, outcome: &Outcome) -> Result<(), LogError> {
         self.event(time, level_of(outcome.kind()), "run", &words(outcome))
     }
@@ -209,7 +209,7 @@ impl<W: Write> Log<W> {
     /// * `number`: of the leg, from 1
     ///
     /// # Errors
-    /// As [`event`](Self::event).
+    /// The same as [`event`](Self::event).
     pub fn leg_began(&mut self, time: f64, number: usize, leg: &Leg) -> Result<(), LogError> {
         let origin = self.scenario.ground.start;
         let began = format!("began: {}", in_words(leg, origin));
@@ -221,7 +221,7 @@ impl<W: Write> Log<W> {
     /// * `time`: its end, without a way back out of it [s]
     ///
     /// # Errors
-    /// As [`event`](Self::event).
+    /// The same as [`event`](Self::event).
     pub fn leg_ended(&mut self, time: f64, leg: &DrivenLeg) -> Result<(), LogError> {
         let report = &leg.report;
         let reason = leg.reason().map_or(String::new(), |reason| format!(": {reason}"));
@@ -237,7 +237,7 @@ impl<W: Write> Log<W> {
     /// * `number`: of the leg, from 1
     ///
     /// # Errors
-    /// As [`event`](Self::event).
+    /// The same as [`event`](Self::event).
     pub fn backed_out(&mut self, time: f64, number: usize, back: &BackOut) -> Result<(), LogError> {
         let way = format!("backed out by {:.3} m in {:.1} s", back.distance, back.time);
         let kind = back.outcome.kind();
@@ -252,7 +252,7 @@ impl<W: Write> Log<W> {
     /// Appends a mission that was driven: the records of each leg between what is said of it.
     ///
     /// # Errors
-    /// As [`append`](Self::append).
+    /// The same as [`append`](Self::append).
     pub fn mission(&mut self, mission: &DrivenMission) -> Result<(), LogError> {
         let mut time = mission.report.trajectory.records.first().map_or(0.0, |first| first.time);
         let legs = mission.legs.iter().zip(mission.report.legs_with_records()).enumerate();

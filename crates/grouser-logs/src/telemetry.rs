@@ -159,7 +159,7 @@ impl TelemetryLog {
     }
 }
 
-/// As many bytes as tell what a file is, or all that it has.
+/// Reads as many bytes as show what a file is, or all that it has.
 fn first_bytes(file: &mut File) -> io::Result<Vec<u8>> {
     const ENOUGH: u64 = 16;
     let mut start = Vec::new();

@@ -19,7 +19,7 @@ pub struct BandSummary {
     pub mean: f64,
 }
 
-/// Of each band the summary, and how many places have a verdict: unknown, go, caution, no-go.
+/// The summary of each band, and how many places have each verdict: unknown, go, caution, no-go.
 #[must_use]
 pub fn summaries(
     ground: Ground<'_>,

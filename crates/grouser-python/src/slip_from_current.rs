@@ -122,7 +122,7 @@ impl SlipFromCurrent {
     }
 }
 
-/// That numbers, where they were read, are such as a log may have.
+/// Checks that numbers are in the range of a log's column, or NaN where nothing was read.
 fn check(quantity: Quantity, values: &[f64]) -> PyResult<()> {
     let column = COLUMNS.iter().find(|column| column.name == quantity.name);
     column.map_or(Ok(()), |column| check_or_nan(quantity.name, values, &column.range))

@@ -45,7 +45,7 @@ pub(crate) fn pool(_under_pythons_lock: Python<'_>) -> PyResult<Arc<ThreadPool>>
 /// Computes without Python's lock; parallel parts run on the threads of this process.
 ///
 /// # Errors
-/// As [`pool`].
+/// The same as [`pool`].
 pub(crate) fn detached<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     let pool = pool(py)?;
     Ok(py.detach(|| pool.install(work)))

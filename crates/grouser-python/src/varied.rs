@@ -15,7 +15,7 @@ pub(crate) struct VariedKeys {
 
 /// One of them.
 struct VariedKey {
-    /// As the caller has it: `soil.cohesion_kpa`.
+    /// Name of the key, as the caller gives it: `soil.cohesion_kpa`.
     name: String,
     /// In each of the documents.
     keys: Vec<Key>,
@@ -57,7 +57,7 @@ impl VariedKeys {
         self.keys.is_empty()
     }
 
-    /// That all numbers are in their ranges, or NaN.
+    /// Checks that all numbers are in their ranges, or NaN.
     ///
     /// * `document_of`: the document that an entry belongs to
     ///
@@ -104,7 +104,7 @@ pub(crate) fn numbers(all: &Bound<'_, PyDict>, name: &str, count: usize) -> PyRe
     Ok(values)
 }
 
-/// That every key was taken.
+/// Checks that every key was taken.
 ///
 /// * `known`: what keys may start with
 ///

@@ -24,7 +24,7 @@ use crate::{errors, threads};
 
 /// Wheels between two checks for signals, to begin with: a part of a second for the slowest model.
 const FIRST_BATCH: usize = 64;
-/// As many at most: their rows stay in the processor's memory.
+/// Wheels between two checks, at most: their rows stay in the processor's memory.
 const LARGEST_BATCH: usize = 1 << 13;
 /// How long a batch should take, at least and at most.
 const BATCH_TIME: RangeInclusive<Duration> = Duration::from_millis(50)..=Duration::from_millis(200);

@@ -52,7 +52,7 @@ pub(crate) mod key {
     pub(crate) const ANGULAR_UNIT: u16 = 2054;
     pub(crate) const ELLIPSOID: u16 = 2056;
     pub(crate) const VERTICAL_UNIT: u16 = 4099;
-    /// A value that is none of the register's.
+    /// A value that is not in the register.
     pub(crate) const USER_DEFINED: u16 = 32767;
 }
 
@@ -194,7 +194,7 @@ impl Keys {
     }
 
     fn system(self) -> CoordinateSystem {
-        /// Of the directory, and of its keys: GeoTIFF 1.1.
+        /// Version of the directory and of its keys: GeoTIFF 1.1.
         const VERSION: [u16; 3] = [1, 1, 1];
         let mut directory = VERSION.to_vec();
         directory.push(short(self.entries.len()));

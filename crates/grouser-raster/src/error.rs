@@ -147,7 +147,7 @@ pub enum Fault {
         /// What they are.
         samples: String,
     },
-    /// A header of `.npy` that is none.
+    /// An invalid header of `.npy`.
     #[error(
         "its header is not one of .npy: {problem}\nhint: numpy.save(FILE, heights.astype(\"float32\")) writes it anew"
     )]

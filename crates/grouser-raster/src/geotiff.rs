@@ -158,8 +158,8 @@ fn chosen_band(bands: usize, options: &ReadOptions) -> Result<usize, Fault> {
     }
 }
 
-/// That bytes are in an order that is read as GDAL means it: its LERC has the bytes of big-endian files
-/// exchanged before they are compressed, and the decoder does not exchange them back.
+/// Checks that bytes are in an order that is read as GDAL means it: its LERC exchanges the bytes of
+/// big-endian files before it compresses them, and the decoder does not exchange them back.
 fn check_order(tiff: &TiffFile, ifd: &Ifd) -> Result<(), Fault> {
     const LERC: u16 = 34887;
     if tiff.byte_order() == ByteOrder::LittleEndian || ifd.compression() != LERC {
@@ -169,7 +169,7 @@ fn check_order(tiff: &TiffFile, ifd: &Ifd) -> Result<(), Fault> {
     Err(Fault::Tiff { problem })
 }
 
-/// That cells are real numbers, not colours.
+/// Checks that cells are real numbers, not colours.
 fn check_samples(ifd: &Ifd, content: Content) -> Result<(), Fault> {
     /// Sample formats of complex numbers, of whole and of real parts.
     const COMPLEX: [u16; 2] = [5, 6];
@@ -259,7 +259,7 @@ impl Blocks {
     }
 }
 
-/// That a tile is not far larger than the image: it is decoded as a whole.
+/// Checks that a tile, which is decoded as a whole, is not far larger than the image.
 fn check_block(ifd: &Ifd, cells: usize) -> Result<(), Fault> {
     /// Cells of a tile, however small the image.
     const USUAL: u64 = 1 << 22;

@@ -187,7 +187,8 @@ fn going_on_mends_manifest_and_study() {
     assert!(shard(&path, 6).exists());
 }
 
-/// As it was written before manifests had a hash: readers refuse it, going on checks all and renews it.
+/// A manifest as it was written before manifests had a hash: readers refuse it, going on checks all
+/// and renews it.
 #[test]
 fn manifests_without_a_hash_are_renewed() {
     let (_place, path, study) = whole();

@@ -151,9 +151,9 @@ pub enum StoreError {
     OtherDigest {
         /// The folder.
         folder: PathBuf,
-        /// As the manifest has it.
+        /// The digest that the manifest has.
         recorded: String,
-        /// As it is.
+        /// The digest of the shards as they are.
         found: String,
     },
     /// A column that the campaign does not have.
@@ -189,9 +189,9 @@ pub enum ShardFault {
         "the file has {bytes} bytes, more than the {most} that a shard of this campaign may have"
     )]
     TooLarge {
-        /// As it is.
+        /// Bytes of the file.
         bytes: u64,
-        /// As it may be.
+        /// The most bytes that it may have.
         most: u64,
     },
     /// It is a shard of another study, another version, or has another number.
@@ -200,9 +200,9 @@ pub enum ShardFault {
     /// It has too few or too many rows.
     #[error("the file has {found} rows, it should have {expected}")]
     Rows {
-        /// As it is.
+        /// Rows of the file.
         found: u64,
-        /// As it should be.
+        /// Rows that it should have.
         expected: u64,
     },
 }

@@ -51,7 +51,7 @@ impl Folder {
     /// The same, with progress: how many of the present shards are checked, and of how many.
     ///
     /// # Errors
-    /// As [`open`](Self::open).
+    /// The same as [`open`](Self::open).
     pub fn open_watched(
         path: &Path,
         study: &Study,
@@ -176,7 +176,7 @@ impl Folder {
     ///
     /// # Errors
     /// [`StoreError::Shard`] if its file is not that of a shard that belongs here, or
-    /// [`StoreError::Disk`] if there is none; the shard is missing then as before.
+    /// [`StoreError::Disk`] if there is no file; the shard is missing then as before.
     pub fn adopt(&mut self, shard: u64) -> Result<(), StoreError> {
         if !self.missing.contains(shard) {
             return Ok(());
@@ -231,7 +231,7 @@ impl Folder {
     /// The same, giving some columns of every shard away on the way: all files are read for the digest.
     ///
     /// # Errors
-    /// As [`finish`](Self::finish), and [`StoreError::NoColumn`].
+    /// The same as [`finish`](Self::finish), and [`StoreError::NoColumn`].
     pub fn finish_reading(
         &mut self,
         columns: &[&str],
@@ -282,8 +282,8 @@ fn lock(path: &Path) -> Result<Option<File>, StoreError> {
     }
 }
 
-/// That a folder without a manifest has nothing in it but what a campaign leaves that was killed
-/// before it had written one.
+/// Checks that a folder without a manifest has nothing in it but what a campaign leaves that was
+/// killed before it had written one.
 fn check_strangers(path: &Path) -> Result<(), StoreError> {
     let names = place::names(path)?;
     if names.iter().any(|name| name == manifest::FILE) {
@@ -297,7 +297,7 @@ fn check_strangers(path: &Path) -> Result<(), StoreError> {
     }
 }
 
-/// That a folder has this campaign, of this version and part.
+/// Checks that a folder has this campaign, of this version and part.
 fn check_identity(
     path: &Path,
     manifest: &Manifest,

@@ -35,7 +35,7 @@ impl Identity {
 /// The description of a column.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ColumnRecord {
-    /// As documents and results name it.
+    /// Name of the column in documents and results.
     pub name: String,
     /// `float`, `whole` or `text`.
     pub kind: String,

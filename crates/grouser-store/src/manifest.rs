@@ -55,7 +55,7 @@ pub struct Manifest {
     pub digest: Option<String>,
     /// When it was computed.
     pub sessions: Vec<Session>,
-    /// Of the file; zeros in memory.
+    /// SHA-256 of the file; zeros in memory.
     #[serde(rename = "manifest_sha256", default = "zeros")]
     own_sha256: String,
 }
@@ -76,7 +76,7 @@ pub struct Session {
 }
 
 impl Manifest {
-    /// That of a campaign of which nothing is computed yet.
+    /// The manifest of a campaign of which nothing is computed yet.
     #[must_use]
     pub fn new(study: &Study, part: Option<Part>) -> Self {
         Self {
@@ -96,13 +96,13 @@ impl Manifest {
         }
     }
 
-    /// That of a folder, if it has one.
+    /// Reads the manifest of a folder, if it has one.
     pub(crate) fn read(folder: &Path) -> Result<Option<Self>, StoreError> {
         Self::bytes(folder)?.map(|bytes| Self::parse(&bytes, &folder.join(FILE))).transpose()
     }
 
-    /// That of a folder as it was written before manifests had a hash, if it is such a one. Nothing vouches
-    /// for it.
+    /// Reads the manifest of a folder, if it was written before manifests had a hash. Nothing
+    /// confirms its content.
     pub(crate) fn read_old(folder: &Path) -> Result<Option<Self>, StoreError> {
         let Some(bytes) = Self::bytes(folder)? else { return Ok(None) };
         let old = serde_json::from_slice(&bytes).ok();

@@ -19,7 +19,7 @@ impl Part {
     }
 }
 
-/// As the flag is written.
+/// A part is written as on the command line.
 impl std::fmt::Display for Part {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}/{}", self.index, self.of)

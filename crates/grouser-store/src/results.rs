@@ -66,7 +66,7 @@ impl Results {
         Ok(Self { path: path.to_owned(), manifest, study, missing })
     }
 
-    /// That the manifest is that of a study, in all that it says of it.
+    /// Checks that the manifest is that of a study, in everything that it records of the study.
     ///
     /// # Errors
     /// [`StoreError::StudyChanged`] if the study is another one, [`StoreError::Manifest`] if the manifest says
@@ -106,7 +106,7 @@ impl Results {
         &self.missing
     }
 
-    /// That all shards are there.
+    /// Checks that all shards are there.
     ///
     /// # Errors
     /// [`StoreError::Unfinished`].
@@ -145,7 +145,7 @@ impl Results {
     /// The digest, computed from the files.
     ///
     /// # Errors
-    /// As [`read`](Self::read), and [`StoreError::Unfinished`] if a shard is missing.
+    /// The same as [`read`](Self::read), and [`StoreError::Unfinished`] if a shard is missing.
     pub fn digest(&self) -> Result<Finished, StoreError> {
         self.require_all()?;
         self.read(&[], &mut |_, _| {})
@@ -173,7 +173,7 @@ impl Results {
     /// Columns of all shards that are there, in the order of the runs, and the digest.
     ///
     /// # Errors
-    /// As [`read`](Self::read), and [`StoreError::NoColumn`].
+    /// The same as [`read`](Self::read), and [`StoreError::NoColumn`].
     pub fn columns(&self, names: &[&str]) -> Result<(Vec<Values>, Finished), StoreError> {
         let mut all: Vec<Values> = Vec::new();
         let mut fits = true;

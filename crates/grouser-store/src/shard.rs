@@ -34,7 +34,7 @@ const STUDY_KEY: &str = "grouser.study_sha256";
 const VERSION_KEY: &str = "grouser.version";
 const SHARD_KEY: &str = "grouser.shard";
 const COLUMNS_KEY: &str = "grouser.columns";
-/// Of the file with zeros in place of this value.
+/// Key of the SHA-256 of the file with zeros in place of this value.
 const HASH_KEY: &str = "grouser.file_sha256";
 /// Digits of a SHA-256.
 const HASH_DIGITS: usize = 64;
@@ -209,7 +209,7 @@ pub struct Checked {
     rows: usize,
 }
 
-/// That a file is a shard of a study, to the last bit as it was written.
+/// Checks that a file is a shard of a study, to the last bit as it was written.
 ///
 /// # Errors
 /// [`ShardFault`], whatever is wrong first.
@@ -218,7 +218,7 @@ pub fn check(study: &Study, shard: u64, file: &[u8]) -> Result<(), ShardFault> {
 }
 
 impl Checked {
-    /// That a file is the shard that it should be, to the last bit as it was written.
+    /// Checks that a file is the shard that it should be, to the last bit as it was written.
     ///
     /// # Errors
     /// [`ShardFault`], whatever is wrong first.
@@ -272,7 +272,7 @@ impl Checked {
     }
 }
 
-/// That a file's hash of itself is right.
+/// Checks that a file's hash of itself is right.
 fn check_hash(file: &[u8]) -> Result<(), ShardFault> {
     let place = hash_place(file).ok_or(ShardFault::Damaged)?;
     let (before, rest) = file.split_at(place);

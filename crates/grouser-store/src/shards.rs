@@ -137,7 +137,7 @@ impl std::fmt::Display for ShardSet {
 mod tests {
     use super::*;
 
-    /// As sets of single numbers, whatever the order in which they go.
+    /// Ranges agree with sets of single numbers, in whatever order shards are removed.
     #[test]
     fn ranges_are_the_sets_that_they_stand_for() {
         for part in [None, Some(Part { index: 2, of: 3 }), Some(Part { index: 30, of: 30 })] {

@@ -25,7 +25,7 @@ pub struct Study {
 }
 
 impl Study {
-    /// That of a campaign.
+    /// The study of a campaign.
     #[must_use]
     pub fn of(campaign: &Campaign) -> Self {
         let text = campaign.resolved().to_owned();

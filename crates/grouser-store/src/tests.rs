@@ -159,7 +159,7 @@ fn a_folder_goes_on_where_it_was_left() {
     assert_eq!(folder.manifest().sessions.len(), 4);
 }
 
-/// As a worker does that shares the disk.
+/// A worker that shares the disk puts its shards in their places like this.
 #[test]
 fn a_shard_that_is_in_its_place_already_is_adopted() {
     let (study, place) = (study("a = 1"), tempfile::tempdir().unwrap());

@@ -259,7 +259,8 @@ fn without_zero(word: &str) -> String {
 mod tests {
     use super::*;
 
-    /// A map of heights stays one, but for a few bytes: text would lose every byte that is none of UTF-8.
+    /// A map of heights stays one, but for a few bytes: text would lose every byte that is not
+    /// UTF-8.
     #[test]
     fn binary_files_are_damaged_in_few_bytes() {
         let content: Vec<u8> = (0..2_000_u32).flat_map(|cell| (cell << 23).to_be_bytes()).collect();

@@ -56,7 +56,7 @@ pub(super) enum Fault {
         place: String,
         character: char,
     },
-    /// What was asked for as JSON is none.
+    /// The answer should be JSON and is not.
     NotJson(String),
     /// A drawing is no XML, or has markup from the data.
     Markup {

@@ -19,7 +19,7 @@ use crate::output::rows::rounded_down;
 pub(crate) struct Bands {
     /// On each slope that was asked for.
     pub(crate) asked: Vec<SlopeBand>,
-    /// Of the steepest slope: one row.
+    /// Quantiles and probabilities of the steepest slope: one row.
     pub(crate) limit: Table,
     /// Samples whose steepest slope was not found.
     not_found: usize,

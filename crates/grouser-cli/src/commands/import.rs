@@ -42,7 +42,7 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
     }
 }
 
-/// That the new file can be read, and what is in it.
+/// Checks that the new file can be read, and prints what is in it.
 fn check(label: &str, text: &str, limits: Limits) -> Result<(), Failure> {
     let label = format!("{label} as imported");
     // Numbers that are converted may have more digits, and so more bytes.

@@ -60,7 +60,7 @@ fn opened(args: &ImportTelemetryArgs, path: &Path, rover: &Rover) -> Result<Tele
             Err(error) => error,
         };
         let (what, topics) = match error.problem() {
-            // What was chosen already and is asked again is none of the topics.
+            // A choice that was made already and is asked for again is not one of the topics.
             Problem::Ambiguous { what, topics } if !choices.contains_key(what) => (what, topics),
             _ => return Err(error.into()),
         };

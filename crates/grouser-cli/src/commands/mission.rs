@@ -67,7 +67,7 @@ enum Results<'a> {
 }
 
 impl Answered {
-    /// That nothing is extrapolated, where that is asked for.
+    /// Checks that nothing is extrapolated, where that is asked for.
     fn check(&self, strict: &StrictArgs) -> Result<(), Failure> {
         if !strict.strict {
             return Ok(());

@@ -43,7 +43,7 @@ impl<'a> Place<'a> {
         Ok(())
     }
 
-    /// That the system could not write it.
+    /// The failure of a file that the system could not write.
     pub(super) fn failed(&self) -> impl FnOnce(std::io::Error) -> Failure + 'a {
         Failure::at("cannot write", self.path)
     }

@@ -8,7 +8,7 @@ use crate::args::StrictArgs;
 use crate::failure::Failure;
 use crate::output::rows::Rows;
 
-/// That no row carries a flag, if that is asked for.
+/// Checks, if that is asked for, that no row carries a flag.
 ///
 /// * `rows`: the flags of each row
 /// * `table`: the same rows

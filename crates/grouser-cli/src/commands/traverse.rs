@@ -186,7 +186,7 @@ struct Results<'a> {
 
 #[derive(Serialize)]
 struct Bands<'a> {
-    /// Of the run's end and means.
+    /// Band of the run's end and means.
     band: Row<'a>,
     /// Over time.
     bands: &'a Table,

@@ -68,7 +68,7 @@ fn default_run(setting: &SettingArgs) -> Result<Scenario, Failure> {
     Ok(document::read_scenario(&Source::default_scenario(), &overrides)?.value)
 }
 
-/// That a simulated stand does what a stand can do.
+/// Checks that the trials and the noise of a simulated stand are possible.
 fn check_stand(args: &StandArgs, trials: usize) -> Result<(), Failure> {
     use document::simulated_test::{NOISE, TRIALS};
     let one = |number: f64| Numbers(vec![number]);

@@ -11,7 +11,7 @@ use tempfile::NamedTempFile;
 use crate::failure::Failure;
 use crate::interrupt;
 
-/// That a file may be written: it is not there yet, or may be replaced.
+/// Checks that a file may be written: it is not there yet, or may be replaced.
 pub(crate) fn check_new(out: &Path, may_replace: bool) -> Result<(), Failure> {
     if out.is_dir() {
         let out = escape::path(out);
@@ -40,7 +40,7 @@ pub(crate) fn check_new(out: &Path, may_replace: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// That what is to be replaced is a file: of a device or a pipe nothing would be left.
+/// Checks that what is to be replaced is a file: nothing would be left of a device or a pipe.
 pub(super) fn check_ordinary(out: &Path) -> Result<(), Failure> {
     if out.metadata().is_ok_and(|found| !found.is_file()) {
         let out = escape::path(out);

@@ -126,7 +126,7 @@ impl OutputFolder {
             .map_err(Failure::at("cannot make the folder", &place))
     }
 
-    /// That no folder stands where a file has to go, and no file where a folder has to.
+    /// Checks that no folder stands where a file has to go, and no file where a folder has to.
     fn check_room(&self) -> Result<(), Failure> {
         for (name, _) in &self.files {
             let place = self.target.join(name);

@@ -14,7 +14,7 @@ pub(crate) fn check_refused(name: &str, place: &Place, lines: &[&[&str]]) {
     assert_eq!(place.names(), before, "something was left behind");
 }
 
-/// That nothing was printed but one message; the conversation.
+/// Checks that nothing was printed but one message; returns the conversation.
 pub(crate) fn check_is_refusal(answer: &Answer, code: i32) -> String {
     let conversation = answer.conversation();
     assert_eq!(answer.code(), code, "{conversation}");
@@ -643,7 +643,7 @@ mod signals {
         }
     }
 
-    /// That the folder, if there is one, holds all of the report.
+    /// Checks that the folder, if there is one, holds all of the report.
     fn check_is_whole(place: &Place) {
         let study = place.file("study");
         if !study.exists() {

@@ -20,13 +20,13 @@ fn hostile_place() -> Place {
     place
 }
 
-/// That nothing hidden is in a text but line feeds and tabs.
+/// Checks that a text has no hidden characters but line feeds and tabs.
 fn check_shown(what: &str, text: &str) {
     let hidden = text.chars().find(|&c| is_hidden(c) && !matches!(c, '\n' | '\t'));
     assert_eq!(hidden, None, "{what}");
 }
 
-/// That no data ends an element or begins one.
+/// Checks that no data ends an element or begins one.
 fn check_markup(what: &str, text: &str) {
     check_shown(what, text);
     for part in ["</script>", "<b>", "]]>", "&\"", "1+1 \u{1b}"] {

@@ -52,7 +52,7 @@ fn a_file_is_replaced_with_force_alone() {
     assert!(place.read("mine.toml").contains("name = \"Mine\""));
 }
 
-/// Nothing is written where an answer is none, and the message says which.
+/// Nothing is written where an answer is invalid, and the message says which.
 #[test]
 fn hostile_answers_write_nothing() {
     let place = Place::new();

@@ -8,7 +8,7 @@ use crate::bad_input::check_is_refusal;
 use crate::maps::heights;
 use crate::program::{Place, number};
 
-/// Areas that are none, and the words of the answer.
+/// Invalid areas, and the words of the answer.
 fn no_areas() -> [(&'static str, Value, &'static str); 12] {
     let ring = [[7005, -301], [7009, -301], [7009, -294], [7005, -294], [7005, -301]];
     let tie = [[7006, -299], [7008, -297], [7008, -299], [7006, -297], [7006, -299]];

@@ -57,15 +57,15 @@ pub fn settle(
     settle_wheel(&LoadedWheel { model, contact, load, guess: None })
 }
 
-/// As [`settle`], from a sinkage [m] near which the answer is expected: that of the same wheel a
-/// moment ago.
+/// Does what [`settle`] does, from a sinkage [m] near which the answer is expected: the sinkage of
+/// the same wheel a moment ago.
 ///
 /// The answer is the same whatever the guess, but for its last digits: F_z and load agree to 1e-12.
 /// A guess is therefore an input like any other where results have to repeat bit for bit. Where
 /// several sinkages carry the load, the guess may decide which is found.
 ///
 /// # Errors
-/// As [`settle`].
+/// The same as [`settle`].
 pub fn settle_from(
     model: &dyn WheelSoilModel,
     contact: &Contact,
@@ -75,11 +75,11 @@ pub fn settle_from(
     settle_wheel(&LoadedWheel { model, contact, load, guess: Some(guess) })
 }
 
-/// As [`settle`], with how often the model was evaluated, for F_z alone or for all forces, whatever came
-/// of it: what the answer cost.
+/// Does what [`settle`] does; returns also how often the model was evaluated, for F_z alone or for
+/// all forces, whatever came of it: what the answer cost.
 ///
 /// # Errors
-/// As [`settle`].
+/// The same as [`settle`].
 pub fn settle_counted(
     model: &dyn WheelSoilModel,
     contact: &Contact,

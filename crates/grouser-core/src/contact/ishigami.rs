@@ -37,7 +37,7 @@ impl Default for Ishigami {
 }
 
 impl Ishigami {
-    /// As many nodes as an error below 1e-6 of the load takes.
+    /// The model with as many nodes as an error below 1e-6 of the load needs.
     pub const DEFAULT: Self = Self { numerics: Numerics::DEFAULT };
 
     /// The same model with four times as many nodes as the finest rule, to measure the error of the

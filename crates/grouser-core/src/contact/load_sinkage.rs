@@ -169,7 +169,7 @@ pub(super) struct Arc {
 pub(super) struct Reaction {
     pub patch: ContactPatch,
     pub sums: StressSums,
-    /// Of a side wall with level soil, or with what the bulldozing law piles up.
+    /// Load on a side wall, with level soil or with what the bulldozing law piles up.
     pub side_wall: SideWallLoad,
     pub max_normal_stress: f64,
 }

@@ -52,7 +52,7 @@ impl Default for SmallWheel {
 }
 
 impl SmallWheel {
-    /// As many nodes as in the classical model.
+    /// The model with as many nodes as the classical one has.
     pub const DEFAULT: Self = Self { numerics: Numerics::DEFAULT };
 
     /// The same model with four times as many nodes as the finest rule, to measure the error of the

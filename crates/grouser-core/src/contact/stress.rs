@@ -112,7 +112,7 @@ pub(super) struct Response {
 }
 
 impl Response {
-    /// That of the classical model.
+    /// Returns the response in the classical model.
     pub(super) fn classical(contact: &Contact) -> Self {
         Self {
             sinkage_growth: 1.0,
@@ -400,7 +400,7 @@ pub struct StressField {
     /// The arc in contact.
     pub patch: ContactPatch,
     law: StressLaw,
-    /// Of the point at which the rim enters the soil: sin θ_f [-] and 1 − cos θ_f [-].
+    /// Point at which the rim enters the soil: sin θ_f [-] and 1 − cos θ_f [-].
     entry_sin: f64,
     entry_height: f64,
     /// 1 over the depth of the pressure-sinkage law [1/radii].

@@ -12,7 +12,8 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, LN_2, PI, TAU};
 /// larger than that of its own last digit.
 #[must_use]
 pub fn sin_cos(x: f64) -> (f64, f64) {
-    /// As many quarter turns as the leading parts of π/2 can be multiplied by without rounding.
+    /// Number of quarter turns by which the leading parts of π/2 can be multiplied without
+    /// rounding.
     const FAR: f64 = 1e6;
     let x = if x.abs() > FAR { x % TAU } else { x };
     /// A sum of this and a number below 2⁵¹ ends in the bits of the nearest whole number, the even

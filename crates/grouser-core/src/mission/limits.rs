@@ -60,7 +60,7 @@ impl Limits {
     /// * `stops`: in the order in which they are asked; of two that are passed at one look, the first counts
     ///
     /// # Errors
-    /// [`ParameterError`] for a limit that is none.
+    /// [`ParameterError`] for an invalid limit.
     pub fn new(run: &Run, stops: &[Stop]) -> Result<Self, ParameterError> {
         stops.iter().try_for_each(|stop| stop.check(&run.scenario().rover))?;
         Ok(Self::begun(run, run.state().rover().position, stops.to_vec()))
@@ -142,7 +142,7 @@ impl Limits {
         })
     }
 
-    /// That the rover stops here at a limit.
+    /// Returns the stop of a rover that passes a limit here.
     pub(super) fn stopped(&self, stop: Stop, value: f64) -> Stopped {
         let (cause, kind) = (Cause::Limit { stop, value }, stop.limited.row().kind);
         Stopped { cause, kind, after: self.odometer.ground() }
@@ -153,7 +153,7 @@ impl Limits {
         &self.odometer
     }
 
-    /// As [`Odometer::lay_anew`].
+    /// Calls [`Odometer::lay_anew`].
     pub(super) fn lay_anew(&mut self, since: f64) {
         self.odometer.lay_anew(since);
     }

@@ -79,7 +79,7 @@ impl PathRun {
     /// A rover that is to follow a path from where its run has come to.
     ///
     /// # Errors
-    /// [`ParameterError`] for limits that are none, and an end that is never near enough.
+    /// [`ParameterError`] for invalid limits, and an end that is never near enough.
     pub fn new(run: Run, task: PathTask) -> Result<Self, ParameterError> {
         positive("nearness to the end of a path [m]", task.within)?;
         let limits = Limits::new(&run, &task.stops)?;
@@ -97,7 +97,7 @@ impl PathRun {
     /// * `rim_speeds`, `span`: as in [`Run::step`]
     ///
     /// # Errors
-    /// As [`Run::step`].
+    /// The same as [`Run::step`].
     pub fn step(&mut self, rim_speeds: &[f64], span: f64) -> Result<(), RunError> {
         if self.outcome().is_some() {
             return Ok(());

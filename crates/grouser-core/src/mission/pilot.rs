@@ -105,7 +105,7 @@ pub(super) enum Path {
 }
 
 impl Path {
-    /// Of the manoeuvre of a leg that begins here.
+    /// Returns the path of a leg's manoeuvre that begins here.
     fn of_leg(leg: &Leg, scenario: &Scenario, state: &RoverState) -> Self {
         if leg.heading == Heading::Contour
             && matches!(leg.manoeuvre, Manoeuvre::Drive { .. })

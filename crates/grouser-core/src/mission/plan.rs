@@ -37,7 +37,7 @@ pub struct Mission {
     pub scenario: Scenario,
     /// The legs, in their order.
     pub legs: Vec<Leg>,
-    /// Limits of every leg that has none of its own for the same number.
+    /// Limits of every leg that has no limit of its own for the same number.
     pub stops: Vec<Stop>,
     /// What the rover knows of where it is; without it, all.
     pub sensors: Option<Sensors>,
@@ -259,7 +259,7 @@ impl Leg {
 }
 
 impl Leg {
-    /// That wheels can be steered as the leg needs.
+    /// Checks that wheels can be steered as the leg needs.
     fn check_steering(&self, rover: &Rover) -> Result<(), ParameterError> {
         let is_ackermann = self.steering == Steering::Ackermann;
         let is_crab = matches!(self.heading, Heading::Crab { .. });
@@ -289,7 +289,7 @@ impl Leg {
 }
 
 impl Mission {
-    /// That there can be such a mission.
+    /// Checks that the mission is valid.
     ///
     /// # Errors
     /// [`PlanError`] for the first leg that is wrong.

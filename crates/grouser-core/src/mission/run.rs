@@ -39,7 +39,7 @@ type Watch<'w> = &'w mut dyn FnMut(&[Record]) -> bool;
 /// Why a mission could not be computed. (What a rover does is an outcome, not an error.)
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MissionError {
-    /// A leg is none.
+    /// A leg is invalid, or the mission is.
     #[error(transparent)]
     Plan(#[from] PlanError),
     /// The motion could not be computed.
@@ -82,7 +82,7 @@ impl MissionRun {
     /// Drives the next leg; none if the mission is over.
     ///
     /// # Errors
-    /// As [`to_end`](Self::to_end).
+    /// The same as [`to_end`](Self::to_end).
     pub fn next_leg(&mut self) -> Result<Option<&LegReport>, RunError> {
         self.next_leg_watched(&mut |_| false)
     }
@@ -93,7 +93,7 @@ impl MissionRun {
     /// * `watch`: gets the records since it last took them, some at a time
     ///
     /// # Errors
-    /// As [`to_end`](Self::to_end).
+    /// The same as [`to_end`](Self::to_end).
     pub fn next_leg_watched(&mut self, watch: Watch<'_>) -> Result<Option<&LegReport>, RunError> {
         if self.is_over {
             return Ok(None);

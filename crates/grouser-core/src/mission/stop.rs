@@ -74,7 +74,7 @@ pub enum Kind {
     Predictive,
 }
 
-/// That a rover stopped, and why.
+/// A stop of a rover, and its cause.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stopped {
     /// What made it stop.
@@ -224,10 +224,10 @@ impl Stop {
         Self { limited, above, over: 1.0, then: Then::End }
     }
 
-    /// That it can be passed by a rover: what it limits has to be known of it.
+    /// Checks that a limit applies to a rover: what it limits has to be known of the rover.
     ///
     /// # Errors
-    /// [`ParameterError`] where it is not.
+    /// [`ParameterError`] where it is not known.
     fn check_on(&self, rover: &Rover) -> Result<(), ParameterError> {
         let winding = |mount: &Mount| mount.unit.motor.is_some_and(|it| it.winding.is_some());
         let [name, expected] = match self.limited {

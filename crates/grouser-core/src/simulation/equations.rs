@@ -49,7 +49,7 @@ pub struct Equations<'a> {
 /// What acts on a rover in motion.
 struct Acting {
     wheels: Vec<WheelReaction>,
-    /// That of the weight, in the body frame [N].
+    /// Pull of the weight, in the body frame [N].
     pull: Vec2,
     /// The soil's force [N] and moment [N·m], in the body frame.
     soil: (Vec2, f64),
@@ -237,7 +237,7 @@ impl<'a> Equations<'a> {
     /// The rates at a state, and the wheels there.
     ///
     /// # Errors
-    /// As [`rates`](Self::rates).
+    /// The same as [`rates`](Self::rates).
     pub fn evaluate(&self, state: &RoverState) -> Result<Evaluation, ReactionError> {
         self.evaluate_with(state, self.rim_speeds, &self.wheel_speeds, Search::Anew)
     }
@@ -492,8 +492,9 @@ impl<'a> Equations<'a> {
         &self.wheel_speeds
     }
 
-    /// As [`evaluate`](Self::evaluate), for a solver: near the last attempt, which differs in last digits. It may try
-    /// states that no rover can have, so the reason of a failure is kept for when the solver gives up.
+    /// Does what [`evaluate`](Self::evaluate) does, for a solver: sought near the last attempt, so
+    /// that the answer differs in its last digits. A solver may try states that no rover can have,
+    /// so the reason of a failure is kept for when it gives up.
     pub(super) fn attempt(&self, state: &RoverState) -> Option<Evaluation> {
         if self.is_spent() {
             return None;
@@ -526,7 +527,8 @@ impl<'a> Equations<'a> {
         Some((rates, changes))
     }
 
-    /// As [`attempt`](Self::attempt), for wheels that turn at other speeds than they are set to.
+    /// Does what [`attempt`](Self::attempt) does, for wheels that turn at other speeds than they
+    /// are set to.
     ///
     /// * `rim_speeds`: of each wheel [m/s]
     pub(super) fn attempt_at(&self, state: &RoverState, rim_speeds: &[f64]) -> Option<Evaluation> {

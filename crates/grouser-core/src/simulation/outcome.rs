@@ -59,7 +59,7 @@ pub enum PowerLost {
     BelowCutoff {
         /// The voltage [V].
         voltage: f64,
-        /// That at which they switch off [V].
+        /// Voltage at which the electronics switch off [V].
         cutoff: f64,
     },
     /// No current of it has the power that is drawn.

@@ -23,8 +23,8 @@ impl Point {
         point
     }
 
-    /// That the motors have done no work so far. Of wheels whose speed depends on their load a record adds the spin, which
-    /// is therefore taken off here.
+    /// Sets the work of the motors so far to zero. For wheels whose speed depends on their load, a
+    /// record adds the spin, which is therefore taken off here.
     pub(super) fn start_work(&mut self, rover: &Rover) {
         self.motors = self.turning.map_or(0.0, |turning| {
             let wheel_speeds: Vec<f64> = rover.wheel_speeds(turning.rim_speeds()).collect();

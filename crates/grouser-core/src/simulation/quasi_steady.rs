@@ -259,7 +259,7 @@ impl Stretch {
         Ok(Self { nodes, width, reach: 0.0 })
     }
 
-    /// That velocities can follow the steady state as it moves along the stretch.
+    /// Checks that velocities can follow the steady state as it moves along the stretch.
     fn check(
         &self,
         solver: &SteadySolver<'_, '_>,

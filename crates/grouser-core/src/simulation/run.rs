@@ -79,7 +79,7 @@ impl Run {
     /// The same with wheels that turn as a controller says.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// The same as [`new`](Self::new).
     pub fn with_controller(
         scenario: &Scenario,
         controller: &mut dyn Controller,
@@ -133,7 +133,7 @@ impl Run {
     /// [records](Self::records) until there are known.
     ///
     /// # Errors
-    /// As [`to_end`](Self::to_end).
+    /// The same as [`to_end`](Self::to_end).
     pub fn run_to_end(&mut self) -> Result<(), RunError> {
         let (mut drive, duration) = (self.scenario.drive.clone(), self.scenario.duration);
         // At the start the wheels turn as it says already.
@@ -141,10 +141,11 @@ impl Run {
         self.lead(&mut drive, [duration, duration], is_asked, Due::Samples)
     }
 
-    /// As [`to_end`](Self::to_end), with records of start and end alone: what a run costs beside them is its motion.
+    /// Does what [`to_end`](Self::to_end) does, with records of start and end alone: what a run
+    /// costs beside them is its motion.
     ///
     /// # Errors
-    /// As [`to_end`](Self::to_end).
+    /// The same as [`to_end`](Self::to_end).
     pub fn to_outcome(self) -> Result<Trajectory, RunError> {
         let end = Due::At(self.scenario.duration);
         self.into_trajectory(end)
@@ -168,7 +169,7 @@ impl Run {
         self.lead(controller, [until, until], true, Due::Samples)
     }
 
-    /// As [`advance`](Self::advance), without a record of where that leads.
+    /// Does what [`advance`](Self::advance) does, without a record of where that leads.
     ///
     /// * `kept_until`: until when a controller that is asked once expects to keep its speeds [s]
     pub(crate) fn advance_unrecorded(
@@ -256,7 +257,7 @@ impl Run {
     /// keep them to its end. A rover whose [`outcome`](Self::outcome) is known stays as it is: its run
     /// has ended.
     ///
-    /// Of steps nothing is recorded but where the last one led: [`now`](Self::now).
+    /// Steps are not recorded, except where the last one led: [`now`](Self::now).
     ///
     /// * `rim_speeds`: ω r_s of each wheel [m/s], in the mounts' order, before what differs
     ///   [by wheel](Scenario::by_wheel)
@@ -474,7 +475,7 @@ impl Run {
         self.records.last().is_some_and(|last| is_same_time(last.time, self.state.time))
     }
 
-    /// That the run goes on from where it was.
+    /// Forgets the record of where the run was: it goes on from there.
     fn forget_now(&mut self) {
         self.now.take();
         self.all.take();
@@ -522,7 +523,7 @@ fn ask(
     Ok(commanded)
 }
 
-/// That there is a finite speed for each wheel.
+/// Checks that there is a finite speed for each wheel.
 fn check(rim_speeds: &[f64], scenario: &Scenario) -> Result<(), ParameterError> {
     DriveLaw::ConstantEach(rim_speeds.to_vec()).check(&scenario.rover)
 }

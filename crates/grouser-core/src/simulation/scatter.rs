@@ -9,7 +9,7 @@ use crate::terrain::{SoilField, SoilScatter};
 /// and motors that they describe a run has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scatter {
-    /// Of the soil, from place to place.
+    /// Scatter of the soil, from place to place.
     pub soil: SoilScatter,
     /// Standard deviation of the logarithm of each wheel's speed over the commanded one [-]; it stays over a run.
     pub speed: f64,
@@ -63,7 +63,7 @@ impl Scatter {
         std::iter::repeat_with(move || elementary::exp(deviation * random.normal()))
     }
 
-    /// That it can be.
+    /// Checks that no deviation is negative, and that the correlation length is positive.
     ///
     /// # Errors
     /// [`ParameterError`] for the first value that is wrong.

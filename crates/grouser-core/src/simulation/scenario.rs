@@ -144,8 +144,8 @@ pub enum Approach {
 /// What carries the motion through time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Integrator {
-    /// Of order 5 with steps of its own, explicit while slip settles within milliseconds, and implicit
-    /// in the minutes that follow.
+    /// Method of order 5 with steps of its own, explicit while slip settles within milliseconds,
+    /// and implicit in the minutes that follow.
     Adaptive {
         /// Relative tolerance of a step [-].
         tolerance: f64,
@@ -181,7 +181,8 @@ pub enum Motion {
 /// Speed of a rolling start over the rim's speed [-]. Source: ours, a light slip.
 pub const ROLLING_SHARE: f64 = 0.95;
 
-/// That the complete load transfer has the wheels' own moments in it.
+/// Returns the error of neglected moments: the complete load transfer has the wheels' own moments
+/// in it.
 #[must_use]
 pub fn neglected_moments() -> ParameterError {
     let name = "share of the wheels' own moments in a complete load transfer";
@@ -189,7 +190,7 @@ pub fn neglected_moments() -> ParameterError {
 }
 
 impl Scenario {
-    /// That there can be such a run.
+    /// Checks that the scenario's values are valid.
     ///
     /// # Errors
     /// [`ParameterError`] for the first value that is wrong.
@@ -259,7 +260,7 @@ impl Scenario {
     /// How far straight downhill a rover is [m] that came from a place near by.
     ///
     /// On a plane that is the way down since the origin. Where the ground bends it is the sum of the ways down the ground
-    /// under the rover; on [level](crate::terrain::ground::LEVEL) ground there is none.
+    /// under the rover; on [level](crate::terrain::ground::LEVEL) ground there is no way down.
     ///
     /// * `before`: the place [m], and how far downhill it is [m]
     #[must_use]

@@ -38,7 +38,7 @@ pub struct State {
     pub(super) steered: Option<Arc<Rover>>,
     /// Until when wheels were steered, or could have been [s].
     pub(super) steered_until: f64,
-    /// Of each wheel, when the rover was last looked at.
+    /// Slip ratio of each wheel, when the rover was last looked at.
     pub(super) slip_ratios: Vec<f64>,
     pub(super) outcome: Option<Outcome>,
     pub(super) method: Method,
@@ -48,9 +48,9 @@ pub struct State {
     pub(super) supply: Option<Supply>,
     /// What motors took at most, where someone asked for that.
     pub(super) most_taken: Option<MostTaken>,
-    /// Of the dynamic motion while the wheels keep their speeds.
+    /// History of the dynamic motion while the wheels keep their speeds.
     pub(super) history: History,
-    /// Of the quasi-steady motion so far.
+    /// What the solver keeps of the quasi-steady motion so far.
     pub(super) carried: Carried,
     /// The wheels where the motion was last evaluated.
     pub(super) near: Vec<Known>,
@@ -92,8 +92,8 @@ impl State {
         }
     }
 
-    /// That the controllers of motors have settled under the load with which a rolling start begins: nothing else is said of
-    /// a rover that is on its way.
+    /// Settles the controllers of motors under the load with which a rolling start begins: a
+    /// scenario says nothing else of a rover that is on its way.
     pub(super) fn settle_motors(&mut self, scenario: &Scenario) {
         let rolling = scenario.start.motion == Motion::Rolling;
         let Some(mut turning) = self.point.turning.filter(|_| rolling) else { return };
@@ -171,8 +171,8 @@ impl State {
         self.work
     }
 
-    /// That the rover turns from now on as the scenario prescribes, if it prescribes a turn here; whether
-    /// it does. What a jump of the yaw rate takes, its holder gives.
+    /// Turns the rover from now on as the scenario prescribes, if it prescribes a turn here;
+    /// returns whether it does. What a jump of the yaw rate takes, its holder gives.
     pub(super) fn follow_yaw(&mut self, scenario: &Scenario) -> bool {
         let Some(yaw) = scenario.yaw.as_ref().filter(|yaw| yaw.turns_at(self.time)) else {
             return false;
@@ -200,8 +200,8 @@ impl State {
         without_power
     }
 
-    /// That the motors' limits are as battery and windings allow, at each [`LIMIT_PERIOD`]; whether that changes what some
-    /// motor does.
+    /// Sets the motors' limits to what battery and windings allow, at each [`LIMIT_PERIOD`];
+    /// returns whether that changes what some motor does.
     pub(super) fn renew_limits(&mut self, rover: &Rover) -> bool {
         let is_due = is_multiple(self.time, LIMIT_PERIOD);
         let Some(supply) = self.supply.as_mut().filter(|_| is_due) else { return false };
@@ -218,8 +218,8 @@ impl State {
         self.history.clear();
     }
 
-    /// That wheels are steered: what follows has them so. What a hub beside its kingpin moves of the rover's energies, the
-    /// motors that steer give.
+    /// Steers the wheels from now on. What a hub beside its kingpin changes of the rover's energies
+    /// is work of the motors that steer.
     ///
     /// * `scenario`: gets the rover with its wheels as they are steered
     pub(super) fn steer(&mut self, scenario: &mut Scenario, rover: Rover) {

@@ -49,7 +49,7 @@ impl SteadyMotion {
     /// evaluations if it is near.
     ///
     /// # Errors
-    /// As for [`of`](Self::of).
+    /// The same as [`of`](Self::of).
     pub fn at_yaw(
         &self,
         ground: OnGround<'_>,

@@ -123,7 +123,7 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         Self { equations, scale: fastest, reach, memory, place: Vec2::zeros() }
     }
 
-    /// That steady states are sought at another place from now on [m].
+    /// Sets the place [m] at which steady states are sought from now on.
     pub(super) fn go_to(&mut self, place: Vec2) {
         self.place = place;
     }
@@ -144,7 +144,8 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         self.memory.clone()
     }
 
-    /// That all rims turn faster by a factor: accelerations, which depend on ratios of speeds, change as much slower.
+    /// Adapts the memory to rims that all turn faster by a factor: accelerations, which depend on
+    /// ratios of speeds, change as much slower.
     pub(super) fn scale_memory(&mut self, faster: f64) {
         if let Some(inverse) = &mut self.memory.inverse {
             *inverse *= faster;
@@ -328,8 +329,8 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         None
     }
 
-    /// That a rover settles on the steady state; the time in which it does [s]. The last answer holds
-    /// in its neighbourhood.
+    /// Checks that a rover settles on the steady state; returns the time in which it does [s]. The
+    /// last answer holds in its neighbourhood.
     pub(super) fn settling_time(&mut self, steady: &SteadyState) -> Result<f64, NotSteady> {
         /// How far that is [rad], and over the fastest rim's speed [-].
         const NEAR_YAW: f64 = 0.2;

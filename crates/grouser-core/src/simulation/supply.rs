@@ -24,7 +24,7 @@ pub struct Charge {
 /// Battery and windings on their way.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Supply {
-    /// Of each motor's winding, where it is known [°C].
+    /// Temperature of each motor's winding, where it is known [°C].
     temperatures: Vec<Option<f64>>,
     /// State of charge [-].
     charge: f64,
@@ -83,7 +83,7 @@ impl Supply {
         self.temperatures[wheel]
     }
 
-    /// That of the warmest, where some are known [°C].
+    /// Temperature of the warmest winding, where some are known [°C].
     pub(super) fn warmest(&self) -> Option<f64> {
         self.temperatures.iter().flatten().copied().reduce(f64::max)
     }
@@ -176,7 +176,8 @@ impl Supply {
         .collect()
     }
 
-    /// That the motors' limits are as the battery and their windings allow now; whether that changes what some motor does.
+    /// Sets the motors' limits to what the battery and their windings allow now; returns whether
+    /// that changes what some motor does.
     pub(super) fn renew_limits(&mut self, rover: &Rover) -> bool {
         let new = self.limits_of(rover);
         let taken = self.last.as_ref().map_or(&[][..], |last| &last.taken);

@@ -5,7 +5,7 @@ pub const MOST_WHEELS: usize = 8;
 
 /// Speed of each wheel, and what its controller remembers; or the rates of both.
 ///
-/// Of a wheel whose speed does not depend on its load it is the speed that is set.
+/// For a wheel whose speed does not depend on its load, it is the speed that is set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Turning {
     wheels: usize,

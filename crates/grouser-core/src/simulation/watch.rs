@@ -8,7 +8,8 @@ use crate::vehicle::kinematics::{rolling_velocity, wheel_velocity};
 /// Time between two looks at what becomes of the rover [s]: however rarely samples are recorded, a
 /// finding is found. Source: ours, a tenth of [`CERTAIN_AFTER`].
 pub const WATCH_PERIOD: f64 = 0.1;
-/// A finding about the motion must hold for this long [s], so that a jolt is none. Source: ours.
+/// A finding about the motion must hold for this long [s], so that a jolt does not count. Source:
+/// ours.
 pub const CERTAIN_AFTER: f64 = 1.0;
 /// Mean slip above which the wheels only dig [-]. Source: ours; Opportunity was given up for
 /// stuck at 0.9955 on 32°.

@@ -45,7 +45,7 @@ pub struct TooFast {
 }
 
 impl PrescribedYaw {
-    /// That the points are a function of time, and that a rover can turn so.
+    /// Checks that the points are a function of time, and that a rover can turn so fast.
     ///
     /// # Errors
     /// [`ParameterError`] for the first one that is wrong.

@@ -28,7 +28,8 @@ impl Compaction {
     /// None: fresh soil.
     pub const NONE: Self = Self { density: 1.0, shear_modulus: 1.0 };
 
-    /// That of the passes of wheels, by the law of [Holm1969] in the form of [SenatoreSandu2011]:
+    /// Returns the compaction after passes of wheels, by the law of [Holm1969] in the form of
+    /// [SenatoreSandu2011]:
     ///
     /// ```text
     /// ρ_p/ρ = 1 + (1 − e^(−s₀/k₁)) k₂ + k₃ n        K_p/K = 1 − (1 − e^(−s₀/k₁)) k₂ − k₃ n

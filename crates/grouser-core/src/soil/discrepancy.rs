@@ -4,8 +4,8 @@
 //! No model is exact. A calibration that says so finds, beside the soil's constants, by how much the
 //! model may still be off at each motion (Kennedy and O'Hagan 2001), and a prediction with its samples
 //! has that too. A [`Discrepancy`] is one such function for each quantity: values at
-//! [`SLIPS`] and [`SLIP_ANGLES`], blended in between. It is none by default; it comes from
-//! a calibration's samples and is not to be set by hand.
+//! [`SLIPS`] and [`SLIP_ANGLES`], blended in between. It is zero by default; it comes from a
+//! calibration's samples and is not to be set by hand.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
@@ -54,7 +54,7 @@ impl Discrepancy {
         torque: [0.0; VALUES],
     };
 
-    /// That all values are finite.
+    /// Checks that all values are finite.
     ///
     /// # Errors
     /// [`ParameterError`] for the first one that is not.

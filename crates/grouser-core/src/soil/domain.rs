@@ -60,13 +60,13 @@ impl Span {
 /// How many of a soil's values are assumed, of those that each model uses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AssumedValues {
-    /// Of `ishigami`.
+    /// Number of assumed values that `ishigami` uses.
     pub ishigami: u32,
-    /// Of `bekker`.
+    /// Number of assumed values that `bekker` uses.
     pub bekker: u32,
-    /// Of `small-wheel`.
+    /// Number of assumed values that `small-wheel` uses.
     pub small_wheel: u32,
-    /// Of `rft`.
+    /// Number of assumed values that `rft` uses.
     pub rft: u32,
 }
 
@@ -109,7 +109,7 @@ impl Domain {
         assumed_values: AssumedValues::NONE,
     };
 
-    /// That no range ends before it starts.
+    /// Checks that no range ends before it starts.
     ///
     /// # Errors
     /// [`ParameterError`] for the first that does.

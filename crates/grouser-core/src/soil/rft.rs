@@ -18,10 +18,10 @@ impl Rft {
     /// The published model on a rough wheel.
     pub const PUBLISHED: Self = Self { scale: 1.0, surface_friction_angle: None };
 
-    /// That scale and surface friction belong to a wheel on a soil.
+    /// Checks that scale and surface friction angle are within their ranges.
     ///
     /// # Errors
-    /// [`ParameterError`] for the first one that does not.
+    /// [`ParameterError`] for the first one that is not.
     pub fn check(&self) -> Result<(), ParameterError> {
         positive("scale of resistive force theory", self.scale)?;
         let Some(angle) = self.surface_friction_angle else { return Ok(()) };

@@ -30,10 +30,10 @@ impl SlopeStability {
     /// slopes under a temporary load; the depth is assumed, a few wheel diameters.
     pub const USUAL: Self = Self { factor_of_safety: 1.3, depth: 1.0 };
 
-    /// That it can be asked.
+    /// Checks that factor of safety and depth are positive.
     ///
     /// # Errors
-    /// [`ParameterError`] for the first value that is wrong.
+    /// [`ParameterError`] for the first one that is not.
     pub fn check(&self) -> Result<(), ParameterError> {
         positive("factor of safety of the slope", self.factor_of_safety)?;
         positive("depth of the sliding layer [m]", self.depth)

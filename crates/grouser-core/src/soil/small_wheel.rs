@@ -134,10 +134,10 @@ impl SmallWheel {
         wedge_share: 1.0,
     };
 
-    /// That the parameters belong to a small wheel's model.
+    /// Checks that the parameters are within the ranges of the small-wheel model.
     ///
     /// # Errors
-    /// [`ParameterError`] for the first one that does not.
+    /// [`ParameterError`] for the first one that is not.
     pub fn check(&self) -> Result<(), ParameterError> {
         let Self { sinkage, exit, interface, side_wall, mounds, wedge_share } = self;
         not_negative("sinkage growth with slip angle", sinkage.with_slip_angle)?;

@@ -74,8 +74,8 @@ impl ElevationModel {
     ///   that are not finite are missing
     ///
     /// # Errors
-    /// [`ElevationError`] if the grid is none, has not as many points as there are heights, or if no
-    /// height is known.
+    /// [`ElevationError`] if the grid is invalid, does not have as many points as there are
+    /// heights, or if no height is known.
     pub fn new(
         grid: ElevationGrid,
         heights: impl IntoIterator<Item = f64>,
@@ -100,7 +100,7 @@ impl ElevationModel {
     /// * `heights`: as for [`new`](Self::new)
     ///
     /// # Errors
-    /// As of [`new`](Self::new).
+    /// The same as [`new`](Self::new).
     pub fn above_base(
         grid: ElevationGrid,
         base: f64,

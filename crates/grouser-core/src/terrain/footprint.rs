@@ -35,7 +35,7 @@ const GRID: [(f64, f64); POINTS] = [
 ];
 
 impl Footprint {
-    /// That of a wheel.
+    /// Returns the footprint of a wheel.
     ///
     /// * `axle`: a unit vector along it, to the left, whose z points upward
     /// * `shearing_radius`, `width`: of the wheel [m]

@@ -12,8 +12,8 @@ use crate::units::{Vec2, Vec3};
 
 /// The ground of a run, of which a plane is one shape among several.
 ///
-/// As a [`Terrain`] its places are seen from where the run starts, so that the large numbers of a map's coordinates cost no
-/// precision.
+/// Its places as a [`Terrain`] are seen from where the run starts, so that the large numbers of a
+/// map's coordinates cost no precision.
 ///
 /// How high above its start is a place 3 m uphill of it, on a slope of 10° and on a hill of one's own?
 ///

@@ -144,7 +144,7 @@ impl LunarSite {
         above(self.smallest_crater()) - above(self.largest_crater)
     }
 
-    /// That there can be such a site.
+    /// Checks that the site's values are within their ranges.
     ///
     /// # Errors
     /// [`ParameterError`] for the first value that is wrong.

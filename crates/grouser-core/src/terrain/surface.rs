@@ -42,7 +42,7 @@ pub enum Surface {
 }
 
 impl Surface {
-    /// That there can be such a surface.
+    /// Checks that the surface's values are within their ranges.
     ///
     /// # Errors
     /// [`ParameterError`] for the first value that is wrong.

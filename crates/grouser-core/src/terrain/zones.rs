@@ -81,8 +81,8 @@ impl SoilZones {
     ///   soils, from 0, or [`NO_ZONE`]
     ///
     /// # Errors
-    /// [`ZonesError`] if the grid is none, has not as many points as there are zones, or for a soil that
-    /// is none.
+    /// [`ZonesError`] if the grid is invalid, does not have as many points as there are zones, or
+    /// if a soil is invalid.
     pub fn from_grid(
         grid: ElevationGrid,
         zones: Vec<u8>,
@@ -99,7 +99,7 @@ impl SoilZones {
     /// Zones of polygons; a later one covers those before it.
     ///
     /// # Errors
-    /// [`ZonesError`] for a polygon with coordinates that are not finite, and for a soil that is none.
+    /// [`ZonesError`] for a polygon with coordinates that are not finite, and for an invalid soil.
     pub fn from_polygons(polygons: &[ZonePolygon], soils: Vec<Soil>) -> Result<Self, ZonesError> {
         check(&soils)?;
         let mut named = polygons.iter().filter_map(|polygon| polygon.soil);
@@ -109,7 +109,7 @@ impl SoilZones {
         Ok(Self { map: Arc::new(Map::Polygons(PolygonZones::new(polygons)?)), soils })
     }
 
-    /// That there can be such soils.
+    /// Checks that the zones' soils are valid.
     ///
     /// # Errors
     /// [`ParameterError`] for the first value that is wrong.

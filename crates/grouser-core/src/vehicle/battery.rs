@@ -6,8 +6,9 @@
 //! E q' = −U_0 I                                   what it gives, with what is lost in it
 //! ```
 //!
-//! Of the two currents that give a power the smaller one flows. There is none above U_0²/(4 R_b): then, and where the
-//! voltage falls below that at which the electronics switch off, the rover is without power.
+//! The smaller of the two currents that give a power flows. No current gives a power above
+//! U_0²/(4 R_b): then, and where the voltage falls below that at which the electronics switch off,
+//! the rover is without power.
 
 use crate::error::{ParameterError, not_negative, positive};
 
@@ -58,7 +59,7 @@ pub struct Terminals {
 }
 
 impl Battery {
-    /// That there can be such a battery.
+    /// Checks that the battery's numbers are within their ranges.
     ///
     /// # Errors
     /// [`ParameterError`] for the first number that is out of its range.

@@ -41,7 +41,8 @@ pub struct Underside {
 }
 
 impl Underside {
-    /// That of a rover whose belly clearance is known. Wheels that are steered do not move it.
+    /// Returns the underside of a rover whose belly clearance is known. Wheels that are steered do
+    /// not move it.
     #[must_use]
     pub fn of(rover: &Rover) -> Option<Self> {
         let clearance = rover.parts().belly_clearance?;

@@ -16,7 +16,7 @@ pub enum PerWheel {
 }
 
 impl PerWheel {
-    /// That of a wheel, by its place among the mounts.
+    /// Returns the number for a wheel, by its place among the mounts.
     #[must_use]
     pub fn of(&self, wheel: usize) -> f64 {
         match self {
@@ -34,7 +34,7 @@ impl PerWheel {
         }
     }
 
-    /// That of a wheel, or the one for all at place 0, to be changed.
+    /// Returns the number for a wheel, or the one for all at place 0, to be changed.
     pub fn number_mut(&mut self, place: usize) -> Option<&mut f64> {
         match self {
             Self::All(one) if place == 0 => Some(one),
@@ -43,7 +43,7 @@ impl PerWheel {
         }
     }
 
-    /// That there is one for each wheel, if not one for all.
+    /// Checks that there is one number for each wheel, if not one for all.
     pub(super) fn check(
         &self,
         name: &'static str,
@@ -109,7 +109,7 @@ impl ByWheel {
         }
     }
 
-    /// That they fit a rover.
+    /// Checks that the numbers fit a rover.
     ///
     /// * `wheels`: how many it has
     ///

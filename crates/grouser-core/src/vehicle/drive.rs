@@ -60,7 +60,7 @@ pub struct SlipLimit {
 pub const SLIP_MARGIN: f64 = 0.2;
 
 impl DriveLaw {
-    /// That the law fits a rover.
+    /// Checks that the law fits a rover.
     ///
     /// # Errors
     /// [`ParameterError`] for speeds that are not finite, lists of another length than the rover

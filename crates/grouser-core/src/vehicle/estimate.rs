@@ -7,7 +7,8 @@ use super::parts::Inertia;
 use crate::elementary::pow;
 
 impl Inertia {
-    /// Of a uniform box about its centre [kg·m²]: a body of which only mass and size are known.
+    /// Returns the inertia of a uniform box about its centre [kg·m²], for a body of which only mass
+    /// and size are known.
     ///
     /// ```text
     /// I_xx = m (b² + h²) / 12,  I_yy = m (l² + h²) / 12,  I_zz = m (l² + b²) / 12
@@ -26,8 +27,8 @@ impl Inertia {
         }
     }
 
-    /// Of a uniform cylinder about its centre, its axis along y [kg·m²]: a wheel of which only mass and size are
-    /// known.
+    /// Returns the inertia of a uniform cylinder about its centre, its axis along y [kg·m²], for a
+    /// wheel of which only mass and size are known.
     ///
     /// ```text
     /// I_yy = m r² / 2,  I_xx = I_zz = m (3 r² + b²) / 12

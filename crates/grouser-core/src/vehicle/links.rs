@@ -47,7 +47,7 @@ impl Suspension {
         mounts.iter().filter(is_beyond).count() < 2
     }
 
-    /// That it can carry these wheels.
+    /// Checks that the suspension can carry these wheels.
     ///
     /// # Errors
     /// [`ParameterError`] for the first that is wrong.
@@ -82,7 +82,8 @@ impl Suspension {
         })
     }
 
-    /// That each link reaches from what it carries on one side of its pivot to what it carries on the other.
+    /// Checks that each link reaches from what it carries on one side of its pivot to what it
+    /// carries on the other.
     ///
     /// * `wheels`: of one side
     /// * `mounts`: all
@@ -126,7 +127,8 @@ impl Suspension {
     }
 }
 
-/// That a pivot is between what its link carries, and no further above or below it than that is apart.
+/// Checks that a pivot is between the two points that its link carries, and no further above or
+/// below them than they are apart.
 ///
 /// * `carried`: two points, (x, z) [m]
 /// * `between`: where the pivot has to be

@@ -68,7 +68,7 @@ pub struct Electrical {
 }
 
 impl Motor {
-    /// That there can be such a motor.
+    /// Checks that the motor's numbers are within their ranges.
     ///
     /// # Errors
     /// [`ParameterError`] for the first number that is out of its range.

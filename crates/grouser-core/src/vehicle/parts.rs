@@ -83,7 +83,7 @@ impl SteeringAxis {
         Self { kingpin_offset: Vec2::new(kingpin_offset.x, -kingpin_offset.y), ..self }
     }
 
-    /// That a wheel can have this axis, and this angle.
+    /// Checks that a wheel can have this axis and this steering angle.
     pub(super) fn check(&self, wheel: &str, angle: f64) -> Result<(), ParameterError> {
         use std::f64::consts::FRAC_PI_2;
         /// A quarter turn of a document is one but for its last digit.
@@ -264,7 +264,7 @@ impl RoverParts {
         self.mounts.iter().map(complete).collect()
     }
 
-    /// That only wheels that are steered have a rate or a kingpin of their own.
+    /// Checks that only wheels that are steered have a rate or a kingpin of their own.
     pub(super) fn check_axes(&self, complete: &[Mount]) -> Result<(), ParameterError> {
         for (parts, mount) in self.mounts.iter().zip(complete) {
             let own = parts.kingpin_offset.norm();

@@ -151,10 +151,11 @@ impl Posture {
         Self::sought(rover, terrain, (place, yaw), sinkages, level, None)
     }
 
-    /// As [`of`](Self::of), sought from how the rover stands nearby: the answer is the same but for its last digits.
+    /// Does what [`of`](Self::of) does, sought from this posture nearby: the answer is the same but
+    /// for its last digits.
     ///
     /// # Errors
-    /// As [`of`](Self::of).
+    /// The same as [`of`](Self::of).
     pub fn near(
         &self,
         rover: &Rover,
@@ -265,7 +266,7 @@ impl Posture {
     /// The same of a body whose yaw, seen from above, changes at a rate [rad/s], which is linear in the body's own.
     ///
     /// # Errors
-    /// As of [`motion`](Self::motion).
+    /// The same as [`motion`](Self::motion).
     pub fn motion_at_yaw_rate(
         &self,
         state: &RoverState,
@@ -335,7 +336,7 @@ impl Posture {
 }
 
 impl Attitude {
-    /// Of a rover on the mean plane below all of it.
+    /// Returns the attitude of a rover on the mean plane below all of it.
     fn level_with(rover: &Rover, terrain: &dyn Terrain, place: Vec2, yaw: f64) -> Self {
         let (sin, cos) = sin_cos(yaw);
         let nose =

@@ -28,15 +28,15 @@ impl<'a> OnGround<'a> {
         self.reactions_near(stance, slips, &[])
     }
 
-    /// As [`reactions`](Self::reactions), from those in a stance and a motion nearby: loads and
-    /// sinkages are sought from there. The answer is the same but for its last digits, as that of
-    /// [`settle_from`], and where several sinkages carry a load, as in some cohesive soils, what is near may
-    /// decide which is found.
+    /// Does what [`reactions`](Self::reactions) does, from the reactions in a stance and a motion
+    /// nearby: loads and sinkages are sought from there. The answer is the same but for its last
+    /// digits, as that of [`settle_from`], and where several sinkages carry a load, as in some
+    /// cohesive soils, what is near may decide which is found.
     ///
     /// * `near`: of all wheels, or of none
     ///
     /// # Errors
-    /// As [`reactions`](Self::reactions).
+    /// The same as [`reactions`](Self::reactions).
     pub fn reactions_near(
         &self,
         stance: &Stance,
@@ -140,7 +140,8 @@ impl<'a> OnGround<'a> {
         })
     }
 
-    /// As [`reactions`](Self::reactions), by what is known of a motion nearby; this one is known afterwards.
+    /// Does what [`reactions`](Self::reactions) does, by what is known of a motion nearby; this
+    /// motion is known afterwards.
     pub(crate) fn reactions_after(
         &self,
         stance: &Stance,

@@ -141,7 +141,7 @@ impl Rover {
     /// The rover that its parts make.
     ///
     /// # Errors
-    /// As for [`new`](Self::new).
+    /// The same as [`new`](Self::new).
     pub fn checked(self) -> Result<Self, ParameterError> {
         let parts = self.parts;
         let mounts = parts.complete_mounts();
@@ -265,10 +265,10 @@ impl Rover {
         rover.checked()
     }
 
-    /// That wheels can have these steering angles.
+    /// Checks that wheels can have these steering angles.
     ///
     /// # Errors
-    /// As for [`steered`](Self::steered).
+    /// The same as [`steered`](Self::steered).
     pub fn check_steering(&self, angles: &[f64]) -> Result<(), ParameterError> {
         if angles.len() != self.mounts.len() {
             let (count, expected) = (angles.len() as f64, "one for each wheel of the rover");

@@ -70,7 +70,7 @@ impl Ruts {
 
 /// Direction of a hub's way in the body frame: a unit vector, and nothing for a hub at rest.
 fn way(mount: &Mount, slip: &Slip) -> Vec2 {
-    /// Speeds over the rim's that are none [-].
+    /// A hub counts as at rest well below this speed over the rim's [-].
     const STILL: f64 = 1e-4;
     let hub = mount.body_from_wheel(Vec2::new(slip.forward, slip.lateral));
     hub / hypot(hub.norm(), STILL)

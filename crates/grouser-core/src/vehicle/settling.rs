@@ -30,7 +30,7 @@ use crate::{elementary, lagrange};
 /// The wheels of a motion nearby: where a search begins.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Nearby<'a> {
-    /// Of none, where nothing is known.
+    /// The wheels in the motion nearby; empty where nothing is known.
     pub(crate) wheels: Vec<Known>,
     /// What they met, of the soil of which ground and for which steepness; and where that differs from wheel to wheel,
     /// of none.
@@ -158,7 +158,8 @@ fn forces_at(model: &dyn WheelSoilModel, curves: &[Curve<'_>], depths: &[f64]) -
 
 /// How the weight is shared among wheels that all stand: linear in the moments.
 struct Sharing {
-    /// Of each wheel's load: its part without moments [N], and the one for each of the moments [1/m].
+    /// Parts of each wheel's load: the one without moments [N], and the one for each of the moments
+    /// [1/m].
     loads: Vec<(f64, Vec2)>,
     /// Moments of the weight [N·m].
     of_weight: Vec2,
@@ -186,7 +187,8 @@ impl Sharing {
             };
             arms.iter().map(part).collect()
         };
-        /// Of moments, over weight times reach [-]: the step after one of this size is below rounding.
+        /// Least moment that counts, over weight times reach [-]: the step after one of this size
+        /// is below rounding.
         const LEAST: f64 = 1e-12;
         Some(Self {
             loads,
@@ -249,7 +251,8 @@ struct Curve<'a> {
 }
 
 impl<'a> Curve<'a> {
-    /// Of a wheel whose model tells its shallow sinkage, or of which a motion nearby is known.
+    /// Starts the curve of a wheel whose model gives its shallow sinkage, or of which a motion
+    /// nearby is known.
     fn new(
         contact: &'a Contact,
         relation: Option<LoadSinkage>,
@@ -480,13 +483,14 @@ impl Nearby<'_> {
 }
 
 impl Known {
-    /// Of wheels that were settled; none where one is not carried.
+    /// Returns what is known of wheels that were settled; none where one is not carried.
     pub(super) fn of_all(ground: &OnGround<'_>, wheels: &[WheelReaction]) -> Option<Vec<Self>> {
         let each = wheels.iter().zip(ground.rover.mounts());
         each.map(|(wheel, mount)| Self::of(ground, mount, wheel)).collect()
     }
 
-    /// Of a wheel; how its forces change with the load is as yet that of a shallow one.
+    /// Returns what is known of a wheel; as yet its forces change with the load as those of a
+    /// shallow one.
     fn of(ground: &OnGround<'_>, mount: &Mount, wheel: &WheelReaction) -> Option<Self> {
         let (sinkage, forces) = (wheel.settled.sinkage, wheel.settled.forces);
         if sinkage <= 0.0 || forces.normal_force < f64::MIN_POSITIVE {

@@ -72,7 +72,7 @@ impl MotorLimits {
 }
 
 impl SpeedControl {
-    /// That there can be such a controller.
+    /// Checks that the controller's numbers are within their ranges.
     ///
     /// # Errors
     /// [`ParameterError`] for the first number that is out of its range.

@@ -71,7 +71,7 @@ impl OnGround<'_> {
     /// The same, sought from a posture nearby, if one is known.
     ///
     /// # Errors
-    /// As of [`posture`](Self::posture).
+    /// The same as [`posture`](Self::posture).
     pub fn posture_near(
         &self,
         state: &RoverState,
@@ -96,7 +96,7 @@ impl OnGround<'_> {
     /// How the rover stands in a state on ground that is firm.
     ///
     /// # Errors
-    /// As of [`posture`](Self::posture).
+    /// The same as [`posture`](Self::posture).
     pub fn standing_posture(&self, state: &RoverState) -> Result<Posture, ReactionError> {
         self.posture(state, &vec![0.0; self.rover.wheel_count()])
     }
@@ -147,7 +147,7 @@ impl OnGround<'_> {
     /// The same by what is known of a motion nearby; this one is known afterwards.
     ///
     /// # Errors
-    /// As of [`reactions_standing`](Self::reactions_standing).
+    /// The same as [`reactions_standing`](Self::reactions_standing).
     pub(crate) fn reactions_standing_after(
         &self,
         posture: &Posture,
@@ -192,7 +192,7 @@ impl OnGround<'_> {
     /// The same of a rover on a suspension on a plane.
     ///
     /// # Errors
-    /// As of [`reactions_standing`](Self::reactions_standing).
+    /// The same as [`reactions_standing`](Self::reactions_standing).
     pub(super) fn reactions_on_links(
         &self,
         stance: &Stance,
@@ -281,7 +281,7 @@ impl OnGround<'_> {
 /// The wheels of a rover that stands in a motion nearby: where a search begins.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NearbyStanding {
-    /// Of none, where nothing is known.
+    /// The wheels in the motion nearby; empty where nothing is known.
     wheels: Vec<WheelReaction>,
     /// How loads follow from by how much they do not agree with the forces under them, where that is known.
     inverse: Option<DMatrix<f64>>,
@@ -391,7 +391,7 @@ impl Sought<'_> {
         order.into_iter().filter(is_lifted).find_map(|lifted| {
             let others = |wheel: &usize| *wheel != lifted;
             let loads_of = |roots: &DVector<f64>| {
-                // Below zero a load is none of the forces' business.
+                // Below zero a load changes no forces.
                 let load = |root: f64| weight * if root > 0.0 { root * root } else { root };
                 roots.map(load).insert_row(lifted, 0.0)
             };
@@ -418,7 +418,8 @@ impl Sought<'_> {
 
     /// The loads that balance the forces under loads [N] with a wheel lifted, and the wheels under them.
     ///
-    /// * `warp`: the gaps of a rover on warped ground: then the lifted wheel's load is none; else what it would have
+    /// * `warp`: the gaps of a rover on warped ground: then the lifted wheel's load is zero; else
+    ///   it is what it would have
     fn next_on_others(
         &self,
         loads: &DVector<f64>,
@@ -531,7 +532,7 @@ impl Sought<'_> {
         gaps: &DVector<f64>,
         balanced: &DVector<f64>,
     ) -> Result<DVector<f64>, ReactionError> {
-        /// A difference of sinkages that is none [m].
+        /// A difference of sinkages up to this counts as zero [m].
         const SAME: f64 = 1e-15;
         let size = gaps.norm();
         let mode = gaps / size;

@@ -170,7 +170,7 @@ pub fn centre_of_mass(rover: &Rover, posture: &Posture) -> Vec3 {
     wheels.map(|(wheel, mount)| wheel.hub * (mount.unit.mass / rover.mass())).sum()
 }
 
-/// The shortest vector with these balances; none where there is none.
+/// The shortest vector with these balances; none where no vector has them.
 fn least_norm(matrix: &DMatrix<f64>, side: &DVector<f64>) -> Option<Vec<f64>> {
     let transposed = matrix.transpose();
     let shortest = if matrix.is_square() {

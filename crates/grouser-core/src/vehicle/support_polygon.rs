@@ -17,7 +17,7 @@ struct Edge {
 }
 
 impl SupportPolygon {
-    /// Of no wheels: everything is inside.
+    /// Polygon of no wheels: everything is inside.
     pub(super) const NONE: Self = Self { edges: Vec::new() };
 
     /// The hull of some wheels.

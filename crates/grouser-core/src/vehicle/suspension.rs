@@ -60,9 +60,9 @@ pub enum End {
 /// Angles of the joints [rad], zero where the rover stands on a plane; positive with the front up.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Joints {
-    /// Of the left rocker against the body; the right one has the opposite angle.
+    /// Angle of the left rocker against the body; the right one has the opposite angle.
     pub rocker: f64,
-    /// Of the left and of the right bogie against its rocker.
+    /// Angles of the left and of the right bogie against its rocker.
     pub bogies: [f64; 2],
 }
 

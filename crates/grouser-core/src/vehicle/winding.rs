@@ -47,7 +47,7 @@ pub struct Winding {
 const ABSOLUTE_ZERO: f64 = -273.15;
 
 impl Winding {
-    /// That there can be such a winding.
+    /// Checks that the winding's numbers are within their ranges.
     ///
     /// # Errors
     /// [`ParameterError`] for the first number that is out of its range.

@@ -322,7 +322,7 @@ fn a_heat_map_has_a_cell_for_each_value_from_the_bottom_up() {
     check_sheet("no values", &heat_map(2, 2, |_| None).sheet());
 }
 
-/// Of a triangle of charts only the lowest of a column have numbers under them, where they share an
+/// In a triangle of charts only the lowest of a column have numbers under them, where they share an
 /// axis.
 #[test]
 fn charts_of_a_grid_share_their_numbers() {

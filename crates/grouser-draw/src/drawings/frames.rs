@@ -9,7 +9,7 @@ use crate::style::Role;
 
 const SIZE: Place = [190.0, 120.0];
 const ORIGIN: Place = [96.0, 72.0];
-/// Of the axes of the frames [mm].
+/// Length of the axes of the frames [mm].
 const AXIS: f64 = 44.0;
 /// The view is turned by this much from straight uphill, and looks down by the other [rad].
 const VIEW: [f64; 2] = [0.55, 0.5];

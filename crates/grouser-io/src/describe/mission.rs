@@ -420,7 +420,7 @@ static STOPS: Table<Vec<Stop>> = Table {
     ],
 };
 
-/// A limit, in the list of all: a new one where there is none of this number yet.
+/// A limit, in the list of all: a new one where the list has no limit of this quantity yet.
 const fn limit(limited: Limited, inner: &'static At<Vec<Stop>, Stop>) -> Field<Vec<Stop>> {
     table(limited_quantity(limited).name, limited.row().meaning, inner).optional()
 }

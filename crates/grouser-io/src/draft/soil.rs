@@ -147,7 +147,7 @@ impl Answers {
     }
 }
 
-/// That there is such a preset.
+/// Checks that there is a preset of this name.
 pub(super) fn check_preset(name: &str) -> Result<(), DocumentError> {
     if preset(Kind::Soil, name).is_some() {
         return Ok(());

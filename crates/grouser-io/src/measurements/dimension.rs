@@ -73,7 +73,7 @@ impl Dimension {
     /// The size of a unit in SI.
     ///
     /// # Errors
-    /// The names of the units that measure this, where the name is none of them.
+    /// The names of the units that measure this, where the name is not one of them.
     pub fn size_of(self, unit: &str) -> Result<f64, Vec<&'static str>> {
         let fitting = UNITS.iter().filter(|(_, of, _)| *of == self);
         let found = fitting.clone().find(|(name, ..)| *name == unit);

@@ -43,7 +43,7 @@ pub struct MotorRecord {
     pub yaw: Option<f64>,
     /// Course, *χ* [rad]: direction of travel from the contour, positive uphill.
     pub course: Option<f64>,
-    /// Of each wheel, in the order of the rover's mounts; nothing where there is no reading.
+    /// Reading of each wheel, in the order of the rover's mounts; `None` where there is no reading.
     pub wheels: Vec<Option<MotorReading>>,
 }
 
@@ -100,9 +100,9 @@ pub const COLUMNS: [LogColumn; 10] = [
 pub struct LogChoice {
     /// Names of columns that are left aside as if they were not there; of a wheel's columns, without the wheel's.
     pub ignored: Vec<String>,
-    /// Yaw of rows that have none, *γ* [rad].
+    /// Yaw of rows without a yaw, *γ* [rad].
     pub yaw: Option<f64>,
-    /// Course of rows that have none, *χ* [rad].
+    /// Course of rows without a course, *χ* [rad].
     pub course: Option<f64>,
     /// How much of the file is read.
     pub limits: Limits,

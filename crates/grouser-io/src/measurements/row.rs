@@ -93,7 +93,7 @@ impl<'a> Header<'a> {
         Ok(())
     }
 
-    /// How to mend a header that has none of some columns.
+    /// How to correct a header that lacks some columns.
     fn hint_of_missing(&self, meanings: &[Meaning]) -> String {
         if let Some((_, delimiter)) = other_delimiter(&self.names) {
             return format!(

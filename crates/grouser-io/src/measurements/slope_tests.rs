@@ -316,7 +316,7 @@ fn points(rows: &[Row]) -> Vec<SlopePoint> {
 }
 
 impl Mean {
-    /// Of some values; `None` if there are none.
+    /// The mean of some values; `None` if there are no values.
     fn of(values: impl Iterator<Item = f64>) -> Option<Self> {
         let values: Vec<f64> = values.collect();
         let rows = values.len();

@@ -80,7 +80,7 @@ pub struct TelemetryRecord {
     pub rotation: Option<f64>,
     /// Position along the contour and uphill [m].
     pub position: [Option<f64>; 2],
-    /// Of each wheel, in the order of the rover's mounts.
+    /// Telemetry of each wheel, in the order of the rover's mounts.
     pub wheels: Vec<WheelTelemetry>,
 }
 

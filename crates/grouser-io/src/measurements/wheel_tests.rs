@@ -41,13 +41,13 @@ impl Quantity {
 /// A value for each [`Quantity`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PerQuantity<T> {
-    /// Of the force along the wheel.
+    /// Value for the force along the wheel.
     pub drawbar_pull: T,
-    /// Of the force across it.
+    /// Value for the force across it.
     pub side_force: T,
-    /// Of the sinkage.
+    /// Value for the sinkage.
     pub sinkage: T,
-    /// Of the torque.
+    /// Value for the torque.
     pub torque: T,
 }
 

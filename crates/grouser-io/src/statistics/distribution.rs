@@ -300,7 +300,7 @@ impl Distribution {
     /// The same, with the point of the unit cube at which the values are.
     ///
     /// # Errors
-    /// As [`draw`](Self::draw).
+    /// The same as [`draw`](Self::draw).
     pub fn draw_with_point<T>(
         &self,
         seed: u64,

@@ -35,7 +35,7 @@ pub enum Found<'v> {
 }
 
 impl FieldPath {
-    /// The path that a text is; nothing for one that is none.
+    /// The path that a text stands for; `None` if the text is not a path.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let mut steps = Vec::new();

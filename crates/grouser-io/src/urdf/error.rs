@@ -24,7 +24,7 @@ pub enum UrdfError {
         /// What it has not.
         lacks: &'static str,
     },
-    /// A number that is none, or cannot be.
+    /// An invalid or impossible number.
     #[error("{what}: {attribute} is \"{written}\", it must be {expected}")]
     Number {
         /// Whose.
@@ -72,7 +72,7 @@ pub enum UrdfError {
     /// A pattern that no link has.
     #[error("no link is called {pattern}\nhint: the links are {links}")]
     NoSuchWheel {
-        /// As it was given.
+        /// The pattern, as it was given.
         pattern: String,
         /// The links there are.
         links: String,
@@ -97,7 +97,7 @@ pub enum UrdfError {
         "links {0} and {1} turn about the same axle and are one wheel\nhint: name the one that has the rim"
     )]
     OneWheelTwice(String, String),
-    /// A joint that is none of a rover's.
+    /// A joint of a type that a rover's joints do not have.
     #[error(
         "joint {joint} has the type {kind}, which a rover's joints do not have\nhint: they are fixed, continuous, revolute or prismatic"
     )]

@@ -6,6 +6,6 @@ pub struct UrdfOptions {
     /// Names of the links that are wheels, with `*` for any letters; without any, all cylinders that roll without end about
     /// an axis across the rover.
     pub wheels: Vec<String>,
-    /// That a differential joins the rockers of both sides.
+    /// Whether a differential joins the rockers of both sides.
     pub has_differential: bool,
 }

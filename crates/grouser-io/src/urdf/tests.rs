@@ -1,4 +1,4 @@
-//! Robots whose rovers are known, and texts that are none.
+//! Robots whose rovers are known, and invalid texts.
 
 use std::fmt::Write as _;
 

@@ -83,7 +83,7 @@ impl Robot {
         Ok(Self { name, links: ordered(&links, joints)? })
     }
 
-    /// Of each link, whether it is one of some, or hangs on one.
+    /// Whether each link is one of some links, or hangs on one of them.
     pub(super) fn hanging_on(&self, some: &[usize]) -> Vec<bool> {
         let mut hanging = vec![false; self.links.len()];
         for (place, link) in self.links.iter().enumerate() {

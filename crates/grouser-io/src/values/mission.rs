@@ -11,7 +11,7 @@ use super::{Described, Misfit};
 use grouser_core::mission::{Limited, Mission, PlanError, Stop, Then};
 use grouser_core::vehicle::{Mount, Rover};
 
-/// That alternatives have names of their own, and stand in place of legs.
+/// Checks that alternatives have names of their own, and stand in place of legs.
 fn check_alternatives(plan: &Plan) -> Result<(), Misfit> {
     let names: Vec<&str> = plan.alternatives.iter().map(|it| &*it.name).collect();
     for (place, name) in names.iter().enumerate() {
@@ -29,7 +29,7 @@ fn check_alternatives(plan: &Plan) -> Result<(), Misfit> {
     Ok(())
 }
 
-/// That who backs out knows how far.
+/// Checks that limits at which the rover backs out state how far.
 ///
 /// * `within`: the table of the limits, with a dot after it
 pub(crate) fn check_stops(stops: &[Stop], within: &str) -> Result<(), Misfit> {
@@ -42,7 +42,7 @@ pub(crate) fn check_stops(stops: &[Stop], within: &str) -> Result<(), Misfit> {
     Err(Misfit::new(path, problem).with_hint("write for instance back_out_m = 0.5 beside it"))
 }
 
-/// That what limits stop at is known of a rover.
+/// Checks that the quantities that limits stop at are known of a rover.
 ///
 /// * `within`: the table of the limits, with a dot after it
 fn check_known(stops: &[Stop], within: &str, rover: &Rover) -> Result<(), Misfit> {
@@ -68,7 +68,7 @@ fn check_known(stops: &[Stop], within: &str, rover: &Rover) -> Result<(), Misfit
     Err(Misfit::new(path, Problem::Conflict(what)).with_hint(hint))
 }
 
-/// That legs can be driven.
+/// Checks that legs can be driven.
 ///
 /// * `within`: the key under which they stand
 /// * `rover`: that drives them
@@ -100,7 +100,7 @@ fn check_legs(legs: &[LegKeys], within: &str, rover: &Rover) -> Result<(), Misfi
     Ok(())
 }
 
-/// That there can be such a mission.
+/// Checks that a mission is possible.
 ///
 /// * `within`: the key under which its legs stand
 fn check_mission(mission: &Mission, within: &str) -> Result<(), Misfit> {

@@ -19,9 +19,9 @@ const MOST_WAITING: usize = 100_000;
 /// What was read at one time.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Readings {
-    /// Of columns, by their places.
+    /// Cells, each with the place of its column.
     pub(crate) cells: Vec<(usize, Cell)>,
-    /// Of poses, by their slots.
+    /// Poses, each with its slot.
     pub(crate) poses: Vec<(usize, Pose)>,
     /// Whether a row ends here, where a topic says when.
     pub(crate) ends_row: bool,
@@ -71,7 +71,7 @@ fn set<V>(all: &mut Vec<(usize, V)>, place: usize, value: V) {
 pub(crate) struct Merge {
     window: i64,
     rule: RowRule,
-    /// Of each column, whether it is one of ways since the last.
+    /// Whether each column is one of ways, or rotations, since the last.
     ways: Vec<bool>,
     waiting: BTreeMap<i64, Readings>,
     newest: Option<i64>,

@@ -308,7 +308,7 @@ impl Context<'_> {
         Some(time as i64)
     }
 
-    /// Counts a reading that is none.
+    /// Counts an invalid reading.
     fn damaged<T>(&self, counts: &mut Counts) -> Option<T> {
         *counts.damaged_fields.entry(self.topic.to_owned()).or_default() += 1;
         None

@@ -66,7 +66,7 @@ pub(crate) struct Damage {
     pub(crate) sums: u64,
     /// Chunks and records larger than is read.
     pub(crate) too_large: u64,
-    /// Records whose content is none.
+    /// Records whose content is invalid.
     pub(crate) records: u64,
 }
 
@@ -235,7 +235,7 @@ pub(crate) fn known_of(mut source: impl Read) -> io::Result<Option<Known>> {
 /// A chunk on its way.
 struct OpenChunk {
     records: Summing<Box<dyn Read>>,
-    /// As the file states it; 0 where it does not.
+    /// Checksum, as the file states it; 0 where it does not.
     sum: u32,
     /// The file ends within it.
     is_cut: bool,

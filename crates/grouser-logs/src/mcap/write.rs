@@ -27,7 +27,7 @@ pub(crate) struct SchemaOf<'a> {
     /// `protobuf` or `ros2msg`.
     pub(crate) encoding: &'a str,
     pub(crate) data: Vec<u8>,
-    /// Of the messages: `protobuf` or `cdr`.
+    /// Encoding of the messages: `protobuf` or `cdr`.
     pub(crate) messages: &'a str,
 }
 

@@ -74,7 +74,7 @@ struct Field {
     is_repeated: bool,
     /// Whether it is left out where it has its usual value.
     is_implicit: bool,
-    /// Of a message, its place among the types.
+    /// Place of the message's type among the types, for a field that holds messages.
     holds: Option<usize>,
 }
 
@@ -112,7 +112,7 @@ impl Description {
         Some(Self { types: types.collect(), root })
     }
 
-    /// A message as a tree; nothing if it is none.
+    /// Decodes a message as a tree; `None` if it is invalid.
     pub(crate) fn decode(&self, message: &[u8]) -> Option<Value> {
         self.tree(self.root, message, DEEPEST)
     }

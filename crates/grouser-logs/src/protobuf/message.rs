@@ -244,7 +244,7 @@ impl<M: Message> Field for Vec<M> {
 
 /// A closed set of words, of which a field holds one.
 pub(crate) trait Keyword: Copy + Default + PartialEq + 'static {
-    /// Of its type, inside the message's: `foxglove.Log.Level`.
+    /// Name of its type, inside the message's: `foxglove.Log.Level`.
     const NAME: &'static str;
     /// All words of the type, in the order of their numbers.
     const WORDS: &'static [&'static str];

@@ -11,7 +11,7 @@ pub enum LogError {
     /// What it is written to failed.
     #[error(transparent)]
     Write(#[from] io::Error),
-    /// A number is none, which a log never has.
+    /// A number is not finite; a log has finite numbers only.
     #[error("{name} of {whose} is {value} at {time} s: a log has finite numbers only")]
     NotFinite {
         /// The column.

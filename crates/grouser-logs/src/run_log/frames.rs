@@ -16,7 +16,7 @@ use crate::foxglove::{FrameTransform, Pose, Quaternion, Timestamp, Vector3};
 pub(crate) const WORLD: &str = "world";
 /// The slope's: x along the contour, y uphill, z out of the ground.
 pub(crate) const SLOPE: &str = "slope";
-/// Of ground with heights: x east, y north, z up, from the map's origin.
+/// The frame of ground with heights: x east, y north, z up, from the map's origin.
 pub(crate) const MAP: &str = "map";
 /// The body's: x forward, y left.
 pub(crate) const BODY: &str = "body";

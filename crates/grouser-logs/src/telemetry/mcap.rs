@@ -36,7 +36,7 @@ pub(crate) struct McapLog {
 enum Decoder {
     Json(String),
     Protobuf(String, Rc<Description>),
-    /// Of a topic that is read, but whose messages the log does not describe.
+    /// A topic that is read, but whose messages the log does not describe.
     Unknown,
 }
 

@@ -65,7 +65,7 @@ impl ParquetLog {
         let file = Bounded::new(file).map_err(failed)?;
         let about = ParquetMetaDataReader::new().parse_and_finish(&file).map_err(failed)?;
         let columns = about.file_metadata().schema_descr().columns();
-        // A column inside another is none of a table.
+        // A column inside another is not a column of the table.
         let name = |it: &Arc<ColumnDescriptor>| it.path().string();
         let names: Vec<String> = columns.iter().map(name).collect();
         let table = TelemetryRows::new(label, names.clone(), rover)?;

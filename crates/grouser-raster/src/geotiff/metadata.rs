@@ -44,7 +44,7 @@ pub(super) fn scaling(text: Option<&str>, band: usize) -> Result<Scaling, Fault>
     Ok(scaling)
 }
 
-/// That heights are in metres.
+/// Checks that heights are in metres.
 fn check_unit(unit: &str) -> Result<(), Fault> {
     const METRES: [&str; 6] = ["", "m", "metre", "meter", "metres", "meters"];
     if METRES.contains(&unit.to_lowercase().as_str()) {

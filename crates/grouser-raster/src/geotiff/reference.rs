@@ -72,7 +72,7 @@ impl Georeference<'_> {
         (finite && a * d - b * c != 0.0).then_some(affine)
     }
 
-    /// That coordinates are those of a map, in metres.
+    /// Checks that coordinates are those of a map, in metres.
     fn check_coordinates(&self, affine: &Affine, columns: usize, rows: usize) -> Result<(), Fault> {
         let system = self.system;
         let is_projected =

@@ -7,7 +7,7 @@ use super::map::{ZoneMap, check_count};
 use crate::Raster;
 use crate::error::Fault;
 
-/// The zones of a raster of whole numbers; where a number is missing there is none.
+/// The zones of a raster of whole numbers; where a number is missing there is no zone.
 pub(super) fn of(raster: &Raster) -> Result<ZoneMap, Fault> {
     let mut keys: Vec<i64> = Vec::new();
     let mut last = None;

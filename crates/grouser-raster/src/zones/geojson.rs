@@ -94,7 +94,7 @@ pub fn decode_areas(bytes: &[u8]) -> Result<ZoneMap, Fault> {
     ZoneMap::of_polygons(polygons)
 }
 
-/// That a ring has an area whose edge does not cross itself.
+/// Checks that a ring has an area and that its edge does not cross itself.
 fn check_area(ring: &[Vec2]) -> Result<(), String> {
     /// Farther away no map has places [m].
     const FARTHEST: f64 = 1e9;

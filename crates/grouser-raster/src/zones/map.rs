@@ -108,7 +108,7 @@ impl ZoneMap {
         })
     }
 
-    /// That some of the zones lie on the ground that they are for.
+    /// Checks that some of the zones lie on the ground that they are for.
     pub(super) fn check_place(&self, ground: Option<&Extent>) -> Result<(), Fault> {
         let (Some(ground), Some(zones)) = (ground, self.extent()) else { return Ok(()) };
         let apart = zones.south_west.x > ground.north_east.x
@@ -130,7 +130,7 @@ impl ZoneMap {
     }
 }
 
-/// That there are no more zones than can be told apart.
+/// Checks that there are no more zones than can be distinguished.
 pub(super) fn check_count(keys: &[ZoneKey]) -> Result<(), Fault> {
     if keys.len() > MOST_SOILS {
         return Err(Fault::TooManyZones { zones: keys.len() });

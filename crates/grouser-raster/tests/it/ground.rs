@@ -16,7 +16,7 @@ pub(crate) fn height(column: usize, row: usize) -> Option<f64> {
     (row != 29 || column >= 3).then_some(plane + bump)
 }
 
-/// That a raster has these heights, counted from the north.
+/// Checks that a raster has these heights; rows are counted from the north.
 pub(crate) fn check(raster: &Raster, within: f64, expected: impl Fn(usize, usize) -> Option<f64>) {
     assert_eq!((raster.grid.columns, raster.grid.rows), (COLUMNS, ROWS));
     for (column, row) in (0..ROWS).flat_map(|row| (0..COLUMNS).map(move |column| (column, row))) {

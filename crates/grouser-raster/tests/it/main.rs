@@ -1,4 +1,4 @@
-//! What is read from files, and how files that are none are refused.
+//! What is read from files, and how invalid files are refused.
 
 mod damage;
 mod geotiff;

@@ -59,7 +59,7 @@ struct Patch {
     lean: [f64; 2],
     /// By how much it is weaker across and along, as what it lacks of the force at the same slip, over the weight [-].
     weakness: [f64; 2],
-    /// Of each wheel's torque: what is added over its size [-], and what is added [N·m].
+    /// What is added to each wheel's torque: over its size [-], and as a torque [N·m].
     torques: Vec<[f64; 2]>,
 }
 

@@ -127,7 +127,7 @@ impl<'a, R: Read> Rows<'a, R> {
         if self.text(name).is_empty() { Ok(0.0) } else { self.number(name) }
     }
 
-    /// That the file has no rows that count.
+    /// Returns the error for a file that has no rows that count.
     pub(super) fn no_rows(&self) -> MeasurementError {
         MeasurementError::whole(self.label, Problem::NoRows)
     }

@@ -145,7 +145,7 @@ pub const MASSES: [&str; 2] = ["equal-mass", "equal-weight"];
 /// * `q`: gravity at the site over that of the measurement [-]
 ///
 /// # Errors
-/// A sentence, if it is none of them.
+/// A sentence, if the text is not one of these.
 pub fn mass_of(text: &str, q: f64) -> Result<RoverMass, String> {
     let mass = |name: &str, factor: f64| RoverMass { name: name.to_owned(), factor };
     match text {

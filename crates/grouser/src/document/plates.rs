@@ -47,7 +47,7 @@ pub fn read(path: &Path) -> Result<PlateMeasurements, MeasurementError> {
 /// * `limits`: how much of it is read
 ///
 /// # Errors
-/// As for [`read`].
+/// The same as [`read`].
 pub fn read_from(
     label: &str,
     source: impl Read,

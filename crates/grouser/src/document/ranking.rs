@@ -70,9 +70,9 @@ pub struct RankedModel {
 /// The predictions behind a ranked model.
 #[derive(Clone, Debug)]
 pub enum Found {
-    /// Of a wheel's trials.
+    /// Predictions for a wheel's trials.
     Wheel(Box<Validation>),
-    /// Of a rover's slopes.
+    /// Predictions for a rover's slopes.
     Slope(Box<SlopeValidation>),
 }
 
@@ -141,7 +141,7 @@ pub fn rank_all(folder: Option<&Path>, limits: Limits) -> Result<Ranking, Rankin
 /// no such file, and no rows.
 ///
 /// # Errors
-/// As [`rank_all`].
+/// The same as [`rank_all`].
 pub fn rank_one(source: &Source, limits: Limits) -> Result<Ranking, RankingError> {
     let set = read_data_set(source, &Overrides::none())?;
     let data_set = match source {

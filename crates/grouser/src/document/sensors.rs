@@ -11,7 +11,7 @@ use crate::studies::simulated_telemetry::SensorModels;
 pub struct SensorKey {
     /// With its unit.
     pub key: &'static str,
-    /// Of the number.
+    /// Unit of the number.
     pub unit: Unit,
     /// What it is.
     pub doc: &'static str,
@@ -76,7 +76,7 @@ const fn key(
 /// the word [`PERFECT`] on.
 ///
 /// # Errors
-/// A sentence for the first setting that is none.
+/// A sentence for the first invalid setting.
 pub fn sensor_models<'s>(
     settings: impl IntoIterator<Item = &'s str>,
 ) -> Result<SensorModels, String> {

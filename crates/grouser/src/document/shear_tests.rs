@@ -52,7 +52,7 @@ struct Growing {
 /// * `limits`: how much of it is read
 ///
 /// # Errors
-/// As for [`read`].
+/// The same as [`read`].
 pub fn read_from(
     label: &str,
     source: impl Read,

@@ -90,7 +90,7 @@ impl SoilFamily {
     /// * `starts`: one for each key
     ///
     /// # Errors
-    /// As for [`new`](Self::new).
+    /// The same as [`new`](Self::new).
     pub fn around(base: &Document, keys: &[FitKey], starts: &[f64]) -> Result<Self, String> {
         Self::starting(base, keys, starts)
     }

@@ -149,14 +149,14 @@ pub struct SlopeErrorsRecord {
     pub not_held: usize,
     /// Number of slopes on which something was measured that is not predicted, and is in no error.
     pub no_prediction: usize,
-    /// Of the slip ratio.
+    /// Errors of the slip ratio.
     pub slip_ratio: Option<ErrorsRecord>,
-    /// Of the yaw.
+    /// Errors of the yaw.
     pub yaw: Option<ErrorsRecord>,
 }
 
 impl SlopeErrorsRecord {
-    /// Of no slope.
+    /// Errors of no slope.
     pub const NONE: Self =
         Self { cells: 0, not_held: 0, no_prediction: 0, slip_ratio: None, yaw: None };
 }
@@ -200,9 +200,9 @@ fn yaw_record(errors: Option<&Errors>) -> Option<ErrorsRecord> {
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[serde(untagged)]
 pub enum PartErrors {
-    /// Of a wheel on a test stand.
+    /// Errors of a wheel on a test stand.
     Wheel(GroupRecord),
-    /// Of a rover on slopes.
+    /// Errors of a rover on slopes.
     Slope(SlopeErrorsRecord),
 }
 

@@ -24,7 +24,7 @@ pub struct FlaggedRow {
 }
 
 impl OutsideDomain {
-    /// That no row carries a flag.
+    /// Checks that no row carries a flag.
     ///
     /// * `rows`: the flags of each row
     /// * `name`: what a row is called, by its place: `row 3: load_n 17`

@@ -299,7 +299,7 @@ impl HeadingStudy {
     /// Follows the curve of another course, *χ* [rad], −π/2 to π/2, positive uphill.
     ///
     /// # Errors
-    /// As [`curve`](Self::curve), and for a course out of its range.
+    /// The same as [`curve`](Self::curve), and [`ParameterError`] for a course out of its range.
     pub fn curve_on(&self, course: f64) -> Result<HeadingCurve, ParameterError> {
         check_course(course)?;
         self.follow(self.held(course), Reach::END)
@@ -311,7 +311,7 @@ impl HeadingStudy {
     /// * `most_slip`: slip ratio [-]
     ///
     /// # Errors
-    /// As [`curve_on`](Self::curve_on).
+    /// The same as [`curve_on`](Self::curve_on).
     pub(super) fn curve_up_to(
         &self,
         course: f64,
@@ -336,7 +336,7 @@ impl HeadingStudy {
     /// downhill with the slope. It ends where no drift holds the rover any more.
     ///
     /// # Errors
-    /// As [`curve`](Self::curve).
+    /// The same as [`curve`](Self::curve).
     pub fn drift_curve(&self) -> Result<HeadingCurve, ParameterError> {
         self.drift_curve_along(0.0)
     }
@@ -344,7 +344,7 @@ impl HeadingStudy {
     /// The same with the nose along another course, *γ* [rad], −π/2 to π/2, positive uphill.
     ///
     /// # Errors
-    /// As [`curve_on`](Self::curve_on).
+    /// The same as [`curve_on`](Self::curve_on).
     pub fn drift_curve_along(&self, yaw: f64) -> Result<HeadingCurve, ParameterError> {
         check_course(yaw)?;
         self.follow(Held::Yaw(yaw), Reach::END)

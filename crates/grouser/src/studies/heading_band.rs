@@ -117,10 +117,10 @@ impl HeadingBand {
     /// The same on another course, *χ* [rad], −π/2 to π/2, positive uphill.
     ///
     /// # Errors
-    /// As [`of`](Self::of), and for a course out of its range.
+    /// The same as [`of`](Self::of), and [`ParameterError`] for a course out of its range.
     ///
     /// # Panics
-    /// As [`of`](Self::of).
+    /// The same as [`of`](Self::of).
     pub fn on_course(
         study: &HeadingStudy,
         course: f64,

@@ -257,7 +257,7 @@ impl Learner {
     /// model with the greatest share: 1 where nothing was learnt. What models get wrong is left out.
     ///
     /// # Errors
-    /// As [`samples`](Self::samples).
+    /// The same as [`samples`](Self::samples).
     pub fn narrowed(
         &self,
         seed: u64,
@@ -291,7 +291,7 @@ impl Learner {
     /// Samples of what is believed now under the model with the greatest share, and that model.
     ///
     /// # Errors
-    /// As [`samples`](Self::samples).
+    /// The same as [`samples`](Self::samples).
     pub fn samples_of_best(
         &self,
         seed: u64,

@@ -47,7 +47,7 @@ impl DrivenMission {
     /// needs no more memory than one of minutes.
     ///
     /// # Errors
-    /// As [`all`](Self::all).
+    /// The same as [`all`](Self::all).
     pub fn all_ends(missions: &[(String, Mission)]) -> Result<Vec<Self>, MissionError> {
         let end = |(name, mission): &(String, Mission)| {
             let mut run = MissionRun::new(mission)?;
@@ -60,7 +60,7 @@ impl DrivenMission {
     /// Drives a mission to its end.
     ///
     /// # Errors
-    /// As [`all`](Self::all).
+    /// The same as [`all`](Self::all).
     pub fn drive(name: &str, mission: &Mission) -> Result<Self, MissionError> {
         Ok(Self::of(name, mission, MissionRun::new(mission)?.to_end()?))
     }

@@ -122,7 +122,7 @@ mod tests {
         moves.sum::<f64>() + turns.sum::<f64>()
     }
 
-    /// As by another's search, Dijkstra's, which is not guided.
+    /// The search agrees with another one, Dijkstra's, which is not guided.
     #[test]
     fn the_way_is_the_cheapest_there_is() {
         let (study, raster) = (study(), ground_of(34, 30, 0.8, hills));

@@ -82,7 +82,7 @@ impl SensorModels {
         rate: 0.0,
     };
 
-    /// That they are instruments.
+    /// Checks that every number of the instruments is in its range.
     ///
     /// # Errors
     /// [`ParameterError`] for the first number that is out of its range.
@@ -192,7 +192,7 @@ const STREAM: u64 = 0xFB << 56;
 
 impl Sensors {
     /// # Errors
-    /// As [`SensorModels::check`].
+    /// The same as [`SensorModels::check`].
     pub fn new(models: SensorModels, seed: u64) -> Result<Self, ParameterError> {
         models.check()?;
         Ok(Self {

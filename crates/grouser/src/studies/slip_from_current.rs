@@ -48,7 +48,7 @@ impl TorqueNoise {
     /// 5 % and 0.005 N·m. Source: assumed, for a micro rover's motors.
     pub const USUAL: Self = Self { relative: 0.05, absolute: 0.005 };
 
-    /// Of a torque [N·m].
+    /// Returns the standard deviation [N·m] of a torque [N·m].
     fn of(self, torque: f64) -> f64 {
         wide::hypot(self.relative * torque, self.absolute)
     }
@@ -67,7 +67,7 @@ impl SlipSettings {
     /// Slip ratios from −0.2 to 1.
     pub const USUAL: Self = Self { noise: TorqueNoise::USUAL, slips: [-0.2, 1.0] };
 
-    /// That something can be estimated with them.
+    /// Checks that slip can be estimated with these settings.
     ///
     /// # Errors
     /// [`ParameterError`] for the first number that is out of its range.

@@ -250,8 +250,8 @@ mod tests {
         assert_eq!(steep.slip_ratio.expect("it was measured").aim, None);
     }
 
-    /// Of slips on a parabola of the slope at 0, 10 and 20°, the middle one is met by the chord to half a
-    /// step squared, and the ends take their neighbour's.
+    /// Slips lie on a parabola of the slope at 0, 10 and 20°: the chord meets the middle one to
+    /// half a step squared, and the ends take their neighbour's.
     #[test]
     fn the_yardsticks_interpolate_over_the_slope() {
         let points = [point(0.0, 0.0, 0.0), point(10.0, 0.1, 0.1), point(20.0, 0.4, 0.4)];

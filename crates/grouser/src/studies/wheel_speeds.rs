@@ -41,7 +41,7 @@ impl WheelSpeeds {
     /// Follows the curve of headings with equal speeds.
     ///
     /// # Errors
-    /// As [`HeadingStudy::curve`], and for a ratio that is not above 1.
+    /// The same as [`HeadingStudy::curve`], and [`ParameterError`] for a ratio that is not above 1.
     pub fn of(study: WheelSpeedStudy) -> Result<Self, ParameterError> {
         let curve = study.heading.curve()?;
         Self::from(study, curve)
@@ -72,7 +72,8 @@ impl WheelSpeeds {
         &self.study.heading.rover
     }
 
-    /// The straight motion on the steepest slope that was found; none where there is none on any.
+    /// The straight motion on the steepest slope that was found; `None` if there is none on any
+    /// slope.
     #[must_use]
     pub fn steepest(&self, freedom: SpeedFreedom) -> Option<StraightMotion> {
         let balance = Balance::new(&self.study, freedom, Aim::Steepest);
@@ -81,7 +82,8 @@ impl WheelSpeeds {
         balance.motion(&the_best(found)?.place)
     }
 
-    /// The straight motion with the least work per metre on a slope [rad] that was found; none where there is none.
+    /// The straight motion with the least work per metre on a slope [rad] that was found; `None` if
+    /// there is none.
     #[must_use]
     pub fn least_energy(&self, freedom: SpeedFreedom, slope: f64) -> Option<StraightMotion> {
         let balance = Balance::new(&self.study, freedom, Aim::LeastEnergy(slope));

@@ -46,7 +46,8 @@ pub struct Sunk {
     pub drawbar_pull: f64,
     /// None [N].
     pub side_force: f64,
-    /// That which turns the rim against the whole load, or the model's at that depth if that is larger [N·m].
+    /// Torque that turns the rim against the whole load, or the model's at that depth if that is
+    /// larger [N·m].
     pub torque: f64,
 }
 
@@ -127,7 +128,7 @@ impl SettledBand {
 }
 
 impl Kept {
-    /// What a row counts as; nothing for a load that is none.
+    /// What a row counts as; `None` for an invalid load.
     fn of(row: &WheelTestRow, test: &WheelTest) -> Option<Self> {
         match row.result {
             Ok(settled) => Some(Self {

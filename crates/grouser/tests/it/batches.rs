@@ -158,7 +158,7 @@ fn overloaded(case: u64) -> (Model, Contact, f64) {
 /// as three wheels that settle.
 #[test]
 fn a_wheel_that_the_soil_cannot_carry_costs_no_more_than_three_that_it_carries() {
-    /// Of a wheel that settles.
+    /// Number of evaluations for a wheel that settles.
     const USUAL: u32 = 5;
     const MOST: u32 = 4 * USUAL;
     /// Where the load is within a thousandth of the most, its peak is looked for as closely as that.

@@ -235,7 +235,7 @@ fn hidden_tests(noise: &mut Noise) -> (Soil, BevameterTests) {
     (soil, tests)
 }
 
-/// Of the fitted numbers of some hidden soils, how many lie within their 95 % intervals; and of how many.
+/// Counts, for each fitted key, the hidden soils whose value lies within its 95 % interval.
 fn within_their_intervals(soils: u64) -> Vec<(String, usize)> {
     let mut within: Vec<(String, usize)> = Vec::new();
     for number in 0..soils {
@@ -280,7 +280,7 @@ fn check_coverage(soils: u64, least: usize) {
     assert!(within.iter().all(|(_, count)| *count >= least), "of {soils}: {within:?}");
 }
 
-/// Of 12 intervals of 95 %, nine or fewer hold the truth once in 500 times.
+/// Nine or fewer of 12 intervals of 95 % hold the truth once in 500 times.
 #[test]
 fn hidden_soils_come_back_within_their_intervals() {
     check_coverage(12, 10);

@@ -291,7 +291,8 @@ fn sensitivity(
     Sensitivity::of(&outputs, inputs, 1).expect("it varies")
 }
 
-/// That known indices lie in their intervals, and the intervals are no wider than asked.
+/// Checks that known indices lie in their intervals, and that the intervals are no wider than
+/// asked.
 fn check_indices(found: &Sensitivity, expected: &[(f64, f64)], widest: f64) {
     for (place, (index, (first, total))) in found.indices.iter().zip(expected).enumerate() {
         for (name, estimate, truth) in [("S", index.first, *first), ("T", index.total, *total)] {

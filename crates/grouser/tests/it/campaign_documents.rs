@@ -103,7 +103,7 @@ fn quantiles_of_a_closed_form_lie_in_their_intervals() {
     }
 }
 
-/// Of a product of lognormal factors e^(a z): with v = a², S = (e^v − 1)/(e^Σv − 1) and
+/// Indices of a product of lognormal factors e^(a z): with v = a², S = (e^v − 1)/(e^Σv − 1) and
 /// T = 1 − (e^(Σv − v) − 1)/(e^Σv − 1).
 #[test]
 fn sobol_indices_of_a_closed_form_lie_in_their_intervals() {
@@ -513,7 +513,7 @@ fn values_are_set_from_outside() {
 
 // ---- What is wrong ----
 
-/// That a document is refused with a message that has all of these parts.
+/// Checks that a document is refused with a message that has all of these parts.
 fn check_refused(text: &str, parts: &[&str]) {
     let error = match read(text) {
         Ok(_) => panic!("read: {text}"),

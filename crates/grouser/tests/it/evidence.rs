@@ -11,7 +11,7 @@ use grouser::studies::evidence::{
     Answer, AnswerKind, Evidence, SHRINKAGE, Shares, judged, stacked, without,
 };
 
-/// As in `validate`; half as many move a weight by a hundredth or two.
+/// Number of samples, as in `validate`; half as many move a weight by a hundredth or two.
 const SAMPLES: u64 = 100;
 
 static ALL: LazyLock<Vec<Evidence>> =

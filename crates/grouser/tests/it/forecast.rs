@@ -53,7 +53,8 @@ fn study(scenario: &LoadedScenario, choices: Choices) -> ForecastStudy {
     }
 }
 
-/// That of an uncertain soil on one slope with every choice open, made once for all tests that read it.
+/// Forecast for an uncertain soil on one slope with every choice open, made once for all tests that
+/// read it.
 static WHOLE: LazyLock<Forecast> =
     LazyLock::new(|| forecast(&scenario(&[UNCERTAIN]), all_choices(), &[12.0]));
 

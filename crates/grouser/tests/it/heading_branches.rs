@@ -113,7 +113,7 @@ struct Counts {
     steeper: usize,
     /// The drive does not keep its course.
     differ: usize,
-    /// Of all curves those that end where the ground slides by itself.
+    /// Curves, out of all, that end where the ground slides by itself.
     ground: usize,
     /// Curves with another end, on which a drive 1° above the limit keeps its course all the same.
     above: usize,
@@ -242,7 +242,8 @@ fn a_fold_in_skid_does_not_end_the_way_down() {
     assert!(slips.is_sorted_by(|gentle, steep| gentle > steep), "{slips:?}");
 }
 
-/// Of the samples of an uncertain soil no more have no heading, or too much slip, down a gentle slope than up.
+/// No more samples of an uncertain soil have no heading, or too much slip, down a gentle slope than
+/// up.
 #[test]
 fn going_down_a_gentle_slope_is_no_harder_than_going_up() {
     /// No-go above it, by default [-].
@@ -281,11 +282,12 @@ fn a_mirrored_rover_has_mirrored_headings() {
     }
 }
 
-/// Where slip jumps between two slopes however near they are. A steep piece is none: half of the way has half of the
-/// change.
+/// Where slip jumps between two slopes however near they are. A steep piece is not a jump: half of
+/// the way has half of the change.
 fn jumps(curve: &HeadingCurve) -> Vec<String> {
     const SLOPES: usize = 60;
-    /// Of the limit: nearer to it the curve turns to its fold.
+    /// Share of the limit up to which jumps are sought [-]: nearer to it the curve turns to its
+    /// fold.
     const REACHED: f64 = 0.9;
     /// A change of the slip between two slopes that is looked at more closely [-].
     const LARGE: f64 = 1e-3;

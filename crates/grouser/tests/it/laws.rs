@@ -38,7 +38,8 @@ fn without_units(forces: &WheelForces, load: f64, radius: f64) -> [(&'static str
     ]
 }
 
-/// That two wheels do the same, each in its own units of force and length, to a relative error.
+/// Checks that two wheels do the same, each in its own units of force and length, to a relative
+/// error.
 fn check_alike(
     (one, one_load, one_radius): (&WheelForces, f64, f64),
     (other, other_load, other_radius): (&WheelForces, f64, f64),
@@ -177,7 +178,7 @@ proptest! {
         }
     }
 
-    /// As above for the sinkage: driving wheels in sand that carries them.
+    /// The sinkage scales with the unit of length: driving wheels in sand that carries them.
     #[test]
     fn the_sinkage_scales_with_the_unit_of_length(
         soil in given::any_sand(), wheel in given::any_wheel(), s in 0.0..1.0,
@@ -895,7 +896,8 @@ proptest! {
     }
 }
 
-/// As above in one place: the paper's wheel, locked to nearly rolling, on sand with K = 0.5 mm.
+/// The quadrature error in one case: the paper's wheel, locked to nearly rolling, on sand with
+/// K = 0.5 mm.
 #[test]
 fn in_skid_sixteen_nodes_are_good_to_some_hundred_thousandths() {
     let stiff = ShearModulus::constant(5e-4);

@@ -402,7 +402,7 @@ fn without<'t>(tokens: &[Token<'t>], start: &[&str], open: &str, close: &str) ->
     kept
 }
 
-/// That a made-up source breaks a rule at each of these lines, and nowhere else.
+/// Checks that a made-up source breaks a rule at each of these lines, and nowhere else.
 fn check_breaches(name: &str, text: &str, lines: &[usize]) {
     let found = breaches_in(name, text);
     let found_lines: Vec<usize> = found.iter().map(|breach| breach.line).collect();

@@ -137,7 +137,7 @@ fn rows_are_chosen_by_conditions_and_by_the_wheels_name() {
     assert!(choose(&["slip_angle_deg=7"], None).unwrap_err().contains("no row"));
 }
 
-/// Of two loads that agree either will do; of two that do not, nobody knows which was carried.
+/// Either of two loads that agree will do; if they do not, nobody knows which was carried.
 #[test]
 fn a_normal_force_beside_the_load_must_agree_with_it() {
     let header = "slip_ratio,load_n,normal_force_n,sinkage_mm\n";
@@ -336,7 +336,7 @@ fn errors_are_those_of_cell_means() {
     assert!((errors.r2.expect("they differ") - (1.0 - 10.0 / spread)).abs() < 1e-12);
 }
 
-/// Of the first cell's three trials two were read, 2 N apart; the second's two are 4 N apart:
+/// Two of the first cell's three trials were read, 2 N apart; the second's two are 4 N apart:
 /// variances of 2 and of 8, one degree of freedom each, pooled √5.
 #[test]
 fn a_trial_that_was_not_read_does_not_tell_how_trials_repeat() {

@@ -39,7 +39,7 @@ impl Draw {
         low + (high - low) * ((self.bits() >> 11) as f64 / (1_u64 << 53) as f64)
     }
 
-    /// Of every size between two positive numbers.
+    /// Draws a number between two positive ones, evenly over its logarithm.
     pub(crate) fn sized(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp()
     }
@@ -220,8 +220,8 @@ pub(crate) fn numbers_of(forces: &WheelForces) -> [f64; 14] {
     ]
 }
 
-/// That a wheel either carries its load with finite forces, or is said to sink to its axle where
-/// no depth is known that carries it.
+/// Checks that a wheel either carries its load with finite forces, or is reported to sink to its
+/// axle where no depth is known that carries it.
 fn check_case(model: &Model, case: u64, tally: &mut Tally) {
     let Case { contact, load, carried } = any_case(model, case);
     match settle(model.as_ref(), &contact, load) {

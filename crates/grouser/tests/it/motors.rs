@@ -500,7 +500,8 @@ fn a_derated_motor_stalls_before_it_burns() {
     }
 }
 
-/// As the battery empties its voltage falls, and with it the speed of motors that have no other limit.
+/// The voltage falls as the battery empties, and with it the speed of motors that have no other
+/// limit.
 #[test]
 fn motors_slow_down_as_the_battery_empties() {
     let control = SpeedControl { integral: 975.0, ..PROPORTIONAL };

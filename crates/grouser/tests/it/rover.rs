@@ -135,13 +135,13 @@ fn a_force_free_rover_keeps_its_momentum() {
 /// Signs of the two first moments and of the centrifugal term along x, as a source prints them.
 #[derive(Clone, Copy, Debug)]
 struct Signs {
-    /// Of d_x sin γ in M[1,3].
+    /// Sign of d_x sin γ in M[1,3].
     first: f64,
-    /// Of the whole M[1,3].
+    /// Sign of the whole M[1,3].
     outer: f64,
-    /// Of d_y sin γ in M[2,3].
+    /// Sign of d_y sin γ in M[2,3].
     second: f64,
-    /// Of d_y sin γ in the centrifugal force along x.
+    /// Sign of d_y sin γ in the centrifugal force along x.
     centrifugal: f64,
 }
 
@@ -322,7 +322,8 @@ fn own_moments_turn_the_rover_only_if_they_are_included() {
 
 // ---- loads ----
 
-/// That loads are none negative, carry the weight, and balance the moments about the centre of mass.
+/// Checks that no load is negative, and that loads carry the weight and balance the moments about
+/// the centre of mass.
 fn check_balance(
     rover: &Rover,
     loads: &[f64],

@@ -65,8 +65,8 @@ fn kolmogorov(mut values: Vec<f64>, cumulative: impl Fn(f64) -> f64) -> f64 {
     distances.fold(0.0, f64::max)
 }
 
-/// Of true draws, one set in ten thousand is further away than 2.23/√n (Kolmogorov's limit law);
-/// the seed is fixed, so the test cannot fail by chance later.
+/// One set of true draws in ten thousand is further away than 2.23/√n (Kolmogorov's limit law); the
+/// seed is fixed, so the test cannot fail by chance later.
 #[test]
 fn draws_follow_the_distributions_that_were_asked_for() {
     const COUNT: u64 = 4000;

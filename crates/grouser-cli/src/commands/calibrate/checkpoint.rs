@@ -33,8 +33,8 @@ pub(super) fn open_folder(args: &CalibrateArgs) -> Result<Option<OutputFolder>, 
 }
 
 impl Checkpoint {
-    /// That of a calibration, with the state to go on from if an earlier run was interrupted. There
-    /// is none without a folder, or without samples.
+    /// The checkpoint of a calibration, with the state to go on from if an earlier run was
+    /// interrupted; `None` without a folder, or without samples.
     ///
     /// * `identity`: the inputs that identify this calibration
     pub(super) fn open(args: &CalibrateArgs, identity: String) -> Result<Option<Self>, Failure> {

@@ -153,7 +153,7 @@ pub(super) fn fitting(text: &str, most: f64, room: f64) -> f64 {
     most.min(most * room / width(text, Face::Bold, most).max(f64::MIN_POSITIVE))
 }
 
-/// As much of a text as fits at a size [mm].
+/// The part of a text that fits at a size [mm].
 pub(super) fn shortened(text: &str, size: f64, room: f64) -> String {
     let fits = |text: &str| width(text, Face::Bold, size) <= room;
     if fits(&escape::line(text)) {

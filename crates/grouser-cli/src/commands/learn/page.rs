@@ -159,7 +159,8 @@ fn information(lessons: &Table) -> Chart {
     Chart::new(title, (axis(WAY), axis(INFORMATION)), series.collect())
 }
 
-/// Of each wheel: the slip that its current gives, with the band, and the slip that was seen.
+/// A chart for each wheel: the slip that its current gives, with the band, and the slip that was
+/// seen.
 fn slips_from_currents(rover: &Rover, rows: &Table) -> Vec<Chart> {
     let names = rows.texts(WHEEL);
     let [low, median, high] = SLIP_RATIO.quantiles();

@@ -22,7 +22,7 @@ enum Kind {
 }
 
 impl Position {
-    /// That after the records of a drive.
+    /// The position after the records of a drive.
     pub(super) fn after(drive: &Drive, label: &str, is_stream: bool) -> Self {
         let records = drive.records();
         let kind = match drive.last_time() {
@@ -74,7 +74,7 @@ impl Position {
         }
     }
 
-    /// That all records that were learnt from are in the log, at its end.
+    /// Checks, at the end of the log, that it has all records that were learnt from.
     pub(super) fn check_end(&self) -> Result<(), Failure> {
         match &self.kind {
             Kind::File { left, .. } if *left > 0 => Err(self.is_another()),

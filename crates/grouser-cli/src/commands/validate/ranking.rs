@@ -30,7 +30,7 @@ use crate::report::page::Page;
 struct Results<'a> {
     #[serde(flatten)]
     ranking: &'a Ranking,
-    /// Of every rover: each slope, measured and predicted.
+    /// Each slope of every rover, measured and predicted.
     slopes: &'a [Map<String, Value>],
 }
 

@@ -193,7 +193,7 @@ fn quantities(
 }
 
 /// * `measured`: on how many slopes
-/// * `errors`: over the slopes with a prediction; `None` if there is none on any
+/// * `errors`: over the slopes with a prediction; `None` if no slope has one
 fn error_row(
     of: &str,
     quantity: &str,

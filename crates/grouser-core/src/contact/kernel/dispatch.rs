@@ -66,8 +66,8 @@ impl InstructionSet {
         }
     }
 
-    /// As many multiplications and additions of doubles as asked for, none of which waits for another:
-    /// what a processor does at most on this set. Something of their results, so that none is left out.
+    /// Does multiplications and additions of doubles, none of which waits for another: what a
+    /// processor does at most on this set. Returns a sum of the results, so that none is left out.
     ///
     /// * `rounds`: of [`operations_a_round`](Self::operations_a_round) each
     #[must_use]
@@ -103,8 +103,9 @@ impl InstructionSet {
     }
 }
 
-/// As many as keep a processor busy through their latency and stay in its registers, with vectors of four; of
-/// eight, twice as many. (Of 48 the compiler makes no vectors.)
+/// Number of doubles that keep a processor busy through the latency of its operations and stay in
+/// its registers, with vectors of four; with vectors of eight, twice as many. (Of 48 the compiler
+/// makes no vectors.)
 const SIDE_BY_SIDE: usize = 56;
 
 struct Operations<const SIDE_BY_SIDE: usize> {

@@ -23,7 +23,7 @@ use crate::elementary;
 /// Wheels of one kind, each at a sinkage: the same shear law, and nodes that are as many.
 pub(in crate::contact) struct Wheels<'a> {
     pub laws: &'a StressLaws,
-    /// Of each [m].
+    /// Sinkage of each wheel [m].
     pub sinkages: &'a Each,
     pub nodes: Nodes,
 }
@@ -270,7 +270,7 @@ pub(in crate::contact) struct Reactions {
 }
 
 impl Reactions {
-    /// That of one wheel.
+    /// Returns the reaction of one wheel.
     pub(in crate::contact) fn of(&self, wheel: usize) -> Reaction {
         let [shear_forward, normal_back, shear, lateral, lateral_below, lateral_ahead] =
             self.sums.each_ref().map(|each| each[wheel]);

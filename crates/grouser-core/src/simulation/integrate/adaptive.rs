@@ -169,7 +169,7 @@ struct Attempt<const N: usize> {
 }
 
 impl<F: Fn(&Numbers<N>) -> Option<Numbers<N>>, const N: usize> Motion<F, N> {
-    /// As many steps as it takes to reach a time [s], at least one in all.
+    /// Takes as many steps as are needed to reach a time [s], at least one in all.
     ///
     /// * `start`: when [s] and where the motion begins
     /// * `way`: how far it has come

@@ -33,9 +33,9 @@ impl<const N: usize> Method<N> {
         trees(order).iter().map(breach).fold(0.0, f64::max)
     }
 
-    /// That a solution is of an order, and of no higher one.
+    /// Checks that a solution is of an order, and of no higher one.
     pub(super) fn check(&self, b: &SVector<f64, N>, order: usize, share: f64) {
-        /// Of coefficients of up to 165 with 16 digits, over a few products.
+        /// Rounding error of coefficients of up to 165 with 16 digits, over a few products.
         const ROUNDING: f64 = 1e-12;
         for lower in 1..=order {
             let breach = self.breach(b, lower, share);

@@ -159,7 +159,7 @@ impl Pages {
     }
 }
 
-/// That a column is within its file: the library takes that for granted.
+/// Checks that a column is within its file: the library takes that for granted.
 fn check_place(chunk: &ColumnChunkMetaData, length: u64) -> Result<()> {
     let start = chunk.dictionary_page_offset().unwrap_or_else(|| chunk.data_page_offset());
     let end = u64::try_from(start).ok().zip(u64::try_from(chunk.compressed_size()).ok());

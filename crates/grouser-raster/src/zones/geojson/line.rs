@@ -12,7 +12,8 @@ use crate::error::{Fault, RasterError};
 /// FeatureCollection. Heights in it are passed over, and so are properties.
 ///
 /// # Errors
-/// [`RasterError`] with the file's name, if it has no line, several, other geometries or places that are none.
+/// [`RasterError`] with the file's name, if it has no line, several, other geometries or invalid
+/// places.
 pub fn read_line_string(path: &Path) -> Result<Vec<Vec2>, RasterError> {
     let line = || decode_line_string(&bytes_of(path)?);
     line().map_err(|fault: Fault| RasterError::new(path, fault))
@@ -29,7 +30,7 @@ pub fn read_line_string(path: &Path) -> Result<Vec<Vec2>, RasterError> {
 /// ```
 ///
 /// # Errors
-/// [`Fault`] if there is no line, several, other geometries or places that are none.
+/// [`Fault`] if there is no line, several, other geometries or invalid places.
 pub fn decode_line_string(bytes: &[u8]) -> Result<Vec<Vec2>, Fault> {
     if !starts_so(bytes) {
         let problem = "it does not begin with an object".to_owned();

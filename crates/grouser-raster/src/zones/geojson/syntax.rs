@@ -24,7 +24,7 @@ pub(super) struct Root {
     pub(super) features: Vec<Feature>,
     pub(super) geometry: Option<Geometry>,
     pub(super) properties: Option<Properties>,
-    /// Of a geometry that stands by itself.
+    /// Coordinates of a geometry that stands by itself.
     pub(super) coordinates: Coordinates,
     crs: Option<System>,
 }

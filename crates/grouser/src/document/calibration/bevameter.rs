@@ -38,9 +38,9 @@ const SHEAR_KEYS: [&str; 3] = ["cohesion_kpa", "friction_angle_deg", "shear.long
 /// Curves of plate and shear tests, as they were read.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BevameterTests {
-    /// Of plates; those of one width repeat each other.
+    /// Curves of plate tests; those of one width repeat each other.
     pub plates: Vec<PlateCurve>,
-    /// Of shear; those under nearly one normal stress repeat each other.
+    /// Curves of shear tests; those under nearly one normal stress repeat each other.
     pub shear: Vec<ShearCurve>,
 }
 
@@ -312,7 +312,8 @@ impl Searched {
         FitKey { path: self.key.to_owned(), bounds: Some(self.bounds) }
     }
 
-    /// Of either sign, up to a size; a start beyond that is moved to it.
+    /// Returns a key that is searched over both signs, up to a size; a start beyond that is moved
+    /// to it.
     fn signed(key: &'static str, start: f64, size: f64, most: f64) -> Self {
         let size = (SEARCHED_SIZES * size.max(start.abs())).min(most);
         Self { key, start: start.clamp(-size, size), bounds: (-size, size) }

@@ -111,7 +111,7 @@ impl Frequencies {
     /// Counts some runs.
     ///
     /// * `runs`: their numbers
-    /// * `statuses`, `outcomes`: theirs; no outcomes for studies that have none
+    /// * `statuses`, `outcomes`: theirs; no outcomes for studies without them
     pub fn add(
         &mut self,
         campaign: &Campaign,
@@ -208,7 +208,8 @@ mod tests {
         assert_eq!((frequencies.samples, frequencies.statuses["ok"]), (16, 16));
     }
 
-    /// Of a part whose shards of three runs cut points of four in two, only whole points count for sensitivities.
+    /// Only whole points count for sensitivities in a part whose shards of three runs cut points of
+    /// four in two.
     #[test]
     fn points_that_a_part_cuts_in_two_are_left_out() {
         let campaign = campaign();

@@ -6,7 +6,7 @@ use super::super::unit::unit_of;
 /// A column of a campaign's rows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// As documents and results name it: `sinkage_mm`, or an input's key.
+    /// The name in documents and results: `sinkage_mm`, or an input's key.
     pub name: String,
     /// The kind of its values.
     pub kind: ColumnKind,

@@ -64,8 +64,9 @@ struct OnSlope<'a> {
     slope: f64,
     found: &'a Result<HeadingOffset, NoHeading>,
     findings: &'a [Finding],
-    /// Of a map: the soil's name, and its row.
+    /// Name of the soil in a map; empty elsewhere.
     soil: &'a str,
+    /// Row of the map; `None` elsewhere.
     row: Option<&'a HeadingRow>,
 }
 

@@ -257,7 +257,7 @@ impl<'a> Reader<'a> {
         found.unwrap_or(NOTHING)
     }
 
-    /// Puts a value in its place, or says that it is none.
+    /// Puts a value in its place, or refuses it if it is not valid.
     fn take<T>(&mut self, name: &str, value: &mut T, read: impl Fn(&'a Json) -> Option<T>) {
         match read(self.next(name)) {
             Some(read) => *value = read,

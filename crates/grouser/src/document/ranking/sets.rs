@@ -76,7 +76,7 @@ const DOUBTFUL: f64 = 0.03;
 /// * `samples`: of each model
 ///
 /// # Errors
-/// As [`rank_all`](super::rank_all).
+/// The same as [`rank_all`](super::rank_all).
 pub fn evidence(samples: u64, seed: u64, limits: Limits) -> Result<Vec<Evidence>, RankingError> {
     let mut all = Vec::new();
     for DataSet { set, rows, .. } in data_sets_of_the_program()? {

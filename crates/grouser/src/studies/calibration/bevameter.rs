@@ -15,9 +15,9 @@ use crate::soil::{Shear, Soil};
 /// Curves of one soil, each the mean over its repeats.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BevameterCurves {
-    /// Of plates, one for each width, narrow ones first.
+    /// Curves of plate tests, one for each width, narrow ones first.
     pub plates: Vec<PlateCurve>,
-    /// Of shear, one for each normal stress, low ones first.
+    /// Curves of shear tests, one for each normal stress, low ones first.
     pub shear: Vec<ShearCurve>,
     /// How many curves each of the plates' is the mean of; then of the shear curves.
     pub repeats: (Vec<usize>, Vec<usize>),

@@ -118,7 +118,7 @@ pub fn without(tests: &WheelTests, slip_angle: f64) -> WheelTests {
 /// * `observer`: called whenever a search of a fit or a block of a posterior has ended; it can stop the work
 ///
 /// # Errors
-/// As [`Calibration::new`] and [`Calibration::fit`], of the first fit that fails.
+/// The same as [`Calibration::new`] and [`Calibration::fit`], for the first fit that fails.
 pub fn leave_one_angle_out(
     tests: &WheelTests,
     setup: Setup,

@@ -201,7 +201,8 @@ fn gain_of_all(covariance: &DMatrix<f64>, candidate: usize, noise: &DMatrix<f64>
 
 type Factor = Cholesky<f64, Dyn>;
 
-/// Of the covariance of a run's outcomes with their noise; none if it cannot be inverted.
+/// Returns the Cholesky factor of the covariance of a run's outcomes with their noise; `None` if it
+/// cannot be inverted.
 fn factor(covariance: &DMatrix<f64>, candidate: usize, noise: &DMatrix<f64>) -> Option<Factor> {
     let (each, first) = (noise.nrows(), 1 + candidate * noise.nrows());
     (covariance.view((first, first), (each, each)) + noise).cholesky()

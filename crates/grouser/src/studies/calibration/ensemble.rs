@@ -25,8 +25,8 @@ pub(super) struct Walked {
 /// out of corners.
 const SHARES: [u32; 2] = [1, 4];
 
-/// Of the differences of two walkers, this share, over √(2 d), is the best step for a normal
-/// density (ter Braak 2006).
+/// This share of the difference of two walkers, over √(2 d), is the best step for a normal density
+/// (ter Braak 2006).
 const BEST_STEP: f64 = 2.38;
 
 /// Random part of that share [-]: it keeps walkers from moving on a lattice.

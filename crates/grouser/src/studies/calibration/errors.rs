@@ -56,9 +56,9 @@ pub struct Errors {
     channels: Vec<usize>,
     /// Each observation's discrepancy, in units of its channel's δ.
     weights: Vec<f64>,
-    /// Of each channel, the weight at which a discrepancy is δ.
+    /// The weight at which a discrepancy is δ, for each channel.
     usual_weights: Vec<f64>,
-    /// Of each observation that is counted by its logarithm, what a logarithm of 1 counts as.
+    /// What a logarithm of 1 counts as, for each observation that is counted by its logarithm.
     logarithmic: Vec<Option<f64>>,
     /// Observations whose discrepancies are correlated; none if all are independent.
     families: Vec<Vec<usize>>,
@@ -381,7 +381,7 @@ pub(super) struct Whitener {
 }
 
 impl Whitener {
-    /// Of each residual on its own, without its correlations.
+    /// Returns the whitener of each residual on its own, without its correlations.
     pub(super) fn independent(deviations: Vec<f64>) -> Self {
         Self { deviations, factors: Vec::new() }
     }

@@ -71,10 +71,10 @@ pub struct Place {
 /// How the discrepancy of an observation is counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// As a difference.
+    /// A difference.
     Linear,
-    /// As the logarithm of a ratio, times the observation's weight: of what is positive, and may be
-    /// several times what a model says.
+    /// The logarithm of a ratio, times the observation's weight: for quantities that are positive,
+    /// and may be several times what a model predicts.
     Logarithmic,
 }
 

@@ -29,8 +29,8 @@ pub(super) struct Minimum {
 /// A search ends where a step promises to lower the cost, or to move, by less than this share.
 const TOLERANCE: f64 = 1e-9;
 
-/// What stands for each residual at a point that has none. The search takes such a step back, and
-/// the next one is shorter. Its square is a finite number.
+/// What stands for each residual at a point without residuals. The search takes such a step back,
+/// and the next one is shorter. Its square is a finite number.
 const NO_RESIDUAL: f64 = 1e100;
 
 /// Searches downhill from a point.

@@ -28,7 +28,7 @@ pub struct SamplerSettings {
     pub blocks: u64,
     /// Steps of a block.
     pub steps_per_block: usize,
-    /// Of so many steps one is kept, at the end of each such group.
+    /// Number of steps of which one is kept, the last of each such group.
     pub keep_every: usize,
 }
 

@@ -32,7 +32,7 @@ pub const INTERVALS: usize = 50;
 /// repeats alone hardly determine it at one place.
 const NEIGHBOURS: usize = 2;
 
-/// Of fewer degrees of freedom Student's t has no variance [-].
+/// Least number of degrees of freedom [-]: of fewer, Student's t has no variance.
 const LEAST_FREEDOM: f64 = 3.0;
 
 /// A curve with at most [`INTERVALS`] points, rising in their places: the means over intervals of equal length
@@ -91,7 +91,7 @@ pub fn means(settings: &[Vec<Vec<CurvePoint>>]) -> Vec<MeanCurve> {
 /// Curves at common places.
 struct Spread {
     places: Vec<f64>,
-    /// Of each curve, its values there.
+    /// Values of each curve at these places.
     values: Vec<Vec<f64>>,
     /// The mean's scatter as far as the readings' own is known.
     own_scatter: Vec<f64>,
@@ -160,7 +160,7 @@ impl Spread {
     }
 }
 
-/// As many places as the shortest curve has points, evenly over what all of them reach.
+/// Returns as many places as the shortest curve has points, evenly over what all curves reach.
 fn common_places(curves: &[Vec<CurvePoint>]) -> Vec<f64> {
     let ends = |of: fn(&[CurvePoint]) -> Option<&CurvePoint>| {
         curves.iter().filter_map(move |curve| of(curve)).map(|point| point.at)

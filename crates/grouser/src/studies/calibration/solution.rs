@@ -123,7 +123,7 @@ impl Calibration<'_> {
     /// [`fit`](Self::fit), with an observer of all work.
     ///
     /// # Errors
-    /// As [`fit`](Self::fit).
+    /// The same as [`fit`](Self::fit).
     pub fn search(
         &self,
         settings: &FitSettings,

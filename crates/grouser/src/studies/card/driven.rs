@@ -198,7 +198,7 @@ pub(super) fn heading_error(random: &mut ChaCha8Rng) -> f64 {
 /// The mean error of the headings that are set over the way [rad], by the driver of one sample; none where there is
 /// one sample alone, and no band.
 fn mean_error(place: usize, samples: usize, settings: usize) -> f64 {
-    /// Of a driver's errors: no soil is drawn from it.
+    /// Seed of a driver's errors: no soil is drawn from it.
     const SEED: u64 = 0x0D12_17E5;
     if samples == 1 {
         return 0.0;
@@ -228,7 +228,7 @@ mod tests {
         }
     }
 
-    /// Of one setting the errors spread over all of ±2°, of a hundred they cancel to a tenth.
+    /// The errors of one setting spread over all of ±2°, those of a hundred cancel to a tenth.
     #[test]
     fn a_drivers_errors_cancel_over_the_way() {
         let spread = |settings: usize| {

@@ -80,7 +80,7 @@ struct Ways(Vec<[f64; STEPS + 1]>);
 impl Ways {
     /// * `length`: over which the soil changes [m]
     fn draw(length: f64) -> Self {
-        /// Of the ways: no soil is drawn from it.
+        /// Seed of the ways: no soil is drawn from it.
         const SEED: u64 = 0x511D_CEC5;
         const COUNT: u64 = 10_000;
         let kept = exp(-STEP / length);

@@ -29,7 +29,7 @@ pub struct VarianceBudget {
     pub mean: f64,
     /// Variance, *V*.
     pub variance: f64,
-    /// Of each factor.
+    /// Part of each factor.
     pub parts: Vec<VariancePart>,
 }
 

@@ -34,19 +34,19 @@ pub enum Question {
 }
 
 impl Question {
-    /// Of a wheel at a slip angle [rad].
+    /// Returns the question about a wheel at a slip angle [rad].
     #[must_use]
     pub fn at_slip_angle(slip_angle: f64) -> Self {
         if slip_angle == 0.0 { Self::Along } else { Self::Across }
     }
 
-    /// Of several: what one of them needs.
+    /// Combines several questions into one that needs all forces that they need.
     #[must_use]
     pub fn of_all(mut questions: impl Iterator<Item = Self>) -> Self {
         if questions.any(|it| it == Self::Across) { Self::Across } else { Self::Along }
     }
 
-    /// Of a rover on a slope.
+    /// Returns the question about a rover on a slope.
     ///
     /// * `course`: from the contour [rad]
     #[must_use]

@@ -99,7 +99,7 @@ impl BandInputs {
     /// * `numbers`: of the soil, and of the discrepancy
     ///
     /// # Errors
-    /// As [`sample`](Self::sample).
+    /// The same as [`sample`](Self::sample).
     pub fn crossed(
         &self,
         model: Model,
@@ -144,7 +144,7 @@ impl BandInputs {
     /// The first samples.
     ///
     /// # Errors
-    /// As [`sample`](Self::sample), for the first that cannot be drawn.
+    /// The same as [`sample`](Self::sample), for the first that cannot be drawn.
     pub fn samples(&self, seed: u64, count: u32) -> Result<Vec<Sample>, NothingAccepted> {
         let all: Vec<_> =
             (0..count).into_par_iter().map(|it| self.sample(seed, it.into())).collect();

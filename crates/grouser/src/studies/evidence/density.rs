@@ -27,7 +27,7 @@ pub(super) fn density(samples: &[f64], noise: f64, at: f64) -> f64 {
 
 /// The smaller of the standard deviation and of the middle half's width over that of a normal distribution.
 fn spread(samples: &[f64]) -> f64 {
-    /// Of a normal distribution's middle half, in standard deviations.
+    /// Width of a normal distribution's middle half, in standard deviations.
     const MIDDLE_HALF: f64 = 1.349;
     let mut sorted: Vec<f64> = samples.to_vec();
     sorted.sort_by(f64::total_cmp);

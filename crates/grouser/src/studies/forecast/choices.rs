@@ -22,8 +22,8 @@ pub struct Choices {
 pub enum Ground {
     /// The soil as it was measured.
     AsMeasured,
-    /// That soil with cohesion, friction angle and density of another one, which is known for the site; moduli and all
-    /// else stay.
+    /// The measured soil with cohesion, friction angle and density of another one, which is known
+    /// for the site; moduli and all else stay.
     Site(Box<SiteSoil>),
 }
 
@@ -58,7 +58,8 @@ impl Choices {
         }
     }
 
-    /// That there is one of each, and every mass is one.
+    /// Checks that there is at least one scaling, ground and mass, and that every mass factor is
+    /// positive.
     pub(super) fn check(&self) -> Result<(), ParameterError> {
         let counts = [
             ("the number of gravity scalings", self.scalings.len()),

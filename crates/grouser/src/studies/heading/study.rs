@@ -78,7 +78,7 @@ impl HeadingStudy {
     /// The same with each rim at its own speed [m/s], in the mounts' order; negative backwards.
     ///
     /// # Errors
-    /// As for [`steady_motion`](Self::steady_motion).
+    /// The same as [`steady_motion`](Self::steady_motion).
     pub fn steady_motion_of(
         &self,
         slope: f64,
@@ -91,7 +91,7 @@ impl HeadingStudy {
     /// The same at another yaw *γ* [rad], sought from a motion on that slope.
     ///
     /// # Errors
-    /// As for [`steady_motion`](Self::steady_motion).
+    /// The same as [`steady_motion`](Self::steady_motion).
     pub fn steady_motion_near(
         &self,
         motion: &SteadyMotion,
@@ -106,7 +106,7 @@ impl HeadingStudy {
     /// The same with each rim at its own speed [m/s], sought from a motion with these speeds on a slope that is near.
     ///
     /// # Errors
-    /// As for [`steady_motion`](Self::steady_motion).
+    /// The same as [`steady_motion`](Self::steady_motion).
     pub fn steady_motion_of_near(
         &self,
         motion: &SteadyMotion,

@@ -149,7 +149,7 @@ impl Bank {
     /// The same under one model.
     ///
     /// # Errors
-    /// As [`sample`](Self::sample).
+    /// The same as [`sample`](Self::sample).
     pub(super) fn sample_of(
         &self,
         model: &Model,

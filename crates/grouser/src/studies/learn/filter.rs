@@ -70,7 +70,7 @@ impl Filter {
         self.belief = Gaussian::standard(self.unknowns.count());
     }
 
-    /// That the rover went on over soil that changes.
+    /// Widens the belief by what the soil may have changed over a way.
     ///
     /// * `way`: of the rims [m]
     pub(super) fn wander(&mut self, way: f64, wandering: Wandering) {

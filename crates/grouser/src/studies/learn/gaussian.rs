@@ -76,7 +76,7 @@ impl Line {
 /// How far an observation was from what was expected of it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Surprise {
-    /// Of each number, in standard deviations [-].
+    /// Score of each number, in standard deviations [-].
     pub(super) scores: DVector<f64>,
     /// The logarithm of its density.
     pub(super) log_density: f64,

@@ -32,7 +32,8 @@ pub struct InformationByKind {
 }
 
 impl InformationByKind {
-    /// Of the numbers of a stretch, in the order of observations: along, across, turning, torques, sinkages.
+    /// Adds up the information of a stretch's numbers by kind. The numbers are in the order of
+    /// observations: along, across, turning, torques, sinkages.
     pub(super) fn of(stretch: &Stretch, by_number: &[f64]) -> Self {
         let [along, across, turning] =
             [0, 1, 2].map(|place| by_number.get(place).copied().unwrap_or(0.0));

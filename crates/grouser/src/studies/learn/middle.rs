@@ -23,7 +23,7 @@ const FARTHEST: f64 = 3.1;
 const MANY: usize = 12;
 
 impl Middle {
-    /// Of some readings; `None` of none.
+    /// Returns the middle of some readings; `None` if there are no readings.
     ///
     /// The scatter is that of the middle half, which is 1.349 standard deviations of normal readings wide: a quarter of
     /// outliers at each end does not show in it. Readings that are rounded to more than that have the scatter of the
@@ -63,7 +63,7 @@ impl Middle {
     }
 }
 
-/// Of the readings that are near a middle: their count, mean and standard deviation.
+/// Returns the count, mean and standard deviation of the readings that are near a middle.
 ///
 /// The deviation is that whose inverse square is right on the mean, Σ(x − m)²/(n − 3) with their mean m: readings are weighed by it, and one
 /// that is right on the mean itself would give those too much weight that lie close together by chance.

@@ -454,7 +454,7 @@ struct Balance {
 /// The variances of an observation's numbers.
 #[derive(Clone, Debug)]
 pub(super) struct Variances {
-    /// Of the readings, a stretch's own.
+    /// Variances of the readings, a stretch's own.
     pub(super) own: DVector<f64>,
     /// What no soil explains of torques and sinkages, the same over a patch of the ground.
     pub(super) of_patch: DVector<f64>,

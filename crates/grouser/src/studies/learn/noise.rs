@@ -3,15 +3,16 @@
 /// What is left over however well soil and model are known, and over which way it is the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ModelNoise {
-    /// Of forces, over the weight [-].
+    /// Standard deviation of forces, over the weight [-].
     pub force: f64,
-    /// Of the attitude: that of the ground under the wheels against that of the body [rad].
+    /// Standard deviation of the attitude of the ground under the wheels against that of the body
+    /// [rad].
     pub attitude: f64,
-    /// Of torques, over their size [-].
+    /// Standard deviation of torques, over their size [-].
     pub torque_share: f64,
-    /// Of torques that are small [N·m].
+    /// Standard deviation of torques that are small [N·m].
     pub torque: f64,
-    /// Of the logarithm of a sinkage [-].
+    /// Standard deviation of the logarithm of a sinkage [-].
     pub sinkage: f64,
     /// The way over which it is the same [m]: two stretches within it say no more than one.
     pub way: f64,
@@ -34,7 +35,7 @@ impl ModelNoise {
     ///
     /// * `way`: of the stretch [m]
     pub(in crate::studies) fn together(&self, way: f64) -> f64 {
-        /// Of a rover that does not come forward.
+        /// Way that counts for a rover that does not come forward [m].
         const SHORTEST: f64 = 0.01;
         (self.way / way.max(SHORTEST)).max(1.0)
     }

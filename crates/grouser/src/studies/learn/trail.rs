@@ -191,7 +191,8 @@ mod tests {
         assert!(trail.trend(0.0..0.25, of_weakness).is_none(), "three stretches are no trend");
     }
 
-    /// Of a thousand trends of noise alone, whose variance is known, six or so rise by 2.5 standard errors.
+    /// About six of a thousand trends of noise alone, whose variance is known, rise by 2.5 standard
+    /// errors.
     #[test]
     fn noise_rises_by_chance_as_seldom_as_it_should() {
         let mut random = random::generator(3, 1);

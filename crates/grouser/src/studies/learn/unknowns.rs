@@ -13,7 +13,7 @@ pub(super) struct Unknowns {
     model: Model,
     inputs: BandInputs,
     soil: SoilCoordinates,
-    /// Of what the model gets wrong, where the soil's samples do not bring it.
+    /// Coordinates of what the model gets wrong, where the soil's samples do not bring it.
     discrepancy: Option<DiscrepancyCoordinates>,
 }
 

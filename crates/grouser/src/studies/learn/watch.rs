@@ -52,9 +52,9 @@ pub(super) struct Watch {
     learnt: f64,
     /// The number of the filter that learnt it.
     filter: u64,
-    /// Of each warning: the way at which its cause was last seen [m].
+    /// The way at which the cause of each warning was last seen [m].
     causes: BTreeMap<(WarningKind, usize), f64>,
-    /// Of each wheel: the rims' way over which its torque is too small [m].
+    /// The rims' way over which the torque of each wheel is too small [m].
     idle: Vec<f64>,
     /// The rims' way over which yaw contradicts roll and pitch [m].
     contradicted: f64,
@@ -231,7 +231,7 @@ impl Watch {
         (way <= BY_WEAKNESS || slip_ratio > SLIPS_DEEPLY).then_some((way, evidence))
     }
 
-    /// That the belief of the soil has changed.
+    /// Takes into account that the belief of the soil has changed.
     ///
     /// * `learnt`: the force against the way that goes with it, over the weight; nothing where that is not known
     pub(super) fn believed(&mut self, learnt: Option<f64>) {
@@ -273,7 +273,7 @@ impl Watch {
 
     /// Wheels that have much less torque than the others, where the soil would not have it so.
     fn idle_wheels(&mut self, seen: &Seen<'_>, rover: &Rover) -> Vec<Warning> {
-        /// A share of the others' torque that is none [-].
+        /// Share of the others' torque below which a wheel counts as idle [-].
         const LITTLE: f64 = 0.15;
         /// Where so little is expected of a wheel, a small torque is nothing strange [-].
         const EXPECTED: f64 = 0.5;

@@ -29,7 +29,7 @@ impl MobilityStudy {
     /// Compliances of the soil as written; `None` if `go_on` was false before the end.
     ///
     /// # Errors
-    /// As [`table`](Self::table).
+    /// The same as [`table`](Self::table).
     pub fn slip_compliances(
         &self,
         go_on: &(dyn Fn() -> bool + Sync),

@@ -40,7 +40,7 @@ impl MobilityMap {
     /// * `go_on`: asked before each sample of each course, from any thread
     ///
     /// # Errors
-    /// As [`MobilityStudy::table`].
+    /// The same as [`MobilityStudy::table`].
     pub fn of(
         study: &MobilityStudy,
         choice: CourseChoice,
@@ -83,7 +83,7 @@ impl MobilityMap {
 
 /// Whether there is a contour.
 pub(super) fn is_inclined(gradient: Vec2) -> bool {
-    /// A slope that rounding leaves of none [m/m].
+    /// Slope that rounding may leave on level ground [m/m].
     const LEVEL: f64 = 1e-9;
     gradient.norm() > LEVEL
 }

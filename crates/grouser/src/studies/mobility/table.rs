@@ -198,7 +198,7 @@ impl Nodes<'_> {
 
     /// The largest differences from the curve half-way between nodes.
     fn largest_errors(&self, table: &MobilityTable) -> Mobility {
-        /// Of so many intervals one is looked at.
+        /// Number of intervals of which one is looked at.
         const EVERY: usize = 16;
         let middles: Vec<f64> =
             (0..self.intervals).step_by(EVERY).map(|at| at as f64 + 0.5).collect();

@@ -24,8 +24,8 @@ pub(super) struct Thresholds {
     caution: f64,
     /// The steepest slope of each sample that is no no-go [rad], rising; of those samples for which it is known.
     steepest: Vec<f64>,
-    /// Of the other samples the steepest slope that is known to be no no-go [rad], rising: beyond it the search for a
-    /// heading gave up.
+    /// The steepest slope of each of the other samples that is known to be no no-go [rad], rising:
+    /// beyond it the search for a heading gave up.
     known_to: Vec<f64>,
     /// The same in the order of the samples.
     pub(super) of_samples: Vec<f64>,

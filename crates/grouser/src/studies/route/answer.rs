@@ -57,7 +57,7 @@ pub struct Arrival {
 pub enum Answer {
     /// The cheapest way.
     Route(Route),
-    /// There is none that keeps to the limits.
+    /// There is no way that keeps to the limits.
     NoSafeRoute(NoRoute),
 }
 
@@ -117,15 +117,15 @@ pub enum RouteError {
     /// A line that cannot be driven along.
     #[error(transparent)]
     Line(#[from] LineError),
-    /// A soil, a rover or a limit that is none.
+    /// An invalid soil, rover or limit.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
 }
 
-/// A line that is none, or not one of the map.
+/// An invalid line, or one that is not on the map.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LineError {
-    /// A place that is none.
+    /// A place that is not finite.
     #[error("place {number} of the line is x {}, y {}, and places are finite", .place.x, .place.y)]
     NoPlace {
         /// Which, from 1.

@@ -37,7 +37,8 @@ struct Spot {
 }
 
 impl Corridor<'_> {
-    /// That some of a line lies on the map, and it is no longer than can be looked at.
+    /// Checks that some of a line lies on the map, and that the line is no longer than can be
+    /// looked at.
     pub(super) fn check(&self, places: &[Vec2]) -> Result<(), RouteError> {
         let extent = self.ground.raster().grid.extent();
         let corners = [extent.south_west, extent.north_east];

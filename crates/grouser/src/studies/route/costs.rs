@@ -66,7 +66,7 @@ impl RouteStudy {
     /// * `go_on`: asked before each sample of each course, from any thread
     ///
     /// # Errors
-    /// [`ParameterError`] for inputs that are none.
+    /// [`ParameterError`] for invalid inputs.
     pub fn tables(
         &self,
         samples: &[Sample],

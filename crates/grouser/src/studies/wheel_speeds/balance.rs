@@ -18,7 +18,7 @@ use crate::vehicle::{RoverState, WheelReaction, dynamics};
 /// the rover and about its centre of mass.
 ///
 /// The unknowns are the yaw, a number for each speed, and the slope. All forces depend on ratios of speeds, so that
-/// the rover's own speed is none of them.
+/// the rover's own speed is not one of them.
 pub(super) struct Balance<'a> {
     study: &'a WheelSpeedStudy,
     aim: Aim,

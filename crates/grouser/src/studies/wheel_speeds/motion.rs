@@ -90,7 +90,8 @@ pub(super) enum Aim {
 }
 
 impl WheelSpeedStudy {
-    /// That of a scenario's rover and soil, whatever its slope and drive, with the [usual](USUAL_RATIO) speeds.
+    /// Returns the study of a scenario's rover and soil, whatever its slope and drive, with the
+    /// [usual](USUAL_RATIO) speeds.
     #[must_use]
     pub fn of(scenario: &Scenario) -> Self {
         Self { heading: HeadingStudy::of(scenario), most_ratio: USUAL_RATIO }

@@ -74,7 +74,7 @@ pub(super) fn best(problem: &dyn Problem, start: Found, enough: f64) -> Found {
             let mut tries = ways
                 .iter()
                 .filter_map(|way| back(problem, &(&here.place + way * step), &tangent.equations));
-            // A rise that rounding could make is none.
+            // A rise that rounding could make does not count.
             let better = tries.find(|there| there.value > here.value + 1e-3 * step * step);
             if better.is_some() || step < shortest {
                 break better;

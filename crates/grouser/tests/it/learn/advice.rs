@@ -311,7 +311,7 @@ fn gets_stuck(
     false
 }
 
-/// As many get stuck as is asked for at most, within the error of so few.
+/// Checks that at most as many rovers get stuck as is asked for, within the error of so few.
 fn check_looks(slope_deg: f64, stuck_probability: f64, ways: usize) {
     let prior = scenario(&PRIOR);
     let learner = learner(&prior);

@@ -90,8 +90,8 @@ pub(super) struct Table {
 }
 
 impl Statistics {
-    /// Of all runs of a campaign, with the digest of what was read. Which runs count for what is the library's
-    /// to say.
+    /// Statistics of all runs of a campaign, with the digest of what was read. The library decides
+    /// which runs count for which of them.
     pub(super) fn of(campaign: &Campaign, results: &Results) -> Result<(Self, Finished), Failure> {
         let (frequencies, mut finished) = frequencies(campaign, results)?;
         let mut statistics = Self {

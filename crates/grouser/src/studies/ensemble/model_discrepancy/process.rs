@@ -6,13 +6,13 @@ use crate::soil::Discrepancy;
 use crate::soil::discrepancy::{LARGEST, SLIP_ANGLES, SLIPS};
 use crate::studies::random;
 
-/// Of the drawbar pull, and of the side force [shares of the load].
+/// Standard deviation of the drawbar pull, and of the side force [shares of the load].
 pub(super) const FORCE: f64 = 0.03;
 
-/// Of the logarithm of the sinkage [-].
+/// Standard deviation of the logarithm of the sinkage [-].
 pub(super) const SINKAGE: f64 = 0.25;
 
-/// Of the torque [shares of load times shearing radius].
+/// Standard deviation of the torque [shares of load times shearing radius].
 pub(super) const TORQUE: f64 = 0.05;
 
 /// Over which slips a model errs alike [-].

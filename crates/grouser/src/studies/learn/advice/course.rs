@@ -48,7 +48,7 @@ impl HeadingAdvice {
         limits: &Limits,
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Option<Self> {
-        /// Of the samples a heading has to hold the contour in [-].
+        /// Share of the samples in which a heading has to hold the contour [-].
         const HALF: f64 = 0.5;
         let slope = band.slope;
         let contour = band.yaw.filter(|_| band.level.estimate() >= HALF);

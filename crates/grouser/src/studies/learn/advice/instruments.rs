@@ -8,15 +8,17 @@ use crate::vehicle::{Mount, Rover};
 /// What is read on a test drive, and how well it is read on the mean over a stretch of a decimetre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Instruments {
-    /// Of the velocity along the body, over the rims' speed [-].
+    /// Standard deviation of the velocity along the body, over the rims' speed [-].
     pub forward: f64,
-    /// Of that to its left [-]; `None` where it is not read.
+    /// Standard deviation of the velocity to the body's left, over the rims' speed [-]; `None`
+    /// where it is not read.
     pub leftward: Option<f64>,
-    /// Of the yaw rate times the distance of the farthest wheel [-].
+    /// Standard deviation of the yaw rate times the distance of the farthest wheel, over the rims'
+    /// speed [-].
     pub turning: Option<f64>,
-    /// Of torques, over their size [-].
+    /// Standard deviation of torques, over their size [-].
     pub torque: Option<f64>,
-    /// Of sinkages [m].
+    /// Standard deviation of sinkages [m].
     pub sinkage: Option<f64>,
 }
 

@@ -199,7 +199,7 @@ impl SlipWay {
         (course, rim_speed): ((f64, f64), f64),
         (seed, index): (u64, u64),
     ) -> Result<Self, NothingAccepted> {
-        /// Of odometry's errors: no soil is drawn from it.
+        /// Mask of the seed for odometry's errors: no soil is drawn from it.
         const ERRORS: u64 = 0x0D0E_7A11;
         /// Places that are taken together.
         const BLOCK: usize = 5;

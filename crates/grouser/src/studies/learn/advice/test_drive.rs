@@ -159,7 +159,7 @@ const WIDTH: f64 = 2.0 * 1.959_963_984_540_054;
 pub(super) struct Planner<'a> {
     pub(super) study: &'a HeadingStudy,
     pub(super) settings: &'a LearnSettings,
-    /// Of the model with the greatest share.
+    /// Filter of the model with the greatest share.
     pub(super) filter: &'a Filter,
     pub(super) limits: &'a Limits,
     pub(super) tests: &'a TestSettings,
