@@ -1,5 +1,5 @@
-//! The project's address, stated once, as `repository` in the workspace's `Cargo.toml`. Files that must name
-//! it themselves, such as `CITATION.cff`, name the same one.
+//! The project's address, stated once, as `repository` in the workspace's `Cargo.toml`. Files that
+//! must name it themselves, such as `CITATION.cff`, name the same one.
 
 use crate::flaw::Flaw;
 

@@ -1,6 +1,6 @@
-//! Both commands of the README as somebody runs them who has nothing but a clone: in an empty folder,
-//! with a home of its own and hardly any environment variables, so that nothing of this checkout, of
-//! folders beside it or of its caches is found.
+//! Both commands of the README as somebody runs them who has nothing but a clone: in an empty
+//! folder, with a home of its own and hardly any environment variables, so that nothing of this
+//! checkout, of folders beside it or of its caches is found.
 
 use std::ffi::OsString;
 use std::fs;
@@ -45,9 +45,9 @@ pub(crate) fn check(options: &[&str]) -> Result<bool> {
     Ok(good)
 }
 
-/// What a fresh machine's shell would set, and what names the network's own way to packages: the path to
-/// programs, the toolchain, and the settings of pip and cargo, which are files. Everything else stays
-/// behind.
+/// What a fresh machine's shell would set, and what names the network's own way to packages: the
+/// path to programs, the toolchain, and the settings of pip and cargo, which are files. Everything
+/// else stays behind.
 fn environment(
     ours: impl IntoIterator<Item = (OsString, OsString)>,
     home: &Path,

@@ -7,8 +7,9 @@ use crate::workspace;
 /// Where branches leave from, the nearest name first.
 const MAIN: [&str; 2] = ["origin/main", "main"];
 
-/// The files, as paths from the root, that differ from where the branch left `main`, with those that
-/// are new. Nothing where there is no such place, or where nothing differs: then all is to be checked.
+/// The files, as paths from the root, that differ from where the branch left `main`, with those
+/// that are new. Nothing where there is no such place, or where nothing differs: then all is to be
+/// checked.
 pub(crate) fn files() -> Option<Vec<String>> {
     let base = MAIN.iter().find_map(|main| git(&["merge-base", "HEAD", main]))?;
     let differing = git(&["diff", "--name-only", base.trim()])?;

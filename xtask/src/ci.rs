@@ -19,8 +19,8 @@ use crate::{
 /// A step of the checks.
 struct Step {
     name: &'static str,
-    /// What its programs compute on a fresh checkout, on all cores together [s of the machine on which
-    /// the yardstick takes its usual time].
+    /// What its programs compute on a fresh checkout, on all cores together
+    /// [s of the machine on which the yardstick takes its usual time].
     budget: f64,
     /// Where a change begins that asks for it, as paths from the root; nothing: any change does.
     asks: &'static [&'static str],
@@ -39,8 +39,8 @@ enum Take {
     Last(fn() -> Result<Count>),
 }
 
-/// All of them, the quick ones first. Those up to the documentation, the figures and the wheel share one
-/// build.
+/// All of them, the quick ones first. Those up to the documentation, the figures and the wheel
+/// share one build.
 const STEPS: [Step; 21] = {
     use Take::{Beside, Here, Last};
     const fn step(name: &'static str, budget: f64, take: Take) -> Step {

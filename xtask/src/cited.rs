@@ -6,7 +6,8 @@ use crate::flaw::Flaw;
 use crate::markdown::Page;
 use crate::workspace;
 
-/// Where paths that start with `crate::` lead: the crates of the library, which re-exports all of them.
+/// Where paths that start with `crate::` lead: the crates of the library, which re-exports all of
+/// them.
 const SOURCES: [&str; 3] =
     ["crates/grouser/src", "crates/grouser-io/src", "crates/grouser-core/src"];
 /// The ledger of the source paper's equations.
@@ -18,8 +19,8 @@ const WITHOUT_YEAR: [&str; 2] = ["FourWheel", "LunarSourcebook"];
 /// The numbers of its equations; the paper numbers two of them 10.
 const EQUATIONS: [u32; 19] = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 10, 11, 12, 13, 14, 15, 16, 17, 18];
 
-/// Paths of documents that lead to nothing, works that the bibliography lacks, and equations missing from
-/// the ledger.
+/// Paths of documents that lead to nothing, works that the bibliography lacks, and equations
+/// missing from the ledger.
 pub(crate) fn flaws(texts: &[(String, String)]) -> Vec<Flaw> {
     let sources: HashMap<&str, &str> = texts
         .iter()
@@ -40,8 +41,8 @@ pub(crate) fn flaws(texts: &[(String, String)]) -> Vec<Flaw> {
     flaws
 }
 
-/// Works that are cited and have no heading in the bibliography; and, in a document, citations without
-/// the line that links them there.
+/// Works that are cited and have no heading in the bibliography; and, in a document, citations
+/// without the line that links them there.
 fn unlisted(texts: &[(String, String)]) -> Vec<Flaw> {
     let listed: Vec<String> = texts
         .iter()

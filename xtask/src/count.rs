@@ -1,8 +1,8 @@
-//! What the workspace weighs: crates that are built, lines, modules that use each other, and how long a
-//! first build takes.
+//! What the workspace weighs: crates that are built, lines, modules that use each other, and how
+//! long a first build takes.
 //!
-//! `ARCHITECTURE.md` keeps the numbers. Crates and cycles are compared at every check; lines and what a build
-//! takes are recorded, since they move with every commit or from machine to machine.
+//! `ARCHITECTURE.md` keeps the numbers. Crates and cycles are compared at every check; lines and
+//! what a build takes are recorded, since they move with every commit or from machine to machine.
 
 mod homes;
 mod lines;

@@ -80,8 +80,8 @@ pub(crate) fn built_by(package: &str) -> Result<usize> {
     Ok(tree(&arguments, "")?.len())
 }
 
-/// A crate with its version, and what a column of `cargo tree` says of it, once for each way in which
-/// it is built.
+/// A crate with its version, and what a column of `cargo tree` says of it, once for each way in
+/// which it is built.
 type Crates = BTreeMap<String, BTreeSet<String>>;
 
 /// Crates that both have with other features.
@@ -121,8 +121,8 @@ fn of_tree(printed: &str) -> Crates {
     crates
 }
 
-/// Known vulnerabilities, withdrawn versions and sources, where cargo-deny is installed and can have its
-/// database. Building it takes longer than all our checks, so they do not install it.
+/// Known vulnerabilities, withdrawn versions and sources, where cargo-deny is installed and can
+/// have its database. Building it takes longer than all our checks, so they do not install it.
 fn advisories() -> Result<Count> {
     let pinned = "advisories: not looked at; versions are those of Cargo.lock";
     let mut fetch = workspace::cargo();

@@ -1,12 +1,13 @@
 //! Damaged and hostile input for every command of the program, under limits of memory and time.
 //!
-//! A [`Subject`] is a command line with the files that it reads. Each case takes one, [mutates](mutation)
-//! a file or the line, runs the program in a folder of its own and asks for a [`Fault`](verdict::Fault): a panic, a signal, a limit
-//! that was hit, an exit code or an output that no program of ours may have. Damage inside a campaign's folder must moreover be
-//! refused, or leave the answer as it was.
+//! A [`Subject`] is a command line with the files that it reads. Each case takes one,
+//! [mutates](mutation) a file or the line, runs the program in a folder of its own and asks for a
+//! [`Fault`](verdict::Fault): a panic, a signal, a limit that was hit, an exit code or an output
+//! that no program of ours may have. Damage inside a campaign's folder must moreover be refused, or
+//! leave the answer as it was.
 //!
-//! Case *i* depends on the seed and *i* alone, so that one that fails can be run again by its number; its folder is kept
-//! below `target/fuzz`.
+//! Case *i* depends on the seed and *i* alone, so that one that fails can be run again by its
+//! number; its folder is kept below `target/fuzz`.
 
 mod maps;
 mod mutation;

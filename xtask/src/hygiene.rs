@@ -1,5 +1,5 @@
-//! Finds texts that must not be in the repository: hosts that are not allowed, paths of one machine, and
-//! letters with marks that browsers lose.
+//! Finds texts that must not be in the repository: hosts that are not allowed, paths of one
+//! machine, and letters with marks that browsers lose.
 
 use crate::flaw::Flaw;
 
@@ -70,8 +70,8 @@ fn url_hosts(line: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// Whether a mark stands over the letter before it, such as the dot of a derivative: in the monospaced
-/// fonts of browsers many are missing.
+/// Whether a mark stands over the letter before it, such as the dot of a derivative: in the
+/// monospaced fonts of browsers many are missing.
 fn is_combining(letter: char) -> bool {
     ('\u{0300}'..='\u{036F}').contains(&letter)
 }

@@ -47,8 +47,8 @@ pub(crate) fn write() -> Result<bool> {
     Ok(true)
 }
 
-/// Whether the counts are those of the file; prints both. Skipped where nothing can count, and where
-/// the counts of the file belong to another machine.
+/// Whether the counts are those of the file; prints both. Skipped where nothing can count, and
+/// where the counts of the file belong to another machine.
 pub(crate) fn check() -> Result<Count> {
     if !VALGRIND.is_here() {
         println!("{}", VALGRIND.missing());

@@ -1,4 +1,5 @@
-//! What learning from a drive is worth: measured by the example `learning`, and written into the guide.
+//! What learning from a drive is worth: measured by the example `learning`, and written into the
+//! guide.
 
 use std::fs;
 use std::process::Stdio;

@@ -8,7 +8,8 @@ use std::ops::AddAssign;
 pub(crate) struct Count {
     pub(crate) passed: u64,
     pub(crate) failed: u64,
-    /// Not made, for want of something that the machine lacks or because only `ci --full` makes them.
+    /// Not made, for want of something that the machine lacks or because only `ci --full` makes
+    /// them.
     pub(crate) skipped: u64,
 }
 
@@ -23,8 +24,8 @@ impl Count {
         Self { skipped: 1, ..Self::default() }
     }
 
-    /// The counts of the last line that another process of this program printed, see `Display`; without
-    /// one, it failed.
+    /// The counts of the last line that another process of this program printed, see `Display`;
+    /// without one, it failed.
     pub(crate) fn of_closing_line(output: &str) -> Self {
         let line = output.lines().last().unwrap_or_default();
         let number_before = |word: &str| -> Option<u64> {

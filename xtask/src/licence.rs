@@ -8,8 +8,8 @@ pub(crate) fn accepted(policy: &str) -> Vec<String> {
     lines.filter_map(quoted).collect()
 }
 
-/// Whether what an expression allows includes terms that we accept: one side of each OR, both of each
-/// AND. (An old `MIT/Apache-2.0` means OR.)
+/// Whether what an expression allows includes terms that we accept: one side of each OR, both of
+/// each AND. (An old `MIT/Apache-2.0` means OR.)
 pub(crate) fn accepts(accepted: &[String], expression: &str) -> bool {
     let expression = expression.replace('/', " OR ");
     let whole = expression.trim();

@@ -1,8 +1,9 @@
 //! Blocks of Markdown files that a command makes. `CONTRIBUTING.md` shows how they look.
 //!
-//! A block starts with a line `<!-- made by: cargo run --release -- ARGUMENTS -->` (or `picture
-//! by`, or `measured by`) and ends with a line `<!-- end -->`. Blocks by `cargo xtask CHORE` are that
-//! chore's to write. Markers in fenced code are examples and do not count.
+//! A block starts with a line `<!-- made by: cargo run --release -- ARGUMENTS -->` (or
+//! `picture by`, or `measured by`) and ends with a line `<!-- end -->`. Blocks by
+//! `cargo xtask CHORE` are that chore's to write. Markers in fenced code are examples and do not
+//! count.
 
 use anyhow::{Context, Result, bail};
 
@@ -147,7 +148,8 @@ pub(crate) fn picture_of(content: &str) -> Result<&str> {
 
 /// What stands in the block of a chore.
 ///
-/// * `by`: how its marker begins and names the chore, such as `measured by: cargo xtask python-times`
+/// * `by`: how its marker begins and names the chore, such as
+///   `measured by: cargo xtask python-times`
 pub(crate) fn content_by<'t>(markdown: &'t str, by: &str) -> Result<&'t str> {
     let start = format!("<!-- {by} -->\n");
     let (_, rest) = markdown.split_once(&start).with_context(|| format!("no block `{by}`"))?;

@@ -1,5 +1,6 @@
-//! Everything that the program says to the examples of the documents, in a folder: of two such folders,
-//! before and after a change of structure, every bit is the same but for keys that were renamed.
+//! Everything that the program says to the examples of the documents, in a folder: of two such
+//! folders, before and after a change of structure, every bit is the same but for keys that were
+//! renamed.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -68,7 +69,8 @@ fn link(_: &Path, _: &Path) -> Result<()> {
     anyhow::bail!("links to folders are made on Unix alone")
 }
 
-/// What readers of a document would type: the lines of its shell blocks, and what makes its own blocks.
+/// What readers of a document would type: the lines of its shell blocks, and what makes its own
+/// blocks.
 fn examples(markdown: &str) -> Result<Vec<Vec<String>>> {
     let mut found = Vec::new();
     for piece in markers::pieces(markdown)? {
@@ -107,7 +109,8 @@ fn typed(block: &str) -> Vec<Vec<String>> {
     whole.lines().filter_map(arguments).collect()
 }
 
-/// Ways to ask for an example's answer, each with its name: as it is, and as all that a script would ask.
+/// Ways to ask for an example's answer, each with its name: as it is, and as all that a script
+/// would ask.
 fn forms(program: &Path, arguments: &[String], number: usize) -> Vec<(&'static str, Vec<String>)> {
     let mut forms = vec![("as-it-is", arguments.to_vec())];
     let help = Command::new(program).args(&arguments[..1]).arg("--help").output();

@@ -10,8 +10,8 @@ use crate::extent::Extent;
 use crate::libtest::Count;
 use crate::{python, workspace};
 
-/// Whose files the sources of the Python package must have: the package, and the crates that it is made
-/// of.
+/// Whose files the sources of the Python package must have: the package, and the crates that it is
+/// made of.
 const IN_THE_SOURCES: [&str; 8] = [
     "crates/grouser/src/",
     "crates/grouser-core/src/",
@@ -37,8 +37,8 @@ pub(crate) fn check(extent: Extent) -> Result<Count> {
     Ok(count)
 }
 
-/// Whether cargo would publish every crate that is not marked `publish = false`: none depends on one
-/// that stays here, and all that its manifest names exists.
+/// Whether cargo would publish every crate that is not marked `publish = false`: none depends on
+/// one that stays here, and all that its manifest names exists.
 fn crates(extent: Extent) -> Result<bool> {
     let mut publish = workspace::cargo();
     // What is not committed yet is tried as well.
@@ -85,8 +85,8 @@ fn complete(python: &Path, archive: &Path) -> Result<bool> {
 
 /// Files of the repository that must be in an archive, and are not.
 ///
-/// * `packed`: paths in the archive, which begin with its own folder; maturin puts the package itself,
-///   without its path, there
+/// * `packed`: paths in the archive, which begin with its own folder; maturin puts the package
+///   itself, without its path, there
 fn lacking<'a>(files: &'a [String], packed: &[&str]) -> Vec<&'a str> {
     let needed = |file: &&str| IN_THE_SOURCES.iter().any(|folder| file.starts_with(folder));
     let is_packed = |file: &str| {

@@ -1,7 +1,8 @@
 //! The site and the reports as their readers see them: in Chromium, at two widths, light and dark.
 //!
-//! Pages must not be wider than the window, nor clip text, nor ask other hosts; their scripts must run without
-//! an error, their links lead somewhere, and axe must find no serious violation of accessibility.
+//! Pages must not be wider than the window, nor clip text, nor ask other hosts; their scripts must
+//! run without an error, their links lead somewhere, and axe must find no serious violation of
+//! accessibility.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -67,8 +68,8 @@ const REPORTS: [(&str, &[&str]); 9] = [
     ("card/report.html", &["card", "--soil", "toyoura", "--samples", "16", "--out", "card"]),
 ];
 
-/// Looks at the site in `target/site`, and at reports made for it, and counts pages; without a browser all
-/// count as skipped.
+/// Looks at the site in `target/site`, and at reports made for it, and counts pages; without a
+/// browser all count as skipped.
 pub(crate) fn check() -> Result<Count> {
     let Some(browser) = tools::browser() else {
         println!("{}", CHROMIUM.missing());

@@ -38,11 +38,12 @@ const SITE: [&str; 10] = [
 /// What looks at the site: a driver of browsers, and the rules of accessibility.
 const LOOKING: [&str; 2] = ["playwright>=1.45,<2", "axe-playwright-python>=0.1.4"];
 
-/// What builds and tests the package besides what it requires itself, by name: where from is for pip's
-/// own settings to say.
+/// What builds and tests the package besides what it requires itself, by name: where from is for
+/// pip's own settings to say.
 const BUILDING: &str = "maturin>=1.16,<2";
 const TESTING: [&str; 2] = ["pytest>=8", "hypothesis>=6"];
-/// What reads the program's logs: the container, Foxglove's schemas, and Rerun, which is large (100 MB).
+/// What reads the program's logs: the container, Foxglove's schemas, and Rerun, which is large (100
+/// MB).
 const LOGS: [&str; 4] = [
     "mcap>=1.2,<2",
     "mcap-protobuf-support>=0.5,<1",
@@ -54,12 +55,13 @@ const TYPES: &str = "mypy>=1.10";
 const YAML: &str = "pyyaml>=6";
 /// What knows the form of `CITATION.cff`.
 const CITATION: &str = "check-jsonschema>=0.33";
-/// An extra that only `ci --full` installs: its package is larger than all others together, and starting
-/// its workers takes longest of all tests. Without it those tests are skipped.
+/// An extra that only `ci --full` installs: its package is larger than all others together, and
+/// starting its workers takes longest of all tests. Without it those tests are skipped.
 const HEAVY: &str = "ray";
 
-/// Builds the wheel, installs it, and counts the tests of the package: pytest's, the examples of its
-/// docstrings, and its types. `Extent::Full` tests the extra `ray` too, and the lower bounds of all.
+/// Builds the wheel, installs it, and counts the tests of the package: pytest's, the examples of
+/// its docstrings, and its types. `Extent::Full` tests the extra `ray` too, and the lower bounds of
+/// all.
 pub(crate) fn check(extent: Extent) -> Result<Count> {
     let python = installed()?;
     if extent == Extent::Full {
@@ -80,8 +82,8 @@ pub(crate) fn check(extent: Extent) -> Result<Count> {
     Ok(count)
 }
 
-/// Counts the package's tests in an environment that has exactly the lower bounds of what the package
-/// and its extras require.
+/// Counts the package's tests in an environment that has exactly the lower bounds of what the
+/// package and its extras require.
 pub(crate) fn check_lowest() -> Result<Count> {
     let folder = folder().join("lowest");
     let python = made(&folder)?;
@@ -128,8 +130,8 @@ pub(crate) fn as_it_is() -> PathBuf {
     python_of(&folder().join("environment"))
 }
 
-/// The Python of an environment with all that builds and tests the package, but without it. Made once
-/// in a run; who asks meanwhile, waits.
+/// The Python of an environment with all that builds and tests the package, but without it. Made
+/// once in a run; who asks meanwhile, waits.
 pub(crate) fn environment() -> Result<PathBuf> {
     static PYTHON: OnceLock<Result<PathBuf, String>> = OnceLock::new();
     let python = PYTHON.get_or_init(|| make_environment().map_err(|error| format!("{error:#}")));

@@ -1,5 +1,5 @@
-//! The documentation site, from the Markdown files of `docs/`: its reference is made from the installed
-//! package, the program and the schemas, and its notebooks are run.
+//! The documentation site, from the Markdown files of `docs/`: its reference is made from the
+//! installed package, the program and the schemas, and its notebooks are run.
 
 use std::fs;
 use std::path::Path;

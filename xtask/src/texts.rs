@@ -12,7 +12,8 @@ pub(crate) fn check() -> Result<bool> {
     let mut flaws = Vec::new();
     let mut texts = Vec::new();
     for path in workspace::files()? {
-        // Files that are no text, such as films, hold no words to check, but links may lead to them.
+        // Files that are no text, such as films, hold no words to check, but links may lead to
+        // them.
         if let Ok(bytes) = std::fs::read(workspace::root().join(&path)) {
             texts.push((path, String::from_utf8(bytes).unwrap_or_default()));
         }

@@ -1,8 +1,8 @@
 //! Tools that the checks need besides the toolchain, and how to install them.
 //!
-//! The machine belongs to the person who runs the checks: packages of the system are installed only where the
-//! environment variable `CI` says that it is a machine of continuous integration. Elsewhere a check that
-//! needs one says so and is counted as skipped.
+//! The machine belongs to the person who runs the checks: packages of the system are installed only
+//! where the environment variable `CI` says that it is a machine of continuous integration.
+//! Elsewhere a check that needs one says so and is counted as skipped.
 
 use std::process::{Command, Stdio};
 

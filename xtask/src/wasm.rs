@@ -10,7 +10,8 @@ use crate::workspace;
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
-/// Checks `grouser-core` for the target. Skipped where the target's standard library is not installed.
+/// Checks `grouser-core` for the target. Skipped where the target's standard library is not
+/// installed.
 pub(crate) fn check() -> Result<Count> {
     if !is_installed()? {
         println!(

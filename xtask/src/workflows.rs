@@ -1,4 +1,5 @@
-//! What the code host reads, and checks only after a push: its workflows, and how to cite the software.
+//! What the code host reads, and checks only after a push: its workflows, and how to cite the
+//! software.
 
 use std::process::Command;
 
@@ -16,8 +17,8 @@ const CITATION: &str = "CITATION.cff";
 const CITATION_CHECK: [&str; 4] =
     ["-m", "check_jsonschema", "--builtin-schema", "vendor.citation-file-format"];
 
-/// Whether workflows and citation are in order; prints what is not. Where actionlint is installed, it looks
-/// too.
+/// Whether workflows and citation are in order; prints what is not. Where actionlint is installed,
+/// it looks too.
 pub(crate) fn check() -> Result<bool> {
     let workflows: Vec<String> =
         workspace::files()?.into_iter().filter(|path| path.starts_with(FOLDER)).collect();

@@ -37,9 +37,9 @@ pub(crate) fn linting_cargo() -> Command {
     command
 }
 
-/// Has the linter compile our crates, each lint an error, so that compiling once does for both. What it
-/// compiles is kept apart from what cargo compiles for somebody at work here, and is not incremental,
-/// which takes longer the first time and computes slower.
+/// Has the linter compile our crates, each lint an error, so that compiling once does for both.
+/// What it compiles is kept apart from what cargo compiles for somebody at work here, and is not
+/// incremental, which takes longer the first time and computes slower.
 pub(crate) fn with_lints(command: &mut Command) {
     command.env("RUSTC_WORKSPACE_WRAPPER", cargo_program().with_file_name("clippy-driver"));
     // How the linter takes its arguments from cargo: each with this word after it.
@@ -101,8 +101,8 @@ pub(crate) fn build_work(profile: Profile) -> Result<PathBuf> {
     build("work", profile)
 }
 
-/// Builds all that is measured and shown, at once: alone, the units of work would choose other features
-/// of the libraries that they share with the program.
+/// Builds all that is measured and shown, at once: alone, the units of work would choose other
+/// features of the libraries that they share with the program.
 pub(crate) fn build(program: &str, profile: Profile) -> Result<PathBuf> {
     let (mut command, more, folder) = match profile {
         Profile::Dev => (linting_cargo(), None, "debug"),

@@ -8,8 +8,8 @@ const STEPS: u64 = 150_000_000;
 /// Its CPU time where the budgets of steps were found [s].
 const USUAL: f64 = 1.0;
 
-/// How many times longer this machine takes now than the one of the budgets; 1 where the system does
-/// not say how long it took.
+/// How many times longer this machine takes now than the one of the budgets; 1 where the system
+/// does not say how long it took.
 pub(crate) fn slowness() -> f64 {
     let Some(before) = own_seconds() else { return 1.0 };
     let mut state = 1_u64;
@@ -25,8 +25,8 @@ pub(crate) fn slowness() -> f64 {
 fn own_seconds() -> Option<f64> {
     let stat = fs::read_to_string("/proc/thread-self/stat").ok()?;
     let fields: Vec<&str> = stat.rsplit_once(')')?.1.split_whitespace().collect();
-    // User's and system's time in hundredths of a second, fields 14 and 15 of proc(5); the third is the
-    // first after the name.
+    // User's and system's time in hundredths of a second, fields 14 and 15 of proc(5); the third is
+    // the first after the name.
     let ticks = |field: usize| fields.get(field - 3)?.parse::<f64>().ok();
     Some((ticks(14)? + ticks(15)?) / 100.0)
 }

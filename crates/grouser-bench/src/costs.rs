@@ -1,9 +1,9 @@
 //! The map of costs: what a wheel's answer costs, beside that of a driving wheel, over the domain.
 //!
-//! Cost is counted, not timed: how often the search looks at the soil's reaction before it answers, a
-//! settled sinkage or a soil that does not carry the load. Counts repeat on every machine. The search is
-//! the one of a model that gives no more than its forces: where a model gives its load–sinkage relation, a
-//! first guess saves all answers a look or two.
+//! Cost is counted, not timed: how often the search looks at the soil's reaction before it answers,
+//! a settled sinkage or a soil that does not carry the load. Counts repeat on every machine. The
+//! search is the one of a model that gives no more than its forces: where a model gives its
+//! load–sinkage relation, a first guess saves all answers a look or two.
 
 use std::fmt::{self, Display, Formatter};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -15,8 +15,8 @@ use grouser::units::EARTH_GRAVITY;
 use grouser::wheel::Wheel;
 use rayon::prelude::*;
 
-/// What others are compared with: slip ratio [-], slip angle [°], and load as a share of what the soil
-/// carries [-].
+/// What others are compared with: slip ratio [-], slip angle [°], and load as a share of what the
+/// soil carries [-].
 pub const DRIVING: (f64, f64, f64) = (0.2, 0.0, 0.1);
 
 /// From locked to spinning on the spot [-].
@@ -90,8 +90,8 @@ impl CostMap {
         f64::from(looks.iter().sum::<u32>()) / looks.len() as f64
     }
 
-    /// The most looks over all soils and slip angles, over those of a driving wheel: a row for each of
-    /// [`SLIP_RATIOS`], a column for each of [`LOAD_SHARES`].
+    /// The most looks over all soils and slip angles, over those of a driving wheel: a row for each
+    /// of [`SLIP_RATIOS`], a column for each of [`LOAD_SHARES`].
     #[must_use]
     pub fn worst(&self, model: &Model) -> Vec<[f64; LOAD_SHARES.len()]> {
         let driving = self.driving(model);

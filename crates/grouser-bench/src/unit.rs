@@ -16,8 +16,8 @@ use crate::fixtures::Fixtures;
 /// A unit of work, by the key of its time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unit {
-    /// A multiplication or an addition of two doubles, among many that do not wait for each other: what
-    /// the machine does at most.
+    /// A multiplication or an addition of two doubles, among many that do not wait for each other:
+    /// what the machine does at most.
     Operation,
     /// The reaction on one wheel at a sinkage, one after the other.
     ForceSingle,
@@ -29,7 +29,8 @@ pub enum Unit {
     SettleBatched,
     /// A wheel that settles by resistive force theory, one after the other.
     SettleFacets,
-    /// Wheels that the soil cannot carry, one after the other: that is known, and how much it carries.
+    /// Wheels that the soil cannot carry, one after the other: that is known, and how much it
+    /// carries.
     SettleOverloaded,
     /// One evaluation of a four-wheel rover's motion.
     RoverRates,
@@ -37,7 +38,8 @@ pub enum Unit {
     TraverseDynamic,
     /// The same as a sequence of steady states.
     TraverseQuasiSteady,
-    /// The traverse of 20 s without records but of its start and its end, all accelerations integrated.
+    /// The traverse of 20 s without records but of its start and its end, all accelerations
+    /// integrated.
     TraverseDynamicOutcome,
     /// The same as a sequence of steady states.
     TraverseQuasiSteadyOutcome,
@@ -216,9 +218,9 @@ fn settle_one_by_one(model: &Model, wheels: &[(Contact, f64)]) -> Done {
     Done { count: wheels.len(), checksum: trace }
 }
 
-/// Multiplications and additions of doubles that the force of a driving wheel of the paper takes at least:
-/// 674 and about 150 of four at once, and about 140 of one. Source: counted in the compiled program,
-/// `docs/performance.md`.
+/// Multiplications and additions of doubles that the force of a driving wheel of the paper takes at
+/// least: 674 and about 150 of four at once, and about 140 of one. Source: counted in the compiled
+/// program, `docs/performance.md`.
 pub const OPERATIONS_OF_A_FORCE: f64 = 4.0 * (674.0 + 150.0) + 140.0;
 
 fn operations() -> Done {
@@ -247,8 +249,8 @@ const CONTROL_PERIOD: f64 = 0.02;
 /// How many of them are one piece of work: 5 s.
 const CONTROL_STEPS: usize = 250;
 
-/// A rover led through these steps under speeds that change at every one: those of both sides rise and fall by a fifth
-/// within 5 s, and by a tenth against each other within 7 s.
+/// A rover led through these steps under speeds that change at every one: those of both sides rise
+/// and fall by a fifth within 5 s, and by a tenth against each other within 7 s.
 ///
 /// # Panics
 /// If a step cannot be computed: those of the fixtures always could.

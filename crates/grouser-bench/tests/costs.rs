@@ -5,8 +5,8 @@ use grouser_bench::costs::{CostMap, LOAD_SHARES, SLIP_RATIOS};
 
 /// Up to half of what the soil carries, in any motion. Locked wheels of `small-wheel` take 3.0.
 const CARRIED: f64 = 3.1;
-/// Near the most that the soil carries and beyond: the highest F_z is sought, as far up from the axle as
-/// it may be. Locked wheels of `ishigami`, whose F_z is highest above the axle, take 9.0.
+/// Near the most that the soil carries and beyond: the highest F_z is sought, as far up from the
+/// axle as it may be. Locked wheels of `ishigami`, whose F_z is highest above the axle, take 9.0.
 const NEAR_THE_MOST: f64 = 9.1;
 
 #[test]

@@ -85,13 +85,16 @@ pub(crate) enum Command {
     Mission(MissionArgs),
     /// Forces, torque and sinkage of one wheel over load, slip ratio and slip angle.
     WheelTest(WheelTestArgs),
-    /// The heading offset that holds the contour line on a slope, and the steepest slope on which one does.
+    /// The heading offset that holds the contour line on a slope, and the steepest slope on which
+    /// one does.
     Heading(HeadingArgs),
     /// The heading offset that holds a course on a slope, over slope, course and soil.
     HeadingMap(HeadingMapArgs),
-    /// Where a rover can go on a map of heights: heading, slip, power, probability of a no-go, as GeoTIFF.
+    /// Where a rover can go on a map of heights: heading, slip, power, probability of a no-go, as
+    /// GeoTIFF.
     Map(MapArgs),
-    /// The way over a map of heights with the least time, work or risk, driven by simulation to check it.
+    /// The way over a map of heights with the least time, work or risk, driven by simulation to
+    /// check it.
     Route(RouteArgs),
     /// Make an elevation model by chance: lunar ground with its craters.
     Terrain(MakeTerrainArgs),
@@ -101,13 +104,16 @@ pub(crate) enum Command {
     /// `heading-map`, by the name of earlier versions.
     #[command(hide = true)]
     AttitudeMap(HeadingMapArgs),
-    /// The operator's card: heading, slip, drift, power and go or no-go for each slope, on one page.
+    /// The operator's card: heading, slip, drift, power and go or no-go for each slope, on one
+    /// page.
     Card(CardArgs),
-    /// A rover on the Moon or Mars, from a soil measured on Earth: slip, drift, heading, power, with one error budget.
+    /// A rover on the Moon or Mars, from a soil measured on Earth: slip, drift, heading, power,
+    /// with one error budget.
     Forecast(ForecastArgs),
     /// Each wheel's slip from a log of its motor's current and speed, with its uncertainty.
     SlipFromCurrent(SlipFromCurrentArgs),
-    /// What the telemetry of a drive tells of the soil: heading and slip of the next slopes, and warnings.
+    /// What the telemetry of a drive tells of the soil: heading and slip of the next slopes, and
+    /// warnings.
     Learn(LearnArgs),
     /// The telemetry of a drive beside what is predicted for it, and what the differences point to.
     Replay(ReplayArgs),
@@ -117,11 +123,13 @@ pub(crate) enum Command {
     Calibrate(CalibrateArgs),
     /// Monte Carlo campaigns: sample uncertain inputs, run, summarise.
     Campaign(CampaignArgs),
-    /// Draw the theory from the numbers of a rover: a wheel in its soil, frames, slope, loads, bulldozing.
+    /// Draw the theory from the numbers of a rover: a wheel in its soil, frames, slope, loads,
+    /// bulldozing.
     Draw(DrawArgs),
     /// Convert another laboratory's CSV file to the layout that `validate` reads.
     Import(ImportArgs),
-    /// Convert a log of a drive, of Foxglove or ROS (MCAP) or in Parquet, to the telemetry that `learn` reads.
+    /// Convert a log of a drive, of Foxglove or ROS (MCAP) or in Parquet, to the telemetry that
+    /// `learn` reads.
     ImportTelemetry(ImportTelemetryArgs),
     /// Make a rover of URDF, the format in which robots are described to ROS.
     ImportUrdf(ImportUrdfArgs),
@@ -129,7 +137,8 @@ pub(crate) enum Command {
     Bench(BenchArgs),
     /// Make a rover, a wheel, a soil or a scenario of your own: asks, or takes answers by flags.
     New(NewArgs),
-    /// Check documents: soils, wheels, motors, rovers, scenarios, missions, data sets, campaigns, priors, mappings.
+    /// Check documents: soils, wheels, motors, rovers, scenarios, missions, data sets, campaigns,
+    /// priors, mappings.
     Check(CheckArgs),
     /// List the presets with their sources, or print one as TOML.
     Presets(PresetsArgs),
@@ -182,8 +191,8 @@ pub(crate) struct SettingArgs {
     #[arg(long = "set", value_name = "DOCUMENT.KEY=VALUE")]
     pub(crate) settings: Vec<String>,
     /// The wheel-soil model: `ishigami`, `bekker`, `small-wheel` or `rft`. Without it that of the
-    /// scenario or of its soil, or else `small-wheel` where the soil leaves its wheel sinkage ratio to
-    /// priors, and `ishigami` where it does not.
+    /// scenario or of its soil, or else `small-wheel` where the soil leaves its wheel sinkage ratio
+    /// to priors, and `ishigami` where it does not.
     #[arg(long, value_name = "NAME")]
     pub(crate) model: Option<String>,
     /// Gravity [m/s²], or `earth`, `moon`, `mars`.
@@ -206,7 +215,8 @@ impl SettingArgs {
         self.model.as_deref() == Some(EVERY_MODEL)
     }
 
-    /// The settings of each model that is asked for: these alone, or those of every model by its name.
+    /// The settings of each model that is asked for: these alone, or those of every model by its
+    /// name.
     pub(crate) fn each_model(&self) -> Vec<Self> {
         if !self.has_every_model() {
             return vec![self.clone()];
@@ -242,11 +252,12 @@ pub(crate) struct SlopeArgs {
 /// Ground with heights, in place of a slope.
 #[derive(Debug, Args)]
 pub(crate) struct TerrainArgs {
-    /// A map of heights to drive on: a GeoTIFF in metres, `.npy`, or text with x, y and z in each line. Places
-    /// and the yaw are then the map's: x east, y north, yaw from east to the left.
+    /// A map of heights to drive on: a GeoTIFF in metres, `.npy`, or text with x, y and z in each
+    /// line. Places and the yaw are then the map's: x east, y north, yaw from east to the left.
     #[arg(long, value_name = "FILE", conflicts_with = "slope_deg")]
     pub(crate) terrain: Option<String>,
-    /// Where the body's centre of mass is at the start, on the map [m]; without it the map's middle.
+    /// Where the body's centre of mass is at the start, on the map [m]; without it the map's
+    /// middle.
     #[arg(long, value_name = "X", requires = "start_y_m", allow_negative_numbers = true)]
     pub(crate) start_x_m: Option<f64>,
     /// The same, to the north [m].
@@ -263,20 +274,22 @@ pub(crate) struct RunArgs {
     /// `dynamic`, or `quasi-steady`: a steady state at every instant, many times faster.
     #[arg(long, value_name = "WORD")]
     pub(crate) simulation: Option<String>,
-    /// Also draw what is driven: `.gif`, `.mp4` (needs ffmpeg), `.html` (with a player) or `.glb` (for
-    /// Blender) for all of it, `.svg` or `.png` for its end. With --out, a name alone is a file in DIR.
+    /// Also draw what is driven: `.gif`, `.mp4` (needs ffmpeg), `.html` (with a player) or `.glb`
+    /// (for Blender) for all of it, `.svg` or `.png` for its end. With --out, a name alone is a
+    /// file in DIR.
     #[arg(long, value_name = "FILE")]
     pub(crate) animate: Option<PathBuf>,
-    /// Also log the run: an MCAP file for Foxglove and Rerun, with transforms, scene, model of the rover
-    /// and every number over time. With --out, a name alone is a file in DIR.
+    /// Also log the run: an MCAP file for Foxglove and Rerun, with transforms, scene, model of the
+    /// rover and every number over time. With --out, a name alone is a file in DIR.
     #[arg(long, value_name = "FILE")]
     pub(crate) mcap: Option<PathBuf>,
-    /// Also write what the rover's instruments would say of the run, with their noise and gaps: CSV that `learn` reads.
-    /// With --out, a name alone is a file in DIR.
+    /// Also write what the rover's instruments would say of the run, with their noise and gaps: CSV
+    /// that `learn` reads. With --out, a name alone is a file in DIR.
     #[arg(long, value_name = "FILE")]
     pub(crate) telemetry: Option<PathBuf>,
-    /// A setting of these instruments, such as `roll_pitch_noise_deg=0.2`, `outliers=0.05` or `rate_hz=2`; `perfect` for
-    /// none of their faults; can be repeated. docs/guide/learn.md lists the keys.
+    /// A setting of these instruments, such as `roll_pitch_noise_deg=0.2`, `outliers=0.05` or
+    /// `rate_hz=2`; `perfect` for none of their faults; can be repeated. docs/guide/learn.md lists
+    /// the keys.
     #[arg(long = "sensor", value_name = "KEY=VALUE", requires = "telemetry")]
     pub(crate) sensors: Vec<String>,
     /// Seed of their noise.
@@ -315,7 +328,8 @@ pub(crate) enum TableOrJson {
 
 #[derive(Debug, Args)]
 pub(crate) struct BenchArgs {
-    /// Time to measure, in all [s]: the longer, the smaller the effect of other work on the machine.
+    /// Time to measure, in all [s]: the longer, the smaller the effect of other work on the
+    /// machine.
     #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = bench_seconds)]
     pub(crate) seconds: f64,
     /// Form of what is printed.

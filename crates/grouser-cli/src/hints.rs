@@ -1,5 +1,5 @@
-//! The library's hints as flags of the command line: it names keys, columns and conditions, and here
-//! stand the flags and commands that set them.
+//! The library's hints as flags of the command line: it names keys, columns and conditions, and
+//! here stand the flags and commands that set them.
 
 use std::ffi::OsString;
 
@@ -37,7 +37,8 @@ pub(crate) fn with_flags(message: &str) -> String {
     all.fold(message.to_owned(), |text, (library, program)| text.replace(&library, &program))
 }
 
-/// Puts the present option in place of what the parser takes for similar, where an option is withdrawn.
+/// Puts the present option in place of what the parser takes for similar, where an option is
+/// withdrawn.
 ///
 /// * `command`: the program's
 /// * `arguments`: those that were given

@@ -175,8 +175,8 @@ fn single(flag: &str, numbers: &Numbers, range: &RangeInclusive<f64>) -> Result<
     Ok(number)
 }
 
-/// The line below a table that says which model a single answer has, where nobody names one and it is not the usual
-/// one; nothing elsewhere.
+/// The line below a table that says which model a single answer has, where nobody names one and it
+/// is not the usual one; nothing elsewhere.
 ///
 /// * `document`: of a soil, or of a scenario with its soil
 /// * `soil`: the key of the soil, or nothing if the document is one

@@ -1,7 +1,7 @@
 //! The program `grouser`: a command-line interface to the library.
 //!
-//! It computes no physics. [`args`] has the arguments, [`commands`] the commands, [`output`] prints and writes
-//! results, [`report`] makes the page of `reproduce`.
+//! It computes no physics. [`args`] has the arguments, [`commands`] the commands, [`output`] prints
+//! and writes results, [`report`] makes the page of `reproduce`.
 
 mod args;
 mod commands;

@@ -60,8 +60,8 @@ pub(crate) fn print_by(
     stdout.flush().map_err(failed_to_print)
 }
 
-/// Writes text for reading to the standard output: as it is to a file or a pipe, and to a terminal in its width
-/// and colours.
+/// Writes text for reading to the standard output: as it is to a file or a pipe, and to a terminal
+/// in its width and colours.
 pub(crate) fn show(text: impl Into<Text>) -> Result<(), Failure> {
     activity::end();
     let shown = terminal::stdout_screen().show(&text.into());
@@ -79,8 +79,8 @@ pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
         .map_err(failed_to_print)
 }
 
-/// Prints the answer of the parser of the command line: help and version to the standard output, errors to
-/// the standard error.
+/// Prints the answer of the parser of the command line: help and version to the standard output,
+/// errors to the standard error.
 pub(crate) fn print_answer(answer: &clap::Error) -> Result<(), Failure> {
     // It quotes arguments as they are. One that steers a terminal costs the answer its colours.
     let plain = answer.render().to_string();
@@ -92,7 +92,8 @@ pub(crate) fn print_answer(answer: &clap::Error) -> Result<(), Failure> {
     if answer.use_stderr() { Err(Failure::UsageReported) } else { printed.map_err(failed_to_print) }
 }
 
-/// Prints a message beside the results, to the standard error; nothing where the caller wants no notes.
+/// Prints a message beside the results, to the standard error; nothing where the caller wants no
+/// notes.
 pub(crate) fn message(text: &str) {
     if !terminal::is_quiet() {
         activity::make_room();

@@ -1,5 +1,6 @@
-//! How far does a rover drift down a slope that it crosses with its nose along the contour, and how far with its
-//! nose a little uphill? With every value of soil, wheel and rover made by hand, without any document.
+//! How far does a rover drift down a slope that it crosses with its nose along the contour, and how
+//! far with its nose a little uphill? With every value of soil, wheel and rover made by hand,
+//! without any document.
 //!
 //! ```sh
 //! cargo run --release -p grouser-core --example by_hand

@@ -5,10 +5,11 @@
 //! shear stress along it; [`bulldozing`] the soil pushed by the side wall; [`forces`] is what comes
 //! out. A wheel–soil model puts these together behind the trait [`WheelSoilModel`]: [`ishigami`] is
 //! the source paper's, [`small_wheel`] adds what small wheels need within what the ground resists
-//! ([`coulomb_cone`]), [`bekker`] is a closed form to check them against, and [`rft`] shares nothing
-//! with any of them. [`equilibrium`] finds the sinkage at which a wheel carries its load, and adds what
-//! the soil's [`discrepancy`] says of the model; [`batch`] does this for many wheels at once; [`time_step`] lends the reaction to engines of rigid bodies,
-//! whose wheels a [`mechanism`] carries; [`validity`] flags results that are extrapolations.
+//! ([`coulomb_cone`]), [`bekker`] is a closed form to check them against, and [`rft`] shares
+//! nothing with any of them. [`equilibrium`] finds the sinkage at which a wheel carries its load,
+//! and adds what the soil's [`discrepancy`] says of the model; [`batch`] does this for many wheels
+//! at once; [`time_step`] lends the reaction to engines of rigid bodies, whose wheels a
+//! [`mechanism`] carries; [`validity`] flags results that are extrapolations.
 //!
 //! The wheel frame has x forward, y to the left and z up, its origin at the hub. Angles on the rim
 //! are measured from straight down, positive towards the side at which the wheel enters the soil.

@@ -2,14 +2,14 @@
 //!
 //! Each is a few additions, multiplications and selections without a branch, a table or a call, so
 //! that a loop over nodes becomes vector instructions; and nothing is contracted to a fused
-//! multiply-add, so that the bits do not depend on which. (The functions of the standard library are
-//! the platform's: their last bits differ between systems and processors.) The polynomials are
+//! multiply-add, so that the bits do not depend on which. (The functions of the standard library
+//! are the platform's: their last bits differ between systems and processors.) The polynomials are
 //! fits at Chebyshev points with 60 digits, rounded.
 //!
-//! [`wide`] has the functions of any argument that the rest of the library computes with. Nothing of
-//! ours calls the platform's; a test reads the sources (`tests/it/layers.rs`). The
-//! one library that does is the sampler of posteriors (hammer-and-sample), for the logarithm with which
-//! it decides whether a walker takes a step: a last digit that differs there would decide otherwise
+//! [`wide`] has the functions of any argument that the rest of the library computes with. Nothing
+//! of ours calls the platform's; a test reads the sources (`tests/it/layers.rs`). The one library
+//! that does is the sampler of posteriors (hammer-and-sample), for the logarithm with which it
+//! decides whether a walker takes a step: a last digit that differs there would decide otherwise
 //! once in 10¹⁵ steps.
 
 #![expect(clippy::inline_always, reason = "a call in the lanes' loop would end its vectors")]

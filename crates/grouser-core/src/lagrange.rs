@@ -1,7 +1,7 @@
 //! Polynomials through some points, by weights of their values.
 
-/// Weights of the values at some places, up to `N` of them, in the polynomial through them (Lagrange);
-/// those beyond are 0. No two places are the same.
+/// Weights of the values at some places, up to `N` of them, in the polynomial through them
+/// (Lagrange); those beyond are 0. No two places are the same.
 ///
 /// ```text
 /// w_i = Π (x − x_j)/(x_i − x_j)        over all j ≠ i

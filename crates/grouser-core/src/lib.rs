@@ -15,8 +15,8 @@
 //! | contact | [`contact`] | what the soil does to one wheel |
 //! | foundations | [`units`] [`error`] [`elementary`] [`root`] [`newton`] [`soil`] [`wheel`] [`terrain`] | numbers and things |
 //!
-//! The examples of the types take Toyoura sand and the HAKUTO rover from [`paper`], which makes both
-//! value by value.
+//! The examples of the types take Toyoura sand and the HAKUTO rover from [`paper`], which makes
+//! both value by value.
 //!
 //! Most users take the crate `grouser`, which has these modules too, and reads documents,
 //! calibrates and studies. This crate is for those who bring their own of all that, for example

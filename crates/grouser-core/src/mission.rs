@@ -1,14 +1,16 @@
 //! Layer 4, missions: legs that a rover drives one after the other, and limits at which it stops.
 //!
-//! A [`Mission`] is a plan: a [`Scenario`](crate::simulation::Scenario) for rover, ground and start, and [`Leg`]s, each with
-//! a [`Manoeuvre`]. A [`MissionRun`] drives it with one [`Run`](crate::simulation::Run), a `pilot` for each manoeuvre. After
-//! every control period an `odometer` says how far the rover came, and the [`Stop`]s are looked at: one that is passed ends
+//! A [`Mission`] is a plan: a [`Scenario`](crate::simulation::Scenario) for rover, ground and
+//! start, and [`Leg`]s, each with a [`Manoeuvre`]. A [`MissionRun`] drives it with one
+//! [`Run`](crate::simulation::Run), a `pilot` for each manoeuvre. After every control period an
+//! `odometer` says how far the rover came, and the [`Stop`]s are looked at: one that is passed ends
 //! the leg, and is a value like every other outcome.
 //!
-//! A rover whose wheels someone else turns has the same [`Limits`]: a [`PathRun`] is led along a [`Route`] by one command
-//! after the other.
+//! A rover whose wheels someone else turns has the same [`Limits`]: a [`PathRun`] is led along a
+//! [`Route`] by one command after the other.
 //!
-//! Source of the manoeuvres, and of the three kinds of limits: [BiesiadeckiMaimone2006], of the Mars Exploration Rovers.
+//! Source of the manoeuvres, and of the three kinds of limits: [BiesiadeckiMaimone2006], of the
+//! Mars Exploration Rovers.
 
 mod angles;
 mod contour;

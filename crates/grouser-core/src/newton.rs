@@ -61,9 +61,9 @@ where
     None
 }
 
-/// The zero that damped steps lead to from a guess, however far they must go: Newton's steps with a Jacobian by differences,
-/// each as long as the functions become smaller along it; where none is, a share of the step that the functions themselves
-/// are. None where neither leads on.
+/// The zero that damped steps lead to from a guess, however far they must go: Newton's steps with a
+/// Jacobian by differences, each as long as the functions become smaller along it; where none is, a
+/// share of the step that the functions themselves are. None where neither leads on.
 ///
 /// * `f`: values [in units of the unknowns], and what those come from; none where there are none
 /// * `scale`: size of the unknowns
@@ -103,7 +103,8 @@ pub fn damped_zero<T>(
     None
 }
 
-/// The Jacobian, by differences to the one side or, where the functions have no value there, to the other.
+/// The Jacobian, by differences to the one side or, where the functions have no value there, to the
+/// other.
 fn jacobian<T>(
     f: &impl Fn(&DVector<f64>) -> Option<(DVector<f64>, T)>,
     at: &DVector<f64>,
@@ -168,7 +169,8 @@ mod tests {
         assert!(curved(&zero).norm() < 1e-12, "{zero}");
     }
 
-    /// Turn by turn, x ← 1 − 3 max(x, 0) runs away from 1/4, and Newton's step from 5 crosses the corner.
+    /// Turn by turn, x ← 1 − 3 max(x, 0) runs away from 1/4, and Newton's step from 5 crosses the
+    /// corner.
     #[test]
     fn damped_steps_find_a_zero_behind_a_corner_that_turns_run_away_from() {
         let f = |x: &DVector<f64>| {

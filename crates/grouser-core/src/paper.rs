@@ -1,5 +1,5 @@
-//! The sand, the rover and the traverse of the source paper ([FourWheel]), value by value: something to
-//! begin with, and what the examples of this documentation take.
+//! The sand, the rover and the traverse of the source paper ([FourWheel]), value by value:
+//! something to begin with, and what the examples of this documentation take.
 //!
 //! They are those of the documents `toyoura` and `hakuto` of `grouser-io`, bit for bit.
 
@@ -11,8 +11,8 @@ use crate::units::{Vec3, deg};
 use crate::vehicle::{Body, Inertia, LoadSharing, Mount, OwnMoments, Rover, WheelUnit};
 use crate::wheel::{Grousers, Wheel};
 
-/// Toyoura sand, by [FourWheel], Table 3. How the soil rises behind a wheel and what pushes against its
-/// side are not printed there, and assumed.
+/// Toyoura sand, by [FourWheel], Table 3. How the soil rises behind a wheel and what pushes against
+/// its side are not printed there, and assumed.
 #[must_use]
 pub fn toyoura() -> Soil {
     let modulus = |at_zero, per_radian| ShearModulus::Linear { at_zero, per_radian };
@@ -65,8 +65,8 @@ pub fn hakuto() -> Result<Rover, ParameterError> {
     Rover::new(body, places.map(mount).to_vec())
 }
 
-/// Twenty seconds along the contour of a slope of 10°, with rims that turn at 6 cm/s, and the paper's
-/// shares of the load.
+/// Twenty seconds along the contour of a slope of 10°, with rims that turn at 6 cm/s, and the
+/// paper's shares of the load.
 ///
 /// # Errors
 /// The same as [`hakuto`].

@@ -1,10 +1,11 @@
 //! The highest point of a function between two others.
 
-/// The highest value of `f` between two ends and where it is, to within `narrow`, from a point between
-/// them that is known to be high.
+/// The highest value of `f` between two ends and where it is, to within `narrow`, from a point
+/// between them that is known to be high.
 ///
 /// A parabola through the three highest points leads to the next where it can, the golden section
-/// of the larger side where it cannot (Brent 1973). A function with several peaks has one of them found.
+/// of the larger side where it cannot (Brent 1973). A function with several peaks has one of them
+/// found.
 pub(crate) fn highest(
     mut f: impl FnMut(f64) -> f64,
     (mut low, mut high): (f64, f64),
@@ -55,8 +56,8 @@ pub(crate) fn highest(
     best
 }
 
-/// The way from the first point to the vertex of the parabola through all three; none where they lie on a
-/// straight line or are not three.
+/// The way from the first point to the vertex of the parabola through all three; none where they
+/// lie on a straight line or are not three.
 fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> Option<f64> {
     let r = (a.0 - b.0) * (a.1 - c.1);
     let q = (a.0 - c.0) * (a.1 - b.1);

@@ -9,7 +9,8 @@ pub const LARGEST_SEED: u64 = (1 << 53) - 1;
 
 /// A stream of random numbers: SplitMix64 (Steele, Lea and Flood 2014).
 ///
-/// Studies, which need many more, have a generator of a library; a run needs some dozens, and its crate stays light.
+/// Studies, which need many more, have a generator of a library; a run needs some dozens, and its
+/// crate stays light.
 #[derive(Clone, Debug)]
 pub(crate) struct Random {
     state: u64,

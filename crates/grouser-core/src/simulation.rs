@@ -1,13 +1,14 @@
 //! Layer 3, simulation: a run, from its [`Scenario`] to its [`Trajectory`].
 //!
-//! [`Run`] leads a rover from the start of a scenario to its end, or step by step: a [`Controller`],
-//! such as the scenario's drive, turns the wheels, a [`State`] is all that changes, and what is
-//! looked at becomes a [`Record`].
+//! [`Run`] leads a rover from the start of a scenario to its end, or step by step: a
+//! [`Controller`], such as the scenario's drive, turns the wheels, a [`State`] is all that changes,
+//! and what is looked at becomes a [`Record`].
 //!
 //! [`equations`] is one evaluation of the motion. Two ways lead through time: `integrate` carries
-//! pose and velocities (dynamic), [`quasi_steady`] the pose alone, with velocities of a [`steady_state`].
-//! [`SteadyMotion`] is one such state by itself. A `leg` takes one of them and keeps records, and [`watch`] sees what becomes of the rover;
-//! [`power`] computes the energy balance.
+//! pose and velocities (dynamic), [`quasi_steady`] the pose alone, with velocities of a
+//! [`steady_state`]. [`SteadyMotion`] is one such state by itself. A `leg` takes one of them and
+//! keeps records, and [`watch`] sees what becomes of the rover; [`power`] computes the energy
+//! balance.
 
 pub mod allowance;
 mod along_ground;

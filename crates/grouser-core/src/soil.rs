@@ -1,7 +1,7 @@
 //! What a soil is to a wheel: how it carries, how it shears, how it is pushed aside.
 //!
-//! A [`Soil`] is a set of constants of the wheel–soil models in [`contact`](crate::contact); it does no
-//! mechanics itself beyond evaluating its own laws. All values are in SI units.
+//! A [`Soil`] is a set of constants of the wheel–soil models in [`contact`](crate::contact); it
+//! does no mechanics itself beyond evaluating its own laws. All values are in SI units.
 
 pub mod compaction;
 pub mod difference;
@@ -70,8 +70,8 @@ pub struct Soil {
     pub cohesion: f64,
     /// Angle of internal friction, *φ* [rad].
     pub friction_angle: f64,
-    /// How far friction under a wheel has gone from its peak, tan φ, to that of soil which shears on
-    /// at constant volume, sin φ [-]: 0 to 1 ([`mobilised_friction`](Self::mobilised_friction)).
+    /// How far friction under a wheel has gone from its peak, tan φ, to that of soil which shears
+    /// on at constant volume, sin φ [-]: 0 to 1 ([`mobilised_friction`](Self::mobilised_friction)).
     pub constant_volume_share: f64,
     /// Bulk density, *ρ* [kg/m³].
     pub density: f64,
@@ -133,8 +133,9 @@ pub enum Shear {
     },
     /// One stress, against the slip velocity; respects |τ| ≤ c + σ tan φ.
     ///
-    /// Under a wheel that begins to skid the velocity is reversed straight down, so the pull falls like the root
-    /// of the slip: at zero slip it has a slope from above alone (`docs/models/ishigami.md`).
+    /// Under a wheel that begins to skid the velocity is reversed straight down, so the pull falls
+    /// like the root of the slip: at zero slip it has a slope from above alone
+    /// (`docs/models/ishigami.md`).
     Isotropic {
         /// In every direction, *K*.
         modulus: ShearModulus,
@@ -160,13 +161,13 @@ impl Shear {
 /// Whether the shear stresses along and across a wheel, and its whole reaction, obey Coulomb's law.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ShearBound {
-    /// Only as far as the shear law does. [`Shear::Anisotropic`] lets the resultant exceed the strength by
-    /// √2, as in the source paper.
+    /// Only as far as the shear law does. [`Shear::Anisotropic`] lets the resultant exceed the
+    /// strength by √2, as in the source paper.
     #[default]
     None,
-    /// The resultant shear stress stays within c + σ tan φ, and a wheel's horizontal force within what
-    /// the soil under and ahead of it resists ([`coulomb`](crate::contact::coulomb)). Soil that a wheel hardly
-    /// presses takes no tension ([`cohesion`](crate::contact::cohesion)).
+    /// The resultant shear stress stays within c + σ tan φ, and a wheel's horizontal force within
+    /// what the soil under and ahead of it resists ([`coulomb`](crate::contact::coulomb)). Soil
+    /// that a wheel hardly presses takes no tension ([`cohesion`](crate::contact::cohesion)).
     Coulomb,
 }
 
@@ -308,14 +309,14 @@ impl Soil {
     /// tan φ_m = (1 − w) tan φ + w sin φ
     /// ```
     ///
-    /// with w the [`constant_volume_share`](Self::constant_volume_share). On a surface along which soil
-    /// slips with a dilation ψ, φ gives tan φ_m = sin φ cos ψ/(1 − sin φ sin ψ) (Davis 1968): tan φ
-    /// with ψ = φ, and sin φ where the volume does not change any more, as in soil that a wheel shears
-    /// by centimetres. A peak found in triaxial or plane-strain tests is φ; a shear box measures
-    /// tan φ_m itself, on its own surface of slip.
+    /// with w the [`constant_volume_share`](Self::constant_volume_share). On a surface along which
+    /// soil slips with a dilation ψ, φ gives tan φ_m = sin φ cos ψ/(1 − sin φ sin ψ) (Davis 1968):
+    /// tan φ with ψ = φ, and sin φ where the volume does not change any more, as in soil that a
+    /// wheel shears by centimetres. A peak found in triaxial or plane-strain tests is φ; a shear
+    /// box measures tan φ_m itself, on its own surface of slip.
     ///
-    /// Wedges that break out of the ground, and the ground's own stability, are at their peak and have
-    /// tan φ.
+    /// Wedges that break out of the ground, and the ground's own stability, are at their peak and
+    /// have tan φ.
     #[inline]
     #[must_use]
     pub fn mobilised_friction(&self) -> f64 {
@@ -330,9 +331,10 @@ impl Soil {
     /// share = cos³ α √(1 − tan² α/tan² φ)
     /// ```
     ///
-    /// of the resistance on level ground, and none from the angle of friction on. It is the difference of
-    /// Rankine's passive and active pressure below a surface inclined by α, over the same on level
-    /// ground. At α = φ the ground itself is about to slide, and nothing lies safe in front of a wheel.
+    /// of the resistance on level ground, and none from the angle of friction on. It is the
+    /// difference of Rankine's passive and active pressure below a surface inclined by α, over the
+    /// same on level ground. At α = φ the ground itself is about to slide, and nothing lies safe in
+    /// front of a wheel.
     ///
     /// * `steepness`: tan α [-], of the slope on which the wheel stands
     #[must_use]
@@ -377,8 +379,8 @@ impl Soil {
             }
         }
     }
-    /// Checks that the soil resists plates and wheels of the widths that its domain states, of every width where
-    /// it states none, under the gravities that it states, or else the Earth's.
+    /// Checks that the soil resists plates and wheels of the widths that its domain states, of
+    /// every width where it states none, under the gravities that it states, or else the Earth's.
     ///
     /// # Errors
     /// [`ParameterError`] for the first number of the pressure-sinkage law that does not.
@@ -390,8 +392,8 @@ impl Soil {
         self.pressure_sinkage.check(self.cohesion, weights, width)
     }
 
-    /// Checks that the soil resists a wheel: with a negative modulus of pressure-sinkage it may resist wider or
-    /// narrower ones alone. No model is asked for what it cannot know.
+    /// Checks that the soil resists a wheel: with a negative modulus of pressure-sinkage it may
+    /// resist wider or narrower ones alone. No model is asked for what it cannot know.
     ///
     /// * `gravity`: *g* [m/s²]
     ///

@@ -25,8 +25,8 @@ pub use soil_field::{SoilField, SoilScatter};
 pub use surface::Surface;
 pub use zones::{Share, SoilZones, ZonePolygon, ZonesError};
 
-/// The shape of ground that a rover drives on, and its soil where it has one of its own. A run takes any by its
-/// [`Ground`].
+/// The shape of ground that a rover drives on, and its soil where it has one of its own. A run
+/// takes any by its [`Ground`].
 ///
 /// Places are in the ground's own coordinates, those of a rover's position; on a plane they are
 /// measured along it.
@@ -65,18 +65,21 @@ pub trait Terrain: Send + Sync {
         self.patch(origin + at, footprint)
     }
 
-    /// Height of a place seen from an origin [m]. Ground that has no answer of its own has the mean height of a tiny patch.
+    /// Height of a place seen from an origin [m]. Ground that has no answer of its own has the mean
+    /// height of a tiny patch.
     ///
     /// * `origin`: in the ground's coordinates [m]
     /// * `at`: seen from there [m]
     fn height_from(&self, origin: Vec2, at: Vec2) -> f64 {
-        /// Half of the size of that patch [m]: rounding of map coordinates of 10⁴ km is a hundred-thousandth of it.
+        /// Half of the size of that patch [m]: rounding of map coordinates of 10⁴ km is a
+        /// hundred-thousandth of it.
         const HALF: f64 = 1e-4;
         let tiny = Footprint { forward: Vec2::x(), half_length: HALF, half_width: HALF };
         self.patch_from(origin, at, tiny).height
     }
 
-    /// The soil there, where the terrain has one of its own; otherwise it is that of the run's [`Ground`].
+    /// The soil there, where the terrain has one of its own; otherwise it is that of the run's
+    /// [`Ground`].
     fn soil(&self, at: Vec2, footprint: Footprint) -> Option<Cow<'_, Soil>> {
         let _ = (at, footprint);
         None
@@ -95,14 +98,14 @@ pub trait Terrain: Send + Sync {
 pub struct Patch {
     /// Height above the origin of the coordinates [m], against gravity.
     pub height: f64,
-    /// Unit vector out of the ground: its parts along the coordinates' x and y, both taken level, and
-    /// against gravity.
+    /// Unit vector out of the ground: its parts along the coordinates' x and y, both taken level,
+    /// and against gravity.
     pub normal: Vec3,
 }
 
 impl Patch {
-    /// How fast the ground climbs along its x axis, which is square to y, and its y axis [-]: the sines
-    /// of their inclinations. Gravity's pull along the ground points against it.
+    /// How fast the ground climbs along its x axis, which is square to y, and its y axis [-]: the
+    /// sines of their inclinations. Gravity's pull along the ground points against it.
     #[must_use]
     pub fn climb(&self) -> Vec2 {
         let (x, y, z) = (self.normal.x, self.normal.y, self.normal.z);

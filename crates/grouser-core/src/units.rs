@@ -26,7 +26,8 @@ pub fn kpa(kilopascals: f64) -> f64 {
     kilopascals * 1e3
 }
 
-/// The steepest slope that is looked at [rad]: 60°. Source: ours; no loose soil stands as steep for long.
+/// The steepest slope that is looked at [rad]: 60°. Source: ours; no loose soil stands as steep for
+/// long.
 pub const STEEPEST_SLOPE: f64 = std::f64::consts::FRAC_PI_3;
 
 /// Standard gravity, [m/s²]. Source: 3rd General Conference on Weights and Measures, 1901.

@@ -1,4 +1,5 @@
-//! Belly clearance: closed forms on planes, over crests and ripples, and runs that end on their belly.
+//! Belly clearance: closed forms on planes, over crests and ripples, and runs that end on their
+//! belly.
 
 use grouser_core::paper;
 use grouser_core::simulation::{Approach, Outcome, Run, RunError, Scenario, Trajectory};
@@ -28,7 +29,8 @@ fn belly(rover: &Rover, ground: &Ground, (at, yaw): (Vec2, f64), sinkage: f64) -
     underside.nearest(&posture.expect("it comes to stand"), &ground)
 }
 
-/// On a plane it is what the document says less what the wheels sink, whatever the slope and the yaw.
+/// On a plane it is what the document says less what the wheels sink, whatever the slope and the
+/// yaw.
 #[test]
 fn on_a_plane_it_is_the_given_one_less_the_sinkage() {
     for (slope, yaw) in [(0.0, 0.0), (12.0, 33.0), (25.0, -70.0), (35.0, 90.0)] {
@@ -42,7 +44,8 @@ fn on_a_plane_it_is_the_given_one_less_the_sinkage() {
     }
 }
 
-/// A ridge with a round crest between level ground, narrower than the rover is long: z = h (1 + cos(2π x/w))/2.
+/// A ridge with a round crest between level ground, narrower than the rover is long: z = h (1 +
+/// cos(2π x/w))/2.
 struct Ridge {
     height: f64,
     width: f64,
@@ -61,9 +64,9 @@ impl Terrain for Ridge {
 
 const RIDGE: Ridge = Ridge { height: 0.04, width: 0.2 };
 
-/// Astride a ridge that no wheel touches, the clearance is less by its height. The axles are 0.36 m apart, the crest midway
-/// is below a point of the underside. One beside the points is missed by at most its curvature times an eighth of their
-/// spacing squared.
+/// Astride a ridge that no wheel touches, the clearance is less by its height. The axles are 0.36 m
+/// apart, the crest midway is below a point of the underside. One beside the points is missed by at
+/// most its curvature times an eighth of their spacing squared.
 #[test]
 fn astride_a_ridge_it_is_less_by_the_ridge() {
     let Ridge { height, width } = RIDGE;
@@ -85,8 +88,8 @@ fn astride_a_ridge_it_is_less_by_the_ridge() {
     }
 }
 
-/// Astride a crest of long ripples both axles stand as high and as steep, mirrored: each wheel's plane is the mean of its
-/// footprint, so that the hub's height is a closed form of the ripple's.
+/// Astride a crest of long ripples both axles stand as high and as steep, mirrored: each wheel's
+/// plane is the mean of its footprint, so that the hub's height is a closed form of the ripple's.
 #[test]
 fn astride_a_ripple_it_is_the_geometry_of_the_axles() {
     let (amplitude, wavelength) = (0.05, 1.2);
@@ -157,7 +160,8 @@ fn drive(scenario: &Scenario) -> Result<Trajectory, RunError> {
     Run::new(scenario).and_then(Run::to_end)
 }
 
-/// A run ends at a crest between the axles of a rover with too little clearance; one with more drives over it.
+/// A run ends at a crest between the axles of a rover with too little clearance; one with more
+/// drives over it.
 #[test]
 fn a_rover_high_centres_on_a_crest() {
     let mut ends = Vec::new();
@@ -169,7 +173,8 @@ fn a_rover_high_centres_on_a_crest() {
         assert_eq!(stuck.outcome.name(), "high_centred");
         let reason = stuck.outcome.reason().expect("a reason");
         assert!(reason.starts_with("its underside touches the ground at x = 0."), "{reason}");
-        // The first crest, at 0.6 m, is between the axles, and the tilted underside comes down on the way up to it.
+        // The first crest, at 0.6 m, is between the axles, and the tilted underside comes down on
+        // the way up to it.
         let last = stuck.last();
         assert!(last.time == time && (0.35..0.6).contains(&last.place().x), "{last:?}");
         assert!((0.4..0.6).contains(&place.x), "{place}");
@@ -207,8 +212,8 @@ fn a_start_on_the_belly_is_an_error() {
     }
 }
 
-/// A rover that clears the ground drives as one of which nothing is known, bit for bit; the records of that one, and those on
-/// a plane, have no clearance.
+/// A rover that clears the ground drives as one of which nothing is known, bit for bit; the records
+/// of that one, and those on a plane, have no clearance.
 #[test]
 fn a_clearance_that_suffices_changes_no_motion() {
     let without = drive(&over_ripples(0.04, None, Approach::QuasiSteady)).expect("it drives");

@@ -1,4 +1,5 @@
-//! Runs over uneven ground: a tilted plane is the plane, both ways of computing agree, and energy is kept.
+//! Runs over uneven ground: a tilted plane is the plane, both ways of computing agree, and energy
+//! is kept.
 
 use grouser_core::paper;
 use grouser_core::simulation::{
@@ -102,8 +103,9 @@ fn a_tilted_plane_is_the_plane() {
     }
 }
 
-/// Wheels that follow in ruts meet soil as compacted on ground with heights as on the plane, uphill, where all of them do, and
-/// across, where the rover's yaw decides how much of a wheel is in the rut.
+/// Wheels that follow in ruts meet soil as compacted on ground with heights as on the plane,
+/// uphill, where all of them do, and across, where the rover's yaw decides how much of a wheel is
+/// in the rut.
 #[test]
 fn ruts_on_a_tilted_plane_are_those_of_the_plane() {
     for mut plane in scenarios() {
@@ -155,7 +157,8 @@ fn ripple(plane: &Scenario, rover: &Rover) -> Scenario {
     scenario
 }
 
-/// Over ripples quasi-steady and dynamic runs lead to the same place, and motors' work is the soil's and the height's.
+/// Over ripples quasi-steady and dynamic runs lead to the same place, and motors' work is the
+/// soil's and the height's.
 ///
 /// * `lost`: the share of the motors' work that neither has
 fn check_ripples(rover: &Rover, lost: f64) {
@@ -185,7 +188,8 @@ fn over_ripples_on_rockers_both_ways_agree_and_energy_is_kept() {
     check_ripples(&on_rockers(&scenarios()[0].rover), 5e-3);
 }
 
-/// The wheels of a rigid rover on warped ground sink and rise as it goes, by which normal forces do work on the soil.
+/// The wheels of a rigid rover on warped ground sink and rise as it goes, by which normal forces do
+/// work on the soil.
 #[test]
 fn over_ripples_rigidly_both_ways_agree_and_energy_is_kept() {
     check_ripples(&scenarios()[0].rover, 5e-3);
@@ -212,8 +216,8 @@ fn a_drive_that_leaves_the_map_says_where() {
     assert!(error.contains("where the map has no heights"), "{error}");
 }
 
-/// A yaw that is held over time is exactly that on a tilted plane and over ripples; on the plane's contour the way is the
-/// plane's, and both ways of computing lead to the same place.
+/// A yaw that is held over time is exactly that on a tilted plane and over ripples; on the plane's
+/// contour the way is the plane's, and both ways of computing lead to the same place.
 #[test]
 fn a_yaw_is_held_over_time_on_any_ground() {
     let base = &scenarios()[0];

@@ -57,8 +57,8 @@ fn run(scenario: &Scenario) -> Trajectory {
 
 const APPROACHES: [Approach; 2] = [Approach::Dynamic, Approach::QuasiSteady];
 
-/// Zones of the scenario's own soil change no bit, nor do zones that the rover does not come to; all that differs
-/// by wheel, by place and by passes counts as without them.
+/// Zones of the scenario's own soil change no bit, nor do zones that the rover does not come to;
+/// all that differs by wheel, by place and by passes counts as without them.
 #[test]
 fn zones_of_the_same_soil_change_no_bit() {
     for approach in APPROACHES {
@@ -89,8 +89,8 @@ fn zones_of_the_same_soil_change_no_bit() {
     }
 }
 
-/// A wheel before the border has the reaction on the one soil, a wheel behind it that on the other, and between them
-/// each has one between both.
+/// A wheel before the border has the reaction on the one soil, a wheel behind it that on the other,
+/// and between them each has one between both.
 #[test]
 fn a_border_that_is_crossed_has_the_soils_limits_on_either_side() {
     for approach in APPROACHES {
@@ -138,8 +138,8 @@ fn high_enough(hard: &Record, soft: &Record) -> bool {
     sinkage(soft) > 1.5 * sinkage(hard)
 }
 
-/// Half-way over a border a wheel has the mean of both soils' forces at its sinkage, and half of what a model gets wrong in
-/// one of them.
+/// Half-way over a border a wheel has the mean of both soils' forces at its sinkage, and half of
+/// what a model gets wrong in one of them.
 #[test]
 fn a_wheel_on_two_soils_has_the_mean_of_their_forces() {
     let plain = on_slope(0.0, Approach::Dynamic);
@@ -174,7 +174,8 @@ fn a_wheel_on_two_soils_has_the_mean_of_their_forces() {
     }
 }
 
-/// Over borders at angles, quasi-steady and dynamic runs lead to the same place, for a fraction of the work.
+/// Over borders at angles, quasi-steady and dynamic runs lead to the same place, for a fraction of
+/// the work.
 #[test]
 fn both_ways_agree_over_borders() {
     for (turn, slope) in [(0.0, 8.0), (20.0, 0.0), (25.0, 8.0), (-60.0, 5.0)] {
@@ -188,7 +189,8 @@ fn both_ways_agree_over_borders() {
     }
 }
 
-/// Map, zones, start and yaw turned and moved together give the same run; the map is of heights at points.
+/// Map, zones, start and yaw turned and moved together give the same run; the map is of heights at
+/// points.
 #[test]
 fn a_turned_and_moved_map_of_zones_gives_the_same_run() {
     for approach in APPROACHES {
@@ -247,7 +249,8 @@ fn polygons_and_the_raster_of_them_give_the_same_run() {
     assert!((one.position - without.position).norm() > 1e-3);
 }
 
-/// Soil that scatters from place to place does so on ground with heights, in both ways of computing.
+/// Soil that scatters from place to place does so on ground with heights, in both ways of
+/// computing.
 #[test]
 fn soil_scatters_on_ground_with_heights() {
     let soil = SoilScatter { friction_angle: deg(1.0), stiffness: 0.1, correlation_length: 0.3 };

@@ -130,7 +130,8 @@ fn the_motion_is_the_change_of_the_posture() {
         let time = 1e-4;
         let (before, later) = (after(-time), after(time));
         let rate = (later.place - before.place) / (2.0 * time);
-        // The hub follows the mean plane of its footprint, which turns under it: to first order of its curvature.
+        // The hub follows the mean plane of its footprint, which turns under it: to first order of
+        // its curvature.
         assert!(
             (rate - motion.velocity).norm() < 0.05 * motion.velocity.norm(),
             "{rate} {}",
@@ -153,10 +154,12 @@ fn forces(drawbar_pull: f64, side_force: f64, torque: f64) -> WheelForces {
     WheelForces { drawbar_pull, side_force, torque, ..WheelForces::default() }
 }
 
-/// Bogies with their axis in the middle: each wheel of a level rover with its centre of mass there carries a sixth.
+/// Bogies with their axis in the middle: each wheel of a level rover with its centre of mass there
+/// carries a sixth.
 #[test]
 fn a_level_rover_with_bogies_carries_a_sixth_on_each_wheel() {
-    // With the rocker's axis a third of the way from the bogie's to the front wheel, below the centre of mass.
+    // With the rocker's axis a third of the way from the bogie's to the front wheel, below the
+    // centre of mass.
     let first = rigid().mounts()[0].clone();
     let place = |x: f64, y: f64| Mount {
         name: format!("{x} {y}"),
@@ -176,13 +179,15 @@ fn a_level_rover_with_bogies_carries_a_sixth_on_each_wheel() {
     for load in &loads {
         close(*load, 10.0, 1e-9);
     }
-    // A torque of 0.3 N·m of each wheel of a bogie loads the rear one by the sum over the bogie's length.
+    // A torque of 0.3 N·m of each wheel of a bogie loads the rear one by the sum over the bogie's
+    // length.
     let torques = [0.0, 0.3, 0.3, 0.0, 0.3, 0.3].map(|torque| forces(0.0, 0.0, torque));
     let with = COMPLETE.loads(&rover, &posture, 60.0 * Vec3::z(), &torques).expect("it stands");
     close(with[2] - with[1], 2.0 * 0.6 / 0.4, 1e-9);
 }
 
-/// Rockers and a rigid body share alike on a plane where all wheels pull alike, and the axis is in the middle.
+/// Rockers and a rigid body share alike on a plane where all wheels pull alike, and the axis is in
+/// the middle.
 #[test]
 fn rockers_and_a_rigid_body_agree_on_a_plane_with_equal_torques() {
     let mut mounts = rigid().mounts().to_vec();
@@ -204,13 +209,15 @@ fn rockers_and_a_rigid_body_agree_on_a_plane_with_equal_torques() {
         for (one, other) in one.iter().zip(&other) {
             close(*one, *other, 60.0 * 1e-9);
         }
-        // They part by the difference of the sides' torques, which turns the rockers against each other.
+        // They part by the difference of the sides' torques, which turns the rockers against each
+        // other.
         let sides =
             rigid.mounts().iter().map(|mount| if mount.position.y > 0.0 { 0.5 } else { 1.3 });
         let uneven: Vec<WheelForces> = sides.map(|torque| forces(3.0, 2.0, torque)).collect();
         let (one, other) = (loads(&rigid, &uneven), loads(&rocker, &uneven));
         let rockers: Vec<f64> = one.iter().zip(&other).map(|(one, other)| other - one).collect();
-        // About the axis the left side's moments equal the right side's: 4 ΔN · 0.18 = 2 (1.3 − 0.5).
+        // About the axis the left side's moments equal the right side's: 4 ΔN · 0.18 = 2 (1.3 −
+        // 0.5).
         for (mount, change) in rigid.mounts().iter().zip(&rockers) {
             let sense = mount.position.x.signum() * mount.position.y.signum();
             close(*change, sense * 2.0 * (1.3 - 0.5) / (4.0 * 2.0 * 0.18) * 2.0, 1e-9);
@@ -253,7 +260,8 @@ fn every_posture_balances() {
     }
 }
 
-/// A rover tips over its lower wheels where the slope's tangent is half the track over the centre's height.
+/// A rover tips over its lower wheels where the slope's tangent is half the track over the centre's
+/// height.
 #[test]
 fn it_tips_where_the_weight_falls_outside() {
     let rover = rocker();
@@ -279,8 +287,8 @@ fn it_tips_where_the_weight_falls_outside() {
     }
 }
 
-/// On twisted ground the soil decides how a rigid rover's four wheels share: their sinkages differ by the twist, until one is
-/// lifted; rockers turn, and their wheels share as on a plane.
+/// On twisted ground the soil decides how a rigid rover's four wheels share: their sinkages differ
+/// by the twist, until one is lifted; rockers turn, and their wheels share as on a plane.
 #[test]
 fn twisted_ground_loads_a_rigid_rover_across_and_turns_rockers() {
     let scenario = paper::traverse().expect("it stands");

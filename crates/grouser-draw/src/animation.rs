@@ -29,10 +29,11 @@ const ROW: f64 = 6.6;
 
 /// One run or several, as pictures in time.
 ///
-/// Each picture of runs on planes has the rover on a piece of the slope, its tracks, the soil's forces on its wheels, and
-/// a row of numbers. Over ground with heights it has the drawing of [`relief_of`](crate::relief_of), the way behind the
-/// rover, and the same numbers; of several runs each has its own view. Wheels turn and sink as recorded, and nothing is computed but where it is drawn. The body is a
-/// likeness: a block with the inertia of the document's.
+/// Each picture of runs on planes has the rover on a piece of the slope, its tracks, the soil's
+/// forces on its wheels, and a row of numbers. Over ground with heights it has the drawing of
+/// [`relief_of`](crate::relief_of), the way behind the rover, and the same numbers; of several runs
+/// each has its own view. Wheels turn and sink as recorded, and nothing is computed but where it is
+/// drawn. The body is a likeness: a block with the inertia of the document's.
 #[derive(Clone, Debug)]
 pub struct Animation {
     pub(crate) title: String,
@@ -60,7 +61,8 @@ pub(crate) const COLUMNS: [&str; 4] = ["slip", "sinkage", "yaw", "downhill"];
 
 impl Animation {
     /// * `title`: a line above the picture
-    /// * `runs`: one at least, either all on planes, whose slope is that of the first, or all over ground with heights
+    /// * `runs`: one at least, either all on planes, whose slope is that of the first, or all over
+    ///   ground with heights
     ///
     /// # Panics
     ///

@@ -35,7 +35,8 @@ impl Camera {
     pub(crate) fn over(slope: f64) -> Self {
         let [(sin_a, cos_a), (sin_e, cos_e)] = [AZIMUTH, ELEVATION].map(wide::sin_cos);
         let (sin, cos) = wide::sin_cos(slope);
-        // From the horizon's frame (along the contour, horizontally uphill, upright) to the slope's.
+        // From the horizon's frame (along the contour, horizontally uphill, upright) to the
+        // slope's.
         let of_slope =
             |v: [f64; 3]| Vec3::new(v[0], v[1] * cos + v[2] * sin, -v[1] * sin + v[2] * cos);
         Self {

@@ -1,5 +1,5 @@
-//! Drawings of the theory, each from the numbers of a computed case: nothing in them is drawn by hand, so that an
-//! angle on paper is the angle of the model.
+//! Drawings of the theory, each from the numbers of a computed case: nothing in them is drawn by
+//! hand, so that an angle on paper is the angle of the model.
 
 mod bulldozing;
 mod frames;
@@ -27,7 +27,8 @@ pub struct Drawing {
 }
 
 impl Drawing {
-    /// The drawing as SVG: its letters are outlines, and on a dark screen its colours are dark ones.
+    /// The drawing as SVG: its letters are outlines, and on a dark screen its colours are dark
+    /// ones.
     #[must_use]
     pub fn to_svg(&self) -> String {
         on_both_grounds(&self.sheet)

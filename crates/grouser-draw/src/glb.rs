@@ -1,7 +1,8 @@
 //! A run as a scene in three dimensions: binary glTF 2.0, for Blender and browsers.
 //!
-//! Below the node `slope`, which turns the slope's plane by its inclination, everything is in the slope frame
-//! [m]; over ground with heights it is below the node `map`, seen from the start of the run. Source of the format: Khronos Group, "glTF 2.0 Specification" (2021).
+//! Below the node `slope`, which turns the slope's plane by its inclination, everything is in the
+//! slope frame [m]; over ground with heights it is below the node `map`, seen from the start of the
+//! run. Source of the format: Khronos Group, "glTF 2.0 Specification" (2021).
 
 mod file;
 mod solid;
@@ -23,7 +24,8 @@ use crate::rover::{Block, PlacedWheel};
 use crate::scene::{Actor, Around};
 use crate::style::Role;
 
-/// How far a wheel may turn between two samples [rad]: what turns by half a circle could turn back as well.
+/// How far a wheel may turn between two samples [rad]: what turns by half a circle could turn back
+/// as well.
 const TURN: f64 = 1.0;
 /// Samples of a run at most.
 const MOST: usize = 20_000;
@@ -31,9 +33,9 @@ const MOST: usize = 20_000;
 const PIECES: usize = 60;
 
 impl Animation {
-    /// The run as binary glTF 2.0: body, wheels with their grousers, the ground with contour lines, and tracks
-    /// that appear as they are made. A second of it is a second of the run, or as many as `extras` of its
-    /// animation says.
+    /// The run as binary glTF 2.0: body, wheels with their grousers, the ground with contour lines,
+    /// and tracks that appear as they are made. A second of it is a second of the run, or as many
+    /// as `extras` of its animation says.
     #[must_use]
     pub fn to_glb(&self) -> Vec<u8> {
         let mut file = File::new();
@@ -59,7 +61,8 @@ impl Animation {
         file.finish(root, &self.title, self.speed)
     }
 
-    /// Times of the samples [s]: those of the pictures, and as many between them as the wheels' turning needs.
+    /// Times of the samples [s]: those of the pictures, and as many between them as the wheels'
+    /// turning needs.
     fn samples(&self) -> Vec<f64> {
         let mut times = vec![self.times[0]];
         for pair in self.times.windows(2) {
@@ -139,8 +142,8 @@ impl Animation {
     }
 }
 
-/// What a wheel leaves between two poses, a little above the plane, the later the higher: faces in one
-/// plane would flicker.
+/// What a wheel leaves between two poses, a little above the plane, the later the higher: faces in
+/// one plane would flicker.
 fn strip(strips: &mut Solid, actor: &Actor, poses: &[Pose; 2], frame: usize) {
     let lift = Vec3::new(0.0, 0.0, 1e-3 + 1e-6 * frame as f64);
     for (index, mount) in actor.mounts().iter().enumerate() {

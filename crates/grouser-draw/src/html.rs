@@ -13,9 +13,9 @@ use crate::style::{Ground, Role};
 const STEPS: f64 = 20.0;
 
 impl Animation {
-    /// The animation as an HTML page that needs no other file: with a button to play and pause and a slider over
-    /// time, both for the keyboard too, light or dark as its reader has it, and standing still for readers who want
-    /// less motion.
+    /// The animation as an HTML page that needs no other file: with a button to play and pause and
+    /// a slider over time, both for the keyboard too, light or dark as its reader has it, and
+    /// standing still for readers who want less motion.
     #[must_use]
     pub fn to_html(&self) -> String {
         let shown = match self.scene.ground {

@@ -1,7 +1,7 @@
 //! Names of curves beside them, where none hides another.
 
-/// Middles as near to the wanted ones as their heights allow within a range, in the same order. What finds no room
-/// there goes beyond its lower end.
+/// Middles as near to the wanted ones as their heights allow within a range, in the same order.
+/// What finds no room there goes beyond its lower end.
 ///
 /// Three names of curves that end at one height, each 10 high:
 ///
@@ -15,8 +15,8 @@
 /// * `heights`: of the names, as many
 #[must_use]
 pub fn spread(wanted: &[f64], heights: &[f64], [top, bottom]: [f64; 2]) -> Vec<f64> {
-    // Neighbours that would overlap become one block, whose members then stand close and are as near to their
-    // places as they can be on average.
+    // Neighbours that would overlap become one block, whose members then stand close and are as
+    // near to their places as they can be on average.
     struct Block {
         members: usize,
         height: f64,

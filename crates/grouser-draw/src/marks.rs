@@ -144,8 +144,8 @@ fn edges(area: &[Place]) -> impl Iterator<Item = [Place; 2]> + '_ {
     (0..area.len()).map(|index| [area[index], area[(index + 1) % area.len()]])
 }
 
-/// How far a point is on the inner side of an edge, times the edge's length. Areas are listed clockwise as
-/// seen on the picture.
+/// How far a point is on the inner side of an edge, times the edge's length. Areas are listed
+/// clockwise as seen on the picture.
 fn side([start, end]: [Place; 2], point: Place) -> f64 {
     (end[0] - start[0]) * (point[1] - start[1]) - (end[1] - start[1]) * (point[0] - start[0])
 }

@@ -24,12 +24,13 @@ use grouser_core::vehicle::{Mount, Posture, Rover, RoverState};
 pub struct Pose {
     /// Time since the start [s].
     pub time: f64,
-    /// The body's centre of mass, in the slope frame [m]; z is over the undisturbed surface. On ground with heights seen
-    /// from the start, and z is the height.
+    /// The body's centre of mass, in the slope frame [m]; z is over the undisturbed surface. On
+    /// ground with heights seen from the start, and z is the height.
     pub centre: Vec3,
     /// Yaw [rad].
     pub yaw: f64,
-    /// Roll, positive with the right side down, and pitch, positive with the nose up, on ground with heights [rad].
+    /// Roll, positive with the right side down, and pitch, positive with the nose up, on ground
+    /// with heights [rad].
     pub leaning: Option<[f64; 2]>,
     /// The wheels, in the mounts' order.
     pub wheels: Vec<WheelPose>,
@@ -86,7 +87,8 @@ impl Follower {
         Self { wheels, speeds: vec![0.0; count], time: None, stood: None }
     }
 
-    /// The pose of the next record. A wheel turns by the mean of its speeds in this record and the last.
+    /// The pose of the next record. A wheel turns by the mean of its speeds in this record and the
+    /// last.
     ///
     /// * `scenario`: the same for all records
     pub fn pose(&mut self, scenario: &Scenario, record: &Record) -> Pose {
@@ -120,7 +122,8 @@ impl Follower {
         pose
     }
 
-    /// Sets the rover on ground with heights. Where it has tipped over or left its map, it stays as it was.
+    /// Sets the rover on ground with heights. Where it has tipped over or left its map, it stays as
+    /// it was.
     fn stand(&mut self, scenario: &Scenario, record: &Record) {
         let Some(standing) = record.standing() else { return };
         self.stood = Some((standing.height, [standing.roll, standing.pitch]));
@@ -172,7 +175,8 @@ impl Motion {
         self.poses[self.poses.len() - 1].time
     }
 
-    /// The pose at a time [s]: between two records all goes evenly; after the end it is that of the end.
+    /// The pose at a time [s]: between two records all goes evenly; after the end it is that of the
+    /// end.
     pub(crate) fn at(&self, time: f64) -> Pose {
         let after = self.poses.partition_point(|pose| pose.time < time);
         let Some(next) = self.poses.get(after) else { return self.poses[after - 1].clone() };
@@ -210,7 +214,8 @@ fn ways_down(trajectory: &Trajectory, scenario: &Scenario) -> Vec<f64> {
     trajectory.records.iter().map(way).collect()
 }
 
-/// The body stays parallel to the slope, as in the model; its height is the mean of what its wheels leave.
+/// The body stays parallel to the slope, as in the model; its height is the mean of what its wheels
+/// leave.
 fn pose_of(record: &Record, rover: &Rover, wheels: Vec<WheelPose>) -> Pose {
     let mounts = rover.mounts();
     let heights = mounts.iter().zip(&wheels);
@@ -277,8 +282,8 @@ impl Pose {
         }
     }
 
-    /// A wheel's hub, in the body frame [m]: its mount has its place, its sinkage the height; on ground with heights it is
-    /// where the suspension has it.
+    /// A wheel's hub, in the body frame [m]: its mount has its place, its sinkage the height; on
+    /// ground with heights it is where the suspension has it.
     ///
     /// * `index`: of the mount
     #[must_use]

@@ -81,7 +81,8 @@ fn cross(sheet: &mut Sheet, [x, y]: Place) {
     sheet.draw(Shape::line([[x - arm, y + arm], [x + arm, y - arm]], stroke));
 }
 
-/// The numbers of legs, each beside the place where the leg ended, those of one place one below the other.
+/// The numbers of legs, each beside the place where the leg ended, those of one place one below the
+/// other.
 fn numbers(sheet: &mut Sheet, map: &Map, ends: &[Vec2]) {
     let mut taken: Vec<Place> = Vec::new();
     for (number, end) in ends.iter().enumerate() {

@@ -46,8 +46,8 @@ pub struct Likeness {
 }
 
 impl Likeness {
-    /// The body is the block of even density with the inertia of the rover's, held within the wheels. It
-    /// has a camera on a mast, so that front and back differ.
+    /// The body is the block of even density with the inertia of the rover's, held within the
+    /// wheels. It has a camera on a mast, so that front and back differ.
     #[must_use]
     pub fn of(rover: &Rover) -> Self {
         let mounts = rover.mounts();
@@ -151,8 +151,8 @@ pub struct Bar {
     pub half_wide: f64,
 }
 
-/// The spokes and grousers of a wheel. Height and number of the grousers are those of its document; their
-/// thickness and the spokes are a likeness.
+/// The spokes and grousers of a wheel. Height and number of the grousers are those of its document;
+/// their thickness and the spokes are a likeness.
 #[must_use]
 pub fn bars_of(wheel: &Wheel) -> Vec<Bar> {
     const SPOKES: u32 = 5;

@@ -17,8 +17,8 @@ use crate::style::Role;
 
 /// Points around a wheel.
 const ROUND: u32 = 28;
-/// Paths of up to this many times a rover's reach are shown whole; along longer ones the view goes with
-/// the rover.
+/// Paths of up to this many times a rover's reach are shown whole; along longer ones the view goes
+/// with the rover.
 const WHOLE: [f64; 2] = [7.0, 5.0];
 /// The longest arrow over a rover's reach.
 const LONGEST_ARROW: f64 = 1.1;
@@ -93,7 +93,8 @@ impl Label {
     }
 }
 
-/// What is drawn, from back to front: `still`, then `left` inside of `window`, then a frame's marks, then `labels`.
+/// What is drawn, from back to front: `still`, then `left` inside of `window`, then a frame's
+/// marks, then `labels`.
 #[derive(Clone, Debug)]
 pub(crate) struct Scene {
     pub(crate) still: Vec<Mark>,
@@ -406,8 +407,8 @@ impl Painter {
         labels
     }
 
-    /// Contour lines, or on level ground a grid; the contours through the starts, with a tick every so
-    /// often; the length that is written on the edge.
+    /// Contour lines, or on level ground a grid; the contours through the starts, with a tick every
+    /// so often; the length that is written on the edge.
     fn lines(
         &self,
         patch: &Patch,

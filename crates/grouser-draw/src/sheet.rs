@@ -168,8 +168,8 @@ pub struct Text {
 }
 
 impl Text {
-    /// Text in a regular face, black, starting at its place. Its characters are drawn as they are, from
-    /// left to right: a caller that takes text from outside decides before what may be in it.
+    /// Text in a regular face, black, starting at its place. Its characters are drawn as they are,
+    /// from left to right: a caller that takes text from outside decides before what may be in it.
     #[must_use]
     pub fn new(content: impl Into<String>, size: f64) -> Self {
         Self {

@@ -1,8 +1,9 @@
 //! The colours of all pictures, by what they stand for, on a light and on a dark ground.
 //!
-//! Lines that are told apart by colour take [`series`]: the colours of Okabe and Ito, "Color universal design"
-//! (2008), which stay apart for colour-blind eyes, darkest first, so that they stay apart in grey too. On a
-//! dark ground their order and hues are the same, and their lightness is turned round.
+//! Lines that are told apart by colour take [`series`]: the colours of Okabe and Ito, "Color
+//! universal design" (2008), which stay apart for colour-blind eyes, darkest first, so that they
+//! stay apart in grey too. On a dark ground their order and hues are the same, and their lightness
+//! is turned round.
 
 // Colours are written as style sheets write them.
 #![allow(clippy::unreadable_literal)]
@@ -169,9 +170,9 @@ pub fn series(ground: Ground) -> [Colour; 7] {
 /// The class of drawings that [`rules_for_dark`] are for.
 pub const ON_BOTH_GROUNDS: &str = "on-both-grounds";
 
-/// Rules of a style sheet for a drawing on a light ground: on a dark screen each of its colours becomes its
-/// counterpart. They are for the `<style>` of an SVG of the class [`ON_BOTH_GROUNDS`] whose colours are attributes;
-/// other drawings of the same page stay as they are.
+/// Rules of a style sheet for a drawing on a light ground: on a dark screen each of its colours
+/// becomes its counterpart. They are for the `<style>` of an SVG of the class [`ON_BOTH_GROUNDS`]
+/// whose colours are attributes; other drawings of the same page stay as they are.
 #[must_use]
 pub fn rules_for_dark() -> String {
     let on = |role: Role| [role.on(Ground::Light), role.on(Ground::Dark)];
@@ -195,8 +196,8 @@ pub fn rules_for_dark() -> String {
     rules + "}"
 }
 
-/// A drawing in the colours of a light ground as SVG: its letters are outlines, and on a dark screen its colours are
-/// dark ones.
+/// A drawing in the colours of a light ground as SVG: its letters are outlines, and on a dark
+/// screen its colours are dark ones.
 #[must_use]
 pub fn on_both_grounds(sheet: &Sheet) -> String {
     let style = format!("</title>\n<style>{}</style>", rules_for_dark());
@@ -258,7 +259,8 @@ mod tests {
         }
     }
 
-    /// Okabe and Ito's lightest colours have a contrast of 2.2 with white: charts draw them wider or label them.
+    /// Okabe and Ito's lightest colours have a contrast of 2.2 with white: charts draw them wider
+    /// or label them.
     #[test]
     fn every_line_is_seen_on_its_ground() {
         for ground in [Ground::Light, Ground::Dark] {

@@ -2,7 +2,8 @@
 
 use grouser_io::{Kind, Loaded, escape, preset};
 
-/// The rover and the soil of a scenario or a mission, by their titles where they are presets. The slope is in the picture.
+/// The rover and the soil of a scenario or a mission, by their titles where they are presets. The
+/// slope is in the picture.
 #[must_use]
 pub fn title_of<V>(scenario: &Loaded<V>) -> String {
     let named = |kind: Kind, part: &str| {

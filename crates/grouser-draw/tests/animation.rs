@@ -1,5 +1,5 @@
-//! What an animation promises: the same bytes for the same run, files that other programs read, and pictures of
-//! whatever becomes of a rover.
+//! What an animation promises: the same bytes for the same run, files that other programs read, and
+//! pictures of whatever becomes of a rover.
 
 use std::path::Path;
 
@@ -42,8 +42,8 @@ fn the_same_run_has_the_same_bytes() {
     }
 }
 
-/// A player shows each picture for its time, on top of those before: put together they are what was drawn,
-/// in the colours of the table.
+/// A player shows each picture for its time, on top of those before: put together they are what was
+/// drawn, in the colours of the table.
 #[test]
 fn a_gif_shows_every_picture_in_its_time() {
     let (animation, run) = short();
@@ -148,7 +148,8 @@ fn a_scene_in_three_dimensions_is_valid_gltf() {
                 [part().fold(f32::INFINITY, f32::min), part().fold(-f32::INFINITY, f32::max)];
             let listed = [&least[k], &accessor["max"][k]];
             for (listed, end) in listed.iter().zip(ends) {
-                // Read back, a number may be off by its last digit as a double; in singles it is not.
+                // Read back, a number may be off by its last digit as a double; in singles it is
+                // not.
                 let far = listed.as_f64().expect("a number") - f64::from(end);
                 assert!(far.abs() <= 1e-12 * f64::from(end).abs(), "{listed} {end}");
             }
@@ -216,8 +217,8 @@ fn wheels_turn_as_fast_as_in_the_run() {
     assert!((turned - 2.0 * speed).abs() < 1e-4, "{turned} of {}", 2.0 * speed);
 }
 
-/// The extremes: level and steep ground, a rover that is stuck, slides, tips over, turns on the spot or
-/// drives out of sight.
+/// The extremes: level and steep ground, a rover that is stuck, slides, tips over, turns on the
+/// spot or drives out of sight.
 #[test]
 fn whatever_becomes_of_a_rover_can_be_drawn() {
     type Expected = fn(&Outcome) -> bool;
@@ -293,7 +294,8 @@ fn film(run: &(LoadedScenario, Trajectory)) -> Animation {
     Animation::of("Ripples", &[Shown { name: "rover", run: &run.1, scenario: &run.0.value }])
 }
 
-/// Ground with heights: every form is written, from every start, and the same run has the same bytes.
+/// Ground with heights: every form is written, from every start, and the same run has the same
+/// bytes.
 #[test]
 fn a_run_over_heights_is_drawn_in_every_form() {
     for yaw in [0.0, 90.0, -137.0] {
@@ -344,7 +346,8 @@ fn several_runs_over_heights_have_a_view_each() {
     }
 }
 
-/// A scene over heights has the ground's heights, and the rover ends in its place, leaning as it stands.
+/// A scene over heights has the ground's heights, and the rover ends in its place, leaning as it
+/// stands.
 #[test]
 fn a_scene_over_heights_has_them() {
     let run = over_ripples(0.0, "duration_s = 10");

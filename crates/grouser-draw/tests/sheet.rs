@@ -47,8 +47,8 @@ fn a_millimetre_is_ten_pixels() {
     }
 }
 
-/// Hatching stays inside, and darkens by its share of the area: lines of 0.2 mm, 1 mm apart along the edge at 45°, cover
-/// 0.2·√2 of it, but for corners.
+/// Hatching stays inside, and darkens by its share of the area: lines of 0.2 mm, 1 mm apart along
+/// the edge at 45°, cover 0.2·√2 of it, but for corners.
 #[test]
 fn hatching_fills_its_rectangle_and_nothing_else() {
     let (greys, across) = pixels(&page().to_png());

@@ -1,5 +1,5 @@
-//! A document that starts from a preset: `preset = "NAME"` brings the preset's keys, those that the document has
-//! itself stand in their place.
+//! A document that starts from a preset: `preset = "NAME"` brings the preset's keys, those that the
+//! document has itself stand in their place.
 
 use super::error::{DocumentError, Problem};
 use super::field::PRESET;
@@ -11,9 +11,9 @@ use super::tree::{Entry, Node, Value};
 
 /// Puts the keys of the preset that a motor names beside its own, and takes the name away.
 ///
-/// Where the name was set from outside, as by `--set motor.preset=NAME`, it stands for another motor: of the document's
-/// own keys only those stay that were set so, too. Keys that stay are assumptions, unless the document has a source of
-/// its own: that of the preset has others.
+/// Where the name was set from outside, as by `--set motor.preset=NAME`, it stands for another
+/// motor: of the document's own keys only those stay that were set so, too. Keys that stay are
+/// assumptions, unless the document has a source of its own: that of the preset has others.
 ///
 /// # Errors
 /// [`DocumentError`] if there is no such preset.

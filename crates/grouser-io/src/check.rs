@@ -1,7 +1,7 @@
 //! Checks a tree of values against the schema of its kind, before anything is made of it.
 //!
-//! All checks of a JSON Schema are here: keys, their types, keywords, ranges and lengths. Contradictions between
-//! values are checked where the domain's values are made.
+//! All checks of a JSON Schema are here: keys, their types, keywords, ranges and lengths.
+//! Contradictions between values are checked where the domain's values are made.
 
 use serde_json::Value as Json;
 
@@ -69,7 +69,8 @@ fn table_at<'s>(
     checker.choose(schema, node, "", &node.origin).ok()
 }
 
-/// The keyword or key that was probably meant: the present name of a withdrawn one, or the most alike.
+/// The keyword or key that was probably meant: the present name of a withdrawn one, or the most
+/// alike.
 #[must_use]
 pub fn nearest<'w>(word: &str, words: impl IntoIterator<Item = &'w str>) -> Option<&'w str> {
     /// Likeness (Jaro and Winkler) above which a word counts as a misspelling [-]. Source: ours;
@@ -88,9 +89,9 @@ pub fn nearest<'w>(word: &str, words: impl IntoIterator<Item = &'w str>) -> Opti
         .map(|(_, known)| known)
 }
 
-/// The keys that a key which a document does not have was probably meant to be, with the tables they
-/// stand in: a key of this name in another table, one at the top that is spelt alike, or one whose name has a unit
-/// after it.
+/// The keys that a key which a document does not have was probably meant to be, with the tables
+/// they stand in: a key of this name in another table, one at the top that is spelt alike, or one
+/// whose name has a unit after it.
 #[must_use]
 pub fn meant_keys(kind: Kind, name: &str) -> Vec<String> {
     let root = root(kind);

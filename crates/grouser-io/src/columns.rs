@@ -1,10 +1,10 @@
-//! The columns of results: name, unit, description and source of a result are declared in one [`Column`] and
-//! nowhere else.
+//! The columns of results: name, unit, description and source of a result are declared in one
+//! [`Column`] and nowhere else.
 //!
-//! A column leads to a number in SI; its unit makes of that what leaves. Tables on a terminal, CSV, JSON,
-//! Parquet, Arrow and the arrays of Python are made from these columns, by way of a [`Table`](super::table::Table)
-//! or number by number. A quantity with a band over samples is one column too: the table has a column for each
-//! of its quantiles.
+//! A column leads to a number in SI; its unit makes of that what leaves. Tables on a terminal, CSV,
+//! JSON, Parquet, Arrow and the arrays of Python are made from these columns, by way of a
+//! [`Table`](super::table::Table) or number by number. A quantity with a band over samples is one
+//! column too: the table has a column for each of its quantiles.
 
 pub mod flags;
 pub mod wheel;
@@ -19,8 +19,8 @@ use crate::statistics::{Band, Probability};
 
 /// A result, or a setting beside results, of rows of one type.
 ///
-/// What is a wheel's sinkage called outside the library, and in which unit is it? And a column of your
-/// own: at which lever would the load make the torque?
+/// What is a wheel's sinkage called outside the library, and in which unit is it? And a column of
+/// your own: at which lever would the load make the torque?
 ///
 /// ```
 /// use grouser_core::contact::{Settled, WheelForces};
@@ -401,8 +401,8 @@ impl<R> Column<R> {
     }
 }
 
-/// To a ten-thousandth: finer than any stand reads, coarse enough for the same file on every machine. Zero has
-/// no sign.
+/// To a ten-thousandth: finer than any stand reads, coarse enough for the same file on every
+/// machine. Zero has no sign.
 fn rounded(value: f64) -> f64 {
     (value * 1e4).round() / 1e4 + 0.0
 }

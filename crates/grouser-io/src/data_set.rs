@@ -1,4 +1,5 @@
-//! `data-set/1`: wheel or rover, soils and gravity of a file of measurements, so that models can be compared with it.
+//! `data-set/1`: wheel or rover, soils and gravity of a file of measurements, so that models can be
+//! compared with it.
 
 use serde::Deserialize;
 
@@ -19,7 +20,8 @@ use grouser_core::wheel::Wheel;
 
 /// A file of measured wheel tests, or of a rover on slopes, and the wheels, rovers and soils in it.
 ///
-/// With which wheels were the tests of the data set `cmu-single-wheel` made, and under which gravity?
+/// With which wheels were the tests of the data set `cmu-single-wheel` made, and under which
+/// gravity?
 ///
 /// ```
 /// use grouser_io::{Kind, Overrides, Source, read_data_set};

@@ -7,8 +7,8 @@ use super::describe;
 use super::kind::{Kind, PRIORS_KEY};
 use grouser_core::contact::Model;
 
-/// The keys of a document in their own units: every named part in its place, every default filled in, keys
-/// in the order of its kind. Serialised it is the document.
+/// The keys of a document in their own units: every named part in its place, every default filled
+/// in, keys in the order of its kind. Serialised it is the document.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct Document {
@@ -116,9 +116,10 @@ impl Document {
         self.model_at("soil.model")
     }
 
-    /// The wheel–soil model that a soil is computed with where nobody asks for another: that which it
-    /// was made for; without one `ishigami`, but `small-wheel` for a soil that leaves its wheel sinkage
-    /// ratio to priors: of the models it misses published wheel tests least where nothing is fitted.
+    /// The wheel–soil model that a soil is computed with where nobody asks for another: that which
+    /// it was made for; without one `ishigami`, but `small-wheel` for a soil that leaves its wheel
+    /// sinkage ratio to priors: of the models it misses published wheel tests least where nothing
+    /// is fitted.
     ///
     /// * `place`: the key of the soil, or nothing if the document is one
     #[must_use]
@@ -157,7 +158,8 @@ impl Document {
         to_toml(self)
     }
 
-    /// The dotted keys of all its numbers, entries of lists by their place; those of priors are no numbers of a soil.
+    /// The dotted keys of all its numbers, entries of lists by their place; those of priors are no
+    /// numbers of a soil.
     pub(crate) fn number_keys(&self) -> Vec<String> {
         number_keys(&self.keys)
     }
@@ -177,7 +179,8 @@ fn number_keys(given: &Json) -> Vec<String> {
     if given.is_object() {
         children.sort_by(|one, other| one.0.cmp(&other.0));
     }
-    // The ends of a domain's ranges are no numbers of what is described: nothing is computed from them.
+    // The ends of a domain's ranges are no numbers of what is described: nothing is computed from
+    // them.
     children.retain(|(key, _)| key != "domain");
     let keys = children.into_iter().flat_map(|(key, given)| {
         if given.is_f64() {

@@ -1,8 +1,8 @@
 //! Drafts: documents made from answers to questions, for which a data sheet is enough.
 //!
-//! A question is a row of a document, or of a rover's data sheet: its key, unit, range and meaning are declared there.
-//! What is not answered has a usual value, which may follow from earlier answers; the document lists it under
-//! `assumed`, with the reason.
+//! A question is a row of a document, or of a rover's data sheet: its key, unit, range and meaning
+//! are declared there. What is not answered has a usual value, which may follow from earlier
+//! answers; the document lists it under `assumed`, with the reason.
 //!
 //! ```
 //! use grouser_io::draft::Draft;
@@ -221,8 +221,8 @@ impl Draft {
         }
     }
 
-    /// The document as TOML, with a comment for each number; what was not answered is in it with its usual value, or
-    /// left out.
+    /// The document as TOML, with a comment for each number; what was not answered is in it with
+    /// its usual value, or left out.
     ///
     /// # Errors
     /// [`DocumentError`] if the answers do not go together.
@@ -254,8 +254,8 @@ impl Draft {
         Err(DocumentError::whole(super::escape::line(key).into_owned(), problem).with_hint(hint))
     }
 
-    /// What a key may be: of the data sheet, or of the document under each of its laws. Before it, where their
-    /// references lead.
+    /// What a key may be: of the data sheet, or of the document under each of its laws. Before it,
+    /// where their references lead.
     fn schemas(&self, key: &str) -> (&'static Json, Vec<&'static Json>) {
         let beside = beside();
         let own = under(beside, key, None);

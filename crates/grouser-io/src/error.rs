@@ -344,8 +344,8 @@ impl DocumentError {
         self
     }
 
-    /// The same, with the spot where another document names the one that is wrong. Arguments have no
-    /// lines to look at, and show the name themselves.
+    /// The same, with the spot where another document names the one that is wrong. Arguments have
+    /// no lines to look at, and show the name themselves.
     pub(crate) fn named_by(mut self, origin: &Origin) -> Self {
         let place = &self.parts.place;
         let is_argument = |spot: &Spot| spot.excerpt.is_none();

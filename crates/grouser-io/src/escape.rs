@@ -1,8 +1,8 @@
-//! Text from outside made safe to show: names, cells and keys of files may hold characters that steer
-//! a terminal, turn the direction of writing, or start a formula in a spreadsheet.
+//! Text from outside made safe to show: names, cells and keys of files may hold characters that
+//! steer a terminal, turn the direction of writing, or start a formula in a spreadsheet.
 //!
-//! What an application prints goes through [`visible`], what stands on one line through [`line()`], a
-//! cell of CSV through [`cell`], which [`plain`] takes back. JSON escapes by itself.
+//! What an application prints goes through [`visible`], what stands on one line through [`line()`],
+//! a cell of CSV through [`cell`], which [`plain`] takes back. JSON escapes by itself.
 
 use std::borrow::Cow;
 use std::path::Path;

@@ -1,8 +1,9 @@
-//! The rows that declare the keys of documents: key, unit, range, description and domain field of a number are
-//! declared in one row of a [`Table`] and nowhere else.
+//! The rows that declare the keys of documents: key, unit, range, description and domain field of a
+//! number are declared in one row of a [`Table`] and nowhere else.
 //!
 //! Reading, checks, messages, JSON Schema, conversion to SI, `--set`, the keys of campaigns and
-//! calibrations are made from these rows. The tables themselves are in [`describe`](super::describe).
+//! calibrations are made from these rows. The tables themselves are in
+//! [`describe`](super::describe).
 
 use std::ops::RangeInclusive;
 
@@ -114,7 +115,8 @@ pub(crate) enum Allowed {
     Format(&'static str),
     /// One of these, which mean what they say.
     Words(fn() -> Vec<&'static str>),
-    /// What a regular expression fits, for editors; the reader checks it where it understands the text.
+    /// What a regular expression fits, for editors; the reader checks it where it understands the
+    /// text.
     Pattern(fn() -> String),
 }
 

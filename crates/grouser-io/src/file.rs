@@ -1,8 +1,9 @@
 //! Reads files up to a limit of size, without waiting for devices or pipes.
 //!
 //! A regular file is read, and a pipe that the caller was given already: the standard input as
-//! `/dev/stdin`, and another descriptor as `/dev/fd/N`, which is what a shell makes of `<(command)`.
-//! Devices have no end, and a pipe with a name waits until something writes: both are refused.
+//! `/dev/stdin`, and another descriptor as `/dev/fd/N`, which is what a shell makes of
+//! `<(command)`. Devices have no end, and a pipe with a name waits until something writes: both are
+//! refused.
 
 use std::fs::{self, File, FileType, Metadata};
 use std::io::{self, Read as _};

@@ -6,7 +6,8 @@ use super::field::{
     Allowed, Field, Form, Keyword, Laws, Number, PRESET, Presence, Shape, Table, Text, Whole,
 };
 
-/// The remark on a key that the soil's priors have a value for. The reader asks for the key where they have none.
+/// The remark on a key that the soil's priors have a value for. The reader asks for the key where
+/// they have none.
 pub(crate) const FROM_PRIOR: &str = "from the soil's priors where it is left out";
 /// The remark on one that has a value without a prior as well.
 const FROM_PRIOR_OR_DEFAULT: &str =
@@ -89,7 +90,8 @@ fn of_text(allowed: Allowed) -> Json {
     }
 }
 
-/// In a table of the reader's schema: keys of numbers in thousands of a unit, each with the key of the number.
+/// In a table of the reader's schema: keys of numbers in thousands of a unit, each with the key of
+/// the number.
 const IN_THOUSANDS: &str = "x-in-thousands";
 
 /// The key of the number that another key of the same table gives in thousands of its unit.
@@ -97,8 +99,8 @@ pub(crate) fn of_thousands<'s>(table: &'s Json, key: &str) -> Option<&'s str> {
     table.get(IN_THOUSANDS)?.get(key)?.as_str()
 }
 
-/// The schema for editors: a table that may start from a preset needs no key if it does. (The reader has put the
-/// preset's keys into it before it checks.)
+/// The schema for editors: a table that may start from a preset needs no key if it does. (The
+/// reader has put the preset's keys into it before it checks.)
 pub(crate) fn with_presets(schema: &mut Json) {
     match schema {
         Json::Array(all) => all.iter_mut().for_each(with_presets),
@@ -120,8 +122,8 @@ pub(crate) fn with_presets(schema: &mut Json) {
     }
 }
 
-/// The schema for editors: where numbers may stand in thousands of a unit, with those keys too. (The reader has turned
-/// them into the others before it checks.)
+/// The schema for editors: where numbers may stand in thousands of a unit, with those keys too.
+/// (The reader has turned them into the others before it checks.)
 pub(crate) fn with_thousands(schema: &mut Json) {
     match schema {
         Json::Array(all) => all.iter_mut().for_each(with_thousands),

@@ -33,7 +33,8 @@ pub enum Kind {
     Campaign,
     /// What is believed of a soil's numbers that its source does not print, `prior/1`.
     Prior,
-    /// Which topics and fields of a log of messages are which columns of telemetry, `telemetry-mapping/1`.
+    /// Which topics and fields of a log of messages are which columns of telemetry,
+    /// `telemetry-mapping/1`.
     TelemetryMapping,
 }
 
@@ -159,8 +160,8 @@ pub(super) struct Part {
 pub(super) const EACH: &str = "*";
 
 impl Part {
-    /// Whether there may be several, one in each entry of a list. What is set for the documents of its
-    /// kind does not reach into those: only what is set at their own place does.
+    /// Whether there may be several, one in each entry of a list. What is set for the documents of
+    /// its kind does not reach into those: only what is set at their own place does.
     pub(super) fn is_listed(&self) -> bool {
         self.path.contains(&EACH)
     }

@@ -1,24 +1,25 @@
-//! Documents of Grouser: soils, wheels, rovers, runs and measurements with units in their names, and what they mean
-//! in SI.
+//! Documents of Grouser: soils, wheels, rovers, runs and measurements with units in their names,
+//! and what they mean in SI.
 //!
-//! A soil, a wheel, a rover, a scenario, a mission, a data set and a [`campaign`] each have a TOML document. It is read in these
-//! steps:
+//! A soil, a wheel, a rover, a scenario, a mission, a data set and a [`campaign`] each have a TOML
+//! document. It is read in these steps:
 //!
 //! 1. [`Source`]: a preset, a file or a text is [found](Source::find) and read.
 //! 2. [`Overrides`]: values set from outside replace those of the document.
 //! 3. Named parts (a scenario's rover and soil, a rover's wheel) are read and put in their place.
 //!    Relative paths start from the folder of the document they stand in.
 //! 4. The tree is checked against the [`schema()`] of its kind: keys, types, keywords, ranges.
-//! 5. The rows of its kind's table fill in what it leaves out, and put its numbers into the domain's value, in
-//!    SI units and radians; what only several values together can show is checked there.
+//! 5. The rows of its kind's table fill in what it leaves out, and put its numbers into the
+//!    domain's value, in SI units and radians; what only several values together can show is
+//!    checked there.
 //! 6. What is uncertain about a soil is read, with the samples that it names.
 //!
-//! The result is [`Loaded`]: the value, and the resolved document, which written back as TOML repeats the run on its
-//! own. An error is a [`DocumentError`], with the line and the column.
+//! The result is [`Loaded`]: the value, and the resolved document, which written back as TOML
+//! repeats the run on its own. An error is a [`DocumentError`], with the line and the column.
 //!
-//! Units and degrees are converted here and nowhere else. A number of a document (its key, unit, range, meaning and
-//! place in the value) is one row of a table; a result (its name, unit, meaning and origin) is one
-//! entry of [`columns`].
+//! Units and degrees are converted here and nowhere else. A number of a document (its key, unit,
+//! range, meaning and place in the value) is one row of a table; a result (its name, unit, meaning
+//! and origin) is one entry of [`columns`].
 //!
 //! Most users take the crate `grouser`, where all of this is the module `document`.
 //!

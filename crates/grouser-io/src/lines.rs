@@ -1,5 +1,5 @@
-//! Lines of a small CSV file and their cells, each with its place in the text. Keys and numbers have no commas and no quotes
-//! in them.
+//! Lines of a small CSV file and their cells, each with its place in the text. Keys and numbers
+//! have no commas and no quotes in them.
 
 use super::error::{DocumentError, Problem};
 use super::tree::Origin;

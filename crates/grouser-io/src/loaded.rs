@@ -25,26 +25,29 @@ pub struct Loaded<V> {
     pub document: Document,
     /// Its meaning, in SI units and radians.
     pub value: V,
-    /// The soils that it, or its soil, may be: by what it says of how well its numbers are known, and by
-    /// priors where it does not. None for an exact soil.
+    /// The soils that it, or its soil, may be: by what it says of how well its numbers are known,
+    /// and by priors where it does not. None for an exact soil.
     pub uncertain: Option<UncertainSoil>,
     /// What was assumed, each with the name of the document that says so.
     pub assumptions: Vec<String>,
-    /// The keys that it, or its soil, takes from priors because they are not stated; empty if all are.
+    /// The keys that it, or its soil, takes from priors because they are not stated; empty if all
+    /// are.
     pub assumed: Vec<Assumed>,
     /// Files that the resolved document names, to be written beside it.
     pub companions: Vec<Companion>,
 }
 
 impl<V> Loaded<V> {
-    /// The soils that it, or its soil, may be, if the document itself says how well its numbers are known.
+    /// The soils that it, or its soil, may be, if the document itself says how well its numbers are
+    /// known.
     #[must_use]
     pub fn stated_uncertainty(&self) -> Option<&UncertainSoil> {
         self.uncertain.as_ref().filter(|soils| soils.is_stated())
     }
 
-    /// The soils that an answer has to be about that always has a band where there is a reason for one: those of
-    /// a document that says how well its numbers are known, or does not state all of them.
+    /// The soils that an answer has to be about that always has a band where there is a reason for
+    /// one: those of a document that says how well its numbers are known, or does not state all of
+    /// them.
     #[must_use]
     pub fn soils_of_bands(&self) -> Option<&UncertainSoil> {
         self.uncertain.as_ref().filter(|soils| soils.is_stated() || !self.assumed.is_empty())
@@ -57,8 +60,9 @@ impl<V> Loaded<V> {
         self.document.to_toml()
     }
 
-    /// A number by which the resolved document, with its companions, is known again: FNV-1a (Fowler,
-    /// Noll, Vo) of 64 bits. It distinguishes documents that differ by chance, not by intent.
+    /// A number by which the resolved document, with its companions, is known again: FNV-1a
+    /// (Fowler, Noll, Vo) of 64 bits. It distinguishes documents that differ by chance, not by
+    /// intent.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
         let toml = self.to_toml();

@@ -1,4 +1,5 @@
-//! Reads measured wheel tests from CSV, and converts their columns, units, slip definitions and signs.
+//! Reads measured wheel tests from CSV, and converts their columns, units, slip definitions and
+//! signs.
 //!
 //! A file has a header and a row for each trial. [`columns`] lists what the columns may be called
 //! and what they mean; those it does not know are left aside and named in
@@ -108,8 +109,8 @@ pub fn read(path: &Path, choice: &Choice) -> Result<Measurements, MeasurementErr
 
 /// The bytes of a measurement file.
 ///
-/// A regular file is read, and a pipe that is open already, as `/dev/stdin` or `/dev/fd/N`. A device
-/// is refused, and so is a pipe with a name, which would wait until somebody writes.
+/// A regular file is read, and a pipe that is open already, as `/dev/stdin` or `/dev/fd/N`. A
+/// device is refused, and so is a pipe with a name, which would wait until somebody writes.
 ///
 /// # Errors
 /// [`MeasurementError`] if there is no file, if it may not be read, or if it is too large.

@@ -113,7 +113,8 @@ impl Plan {
         self.mission_of(first.map_or(&self.legs, |alternative| &alternative.legs))
     }
 
-    /// The mission, or its alternatives by their names, each a mission of its own from the same start.
+    /// The mission, or its alternatives by their names, each a mission of its own from the same
+    /// start.
     #[must_use]
     pub fn missions(&self) -> Vec<(String, Mission)> {
         if self.alternatives.is_empty() {

@@ -98,8 +98,8 @@ pub(crate) fn add(kind: Kind, tree: &mut Node, overrides: &Overrides) {
         let overrides = if part.is_listed() { &none } else { overrides };
         change_each_inside(tree, part.path, &mut |inside| add(part.kind, inside, overrides));
     }
-    // A scenario, a mission, a campaign or a mapping is what its author wants, and needs no source; priors have one in
-    // each row.
+    // A scenario, a mission, a campaign or a mapping is what its author wants, and needs no source;
+    // priors have one in each row.
     if matches!(
         kind,
         Kind::Scenario | Kind::Mission | Kind::Campaign | Kind::Prior | Kind::TelemetryMapping

@@ -46,8 +46,8 @@ impl Overrides {
         Self::default()
     }
 
-    /// Values of keys, each written `document.key=value`: the document is `soil`, `wheel`, `rover` or
-    /// `scenario`, the key has its tables before it, and the value is TOML. A bare word needs no
+    /// Values of keys, each written `document.key=value`: the document is `soil`, `wheel`, `rover`
+    /// or `scenario`, the key has its tables before it, and the value is TOML. A bare word needs no
     /// quotes.
     ///
     /// # Errors
@@ -87,8 +87,8 @@ impl Overrides {
         self.add(text, key.trim(), value, true)
     }
 
-    /// Adds one `key = value` of a caller that is no command line. Messages quote the whole of it as
-    /// [`change_label`](Self::change_label) writes it.
+    /// Adds one `key = value` of a caller that is no command line. Messages quote the whole of it
+    /// as [`change_label`](Self::change_label) writes it.
     ///
     /// * `value`: as TOML
     /// * `beside`: files and maps that it names
@@ -205,8 +205,8 @@ impl Overrides {
         }
     }
 
-    /// Reads documents of a kind without a key, which another one that is set stands in place of. Where no document
-    /// has it, nothing changes.
+    /// Reads documents of a kind without a key, which another one that is set stands in place of.
+    /// Where no document has it, nothing changes.
     ///
     /// * `path`: the key, with the tables it stands in before it
     pub fn leave_out(&mut self, kind: Kind, path: &'static [&'static str]) {
@@ -410,8 +410,8 @@ fn keep_entries(mut node: &mut Node, tables: &[impl AsRef<str>], is_kept: impl F
     }
 }
 
-/// The keys with their document that were probably meant by one without: the key itself, one of its name in a
-/// table, or one that is written much like it.
+/// The keys with their document that were probably meant by one without: the key itself, one of its
+/// name in a table, or one that is written much like it.
 fn with_document(key: &str, value: &Node) -> Vec<String> {
     let last = key.rsplit('.').next().unwrap_or_default();
     let places_of = |name: &str| {
@@ -429,8 +429,8 @@ fn with_document(key: &str, value: &Node) -> Vec<String> {
     places_of(key).or_else(|| places_of(last)).or_else(alike).unwrap_or_default()
 }
 
-/// `scenario.soil.cohesion_kpa` is the soil's `cohesion_kpa`, whether the scenario names its soil or
-/// holds it.
+/// `scenario.soil.cohesion_kpa` is the soil's `cohesion_kpa`, whether the scenario names its soil
+/// or holds it.
 fn without_parts(mut kind: Kind, mut path: Vec<String>) -> (Kind, Vec<String>) {
     while let Some(part) = kind.parts().iter().find(|part| !part.is_listed() && part.holds(&path)) {
         path.drain(..part.path.len());

@@ -1,9 +1,11 @@
-//! What a soil does not state is taken from priors: the median in a single answer, samples in a band.
+//! What a soil does not state is taken from priors: the median in a single answer, samples in a
+//! band.
 //!
-//! A prior document (`prior/1`) has rows for numbers that a soil leaves out, for keywords, and for how well stated
-//! numbers are known. [`fill`] puts medians and keywords into a soil's tree before it is checked, and leaves those
-//! rows beside it that hold for this soil: a resolved document has them as its `priors`, so that it gives the same
-//! soil and the same samples when it is read again. [`stated_by_priors`] makes distributions of them.
+//! A prior document (`prior/1`) has rows for numbers that a soil leaves out, for keywords, and for
+//! how well stated numbers are known. [`fill`] puts medians and keywords into a soil's tree before
+//! it is checked, and leaves those rows beside it that hold for this soil: a resolved document has
+//! them as its `priors`, so that it gives the same soil and the same samples when it is read again.
+//! [`stated_by_priors`] makes distributions of them.
 
 use std::sync::Arc;
 
@@ -62,7 +64,8 @@ pub fn assumed(soil: &Document) -> Vec<Assumed> {
     keys("missing").chain(keys("keyword")).map(one).collect()
 }
 
-/// The distributions that a soil's priors give to numbers that it does not state, or states without their spread.
+/// The distributions that a soil's priors give to numbers that it does not state, or states without
+/// their spread.
 ///
 /// * `soil`: its resolved document
 #[must_use]
@@ -93,8 +96,8 @@ pub fn without_priors_of(soil: &Document, keys: &[&str]) -> Document {
     with_rows(soil, |_, rows| rows.retain(is_kept))
 }
 
-/// A soil whose numbers belong to samples that were found with them: what is the priors' stays at its value, and
-/// what is stated is exact.
+/// A soil whose numbers belong to samples that were found with them: what is the priors' stays at
+/// its value, and what is stated is exact.
 #[must_use]
 pub fn with_priors_held(soil: &Document) -> Document {
     let held = |row: &Json| {
@@ -131,11 +134,11 @@ fn priors_of(given: &Json) -> Priors {
 
 // ---- The tree of a soil ----
 
-/// Puts into a soil's tree what it leaves out and its priors have, and leaves those rows of the priors that hold
-/// for it.
+/// Puts into a soil's tree what it leaves out and its priors have, and leaves those rows of the
+/// priors that hold for it.
 ///
-/// * `is_resolved`: whether the soil itself has the rows: then a number that it states and they call missing is the
-///   priors', unless it was set from outside
+/// * `is_resolved`: whether the soil itself has the rows: then a number that it states and they
+///   call missing is the priors', unless it was set from outside
 pub(crate) fn fill(tree: &mut Node, is_resolved: bool) {
     let Some(entry) = tree.entry(KEY) else { return };
     let (rows, mut kept) = (priors_of(&entry.node.to_json()), entry.node.clone());
@@ -204,8 +207,8 @@ struct Filled<'t> {
 }
 
 impl Filled<'_> {
-    /// Numbers that the soil's own `[uncertainty]` has a distribution for, and no value: they get its median.
-    /// The keys of all its distributions.
+    /// Numbers that the soil's own `[uncertainty]` has a distribution for, and no value: they get
+    /// its median. The keys of all its distributions.
     fn take_own(&mut self) -> Vec<String> {
         let Some(entry) = self.tree.entry("uncertainty") else { return Vec::new() };
         let (given, origin) = (entry.node.to_json(), entry.key_origin.clone());
@@ -277,8 +280,8 @@ impl Filled<'_> {
             && self.marginal(row).is_some()
     }
 
-    /// Whether an argument set a value. A soil that is given as one argument is a document like any other: its
-    /// values stand beside its priors.
+    /// Whether an argument set a value. A soil that is given as one argument is a document like any
+    /// other: its values stand beside its priors.
     fn is_from_outside(&self, node: &Node) -> bool {
         let text = &node.origin.text;
         text.is_argument && !Arc::ptr_eq(text, &self.given_in)
@@ -363,7 +366,8 @@ fn number_at(tree: &Node, key: &str) -> Option<f64> {
     }
 }
 
-/// Puts a value under a key, and makes the tables on the way; nothing if something else stands there.
+/// Puts a value under a key, and makes the tables on the way; nothing if something else stands
+/// there.
 fn put_at(node: &mut Node, steps: &[String], value: Value, origin: &Origin) -> Option<()> {
     let (step, further) = steps.split_first()?;
     let position = node.entries().iter().position(|entry| entry.key == *step);
@@ -388,7 +392,8 @@ fn three_digits(value: f64) -> String {
 
 // ---- Checks ----
 
-/// The most of a prior's distribution that may lie outside its key's range [-]: its median stands for the whole.
+/// The most of a prior's distribution that may lie outside its key's range [-]: its median stands
+/// for the whole.
 const MOST_OUTSIDE: f64 = 0.01;
 
 /// Checks that the rows of priors are about numbers of soils, and possible.

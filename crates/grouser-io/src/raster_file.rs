@@ -1,4 +1,5 @@
-//! Rasters that the terrain of scenarios and missions names: how they are to be read, and what is wrong with them.
+//! Rasters that the terrain of scenarios and missions names: how they are to be read, and what is
+//! wrong with them.
 
 use super::describe::run::TERRAIN;
 use super::describe::terrain::{BAND, CELL_SIZE, MISSING, SOUTH_WEST};

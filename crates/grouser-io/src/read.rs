@@ -1,4 +1,5 @@
-//! Reading a document: finding it, putting others' values and named parts into it, checking it, and what it means.
+//! Reading a document: finding it, putting others' values and named parts into it, checking it, and
+//! what it means.
 
 use grouser_core::simulation::Scenario;
 use grouser_core::soil::Soil;

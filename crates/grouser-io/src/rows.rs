@@ -55,7 +55,8 @@ impl<T> Field<T> {
         }
     }
 
-    /// Numbers in thousands inside what the key takes. Documents inside documents are read on their own.
+    /// Numbers in thousands inside what the key takes. Documents inside documents are read on their
+    /// own.
     fn read_thousands(&self, node: &mut Node) {
         match (&self.shape, &mut node.value) {
             (Shape::Inner(inner) | Shape::TextOr(_, _, inner), Value::Table(_)) => {

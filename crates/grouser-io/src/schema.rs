@@ -1,4 +1,5 @@
-//! The JSON Schema of each kind of document, made from the tables that [`describe`](super::describe) it.
+//! The JSON Schema of each kind of document, made from the tables that
+//! [`describe`](super::describe) it.
 //!
 //! Editors read schemas from `schema/`; the reader itself checks documents against them
 //! ([`check`](super::check)), so that what is given and what is allowed cannot differ.
@@ -141,7 +142,8 @@ fn collect(root: &Json, schema: &Json, path: &str, visit: &mut dyn FnMut(&str, &
     }
 }
 
-/// The schemas under a dotted key, one for each law that has it, as they stand: with their sentences and defaults.
+/// The schemas under a dotted key, one for each law that has it, as they stand: with their
+/// sentences and defaults.
 ///
 /// * `law`: the one of its table, if it is known
 pub(crate) fn under<'s>(root: &'s Json, path: &str, law: Option<&str>) -> Vec<&'s Json> {

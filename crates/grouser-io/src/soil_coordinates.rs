@@ -1,8 +1,9 @@
 //! Coordinates of an uncertain soil in which it is standard normal: what an estimator moves in.
 //!
-//! A number with a distribution has one coordinate, the normal score it is drawn with; correlated numbers have as
-//! many independent ones. Rows of samples have the principal components of their keys, of logarithms where all
-//! samples of a key are above 0: those with the most variance, and beyond them each row keeps what it has of its own.
+//! A number with a distribution has one coordinate, the normal score it is drawn with; correlated
+//! numbers have as many independent ones. Rows of samples have the principal components of their
+//! keys, of logarithms where all samples of a key are above 0: those with the most variance, and
+//! beyond them each row keeps what it has of its own.
 
 use std::sync::Arc;
 
@@ -68,7 +69,8 @@ impl SoilCoordinates {
         self.scores() + self.rows.as_ref().map_or(0, |rows| rows.axes.ncols())
     }
 
-    /// The soil at a place, its numbers within the ranges of their keys; `None` if they are no soil together.
+    /// The soil at a place, its numbers within the ranges of their keys; `None` if they are no soil
+    /// together.
     ///
     /// * `coordinates`: as many as [`count`](Self::count) says
     #[must_use]
@@ -76,8 +78,8 @@ impl SoilCoordinates {
         self.values_at(coordinates, None).and_then(|values| self.soils.soil(&values))
     }
 
-    /// The values of the keys at a place, in their own units and within their ranges; `None` of coordinates that are not
-    /// finite.
+    /// The values of the keys at a place, in their own units and within their ranges; `None` of
+    /// coordinates that are not finite.
     ///
     /// * `coordinates`: as many as [`count`](Self::count) says
     #[must_use]
@@ -103,8 +105,8 @@ impl SoilCoordinates {
         Ok(SoilDraw { coordinates, soil, row })
     }
 
-    /// The values of the keys of a sample that is moved to another place, in their own units; `None` if they are no
-    /// soil together. A row of samples keeps what no coordinate has.
+    /// The values of the keys of a sample that is moved to another place, in their own units;
+    /// `None` if they are no soil together. A row of samples keeps what no coordinate has.
     #[must_use]
     pub fn moved(&self, draw: &SoilDraw, coordinates: &[f64]) -> Option<(Vec<f64>, Soil)> {
         let values = self.values_at(coordinates, draw.row)?;
@@ -229,7 +231,8 @@ mod tests {
         }
     }
 
-    /// The coordinates of 2000 samples have mean 0, variance 1 and no correlation, to within 4.5 standard errors.
+    /// The coordinates of 2000 samples have mean 0, variance 1 and no correlation, to within 4.5
+    /// standard errors.
     #[test]
     fn coordinates_are_standard_normal() {
         let soil = uncertain();
@@ -245,8 +248,8 @@ mod tests {
         }
     }
 
-    /// Rows of two keys of which one is a power of the other have one coordinate, and a row that is moved by one
-    /// standard deviation keeps what it has beyond it.
+    /// Rows of two keys of which one is a power of the other have one coordinate, and a row that is
+    /// moved by one standard deviation keeps what it has beyond it.
     #[test]
     fn rows_of_samples_have_their_principal_components() {
         let rows: Vec<Vec<f64>> = (0..200)

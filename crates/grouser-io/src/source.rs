@@ -128,8 +128,8 @@ impl Source {
     }
 }
 
-/// What was probably meant by a path to no file: a document of a similar name beside it. Where there is no such folder
-/// either, that is said.
+/// What was probably meant by a path to no file: a document of a similar name beside it. Where
+/// there is no such folder either, that is said.
 fn meant_file(path: &Path) -> Option<String> {
     /// Entries of a folder that are looked at.
     const MOST: usize = 1000;

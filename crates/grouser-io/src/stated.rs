@@ -169,7 +169,8 @@ impl Parameter {
 }
 
 impl Parameter {
-    /// Its distribution in the key's own unit; none if that is no distribution, such as a lognormal one about 0.
+    /// Its distribution in the key's own unit; none if that is no distribution, such as a lognormal
+    /// one about 0.
     ///
     /// * `own`: the value that the key has, if it has one
     /// * `reference`: that of the key of which the numbers are multiples, or 1

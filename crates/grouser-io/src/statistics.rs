@@ -1,4 +1,5 @@
-//! Distributions of values that are not known exactly, random numbers, and bands of what follows from them.
+//! Distributions of values that are not known exactly, random numbers, and bands of what follows
+//! from them.
 
 mod band;
 mod distribution;

@@ -1,5 +1,5 @@
-//! Results as a table of named columns. Every output of rows is written from it: terminal, CSV, JSON, Parquet,
-//! Arrow and arrays.
+//! Results as a table of named columns. Every output of rows is written from it: terminal, CSV,
+//! JSON, Parquet, Arrow and arrays.
 
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 

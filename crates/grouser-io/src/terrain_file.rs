@@ -17,8 +17,8 @@ use grouser_core::terrain::{ElevationModel, Extent, Shape};
 use grouser_core::units::Vec2;
 use grouser_raster::ReadOptions;
 
-/// Gives maps that a document names their whole paths, so that the resolved document finds them from anywhere, and ground
-/// with heights no slope beside them.
+/// Gives maps that a document names their whole paths, so that the resolved document finds them
+/// from anywhere, and ground with heights no slope beside them.
 pub(crate) fn locate(tree: &mut Node) {
     let Some(entry) = tree.entry_mut(TERRAIN) else { return };
     let key_origin = entry.key_origin.clone();
@@ -103,8 +103,8 @@ fn held(
     Ok(Some(map.model.clone()))
 }
 
-/// The map of heights of a scenario that was read, under the name that its document has for it: texts that
-/// name it too need not read it again.
+/// The map of heights of a scenario that was read, under the name that its document has for it:
+/// texts that name it too need not read it again.
 #[must_use]
 pub fn map_of(scenario: &Scenario, document: &Document) -> Option<HeldMap> {
     let Shape::Map(model) = &scenario.ground.shape else { return None };

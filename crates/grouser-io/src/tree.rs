@@ -177,8 +177,8 @@ pub struct HeldMap {
     pub name: String,
     /// The map; its soil is not asked for.
     pub model: Arc<ElevationModel>,
-    /// How its file was read. A document that asks for something else reads the file anew. Without a file
-    /// the document has to leave all of that out.
+    /// How its file was read. A document that asks for something else reads the file anew. Without
+    /// a file the document has to leave all of that out.
     pub options: Option<ReadOptions>,
 }
 

@@ -78,8 +78,8 @@ impl UncertainSoil {
         Ok(without_priors_of(&document, &keys))
     }
 
-    /// Whether the document itself says how well its numbers are known. Otherwise all that is known of that is its
-    /// priors'.
+    /// Whether the document itself says how well its numbers are known. Otherwise all that is known
+    /// of that is its priors'.
     #[must_use]
     pub fn is_stated(&self) -> bool {
         self.is_stated
@@ -126,7 +126,8 @@ impl UncertainSoil {
     }
 }
 
-/// The soils that a document, or its soil, may be; none if it is known exactly. The samples' file is given the name that it has beside a resolved document.
+/// The soils that a document, or its soil, may be; none if it is known exactly. The samples' file
+/// is given the name that it has beside a resolved document.
 ///
 /// * `place`: the key of the soil, or nothing
 /// * `tree`: the soil's tree

@@ -1,7 +1,8 @@
 //! Reads the uncertain numbers of soils and campaigns.
 //!
-//! A document names keys with distributions and correlations, or rows of samples; [`Stated`] is that as it is
-//! written. [`Inputs::read`] checks it against the numbers that it is about, and makes a [`Distribution`] of it.
+//! A document names keys with distributions and correlations, or rows of samples; [`Stated`] is
+//! that as it is written. [`Inputs::read`] checks it against the numbers that it is about, and
+//! makes a [`Distribution`] of it.
 
 use super::error::{DocumentError, Problem};
 use super::samples::SampleTable;
@@ -47,8 +48,8 @@ impl Inputs {
     /// Collects and checks the statements on some numbers.
     ///
     /// # Errors
-    /// [`DocumentError`] for keys that are no numbers, distributions outside their ranges, impossible correlations, and
-    /// samples that cannot be read.
+    /// [`DocumentError`] for keys that are no numbers, distributions outside their ranges,
+    /// impossible correlations, and samples that cannot be read.
     pub fn read(
         numbers: &dyn Numbers,
         statements: &[Statement<'_>],

@@ -2,12 +2,12 @@
 
 use std::ops::RangeInclusive;
 
-/// Directions that are taken [°]: any angle, of which whole turns do not count. Source: ours; far beyond, a number no longer
-/// says where between two turns it points.
+/// Directions that are taken [°]: any angle, of which whole turns do not count. Source: ours; far
+/// beyond, a number no longer says where between two turns it points.
 pub const DIRECTION_DEG: RangeInclusive<f64> = -1e9..=1e9;
 
-/// A direction less its whole turns, from −180 to 180 [°]; one that is there already is not touched, and no other is rounded:
-/// −179 for 181.
+/// A direction less its whole turns, from −180 to 180 [°]; one that is there already is not
+/// touched, and no other is rounded: −179 for 181.
 ///
 /// ```
 /// use grouser_io::unit::less_whole_turns;
@@ -19,7 +19,8 @@ pub fn less_whole_turns(degrees: f64) -> f64 {
     if degrees.abs() <= 180.0 {
         return degrees;
     }
-    // All three are exact: the remainder always is, and so is a difference of two numbers of which neither is twice the other.
+    // All three are exact: the remainder always is, and so is a difference of two numbers of which
+    // neither is twice the other.
     let within = degrees % 360.0;
     if within > 180.0 {
         within - 360.0
@@ -88,7 +89,8 @@ impl Unit {
         }
     }
 
-    /// The same of a value that came in with this unit, as it was written: 15°, not 14.999999999999998°.
+    /// The same of a value that came in with this unit, as it was written: 15°, not
+    /// 14.999999999999998°.
     #[must_use]
     pub fn as_given(self, value: f64) -> f64 {
         let exact = self.from_si(value);
@@ -171,8 +173,8 @@ pub const ONE: Unit = Unit::si("-");
 /// The unit of another key.
 pub const OF_KEY: Unit = Unit::si("");
 
-/// Ends of keys and columns, and the units that they stand for, longer ends first: `_m_per_m` is no `_m`. The
-/// Python package asks this table; a test compares it with that of `docs/conventions.md`.
+/// Ends of keys and columns, and the units that they stand for, longer ends first: `_m_per_m` is no
+/// `_m`. The Python package asks this table; a test compares it with that of `docs/conventions.md`.
 pub const UNITS: [(&str, Unit); 36] = [
     ("_m_per_m", M_PER_M),
     ("_deg_per_m", DEG_PER_M),

@@ -1,8 +1,9 @@
 //! Rovers from URDF, the format in which robots are described to ROS.
 //!
-//! Links that roll become wheels, and all other links the body. Joints about an axis across the rover between the two are
-//! rockers and bogies, joints about an upright axis steer; what slides is taken as it stands at zero. Lengths are metres,
-//! the root link's x axis points forward, y to the left, z up (REP 103).
+//! Links that roll become wheels, and all other links the body. Joints about an axis across the
+//! rover between the two are rockers and bogies, joints about an upright axis steer; what slides is
+//! taken as it stands at zero. Lengths are metres, the root link's x axis points forward, y to the
+//! left, z up (REP 103).
 //!
 //! Source of the format: "URDF XML Specification", wiki.ros.org/urdf/XML.
 

@@ -1,5 +1,5 @@
-//! From a document to the domain's value: numbers by the rows of its table, in SI units and radians, and
-//! the checks of values against each other.
+//! From a document to the domain's value: numbers by the rows of its table, in SI units and
+//! radians, and the checks of values against each other.
 
 mod mission;
 
@@ -131,7 +131,8 @@ pub trait Described: Clone + 'static {
         value
     }
 
-    /// What the number under a dotted key may be, in the key's unit; nothing for what leads to none.
+    /// What the number under a dotted key may be, in the key's unit; nothing for what leads to
+    /// none.
     fn range(&self, path: &str) -> Option<RangeInclusive<f64>> {
         Self::table().reach(&mut self.clone(), path).map(|reached| reached.range())
     }
@@ -182,7 +183,8 @@ impl Described for Soil {
     }
 }
 
-/// How many values of a soil stand in for ones that its document does not state, of those that each model uses.
+/// How many values of a soil stand in for ones that its document does not state, of those that each
+/// model uses.
 fn assumed_values(soil: Option<&Document>) -> AssumedValues {
     let assumed = soil.map_or_else(Vec::new, priors::assumed);
     // Each has the beginnings of the keys that a model leaves aside.
@@ -339,8 +341,8 @@ fn check_names(rover: &Rover) -> Result<(), Misfit> {
     Ok(())
 }
 
-/// Checks that wheels are turned no further than they can be, and that only those that are steered have numbers of
-/// steering.
+/// Checks that wheels are turned no further than they can be, and that only those that are steered
+/// have numbers of steering.
 fn check_steering(rover: &Rover) -> Result<(), Misfit> {
     let parts = rover.parts();
     for (index, (mount, complete)) in parts.mounts.iter().zip(parts.complete_mounts()).enumerate() {

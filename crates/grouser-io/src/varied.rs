@@ -1,7 +1,8 @@
-//! Numbers of a document by their keys: their ranges, and the domain's value with other numbers in their place.
+//! Numbers of a document by their keys: their ranges, and the domain's value with other numbers in
+//! their place.
 //!
-//! Campaigns, calibrations, uncertain soils and rollouts all give keys other values here, by the rows of the
-//! document's table and without a document for each.
+//! Campaigns, calibrations, uncertain soils and rollouts all give keys other values here, by the
+//! rows of the document's table and without a document for each.
 
 use std::ops::RangeInclusive;
 

@@ -17,10 +17,11 @@ use grouser_core::soil::Soil;
 use grouser_core::terrain::{Extent, Ground, Shape, SoilZones};
 use grouser_raster::{ReadOptions, ZoneKey, read_zones, zone_names};
 
-/// Gives each name of a file's zones that the legend does not have, and that is a preset's, a row with that preset: the
-/// document has then all soils of the run.
+/// Gives each name of a file's zones that the legend does not have, and that is a preset's, a row
+/// with that preset: the document has then all soils of the run.
 ///
-/// * `terrain`: the table, with whole paths; what is wrong with it, or with the file, is found later
+/// * `terrain`: the table, with whole paths; what is wrong with it, or with the file, is found
+///   later
 pub(crate) fn name_presets(terrain: &mut Node) {
     let Some(Entry { node, .. }) = terrain.entry(FILE) else { return };
     let Value::String(path) = &node.value else { return };

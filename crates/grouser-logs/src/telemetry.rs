@@ -37,7 +37,8 @@ impl TelemetryLog {
     /// Opens a file; its first bytes say what it is.
     ///
     /// * `rover`: the rover that was driven, for the names of its wheels
-    /// * `mapping`: of a log of messages, which fields are which columns; without it the built-in one that fits
+    /// * `mapping`: of a log of messages, which fields are which columns; without it the built-in
+    ///   one that fits
     /// * `choices`: of such a log, the topic that is meant where several fit
     ///
     /// # Errors

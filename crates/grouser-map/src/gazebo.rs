@@ -1,9 +1,11 @@
-//! Slip of a map for Gazebo: the picture that its system `LookupWheelSlip` reads, and the parts of a model that use it.
+//! Slip of a map for Gazebo: the picture that its system `LookupWheelSlip` reads, and the parts of
+//! a model that use it.
 //!
-//! Source: gz-sim, `src/systems/lookup_wheel_slip` (pull request 3003). The system adds `(pixel − 128) · delta` to the
-//! compliances of the system `WheelSlip`, red to the one sideways and green to the one lengthwise; blue is for friction and
-//! stays at 128. It reads the pixel at the place of each wheel, with the picture's middle at the origin of the world and
-//! north at its top.
+//! Source: gz-sim, `src/systems/lookup_wheel_slip` (pull request 3003). The system adds
+//! `(pixel − 128) · delta` to the compliances of the system `WheelSlip`, red to the one sideways
+//! and green to the one lengthwise; blue is for friction and stays at 128. It reads the pixel at
+//! the place of each wheel, with the picture's middle at the origin of the world and north at its
+//! top.
 
 use std::fmt::Write as _;
 
@@ -29,7 +31,8 @@ pub struct SlipTexture {
 }
 
 impl SlipTexture {
-    /// The picture of a map: a pixel for each point, north up. Where nothing is known it changes nothing.
+    /// The picture of a map: a pixel for each point, north up. Where nothing is known it changes
+    /// nothing.
     ///
     /// # Panics
     /// If the map has more than 2³² columns or rows, which no memory takes.

@@ -1,8 +1,9 @@
-//! Bands and elevation models as cloud-optimised GeoTIFF, written through `geotiff-writer`, which no other file of ours knows.
+//! Bands and elevation models as cloud-optimised GeoTIFF, written through `geotiff-writer`, which
+//! no other file of ours knows.
 //!
-//! Tiles of 512 × 512 cells, north up; overviews of half the size down to one tile, each with every second cell of the
-//! one before it, since neither directions nor verdicts have a mean; deflate. Coordinates are those of the elevation
-//! model, key by key, and its points are the cells' middles.
+//! Tiles of 512 × 512 cells, north up; overviews of half the size down to one tile, each with every
+//! second cell of the one before it, since neither directions nor verdicts have a mean; deflate.
+//! Coordinates are those of the elevation model, key by key, and its points are the cells' middles.
 
 use std::fs::File;
 use std::io::{BufWriter, Cursor, Seek, Write};
@@ -66,7 +67,8 @@ fn write<T: NumericSample>(
     Ok(())
 }
 
-/// An elevation model as the content of a file, with real numbers of single precision and in the raster's coordinates.
+/// An elevation model as the content of a file, with real numbers of single precision and in the
+/// raster's coordinates.
 ///
 /// * `name`: of the file that it will be, for errors
 ///
@@ -82,7 +84,8 @@ pub fn elevation_model(name: &Path, raster: &Raster) -> Result<Vec<u8>, MapError
 
 /// Encodes cells.
 ///
-/// * `missing`, `predictor`: what stands for a cell without a number, and how numbers are prepared for compression
+/// * `missing`, `predictor`: what stands for a cell without a number, and how numbers are prepared
+///   for compression
 /// * `cell`: the content of a point of the raster's grid, by its column and row
 fn encode<T: NumericSample, W: Write + Seek>(
     sink: W,
@@ -142,8 +145,9 @@ fn image(raster: &Raster) -> Result<GeoTiffBuilder, Fault> {
         .fold(image, |image, (id, value)| image.geokey(id, value)))
 }
 
-/// A name that the encoder takes: of a list such as `GCS Name = Moon 2000|Datum = …`, whose bars it refuses, the first
-/// name, and without characters that are not in ASCII. Numbers of the system are in keys of their own.
+/// A name that the encoder takes: of a list such as `GCS Name = Moon 2000|Datum = …`, whose bars it
+/// refuses, the first name, and without characters that are not in ASCII. Numbers of the system are
+/// in keys of their own.
 fn name_of(words: &str) -> String {
     let first = words.split('|').next().unwrap_or_default();
     let name = if words.contains('|') {

@@ -15,7 +15,8 @@ use crate::interrupt::listening;
 use crate::missions::{self, Drive};
 use crate::studies::run;
 
-/// The runs of scenarios and missions, drawn beside each other in the form that the ending of a name asks for.
+/// The runs of scenarios and missions, drawn beside each other in the form that the ending of a
+/// name asks for.
 ///
 /// * `sources`: a scenario, or a mission with the name of an alternative, empty where it has none
 /// * `names`: of the runs

@@ -1,7 +1,7 @@
 //! Campaigns: the bytes of a shard, and the folder that collects them.
 //!
-//! The Python package `grouser.campaign` decides which worker computes which shard: a worker gets a study as
-//! a text and a shard's number, and returns the bytes of a Parquet file.
+//! The Python package `grouser.campaign` decides which worker computes which shard: a worker gets a
+//! study as a text and a shard's number, and returns the bytes of a Parquet file.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -42,7 +42,8 @@ impl LoadedCampaign {
     }
 }
 
-/// Reads a campaign as the program does: a file or preset, and settings such as `campaign.runs=100`.
+/// Reads a campaign as the program does: a file or preset, and settings such as
+/// `campaign.runs=100`.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how a list comes from Python")]
 pub(crate) fn find_campaign(study: &str, settings: Vec<String>) -> PyResult<Document> {
@@ -90,7 +91,8 @@ pub(crate) fn campaign_shard<'py>(
             format!("there is no shard {shard}: the campaign has shards 0 to {}", shards - 1);
         return Err(errors::parameter(message, "shard", None, format!("below {shards}")));
     }
-    // Threads of its own for each shard: those of a pool would be gone in a process that was forked.
+    // Threads of its own for each shard: those of a pool would be gone in a process that was
+    // forked.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| PyValueError::new_err(error.to_string()))?;
     let bytes = listening(py, move |cancelled| {
@@ -167,7 +169,8 @@ pub(crate) fn study_difference(theirs: &str, ours: &str) -> String {
     grouser_store::difference(theirs, ours)
 }
 
-/// The manifest of a folder or URL, whose hash of itself was checked: shards are checked against it.
+/// The manifest of a folder or URL, whose hash of itself was checked: shards are checked against
+/// it.
 #[pyclass(module = "grouser._core", frozen)]
 pub(crate) struct CampaignManifest {
     manifest: Manifest,
@@ -226,8 +229,8 @@ impl CampaignManifest {
         self.manifest.identity(shard).most_bytes()
     }
 
-    /// Columns of a shard that is as it was written: numbers as arrays, with NaN where there is none; texts as
-    /// lists.
+    /// Columns of a shard that is as it was written: numbers as arrays, with NaN where there is
+    /// none; texts as lists.
     ///
     /// * `file`: its name in messages
     #[allow(clippy::needless_pass_by_value, reason = "how lists and paths come from Python")]

@@ -40,7 +40,8 @@ pub(crate) fn unit_of(name: &str) -> Option<&'static str> {
 /// Name, unit and what it is.
 type Declared = (String, Option<&'static str>, &'static str);
 
-/// The library's columns of numbers by what they are of: a name, its unit if it has one, and what it is.
+/// The library's columns of numbers by what they are of: a name, its unit if it has one, and what
+/// it is.
 #[pyfunction]
 pub(crate) fn result_columns(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);
@@ -75,8 +76,8 @@ fn declared<R>(columns: &[Column<R>]) -> Vec<Declared> {
     numbers.flat_map(each).collect()
 }
 
-/// A table as a dictionary of columns: numbers and counts as arrays, with NaN where there is none; texts as
-/// lists, with `None`; lists of names as texts, joined by `;`.
+/// A table as a dictionary of columns: numbers and counts as arrays, with NaN where there is none;
+/// texts as lists, with `None`; lists of names as texts, joined by `;`.
 pub(crate) fn table_to_python(py: Python<'_>, table: Table) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);
     for (name, values) in table.columns {

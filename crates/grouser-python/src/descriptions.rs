@@ -187,7 +187,8 @@ impl Document {
         all.into_iter().map(|one| one.key).collect()
     }
 
-    /// The files that the resolved document names: their names, and what is in them, a text or a map.
+    /// The files that the resolved document names: their names, and what is in them, a text or a
+    /// map.
     #[getter]
     fn files<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let dict = PyDict::new(py);
@@ -348,8 +349,8 @@ fn read_changed(
     })
 }
 
-/// An error whose hint writes the keys that were meant as Python's keywords, where the unknown one was
-/// among those given.
+/// An error whose hint writes the keys that were meant as Python's keywords, where the unknown one
+/// was among those given.
 fn as_keywords<'py>(
     error: DocumentError,
     mut given: impl Iterator<Item = &'py Bound<'py, PyDict>>,

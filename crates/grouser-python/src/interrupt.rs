@@ -26,7 +26,8 @@ impl Cancelled {
 
 /// Computes in a thread of its own, without Python's lock; parallel parts run on the threads of
 /// [`threads`]. On a signal that Python turns into an exception, such as Ctrl-C, that exception is
-/// returned. `work` is then cancelled: it finishes the part it is computing, and its result is dropped.
+/// returned. `work` is then cancelled: it finishes the part it is computing, and its result is
+/// dropped.
 pub(crate) fn listening<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&Cancelled) -> T + Send + 'static,

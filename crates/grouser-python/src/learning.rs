@@ -28,7 +28,8 @@ pub(crate) struct Learner {
     scenario: LoadedScenario,
     slope_is_known: bool,
     drive: Mutex<Drive>,
-    /// What there is to say of the telemetry that was taken last, besides what was left out of its rows.
+    /// What there is to say of the telemetry that was taken last, besides what was left out of its
+    /// rows.
     notes_of_source: Mutex<Vec<String>>,
 }
 
@@ -140,7 +141,8 @@ impl Learner {
         taught(py, &lessons.map_err(|error| errors::of_telemetry(&error))?)
     }
 
-    /// A copy in which the drive is over: the records that are too few for a stretch of their own count, too.
+    /// A copy in which the drive is over: the records that are too few for a stretch of their own
+    /// count, too.
     fn finished(&self) -> Self {
         let drive = self.drive().finished();
         Self::of(self.scenario.clone(), self.slope_is_known, drive)
@@ -181,8 +183,8 @@ impl Learner {
         table_to_python(py, columns::predictions(&before.slopes, &now.slopes))
     }
 
-    /// Samples of the soil's uncertain keys, a row for each, before the drive or now, under the model with the greatest
-    /// share.
+    /// Samples of the soil's uncertain keys, a row for each, before the drive or now, under the
+    /// model with the greatest share.
     fn samples<'py>(
         &self,
         py: Python<'py>,

@@ -1,11 +1,13 @@
-//! The native half of the Python package `grouser`: documents and arrays in, the library's results out.
+//! The native half of the Python package `grouser`: documents and arrays in, the library's results
+//! out.
 //!
-//! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one reads
-//! documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), steps rovers
-//! ([`simulators`], on [`paths`]), reads slip from currents
-//! ([`slip_from_current`]), learns from telemetry ([`learning`]), runs studies ([`studies`], [`missions`], [`rollouts`], [`validation`], [`calibration`]) and
-//! campaigns ([`campaign`]), computes the soil's reaction for other engines ([`time_step`], and the
-//! [`ground`] under their wheels) reads [`telemetry`] and exports tables ([`arrow`]). It does so without Python's lock, with threads that a forked process has too
+//! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one
+//! reads documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), steps rovers
+//! ([`simulators`], on [`paths`]), reads slip from currents ([`slip_from_current`]), learns from
+//! telemetry ([`learning`]), runs studies ([`studies`], [`missions`], [`rollouts`], [`validation`],
+//! [`calibration`]) and campaigns ([`campaign`]), computes the soil's reaction for other engines
+//! ([`time_step`], and the [`ground`] under their wheels) reads [`telemetry`] and exports tables
+//! ([`arrow`]). It does so without Python's lock, with threads that a forked process has too
 //! ([`threads`]), and Ctrl-C interrupts it ([`interrupt`]). Nothing here computes physics, and the
 //! library knows nothing of Python.
 

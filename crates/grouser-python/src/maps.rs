@@ -20,8 +20,9 @@ use crate::studies::{Problem, SAMPLES};
 use crate::terrain::Terrain;
 use crate::wheels::check;
 
-/// Bands by name, each with its unit, what it is, and its numbers in rows from north to south; then x of the columns
-/// and y of the rows [m]; then how far the numbers are from those of the curves at most, and other numbers of the map.
+/// Bands by name, each with its unit, what it is, and its numbers in rows from north to south; then
+/// x of the columns and y of the rows [m]; then how far the numbers are from those of the curves at
+/// most, and other numbers of the map.
 type Parts<'py> = (
     Vec<(&'static str, &'static str, &'static str, Bound<'py, PyAny>)>,
     Bound<'py, PyArray1<f64>>,

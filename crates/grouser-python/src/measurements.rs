@@ -64,7 +64,8 @@ impl Data {
     }
 }
 
-/// Another laboratory's file as one of ours: its CSV, the columns that were not taken, and what was noticed.
+/// Another laboratory's file as one of ours: its CSV, the columns that were not taken, and what was
+/// noticed.
 ///
 /// * `columns`: `ours=theirs:unit` each
 #[pyfunction]

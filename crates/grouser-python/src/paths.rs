@@ -160,8 +160,8 @@ impl Led {
 /// The names of what [`beside`] has.
 pub(crate) const BESIDE: [&str; 3] = ["along_track_m", "cross_track_m", "heading_error_deg"];
 
-/// Where a rover is beside its path, in the order of [`BESIDE`]; and the places on the path ahead of it in its body frame
-/// [m], x and y for each of some ways.
+/// Where a rover is beside its path, in the order of [`BESIDE`]; and the places on the path ahead
+/// of it in its body frame [m], x and y for each of some ways.
 pub(crate) fn beside(path: &PathRun, ways: &[f64]) -> Vec<f64> {
     let beside = path.beside();
     let heading_error = DEG.from_si(path.heading_error());
@@ -169,8 +169,8 @@ pub(crate) fn beside(path: &PathRun, ways: &[f64]) -> Vec<f64> {
     [beside.along, beside.cross_track, heading_error].into_iter().chain(ahead).collect()
 }
 
-/// What became of a rover on its path: the outcome by its name, the limit that stopped it by its key, its value in the
-/// key's unit, and a sentence.
+/// What became of a rover on its path: the outcome by its name, the limit that stopped it by its
+/// key, its value in the key's unit, and a sentence.
 pub(crate) type PathOutcome =
     (Option<&'static str>, Option<&'static str>, Option<f64>, Option<String>);
 

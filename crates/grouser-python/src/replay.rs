@@ -1,4 +1,5 @@
-//! A drive that was measured beside the one that is predicted, of a file of telemetry or of its text.
+//! A drive that was measured beside the one that is predicted, of a file of telemetry or of its
+//! text.
 
 use std::io::Cursor;
 use std::path::PathBuf;
@@ -21,7 +22,8 @@ enum NoReplay {
     Nothing(NothingToReplay),
 }
 
-/// Tables over time, of channels and of findings; what the differences point to, notes, and the names of the wheels.
+/// Tables over time, of channels and of findings; what the differences point to, notes, and the
+/// names of the wheels.
 type Replayed<'py> = (
     (Bound<'py, PyDict>, Bound<'py, PyDict>, Bound<'py, PyDict>),
     Vec<String>,

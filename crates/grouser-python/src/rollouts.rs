@@ -47,14 +47,16 @@ const KEYS: [[&str; 2]; 5] = [
     ["duration_s", "duration_s"],
 ];
 
-/// The key of the rims' speed. Where a drive follows Eq. 18, that number is its speed over the ground.
+/// The key of the rims' speed. Where a drive follows Eq. 18, that number is its speed over the
+/// ground.
 const RIM_SPEED: &str = "drive.rim_speed_m_s";
 
 /// Which of some things each run has, if there are several.
 type Index<'py> = Option<PyReadonlyArray1<'py, i64>>;
 
 impl Runs {
-    /// Checks that every run has a scenario, a soil where there are some, and numbers in their ranges.
+    /// Checks that every run has a scenario, a soil where there are some, and numbers in their
+    /// ranges.
     fn new(
         scenarios: &[PyRef<'_, Document>],
         scenario_index: &Index<'_>,

@@ -1,4 +1,5 @@
-//! Step-by-step simulation of any number of rovers, on all cores; each has the same results as alone.
+//! Step-by-step simulation of any number of rovers, on all cores; each has the same results as
+//! alone.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -173,7 +174,8 @@ impl Simulators {
         self.each(py, |rover, place| fresh[place].map_or(Ok(()), |fresh| rover.reset(fresh)))
     }
 
-    /// Turns wheels for some time. A motion that cannot be computed is a failure of that rover alone.
+    /// Turns wheels for some time. A motion that cannot be computed is a failure of that rover
+    /// alone.
     ///
     /// * `commands`: of each rover and wheel; wheel speeds [rad/s], or rim speeds [m/s]
     /// * `active`: which rovers go on
@@ -255,8 +257,8 @@ impl Simulators {
         py.detach(|| self.lock().iter().map(status).collect())
     }
 
-    /// A row for each rover with where it is beside its path, in the order of [`path_columns`]; then x and y of the places on
-    /// the path that are some ways ahead [m], in its body frame.
+    /// A row for each rover with where it is beside its path, in the order of [`path_columns`];
+    /// then x and y of the places on the path that are some ways ahead [m], in its body frame.
     #[allow(clippy::needless_pass_by_value, reason = "how a list comes from Python")]
     fn path_samples<'py>(
         &self,
@@ -281,14 +283,14 @@ impl Simulators {
 }
 
 impl Simulators {
-    /// The rovers, for one thread at a time. Call it without Python's lock: the thread that holds the
-    /// rovers may wait for that.
+    /// The rovers, for one thread at a time. Call it without Python's lock: the thread that holds
+    /// the rovers may wait for that.
     fn lock(&self) -> MutexGuard<'_, Vec<Stepped>> {
         self.rovers.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Applies `act` to every rover, on all cores. On Ctrl-C the remaining rovers stay as they are. Returns
-    /// the first error in the order of the rovers.
+    /// Applies `act` to every rover, on all cores. On Ctrl-C the remaining rovers stay as they are.
+    /// Returns the first error in the order of the rovers.
     fn each(
         &self,
         py: Python<'_>,
@@ -299,8 +301,8 @@ impl Simulators {
         while start < self.radii.len() {
             let pool = threads::pool(py)?;
             let done: Vec<_> = py.detach(|| {
-                // Locked before the pool runs: a thread of the pool that waits for others starts other
-                // work, which must not ask for the same lock.
+                // Locked before the pool runs: a thread of the pool that waits for others starts
+                // other work, which must not ask for the same lock.
                 let mut rovers = self.lock();
                 let batch = rovers.iter_mut().enumerate().skip(start).take(BATCH);
                 let batch: Vec<(usize, &mut Stepped)> = batch.collect();

@@ -66,10 +66,11 @@ impl SlipFromCurrent {
         self.estimator.rover().mounts().iter().map(|mount| mount.name.clone()).collect()
     }
 
-    /// Columns of [`ESTIMATE`], a row for each record and wheel in turn. What is NaN was not read; a row without current or
-    /// speed is NaN and None.
+    /// Columns of [`ESTIMATE`], a row for each record and wheel in turn. What is NaN was not read;
+    /// a row without current or speed is NaN and None.
     ///
-    /// * `of_wheels`: current, speed, load, slip angle and steering angle: a row for each record, a column for each wheel
+    /// * `of_wheels`: current, speed, load, slip angle and steering angle: a row for each record, a
+    ///   column for each wheel
     /// * `of_records`: slope, yaw and course
     #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
     fn estimate<'py>(

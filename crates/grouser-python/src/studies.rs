@@ -156,7 +156,8 @@ pub(crate) fn wheel_sample_columns() -> impl Iterator<Item = (&'static str, Whee
     own.chain(results)
 }
 
-/// Results on each slope, the steepest slope [°], what ends the curve there in a sentence, and in a word.
+/// Results on each slope, the steepest slope [°], what ends the curve there in a sentence, and in a
+/// word.
 type Headings<'py> = (Bound<'py, PyDict>, Option<f64>, String, Option<String>);
 
 /// The heading offset that holds the contour on each slope, the steepest slope, what ends the curve
@@ -185,8 +186,8 @@ pub(crate) fn heading<'py>(
     Ok((table_to_python(py, table)?, limit.numbers(LIMIT_SLOPE.name)[0], reason, limited_by))
 }
 
-/// Wheels at speeds of their own: a row for each slope and for which wheels have a speed in common, the steepest
-/// slopes, and the wheels' names.
+/// Wheels at speeds of their own: a row for each slope and for which wheels have a speed in common,
+/// the steepest slopes, and the wheels' names.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
 pub(crate) fn wheel_speeds<'py>(
@@ -261,8 +262,8 @@ pub(crate) fn heading_map<'py>(
     table_to_python(py, table.map_err(|error: ParameterError| errors::of_parameter(&error))?)
 }
 
-/// Statistics over samples of soil and model: of the heading offset on each slope, and of the steepest
-/// slope.
+/// Statistics over samples of soil and model: of the heading offset on each slope, and of the
+/// steepest slope.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
 pub(crate) fn heading_band<'py>(
@@ -290,8 +291,8 @@ pub(crate) fn heading_band<'py>(
     Ok((table, record_to_python(py, &limit.as_ref().map(|it| it.row(0)))?))
 }
 
-/// Statistics over samples of soil and model for each soil, course and slope of a map, in the order of its rows, and
-/// the weights of the models for each soil.
+/// Statistics over samples of soil and model for each soil, course and slope of a map, in the order
+/// of its rows, and the weights of the models for each soil.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
 pub(crate) fn heading_map_band<'py>(
@@ -331,8 +332,8 @@ pub(crate) fn heading_map_band<'py>(
     Ok((table, weights.collect::<PyResult<_>>()?))
 }
 
-/// Statistics over samples of soil and model for each setting of a test stand: slip ratios fastest, then slip
-/// angles, loads.
+/// Statistics over samples of soil and model for each setting of a test stand: slip ratios fastest,
+/// then slip angles, loads.
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
@@ -408,7 +409,8 @@ fn weights_to_python<'py>(py: Python<'py>, weights: &ModelSpread) -> PyResult<Bo
     Ok(dict)
 }
 
-/// The operator's card over samples of soil and model: its rows, the other courses, and the steepest slope.
+/// The operator's card over samples of soil and model: its rows, the other courses, and the
+/// steepest slope.
 ///
 /// * `rule`: go slip ratio, go probability, no-go slip ratio, no-go probability [-]
 #[pyfunction]
@@ -466,12 +468,13 @@ pub(crate) fn gravity_of(text: &str) -> Option<f64> {
     words::gravity_of(text)
 }
 
-/// The choices of a forecast: whose ground it is, each by its name, with a soil where it is not the one that was
-/// measured; and names of scalings and of masses, with factors as `NAME=FACTOR`.
+/// The choices of a forecast: whose ground it is, each by its name, with a soil where it is not the
+/// one that was measured; and names of scalings and of masses, with factors as `NAME=FACTOR`.
 type ChoiceNames<'py> =
     (Option<Vec<(String, Option<PyRef<'py, Document>>)>>, Vec<String>, Vec<String>);
 
-/// A forecast under the scenario's gravity: its rows, steepest slope, budget, choices, tests and notes.
+/// A forecast under the scenario's gravity: its rows, steepest slope, budget, choices, tests and
+/// notes.
 ///
 /// * `counts`: samples of the soil, and of what a model gets wrong
 #[pyfunction]

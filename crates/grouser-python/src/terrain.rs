@@ -25,11 +25,11 @@ pub(crate) struct Terrain {
     pub(crate) map: HeldMap,
 }
 
-/// How a file was read: cell size, and x and y of the point farthest to the south and west [m]; the band; and the
-/// height that stands for a missing one [m].
+/// How a file was read: cell size, and x and y of the point farthest to the south and west [m]; the
+/// band; and the height that stands for a missing one [m].
 type Reading = (Option<[f64; 3]>, Option<usize>, Option<f64>);
-/// A map as numbers: its name, how its file was read, base [m], place of the first point and distances of neighbours
-/// [m], and heights above the base [m] in rows from south to north.
+/// A map as numbers: its name, how its file was read, base [m], place of the first point and
+/// distances of neighbours [m], and heights above the base [m] in rows from south to north.
 type Parts<'py> = (String, Option<Reading>, f64, [f64; 2], [f64; 2], Bound<'py, PyArray2<f32>>);
 
 #[pymethods]
@@ -54,7 +54,8 @@ impl Terrain {
             let row = |from_south: usize| {
                 heights.row(if north_first { rows - 1 - from_south } else { from_south })
             };
-            // From north to south, as files of the same heights are read: with the same base, the same bits.
+            // From north to south, as files of the same heights are read: with the same base, the
+            // same bits.
             let mut from_north = (0..rows).rev().flat_map(row);
             let base =
                 from_north.find(|height| is_known(**height)).map_or(0.0, |it| round_base(*it));
@@ -76,7 +77,8 @@ impl Terrain {
 
     /// Makes lunar ground.
     ///
-    /// * `size_m`, `cell_size_m`, `largest_crater_m`: sides, distance of neighbours, largest diameter
+    /// * `size_m`, `cell_size_m`, `largest_crater_m`: sides, distance of neighbours, largest
+    ///   diameter
     #[staticmethod]
     fn lunar(
         py: Python<'_>,
@@ -107,7 +109,8 @@ impl Terrain {
         };
         let made = py.detach(|| {
             let LunarModel { grid, heights, .. } = site.model()?;
-            // As files have them, and with the base of those that are read: its northern row comes first.
+            // As files have them, and with the base of those that are read: its northern row comes
+            // first.
             let north_west = heights[(grid.rows - 1) * grid.columns];
             let base = round_base(f64::from(above(north_west, 0.0)));
             let kept = |height: &f64| above(f64::from(above(*height, 0.0)), base);
@@ -152,7 +155,8 @@ impl Terrain {
         Ok((name, reading, model.base(), south_west.into(), spacing.into(), heights))
     }
 
-    /// x and y of its outermost points: of those to the west and south, and of those to the east and north [m].
+    /// x and y of its outermost points: of those to the west and south, and of those to the east
+    /// and north [m].
     #[getter]
     fn extent(&self) -> [f64; 4] {
         let Extent { south_west, north_east } = self.map.model.extent();
@@ -216,7 +220,8 @@ impl Terrain {
         PyArray1::from_iter(py, rows.collect::<Vec<_>>()).reshape([x.len(), 3])
     }
 
-    /// Heights over places [m] as a wheel meets them: beyond what is known they go on as at the nearest edge.
+    /// Heights over places [m] as a wheel meets them: beyond what is known they go on as at the
+    /// nearest edge.
     #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
     fn ground<'py>(
         &self,

@@ -28,8 +28,8 @@ pub(crate) struct SteppingWheels {
     rest_speed: f64,
 }
 
-/// Wrenches, a row for each wheel; results of wheels, a row for each name; and how far the motion is from the
-/// forces' [m/s].
+/// Wrenches, a row for each wheel; results of wheels, a row for each name; and how far the motion
+/// is from the forces' [m/s].
 type Answer<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>, f64);
 
 #[pymethods]
@@ -83,11 +83,12 @@ impl SteppingWheels {
         PyArray1::from_iter(py, self.wheels.iter().map(|(wheel, ..)| wheel.shearing_radius()))
     }
 
-    /// The reaction over a step that a preliminary step led to: a wrench on each wheel's body about its centre of
-    /// mass, in the world; results of wheels; and how far the motion is from the forces' [m/s].
+    /// The reaction over a step that a preliminary step led to: a wrench on each wheel's body about
+    /// its centre of mass, in the world; results of wheels; and how far the motion is from the
+    /// forces' [m/s].
     ///
-    /// * `poses`: hubs [m], directions of axles, centres of mass of the bodies [m], and normals of the ground, a row
-    ///   for each wheel, in the world
+    /// * `poses`: hubs [m], directions of axles, centres of mass of the bodies [m], and normals of
+    ///   the ground, a row for each wheel, in the world
     /// * `distances`: of the hubs from the ground [m]
     /// * `jacobians`: of each hub, three rows of velocity and three of angular velocity
     /// * `inertia`, `velocities`: of the mechanism

@@ -138,8 +138,8 @@ fn has_map(mapping: &Bound<'_, PyMapping>) -> PyResult<bool> {
     file.map_or(Ok(false), |file| Ok(terrain(&file)?.is_some()))
 }
 
-/// The changes in a mapping: a table changes single keys of the table; laws come first, so that keys of
-/// a new law find it there.
+/// The changes in a mapping: a table changes single keys of the table; laws come first, so that
+/// keys of a new law find it there.
 pub(crate) fn changes(prefix: &str, mapping: &Bound<'_, PyDict>) -> PyResult<Vec<Change>> {
     let mut all = Vec::new();
     for (name, value) in mapping {

@@ -133,8 +133,8 @@ impl Stand {
         contact.filter(|_| !self.is_missing(inputs, place))
     }
 
-    /// The wheels of a share by their models, each with its load [N] or sinkage [m]. One whose numbers are
-    /// not all there, or do not go together, has no results.
+    /// The wheels of a share by their models, each with its load [N] or sinkage [m]. One whose
+    /// numbers are not all there, or do not go together, has no results.
     ///
     /// * `last`: what is written of it in their place
     fn by_model(
@@ -166,8 +166,8 @@ impl Stand {
             || self.of_wheels.missing(place).is_some()
     }
 
-    /// Checks that the numbers that differ from wheel to wheel are in their ranges, and that those of each
-    /// wheel go together.
+    /// Checks that the numbers that differ from wheel to wheel are in their ranges, and that those
+    /// of each wheel go together.
     fn check(&self, py: Python<'_>, inputs: &Inputs<'_>) -> PyResult<()> {
         if !self.is_varied() {
             return Ok(());
@@ -243,7 +243,8 @@ pub(crate) fn check_under(soil: &Soil, wheel: &Wheel, gravity: f64) -> PyResult<
     soil.check_under(wheel, gravity).map_err(|error| errors::of_parameter(&error))
 }
 
-/// The wheel–soil model that a setting names, or else the soil's own; and the setting's gravity [m/s²].
+/// The wheel–soil model that a setting names, or else the soil's own; and the setting's gravity
+/// [m/s²].
 pub(crate) fn model_and_gravity(soil: &Document, setting: &Document) -> PyResult<(Model, f64)> {
     let setting = setting.scenario()?;
     let named = setting.document.model().is_some().then_some(setting.value.model.clone());
@@ -322,7 +323,8 @@ fn find_flags(
     situation.add_to(found);
 }
 
-/// Evaluates all wheels, batch by batch and share by share, into an array with a row for each result.
+/// Evaluates all wheels, batch by batch and share by share, into an array with a row for each
+/// result.
 fn evaluate(
     py: Python<'_>,
     count: usize,
@@ -372,7 +374,8 @@ fn shares(cells: &mut [f64], count: usize, batch: Range<usize>, size: usize) -> 
     shares
 }
 
-/// What `settle` returns: results by rows, the names of the rows, and whether each wheel is carried.
+/// What `settle` returns: results by rows, the names of the rows, and whether each wheel is
+/// carried.
 type Answer<'py> = (Bound<'py, PyArray2<f64>>, Vec<&'static str>);
 
 fn names(last: &'static str) -> Vec<&'static str> {
@@ -380,8 +383,8 @@ fn names(last: &'static str) -> Vec<&'static str> {
 }
 
 /// The sinkages at which wheels carry their loads, and the forces there. A row that is NaN but for
-/// `capacity_n` and the flags' bits, its last two, is a wheel that the soil does not carry; one that is all NaN but
-/// for the bits has an input that is.
+/// `capacity_n` and the flags' bits, its last two, is a wheel that the soil does not carry; one
+/// that is all NaN but for the bits has an input that is.
 ///
 /// * `vary`: keys of soil and wheel, and `gravity_m_s2`, with a number for each wheel; emptied
 #[pyfunction]

@@ -2,8 +2,8 @@
 
 /// What a file's coordinates refer to: its keys as they are, and a name to show.
 ///
-/// Nothing is computed from them but what unit they are in, so that systems of the Moon and of Mars that no
-/// register has pass through as well.
+/// Nothing is computed from them but what unit they are in, so that systems of the Moon and of Mars
+/// that no register has pass through as well.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CoordinateSystem {
     directory: Vec<u16>,

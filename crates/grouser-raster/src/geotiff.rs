@@ -1,10 +1,11 @@
 //! Heights as GeoTIFF, read through `tiff-reader`, which no other file of ours knows.
 //!
-//! Formats: TIFF 6.0 and BigTIFF, GeoTIFF 1.1 (OGC 19-008r4), GDAL's tags 42112 (metadata) and 42113
-//! (nodata). Of several images the first is read that is neither an overview nor a mask. A height is
-//! missing where the cell has the file's nodata value, is NaN, is masked by an internal mask, or lies in a
-//! block that was never written; GDAL's scale and offset are applied to the others. Cells are areas, whose
-//! heights are those of their middles, or points, as the file says (key 1025).
+//! Formats: TIFF 6.0 and BigTIFF, GeoTIFF 1.1 (OGC 19-008r4), GDAL's tags 42112 (metadata) and
+//! 42113 (nodata). Of several images the first is read that is neither an overview nor a mask. A
+//! height is missing where the cell has the file's nodata value, is NaN, is masked by an internal
+//! mask, or lies in a block that was never written; GDAL's scale and offset are applied to the
+//! others. Cells are areas, whose heights are those of their middles, or points, as the file says
+//! (key 1025).
 
 mod advice;
 mod affine;

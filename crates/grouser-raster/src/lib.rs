@@ -1,8 +1,9 @@
 //! Elevation models, and zones of soil, from files: GeoTIFF, NumPy arrays, xyz text and GeoJSON.
 //!
-//! [`read`] tells the format by the content, and gives a [`Raster`]: heights at the points of a grid, with
-//! the file's coordinate system, which is carried along and not interpreted. [`Raster::model`] makes the
-//! [`ElevationModel`](grouser_core::terrain::ElevationModel) of it that a rover drives on.
+//! [`read`] tells the format by the content, and gives a [`Raster`]: heights at the points of a
+//! grid, with the file's coordinate system, which is carried along and not interpreted.
+//! [`Raster::model`] makes the [`ElevationModel`](grouser_core::terrain::ElevationModel) of it that
+//! a rover drives on.
 //!
 //! | format | read | coordinates |
 //! |---|---|---|
@@ -10,11 +11,11 @@
 //! | [`.npy`](npy) | versions 1 to 3, row by row or column by column, either byte order; real and whole numbers | [`Placement`] |
 //! | [xyz] | a point in each line, in any order | of the file, in metres |
 //!
-//! [`read_zones`] reads which soil lies where: class numbers from the same formats, or polygons from
-//! [GeoJSON](zones::geojson).
+//! [`read_zones`] reads which soil lies where: class numbers from the same formats, or polygons
+//! from [GeoJSON](zones::geojson).
 //!
-//! What a file promises is compared with its length and with [`ReadOptions::cells`] before memory is taken
-//! for it. A file that cannot be used gives a [`RasterError`] that says what to do.
+//! What a file promises is compared with its length and with [`ReadOptions::cells`] before memory
+//! is taken for it. A file that cannot be used gives a [`RasterError`] that says what to do.
 //!
 //! How large is an array of heights, and how high is its middle?
 //!

@@ -1,8 +1,8 @@
 //! Heights as NumPy's `.npy` files: a header of text, then the numbers.
 //!
-//! Format: NumPy enhancement proposal 1, versions 1.0 to 3.0. The array has two axes, rows and columns; its
-//! first row is the northern one unless [`Placement::rows`](crate::Placement::rows) says otherwise. NaN is a
-//! missing height.
+//! Format: NumPy enhancement proposal 1, versions 1.0 to 3.0. The array has two axes, rows and
+//! columns; its first row is the northern one unless [`Placement::rows`](crate::Placement::rows)
+//! says otherwise. NaN is a missing height.
 
 mod header;
 

@@ -3,7 +3,8 @@
 use grouser_core::terrain::ElevationGrid;
 use grouser_core::units::Vec2;
 
-/// The most cells that are read if nothing else is asked for: 2²⁸, such as 16 384 × 16 384, which take 1 GiB.
+/// The most cells that are read if nothing else is asked for: 2²⁸, such as 16 384 × 16 384, which
+/// take 1 GiB.
 pub const CELLS: u64 = 1 << 28;
 
 /// How a file is to be read.

@@ -13,15 +13,16 @@ pub struct Raster {
     pub grid: ElevationGrid,
     /// What the heights are above [m].
     pub base: f64,
-    /// Heights above the base [m], in rows from south to north, each from west to east; NaN where they are
-    /// missing.
+    /// Heights above the base [m], in rows from south to north, each from west to east; NaN where
+    /// they are missing.
     pub heights: Vec<f32>,
     /// The system of the coordinates, as the file has it.
     pub coordinates: CoordinateSystem,
 }
 
 impl Raster {
-    /// A piece of made lunar ground, as a file has it: in a projection of the Moon's, about a place of no meaning.
+    /// A piece of made lunar ground, as a file has it: in a projection of the Moon's, about a place
+    /// of no meaning.
     #[must_use]
     pub fn of_moon(model: &LunarModel) -> Self {
         #[expect(clippy::cast_possible_truncation, reason = "the precision of elevation models")]
@@ -37,9 +38,9 @@ impl Raster {
         self.above(column, row).map(|above| self.base + above)
     }
 
-    /// How steeply the ground rises at a point to the east and to the north [m/m], between its neighbours on both
-    /// sides; from the point itself where one of them is missing. None where the point's own height is missing, or
-    /// both neighbours' in one direction.
+    /// How steeply the ground rises at a point to the east and to the north [m/m], between its
+    /// neighbours on both sides; from the point itself where one of them is missing. None where the
+    /// point's own height is missing, or both neighbours' in one direction.
     ///
     /// * `reach`: how far the neighbours are to the east and to the north, in points, 1 or more
     #[must_use]

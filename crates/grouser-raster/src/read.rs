@@ -7,7 +7,8 @@ use std::path::Path;
 use crate::error::{Fault, RasterError};
 use crate::{Raster, ReadOptions, geotiff, npy, xyz};
 
-/// What other formats of heights start with, which begin as text: labels of PDS and ISIS, grids of Esri.
+/// What other formats of heights start with, which begin as text: labels of PDS and ISIS, grids of
+/// Esri.
 const LABELS: [&[u8]; 6] = [b"PDS_VERSION_ID", b"CCSD", b"Object", b"<?xml", b"ncols", b"NCOLS"];
 
 /// Reads a file of any of the formats, which its content tells.

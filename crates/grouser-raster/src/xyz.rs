@@ -1,8 +1,9 @@
 //! Heights as text: a point in each line, x, y and z in metres, east, north and up.
 //!
-//! Numbers stand apart by spaces, tabs, commas or semicolons; more of them after z are left alone. Lines may
-//! come in any order. Empty lines, those that start with `#` or `//`, and words in the first line are
-//! passed over. Points lie on a regular grid, of which some may be missing; a z of NaN is missing, too.
+//! Numbers stand apart by spaces, tabs, commas or semicolons; more of them after z are left alone.
+//! Lines may come in any order. Empty lines, those that start with `#` or `//`, and words in the
+//! first line are passed over. Points lie on a regular grid, of which some may be missing; a z of
+//! NaN is missing, too.
 
 mod axis;
 

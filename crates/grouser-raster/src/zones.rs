@@ -1,8 +1,8 @@
 //! Zones of soil as files: class numbers of a raster, or polygons of GeoJSON.
 //!
-//! A raster of any of the formats of [`read`](crate::read()) whose cells are whole numbers, or [GeoJSON](geojson)
-//! whose polygons have a property `soil`. [`ZoneMap`] is what the file says; a legend says which soil each
-//! number or name means.
+//! A raster of any of the formats of [`read`](crate::read()) whose cells are whole numbers, or
+//! [GeoJSON](geojson) whose polygons have a property `soil`. [`ZoneMap`] is what the file says; a
+//! legend says which soil each number or name means.
 //!
 //! Which zone of a file lies at a place?
 //!
@@ -55,13 +55,14 @@ pub fn zone_names(path: &Path) -> Result<Vec<String>, RasterError> {
     names().map_err(|fault: Fault| RasterError::new(path, fault))
 }
 
-/// Reads areas, such as those to keep out of, from GeoJSON: polygons with any properties, all of them the zone of class 0.
+/// Reads areas, such as those to keep out of, from GeoJSON: polygons with any properties, all of
+/// them the zone of class 0.
 ///
 /// * `ground`: the extent of the heights that they are for
 ///
 /// # Errors
-/// [`RasterError`] with the file's name; also for a polygon whose edge crosses itself, and for areas none of which lies on
-/// the ground.
+/// [`RasterError`] with the file's name; also for a polygon whose edge crosses itself, and for
+/// areas none of which lies on the ground.
 pub fn read_areas(path: &Path, ground: &Extent) -> Result<ZoneMap, RasterError> {
     let areas = || {
         if !geojson::starts_so(&start_of(path)?) {
@@ -81,7 +82,8 @@ pub fn read_areas(path: &Path, ground: &Extent) -> Result<ZoneMap, RasterError> 
 /// * `ground`: the extent of the heights that the zones are for, if that is known
 ///
 /// # Errors
-/// [`RasterError`] with the file's name, and what to do; also for zones none of which lies on the ground.
+/// [`RasterError`] with the file's name, and what to do; also for zones none of which lies on the
+/// ground.
 pub fn read_zones(
     path: &Path,
     options: &ReadOptions,

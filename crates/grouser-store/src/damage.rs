@@ -1,4 +1,5 @@
-//! No damage of a finished campaign's folder goes unnoticed: a reader refuses it, or answers as before.
+//! No damage of a finished campaign's folder goes unnoticed: a reader refuses it, or answers as
+//! before.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -44,7 +45,8 @@ fn files(path: &Path) -> Vec<PathBuf> {
     shards.chain(["manifest.json", "study.toml"].map(|name| path.join(name))).collect()
 }
 
-/// A thousand single bits, spread over all files by a seed; each file gets its share of a hundred and more.
+/// A thousand single bits, spread over all files by a seed; each file gets its share of a hundred
+/// and more.
 #[test]
 fn a_thousand_flipped_bits_are_refused_or_change_nothing() {
     const FLIPS: u64 = 1000;
@@ -117,8 +119,8 @@ fn exchanged_renamed_and_cut_shards_are_refused() {
     assert_eq!(Results::open(&path).unwrap().digest().unwrap().shards, study.shards());
 }
 
-/// A shard that says of itself what it should, with other rows: written by a program of the same version
-/// that computes otherwise.
+/// A shard that says of itself what it should, with other rows: written by a program of the same
+/// version that computes otherwise.
 #[test]
 fn shards_of_other_rows_are_not_those_that_the_campaign_was_finished_with() {
     let (_place, path, study) = whole();

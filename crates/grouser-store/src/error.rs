@@ -208,8 +208,8 @@ pub enum ShardFault {
 }
 
 impl StoreError {
-    /// Whether the disk, its permissions or another program are in the way, or files are damaged: the
-    /// request itself is right.
+    /// Whether the disk, its permissions or another program are in the way, or files are damaged:
+    /// the request itself is right.
     #[must_use]
     pub fn is_environment(&self) -> bool {
         matches!(

@@ -34,9 +34,9 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// Opens a folder to go on with a campaign, or makes it. What killed programs left unfinished is
-    /// removed, and every shard that is there is checked, to the last bit: damaged ones are missing. A
-    /// manifest or study that was damaged is [written anew](Self::mended).
+    /// Opens a folder to go on with a campaign, or makes it. What killed programs left unfinished
+    /// is removed, and every shard that is there is checked, to the last bit: damaged ones are
+    /// missing. A manifest or study that was damaged is [written anew](Self::mended).
     ///
     /// On network disks the lock is as good as theirs: NFS before version 4 may have none.
     ///
@@ -130,8 +130,8 @@ impl Folder {
         &self.faults
     }
 
-    /// Names of files beside the shards that were damaged when the folder was opened, or of an earlier form,
-    /// and were written anew. A manifest that was damaged has lost its sessions.
+    /// Names of files beside the shards that were damaged when the folder was opened, or of an
+    /// earlier form, and were written anew. A manifest that was damaged has lost its sessions.
     #[must_use]
     pub fn mended(&self) -> &[&'static str] {
         &self.mended
@@ -222,13 +222,14 @@ impl Folder {
     /// Computes the digest and writes it to the manifest.
     ///
     /// # Errors
-    /// [`StoreError::Missing`] if shards are; [`StoreError::Damaged`] if one is not as it was taken in;
-    /// [`StoreError::OtherDigest`] if the campaign was finished before, with other bytes.
+    /// [`StoreError::Missing`] if shards are; [`StoreError::Damaged`] if one is not as it was taken
+    /// in; [`StoreError::OtherDigest`] if the campaign was finished before, with other bytes.
     pub fn finish(&mut self) -> Result<Finished, StoreError> {
         self.finish_reading(&[], &mut |_, _| {})
     }
 
-    /// The same, giving some columns of every shard away on the way: all files are read for the digest.
+    /// The same, giving some columns of every shard away on the way: all files are read for the
+    /// digest.
     ///
     /// # Errors
     /// The same as [`finish`](Self::finish), and [`StoreError::NoColumn`].

@@ -15,8 +15,9 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// The most bytes that its file may have: numbers take eight and what Parquet adds, texts such as
-    /// reasons a kilobyte on average at most. [`encode`](crate::shard::encode) writes none that is longer.
+    /// The most bytes that its file may have: numbers take eight and what Parquet adds, texts such
+    /// as reasons a kilobyte on average at most. [`encode`](crate::shard::encode) writes none that
+    /// is longer.
     #[must_use]
     pub fn most_bytes(&self) -> u64 {
         const FILE: u64 = 1 << 20;

@@ -1,5 +1,5 @@
-//! Stores a campaign's results on disk, so that a kill at any moment loses no more than the shard being
-//! computed.
+//! Stores a campaign's results on disk, so that a kill at any moment loses no more than the shard
+//! being computed.
 //!
 //! ```text
 //! DIR/manifest.json              what campaign this is, by which version, when, and its digest once finished
@@ -9,14 +9,16 @@
 //! ```
 //!
 //! [`Study`] is a campaign as the store sees it, [`shard`] turns rows into a file's bytes and back,
-//! [`Folder`] is the folder that a campaign writes, [`Results`] the same for reading, [`merge`] brings
-//! the parts of an array of jobs together.
+//! [`Folder`] is the folder that a campaign writes, [`Results`] the same for reading, [`merge`]
+//! brings the parts of an array of jobs together.
 //!
-//! Shards are computed one by one, in any order, anywhere: [`shard_bytes`] makes one, [`Folder::missing`]
-//! lists the missing ones, [`Folder::accept`] takes them in. A file appears under its name only when it
-//! is whole and on disk (written beside, synced, renamed), and carries a hash of its own bytes, which every
-//! reader checks; so does the manifest, and the study is compared with the manifest's hash of it. Neither a clock nor a random number goes into a shard: the [`digest`](Folder::finish) over all of them is
-//! that of the campaign, however it was computed.
+//! Shards are computed one by one, in any order, anywhere: [`shard_bytes`] makes one,
+//! [`Folder::missing`] lists the missing ones, [`Folder::accept`] takes them in. A file appears
+//! under its name only when it is whole and on disk (written beside, synced, renamed), and carries
+//! a hash of its own bytes, which every reader checks; so does the manifest, and the study is
+//! compared with the manifest's hash of it. Neither a clock nor a random number goes into a shard:
+//! the [`digest`](Folder::finish) over all of them is that of the campaign, however it was
+//! computed.
 
 mod error;
 mod folder;

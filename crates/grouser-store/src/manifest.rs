@@ -1,6 +1,7 @@
 //! The manifest: the campaign of a folder, its progress, and when it was computed.
 //!
-//! Its last value is the SHA-256 of the file itself, computed with zeros in that place, as in a shard.
+//! Its last value is the SHA-256 of the file itself, computed with zeros in that place, as in a
+//! shard.
 
 use std::io::ErrorKind;
 use std::path::Path;
@@ -24,7 +25,8 @@ const OLD_SCHEMA: &str = "grouser.campaign.manifest.v1";
 const HASH_KEY: &str = "\"manifest_sha256\": \"";
 /// Digits of a SHA-256.
 const HASH_DIGITS: usize = 64;
-/// The most bytes that a manifest may have: a campaign of 10 000 columns and as many sessions has a tenth.
+/// The most bytes that a manifest may have: a campaign of 10 000 columns and as many sessions has a
+/// tenth.
 const MOST_BYTES: u64 = 1 << 26;
 /// The most runs of a shard, as in the range of the document's `shard_runs`.
 const MOST_SHARD_RUNS: u64 = 1_000_000;
@@ -126,8 +128,8 @@ impl Manifest {
     /// * `file`: what messages call it
     ///
     /// # Errors
-    /// [`StoreError::Manifest`] if it is not as it was written, [`StoreError::OldManifest`] if it has no
-    /// hash.
+    /// [`StoreError::Manifest`] if it is not as it was written, [`StoreError::OldManifest`] if it
+    /// has no hash.
     pub fn parse(bytes: &[u8], file: &Path) -> Result<Self, StoreError> {
         let wrong = |problem: &str| StoreError::Manifest {
             file: file.to_owned(),

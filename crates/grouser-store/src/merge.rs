@@ -49,8 +49,8 @@ fn part(study: &Study, folder: &Path) -> Result<Results, StoreError> {
     Ok(results)
 }
 
-/// Which folder has which shard, by its place in the list. The parts are finished, so that there are no more
-/// shards than files.
+/// Which folder has which shard, by its place in the list. The parts are finished, so that there
+/// are no more shards than files.
 fn owners(parts: &[Results], folders: &[PathBuf]) -> Result<BTreeMap<u64, usize>, StoreError> {
     let mut shards: BTreeMap<u64, usize> = BTreeMap::new();
     for (place, part) in parts.iter().enumerate() {

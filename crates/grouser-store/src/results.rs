@@ -1,5 +1,5 @@
-//! A campaign's folder, for reading: each shard is read once, checked to the last bit, and given away column by
-//! column, so that memory holds no more than one of them.
+//! A campaign's folder, for reading: each shard is read once, checked to the last bit, and given
+//! away column by column, so that memory holds no more than one of them.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -32,8 +32,9 @@ pub struct Finished {
 
 /// The results in a folder. Nothing is locked: a campaign may be writing there.
 ///
-/// Nothing that is read is taken on trust: the manifest carries a hash of itself and one of the study, a shard
-/// one of itself; and where all shards are there, the digest over them is compared with the manifest's.
+/// Nothing that is read is taken on trust: the manifest carries a hash of itself and one of the
+/// study, a shard one of itself; and where all shards are there, the digest over them is compared
+/// with the manifest's.
 #[derive(Clone, Debug)]
 pub struct Results {
     path: PathBuf,
@@ -47,8 +48,8 @@ impl Results {
     ///
     /// # Errors
     /// [`StoreError::NoCampaign`]; [`StoreError::Manifest`], [`StoreError::OldManifest`] or
-    /// [`StoreError::StudyChanged`] if the folder's own files are not as they were written; or that the folder
-    /// cannot be read.
+    /// [`StoreError::StudyChanged`] if the folder's own files are not as they were written; or that
+    /// the folder cannot be read.
     pub fn open(path: &Path) -> Result<Self, StoreError> {
         let manifest = Manifest::read(path)?;
         let manifest = manifest.ok_or_else(|| StoreError::NoCampaign(path.to_owned()))?;
@@ -69,8 +70,8 @@ impl Results {
     /// Checks that the manifest is that of a study, in everything that it records of the study.
     ///
     /// # Errors
-    /// [`StoreError::StudyChanged`] if the study is another one, [`StoreError::Manifest`] if the manifest says
-    /// something else of it.
+    /// [`StoreError::StudyChanged`] if the study is another one, [`StoreError::Manifest`] if the
+    /// manifest says something else of it.
     pub fn require_study(&self, study: &Study) -> Result<(), StoreError> {
         if study.hash != self.manifest.study_sha256 {
             return Err(StoreError::StudyChanged(self.study_file()));
@@ -117,14 +118,15 @@ impl Results {
         Err(StoreError::Unfinished { folder: self.path.clone(), shards: self.missing.clone() })
     }
 
-    /// Reads the shards that are there, each once and in order: some columns of each, and at the end the
-    /// digest over all bytes.
+    /// Reads the shards that are there, each once and in order: some columns of each, and at the
+    /// end the digest over all bytes.
     ///
     /// * `each`: gets a shard's number and columns
     ///
     /// # Errors
     /// [`StoreError::Damaged`] for the first shard that is not as it was written;
-    /// [`StoreError::OtherDigest`] if all are, and are not those that the campaign was finished with.
+    /// [`StoreError::OtherDigest`] if all are, and are not those that the campaign was finished
+    /// with.
     pub fn read(
         &self,
         columns: &[&str],
@@ -165,7 +167,8 @@ impl Results {
     /// Some columns of a shard.
     ///
     /// # Errors
-    /// [`StoreError::Damaged`] if it is not there or not as it was written, [`StoreError::NoColumn`].
+    /// [`StoreError::Damaged`] if it is not there or not as it was written,
+    /// [`StoreError::NoColumn`].
     pub fn shard(&self, shard: u64, columns: &[&str]) -> Result<Table, StoreError> {
         bytes(&self.path, &self.manifest, shard)?.1.table(columns)
     }
@@ -199,8 +202,8 @@ impl Results {
     /// The row of a run, as it is stored.
     ///
     /// # Errors
-    /// [`StoreError::NoRun`] if the campaign has no such run, or [`StoreError::Damaged`] if its shard is not
-    /// there or not as it was written.
+    /// [`StoreError::NoRun`] if the campaign has no such run, or [`StoreError::Damaged`] if its
+    /// shard is not there or not as it was written.
     pub fn row(&self, run: u64) -> Result<Vec<(String, Cell)>, StoreError> {
         let runs = self.manifest.runs;
         if run >= runs {

@@ -1,9 +1,9 @@
 //! A shard's rows as the bytes of a Parquet file, and back.
 //!
 //! The bytes depend on the study, the shard's number and its rows alone: one group of rows, fixed
-//! settings, no times, no compression (sampled numbers have nothing to compress, and what repeats goes
-//! into a dictionary). The footer has study, version, number, columns with their units, and the
-//! SHA-256 of the whole file, computed with zeros in that place.
+//! settings, no times, no compression (sampled numbers have nothing to compress, and what repeats
+//! goes into a dictionary). The footer has study, version, number, columns with their units, and
+//! the SHA-256 of the whole file, computed with zeros in that place.
 
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -61,7 +61,8 @@ pub fn number_of(name: &str) -> Option<u64> {
 ///
 /// # Errors
 /// [`StoreError::Parquet`] if the table is not one of the study's columns and the shard's rows;
-/// [`StoreError::Shard`] if its texts are so long that no reader would take it ([`Identity::most_bytes`]).
+/// [`StoreError::Shard`] if its texts are so long that no reader would take it
+/// ([`Identity::most_bytes`]).
 pub fn encode(study: &Study, shard: u64, table: &Table) -> Result<Vec<u8>, StoreError> {
     let runs = study.runs_of(shard);
     let fits = table.columns.len() == study.columns.len()
@@ -106,7 +107,8 @@ fn hash_place(file: &[u8]) -> Option<usize> {
     (place + HASH_DIGITS <= file.len()).then_some(place)
 }
 
-/// Any value may be missing: a run without an answer has none, and the schema is that of all shards.
+/// Any value may be missing: a run without an answer has none, and the schema is that of all
+/// shards.
 fn field(column: &Column) -> ParquetResult<Arc<Type>> {
     let physical = match column.kind {
         ColumnKind::Float => PhysicalType::DOUBLE,

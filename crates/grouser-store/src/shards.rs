@@ -1,4 +1,5 @@
-//! Sets of shards as ranges: a campaign of 10¹² runs has 10⁹ of them, and no list of these is ever made.
+//! Sets of shards as ranges: a campaign of 10¹² runs has 10⁹ of them, and no list of these is ever
+//! made.
 
 use std::collections::BTreeMap;
 
@@ -41,8 +42,8 @@ impl Progression {
     }
 }
 
-/// Some of the shards of a campaign or part. Memory is that of its ranges: shards that are done one after
-/// another leave one.
+/// Some of the shards of a campaign or part. Memory is that of its ranges: shards that are done one
+/// after another leave one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ShardSet {
     of: Progression,

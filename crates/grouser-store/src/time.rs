@@ -11,8 +11,8 @@ pub(crate) fn now() -> String {
 /// * `seconds`: since the start of 1970
 fn utc(seconds: u64) -> String {
     let (days, second) = (seconds / 86_400, seconds % 86_400);
-    // Howard Hinnant, "chrono-Compatible Low-Level Date Algorithms", civil_from_days: years start in
-    // March, so that the leap day is their last, and repeat after 400 of them.
+    // Howard Hinnant, "chrono-Compatible Low-Level Date Algorithms", civil_from_days: years start
+    // in March, so that the leap day is their last, and repeat after 400 of them.
     let days = days + 719_468;
     let (era, day_of_era) = (days / 146_097, days % 146_097);
     let year_of_era =

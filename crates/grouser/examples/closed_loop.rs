@@ -1,8 +1,9 @@
 //! Does a rover hold the contour of a slope if it measures its yaw and steers by it?
 //!
-//! A rover that starts with the right heading offset slowly loses it: the wheels' torque moves load to the rear wheels,
-//! and the nose turns downhill. A controller that reads the yaw ten times a second, to a tenth of a degree, and turns the
-//! wheels of both sides at different speeds holds it to a fifth of a degree.
+//! A rover that starts with the right heading offset slowly loses it: the wheels' torque moves load
+//! to the rear wheels, and the nose turns downhill. A controller that reads the yaw ten times a
+//! second, to a tenth of a degree, and turns the wheels of both sides at different speeds holds it
+//! to a fifth of a degree.
 //!
 //! ```sh
 //! cargo run --release -p grouser --example closed_loop
@@ -15,7 +16,8 @@ use grouser::simulation::{Controller, Observation, Record, Run, RunError, Scenar
 
 /// What the yaw is measured in: a tenth of a degree [rad].
 const READING: f64 = 0.1 * std::f64::consts::PI / 180.0;
-/// How much faster the right rims turn than the left ones for a lack of yaw, over the rims' speed [1/rad].
+/// How much faster the right rims turn than the left ones for a lack of yaw, over the rims' speed
+/// [1/rad].
 const GAIN: f64 = 10.0;
 
 pub(crate) fn main() -> Result<(), Box<dyn Error>> {

@@ -1,8 +1,10 @@
-//! How far uphill must a rover turn its nose to cross a slope along the contour, and does it then stay there?
+//! How far uphill must a rover turn its nose to cross a slope along the contour, and does it then
+//! stay there?
 //!
-//! The heading offset is what balances the forces; a run of 20 s that starts with it, and another one with the nose along
-//! the contour, show where the rover ends. The wheels' torque turns the nose downhill meanwhile, so that a tenth of the
-//! drift is left: a driver corrects that on the way.
+//! The heading offset is what balances the forces; a run of 20 s that starts with it, and another
+//! one with the nose along the contour, show where the rover ends. The wheels' torque turns the
+//! nose downhill meanwhile, so that a tenth of the drift is left: a driver corrects that on the
+//! way.
 //!
 //! ```sh
 //! cargo run --release -p grouser --example heading_on_a_slope

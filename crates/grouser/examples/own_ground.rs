@@ -1,7 +1,7 @@
 //! Does a rover come round a dune of one's own, along the contour?
 //!
-//! Any shape of ground is a `Terrain`: heights and normals under a footprint. A run takes it by its `Ground`, and so do
-//! missions, limits and whatever else asks which way is uphill.
+//! Any shape of ground is a `Terrain`: heights and normals under a footprint. A run takes it by its
+//! `Ground`, and so do missions, limits and whatever else asks which way is uphill.
 //!
 //! ```sh
 //! cargo run --release -p grouser --example own_ground

@@ -1,8 +1,9 @@
 //! Which heading holds a rover on the contour, by a wheel–soil model of one's own?
 //!
-//! Any law from a contact to forces is a `WheelSoilModel`. Runs, missions, wheel tests, headings and bands take it by
-//! their `Model`. This one is friction: the soil drives a wheel along the way its rim slides, by a share of the load that
-//! grows with the sliding. For it the heading has a closed form, whatever the rover:
+//! Any law from a contact to forces is a `WheelSoilModel`. Runs, missions, wheel tests, headings
+//! and bands take it by their `Model`. This one is friction: the soil drives a wheel along the way
+//! its rim slides, by a share of the load that grows with the sliding. For it the heading has a
+//! closed form, whatever the rover:
 //!
 //! ```text
 //! γ = asin(−k ln(1 − tan α/μ))
@@ -26,7 +27,8 @@ pub(crate) struct Friction {
     pub(crate) stiffness: f64,
     /// The most friction, *μ* [-].
     pub(crate) coefficient: f64,
-    /// Speed at which the rim slides over that at which it turns, *k* [-]: there friction is 63 % of the most.
+    /// Speed at which the rim slides over that at which it turns, *k* [-]: there friction is 63 %
+    /// of the most.
     pub(crate) sliding: f64,
 }
 

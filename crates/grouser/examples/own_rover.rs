@@ -1,5 +1,5 @@
-//! Which circle does my own rover drive on sand? It has six wheels, the two in front steered to the left, and is made in
-//! Rust, without a document.
+//! Which circle does my own rover drive on sand? It has six wheels, the two in front steered to the
+//! left, and is made in Rust, without a document.
 //!
 //! ```sh
 //! cargo run --release -p grouser --example own_rover

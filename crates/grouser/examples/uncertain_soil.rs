@@ -1,9 +1,9 @@
-//! How uncertain is the heading offset that holds the contour, if the sand is known only roughly, and any of several
-//! wheel–soil models may be right?
+//! How uncertain is the heading offset that holds the contour, if the sand is known only roughly,
+//! and any of several wheel–soil models may be right?
 //!
-//! 200 samples of sand and model are drawn, the sand from the deviations that its document states. The band holds the
-//! middle 95 % of their heading offsets; the probability, with its 95 % confidence interval, is the share of samples
-//! that have one.
+//! 200 samples of sand and model are drawn, the sand from the deviations that its document states.
+//! The band holds the middle 95 % of their heading offsets; the probability, with its 95 %
+//! confidence interval, is the share of samples that have one.
 //!
 //! ```sh
 //! cargo run --release -p grouser --example uncertain_soil

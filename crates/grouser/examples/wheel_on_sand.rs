@@ -1,5 +1,5 @@
-//! How hard does a wheel pull on sand, how deep does it sink and which torque does it take, as its slip grows? And at
-//! which slip ratio does it begin to pull at all?
+//! How hard does a wheel pull on sand, how deep does it sink and which torque does it take, as its
+//! slip grows? And at which slip ratio does it begin to pull at all?
 //!
 //! ```sh
 //! cargo run --release -p grouser --example wheel_on_sand

@@ -1,5 +1,5 @@
-//! Documents with units in their names, and what they mean: those of `grouser-io`, and beside them the documents
-//! and results of studies.
+//! Documents with units in their names, and what they mean: those of `grouser-io`, and beside them
+//! the documents and results of studies.
 
 mod bevameter;
 pub mod calibration;

@@ -1,13 +1,14 @@
-//! Grouser predicts how a wheeled rover moves on loose soil: sinkage, slip, drift on slopes, the heading
-//! that holds the contour line, and energy.
+//! Grouser predicts how a wheeled rover moves on loose soil: sinkage, slip, drift on slopes, the
+//! heading that holds the contour line, and energy.
 //!
 //! It grows from one paper, the dynamics simulator of HAKUTO's four-wheel micro rover, which the
 //! documentation calls [FourWheel].
 //!
 //! # The layers
 //!
-//! A module uses those below it, never those above. The lower four come from the crate `grouser-core`; [`document`]
-//! has all of the crate `grouser-io`, and the documents and results of studies.
+//! A module uses those below it, never those above. The lower four come from the crate
+//! `grouser-core`; [`document`] has all of the crate `grouser-io`, and the documents and results of
+//! studies.
 //!
 //! | layer | modules | contents |
 //! |---|---|---|
@@ -18,8 +19,8 @@
 //! | contact | [`contact`] | what the soil does to one wheel |
 //! | foundations | [`units`] [`error`] [`soil`] [`wheel`] [`terrain`] | what things are |
 //!
-//! Inside, everything is in SI units and radians; [`document`] converts. There is no file, clock or printing in the
-//! physics: a [`Scenario`](simulation::Scenario) alone determines its
+//! Inside, everything is in SI units and radians; [`document`] converts. There is no file, clock or
+//! printing in the physics: a [`Scenario`](simulation::Scenario) alone determines its
 //! [`Trajectory`](simulation::Trajectory), bit for bit. What a rover does is a value (it may get
 //! stuck, slide or tip over); what cannot be computed is an error.
 //!
@@ -49,8 +50,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The folder `examples` has programs to start from: a wheel on sand, a heading on a slope, a rover of your own, a
-//! controller that holds the contour, and the band of an uncertain soil.
+//! The folder `examples` has programs to start from: a wheel on sand, a heading on a slope, a rover
+//! of your own, a controller that holds the contour, and the band of an uncertain soil.
 
 pub use grouser_core::{
     contact, error, mission, paper, simulation, soil, terrain, units, vehicle, wheel,

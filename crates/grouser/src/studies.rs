@@ -1,4 +1,5 @@
-//! Layer 4, studies: computations for engineers, made of the wheel–soil models and runs of the layers below.
+//! Layer 4, studies: computations for engineers, made of the wheel–soil models and runs of the
+//! layers below.
 //!
 //! | study | computes |
 //! |---|---|

@@ -1,7 +1,7 @@
 //! What one thing is declared more than once for: counts that may only fall.
 //!
-//! Sources are read as text, without their comments and tests; what is counted is a word that gives the
-//! thing away, so that a count is comparable with the one before, and no more.
+//! Sources are read as text, without their comments and tests; what is counted is a word that gives
+//! the thing away, so that a count is comparable with the one before, and no more.
 
 use std::collections::BTreeMap;
 
@@ -140,7 +140,8 @@ fn shipped_python(text: &str) -> String {
     kept
 }
 
-/// Files that name several outcomes of a run as text: each of them would have to learn of a new one.
+/// Files that name several outcomes of a run as text: each of them would have to learn of a new
+/// one.
 fn outcome_homes(sources: &Sources) -> usize {
     const OUTCOMES: [&str; 6] =
         ["immobilised", "tipped_over", "tipped-over", "left_terrain", "high_centred", "completed"];

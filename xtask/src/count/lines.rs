@@ -18,7 +18,8 @@ impl Lines {
     /// * `sources`: paths from the package's folder, and texts
     pub(super) fn of(sources: &[(&str, &str)]) -> Self {
         let split: Vec<_> = sources.iter().map(|(path, text)| (*path, Split::of(text))).collect();
-        // A module of tests in a file of its own: `a.rs` or `a/mod.rs`, beside or below who declares it.
+        // A module of tests in a file of its own: `a.rs` or `a/mod.rs`, beside or below who
+        // declares it.
         let modules: HashSet<String> = split
             .iter()
             .flat_map(|(path, split)| {
@@ -53,8 +54,8 @@ struct Split<'t> {
 }
 
 impl<'t> Split<'t> {
-    /// Sources are formatted: a module of tests begins with `#[cfg(test)]` at the start of a line, and ends with
-    /// a brace there.
+    /// Sources are formatted: a module of tests begins with `#[cfg(test)]` at the start of a line,
+    /// and ends with a brace there.
     fn of(text: &'t str) -> Self {
         let mut split = Self::default();
         let mut in_tests = false;

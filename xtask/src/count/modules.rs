@@ -1,8 +1,8 @@
 //! Which modules of a crate use which, and where they use each other.
 //!
-//! A module is a file. It uses another one where it names something that is defined there: a name that a
-//! third module only passes on (`use`, `pub use`) counts for the file that defines it, and passing a name on is
-//! no use by itself. Tests are left out.
+//! A module is a file. It uses another one where it names something that is defined there: a name
+//! that a third module only passes on (`use`, `pub use`) counts for the file that defines it, and
+//! passing a name on is no use by itself. Tests are left out.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

@@ -1,4 +1,5 @@
-//! Ground to damage: small maps of heights and of zones of soil, in every format, and documents that name them.
+//! Ground to damage: small maps of heights and of zones of soil, in every format, and documents
+//! that name them.
 
 use std::fmt::Write as _;
 use std::fs;

@@ -71,7 +71,8 @@ pub(super) fn mutate(subject: &mut Subject, dice: &mut Rng) {
     }
 }
 
-/// Damage as disks and hands do it: a bit, a piece, the end, another file in its place, two exchanged.
+/// Damage as disks and hands do it: a bit, a piece, the end, another file in its place, two
+/// exchanged.
 fn damage_bytes(files: &mut [(String, Vec<u8>)], dice: &mut Rng) {
     let at = dice.usize(..files.len());
     let other = dice.usize(..files.len());
@@ -96,7 +97,8 @@ fn damage_bytes(files: &mut [(String, Vec<u8>)], dice: &mut Rng) {
     }
 }
 
-/// Damage of a file that is no text: a bit, a byte, or a number of two or four bytes, mostly in its header; or its length.
+/// Damage of a file that is no text: a bit, a byte, or a number of two or four bytes, mostly in its
+/// header; or its length.
 fn damage_binary(content: &mut Vec<u8>, dice: &mut Rng) {
     /// Headers are no longer than this, mostly [bytes].
     const HEADER: usize = 600;

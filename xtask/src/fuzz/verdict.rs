@@ -166,8 +166,8 @@ fn exit_code(answer: &Answer) -> Result<i32, Fault> {
     }
 }
 
-/// Whether a character acts on a terminal or a page instead of being shown: control characters, and those that
-/// turn the direction of the text (Unicode Standard Annex 9).
+/// Whether a character acts on a terminal or a page instead of being shown: control characters, and
+/// those that turn the direction of the text (Unicode Standard Annex 9).
 fn is_control(character: char) -> bool {
     let direction = matches!(character, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     direction || (character.is_control() && !matches!(character, '\n' | '\t'))

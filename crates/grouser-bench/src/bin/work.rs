@@ -1,10 +1,10 @@
-//! Does work and nothing else: what a counter of instructions is pointed at, and what Python's calls are
-//! measured against.
+//! Does work and nothing else: what a counter of instructions is pointed at, and what Python's
+//! calls are measured against.
 //!
-//! `work set` prints the instruction set, `work costs` the map of costs. `work KEY TIMES` does a unit of work; with TIMES 0 it prepares and
-//! does nothing, which is the count to subtract. `work wheels`, `work forces`, `work quasi-steady` and
-//! `work dynamic` read rows of numbers, eight bytes each, from the standard input, and print the seconds that all of them take
-//! on all cores.
+//! `work set` prints the instruction set, `work costs` the map of costs. `work KEY TIMES` does a
+//! unit of work; with TIMES 0 it prepares and does nothing, which is the count to subtract.
+//! `work wheels`, `work forces`, `work quasi-steady` and `work dynamic` read rows of numbers, eight
+//! bytes each, from the standard input, and print the seconds that all of them take on all cores.
 
 use std::error::Error;
 use std::hint::black_box;

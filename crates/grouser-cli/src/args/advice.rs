@@ -8,8 +8,8 @@ use crate::list::{self, Numbers};
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Advice")]
 pub(crate) struct AdviceArgs {
-    /// Also advise: the heading to set on each slope, how often to look at the slip, and which test drive would tell
-    /// most of these slopes for its cost.
+    /// Also advise: the heading to set on each slope, how often to look at the slip, and which test
+    /// drive would tell most of these slopes for its cost.
     #[arg(long)]
     pub(crate) advice: bool,
     /// A heading is advised only if it slips at most this much ...
@@ -18,7 +18,8 @@ pub(crate) struct AdviceArgs {
     /// ... on at least this share of the samples.
     #[arg(long, value_name = "P", value_parser = list::parse, default_value = "0.8", allow_hyphen_values = true, requires = "advice")]
     pub(crate) no_go_probability: Numbers,
-    /// Looks at the slip are to be so many that the rover gets stuck on at most this share of the ways of 10 m.
+    /// Looks at the slip are to be so many that the rover gets stuck on at most this share of the
+    /// ways of 10 m.
     #[arg(long, value_name = "P", value_parser = list::parse, default_value = "0.01", allow_hyphen_values = true, requires = "advice")]
     pub(crate) stuck_probability: Numbers,
     /// A look may end at most this share of the ways on which the rover would not get stuck.
@@ -34,7 +35,8 @@ pub(crate) struct AdviceArgs {
     #[arg(long, value_name = "N", default_value_t = 1000, requires = "advice")]
     #[arg(value_parser = clap::value_parser!(u32).range(100..=100_000), allow_negative_numbers = true)]
     pub(crate) ways: u32,
-    /// Time that odometry needs for a look at the slip while the rover goes on [s]; 0 where it stands meanwhile.
+    /// Time that odometry needs for a look at the slip while the rover goes on [s]; 0 where it
+    /// stands meanwhile.
     #[arg(long, value_name = "S", value_parser = list::parse, default_value = "0", allow_hyphen_values = true, requires = "advice")]
     pub(crate) look_s: Numbers,
     /// Slopes that there are for test drives [°]: a list (0,5) or a range (0:10:5).

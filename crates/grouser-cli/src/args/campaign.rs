@@ -26,7 +26,8 @@ pub(crate) enum CampaignCommand {
     Summarise(CampaignSummariseArgs),
     /// Print the SHA-256 over all results.
     Digest(CampaignDigestArgs),
-    /// Measure what studies cost: runs per core and second, bytes per run, and the cost of many runs.
+    /// Measure what studies cost: runs per core and second, bytes per run, and the cost of many
+    /// runs.
     Cost(CampaignCostArgs),
 }
 
@@ -48,7 +49,8 @@ pub(crate) struct CampaignRunArgs {
     /// Only part I of N of an array of jobs, counted from 1; `campaign merge` merges them.
     #[arg(long, value_name = "I/N", value_parser = parse_part)]
     pub(crate) shard: Option<Part>,
-    /// Where runs are computed: threads of this program, or the Python package with its processes, Dask or Ray.
+    /// Where runs are computed: threads of this program, or the Python package with its processes,
+    /// Dask or Ray.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) executor: ExecutorChoice,
     /// Address of the cluster's scheduler, for `dask` and `ray`.

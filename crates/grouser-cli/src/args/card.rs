@@ -18,8 +18,8 @@ use crate::output::Format;
                         go. docs/guide/card.md shows a card and explains how to read it."
 )]
 pub(crate) struct CardArgs {
-    /// A scenario's file or preset, for its rover, soil, gravity, load transfer and rim speed; without
-    /// it the default scenario.
+    /// A scenario's file or preset, for its rover, soil, gravity, load transfer and rim speed;
+    /// without it the default scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) scenario: Option<String>,
     #[command(flatten)]
@@ -40,13 +40,13 @@ pub(crate) struct CardArgs {
     pub(crate) seed: u64,
     #[command(flatten)]
     pub(crate) rule: RuleArgs,
-    /// Drive this many other soils by the card, in time and with the complete loads, 1 to 100000: one driver corrects
-    /// as it says, one after twice the way. The table is then of the drives.
+    /// Drive this many other soils by the card, in time and with the complete loads, 1 to 100000:
+    /// one driver corrects as it says, one after twice the way. The table is then of the drives.
     #[arg(long, value_name = "N", conflicts_with = "measured", allow_negative_numbers = true)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub(crate) drives: Option<u32>,
-    /// Compare with measured yaws (CSV): a column `slope_deg`, and others that end in `yaw_deg`. The
-    /// table is then the comparison, and the card shows them as crosses.
+    /// Compare with measured yaws (CSV): a column `slope_deg`, and others that end in `yaw_deg`.
+    /// The table is then the comparison, and the card shows them as crosses.
     #[arg(long, value_name = "FILE.csv")]
     pub(crate) measured: Option<PathBuf>,
     #[command(flatten)]
@@ -60,8 +60,9 @@ pub(crate) struct CardArgs {
     /// Form of what is printed.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: Format,
-    /// Write the card: a file that ends in .html, .pdf, .png or .svg (pictures have a second file for the second
-    /// page, as in card-2.svg), or a folder for all of them with the numbers and the resolved documents.
+    /// Write the card: a file that ends in .html, .pdf, .png or .svg (pictures have a second file
+    /// for the second page, as in card-2.svg), or a folder for all of them with the numbers and the
+    /// resolved documents.
     #[arg(long, value_name = "FILE|DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Replace that file, or files of the same names in that folder.

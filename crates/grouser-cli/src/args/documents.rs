@@ -11,8 +11,8 @@ use crate::output::Format;
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArgs {
-    /// Documents to check: soils, wheels, motors, rovers, scenarios, data sets, campaigns, priors or mappings of
-    /// telemetry, each by its `schema`.
+    /// Documents to check: soils, wheels, motors, rovers, scenarios, data sets, campaigns, priors
+    /// or mappings of telemetry, each by its `schema`.
     #[arg(required_unless_present = "flags", value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
     /// Print the list of flags of validity, with meanings and rules, instead.
@@ -29,8 +29,8 @@ const WORLDS: [&str; GRAVITIES.len()] = [GRAVITIES[0].0, GRAVITIES[1].0, GRAVITI
                         rover is for, and how well it is known."
 )]
 pub(crate) struct PresetsArgs {
-    /// The preset to print as TOML; where kinds share its name, --kind says which. The name of a kind, such as
-    /// `soils`, lists its presets.
+    /// The preset to print as TOML; where kinds share its name, --kind says which. The name of a
+    /// kind, such as `soils`, lists its presets.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) name: Option<String>,
     /// Only presets of this kind.

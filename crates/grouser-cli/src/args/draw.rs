@@ -13,7 +13,8 @@ use super::{BalanceArgs, PartArgs, SettingArgs};
                         soil or of --model. A drawing is an SVG that fits a light and a dark page."
 )]
 pub(crate) struct DrawArgs {
-    /// A scenario's file or preset, for its rover, soil and gravity; without it the default scenario.
+    /// A scenario's file or preset, for its rover, soil and gravity; without it the default
+    /// scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) scenario: Option<String>,
     #[command(flatten)]

@@ -15,8 +15,8 @@ use crate::list::{self, Numbers};
                         budget."
 )]
 pub(crate) struct ForecastArgs {
-    /// A scenario's file or preset, for its rover, soil, load transfer and rim speed; without it the
-    /// default scenario.
+    /// A scenario's file or preset, for its rover, soil, load transfer and rim speed; without it
+    /// the default scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) scenario: Option<String>,
     #[command(flatten)]
@@ -41,12 +41,12 @@ pub(crate) struct ForecastArgs {
     /// `lunar-nominal` and `lunar-0-15-cm`.
     #[arg(long, value_name = "NAMES|FILES", value_delimiter = ',', value_parser = NonEmptyStringValueParser::new())]
     pub(crate) ground: Vec<String>,
-    /// The rover's mass, separated by commas: `equal-mass` (that of its document), `equal-weight` (the
-    /// document is a test rover, lightened to the weight at the site), or NAME=FACTOR.
+    /// The rover's mass, separated by commas: `equal-mass` (that of its document), `equal-weight`
+    /// (the document is a test rover, lightened to the weight at the site), or NAME=FACTOR.
     #[arg(long, value_name = "NAMES", value_delimiter = ',', default_value = "equal-mass")]
     pub(crate) mass: Vec<String>,
-    /// Gravity under which the soil was measured [m/s²], or `earth`, `moon`, `mars`; without it that of
-    /// the soil's domain, or else the Earth's.
+    /// Gravity under which the soil was measured [m/s²], or `earth`, `moon`, `mars`; without it
+    /// that of the soil's domain, or else the Earth's.
     #[arg(long = "measured-gravity-m-s2", value_name = "G", allow_hyphen_values = true)]
     pub(crate) measured_gravity: Option<String>,
     /// Rim speed [m/s], for the power; without it the scenario's.

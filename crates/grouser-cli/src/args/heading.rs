@@ -22,12 +22,12 @@ pub(crate) struct HeadingArgs {
     /// Slopes [°]: a list (5,10) or a range (0:20:2.5).
     #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "5,10,15,20", allow_hyphen_values = true)]
     pub(crate) slope_deg: Numbers,
-    /// What holds the contour: the body's yaw (`none`), or the wheels that are steered, with the body along the contour
-    /// (`crab`). The rover's document says which are steered.
+    /// What holds the contour: the body's yaw (`none`), or the wheels that are steered, with the
+    /// body along the contour (`crab`). The rover's document says which are steered.
     #[arg(long, value_name = "WHAT", value_enum, default_value_t, conflicts_with_all = ["wheel_speeds", "uncertainty"])]
     pub(crate) steering: SteeringArg,
-    /// Also let wheels turn at speeds of their own: those of each side, or of each wheel, that hold the contour with
-    /// the yaw moment balanced and the least work, and the steepest slopes.
+    /// Also let wheels turn at speeds of their own: those of each side, or of each wheel, that hold
+    /// the contour with the yaw moment balanced and the least work, and the steepest slopes.
     #[arg(long, conflicts_with = "uncertainty")]
     pub(crate) wheel_speeds: bool,
     /// With `--wheel-speeds`: the fastest wheel's speed over the mean of all, at most; above 1.

@@ -27,7 +27,8 @@ pub(crate) struct ImportTelemetryArgs {
     /// Print a built-in mapping, to start from: `grouser`, `ros` or `foxglove`.
     #[arg(long, value_name = "NAME", conflicts_with = "log")]
     pub(crate) print_mapping: Option<String>,
-    /// The file to write, Parquet if its name ends with `.parquet`, or else CSV; without it CSV is printed.
+    /// The file to write, Parquet if its name ends with `.parquet`, or else CSV; without it CSV is
+    /// printed.
     #[arg(long, value_name = "FILE", value_hint = clap::ValueHint::FilePath)]
     pub(crate) out: Option<PathBuf>,
     /// Replace the file if it is there.

@@ -13,8 +13,8 @@ use clap::Args;
 pub(crate) struct ImportUrdfArgs {
     /// The URDF: of xacro, what `xacro FILE` prints.
     pub(crate) file: PathBuf,
-    /// A link that is a wheel, with `*` for any letters; can be repeated. Without it all cylinders that roll without
-    /// end about an axis across the rover.
+    /// A link that is a wheel, with `*` for any letters; can be repeated. Without it all cylinders
+    /// that roll without end about an axis across the rover.
     #[arg(long, value_name = "PATTERN")]
     pub(crate) wheels: Vec<String>,
     /// A differential joins the rockers of both sides, which URDF cannot say.

@@ -20,16 +20,17 @@ use crate::list::{self, Numbers};
                         docs/guide/learn.md explains the telemetry, what is learnt, and how far it is to be trusted."
 )]
 pub(crate) struct LearnArgs {
-    /// Telemetry of the drive: MCAP, or a table (`telemetry/1`) of CSV or Parquet, `-` for CSV from standard input. Its
-    /// columns are `time_s`, and any of
-    /// `roll_deg`, `pitch_deg`, `yaw_deg`, `wheel_speed_rad_s_WHEEL`, `wheel_torque_nm_WHEEL` or
-    /// `motor_current_a_WHEEL`, `steering_deg_WHEEL`, `sinkage_mm_WHEEL`, `vo_dx_m`, `vo_dy_m`, `vo_dyaw_deg`,
-    /// `x_m`, `y_m`; empty cells are gaps.
+    /// Telemetry of the drive: MCAP, or a table (`telemetry/1`) of CSV or Parquet, `-` for CSV from
+    /// standard input. Its columns are `time_s`, and any of `roll_deg`, `pitch_deg`, `yaw_deg`,
+    /// `wheel_speed_rad_s_WHEEL`, `wheel_torque_nm_WHEEL` or `motor_current_a_WHEEL`,
+    /// `steering_deg_WHEEL`, `sinkage_mm_WHEEL`, `vo_dx_m`, `vo_dy_m`, `vo_dyaw_deg`, `x_m`, `y_m`;
+    /// empty cells are gaps.
     #[arg(value_name = "LOG|-")]
     pub(crate) log: PathBuf,
     #[command(flatten)]
     pub(crate) telemetry: TelemetryArgs,
-    /// What is known of the soil before the drive: a preset or a file that says how uncertain it is.
+    /// What is known of the soil before the drive: a preset or a file that says how uncertain it
+    /// is.
     #[arg(long, alias = "soil", value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
     pub(crate) prior: Option<String>,
     /// The rover: a preset or a file.
@@ -49,8 +50,9 @@ pub(crate) struct LearnArgs {
     #[arg(long, value_name = "N", default_value_t = 200)]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
     pub(crate) samples: u32,
-    /// Learn from rows as they are added to the log, and print what is learnt on the way: text, or with --format json a
-    /// line of JSON for each lesson, warning and prediction; until Ctrl-C, or the end of standard input.
+    /// Learn from rows as they are added to the log, and print what is learnt on the way: text, or
+    /// with --format json a line of JSON for each lesson, warning and prediction; until Ctrl-C, or
+    /// the end of standard input.
     #[arg(long)]
     pub(crate) follow: bool,
     /// End as if by Ctrl-C once the log has not grown for so long [s].
@@ -59,8 +61,8 @@ pub(crate) struct LearnArgs {
     /// Predict no more often than this on the way [s]; warnings are printed at once.
     #[arg(long, value_name = "SECONDS", default_value = "1", requires = "follow", value_parser = parse_seconds, allow_negative_numbers = true)]
     pub(crate) every_s: f64,
-    /// Make the operator's card of today beside that of yesterday, too, in the folder of --out; it takes some minutes of
-    /// one core.
+    /// Make the operator's card of today beside that of yesterday, too, in the folder of --out; it
+    /// takes some minutes of one core.
     #[arg(long, requires = "out")]
     pub(crate) cards: bool,
     /// Seed of the samples.

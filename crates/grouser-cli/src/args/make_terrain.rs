@@ -29,7 +29,8 @@ pub(crate) struct MoonArgs {
     /// Length of a side [m], up to 20000, and 8 to 4096 cells.
     #[arg(long, value_name = "M", default_value_t = 500.0, allow_negative_numbers = true)]
     pub(crate) size_m: f64,
-    /// Distance between neighbouring points [m]. The smallest craters have a diameter of four cells.
+    /// Distance between neighbouring points [m]. The smallest craters have a diameter of four
+    /// cells.
     #[arg(long, value_name = "M", default_value_t = 1.0, allow_negative_numbers = true)]
     pub(crate) cell_size_m: f64,
     /// What ground it is.

@@ -19,14 +19,15 @@ pub(crate) struct MapArgs {
     /// A map of heights: a GeoTIFF in metres, or text with x, y and z in each line.
     #[arg(value_name = "DEM")]
     pub(crate) dem: PathBuf,
-    /// A scenario's file or preset, for its rover, soil, gravity, load transfer and rim speed; without it the default
-    /// scenario.
+    /// A scenario's file or preset, for its rover, soil, gravity, load transfer and rim speed;
+    /// without it the default scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) scenario: Option<String>,
     #[command(flatten)]
     pub(crate) parts: PartArgs,
-    /// Direction of travel [°], -90 to 90: 0 along the contour with the hill on the left, positive uphill; or `best` or
-    /// `worst`, place by place: the course that is least or most often a no-go, then the one with the least or most slip.
+    /// Direction of travel [°], -90 to 90: 0 along the contour with the hill on the left, positive
+    /// uphill; or `best` or `worst`, place by place: the course that is least or most often a
+    /// no-go, then the one with the least or most slip.
     #[arg(long, value_name = "DEG|best|worst", default_value = "0", allow_hyphen_values = true)]
     pub(crate) course_deg: String,
     /// Rim speed [m/s], for the power; without it the scenario's.
@@ -39,7 +40,8 @@ pub(crate) struct MapArgs {
     /// Seed of the samples: the same seed gives the same soils and models.
     #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true)]
     pub(crate) seed: u64,
-    /// Also write gazebo_slip.png and gazebo_slip.sdf: the slip of the soil as written, for Gazebo's LookupWheelSlip.
+    /// Also write gazebo_slip.png and gazebo_slip.sdf: the slip of the soil as written, for
+    /// Gazebo's LookupWheelSlip.
     #[arg(long)]
     pub(crate) gazebo: bool,
     #[command(flatten)]

@@ -37,9 +37,9 @@ impl ReadArgs {
                   docs/validation.md what the numbers mean."
 )]
 pub(crate) struct ValidateArgs {
-    /// Measured wheel tests, or a rover's measured slip or yaw over slope: a data set that comes with the
-    /// program (`published-wheel-tests`), or a CSV file (docs/guide/data.md lists its columns). Without a
-    /// wheel or rover: every model is ranked on the data set.
+    /// Measured wheel tests, or a rover's measured slip or yaw over slope: a data set that comes
+    /// with the program (`published-wheel-tests`), or a CSV file (docs/guide/data.md lists its
+    /// columns). Without a wheel or rover: every model is ranked on the data set.
     #[arg(long, value_name = "NAME|FILE.csv", required_unless_present = "all")]
     pub(crate) data: Option<PathBuf>,
     /// The wheel that was tested: a preset or a file.
@@ -58,7 +58,8 @@ pub(crate) struct ValidateArgs {
     /// Rank every model, with its own soils, on every data set that comes with the program.
     #[arg(long, conflicts_with_all = ["data", "wheel", "rover", "soil", "conditions", "settings", "model", "gravity"])]
     pub(crate) all: bool,
-    /// Rank on the data sets of a folder instead (docs/guide/data.md explains how a document describes one).
+    /// Rank on the data sets of a folder instead (docs/guide/data.md explains how a document
+    /// describes one).
     #[arg(long, value_name = "DIR", requires = "all")]
     pub(crate) data_dir: Option<PathBuf>,
     /// Accept no extrapolation: a cell that carries a flag of validity is an error, exit code 2.
@@ -81,8 +82,8 @@ pub(crate) struct ValidateArgs {
                         The same command goes on with a run that was interrupted."
 )]
 pub(crate) struct CalibrateArgs {
-    /// Measured wheel tests: a data set that comes with the program (`cmu-single-wheel`), or a CSV file
-    /// (docs/guide/data.md lists its columns).
+    /// Measured wheel tests: a data set that comes with the program (`cmu-single-wheel`), or a CSV
+    /// file (docs/guide/data.md lists its columns).
     #[arg(
         long,
         value_name = "NAME|FILE.csv",
@@ -97,14 +98,15 @@ pub(crate) struct CalibrateArgs {
     /// The soil to start from, for all values that are not fitted: a preset or a file.
     #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
     pub(crate) soil: String,
-    /// Keys to fit, separated by commas, each with bounds if you like: `soil.stress_peak.a0=0.2:0.8`.
+    /// Keys to fit, separated by commas, each with bounds if you like:
+    /// `soil.stress_peak.a0=0.2:0.8`.
     #[arg(long, value_name = "KEYS", value_delimiter = ',', value_parser = FitKey::parse, requires = "data")]
     pub(crate) fit: Vec<FitKey>,
     /// Only rows where a column has one of some values, or none of them; can be repeated.
     #[arg(long = "where", value_name = "COLUMN=VALUES", value_parser = Condition::parse, requires = "data")]
     pub(crate) conditions: Vec<Condition>,
-    /// A file of plate-sinkage curves instead: `plate_width_mm`, `plate_diameter_mm` or `plate_radius_mm`;
-    /// `sinkage_mm`, `pressure_kpa`.
+    /// A file of plate-sinkage curves instead: `plate_width_mm`, `plate_diameter_mm` or
+    /// `plate_radius_mm`; `sinkage_mm`, `pressure_kpa`.
     #[arg(long, value_name = "FILE.csv", conflicts_with = "data")]
     pub(crate) plates: Option<PathBuf>,
     /// A file of shear tests, alone or beside plates: `shear_displacement_mm`, `shear_stress_kpa`,
@@ -183,8 +185,8 @@ pub(crate) struct ImportArgs {
     /// The file (CSV).
     #[arg(value_name = "FILE.csv")]
     pub(crate) file: PathBuf,
-    /// One of Grouser's columns from one of the file's, with the unit there; a minus turns the sign.
-    /// Can be repeated.
+    /// One of Grouser's columns from one of the file's, with the unit there; a minus turns the
+    /// sign. Can be repeated.
     #[arg(long = "column", value_name = "OURS=[-]THEIRS[:UNIT]", value_parser = Mapping::parse)]
     pub(crate) columns: Vec<Mapping>,
     /// How the file's slip ratio is defined, with the rim's speed wr and the hub's v.

@@ -16,8 +16,9 @@ use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs, TelemetryArgs, Uncer
                         docs/guide/replay.md explains the channels, the findings, and how far they are to be trusted."
 )]
 pub(crate) struct ReplayArgs {
-    /// Telemetry of the drive (`telemetry/1` as CSV or Parquet, or MCAP), or `-` to read CSV from standard input:
-    /// `time_s`, `wheel_speed_rad_s_WHEEL`, and any of the other columns that `learn` reads; empty cells are gaps.
+    /// Telemetry of the drive (`telemetry/1` as CSV or Parquet, or MCAP), or `-` to read CSV from
+    /// standard input: `time_s`, `wheel_speed_rad_s_WHEEL`, and any of the other columns that
+    /// `learn` reads; empty cells are gaps.
     #[arg(value_name = "LOG|-")]
     pub(crate) log: PathBuf,
     #[command(flatten)]
@@ -28,12 +29,12 @@ pub(crate) struct ReplayArgs {
     /// default scenario.
     #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
     pub(crate) scenario: Option<String>,
-    /// Slope of the plane of the free run, and of the ground where the telemetry has neither roll nor pitch [°].
-    /// Without it the median of the slopes that roll and pitch give.
+    /// Slope of the plane of the free run, and of the ground where the telemetry has neither roll
+    /// nor pitch [°]. Without it the median of the slopes that roll and pitch give.
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub(crate) slope_deg: Option<String>,
-    /// Also log both sides, measured and predicted: an MCAP file for Foxglove and Rerun. With --out, a name alone is a
-    /// file in DIR.
+    /// Also log both sides, measured and predicted: an MCAP file for Foxglove and Rerun. With
+    /// --out, a name alone is a file in DIR.
     #[arg(long, value_name = "FILE")]
     pub(crate) mcap: Option<PathBuf>,
     #[command(flatten)]

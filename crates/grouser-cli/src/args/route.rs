@@ -21,8 +21,8 @@ pub(crate) struct RouteArgs {
     /// A map of heights: a GeoTIFF in metres, or text with x, y and z in each line.
     #[arg(value_name = "DEM")]
     pub(crate) dem: PathBuf,
-    /// A scenario's file or preset, for its rover, soil, gravity, load transfer and rim speed; without it the default
-    /// scenario.
+    /// A scenario's file or preset, for its rover, soil, gravity, load transfer and rim speed;
+    /// without it the default scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) scenario: Option<String>,
     #[command(flatten)]
@@ -35,11 +35,13 @@ pub(crate) struct RouteArgs {
     #[arg(long, value_name = "X,Y", value_parser = list::parse, allow_hyphen_values = true)]
     #[arg(required_unless_present = "along")]
     pub(crate) to: Option<Numbers>,
-    /// Check this way instead of seeking one: a LineString of GeoJSON, in metres of the map, such as a route.geojson.
+    /// Check this way instead of seeking one: a LineString of GeoJSON, in metres of the map, such
+    /// as a route.geojson.
     #[arg(long, value_name = "FILE.geojson")]
     #[arg(conflicts_with_all = ["from", "to", "minimise", "alternatives"])]
     pub(crate) along: Option<PathBuf>,
-    /// What the way has least of: time, work of the wheels, or time in the worst tenth of the samples.
+    /// What the way has least of: time, work of the wheels, or time in the worst tenth of the
+    /// samples.
     #[arg(long, value_name = "WHAT", value_enum, default_value_t)]
     pub(crate) minimise: ObjectiveArg,
     /// Yaw at the start [°], from the map's x axis to the left; without it the first turn is free.
@@ -54,7 +56,8 @@ pub(crate) struct RouteArgs {
     /// The largest slip ratio of the way; without it that of a no-go.
     #[arg(long, value_name = "S", value_parser = list::parse, allow_hyphen_values = true)]
     pub(crate) most_slip_ratio: Option<Numbers>,
-    /// In which share of the samples a place of the way may be a no-go; without it as many as a no-go allows.
+    /// In which share of the samples a place of the way may be a no-go; without it as many as a
+    /// no-go allows.
     #[arg(long, value_name = "P", value_parser = list::parse, allow_hyphen_values = true)]
     pub(crate) most_no_go: Option<Numbers>,
     /// Also seek the ways that have least of the other two.

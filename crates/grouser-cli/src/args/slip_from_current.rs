@@ -21,12 +21,13 @@ use crate::list::{self, Numbers};
 )]
 pub(crate) struct SlipFromCurrentArgs {
     /// The log (CSV): `time_s`, and `current_a` and `wheel_speed_rad_s` of each wheel, as
-    /// `front-left.current_a` or in rows with the name in `wheel`. It may have `load_n`, `slip_angle_deg`,
-    /// `steering_deg`, `slope_deg`, `yaw_deg`, `course_deg`, and `slip_ratio` measured by other means.
+    /// `front-left.current_a` or in rows with the name in `wheel`. It may have `load_n`,
+    /// `slip_angle_deg`, `steering_deg`, `slope_deg`, `yaw_deg`, `course_deg`, and `slip_ratio`
+    /// measured by other means.
     #[arg(value_name = "LOG.csv")]
     pub(crate) log: PathBuf,
-    /// A scenario's file or preset, for its rover, soil, load transfer and slope; without it the default
-    /// scenario on level ground.
+    /// A scenario's file or preset, for its rover, soil, load transfer and slope; without it the
+    /// default scenario on level ground.
     #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
     pub(crate) scenario: Option<String>,
     #[command(flatten)]
@@ -37,8 +38,9 @@ pub(crate) struct SlipFromCurrentArgs {
     /// Yaw where the log has none [°], positive uphill: 90 is straight up the slope; 0 without it.
     #[arg(long, value_name = "DEG", value_parser = list::parse, allow_hyphen_values = true)]
     pub(crate) yaw_deg: Option<Numbers>,
-    /// Direction of travel from the contour [°], positive uphill, where the log has neither it nor slip
-    /// angles: 0 for a rover that holds the contour. Without it the rover goes where it points.
+    /// Direction of travel from the contour [°], positive uphill, where the log has neither it nor
+    /// slip angles: 0 for a rover that holds the contour. Without it the rover goes where it
+    /// points.
     #[arg(long, value_name = "DEG", value_parser = list::parse, allow_hyphen_values = true)]
     pub(crate) course_deg: Option<Numbers>,
     /// Columns of the log that are left aside, separated by commas: `load_n,slip_angle_deg`.

@@ -15,8 +15,8 @@ pub(crate) struct TerminalArgs {
     /// No progress and no notes on the standard error; errors stay.
     #[arg(long, short, global = true)]
     pub(crate) quiet: bool,
-    /// Lay out tables for a terminal of so many characters, 20 to 1000; without it that of the terminal, and as wide
-    /// as they are in a file or a pipe.
+    /// Lay out tables for a terminal of so many characters, 20 to 1000; without it that of the
+    /// terminal, and as wide as they are in a file or a pipe.
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(20..=1000))]
     pub(crate) width: Option<u16>,
 }

@@ -18,8 +18,9 @@ pub(crate) struct TraverseArgs {
     pub(crate) scenario: Option<String>,
     #[command(flatten)]
     pub(crate) slope: SlopeArgs,
-    /// Yaw at the start [°], positive uphill, on a map from its x axis to the left; or over the whole run, as pairs of time [s] and yaw:
-    /// `[[0, 5.51], [20, 3.10]]`. A yaw of the scenario, of either kind, is then not used.
+    /// Yaw at the start [°], positive uphill, on a map from its x axis to the left; or over the
+    /// whole run, as pairs of time [s] and yaw: `[[0, 5.51], [20, 3.10]]`. A yaw of the scenario,
+    /// of either kind, is then not used.
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub(crate) yaw_deg: Option<String>,
     /// Length of the run [s].

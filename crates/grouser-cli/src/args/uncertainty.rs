@@ -5,8 +5,8 @@ use clap::Args;
 /// Samples of soil and model.
 #[derive(Clone, Copy, Debug, Args)]
 pub(crate) struct SamplingArgs {
-    /// Add 95 % bands over samples of what is uncertain: the soil, where its document says so, and the
-    /// wheel-soil model, where no --model is given.
+    /// Add 95 % bands over samples of what is uncertain: the soil, where its document says so, and
+    /// the wheel-soil model, where no --model is given.
     #[arg(long, group = DRAWN)]
     pub(crate) uncertainty: bool,
     /// Number of samples, 2 to 100000.

@@ -71,7 +71,8 @@ pub(crate) struct StandArgs {
         allow_negative_numbers = true
     )]
     pub(crate) noise_nm: f64,
-    /// Seed of the noise or of the samples: the same seed gives the same test, or the same soils and models.
+    /// Seed of the noise or of the samples: the same seed gives the same test, or the same soils
+    /// and models.
     #[arg(long, default_value_t = 1, requires = DRAWN)]
     pub(crate) seed: u64,
 }

@@ -1,4 +1,5 @@
-//! `grouser calibrate`: estimates soil parameters, with confidence intervals, from wheel tests, plate tests or shear tests.
+//! `grouser calibrate`: estimates soil parameters, with confidence intervals, from wheel tests,
+//! plate tests or shear tests.
 
 mod bevameter;
 mod checkpoint;

@@ -1,5 +1,5 @@
-//! `grouser forecast`: a rover under another gravity than the one its soil was measured under, with one error
-//! budget.
+//! `grouser forecast`: a rover under another gravity than the one its soil was measured under, with
+//! one error budget.
 
 mod figures;
 mod page;

@@ -87,7 +87,8 @@ fn band_inputs(args: &HeadingMapArgs, scenario: &LoadedScenario) -> BandInputs {
     BandInputs::of_scenario(scenario).asked(Question::of_all(courses))
 }
 
-/// A row for each model that is asked for, soil, course and slope, with the bands that are asked for.
+/// A row for each model that is asked for, soil, course and slope, with the bands that are asked
+/// for.
 fn table(
     args: &HeadingMapArgs,
     scenarios: &[LoadedScenario],
@@ -119,7 +120,8 @@ fn table(
     Ok(table)
 }
 
-/// Which model the rows of a soil have, where nobody names one; with the soil's name if there are several.
+/// Which model the rows of a soil have, where nobody names one; with the soil's name if there are
+/// several.
 ///
 /// * `names`: of the soils
 fn model_lines(args: &HeadingMapArgs, scenarios: &[LoadedScenario], names: &[String]) -> String {

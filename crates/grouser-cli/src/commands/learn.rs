@@ -175,7 +175,8 @@ struct Ended {
     last: Option<TelemetryRecord>,
 }
 
-/// Learns from all records of the log that are new, and keeps and prints what was learnt on the way.
+/// Learns from all records of the log that are new, and keeps and prints what was learnt on the
+/// way.
 fn drive_on(
     args: &LearnArgs,
     scenario: &LoadedScenario,

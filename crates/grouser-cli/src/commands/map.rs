@@ -188,8 +188,8 @@ fn record(folder: &MapFolder, band: &MapColumn, of: &BandSummary) -> FileRecord 
     }
 }
 
-/// The steepest slope on which a heading holds the course [°]; where courses are chosen, of the one that reaches
-/// farthest.
+/// The steepest slope on which a heading holds the course [°]; where courses are chosen, of the one
+/// that reaches farthest.
 fn limit(inputs: &MapInputs, map: &MobilityMap) -> Option<f64> {
     let limits = map.tables().iter().filter_map(grouser::studies::mobility::MobilityTable::limit);
     let limit = if inputs.course == CourseChoice::Worst {

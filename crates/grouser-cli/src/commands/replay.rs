@@ -89,7 +89,8 @@ fn replay(args: &ReplayArgs) -> Result<(LoadedScenario, Found), Failure> {
     Ok((scenario, found))
 }
 
-/// Gives all records of the log to the replayer; what messages call the log, and notes on what was left out of it.
+/// Gives all records of the log to the replayer; what messages call the log, and notes on what was
+/// left out of it.
 fn read(
     args: &ReplayArgs,
     scenario: &LoadedScenario,

@@ -47,7 +47,8 @@ fn titled(table: &Table) -> Text {
     Text::from(format!("{}\n", table.caption)) + table.to_text()
 }
 
-/// Opens the output folder: the default one may be replaced if it is an earlier report, another one only with `--force`.
+/// Opens the output folder: the default one may be replaced if it is an earlier report, another one
+/// only with `--force`.
 fn open_folder(args: &ReproduceArgs) -> Result<(PathBuf, OutputFolder), Failure> {
     let (target, old_files) = match &args.out {
         Some(out) if args.force => (out.clone(), OldFiles::Replace),

@@ -36,7 +36,8 @@ pub(super) fn one_or_each(mut weights: Vec<Value>) -> Value {
     }
 }
 
-/// The models of the samples with their shares, as a line to read; nothing where there is one alone.
+/// The models of the samples with their shares, as a line to read; nothing where there is one
+/// alone.
 pub(super) fn line(inputs: &BandInputs) -> String {
     if inputs.models().shares().len() < 2 {
         return String::new();
@@ -50,8 +51,8 @@ pub(super) fn line(inputs: &BandInputs) -> String {
     format!("models of the samples: {}\n", shares.join(", "))
 }
 
-/// Computes with a bar that goes on with every sample. The study asks whether to go on, and is never stopped:
-/// Ctrl-C ends the program.
+/// Computes with a bar that goes on with every sample. The study asks whether to go on, and is
+/// never stopped: Ctrl-C ends the program.
 pub(super) fn with_bar<T>(
     samples: usize,
     compute: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T,

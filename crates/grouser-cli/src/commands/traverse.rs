@@ -247,7 +247,8 @@ fn tell_end(run: &Trajectory) {
     }
 }
 
-/// Some of the records with the means of their wheels, the model where nobody names one, and the outcome.
+/// Some of the records with the means of their wheels, the model where nobody names one, and the
+/// outcome.
 fn table(run: &Trajectory, scenario: &LoadedScenario) -> Text {
     let samples = run::brief(run, &scenario.value, LINES);
     let names: Vec<&str> = samples.columns.iter().map(|(name, _)| name.as_str()).collect();

@@ -1,5 +1,5 @@
-//! `grouser validate`: errors of a wheel–soil model against measured wheel tests or a rover on slopes, or a ranking of
-//! all models.
+//! `grouser validate`: errors of a wheel–soil model against measured wheel tests or a rover on
+//! slopes, or a ranking of all models.
 
 pub(crate) mod figures;
 mod page;

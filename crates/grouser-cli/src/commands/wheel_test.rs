@@ -154,8 +154,8 @@ fn model_line(args: &WheelTestArgs, stand: &StandInputs) -> String {
     }
 }
 
-/// The same test at slip ratios so close that curves are smooth; nothing where the rows have noise or bands, or are
-/// of few slip ratios.
+/// The same test at slip ratios so close that curves are smooth; nothing where the rows have noise
+/// or bands, or are of few slip ratios.
 fn dense(args: &WheelTestArgs, stands: &[StandInputs]) -> Option<Table> {
     /// Points of a curve.
     const POINTS: u32 = 120;

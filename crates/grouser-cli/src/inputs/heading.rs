@@ -19,8 +19,8 @@ pub(crate) fn heading(
     balanced("heading", scenario, rover, soil, setting, &args.balance)
 }
 
-/// The scenarios of a heading map, one for each model that is asked for and soil: all soils of the first model,
-/// then those of the next.
+/// The scenarios of a heading map, one for each model that is asked for and soil: all soils of the
+/// first model, then those of the next.
 pub(crate) fn heading_map(args: &HeadingMapArgs) -> Result<Vec<LoadedScenario>, Failure> {
     use document::study;
     check_slopes(&args.slope_deg)?;

@@ -8,8 +8,8 @@ use crate::args::ReplayArgs;
 use crate::commands::sampling;
 use crate::failure::Failure;
 
-/// The scenario that is predicted with, whose slope is that of the flag, and samples of soil and model, where they are
-/// asked for.
+/// The scenario that is predicted with, whose slope is that of the flag, and samples of soil and
+/// model, where they are asked for.
 pub(crate) fn replay(args: &ReplayArgs) -> Result<(LoadedScenario, Vec<Sample>), Failure> {
     let (parts, setting) = (&args.parts, &args.setting);
     let (rover, soil) = (parts.rover.as_ref(), parts.soil.as_ref());

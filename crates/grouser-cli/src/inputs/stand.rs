@@ -60,7 +60,8 @@ pub(crate) fn soil(
     Ok((soil, run.gravity))
 }
 
-/// The default scenario with the gravity and the model of a setting: they are keys of scenarios, and are checked as such.
+/// The default scenario with the gravity and the model of a setting: they are keys of scenarios,
+/// and are checked as such.
 fn default_run(setting: &SettingArgs) -> Result<Scenario, Failure> {
     let mut overrides = Overrides::none();
     let balance = BalanceArgs { load_transfer: None, wheel_moments: None };

@@ -1,5 +1,5 @@
-//! Progress on the standard error, where that is a terminal: bars of work that is counted, and a line with the
-//! time for work that takes more than a second without one.
+//! Progress on the standard error, where that is a terminal: bars of work that is counted, and a
+//! line with the time for work that takes more than a second without one.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
@@ -89,7 +89,8 @@ impl Activity {
     }
 }
 
-/// A bar with its rate and the time that is left, drawn only where the standard error is a terminal.
+/// A bar with its rate and the time that is left, drawn only where the standard error is a
+/// terminal.
 pub(crate) fn rate_bar(length: u64) -> ProgressBar {
     let rate = |state: &ProgressState, text: &mut dyn std::fmt::Write| {
         // A reader of messages that is gone misses no rate.

@@ -80,8 +80,8 @@ impl Screen {
         self.lines(&columns) + &notes_of(grid)
     }
 
-    /// A table in the width of the terminal: reasons and names stand under it, headers on several lines; then prose
-    /// is wrapped, and at last columns are left out.
+    /// A table in the width of the terminal: reasons and names stand under it, headers on several
+    /// lines; then prose is wrapped, and at last columns are left out.
     fn fitted(&self, grid: &Grid, width: usize) -> String {
         let (grid, notes) = with_marks(grid);
         let mut columns: Vec<Column> =
@@ -169,7 +169,8 @@ fn colour_of(severity: Severity) -> Style {
     }
 }
 
-/// The colour of a cell: its words say the same. What is as it should be has none, so that the rest is seen.
+/// The colour of a cell: its words say the same. What is as it should be has none, so that the rest
+/// is seen.
 fn style_of(column: &Column, cell: &[String]) -> Style {
     let words = cell.first().map_or("", String::as_str);
     if let Some(kind) = OutcomeKind::of_name(words) {
@@ -218,7 +219,8 @@ impl Column {
         self.cells.iter().flatten().map(|line| line.chars().count()).max().unwrap_or(0)
     }
 
-    /// The header on several lines, parted at its underscores, where that makes the column narrower.
+    /// The header on several lines, parted at its underscores, where that makes the column
+    /// narrower.
     fn stack_header(&mut self) {
         let pieces = pieces_of(&self.name);
         let longest = pieces.iter().map(|piece| piece.chars().count()).max().unwrap_or(0);
@@ -292,7 +294,8 @@ fn wrap_prose(columns: &mut [Column], width: usize) {
     }
 }
 
-/// Takes columns away from the right until the rest fits, and returns their names in the order of the table.
+/// Takes columns away from the right until the rest fits, and returns their names in the order of
+/// the table.
 fn leave_out(columns: &mut Vec<Column>, width: usize) -> Vec<String> {
     let mut names = Vec::new();
     while width_of(columns) > width {
@@ -371,7 +374,8 @@ fn in_lines(words: &str, width: usize) -> String {
     words.split_inclusive('\n').map(broken).collect()
 }
 
-/// A text in lines of some characters, broken at its blanks; a word that is longer than a line stays whole.
+/// A text in lines of some characters, broken at its blanks; a word that is longer than a line
+/// stays whole.
 ///
 /// * `indent`: before all lines but the first
 fn wrapped(text: &str, width: usize, indent: &str) -> String {

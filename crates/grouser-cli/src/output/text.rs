@@ -1,7 +1,7 @@
 //! Text for reading: words and tables in turn.
 //!
-//! Written to a file or a pipe it is [plain](std::fmt::Display), the same everywhere; a terminal gets it from
-//! [`super::screen`], in its width and its colours.
+//! Written to a file or a pipe it is [plain](std::fmt::Display), the same everywhere; a terminal
+//! gets it from [`super::screen`], in its width and its colours.
 
 use std::fmt;
 use std::ops::Add;

@@ -1,5 +1,5 @@
-//! What the pages of all commands have in common: the charts of every channel, what the columns are, and all
-//! that repeats the answer.
+//! What the pages of all commands have in common: the charts of every channel, what the columns
+//! are, and all that repeats the answer.
 
 use grouser::contact::validity::Finding;
 use grouser::document::columns::run::{
@@ -44,7 +44,8 @@ impl Basis {
     }
 }
 
-/// Ends a page: what is an extrapolation, what was assumed, what the columns are, and how to have the answer again.
+/// Ends a page: what is an extrapolation, what was assumed, what the columns are, and how to have
+/// the answer again.
 pub(crate) fn close<'f>(
     mut page: Page,
     findings: impl IntoIterator<Item = &'f Finding>,
@@ -128,7 +129,8 @@ pub(crate) fn ground(document: &Document, scenario: &Scenario) -> String {
     format!("terrain: {}{zones}", shape.unwrap_or("unnamed"))
 }
 
-/// A run over ground with heights, from above, obliquely and cut along the way; nothing of one on a plane.
+/// A run over ground with heights, from above, obliquely and cut along the way; nothing of one on a
+/// plane.
 pub(crate) fn drawing_of_ground(scenario: &Scenario, records: &[Record]) -> Option<String> {
     relief_of("The ground and the way over it", scenario, records)
 }

@@ -1,5 +1,5 @@
-//! The reproduction against the experiment: what was compared and how far off it is, other models, drift, and the yaw
-//! lost on the way.
+//! The reproduction against the experiment: what was compared and how far off it is, other models,
+//! drift, and the yaw lost on the way.
 
 use grouser::contact::Model;
 use grouser::document::columns::{SLOPE, YAW};
@@ -29,7 +29,8 @@ pub(crate) struct Study {
 
 // ---- What was reproduced ----
 
-/// Each figure and table of the paper: what could be compared, how far off it is, and what is missing.
+/// Each figure and table of the paper: what could be compared, how far off it is, and what is
+/// missing.
 pub(crate) fn verdict(study: &Study) -> Table {
     let mut rows = vec![
         taken("Tables 1, 2, 3", "taken as printed", "wheel radius, width, grousers; unit of k'φ"),

@@ -111,7 +111,8 @@ fn heading_band(band: &[SlopeBand]) -> Series {
     Series::band("95 %, soil and model uncertain", 6, edges)
 }
 
-/// The band ends where fewer of the samples hold the contour [-]: beyond it would be that of the strong ones.
+/// The band ends where fewer of the samples hold the contour [-]: beyond it would be that of the
+/// strong ones.
 const MOSTLY: f64 = 0.975;
 
 /// Fig. 9: paths without and with compensation.

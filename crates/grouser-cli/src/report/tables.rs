@@ -1,4 +1,5 @@
-//! The tables of the report: our heading offsets and runs beside the paper's model and measurements.
+//! The tables of the report: our heading offsets and runs beside the paper's model and
+//! measurements.
 
 use grouser::document::columns::{SINKAGE, SLIP_RATIO, SLOPE, YAW};
 use grouser::document::unit::MM;
@@ -67,7 +68,8 @@ pub(super) fn row_of(value: Value) -> Map<String, Value> {
     }
 }
 
-/// The heading offset that holds the contour: ours, that of the paper's model, and the measured starts.
+/// The heading offset that holds the contour: ours, that of the paper's model, and the measured
+/// starts.
 pub(crate) fn headings(study: &Reproduction) -> Table {
     let row = |runs: &SlopeRuns| {
         let heading = runs.heading.as_ref().ok();

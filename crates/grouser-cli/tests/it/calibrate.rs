@@ -267,7 +267,8 @@ fn plates_give_the_moduli_and_one_width_says_what_it_cannot() {
     assert_eq!(place.run(&["check", "fit/soil.toml"]).code(), 0);
 }
 
-/// τ = (c + σ tan φ)(1 − e^(−j/K)) without noise, after an import from other units: c 2 kPa, φ 30°, K 10 mm.
+/// τ = (c + σ tan φ)(1 − e^(−j/K)) without noise, after an import from other units: c 2 kPa, φ 30°,
+/// K 10 mm.
 #[test]
 fn shear_tests_of_another_laboratory_give_their_soil() {
     let place = Place::new();

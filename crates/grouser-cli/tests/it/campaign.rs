@@ -122,8 +122,8 @@ fn what_a_campaign_costs_follows_from_a_rate_and_bytes() {
     let near = |value: f64, expected: f64| (value - expected).abs() <= 1e-12 * expected;
     assert!(near(number(&row["core_hours"]), 1e6 / rate / 3600.0), "{row}");
     assert!(near(number(&row["gigabytes"]), 1e-3 * bytes), "{row}");
-    // A file's footer is most of so small a shard. The last one has half as many runs, so that bytes per
-    // run depend by 6 % on how many shards there was time for.
+    // A file's footer is most of so small a shard. The last one has half as many runs, so that
+    // bytes per run depend by 6 % on how many shards there was time for.
     place.results("campaign run study.toml --out out");
     let all: usize = shards(&place, "out").values().map(Vec::len).sum();
     assert!((bytes / (all as f64 / 60.0) - 1.0).abs() < 0.1, "{bytes} of {all}");

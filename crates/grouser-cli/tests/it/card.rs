@@ -10,8 +10,8 @@ use crate::program::{Place, changed_preset, number};
 /// An uncertain soil, with draws enough to tell go from no-go.
 const UNCERTAIN: &str = "card --soil toyoura-uncertain --samples 20";
 
-/// One on which only the soil is uncertain, which takes a tenth of the time: for flags that have nothing to do
-/// with models.
+/// One on which only the soil is uncertain, which takes a tenth of the time: for flags that have
+/// nothing to do with models.
 const OF_ONE_MODEL: &str = "card --soil toyoura-uncertain --samples 20 --model ishigami";
 
 /// Its card, made once for all tests that only read it.
@@ -257,7 +257,8 @@ fn the_rover_is_drawn_as_it_is() {
         let line = "card --samples 2 --model ishigami --set soil.priors=none --rover";
         place.results(&format!("{line} {rover}.toml --out {rover}.svg"));
         let svg = place.read(&format!("{rover}.svg"));
-        // Arrows have three corners, wheels four, and none of them is upright as the bars of the table are.
+        // Arrows have three corners, wheels four, and none of them is upright as the bars of the
+        // table are.
         let areas = svg.lines().filter(|line| line.contains("Z\" fill=\"#000000\""));
         let has_four = |line: &&str| line.matches('L').count() == 3;
         let is_upright = |line: &&str| {
@@ -416,7 +417,8 @@ fn a_rover_that_cannot_move_has_a_card_that_forbids_it() {
     assert!(texts.contains("NO-GO   on any slope"), "{texts}");
 }
 
-/// The second page: where to look at the slip, and a verdict for every course on each of the first page's slopes.
+/// The second page: where to look at the slip, and a verdict for every course on each of the first
+/// page's slopes.
 #[test]
 fn the_second_page_leads_out() {
     let [first, second] = ["card.svg", "card-2.svg"].map(|name| texts(&CARD.text(name)));
@@ -501,7 +503,8 @@ fn drives_are_told_beside_what_the_card_states() {
     }
 }
 
-/// What a driver keeps to on 13° (the step that was missing said: it goes straight across the slope).
+/// What a driver keeps to on 13° (the step that was missing said: it goes straight across the
+/// slope).
 #[test]
 fn an_uncorrected_traverse_ends_low_with_its_nose_down_and_the_card_says_to_correct() {
     let place = Place::new();

@@ -104,7 +104,8 @@ fn an_uncertain_soil_adds_its_words_to_the_rows_and_changes_none() {
         for word in ["yaw_deg", "slip_ratio", "sinkage_mm", "energy_j_per_m"] {
             let end = |end: &str| number(&row[format!("{word}_{end}")]);
             assert!(end("p2_5") < end("p50"), "{word}: {row}");
-            // In some samples no heading holds the contour of 20°: their work per metre has no bound.
+            // In some samples no heading holds the contour of 20°: their work per metre has no
+            // bound.
             if word == "energy_j_per_m" && row["slope_deg"] == 20.0 {
                 assert!(row["energy_j_per_m_p97_5"].is_null(), "{row}");
             } else {
@@ -139,7 +140,8 @@ fn the_seed_and_nothing_else_decides_the_draws() {
     assert_ne!(on("2"), place.results(&format!("{line} --seed 2")).into_bytes());
 }
 
-/// Where no draw has an attitude there is no yaw; all count as slip 1, and the probability still says something.
+/// Where no draw has an attitude there is no yaw; all count as slip 1, and the probability still
+/// says something.
 #[test]
 fn a_slope_without_any_level_attitude_has_slip_1() {
     let json = Place::new()

@@ -1,4 +1,5 @@
-//! Names and cells that would steer a terminal, a browser or a spreadsheet are shown, and do nothing.
+//! Names and cells that would steer a terminal, a browser or a spreadsheet are shown, and do
+//! nothing.
 
 use grouser::document::escape::is_hidden;
 

@@ -151,7 +151,8 @@ fn a_full_disk_leaves_no_imported_file() {
     assert_eq!(place.names(), ["lab.csv"]);
 }
 
-/// A log has the rover as URDF, wheels on sliding joints: it comes back with the masses, places and wheels of its document.
+/// A log has the rover as URDF, wheels on sliding joints: it comes back with the masses, places and
+/// wheels of its document.
 #[test]
 fn urdf_of_a_log_comes_back_as_its_rover() {
     let place = Place::new();

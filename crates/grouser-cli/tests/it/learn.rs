@@ -1,4 +1,5 @@
-//! `learn`: what it makes of the telemetry of a run on another soil, its folder, and what it refuses.
+//! `learn`: what it makes of the telemetry of a run on another soil, its folder, and what it
+//! refuses.
 
 use crate::bad_input::check_is_refusal;
 use crate::program::{Place, number};
@@ -47,8 +48,8 @@ fn a_drive_narrows_the_next_slopes() {
     }
 }
 
-/// What the instruments of a simulated mission say: the same again from the same seed, other noise from another, and
-/// enough to learn from. Without a fault it is the run itself.
+/// What the instruments of a simulated mission say: the same again from the same seed, other noise
+/// from another, and enough to learn from. Without a fault it is the run itself.
 #[test]
 fn a_run_has_telemetry() {
     let place = Place::new();
@@ -126,8 +127,9 @@ fn logs_that_are_none_are_refused() {
     assert!(said.contains("taken as exact") && said.contains("--prior"), "{said}");
 }
 
-/// Advice is given when it is asked for: a heading within its band, looks at the slip, legs in the order of what they tell
-/// for their work; in JSON, files and the page. Its flags stand for nothing without it.
+/// Advice is given when it is asked for: a heading within its band, looks at the slip, legs in the
+/// order of what they tell for their work; in JSON, files and the page. Its flags stand for nothing
+/// without it.
 #[test]
 fn advice_is_given_when_it_is_asked_for() {
     let place = driven();

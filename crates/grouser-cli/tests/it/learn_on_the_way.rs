@@ -1,4 +1,5 @@
-//! `learn` while a log grows, and after it was killed: what it prints on the way, and what it goes on from.
+//! `learn` while a log grows, and after it was killed: what it prints on the way, and what it goes
+//! on from.
 
 use std::fs::{self, OpenOptions};
 use std::io::Write as _;
@@ -44,8 +45,8 @@ fn lines_of(text: &str) -> Vec<String> {
     text.lines().map(|line| format!("{line}\n")).collect()
 }
 
-/// Killed several times while the log grows, the same command goes on: its results are those of a command that was never
-/// interrupted, to the last digit.
+/// Killed several times while the log grows, the same command goes on: its results are those of a
+/// command that was never interrupted, to the last digit.
 #[test]
 fn a_killed_learner_goes_on_with_the_same_bits() {
     let place = driven();
@@ -88,7 +89,8 @@ fn a_killed_learner_goes_on_with_the_same_bits() {
     }
 }
 
-/// A state that is not all there, of another prior, rover or slope, or of another log is refused with what to do.
+/// A state that is not all there, of another prior, rover or slope, or of another log is refused
+/// with what to do.
 #[test]
 fn states_that_do_not_fit_are_refused() {
     let place = driven();
@@ -122,7 +124,8 @@ fn states_that_do_not_fit_are_refused() {
     place.results(&format!("{again} --force"));
 }
 
-/// A log that is followed: a line of JSON for each lesson, predictions on the way, and the answer at the end.
+/// A log that is followed: a line of JSON for each lesson, predictions on the way, and the answer
+/// at the end.
 #[test]
 fn a_growing_log_is_learnt_from_line_by_line() {
     let place = driven();
@@ -170,7 +173,8 @@ fn a_learnt_soil_is_a_prior() {
     let today = LEARN.replace("toyoura-uncertain", "yesterday/soil.toml");
     let answer =
         place.json(&format!("{today} --samples 40 --out today").replace("--samples 8 ", ""));
-    // What `heading` has for the soil of the drive; the first day's error is within a degree already.
+    // What `heading` has for the soil of the drive; the first day's error is within a degree
+    // already.
     let yaw = number(&answer["predictions"][0]["yaw_deg"]);
     assert!((yaw - 8.9).abs() < 1.0, "{yaw}");
     let left = number(&answer["narrowed"]["shear.lateral_m"]);

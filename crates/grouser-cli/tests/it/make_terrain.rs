@@ -1,4 +1,5 @@
-//! Lunar ground by chance: files that open with the heights of the library, the same bytes each time, and limits.
+//! Lunar ground by chance: files that open with the heights of the library, the same bytes each
+//! time, and limits.
 
 use std::fs;
 

@@ -11,8 +11,8 @@ use serde_json::Value;
 use crate::bad_input::check_is_refusal;
 use crate::program::{Place, number};
 
-/// A map of 30 × 20 points, 0.5 m apart, each with the height of a formula of the way from its corner; one of them is not
-/// there.
+/// A map of 30 × 20 points, 0.5 m apart, each with the height of a formula of the way from its
+/// corner; one of them is not there.
 pub(crate) fn heights(height: impl Fn(f64, f64) -> f64) -> String {
     let mut text = String::new();
     for (row, column) in (0..20).flat_map(|row| (0..30).map(move |column| (row, column))) {
@@ -31,7 +31,8 @@ fn band(answer: &Value, place: &Place, name: &str) -> Raster {
     grouser_raster::read(&path, &ReadOptions::default()).expect("it opens")
 }
 
-/// On a plane every place has the row of `heading-map` for its slope, and the heading turns with the plane.
+/// On a plane every place has the row of `heading-map` for its slope, and the heading turns with
+/// the plane.
 #[test]
 fn a_plane_has_the_numbers_of_the_heading_map() {
     let place = Place::new();
@@ -66,7 +67,8 @@ fn a_plane_has_the_numbers_of_the_heading_map() {
     }
 }
 
-/// A map of hills has all its files, in the coordinates of the heights; places without a height have no number.
+/// A map of hills has all its files, in the coordinates of the heights; places without a height
+/// have no number.
 #[test]
 fn a_map_has_its_bands_styles_and_page() {
     let place = Place::new();
@@ -122,7 +124,8 @@ fn a_map_has_its_bands_styles_and_page() {
     assert!(!place.names().iter().any(|name| name.contains("in-the-making")));
 }
 
-/// What was there when a map was stopped stays, and the rest is the same to the byte as of a map that was not.
+/// What was there when a map was stopped stays, and the rest is the same to the byte as of a map
+/// that was not.
 #[test]
 fn a_map_that_was_stopped_goes_on() {
     let place = Place::new();
@@ -176,7 +179,8 @@ fn kill_when_there_is(place: &Place, arguments: &[&str], file: &str) -> bool {
     !child.wait().unwrap().success()
 }
 
-/// Killed when it has begun, at the first band, and at the last: the same command goes on, to the same bytes.
+/// Killed when it has begun, at the first band, and at the last: the same command goes on, to the
+/// same bytes.
 #[test]
 fn a_map_that_was_killed_goes_on_to_the_same_bytes() {
     let mut text = String::new();

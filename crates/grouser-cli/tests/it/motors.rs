@@ -35,8 +35,8 @@ fn a_rover_with_motors_says_what_they_take() {
     assert!(page.contains("Current of its motor") && page.contains("battery_energy_j"));
 }
 
-/// Legs and the whole say what they took where that is known, in every format; a limit on what is not known is refused
-/// with its place, and what to add.
+/// Legs and the whole say what they took where that is known, in every format; a limit on what is
+/// not known is refused with its place, and what to add.
 #[test]
 fn missions_say_what_motors_and_battery_take() {
     let place = Place::new();

@@ -1,4 +1,5 @@
-//! `replay`: the telemetry of a run beside what is predicted for it, its folder and log, and what it refuses.
+//! `replay`: the telemetry of a run beside what is predicted for it, its folder and log, and what
+//! it refuses.
 
 use crate::bad_input::check_is_refusal;
 use crate::program::{Place, number};
@@ -15,7 +16,8 @@ fn driven() -> Place {
 
 const COMMAND: &str = "replay drive.csv --rover hakuto --soil toyoura --model ishigami";
 
-/// The command's contract: each channel with its residuals, what they point to, and the files of the folder.
+/// The command's contract: each channel with its residuals, what they point to, and the files of
+/// the folder.
 #[test]
 fn a_drive_beside_its_prediction() {
     let place = driven();

@@ -1,4 +1,5 @@
-//! Maps and routes of inputs that are damaged, absurd or hostile: each is refused with what is wrong.
+//! Maps and routes of inputs that are damaged, absurd or hostile: each is refused with what is
+//! wrong.
 
 use std::fs;
 
@@ -165,7 +166,8 @@ fn maps_too_small_for_a_rover_have_no_route() {
     );
 }
 
-/// A GeoTIFF that was cut off or whose bits were turned is refused, or read where it still makes sense.
+/// A GeoTIFF that was cut off or whose bits were turned is refused, or read where it still makes
+/// sense.
 #[test]
 fn damaged_files_are_refused_and_nothing_panics() {
     let place = Place::new();

@@ -1,4 +1,5 @@
-//! Zones of soil on ground with heights: from classes and polygons, with their legend, in runs, missions and campaigns.
+//! Zones of soil on ground with heights: from classes and polygons, with their legend, in runs,
+//! missions and campaigns.
 
 use serde_json::Value;
 
@@ -15,7 +16,8 @@ fn raster(number: impl Fn(f64, f64) -> f64) -> String {
     points.map(line).collect()
 }
 
-/// Classes: 1 in the west, 2 in the north-east, 7 in the south-east. The rover starts in the middle, in 1.
+/// Classes: 1 in the west, 2 in the north-east, 7 in the south-east. The rover starts in the
+/// middle, in 1.
 fn classes() -> String {
     raster(|x, y| match (x < 5.4, y < 4.0) {
         (true, _) => 1.0,
@@ -55,7 +57,8 @@ fn sinkage(sample: &Value, wheel: usize) -> f64 {
     number(&sample["wheels"][wheel]["sinkage_mm"])
 }
 
-/// Each wheel has the soil below it: at the start all the scenario's own, at the end all that of the zone.
+/// Each wheel has the soil below it: at the start all the scenario's own, at the end all that of
+/// the zone.
 #[test]
 fn wheels_meet_the_soil_of_their_zone() {
     let place = place();

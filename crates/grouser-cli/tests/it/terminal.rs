@@ -1,4 +1,5 @@
-//! What a terminal gets: colours, tables in its width, progress; and that files and pipes get none of it.
+//! What a terminal gets: colours, tables in its width, progress; and that files and pipes get none
+//! of it.
 
 use std::process::Output;
 
@@ -39,7 +40,8 @@ fn csv_and_json_know_no_width() {
     }
 }
 
-/// In 80 columns the flags and the reason are a line each, and a column that is left out has its name there.
+/// In 80 columns the flags and the reason are a line each, and a column that is left out has its
+/// name there.
 #[test]
 fn a_narrow_table_says_what_it_leaves_out() {
     let line = "wheel-test --soil lunar-nominal --slip-ratio 0.1,0.5,0.9 --load-n 200 --width 80";

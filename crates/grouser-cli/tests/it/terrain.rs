@@ -1,4 +1,5 @@
-//! Ground with heights: maps that are driven on, places in their coordinates, and maps that cannot be used.
+//! Ground with heights: maps that are driven on, places in their coordinates, and maps that cannot
+//! be used.
 
 use std::fmt::Write as _;
 
@@ -30,8 +31,8 @@ fn numbers<const N: usize>(of: &Value, keys: [&str; N]) -> [f64; N] {
     keys.map(|key| number(&of[key]))
 }
 
-/// What a drive over a plane comes to, by the plane's axes and by the map's: 0.1 % in the way, the drift, slip, heading and
-/// work, whichever way the plane rises.
+/// What a drive over a plane comes to, by the plane's axes and by the map's: 0.1 % in the way, the
+/// drift, slip, heading and work, whichever way the plane rises.
 #[test]
 fn a_plane_as_a_map_is_the_plane() {
     let place = Place::new();
@@ -73,7 +74,8 @@ fn a_plane_as_a_map_is_the_plane() {
     }
 }
 
-/// The contract of places: the start is where it was asked for, or in the map's middle, and heights are metres of the map.
+/// The contract of places: the start is where it was asked for, or in the map's middle, and heights
+/// are metres of the map.
 #[test]
 fn places_are_those_of_the_map() {
     let place = Place::new();
@@ -90,7 +92,8 @@ fn places_are_those_of_the_map() {
     assert!(!keys(&plane["final"]).contains(&"z_m"));
 }
 
-/// A crest under the belly ends a drive where the rover's document says how high that is; a start on one is refused.
+/// A crest under the belly ends a drive where the rover's document says how high that is; a start
+/// on one is refused.
 #[test]
 fn a_drive_over_a_crest_ends_on_the_belly() {
     let place = Place::new();
@@ -181,7 +184,8 @@ fn missions_are_driven_on_maps() {
     assert!((number(&stopped["final"]["pitch_deg"]) - 3.0).abs() < 0.1, "{}", stopped["final"]);
 }
 
-/// What is drawn of a run on a plane is drawn of one over heights: of one, of two yaws, of all models and of a mission.
+/// What is drawn of a run on a plane is drawn of one over heights: of one, of two yaws, of all
+/// models and of a mission.
 #[test]
 fn runs_over_heights_are_animated() {
     let place = Place::new();
@@ -275,7 +279,8 @@ fn maps_that_cannot_be_driven_on_are_refused() {
     assert!(last.is_some_and(|last| last["time_s"].as_f64() > Some(1.0)), "{last:?}");
 }
 
-/// Wheels that turn against each other on an incline: 2 ms after the start no loads are found that balance the rover.
+/// Wheels that turn against each other on an incline: 2 ms after the start no loads are found that
+/// balance the rover.
 #[test]
 fn records_until_an_error_are_kept() {
     let place = Place::new();

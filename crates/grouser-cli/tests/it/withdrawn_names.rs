@@ -1,12 +1,12 @@
-//! The paper's word for a command does what the present one does; withdrawn options are refused with
-//! the present one.
+//! The paper's word for a command does what the present one does; withdrawn options are refused
+//! with the present one.
 
 use serde_json::Value;
 
 use crate::program::Place;
 
-/// `attitude` and `attitude-map` name themselves in what they print and write, and differ in nothing
-/// else from `heading` and `heading-map`.
+/// `attitude` and `attitude-map` name themselves in what they print and write, and differ in
+/// nothing else from `heading` and `heading-map`.
 #[test]
 fn the_papers_commands_are_the_present_ones() {
     let place = Place::new();

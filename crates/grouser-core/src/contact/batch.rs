@@ -17,8 +17,8 @@ use super::model::WheelSoilModel;
 use super::stress::MobilisedShear;
 use super::stress::wheels::StressLaws;
 
-/// Fewer wheels of a kind than this are computed one by one: that takes less than lanes, most of which
-/// stay empty. Source: measured.
+/// Fewer wheels of a kind than this are computed one by one: that takes less than lanes, most of
+/// which stay empty. Source: measured.
 pub(super) const FEWEST: usize = 12;
 
 /// Wheels of the same kind go through the same formulas.
@@ -97,8 +97,8 @@ impl Lanes {
         }
     }
 
-    /// ∫ (τ_x sin θ + σ cos θ) dθ of each wheel [Pa·rad], and all that the kernel computes of them where
-    /// there is room for it.
+    /// ∫ (τ_x sin θ + σ cos θ) dθ of each wheel [Pa·rad], and all that the kernel computes of them
+    /// where there is room for it.
     ///
     /// * `sinkages`: of the wheels [m]
     #[inline(always)]
@@ -108,8 +108,8 @@ impl Lanes {
     }
 }
 
-/// The reaction of the soil on many wheels, each at a sinkage [m], in their order; each has the bits
-/// that it has alone.
+/// The reaction of the soil on many wheels, each at a sinkage [m], in their order; each has the
+/// bits that it has alone.
 ///
 /// How much harder does a wheel pull the more it slips, at the same sinkage?
 ///

@@ -32,8 +32,8 @@ impl WheelSoilModel for Bekker {
     fn domain(&self) -> Domain {
         Domain {
             depth: SHALLOW,
-            // Source: Bekker (1969), in Wong, Theory of Ground Vehicles: less accurate for wheels below 20 inches
-            // in diameter, the more so the smaller they are.
+            // Source: Bekker (1969), in Wong, Theory of Ground Vehicles: less accurate for wheels
+            // below 20 inches in diameter, the more so the smaller they are.
             radius: Span::at_least(0.25),
             slip_ratio: Span::new(-0.1, 0.9),
             ..Domain::UNSTATED

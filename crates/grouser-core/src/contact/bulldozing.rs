@@ -116,8 +116,8 @@ pub fn side_wall_load(
     SideWallLoad::of_sums(sum(&force), sum(&below), sum(&ahead))
 }
 
-/// What a strip of the wall from the rim up bears: its force [N], and its moments [N·m] about the hub for
-/// a force across the wheel.
+/// What a strip of the wall from the rim up bears: its force [N], and its moments [N·m] about the
+/// hub for a force across the wheel.
 ///
 /// * `node`: its abscissa and its width, as shares of the buried arc
 #[expect(clippy::inline_always, reason = "part of the kernel")]

@@ -1,28 +1,30 @@
 //! Cohesion under a wheel that hardly presses the soil: a tension cut-off, for soils with
 //! [`ShearBound::Coulomb`].
 //!
-//! Cohesion is where a line through shear tests at several kilopascals meets τ = 0. Under less pressure
-//! loose soil has less strength than the line: it takes no tension. On a rim that is pressed with σ, and at
-//! which the soil fails, the smallest principal stress is σ − τ tan X_c with X_c = 45° − φ/2. It is not
-//! negative where
+//! Cohesion is where a line through shear tests at several kilopascals meets τ = 0. Under less
+//! pressure loose soil has less strength than the line: it takes no tension. On a rim that is
+//! pressed with σ, and at which the soil fails, the smallest principal stress is σ − τ tan X_c with
+//! X_c = 45° − φ/2. It is not negative where
 //!
 //! ```text
 //! τ ≤ σ cot X_c      so that      c ≤ σ/cos φ
 //! ```
 //!
-//! for τ = c + σ tan φ. The cohesion that a wheel mobilises passes smoothly from the one to the other,
+//! for τ = c + σ tan φ. The cohesion that a wheel mobilises passes smoothly from the one to the
+//! other,
 //!
 //! ```text
 //! c_m = c/√(1 + (c cos φ/σ_m)²)
 //! ```
 //!
-//! with σ_m, the largest normal stress on the rim: one cohesion for the whole wheel, its side wall and its
-//! wedges. A cut-off at each point would be a corner near both ends of the arc, which no quadrature of few
-//! nodes follows. Without it a locked wheel without a load is an anchor: shear on the arc in front pulls it
-//! down by c b (1 − λ) h, and pressure grows like h^(n + ½), slower at first.
+//! with σ_m, the largest normal stress on the rim: one cohesion for the whole wheel, its side wall
+//! and its wedges. A cut-off at each point would be a corner near both ends of the arc, which no
+//! quadrature of few nodes follows. Without it a locked wheel without a load is an anchor: shear on
+//! the arc in front pulls it down by c b (1 − λ) h, and pressure grows like h^(n + ½), slower at
+//! first.
 //!
-//! Source: Coulomb's envelope with a tension cut-off (Chen 1975); the smooth passage, and one pressure for the
-//! whole wheel, are ours.
+//! Source: Coulomb's envelope with a tension cut-off (Chen 1975); the smooth passage, and one
+//! pressure for the whole wheel, are ours.
 
 #![expect(clippy::inline_always, reason = "part of the kernel")]
 
@@ -34,7 +36,8 @@ use crate::soil::{ShearBound, Soil};
 pub struct Cohesion {
     /// *c* [Pa]
     pub(super) full: f64,
-    /// Pressure below which the soil would be in tension, c cos φ [Pa]; 0 where its law is as published.
+    /// Pressure below which the soil would be in tension, c cos φ [Pa]; 0 where its law is as
+    /// published.
     pub(super) tension: f64,
 }
 

@@ -1,22 +1,23 @@
 //! What a soil can resist at most under a whole wheel: Coulomb's law, for soils with
 //! [`ShearBound::Coulomb`].
 //!
-//! Stresses on a curved rim obey Coulomb's law point by point and still add up to more: a locked wheel
-//! leans against the arc in front of it, and pushes soil aside that would give way first. The soil
-//! fails at the latest when the wheel slides with all that lies beneath its lowest point held, and lifts
-//! a wedge of what lies ahead:
+//! Stresses on a curved rim obey Coulomb's law point by point and still add up to more: a locked
+//! wheel leans against the arc in front of it, and pushes soil aside that would give way first. The
+//! soil fails at the latest when the wheel slides with all that lies beneath its lowest point held,
+//! and lifts a wedge of what lies ahead:
 //!
 //! ```text
 //! √(F_x² + F_y²) ≤ F_z tan φ + c b ℓ + P        P = w (½ K_p γ h² + 2 c √K_p h),  √K_p = cot X_c
 //! ```
 //!
-//! with the contact's length ℓ along the ground, and Rankine's passive earth pressure P on a wall of the
-//! height h and of the width that the wheel shows in the direction of the force, w = (b |F_x| + ℓ |F_y|)/F.
-//! The cohesion is what the wheel's pressure mobilises ([`cohesion`](super::cohesion)).
-//! On a slope the weight of wedges counts by [`Soil::on_slope`](crate::soil::Soil::on_slope).
-//! Any such mechanism bounds the resistance from above (limit analysis; Chen 1975). Beyond the bound all
-//! parts of the horizontal force, the torque and the moments that go with them shrink alike, so that the
-//! soil is never given less work than it takes.
+//! with the contact's length ℓ along the ground, and Rankine's passive earth pressure P on a wall
+//! of the height h and of the width that the wheel shows in the direction of the force, w = (b
+//! |F_x| + ℓ |F_y|)/F. The cohesion is what the wheel's pressure mobilises
+//! ([`cohesion`](super::cohesion)). On a slope the weight of wedges counts by
+//! [`Soil::on_slope`](crate::soil::Soil::on_slope). Any such mechanism bounds the resistance from
+//! above (limit analysis; Chen 1975). Beyond the bound all parts of the horizontal force, the
+//! torque and the moments that go with them shrink alike, so that the soil is never given less work
+//! than it takes.
 
 use super::cohesion::Cohesion;
 use super::forces::WheelForces;

@@ -5,8 +5,8 @@
 //! surface on which it fails, Coulomb's law holds: |τ| ≤ c + σ tan φ. The soil under the wheel
 //! fails along the wheel's base, which carries its load; the soil in front of it and beside it
 //! fails along planes that rise at the destructive angle X_c from the depth of the rim, and carries
-//! the weight of a wedge each. A wedge of weight G on such a plane yields to G tan(X_c + φ), which is
-//! G cot X_c.
+//! the weight of a wedge each. A wedge of weight G on such a plane yields to G tan(X_c + φ), which
+//! is G cot X_c.
 //!
 //! ```text
 //! B = F_z tan φ + c A + (G_front + G_side) cot X_c + 2 c cot X_c (S_front + S_side)
@@ -17,12 +17,12 @@
 //! wedge, cot X_c times the depth, at the angle of repose φ. G has the soil on top of the wedge,
 //! piled at φ again (Hegedus 1960). In front the wall is the rim, of width b and depth h; beside
 //! the wheel it is the buried segment of one side wall, taken as a parabola: h(l) = h (1 − l²/a²),
-//! a² = h (2 r_s − h), which at the axle is a fifth less than the segment. A is the rim's contact, and c the
-//! cohesion that the wheel's pressure mobilises ([`cohesion`](super::cohesion)).
+//! a² = h (2 r_s − h), which at the axle is a fifth less than the segment. A is the rim's contact,
+//! and c the cohesion that the wheel's pressure mobilises ([`cohesion`](super::cohesion)).
 //!
 //! [`coulomb`](super::coulomb) has a tighter bound, by bare wedges, for the other models on soils
-//! that state it. The mounds and the side wall of the small-wheel model are of piled-up soil, and it has
-//! this one on every soil.
+//! that state it. The mounds and the side wall of the small-wheel model are of piled-up soil, and
+//! it has this one on every soil.
 //!
 //! On a slope the wedges resist less against being pushed downhill ([`Soil::on_slope`]), and not at
 //! all where it is as steep as the angle of friction: a rover on cohesionless soil holds on no

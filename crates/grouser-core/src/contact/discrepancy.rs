@@ -6,12 +6,12 @@
 //! T   += e W r_s δ_T(S, |β|)  h   *= e^(δ_h(S, |β|))
 //! ```
 //!
-//! It comes on top of everything that the model has, its bound by the soil's friction included: a sample's force
-//! may exceed that by δ W.
+//! It comes on top of everything that the model has, its bound by the soil's friction included: a
+//! sample's force may exceed that by δ W.
 //!
-//! Here with the load W (F_z of a settled wheel), the slip by the total speed S, the slip angle β, and the
-//! sense of rolling e. A mirrored motion has mirrored forces, an unloaded wheel and one at rest have
-//! none.
+//! Here with the load W (F_z of a settled wheel), the slip by the total speed S, the slip angle β,
+//! and the sense of rolling e. A mirrored motion has mirrored forces, an unloaded wheel and one at
+//! rest have none.
 
 use super::forces::WheelForces;
 use super::inputs::Contact;
@@ -26,8 +26,9 @@ use crate::soil::discrepancy::Blend;
 /// e = u (3 − u²)/2      u = (ω r_s + v_x)/(|ω r_s| + V)      V = √(v_x² + v_y²)
 /// ```
 ///
-/// 1 for any wheel whose rim and hub move forward, at small slip angles; it passes through 0 with no
-/// jump where rim and hub oppose each other, where a locked wheel is dragged sideways, and at rest.
+/// 1 for any wheel whose rim and hub move forward, at small slip angles; it passes through 0 with
+/// no jump where rim and hub oppose each other, where a locked wheel is dragged sideways, and at
+/// rest.
 #[must_use]
 pub fn sense_of_rolling(slip: &Slip) -> f64 {
     let travel = hypot(slip.forward, slip.lateral);
@@ -61,8 +62,8 @@ pub(super) fn corrected_sinkage(contact: &Contact, sinkage: f64) -> f64 {
     }
 }
 
-/// The model's own sinkage [m] where it is this one with the soil's discrepancy; at the axle it may be any
-/// that is deeper.
+/// The model's own sinkage [m] where it is this one with the soil's discrepancy; at the axle it may
+/// be any that is deeper.
 pub(super) fn own_sinkage(contact: &Contact, corrected: f64) -> f64 {
     sinkage_factor(contact).map_or(corrected, |factor| corrected / factor)
 }

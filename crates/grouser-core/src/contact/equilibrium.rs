@@ -20,16 +20,17 @@ use super::model::WheelSoilModel;
 /// both, where it is nearly a straight line. It starts where a shallow wheel without shear would
 /// settle, and interpolates through all that it has seen: three or four evaluations of F_z, and one
 /// of all forces. Where they do not close in as they should, the root is bracketed before it is
-/// closed in on, and where the growth ends before the load is reached (deep, skidding
-/// wheels on strong soil) the highest F_z is sought before the wheel is given up. (In cohesive soil
-/// without [`ShearBound::Coulomb`](crate::soil::ShearBound::Coulomb) F_z may also rise and fall while the
-/// wheel has hardly sunk and shear outweighs pressure; there the answer is one of the sinkages with F_z = W,
-/// not always the smallest.)
+/// closed in on, and where the growth ends before the load is reached (deep, skidding wheels on
+/// strong soil) the highest F_z is sought before the wheel is given up. (In cohesive soil without
+/// [`ShearBound::Coulomb`](crate::soil::ShearBound::Coulomb) F_z may also rise and fall while the
+/// wheel has hardly sunk and shear outweighs pressure; there the answer is one of the sinkages with
+/// F_z = W, not always the smallest.)
 ///
 /// Where the soil has a [`Discrepancy`](crate::soil::Discrepancy), it is added to what the model
 /// finds.
 ///
-/// How deep does a wheel of HAKUTO sink under 17 N, and how hard does it pull at a slip ratio of 0.2?
+/// How deep does a wheel of HAKUTO sink under 17 N, and how hard does it pull at a slip ratio of
+/// 0.2?
 ///
 /// ```
 /// use grouser_core::paper;

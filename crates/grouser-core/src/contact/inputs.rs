@@ -6,8 +6,8 @@ use crate::wheel::Wheel;
 
 /// One wheel on one soil, in one motion: all that decides the reaction, but for the sinkage.
 ///
-/// How much less deep does a wheel that carries 1.7 kg sink on the Moon than on the Earth? By Reece's
-/// law for cohesionless sand not at all: load and soil lose weight alike.
+/// How much less deep does a wheel that carries 1.7 kg sink on the Moon than on the Earth? By
+/// Reece's law for cohesionless sand not at all: load and soil lose weight alike.
 ///
 /// ```
 /// use grouser_core::paper;

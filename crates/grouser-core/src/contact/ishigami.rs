@@ -1,8 +1,9 @@
 //! The source paper's model: stresses integrated along the arc (Ishigami et al. 2007).
 //!
-//! The stresses of [`StressField`](super::stress::StressField) act on the rim of a wheel of shearing radius *r_s* and width
-//! *b*; the soil pushed aside acts on its side wall. With θ from straight down, the rim's point is
-//! (r_s sin θ, 0, −r_s cos θ), normal stress points to the hub and shear stress along the rim, so
+//! The stresses of [`StressField`](super::stress::StressField) act on the rim of a wheel of
+//! shearing radius *r_s* and width *b*; the soil pushed aside acts on its side wall. With θ from
+//! straight down, the rim's point is (r_s sin θ, 0, −r_s cos θ), normal stress points to the hub
+//! and shear stress along the rim, so
 //!
 //! ```text
 //! F_x = r_s b ∫ (τ_x cos θ − σ sin θ) dθ       T   = r_s² b ∫ τ_x dθ
@@ -63,10 +64,11 @@ impl WheelSoilModel for Ishigami {
     fn domain(&self) -> Domain {
         Domain {
             depth: SHALLOW,
-            // Source: the smallest wheel of Ishigami et al. (2007), and the largest of Wong and Reece (1967).
+            // Source: the smallest wheel of Ishigami et al. (2007), and the largest of Wong and
+            // Reece (1967).
             radius: Span::new(0.09, 0.63),
-            // Source: driven wheels, 0 to 0.8, in Ishigami et al. (2007). A tenth more on both sides is ours,
-            // so that wheels that barely skid on level ground are not flagged.
+            // Source: driven wheels, 0 to 0.8, in Ishigami et al. (2007). A tenth more on both
+            // sides is ours, so that wheels that barely skid on level ground are not flagged.
             slip_ratio: Span::new(-0.1, 0.9),
             // Source: Ishigami et al. (2007).
             slip_angle: Span::at_most(FRAC_PI_4),

@@ -2,10 +2,10 @@
 //!
 //! A piece of the arc on which the stresses are smooth is integrated over a handful of Gauss nodes.
 //! The formulas are those of [`StressField`](super::stress::StressField), written for one point.
-//! [`integral`] runs them over [`LANES`] nodes of one wheel at a time, and [`wheels`] over one node of
-//! many wheels, in loops that compilers turn into vector instructions; nodes are added up in the same
-//! order, so that a wheel has the same bits alone and among a thousand. [`rule`] says where the nodes
-//! are, and [`dispatch`] chooses the instruction set while the program runs.
+//! [`integral`] runs them over [`LANES`] nodes of one wheel at a time, and [`wheels`] over one node
+//! of many wheels, in loops that compilers turn into vector instructions; nodes are added up in the
+//! same order, so that a wheel has the same bits alone and among a thousand. [`rule`] says where
+//! the nodes are, and [`dispatch`] chooses the instruction set while the program runs.
 
 pub(super) mod dispatch;
 pub(super) mod integral;

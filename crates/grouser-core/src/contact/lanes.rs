@@ -2,8 +2,8 @@
 
 #![expect(clippy::inline_always, reason = "all of it is compiled once for each instruction set")]
 
-/// How many are computed side by side: two of the widest vectors, four of the usual ones, so that none
-/// waits for the result before.
+/// How many are computed side by side: two of the widest vectors, four of the usual ones, so that
+/// none waits for the result before.
 pub(super) const WIDE: usize = 16;
 
 /// One number of each.

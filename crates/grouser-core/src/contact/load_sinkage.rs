@@ -1,5 +1,5 @@
-//! The load–sinkage relation of one wheel: the load that the soil carries at any sinkage, made ready for a
-//! search.
+//! The load–sinkage relation of one wheel: the load that the soil carries at any sinkage, made
+//! ready for a search.
 //!
 //! A wheel that settles asks for F_z at several sinkages. What does not depend on the sinkage, and
 //! what F_z does not depend on, is left out of that loop.
@@ -40,8 +40,8 @@ pub struct LoadSinkage {
     finish: Finish,
 }
 
-/// How a model makes forces of what the kernel computed of a wheel that enters the soil with its front: for
-/// a contact, and at a sinkage [m].
+/// How a model makes forces of what the kernel computed of a wheel that enters the soil with its
+/// front: for a contact, and at a sinkage [m].
 pub(super) type Finish = fn(&Contact, &Reaction, f64) -> WheelForces;
 
 /// Which ends of the wheel enter the soil, with their shares ([`super::mirror::from_both_sides`]).
@@ -83,8 +83,8 @@ impl LoadSinkage {
         }
     }
 
-    /// More than *F_z* [N] at this sinkage [m] and at all that are shallower: what full pressure and the
-    /// soil's full strength on the whole arc would carry.
+    /// More than *F_z* [N] at this sinkage [m] and at all that are shallower: what full pressure
+    /// and the soil's full strength on the whole arc would carry.
     #[must_use]
     pub fn most_normal_force(&self, sinkage: f64) -> f64 {
         let force = |arc: &Arc| self.area * arc.law.most_up(sinkage.max(0.0));
@@ -141,8 +141,8 @@ impl LoadSinkage {
         }
     }
 
-    /// F_z of a shallow wheel without shear: the factor [N/m^p] and the power p of its sinkage. A search
-    /// starts there.
+    /// F_z of a shallow wheel without shear: the factor [N/m^p] and the power p of its sinkage. A
+    /// search starts there.
     #[must_use]
     pub fn shallow(&self) -> (f64, f64) {
         let (factor, power) = self.arc(Side::Front).law.shallow();

@@ -1,5 +1,6 @@
-//! The wheels of a mechanism that another engine of rigid bodies moves: from their poses and Jacobians to the motion
-//! and the effective inverse mass that [`time_step`](super::time_step) needs, and from its forces to wrenches.
+//! The wheels of a mechanism that another engine of rigid bodies moves: from their poses and
+//! Jacobians to the motion and the effective inverse mass that [`time_step`](super::time_step)
+//! needs, and from its forces to wrenches.
 //!
 //! ```text
 //! h° = r_s √(1 − (a · n)²) − d          the lowest point of a circle that leans
@@ -8,9 +9,9 @@
 //! u° = J_u (v − Δt M⁻¹ Jᵀ w)            without the wrenches w that acted in the step that led here
 //! ```
 //!
-//! with axle *a*, normal of the ground *n* and the hub's distance from it *d*, in the world's axes. *M* is the inertia
-//! that the engine steps with: of an implicit integrator with its derivatives of forces. After Stewart and Trinkle
-//! (1996), as engines of rigid bodies have it.
+//! with axle *a*, normal of the ground *n* and the hub's distance from it *d*, in the world's axes.
+//! *M* is the inertia that the engine steps with: of an implicit integrator with its derivatives of
+//! forces. After Stewart and Trinkle (1996), as engines of rigid bodies have it.
 
 use nalgebra::{DMatrix, DVector, DVectorView};
 
@@ -49,8 +50,8 @@ pub struct MountedWheel {
 pub struct Mechanism<'a> {
     /// The wheels.
     pub wheels: &'a [MountedWheel],
-    /// For each wheel how the velocity of its hub, three rows, and its angular velocity, three more, follow from the
-    /// generalised velocities: row by row.
+    /// For each wheel how the velocity of its hub, three rows, and its angular velocity, three
+    /// more, follow from the generalised velocities: row by row.
     pub jacobians: &'a [f64],
     /// Inertia, *M*: row by row.
     pub inertia: &'a [f64],
@@ -112,8 +113,8 @@ impl MountedWheel {
 }
 
 impl Mechanism<'_> {
-    /// The effective inverse mass *A*, and the motion *u°* at the end of a step without the soil; nothing if the inertia
-    /// is singular, or the lengths do not fit.
+    /// The effective inverse mass *A*, and the motion *u°* at the end of a step without the soil;
+    /// nothing if the inertia is singular, or the lengths do not fit.
     ///
     /// * `duration`: of the step [s]
     #[must_use]
@@ -123,7 +124,8 @@ impl Mechanism<'_> {
         if lengths != [ROWS * count * size, size * size] {
             return None;
         }
-        // A column for each force of each wheel, and one for all that acted in the preliminary step.
+        // A column for each force of each wheel, and one for all that acted in the preliminary
+        // step.
         let mut sides = DMatrix::zeros(size, FORCES * count + 1);
         for (place, wheel) in self.wheels.iter().enumerate() {
             for (force, axis) in wheel.axes(self.with_moments).iter().enumerate() {
@@ -162,7 +164,8 @@ impl Mechanism<'_> {
 mod tests {
     use super::*;
 
-    /// A free body of 2 kg whose hub is its centre of mass: its velocity, then its angular velocity.
+    /// A free body of 2 kg whose hub is its centre of mass: its velocity, then its angular
+    /// velocity.
     fn free_body(wheel: MountedWheel, velocities: &[f64; 6]) -> (DMatrix<f64>, DVector<f64>) {
         let unit = DMatrix::<f64>::identity(6, 6);
         let inertia =
@@ -224,7 +227,8 @@ mod tests {
         };
         let Wrench { force, moment } = wheel.wrench(&forces, true);
         assert_eq!(force, Vec3::new(3.0, 2.0, 10.0));
-        // The arm lifts M_x by 0.5 · 10 and lowers M_z by 0.5 · 3; a driving torque turns the body backward.
+        // The arm lifts M_x by 0.5 · 10 and lowers M_z by 0.5 · 3; a driving torque turns the body
+        // backward.
         assert!((moment - Vec3::new(5.1, -0.4, -1.3)).norm() < 1e-15, "{moment}");
         let without = wheel.wrench(&forces, false).moment;
         assert!((without - Vec3::new(5.0, -0.4, -1.5)).norm() < 1e-15, "{without}");

@@ -5,9 +5,9 @@ use super::inputs::Contact;
 use super::load_sinkage::LoadSinkage;
 use crate::soil::{Domain, Span};
 
-/// The sinkage over the shearing radius [-] at which models end that take the pressure under a rim as that under a
-/// plate. Source: Bekker (1969), in Wong, Theory of Ground Vehicles: acceptable for sinkages up to a sixth of the
-/// diameter.
+/// The sinkage over the shearing radius [-] at which models end that take the pressure under a rim
+/// as that under a plate. Source: Bekker (1969), in Wong, Theory of Ground Vehicles: acceptable for
+/// sinkages up to a sixth of the diameter.
 pub(super) const SHALLOW: Span = Span::at_most(1.0 / 3.0);
 
 /// A wheel–soil model: a contact in, the wheel's forces out.
@@ -43,14 +43,14 @@ pub trait WheelSoilModel: Send + Sync {
     /// The reaction of the soil on a wheel sunk by `sinkage` [m].
     fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces;
 
-    /// The range in which the model was tested, or its simplifications hold; what lies outside is flagged. What
-    /// nobody states is not limited.
+    /// The range in which the model was tested, or its simplifications hold; what lies outside is
+    /// flagged. What nobody states is not limited.
     fn domain(&self) -> Domain {
         Domain::UNSTATED
     }
 
-    /// More than F_z [N] at this sinkage [m] and at all that are shallower; infinite where the model does
-    /// not know. It spares a wheel that the soil cannot carry most of the search.
+    /// More than F_z [N] at this sinkage [m] and at all that are shallower; infinite where the
+    /// model does not know. It spares a wheel that the soil cannot carry most of the search.
     ///
     /// A model with a [`load_sinkage`](Self::load_sinkage) relation has it from there.
     fn most_normal_force(&self, contact: &Contact, sinkage: f64) -> f64 {

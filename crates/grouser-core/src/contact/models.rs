@@ -38,7 +38,8 @@ impl OwnModel {
 /// Makes the list of models from their rows: the variant, its name, and what computes it.
 macro_rules! models {
     ($($(#[$doc:meta])* $model:ident = $name:literal, $computes:expr;)+) => {
-        /// The wheel–soil model of a run, a wheel test or a heading: one of the list, or [your own](Self::own).
+        /// The wheel–soil model of a run, a wheel test or a heading: one of the list, or
+        /// [your own](Self::own).
         ///
         /// ```
         /// use grouser_core::contact::Model;

@@ -2,17 +2,17 @@
 //! (Agarwal, Goldman and Kamrin, PNAS 2023).
 //!
 //! Nothing of the classical models is used, neither pressure-sinkage law nor shear modulus: each
-//! piece of the wheel's surface is a plate in granular soil, and what it meets depends on its depth,
-//! its inclination and the direction of its motion alone. Two constants tell the soil, its unit
-//! weight and its friction, and no force is adjusted to wheels.
+//! piece of the wheel's surface is a plate in granular soil, and what it meets depends on its
+//! depth, its inclination and the direction of its motion alone. Two constants tell the soil, its
+//! unit weight and its friction, and no force is adjusted to wheels.
 //!
 //! ```text
 //! F = ∫ ξ d α(e_n, e_v) dA     v = v_hub + ω × r     over rim, grousers and both side faces
 //! ```
 //!
 //! `facet` has the law α and the stiffness ξ, `surface` the wheel's facets, `sums` what they meet
-//! together, `exposure` which of them grousers hide. The law knows no front, so the wheel is the sum of
-//! its two halves, each seen with its own mirror; nothing is blended.
+//! together, `exposure` which of them grousers hide. The law knows no front, so the wheel is the
+//! sum of its two halves, each seen with its own mirror; nothing is blended.
 //!
 //! A wheel below [`CREEP_SPEED`](super::slip::CREEP_SPEED) counts as one that sinks: directions
 //! come from the velocity less that speed downward. So a wheel at rest carries its load as a wheel
@@ -52,8 +52,8 @@ impl Default for Rft {
 }
 
 impl Rft {
-    /// Sixteen nodes over half the arc, three across: half of all wheels are off by less than 0.05 % of the
-    /// load, 99 % by less than 0.8 %, as with twice as many across.
+    /// Sixteen nodes over half the arc, three across: half of all wheels are off by less than 0.05
+    /// % of the load, 99 % by less than 0.8 %, as with twice as many across.
     pub const DEFAULT: Self =
         Self { nodes: Nodes { arc: &GAUSS_16, disc: &GAUSS_3, height: &GAUSS_3 }, set: None };
 
@@ -74,7 +74,8 @@ impl Rft {
 
 impl WheelSoilModel for Rft {
     fn domain(&self) -> Domain {
-        // Any motion. Source: Agarwal, Goldman and Kamrin (2023). Down to the axle, where our surface ends.
+        // Any motion. Source: Agarwal, Goldman and Kamrin (2023). Down to the axle, where our
+        // surface ends.
         Domain { depth: Span::at_most(1.0), ..Domain::UNSTATED }
     }
 

@@ -52,8 +52,8 @@ pub fn slip_angle(hub_velocity: Vec2) -> f64 {
 /// driving wheel `forward` is 1 − s and `lateral` is (1 − s) tan β; for a braking one `forward` is
 /// 1/(1 + s).
 ///
-/// How does a wheel slip whose rim runs at 6 cm/s, while its hub moves 5.4 cm/s forward and 0.5 cm/s
-/// to the right?
+/// How does a wheel slip whose rim runs at 6 cm/s, while its hub moves 5.4 cm/s forward and 0.5
+/// cm/s to the right?
 ///
 /// ```
 /// use grouser_core::contact::Slip;
@@ -85,8 +85,8 @@ pub struct Slip {
 }
 
 impl Slip {
-    /// Between this slip and another; senses are those of the nearer one, and so is the angle where both are more than half a
-    /// turn apart.
+    /// Between this slip and another; senses are those of the nearer one, and so is the angle where
+    /// both are more than half a turn apart.
     ///
     /// * `share`: of the way to the other [-]
     #[must_use]

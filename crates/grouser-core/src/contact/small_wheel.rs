@@ -1,10 +1,10 @@
-//! The small-wheel model: the classical one with the terms that small rovers need. One parameter set
-//! serves a wheel and a soil.
+//! The small-wheel model: the classical one with the terms that small rovers need. One parameter
+//! set serves a wheel and a soil.
 //!
-//! The stresses of [`ishigami`] on an arc of its own, in a soil that gives way to a moving wheel, and
-//! four forces more, all within what the ground resists ([`coulomb_cone`]). The terms are the soil's
-//! ([`crate::soil::small_wheel`]); with all of them off the model is `ishigami` within that bound, to
-//! the last bit.
+//! The stresses of [`ishigami`] on an arc of its own, in a soil that gives way to a moving wheel,
+//! and four forces more, all within what the ground resists ([`coulomb_cone`]). The terms are the
+//! soil's ([`crate::soil::small_wheel`]); with all of them off the model is `ishigami` within that
+//! bound, to the last bit.
 //!
 //! ```text
 //! σ   = K_σ (z/ζ)ⁿ                                     ζ(S, β): the moving wheel digs itself in
@@ -16,8 +16,8 @@
 //! X_b = f_behind b R_b(h) S⁺²                          rear mound behind a spinning wheel
 //! ```
 //!
-//! In skid the sinkage grows by ζ alone: where a soil has the term, its exponent's growth in skid is another form of
-//! the same and does not count.
+//! In skid the sinkage grows by ζ alone: where a soil has the term, its exponent's growth in skid
+//! is another form of the same and does not count.
 //!
 //! S is the slip by the total speed ([`Slip::total`]), S⁺ its driving part and S⁻ its skid.
 //! `docs/models/small-wheel.md` shows what each term brings, out of sample.
@@ -84,8 +84,8 @@ impl SmallWheel {
 }
 
 impl WheelSoilModel for SmallWheel {
-    // Source: the single-wheel tests of Pavlov and Johnson (2022) to which the model was made, without the
-    // slip angle of 90°.
+    // Source: the single-wheel tests of Pavlov and Johnson (2022) to which the model was made,
+    // without the slip angle of 90°.
     fn domain(&self) -> Domain {
         Domain {
             depth: Span::at_most(0.95),
@@ -123,7 +123,8 @@ fn added_up(contact: &Contact, reaction: &Reaction, sinkage: f64) -> WheelForces
         + rear_mound(contact, pushed)
 }
 
-/// The contact, with the sinkage that skid adds counted once: by the model's term, where the soil has one.
+/// The contact, with the sinkage that skid adds counted once: by the model's term, where the soil
+/// has one.
 fn counted_once(contact: &Contact) -> Contact {
     let mut soil = contact.soil;
     if soil.small_wheel.sinkage.locked > 0.0 {
@@ -178,7 +179,8 @@ fn face_friction(contact: &Contact, load: &SideWallLoad) -> WheelForces {
     }
 }
 
-/// The bow wave in front of a skidding wheel: a wall of the rim's width and of the sinkage's height.
+/// The bow wave in front of a skidding wheel: a wall of the rim's width and of the sinkage's
+/// height.
 ///
 /// It acts against the hub's motion, at two thirds of the depth, and on the arc it has no lever
 /// about the axle.

@@ -68,8 +68,8 @@ struct RimMotion {
     forward: f64,
     /// v_y / |ω r_s| [-].
     lateral: f64,
-    /// The angle on either side of straight down at which the rim is as fast as the soil under it [rad],
-    /// cos θ = r_s ω / v_x; NaN where there is none.
+    /// The angle on either side of straight down at which the rim is as fast as the soil under it
+    /// [rad], cos θ = r_s ω / v_x; NaN where there is none.
     still: f64,
 }
 
@@ -146,8 +146,8 @@ impl StressLaw {
         }
     }
 
-    /// Whether the arc has no breaks ([`StressField::breaks`]) but the stress peak: the rim is faster than
-    /// the soil under it everywhere, and not nearly as slow where that matters.
+    /// Whether the arc has no breaks ([`StressField::breaks`]) but the stress peak: the rim is
+    /// faster than the soil under it everywhere, and not nearly as slow where that matters.
     #[inline(always)]
     pub(super) fn has_two_pieces(&self) -> bool {
         let margin = match self.shear {
@@ -211,7 +211,8 @@ impl StressLaw {
         .pressed()
     }
 
-    /// More than ∫ (τ_x sin θ + σ cos θ) dθ [Pa·rad] at this sinkage [m] and at all that are shallower.
+    /// More than ∫ (τ_x sin θ + σ cos θ) dθ [Pa·rad] at this sinkage [m] and at all that are
+    /// shallower.
     ///
     /// ```text
     /// σ (sin θ_f + sin |θ_r|) + (c + σ tan φ) (2 − cos θ_f − cos θ_r)      σ = K_σ hⁿ
@@ -305,14 +306,16 @@ impl MobilisedShear {
 /// isotropic     |τ| = (c + σ tan φ)(1 − e^(−|j|/K)), against the slip velocity
 /// ```
 ///
-/// The bounded law has |τ|² = (c + σ tan φ)² (1 − (1 − m_x²)(1 − m_y²)): within the strength, equal to it
-/// only where one axis is fully mobilised, and the anisotropic one where the wheel slips along one axis
-/// alone. A factor that sets in only beyond the strength would bend the stress within the arc.
+/// The bounded law has |τ|² = (c + σ tan φ)² (1 − (1 − m_x²)(1 − m_y²)): within the strength, equal
+/// to it only where one axis is fully mobilised, and the anisotropic one where the wheel slips
+/// along one axis alone. A factor that sets in only beyond the strength would bend the stress
+/// within the arc.
 ///
-/// A law is asked in two steps, so that the kernel can compute all exponentials of many wheels at once.
+/// A law is asked in two steps, so that the kernel can compute all exponentials of many wheels at
+/// once.
 pub(super) trait ShearLaw {
-    /// What e is raised to at a point: minus the displacements over their moduli [-]. A law with one
-    /// modulus has one of them twice.
+    /// What e is raised to at a point: minus the displacements over their moduli [-]. A law with
+    /// one modulus has one of them twice.
     fn decays(&self, slipping: &Slipping) -> [f64; 2];
 
     /// * `strength`: c + σ tan φ [Pa]
@@ -414,8 +417,9 @@ pub struct StressField {
     cohesion: f64,
 }
 
-/// A rim slightly faster than its hub is never as fast as the soil, but nearly so under the hub, where
-/// the slip velocity then turns; up to here [-], in hub speeds, too sharply for the isotropic law's rule.
+/// A rim slightly faster than its hub is never as fast as the soil, but nearly so under the hub,
+/// where the slip velocity then turns; up to here [-], in hub speeds, too sharply for the isotropic
+/// law's rule.
 const TURNS_UNDER_HUB: f64 = 1.25;
 
 impl StressField {
@@ -440,8 +444,8 @@ impl StressField {
         }
     }
 
-    /// Shear displacement of the soil against the rim since it entered [m], along and across, at an angle [rad]
-    /// on the rim; none outside the arc. Of a locked wheel it is infinite.
+    /// Shear displacement of the soil against the rim since it entered [m], along and across, at an
+    /// angle [rad] on the rim; none outside the arc. Of a locked wheel it is infinite.
     #[must_use]
     pub fn shear_displacement(&self, angle: f64) -> [f64; 2] {
         if (self.patch.exit..=self.patch.entry).contains(&angle) {
@@ -524,8 +528,8 @@ impl StressField {
         self.front_normal(self.front_height(point))
     }
 
-    /// The height over the rim's lowest point at which the rim before the peak has the stress of a point
-    /// [radii].
+    /// The height over the rim's lowest point at which the rim before the peak has the stress of a
+    /// point [radii].
     #[inline(always)]
     pub(super) fn front_height(&self, point: &RimPoint) -> f64 {
         let ContactPatch { entry, max_stress, exit } = self.patch;

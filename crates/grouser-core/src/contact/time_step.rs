@@ -2,8 +2,9 @@
 //!
 //! An engine of rigid bodies holds forces constant over a step Δt. The soil's change steeply with
 //! velocities: by their whole size within the rim's speed, and for wheels at rest, where they are
-//! those of dry friction, within next to nothing. Taken at the start of a step they would overshoot,
-//! so they are taken at its end (backward Euler), where the unknown is the wheels' motion *u*:
+//! those of dry friction, within next to nothing. Taken at the start of a step they would
+//! overshoot, so they are taken at its end (backward Euler), where the unknown is the wheels'
+//! motion *u*:
 //!
 //! ```text
 //! u = u° + Δt A f(u)                    u = (v_x, v_y, v_z, ω r_s) of every wheel
@@ -13,14 +14,14 @@
 //! ```
 //!
 //! *u°* is the motion at the end of the step without the soil, *h°* the sinkage at its start. The
-//! effective inverse mass *A* (Delassus matrix) [1/kg] says how forces change velocities: of a mechanism with Jacobians J_u, J_f and
-//! inertia M it is J_u M⁻¹ J_fᵀ. As Δt shrinks the reaction becomes the model's own; what a finite
-//! Δt adds is backward Euler's damping, of the order of Δt.
+//! effective inverse mass *A* (Delassus matrix) [1/kg] says how forces change velocities: of a
+//! mechanism with Jacobians J_u, J_f and inertia M it is J_u M⁻¹ J_fᵀ. As Δt shrinks the reaction
+//! becomes the model's own; what a finite Δt adds is backward Euler's damping, of the order of Δt.
 //!
 //! The models have no damping of their own, and without any a wheel would bounce on the soil as on
-//! a spring. The *sinkage damping* c lets all stresses grow with the rate of sinking, as in Hunt and
-//! Crossley (1975): there is no force without sinkage, no pull on a wheel that leaves, and no effect
-//! at rest.
+//! a spring. The *sinkage damping* c lets all stresses grow with the rate of sinking, as in Hunt
+//! and Crossley (1975): there is no force without sinkage, no pull on a wheel that leaves, and no
+//! effect at rest.
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
@@ -62,7 +63,8 @@ pub struct SteppingWheel<'a> {
 
 /// What decides the reaction of the soil over a step.
 ///
-/// Which force does the soil put on a locked wheel of 1.7 kg that is dragged along at 5 cm/s, over a step of 2 ms?
+/// Which force does the soil put on a locked wheel of 1.7 kg that is dragged along at 5 cm/s, over
+/// a step of 2 ms?
 ///
 /// ```
 /// use grouser_core::paper;
@@ -98,7 +100,8 @@ pub struct TimeStep<'a> {
     /// Below this speed [m/s] of rim and hub the stresses fade to none, in place of
     /// [`CREEP_SPEED`].
     pub rest_speed: f64,
-    /// Effective inverse mass (Delassus matrix), *A* [1/kg, 1/(kg·m)]: a row for each velocity, a column for each force.
+    /// Effective inverse mass (Delassus matrix), *A* [1/kg, 1/(kg·m)]: a row for each velocity, a
+    /// column for each force.
     pub inverse_mass: &'a DMatrix<f64>,
     /// Velocities at the end of the step without the soil, *u°* [m/s].
     pub free: &'a DVector<f64>,
@@ -137,7 +140,8 @@ impl TimeStep<'_> {
     /// The reaction of the soil on wheels that a mechanism couples.
     ///
     /// Newton's method, with the model's derivatives by differences and steps that are halved until
-    /// they lead nearer. Where none does, the nearest is taken, and `residual` says how near that is.
+    /// they lead nearer. Where none does, the nearest is taken, and `residual` says how near that
+    /// is.
     ///
     /// Wheels deeper than the axle have the forces of axle depth.
     #[must_use]

@@ -1,8 +1,10 @@
 //! Where a result is an extrapolation: a closed list of flags, each with its rule.
 //!
-//! A rule compares one number of a wheel, its motion or its result with the range in which the model, or the
-//! soil's constants, are known to hold. A result outside is still computed: it carries the rule's [`Flag`].
-//! Ranges are those of the model ([`WheelSoilModel::domain`](super::WheelSoilModel::domain)) and of the soil ([`Domain`](crate::soil::Domain)).
+//! A rule compares one number of a wheel, its motion or its result with the range in which the
+//! model, or the soil's constants, are known to hold. A result outside is still computed: it
+//! carries the rule's [`Flag`]. Ranges are those of the model
+//! ([`WheelSoilModel::domain`](super::WheelSoilModel::domain)) and of the soil
+//! ([`Domain`](crate::soil::Domain)).
 
 mod rules;
 mod situation;

@@ -3,8 +3,8 @@
 /// The most yaw by which a rover is turned towards its line [rad]: 45°. Source: ours.
 pub const MOST_CROSS_YAW: f64 = std::f64::consts::FRAC_PI_4;
 
-/// A yaw from which a rover is led to a line: its own, or where that is farther from the line than what leads back to it can
-/// turn the nose, the nearest that is not [rad].
+/// A yaw from which a rover is led to a line: its own, or where that is farther from the line than
+/// what leads back to it can turn the nose, the nearest that is not [rad].
 ///
 /// * `along`: yaw of a nose along the line [rad]
 pub(super) fn near_enough(yaw: f64, along: f64) -> f64 {

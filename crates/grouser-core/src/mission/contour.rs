@@ -10,8 +10,9 @@ use crate::terrain::Lie;
 use crate::units::Vec2;
 use crate::vehicle::RoverState;
 
-/// Ground less steep than this counts as so steep where a difference of heights becomes a distance from the contour, sin 1°
-/// [-]. Source: ours; on flatter ground a millimetre of height would be decimetres of way.
+/// Ground less steep than this counts as so steep where a difference of heights becomes a distance
+/// from the contour, sin 1° [-]. Source: ours; on flatter ground a millimetre of height would be
+/// decimetres of way.
 const LEAST_STEEPNESS: f64 = 0.0175;
 
 /// The line of one height, as a rover meets it with its footprint.
@@ -31,14 +32,15 @@ pub(super) struct Contour {
     side: f64,
     /// The yaw with which the rover sets out, [near enough](near_enough) to the contour [rad].
     start_yaw: f64,
-    /// Direction of the contour at the last look [rad], and how far that has turned since the leg began [rad].
+    /// Direction of the contour at the last look [rad], and how far that has turned since the leg
+    /// began [rad].
     direction: f64,
     turned: f64,
 }
 
 impl Contour {
-    /// The contour of a leg that begins here, followed the way that is nearer to the nose, backward to the tail. None on level
-    /// ground, and on a plane, whose contours are straight lines.
+    /// The contour of a leg that begins here, followed the way that is nearer to the nose, backward
+    /// to the tail. None on level ground, and on a plane, whose contours are straight lines.
     pub(super) fn of_leg(leg: &Leg, scenario: &Scenario, state: &RoverState) -> Option<Self> {
         if scenario.ground.is_plane() {
             return None;
@@ -53,7 +55,8 @@ impl Contour {
         Some(Self { height, side, start_yaw, direction, turned: 0.0 })
     }
 
-    /// Sees how far the contour has turned to where the rover is; how far it lies to the rover's left [m].
+    /// Sees how far the contour has turned to where the rover is; how far it lies to the rover's
+    /// left [m].
     pub(super) fn look(&mut self, scenario: &Scenario, state: &RoverState) -> f64 {
         let (lie, height) = scenario.ground_under(state);
         if let Some(direction) = lie.contour() {

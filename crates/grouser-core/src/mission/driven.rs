@@ -10,14 +10,15 @@ use crate::simulation::{CONTROL_PERIOD, LEAST_STEP, Outcome, Run, RunError};
 use crate::units::Vec2;
 use crate::vehicle::RoverState;
 
-/// A manoeuvre ends this near to its end [m], [rad], [s]. Source: ours; far below what a rover measures.
+/// A manoeuvre ends this near to its end [m], [rad], [s]. Source: ours; far below what a rover
+/// measures.
 const CLOSE: f64 = 1e-7;
-/// Without a limit of time a manoeuvre may take so many times as long as without slip, and a minute more. Source: ours; at
-/// a slip ratio of 0.95 a rover is twenty times as slow.
+/// Without a limit of time a manoeuvre may take so many times as long as without slip, and a minute
+/// more. Source: ours; at a slip ratio of 0.95 a rover is twenty times as slow.
 const SLOWEST: f64 = 20.0;
 const MINUTE: f64 = 60.0;
-/// A rover turns on the spot from this share of the rate that its sides would give on rigid ground on [-]: below, it shifts.
-/// Source: ours; on sand the share is a quarter.
+/// A rover turns on the spot from this share of the rate that its sides would give on rigid ground
+/// on [-]: below, it shifts. Source: ours; on sand the share is a quarter.
 const TURNS: f64 = 0.05;
 /// The longest time for which wheels are expected to keep their speeds [s]. Source: ours.
 const LONGEST_STRETCH: f64 = 3600.0;
@@ -40,7 +41,8 @@ pub(super) enum Goal {
     Rims(f64),
     /// A yaw [rad], and the fastest that the rover may turn towards it [rad/s].
     Yaw { yaw: f64, fastest: f64 },
-    /// A yaw at the end of an arc [rad], the turn that leads there [rad], and the way of the arc [m].
+    /// A yaw at the end of an arc [rad], the turn that leads there [rad], and the way of the arc
+    /// [m].
     Arc { yaw: f64, angle: f64, way: f64 },
     /// A place, how near is near enough [m], and the line that leads there.
     Place { place: Vec2, within: f64, line: Line },
@@ -66,8 +68,8 @@ pub(super) struct Driven {
     yaw: Option<(YawWatch, Stop)>,
 }
 
-/// Yaw that a turn or an arc may lack, unless its leg says otherwise [rad]: 2°. Source: ours; what rovers measure of their
-/// heading after some minutes without the Sun.
+/// Yaw that a turn or an arc may lack, unless its leg says otherwise [rad]: 2°. Source: ours; what
+/// rovers measure of their heading after some minutes without the Sun.
 const MOST_SHORT: f64 = 2.0 * std::f64::consts::PI / 180.0;
 
 impl Driven {
@@ -237,7 +239,8 @@ impl Driven {
         End::Stopped(self.limits.stopped(Stop::above(Limited::OffPath, within), off))
     }
 
-    /// How a turn or an arc ends of which no more is to be expected: what it lacks may be little enough.
+    /// How a turn or an arc ends of which no more is to be expected: what it lacks may be little
+    /// enough.
     fn given_up(&mut self, run: &Run, seen: &RoverState) -> Option<End> {
         let ground = self.ground();
         let (watch, short) = self.yaw.as_mut()?;

@@ -10,10 +10,12 @@ use crate::vehicle::{Mount, RoverState, roll_and_pitch};
 /// Limits on a rover under way, and what is measured for them since the drive began.
 ///
 /// It drives nothing: whoever leads the [`Run`] has it [record](Self::record) the rover once a
-/// [control period](crate::simulation::CONTROL_PERIOD), and asks it what was [passed](Self::passed). A
-/// [`MissionRun`](super::MissionRun) and a [`PathRun`](super::PathRun) do so.
+/// [control period](crate::simulation::CONTROL_PERIOD), and asks it what was
+/// [passed](Self::passed). A [`MissionRun`](super::MissionRun) and a [`PathRun`](super::PathRun) do
+/// so.
 ///
-/// Straight across a slope of 10°, where is a rover stopped that must not drift more than 5 cm on a metre of its rims' way?
+/// Straight across a slope of 10°, where is a rover stopped that must not drift more than 5 cm on a
+/// metre of its rims' way?
 ///
 /// ```
 /// use grouser_core::paper;
@@ -57,7 +59,8 @@ pub(super) struct Known<'a> {
 impl Limits {
     /// Limits on a drive that begins where a run has come to.
     ///
-    /// * `stops`: in the order in which they are asked; of two that are passed at one look, the first counts
+    /// * `stops`: in the order in which they are asked; of two that are passed at one look, the
+    ///   first counts
     ///
     /// # Errors
     /// [`ParameterError`] for an invalid limit.
@@ -94,7 +97,8 @@ impl Limits {
 
     /// The same for one that takes itself to be at a place.
     ///
-    /// * `place`, `ground`: where that is [m], and its way over the ground since the drive began [m]
+    /// * `place`, `ground`: where that is [m], and its way over the ground since the drive began
+    ///   [m]
     pub(super) fn record_from(&mut self, run: &Run, place: Vec2, ground: f64) {
         let state = run.state();
         let at = RoverState { position: place, ..*state.rover() };
@@ -158,8 +162,8 @@ impl Limits {
         self.odometer.lay_anew(since);
     }
 
-    /// Largest sinkage over the shearing radius [-], largest torque [N·m] and largest current [A] of a wheel, if some limit
-    /// needs them.
+    /// Largest sinkage over the shearing radius [-], largest torque [N·m] and largest current [A]
+    /// of a wheel, if some limit needs them.
     fn of_wheels(&self, run: &Run) -> [f64; 3] {
         if !self.stops.iter().any(|stop| stop.limited.row().needs_wheels) {
             return [0.0; 3];
@@ -173,7 +177,8 @@ impl Limits {
     }
 }
 
-/// How the rover leans [rad]: as it stands on ground with heights, or on the plane by the yaw that it knows.
+/// How the rover leans [rad]: as it stands on ground with heights, or on the plane by the yaw that
+/// it knows.
 fn roll_and_pitch_of(run: &Run, yaw: f64) -> [f64; 2] {
     let standing = (!run.scenario().ground.is_plane()).then(|| run.now().standing()).flatten();
     match standing {

@@ -18,8 +18,8 @@ impl Ahead {
         Self { way, next: 0.0 }
     }
 
-    /// Looks ahead if that is due: every half of the way that is looked at. What is felt there, or what becomes of the
-    /// rover there, stops it here.
+    /// Looks ahead if that is due: every half of the way that is looked at. What is felt there, or
+    /// what becomes of the rover there, stops it here.
     pub(super) fn look(
         &mut self,
         run: &Run,

@@ -1,11 +1,13 @@
 //! What a rover knows of where it is: the truth, or what its sensors make of it.
 //!
-//! With [`Sensors`] a rover knows three things. Its heading, measured once in a while, late and with noise. The turns of its
-//! rims. And how far it came since the last fix of visual odometry, one of which it takes whenever the rims have gone so
-//! far. Between two fixes it reckons on: that a metre of its rims brings it as far along and across its nose as before.
+//! With [`Sensors`] a rover knows three things. Its heading, measured once in a while, late and
+//! with noise. The turns of its rims. And how far it came since the last fix of visual odometry,
+//! one of which it takes whenever the rims have gone so far. Between two fixes it reckons on: that
+//! a metre of its rims brings it as far along and across its nose as before.
 //!
-//! A fix over a way *d* errs by *q d* along it and as much across it, and is turned by the error of the heading, *σ_γ*. Errors of fixes
-//! add up and nothing takes them back, so that after a way *L* the place is uncertain across it by
+//! A fix over a way *d* errs by *q d* along it and as much across it, and is turned by the error of
+//! the heading, *σ_γ*. Errors of fixes add up and nothing takes them back, so that after a way *L*
+//! the place is uncertain across it by
 //!
 //! ```text
 //! σ(L) = √(L d (q² + σ_γ²))
@@ -32,7 +34,8 @@ pub struct Sensors {
     pub heading_interval: f64,
     /// How old a heading is when it is known [s].
     pub heading_delay: f64,
-    /// Standard deviation of a fix along the way since the last one, and across it, over that way, *q* [-].
+    /// Standard deviation of a fix along the way since the last one, and across it, over that way,
+    /// *q* [-].
     pub odometry_deviation: f64,
     /// Way of the rims between two fixes [m].
     pub odometry_interval: f64,
@@ -76,7 +79,8 @@ struct Sensed {
     /// The last fix, and the way over the ground as it was known then [m].
     fix: Fix,
     ground: f64,
-    /// Since the last fix: way of the rims, whichever way they turn, and forward [m]; and the place by reckoning.
+    /// Since the last fix: way of the rims, whichever way they turn, and forward [m]; and the place
+    /// by reckoning.
     rims: f64,
     forward: f64,
     reckoned: Vec2,
@@ -85,11 +89,13 @@ struct Sensed {
     fixes: Vec<Fix>,
 }
 
-/// A shorter way of the rims since a fix says nothing of what they bring [m]. Source: ours; a turn on the spot.
+/// A shorter way of the rims since a fix says nothing of what they bring [m]. Source: ours; a turn
+/// on the spot.
 const SAYS_NOTHING: f64 = 0.05;
 
 impl Sensors {
-    /// Standard deviation across a way of what the rover knows of its place after it [m]: the closed form.
+    /// Standard deviation across a way of what the rover knows of its place after it [m]: the
+    /// closed form.
     ///
     /// * `way`: *L* [m]
     #[must_use]
@@ -140,7 +146,8 @@ impl Navigator {
         self.sensed.map_or(Vec::new(), |sensed| sensed.fixes)
     }
 
-    /// Looks at a rover whose rims had the same speeds since the last look [m/s]; how far it really came [m].
+    /// Looks at a rover whose rims had the same speeds since the last look [m/s]; how far it really
+    /// came [m].
     pub(super) fn look(
         &mut self,
         time: f64,
@@ -205,7 +212,8 @@ impl Sensed {
         }
     }
 
-    /// The heading as it is known [rad]: of a while ago, and with the error of the last measurement.
+    /// The heading as it is known [rad]: of a while ago, and with the error of the last
+    /// measurement.
     fn yaw(&mut self, time: f64) -> f64 {
         let known = time - self.sensors.heading_delay;
         while self.coming.get(1).is_some_and(|(of, _)| *of <= known) {

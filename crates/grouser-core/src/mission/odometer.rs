@@ -70,8 +70,8 @@ impl Odometer {
         }
     }
 
-    /// Lays what was seen since some way of the rims [m] anew, evenly from there to what is known now: between two fixes a
-    /// rover only reckoned.
+    /// Lays what was seen since some way of the rims [m] anew, evenly from there to what is known
+    /// now: between two fixes a rover only reckoned.
     pub(super) fn lay_anew(&mut self, since: f64) {
         let now = self.now;
         let first = self.marks.partition_point(|mark| mark.rims <= since);

@@ -9,17 +9,18 @@ use crate::error::{ParameterError, positive};
 use crate::simulation::{CONTROL_PERIOD, Run, RunError};
 use crate::units::Vec2;
 
-/// A run of a rover that is to follow a path, as far as it has come: a [`Run`] that is led by one command after the other,
-/// and ends at the end of the path, or where a limit is passed.
+/// A run of a rover that is to follow a path, as far as it has come: a [`Run`] that is led by one
+/// command after the other, and ends at the end of the path, or where a limit is passed.
 ///
-/// After every control period the [`Limits`] are looked at, as in a mission, and the rover stays where the first one was
-/// passed. The path is completed where its end is as near as [`PathTask::within`]; a rover that went past it further off is
-/// stopped by the limit on the distance from the path, as on its way to a waypoint of a mission.
+/// After every control period the [`Limits`] are looked at, as in a mission, and the rover stays
+/// where the first one was passed. The path is completed where its end is as near as
+/// [`PathTask::within`]; a rover that went past it further off is stopped by the limit on the
+/// distance from the path, as on its way to a waypoint of a mission.
 ///
 /// A clone goes on as the original would, bit for bit.
 ///
-/// With one speed for all wheels straight across a slope of 10°, when does a limit of 5 cm on the distance from the path stop
-/// a rover?
+/// With one speed for all wheels straight across a slope of 10°, when does a limit of 5 cm on the
+/// distance from the path stop a rover?
 ///
 /// ```
 /// use grouser_core::paper;
@@ -68,11 +69,13 @@ pub struct PathTask {
     pub stops: Vec<Stop>,
 }
 
-/// A rover as near as this beside the end of its path is past it [m]. Source: ours; far below what a rover measures.
+/// A rover as near as this beside the end of its path is past it [m]. Source: ours; far below what
+/// a rover measures.
 const CLOSE: f64 = 1e-7;
-/// The nearest point of the path moves by at most so many times what the rover moved and was off the path [-]. Source:
-/// ours. In a corner of 90° a rover that cuts it by *e* passes over a way of 2 *e* along the path at once; parts of the path
-/// that lead back beside it are further away along it.
+/// The nearest point of the path moves by at most so many times what the rover moved and was off
+/// the path [-]. Source: ours. In a corner of 90° a rover that cuts it by *e* passes over a way of
+/// 2 *e* along the path at once; parts of the path that lead back beside it are further away along
+/// it.
 const FURTHEST: f64 = 2.0;
 
 impl PathRun {
@@ -91,8 +94,8 @@ impl PathRun {
         Ok(Self { run, follower: Follower { task, limits, beside, last: place, outcome } })
     }
 
-    /// Turns the wheels at the given speeds for a while, or until the path or the run ends. A rover whose
-    /// [`outcome`](Self::outcome) is known stays as it is.
+    /// Turns the wheels at the given speeds for a while, or until the path or the run ends. A rover
+    /// whose [`outcome`](Self::outcome) is known stays as it is.
     ///
     /// * `rim_speeds`, `span`: as in [`Run::step`]
     ///
@@ -127,8 +130,9 @@ impl PathRun {
         self.follower.outcome.as_ref()
     }
 
-    /// Where the rover is beside its path. As the path may come near to itself, the nearest point is sought no further along
-    /// it from the last one than twice what the rover moved since then and was off the path.
+    /// Where the rover is beside its path. As the path may come near to itself, the nearest point
+    /// is sought no further along it from the last one than twice what the rover moved since then
+    /// and was off the path.
     #[must_use]
     pub fn beside(&self) -> BesideRoute {
         self.follower.beside
@@ -146,7 +150,8 @@ impl PathRun {
         self.follower.left()
     }
 
-    /// The place on the path after a further way along it, seen from the rover: in the body frame [m].
+    /// The place on the path after a further way along it, seen from the rover: in the body frame
+    /// [m].
     ///
     /// * `way`: along the path from where the rover is beside it [m]; the end stays where it is
     #[must_use]

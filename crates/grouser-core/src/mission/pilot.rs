@@ -1,8 +1,8 @@
 //! What turns the wheels in a manoeuvre.
 //!
-//! A drive that holds nothing leaves the wheels to the leg's law of drive. All else is closed on the yaw: a cascade of two proportional-integral
-//! laws, the outer from the distance to a line to the yaw that is wanted, the inner from the yaw to the difference of
-//! speeds between the sides.
+//! A drive that holds nothing leaves the wheels to the leg's law of drive. All else is closed on
+//! the yaw: a cascade of two proportional-integral laws, the outer from the distance to a line to
+//! the yaw that is wanted, the inner from the yaw to the difference of speeds between the sides.
 //!
 //! ```text
 //! γ_set = γ_0 + K_y e + I_y ∫ e dt        e: how far the line lies to the left of the rover's way
@@ -10,9 +10,10 @@
 //! v_i   = ± v_drive,i − w y_i
 //! ```
 //!
-//! Where the ground bends a contour leg follows the line of the height at which it began ([`Contour`]), and γ_0 turns with it.
-//! Where wheels crab, the outer law sets their steering angle δ in place of γ_set, and the inner one holds the yaw. On an arc
-//! with steered wheels *w* sets the circle that their axles point to the centre of, and rims are as fast as the hubs on it.
+//! Where the ground bends a contour leg follows the line of the height at which it began
+//! ([`Contour`]), and γ_0 turns with it. Where wheels crab, the outer law sets their steering angle
+//! δ in place of γ_set, and the inner one holds the yaw. On an arc with steered wheels *w* sets the
+//! circle that their axles point to the centre of, and rims are as fast as the hubs on it.
 
 use super::angles::{MOST_CROSS_YAW, near_enough, turned};
 use super::contour::Contour;
@@ -27,20 +28,22 @@ use crate::vehicle::drive::slip_limited;
 use crate::vehicle::kinematics::{wheel_slips, wheel_velocity};
 use crate::vehicle::{DriveLaw, Mount, RoverState};
 
-/// Yaw rate that is asked for, per error of the yaw, *K_γ* [1/s]. Source: ours; a skid-steered rover on sand turns with
-/// about half the rate that its sides would give on rigid ground, so an error fades in some 4 s.
+/// Yaw rate that is asked for, per error of the yaw, *K_γ* [1/s]. Source: ours; a skid-steered
+/// rover on sand turns with about half the rate that its sides would give on rigid ground, so an
+/// error fades in some 4 s.
 pub const YAW_GAIN: f64 = 0.5;
 /// The same per error and time, *I_γ* [1/s²]. Source: ours, slow beside [`YAW_GAIN`].
 pub const YAW_INTEGRAL: f64 = 0.05;
-/// Yaw that is asked for, per distance from the line, *K_y* [rad/m]. Source: ours; at 5 cm/s a distance fades in 10 s, more
-/// than twice slower than the yaw follows.
+/// Yaw that is asked for, per distance from the line, *K_y* [rad/m]. Source: ours; at 5 cm/s a
+/// distance fades in 10 s, more than twice slower than the yaw follows.
 pub const CROSS_TRACK_GAIN: f64 = 2.0;
-/// The same per distance and time, *I_y* [rad/(m s)]. Source: ours; with [`CROSS_TRACK_GAIN`] the damping ratio at 5 cm/s,
-/// *K_y* √(*v* / *I_y*) / 2, is 1: what a slope asks for is learnt in half a minute, without overshoot.
+/// The same per distance and time, *I_y* [rad/(m s)]. Source: ours; with [`CROSS_TRACK_GAIN`] the
+/// damping ratio at 5 cm/s, *K_y* √(*v* / *I_y*) / 2, is 1: what a slope asks for is learnt in half
+/// a minute, without overshoot.
 pub const CROSS_TRACK_INTEGRAL: f64 = 0.05;
 
-/// The most that a side is slowed down or sped up on the way, over the speed of the rims [-]. Source: ours; wheels never
-/// turn backward in a drive.
+/// The most that a side is slowed down or sped up on the way, over the speed of the rims [-].
+/// Source: ours; wheels never turn backward in a drive.
 const MOST_STEER: f64 = 0.75;
 
 /// Turns the wheels in one manoeuvre.
@@ -258,7 +261,8 @@ impl Pilot {
         matches!(self.law, Law::Free) && !self.drive.varies()
     }
 
-    /// Yaw rate that the sides would give on rigid ground [rad/s], and speed along the body's x axis [m/s].
+    /// Yaw rate that the sides would give on rigid ground [rad/s], and speed along the body's x
+    /// axis [m/s].
     fn rate_and_speed(
         &mut self,
         scenario: &Scenario,
@@ -413,7 +417,8 @@ pub(super) fn line_of(leg: &Leg, scenario: &Scenario, state: &RoverState) -> Lin
     Line { from, along, yaw: near_enough(yaw, nose) }
 }
 
-/// The yaw, less than half a turn away, at which the nose points to a place, or the tail where the direction is -1 [rad].
+/// The yaw, less than half a turn away, at which the nose points to a place, or the tail where the
+/// direction is -1 [rad].
 fn yaw_towards(place: Vec2, state: &RoverState, direction: f64) -> f64 {
     let ahead = direction * (place - state.position);
     state.yaw + turned(atan2(ahead.y, ahead.x) - state.yaw)

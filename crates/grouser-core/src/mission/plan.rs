@@ -10,8 +10,8 @@ use crate::vehicle::{DriveLaw, Rover};
 
 /// A rover on its ground, and the legs that it is to drive there.
 ///
-/// How far does a rover come, and where does it end, that drives two metres across a slope of 10°, turns by 90° to its
-/// left on the spot and goes back a metre?
+/// How far does a rover come, and where does it end, that drives two metres across a slope of 10°,
+/// turns by 90° to its left on the spot and goes back a metre?
 ///
 /// ```
 /// use grouser_core::paper;
@@ -32,8 +32,8 @@ use crate::vehicle::{DriveLaw, Rover};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mission {
-    /// Rover, ground, model, and how the run is computed. Of its start, the yaw holds where the first leg has none; its
-    /// drive and its duration count for nothing.
+    /// Rover, ground, model, and how the run is computed. Of its start, the yaw holds where the
+    /// first leg has none; its drive and its duration count for nothing.
     pub scenario: Scenario,
     /// The legs, in their order.
     pub legs: Vec<Leg>,
@@ -48,10 +48,11 @@ pub struct Mission {
 pub struct Leg {
     /// What the rover does.
     pub manoeuvre: Manoeuvre,
-    /// Speeds of the rims: as for a drive forward, the manoeuvre says which way they turn. On the spot and back out it
-    /// turns its wheels at the [fastest](Self::speed) of them.
+    /// Speeds of the rims: as for a drive forward, the manoeuvre says which way they turn. On the
+    /// spot and back out it turns its wheels at the [fastest](Self::speed) of them.
     pub drive: DriveLaw,
-    /// The yaw, *γ* [rad], before the manoeuvre: that of the start for a first leg, turned to on the spot for another.
+    /// The yaw, *γ* [rad], before the manoeuvre: that of the start for a first leg, turned to on
+    /// the spot for another.
     pub yaw: Option<f64>,
     /// What is held on the way.
     pub heading: Heading,
@@ -59,7 +60,8 @@ pub struct Leg {
     pub steering: Steering,
     /// Limits of this leg alone.
     pub stops: Vec<Stop>,
-    /// How far ahead the way is simulated before it is driven [m]: where a limit would be passed, the rover stops before.
+    /// How far ahead the way is simulated before it is driven [m]: where a limit would be passed,
+    /// the rover stops before.
     pub look_ahead: Option<f64>,
 }
 
@@ -121,16 +123,18 @@ pub enum Heading {
     Free,
     /// The yaw with which the leg began.
     Hold,
-    /// The height on the slope at which the leg began: the nose is turned uphill as far as that needs.
+    /// The height on the slope at which the leg began: the nose is turned uphill as far as that
+    /// needs.
     Contour,
     /// The nose towards a place [m], or the tail where it drives backward.
     Toward(Vec2),
-    /// The yaw and the line with which the leg began: the sides hold the yaw, and all wheels that are steered turn uphill
-    /// together as far as the line needs. Along the contour, the body lies along it and wheels crab; to a place, they point
-    /// there, without a turn of the nose, as far as their limits allow.
+    /// The yaw and the line with which the leg began: the sides hold the yaw, and all wheels that
+    /// are steered turn uphill together as far as the line needs. Along the contour, the body lies
+    /// along it and wheels crab; to a place, they point there, without a turn of the nose, as far
+    /// as their limits allow.
     Crab {
-        /// Crab angle with which the leg begins, *δ* [rad], positive to the left, on the way to a place from the direction in
-        /// which it lies.
+        /// Crab angle with which the leg begins, *δ* [rad], positive to the left, on the way to a
+        /// place from the direction in which it lies.
         angle: f64,
     },
 }
@@ -141,8 +145,9 @@ pub enum Steering {
     /// The speeds of its sides: wheels slip sideways.
     #[default]
     Sides,
-    /// Wheels that are steered: the axle of each points to the centre of the circle, and rims are as fast as their distances
-    /// from there (Ackermann). Where some wheels are not steered, the centre lies beside the middle of these.
+    /// Wheels that are steered: the axle of each points to the centre of the circle, and rims are
+    /// as fast as their distances from there (Ackermann). Where some wheels are not steered, the
+    /// centre lies beside the middle of these.
     Ackermann,
 }
 
@@ -171,7 +176,8 @@ impl Manoeuvre {
         Self::Drive { distance, by: Measure::Ground }
     }
 
-    /// Which way the wheels turn: 1 forward, -1 backward, 0 where they stand or turn against each other.
+    /// Which way the wheels turn: 1 forward, -1 backward, 0 where they stand or turn against each
+    /// other.
     #[must_use]
     pub fn direction(&self) -> f64 {
         let backward = match self {

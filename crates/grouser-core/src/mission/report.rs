@@ -60,11 +60,11 @@ pub struct LegReport {
     pub energy: f64,
     /// What motors and battery took, with the turn before it, where motors are known.
     pub taken: Option<Taken>,
-    /// Slip ratio over the manoeuvre, 1 less the way over the ground by that of the rims [-]; of drives, arcs and ways to
-    /// places alone.
+    /// Slip ratio over the manoeuvre, 1 less the way over the ground by that of the rims [-]; of
+    /// drives, arcs and ways to places alone.
     pub slip_ratio: Option<f64>,
-    /// Yaw by which it really turned in an arc or a turn on the spot [rad], positive to the left; a turn to the leg's yaw before
-    /// it does not count.
+    /// Yaw by which it really turned in an arc or a turn on the spot [rad], positive to the left; a
+    /// turn to the leg's yaw before it does not count.
     pub turned: Option<f64>,
     /// The rover where it ended, before a way back out of it.
     pub end: RoverState,
@@ -92,10 +92,11 @@ pub struct BackOut {
 pub struct MissionReport {
     /// The legs that were begun.
     pub legs: Vec<LegReport>,
-    /// The rover over time: its last record is where the mission ended. A rover that was stopped has no outcome of its own,
-    /// and counts as completed there.
+    /// The rover over time: its last record is where the mission ended. A rover that was stopped
+    /// has no outcome of its own, and counts as completed there.
     pub trajectory: Trajectory,
-    /// Where the rover took itself to be, at each fix of its odometry; none of one that knows where it is.
+    /// Where the rover took itself to be, at each fix of its odometry; none of one that knows where
+    /// it is.
     pub fixes: Vec<Fix>,
 }
 
@@ -111,7 +112,8 @@ impl From<End> for LegOutcome {
 }
 
 impl LegReport {
-    /// Radius of the circle that was really driven [m]: the way over the ground by the turn; of drives that turned alone.
+    /// Radius of the circle that was really driven [m]: the way over the ground by the turn; of
+    /// drives that turned alone.
     #[must_use]
     pub fn radius(&self) -> Option<f64> {
         let turned = self.turned?.abs();
@@ -188,8 +190,8 @@ impl MissionReport {
         self.trajectory.last()
     }
 
-    /// The legs with their records, each from where the one before it ended; of a mission whose records were not taken on
-    /// the way.
+    /// The legs with their records, each from where the one before it ended; of a mission whose
+    /// records were not taken on the way.
     #[must_use]
     pub fn legs_with_records(&self) -> Vec<(&LegReport, &[Record])> {
         let records = &self.trajectory.records;
@@ -213,7 +215,8 @@ impl MissionReport {
         self.legs.iter().map(of_leg).sum()
     }
 
-    /// What motors and battery took in all legs, with the ways back out of them, where motors are known.
+    /// What motors and battery took in all legs, with the ways back out of them, where motors are
+    /// known.
     #[must_use]
     pub fn taken(&self) -> Option<Taken> {
         let back = |leg: &LegReport| leg.back_out.as_ref().and_then(|back| back.taken);

@@ -7,10 +7,11 @@ use crate::elementary::wide::{self, atan2};
 use crate::error::{ParameterError, finite, positive};
 use crate::units::Vec2;
 
-/// A path in the slope frame, from its start to its end: straight from waypoint to waypoint, or an arc.
+/// A path in the slope frame, from its start to its end: straight from waypoint to waypoint, or an
+/// arc.
 ///
-/// A place beside it has three numbers: how far along the path its nearest point is (along-track), how far to the left of
-/// that it lies (cross-track), and the heading of the path there.
+/// A place beside it has three numbers: how far along the path its nearest point is (along-track),
+/// how far to the left of that it lies (cross-track), and the heading of the path there.
 ///
 /// Half a metre below a path that turns from the contour straight uphill, a metre and a half along:
 ///
@@ -34,7 +35,8 @@ pub struct Route {
 pub struct BesideRoute {
     /// Along-track: the path's length from its start to the point that is nearest to the place [m].
     pub along: f64,
-    /// Cross-track: how far the place is from that point [m], positive to the left of one who goes along the path.
+    /// Cross-track: how far the place is from that point [m], positive to the left of one who goes
+    /// along the path.
     pub cross_track: f64,
     /// Heading of the path there [rad], as a yaw: 0 along the contour, positive uphill.
     pub heading: f64,
@@ -54,7 +56,8 @@ struct Piece {
 enum Shape {
     /// From a place in a direction of length 1.
     Straight { start: Vec2, along: Vec2 },
-    /// Around a centre, from a direction there [rad]; `side` is 1 for a turn to the left, -1 for one to the right.
+    /// Around a centre, from a direction there [rad]; `side` is 1 for a turn to the left, -1 for
+    /// one to the right.
     Arc { centre: Vec2, radius: f64, from: f64, side: f64 },
 }
 
@@ -64,7 +67,8 @@ impl Route {
     /// * `places`: two or more, in the slope frame [m]
     ///
     /// # Errors
-    /// [`ParameterError`] for fewer, for places that are not finite, and for one that repeats the place before it.
+    /// [`ParameterError`] for fewer, for places that are not finite, and for one that repeats the
+    /// place before it.
     pub fn through(places: &[Vec2]) -> Result<Self, ParameterError> {
         for place in places {
             finite("x of a waypoint [m]", place.x)?;
@@ -116,8 +120,8 @@ impl Route {
         last.before + last.length
     }
 
-    /// The place on it after a way along it, and its heading there [rad]; that of its start before it, that of its end
-    /// after it.
+    /// The place on it after a way along it, and its heading there [rad]; that of its start before
+    /// it, that of its end after it.
     ///
     /// * `along`: the way from its start [m]
     #[must_use]
@@ -127,7 +131,8 @@ impl Route {
         piece.at((along - piece.before).clamp(0.0, piece.length))
     }
 
-    /// Where a place is beside the path, by the nearest point of some part of it; of several that are as near, the first.
+    /// Where a place is beside the path, by the nearest point of some part of it; of several that
+    /// are as near, the first.
     ///
     /// * `place`: in the slope frame [m]
     /// * `part`: from which way along the path to which [m]
@@ -177,7 +182,8 @@ impl Piece {
             Shape::Arc { centre, radius, from: first, side } => {
                 let away = place - centre;
                 let turned = side * (atan2(away.y, away.x) - first) - from / radius;
-                // The first place after `from` in that direction: an arc may go round more than once.
+                // The first place after `from` in that direction: an arc may go round more than
+                // once.
                 let foot = from + radius * turned.rem_euclid(TAU);
                 if foot > to { from } else { foot }
             }
@@ -207,7 +213,8 @@ mod tests {
         Route::through(&places.map(|[x, y]| Vec2::new(x, y))).expect("a path")
     }
 
-    /// Closed forms: feet on the pieces, a corner from outside, places before the start and beyond the end.
+    /// Closed forms: feet on the pieces, a corner from outside, places before the start and beyond
+    /// the end.
     #[test]
     fn places_beside_straight_pieces_are_where_geometry_has_them() {
         let route = two_bends();
@@ -222,7 +229,8 @@ mod tests {
         check(&route, [3.5 + 0.08, 3.0 - 0.06], [5.5, -0.1, f64::atan2(4.0, 3.0)]);
     }
 
-    /// Closed form: on a circle around (0, 2), left of the rover, the distance is that to the centre less the radius.
+    /// Closed form: on a circle around (0, 2), left of the rover, the distance is that to the
+    /// centre less the radius.
     #[test]
     fn places_beside_an_arc_are_where_geometry_has_them() {
         let left = Route::arc(2.0, 0.0, PI).expect("an arc");

@@ -27,7 +27,8 @@ pub struct MissionRun {
 
 /// A turn on the spot to the yaw of a leg is left out below this [rad]: 0.1°. Source: ours.
 const SAME_YAW: f64 = 1.75e-3;
-/// A rover turns on the spot towards a place that is further off its nose than this [rad]: 15°. Source: ours.
+/// A rover turns on the spot towards a place that is further off its nose than this [rad]: 15°.
+/// Source: ours.
 const OFF_NOSE: f64 = 0.262;
 
 /// So many records are looked at together. Source: ours; some megabytes.
@@ -87,8 +88,9 @@ impl MissionRun {
         self.next_leg_watched(&mut |_| false)
     }
 
-    /// The same, with someone who looks at the records as they come: if they say that they have taken them, they are not
-    /// kept, so that a mission of weeks needs no more memory than one of minutes.
+    /// The same, with someone who looks at the records as they come: if they say that they have
+    /// taken them, they are not kept, so that a mission of weeks needs no more memory than one of
+    /// minutes.
     ///
     /// * `watch`: gets the records since it last took them, some at a time
     ///
@@ -128,8 +130,8 @@ impl MissionRun {
         self.run.state().time()
     }
 
-    /// How the motion was computed so far: where no steady motion was found in one manoeuvre, the next one seeks it again,
-    /// and this says why it was not found first.
+    /// How the motion was computed so far: where no steady motion was found in one manoeuvre, the
+    /// next one seeks it again, and this says why it was not found first.
     #[must_use]
     pub fn method(&self) -> &Method {
         self.fell_back.as_ref().unwrap_or_else(|| self.run.state().method())

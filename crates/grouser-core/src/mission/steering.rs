@@ -4,8 +4,9 @@ use crate::units::Vec2;
 use crate::vehicle::kinematics::rolling_angle;
 use crate::vehicle::{Mount, Rover, RoverState};
 
-/// The velocities of a rover that goes forward and turns about a centre beside it [m/s], [rad/s]: beside the middle of the
-/// wheels that are not steered, so that these roll, or beside its own where all are.
+/// The velocities of a rover that goes forward and turns about a centre beside it [m/s], [rad/s]:
+/// beside the middle of the wheels that are not steered, so that these roll, or beside its own
+/// where all are.
 ///
 /// * `forward`, `rate`: speed along the body [m/s], and yaw rate [rad/s]
 pub(super) fn ackermann_motion(rover: &Rover, [forward, rate]: [f64; 2]) -> RoverState {
@@ -17,7 +18,8 @@ pub(super) fn ackermann_motion(rover: &Rover, [forward, rate]: [f64; 2]) -> Rove
     RoverState { velocity, yaw_rate: rate, ..RoverState::default() }
 }
 
-/// Steering angles at which the axles of all wheels that are steered point to the centre of a turn [rad].
+/// Steering angles at which the axles of all wheels that are steered point to the centre of a turn
+/// [rad].
 ///
 /// * `forward`, `rate`: as for [`ackermann_motion`]
 pub(super) fn ackermann_angles(rover: &Rover, motion: [f64; 2]) -> Vec<f64> {

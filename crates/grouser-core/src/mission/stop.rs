@@ -6,15 +6,17 @@ use crate::vehicle::{Mount, Rover};
 
 /// A limit on one number.
 ///
-/// A number over a distance is of the last metres that the *rims* went in this leg, so that a rover which stands on
-/// spinning wheels is stopped, too; until they have gone so far, and in turns and waits, it has no value.
+/// A number over a distance is of the last metres that the *rims* went in this leg, so that a rover
+/// which stands on spinning wheels is stopped, too; until they have gone so far, and in turns and
+/// waits, it has no value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {
     /// The number.
     pub limited: Limited,
     /// The rover stops above it, in SI units.
     pub above: f64,
-    /// The way of the rims over which it is taken [m], for those that are of a [way](Limited::is_of_a_way).
+    /// The way of the rims over which it is taken [m], for those that are of a
+    /// [way](Limited::is_of_a_way).
     pub over: f64,
     /// What comes next.
     pub then: Then,

@@ -1,17 +1,19 @@
 //! A turn on the spot that keeps its place.
 //!
-//! A skid-steered rover that turns creeps: on sand the sides do not share the turn evenly (more slip gives no more thrust, so
-//! one side digs and the other walks), and on a slope its spinning wheels hold it less against the weight across them.
-//! Neither can be steered away while it turns. So it turns for a while, and shifts along its nose for a while, towards the
-//! place *s* along *e* that minimises
+//! A skid-steered rover that turns creeps: on sand the sides do not share the turn evenly (more
+//! slip gives no more thrust, so one side digs and the other walks), and on a slope its spinning
+//! wheels hold it less against the weight across them. Neither can be steered away while it turns.
+//! So it turns for a while, and shifts along its nose for a while, towards the place *s* along *e*
+//! that minimises
 //!
 //! ```text
 //! [n_f · (p + s e + D)]² + ε [e · (p + s e)]²
 //! ```
 //!
-//! with *p* the way off its place, *n_f* across the nose at the end of the turn, along which it could not come back then,
-//! and *D* the drift to come, ∫ c cos γ (sin γ, −cos γ) |dγ|: down the slope across the nose, as much as was seen so far, with
-//! γ and *D* counted from the contour under the rover.
+//! with *p* the way off its place, *n_f* across the nose at the end of the turn, along which it
+//! could not come back then, and *D* the drift to come, ∫ c cos γ (sin γ, −cos γ) |dγ|: down the
+//! slope across the nose, as much as was seen so far, with γ and *D* counted from the contour under
+//! the rover.
 
 use crate::elementary::wide;
 use crate::units::Vec2;
@@ -22,11 +24,11 @@ use crate::vehicle::state::rotation;
 const TRIGGER: f64 = 0.015;
 /// What counts the way off the place now beside that at the end, *ε* [-]. Source: ours.
 const NOW: f64 = 0.3;
-/// A shift leads no further off the place than this [m]. Source: ours; more would be nearer at the end and further off
-/// on the way.
+/// A shift leads no further off the place than this [m]. Source: ours; more would be nearer at the
+/// end and further off on the way.
 const FARTHEST: f64 = 0.12;
-/// Drift per turn that is expected before any was seen, over the sine of the slope, *c* [m/rad], and the turn that this
-/// counts for [rad]. Source: ours, of a rover of 0.5 m on sand.
+/// Drift per turn that is expected before any was seen, over the sine of the slope, *c* [m/rad],
+/// and the turn that this counts for [rad]. Source: ours, of a rover of 0.5 m on sand.
 const EXPECTED_DRIFT: f64 = 1.0;
 const EXPECTED_COUNTS: f64 = 0.05;
 
@@ -51,7 +53,8 @@ impl Turn {
         Self { yaw, place, shift: 0.0, last, drift: 0.0, judged: 0.0 }
     }
 
-    /// Yaw rate that the sides would give on rigid ground [rad/s], and speed along the body's x axis [m/s].
+    /// Yaw rate that the sides would give on rigid ground [rad/s], and speed along the body's x
+    /// axis [m/s].
     ///
     /// * `steepness`: sine of the slope [-], as an inclinometer has it
     /// * `contour`: direction of the contour with uphill to its left [rad], if the ground has one

@@ -1,18 +1,21 @@
 //! Whether a turn or an arc still gets on with its yaw.
 //!
-//! A rover on soil turns by less than its wheels would turn it on rigid ground, on steep or soft ground not at all. So an arc
-//! or a turn goes on until its yaw is reached, and this says when that is no longer to be expected.
+//! A rover on soil turns by less than its wheels would turn it on rigid ground, on steep or soft
+//! ground not at all. So an arc or a turn goes on until its yaw is reached, and this says when that
+//! is no longer to be expected.
 
 use super::stop::Stopped;
 
-/// An arc falls short after so many times its own way [-]. Source: ours; with half of the turn that its wheels would give on
-/// rigid ground, usual of skid-steered rovers on sand, an arc is just completed.
+/// An arc falls short after so many times its own way [-]. Source: ours; with half of the turn that
+/// its wheels would give on rigid ground, usual of skid-steered rovers on sand, an arc is just
+/// completed.
 const MOST_WAYS: f64 = 2.0;
-/// A yaw that turned by less than this share of the turn that wheels would give on rigid ground stands still [-]. Source: ours, as
-/// of the [progress](crate::simulation::watch::LEAST_PROGRESS) of a rover that is stuck.
+/// A yaw that turned by less than this share of the turn that wheels would give on rigid ground
+/// stands still [-]. Source: ours, as of the [progress](crate::simulation::watch::LEAST_PROGRESS)
+/// of a rover that is stuck.
 const STILL: f64 = 0.01;
-/// The shortest time over which that is asked [s]. Source: ours; a rover that shifts back to its place in a turn, at a slip ratio of
-/// 0.9, needs a third of it, and does not turn meanwhile.
+/// The shortest time over which that is asked [s]. Source: ours; a rover that shifts back to its
+/// place in a turn, at a slip ratio of 0.9, needs a third of it, and does not turn meanwhile.
 const LEAST_WINDOW: f64 = 60.0;
 
 /// How far a turn or an arc fell short of its yaw.
@@ -84,7 +87,8 @@ pub(super) struct Planned {
     pub(super) to: f64,
     /// Way of an arc [m].
     pub(super) way: Option<f64>,
-    /// When it starts [s], how long it would take without slip [s], and how long it may take at most [s].
+    /// When it starts [s], how long it would take without slip [s], and how long it may take at
+    /// most [s].
     pub(super) start: f64,
     pub(super) nominal: f64,
     pub(super) longest: f64,

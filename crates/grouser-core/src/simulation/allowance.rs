@@ -5,15 +5,16 @@ use std::cell::Cell;
 use super::watch::WATCH_PERIOD;
 use super::work::Work;
 
-/// Evaluations of the equations of motion and steps together that may be spent between two looks of the watch,
-/// [`WATCH_PERIOD`] apart [-].
+/// Evaluations of the equations of motion and steps together that may be spent between two looks of
+/// the watch, [`WATCH_PERIOD`] apart [-].
 ///
-/// A run that needs more of them ends with an error: steps in time or strides over the ground have become so short that
-/// it would not end otherwise. Source: ours; of the first random rovers, soils, grounds and commands the hardest took 2,100.
+/// A run that needs more of them ends with an error: steps in time or strides over the ground have
+/// become so short that it would not end otherwise. Source: ours; of the first random rovers,
+/// soils, grounds and commands the hardest took 2,100.
 pub const MOST_EVALUATIONS: u64 = 100_000;
 
-/// A failed evaluation counts as so many more [-]: it tried everything before it gave up. Source: ours; on warped
-/// ground, a search for loads in vain takes some hundred searches for sinkages.
+/// A failed evaluation counts as so many more [-]: it tried everything before it gave up. Source:
+/// ours; on warped ground, a search for loads in vain takes some hundred searches for sinkages.
 const OF_A_FAILURE: u64 = 100;
 
 /// What may still be computed until the next look of the watch.

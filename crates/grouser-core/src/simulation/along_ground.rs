@@ -1,9 +1,11 @@
-//! Quasi-steady motion over uneven ground: steady velocities at every pose, which is integrated by strides.
+//! Quasi-steady motion over uneven ground: steady velocities at every pose, which is integrated by
+//! strides.
 //!
-//! The steady state depends on place and yaw, so there is no table of it ([`quasi_steady`](super::quasi_steady)): a stride is a
-//! step of the midpoint rule, with a steady state in its middle and at its end, each sought from the one before. It is as
-//! long as the ground's curvature lets it be, and no longer than a wheel's radius, or half of it where soils differ by zone. What is looked at within a stride is
-//! interpolated between its ends (Hermite).
+//! The steady state depends on place and yaw, so there is no table of it
+//! ([`quasi_steady`](super::quasi_steady)): a stride is a step of the midpoint rule, with a steady
+//! state in its middle and at its end, each sought from the one before. It is as long as the
+//! ground's curvature lets it be, and no longer than a wheel's radius, or half of it where soils
+//! differ by zone. What is looked at within a stride is interpolated between its ends (Hermite).
 
 use nalgebra::Vector3;
 
@@ -16,14 +18,15 @@ use crate::contact::Slip;
 use crate::units::Vec2;
 use crate::vehicle::{Mount, WheelReaction};
 
-/// The velocity changes by this share of the rims' over half a stride [-]: the rest that the midpoint rule leaves is
-/// below the square of it. Source: ours.
+/// The velocity changes by this share of the rims' over half a stride [-]: the rest that the
+/// midpoint rule leaves is below the square of it. Source: ours.
 const CHANGE: f64 = 0.03;
-/// A stride whose velocity changes by more than so many times that is taken again, half as long [-].
+/// A stride whose velocity changes by more than so many times that is taken again, half as long
+/// [-].
 const TOO_MUCH: f64 = 2.0;
-/// The longest stride over zones of soil, over a wheel's radius [-]: at a border the velocity changes within a footprint.
-/// Source: measured; a way of 1 m over a border is off by 0.3 mm with strides as long as the radius, by less than 0.1 mm with
-/// these.
+/// The longest stride over zones of soil, over a wheel's radius [-]: at a border the velocity
+/// changes within a footprint. Source: measured; a way of 1 m over a border is off by 0.3 mm with
+/// strides as long as the radius, by less than 0.1 mm with these.
 const BY_ZONES: f64 = 0.5;
 /// The shortest stride, over a wheel's radius [-]: below, the ground has an edge.
 const SHORTEST: f64 = 1e-3;
@@ -203,7 +206,8 @@ impl<'a, 'g> AlongGround<'a, 'g> {
         }
     }
 
-    /// A stride, and by how much the velocity changes in its first half, over the fastest rim's [-].
+    /// A stride, and by how much the velocity changes in its first half, over the fastest rim's
+    /// [-].
     fn stride_from(&mut self, from: &Node, length: f64) -> Result<(Stride, f64), NotSteady> {
         let equations = self.equations;
         let half = 0.5 * length;

@@ -36,15 +36,15 @@ pub const CONTROL_PERIOD: f64 = 0.1;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Controller {
-    /// Sets the commanded rim speed ω r_s of each wheel [m/s], in the mounts' order; they hold those that
-    /// were commanded before.
+    /// Sets the commanded rim speed ω r_s of each wheel [m/s], in the mounts' order; they hold
+    /// those that were commanded before.
     fn command(&mut self, seen: &Observation<'_>, rim_speeds: &mut [f64]);
 
-    /// Sets the steering angle *δ* that each wheel is to have [rad], in the mounts' order; they hold those that the wheels
-    /// have. Asked at each look after the start, before [`command`](Self::command), of a rover that has wheels
-    /// that are steered. These turn towards their angles no faster than their
-    /// [rate](crate::vehicle::SteeringAxis::rate) allows between two looks, and keep them to the next. Without this
-    /// method nothing is steered.
+    /// Sets the steering angle *δ* that each wheel is to have [rad], in the mounts' order; they
+    /// hold those that the wheels have. Asked at each look after the start, before
+    /// [`command`](Self::command), of a rover that has wheels that are steered. These turn towards
+    /// their angles no faster than their [rate](crate::vehicle::SteeringAxis::rate) allows between
+    /// two looks, and keep them to the next. Without this method nothing is steered.
     fn steer(&mut self, _seen: &Observation<'_>, _angles: &mut [f64]) {}
 
     /// Time between two looks [s]; none if one look at the start says all.
@@ -100,8 +100,9 @@ impl Observation<'_> {
         self.rover
     }
 
-    /// Rim speed that each wheel has so far, *ω r_s* [m/s]; zeros before the start. Where a scenario has wheels that
-    /// turn [at another speed](Scenario::by_wheel) than commanded, it is not what was commanded.
+    /// Rim speed that each wheel has so far, *ω r_s* [m/s]; zeros before the start. Where a
+    /// scenario has wheels that turn [at another speed](Scenario::by_wheel) than commanded, it is
+    /// not what was commanded.
     #[must_use]
     pub fn rim_speeds(&self) -> &[f64] {
         self.rim_speeds
@@ -113,8 +114,8 @@ impl Observation<'_> {
         self.slip_ratios
     }
 
-    /// Slip, load, sinkage and the soil's forces of each wheel as it turned so far. They are computed
-    /// here: each call costs an evaluation of the motion.
+    /// Slip, load, sinkage and the soil's forces of each wheel as it turned so far. They are
+    /// computed here: each call costs an evaluation of the motion.
     ///
     /// # Errors
     /// [`ReactionError`] if the rover tips over or a wheel does not settle.

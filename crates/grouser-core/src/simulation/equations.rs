@@ -1,4 +1,5 @@
-//! One evaluation of the motion: state in, rates out. It reads as a table of contents of the equations.
+//! One evaluation of the motion: state in, rates out. It reads as a table of contents of the
+//! equations.
 
 use std::cell::{Cell, RefCell};
 
@@ -37,7 +38,8 @@ pub struct Equations<'a> {
     /// How much of it there may be.
     allowance: Allowance,
     failure: RefCell<Option<ReactionError>>,
-    /// The last evaluation of wheels whose speeds depend on their loads: an integral alone changes nothing of it.
+    /// The last evaluation of wheels whose speeds depend on their loads: an integral alone changes
+    /// nothing of it.
     last: RefCell<Option<(RoverState, Vec<f64>, Evaluation)>>,
     /// The wheels of the last attempt, near which those of the next settle.
     nearby: RefCell<Nearby<'a>>,
@@ -57,8 +59,8 @@ struct Acting {
     hubs: Vec<Vec2>,
     /// How fast links turn about their axles [rad/s]; on a plane none does.
     turns: Vec<f64>,
-    /// What the soil gives the rover beside its forces along the ground [W]: by hubs that rise, and by wheels that lean or
-    /// turn.
+    /// What the soil gives the rover beside its forces along the ground [W]: by hubs that rise, and
+    /// by wheels that lean or turn.
     beside: f64,
     /// Yaw rate with which aligning moments act on a rover on a plane; 0 elsewhere [rad/s].
     aligning_work_rate: f64,
@@ -359,8 +361,8 @@ impl<'a> Equations<'a> {
         })
     }
 
-    /// How the rover stands and moves in a state. The posture depends on its place and yaw alone, which mostly are those of
-    /// the evaluation before.
+    /// How the rover stands and moves in a state. The posture depends on its place and yaw alone,
+    /// which mostly are those of the evaluation before.
     fn standing(&self, state: &RoverState) -> Result<Standing, ReactionError> {
         let mut last = self.last_posture.borrow_mut();
         let posture = match &*last {
@@ -375,8 +377,8 @@ impl<'a> Equations<'a> {
         self.on_ground.moving(posture.clone(), state, self.held_yaw_rate)
     }
 
-    /// How a rover on uneven ground stands with its wheels sunk; none where it does not come to stand, and on a plane where
-    /// it has no suspension.
+    /// How a rover on uneven ground stands with its wheels sunk; none where it does not come to
+    /// stand, and on a plane where it has no suspension.
     pub(super) fn sunk(&self, state: &RoverState, wheels: &[WheelReaction]) -> Option<Sunk> {
         let posture = self.sunk_posture(state, wheels)?;
         Some(Sunk {
@@ -390,7 +392,8 @@ impl<'a> Equations<'a> {
         })
     }
 
-    /// Whether the weight falls outside the wheels of a rover on ground with heights: on a plane no loads then balance it.
+    /// Whether the weight falls outside the wheels of a rover on ground with heights: on a plane no
+    /// loads then balance it.
     pub(super) fn is_overhanging(&self, state: &RoverState) -> bool {
         self.has_relief()
             && self.standing(state).is_ok_and(|Standing { posture, up, .. }| {
@@ -403,8 +406,8 @@ impl<'a> Equations<'a> {
         self.on_ground.rover.parts().belly_clearance.is_some() && self.has_relief()
     }
 
-    /// The point of the rover's underside that is nearest to the ground, its wheels sunk; none where its belly clearance is not
-    /// known, and on a plane.
+    /// The point of the rover's underside that is nearest to the ground, its wheels sunk; none
+    /// where its belly clearance is not known, and on a plane.
     pub(super) fn belly(&self, state: &RoverState, wheels: &[WheelReaction]) -> Option<BellyPoint> {
         if !self.has_belly() {
             return None;
@@ -623,7 +626,8 @@ impl<'a> Equations<'a> {
         self.failure.borrow_mut().take()
     }
 
-    /// Allows from here on what a run may compute between two looks of the watch: beyond it every attempt fails.
+    /// Allows from here on what a run may compute between two looks of the watch: beyond it every
+    /// attempt fails.
     pub(super) fn renew_allowance(&self) {
         self.allowance.renew(self.work());
     }

@@ -4,7 +4,8 @@ use crate::error::ParameterError;
 use crate::units::Vec2;
 use crate::vehicle::ReactionError;
 
-/// Why a run could not be computed. (What a rover does is an [`Outcome`](super::Outcome), not an error.)
+/// Why a run could not be computed. (What a rover does is an [`Outcome`](super::Outcome), not an
+/// error.)
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RunError {
     /// The scenario is no run.

@@ -1,9 +1,8 @@
 //! Carries the motion through time.
 //!
 //! `dormand_prince` takes an explicit step, `rosenbrock` an implicit one, with the coefficients of
-//! `rodas5p`, and `exponential` one that follows what new speeds of the wheels disturb; `adaptive` chooses
-//! among them, and how long a `step` is. `runge_kutta` is the
-//! independent check on them.
+//! `rodas5p`, and `exponential` one that follows what new speeds of the wheels disturb; `adaptive`
+//! chooses among them, and how long a `step` is. `runge_kutta` is the independent check on them.
 
 mod adaptive;
 mod dormand_prince;
@@ -28,7 +27,8 @@ use crate::vehicle::{Acceleration, RoverState};
 
 /// How many numbers move: pose, velocities, and the three energies.
 const SIZE: usize = 9;
-/// And with motors whose speed depends on their load: for each wheel its speed and its controller's integral.
+/// And with motors whose speed depends on their load: for each wheel its speed and its controller's
+/// integral.
 const WITH_MOTORS: usize = SIZE + 2 * MOST_WHEELS;
 
 impl Point {
@@ -104,8 +104,8 @@ pub(super) struct Stalled {
 /// Receives the point at each time asked for, and says whether to go on.
 pub(super) type OnSample<'a> = dyn FnMut(f64, &Point) -> ControlFlow<()> + 'a;
 
-/// The rates at a point; none where the rover tips over or a wheel does not settle. An integrator may
-/// try points that no rover can reach, and steps back from there.
+/// The rates at a point; none where the rover tips over or a wheel does not settle. An integrator
+/// may try points that no rover can reach, and steps back from there.
 fn rates_at<const N: usize>(equations: &Equations<'_>, y: &[f64; N]) -> Option<[f64; N]> {
     let point = Point::from_array(y, equations.moving_motors());
     let rates: [f64; N] = match point.turning {

@@ -115,7 +115,8 @@ impl Leg<'_> {
         let started = SteadyRun::from(equations, carried, &mut point, horizon, self.is_new_command);
         let mut motion = started.map_err(Ended::NotSteady)?;
         if times.is_empty() {
-            // A run starts steady: what its start would cost the motors is not in the energy balance.
+            // A run starts steady: what its start would cost the motors is not in the energy
+            // balance.
             point.start_work(&self.scenario.rover);
             let wheels = || Ok(motion.wheels(&point));
             let slips = motion.slips(equations, &point);

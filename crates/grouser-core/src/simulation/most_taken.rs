@@ -2,8 +2,8 @@
 
 use crate::vehicle::Electrical;
 
-/// The most that was seen since it was [begun](super::Run::begin_most_taken), at looks a tenth of a second apart and where
-/// the wheels get new speeds.
+/// The most that was seen since it was [begun](super::Run::begin_most_taken), at looks a tenth of a
+/// second apart and where the wheels get new speeds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct MostTaken {
     /// Largest current of a motor, driving or braking [A].

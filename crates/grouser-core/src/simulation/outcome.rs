@@ -74,9 +74,11 @@ pub enum PowerLost {
 pub enum StuckBecause {
     /// The wheels' mean slip stayed above [`SPINNING_SLIP`](super::watch::SPINNING_SLIP).
     WheelsSpin,
-    /// The hubs' progress stayed under [`LEAST_PROGRESS`](super::watch::LEAST_PROGRESS) of the rims'.
+    /// The hubs' progress stayed under [`LEAST_PROGRESS`](super::watch::LEAST_PROGRESS) of the
+    /// rims'.
     NoProgress,
-    /// The motors stayed under [`LEAST_PROGRESS`](super::watch::LEAST_PROGRESS) of the speeds that they are set to.
+    /// The motors stayed under [`LEAST_PROGRESS`](super::watch::LEAST_PROGRESS) of the speeds that
+    /// they are set to.
     MotorsStall,
     /// A wheel sank to its axle.
     SunkToAxle {
@@ -90,7 +92,8 @@ pub enum StuckBecause {
 }
 
 impl Outcome {
-    /// Its kind, of which the [table](OutcomeKind::row) says name, meaning, severity and what a band counts it as.
+    /// Its kind, of which the [table](OutcomeKind::row) says name, meaning, severity and what a
+    /// band counts it as.
     #[must_use]
     pub fn kind(&self) -> OutcomeKind {
         match self {

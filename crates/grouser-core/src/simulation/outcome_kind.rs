@@ -1,7 +1,8 @@
 //! The ways in which a run, or a leg of a mission, ends: a table with a row for each.
 //!
-//! Terminal, page, log, Python and documentation read its name, its meaning and its severity here, and
-//! a band over samples reads what the end counts as. The table is made with the enum: without its row, no variant compiles.
+//! Terminal, page, log, Python and documentation read its name, its meaning and its severity here,
+//! and a band over samples reads what the end counts as. The table is made with the enum: without
+//! its row, no variant compiles.
 
 /// A way in which a run, or a leg of a mission, ends: an [`Outcome`](super::Outcome) or a
 /// [`LegOutcome`](crate::mission::LegOutcome) without its numbers.

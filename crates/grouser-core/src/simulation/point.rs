@@ -4,7 +4,8 @@ use super::power;
 use super::turning::Turning;
 use crate::vehicle::{Rover, RoverState};
 
-/// What is integrated: the rover's state, the motors' work, the work on the soil, and the electrical energy [J].
+/// What is integrated: the rover's state, the motors' work, the work on the soil, and the
+/// electrical energy [J].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Point {
     pub(super) state: RoverState,
@@ -32,7 +33,8 @@ impl Point {
         });
     }
 
-    /// Changes pose and velocities at once. What that changes in kinetic energy counts as work of the motors.
+    /// Changes pose and velocities at once. What that changes in kinetic energy counts as work of
+    /// the motors.
     pub(super) fn jump(&mut self, rover: &Rover, change: impl FnOnce(&mut RoverState)) {
         let before = power::kinetic_energy(rover, &self.state);
         change(&mut self.state);

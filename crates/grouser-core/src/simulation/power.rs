@@ -23,8 +23,8 @@ pub struct EnergyBalance {
     pub kinetic: f64,
     /// Potential energy on the slope, zero at the origin's height.
     pub potential: f64,
-    /// Electrical energy that the motors took, of the wheels whose motors are known. It is no part of the balance: what is
-    /// more than the motors' work is lost in them.
+    /// Electrical energy that the motors took, of the wheels whose motors are known. It is no part
+    /// of the balance: what is more than the motors' work is lost in them.
     pub electrical: f64,
 }
 
@@ -32,7 +32,8 @@ pub struct EnergyBalance {
 ///
 /// * `wheel_speeds`: ω of each wheel [rad/s]
 /// * `hub_velocities`: of each hub, in the wheel's frame [m/s]
-/// * `aligning_work_rate`: yaw rate where aligning moments act on a rover on a plane, else 0 [rad/s]
+/// * `aligning_work_rate`: yaw rate where aligning moments act on a rover on a plane, else 0
+///   [rad/s]
 #[must_use]
 pub fn powers(
     wheels: &[WheelReaction],
@@ -51,8 +52,9 @@ pub fn powers(
     (motors, soil)
 }
 
-/// Power that the soil gives a rover on uneven ground beside its forces along it [W]: by the normal forces on hubs that rise
-/// or sink, as those of a rigid rover on warped ground do, and by moments that act on the rover.
+/// Power that the soil gives a rover on uneven ground beside its forces along it [W]: by the normal
+/// forces on hubs that rise or sink, as those of a rigid rover on warped ground do, and by moments
+/// that act on the rover.
 pub(super) fn beside_the_ground(
     wheels: &[WheelReaction],
     motion: &StandingMotion,
@@ -81,7 +83,8 @@ pub fn electrical_power(rover: &Rover, wheels: &[WheelReaction], wheel_speeds: &
     .sum()
 }
 
-/// What a wheel's motor takes, where that is known, at a torque [N·m] and a speed of the wheel [rad/s].
+/// What a wheel's motor takes, where that is known, at a torque [N·m] and a speed of the wheel
+/// [rad/s].
 #[must_use]
 pub fn electrical(mount: &Mount, torque: f64, wheel_speed: f64) -> Option<Electrical> {
     Some(mount.unit.motor?.at(torque, wheel_speed))

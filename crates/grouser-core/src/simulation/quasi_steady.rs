@@ -7,9 +7,10 @@
 //! γ' = r(γ)        (x', y') = R(γ) (u, v)(γ)        E' = P(γ)
 //! ```
 //!
-//! They are tabulated over the stretch of yaw ahead, as polynomials through steady states found there,
-//! and the pose follows from the table. So the work goes with the yaw that a rover turns through,
-//! not with the way it drives: one that keeps its yaw costs one steady state, however far it goes.
+//! They are tabulated over the stretch of yaw ahead, as polynomials through steady states found
+//! there, and the pose follows from the table. So the work goes with the yaw that a rover turns
+//! through, not with the way it drives: one that keeps its yaw costs one steady state, however far
+//! it goes.
 
 use nalgebra::Vector3;
 
@@ -25,11 +26,12 @@ use crate::vehicle::settling::add_weighted;
 use crate::vehicle::state::rotation;
 use crate::vehicle::{Mount, WheelReaction};
 
-/// The velocities may lag behind their steady state by this much, over the fastest rim's speed [-]: the
-/// steady state's own motion in one settling time. Source: ours; models err by ten times as much.
+/// The velocities may lag behind their steady state by this much, over the fastest rim's speed [-]:
+/// the steady state's own motion in one settling time. Source: ours; models err by ten times as
+/// much.
 pub const MOST_LAG: f64 = 0.01;
-/// And the steady state may change its yaw rate at most this fast, over the rate of settling [-], or
-/// yaw and velocities would not be a slow and a fast motion. Source: ours.
+/// And the steady state may change its yaw rate at most this fast, over the rate of settling [-],
+/// or yaw and velocities would not be a slow and a fast motion. Source: ours.
 pub const MOST_COUPLING: f64 = 0.1;
 
 /// A yaw that will change by less than this is held [rad]: over ten metres of way, 0.1 µm.
@@ -40,13 +42,15 @@ const LINEAR: f64 = 1.75e-3;
 const LONGEST_STRETCH: f64 = 0.1;
 /// A stretch reaches further than the yaw rate at its start would need, by this factor [-].
 const AMPLE: f64 = 1.25;
-/// Parabolas through three steady states must meet those between them to this, over the fastest rim's
-/// speed [-]. The polynomial through all five is nearer by a hundred times where motion is smooth.
+/// Parabolas through three steady states must meet those between them to this, over the fastest
+/// rim's speed [-]. The polynomial through all five is nearer by a hundred times where motion is
+/// smooth.
 const RESOLVED: f64 = 1e-5;
-/// Velocities that differ by more than this from those of rolling wheels are of another motion, over the fastest rim's
-/// speed [-]. Source: ours; a slip ratio of 1 is this far from rolling.
+/// Velocities that differ by more than this from those of rolling wheels are of another motion,
+/// over the fastest rim's speed [-]. Source: ours; a slip ratio of 1 is this far from rolling.
 const ANOTHER_MOTION: f64 = 1.0;
-/// Rims that turn faster by such a factor move the rover alike [-]. Source: ours; at most as a guess.
+/// Rims that turn faster by such a factor move the rover alike [-]. Source: ours; at most as a
+/// guess.
 const SIMILAR: std::ops::RangeInclusive<f64> = 0.2..=5.0;
 /// A step in time turns the rover by at most this share of a stretch [-].
 const STEP_SHARE: f64 = 0.1;
@@ -107,7 +111,8 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
         let Carried { memory, stretch, rolled } = carried;
         let yaw = point.state.yaw;
         let rolling = rolling(equations);
-        // Motion depends on ratios of speeds alone: of rims that all turn faster, everything is faster.
+        // Motion depends on ratios of speeds alone: of rims that all turn faster, everything is
+        // faster.
         let faster = rolling.xy().dot(&rolled.xy()) / rolled.xy().norm_squared();
         let faster = if SIMILAR.contains(&faster) { faster } else { 1.0 };
         let mut solver = SteadySolver::new(equations, memory);
@@ -346,8 +351,8 @@ impl Stretch {
 /// Where the steady states of a long stretch are.
 const QUARTERS: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
-/// Finds the steady states that are missing at some shares of a stretch, each from those known; leaves
-/// them in the order of the shares.
+/// Finds the steady states that are missing at some shares of a stretch, each from those known;
+/// leaves them in the order of the shares.
 fn fill(
     solver: &mut SteadySolver<'_, '_>,
     known: &mut Vec<(f64, SteadyState)>,
@@ -369,8 +374,8 @@ fn fill(
     Ok(())
 }
 
-/// How far parabolas through the first, the middle and the last of five steady states miss the other
-/// two, over the fastest rim's speed [-].
+/// How far parabolas through the first, the middle and the last of five steady states miss the
+/// other two, over the fastest rim's speed [-].
 fn roughness(solver: &SteadySolver<'_, '_>, nodes: &[(f64, SteadyState)]) -> f64 {
     let miss = |at: usize| {
         let weights: [f64; 3] = lagrange::weights(&[0.0, 0.5, 1.0], nodes[at].0);

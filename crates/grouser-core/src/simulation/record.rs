@@ -33,14 +33,17 @@ pub struct Record {
     pub time: f64,
     /// Pose and velocity.
     pub state: RoverState,
-    /// Where the run started, in the coordinates of ground with heights [m]; none on a plane. Positions are seen from there.
+    /// Where the run started, in the coordinates of ground with heights [m]; none on a plane.
+    /// Positions are seen from there.
     pub origin: Option<Vec2>,
     /// How it stands on uneven ground, or on a suspension.
     pub attitude: Option<Attitude>,
-    /// By how much the weight may turn there before the rover tips over, the force-angle margin [rad].
+    /// By how much the weight may turn there before the rover tips over, the force-angle margin
+    /// [rad].
     pub stability_margin: Option<f64>,
-    /// Least height of its underside over ground with heights, its [belly clearance](crate::vehicle::belly) [m]; none where
-    /// the rover's document says nothing of it.
+    /// Least height of its underside over ground with heights, its
+    /// [belly clearance](crate::vehicle::belly) [m]; none where the rover's document says nothing
+    /// of it.
     pub belly_clearance: Option<f64>,
     /// Each wheel, in the mounts' order; none where a rover has just tipped over or sunk.
     pub wheels: Vec<WheelRecord>,
@@ -100,8 +103,8 @@ impl Record {
         }
     }
 
-    /// Where the body's centre of mass is, seen from above [m]: in the coordinates of ground with heights, or in the
-    /// slope frame.
+    /// Where the body's centre of mass is, seen from above [m]: in the coordinates of ground with
+    /// heights, or in the slope frame.
     #[must_use]
     pub fn place(&self) -> Vec2 {
         self.origin.map_or(self.state.position, |origin| origin + self.state.position)

@@ -25,19 +25,20 @@ use crate::units::Vec2;
 use crate::vehicle::kinematics::rolling_velocity;
 use crate::vehicle::{DriveLaw, Electrical, Rover, WheelReaction};
 
-/// The shortest step [s]. Source: ours; slip settles within milliseconds, no rover's control is a thousand times faster.
+/// The shortest step [s]. Source: ours; slip settles within milliseconds, no rover's control is a
+/// thousand times faster.
 pub const LEAST_STEP: f64 = 1e-6;
 
 /// A run of a scenario, as far as it has come.
 ///
-/// The motion is the same by every way of leading it, by the same equations and the same integrator:
-/// [`to_end`](Self::to_end) by the scenario's own drive, [`advance`](Self::advance) by a
-/// [`Controller`], [`step`](Self::step) by one command after the other.
+/// The motion is the same by every way of leading it, by the same equations and the same
+/// integrator: [`to_end`](Self::to_end) by the scenario's own drive, [`advance`](Self::advance) by
+/// a [`Controller`], [`step`](Self::step) by one command after the other.
 ///
 /// A clone goes on as the original would, bit for bit.
 ///
-/// How far downhill is a rover after 20 s across a slope of 10°, and how long does it need for half a
-/// metre if the wheels on its right turn faster?
+/// How far downhill is a rover after 20 s across a slope of 10°, and how long does it need for half
+/// a metre if the wheels on its right turn faster?
 ///
 /// ```
 /// use grouser_core::paper;
@@ -181,18 +182,19 @@ impl Run {
         self.lead(controller, [until, kept_until], true, Due::Samples)
     }
 
-    /// Seeks steady motions again where none was found before; how it was computed until then, if it was not by them.
+    /// Seeks steady motions again where none was found before; how it was computed until then, if
+    /// it was not by them.
     pub(crate) fn try_steady_again(&mut self) -> Option<Method> {
         let fell_back = matches!(self.state.method, Method::FallbackToDynamic { .. });
         fell_back.then(|| std::mem::replace(&mut self.state.method, Method::QuasiSteady))
     }
 
-    /// Sets the rover rolling where its rims roll another way than before, and it does not follow them, as at a
-    /// [rolling](Motion::Rolling) start; nothing where a run starts from rest.
+    /// Sets the rover rolling where its rims roll another way than before, and it does not follow
+    /// them, as at a [rolling](Motion::Rolling) start; nothing where a run starts from rest.
     ///
-    /// The models know no shear that builds up with the way: a wheel that stands, or moves against its rim, has a slip
-    /// ratio of 1 or more at once, and near the limit of its thrust digs there for ever, where a real one passes through
-    /// the slip at which it pulls most.
+    /// The models know no shear that builds up with the way: a wheel that stands, or moves against
+    /// its rim, has a slip ratio of 1 or more at once, and near the limit of its thrust digs there
+    /// for ever, where a real one passes through the slip at which it pulls most.
     ///
     /// * `before`: speeds of the rims before [m/s]
     pub(crate) fn start_rolling(&mut self, before: &[f64]) {
@@ -253,9 +255,9 @@ impl Run {
         wheels.into_iter().zip(taken).collect()
     }
 
-    /// Turns the wheels at the given speeds for a while. At its beginning they take them at once, and
-    /// keep them to its end. A rover whose [`outcome`](Self::outcome) is known stays as it is: its run
-    /// has ended.
+    /// Turns the wheels at the given speeds for a while. At its beginning they take them at once,
+    /// and keep them to its end. A rover whose [`outcome`](Self::outcome) is known stays as it is:
+    /// its run has ended.
     ///
     /// Steps are not recorded, except where the last one led: [`now`](Self::now).
     ///
@@ -270,8 +272,8 @@ impl Run {
         self.step_watched(rim_speeds, span, f64::INFINITY, &mut |_| false)
     }
 
-    /// The same with someone who looks at the run after each multiple of a period and at the end of the step, and may end
-    /// the step there.
+    /// The same with someone who looks at the run after each multiple of a period and at the end of
+    /// the step, and may end the step there.
     ///
     /// * `period`: between two looks [s]
     /// * `ends`: whether the step ends here
@@ -334,8 +336,9 @@ impl Run {
         &self.state
     }
 
-    /// The rover now: at its start, where it was led to, or when its outcome was found. Its wheels are settled when
-    /// this is asked for the first time; the [`state`](Self::state) is known without them.
+    /// The rover now: at its start, where it was led to, or when its outcome was found. Its wheels
+    /// are settled when this is asked for the first time; the [`state`](Self::state) is known
+    /// without them.
     #[must_use]
     pub fn now(&self) -> &Record {
         match self.records.last().filter(|_| self.is_recorded()) {
@@ -362,7 +365,8 @@ impl Run {
 
     /// Goes on under a controller, without a record of where that ends, unless one is due there.
     ///
-    /// * `until`, `kept_until`: where that ends, and until when one that is asked once keeps its speeds [s]
+    /// * `until`, `kept_until`: where that ends, and until when one that is asked once keeps its
+    ///   speeds [s]
     fn lead(
         &mut self,
         controller: &mut dyn Controller,
@@ -394,7 +398,8 @@ impl Run {
         led
     }
 
-    /// Steers the wheels as a controller says, as far as they come since they were last steered; whether any turns.
+    /// Steers the wheels as a controller says, as far as they come since they were last steered;
+    /// whether any turns.
     fn steer(&mut self, controller: &mut dyn Controller) -> Result<bool, RunError> {
         let Self { scenario, state, .. } = self;
         let span = state.time - state.steered_until;
@@ -428,7 +433,8 @@ impl Run {
         Ok(true)
     }
 
-    /// Goes on to a time in legs, each of which ends where a prescribed yaw begins to turn otherwise.
+    /// Goes on to a time in legs, each of which ends where a prescribed yaw begins to turn
+    /// otherwise.
     fn go_to(
         &mut self,
         is_new_command: bool,

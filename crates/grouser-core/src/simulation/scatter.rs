@@ -5,13 +5,14 @@ use crate::error::{ParameterError, not_negative, positive};
 use crate::random::Random;
 use crate::terrain::{SoilField, SoilScatter};
 
-/// A bed that was not raked evenly, and motors that do not turn alike: standard deviations, and which of the beds
-/// and motors that they describe a run has.
+/// A bed that was not raked evenly, and motors that do not turn alike: standard deviations, and
+/// which of the beds and motors that they describe a run has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scatter {
     /// Scatter of the soil, from place to place.
     pub soil: SoilScatter,
-    /// Standard deviation of the logarithm of each wheel's speed over the commanded one [-]; it stays over a run.
+    /// Standard deviation of the logarithm of each wheel's speed over the commanded one [-]; it
+    /// stays over a run.
     pub speed: f64,
     /// Which realisation.
     pub seed: u64,

@@ -57,7 +57,8 @@ pub struct Scenario {
     pub scatter: Scatter,
     /// What wheels leave behind for those that follow.
     pub ruts: Ruts,
-    /// What is asked of the ground's own strength by those who plan on it; a run is not changed by it.
+    /// What is asked of the ground's own strength by those who plan on it; a run is not changed by
+    /// it.
     pub stability: SlopeStability,
     /// How the run starts.
     pub start: Start,
@@ -68,8 +69,8 @@ pub struct Scenario {
 }
 
 impl Scenario {
-    /// Twenty seconds on the Earth, with rims that turn at 6 cm/s and the nose along the contour, by
-    /// `ishigami` and with complete loads: what a document has that says no more.
+    /// Twenty seconds on the Earth, with rims that turn at 6 cm/s and the nose along the contour,
+    /// by `ishigami` and with complete loads: what a document has that says no more.
     ///
     /// ```
     /// use grouser_core::paper;
@@ -170,8 +171,8 @@ pub struct Start {
 /// Motion at the start of a run; the wheels turn from the first instant on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Motion {
-    /// The body moves the way that its wheels roll, which is along its x axis where none is steered, at
-    /// [`ROLLING_SHARE`] of the wheels' mean rim velocity. It does not turn.
+    /// The body moves the way that its wheels roll, which is along its x axis where none is
+    /// steered, at [`ROLLING_SHARE`] of the wheels' mean rim velocity. It does not turn.
     #[default]
     Rolling,
     /// Nothing moves but the wheels.
@@ -245,8 +246,8 @@ impl Scenario {
         self.ground.lie(state.position, self.rover.footprint(&state.slope_from_body()))
     }
 
-    /// How far the nose is turned uphill of the contour under the rover [rad]: on a plane the yaw; on level ground with heights
-    /// nothing.
+    /// How far the nose is turned uphill of the contour under the rover [rad]: on a plane the yaw;
+    /// on level ground with heights nothing.
     #[must_use]
     pub fn yaw_from_contour(&self, state: &RoverState) -> f64 {
         if self.ground.is_plane() {
@@ -259,8 +260,9 @@ impl Scenario {
 
     /// How far straight downhill a rover is [m] that came from a place near by.
     ///
-    /// On a plane that is the way down since the origin. Where the ground bends it is the sum of the ways down the ground
-    /// under the rover; on [level](crate::terrain::ground::LEVEL) ground there is no way down.
+    /// On a plane that is the way down since the origin. Where the ground bends it is the sum of
+    /// the ways down the ground under the rover; on [level](crate::terrain::ground::LEVEL) ground
+    /// there is no way down.
     ///
     /// * `before`: the place [m], and how far downhill it is [m]
     #[must_use]

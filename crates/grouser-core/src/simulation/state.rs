@@ -19,11 +19,11 @@ use super::work::Work;
 use crate::vehicle::settling::Known;
 use crate::vehicle::{Rover, RoverState, WheelReaction};
 
-/// All that changes in a run: where the rover is, how it and its wheels move, its energies, and what
-/// the solver knows of the motion so far.
+/// All that changes in a run: where the rover is, how it and its wheels move, its energies, and
+/// what the solver knows of the motion so far.
 ///
-/// A scenario and a state determine all that follows: a clone goes on as the original would, bit for
-/// bit ([`Run::resume`](super::Run::resume)).
+/// A scenario and a state determine all that follows: a clone goes on as the original would, bit
+/// for bit ([`Run::resume`](super::Run::resume)).
 #[derive(Clone)]
 pub struct State {
     pub(super) time: f64,
@@ -34,7 +34,8 @@ pub struct State {
     pub(super) set_speeds: Vec<f64>,
     /// The one that it has, *ω r_s* [m/s], when the rover was last looked at.
     pub(super) rim_speeds: Vec<f64>,
-    /// The rover with its wheels as they are steered now; none while they are as its document has them.
+    /// The rover with its wheels as they are steered now; none while they are as its document has
+    /// them.
     pub(super) steered: Option<Arc<Rover>>,
     /// Until when wheels were steered, or could have been [s].
     pub(super) steered_until: f64,
@@ -135,7 +136,8 @@ impl State {
         self.point.motors
     }
 
-    /// Electrical energy that motors, and with a battery the electronics, took so far [J]; 0 where no motor is known.
+    /// Electrical energy that motors, and with a battery the electronics, took so far [J]; 0 where
+    /// no motor is known.
     #[must_use]
     pub fn electrical_work(&self) -> f64 {
         self.point.electrical + self.supply.as_ref().map_or(0.0, Supply::beside)
@@ -182,8 +184,8 @@ impl State {
         true
     }
 
-    /// Looks at what the motors take: the battery and the windings go on by what is seen each [`WATCH_PERIOD`], whenever else
-    /// the rover is looked at. What becomes of one without power.
+    /// Looks at what the motors take: the battery and the windings go on by what is seen each
+    /// [`WATCH_PERIOD`], whenever else the rover is looked at. What becomes of one without power.
     pub(super) fn look_at_power(
         &mut self,
         equations: &Equations<'_>,
@@ -212,7 +214,8 @@ impl State {
         matters
     }
 
-    /// Changes pose and velocities at once, as [`Point::jump`]: the motion before says nothing of the one after.
+    /// Changes pose and velocities at once, as [`Point::jump`]: the motion before says nothing of
+    /// the one after.
     pub(super) fn jump(&mut self, rover: &Rover, change: impl FnOnce(&mut RoverState)) {
         self.point.jump(rover, change);
         self.history.clear();

@@ -1,5 +1,5 @@
-//! The motion that a rover settles into at a yaw, within milliseconds, while its wheels turn at given speeds:
-//! what it does at that instant if nobody corrects it.
+//! The motion that a rover settles into at a yaw, within milliseconds, while its wheels turn at
+//! given speeds: what it does at that instant if nobody corrects it.
 
 use nalgebra::Vector3;
 
@@ -12,8 +12,8 @@ use crate::units::Vec2;
 use crate::vehicle::WheelReaction;
 use crate::vehicle::on_ground::OnGround;
 
-/// A steady motion at a yaw: forces and yaw moment are balanced, so that the rover goes straight on or turns at a
-/// steady rate.
+/// A steady motion at a yaw: forces and yaw moment are balanced, so that the rover goes straight on
+/// or turns at a steady rate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SteadyMotion {
     /// Yaw, *γ* [rad].
@@ -27,7 +27,8 @@ pub struct SteadyMotion {
     memory: Memory,
 }
 
-/// Slip ratios from which a steady motion is sought that is not found from that of a light slip [-].
+/// Slip ratios from which a steady motion is sought that is not found from that of a light slip
+/// [-].
 const NEARER: [f64; 5] = [1e-3, -1e-3, 1e-4, -1e-4, 0.0];
 
 impl SteadyMotion {
@@ -39,14 +40,15 @@ impl SteadyMotion {
         let equations = Equations::new(ground, rim_speeds);
         let light = rolling(&equations);
         let first = Self::near(&equations, yaw, &light, Memory::default());
-        // Where wheels hardly slip, forces turn within a thousandth of the rims' speed: only a near guess finds it.
+        // Where wheels hardly slip, forces turn within a thousandth of the rims' speed: only a near
+        // guess finds it.
         let nearer = NEARER.into_iter().map(|slip| (1.0 - slip) / ROLLING_SHARE * light);
         let retried = nearer.map(|guess| Self::near(&equations, yaw, &guess, Memory::default()));
         first.or_else(|error| retried.flatten().next().ok_or(error))
     }
 
-    /// The steady motion of the same rover on the same ground at another yaw [rad], sought from this one: in fewer
-    /// evaluations if it is near.
+    /// The steady motion of the same rover on the same ground at another yaw [rad], sought from
+    /// this one: in fewer evaluations if it is near.
     ///
     /// # Errors
     /// The same as [`of`](Self::of).

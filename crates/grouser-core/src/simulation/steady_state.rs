@@ -1,15 +1,16 @@
 //! Steady states: the velocities at which nothing accelerates.
 //!
-//! Slip settles within milliseconds, so a rover moves at nearly the velocities V = (u, v, γ'), γ' = dγ/dt, with
+//! Slip settles within milliseconds, so a rover moves at nearly the velocities V = (u, v, γ'), γ' =
+//! dγ/dt, with
 //!
 //! ```text
 //! a(V; γ) = 0          a = (u', v', γ'') of the equations of motion, at the yaw γ
 //! ```
 //!
 //! They are sought by Newton's method with Broyden's updates of the inverse Jacobian, from the
-//! steady state last found; from far away by implicit Euler steps that lengthen as the accelerations
-//! fade, which go the way that the rover would go. The Jacobian says how fast, and whether, a
-//! rover settles on its steady state.
+//! steady state last found; from far away by implicit Euler steps that lengthen as the
+//! accelerations fade, which go the way that the rover would go. The Jacobian says how fast, and
+//! whether, a rover settles on its steady state.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
@@ -99,10 +100,11 @@ pub(super) struct Memory {
     checked: Option<(f64, Vector3<f64>, f64)>,
 }
 
-/// Velocities this near to those of the steady state are taken for it, over the fastest rim's speed [-]:
-/// a tenth of the relative tolerance of dynamic runs.
+/// Velocities this near to those of the steady state are taken for it, over the fastest rim's speed
+/// [-]: a tenth of the relative tolerance of dynamic runs.
 const CLOSE: f64 = 1e-7;
-/// Steps longer than this leave the neighbourhood in which a tangent tells anything, over the fastest rim's speed [-].
+/// Steps longer than this leave the neighbourhood in which a tangent tells anything, over the
+/// fastest rim's speed [-].
 const LONGEST: f64 = 0.5;
 /// Step of differences over the fastest rim's speed [-]: forces are exact to 1e-12.
 const STEP: f64 = 1e-6;
@@ -211,7 +213,8 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         Some(steady_state_at(yaw, zero.at, zero.value, None))
     }
 
-    /// The steady state of wheels whose speeds depend on their loads: their speeds are sought with the velocities.
+    /// The steady state of wheels whose speeds depend on their loads: their speeds are sought with
+    /// the velocities.
     fn find_turning(&mut self, yaw: f64, guess: &Vector3<f64>) -> Option<SteadyState> {
         let known = self.memory.with_motors.take();
         let set = Turning::at(self.equations.rim_speeds());
@@ -260,7 +263,8 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         Some(steady_state_at(yaw, velocities, zero.value, Some(turning)))
     }
 
-    /// Accelerations, and how far each rim is from the speed at which its motor turns it under the soil's torque [m/s].
+    /// Accelerations, and how far each rim is from the speed at which its motor turns it under the
+    /// soil's torque [m/s].
     fn imbalance(&self, yaw: f64, unknown: &DVector<f64>) -> Option<(DVector<f64>, Evaluation)> {
         let (velocities, rim_speeds) = parted(unknown);
         let here = self.equations.attempt_at(&self.state_of(yaw, &velocities), &rim_speeds)?;

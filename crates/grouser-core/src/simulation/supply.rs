@@ -1,15 +1,16 @@
 //! What has become of the battery and of the motors' windings in a run.
 //!
-//! Both change in seconds to hours, the motion in milliseconds: they are carried on from one look at the rover to the next,
-//! [a tenth of a second](super::watch::WATCH_PERIOD) later, by the mean of what motors take at both. What that leaves of
-//! voltage and current limits the motors from the next [`LIMIT_PERIOD`] on.
+//! Both change in seconds to hours, the motion in milliseconds: they are carried on from one look
+//! at the rover to the next, [a tenth of a second](super::watch::WATCH_PERIOD) later, by the mean
+//! of what motors take at both. What that leaves of voltage and current limits the motors from the
+//! next [`LIMIT_PERIOD`] on.
 
 use super::outcome::{Outcome, PowerLost};
 use super::times::is_same_time;
 use crate::vehicle::{Electrical, MotorLimits, Rover, Terminals};
 
-/// Time between two changes of the motors' limits [s]. Source: ours; the windings of the smallest motors take ten times as
-/// long to warm.
+/// Time between two changes of the motors' limits [s]. Source: ours; the windings of the smallest
+/// motors take ten times as long to warm.
 pub(super) const LIMIT_PERIOD: f64 = 1.0;
 
 /// The state of the battery, at a record.
@@ -44,7 +45,8 @@ struct Look {
     taken: Vec<Electrical>,
     /// Heat of each winding [W].
     heats: Vec<f64>,
-    /// Rate at which the charge falls [1/s], and power beside that of motors with cold windings [W].
+    /// Rate at which the charge falls [1/s], and power beside that of motors with cold windings
+    /// [W].
     discharge: f64,
     beside: f64,
 }

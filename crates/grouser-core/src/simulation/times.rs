@@ -3,8 +3,8 @@
 /// A day: no run lasts longer [s].
 pub const LONGEST_DURATION: f64 = 86_400.0;
 
-/// Times that differ by less are one, but for rounding [s]. Source: ours; a thousandth of the shortest step, and far above
-/// the rounding of a day in seconds.
+/// Times that differ by less are one, but for rounding [s]. Source: ours; a thousandth of the
+/// shortest step, and far above the rounding of a day in seconds.
 pub const SAME_TIME: f64 = 1e-9;
 
 /// Multiples of an interval after one time and before another.
@@ -27,8 +27,8 @@ pub(super) fn multiple_after(time: f64, interval: f64) -> f64 {
     if is_same_time(next, time) { next + interval } else { next }
 }
 
-/// A time, or the multiple of an interval that it is but for rounding: so that many steps do not add
-/// up their rounding.
+/// A time, or the multiple of an interval that it is but for rounding: so that many steps do not
+/// add up their rounding.
 pub(super) fn snapped(time: f64, interval: f64) -> f64 {
     if is_multiple(time, interval) { (time / interval).round() * interval } else { time }
 }

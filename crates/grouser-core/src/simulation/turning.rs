@@ -1,6 +1,7 @@
 //! How wheels turn whose speed depends on their load.
 
-/// So many wheels may have motors whose speed depends on their load. Source: ours; no rover has had more.
+/// So many wheels may have motors whose speed depends on their load. Source: ours; no rover has had
+/// more.
 pub const MOST_WHEELS: usize = 8;
 
 /// Speed of each wheel, and what its controller remembers; or the rates of both.

@@ -5,9 +5,9 @@ use crate::error::{ParameterError, finite};
 
 /// Yaw over time: straight between its points, and constant before the first and after the last.
 ///
-/// A run that has one turns as it says, whatever moments the wheels make: the balance of forces alone
-/// decides how the rover moves along and across the slope. The moment that holds the yaw works with the
-/// motors in the energy balance.
+/// A run that has one turns as it says, whatever moments the wheels make: the balance of forces
+/// alone decides how the rover moves along and across the slope. The moment that holds the yaw
+/// works with the motors in the energy balance.
 ///
 /// How far downhill does a rover drift on 10° whose yaw was seen to go from 5.5° to 3.1° in 20 s?
 ///
@@ -29,8 +29,8 @@ pub struct PrescribedYaw {
     pub points: Vec<(f64, f64)>,
 }
 
-/// The fastest that a rover is taken to turn [rad/s]: 57 °/s. Source: ours; a quarter of a turn in less than two
-/// seconds is a slip of the pen, and no rover's.
+/// The fastest that a rover is taken to turn [rad/s]: 57 °/s. Source: ours; a quarter of a turn in
+/// less than two seconds is a slip of the pen, and no rover's.
 pub const FASTEST_TURN: f64 = 1.0;
 
 /// Two points that follow each other, between which the yaw changes faster than [`FASTEST_TURN`].

@@ -1,4 +1,5 @@
-//! How a soil differs where a wheel has passed: denser, and with its shear strength mobilised sooner.
+//! How a soil differs where a wheel has passed: denser, and with its shear strength mobilised
+//! sooner.
 
 use super::{Shear, ShearModulus, Soil};
 use crate::elementary::exp;
@@ -35,8 +36,8 @@ impl Compaction {
     /// ρ_p/ρ = 1 + (1 − e^(−s₀/k₁)) k₂ + k₃ n        K_p/K = 1 − (1 − e^(−s₀/k₁)) k₂ − k₃ n
     /// ```
     ///
-    /// with s₀ = max(0, s). Its constants are of tyres on dry loam. As printed it has no bound; here n is at most
-    /// [`MOST_PASSES`], so that ρ grows by 27 % and K falls by 27 % at the most.
+    /// with s₀ = max(0, s). Its constants are of tyres on dry loam. As printed it has no bound;
+    /// here n is at most [`MOST_PASSES`], so that ρ grows by 27 % and K falls by 27 % at the most.
     ///
     /// * `slip_ratio`: of the last wheel that passed [-]
     /// * `passes`: how many wheels passed
@@ -63,8 +64,9 @@ impl Compaction {
 }
 
 impl Soil {
-    /// The same soil, compacted. Its pressure–sinkage relation follows where it is in units of the soil's weight
-    /// (Reece's); constants of Bekker's, and of resistive force theory, stay as they are.
+    /// The same soil, compacted. Its pressure–sinkage relation follows where it is in units of the
+    /// soil's weight (Reece's); constants of Bekker's, and of resistive force theory, stay as they
+    /// are.
     #[must_use]
     pub fn compacted(&self, by: Compaction) -> Self {
         let k = by.shear_modulus;

@@ -6,8 +6,8 @@ use super::{PressureSinkage, Rft, Soil};
 
 /// How a soil differs from another: in how it shears and in how it carries.
 ///
-/// How far down does the friction of a sand go where it is 1° less, and the pressure of a plate where it is softer
-/// by a tenth?
+/// How far down does the friction of a sand go where it is 1° less, and the pressure of a plate
+/// where it is softer by a tenth?
 ///
 /// ```
 /// use grouser_core::paper;
@@ -45,8 +45,8 @@ impl SoilDifference {
     }
 }
 
-/// Friction angles that a difference can lead to [rad], 1° and 80°; one beyond leads to the end. Source: ours, somewhat
-/// more than a soil's document may have.
+/// Friction angles that a difference can lead to [rad], 1° and 80°; one beyond leads to the end.
+/// Source: ours, somewhat more than a soil's document may have.
 const FRICTION_ANGLES: [f64; 2] = [PI / 180.0, 80.0 * PI / 180.0];
 
 impl Soil {

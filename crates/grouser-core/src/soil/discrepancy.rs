@@ -1,9 +1,9 @@
 //! What a wheel–soil model gets wrong in one soil under one wheel: its discrepancy, as a smooth
 //! function of slip and slip angle.
 //!
-//! No model is exact. A calibration that says so finds, beside the soil's constants, by how much the
-//! model may still be off at each motion (Kennedy and O'Hagan 2001), and a prediction with its samples
-//! has that too. A [`Discrepancy`] is one such function for each quantity: values at
+//! No model is exact. A calibration that says so finds, beside the soil's constants, by how much
+//! the model may still be off at each motion (Kennedy and O'Hagan 2001), and a prediction with its
+//! samples has that too. A [`Discrepancy`] is one such function for each quantity: values at
 //! [`SLIPS`] and [`SLIP_ANGLES`], blended in between. It is zero by default; it comes from a
 //! calibration's samples and is not to be set by hand.
 
@@ -14,8 +14,8 @@ use crate::error::{ParameterError, finite};
 /// Slips by the total speed, *S* [-], at which a discrepancy has values.
 pub const SLIPS: [f64; 5] = [-1.0, -0.5, 0.0, 0.5, 1.0];
 
-/// Slip angles, |*β*| [rad], at which a discrepancy has values, closer where rovers drive: 0, 15, 45
-/// and 90°.
+/// Slip angles, |*β*| [rad], at which a discrepancy has values, closer where rovers drive: 0, 15,
+/// 45 and 90°.
 pub const SLIP_ANGLES: [f64; 4] = [0.0, PI / 12.0, FRAC_PI_4, FRAC_PI_2];
 
 /// How many values a quantity has.
@@ -36,8 +36,8 @@ pub const LARGEST: f64 = 10.0;
 pub struct Discrepancy {
     /// Added to the drawbar pull, in shares of the load [-].
     pub drawbar_pull: [f64; VALUES],
-    /// Added to the side force, in shares of the load [-]; it begins with the second slip angle, since
-    /// by symmetry there is none at the first.
+    /// Added to the side force, in shares of the load [-]; it begins with the second slip angle,
+    /// since by symmetry there is none at the first.
     pub side_force: [f64; SIDE_VALUES],
     /// Added to the logarithm of the sinkage [-].
     pub sinkage: [f64; VALUES],
@@ -74,7 +74,8 @@ impl Default for Discrepancy {
 /// Where a motion lies among [`SLIPS`] and [`SLIP_ANGLES`]: which values count, and how much.
 ///
 /// Between two neighbours the value passes from one to the other by 3t² − 2t³, so that the function
-/// is smooth, never outside of its values, and even in the slip angle. Beyond the ends it is constant.
+/// is smooth, never outside of its values, and even in the slip angle. Beyond the ends it is
+/// constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Blend {
     slip: (usize, f64),
@@ -147,7 +148,8 @@ mod tests {
         }
     }
 
-    /// The half-way value is the mean of the neighbours, and the value beyond the ends is that there.
+    /// The half-way value is the mean of the neighbours, and the value beyond the ends is that
+    /// there.
     #[test]
     fn a_discrepancy_passes_from_value_to_value_and_ends_level() {
         let at = |slip, angle| Blend::at(slip, angle).of(&numbered());

@@ -1,4 +1,5 @@
-//! For which wheels, loads and motions a soil's constants, or a wheel–soil model, are known to hold.
+//! For which wheels, loads and motions a soil's constants, or a wheel–soil model, are known to
+//! hold.
 //!
 //! A domain computes nothing: [`validity`](crate::contact::validity) flags results outside it.
 

@@ -1,8 +1,9 @@
 //! A soil's constants under another gravity than the one they were measured under.
 //!
-//! Nobody measured how the ground's stiffness under a wheel changes with gravity on another body. [`GravityScaling`]
-//! names what may be assumed of it; a forecast takes each as possible. With *q* = g/g₀, the gravity there over the
-//! gravity of the measurement, the parts of the pressure σ = (K_c + K_φ) zⁿ under a rim of one width become
+//! Nobody measured how the ground's stiffness under a wheel changes with gravity on another body.
+//! [`GravityScaling`] names what may be assumed of it; a forecast takes each as possible. With *q*
+//! = g/g₀, the gravity there over the gravity of the measurement, the parts of the pressure σ =
+//! (K_c + K_φ) zⁿ under a rim of one width become
 //!
 //! | choice | cohesive part K_c | frictional part K_φ | cohesion c | stiffness ξ of `rft` |
 //! |---|---|---|---|---|
@@ -10,10 +11,10 @@
 //! | `bekker` | 1 | 1 | 1 | 1 |
 //! | `granular-scaling` | q | q | q | q |
 //!
-//! times what they were. Friction angle, density, exponent *n* and all lengths, the shear moduli among them, stay,
-//! and the weight of soil that is pushed aside is ρ g in all of them. At one width Bekker's constants and Reece's
-//! are two ways to write K_c and K_φ (k_c/b and k_φ, or c k'_c/bⁿ and ρ g k'_φ b^(1−n)), so that a soil keeps the
-//! form that its document has.
+//! times what they were. Friction angle, density, exponent *n* and all lengths, the shear moduli
+//! among them, stay, and the weight of soil that is pushed aside is ρ g in all of them. At one
+//! width Bekker's constants and Reece's are two ways to write K_c and K_φ (k_c/b and k_φ, or c
+//! k'_c/bⁿ and ρ g k'_φ b^(1−n)), so that a soil keeps the form that its document has.
 
 use super::{PressureSinkage, Soil};
 use crate::error::{ParameterError, positive};
@@ -21,14 +22,17 @@ use crate::error::{ParameterError, positive};
 /// How the ground's moduli change with gravity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GravityScaling {
-    /// The frictional part grows with the soil's weight, γ = ρ g; cohesion and what comes of it stay (Reece 1965).
+    /// The frictional part grows with the soil's weight, γ = ρ g; cohesion and what comes of it
+    /// stay (Reece 1965).
     Reece,
-    /// The constants of the pressure–sinkage law stay as they were measured, as Bekker's are used: the ground is as
-    /// stiff as before under a lighter rover. No measurement supports it; it obeys no scaling law.
+    /// The constants of the pressure–sinkage law stay as they were measured, as Bekker's are used:
+    /// the ground is as stiff as before under a lighter rover. No measurement supports it; it obeys
+    /// no scaling law.
     Bekker,
-    /// Every stress grows with gravity, cohesion too: what was measured as cohesion is taken for friction at small
-    /// stress. Then a rover of the same mass does on both bodies the same (granular scaling laws, Slonaker et al.
-    /// 2017): the forecast is the test of that rover where the soil was measured.
+    /// Every stress grows with gravity, cohesion too: what was measured as cohesion is taken for
+    /// friction at small stress. Then a rover of the same mass does on both bodies the same
+    /// (granular scaling laws, Slonaker et al. 2017): the forecast is the test of that rover where
+    /// the soil was measured.
     Granular,
 }
 

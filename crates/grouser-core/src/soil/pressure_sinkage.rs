@@ -132,11 +132,12 @@ impl PressureSinkage {
         self
     }
 
-    /// Checks that the law gives a pressure: with moduli that are not negative under every width, with a
-    /// negative one over a range of widths that is stated.
+    /// Checks that the law gives a pressure: with moduli that are not negative under every width,
+    /// with a negative one over a range of widths that is stated.
     ///
-    /// Negative moduli are published, and predict well near the plates they were fitted to; K_σ changes its
-    /// sign at a width not far from theirs. It is monotone in the width, so that the ends of the range suffice.
+    /// Negative moduli are published, and predict well near the plates they were fitted to; K_σ
+    /// changes its sign at a width not far from theirs. It is monotone in the width, so that the
+    /// ends of the range suffice.
     ///
     /// * `cohesion`: *c* [Pa]
     /// * `unit_weight`: the range of *γ* [N/m³], which Reece's law reads

@@ -1,5 +1,5 @@
-//! The constants of resistive force theory ([`contact::rft`](crate::contact::rft)) beside the soil's
-//! own density and friction.
+//! The constants of resistive force theory ([`contact::rft`](crate::contact::rft)) beside the
+//! soil's own density and friction.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -10,7 +10,8 @@ use crate::error::{ParameterError, positive};
 pub struct Rft {
     /// Factor on the stiffness ξ that the model computes from density and friction [-].
     pub scale: f64,
-    /// Friction angle between the wheel and the soil [rad]; without it the soil's own, a rough wheel.
+    /// Friction angle between the wheel and the soil [rad]; without it the soil's own, a rough
+    /// wheel.
     pub surface_friction_angle: Option<f64>,
 }
 

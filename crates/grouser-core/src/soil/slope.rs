@@ -8,8 +8,8 @@
 //! FS = (c/(ρ g z cos²α) + tan φ)/tan α
 //! ```
 //!
-//! Without cohesion depth and gravity do not count, and sand stands up to tan α = tan φ/FS: its angle
-//! of repose, where FS is 1.
+//! Without cohesion depth and gravity do not count, and sand stands up to tan α = tan φ/FS: its
+//! angle of repose, where FS is 1.
 
 use super::Soil;
 use crate::elementary::wide;
@@ -61,8 +61,8 @@ impl Soil {
         (cohesion * (1.0 + tan * tan) + self.friction()) / tan
     }
 
-    /// The steepest slope that stands by the soil's own strength with a factor of safety [rad]: up to
-    /// it [`slope_safety`](Self::slope_safety) is nowhere less.
+    /// The steepest slope that stands by the soil's own strength with a factor of safety [rad]: up
+    /// to it [`slope_safety`](Self::slope_safety) is nowhere less.
     ///
     /// ```text
     /// k tan²α − FS tan α + tan φ + k = 0      k = c/(ρ g z), the smaller root

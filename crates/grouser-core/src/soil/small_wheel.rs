@@ -1,8 +1,9 @@
-//! The constants of the small-wheel model ([`contact::small_wheel`](crate::contact::small_wheel)): what the
-//! soil under a small wheel does beyond the classical law. They belong to one soil under one wheel.
+//! The constants of the small-wheel model ([`contact::small_wheel`](crate::contact::small_wheel)):
+//! what the soil under a small wheel does beyond the classical law. They belong to one soil under
+//! one wheel.
 //!
-//! Every term is off in [`SmallWheel::OFF`], and then the model is the classical one within what the
-//! ground resists. [`SmallWheel::GENERAL`] has values for a soil that states none.
+//! Every term is off in [`SmallWheel::OFF`], and then the model is the classical one within what
+//! the ground resists. [`SmallWheel::GENERAL`] has values for a soil that states none.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -69,7 +70,8 @@ pub struct Interface {
 /// The soil's load on the side wall of a small wheel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SideWall {
-    /// Factor on the passive pressure *R_b* [-], for the soil piled up at the wall and for its ends.
+    /// Factor on the passive pressure *R_b* [-], for the soil piled up at the wall and for its
+    /// ends.
     pub pressure_factor: f64,
     /// How fast the load fades with slip or skid, *ζ_b* [-].
     pub fading: f64,
@@ -113,12 +115,13 @@ impl SmallWheel {
     ///
     /// Slip makes a wheel sink as the published slip-sinkage law has it, ζ = (1 + s)/(1 − 0.5 s)
     /// (Lyasko 2010), and a smooth rim has two thirds of the soil's friction angle, the usual value
-    /// for steel in sand. The soil behind the wheel stays as low as the wheel while that spins on the
-    /// spot, λ = λ₀ (1 − S⁺): it passes no new soil. That form was chosen on the smooth wheel of Ding
-    /// et al. (2011), whose pull does not rise at high slip. The rear mound is that of both fitted
-    /// wheels of Pavlov and Johnson (2022). All else was chosen on both wheels of Pavlov and Johnson (2022), at slip angles of 0 to 75°, with their
-    /// sand's published constants, under which a wheel lies deeper than with fitted ones: growths, side wall
-    /// and bow wave are smaller than the presets' (`docs/models/small-wheel.md`).
+    /// for steel in sand. The soil behind the wheel stays as low as the wheel while that spins on
+    /// the spot, λ = λ₀ (1 − S⁺): it passes no new soil. That form was chosen on the smooth wheel
+    /// of Ding et al. (2011), whose pull does not rise at high slip. The rear mound is that of both
+    /// fitted wheels of Pavlov and Johnson (2022). All else was chosen on both wheels of Pavlov and
+    /// Johnson (2022), at slip angles of 0 to 75°, with their sand's published constants, under
+    /// which a wheel lies deeper than with fitted ones: growths, side wall and bow wave are smaller
+    /// than the presets' (`docs/models/small-wheel.md`).
     pub const GENERAL: Self = Self {
         sinkage: SinkageGrowth {
             with_slip_angle: 1.0,
@@ -192,8 +195,8 @@ impl SinkageGrowth {
     /// with the total slip S, its driving part S⁺ = max(S, 0) and its skid S⁻ = max(−S, 0). A
     /// locked wheel is a plough: it digs to its own depth, whatever its direction.
     ///
-    /// The growth is the same at every depth: a wheel that digs deeper than its axle has sunk to the
-    /// axle, and no term holds it up.
+    /// The growth is the same at every depth: a wheel that digs deeper than its axle has sunk to
+    /// the axle, and no term holds it up.
     ///
     /// * `total_slip`: *S* [-], −1 to 1
     /// * `slip_angle`: *β* [rad]

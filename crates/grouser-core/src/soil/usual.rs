@@ -7,7 +7,8 @@ use super::{
 impl Soil {
     /// A soil of which no more is known: a stress peak like that of dry sand (Wong and Reece 1967),
     /// a rut as deep as the wheel was, side walls that push as smoothly as possible, no bound of
-    /// shear, the whole of its peak friction, [`SmallWheel::GENERAL`]. A number that is known is a field with another value.
+    /// shear, the whole of its peak friction, [`SmallWheel::GENERAL`]. A number that is known is a
+    /// field with another value.
     ///
     /// * `cohesion`: *c* [Pa]
     /// * `friction_angle`: *φ* [rad]

@@ -15,28 +15,30 @@ use gaps::Known;
 
 /// Ground whose heights are known at the points of a regular grid.
 ///
-/// Places are in the coordinates of a map: x east, y north, in metres. Between the points the height is
-/// that of cubic convolution [Keys1981], which goes through the points' heights, has a continuous
-/// gradient, and repeats every quadratic surface:
+/// Places are in the coordinates of a map: x east, y north, in metres. Between the points the
+/// height is that of cubic convolution [Keys1981], which goes through the points' heights, has a
+/// continuous gradient, and repeats every quadratic surface:
 ///
 /// ```text
 /// z(x, y) = Σ_i Σ_j w_i(u) w_j(v) z_ij          u, v: how far into the cell, 0 to 1; four points along each axis
 /// ```
 ///
-/// At the edges of the grid, points beyond it continue the three nearest by a parabola, as the source
-/// does. A height of a point that is not finite is *missing*: at the rim of missing heights the known
-/// ones are continued in the same manner, so that places between four known points have no use for what
-/// lies beyond. [`covers`](Terrain::covers) tells such places from the others. Elsewhere the ground goes
-/// on as high as at the nearest edge, so that there is a height everywhere.
+/// At the edges of the grid, points beyond it continue the three nearest by a parabola, as the
+/// source does. A height of a point that is not finite is *missing*: at the rim of missing heights
+/// the known ones are continued in the same manner, so that places between four known points have
+/// no use for what lies beyond. [`covers`](Terrain::covers) tells such places from the others.
+/// Elsewhere the ground goes on as high as at the nearest edge, so that there is a height
+/// everywhere.
 ///
 /// A wheel meets the least-squares plane of the ground at the points of its footprint
 /// ([`Footprint::fit`]).
 ///
-/// A point takes 4 bytes: heights are kept as `f32` above a base. Over a relief of 100 m that rounds
-/// them to 4 µm, wherever the base is. Coordinates are `f64`; the grid's own place on the map (hundreds
-/// of kilometres) costs them 0.1 nm.
+/// A point takes 4 bytes: heights are kept as `f32` above a base. Over a relief of 100 m that
+/// rounds them to 4 µm, wherever the base is. Coordinates are `f64`; the grid's own place on the
+/// map (hundreds of kilometres) costs them 0.1 nm.
 ///
-/// How steep is the ground at a place of a map, 2 m between its points, on the rim of a shallow bowl?
+/// How steep is the ground at a place of a map, 2 m between its points, on the rim of a shallow
+/// bowl?
 ///
 /// ```
 /// use grouser_core::terrain::{ElevationGrid, ElevationModel, Footprint, Terrain};
@@ -70,8 +72,8 @@ pub struct ElevationModel {
 impl ElevationModel {
     /// The model of these heights.
     ///
-    /// * `heights`: at the grid's points [m], in rows from south to north, each from west to east; those
-    ///   that are not finite are missing
+    /// * `heights`: at the grid's points [m], in rows from south to north, each from west to east;
+    ///   those that are not finite are missing
     ///
     /// # Errors
     /// [`ElevationError`] if the grid is invalid, does not have as many points as there are
@@ -96,7 +98,8 @@ impl ElevationModel {
 
     /// The model of heights above a base, which are kept as they are.
     ///
-    /// * `base`: what they are above [m]: near them, and a whole number of metres so that it costs no bit
+    /// * `base`: what they are above [m]: near them, and a whole number of metres so that it costs
+    ///   no bit
     /// * `heights`: as for [`new`](Self::new)
     ///
     /// # Errors
@@ -140,8 +143,8 @@ impl ElevationModel {
         self.base
     }
 
-    /// The heights above the base [m] as [`above_base`](Self::above_base) takes them: NaN where they are
-    /// missing.
+    /// The heights above the base [m] as [`above_base`](Self::above_base) takes them: NaN where
+    /// they are missing.
     pub fn heights_above_base(&self) -> impl Iterator<Item = f32> + '_ {
         let given = |(point, height): (usize, &f32)| {
             if self.known.contains(point) { *height } else { f32::NAN }
@@ -171,8 +174,8 @@ impl ElevationModel {
         along_y.sum(rows.map(|row| along_x.sum(row)))
     }
 
-    /// How fast the height grows to the east and to the north [-]. Outside of the extent nothing grows
-    /// across the edge.
+    /// How fast the height grows to the east and to the north [-]. Outside of the extent nothing
+    /// grows across the edge.
     ///
     /// * `at`: the place on the map [m]
     #[must_use]
@@ -193,14 +196,15 @@ impl ElevationModel {
     pub fn is_known(&self, at: Vec2) -> bool {
         let Some((column, row)) = self.grid.cell(at) else { return false };
         let columns = self.grid.columns;
-        // The last row and column have no cell of their own: their points are the edges of the one before.
+        // The last row and column have no cell of their own: their points are the edges of the one
+        // before.
         let corner = row * columns + column;
         let corners = [corner, corner + 1, corner + columns, corner + columns + 1];
         corners.into_iter().all(|point| self.known.contains(point))
     }
 
-    /// The heights above the base at the 16 points of two stencils, row by row; zero where a small grid has
-    /// no such point, for which there is no weight either.
+    /// The heights above the base at the 16 points of two stencils, row by row; zero where a small
+    /// grid has no such point, for which there is no weight either.
     fn about(&self, along_x: &Stencil, along_y: &Stencil) -> [[f64; POINTS]; POINTS] {
         let ElevationGrid { columns, rows, .. } = self.grid;
         let start = |row: usize| (along_y.first + row) * columns + along_x.first;
@@ -244,8 +248,8 @@ impl Terrain for ElevationModel {
     }
 }
 
-/// A base for heights like this one [m]: in whole metres, so that a height of a file in `f32` is above it
-/// by a number that `f32` has, too.
+/// A base for heights like this one [m]: in whole metres, so that a height of a file in `f32` is
+/// above it by a number that `f32` has, too.
 #[must_use]
 pub fn round_base(height: f64) -> f64 {
     height.round()

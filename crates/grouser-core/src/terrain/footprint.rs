@@ -14,8 +14,8 @@ pub struct Footprint {
     pub half_width: f64,
 }
 
-/// A wheel's footprint reaches so far along it, over its shearing radius [-]: a wheel sunk by 15 % of its
-/// radius touches the soil over this length ahead of its lowest point. Source: ours.
+/// A wheel's footprint reaches so far along it, over its shearing radius [-]: a wheel sunk by 15 %
+/// of its radius touches the soil over this length ahead of its lowest point. Source: ours.
 pub const REACH: f64 = 0.5;
 
 /// How many points of a footprint tell the ground there.

@@ -15,7 +15,8 @@ use crate::units::{Vec2, Vec3};
 /// Its places as a [`Terrain`] are seen from where the run starts, so that the large numbers of a
 /// map's coordinates cost no precision.
 ///
-/// How high above its start is a place 3 m uphill of it, on a slope of 10° and on a hill of one's own?
+/// How high above its start is a place 3 m uphill of it, on a slope of 10° and on a hill of one's
+/// own?
 ///
 /// ```
 /// use grouser_core::paper;
@@ -45,7 +46,8 @@ pub struct Ground {
     pub soil: Soil,
     /// Its shape.
     pub shape: Shape,
-    /// The start of the rover, of its body's centre of mass seen from above, in the coordinates of the shape [m].
+    /// The start of the rover, of its body's centre of mass seen from above, in the coordinates of
+    /// the shape [m].
     pub start: Vec2,
     /// Zones of other soils, in the coordinates of the shape, if there are any.
     pub zones: Option<Arc<SoilZones>>,
@@ -54,7 +56,8 @@ pub struct Ground {
 /// The shape of the ground.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
-    /// A plane, whose coordinates lie in it: x along the contour, y uphill. A run on it takes closed forms.
+    /// A plane, whose coordinates lie in it: x along the contour, y uphill. A run on it takes
+    /// closed forms.
     Plane(Plane),
     /// A map of heights.
     Map(Arc<ElevationModel>),
@@ -98,8 +101,8 @@ impl Ground {
         Self::of(soil, Shape::Plane(Plane { slope }))
     }
 
-    /// A map of heights, with one soil. A run starts at the origin of its coordinates unless [another
-    /// place](Self::starting_at) is named.
+    /// A map of heights, with one soil. A run starts at the origin of its coordinates unless
+    /// [another place](Self::starting_at) is named.
     #[must_use]
     pub fn map(soil: Soil, heights: impl Into<Arc<ElevationModel>>) -> Self {
         Self::of(soil, Shape::Map(heights.into()))
@@ -241,14 +244,15 @@ impl Terrain for Ground {
     }
 }
 
-/// Ground less inclined than this is level: it has no uphill [rad], 0.05°. Source: ours; a rover's inclinometer reads no
-/// finer, and it is far above what the rounding of a map's heights tilts (a thousandth of a degree).
+/// Ground less inclined than this is level: it has no uphill [rad], 0.05°. Source: ours; a rover's
+/// inclinometer reads no finer, and it is far above what the rounding of a map's heights tilts (a
+/// thousandth of a degree).
 pub const LEVEL: f64 = 0.05 * std::f64::consts::PI / 180.0;
 
 /// How the ground lies under a rover: where it faces, and where up is.
 ///
-/// Both are unit vectors in the coordinates in which a run has its places and yaw. Those of a plane lie in it, so that up
-/// leans; all others are level.
+/// Both are unit vectors in the coordinates in which a run has its places and yaw. Those of a plane
+/// lie in it, so that up leans; all others are level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lie {
     /// Out of the ground.
@@ -284,16 +288,16 @@ impl Lie {
         self.climb().xy().try_normalize(0.0)
     }
 
-    /// Direction of the contour line that has uphill to its left [rad], counter-clockwise from the x axis of places; none on
-    /// [`LEVEL`] ground.
+    /// Direction of the contour line that has uphill to its left [rad], counter-clockwise from the
+    /// x axis of places; none on [`LEVEL`] ground.
     #[must_use]
     pub fn contour(&self) -> Option<f64> {
         let uphill = self.uphill()?;
         Some(wide::atan2(0.0 - uphill.x, uphill.y))
     }
 
-    /// Straight downhill along the axes of a body that stands on it, forward and to the left: a unit vector; none on
-    /// [`LEVEL`] ground.
+    /// Straight downhill along the axes of a body that stands on it, forward and to the left: a
+    /// unit vector; none on [`LEVEL`] ground.
     ///
     /// * `yaw`: of the body [rad]
     #[must_use]
@@ -304,8 +308,8 @@ impl Lie {
         (-self.climb_of_body(yaw)).try_normalize(0.0)
     }
 
-    /// How fast the ground climbs along the axes of a body that stands on it, forward and to the left: the sines of their
-    /// inclinations [-].
+    /// How fast the ground climbs along the axes of a body that stands on it, forward and to the
+    /// left: the sines of their inclinations [-].
     ///
     /// * `yaw`: of the body [rad]
     #[must_use]

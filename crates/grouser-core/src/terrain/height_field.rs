@@ -2,9 +2,11 @@
 
 use crate::units::Vec2;
 
-/// Heights at the points of a grid, bilinear between them; beyond its edges it goes on as high as there.
+/// Heights at the points of a grid, bilinear between them; beyond its edges it goes on as high as
+/// there.
 ///
-/// How high is the ground half-way between the points of a grid of 2 m by 1 m, whose heights are in centimetres?
+/// How high is the ground half-way between the points of a grid of 2 m by 1 m, whose heights are in
+/// centimetres?
 ///
 /// ```
 /// use grouser_core::terrain::HeightField;
@@ -31,8 +33,8 @@ pub struct HeightField<'a> {
 }
 
 impl<'a> HeightField<'a> {
-    /// The field of a grid about the origin; none if that has fewer than two points along an axis, or
-    /// not as many heights as points.
+    /// The field of a grid about the origin; none if that has fewer than two points along an axis,
+    /// or not as many heights as points.
     ///
     /// * `heights`: of points in rows along x, one after the other along y
     /// * `columns`: points in a row

@@ -1,12 +1,14 @@
-//! Ground that looks like the Moon's: craters by the published counts, in all states of wear, on fractal relief.
+//! Ground that looks like the Moon's: craters by the published counts, in all states of wear, on
+//! fractal relief.
 //!
-//! It is made by chance from a seed, and shows no place of the Moon. Craters are as many as counts find where new ones
-//! form as fast as old ones wear away ([`EQUILIBRIUM`]). Their shapes are a fresh crater's whose soil has crept downhill
-//! by diffusion, to the depths that [Dsne2021] states. Between them is a relief with the Hurst exponent and the median
-//! slope of [Rosenburg2011].
+//! It is made by chance from a seed, and shows no place of the Moon. Craters are as many as counts
+//! find where new ones form as fast as old ones wear away ([`EQUILIBRIUM`]). Their shapes are a
+//! fresh crater's whose soil has crept downhill by diffusion, to the depths that [Dsne2021] states.
+//! Between them is a relief with the Hurst exponent and the median slope of [Rosenburg2011].
 //!
-//! DIFFERENCE from the Moon: heights of craters add up where they overlap, so that a young crater does not wipe out
-//! what was there before; slopes may then exceed a fresh crater's 31°. There are no stones.
+//! DIFFERENCE from the Moon: heights of craters add up where they overlap, so that a young crater
+//! does not wipe out what was there before; slopes may then exceed a fresh crater's 31°. There are
+//! no stones.
 
 mod degradation;
 mod population;
@@ -48,9 +50,9 @@ impl LunarGround {
         }
     }
 
-    /// Its relief between craters. Source: [Rosenburg2011]: Hurst exponents of 0.76 and 0.95, and slopes whose median
-    /// over 17 m is 2.0° and 7.5°. Of a surface of normal heights the median of the slope is √(2 ln 2) of the root mean
-    /// square along a line. Craters come on top.
+    /// Its relief between craters. Source: [Rosenburg2011]: Hurst exponents of 0.76 and 0.95, and
+    /// slopes whose median over 17 m is 2.0° and 7.5°. Of a surface of normal heights the median of
+    /// the slope is √(2 ln 2) of the root mean square along a line. Craters come on top.
     #[must_use]
     pub fn roughness(self) -> Roughness {
         /// √(2 ln 2).
@@ -115,9 +117,11 @@ impl LunarSite {
     pub const LARGEST_SIZE: f64 = 20_000.0;
     /// Diameter of the smallest craters over a cell [-]: fewer cells do not show a bowl.
     pub const SMALLEST_IN_CELLS: f64 = 4.0;
-    /// Upper limit of the craters' diameters, where nothing else is asked for [m]: the law's, [`EQUILIBRIUM`].
+    /// Upper limit of the craters' diameters, where nothing else is asked for [m]: the law's,
+    /// [`EQUILIBRIUM`].
     pub const USUAL_LARGEST_CRATER: f64 = 100.0;
-    /// The largest that may be asked for [m]: how many larger ones there are depends on the ground's age.
+    /// The largest that may be asked for [m]: how many larger ones there are depends on the
+    /// ground's age.
     pub const LARGEST_CRATER: f64 = 300.0;
 
     /// Mare whose craters are in equilibrium, up to a diameter of 100 m.
@@ -171,8 +175,8 @@ impl LunarSite {
         )
     }
 
-    /// The site's heights: of the same site the same, bit for bit. A finer grid has the same craters and the same waves,
-    /// and smaller ones as well.
+    /// The site's heights: of the same site the same, bit for bit. A finer grid has the same
+    /// craters and the same waves, and smaller ones as well.
     ///
     /// # Errors
     /// [`ParameterError`] for the first value that is wrong.
@@ -218,7 +222,8 @@ impl LunarSite {
         }
     }
 
-    /// The craters on the site and about it, as far as the largest may reach into it, from the largest down.
+    /// The craters on the site and about it, as far as the largest may reach into it, from the
+    /// largest down.
     fn craters(&self, shapes: &Shapes) -> impl Iterator<Item = AgedCrater> + use<> {
         let deepest = shapes.deepest();
         let half = 0.5 * self.size + shapes.profile(self.largest_crater, deepest).reach();

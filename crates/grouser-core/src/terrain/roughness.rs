@@ -11,12 +11,14 @@ pub struct Deviation {
     pub baseline: f64,
     /// Root mean square of the differences (Allan deviation) [m].
     pub rms_deviation: f64,
-    /// Median of the slopes of the ground, each by the differences to the east and to the north [rad].
+    /// Median of the slopes of the ground, each by the differences to the east and to the north
+    /// [rad].
     pub median_slope: f64,
 }
 
 impl Deviation {
-    /// The inclination whose tangent is the root mean square of the slopes along rows and columns [rad].
+    /// The inclination whose tangent is the root mean square of the slopes along rows and columns
+    /// [rad].
     #[must_use]
     pub fn rms_slope(&self) -> f64 {
         wide::atan2(self.rms_deviation, self.baseline)

@@ -7,8 +7,8 @@ use crate::random::Random;
 use crate::soil::SoilDifference;
 use crate::units::Vec2;
 
-/// How many waves a field is made of. Source: ours; their sum is normal to within a hundredth of its spread, and
-/// costs less than the forces on a wheel.
+/// How many waves a field is made of. Source: ours; their sum is normal to within a hundredth of
+/// its spread, and costs less than the forces on a wheel.
 const WAVES: usize = 32;
 
 /// A soil's differences by place: one realisation of a homogeneous, isotropic, normal random field.
@@ -17,9 +17,10 @@ const WAVES: usize = 32;
 /// friction angle:  σ_φ √(2/N) Σ cos ψ_j       ln stiffness:  σ_k √(2/N) Σ sin ψ_j      ψ_j = k_j·r + ε_j
 /// ```
 ///
-/// with phases ε_j and wave vectors k_j such that both are, over all realisations, correlated by exp(−d²/ℓ²) between
-/// two places at a distance d, and not with each other (the spectral representation, Shinozuka and Deodatis 1991).
-/// It has no grid: a place has a value without any other being computed.
+/// with phases ε_j and wave vectors k_j such that both are, over all realisations, correlated by
+/// exp(−d²/ℓ²) between two places at a distance d, and not with each other (the spectral
+/// representation, Shinozuka and Deodatis 1991). It has no grid: a place has a value without any
+/// other being computed.
 ///
 /// By how much does the friction angle of a bed differ half a metre apart, if it scatters by 1°?
 ///
@@ -45,8 +46,8 @@ pub struct SoilScatter {
     pub friction_angle: f64,
     /// Standard deviation of the logarithm of the stiffness [-]: 0.1 is about a tenth.
     pub stiffness: f64,
-    /// Distance at which the correlation has fallen to 1/e, *ℓ* [m]. What counts is the mean under a wheel, so
-    /// that it is not below a footprint's length.
+    /// Distance at which the correlation has fallen to 1/e, *ℓ* [m]. What counts is the mean under
+    /// a wheel, so that it is not below a footprint's length.
     pub correlation_length: f64,
 }
 
@@ -59,7 +60,8 @@ struct Wave {
     phase: f64,
 }
 
-/// The angle between one wave's direction and the next one's [rad]: the golden angle, by which no two are alike.
+/// The angle between one wave's direction and the next one's [rad]: the golden angle, by which no
+/// two are alike.
 const GOLDEN_ANGLE: f64 = PI * (3.0 - 2.236_067_977_499_79);
 
 impl SoilField {
@@ -69,7 +71,8 @@ impl SoilField {
     #[must_use]
     pub fn new(scatter: SoilScatter, seed: u64) -> Self {
         let mut random = Random::stream(seed, FIELD);
-        // Equal shares of the spectrum, and all of them turned: over the seeds they are the whole of it.
+        // Equal shares of the spectrum, and all of them turned: over the seeds they are the whole
+        // of it.
         let (turn, offset) = (TAU * random.uniform(), random.uniform());
         let waves = std::array::from_fn(|wave| {
             let index = wave as f64;

@@ -12,9 +12,9 @@ use crate::units::Vec2;
 
 /// A surface whose height and gradient are formulas.
 ///
-/// Places are on a map, x east and y north, and heights are against gravity, all in metres. Directions are
-/// from east, counter-clockwise. Where a surface has an edge, between the level ground and a ramp without a
-/// rounding or at the tip of a cone, its gradient is that of one side.
+/// Places are on a map, x east and y north, and heights are against gravity, all in metres.
+/// Directions are from east, counter-clockwise. Where a surface has an edge, between the level
+/// ground and a ramp without a rounding or at the tip of a cone, its gradient is that of one side.
 ///
 /// How high does the rim of a fresh crater of 20 m stand, and how deep is its middle?
 ///
@@ -94,7 +94,8 @@ impl Surface {
     }
 }
 
-/// A wheel meets the least-squares plane of the surface at the points of its footprint ([`Footprint::fit`]).
+/// A wheel meets the least-squares plane of the surface at the points of its footprint
+/// ([`Footprint::fit`]).
 ///
 /// How steep is a ripple 1 m long and 10 cm from trough to crest, at most, under a wheel?
 ///

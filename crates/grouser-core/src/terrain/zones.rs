@@ -25,20 +25,20 @@ use polygons::PolygonZones;
 
 /// Zones of ground, each of one soil.
 ///
-/// Places are in the coordinates of a map: x east, y north, in metres. Where there is no zone the soil
-/// is the one that a scenario states.
+/// Places are in the coordinates of a map: x east, y north, in metres. Where there is no zone the
+/// soil is the one that a scenario states.
 ///
-/// The soil changes at once at a border, a wheel passes over it: what it meets is shared among the zones
-/// below its [`Footprint`]. As of the stress below a wheel, there is most in the middle of its length, and
-/// as much everywhere across its width.
+/// The soil changes at once at a border, a wheel passes over it: what it meets is shared among the
+/// zones below its [`Footprint`]. As of the stress below a wheel, there is most in the middle of
+/// its length, and as much everywhere across its width.
 ///
 /// ```text
 /// share_k = ∫∫_zone k ½ w(a) da db        w(a) = ¾ (1 − a²)        a, b: −1 to 1 along and across the footprint
 /// ```
 ///
-/// The shares are exact for borders of straight lines and change smoothly as a wheel passes, so that an
-/// integrator's steps need not end at a border. The force on the wheel is the mean of the soils' forces
-/// at its sinkage, by their shares.
+/// The shares are exact for borders of straight lines and change smoothly as a wheel passes, so
+/// that an integrator's steps need not end at a border. The force on the wheel is the mean of the
+/// soils' forces at its sinkage, by their shares.
 ///
 /// How much of a wheel has passed a border from sand to firm ground, 1 cm before its middle does?
 ///
@@ -60,7 +60,8 @@ use polygons::PolygonZones;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SoilZones {
     map: Arc<Map>,
-    /// The soils. A clone with others shares the places; a zone of a soil that is not there has the ground's own.
+    /// The soils. A clone with others shares the places; a zone of a soil that is not there has the
+    /// ground's own.
     pub soils: Vec<Soil>,
 }
 
@@ -74,11 +75,11 @@ pub struct Share<'a> {
 }
 
 impl SoilZones {
-    /// Zones of a grid: a place belongs to the zone of the nearest point. Beyond half a cell from the
-    /// outer points there is none.
+    /// Zones of a grid: a place belongs to the zone of the nearest point. Beyond half a cell from
+    /// the outer points there is none.
     ///
-    /// * `zones`: of the grid's points, in rows from south to north, each from west to east: which of the
-    ///   soils, from 0, or [`NO_ZONE`]
+    /// * `zones`: of the grid's points, in rows from south to north, each from west to east: which
+    ///   of the soils, from 0, or [`NO_ZONE`]
     ///
     /// # Errors
     /// [`ZonesError`] if the grid is invalid, does not have as many points as there are zones, or

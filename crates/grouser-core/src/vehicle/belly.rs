@@ -1,16 +1,18 @@
 //! How far the underside of a rover is over uneven ground: its belly clearance.
 //!
-//! The underside is a flat plate fixed to the body, as long and as wide as the rectangle around the wheels' hubs, so high over
-//! level hard ground as the rover's document says. It is compared with the ground at nine times nine points, an eighth of its
-//! length and of its width apart, its corners and edges included:
+//! The underside is a flat plate fixed to the body, as long and as wide as the rectangle around the
+//! wheels' hubs, so high over level hard ground as the rover's document says. It is compared with
+//! the ground at nine times nine points, an eighth of its length and of its width apart, its
+//! corners and edges included:
 //!
 //! ```text
 //! c = min_ij (P_ij · e_up − z(P_ij)) (e_z · e_up)
 //! ```
 //!
-//! with a point of the plate *P*, the height of the ground below it *z*, and the body's axis *e_z*: the height over the ground
-//! times the cosine of the body's tilt. Where the ground is a plane this is the distance from it, on any slope; it is zero
-//! where the plate touches, whatever the ground's shape. Ground narrower than the points' spacing may pass between them.
+//! with a point of the plate *P*, the height of the ground below it *z*, and the body's axis *e_z*:
+//! the height over the ground times the cosine of the body's tilt. Where the ground is a plane this
+//! is the distance from it, on any slope; it is zero where the plate touches, whatever the ground's
+//! shape. Ground narrower than the points' spacing may pass between them.
 //!
 //! Source: ours.
 

@@ -122,7 +122,8 @@ impl ByWheel {
     }
 }
 
-/// How the soil below each wheel differs from what the ground says: by wheel, by place, and by the wheels before it.
+/// How the soil below each wheel differs from what the ground says: by wheel, by place, and by the
+/// wheels before it.
 #[derive(Clone, Copy)]
 pub struct Differences<'a> {
     /// By wheel; without it all are alike.

@@ -1,4 +1,5 @@
-//! What turns the wheels: constant speeds, the source's slip-dependent law ([FourWheel], Eq. 18), or a limit of slip.
+//! What turns the wheels: constant speeds, the source's slip-dependent law ([FourWheel], Eq. 18),
+//! or a limit of slip.
 
 use super::by_wheel::PerWheel;
 use super::rover::Rover;
@@ -7,8 +8,8 @@ use crate::error::{ParameterError, finite, positive};
 
 /// The drives that a document can name.
 ///
-/// How fast must the rims turn such that a rover that crabs by 5° and slips by 0.2 goes 6 cm/s along
-/// the contour?
+/// How fast must the rims turn such that a rover that crabs by 5° and slips by 0.2 goes 6 cm/s
+/// along the contour?
 ///
 /// ```
 /// use grouser_core::paper;
@@ -98,10 +99,11 @@ impl DriveLaw {
         }
     }
 
-    /// Sets the rim speed ω r_s of each wheel [m/s]. Eq. 18 takes the direction of each wheel, γ + δ,
-    /// for the yaw.
+    /// Sets the rim speed ω r_s of each wheel [m/s]. Eq. 18 takes the direction of each wheel, γ +
+    /// δ, for the yaw.
     ///
-    /// * `crab`: how far the nose is turned off the way that is to be gone [rad]: along the contour the yaw, *γ*
+    /// * `crab`: how far the nose is turned off the way that is to be gone [rad]: along the contour
+    ///   the yaw, *γ*
     /// * `slip_ratios`: of each wheel when it was last looked at [-]; zeros at the start
     /// * `rim_speeds`: those that were commanded before; zeros at the start
     pub fn rim_speeds(
@@ -161,11 +163,12 @@ fn eq_18(target: &SlipTarget, slip_ratio: f64, crab: f64) -> f64 {
     target.speed * wide::cos(crab) / (1.0 - s)
 }
 
-/// A wheel that slips more than it may still turns at this share of what is wanted [-], so that it finds out when its
-/// soil holds again. Source: ours.
+/// A wheel that slips more than it may still turns at this share of what is wanted [-], so that it
+/// finds out when its soil holds again. Source: ours.
 const LEAST_SHARE: f64 = 0.1;
 
-/// Rim speed ω r_s [m/s] at which a wheel slips by no more than it may, were its hub to go on as it does:
+/// Rim speed ω r_s [m/s] at which a wheel slips by no more than it may, were its hub to go on as it
+/// does:
 ///
 /// ```text
 /// |ω r_s| ≤ (|ω r_s| − ω r_s s)_before / (1 − s_max)

@@ -1,4 +1,5 @@
-//! A motor under its speed controller: torque, current and speed of its wheel, whatever the load; and with a warm winding.
+//! A motor under its speed controller: torque, current and speed of its wheel, whatever the load;
+//! and with a warm winding.
 //!
 //! The equations are those of [`speed_control`](super::speed_control), [`motor`](super::motor) and
 //! [`winding`](super::winding).
@@ -33,20 +34,21 @@ pub struct Driven {
 const COPPER: f64 = 0.003_93;
 /// The temperature of a data sheet's resistance [°C].
 const REFERENCE: f64 = 20.0;
-/// How much steeper the speed falls beyond the most current than with the winding's resistance alone [-]: so much that a
-/// wheel takes less than a thousandth more. Source: ours.
+/// How much steeper the speed falls beyond the most current than with the winding's resistance
+/// alone [-]: so much that a wheel takes less than a thousandth more. Source: ours.
 const STEEP: f64 = 1e4;
 
-/// A wheel below this speed all but stands [rad/s]: friction fades to none there. Source: ours, a turn in 17 hours.
+/// A wheel below this speed all but stands [rad/s]: friction fades to none there. Source: ours, a
+/// turn in 17 hours.
 const STANDING: f64 = 1e-4;
 
-/// Share of a torque that a self-locking gear lets through from the wheel to the motor [-]. Source: ours: so little that no
-/// wheel's load moves a motor.
+/// Share of a torque that a self-locking gear lets through from the wheel to the motor [-]. Source:
+/// ours: so little that no wheel's load moves a motor.
 const LEAKING: f64 = 1e-4;
 
 impl Motor {
-    /// Torque and current of a wheel that turns as it does; of a motor without a speed controller, as if it had one without
-    /// gain.
+    /// Torque and current of a wheel that turns as it does; of a motor without a speed controller,
+    /// as if it had one without gain.
     ///
     /// * `limits`: besides its own
     #[must_use]
@@ -74,8 +76,8 @@ impl Motor {
         }
     }
 
-    /// Torque on a wheel that turns at a speed *ω* [rad/s], from the current [A]. Where the wheel all but stands, friction
-    /// and the gear's loss pass from one direction to the other.
+    /// Torque on a wheel that turns at a speed *ω* [rad/s], from the current [A]. Where the wheel
+    /// all but stands, friction and the gear's loss pass from one direction to the other.
     fn torque_of(&self, current: f64, speed: f64) -> f64 {
         let sense = speed / hypot(speed, STANDING);
         let shaft = self.torque_constant * current - self.friction * sense;
@@ -84,8 +86,9 @@ impl Motor {
         self.gear_ratio * shaft * (self.efficiency * forward + (1.0 - forward) / back)
     }
 
-    /// What the integral of its controller adds to the voltage in the end, *z* = V − k N ω_0 [V]: what is missing, it has
-    /// taken over, and at a limit its correction and what is missing cancel each other.
+    /// What the integral of its controller adds to the voltage in the end, *z* = V − k N ω_0 [V]:
+    /// what is missing, it has taken over, and at a limit its correction and what is missing cancel
+    /// each other.
     ///
     /// * `torque`: that the wheel takes, *T* [N·m]
     /// * `set`, `speed`: *ω_0* and *ω* [rad/s]
@@ -97,8 +100,8 @@ impl Motor {
         self.at(torque, speed).voltage - self.torque_constant * self.gear_ratio * set
     }
 
-    /// Speed at which it turns a wheel in the end that it is set to turn at *ω_0*, *ω* [rad/s]. It falls with the torque
-    /// that the wheel takes, steeply beyond the most current.
+    /// Speed at which it turns a wheel in the end that it is set to turn at *ω_0*, *ω* [rad/s]. It
+    /// falls with the torque that the wheel takes, steeply beyond the most current.
     ///
     /// * `torque`: of the wheel, *T* [N·m], positive while it drives the wheel forward
     /// * `set`: *ω_0* [rad/s]

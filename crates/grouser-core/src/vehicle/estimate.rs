@@ -1,7 +1,9 @@
-//! What a data sheet does not give, estimated from what it does: inertias, wheel masses, sizes, heights.
+//! What a data sheet does not give, estimated from what it does: inertias, wheel masses, sizes,
+//! heights.
 //!
-//! Each is a first guess for a rover of which no more is known, and is to be marked as assumed. Inertias are those of
-//! uniform bodies; the sizes are fits to the rovers of the presets, which they meet to within a factor of 2.
+//! Each is a first guess for a rover of which no more is known, and is to be marked as assumed.
+//! Inertias are those of uniform bodies; the sizes are fits to the rovers of the presets, which
+//! they meet to within a factor of 2.
 
 use super::parts::Inertia;
 use crate::elementary::pow;
@@ -47,7 +49,8 @@ impl Inertia {
 
 /// Mass of one wheel with its motor [kg]: all wheels together have a fifth of the rover's mass.
 ///
-/// Source: ours, between HAKUTO's 24 % ([FourWheel], Table 1) and MGRU3's 16 % (Hu et al., arXiv 2405.11001).
+/// Source: ours, between HAKUTO's 24 % ([FourWheel], Table 1) and MGRU3's 16 % (Hu et al., arXiv
+/// 2405.11001).
 ///
 /// * `mass`: of the whole rover [kg]
 /// * `count`: number of wheels
@@ -57,8 +60,9 @@ pub fn wheel_mass(mass: f64, count: u32) -> f64 {
     SHARE * mass / f64::from(count)
 }
 
-/// Height of a hub over the centre of mass of the body [m], negative where it is below: such that the common centre
-/// of mass of body and wheels has a height over the ground under the grousers' tips.
+/// Height of a hub over the centre of mass of the body [m], negative where it is below: such that
+/// the common centre of mass of body and wheels has a height over the ground under the grousers'
+/// tips.
 ///
 /// ```text
 /// m h = m_b h_b + m_w r_s,  z = r_s − h_b
@@ -114,8 +118,8 @@ pub fn sizes(mass: f64, count: u32) -> Sizes {
     }
 }
 
-/// Height of the common centre of mass over the ground under the grousers' tips [m]: above the hubs by a fifth of
-/// the mean of wheelbase and track.
+/// Height of the common centre of mass over the ground under the grousers' tips [m]: above the hubs
+/// by a fifth of the mean of wheelbase and track.
 ///
 /// Source: ours, between HAKUTO's 11 % and MGRU3's 25 %.
 #[must_use]

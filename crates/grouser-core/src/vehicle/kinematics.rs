@@ -7,7 +7,8 @@ use crate::contact::Slip;
 use crate::elementary::wide::{asin, atan2};
 use crate::units::Vec2;
 
-/// Velocity of a hub, in the body frame [m/s]: v_x = u − γ' d_y, v_y = v + γ' d_x, with the yaw rate γ'.
+/// Velocity of a hub, in the body frame [m/s]: v_x = u − γ' d_y, v_y = v + γ' d_x, with the yaw
+/// rate γ'.
 ///
 /// * `arm`: the hub seen from the body's centre of mass, in the body frame, *d* [m]
 #[must_use]
@@ -21,15 +22,16 @@ pub fn wheel_velocity(state: &RoverState, mount: &Mount) -> Vec2 {
     mount.wheel_from_body(hub_velocity(state, mount.position.xy()))
 }
 
-/// Steering angle at which a wheel rolls without sideslip, *δ* [rad], from −π/2 to π/2: its axle points to the centre about
-/// which the rover turns (Ackermann).
+/// Steering angle at which a wheel rolls without sideslip, *δ* [rad], from −π/2 to π/2: its axle
+/// points to the centre about which the rover turns (Ackermann).
 ///
 /// ```text
 /// |u| sin(φ − δ) = γ' k_x        u = (|u| cos φ, |u| sin φ)
 /// ```
 ///
-/// with *u* the velocity of the kingpin, which does not move with δ, and *k* the kingpin offset: the hub's velocity then
-/// is along the wheel. A wheel that goes backward has its tail in that direction.
+/// with *u* the velocity of the kingpin, which does not move with δ, and *k* the kingpin offset:
+/// the hub's velocity then is along the wheel. A wheel that goes backward has its tail in that
+/// direction.
 ///
 /// * `state`: of which the velocities count
 #[must_use]

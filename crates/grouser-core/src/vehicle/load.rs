@@ -24,12 +24,12 @@ use crate::units::Vec2;
 /// Load transfer: what moves load from wheel to wheel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LoadSharing {
-    /// The whole wrench of every wheel: forces at the hubs, with the wheels' torque in pitch and their
-    /// overturning moments in roll. It goes with [`OwnMoments::Included`].
+    /// The whole wrench of every wheel: forces at the hubs, with the wheels' torque in pitch and
+    /// their overturning moments in roll. It goes with [`OwnMoments::Included`].
     #[default]
     Complete,
-    /// The weight's pull along the slope, at the height of the centre of mass, in pitch and roll: the
-    /// source paper's.
+    /// The weight's pull along the slope, at the height of the centre of mass, in pitch and roll:
+    /// the source paper's.
     QuasiStatic,
     /// The same, but with the wheels' torque in the pitch balance.
     QuasiStaticTorque,
@@ -93,8 +93,8 @@ pub fn weight(
     Weight::on(&patch, rover.mass() * gravity)
 }
 
-/// The weight's pull along the ground, in the body frame, *(G_x, G_y)* [N] ([FourWheel], Eqs
-/// 12-13, with the signs it leaves out): on a plane m g sin α points downhill, to −y of the slope frame.
+/// The weight's pull along the ground, in the body frame, *(G_x, G_y)* [N] ([FourWheel], Eqs 12-13,
+/// with the signs it leaves out): on a plane m g sin α points downhill, to −y of the slope frame.
 #[must_use]
 pub fn slope_pull(rover: &Rover, ground: &Ground, gravity: f64, state: &RoverState) -> Vec2 {
     let slope_from_body = state.slope_from_body();

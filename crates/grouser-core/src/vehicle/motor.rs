@@ -8,8 +8,9 @@
 //! P   = max(V i, 0)                             power that it takes
 //! ```
 //!
-//! The torque constant *k* [N·m/A] is the constant of the voltage that turning induces, too [V·s/rad]. A self-locking gear
-//! lets no torque of the wheel through to the motor. Power that a driven motor gives is not taken back.
+//! The torque constant *k* [N·m/A] is the constant of the voltage that turning induces, too
+//! [V·s/rad]. A self-locking gear lets no torque of the wheel through to the motor. Power that a
+//! driven motor gives is not taken back.
 
 use super::speed_control::SpeedControl;
 use super::winding::Winding;
@@ -110,8 +111,8 @@ impl Motor {
     /// T = N (k i + τ_f sgn i) / η   where it stands and holds the wheel by its current
     /// ```
     ///
-    /// Nothing where the current does not depend on it: through a self-locking gear while the wheel would drive the motor, and at a
-    /// wheel that friction or such a gear holds.
+    /// Nothing where the current does not depend on it: through a self-locking gear while the wheel
+    /// would drive the motor, and at a wheel that friction or such a gear holds.
     ///
     /// * `current`: *i* [A]
     /// * `wheel_speed`: *ω* [rad/s]
@@ -148,8 +149,8 @@ impl Motor {
         load + self.friction.copysign(wheel_speed)
     }
 
-    /// Speed at which a voltage turns a wheel against a torque that it drives, *ω* [rad/s]; 0 where the torque is more than
-    /// the motor gives.
+    /// Speed at which a voltage turns a wheel against a torque that it drives, *ω* [rad/s]; 0 where
+    /// the torque is more than the motor gives.
     ///
     /// * `voltage`: *V* [V], not below 0
     /// * `torque`: *T* [N·m], not below 0
@@ -172,8 +173,8 @@ impl Motor {
         voltage / self.resistance
     }
 
-    /// Torque on the wheel of a motor that stands under a voltage and is about to turn, N η (k V / R − τ_f) [N·m]; 0 where
-    /// its friction is more than that.
+    /// Torque on the wheel of a motor that stands under a voltage and is about to turn, N η (k V /
+    /// R − τ_f) [N·m]; 0 where its friction is more than that.
     #[must_use]
     pub fn stall_torque(&self, voltage: f64) -> f64 {
         let shaft = self.torque_constant * self.stall_current(voltage) - self.friction;
@@ -223,8 +224,8 @@ mod tests {
         assert!((MOTOR.stall_torque(12.0) - 150.0 * (0.012 - 0.001)).abs() < 1e-12);
     }
 
-    /// Downhill the wheel drives its motor: less current, of the other sign once friction is overcome, and none through a
-    /// self-locking gear but for friction.
+    /// Downhill the wheel drives its motor: less current, of the other sign once friction is
+    /// overcome, and none through a self-locking gear but for friction.
     #[test]
     fn a_driven_motor_brakes_and_a_self_locking_one_only_rubs() {
         let braking = MOTOR.at(-0.6, 0.5).current;
@@ -239,7 +240,8 @@ mod tests {
         assert!(MOTOR.at(-0.6, 0.5).power.abs() < 1e-15, "what it gives is not taken back");
     }
 
-    /// The current that a torque takes gives the torque back, forward and backward, driving, driven and holding.
+    /// The current that a torque takes gives the torque back, forward and backward, driving, driven
+    /// and holding.
     #[test]
     fn a_current_gives_the_torque_that_takes_it() {
         for torque in [-0.6, -0.1, -1e-6, 0.0, 1e-6, 0.2, 0.9] {

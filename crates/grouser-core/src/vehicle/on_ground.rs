@@ -112,9 +112,9 @@ pub struct Stance {
 }
 
 impl OnGround<'_> {
-    /// Checks that each soil of the ground resists each wheel of the rover, as a soil with a negative modulus of
-    /// pressure-sinkage does for some widths only. A [`Terrain`](crate::terrain::Terrain) with soils of its own is
-    /// not asked for them.
+    /// Checks that each soil of the ground resists each wheel of the rover, as a soil with a
+    /// negative modulus of pressure-sinkage does for some widths only. A
+    /// [`Terrain`](crate::terrain::Terrain) with soils of its own is not asked for them.
     ///
     /// # Errors
     /// [`ParameterError`] for the first wheel that has no stiffness under it.

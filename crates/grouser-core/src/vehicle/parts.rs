@@ -1,4 +1,5 @@
-//! What a rover is made from: its body, and mounts with a wheel, a motor and a steering axis each ([FourWheel], Tables 1 and 2).
+//! What a rover is made from: its body, and mounts with a wheel, a motor and a steering axis each
+//! ([FourWheel], Tables 1 and 2).
 //!
 //! A mount may be turned by a fixed angle, or steered about an axis of its own.
 
@@ -54,11 +55,13 @@ pub struct SteeringAxis {
     pub limit: f64,
     /// How fast it turns [rad/s].
     pub rate: f64,
-    /// Kingpin offset, *k*: from the hub at a steering angle of zero to the axis, in the body frame [m].
+    /// Kingpin offset, *k*: from the hub at a steering angle of zero to the axis, in the body frame
+    /// [m].
     pub kingpin_offset: Vec2,
 }
 
-/// How fast a wheel is steered whose rate is not known [rad/s]: 10 °/s. Source: assumed; a quarter turn in 9 s.
+/// How fast a wheel is steered whose rate is not known [rad/s]: 10 °/s. Source: assumed; a quarter
+/// turn in 9 s.
 pub const USUAL_STEERING_RATE: f64 = 0.174_532_925_199_432_95;
 
 impl SteeringAxis {
@@ -109,7 +112,8 @@ impl SteeringAxis {
 
 /// A wheel in its place.
 ///
-/// How does a front wheel see the rover's motion at 5 cm/s straight ahead, if it is steered by 10° to the left?
+/// How does a front wheel see the rover's motion at 5 cm/s straight ahead, if it is steered by 10°
+/// to the left?
 ///
 /// ```
 /// use grouser_core::paper;
@@ -130,7 +134,8 @@ pub struct Mount {
     pub position: Vec3,
     /// The wheel with its motor.
     pub unit: WheelUnit,
-    /// Steering angle, *δ* [rad]: the wheel is turned to the left by this much; for good, if it has no axis.
+    /// Steering angle, *δ* [rad]: the wheel is turned to the left by this much; for good, if it has
+    /// no axis.
     pub steering: f64,
     /// The axis about which it is steered; without one it keeps its angle.
     pub steering_axis: Option<SteeringAxis>,
@@ -158,7 +163,8 @@ impl Mount {
         self.turn().map_or(vector, |turn| turn * vector)
     }
 
-    /// The same mount with its wheel steered, whatever its limit; a wheel without an axis is turned about its hub.
+    /// The same mount with its wheel steered, whatever its limit; a wheel without an axis is turned
+    /// about its hub.
     ///
     /// * `angle`: steering angle, *δ* [rad]
     #[must_use]
@@ -182,7 +188,8 @@ impl Mount {
         }
     }
 
-    /// The rotation from the body's frame to the wheel's; none for a wheel that points straight ahead.
+    /// The rotation from the body's frame to the wheel's; none for a wheel that points straight
+    /// ahead.
     fn turn(&self) -> Option<Rotation2<f64>> {
         (self.steering != 0.0).then(|| rotation(self.steering))
     }
@@ -203,7 +210,8 @@ pub struct RoverParts {
     pub battery: Option<Battery>,
     /// What joins the wheels to the body; a rigid rover has none.
     pub suspension: Option<Suspension>,
-    /// Height of the [underside](super::belly) over level hard ground on which the wheels stand [m], where that is known.
+    /// Height of the [underside](super::belly) over level hard ground on which the wheels stand
+    /// [m], where that is known.
     pub belly_clearance: Option<f64>,
 }
 
@@ -227,8 +235,8 @@ pub struct MountParts {
     pub steering: f64,
     /// How far and how fast it is steered, where that is not the rover's.
     pub steered: SteeringParts,
-    /// Kingpin offset, *k*, of a wheel that is steered: from the hub at a steering angle of zero to the axis, in the
-    /// body frame [m].
+    /// Kingpin offset, *k*, of a wheel that is steered: from the hub at a steering angle of zero to
+    /// the axis, in the body frame [m].
     pub kingpin_offset: Vec2,
     /// A wheel of its own.
     pub wheel: Option<Wheel>,

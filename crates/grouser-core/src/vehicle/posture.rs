@@ -1,20 +1,22 @@
 //! How a rover stands on uneven ground, and how its wheels move there.
 //!
-//! Where its body is, seen from above, and where its nose points are given; height, roll, pitch and the angles of the
-//! joints follow from the ground: every wheel stands on the mean plane of its footprint, or is sunk into it. Then a motion of
-//! the body along its own x and y axes and about its z axis lifts, rolls and pitches it as the ground does, so that no hub
-//! moves along the normal of its ground:
+//! Where its body is, seen from above, and where its nose points are given; height, roll, pitch and
+//! the angles of the joints follow from the ground: every wheel stands on the mean plane of its
+//! footprint, or is sunk into it. Then a motion of the body along its own x and y axes and about
+//! its z axis lifts, rolls and pitches it as the ground does, so that no hub moves along the normal
+//! of its ground:
 //!
 //! ```text
 //! gap_i = (P_i − p_i) · n_i − r_s √(1 − (a_i · n_i)²) = −h_i        v_i · n_i = 0
 //! v_i = u e_x + v e_y + w e_z + (p e_x + q e_y + r e_z) × d_i + Σ joint rates
 //! ```
 //!
-//! with hub *P*, *d* seen from the body's centre of mass, axle *a*, the plane's point *p* and normal *n* below the hub, and
-//! the body's axes *e*. On a plane, w, p, q and the joint rates are zero, and this is the rigid rover's motion along it.
+//! with hub *P*, *d* seen from the body's centre of mass, axle *a*, the plane's point *p* and
+//! normal *n* below the hub, and the body's axes *e*. On a plane, w, p, q and the joint rates are
+//! zero, and this is the rigid rover's motion along it.
 //!
-//! A rover with more wheels than its freedoms can bring to the ground stands on their mean plane (least squares of the gaps);
-//! a rigid one with four wheels leaves [`Posture::warp`].
+//! A rover with more wheels than its freedoms can bring to the ground stands on their mean plane
+//! (least squares of the gaps); a rigid one with four wheels leaves [`Posture::warp`].
 
 use nalgebra::{DMatrix, DVector, Matrix3, Rotation3};
 
@@ -86,8 +88,8 @@ pub struct StandingWheel {
     pub at: Vec2,
     /// The ground that counts for it.
     pub footprint: Footprint,
-    /// The joints that carry it: which, the axis with the sense of a positive angle, and a point of it seen from the body's
-    /// centre of mass [m].
+    /// The joints that carry it: which, the axis with the sense of a positive angle, and a point of
+    /// it seen from the body's centre of mass [m].
     joints: Vec<(usize, Vec3, Vec3)>,
 }
 
@@ -109,12 +111,13 @@ pub struct StandingMotion {
     pub body_rate: f64,
     /// Velocity of each hub along its wheel, and to the wheel's left, on the ground [m/s].
     pub hubs: Vec<Vec2>,
-    /// How fast the link that carries each wheel turns about its axle [rad/s]: by so much more than its motor turns it on the
-    /// link it turns on the ground.
+    /// How fast the link that carries each wheel turns about its axle [rad/s]: by so much more than
+    /// its motor turns it on the link it turns on the ground.
     pub turns: Vec<f64>,
     /// Velocity of each hub out of the ground, where that makes its wheel sink or rise [m/s].
     pub rises: Vec<f64>,
-    /// How fast each wheel turns about its forward axis, and about the normal of its ground [rad/s].
+    /// How fast each wheel turns about its forward axis, and about the normal of its ground
+    /// [rad/s].
     pub leans: Vec<Vec2>,
 }
 
@@ -132,7 +135,8 @@ pub struct NoPosture {
 pub(super) const OF_BODY: usize = 3;
 
 impl Posture {
-    /// The posture of a rover with its body at a place, its nose in a direction and its wheels sunk.
+    /// The posture of a rover with its body at a place, its nose in a direction and its wheels
+    /// sunk.
     ///
     /// * `place`: below the body's centre of mass [m]
     /// * `yaw`: of the nose, seen from above, from x towards y [rad]
@@ -181,7 +185,8 @@ impl Posture {
         mut pose: Attitude,
         mut normals: Option<Vec<Vec3>>,
     ) -> Result<Self, NoPosture> {
-        /// Changes below this end the search [m]; rounding of map coordinates of 10⁴ km is a thousandth of it.
+        /// Changes below this end the search [m]; rounding of map coordinates of 10⁴ km is a
+        /// thousandth of it.
         const SETTLED: f64 = 1e-12;
         const MOST_STEPS: usize = 60;
         let scale = rover.centre_height();
@@ -216,8 +221,8 @@ impl Posture {
         [0, 1, 2].map(|axis| self.ground_from_body.matrix().column(axis).into_owned())
     }
 
-    /// By how much the ground under wheel after wheel is warped against the plane that they stand on [m]: their gaps and
-    /// sinkages together, which no posture of a rigid rover closes.
+    /// By how much the ground under wheel after wheel is warped against the plane that they stand
+    /// on [m]: their gaps and sinkages together, which no posture of a rigid rover closes.
     ///
     /// * `sinkages`: of each wheel [m]
     #[must_use]
@@ -227,7 +232,8 @@ impl Posture {
 
     /// How it moves.
     ///
-    /// * `state`: of which the velocities count: along the body's x and y axes, and about its z axis
+    /// * `state`: of which the velocities count: along the body's x and y axes, and about its z
+    ///   axis
     ///
     /// # Errors
     /// [`NoPosture`] where the wheels allow no motion along the ground.
@@ -263,7 +269,8 @@ impl Posture {
         Ok(StandingMotion { velocity, yaw_rate, body_rate, hubs, turns, rises, leans })
     }
 
-    /// The same of a body whose yaw, seen from above, changes at a rate [rad/s], which is linear in the body's own.
+    /// The same of a body whose yaw, seen from above, changes at a rate [rad/s], which is linear in
+    /// the body's own.
     ///
     /// # Errors
     /// The same as [`motion`](Self::motion).
@@ -281,7 +288,8 @@ impl Posture {
 
     /// What the freedoms do to a wheel: the body's, then those of the joints.
     ///
-    /// * `body`: the direction in which its height is counted, and the two axes about which it turns
+    /// * `body`: the direction in which its height is counted, and the two axes about which it
+    ///   turns
     /// * `centre`: through which these axes go, seen from the body's centre of mass [m]
     pub(super) fn twists<'a>(
         &'a self,
@@ -427,7 +435,8 @@ fn attitude(yaw: f64, pitch: f64, roll: f64) -> Rotation3<f64> {
     Rotation3::from_matrix_unchecked(turn * nose_up * left_up)
 }
 
-/// The vector of which a matrix comes nearest to a right-hand side; none where that is not one vector.
+/// The vector of which a matrix comes nearest to a right-hand side; none where that is not one
+/// vector.
 fn least_squares(matrix: &DMatrix<f64>, side: &DVector<f64>) -> Option<DVector<f64>> {
     if matrix.is_square() {
         return matrix.clone().lu().solve(side);

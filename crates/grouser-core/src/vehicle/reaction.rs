@@ -15,8 +15,8 @@ use crate::units::Vec2;
 impl<'a> OnGround<'a> {
     /// The reaction on every wheel, in the mounts' order.
     ///
-    /// Where the loads depend on the wheels' own torque or moments, loads and reactions are computed in
-    /// turn until they agree. Wheels on rockers are loaded as these let them.
+    /// Where the loads depend on the wheels' own torque or moments, loads and reactions are
+    /// computed in turn until they agree. Wheels on rockers are loaded as these let them.
     ///
     /// # Errors
     /// [`ReactionError`] if the rover tips, a wheel sinks to its axle, or the turns do not agree.
@@ -106,7 +106,8 @@ impl<'a> OnGround<'a> {
         Err(ReactionError::Unsettled { wheel, rounds: MOST_ROUNDS, change })
     }
 
-    /// The reaction on every wheel, the moments sought by Newton's steps, damped, where turns go round in circles.
+    /// The reaction on every wheel, the moments sought by Newton's steps, damped, where turns go
+    /// round in circles.
     ///
     /// * `scale`: weight times reach [N·m]
     /// * `agreed`: agreement of the moments, over that [-]
@@ -128,8 +129,8 @@ impl<'a> OnGround<'a> {
             let off = moments - of(&wheels);
             Some((DVector::from_row_slice(off.as_slice()), wheels))
         };
-        /// How far from the middle towards each wheel the weight is taken to act [-], where steps from the wheels that only
-        /// stand end in a corner.
+        /// How far from the middle towards each wheel the weight is taken to act [-], where steps
+        /// from the wheels that only stand end in a corner.
         const TOWARDS_WHEELS: [f64; 2] = [0.5, 0.9];
         let towards = TOWARDS_WHEELS.iter().flat_map(|share| {
             rover.load_arms().iter().map(move |arm| *share * stance.weight * *arm)
@@ -217,8 +218,8 @@ impl<'a> OnGround<'a> {
 /// Rounds of a fixed point, each of which starts where the last two point to.
 ///
 /// The moments that follow from moments are nearly a linear function of them. Of two rounds before
-/// this one the secants tell where it ends (Anderson 1965, with as many rounds as there are moments);
-/// rounds that tell nothing of a direction leave it as it is.
+/// this one the secants tell where it ends (Anderson 1965, with as many rounds as there are
+/// moments); rounds that tell nothing of a direction leave it as it is.
 #[derive(Default)]
 struct Mixing {
     /// The changes of a round, and what came out of it: the last first.

@@ -65,7 +65,8 @@ impl PartialEq for Rover {
     }
 }
 
-/// The lowest points of wheels may differ in height by this much [m] and still share one contact plane.
+/// The lowest points of wheels may differ in height by this much [m] and still share one contact
+/// plane.
 const LEVEL: f64 = 1e-9;
 
 impl Rover {
@@ -201,7 +202,8 @@ impl Rover {
         })
     }
 
-    /// The same rover with all masses and inertias of its parts times a factor: heavier or lighter, of one shape.
+    /// The same rover with all masses and inertias of its parts times a factor: heavier or lighter,
+    /// of one shape.
     ///
     /// # Errors
     /// [`ParameterError`] if the factor is not above zero.
@@ -224,8 +226,8 @@ impl Rover {
         rover.checked()
     }
 
-    /// The same rover with its wheels steered: each turned about its kingpin, so that the hub of one whose kingpin is
-    /// beside it moves.
+    /// The same rover with its wheels steered: each turned about its kingpin, so that the hub of
+    /// one whose kingpin is beside it moves.
     ///
     /// Four wheels that turn up to 30° to either side crab by 12°:
     ///
@@ -251,8 +253,8 @@ impl Rover {
     /// * `angles`: steering angle of each wheel, *δ* [rad], in the mounts' order
     ///
     /// # Errors
-    /// [`ParameterError`] for another number of angles than wheels, for one beyond its wheel's limit, and for another
-    /// angle of a wheel that is not steered than it has.
+    /// [`ParameterError`] for another number of angles than wheels, for one beyond its wheel's
+    /// limit, and for another angle of a wheel that is not steered than it has.
     pub fn steered(&self, angles: &[f64]) -> Result<Self, ParameterError> {
         self.check_steering(angles)?;
         if self.mounts.iter().zip(angles).all(|(mount, angle)| mount.steering == *angle) {
@@ -327,8 +329,8 @@ impl Rover {
     /// Whether the rover is its own mirror image: then headings hold either way.
     #[must_use]
     pub fn is_symmetric(&self) -> bool {
-        /// Hubs may be off by this much [m], and steering angles [rad]: a tenth of a millimetre turns
-        /// no rover.
+        /// Hubs may be off by this much [m], and steering angles [rad]: a tenth of a millimetre
+        /// turns no rover.
         const SAME: f64 = 1e-4;
         self.mounts.iter().all(|mount| {
             let image = Vec2::new(mount.position.x, -mount.position.y);
@@ -353,8 +355,8 @@ impl Rover {
         &self.mounts
     }
 
-    /// Mean height of the axles over the lowest points of their wheels [m]: the sinkage of a rover whose wheels are all
-    /// sunk to the axle.
+    /// Mean height of the axles over the lowest points of their wheels [m]: the sinkage of a rover
+    /// whose wheels are all sunk to the axle.
     #[must_use]
     pub fn mean_axle_height(&self) -> f64 {
         let radii = self.mounts.iter().map(Mount::shearing_radius);
@@ -383,7 +385,8 @@ impl Rover {
         rover.checked()
     }
 
-    /// Whether more of its power is known than what motors take: its battery, or how warm motors become.
+    /// Whether more of its power is known than what motors take: its battery, or how warm motors
+    /// become.
     #[must_use]
     pub fn has_supply(&self) -> bool {
         let warms = |mount: &Mount| mount.unit.motor.is_some_and(|motor| motor.winding.is_some());
@@ -396,7 +399,8 @@ impl Rover {
         self.mounts.iter().any(|mount| mount.unit.motor.is_some())
     }
 
-    /// Whether the speed of some wheel depends on its load: its motor has a [speed controller](super::SpeedControl).
+    /// Whether the speed of some wheel depends on its load: its motor has a
+    /// [speed controller](super::SpeedControl).
     #[must_use]
     pub fn has_droop(&self) -> bool {
         self.mounts
@@ -473,7 +477,8 @@ impl Rover {
         &self.load_arms
     }
 
-    /// The polygon that the rover stands on, seen from the common centre of mass, in the body frame.
+    /// The polygon that the rover stands on, seen from the common centre of mass, in the body
+    /// frame.
     #[must_use]
     pub fn support_polygon(&self) -> &SupportPolygon {
         &self.support_polygon

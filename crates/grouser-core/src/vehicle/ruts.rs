@@ -1,16 +1,17 @@
 //! Wheels that roll in the ruts of those before them (multi-pass).
 //!
-//! A wheel's rut is a strip as wide as the wheel, along the way that its hub goes. What a following wheel covers of it
-//! is compacted, the rest of its width is fresh:
+//! A wheel's rut is a strip as wide as the wheel, along the way that its hub goes. What a following
+//! wheel covers of it is compacted, the rest of its width is fresh:
 //!
 //! ```text
 //! o = max(0, 1 − L |sin γ_track|/b)        soil = fresh + o (compacted − fresh)
 //! ```
 //!
-//! with the distance L of both wheels and the angle γ_track between the line through them and the way. Nothing is
-//! remembered: the way is taken to be straight as the rover moves now, which holds for steady motion on a plane. A rover
-//! that has just turned, or set out, has ruts here that it has not made yet. On uneven ground distances between wheels are
-//! those in the body's plane. The bottom of a rut, λh below the surface, counts as the ground of the wheel that rolls in it; the
+//! with the distance L of both wheels and the angle γ_track between the line through them and the
+//! way. Nothing is remembered: the way is taken to be straight as the rover moves now, which holds
+//! for steady motion on a plane. A rover that has just turned, or set out, has ruts here that it
+//! has not made yet. On uneven ground distances between wheels are those in the body's plane. The
+//! bottom of a rut, λh below the surface, counts as the ground of the wheel that rolls in it; the
 //! pose does not follow those few millimetres.
 
 use super::parts::Mount;
@@ -33,7 +34,8 @@ pub enum Ruts {
 }
 
 impl Ruts {
-    /// What wheels before each have made of its soil, in the mounts' order; none where all roll on fresh soil.
+    /// What wheels before each have made of its soil, in the mounts' order; none where all roll on
+    /// fresh soil.
     ///
     /// * `slips`: of each wheel
     #[must_use]

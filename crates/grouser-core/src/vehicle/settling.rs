@@ -1,19 +1,23 @@
-//! All wheels of a rover settled together: their sinkages, and the loads that depend on the forces there.
+//! All wheels of a rover settled together: their sinkages, and the loads that depend on the forces
+//! there.
 //!
-//! Load transfer makes a wheel's load depend on all wheels' forces, and those depend on the sinkages. Both are sought
-//! at once. Each wheel's forces at the sinkages that were tried are a curve over F_z; where the loads that balance the
-//! rover meet all these curves, the next sinkages are tried:
+//! Load transfer makes a wheel's load depend on all wheels' forces, and those depend on the
+//! sinkages. Both are sought at once. Each wheel's forces at the sinkages that were tried are a
+//! curve over F_z; where the loads that balance the rover meet all these curves, the next sinkages
+//! are tried:
 //!
 //! ```text
 //! N_i = N_i(P, R)        (P, R) = (P, R)_weight + Σ (P, R)_i(N_i)        h_i = h_i(N_i)
 //! ```
 //!
-//! with the moments (P, R) of [`load`]. The curves are polynomials through all points seen, over ln F_z, so that
-//! two or three rounds find what settling wheels one by one under loads of the round before finds in ten
-//! evaluations of each wheel. The wheels of a motion nearby give the place and the slope with which a search begins.
+//! with the moments (P, R) of [`load`]. The curves are polynomials through all points seen, over ln
+//! F_z, so that two or three rounds find what settling wheels one by one under loads of the round
+//! before finds in ten evaluations of each wheel. The wheels of a motion nearby give the place and
+//! the slope with which a search begins.
 //!
-//! Only the usual case is here: all wheels stand, and F_z grows with the sinkage about as it does for a shallow wheel.
-//! Elsewhere nothing is found, and [`reaction`](super::reaction) settles wheel by wheel.
+//! Only the usual case is here: all wheels stand, and F_z grows with the sinkage about as it does
+//! for a shallow wheel. Elsewhere nothing is found, and [`reaction`](super::reaction) settles wheel
+//! by wheel.
 
 use nalgebra::{Matrix2, Matrix3, Vector3};
 
@@ -32,8 +36,8 @@ use crate::{elementary, lagrange};
 pub(crate) struct Nearby<'a> {
     /// The wheels in the motion nearby; empty where nothing is known.
     pub(crate) wheels: Vec<Known>,
-    /// What they met, of the soil of which ground and for which steepness; and where that differs from wheel to wheel,
-    /// of none.
+    /// What they met, of the soil of which ground and for which steepness; and where that differs
+    /// from wheel to wheel, of none.
     pub(super) contacts: Vec<Contact>,
     pub(super) soil: Option<(&'a Soil, f64)>,
 }
@@ -68,12 +72,14 @@ struct Slope {
     width: f64,
 }
 
-/// Loads this near to those of the last sinkages are met by the curves [ln F_z]: what they leave out is below rounding,
-/// and where forces have a kink below this.
+/// Loads this near to those of the last sinkages are met by the curves [ln F_z]: what they leave
+/// out is below rounding, and where forces have a kink below this.
 const CLOSE: f64 = 1e-8;
-/// What a curve leaves out is below the product of its distances from the points that it goes through [ln F_z].
+/// What a curve leaves out is below the product of its distances from the points that it goes
+/// through [ln F_z].
 const EXACT: f64 = 1e-13;
-/// Places nearer to each other than this tell nothing of a curve through both, and are the place that is sought [ln F_z].
+/// Places nearer to each other than this tell nothing of a curve through both, and are the place
+/// that is sought [ln F_z].
 const APART: f64 = 1e-12;
 /// Sinkages that are tried.
 const MOST_ROUNDS: usize = 8;
@@ -81,7 +87,8 @@ const MOST_ROUNDS: usize = 8;
 const POINTS: usize = 3;
 
 impl OnGround<'_> {
-    /// The reaction on every wheel by a search for all of them at once; none where the usual search fails.
+    /// The reaction on every wheel by a search for all of them at once; none where the usual search
+    /// fails.
     ///
     /// * `near`: of a motion nearby, and of this one afterwards
     pub(super) fn settle_together(

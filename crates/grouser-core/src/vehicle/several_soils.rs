@@ -43,10 +43,12 @@ impl Met {
     }
 }
 
-/// A wheel–soil model on several soils at once: the mean of its forces at one sinkage, by their shares.
+/// A wheel–soil model on several soils at once: the mean of its forces at one sinkage, by their
+/// shares.
 ///
-/// A rigid wheel sinks into all of them by the same depth, and each pushes on its part of the rim. The soils' constants are
-/// not averaged: they belong to laws of different forms, and forces are no linear functions of them.
+/// A rigid wheel sinks into all of them by the same depth, and each pushes on its part of the rim.
+/// The soils' constants are not averaged: they belong to laws of different forms, and forces are no
+/// linear functions of them.
 pub(super) struct Mixture<'a> {
     model: &'a dyn WheelSoilModel,
     shares: &'a [(Soil, f64)],
@@ -70,7 +72,8 @@ impl WheelSoilModel for Mixture<'_> {
     }
 }
 
-/// The mean of what the model gets wrong, which is added to shares of the load: nothing where it is right in all soils.
+/// The mean of what the model gets wrong, which is added to shares of the load: nothing where it is
+/// right in all soils.
 fn mean_discrepancy(shares: &[(Soil, f64)]) -> Option<Discrepancy> {
     shares.iter().any(|(soil, _)| soil.discrepancy.is_some()).then(|| {
         let mut mean = Discrepancy::NONE;

@@ -1,4 +1,5 @@
-//! How fast a motor turns its wheel under load: its speed controller, and its limits of voltage and current.
+//! How fast a motor turns its wheel under load: its speed controller, and its limits of voltage and
+//! current.
 //!
 //! ```text
 //! V* = k N ω_0 + K_p (ω_0 − ω) + z                        what the controller asks for, set to the speed ω_0
@@ -7,17 +8,18 @@
 //! J ω' = T(i, ω) − T_soil      i = (V − k N ω)/R          the wheel: T as in `motor`
 //! ```
 //!
-//! Without an integral a load leaves an error, the droop: at rest of all others ω = ω_0 − R i/(k N + K_p). With one the
-//! error fades with the time K_p/K_i, unless a limit holds. A load that asks for more than the limits allow slows the
-//! wheel, until the soil asks for less. The winding's inductance is left out: currents settle within a millisecond.
-//! Source of the integral's correction, back-calculation: [AstromHagglund2006].
+//! Without an integral a load leaves an error, the droop: at rest of all others ω = ω_0 − R i/(k N
+//! + K_p). With one the error fades with the time K_p/K_i, unless a limit holds. A load that asks
+//! for more than the limits allow slows the wheel, until the soil asks for less. The winding's
+//! inductance is left out: currents settle within a millisecond. Source of the integral's
+//! correction, back-calculation: [AstromHagglund2006].
 
 use crate::error::{ParameterError, not_negative, positive};
 
 /// A speed controller and its limits.
 ///
-/// How much does a wheel slow down under 0.4 N·m that is set to 1.5 rad/s, if nothing is added to the voltage for what is
-/// missing, and how much if 20 V are added for each rad/s?
+/// How much does a wheel slow down under 0.4 N·m that is set to 1.5 rad/s, if nothing is added to
+/// the voltage for what is missing, and how much if 20 V are added for each rad/s?
 ///
 /// ```
 /// use grouser_core::vehicle::{Motor, MotorLimits, SpeedControl};
@@ -42,7 +44,8 @@ use crate::error::{ParameterError, not_negative, positive};
 pub struct SpeedControl {
     /// Voltage that it adds for a wheel that is too slow, *K_p* [V·s/rad of the wheel].
     pub gain: f64,
-    /// Voltage that it adds for the angle that is missing, *K_i* [V/rad of the wheel]; 0 without an integral.
+    /// Voltage that it adds for the angle that is missing, *K_i* [V/rad of the wheel]; 0 without an
+    /// integral.
     pub integral: f64,
     /// The most voltage that it gives, *V_max* [V].
     pub voltage: Option<f64>,
@@ -50,7 +53,8 @@ pub struct SpeedControl {
     pub current: Option<f64>,
 }
 
-/// What a motor may take at most, whatever its own limits: what the battery gives, and what its temperature allows.
+/// What a motor may take at most, whatever its own limits: what the battery gives, and what its
+/// temperature allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotorLimits {
     /// Voltage [V].

@@ -1,18 +1,19 @@
 //! How far a rover is from tipping over: the force-angle margin.
 //!
-//! Seen from the common centre of mass, the outermost points at which wheels touch the ground, *p*, are the corners of a
-//! polygon. Each of its edges is an axis about which the rover may tip; the weight *f* passes inside of it by the angle *θ*,
-//! and the least of these angles is the margin:
+//! Seen from the common centre of mass, the outermost points at which wheels touch the ground, *p*,
+//! are the corners of a polygon. Each of its edges is an axis about which the rover may tip; the
+//! weight *f* passes inside of it by the angle *θ*, and the least of these angles is the margin:
 //!
 //! ```text
 //! a = (p_next − p) / |p_next − p|        l = (1 − a aᵀ) p        g = (1 − a aᵀ) f        θ = −atan2(a · (g × l), g · l)
 //! ```
 //!
-//! On level ground tan θ is half of the track, or of the wheelbase, over the height of the centre of mass. Only the weight
-//! counts: a rover on loose soil accelerates by less than a thousandth of it.
+//! On level ground tan θ is half of the track, or of the wheelbase, over the height of the centre
+//! of mass. Only the weight counts: a rover on loose soil accelerates by less than a thousandth of
+//! it.
 //!
-//! Source: Papadopoulos and Rey, "A new measure of tipover stability margin for mobile manipulators", ICRA 1996, without
-//! their factor of the forces' size.
+//! Source: Papadopoulos and Rey, "A new measure of tipover stability margin for mobile
+//! manipulators", ICRA 1996, without their factor of the forces' size.
 
 use super::posture::Posture;
 use super::rover::Rover;
@@ -20,7 +21,8 @@ use super::statics::centre_of_mass;
 use crate::elementary::wide::atan2;
 use crate::units::Vec3;
 
-/// The least angle by which the weight may turn before the rover tips over [rad]; negative where it tips.
+/// The least angle by which the weight may turn before the rover tips over [rad]; negative where it
+/// tips.
 ///
 /// * `posture`: in the ground's coordinates
 /// * `up`: against gravity, a unit vector in the same

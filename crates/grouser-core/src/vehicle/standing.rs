@@ -1,8 +1,9 @@
 //! The reaction on a rover that stands on uneven ground, or on a suspension.
 //!
-//! Its posture follows from the ground as if that were firm, as on a plane: what wheels sink changes no lever. Loads and
-//! reactions are sought together, N = N(forces(N)), by Newton's method with Broyden's updates from the loads of wheels that
-//! only stand, or from those of a motion nearby.
+//! Its posture follows from the ground as if that were firm, as on a plane: what wheels sink
+//! changes no lever. Loads and reactions are sought together, N = N(forces(N)), by Newton's method
+//! with Broyden's updates from the loads of wheels that only stand, or from those of a motion
+//! nearby.
 
 use std::cell::{Cell, RefCell};
 
@@ -103,8 +104,8 @@ impl OnGround<'_> {
 
     /// How the rover moves that stands so in a state.
     ///
-    /// * `held_yaw_rate`: how fast the yaw, seen from above, is made to change, if it is [rad/s]; then the body turns as fast
-    ///   as that takes, whatever the state says
+    /// * `held_yaw_rate`: how fast the yaw, seen from above, is made to change, if it is [rad/s];
+    ///   then the body turns as fast as that takes, whatever the state says
     ///
     /// # Errors
     /// [`ReactionError`] where its wheels allow no motion along the ground.
@@ -132,7 +133,8 @@ impl OnGround<'_> {
     /// * `near`: of all wheels in a motion nearby, or of none
     ///
     /// # Errors
-    /// [`ReactionError`] if the rover tips, a wheel sinks to its axle, or loads and reactions do not agree.
+    /// [`ReactionError`] if the rover tips, a wheel sinks to its axle, or loads and reactions do
+    /// not agree.
     pub fn reactions_standing(
         &self,
         posture: &Posture,
@@ -283,7 +285,8 @@ impl OnGround<'_> {
 pub(crate) struct NearbyStanding {
     /// The wheels in the motion nearby; empty where nothing is known.
     wheels: Vec<WheelReaction>,
-    /// How loads follow from by how much they do not agree with the forces under them, where that is known.
+    /// How loads follow from by how much they do not agree with the forces under them, where that
+    /// is known.
     inverse: Option<DMatrix<f64>>,
 }
 
@@ -301,12 +304,14 @@ struct Sought<'a> {
     met: Vec<Met>,
     /// m g, against gravity [N].
     weight: Vec3,
-    /// Near which each is expected: those of a motion nearby, then those of the round before; none where nothing is known.
+    /// Near which each is expected: those of a motion nearby, then those of the round before; none
+    /// where nothing is known.
     sinkages: RefCell<Vec<f64>>,
 }
 
 impl Sought<'_> {
-    /// How far loads [N] are from those that balance the forces under them, and the wheels under them.
+    /// How far loads [N] are from those that balance the forces under them, and the wheels under
+    /// them.
     fn next(
         &self,
         loads: &DVector<f64>,
@@ -343,9 +348,9 @@ impl Sought<'_> {
         newton::zero_near(|loads| self.next(loads).ok(), guess, inverse, size, 1.0, is_found)
     }
 
-    /// Loads that balance the rover and the wheels under them: by small steps, and where these go round in circles or away
-    /// with each of a rigid rover's wheels lifted, then by Newton's steps, damped; from the guess and from the loads of wheels
-    /// that only stand.
+    /// Loads that balance the rover and the wheels under them: by small steps, and where these go
+    /// round in circles or away with each of a rigid rover's wheels lifted, then by Newton's steps,
+    /// damped; from the guess and from the loads of wheels that only stand.
     ///
     /// * `weight`: m g [N]
     fn by_damped_steps(
@@ -369,12 +374,14 @@ impl Sought<'_> {
         found.ok_or_else(|| self.why_none(guess, weight))
     }
 
-    /// Loads that balance a rigid rover with one of its wheels lifted, and the wheels under them; none where it stands on all of
-    /// them or tips, and none for a rover whose links load every wheel.
+    /// Loads that balance a rigid rover with one of its wheels lifted, and the wheels under them;
+    /// none where it stands on all of them or tips, and none for a rover whose links load every
+    /// wheel.
     ///
-    /// Where one wheel lifts and another is about to, loads have a corner; and a wheel's forces grow without bound with the
-    /// first of its load, in cohesive soil like its root. With the lifted wheel given and roots of the loads sought, neither is
-    /// left: Newton's steps, damped, then find loads that turns and steps over all wheels do not.
+    /// Where one wheel lifts and another is about to, loads have a corner; and a wheel's forces
+    /// grow without bound with the first of its load, in cohesive soil like its root. With the
+    /// lifted wheel given and roots of the loads sought, neither is left: Newton's steps, damped,
+    /// then find loads that turns and steps over all wheels do not.
     ///
     /// * `guess`: loads near which they are sought; its lightest wheel is lifted first [N]
     /// * `weight`: m g [N]
@@ -416,7 +423,8 @@ impl Sought<'_> {
         })
     }
 
-    /// The loads that balance the forces under loads [N] with a wheel lifted, and the wheels under them.
+    /// The loads that balance the forces under loads [N] with a wheel lifted, and the wheels under
+    /// them.
     ///
     /// * `warp`: the gaps of a rover on warped ground: then the lifted wheel's load is zero; else
     ///   it is what it would have
@@ -440,10 +448,11 @@ impl Sought<'_> {
         Some((next, wheels))
     }
 
-    /// Why no loads balance the rover: those that do not agree move load from wheel to wheel, and where that lifts all wheels
-    /// but two, the rover tips over.
+    /// Why no loads balance the rover: those that do not agree move load from wheel to wheel, and
+    /// where that lifts all wheels but two, the rover tips over.
     ///
-    /// Loads that all but agree move slowly, so that one step in four is at least a twentieth of the weight long.
+    /// Loads that all but agree move slowly, so that one step in four is at least a twentieth of
+    /// the weight long.
     ///
     /// * `weight`: m g [N]
     fn why_none(&self, mut loads: DVector<f64>, weight: f64) -> ReactionError {
@@ -510,7 +519,8 @@ impl Sought<'_> {
         ground.balance().loads(ground.rover, posture, *weight, forces)
     }
 
-    /// The gaps that a rigid rover with more wheels than freedoms cannot close [m], if there are any.
+    /// The gaps that a rigid rover with more wheels than freedoms cannot close [m], if there are
+    /// any.
     fn warp(&self) -> Option<DVector<f64>> {
         /// Less than this is rounding [m].
         const FLAT: f64 = 1e-10;
@@ -519,8 +529,9 @@ impl Sought<'_> {
         (self.posture.freedoms() < gaps.len() && gaps.norm() > FLAT).then_some(gaps)
     }
 
-    /// The loads of a rigid rover on warped ground: those of least norm, and as much along the warp as makes the sinkages
-    /// differ by it from those under loads of least norm. A wheel that would have to pull is lifted.
+    /// The loads of a rigid rover on warped ground: those of least norm, and as much along the warp
+    /// as makes the sinkages differ by it from those under loads of least norm. A wheel that would
+    /// have to pull is lifted.
     ///
     /// ```text
     /// p · (h(N) − h(N°)) = −|gaps|        p = gaps / |gaps|        N = N° + λ p

@@ -60,8 +60,8 @@ pub fn roll_and_pitch(slope: f64, yaw: f64) -> [f64; 2] {
     [wide::atan2(across, wide::cos(slope)), wide::asin(wide::sin(slope) * wide::sin(yaw))]
 }
 
-/// Slope and yaw of a rover on a plane [rad]: the inverse of [`roll_and_pitch`]. On level ground the yaw is not known,
-/// and 0.
+/// Slope and yaw of a rover on a plane [rad]: the inverse of [`roll_and_pitch`]. On level ground
+/// the yaw is not known, and 0.
 ///
 /// * `roll`, `pitch`: *φ*, *θ* [rad]
 ///
@@ -90,8 +90,8 @@ mod tests {
         assert_eq!(slope_and_yaw(0.0, 0.0), [0.0, 0.0]);
     }
 
-    /// Along the contour all of the slope is roll, straight up all of it is pitch, and the upright's share is
-    /// always the slope's.
+    /// Along the contour all of the slope is roll, straight up all of it is pitch, and the
+    /// upright's share is always the slope's.
     #[test]
     fn roll_and_pitch_share_the_slope() {
         for (slope, yaw) in [(10.0, 0.0), (10.0, 90.0), (25.0, 30.0), (13.0, 8.0)] {

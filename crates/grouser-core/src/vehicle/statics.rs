@@ -1,19 +1,23 @@
-//! Loads of wheels on uneven ground: the balance of every freedom of a rover that stands as its suspension lets it.
+//! Loads of wheels on uneven ground: the balance of every freedom of a rover that stands as its
+//! suspension lets it.
 //!
-//! The soil's forces along the ground and its moments are given; sought are the forces along the normals, *N*. Whatever
-//! freedom *k* is moved, all forces together do no work (d'Alembert), with the weight and the inertia at the common centre of
-//! mass, which accelerates along the body's x and y axes:
+//! The soil's forces along the ground and its moments are given; sought are the forces along the
+//! normals, *N*. Whatever freedom *k* is moved, all forces together do no work (d'Alembert), with
+//! the weight and the inertia at the common centre of mass, which accelerates along the body's x
+//! and y axes:
 //!
 //! ```text
 //! Σ f_i · v_ik + Σ m_i · ω_ik − Σ μ_j F · v_jk = 0        f_i = N_i n_i + t_i        F = Σ f_i
 //! ```
 //!
-//! with the twists (v, ω) of [`Posture`], the moment *m* that a wheel passes on to its hub, its torque first, and the share
-//! *μ* that a part has of the mass: for height, Σ F · e_z balances the weight; for roll and pitch, moments about the
-//! common centre of mass vanish; for rockers and bogies, those about their axes, wheels' weights included.
+//! with the twists (v, ω) of [`Posture`], the moment *m* that a wheel passes on to its hub, its
+//! torque first, and the share *μ* that a part has of the mass: for height, Σ F · e_z balances the
+//! weight; for roll and pitch, moments about the common centre of mass vanish; for rockers and
+//! bogies, those about their axes, wheels' weights included.
 //!
-//! A rover on rockers, with or without bogies, or on three wheels has as many freedoms as wheels. A rigid one with more has
-//! the loads of least norm, as on a plane. Links weigh nothing but their wheels.
+//! A rover on rockers, with or without bogies, or on three wheels has as many freedoms as wheels. A
+//! rigid one with more has the loads of least norm, as on a plane. Links weigh nothing but their
+//! wheels.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -42,7 +46,8 @@ pub struct Balance {
 }
 
 impl Balance {
-    /// Force along the ground [N] and moment about the hub [N·m] of a wheel, in the ground's coordinates.
+    /// Force along the ground [N] and moment about the hub [N·m] of a wheel, in the ground's
+    /// coordinates.
     fn along(self, wheel: &StandingWheel, radius: f64, forces: &WheelForces) -> (Vec3, Vec3) {
         let force = forces.drawbar_pull * wheel.forward + forces.side_force * wheel.left;
         let torque = if self.sharing.has_torque() {
@@ -60,10 +65,12 @@ impl Balance {
         (force, torque + own)
     }
 
-    /// Loads that balance a rover, in the mounts' order [N]; negative where a wheel would have to be held down.
+    /// Loads that balance a rover, in the mounts' order [N]; negative where a wheel would have to
+    /// be held down.
     ///
     /// * `weight`: m g, against gravity, in the ground's coordinates [N]
-    /// * `forces`: the soil's, of which those along the ground and the moments count; none for wheels that only stand
+    /// * `forces`: the soil's, of which those along the ground and the moments count; none for
+    ///   wheels that only stand
     ///
     /// # Errors
     /// [`Tipping`] where no loads balance it.
@@ -82,11 +89,12 @@ impl Balance {
         least_norm(&matrix, &side).ok_or(Tipping)
     }
 
-    /// Loads of least norm that balance a rigid rover on the wheels that are left when one is lifted, in the mounts'
-    /// order [N]. In the lifted wheel's place is the load that it would have as one of them: where that is negative, it
-    /// would have to be held down.
+    /// Loads of least norm that balance a rigid rover on the wheels that are left when one is
+    /// lifted, in the mounts' order [N]. In the lifted wheel's place is the load that it would have
+    /// as one of them: where that is negative, it would have to be held down.
     ///
-    /// None where the others do not balance the rover, and none for a rover with as many freedoms as wheels.
+    /// None where the others do not balance the rover, and none for a rover with as many freedoms
+    /// as wheels.
     ///
     /// * `weight`, `forces`: as for [`loads`](Self::loads)
     pub(super) fn loads_on_others(
@@ -108,7 +116,8 @@ impl Balance {
         loads.iter().all(|load| load.is_finite()).then(|| loads.iter().copied().collect())
     }
 
-    /// What each wheel's load does in the balance of each freedom, a row, and what the loads together have to do there.
+    /// What each wheel's load does in the balance of each freedom, a row, and what the loads
+    /// together have to do there.
     fn equations(
         self,
         rover: &Rover,
@@ -163,7 +172,8 @@ impl Balance {
     }
 }
 
-/// The common centre of mass of body and wheels, seen from the body's, in the ground's coordinates [m].
+/// The common centre of mass of body and wheels, seen from the body's, in the ground's coordinates
+/// [m].
 #[must_use]
 pub fn centre_of_mass(rover: &Rover, posture: &Posture) -> Vec3 {
     let wheels = posture.wheels.iter().zip(rover.mounts());

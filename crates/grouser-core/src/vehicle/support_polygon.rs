@@ -44,7 +44,8 @@ impl SupportPolygon {
 }
 
 impl Edge {
-    /// Area of the parallelogram that a point spans with the edge [m²], positive inside the polygon.
+    /// Area of the parallelogram that a point spans with the edge [m²], positive inside the
+    /// polygon.
     fn area(&self, point: Vec2) -> f64 {
         self.along.perp(&(point - self.from))
     }

@@ -1,8 +1,8 @@
 //! How the wheels are joined to the body: rockers on both sides, with or without bogies.
 //!
-//! A rocker turns about an axis across the body; a differential makes the right one turn against the left one. A bogie
-//! turns about an axis across its rocker and carries two wheels. The joints are free: they lead no moment about their axes
-//! but the differential's.
+//! A rocker turns about an axis across the body; a differential makes the right one turn against
+//! the left one. A bogie turns about an axis across its rocker and carries two wheels. The joints
+//! are free: they lead no moment about their axes but the differential's.
 
 use crate::units::Vec2;
 
@@ -42,7 +42,8 @@ pub struct Suspension {
 /// A link that carries two wheels of a side, joined to a rocker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bogie {
-    /// Its axis, seen from the side, (x, z) in the body frame where the rover stands on a plane [m].
+    /// Its axis, seen from the side, (x, z) in the body frame where the rover stands on a plane
+    /// [m].
     pub pivot: Vec2,
     /// The end of the rover at which it is.
     pub end: End,

@@ -6,8 +6,8 @@
 //! i_max(θ) = i_max (θ_max − θ)/(θ_max − θ_d)      from θ_d on: derating
 //! ```
 //!
-//! A step of current warms it to θ_0 + R i² R_th with the time R_th C, as long as R stays. Source of α: IEC 60028, standard
-//! annealed copper at 20 °C.
+//! A step of current warms it to θ_0 + R i² R_th with the time R_th C, as long as R stays. Source
+//! of α: IEC 60028, standard annealed copper at 20 °C.
 
 use crate::elementary::exp;
 use crate::error::{ParameterError, finite, positive};

@@ -27,7 +27,8 @@ fn wheel(forward: Vec2) -> Footprint {
 }
 
 proptest! {
-    /// A tilted plane is that plane: to the edges, anywhere on a map, however high and however steep.
+    /// A tilted plane is that plane: to the edges, anywhere on a map, however high and however
+    /// steep.
     #[test]
     fn a_plane_is_a_plane(
         (slope_x, slope_y) in (-1.0..1.0, -1.0..1.0),
@@ -50,7 +51,8 @@ proptest! {
         prop_assert!((patch.height - plane(middle)).abs() < 2e-6);
     }
 
-    /// Quadratic surfaces whose heights `f32` has are repeated but for the rounding of sums, at the edges too.
+    /// Quadratic surfaces whose heights `f32` has are repeated but for the rounding of sums, at the
+    /// edges too.
     #[test]
     fn a_quadratic_surface_is_itself(
         a in proptest::array::uniform5(-8_i32..=8),
@@ -94,7 +96,8 @@ proptest! {
         prop_assert!((gradient - Vec2::new(-seen.x, seen.y)).norm() < 1e-12);
     }
 
-    /// Heights and gradients go on across the borders of cells, and gradients are those of the heights.
+    /// Heights and gradients go on across the borders of cells, and gradients are those of the
+    /// heights.
     #[test]
     fn the_gradient_is_continuous(
         heights in proptest::collection::vec(-3.0_f64..3.0, 36),

@@ -24,7 +24,8 @@ fn craters_on_sites_are_as_many_as_the_law_says() {
     assert!((count as f64 - expected).abs() < 3.0 * expected.sqrt(), "{count}");
 }
 
-/// What the heights show: where a crater stands alone, its crest is as far above its middle as its depth says.
+/// What the heights show: where a crater stands alone, its crest is as far above its middle as its
+/// depth says.
 #[test]
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "points on the site")]
 fn heights_show_the_depth_of_a_crater() {
@@ -58,8 +59,9 @@ fn alone(crater: &AgedCrater, model: &LunarModel) -> bool {
     })
 }
 
-/// Source: [Rosenburg2011]: a median slope of 2.0° and 7.5° over 17 m. Craters in equilibrium come on top, and of few
-/// long waves each site has its own share: the mean over eight sites is within a third.
+/// Source: [Rosenburg2011]: a median slope of 2.0° and 7.5° over 17 m. Craters in equilibrium come
+/// on top, and of few long waves each site has its own share: the mean over eight sites is within a
+/// third.
 #[test]
 fn median_slopes_are_those_of_mare_and_highlands() {
     for (ground, median_deg) in [(LunarGround::Mare, 2.0), (LunarGround::Highlands, 7.5)] {
@@ -69,8 +71,9 @@ fn median_slopes_are_those_of_mare_and_highlands() {
     }
 }
 
-/// Without craters the root mean square of the differences grows with the Hurst exponent from 4 m to 32 m, and is the
-/// stated one over 17 m. That the waves end at 8 km takes 0.06 from an exponent near 1, and hardly anything from others.
+/// Without craters the root mean square of the differences grows with the Hurst exponent from 4 m
+/// to 32 m, and is the stated one over 17 m. That the waves end at 8 km takes 0.06 from an exponent
+/// near 1, and hardly anything from others.
 #[test]
 fn relief_has_the_stated_hurst_exponent() {
     for ground in LunarGround::ALL {

@@ -69,7 +69,8 @@ proptest! {
     }
 }
 
-/// The mean over a footprint takes the share sin(k l)/(k l) or so off a ripple, and nothing off long ones.
+/// The mean over a footprint takes the share sin(k l)/(k l) or so off a ripple, and nothing off
+/// long ones.
 #[test]
 fn a_ripple_repeats_itself_and_long_ones_are_planes() {
     let ripple = Ripple { amplitude: 0.05, wavelength: 0.9, across: 0.0, phase: 0.2 };
@@ -132,7 +133,8 @@ fn a_fresh_crater_has_its_depth_rim_and_walls() {
     assert!((0.17..0.18).contains(&(most / 3.6)) && least > -0.08 * 3.6, "{least} to {most}");
 }
 
-/// The same ground as a formula and as heights at points: what a wheel meets converges with the grid.
+/// The same ground as a formula and as heights at points: what a wheel meets converges with the
+/// grid.
 #[test]
 fn an_elevation_model_of_a_surface_approaches_it() {
     let wheel = Footprint { forward: Vec2::x(), half_length: 0.06, half_width: 0.05 };
@@ -152,7 +154,8 @@ fn an_elevation_model_of_a_surface_approaches_it() {
             })
         };
         let (coarse, fine) = (worst(40), worst(160));
-        // Four times finer: of second order where the surface is smooth, of first where its curvature jumps.
+        // Four times finer: of second order where the surface is smooth, of first where its
+        // curvature jumps.
         assert!(fine < coarse / 3.0 || coarse < 1e-6, "{surface:?}: {coarse:e} and {fine:e}");
     }
 }

@@ -176,7 +176,8 @@ fn a_raster_of_polygons_has_the_shares_of_the_polygons() {
     assert!(several > 100, "{several}");
 }
 
-/// Turned and moved together, map and wheel have the shares that they had; a far origin costs no precision.
+/// Turned and moved together, map and wheel have the shares that they had; a far origin costs no
+/// precision.
 #[test]
 fn shares_turn_and_move_with_the_map() {
     let mut random = Random(3);
@@ -203,7 +204,8 @@ fn shares_turn_and_move_with_the_map() {
     }
 }
 
-/// Where very many borders lie below a wheel, shares are counted by points: nothing takes long, and nothing is lost.
+/// Where very many borders lie below a wheel, shares are counted by points: nothing takes long, and
+/// nothing is lost.
 #[test]
 fn very_many_borders_below_a_wheel_are_counted_by_points() {
     let spacing = Vec2::new(1e-3, 1e-3);

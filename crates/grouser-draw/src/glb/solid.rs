@@ -60,7 +60,8 @@ impl Solid {
     }
 }
 
-/// The rim with its side walls, and what shows its turning: spokes and grousers. The axle is along y.
+/// The rim with its side walls, and what shows its turning: spokes and grousers. The axle is along
+/// y.
 pub(super) fn wheel_solids(wheel: &Wheel) -> [Solid; 2] {
     let (radius, side) = (wheel.radius, 0.5 * wheel.width);
     let out = |angle: f64| {

@@ -1,7 +1,9 @@
-//! Runs over ground with heights in motion: the drawing of a way, with the rover at each time and its way behind it.
+//! Runs over ground with heights in motion: the drawing of a way, with the rover at each time and
+//! its way behind it.
 //!
-//! One run has the view from above, the oblique one and the cut along its way. Several have an oblique view each, to one
-//! scale where they are on the same ground, and then one from above for all ways.
+//! One run has the view from above, the oblique one and the cut along its way. Several have an
+//! oblique view each, to one scale where they are on the same ground, and then one from above for
+//! all ways.
 
 use std::f64::consts::TAU;
 
@@ -32,7 +34,8 @@ const COLUMN: f64 = 58.0;
 const CELL: Place = [72.0, 46.0];
 /// How high the cut along a way is at most [mm].
 const CUT: f64 = 20.0;
-/// Rovers that would be shorter on the picture are drawn larger than they are [mm]. Source: ours; about two letters.
+/// Rovers that would be shorter on the picture are drawn larger than they are [mm]. Source: ours;
+/// about two letters.
 const SHORTEST: f64 = 7.0;
 /// Pieces of a way are no shorter on the picture [mm].
 const PIECE: f64 = 0.4;

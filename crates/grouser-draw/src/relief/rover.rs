@@ -148,9 +148,11 @@ impl<'a> Drawn<'a> {
         faces
     }
 
-    /// A wheel: the outline of both its rims and, where its turning is shown, the spokes on the side that is seen.
+    /// A wheel: the outline of both its rims and, where its turning is shown, the spokes on the
+    /// side that is seen.
     fn wheel(&self, view: &View, stance: &Stance, index: usize) -> Vec<Mark> {
-        /// Sides that are seen less than this are not drawn [-]. Source: ours; their spokes would lie on one line.
+        /// Sides that are seen less than this are not drawn [-]. Source: ours; their spokes would
+        /// lie on one line.
         const SEEN: f64 = 0.2;
         let (Wheel { hub, axle, turned }, mount) = (stance.wheels[index], &self.mounts[index]);
         let hub = stance.centre + hub;

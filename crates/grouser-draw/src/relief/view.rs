@@ -4,7 +4,8 @@ use crate::sheet::Place;
 use grouser_core::elementary::wide;
 use grouser_core::units::{Vec2, Vec3};
 
-/// Directions from which the oblique view looks: turned from north to the left, and down from the horizon [°].
+/// Directions from which the oblique view looks: turned from north to the left, and down from the
+/// horizon [°].
 const AZIMUTH: f64 = 35.0;
 const ELEVATION: f64 = 30.0;
 

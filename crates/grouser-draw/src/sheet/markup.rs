@@ -1,8 +1,8 @@
 //! Text inside SVG and HTML.
 
-/// A text as the content of an element, or as the value of an attribute in double quotation marks, of SVG or
-/// HTML: whatever it holds, it neither ends the element nor makes the document unreadable.
-/// Characters that no document can hold are written out, such as `\u{0}`.
+/// A text as the content of an element, or as the value of an attribute in double quotation marks,
+/// of SVG or HTML: whatever it holds, it neither ends the element nor makes the document
+/// unreadable. Characters that no document can hold are written out, such as `\u{0}`.
 #[must_use]
 pub fn markup(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());

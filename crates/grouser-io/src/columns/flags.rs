@@ -42,7 +42,8 @@ fn unit(flag: Flag) -> Unit {
     }
 }
 
-/// A finding with its flag, value and range: `slip-outside: the slip ratio is 0.95, the domain is -0.1 to 0.9`.
+/// A finding with its flag, value and range:
+/// `slip-outside: the slip ratio is 0.95, the domain is -0.1 to 0.9`.
 #[must_use]
 pub fn in_words(finding: &Finding) -> String {
     let Finding { flag, value, allowed } = *finding;

@@ -1,4 +1,5 @@
-//! Rows that documents of all kinds, or of several, have: their names, sources and notes, the model and gravity.
+//! Rows that documents of all kinds, or of several, have: their names, sources and notes, the model
+//! and gravity.
 
 use super::super::field::{
     Field, Fill, Keyword, M_S2, Reach, Shape, day, field, note, nothing, number, texts, word, words,

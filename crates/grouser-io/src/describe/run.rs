@@ -1,4 +1,5 @@
-//! Rows of whatever drives a rover over the ground, scenario or mission: rover, ground, model, and how it is computed.
+//! Rows of whatever drives a rover over the ground, scenario or mission: rover, ground, model, and
+//! how it is computed.
 
 use std::marker::PhantomData;
 

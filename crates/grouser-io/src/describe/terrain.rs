@@ -1,4 +1,5 @@
-//! `[terrain]` of scenarios and missions: ground with heights, from a map or by a formula, and where on it a run starts.
+//! `[terrain]` of scenarios and missions: ground with heights, from a map or by a formula, and
+//! where on it a run starts.
 
 use super::super::field::{
     DEG, Field, Form, Law, Laws, M, Table, note, number, numbers, positive, whole,
@@ -8,7 +9,8 @@ use grouser_core::terrain::surface::{Cone, Crater, Incline, Ramp, Ripple};
 use grouser_core::terrain::{Ground, Shape, Surface};
 use grouser_core::units::Vec2;
 
-/// The farthest that coordinates of a map may be from its origin [m]: beyond the circumference of any planet.
+/// The farthest that coordinates of a map may be from its origin [m]: beyond the circumference of
+/// any planet.
 pub(super) const FARTHEST: f64 = 1e9;
 /// The largest hill, crater or wave [m].
 const LARGEST: f64 = 1e6;

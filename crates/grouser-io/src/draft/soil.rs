@@ -44,7 +44,8 @@ const CONSTANTS: [(&str, &[&str]); 3] = [
     ("shear", &["shear.longitudinal_m"]),
 ];
 const FRICTION_ANGLE: &str = "friction_angle_deg";
-/// Keys that say how the preset's friction angle was found, and with it what a wheel mobilises of it.
+/// Keys that say how the preset's friction angle was found, and with it what a wheel mobilises of
+/// it.
 const OF_THE_FRICTION_ANGLE: [&str; 2] = ["friction_test", "constant_volume_share"];
 
 /// The usual value of a question.

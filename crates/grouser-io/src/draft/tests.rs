@@ -54,7 +54,8 @@ fn questions_are_those_of_the_rows() {
     assert_eq!(question.range.as_deref(), Some("0.01 to 1"));
 }
 
-/// What is answered stands in the rover, and what is estimated follows from it by the library's formulas.
+/// What is answered stands in the rover, and what is estimated follows from it by the library's
+/// formulas.
 #[test]
 fn a_rover_has_what_its_data_sheet_says() {
     let answers = [

@@ -146,8 +146,8 @@ pub static COLUMNS: LazyLock<Vec<Column>> = LazyLock::new(|| {
     READ.into_iter().chain(others).collect()
 });
 
-/// Whether a column is one of the bands that Grouser writes beside results: quantiles of a known column, the
-/// probability that the soil carries the wheel, the number of samples.
+/// Whether a column is one of the bands that Grouser writes beside results: quantiles of a known
+/// column, the probability that the soil carries the wheel, the number of samples.
 pub(super) fn is_of_a_band(name: &str) -> bool {
     let is_quantile = |end: &str| name.strip_suffix(end).is_some_and(|of| known(of).is_some());
     QUANTILES.iter().any(|end| is_quantile(end))

@@ -162,8 +162,8 @@ fn size_of(unit: &str, column: &Column) -> Result<f64, String> {
 
 /// Rewrites another file as one of ours, which [`read_from`](super::read_from) then checks.
 ///
-/// Columns that are called as ours are taken along; all others need a mapping or are left out. Texts
-/// are written as [`escape::cell`] says, so that no spreadsheet computes them.
+/// Columns that are called as ours are taken along; all others need a mapping or are left out.
+/// Texts are written as [`escape::cell`] says, so that no spreadsheet computes them.
 ///
 /// # Errors
 /// [`MeasurementError`] for a file that is no table, a column that is not there, or a value that
@@ -289,7 +289,8 @@ fn field(text: &str, mapping: &Mapping, layout: &Layout) -> Result<String, Probl
     Ok(if is_slip { layout.slip.to_ours(ours) } else { ours }.to_string())
 }
 
-/// A number without the last digits, which a change of units makes: 1.38 cm are 13.8 mm, not 13.799999999999999.
+/// A number without the last digits, which a change of units makes: 1.38 cm are 13.8 mm, not
+/// 13.799999999999999.
 fn without_noise(value: f64) -> f64 {
     format!("{value:.14e}").parse().unwrap_or(value)
 }

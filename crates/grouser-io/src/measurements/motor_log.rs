@@ -98,7 +98,8 @@ pub const COLUMNS: [LogColumn; 10] = [
 /// Which part of a log is read.
 #[derive(Clone, Debug, Default)]
 pub struct LogChoice {
-    /// Names of columns that are left aside as if they were not there; of a wheel's columns, without the wheel's.
+    /// Names of columns that are left aside as if they were not there; of a wheel's columns,
+    /// without the wheel's.
     pub ignored: Vec<String>,
     /// Yaw of rows without a yaw, *γ* [rad].
     pub yaw: Option<f64>,

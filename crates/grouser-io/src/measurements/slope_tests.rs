@@ -1,8 +1,8 @@
 //! Reads a rover's measured slip and yaw on slopes from CSV.
 //!
-//! A row has a slope, and the slip ratio at which the rover drives there, the yaw that holds its course, or both. Rows
-//! of one slope and course, or with the same `cell`, repeat each other. [`COLUMNS`] lists what the
-//! columns may be called.
+//! A row has a slope, and the slip ratio at which the rover drives there, the yaw that holds its
+//! course, or both. Rows of one slope and course, or with the same `cell`, repeat each other.
+//! [`COLUMNS`] lists what the columns may be called.
 
 use std::ops::RangeInclusive;
 
@@ -279,7 +279,8 @@ fn radius_share(rover: &Rover) -> Option<f64> {
     shares.iter().all(|share| share == &shares[0]).then(|| shares[0])
 }
 
-/// The slip ratio by the speed of the grousers' tips, from that by the speed of the rim without them.
+/// The slip ratio by the speed of the grousers' tips, from that by the speed of the rim without
+/// them.
 ///
 /// ```text
 /// driving: v = ω r (1 − s)        braking: ω r = v (1 + s)
@@ -331,8 +332,8 @@ impl Mean {
 mod tests {
     use super::*;
 
-    /// A rim of 0.25 m that drives at slip 0.04 moves 0.96 of its way, which is 0.873 of that of tips at
-    /// 0.275 m; a wheel that neither drives nor brakes at the rim drives at the tips.
+    /// A rim of 0.25 m that drives at slip 0.04 moves 0.96 of its way, which is 0.873 of that of
+    /// tips at 0.275 m; a wheel that neither drives nor brakes at the rim drives at the tips.
     #[test]
     fn slip_at_the_tips_is_that_of_the_same_motion() {
         let share = 0.25 / 0.275;

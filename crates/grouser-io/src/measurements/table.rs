@@ -47,7 +47,8 @@ impl<'a, R: Read> Table<'a, R> {
     /// spreadsheets write. Here it is asked where it stands behind the row.
     ///
     /// # Errors
-    /// [`MeasurementError`] with the line, for a row that cannot be read or is larger than its limits.
+    /// [`MeasurementError`] with the line, for a row that cannot be read or is larger than its
+    /// limits.
     pub fn next_row(&mut self, row: &mut StringRecord) -> Result<bool, MeasurementError> {
         let start = self.reader.position().clone();
         self.reader.get_mut().row_starts_at(start.byte());

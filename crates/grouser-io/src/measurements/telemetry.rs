@@ -1,12 +1,14 @@
-//! Reads telemetry of a drive, `telemetry/1`, row by row: what a rover's instruments said over time.
+//! Reads telemetry of a drive, `telemetry/1`, row by row: what a rover's instruments said over
+//! time.
 //!
-//! A table has a row for each time and columns of [`COLUMNS`], all but the time optional and in any order; the column
-//! of a wheel ends with its name (`wheel_speed_rad_s_front-left`) or begins with it, as those of runs do
-//! (`front-left.wheel_speed_rad_s`). An empty cell is a gap. Displacement and rotation by visual odometry are those
-//! since the last row that has one.
+//! A table has a row for each time and columns of [`COLUMNS`], all but the time optional and in any
+//! order; the column of a wheel ends with its name (`wheel_speed_rad_s_front-left`) or begins with
+//! it, as those of runs do (`front-left.wheel_speed_rad_s`). An empty cell is a gap. Displacement
+//! and rotation by visual odometry are those since the last row that has one.
 //!
-//! Telemetry is damaged telemetry: a cell that is no number, or out of its range, is a gap, and a row without a time
-//! of its own is left out. [`Lost`] counts all of that. Memory does not grow with the length of the log.
+//! Telemetry is damaged telemetry: a cell that is no number, or out of its range, is a gap, and a
+//! row without a time of its own is left out. [`Lost`] counts all of that. Memory does not grow
+//! with the length of the log.
 
 mod reader;
 mod rows;

@@ -1,7 +1,7 @@
 //! Measured single-wheel tests: settings, readings, and the trials that repeat each other.
 //!
-//! Everything is in SI units and in Grouser's signs: `document` converts other units, signs and slip
-//! definitions.
+//! Everything is in SI units and in Grouser's signs: `document` converts other units, signs and
+//! slip definitions.
 
 use std::ops::{Index, IndexMut};
 

@@ -1,4 +1,5 @@
-//! Which preset to take: the world that a soil or a rover is of, what it is good for, how well it is known.
+//! Which preset to take: the world that a soil or a rover is of, what it is good for, how well it
+//! is known.
 
 use super::super::kind::Kind;
 use super::Preset;
@@ -6,7 +7,8 @@ use super::Preset;
 /// What a preset is good for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Advice {
-    /// The world that it is of, as [`GRAVITIES`](crate::GRAVITIES) names it: that of a simulant is `earth`.
+    /// The world that it is of, as [`GRAVITIES`](crate::GRAVITIES) names it: that of a simulant is
+    /// `earth`.
     pub world: &'static str,
     /// What it is for, and how well it is known.
     pub text: &'static str,

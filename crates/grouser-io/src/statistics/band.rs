@@ -30,8 +30,9 @@ impl Band {
     }
 }
 
-/// The value below which a share of sorted draws lies, interpolated between the two nearest:
-/// the k-th of n draws is the quantile (k − 1)/(n − 1) (Hyndman and Fan 1996, their type 7). Draws may be infinite.
+/// The value below which a share of sorted draws lies, interpolated between the two nearest: the
+/// k-th of n draws is the quantile (k − 1)/(n − 1) (Hyndman and Fan 1996, their type 7). Draws may
+/// be infinite.
 #[must_use]
 pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;

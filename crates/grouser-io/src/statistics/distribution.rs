@@ -188,11 +188,13 @@ pub struct Correlation {
 #[error("no values can have these correlations together: their matrix is not positive definite")]
 pub struct Contradiction;
 
-/// A distribution over several values: parts that are independent of each other, whose values follow each other.
+/// A distribution over several values: parts that are independent of each other, whose values
+/// follow each other.
 ///
-/// It keeps within the ranges of its values in one of two ways. A single sample is [drawn](Self::draw) again
-/// while it is refused, which truncates all values together. For points of the unit cube, which a design spread
-/// as it wants them, each value's distribution is cut by formula ([`within`](Self::within)).
+/// It keeps within the ranges of its values in one of two ways. A single sample is
+/// [drawn](Self::draw) again while it is refused, which truncates all values together. For points
+/// of the unit cube, which a design spread as it wants them, each value's distribution is cut by
+/// formula ([`within`](Self::within)).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Distribution {
     parts: Vec<Part>,
@@ -216,8 +218,8 @@ pub struct NothingAccepted {
     pub tries: u32,
 }
 
-/// Tries for one sample. A distribution of which less than one in a hundred samples can be used is far
-/// from the one that was written down; then 1000 tries succeed in all but 4e-5 of the samples.
+/// Tries for one sample. A distribution of which less than one in a hundred samples can be used is
+/// far from the one that was written down; then 1000 tries succeed in all but 4e-5 of the samples.
 const MOST_TRIES: u32 = 1000;
 
 impl Distribution {
@@ -272,8 +274,8 @@ impl Distribution {
         self
     }
 
-    /// Rows of samples, such as those of a posterior; each sample of the distribution is one of them, independent of
-    /// the others.
+    /// Rows of samples, such as those of a posterior; each sample of the distribution is one of
+    /// them, independent of the others.
     ///
     /// # Panics
     /// If there are none.
@@ -283,8 +285,8 @@ impl Distribution {
         Self { parts: vec![Part::Samples(rows)] }
     }
 
-    /// Sample number `index`: the result of `accept` for the first values that it accepts. Refused values
-    /// are sampled again, so that the distribution is truncated to the accepted values.
+    /// Sample number `index`: the result of `accept` for the first values that it accepts. Refused
+    /// values are sampled again, so that the distribution is truncated to the accepted values.
     ///
     /// # Errors
     /// [`NothingAccepted`] if it refuses a thousand in a row.
@@ -325,7 +327,8 @@ impl Distribution {
         }
     }
 
-    /// The number of uniform numbers of a sample: one for each marginal, and one for rows of samples.
+    /// The number of uniform numbers of a sample: one for each marginal, and one for rows of
+    /// samples.
     #[must_use]
     pub fn dimensions(&self) -> usize {
         self.parts.iter().map(Part::dimensions).sum()

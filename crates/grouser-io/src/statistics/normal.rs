@@ -69,7 +69,8 @@ fn share_beyond(z: f64) -> f64 {
 /// No double is as small as the share beyond this score.
 const MOST_SCORE: f64 = 39.0;
 
-/// The standard normal number below which a share of all lies, to 1e-15 of itself: −∞ for 0 and ∞ for 1.
+/// The standard normal number below which a share of all lies, to 1e-15 of itself: −∞ for 0 and ∞
+/// for 1.
 ///
 /// Source: Wichura (1988), algorithm AS 241, PPND16.
 #[must_use]

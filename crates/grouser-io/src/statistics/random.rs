@@ -1,5 +1,5 @@
-//! Random numbers of studies, from independent streams: a stream's numbers depend on no other stream and on no
-//! thread.
+//! Random numbers of studies, from independent streams: a stream's numbers depend on no other
+//! stream and on no thread.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};

@@ -164,7 +164,8 @@ fn is_upright(robot: &Robot, link: usize) -> bool {
     robot.links[link].axis().is_some_and(|axis| axis.z.abs() > ALONG)
 }
 
-/// Mass [kg], centre of mass in the root's frame [m], and inertia about that along the root's axes [kg m²].
+/// Mass [kg], centre of mass in the root's frame [m], and inertia about that along the root's axes
+/// [kg m²].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Together {
     pub(super) mass: f64,

@@ -28,7 +28,8 @@ fn robot(inner: &str) -> String {
     format!("<?xml version=\"1.0\"?><robot name=\"six\">{inner}</robot>")
 }
 
-/// Six wheels on rockers and bogies, the bogies at the front; the body's mass is 0.1 m before its link's origin.
+/// Six wheels on rockers and bogies, the bogies at the front; the body's mass is 0.1 m before its
+/// link's origin.
 fn six(right_pivot: f64) -> String {
     let mut inner = "<link name=\"base\"><inertial><origin xyz=\"0.1 0 0.2\"/><mass value=\"20\"/>\
                      <inertia ixx=\"1\" iyy=\"2\" izz=\"3\"/></inertial></link>\n"

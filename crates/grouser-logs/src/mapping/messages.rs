@@ -48,7 +48,8 @@ struct Counts {
 
 impl MessageRows {
     /// * `label`: what messages call the log
-    /// * `mapping`: which topics and fields are which columns; without it the built-in one that fits
+    /// * `mapping`: which topics and fields are which columns; without it the built-in one that
+    ///   fits
     /// * `choices`: the topic that is meant where several fit
     ///
     /// # Errors
@@ -103,7 +104,8 @@ impl MessageRows {
     /// Adds a message; messages may be out of order within the mapping's window.
     ///
     /// * `log_time`: when it was recorded [ns]
-    /// * `message`: its fields as a tree, a quaternion's, say, as `{"x": 0, "y": 0, "z": 0, "w": 1}`
+    /// * `message`: its fields as a tree, a quaternion's, say, as
+    ///   `{"x": 0, "y": 0, "z": 0, "w": 1}`
     pub fn add(&mut self, topic: &str, log_time: i64, message: &Value) {
         let Some(places) = self.by_topic.get(topic) else { return };
         let ends_row = matches!(&self.plan.rows, RowRule::Topic(it) if it == topic);

@@ -8,8 +8,8 @@ const EARTH: f64 = 6_378_137.0;
 /// Ellipsoids whose axis is that near to it are of the Earth [m].
 const NEAR: f64 = 3_000.0;
 
-/// `gdalwarp` with a projection for the middle of the grid, and cells of about the same size: the zone of
-/// UTM on Earth, else a stereographic one of the file's own body.
+/// `gdalwarp` with a projection for the middle of the grid, and cells of about the same size: the
+/// zone of UTM on Earth, else a stereographic one of the file's own body.
 pub(super) fn projection(
     system: &CoordinateSystem,
     affine: &Affine,

@@ -2,7 +2,8 @@
 
 use grouser_core::units::Vec2;
 
-/// Place on the map of a place in the raster, whose columns and rows are counted from the corner in front:
+/// Place on the map of a place in the raster, whose columns and rows are counted from the corner in
+/// front:
 ///
 /// ```text
 /// x = x_0 + a column + b row        y = y_0 + c column + d row

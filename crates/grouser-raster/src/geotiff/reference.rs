@@ -98,7 +98,8 @@ impl Georeference<'_> {
     /// The unit of the coordinates, if that is not the metre.
     fn foreign_unit(&self) -> Option<String> {
         match self.system.number(key::LINEAR_UNIT) {
-            // Registered systems without a unit of their own have that of the register, mostly metres.
+            // Registered systems without a unit of their own have that of the register, mostly
+            // metres.
             None | Some(0 | METRE) => None,
             Some(key::USER_DEFINED) => {
                 let size = self.system.real(key::LINEAR_UNIT_SIZE).unwrap_or(1.0);

@@ -157,7 +157,8 @@ fn numbers(descr: &str) -> Result<(Kind, bool), Fault> {
         let shown: String = name.chars().filter(|c| !c.is_control()).take(16).collect();
         return Err(Fault::Samples { samples: format!("of NumPy's type {shown}") });
     };
-    // Files say '<' or '>'; what says neither was written by a machine such as this one, or has one byte.
+    // Files say '<' or '>'; what says neither was written by a machine such as this one, or has one
+    // byte.
     Ok((kind, if order == '=' { cfg!(target_endian = "little") } else { order != '>' }))
 }
 

@@ -24,17 +24,18 @@ pub(super) enum Irregular {
     },
 }
 
-/// How far a coordinate may be from its point of the grid, over the spacing [-]: what printing it with few
-/// digits takes.
+/// How far a coordinate may be from its point of the grid, over the spacing [-]: what printing it
+/// with few digits takes.
 const OFF: f64 = 0.02;
-/// Coordinates that near to each other are one, over the largest of them [-]: what sums of spacings leave.
+/// Coordinates that near to each other are one, over the largest of them [-]: what sums of spacings
+/// leave.
 const SAME: f64 = 1e-12;
 
 impl Axis {
     /// The grid of these coordinates.
     ///
-    /// Its spacing is the usual distance from one coordinate to the next one, or the least one if distances
-    /// differ, as they do where rows or columns are missing.
+    /// Its spacing is the usual distance from one coordinate to the next one, or the least one if
+    /// distances differ, as they do where rows or columns are missing.
     pub(super) fn of(coordinates: &[f64]) -> Result<Self, Irregular> {
         let mut sorted = coordinates.to_vec();
         sorted.sort_unstable_by(f64::total_cmp);

@@ -1,8 +1,9 @@
 //! Zones as polygons of GeoJSON (RFC 7946), in metres of the map.
 //!
-//! Features have a geometry, `Polygon` or `MultiPolygon`, and a property `soil`: a name or a class number. Later features
-//! cover earlier ones; within a polygon, a ring in a ring is a hole. By the standard, coordinates are degrees of longitude
-//! and latitude; here they are those of the map that a rover drives on, as GDAL writes them with `-t_srs`.
+//! Features have a geometry, `Polygon` or `MultiPolygon`, and a property `soil`: a name or a class
+//! number. Later features cover earlier ones; within a polygon, a ring in a ring is a hole. By the
+//! standard, coordinates are degrees of longitude and latitude; here they are those of the map that
+//! a rover drives on, as GDAL writes them with `-t_srs`.
 
 mod crossing;
 mod line;
@@ -68,7 +69,8 @@ pub fn decode(bytes: &[u8]) -> Result<ZoneMap, Fault> {
     ZoneMap::of_polygons(polygons)
 }
 
-/// Reads areas as a file of GeoJSON holds them, whatever their properties: all are one zone, of class 0.
+/// Reads areas as a file of GeoJSON holds them, whatever their properties: all are one zone, of
+/// class 0.
 ///
 /// # Errors
 /// [`Fault`] if there are no polygons, or the edge of one crosses itself.
@@ -148,7 +150,8 @@ fn features_in(root: Root) -> Result<Vec<Feature>, Fault> {
 
 /// Whether a coordinate system of that name has degrees.
 fn is_in_degrees(name: &str) -> bool {
-    // The standard's own, that of GPS, and those of IAU bodies, whose codes of longitude and latitude end in two zeros.
+    // The standard's own, that of GPS, and those of IAU bodies, whose codes of longitude and
+    // latitude end in two zeros.
     let name = name.to_uppercase();
     let of_body = name.contains("IAU") && name.ends_with("00");
     of_body || ["CRS84", "CRS:84", ":4326", ":4979"].iter().any(|one| name.ends_with(one))

@@ -14,8 +14,8 @@ fn refused(name: &str) -> String {
     text
 }
 
-/// Tiles, strips, BigTIFF, either byte order; deflate, LZW, Zstandard; nodata as a number, as NaN and as a
-/// mask; with the heights that GDAL wrote.
+/// Tiles, strips, BigTIFF, either byte order; deflate, LZW, Zstandard; nodata as a number, as NaN
+/// and as a mask; with the heights that GDAL wrote.
 #[test]
 fn heights_are_those_that_were_written() {
     for name in [
@@ -45,8 +45,8 @@ fn blocks_that_were_not_written_are_missing() {
     });
 }
 
-/// Cloud-optimised files are read at full resolution, and a system of the Moon that no register has is
-/// carried along.
+/// Cloud-optimised files are read at full resolution, and a system of the Moon that no register has
+/// is carried along.
 #[test]
 fn cloud_optimised_files_of_the_moon_are_read() {
     for (name, within) in [

@@ -83,8 +83,8 @@ fn warned(prior: &LoadedScenario, seen: &[TelemetryRecord]) -> Vec<Warning> {
     lessons.flat_map(|it| it.warnings).collect()
 }
 
-/// A drive over slopes of 0 to 10° on any course that goes along or up them, from one to the next over half a metre; of
-/// slopes up which wheels would spin it has less.
+/// A drive over slopes of 0 to 10° on any course that goes along or up them, from one to the next
+/// over half a metre; of slopes up which wheels would spin it has less.
 fn wandering(trial: &Trial<'_>, truth: &Sample, seed: u64) -> Drive {
     const STREAM: u64 = 0xF6 << 56;
     /// Steps from one slope to the next, and the way of each [m].
@@ -138,8 +138,8 @@ impl Alarms {
         self.counts.get(&kind).copied().unwrap_or_default()
     }
 
-    /// The most alarms of a kind in 100 m that go with the count, by 95 %: the end of Garwood's interval (1936) for
-    /// numbers of rare events.
+    /// The most alarms of a kind in 100 m that go with the count, by 95 %: the end of Garwood's
+    /// interval (1936) for numbers of rare events.
     fn at_most(&self, kind: WarningKind) -> f64 {
         let count = f64::from(self.count(kind));
         // The mean under which as few have a probability of 5 %: by bisection.

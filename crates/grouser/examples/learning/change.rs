@@ -68,7 +68,8 @@ fn scale(soil: &mut Soil, [along, across]: [f64; 2]) {
 /// Before and after the change: across the slope, so that all of the soil shows.
 const BEFORE: Leg = (6.0, 40.0, 2.0);
 const AFTER: Leg = (6.0, 40.0, 1.0);
-/// By so much the slip ratio, or the way to the side over that of the rims, has to differ for a change to matter [-].
+/// By so much the slip ratio, or the way to the side over that of the rims, has to differ for a
+/// change to matter [-].
 const MATTERS: f64 = 0.1;
 
 /// What became of one change.

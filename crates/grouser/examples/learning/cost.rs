@@ -19,7 +19,8 @@ pub(crate) struct Cost {
     pub(crate) time: f64,
 }
 
-/// A rover of four wheels and one of six, with one model and with those of a soil that leaves the model open.
+/// A rover of four wheels and one of six, with one model and with those of a soil that leaves the
+/// model open.
 pub(crate) fn costs(trial: &Trial<'_>) -> Vec<Cost> {
     let six = "scenario.rover=sojourner";
     let soil = "scenario.soil=toyoura-uncertain";

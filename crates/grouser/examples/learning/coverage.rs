@@ -1,4 +1,5 @@
-//! How often 95 % bands hold what is true one slope ahead, and whether the true values are anywhere in them alike.
+//! How often 95 % bands hold what is true one slope ahead, and whether the true values are anywhere
+//! in them alike.
 
 use grouser::document::LoadedScenario;
 use grouser::studies::ensemble::Band;
@@ -33,7 +34,8 @@ pub(crate) struct Trial<'a> {
     pub(crate) seed: u64,
 }
 
-/// What is predicted for the next slope before a drive and after it, and what is true there: of slip and of yaw [rad].
+/// What is predicted for the next slope before a drive and after it, and what is true there: of
+/// slip and of yaw [rad].
 #[derive(Clone, Debug)]
 pub(crate) struct Answer {
     pub(crate) truth: [f64; 2],
@@ -158,8 +160,8 @@ pub(crate) fn yaw_errors(answers: &[Answer]) -> [f64; 2] {
     [mean(&|it| it.before[1].median), mean(&|it| it.after[1].median)]
 }
 
-/// The probability that shares which are uniform lie as far from even as these: Kolmogorov's and Smirnov's test, with the
-/// correction of Stephens (1970) for few of them.
+/// The probability that shares which are uniform lie as far from even as these: Kolmogorov's and
+/// Smirnov's test, with the correction of Stephens (1970) for few of them.
 pub(crate) fn uniformity(shares: impl Iterator<Item = f64>) -> f64 {
     const TERMS: i32 = 100;
     let mut shares: Vec<f64> = shares.collect();

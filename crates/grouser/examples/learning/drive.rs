@@ -1,4 +1,5 @@
-//! A rover on a soil that is hidden from the learner, over ground that is no plane, and its telemetry.
+//! A rover on a soil that is hidden from the learner, over ground that is no plane, and its
+//! telemetry.
 
 use grouser::document::{self, LoadedScenario, Overrides, Source};
 use grouser::simulation::SteadyMotion;
@@ -43,7 +44,8 @@ pub(crate) struct Drive {
     pub(crate) records: Vec<TelemetryRecord>,
 }
 
-/// Ground that is uneven: patch by patch it leans, and its strength differs, by what [`ModelNoise`] says of it.
+/// Ground that is uneven: patch by patch it leans, and its strength differs, by what [`ModelNoise`]
+/// says of it.
 struct Ground {
     noise: ModelNoise,
     random: ChaCha8Rng,
@@ -57,7 +59,8 @@ struct Patch {
     left: f64,
     /// How it leans to the right and up ahead [rad].
     lean: [f64; 2],
-    /// By how much it is weaker across and along, as what it lacks of the force at the same slip, over the weight [-].
+    /// By how much it is weaker across and along, as what it lacks of the force at the same slip,
+    /// over the weight [-].
     weakness: [f64; 2],
     /// What is added to each wheel's torque: over its size [-], and as a torque [N·m].
     torques: Vec<[f64; 2]>,

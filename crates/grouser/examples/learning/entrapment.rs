@@ -1,4 +1,5 @@
-//! How far ahead entrapment is called: up slopes that steepen, and on soil that grows weaker, until the rover stands.
+//! How far ahead entrapment is called: up slopes that steepen, and on soil that grows weaker, until
+//! the rover stands.
 
 use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::learn::{LearntSample, WarningKind};
@@ -13,8 +14,8 @@ use super::drive::{Drive, RIM_SPEED, learner};
 pub(crate) enum Way {
     /// The slope steepens by this for each metre of the wheels' way [°].
     Steepening(f64),
-    /// The tangent of the friction angle falls by this share for each metre over the ground [-], up a slope of 8°: the
-    /// soil is weaker ahead.
+    /// The tangent of the friction angle falls by this share for each metre over the ground [-], up
+    /// a slope of 8°: the soil is weaker ahead.
     WeakerAhead(f64),
     /// The same for each metre of the wheels' way: they dig themselves in.
     DiggingIn(f64),
@@ -87,7 +88,8 @@ impl Way {
     }
 }
 
-/// What became of some rovers on hidden soils; none of those that hold the rover for good, or not at all.
+/// What became of some rovers on hidden soils; none of those that hold the rover for good, or not
+/// at all.
 pub(crate) fn cases(trial: &Trial<'_>, entrapment: Way, repeats: u32) -> Vec<Case> {
     let truths = learner(trial.hidden).samples(trial.seed, repeats).expect("soils are drawn");
     let one = |(index, truth): (usize, &LearntSample)| {

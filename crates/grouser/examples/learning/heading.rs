@@ -1,5 +1,5 @@
-//! How fast the heading is learnt where the soil is not the one that was expected: its shear moduli are half as large
-//! again, or smaller by as much.
+//! How fast the heading is learnt where the soil is not the one that was expected: its shear moduli
+//! are half as large again, or smaller by as much.
 
 use grouser::studies::ensemble::Band;
 use grouser::studies::ensemble::samples::Sample;
@@ -16,7 +16,8 @@ const LEGS: [Leg; 2] = [(5.0, 3.0, 1.0), (8.0, 5.0, 1.0)];
 /// By how much the shear moduli of the hidden soil are off.
 const FACTORS: [f64; 2] = [1.5, 1.0 / 1.5];
 
-/// The error of the heading for the next slope, before the drive and after it, of many hidden soils [rad].
+/// The error of the heading for the next slope, before the drive and after it, of many hidden soils
+/// [rad].
 pub(crate) fn errors(trial: &Trial<'_>, repeats: u32) -> Vec<[f64; 2]> {
     let study = HeadingStudy::of(&trial.prior.value);
     let samples = learner(trial.prior).samples(trial.seed, trial.samples);

@@ -1,5 +1,6 @@
-//! How far can what is learnt from a drive be trusted? Many rovers drive on soils that are hidden from the learner, over
-//! uneven ground and with instruments that err, and what is learnt is compared with what is true.
+//! How far can what is learnt from a drive be trusted? Many rovers drive on soils that are hidden
+//! from the learner, over uneven ground and with instruments that err, and what is learnt is
+//! compared with what is true.
 //!
 //! | study | asks |
 //! |---|---|

@@ -1,4 +1,5 @@
-//! Rows of bevameter tests from CSV: named columns of numbers, a label for repeats, and what was noticed.
+//! Rows of bevameter tests from CSV: named columns of numbers, a label for repeats, and what was
+//! noticed.
 
 use std::io::Read;
 

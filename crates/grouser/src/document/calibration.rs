@@ -56,7 +56,8 @@ pub struct ParameterRecord {
     pub r_hat: Option<f64>,
     /// Effective sample size: independent samples with the same standard error [-].
     pub effective_samples: Option<f64>,
-    /// Posterior contraction: standard deviation over that of the prior [-]; near 1 the data do not constrain it.
+    /// Posterior contraction: standard deviation over that of the prior [-]; near 1 the data do not
+    /// constrain it.
     pub posterior_contraction: Option<f64>,
 }
 

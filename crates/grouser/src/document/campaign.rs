@@ -1,14 +1,18 @@
-//! `campaign/1`: Monte Carlo campaigns, which sample uncertain inputs and run a study for each sample.
+//! `campaign/1`: Monte Carlo campaigns, which sample uncertain inputs and run a study for each
+//! sample.
 //!
-//! A campaign names a study (`traverse`, `heading`, `mission`, `wheel-test`), what it is a study of, and how well
-//! the numbers of that are known. Read, it is a [`Campaign`]: ready to run, run by run, in any order and
-//! on any machine, each run a row of the same [`Column`]s. These steps lead there:
+//! A campaign names a study (`traverse`, `heading`, `mission`, `wheel-test`), what it is a study
+//! of, and how well the numbers of that are known. Read, it is a [`Campaign`]: ready to run, run by
+//! run, in any order and on any machine, each run a row of the same [`Column`]s. These steps lead
+//! there:
 //!
-//! 1. The document is read as any other, with the scenario, the mission, or the soil and the wheel, that it names.
-//! 2. What is uncertain is brought together from `parameter`, `correlation` and `samples`, and from the
-//!    soil's own `[uncertainty]` if asked for; each key is a number of the resolved base (`inputs`).
-//! 3. It becomes an [`Ensemble`]. A run puts the ensemble's values in the base document's place of them, makes
-//!    a domain's value of it, and computes (`rows`).
+//! 1. The document is read as any other, with the scenario, the mission, or the soil and the wheel,
+//!    that it names.
+//! 2. What is uncertain is brought together from `parameter`, `correlation` and `samples`, and from
+//!    the soil's own `[uncertainty]` if asked for; each key is a number of the resolved base
+//!    (`inputs`).
+//! 3. It becomes an [`Ensemble`]. A run puts the ensemble's values in the base document's place of
+//!    them, makes a domain's value of it, and computes (`rows`).
 //!
 //! The resolved document holds all of that in one text: samples, too. Its hash names the campaign.
 
@@ -101,8 +105,8 @@ impl Campaign {
         self.study
     }
 
-    /// How many runs there are: the document's `runs` or, with `sensitivity`, that many times two more
-    /// than there are inputs.
+    /// How many runs there are: the document's `runs` or, with `sensitivity`, that many times two
+    /// more than there are inputs.
     #[must_use]
     pub fn runs(&self) -> u64 {
         self.ensemble().runs()
@@ -139,8 +143,8 @@ impl Campaign {
         &self.columns
     }
 
-    /// The columns of words about legs, whose [`Frequencies`] are counted: `leg_1.outcome`, `leg_1.stopped_by`. Only
-    /// missions have some.
+    /// The columns of words about legs, whose [`Frequencies`] are counted: `leg_1.outcome`,
+    /// `leg_1.stopped_by`. Only missions have some.
     #[must_use]
     pub fn words_of_legs(&self) -> Vec<&str> {
         let words = self.columns.iter().filter(|column| rows::is_word_of_leg(column));
@@ -166,8 +170,8 @@ impl Campaign {
         &self.prepared.resolved
     }
 
-    /// The document with everything in its place, samples included, as TOML: read again it is the same
-    /// campaign, and its hash names the campaign.
+    /// The document with everything in its place, samples included, as TOML: read again it is the
+    /// same campaign, and its hash names the campaign.
     #[must_use]
     pub fn resolved(&self) -> &str {
         &self.resolved
@@ -211,10 +215,10 @@ impl Campaign {
         row
     }
 
-    /// What the runs count as in the statistics of a quantity: their values, and where a run has none because the
-    /// rover does not get on, or the soil does not carry the wheel, one on the safe side (slip 1, sunk to the axles),
-    /// so that it is not left out. A run that could not be computed, and a quantity that such a run has no value of,
-    /// stay without.
+    /// What the runs count as in the statistics of a quantity: their values, and where a run has
+    /// none because the rover does not get on, or the soil does not carry the wheel, one on the
+    /// safe side (slip 1, sunk to the axles), so that it is not left out. A run that could not be
+    /// computed, and a quantity that such a run has no value of, stay without.
     ///
     /// * `runs`: their numbers, in order
     /// * `values`, `statuses`: theirs
@@ -237,8 +241,8 @@ impl Campaign {
         runs.iter().cloned().flatten().zip(values.iter().zip(statuses)).map(one).collect()
     }
 
-    /// All runs of a shard, shared among threads and in their order; `None` if `go_on` was false before
-    /// the end.
+    /// All runs of a shard, shared among threads and in their order; `None` if `go_on` was false
+    /// before the end.
     ///
     /// * `go_on`: asked before each run, from any thread
     #[must_use]

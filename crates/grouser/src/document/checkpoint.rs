@@ -11,8 +11,8 @@ const MAGIC: &[u8] = b"grouser posterior 2\n";
 /// The mark of earlier versions, whose check sum depended on the compiler.
 const OLD_MAGIC: &[u8] = b"grouser posterior 1\n";
 
-/// The largest file of a state that is read [bytes]: that of ten keys after a hundred thousand steps
-/// has about a gigabyte.
+/// The largest file of a state that is read [bytes]: that of ten keys after a hundred thousand
+/// steps has about a gigabyte.
 pub const LARGEST: u64 = 4 << 30;
 
 /// A state that cannot be continued.

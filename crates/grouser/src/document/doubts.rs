@@ -13,8 +13,8 @@ use crate::units::Vec2;
 use crate::vehicle::load::wheel_loads;
 use crate::vehicle::{LoadSharing, WheelReaction};
 
-/// What a document says that is hardly meant, a sentence each: Bekker's moduli that look like kN; a rover that the
-/// soil does not carry, or its flags, as it stands on level ground.
+/// What a document says that is hardly meant, a sentence each: Bekker's moduli that look like kN; a
+/// rover that the soil does not carry, or its flags, as it stands on level ground.
 ///
 /// A rover stands on the default soil.
 ///

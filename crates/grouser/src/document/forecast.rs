@@ -1,4 +1,5 @@
-//! The words and ranges of a forecast: sites, choices, and the gravity that a soil was measured under.
+//! The words and ranges of a forecast: sites, choices, and the gravity that a soil was measured
+//! under.
 
 use std::ops::RangeInclusive;
 
@@ -24,8 +25,8 @@ pub struct Site {
     pub grounds: &'static [&'static str],
 }
 
-/// What the ground of the Moon may be: as the Lunar Roving Vehicle's wheels found it, and as the Lunar Sourcebook
-/// recommends for the uppermost 15 cm between craters.
+/// What the ground of the Moon may be: as the Lunar Roving Vehicle's wheels found it, and as the
+/// Lunar Sourcebook recommends for the uppermost 15 cm between craters.
 const OF_THE_MOON: [&str; 2] = ["lunar-nominal", "lunar-0-15-cm"];
 
 /// The sites that have a name, one for each named gravity.
@@ -44,11 +45,12 @@ pub const SAMPLES: RangeInclusive<u32> = 2..=10_000;
 /// How many of what a model gets wrong.
 pub const DISCREPANCIES: RangeInclusive<u32> = 2..=1000;
 
-/// The study of a scenario whose gravity is that of the site: with every scaling, on the soil as measured, for the
-/// rover's own mass, over 12 samples of the soil and 4 of what a model gets wrong.
+/// The study of a scenario whose gravity is that of the site: with every scaling, on the soil as
+/// measured, for the rover's own mass, over 12 samples of the soil and 4 of what a model gets
+/// wrong.
 ///
-/// * `measured_under`: gravity under which the soil was measured [m/s²]; `None` for that of its document, or else the
-///   Earth's
+/// * `measured_under`: gravity under which the soil was measured [m/s²]; `None` for that of its
+///   document, or else the Earth's
 #[must_use]
 pub fn study_of(scenario: &LoadedScenario, measured_under: Option<f64>) -> ForecastStudy {
     let heading = HeadingStudy::of(&scenario.value);
@@ -63,8 +65,8 @@ pub fn study_of(scenario: &LoadedScenario, measured_under: Option<f64>) -> Forec
     }
 }
 
-/// What the ground may be if nobody says so: the soil as measured and, where it was measured under another gravity,
-/// what is known of the site.
+/// What the ground may be if nobody says so: the soil as measured and, where it was measured under
+/// another gravity, what is known of the site.
 #[must_use]
 pub fn usual_grounds(study: &ForecastStudy) -> Vec<&'static str> {
     let gravity = study.heading.gravity;
@@ -112,8 +114,8 @@ pub fn notes(
 /// The name of the soil itself among grounds.
 pub const AS_MEASURED: &str = "as-measured";
 
-/// The gravity under which a soil's constants were measured [m/s²], if its document says so: the named one within its
-/// range, or else the range's middle.
+/// The gravity under which a soil's constants were measured [m/s²], if its document says so: the
+/// named one within its range, or else the range's middle.
 #[must_use]
 pub fn measured_under(soil: &Soil) -> Option<f64> {
     let range = soil.domain.gravity;
@@ -138,9 +140,9 @@ pub fn scaling_of(text: &str) -> Option<GravityScaling> {
 /// Keywords of masses.
 pub const MASSES: [&str; 2] = ["equal-mass", "equal-weight"];
 
-/// A rover's mass: `equal-mass`, the mass of its document; `equal-weight`, a document of a test rover that was
-/// lightened until it weighed where the soil was measured what the one that flies weighs at the site; or another
-/// factor as NAME=FACTOR.
+/// A rover's mass: `equal-mass`, the mass of its document; `equal-weight`, a document of a test
+/// rover that was lightened until it weighed where the soil was measured what the one that flies
+/// weighs at the site; or another factor as NAME=FACTOR.
 ///
 /// * `q`: gravity at the site over that of the measurement [-]
 ///

@@ -1,4 +1,5 @@
-//! The soil that was learnt from a drive, as a document with samples; and the state of learning, to go on from.
+//! The soil that was learnt from a drive, as a document with samples; and the state of learning, to
+//! go on from.
 
 mod state;
 
@@ -39,7 +40,8 @@ const LISTS: [List; 4] = [
 const PRIOR_SAMPLES_FILE: &str = "prior-samples.csv";
 
 impl LearntSoil {
-    /// What a learner knows now, under the model with the greatest share; `None` of a scenario without an uncertain soil.
+    /// What a learner knows now, under the model with the greatest share; `None` of a scenario
+    /// without an uncertain soil.
     ///
     /// * `log`: what the drive is called
     ///
@@ -122,7 +124,8 @@ impl LearntSoil {
     }
 }
 
-/// A scenario as files beside those of what was learnt: its document, and the files that it names under names of their own.
+/// A scenario as files beside those of what was learnt: its document, and the files that it names
+/// under names of their own.
 #[must_use]
 pub fn files_of_prior<V>(before: &Loaded<V>) -> (Document, Vec<Companion>) {
     let mut companions = before.companions.clone();

@@ -1,11 +1,12 @@
 //! Plate-sinkage curves of a bevameter, from CSV.
 //!
-//! Columns: one of `plate_width_mm` (the smaller side of a rectangular plate), `plate_diameter_mm` and
-//! `plate_radius_mm` (of a round one, for which *b* is the radius); `sinkage_mm`, `pressure_kpa`; where they are
-//! known, `pressure_std_kpa`, and `repeat`, which tells curves of one plate apart. Other columns are not used.
+//! Columns: one of `plate_width_mm` (the smaller side of a rectangular plate), `plate_diameter_mm`
+//! and `plate_radius_mm` (of a round one, for which *b* is the radius); `sinkage_mm`,
+//! `pressure_kpa`; where they are known, `pressure_std_kpa`, and `repeat`, which tells curves of
+//! one plate apart. Other columns are not used.
 //!
-//! Noise about zero is data: pressures below zero are kept. Rows with a sinkage below zero, before the plate met
-//! the soil, have no place in a law of sinkage and are left out.
+//! Noise about zero is data: pressures below zero are kept. Rows with a sinkage below zero, before
+//! the plate met the soil, have no place in a law of sinkage and are left out.
 
 use std::io::Read;
 use std::path::Path;
@@ -19,8 +20,8 @@ use super::measurements::{Limits, MeasurementError, read_bytes};
 use crate::studies::calibration::PlateCurve;
 use crate::studies::calibration::plate_curve::PlatePoint;
 
-/// Columns of a plate's size, each with *b* over what stands there: for a round plate b is the radius (Wong,
-/// Theory of Ground Vehicles).
+/// Columns of a plate's size, each with *b* over what stands there: for a round plate b is the
+/// radius (Wong, Theory of Ground Vehicles).
 const SIZES: [(&str, f64); 3] = [(PLATE_WIDTH, 1.0), (PLATE_DIAMETER, 0.5), (PLATE_RADIUS, 1.0)];
 
 /// Curves that were read.
@@ -28,7 +29,8 @@ const SIZES: [(&str, f64); 3] = [(PLATE_WIDTH, 1.0), (PLATE_DIAMETER, 0.5), (PLA
 pub struct PlateMeasurements {
     /// A curve for each width and repeat, in the order in which they appear.
     pub curves: Vec<PlateCurve>,
-    /// What was noticed and left: columns not used, rows left out, values that look like another unit's.
+    /// What was noticed and left: columns not used, rows left out, values that look like another
+    /// unit's.
     pub notes: Vec<String>,
 }
 

@@ -1,4 +1,5 @@
-//! Ranks every wheel–soil model on every data set: those that come with the program, or those of a folder.
+//! Ranks every wheel–soil model on every data set: those that come with the program, or those of a
+//! folder.
 
 mod parts;
 mod sets;
@@ -56,7 +57,8 @@ pub struct RankedModel {
     /// Root mean square error over the standard deviation of what was measured, averaged over
     /// the measured quantities [-]: 0 is perfect, 1 no better than a constant.
     pub score: Option<f64>,
-    /// Trials without a prediction: the soil cannot carry the wheel. Of a rover, slopes without a yaw.
+    /// Trials without a prediction: the soil cannot carry the wheel. Of a rover, slopes without a
+    /// yaw.
     pub unsettled_trials: usize,
     /// Errors of the driven cells.
     pub driven: Option<GroupRecord>,
@@ -90,7 +92,8 @@ pub struct RankedYardstick {
     pub reference: ReferenceRecord<PartErrors>,
 }
 
-/// A model, or a yardstick, over all parts of all data sets, with soils that were not fitted to them.
+/// A model, or a yardstick, over all parts of all data sets, with soils that were not fitted to
+/// them.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OverAll {
     /// The model's name; null for a yardstick.
@@ -137,8 +140,8 @@ pub fn rank_all(folder: Option<&Path>, limits: Limits) -> Result<Ranking, Rankin
     rank_sets(&sets, folder.is_none(), limits)
 }
 
-/// Ranks every model on one data set: a preset, or a document beside its file of measurements. A text in memory has
-/// no such file, and no rows.
+/// Ranks every model on one data set: a preset, or a document beside its file of measurements. A
+/// text in memory has no such file, and no rows.
 ///
 /// # Errors
 /// The same as [`rank_all`].
@@ -213,8 +216,8 @@ impl Part<'_> {
         self.case.soils.iter().flat_map(move |(name, soil)| {
             Model::ALL.into_iter().filter_map(move |model| {
                 let is_for = |soil: &LoadedSoil| soil.document.model().is_none_or(|it| it == model);
-                // A soil that was made for a model is judged with that one; where these rows chose it and there is no
-                // other, the rest stand beside it.
+                // A soil that was made for a model is judged with that one; where these rows chose
+                // it and there is no other, the rest stand beside it.
                 let is_alone = self.case.is_fitted(name) && self.case.soils.len() == 1;
                 let for_another = !is_for(soil) && !is_alone;
                 // Without its terms the small-wheel model is the classical one.

@@ -72,8 +72,8 @@ const fn key(
     SensorKey { key, unit, doc, range, place }
 }
 
-/// Instruments with settings: those of a micro rover, changed by `KEY=VALUE` one after the other, or without a fault from
-/// the word [`PERFECT`] on.
+/// Instruments with settings: those of a micro rover, changed by `KEY=VALUE` one after the other,
+/// or without a fault from the word [`PERFECT`] on.
 ///
 /// # Errors
 /// A sentence for the first invalid setting.

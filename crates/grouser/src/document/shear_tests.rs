@@ -1,11 +1,12 @@
 //! Shear tests of a bevameter, from CSV.
 //!
 //! Columns: `shear_displacement_mm`, `shear_stress_kpa`, `normal_stress_kpa`; where they are known,
-//! `shear_stress_std_kpa`, and `repeat`, which tells tests under one normal stress apart. Other columns are not
-//! used.
+//! `shear_stress_std_kpa`, and `repeat`, which tells tests under one normal stress apart. Other
+//! columns are not used.
 //!
-//! Rows under nearly one normal stress, of one repeat, are a test; its normal stress is their mean. Rows with a
-//! displacement below zero, before the patch moved, are left out; stresses below zero are noise, and kept.
+//! Rows under nearly one normal stress, of one repeat, are a test; its normal stress is their mean.
+//! Rows with a displacement below zero, before the patch moved, are left out; stresses below zero
+//! are noise, and kept.
 
 use std::io::Read;
 use std::path::Path;

@@ -39,12 +39,12 @@ const OPEN_ENDED: f64 = 10.0;
 /// Positive bounds farther apart than this factor are searched by the logarithm.
 const DECADES: f64 = 30.0;
 
-/// A number of either sign whose range ends here or further away is a modulus: it keeps its sign where it is
-/// positive, as most are.
+/// A number of either sign whose range ends here or further away is a modulus: it keeps its sign
+/// where it is positive, as most are.
 const MODULUS: f64 = 1e4;
 
-/// How far from the document's value an open-ended number is searched [-]. Source: ours; stiffnesses and
-/// moduli of published soils of one kind differ less.
+/// How far from the document's value an open-ended number is searched [-]. Source: ours;
+/// stiffnesses and moduli of published soils of one kind differ less.
 const SEARCHED_FACTOR: f64 = 30.0;
 
 impl FitKey {

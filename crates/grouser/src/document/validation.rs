@@ -9,8 +9,8 @@ use crate::studies::measurement::Quantity;
 use crate::studies::slope_validation::{SlopeReference, SlopeValidation};
 use crate::studies::validation::{Errors, Group, Reference};
 
-/// A group of cells with its errors. As JSON an object with an object for each quantity; null for one that was
-/// not measured.
+/// A group of cells with its errors. As JSON an object with an object for each quantity; null for
+/// one that was not measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroupRecord(pub Group);
 
@@ -139,8 +139,8 @@ impl From<&SlopeReference> for ReferenceRecord<SlopeErrorsRecord> {
     }
 }
 
-/// Errors of a rover on slopes. As JSON it has the quantities of wheels too, as null, so that rows of wheels and rovers
-/// can be read alike.
+/// Errors of a rover on slopes. As JSON it has the quantities of wheels too, as null, so that rows
+/// of wheels and rovers can be read alike.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlopeErrorsRecord {
     /// Number of slopes.

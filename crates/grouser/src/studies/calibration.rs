@@ -1,19 +1,19 @@
-//! Calibration: estimates parameters from measurements, with confidence intervals, and proposes the runs to make
-//! next.
+//! Calibration: estimates parameters from measurements, with confidence intervals, and proposes the
+//! runs to make next.
 //!
 //! An [`Experiment`] is measurements and the model that predicts them: [`WheelTestExperiment`] for
 //! a wheel on a test stand, [`BevameterTest`](bevameter::BevameterTest) for plates and shear tests,
-//! [`PlateTest`] for plates alone. A [`Calibration`] has one, and the
-//! [`ParameterSpace`] to search. An observation y_i of channel k, the mean over repeated trials, is taken as
+//! [`PlateTest`] for plates alone. A [`Calibration`] has one, and the [`ParameterSpace`] to search.
+//! An observation y_i of channel k, the mean over repeated trials, is taken as
 //!
 //! ```text
 //! y_i = f_i(θ) + δ_i + N(0, s_i²)
 //! ```
 //!
 //! with the scatter s_i of the trials, which is known, and the model's discrepancy δ_i, which is
-//! estimated along with θ: no model is exact, and more trials of an inexact model must not narrow its
-//! parameters without limit. A discrepancy is normal, with a standard deviation for each channel, and
-//! those of wheels at similar slips and slip angles are correlated ([`errors`]).
+//! estimated along with θ: no model is exact, and more trials of an inexact model must not narrow
+//! its parameters without limit. A discrepancy is normal, with a standard deviation for each
+//! channel, and those of wheels at similar slips and slip angles are correlated ([`errors`]).
 //!
 //! The order of work, each step on its own:
 //!
@@ -114,8 +114,8 @@ pub struct Calibration<'a> {
     errors: Errors,
 }
 
-/// The most observations that are fitted. Thirty-six cells of wheel tests with seventeen keys take a
-/// minute, and the time grows with their number: ten thousand keep a machine busy for hours.
+/// The most observations that are fitted. Thirty-six cells of wheel tests with seventeen keys take
+/// a minute, and the time grows with their number: ten thousand keep a machine busy for hours.
 pub const MOST_OBSERVATIONS: usize = 10_000;
 
 /// A calibration has no result.
@@ -173,7 +173,8 @@ pub enum CalibrationError {
     /// A slip angle cannot be left out where there is no other.
     #[error("each slip angle is left out in turn, and all trials are at one")]
     OneSlipAngle,
-    /// Without a slip angle the other cells cannot be fitted. (The angle is rounded as it was written.)
+    /// Without a slip angle the other cells cannot be fitted. (The angle is rounded as it was
+    /// written.)
     #[error("without the trials at {}°, {error}", (slip_angle.to_degrees() * 1e9).round() / 1e9)]
     LeavingOut {
         /// The slip angle that is left out [rad].
@@ -251,7 +252,8 @@ impl<'a> Calibration<'a> {
         self.space.len() + self.discrepancies.len()
     }
 
-    /// Predictions of all observations; `None` where the values are no valid soil or give no finite predictions.
+    /// Predictions of all observations; `None` where the values are no valid soil or give no finite
+    /// predictions.
     fn predictions(&self, values: &[f64]) -> Option<Vec<f64>> {
         let mut predictions = vec![0.0; self.experiment.observations().len()];
         self.experiment.predict(values, &mut predictions).ok()?;

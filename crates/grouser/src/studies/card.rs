@@ -1,10 +1,11 @@
-//! The operator's card: for each slope the heading to set, what instruments show at it, how often it is to be
-//! set again, the readings at which to stop, and a verdict to go or not.
+//! The operator's card: for each slope the heading to set, what instruments show at it, how often
+//! it is to be set again, the readings at which to stop, and a verdict to go or not.
 //!
-//! Every number has a band over samples of soil and model, and a slope is judged by the share of them in which a
-//! heading holds the contour at an acceptable slip. No slope is a go on a soil whose uncertainty its document
-//! does not state, nor near the soil's friction angle, nor beyond what the ground itself stands.
-//! The [`Rule`] is the caller's; a verdict never gets better on a steeper slope.
+//! Every number has a band over samples of soil and model, and a slope is judged by the share of
+//! them in which a heading holds the contour at an acceptable slip. No slope is a go on a soil
+//! whose uncertainty its document does not state, nor near the soil's friction angle, nor beyond
+//! what the ground itself stands. The [`Rule`] is the caller's; a verdict never gets better on a
+//! steeper slope.
 
 pub mod courses;
 mod driven;
@@ -37,7 +38,8 @@ pub struct CardStudy {
     pub rim_speed: f64,
     /// The limits of the verdicts.
     pub rule: Rule,
-    /// Whether the soil's document states its uncertainty; priors do not count. If not, no slope is a go.
+    /// Whether the soil's document states its uncertainty; priors do not count. If not, no slope is
+    /// a go.
     pub is_uncertainty_stated: bool,
 }
 
@@ -55,8 +57,8 @@ pub enum Side {
 pub struct Card {
     /// On each slope that was asked for, in that order.
     pub rows: Vec<CardRow>,
-    /// Steepest slope on which a heading holds the contour on the soil as written [rad], and what ends it; `Err`
-    /// with the reason where the rover cannot move.
+    /// Steepest slope on which a heading holds the contour on the soil as written [rad], and what
+    /// ends it; `Err` with the reason where the rover cannot move.
     pub limit: Result<(f64, String), String>,
     /// The same over the samples; 0 where the rover cannot move.
     pub limit_band: Option<Band>,
@@ -75,10 +77,12 @@ pub struct CardRow {
     pub verdict: Verdict,
     /// On the soil as written; `None` where no heading holds the contour.
     pub level: Option<Level>,
-    /// Heading of each of the other models on the soil as written, *γ* [rad]; `None` where none holds the contour.
+    /// Heading of each of the other models on the soil as written, *γ* [rad]; `None` where none
+    /// holds the contour.
     pub other_models: Vec<(Model, Option<f64>)>,
-    /// Driven by the card's heading, the median over all samples, or on the soil as written where there are none;
-    /// `None` where no heading holds the contour in half of them. Its motion is computed where the slope is no no-go.
+    /// Driven by the card's heading, the median over all samples, or on the soil as written where
+    /// there are none; `None` where no heading holds the contour in half of them. Its motion is
+    /// computed where the slope is no no-go.
     pub driven: Option<Driven>,
     /// Why no heading holds the contour on the soil as written; nothing where one does.
     pub refusal: Option<String>,
@@ -105,7 +109,8 @@ pub struct Level {
 /// One slope over the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CardBands {
-    /// Samples in which a heading holds the contour, of those for which that is known: power is over them.
+    /// Samples in which a heading holds the contour, of those for which that is known: power is
+    /// over them.
     pub level: Probability,
     /// For how many samples the search for a heading gave up: they are in no band.
     pub not_found: usize,
@@ -181,8 +186,8 @@ impl CardStudy {
         }
     }
 
-    /// Computes the card; `None` if `go_on` was false before the end. Samples are shared among threads and keep
-    /// their order: the result is the same for any number of threads.
+    /// Computes the card; `None` if `go_on` was false before the end. Samples are shared among
+    /// threads and keep their order: the result is the same for any number of threads.
     ///
     /// Go or no-go on 5°, 10° and 20°, if the soil is just as written?
     ///
@@ -203,7 +208,8 @@ impl CardStudy {
     ///
     /// * `samples`: of soil and model; with none there are no bands
     /// * `slopes`: [rad], rising
-    /// * `go_on`: asked before each sample, from any thread, and before each slope that is driven; samples that are alike are one
+    /// * `go_on`: asked before each sample, from any thread, and before each slope that is driven;
+    ///   samples that are alike are one
     ///
     /// # Errors
     /// [`ParameterError`] for a rule or a rim speed out of range, slopes that do not rise, and the
@@ -284,14 +290,15 @@ impl CardStudy {
         slopes.iter().enumerate().map(row).collect()
     }
 
-    /// The card's heading on a slope, if there is one, and what the rover does at it without moving.
+    /// The card's heading on a slope, if there is one, and what the rover does at it without
+    /// moving.
     fn driven(&self, draws: &[Draw], place: usize, slope: f64) -> Option<Driven> {
         let yaw = yaws_at(draws, place)?.median;
         yaw.is_finite().then(|| Driven::at_rest(&self.heading, slope, yaw))
     }
 
-    /// The best verdict that a slope can have, whatever the samples say: that of [`best_slopes`], and no rover that
-    /// tips over is to be driven.
+    /// The best verdict that a slope can have, whatever the samples say: that of [`best_slopes`],
+    /// and no rover that tips over is to be driven.
     fn best_verdict(&self, slope: f64, driven: Option<&Driven>) -> Verdict {
         let (go, caution) = best_slopes(&self.heading, self.is_uncertainty_stated);
         if slope > caution || driven.is_some_and(|it| it.tipping_margin <= 0.0) {
@@ -387,7 +394,8 @@ fn yaws_at(draws: &[Draw], place: usize) -> Option<Band> {
     Band::of(known_at(draws, place).map(yaw))
 }
 
-/// The contour traverses on one of the slopes, of the samples for which it is known whether there is one.
+/// The contour traverses on one of the slopes, of the samples for which it is known whether there
+/// is one.
 fn known_at(draws: &[Draw], place: usize) -> impl Iterator<Item = Option<Level>> {
     draws.iter().filter(move |draw| !draw.not_found[place]).map(move |draw| draw.levels[place])
 }

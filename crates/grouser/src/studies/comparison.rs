@@ -30,8 +30,8 @@ impl MeasuredTraverse {
         self.initial_yaw - self.final_yaw
     }
 
-    /// Mean of the measured yaw at the start and at the end [rad]: what a heading that holds the contour
-    /// is comparable with.
+    /// Mean of the measured yaw at the start and at the end [rad]: what a heading that holds the
+    /// contour is comparable with.
     #[must_use]
     pub fn mean_yaw(&self) -> f64 {
         0.5 * (self.initial_yaw + self.final_yaw)

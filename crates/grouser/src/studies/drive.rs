@@ -8,9 +8,10 @@ use crate::simulation::{Record, Scenario, Trajectory, WheelRecord};
 pub struct Drive {
     /// Length of the way [m], from record to record, with the height of ground that has heights.
     pub distance: f64,
-    /// Drift per metre travelled [m/m], −1 to 1: the way straight down the ground, positive downhill, over the distance,
-    /// as [`HeadingOffset::drift`](crate::studies::heading::HeadingOffset::drift); 0 on level ground. Missing for a rover
-    /// that did not move.
+    /// Drift per metre travelled [m/m], −1 to 1: the way straight down the ground, positive
+    /// downhill, over the distance, as
+    /// [`HeadingOffset::drift`](crate::studies::heading::HeadingOffset::drift); 0 on level ground.
+    /// Missing for a rover that did not move.
     pub drift: Option<f64>,
     /// Slip ratio [-], the mean over wheels and records. Missing where no record has its wheels.
     pub slip_ratio: Option<f64>,
@@ -22,9 +23,11 @@ pub struct Drive {
     pub energy: f64,
     /// Work of the motors over the length of the way [J/m].
     pub energy_per_metre: Option<f64>,
-    /// Electrical energy that motors, and with a battery the electronics, took [J]. Missing where no motor is known.
+    /// Electrical energy that motors, and with a battery the electronics, took [J]. Missing where
+    /// no motor is known.
     pub battery_energy: Option<f64>,
-    /// Largest current of a motor, driving or braking [A], over the records. Missing where no motor is known.
+    /// Largest current of a motor, driving or braking [A], over the records. Missing where no motor
+    /// is known.
     pub current: Option<f64>,
 }
 

@@ -1,16 +1,16 @@
 //! Monte Carlo: cases whose uncertain inputs are sampled, and the statistics of their results.
 //!
-//! An [`Ensemble`] has the inputs of each case: a [`design::Design`] spreads points over the unit cube, and a
-//! [`Distribution`] makes values of them. Case *i* depends on the seed and on *i* alone, so that it can be repeated
-//! on its own, on any machine, whatever other cases there are. [`outputs`] computes many cases.
-//! [`statistics`] has bands, quantiles and probabilities with their confidence intervals, and [`sensitivity`]
-//! attributes an output's variance to the inputs.
+//! An [`Ensemble`] has the inputs of each case: a [`design::Design`] spreads points over the unit
+//! cube, and a [`Distribution`] makes values of them. Case *i* depends on the seed and on *i*
+//! alone, so that it can be repeated on its own, on any machine, whatever other cases there are.
+//! [`outputs`] computes many cases. [`statistics`] has bands, quantiles and probabilities with
+//! their confidence intervals, and [`sensitivity`] attributes an output's variance to the inputs.
 //!
-//! [`factorial`] has designs in which named choices meet each other and the samples, and splits a variance into their
-//! parts.
+//! [`factorial`] has designs in which named choices meet each other and the samples, and splits a
+//! variance into their parts.
 //!
-//! [`samples`] has what a band is drawn from: a soil that its document leaves open, and one of several
-//! wheel–soil [`models`].
+//! [`samples`] has what a band is drawn from: a soil that its document leaves open, and one of
+//! several wheel–soil [`models`].
 //!
 //! The meaning of the values, and the computation, are the caller's.
 
@@ -67,8 +67,8 @@ pub fn outputs_while<C: Send, T: Send>(
 
 /// Cases with the inputs of each.
 ///
-/// How deep does a wheel sink if its load is known to 2 N and the sand's friction angle to 1.5°, and
-/// which of the two matters?
+/// How deep does a wheel sink if its load is known to 2 N and the sand's friction angle to 1.5°,
+/// and which of the two matters?
 ///
 /// ```
 /// use grouser::contact::{Contact, Ishigami, Slip, settle};
@@ -140,8 +140,8 @@ pub enum Matrix {
 }
 
 impl Ensemble {
-    /// An ensemble of `points` cases or, for sensitivities, of that many points with the cases of all
-    /// [matrices](Matrix) each.
+    /// An ensemble of `points` cases or, for sensitivities, of that many points with the cases of
+    /// all [matrices](Matrix) each.
     #[must_use]
     pub fn new(
         sampling: Sampling,

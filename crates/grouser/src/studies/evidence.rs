@@ -1,10 +1,11 @@
-//! What the wheel–soil models have achieved: predictions of measured wheels and rovers, sample by sample, the
-//! weights that follow from them, and how good a band of these weights is.
+//! What the wheel–soil models have achieved: predictions of measured wheels and rovers, sample by
+//! sample, the weights that follow from them, and how good a band of these weights is.
 //!
-//! Each part of a data set is a wheel or a rover on a soil with the constants that its source prints; nothing was fitted
-//! to its rows. Every model predicts every answer of it with the same samples of the soil, with what its source leaves
-//! open. [`stacked`] finds the weights under which the mixture of all models gives what was measured the
-//! highest probability; a set is judged by weights that were found without it ([`judged`]).
+//! Each part of a data set is a wheel or a rover on a soil with the constants that its source
+//! prints; nothing was fitted to its rows. Every model predicts every answer of it with the same
+//! samples of the soil, with what its source leaves open. [`stacked`] finds the weights under which
+//! the mixture of all models gives what was measured the highest probability; a set is judged by
+//! weights that were found without it ([`judged`]).
 
 mod answer;
 mod density;
@@ -120,7 +121,8 @@ fn add(answers: &mut Vec<Answer>, model: usize, found: Vec<Found>) {
     }
 }
 
-/// The numbers of a cell. Where the soil carries no trial of it the wheel counts as sunk to its axle.
+/// The numbers of a cell. Where the soil carries no trial of it the wheel counts as sunk to its
+/// axle.
 ///
 /// * `measured`: the cell with what was measured in all of its trials
 fn of_cell(cell: &CellComparison, measured: &CellComparison, wheel: &Wheel) -> Vec<Found> {
@@ -140,8 +142,8 @@ fn of_cell(cell: &CellComparison, measured: &CellComparison, wheel: &Wheel) -> V
     kinds.into_iter().filter_map(one).collect()
 }
 
-/// The numbers of a slope. Where no heading holds the course the rover digs in, and its nose would have to point
-/// farther uphill than every number: straight up.
+/// The numbers of a slope. Where no heading holds the course the rover digs in, and its nose would
+/// have to point farther uphill than every number: straight up.
 fn of_slope(it: &SlopeComparison) -> Vec<Found> {
     const STRAIGHT_UP: f64 = std::f64::consts::FRAC_PI_2;
     let question = Question::on_course(it.point.course);

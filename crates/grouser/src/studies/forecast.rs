@@ -1,16 +1,18 @@
-//! A rover's slip, drift, heading, steepest slope and power under another gravity than the one its soil was
-//! measured under, and one error budget.
+//! A rover's slip, drift, heading, steepest slope and power under another gravity than the one its
+//! soil was measured under, and one error budget.
 //!
-//! Nobody has measured a wheel on the ground of the site, so that a forecast rests on choices that no sample of the
-//! soil decides. Each of them is a [factor](FactorKind) with named levels: how moduli scale with gravity, what the
-//! ground of the site is, what the rover weighs. Every level meets every level of the others, every wheel–soil model,
-//! every sample of the soil and every sample of what a model gets wrong: a full [`factorial`](super::ensemble::factorial)
-//! design, on which the parts of a variance add up.
+//! Nobody has measured a wheel on the ground of the site, so that a forecast rests on choices that
+//! no sample of the soil decides. Each of them is a [factor](FactorKind) with named levels: how
+//! moduli scale with gravity, what the ground of the site is, what the rover weighs. Every level
+//! meets every level of the others, every wheel–soil model, every sample of the soil and every
+//! sample of what a model gets wrong: a full [`factorial`](super::ensemble::factorial) design, on
+//! which the parts of a variance add up.
 //!
-//! Levels of one factor count alike, models by their [shares](super::ensemble::models). A budget is of quantities that
-//! every case has: the slip ratio of a contour traverse (1 where no heading holds the contour), the drift with the nose
-//! on the contour (1, straight downhill, where the rover slides), and the steepest slope (0 where it cannot drive on
-//! level ground). Bands are over all cases: a case without a heading needs more of it, and more power, than any number.
+//! Levels of one factor count alike, models by their [shares](super::ensemble::models). A budget is
+//! of quantities that every case has: the slip ratio of a contour traverse (1 where no heading
+//! holds the contour), the drift with the nose on the contour (1, straight downhill, where the
+//! rover slides), and the steepest slope (0 where it cannot drive on level ground). Bands are over
+//! all cases: a case without a heading needs more of it, and more power, than any number.
 
 mod case;
 mod choices;
@@ -54,7 +56,8 @@ pub struct Forecast {
     pub factors: Vec<Factor>,
     /// On each slope that was asked for, in that order.
     pub slopes: Vec<SlopeForecast>,
-    /// Steepest slope on which a heading holds the contour [rad]; 0 where the rover cannot drive on level ground.
+    /// Steepest slope on which a heading holds the contour [rad]; 0 where the rover cannot drive on
+    /// level ground.
     pub limit: Option<Band>,
     /// The same in parts.
     pub limit_budget: VarianceBudget,
@@ -75,7 +78,8 @@ pub struct SlopeForecast {
     pub level: f64,
     /// Yaw, *γ* [rad], positive uphill; above every number where no heading holds the contour.
     pub yaw: Option<Band>,
-    /// Slip ratio of every wheel on a contour traverse, *s* [-]; 1 where no heading holds the contour.
+    /// Slip ratio of every wheel on a contour traverse, *s* [-]; 1 where no heading holds the
+    /// contour.
     pub slip_ratio: Option<Band>,
     /// Mean sinkage of the wheels [m]; down to the axles where no heading holds the contour.
     pub sinkage: Option<Band>,
@@ -104,15 +108,17 @@ pub struct SlopeForecast {
 pub struct TestForecast {
     /// The rover's mass there, over that of its document.
     pub mass: RoverMass,
-    /// On each slope: its slip ratio, and the share of the cases in which a heading holds the contour.
+    /// On each slope: its slip ratio, and the share of the cases in which a heading holds the
+    /// contour.
     pub slopes: Vec<(Option<Band>, f64)>,
 }
 
 impl ForecastStudy {
-    /// Computes the forecast. Cases are shared among threads and keep their order: the result is the same for any
-    /// number of threads. Case *i* depends on the study and on *i* alone.
+    /// Computes the forecast. Cases are shared among threads and keep their order: the result is
+    /// the same for any number of threads. Case *i* depends on the study and on *i* alone.
     ///
-    /// How much of what is not known of a slip on the Moon is due to how moduli scale, on a sand without cohesion?
+    /// How much of what is not known of a slip on the Moon is due to how moduli scale, on a sand
+    /// without cohesion?
     ///
     /// ```
     /// use grouser::document::{self, Overrides, Source};
@@ -142,10 +148,12 @@ impl ForecastStudy {
     ///
     /// * `band`: soils and models, as of the scenario
     /// * `slopes`: [rad]
-    /// * `go_on`: asked before each of the [`steps`](Self::steps), from any thread; without it there is no result
+    /// * `go_on`: asked before each of the [`steps`](Self::steps), from any thread; without it
+    ///   there is no result
     ///
     /// # Errors
-    /// [`ForecastError`] for values out of range, and for the first soil that cannot be drawn or computed with.
+    /// [`ForecastError`] for values out of range, and for the first soil that cannot be drawn or
+    /// computed with.
     pub fn run(
         &self,
         band: &BandInputs,
@@ -195,7 +203,8 @@ impl ForecastStudy {
         ]
     }
 
-    /// How many samples there are of soils and of discrepancies: one where there is nothing to draw.
+    /// How many samples there are of soils and of discrepancies: one where there is nothing to
+    /// draw.
     fn sample_counts(&self, band: &BandInputs) -> [u32; 2] {
         let [soils, discrepancies] = self.samples;
         let is_open = self.choices.grounds.iter().any(Ground::is_uncertain);
@@ -203,7 +212,8 @@ impl ForecastStudy {
         [soils, if band.has_soils() { discrepancies } else { 1 }]
     }
 
-    /// The cases of all scalings, at levels of the other factors. Soils that come out alike are computed once.
+    /// The cases of all scalings, at levels of the other factors. Soils that come out alike are
+    /// computed once.
     fn group(
         &self,
         band: &BandInputs,
@@ -230,14 +240,16 @@ impl ForecastStudy {
         Ok(found.into_iter().map(|(_, case)| case).collect())
     }
 
-    /// Model and soil at levels of model, soil and discrepancy, as under the gravity of the measurement.
+    /// Model and soil at levels of model, soil and discrepancy, as under the gravity of the
+    /// measurement.
     fn sample(&self, band: &BandInputs, levels: &[usize]) -> Result<Sample, NothingAccepted> {
         let (model, _) = &band.models().shares()[levels[0]];
         band.crossed(model.clone(), self.seed, [levels[1] as u64, levels[2] as u64])
     }
 
-    /// Rovers that could be tested where the soil was measured: as heavy as the first of the choices, and lightened
-    /// so that they weigh there what it weighs at the site. None where gravity is the same.
+    /// Rovers that could be tested where the soil was measured: as heavy as the first of the
+    /// choices, and lightened so that they weigh there what it weighs at the site. None where
+    /// gravity is the same.
     fn test_masses(&self) -> Vec<RoverMass> {
         let q = self.heading.gravity / self.measured_under;
         if q == 1.0 {
@@ -293,7 +305,8 @@ impl ForecastStudy {
         let factor = masses.first().map_or(1.0, |mass| mass.factor);
         let rover = self.heading.rover.with_mass_factor(factor)?;
         let curve = HeadingStudy { rover, soil, ..self.heading.clone() }.curve()?;
-        // Bekker's moduli that were scaled are no more under another gravity than they were made for.
+        // Bekker's moduli that were scaled are no more under another gravity than they were made
+        // for.
         let is_kept = scalings.contains(&GravityScaling::Bekker);
         let holds = |finding: &Finding| is_kept || finding.flag != Flag::BekkerGravity;
         let on_slope = |slope: &f64| {

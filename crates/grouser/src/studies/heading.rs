@@ -1,9 +1,10 @@
-//! The heading offset that holds the contour line on a slope. [FourWheel], Fig. 10, calls it the *attitude*, others the
-//! crab angle.
+//! The heading offset that holds the contour line on a slope. [FourWheel], Fig. 10, calls it the
+//! *attitude*, others the crab angle.
 //!
 //! A rover that crosses a slope along the contour needs a side force against the weight's pull. It
 //! gets it by pointing its nose uphill: with yaw γ and all velocities along the contour, every
-//! wheel has the slip angle β = −γ. All wheels turn alike and share one slip ratio s. The contour is held where
+//! wheel has the slip angle β = −γ. All wheels turn alike and share one slip ratio s. The contour
+//! is held where
 //!
 //! ```text
 //! ΣF_x(s, γ) = W sin α sin γ        ΣF_y(s, γ) = W sin α cos γ
@@ -12,10 +13,11 @@
 //! Wheels may differ: they still share one slip ratio, so that all rims turn at one speed. Wheels
 //! that are turned for good have no slip angle in common, and no attitude here.
 //!
-//! A rover whose wheels are [steered](Steering::Crab) holds the contour with its body along it, γ = 0:
-//! it turns its wheels uphill instead of its nose, all by one steering angle δ, the crab angle. Then
-//! wheels have the slip angle β = −δ, and the two equations hold along the contour and across it. Rims
-//! turn at one speed, so that wheels that are not steered have β = 0 and a slip ratio of their own.
+//! A rover whose wheels are [steered](Steering::Crab) holds the contour with its body along it, γ =
+//! 0: it turns its wheels uphill instead of its nose, all by one steering angle δ, the crab angle.
+//! Then wheels have the slip angle β = −δ, and the two equations hold along the contour and across
+//! it. Rims turn at one speed, so that wheels that are not steered have β = 0 and a slip ratio of
+//! their own.
 //!
 //! The solutions (s, γ, α) form a curve that starts at γ = 0 on level ground. It rises to a
 //! steepest slope, where turning further uphill costs as much thrust as it gains, and folds back.
@@ -26,11 +28,11 @@
 //! steepest slope that the soil holds by its own strength
 //! ([`stable_slope`](crate::soil::Soil::stable_slope)), and [`LimitedBy`] names what ended it.
 //!
-//! A contour traverse has one course among many. On a course χ, the direction of travel counted from
-//! the contour and positive uphill, a rover crabs by c = γ − χ, its wheels have β = −c, and the
-//! same two equations hold, at the yaw γ = χ + c. And a rover that does nothing against the slope,
-//! with its nose along the contour, drifts: it holds γ = 0 instead of a course, and χ = −c is what
-//! becomes of it.
+//! A contour traverse has one course among many. On a course χ, the direction of travel counted
+//! from the contour and positive uphill, a rover crabs by c = γ − χ, its wheels have β = −c, and
+//! the same two equations hold, at the yaw γ = χ + c. And a rover that does nothing against the
+//! slope, with its nose along the contour, drifts: it holds γ = 0 instead of a course, and χ = −c
+//! is what becomes of it.
 
 mod bracket;
 mod first_rise;
@@ -52,8 +54,8 @@ use crate::units::STEEPEST_SLOPE;
 use crate::vehicle::on_ground::forces_of;
 use crate::vehicle::{LoadSharing, Mount, OwnMoments, Rover, WheelReaction, dynamics};
 
-/// The heading offset on a slope and course, with the slip, forces and sinkages in steady motion there. The
-/// course 0 is the contour.
+/// The heading offset on a slope and course, with the slip, forces and sinkages in steady motion
+/// there. The course 0 is the contour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeadingOffset {
     /// Slope, *α* [rad].
@@ -62,12 +64,13 @@ pub struct HeadingOffset {
     pub course: f64,
     /// Yaw, *γ* [rad], positive uphill.
     pub yaw: f64,
-    /// Steering angle of every wheel that is steered, *δ* [rad], positive uphill; none where the body's yaw holds the
-    /// course.
+    /// Steering angle of every wheel that is steered, *δ* [rad], positive uphill; none where the
+    /// body's yaw holds the course.
     pub steering: Option<f64>,
     /// Slip ratio of every wheel, *s* [-]; where wheels are steered, of every one that is.
     pub slip_ratio: f64,
-    /// Yaw moment left over about the common centre of mass [N·m]; negative turns the nose downhill.
+    /// Yaw moment left over about the common centre of mass [N·m]; negative turns the nose
+    /// downhill.
     pub yaw_moment: f64,
     /// The wheels, in the mounts' order.
     pub wheels: Vec<WheelReaction>,
@@ -89,14 +92,15 @@ impl HeadingOffset {
         self.wheels.iter().map(|wheel| wheel.settled.forces.torque).sum()
     }
 
-    /// Crab angle, *c* = γ + δ − χ [rad]: how far the wheels that hold the course point uphill of it.
+    /// Crab angle, *c* = γ + δ − χ [rad]: how far the wheels that hold the course point uphill of
+    /// it.
     #[must_use]
     pub fn crab(&self) -> f64 {
         self.yaw + self.steering.unwrap_or(0.0) - self.course
     }
 
-    /// Rim speed of every wheel over the rover's speed along its course, cos c / (1 − s) [-], and with 1 + s
-    /// instead of the divisor for wheels that brake; c is the [crab angle](Self::crab).
+    /// Rim speed of every wheel over the rover's speed along its course, cos c / (1 − s) [-], and
+    /// with 1 + s instead of the divisor for wheels that brake; c is the [crab angle](Self::crab).
     #[must_use]
     pub fn speed_ratio(&self) -> f64 {
         wide::cos(self.crab()) * self.rim_over_hub()
@@ -177,8 +181,8 @@ pub enum NoHeading {
         /// The factor of safety that was asked of it [-].
         factor_of_safety: f64,
     },
-    /// The search gave up: whether a heading holds the course there is not known. A failure of the computation, and no
-    /// finding about rover or soil.
+    /// The search gave up: whether a heading holds the course there is not known. A failure of the
+    /// computation, and no finding about rover or soil.
     #[error(
         "not found: whether a heading holds {} is not known beyond {:.2}°, {reason}",
         if *.course == 0.0 { "the contour" } else { "this course" },
@@ -211,7 +215,8 @@ pub enum LimitedBy {
     GroundStrength,
     /// Neither: the range of slopes that is looked at.
     Range,
-    /// The search, which gave up: the limit is only the steepest slope for which a heading was found.
+    /// The search, which gave up: the limit is only the steepest slope for which a heading was
+    /// found.
     NotFound,
 }
 
@@ -244,7 +249,8 @@ pub struct HeadingCurve {
     held: Held,
     /// Points of the branch, rising; empty if the rover cannot move.
     points: Vec<Point>,
-    /// Below this slope the side walls hold the rover without any crab [rad]; 0 where the side-wall law does not jump.
+    /// Below this slope the side walls hold the rover without any crab [rad]; 0 where the side-wall
+    /// law does not jump.
     held_below: f64,
     end: End,
     settled_wheels: u64,
@@ -290,8 +296,8 @@ impl HeadingStudy {
     /// Follows the curve of contour traverses from level ground to its end.
     ///
     /// # Errors
-    /// [`ParameterError`] if the soil or the gravity is not valid, a wheel is turned for good, or none is steered
-    /// where wheels are to hold the course.
+    /// [`ParameterError`] if the soil or the gravity is not valid, a wheel is turned for good, or
+    /// none is steered where wheels are to hold the course.
     pub fn curve(&self) -> Result<HeadingCurve, ParameterError> {
         self.curve_on(0.0)
     }
@@ -305,8 +311,8 @@ impl HeadingStudy {
         self.follow(self.held(course), Reach::END)
     }
 
-    /// The first part of the same curve: to its first point that slips more than is asked for. The points are those of
-    /// the whole curve, and its limit is the slope of the last of them.
+    /// The first part of the same curve: to its first point that slips more than is asked for. The
+    /// points are those of the whole curve, and its limit is the slope of the last of them.
     ///
     /// * `most_slip`: slip ratio [-]
     ///
@@ -322,8 +328,8 @@ impl HeadingStudy {
     }
 
     /// Finds the heading offset that holds the contour on one slope [rad]. The curve is followed as
-    /// far as that slope and no further. Next to the fold, where a curve's last points come from the
-    /// search for it, the answer may differ from the whole curve's by round-off.
+    /// far as that slope and no further. Next to the fold, where a curve's last points come from
+    /// the search for it, the answer may differ from the whole curve's by round-off.
     ///
     /// # Errors
     /// [`ParameterError`] if the soil or gravity is invalid; [`NoHeading`] within if no heading
@@ -445,8 +451,8 @@ impl HeadingCurve {
         NoHeading::NotFound { course: self.course(), beyond, reason: reason.into() }
     }
 
-    /// What ends the curve at its [`limit`](Self::limit): the wheels, the ground or the search; nothing where
-    /// the rover cannot move.
+    /// What ends the curve at its [`limit`](Self::limit): the wheels, the ground or the search;
+    /// nothing where the rover cannot move.
     #[must_use]
     pub fn limited_by(&self) -> Option<LimitedBy> {
         let ground = self.study.ground_limit();
@@ -519,7 +525,8 @@ impl HeadingCurve {
                 return point;
             }
         }
-        // Close to the fold the slope no longer determines the point: go by the distance along the curve.
+        // Close to the fold the slope no longer determines the point: go by the distance along the
+        // curve.
         let Some(chord) = (high - low).try_normalize(f64::MIN_POSITIVE) else {
             return above.clone();
         };
@@ -538,7 +545,8 @@ impl HeadingCurve {
         on_slope.findings(found.iter().flat_map(|heading| &heading.wheels))
     }
 
-    /// Slope [rad], slip ratio [-] and crab angle [rad] at points along the curve, from level ground to the steepest slope.
+    /// Slope [rad], slip ratio [-] and crab angle [rad] at points along the curve, from level
+    /// ground to the steepest slope.
     pub(super) fn points(&self) -> impl Iterator<Item = [f64; 3]> {
         self.points.iter().map(|point| [point.place.z, point.place.x, point.place.y])
     }

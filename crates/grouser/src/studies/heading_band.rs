@@ -1,13 +1,14 @@
-//! The heading offset where soil and model are uncertain: a curve for each sample, and quantiles over them.
+//! The heading offset where soil and model are uncertain: a curve for each sample, and quantiles
+//! over them.
 //!
 //! The caller draws the [samples](super::ensemble::samples), and this study follows the curve of
 //! [`heading`](super::heading) for each.
 //!
-//! Bands are over all samples. One in which no heading holds the course counts as slip 1, sunk to the axle, with
-//! work per metre without a bound: it is not left out, since what is left would be the strong soils alone. A
-//! yaw it has not: bands of the yaw are over the samples that hold the course, and their share is beside it.
-//! A sample for which the search for a heading gave up says nothing about the soil: it is in no band and no
-//! probability, and how many there are is counted.
+//! Bands are over all samples. One in which no heading holds the course counts as slip 1, sunk to
+//! the axle, with work per metre without a bound: it is not left out, since what is left would be
+//! the strong soils alone. A yaw it has not: bands of the yaw are over the samples that hold the
+//! course, and their share is beside it. A sample for which the search for a heading gave up says
+//! nothing about the soil: it is in no band and no probability, and how many there are is counted.
 
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
@@ -20,12 +21,13 @@ use crate::vehicle::Rover;
 pub struct HeadingBand {
     /// On each slope that was asked for, in that order.
     pub slopes: Vec<SlopeBand>,
-    /// Steepest slope on which a heading holds the course [rad]; 0 in a sample in which the rover cannot drive on
-    /// level ground.
+    /// Steepest slope on which a heading holds the course [rad]; 0 in a sample in which the rover
+    /// cannot drive on level ground.
     pub limit: Option<Band>,
     /// In how many of the samples the rover can drive on level ground.
     pub mobile: Probability,
-    /// In how many of the samples the search gave up before the end of the curve: their limits are not known.
+    /// In how many of the samples the search gave up before the end of the curve: their limits are
+    /// not known.
     pub not_found: usize,
 }
 
@@ -44,7 +46,8 @@ pub struct SlopeBand {
     pub slip_ratio: Option<Band>,
     /// Mean sinkage of the wheels [m]; down to the axles where no heading holds the course.
     pub sinkage: Option<Band>,
-    /// Work of the wheels per metre along the course [J/m]; infinite where no heading holds the course.
+    /// Work of the wheels per metre along the course [J/m]; infinite where no heading holds the
+    /// course.
     pub energy_per_metre: Option<Band>,
 }
 
@@ -61,7 +64,8 @@ struct Kept {
 /// One sample: the numbers of its curve that the bands need.
 #[derive(Clone)]
 struct OfSample {
-    /// 0 where the rover cannot drive on level ground; missing where the search gave up before the end.
+    /// 0 where the rover cannot drive on level ground; missing where the search gave up before the
+    /// end.
     limit: Option<f64>,
     /// Missing where the search found no start.
     is_mobile: Option<bool>,
@@ -70,12 +74,12 @@ struct OfSample {
 }
 
 impl HeadingBand {
-    /// Follows the curve of contour traverses of each sample; `study.soil` and `study.model` are not used. The
-    /// samples are shared among threads and keep their order: the result is the same for any number of
-    /// threads.
+    /// Follows the curve of contour traverses of each sample; `study.soil` and `study.model` are
+    /// not used. The samples are shared among threads and keep their order: the result is the same
+    /// for any number of threads.
     ///
-    /// Between which bounds is the heading offset that holds the contour on 10°, in sand that is known
-    /// only roughly, if the source paper's model is right?
+    /// Between which bounds is the heading offset that holds the contour on 10°, in sand that is
+    /// known only roughly, if the source paper's model is right?
     ///
     /// ```
     /// use grouser::document::{self, Overrides, Source};

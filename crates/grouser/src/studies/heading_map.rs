@@ -1,7 +1,8 @@
-//! The heading offset over slope, course and soil: a curve for each course and soil, read on each slope.
+//! The heading offset over slope, course and soil: a curve for each course and soil, read on each
+//! slope.
 //!
-//! Heading offset, slip, sinkage and energy come by continuation along each curve, not by runs in time.
-//! The contour traverse is the row with course 0.
+//! Heading offset, slip, sinkage and energy come by continuation along each curve, not by runs in
+//! time. The contour traverse is the row with course 0.
 
 use rayon::prelude::*;
 
@@ -43,7 +44,8 @@ impl HeadingMap {
     /// Follows the curve of each course on each soil. Rows are shared among threads and keep their
     /// order: the result is the same for any number of threads.
     ///
-    /// Which heading offsets hold courses of 15° downhill, the contour, and 15° uphill, on a slope of 10°?
+    /// Which heading offsets hold courses of 15° downhill, the contour, and 15° uphill, on a slope
+    /// of 10°?
     ///
     /// ```
     /// use grouser::document::{self, Overrides, Source};
@@ -89,8 +91,8 @@ impl HeadingMap {
 }
 
 impl HeadingMap {
-    /// Bands of each row over the samples of its soil, in the order of the rows; `None` if `go_on` was false before the
-    /// end.
+    /// Bands of each row over the samples of its soil, in the order of the rows; `None` if `go_on`
+    /// was false before the end.
     ///
     /// * `samples`: of each study, at least one
     /// * `go_on`: asked before each curve, from any thread

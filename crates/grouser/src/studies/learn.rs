@@ -1,18 +1,23 @@
-//! What driving tells of a soil: telemetry in, and the slip and heading of the next slopes out, with bands that narrow.
+//! What driving tells of a soil: telemetry in, and the slip and heading of the next slopes out,
+//! with bands that narrow.
 //!
-//! [FourWheel] ends with the wish to learn the relation of slope and attitude during the mission. A [`Learner`] does so
-//! stretch by stretch of a decimetre or so:
+//! [FourWheel] ends with the wish to learn the relation of slope and attitude during the mission. A
+//! [`Learner`] does so stretch by stretch of a decimetre or so:
 //!
-//! 1. the instruments' readings become means with their uncertainty ([`Stretch`]), outliers left out;
-//! 2. a soil and a wheel–soil model say which forces and torques go with the motion that was seen, and what is left over
-//!    of the balance of forces is the observation (`motion`);
-//! 3. an iterated Kalman filter moves what is believed of the soil's numbers, and of what the model gets wrong in it, in
-//!    coordinates that were standard normal beforehand (`filter`, `gaussian`, `unknowns`);
-//! 4. several models do so side by side, and their shares follow how well each of them expected what came (`bank`).
+//! 1. the instruments' readings become means with their uncertainty ([`Stretch`]), outliers left
+//!    out;
+//! 2. a soil and a wheel–soil model say which forces and torques go with the motion that was seen,
+//!    and what is left over of the balance of forces is the observation (`motion`);
+//! 3. an iterated Kalman filter moves what is believed of the soil's numbers, and of what the model
+//!    gets wrong in it, in coordinates that were standard normal beforehand (`filter`, `gaussian`,
+//!    `unknowns`);
+//! 4. several models do so side by side, and their shares follow how well each of them expected
+//!    what came (`bank`).
 //!
-//! A Kalman filter and not particles: what is learnt lies in some ten to twenty coordinates, of which a drive tells three
-//! or four, and the answer has to be the same whatever way the telemetry is cut. What no reading bears upon stays what
-//! it was, so that without telemetry predictions are those of the soil as it was, sample by sample.
+//! A Kalman filter and not particles: what is learnt lies in some ten to twenty coordinates, of
+//! which a drive tells three or four, and the answer has to be the same whatever way the telemetry
+//! is cut. What no reading bears upon stays what it was, so that without telemetry predictions are
+//! those of the soil as it was, sample by sample.
 
 pub mod advice;
 mod archive;
@@ -70,7 +75,8 @@ use grouser_io::statistics::NothingAccepted;
 
 /// Learns from telemetry, record by record.
 ///
-/// Stretches, and so all that is learnt, depend on the records alone: it does not matter how many are given at once.
+/// Stretches, and so all that is learnt, depend on the records alone: it does not matter how many
+/// are given at once.
 #[derive(Clone, Debug)]
 pub struct Learner {
     study: HeadingStudy,
@@ -114,12 +120,13 @@ pub struct Lesson {
     pub slip_ratio: f64,
     /// The same as it was expected before [-].
     pub expected_slip: f64,
-    /// How much it narrowed what is believed of the soil [nat], under the model with the greatest share.
+    /// How much it narrowed what is believed of the soil [nat], under the model with the greatest
+    /// share.
     pub information: f64,
     /// The same of each kind of observation.
     pub by_kind: InformationByKind,
-    /// How far each number of the observation was from what was expected [standard deviations]: the velocity along
-    /// the body, that to its left, the yaw rate, then torques and sinkages.
+    /// How far each number of the observation was from what was expected [standard deviations]: the
+    /// velocity along the body, that to its left, the yaw rate, then torques and sinkages.
     pub scores: Vec<f64>,
     /// What to warn of.
     pub warnings: Vec<Warning>,
@@ -131,8 +138,8 @@ pub struct Lesson {
 pub struct NothingToLearn;
 
 impl Learner {
-    /// A learner that knows what a scenario's soil document knows; the slope of the scenario stands in where telemetry has
-    /// neither roll nor pitch.
+    /// A learner that knows what a scenario's soil document knows; the slope of the scenario stands
+    /// in where telemetry has neither roll nor pitch.
     ///
     /// * `slope_is_known`: whether the scenario's slope is that of the drive
     ///
@@ -195,8 +202,8 @@ impl Learner {
         })
     }
 
-    /// The slip ratio that was expected, and what there is to warn of. Where the soil is another, what was learnt is
-    /// forgotten.
+    /// The slip ratio that was expected, and what there is to warn of. Where the soil is another,
+    /// what was learnt is forgotten.
     ///
     /// * `before`: what was believed before the stretch
     fn look(
@@ -253,8 +260,9 @@ impl Learner {
         self.bank.models(&self.settings)
     }
 
-    /// Standard deviation of each of the soil's uncertain keys over what it was beforehand [-], over some samples of the
-    /// model with the greatest share: 1 where nothing was learnt. What models get wrong is left out.
+    /// Standard deviation of each of the soil's uncertain keys over what it was beforehand [-],
+    /// over some samples of the model with the greatest share: 1 where nothing was learnt. What
+    /// models get wrong is left out.
     ///
     /// # Errors
     /// The same as [`samples`](Self::samples).
@@ -308,7 +316,8 @@ impl Learner {
         self.bank.keys()
     }
 
-    /// The heading that holds the contour, and the slip there, on some slopes [rad], over samples of what is believed now.
+    /// The heading that holds the contour, and the slip there, on some slopes [rad], over samples
+    /// of what is believed now.
     ///
     /// * `go_on`: asked before each sample, from any thread; without it there is no result
     ///
@@ -328,8 +337,8 @@ impl Learner {
     }
 }
 
-/// The slope on which the wheels' slip is [`DEEP`] on a course [rad], by what was believed before; nothing where it is
-/// steeper by more than an angle [rad], or than ten degrees.
+/// The slope on which the wheels' slip is [`DEEP`] on a course [rad], by what was believed before;
+/// nothing where it is steeper by more than an angle [rad], or than ten degrees.
 fn deep_slope(
     study: &HeadingStudy,
     before: &Filter,

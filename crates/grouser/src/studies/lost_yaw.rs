@@ -1,9 +1,10 @@
-//! The yaw that a rover loses on its way across a slope: what its loads take, and what the scatter of the soil and of
-//! the motors adds or takes back.
+//! The yaw that a rover loses on its way across a slope: what its loads take, and what the scatter
+//! of the soil and of the motors adds or takes back.
 //!
-//! By the complete load transfer the nose of a rover falls downhill, on every soil and every motor alike. No bed is
-//! even and no two motors turn alike: so a measured run is one of many, and comparable with their distribution
-//! alone. This study has that distribution, and the part of each cause in it.
+//! By the complete load transfer the nose of a rover falls downhill, on every soil and every motor
+//! alike. No bed is even and no two motors turn alike: so a measured run is one of many, and
+//! comparable with their distribution alone. This study has that distribution, and the part of each
+//! cause in it.
 
 use super::comparison::MeasuredTraverse;
 use super::ensemble::{Band, Probability, outputs};
@@ -13,7 +14,8 @@ use crate::vehicle::Ruts;
 
 /// Runs from the measured starts, with soil and speeds that scatter.
 ///
-/// How much yaw does the rover lose on 10° in nine runs of ten, if the sand's friction scatters by 1°?
+/// How much yaw does the rover lose on 10° in nine runs of ten, if the sand's friction scatters by
+/// 1°?
 ///
 /// ```
 /// use grouser::document::{self, Overrides, Source, experiment};
@@ -39,7 +41,8 @@ use crate::vehicle::Ruts;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct LostYawPlan {
-    /// Rover, mean soil, drive, load transfer and duration; slope, start and scatter are set for each run.
+    /// Rover, mean soil, drive, load transfer and duration; slope, start and scatter are set for
+    /// each run.
     pub scenario: Scenario,
     /// The measured traverses.
     pub measured: Vec<MeasuredTraverse>,
@@ -79,8 +82,8 @@ pub struct Losses {
     pub losses: Band,
     /// Its standard deviation.
     pub deviation: f64,
-    /// In how many of the runs the rover slid, got stuck or tipped over before the end: they count with the yaw that
-    /// they had then.
+    /// In how many of the runs the rover slid, got stuck or tipped over before the end: they count
+    /// with the yaw that they had then.
     pub ended_early: Probability,
 }
 
@@ -124,8 +127,8 @@ impl LostYawPlan {
         self.measured.len()
     }
 
-    /// Runs the study, a slope after the other, in the measured ones' order; `progress` gets the name of each step as
-    /// it begins. The runs are shared among threads, which changes no result.
+    /// Runs the study, a slope after the other, in the measured ones' order; `progress` gets the
+    /// name of each step as it begins. The runs are shared among threads, which changes no result.
     ///
     /// # Errors
     /// [`RunError`] of the first run that cannot be computed.
@@ -167,8 +170,8 @@ impl LostYawPlan {
         Self { scenario: Scenario { ruts, ..self.scenario.clone() }, ..self.clone() }
     }
 
-    /// Yaws lost in runs whose realisations depend on the seed and the run's number alone: causes alone and
-    /// together meet the same beds and motors.
+    /// Yaws lost in runs whose realisations depend on the seed and the run's number alone: causes
+    /// alone and together meet the same beds and motors.
     fn losses(&self, measured: &MeasuredTraverse, scatter: Scatter) -> Result<Vec<Lost>, RunError> {
         let one = |sample: u32| self.one(measured, scatter.of_case(self.seed, sample.into()));
         outputs(0..self.samples, one).into_iter().collect()

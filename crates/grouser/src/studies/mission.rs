@@ -27,8 +27,8 @@ pub struct DrivenLeg {
     pub leg: Leg,
     /// What became of it.
     pub report: LegReport,
-    /// Where the mission starts, in the coordinates of ground with heights [m]; zero on a plane. Places of leg and report
-    /// are seen from there.
+    /// Where the mission starts, in the coordinates of ground with heights [m]; zero on a plane.
+    /// Places of leg and report are seen from there.
     pub origin: Vec2,
 }
 
@@ -43,8 +43,8 @@ impl DrivenMission {
         missions.par_iter().map(|(name, mission)| Self::drive(name, mission)).collect()
     }
 
-    /// Drives missions for what becomes of their legs: of their records the last is kept alone, so that a mission of weeks
-    /// needs no more memory than one of minutes.
+    /// Drives missions for what becomes of their legs: of their records the last is kept alone, so
+    /// that a mission of weeks needs no more memory than one of minutes.
     ///
     /// # Errors
     /// The same as [`all`](Self::all).

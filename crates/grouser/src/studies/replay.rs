@@ -1,16 +1,20 @@
-//! A drive that was measured beside the one that is predicted, channel by channel, and what their differences point to.
+//! A drive that was measured beside the one that is predicted, channel by channel, and what their
+//! differences point to.
 //!
-//! Telemetry is taken stretch by stretch of a decimetre or so ([`Stretch`]), and predicted in two ways:
+//! Telemetry is taken stretch by stretch of a decimetre or so ([`Stretch`]), and predicted in two
+//! ways:
 //!
-//! 1. *prescribed motion* (`prescribed`): attitude, wheel speeds and steering angles are those that were read. The
-//!    velocities (u, v) and the yaw rate are those that leave no force and no yaw moment over, and torques and sinkages go
-//!    with them;
-//! 2. *free run* (`free_run`): from the first pose a [`Run`](crate::simulation::Run) goes on by itself on a plane, with
-//!    the wheels turning and steered over time as they were read. Position and attitude are compared.
+//! 1. *prescribed motion* (`prescribed`): attitude, wheel speeds and steering angles are those that
+//!    were read. The velocities (u, v) and the yaw rate are those that leave no force and no yaw
+//!    moment over, and torques and sinkages go with them;
+//! 2. *free run* (`free_run`): from the first pose a [`Run`](crate::simulation::Run) goes on by
+//!    itself on a plane, with the wheels turning and steered over time as they were read. Position
+//!    and attitude are compared.
 //!
-//! What differs in prescribed motion is explained by as few causes as possible (`faults`, `attribution`): another soil, rims
-//! of another speed, another slope, sensors that are mounted askew. Each would change the predictions in a way that is
-//! computed with the model; causes whose ways were the same on this drive cannot be told apart.
+//! What differs in prescribed motion is explained by as few causes as possible (`faults`,
+//! `attribution`): another soil, rims of another speed, another slope, sensors that are mounted
+//! askew. Each would change the predictions in a way that is computed with the model; causes whose
+//! ways were the same on this drive cannot be told apart.
 //!
 //! Memory does not grow with the telemetry: of a long drive every n-th stretch is kept.
 
@@ -189,7 +193,8 @@ impl Replayer {
         self.taken.outliers += stretch.outliers as u64;
         let turned =
             stretch.yaw_rate.map_or(0.0, |it| it.value) * (stretch.time[1] - stretch.time[0]);
-        // Roll and pitch tell the yaw in the middle of the stretch, and the mean of what was read is that, too.
+        // Roll and pitch tell the yaw in the middle of the stretch, and the mean of what was read
+        // is that, too.
         let middle = stretch.reported_yaw.or(stretch.attitude.map(|it| it[1]));
         if self.taken.stretches == 0
             && let Some(middle) = middle

@@ -14,8 +14,8 @@ use crate::vehicle::{LoadSharing, OwnMoments};
 
 /// The inputs of the study: the paper's rover, soil and drive, and its measurements.
 ///
-/// How far off the contour do simulated traverses end on one slope: with the nose along the contour,
-/// and with the heading offset that was measured at the start?
+/// How far off the contour do simulated traverses end on one slope: with the nose along the
+/// contour, and with the heading offset that was measured at the start?
 ///
 /// ```
 /// use grouser::document::{self, Overrides, Source, experiment};
@@ -42,8 +42,8 @@ use crate::vehicle::{LoadSharing, OwnMoments};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// Rover, soil, drive and duration of every traverse; slope and start are set for each. Its load
-    /// transfer is that of headings and of traverses that say no other.
+    /// Rover, soil, drive and duration of every traverse; slope and start are set for each. Its
+    /// load transfer is that of headings and of traverses that say no other.
     pub scenario: Scenario,
     /// The measured traverses.
     pub measured: Vec<MeasuredTraverse>,
@@ -104,8 +104,8 @@ pub struct SlopeRuns {
     pub from_measured_yaw_with_torque: Trajectory,
     /// The same with the complete load transfer.
     pub from_measured_yaw_complete: Trajectory,
-    /// Held at the measured yaw, which is taken to go straight from its start to its end: the balance of
-    /// forces alone decides how the rover drifts.
+    /// Held at the measured yaw, which is taken to go straight from its start to its end: the
+    /// balance of forces alone decides how the rover drifts.
     pub at_measured_yaw: Trajectory,
 }
 

@@ -1,15 +1,16 @@
 //! The cheapest way for a rover over ground with heights: in time, in work, or in what it risks.
 //!
-//! Ways lead over a lattice of the ground's points, in sixteen directions; a way over level ground is at most 2.8 %
-//! longer than the straight line. What a metre costs comes from the [tables](super::mobility) of the steady motion that
-//! holds its course: by how steeply the ground rises along the way and across it. Turns are made on the spot, and cost
-//! what a turn on level ground does. No way leads where no heading holds the course, or where more of the samples than
+//! Ways lead over a lattice of the ground's points, in sixteen directions; a way over level ground
+//! is at most 2.8 % longer than the straight line. What a metre costs comes from the
+//! [tables](super::mobility) of the steady motion that holds its course: by how steeply the ground
+//! rises along the way and across it. Turns are made on the spot, and cost what a turn on level
+//! ground does. No way leads where no heading holds the course, or where more of the samples than
 //! the [`Limits`] allow say no-go.
 //!
-//! A way at the least *risk* is the one whose time is least in the worst tenth of the samples of soil and model: for each
-//! metre the mean over those, the conditional value at risk, in which a sample that is stuck counts as a detour of
-//! [`STUCK_WAY`]. That adds up along the way if one soil is the better one everywhere, as it is where the soil of the
-//! whole ground is not known.
+//! A way at the least *risk* is the one whose time is least in the worst tenth of the samples of
+//! soil and model: for each metre the mean over those, the conditional value at risk, in which a
+//! sample that is stuck counts as a detour of [`STUCK_WAY`]. That adds up along the way if one soil
+//! is the better one everywhere, as it is where the soil of the whole ground is not known.
 
 mod along;
 mod answer;
@@ -135,7 +136,8 @@ mod tests {
             let lattice = Lattice::new(ground, &costs, turn, |_| true);
             let (from, to) = (2 * 34 + 2, 26 * 34 + 30);
             let guided = price_of(&lattice, &lattice.search(from, to, Some(3)), turn);
-            // The other takes no negative prices: what the height is worth is counted as it is gained.
+            // The other takes no negative prices: what the height is worth is counted as it is
+            // gained.
             let worth = |cell: usize| costs.bound.climb * f64::from(raster.heights[cell]);
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
             let micro = |price: f64| (price * 1e6).round() as u64;
@@ -188,8 +190,8 @@ mod tests {
         }
     }
 
-    /// Up a plane that can be climbed the way is straight; where straight up is not allowed it is a zigzag whose courses the
-    /// limit allows, and its length that of the closed form.
+    /// Up a plane that can be climbed the way is straight; where straight up is not allowed it is a
+    /// zigzag whose courses the limit allows, and its length that of the closed form.
     #[test]
     fn up_a_plane_the_way_is_straight_or_a_zigzag() {
         let mut study = study();
@@ -206,7 +208,8 @@ mod tests {
         let zigzag = route(&study, &plane(14.0), &up, Objective::Time);
         assert!(zigzag.map_length > 1.1 * 25.0 && zigzag.turned > 0.5, "{zigzag:?}");
         assert!(zigzag.most_slip_ratio <= study.limits.most_slip_ratio);
-        // Two legs along the steepest direction of the lattice that is left over, which is the diagonal.
+        // Two legs along the steepest direction of the lattice that is left over, which is the
+        // diagonal.
         assert!((zigzag.map_length - 25.0 * f64::sqrt(2.0)).abs() < 1e-9, "{zigzag:?}");
         assert_eq!(zigzag.waypoints.len(), 3);
         // Half-way up it has taken half of all but the turn, which comes after it.
@@ -295,7 +298,8 @@ mod tests {
         );
     }
 
-    /// Over hills, with turns: time and work by the tables are those of the simulation within a tenth.
+    /// Over hills, with turns: time and work by the tables are those of the simulation within a
+    /// tenth.
     #[test]
     fn a_route_that_is_driven_takes_what_it_says() {
         let scenario =
@@ -322,8 +326,8 @@ mod tests {
         study.along(&tables(study), ground, line).unwrap()
     }
 
-    /// To rounding from point to point of the grid; between points within what half a cell at either end takes, and the
-    /// difference of bilinear heights from those of the move there.
+    /// To rounding from point to point of the grid; between points within what half a cell at
+    /// either end takes, and the difference of bilinear heights from those of the move there.
     #[test]
     fn a_way_that_was_found_takes_the_same_when_it_is_read_back() {
         let (study, raster) = (study(), ground_of(60, 60, 0.8, hills));
@@ -346,8 +350,8 @@ mod tests {
         }
     }
 
-    /// Over a plane the motion is the same everywhere, so that a line's numbers are those of its course in closed form,
-    /// whatever its angle to the grid is.
+    /// Over a plane the motion is the same everywhere, so that a line's numbers are those of its
+    /// course in closed form, whatever its angle to the grid is.
     #[test]
     fn over_a_plane_a_line_takes_what_its_course_does() {
         let study = study();

@@ -2,8 +2,9 @@
 //!
 //! [`truth`] is what perfect ones would say of a run.
 //!
-//! [`Sensors`] take what is true at a time and give what the telemetry has of it: with noise, bias, rounding, gaps and
-//! outliers, from a seed. A reading depends on the seed and on the readings before it, and on nothing else.
+//! [`Sensors`] take what is true at a time and give what the telemetry has of it: with noise, bias,
+//! rounding, gaps and outliers, from a seed. A reading depends on the seed and on the readings
+//! before it, and on nothing else.
 
 use rand_chacha::ChaCha8Rng;
 
@@ -67,8 +68,8 @@ impl SensorModels {
         rate: 0.0,
     };
 
-    /// Those of a micro rover. Source: ours, after what is sold: an attitude to 0.2°, odometry to a millimetre for each
-    /// picture, torques to 5 %.
+    /// Those of a micro rover. Source: ours, after what is sold: an attitude to 0.2°, odometry to a
+    /// millimetre for each picture, torques to 5 %.
     pub const USUAL: Self = Self {
         attitude: Fault { noise: 3.5e-3, relative_noise: 0.0, bias: 0.0, step: 1.7e-4 },
         yaw: Fault { noise: 8.7e-3, relative_noise: 0.0, bias: 0.0, step: 1.7e-4 },
@@ -129,8 +130,8 @@ pub struct Sensors {
     unreported: [f64; 3],
 }
 
-/// What perfect instruments say of a run: of a rover whose motors are known currents, of another torques. Yaw is reported on a
-/// plane, where it counts from the contour.
+/// What perfect instruments say of a run: of a rover whose motors are known currents, of another
+/// torques. Yaw is reported on a plane, where it counts from the contour.
 #[must_use]
 pub fn truth(run: &Trajectory, scenario: &Scenario) -> Vec<TelemetryRecord> {
     let mounts = scenario.rover.mounts();

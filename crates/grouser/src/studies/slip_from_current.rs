@@ -1,18 +1,21 @@
 //! The slip ratio of each wheel from its motor's current and speed.
 //!
-//! The current gives the torque on the wheel ([`Motor::torque`](crate::vehicle::Motor::torque)), and in the soil a torque
-//! belongs to a slip ratio; [Ojeda2006] has a straight line in place of the soil:
+//! The current gives the torque on the wheel ([`Motor::torque`](crate::vehicle::Motor::torque)),
+//! and in the soil a torque belongs to a slip ratio; [Ojeda2006] has a straight line in place of
+//! the soil:
 //!
 //! ```text
 //! i, ω → T_i        p(s | T_i) ∝ (1/M) Σ_m N(T_i; T_m(s), σ(T_m(s)))        σ(T)² = (q T)² + σ_0²
 //! ```
 //!
-//! with a uniform prior over the slip ratios asked for. *T_m(s)* is the torque of the settled wheel in the *m*-th sample of
-//! soil and model, under its load and at its slip angle; one sample where the soil is taken as known. The estimate is the
-//! median of that, and its interval the middle 95 %.
+//! with a uniform prior over the slip ratios asked for. *T_m(s)* is the torque of the settled wheel
+//! in the *m*-th sample of soil and model, under its load and at its slip angle; one sample where
+//! the soil is taken as known. The estimate is the median of that, and its interval the middle 95
+//! %.
 //!
-//! Where torque hardly changes with slip the interval is wide, and the estimate says so: [`SlipStatus::IllPosed`]. Each
-//! reading stands alone. What one says of an uncertain soil is not used for the next.
+//! Where torque hardly changes with slip the interval is wide, and the estimate says so:
+//! [`SlipStatus::IllPosed`]. Each reading stands alone. What one says of an uncertain soil is not
+//! used for the next.
 
 mod agreement;
 mod posterior;
@@ -92,7 +95,8 @@ impl SlipSettings {
     }
 }
 
-/// How wide an interval may be before its estimate is ill-posed [-]. Source: ours; half of the slip at which rovers stop.
+/// How wide an interval may be before its estimate is ill-posed [-]. Source: ours; half of the slip
+/// at which rovers stop.
 pub const WIDEST: f64 = 0.2;
 
 /// Whether a current gives the slip.
@@ -192,8 +196,9 @@ pub struct SlipEstimate {
     pub load: Option<f64>,
     /// Slip angle, *β* [rad].
     pub slip_angle: f64,
-    /// Slip ratio, *s* [-], with the sign of the rim's motion: negative while a wheel that turns backward drives. Nothing
-    /// unless the status is [`Ok`](SlipStatus::Ok) or [`IllPosed`](SlipStatus::IllPosed).
+    /// Slip ratio, *s* [-], with the sign of the rim's motion: negative while a wheel that turns
+    /// backward drives. Nothing unless the status is [`Ok`](SlipStatus::Ok) or
+    /// [`IllPosed`](SlipStatus::IllPosed).
     pub slip_ratio: Option<Band>,
 }
 
@@ -227,8 +232,9 @@ pub enum NoEstimator {
 
 /// Estimates slip from currents, reading by reading.
 ///
-/// The first reading near a load and slip angle settles wheels, some hundred for each sample of the soil; the torques are
-/// kept, and the next readings there interpolate between them. What is kept changes the cost, and no result.
+/// The first reading near a load and slip angle settles wheels, some hundred for each sample of the
+/// soil; the torques are kept, and the next readings there interpolate between them. What is kept
+/// changes the cost, and no result.
 ///
 /// How much does HAKUTO's front wheel slip on level Toyoura sand, if its motor takes 213 mA?
 ///
@@ -270,8 +276,8 @@ pub struct SlipEstimator {
 }
 
 impl SlipEstimator {
-    /// An estimator for a scenario's rover, soil, gravity, model and load transfer; its slope counts where a record has
-    /// none, and its drive does not.
+    /// An estimator for a scenario's rover, soil, gravity, model and load transfer; its slope
+    /// counts where a record has none, and its drive does not.
     ///
     /// * `samples`: of an uncertain soil and model; none to take the scenario's as known
     ///
@@ -307,11 +313,13 @@ impl SlipEstimator {
         &self.rover
     }
 
-    /// The slip of each wheel of a record, in the mounts' order; nothing for a wheel without a reading or motor.
+    /// The slip of each wheel of a record, in the mounts' order; nothing for a wheel without a
+    /// reading or motor.
     ///
-    /// Where a reading has no load, that follows from the slope and yaw of the record and the torques of all wheels, in
-    /// steady motion. Where it has no slip angle, that follows from yaw and course; without a course the rover goes where it
-    /// points. A steering angle beyond its wheel's limit counts as the limit, and one of a wheel that is not steered as none.
+    /// Where a reading has no load, that follows from the slope and yaw of the record and the
+    /// torques of all wheels, in steady motion. Where it has no slip angle, that follows from yaw
+    /// and course; without a course the rover goes where it points. A steering angle beyond its
+    /// wheel's limit counts as the limit, and one of a wheel that is not steered as none.
     #[must_use]
     pub fn estimate(&self, record: &MotorRecord) -> Vec<Option<SlipEstimate>> {
         let mut felt = self.felt(record);
@@ -321,8 +329,8 @@ impl SlipEstimator {
         felt.into_iter().map(|wheel| Some(wheel?.estimate)).collect()
     }
 
-    /// Estimates all records of a log, in their order; nothing if `go_on` was false before the end. Records are shared among
-    /// threads: the result is the same for any number of them.
+    /// Estimates all records of a log, in their order; nothing if `go_on` was false before the end.
+    /// Records are shared among threads: the result is the same for any number of them.
     ///
     /// * `go_on`: asked before each of [`log_steps`](Self::log_steps), from any thread
     #[must_use]
@@ -416,9 +424,9 @@ impl SlipEstimator {
 
     /// Loads of all wheels [N] in steady motion, where the wheels' forces hold the weight's pull.
     ///
-    /// The law of the scenario shares the weight. Its torques are those of the motors, and its forces equal shares of what
-    /// holds the pull; a wheel whose torque is not known has that of its force. Overturning moments are those of forces in
-    /// the contact plane.
+    /// The law of the scenario shares the weight. Its torques are those of the motors, and its
+    /// forces equal shares of what holds the pull; a wheel whose torque is not known has that of
+    /// its force. Overturning moments are those of forces in the contact plane.
     fn loads(&self, rover: &Rover, record: &MotorRecord, slope: f64) -> Result<Vec<f64>, Tipping> {
         let plane = self.ground.with_slope(slope);
         let state = RoverState { yaw: record.yaw.unwrap_or(0.0), ..RoverState::default() };

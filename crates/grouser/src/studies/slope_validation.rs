@@ -1,8 +1,9 @@
 //! Errors of a wheel–soil model against a rover's measured slip and yaw on slopes.
 //!
-//! Every slope is predicted by the heading offset that holds the measured course there, with the same load transfer,
-//! model and soil as the heading study. Where no heading holds a course along or up the slope, the rover digs in: its
-//! slip counts as 1, and it has no yaw. Repeated rows are averaged first, and every slope has the same weight.
+//! Every slope is predicted by the heading offset that holds the measured course there, with the
+//! same load transfer, model and soil as the heading study. Where no heading holds a course along
+//! or up the slope, the rover digs in: its slip counts as 1, and it has no yaw. Repeated rows are
+//! averaged first, and every slope has the same weight.
 
 use rayon::prelude::*;
 
@@ -19,7 +20,8 @@ const AIM: f64 = 0.1;
 
 /// A rover's measured motion on slopes, and the model to compare with it.
 ///
-/// By how much does the slip of a rover straight up slopes differ from that of particle simulations?
+/// By how much does the slip of a rover straight up slopes differ from that of particle
+/// simulations?
 ///
 /// ```
 /// use grouser::document::measurements::{Choice, Source as Rows};
@@ -174,15 +176,15 @@ impl SlopeValidation {
         }
     }
 
-    /// The score: each quantity's error over the standard deviation of what was measured, averaged over
-    /// the measured quantities [-].
+    /// The score: each quantity's error over the standard deviation of what was measured, averaged
+    /// over the measured quantities [-].
     #[must_use]
     pub fn score(&self) -> Option<f64> {
         mean_score([self.slip_ratio, self.yaw].into_iter().flatten().filter_map(|it| it.score()))
     }
 
-    /// Number of slopes on which something was measured that the model does not predict. They are in no error of the
-    /// model, but in those of predictions without physics.
+    /// Number of slopes on which something was measured that the model does not predict. They are
+    /// in no error of the model, but in those of predictions without physics.
     #[must_use]
     pub fn no_prediction(&self) -> usize {
         self.points.iter().filter(|it| it.has_no_prediction()).count()

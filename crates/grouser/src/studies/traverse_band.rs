@@ -1,10 +1,12 @@
 //! A traverse where soil and model are uncertain: a run of each sample, and quantiles over them.
 //!
-//! What a run that ends early counts as is said by the [table of outcomes](crate::simulation::OutcomeRow). A rover that gets
-//! stuck counts from then on as slip 1, sunk to the axles, at the place where it ended; what it would cost to get on has no
-//! bound. One that ends otherwise (it leaves its map, its battery is empty, it slides, tips over or touches the ground)
-//! leaves the band from then on: nothing is known of where it would be, and it is not stuck. Until then it counts, so that
-//! means over a run are over its time in the band. [`Ends`] says which share ended early, and how.
+//! What a run that ends early counts as is said by the
+//! [table of outcomes](crate::simulation::OutcomeRow). A rover that gets stuck counts from then on
+//! as slip 1, sunk to the axles, at the place where it ended; what it would cost to get on has no
+//! bound. One that ends otherwise (it leaves its map, its battery is empty, it slides, tips over or
+//! touches the ground) leaves the band from then on: nothing is known of where it would be, and it
+//! is not stuck. Until then it counts, so that means over a run are over its time in the band.
+//! [`Ends`] says which share ended early, and how.
 
 mod ends;
 
@@ -115,12 +117,13 @@ struct OfSample {
 }
 
 impl TraverseBand {
-    /// Runs each sample; the soil and the model of `scenario` are not used. Where it [scatters](Scenario::scatter),
-    /// each sample has a realisation of its own, by the scenario's seed and its number. `None` if `go_on` was false before the
-    /// end. The samples are shared among threads and keep their order: the result is the same for any number of
-    /// threads.
+    /// Runs each sample; the soil and the model of `scenario` are not used. Where it
+    /// [scatters](Scenario::scatter), each sample has a realisation of its own, by the scenario's
+    /// seed and its number. `None` if `go_on` was false before the end. The samples are shared
+    /// among threads and keep their order: the result is the same for any number of threads.
     ///
-    /// How far downhill is a rover after 5 s across a slope of 10°, if any of three models may be right?
+    /// How far downhill is a rover after 5 s across a slope of 10°, if any of three models may be
+    /// right?
     ///
     /// ```
     /// use grouser::document::{self, Overrides, Source};
@@ -207,7 +210,8 @@ impl OfSample {
             }
         };
         let stuck = At::stuck(last, rover);
-        // The means of a run that got stuck go on to its scenario's end, as the rover is from then on.
+        // The means of a run that got stuck go on to its scenario's end, as the rover is from then
+        // on.
         let driven = (last.time / scenario.duration).min(1.0);
         let mean = |mean: Option<f64>, stuck: f64| match (in_band, mean) {
             (InBand::Counts, mean) => Some(mean.unwrap_or(stuck)),

@@ -1,5 +1,5 @@
-//! Errors of a wheel–soil model against measured wheel tests: every trial is predicted at its own load and
-//! motion, averaged over the trials of a cell, and compared over cells of equal weight.
+//! Errors of a wheel–soil model against measured wheel tests: every trial is predicted at its own
+//! load and motion, averaged over the trials of a cell, and compared over cells of equal weight.
 
 mod errors;
 mod yardstick;

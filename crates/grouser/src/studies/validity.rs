@@ -1,4 +1,5 @@
-//! Flags of validity of a rover: those of its wheels together, at rest or in motion, on a slope or over a run.
+//! Flags of validity of a rover: those of its wheels together, at rest or in motion, on a slope or
+//! over a run.
 
 use crate::contact::Model;
 use crate::contact::validity::{Finding, Situation, union};
@@ -49,7 +50,8 @@ impl<'a> RoverOnSlope<'a> {
 
     /// The flags of its wheels together, each once.
     ///
-    /// * `wheels`: in the mounts' order; of wheels that are not there, only what needs no motion is looked at
+    /// * `wheels`: in the mounts' order; of wheels that are not there, only what needs no motion is
+    ///   looked at
     #[must_use]
     pub fn findings<'w>(&self, wheels: impl Iterator<Item = &'w WheelReaction>) -> Vec<Finding>
     where

@@ -1,17 +1,19 @@
-//! Contour traverses with wheels at speeds of their own, which balance what one speed of all wheels cannot.
+//! Contour traverses with wheels at speeds of their own, which balance what one speed of all wheels
+//! cannot.
 //!
-//! [`heading`](super::heading) balances the forces of a rover whose wheels all turn alike, and leaves the yaw moment:
-//! such a rover turns as it goes, unless something holds it. Equal speeds balance it on level ground and, if at
-//! all, on single slopes: slip and yaw are two unknowns for three equations. With a speed for each side, or for each
-//! wheel, there are enough unknowns for a straight steady motion, all of whose accelerations are zero:
+//! [`heading`](super::heading) balances the forces of a rover whose wheels all turn alike, and
+//! leaves the yaw moment: such a rover turns as it goes, unless something holds it. Equal speeds
+//! balance it on level ground and, if at all, on single slopes: slip and yaw are two unknowns for
+//! three equations. With a speed for each side, or for each wheel, there are enough unknowns for a
+//! straight steady motion, all of whose accelerations are zero:
 //!
 //! ```text
 //! ΣF_x = W sin α sin γ        ΣF_y = W sin α cos γ        ΣM_z = 0
 //! ```
 //!
-//! with every hub's velocity along the contour. The speeds of two sides are determined by it; those of wheels are
-//! not, and are chosen: for the steepest slope, or for the least work of the motors per metre on a given one. What is
-//! found is the best of several searches, and locally so.
+//! with every hub's velocity along the contour. The speeds of two sides are determined by it; those
+//! of wheels are not, and are chosen: for the steepest slope, or for the least work of the motors
+//! per metre on a given one. What is found is the best of several searches, and locally so.
 //!
 //! A steady motion is no stable one: how fast a small error of the yaw grows is part of the answer.
 
@@ -30,7 +32,8 @@ use crate::contact::validity::Finding;
 use crate::error::ParameterError;
 use crate::vehicle::Rover;
 
-/// Straight motions of a study, and the curve of headings with equal speeds from which they are sought.
+/// Straight motions of a study, and the curve of headings with equal speeds from which they are
+/// sought.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WheelSpeeds {
     study: WheelSpeedStudy,
@@ -110,7 +113,8 @@ impl WheelSpeeds {
         if freedom == SpeedFreedom::UphillReversed {
             return self.reversed_starts(balance);
         }
-        /// How far up the slopes of equal speeds searches start: where bounds are narrow, further down [-].
+        /// How far up the slopes of equal speeds searches start: where bounds are narrow, further
+        /// down [-].
         const SHARES: [f64; 3] = [0.5, 0.1, 0.01];
         /// By how much the unknown of one wheel's speed is larger in a start [-].
         const FASTER: f64 = 0.2;
@@ -130,7 +134,8 @@ impl WheelSpeeds {
         SHARES.into_iter().map(from).find(|found| !found.is_empty()).unwrap_or_default()
     }
 
-    /// Those with the uphill wheels backward, from a net of guesses: none is near a motion with equal speeds.
+    /// Those with the uphill wheels backward, from a net of guesses: none is near a motion with
+    /// equal speeds.
     fn reversed_starts(&self, balance: &Balance<'_>) -> Vec<Found> {
         let mounts = self.study.heading.rover.mounts();
         let mean = mounts.iter().map(|mount| mount.position.y).sum::<f64>() / mounts.len() as f64;

@@ -1,9 +1,9 @@
-//! A wheel test where soil and model are uncertain: sinkage, forces and torque of each setting, with quantiles over
-//! samples.
+//! A wheel test where soil and model are uncertain: sinkage, forces and torque of each setting,
+//! with quantiles over samples.
 //!
-//! Bands are over all samples. Where the soil does not carry the wheel there is no reaction in balance with the
-//! load, and [`SettledBand`] says what such a sample counts as: values on the safe side of what a driver of the
-//! wheel may count on, not those of a measurement.
+//! Bands are over all samples. Where the soil does not carry the wheel there is no reaction in
+//! balance with the load, and [`SettledBand`] says what such a sample counts as: values on the safe
+//! side of what a driver of the wheel may count on, not those of a measurement.
 
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
@@ -17,13 +17,13 @@ pub struct SettledBand {
     pub carried: Probability,
     /// Sinkage [m]; down to the axle where the soil does not carry the wheel.
     pub sinkage: Option<Band>,
-    /// Drawbar pull [N]; there the load's own weight backwards, the pull of a load that is dragged on ground of
-    /// friction 1.
+    /// Drawbar pull [N]; there the load's own weight backwards, the pull of a load that is dragged
+    /// on ground of friction 1.
     pub drawbar_pull: Option<Band>,
     /// Side force [N]; none there.
     pub side_force: Option<Band>,
-    /// Torque [N·m]; there what turns the wheel against friction 1 at its rim under the whole load, in the direction in
-    /// which the rim slips.
+    /// Torque [N·m]; there what turns the wheel against friction 1 at its rim under the whole load,
+    /// in the direction in which the rim slips.
     pub torque: Option<Band>,
 }
 
@@ -42,7 +42,8 @@ struct Kept {
 pub struct Sunk {
     /// Down to the axle [m].
     pub sinkage: f64,
-    /// What the model has at the axle's depth, or the load's own weight backwards if that is less [N].
+    /// What the model has at the axle's depth, or the load's own weight backwards if that is less
+    /// [N].
     pub drawbar_pull: f64,
     /// None [N].
     pub side_force: f64,
@@ -63,11 +64,12 @@ impl Sunk {
 }
 
 impl WheelTest {
-    /// The bands of each setting, in the order of [`run`](Self::run); `self.soil` and `self.model` are not
-    /// used. `None` if `go_on` was false before the end. The samples are shared among threads and keep their order: the
-    /// result is the same for any number of threads.
+    /// The bands of each setting, in the order of [`run`](Self::run); `self.soil` and `self.model`
+    /// are not used. `None` if `go_on` was false before the end. The samples are shared among
+    /// threads and keep their order: the result is the same for any number of threads.
     ///
-    /// How hard does the wheel of HAKUTO pull under 17 N at a slip ratio of 0.4, if any of three models may be right?
+    /// How hard does the wheel of HAKUTO pull under 17 N at a slip ratio of 0.4, if any of three
+    /// models may be right?
     ///
     /// ```
     /// use grouser::document::{self, Overrides, Source};

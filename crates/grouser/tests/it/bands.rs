@@ -1,4 +1,5 @@
-//! Bands over samples of soil and model: which models there are, and what a sample without an answer counts as.
+//! Bands over samples of soil and model: which models there are, and what a sample without an
+//! answer counts as.
 
 use grouser::contact::{Contact, Model, Slip};
 use grouser::document::campaign::QuantityStatistics;
@@ -105,7 +106,8 @@ fn a_model_has_its_share_and_the_rest_is_shared_by_weight() {
     assert!((0..50).all(|index| one.model(SEED, index) == Model::Bekker));
 }
 
-/// A model that is asked for by name is alone; a soil keeps the one that it was made for, with the greater share.
+/// A model that is asked for by name is alone; a soil keeps the one that it was made for, with the
+/// greater share.
 #[test]
 fn documents_decide_which_models_there_are() {
     let shares = |inputs: BandInputs| inputs.models().shares().to_vec();
@@ -316,7 +318,8 @@ fn a_run_that_gets_stuck_is_not_left_out() {
     assert!(energy.median == f64::INFINITY && energy.high == f64::INFINITY, "{energy:?}");
 }
 
-/// A rover that leaves its map is not stuck: until then it counts as it is, and then it leaves the band.
+/// A rover that leaves its map is not stuck: until then it counts as it is, and then it leaves the
+/// band.
 #[test]
 fn a_run_that_leaves_its_map_leaves_the_band_then() {
     // A level map of 2 m by 2 m; from its middle, its edge is 1 m ahead of the rover.
@@ -410,7 +413,8 @@ fn band_on_a_plane() -> RunBand {
 
 // ---- Campaigns ----
 
-/// Rows of traverses and missions over heights have how the rover stands at the end, and their statistics read it.
+/// Rows of traverses and missions over heights have how the rover stands at the end, and their
+/// statistics read it.
 #[test]
 fn campaigns_over_heights_have_height_and_attitude() {
     let traverse = format!(
@@ -449,7 +453,8 @@ fn campaign(base: &str) -> Result<Campaign, DocumentError> {
     document::read_campaign(&Source::text("study.toml", text), &Overrides::none())
 }
 
-/// On 22° not all of the models hold the contour: the others' runs have no slip, and count as slip 1.
+/// On 22° not all of the models hold the contour: the others' runs have no slip, and count as slip
+/// 1.
 #[test]
 fn a_campaign_draws_models_and_leaves_no_run_out() {
     let base = "study = \"heading\"\nscenario = { soil = \"toyoura\", slope_deg = 22.0 }";
@@ -505,8 +510,8 @@ fn a_campaign_counts_wheels_that_sink() {
     assert!(thrust.iter().all(Option::is_none));
 }
 
-/// Where the model has more drag and torque at the axle than the load, that counts: a locked wheel that has dug
-/// itself in.
+/// Where the model has more drag and torque at the axle than the load, that counts: a locked wheel
+/// that has dug itself in.
 #[test]
 fn a_locked_wheel_that_sinks_counts_with_the_drag_at_the_axle() {
     let test = stand(soil("fjs-1-loose").value, Model::SmallWheel);

@@ -28,8 +28,8 @@ fn bits(answer: &Answer) -> Vec<u64> {
     numbers.into_iter().map(f64::to_bits).collect()
 }
 
-/// A wheel anywhere in the domain, in any motion, some of them backward, locked, dragged or without a
-/// load.
+/// A wheel anywhere in the domain, in any motion, some of them backward, locked, dragged or without
+/// a load.
 fn any_wheel(case: u64) -> (Model, Contact, f64) {
     let mut draw = Draw::of_case(case);
     let model = if draw.once_in(2) { Model::SmallWheel } else { Model::Ishigami };
@@ -154,14 +154,15 @@ fn overloaded(case: u64) -> (Model, Contact, f64) {
     (model, contact, draw.sized(1e2, 1e6))
 }
 
-/// The capacity that is stated is the highest F_z of a dense scan, and it is found in as few evaluations
-/// as three wheels that settle.
+/// The capacity that is stated is the highest F_z of a dense scan, and it is found in as few
+/// evaluations as three wheels that settle.
 #[test]
 fn a_wheel_that_the_soil_cannot_carry_costs_no_more_than_three_that_it_carries() {
     /// Number of evaluations for a wheel that settles.
     const USUAL: u32 = 5;
     const MOST: u32 = 4 * USUAL;
-    /// Where the load is within a thousandth of the most, its peak is looked for as closely as that.
+    /// Where the load is within a thousandth of the most, its peak is looked for as closely as
+    /// that.
     const MOST_NEARBY: u32 = 12 * USUAL;
     let (mut sunk, mut sum, mut most) = (0, 0, 0);
     for case in 0..2_000 {

@@ -112,7 +112,8 @@ fn oravec_s_fit(tops_kpa: [u32; 3], dropped: [usize; 3]) -> WongFit {
     WongFit::of(&[0, 1, 2].map(mean)).expect("three plates")
 }
 
-/// Source: Oravec 2009, Figure 5.52 and Code D5 (lunar range of pressures): n 1.232, k_c 4096.3537, k_φ −22284.5786.
+/// Source: Oravec 2009, Figure 5.52 and Code D5 (lunar range of pressures): n 1.232, k_c 4096.3537,
+/// k_φ −22284.5786.
 #[test]
 fn raw_plates_of_grc_1_give_the_published_moduli_to_the_last_digit() {
     let fit = oravec_s_fit([50, 50, 30], [3, 1, 1]);
@@ -122,8 +123,8 @@ fn raw_plates_of_grc_1_give_the_published_moduli_to_the_last_digit() {
 }
 
 /// Source: Oravec 2009, Figure 5.53 (entire range): n 0.80563, k_c 97.06, k_φ 1744.2495.
-/// DIFFERENCE: k_φ comes out as 1744.2940, 3e-5 more. The ends of the pressures are not printed; 160, 105 and 30 kPa
-/// are those found by the transcription of the data.
+/// DIFFERENCE: k_φ comes out as 1744.2940, 3e-5 more. The ends of the pressures are not printed;
+/// 160, 105 and 30 kPa are those found by the transcription of the data.
 #[test]
 fn over_the_entire_range_they_give_the_published_exponent_and_k_c() {
     let fit = oravec_s_fit([160, 105, 30], [1, 1, 1]);
@@ -132,7 +133,8 @@ fn over_the_entire_range_they_give_the_published_exponent_and_k_c() {
     assert!((1e-3 * fit.k_phi / 1744.2495 - 1.0).abs() < 5e-5, "{}", fit.k_phi);
 }
 
-/// Five repeats, three widths: determined or said not to be, no modulus at a bound, a soil document that can be read.
+/// Five repeats, three widths: determined or said not to be, no modulus at a bound, a soil document
+/// that can be read.
 #[test]
 fn raw_plates_of_grc_1_make_a_soil() {
     let tests = BevameterTests { plates: plates_of("grc-1-plates"), shear: Vec::new() };
@@ -160,7 +162,8 @@ fn one_plate_and_one_normal_stress_say_what_they_leave_open() {
         let sentences = &found.solved.unidentifiable;
         assert!(sentences.iter().any(|sentence| sentence.contains(part)), "{sentences:?}");
     }
-    // Under 93 kPa the stress rises to 45 kPa at once and then slowly to 65 kPa: the law ends between.
+    // Under 93 kPa the stress rises to 45 kPa at once and then slowly to 65 kPa: the law ends
+    // between.
     let soil = Soil::of(&found.soil);
     let strength = shear_strength(&soil).stress(kpa(93.0), 1.0);
     assert!((kpa(45.0)..kpa(65.3)).contains(&strength), "{strength}");
@@ -195,7 +198,8 @@ fn noisy(noise: &mut Noise, places: &[f64], law: impl Fn(f64) -> f64) -> Vec<Cur
     places.iter().map(read).collect()
 }
 
-/// Raw tests of a hidden soil: plates of three radii and shear under four normal stresses, each five times.
+/// Raw tests of a hidden soil: plates of three radii and shear under four normal stresses, each
+/// five times.
 fn hidden_tests(noise: &mut Noise) -> (Soil, BevameterTests) {
     const REPEATS: usize = 5;
     let settings = [

@@ -673,8 +673,8 @@ fn intervals_cover_the_truth_as_often_as_they_say() {
 
 // ---- predictive bands ----
 
-/// How bands hold the cells of slip angles left out, over some simulated wheel tests of a model: of all
-/// quantities together, and of those at an angle between others, and at one beyond them.
+/// How bands hold the cells of slip angles left out, over some simulated wheel tests of a model: of
+/// all quantities together, and of those at an angle between others, and at one beyond them.
 fn coverage_of_left_out_cells(model: &Model, seeds: std::ops::Range<u64>) -> [Coverage; 3] {
     const SLIP_ANGLES: [f64; 5] = [0.0, 10.0, 20.0, 30.0, 45.0];
     let soil = sand(&TRUTH).expect("a sand");
@@ -704,8 +704,8 @@ fn coverage_of_left_out_cells(model: &Model, seeds: std::ops::Range<u64>) -> [Co
     [&bands, &between, &beyond].map(|bands| Coverage::of(bands).expect("some bands"))
 }
 
-/// Data of resistive force theory, fitted by Ishigami's model: neither angle nor model is known to the
-/// fit. Six stands; the slow test has twenty, and two more models.
+/// Data of resistive force theory, fitted by Ishigami's model: neither angle nor model is known to
+/// the fit. Six stands; the slow test has twenty, and two more models.
 #[test]
 fn bands_of_a_wrong_model_hold_the_cells_left_out() {
     let [all, between, _] = coverage_of_left_out_cells(&Model::Rft, 0..6);
@@ -725,7 +725,8 @@ fn bands_hold_the_cells_left_out_under_the_right_model_and_under_wrong_ones() {
     }
 }
 
-/// Closed form: a band from 1 to 3 that holds 2 scores its width; 5 lies outside by 2, times 2/0.05.
+/// Closed form: a band from 1 to 3 that holds 2 scores its width; 5 lies outside by 2, times
+/// 2/0.05.
 #[test]
 fn an_interval_score_adds_what_lies_outside() {
     let band = |measured| LeftOutBand {
@@ -742,8 +743,8 @@ fn an_interval_score_adds_what_lies_outside() {
     assert_eq!(Coverage::of(&[]), None);
 }
 
-/// A stand that reads 0.1 W more pull than the model has at every setting, with a model that is told
-/// the truth: what is handed on is that share, at the settings that were tested.
+/// A stand that reads 0.1 W more pull than the model has at every setting, with a model that is
+/// told the truth: what is handed on is that share, at the settings that were tested.
 #[test]
 fn what_is_handed_on_is_what_the_residuals_say() {
     let mut tests = wheel_tests(1, 0.2);

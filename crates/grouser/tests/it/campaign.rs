@@ -68,8 +68,8 @@ fn the_axes_of_a_latin_hypercube_do_not_go_together() {
     }
 }
 
-/// The first 2^k points of a scrambled net have one in each of 2^k parts of every axis, and the first
-/// two axes one in every box of 2^a by 2^(k−a).
+/// The first 2^k points of a scrambled net have one in each of 2^k parts of every axis, and the
+/// first two axes one in every box of 2^a by 2^(k−a).
 #[test]
 fn scrambled_sobol_points_are_a_net() {
     let points = points(&design(Sampling::Sobol, 1024, 8, 9));
@@ -304,7 +304,8 @@ fn check_indices(found: &Sensitivity, expected: &[(f64, f64)], widest: f64) {
     }
 }
 
-/// f = sin x₁ + a sin² x₂ + b x₃⁴ sin x₁ with a = 7, b = 0.1 over −π to π (Ishigami and Homma 1990).
+/// f = sin x₁ + a sin² x₂ + b x₃⁴ sin x₁ with a = 7, b = 0.1 over −π to π (Ishigami and Homma
+/// 1990).
 ///
 /// V₁ = (1 + bπ⁴/5)²/2, V₂ = a²/8, V₁₃ = 8b²π⁸/225.
 #[test]
@@ -389,7 +390,8 @@ fn points_without_an_output_are_left_out_and_counted() {
 
 // ---- Plans ----
 
-/// Rows of A and B, and A with one dimension of B: rows of samples are one dimension of several values.
+/// Rows of A and B, and A with one dimension of B: rows of samples are one dimension of several
+/// values.
 #[test]
 fn matrices_exchange_one_dimension_at_a_time() {
     let normal = Marginal::Normal { mean: 0.0, standard_deviation: 1.0 };

@@ -96,8 +96,8 @@ fn quantiles_of_a_closed_form_lie_in_their_intervals() {
             let truth = 1e3 * (centre + deviation * score).exp();
             let (low, high) = (quantile.low.expect("many"), quantile.high.expect("many"));
             assert!(low <= truth && truth <= high, "{sampling}: {truth} {quantile:?}");
-            // 4096 draws tell the outer quantiles with an error of 4 % of the deviation: an interval of
-            // 16 % or so, whose ends are draws that scatter themselves.
+            // 4096 draws tell the outer quantiles with an error of 4 % of the deviation: an
+            // interval of 16 % or so, whose ends are draws that scatter themselves.
             assert!(high - low < 0.25 * deviation * truth, "{sampling}: {quantile:?}");
         }
     }
@@ -282,7 +282,8 @@ const MISSION: &str = "schema = \"campaign/1\"\nname = \"mission\"\nstudy = \"mi
     [[mission.leg]]\nwait_s = 1.0\n\
     [[parameter]]\nkey = \"slope_deg\"\ndistribution = \"uniform\"\nlow = 6.0\nhigh = 14.0\n";
 
-/// A row is the mission with its inputs, driven alone: the mission's end, and each leg or that it was not begun.
+/// A row is the mission with its inputs, driven alone: the mission's end, and each leg or that it
+/// was not begun.
 #[test]
 fn a_row_of_a_mission_is_the_mission_with_its_inputs() {
     let campaign = campaign(MISSION);
@@ -332,7 +333,8 @@ fn a_row_of_a_mission_is_the_mission_with_its_inputs() {
     assert!(counts("leg_1.stopped_by").is_empty());
 }
 
-/// Keys of legs are inputs as others, a resolved campaign is the same one, and what cannot be is named.
+/// Keys of legs are inputs as others, a resolved campaign is the same one, and what cannot be is
+/// named.
 #[test]
 fn missions_of_campaigns_are_checked() {
     let of_leg = MISSION.replace(
@@ -457,7 +459,8 @@ fn draws_stay_in_the_range_of_their_key() {
     assert!(draws.iter().any(|ratio| *ratio > 1.45), "the range is used to its end");
 }
 
-/// The range is that of the law in force: speeds of Eq. (18) are positive, constant ones may be negative.
+/// The range is that of the law in force: speeds of Eq. (18) are positive, constant ones may be
+/// negative.
 #[test]
 fn draws_stay_in_the_range_that_their_law_gives_the_key() {
     for (law, speed, allows_reverse) in

@@ -46,7 +46,8 @@ fn card(study: &CardStudy, soils: &[Soil], slopes: &[f64]) -> Card {
     card.expect("rule, slopes and soils are in order").expect("not stopped")
 }
 
-/// Largest torques become largest currents by the motor's closed form; without motors there are none.
+/// Largest torques become largest currents by the motor's closed form; without motors there are
+/// none.
 #[test]
 fn a_card_of_a_rover_with_motors_has_their_currents() {
     use super::motors::MOTOR;
@@ -100,7 +101,8 @@ fn drift_is_that_of_a_run_with_the_nose_on_the_contour() {
     }
 }
 
-/// With the nose on the contour the soil pushes uphill with all of the weight's share, and not forward.
+/// With the nose on the contour the soil pushes uphill with all of the weight's share, and not
+/// forward.
 #[test]
 fn drift_balances_the_pull_of_the_slope() {
     let study = study();
@@ -162,7 +164,8 @@ fn without_stated_uncertainty_there_is_no_band() {
     assert!(card.rows.iter().all(|row| row.bands.is_none()));
 }
 
-/// The large number of the page: counted here one by one, a soil on which no heading holds the contour above all.
+/// The large number of the page: counted here one by one, a soil on which no heading holds the
+/// contour above all.
 #[test]
 fn the_cards_heading_is_the_median_over_all_samples() {
     let (study, soils) = (study(), soils(41));
@@ -195,8 +198,8 @@ fn the_number_of_threads_changes_nothing() {
 
 // ---- Left and right ----
 
-/// In a mirror, left is right: the rover with its uphill side on the other side needs the same heading.
-/// Sums over wheels in another order differ by rounding.
+/// In a mirror, left is right: the rover with its uphill side on the other side needs the same
+/// heading. Sums over wheels in another order differ by rounding.
 #[test]
 fn a_mirrored_traverse_has_the_mirrored_heading() {
     let study = study();
@@ -211,7 +214,8 @@ fn a_mirrored_traverse_has_the_mirrored_heading() {
     }
 }
 
-/// A rover with more of its weight on its left wheels is another one in the mirror, and needs another heading.
+/// A rover with more of its weight on its left wheels is another one in the mirror, and needs
+/// another heading.
 #[test]
 fn a_lopsided_rover_has_two_cards() {
     let hubs = [(0.19, 0.20), (-0.17, 0.20), (-0.17, -0.28), (0.19, -0.28)];
@@ -276,8 +280,8 @@ fn verdicts_are_the_rules() {
     }
 }
 
-/// Slopes near the friction angle are a question of strength, not of slip: cohesion holds a slab, and nobody knows
-/// for how long. On the Moon the wheels of a cohesive soil would go farther.
+/// Slopes near the friction angle are a question of strength, not of slip: cohesion holds a slab,
+/// and nobody knows for how long. On the Moon the wheels of a cohesive soil would go farther.
 #[test]
 fn no_slope_near_the_friction_angle_is_a_go() {
     let mut would_go = 0;
@@ -329,8 +333,9 @@ fn instruments_show_the_slope_and_the_heading() {
     }
 }
 
-/// The run in time of a rover whose nose is set knows nothing of the card: on the soil as written its nose falls as
-/// the card says, by 2° at most until it is set again, and it drifts as the card says.
+/// The run in time of a rover whose nose is set knows nothing of the card: on the soil as written
+/// its nose falls as the card says, by 2° at most until it is set again, and it drifts as the card
+/// says.
 #[test]
 fn a_run_with_the_nose_set_again_drifts_as_the_card_says() {
     let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none());
@@ -380,7 +385,8 @@ fn drives<const N: usize>(
     })
 }
 
-/// The drift that the card states holds in 95 % of the drives, and where it says go the rover gets through.
+/// The drift that the card states holds in 95 % of the drives, and where it says go the rover gets
+/// through.
 fn check_drives(all: &[RowDrives]) {
     for drives in all {
         let slope = drives.slope.to_degrees();
@@ -397,7 +403,8 @@ fn check_drives(all: &[RowDrives]) {
     assert!(goes >= 3 && goes < all.len(), "{goes}");
 }
 
-/// Soils that the card has never seen, driven in time with the complete loads by a driver who sets the heading to 2°.
+/// Soils that the card has never seen, driven in time with the complete loads by a driver who sets
+/// the heading to 2°.
 #[test]
 fn soils_that_are_driven_by_the_card_stay_within_its_drift() {
     let [all] = drives(60, &[1.0, 4.0, 8.0, 12.0, 15.0], [(1.0, Approach::QuasiSteady)]);
@@ -488,7 +495,8 @@ fn a_course_is_never_better_on_a_steeper_slope_and_slips_more_uphill() {
     let (up, down) = (slips(Course::Up), slips(Course::Down));
     assert!(up.windows(2).all(|pair| pair[0] < pair[1]), "{up:?}");
     assert!(down.windows(2).all(|pair| pair[0] > pair[1]), "{down:?}");
-    // The rover is all but the same from behind; backwards along the contour its rear is uphill, and it holds it.
+    // The rover is all but the same from behind; backwards along the contour its rear is uphill,
+    // and it holds it.
     for (ahead, back) in [(&up, slips(Course::BackUp)), (&down, slips(Course::BackDown))] {
         assert!(ahead.iter().zip(&back).all(|(one, other)| (one - other).abs() < 0.02));
     }
@@ -525,7 +533,8 @@ fn straight_up_and_down_slip_as_runs_do() {
     }
 }
 
-/// To set the nose a rover had better go on, with its uphill wheels slower: against each other they dig.
+/// To set the nose a rover had better go on, with its uphill wheels slower: against each other they
+/// dig.
 #[test]
 fn turning_on_the_way_slips_less_than_on_the_spot() {
     let courses = courses(&[4.0, 10.0]);

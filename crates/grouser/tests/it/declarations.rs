@@ -1,5 +1,5 @@
-//! A number of a document is declared once, as a row of a table in `document/describe`; a result once, as a
-//! column in `document/columns`.
+//! A number of a document is declared once, as a row of a table in `document/describe`; a result
+//! once, as a column in `document/columns`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -22,7 +22,8 @@ const DIFFERENT_NUMBERS: [(&str, usize); 11] = [
     // Of the body, and of a wheel with its motor.
     ("mass_kg", 2),
     ("inertia_kg_m2", 2),
-    // Of a wheel, a stand or a scenario, and the range that a soil's constants were fitted to; of an arc.
+    // Of a wheel, a stand or a scenario, and the range that a soil's constants were fitted to; of
+    // an arc.
     ("radius_m", 3),
     ("width_m", 2),
     ("load_n", 2),
@@ -95,8 +96,8 @@ fn a_number_of_a_document_has_one_row() {
     assert_eq!(several, DIFFERENT_NUMBERS.into_iter().collect());
 }
 
-/// What is read from a document goes from its row into the domain's value, whose fields are in SI and name
-/// no unit: a type with such a field that is read would declare the number again.
+/// What is read from a document goes from its row into the domain's value, whose fields are in SI
+/// and name no unit: a type with such a field that is read would declare the number again.
 #[test]
 fn no_type_that_is_read_repeats_a_key_with_its_unit() {
     let keys = keys();
@@ -123,8 +124,8 @@ fn no_type_that_is_read_repeats_a_key_with_its_unit() {
     assert!(repeated.is_empty(), "\n{}\n", repeated.join("\n"));
 }
 
-/// Results that have the name of a document's key, such as a slope: the key has its row, and options and
-/// settings repeat it.
+/// Results that have the name of a document's key, such as a slope: the key has its row, and
+/// options and settings repeat it.
 fn is_a_key_too(name: &str) -> bool {
     keys().contains(name)
 }
@@ -210,7 +211,8 @@ fn a_result_has_one_column() {
     assert!(idle.is_empty(), "nothing to excuse: {idle:?}");
 }
 
-/// The unit of a column is that of its name's end, so that a reader of the name converts as the library does.
+/// The unit of a column is that of its name's end, so that a reader of the name converts as the
+/// library does.
 #[test]
 fn a_column_has_the_unit_of_its_name() {
     fn check<R>(columns: &[Column<R>]) {

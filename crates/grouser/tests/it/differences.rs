@@ -127,8 +127,8 @@ fn a_difference_changes_what_it_says() {
 const SCATTER: SoilScatter =
     SoilScatter { friction_angle: 1.0, stiffness: 1.0, correlation_length: 0.3 };
 
-/// Moments of a field over its realisations: both are standard normal, correlated by exp(−d²/ℓ²) in every direction,
-/// and not with each other.
+/// Moments of a field over its realisations: both are standard normal, correlated by exp(−d²/ℓ²) in
+/// every direction, and not with each other.
 #[test]
 fn a_field_is_normal_and_correlated_as_stated() {
     const SEEDS: u64 = 20_000;
@@ -245,8 +245,8 @@ fn lost_yaw_scatters_about_as_an_independent_estimate_has_it() {
     assert_eq!(found, plan.run(&mut |_| ()).expect("it runs"));
 }
 
-/// Steps that know how the ground differs from place to place keep their order: a run at the usual tolerance is that
-/// of a finer one, and of an integrator that knows of no Jacobian.
+/// Steps that know how the ground differs from place to place keep their order: a run at the usual
+/// tolerance is that of a finer one, and of an integrator that knows of no Jacobian.
 #[test]
 fn a_scattered_run_is_that_of_finer_and_of_simpler_steps() {
     let soil = SoilScatter { friction_angle: deg(2.0), stiffness: 0.2, correlation_length: 0.1 };
@@ -269,8 +269,8 @@ fn a_scattered_run_is_that_of_finer_and_of_simpler_steps() {
     assert!(steps < 400, "{steps}");
 }
 
-/// The runs of a point of a design for sensitivities share its bed, or the total index of every input would have the
-/// scatter in it.
+/// The runs of a point of a design for sensitivities share its bed, or the total index of every
+/// input would have the scatter in it.
 #[test]
 fn a_design_for_sensitivities_scatters_from_point_to_point() {
     let spread = "sensitivity = true\n[scenario]\nduration_s = 3\n[scenario.scatter]\nstiffness_std = 0.3\n\

@@ -121,8 +121,8 @@ fn a_wheel_without_load_or_at_rest_has_no_discrepancy() {
     }
 }
 
-/// Through rest, through locking, and past a rim and a hub that oppose each other: a thousandth of a
-/// speed moves no force by more than a hundredth of the load.
+/// Through rest, through locking, and past a rim and a hub that oppose each other: a thousandth of
+/// a speed moves no force by more than a hundredth of the load.
 #[test]
 fn what_a_discrepancy_adds_never_jumps() {
     let added = |motion: (f64, f64, f64)| {
@@ -196,8 +196,8 @@ fn every_way_to_a_reaction_has_the_discrepancy() {
     assert!((stepped.torque - one.forces.torque).abs() < 1e-6 * LOAD);
 }
 
-/// A wheel that settles near its own answer needs no more than one that has no discrepancy: a guess is a
-/// sinkage as answers have it.
+/// A wheel that settles near its own answer needs no more than one that has no discrepancy: a guess
+/// is a sinkage as answers have it.
 #[test]
 fn a_guess_has_the_discrepancy_of_an_answer() {
     let deep = Discrepancy { sinkage: [1.5; VALUES], ..Discrepancy::NONE };
@@ -264,8 +264,8 @@ fn samples_may_hold_a_discrepancy() {
     assert_eq!(found, expected);
 }
 
-/// What a calibration found wrong with one model is not what another gets wrong: samples of others have
-/// what any model may miss.
+/// What a calibration found wrong with one model is not what another gets wrong: samples of others
+/// have what any model may miss.
 #[test]
 fn a_discrepancy_goes_with_the_model_that_it_was_found_with() {
     let text = document::preset(Kind::Soil, "toyoura").expect("a preset").text;

@@ -177,8 +177,8 @@ fn reference_soil(case: &str) -> Soil {
 /// All equal; the moduli to the last but one bit, which is how well the JSON is read here.
 fn check_constants(soil: &Soil, reference: &Soil) {
     let pressure_sinkage = reference.pressure_sinkage;
-    // The reference has no bound of the shear stresses, no small-wheel model and tan φ under a wheel, and what a preset states
-    // of its domain is no constant.
+    // The reference has no bound of the shear stresses, no small-wheel model and tan φ under a
+    // wheel, and what a preset states of its domain is no constant.
     let Soil { shear_bound, domain, small_wheel, constant_volume_share, .. } = *reference;
     let soil_there =
         Soil { pressure_sinkage, shear_bound, domain, small_wheel, constant_volume_share, ..*soil };
@@ -354,7 +354,8 @@ fn the_yaw_over_time_has_keys() {
     assert_eq!(yaw.points[1], (10.0, deg(2.0)));
 }
 
-/// What the source does not say otherwise resists within its friction; the paper's law keeps its answers.
+/// What the source does not say otherwise resists within its friction; the paper's law keeps its
+/// answers.
 #[test]
 fn presets_but_toyouras_and_the_fitted_ones_are_bounded() {
     for preset in document::presets(Kind::Soil) {
@@ -599,7 +600,8 @@ fn wrong_soils_say_what_where_and_how_to_mend_it() {
     }
 }
 
-/// A rover without a belly clearance has none, one with it another value of its own; both are written as they were read.
+/// A rover without a belly clearance has none, one with it another value of its own; both are
+/// written as they were read.
 #[test]
 fn a_rover_may_have_a_belly_clearance() {
     let source = Source::find(Kind::Rover, "hakuto").expect("a preset");

@@ -1,4 +1,5 @@
-//! Every run ends: a run that takes more than it may take ends with an error, and its records until then are kept.
+//! Every run ends: a run that takes more than it may take ends with an error, and its records until
+//! then are kept.
 
 use std::borrow::Cow;
 
@@ -20,7 +21,8 @@ fn scenario() -> Scenario {
     Scenario { duration: 2.0, ..loaded.expect("the preset is read").value }
 }
 
-/// Ground like springs, whose friction changes up and down within a billionth of the slip where the soil coheres.
+/// Ground like springs, whose friction changes up and down within a billionth of the slip where the
+/// soil coheres.
 struct Chattering;
 
 /// The cohesion from which on it does [Pa].

@@ -1,5 +1,5 @@
-//! What models have achieved, and the weights that follow: the law of stacking, the weights that are in force, and
-//! the bands of all models on the sets that come with the library.
+//! What models have achieved, and the weights that follow: the law of stacking, the weights that
+//! are in force, and the bands of all models on the sets that come with the library.
 
 use std::sync::LazyLock;
 
@@ -36,7 +36,8 @@ fn near(one: &Shares, other: &Shares, tolerance: f64) -> bool {
     one.iter().zip(other).all(|(one, other)| (one - other).abs() < tolerance)
 }
 
-/// Models that cannot be told apart share alike; one that alone is right has all but what shrinkage takes.
+/// Models that cannot be told apart share alike; one that alone is right has all but what shrinkage
+/// takes.
 #[test]
 fn stacking_has_its_limits() {
     let alike = set("a", AnswerKind::Pull, Question::Along, [0.1; 4]);
@@ -58,7 +59,8 @@ fn no_kind_rules_by_its_number_of_points() {
     assert!(near(&few, &many, 1e-9) && (few[0] - few[2]).abs() < 1e-3, "{few:?} {many:?}");
 }
 
-/// Where it is not asked a model neither gains nor loses: Bekker's closed form knows no force across a wheel.
+/// Where it is not asked a model neither gains nor loses: Bekker's closed form knows no force
+/// across a wheel.
 #[test]
 fn a_question_that_a_model_cannot_answer_tells_nothing_of_it() {
     let across = set("a", AnswerKind::SideForce, Question::Across, [0.0, 0.0, 9.0, 9.0]);
@@ -70,7 +72,8 @@ fn a_question_that_a_model_cannot_answer_tells_nothing_of_it() {
     assert!(answers(&Model::Bekker, Question::Along) && !answers(&Model::Bekker, Question::Across));
 }
 
-/// The shares that are in force are those of the evidence: whoever changes a model, a prior or a set finds them here.
+/// The shares that are in force are those of the evidence: whoever changes a model, a prior or a
+/// set finds them here.
 #[test]
 fn the_weights_are_those_of_the_evidence() {
     let open: Vec<&Evidence> = ALL.iter().filter(|it| it.in_sample.is_none()).collect();
@@ -85,7 +88,8 @@ fn the_weights_are_those_of_the_evidence() {
     }
 }
 
-/// The band of weights that were found without a set holds what was measured there, and the median is near.
+/// The band of weights that were found without a set holds what was measured there, and the median
+/// is near.
 #[test]
 fn bands_hold_sets_that_their_weights_have_not_seen() {
     let (mut numbers, mut held) = (0, 0);
@@ -106,7 +110,8 @@ fn bands_hold_sets_that_their_weights_have_not_seen() {
     assert!(share > 0.9, "{share}");
 }
 
-/// The card's own physics on the paper's sand: the mean yaws of the measured runs, which chose no weight.
+/// The card's own physics on the paper's sand: the mean yaws of the measured runs, which chose no
+/// weight.
 #[test]
 fn headings_of_hakuto_are_near_those_that_were_measured() {
     let set = ALL.iter().find(|it| it.case == "contour").expect("the paper's runs");

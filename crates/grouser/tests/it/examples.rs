@@ -45,7 +45,8 @@ fn a_heading_offset_keeps_a_run_nearly_on_the_contour() {
     }
 }
 
-/// The dune is steepest 3 m from its top, 11.4°. The rover starts there and comes half round it, at its height.
+/// The dune is steepest 3 m from its top, 11.4°. The rover starts there and comes half round it, at
+/// its height.
 #[test]
 fn a_rover_drives_along_the_contour_of_ground_of_your_own() {
     own_ground::main().expect("it runs");
@@ -53,13 +54,15 @@ fn a_rover_drives_along_the_contour_of_ground_of_your_own() {
     assert_eq!(report.trajectory.outcome, Outcome::Completed);
     for record in &report.trajectory.records {
         let off = record.place().norm() - 3.0;
-        // Until the heading offset that the slope asks for is learnt: 7.6 cm of map, 1.5 cm of height.
+        // Until the heading offset that the slope asks for is learnt: 7.6 cm of map, 1.5 cm of
+        // height.
         assert!(off.abs() < 0.08, "{off} m off the contour at {} s", record.time);
     }
     assert!(report.trajectory.last().place().y > 2.8, "{}", report.trajectory.last().place());
 }
 
-/// The closed form is that of the steady motion on the contour; on gentle slopes the drive from rest keeps to it.
+/// The closed form is that of the steady motion on the contour; on gentle slopes the drive from
+/// rest keeps to it.
 #[test]
 fn a_model_of_your_own_has_the_heading_of_its_closed_form() {
     own_model::main().expect("it runs");
@@ -79,9 +82,9 @@ fn a_model_of_your_own_has_the_heading_of_its_closed_form() {
     assert!(end.x > 0.9 && end.y.abs() < 1e-3, "{end}");
 }
 
-/// A larger steering angle gives a smaller circle. Without slip it would be that of a bicycle whose rear axle is half-way
-/// between the middle and the rear wheels, 0.6 m/tan δ; four wheels that cannot be steered make it two to three times as
-/// wide.
+/// A larger steering angle gives a smaller circle. Without slip it would be that of a bicycle whose
+/// rear axle is half-way between the middle and the rear wheels, 0.6 m/tan δ; four wheels that
+/// cannot be steered make it two to three times as wide.
 #[test]
 fn a_rover_of_your_own_drives_a_circle() {
     own_rover::main().expect("it runs");

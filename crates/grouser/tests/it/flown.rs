@@ -1,4 +1,5 @@
-//! Presets of rovers that flew, or were to: their numbers go together, and estimates are those of the library.
+//! Presets of rovers that flew, or were to: their numbers go together, and estimates are those of
+//! the library.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -15,8 +16,8 @@ use grouser::vehicle::estimate::{self, Sizes};
 use grouser::vehicle::load::wheel_loads;
 use grouser::vehicle::{Inertia, LoadSharing};
 
-/// Name, published mass of all [kg], number of wheels, height of the centre of mass [m], box of the body [m], soil of
-/// its world, and that world's gravity.
+/// Name, published mass of all [kg], number of wheels, height of the centre of mass [m], box of the
+/// body [m], soil of its world, and that world's gravity.
 type Flown = (&'static str, f64, u32, f64, [f64; 3], &'static str, &'static str);
 
 const FLOWN: [Flown; 8] = [
@@ -75,7 +76,8 @@ fn the_wheels_carry_the_weight_and_as_much_on_the_left_as_on_the_right() {
     }
 }
 
-/// Inertias that their documents call those of boxes and cylinders are, to the four digits that are written.
+/// Inertias that their documents call those of boxes and cylinders are, to the four digits that are
+/// written.
 #[test]
 fn assumed_inertias_are_the_estimates_of_the_library() {
     for (name, .., size, _, _) in FLOWN {
@@ -121,7 +123,8 @@ fn sizes_are_those_of_the_presets_within_a_factor() {
                 - all.iter().fold(f64::MAX, |least, it| least.min(*it))
         };
         let count = u32::try_from(mounts.len()).expect("a few");
-        // The flight model of HAKUTO is as large as the heavier one, and the LRV's mass is mostly its load.
+        // The flight model of HAKUTO is as large as the heavier one, and the LRV's mass is mostly
+        // its load.
         let mass = match preset.name {
             "hakuto-flight" => 6.928,
             "lrv" => 210.0,
@@ -152,8 +155,8 @@ enum Seen {
     Limit(f64),
 }
 
-/// Rover, soil, world, and what was seen there. Beside `docs/validation.md`, *Rovers on Moon and Mars*, which has the
-/// sources.
+/// Rover, soil, world, and what was seen there. Beside `docs/validation.md`, *Rovers on Moon and
+/// Mars*, which has the sources.
 const SEEN: [(&str, &str, &str, &[Seen]); 5] = {
     use Seen::{Limit, Sinkage, Slip};
     [
@@ -165,7 +168,8 @@ const SEEN: [(&str, &str, &str, &[Seen]); 5] = {
     ]
 };
 
-/// What was seen on Moon and Mars beside the bands of the ready soils: `--nocapture` prints the table.
+/// What was seen on Moon and Mars beside the bands of the ready soils: `--nocapture` prints the
+/// table.
 #[test]
 fn bands_hold_what_was_seen_on_moon_and_mars() {
     const SLOPES: [f64; 3] = [0.5, 8.9, 16.0];

@@ -1,5 +1,5 @@
-//! Forecasts under another gravity: the error budget adds up, a choice that is made takes its part away, and what is
-//! known to be so comes out so.
+//! Forecasts under another gravity: the error budget adds up, a choice that is made takes its part
+//! away, and what is known to be so comes out so.
 
 use std::sync::LazyLock;
 
@@ -196,8 +196,9 @@ fn a_soil_that_is_exact_has_no_part_in_the_budget() {
     assert!(has("gravity-scaling") && has("model") && !has("soil-parameters") && !has("ground"));
 }
 
-/// Without cohesion the unit weight and granular scaling are one, and the forecast of both is the test of the same
-/// rover on Earth; a lightened rover shows something else, and so do constants that are kept.
+/// Without cohesion the unit weight and granular scaling are one, and the forecast of both is the
+/// test of the same rover on Earth; a lightened rover shows something else, and so do constants
+/// that are kept.
 #[test]
 fn a_test_of_the_same_rover_on_sand_without_cohesion_is_the_forecast() {
     let scenario = scenario(&[UNCERTAIN]);
@@ -282,7 +283,8 @@ fn cases_without_a_heading_are_counted() {
     assert!(of.map(|row| shares[row]).all(|share| share.is_none()));
 }
 
-/// The ground of a site has the strength and density of its soil, and the moduli of the one that was measured.
+/// The ground of a site has the strength and density of its soil, and the moduli of the one that
+/// was measured.
 #[test]
 fn a_stronger_ground_is_steeper_and_slips_less() {
     let scenario = scenario(&[UNCERTAIN]);

@@ -1,4 +1,5 @@
-//! Friction under a wheel: which part of a soil's friction angle a wheel mobilises, and which models have it.
+//! Friction under a wheel: which part of a soil's friction angle a wheel mobilises, and which
+//! models have it.
 
 use grouser::contact::{Contact, Model, Slip, coulomb_cone, settle};
 use grouser::document::{Kind, Overrides, Source, presets, read_rover, read_soil, read_wheel};
@@ -76,8 +77,8 @@ fn fitted_soils_keep_their_friction() {
     }
 }
 
-/// The table of the chapter: the stresses of two models have it, a closed form and an intrusion law have not, and
-/// the ground's own bound has φ.
+/// The table of the chapter: the stresses of two models have it, a closed form and an intrusion law
+/// have not, and the ground's own bound has φ.
 #[test]
 fn models_have_it_as_the_chapter_says() {
     let source = Source::find(Kind::Wheel, "viper-engineering").expect("a preset");
@@ -101,7 +102,8 @@ fn models_have_it_as_the_chapter_says() {
     }
 }
 
-/// On every soil that comes with the program some ready rover drives on level ground, in some gravity.
+/// On every soil that comes with the program some ready rover drives on level ground, in some
+/// gravity.
 #[test]
 fn on_each_ready_soil_some_rover_moves() {
     let rovers: Vec<_> = presets(Kind::Rover)

@@ -1,4 +1,5 @@
-//! What the tests are given: the source paper's rover, wheel and soil, and strategies for any other.
+//! What the tests are given: the source paper's rover, wheel and soil, and strategies for any
+//! other.
 
 use std::f64::consts::FRAC_PI_2;
 

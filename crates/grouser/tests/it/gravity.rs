@@ -1,6 +1,7 @@
-//! Granular scaling (Slonaker et al. 2017): in sand without cohesion that knows no rate, gravity times q, lengths
-//! times r, masses times s and rim speeds times √(q r) change power by q^(3/2) r^(1/2) s and speeds by √(q r), and no
-//! slip. And what of it is left where constants are carried to another gravity in other ways.
+//! Granular scaling (Slonaker et al. 2017): in sand without cohesion that knows no rate, gravity
+//! times q, lengths times r, masses times s and rim speeds times √(q r) change power by q^(3/2)
+//! r^(1/2) s and speeds by √(q r), and no slip. And what of it is left where constants are carried
+//! to another gravity in other ways.
 //!
 //! `laws.rs` has it for one wheel of the source paper's model; here are all models, and the rover.
 
@@ -130,13 +131,15 @@ fn near(one: f64, other: f64, size: f64) -> bool {
     (one - other).abs() <= WITHIN * size
 }
 
-/// The same of a motion at a speed. Resistive force theory takes every wheel to sink by a creep of 1 µm/s, which is a
-/// share of 3e-6 of the slowest rims here, and no scaling law's; torque multiplies it by ten.
+/// The same of a motion at a speed. Resistive force theory takes every wheel to sink by a creep of
+/// 1 µm/s, which is a share of 3e-6 of the slowest rims here, and no scaling law's; torque
+/// multiplies it by ten.
 fn within(model: &Model) -> f64 {
     if *model == Model::Rft { 1e-4 } else { WITHIN }
 }
 
-/// One wheel under a load, here and scaled: every force over its load, torque over load times radius.
+/// One wheel under a load, here and scaled: every force over its load, torque over load times
+/// radius.
 fn check_wheel(
     model: &Model,
     contact: &Contact,
@@ -262,15 +265,15 @@ fn a_rover_in_weighing_sand_holds_the_contour_by_one_heading_under_any_gravity_a
     }
 }
 
-/// Rim speed [m/s]. Far from the creep of 1 µm/s that keeps slip finite at rest and knows no scaling: at a hundredth
-/// of a metre per second it changes a slip ratio by more than [`WITHIN`].
+/// Rim speed [m/s]. Far from the creep of 1 µm/s that keeps slip finite at rest and knows no
+/// scaling: at a hundredth of a metre per second it changes a slip ratio by more than [`WITHIN`].
 const RIM_SPEED: f64 = 3.0;
 
 /// Power ΣT ω and speed of a rover that settles into a motion, while nobody holds its heading.
 fn moved(study: &HeadingStudy, yaw: f64, rim_speed: f64) -> (SteadyMotion, f64) {
     let slope = deg(8.0);
-    // A search ends within 1e-7 of the rims' speed. One that comes from less and less far away ends much nearer, as
-    // every step of it leaves a small share of the way.
+    // A search ends within 1e-7 of the rims' speed. One that comes from less and less far away ends
+    // much nearer, as every step of it leaves a small share of the way.
     const FROM: [f64; 8] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-5, 2e-6, 1e-6, 0.0];
     let first = study.steady_motion(slope, yaw, rim_speed).expect("it settles");
     let motion = FROM.into_iter().fold(first, |motion, away| {
@@ -419,7 +422,8 @@ fn at_home_every_choice_leaves_the_soil_as_it_is() {
     assert_eq!(given::toyoura().rft, Rft::PUBLISHED);
 }
 
-/// Cohesion is worth more where the weight is less: a rover slips less by unit weight than by granular scaling.
+/// Cohesion is worth more where the weight is less: a rover slips less by unit weight than by
+/// granular scaling.
 #[test]
 fn cohesion_helps_more_on_the_moon() {
     let soil = Soil { cohesion: 200.0, ..given::toyoura() };

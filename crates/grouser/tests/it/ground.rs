@@ -1,5 +1,5 @@
-//! The ground's own strength: slopes that it holds, what it resists under a wheel, and the experiment's
-//! second, untuned test.
+//! The ground's own strength: slopes that it holds, what it resists under a wheel, and the
+//! experiment's second, untuned test.
 
 use grouser::contact::{Contact, Ishigami, Model, Slip, WheelSoilModel, coulomb};
 use grouser::document::{self, Kind, Overrides, Source, experiment};
@@ -40,7 +40,8 @@ fn study(soil: Soil, model: Model, gravity: f64) -> HeadingStudy {
 
 // ---- slopes ----
 
-/// theory-2, section 11.6: contour traverses were found on 39.7° of sand whose friction angle is 29°.
+/// theory-2, section 11.6: contour traverses were found on 39.7° of sand whose friction angle is
+/// 29°.
 #[test]
 fn no_slope_limit_is_above_what_the_ground_holds() {
     let places: Vec<_> = preset_soils()
@@ -77,8 +78,8 @@ fn no_slope_limit_is_above_what_the_ground_holds() {
     }
 }
 
-/// A rover that goes straight downhill brakes on any slope; sand of 38° holds 31.0° with a factor of
-/// safety of 1.3, and 38° with one of 1.
+/// A rover that goes straight downhill brakes on any slope; sand of 38° holds 31.0° with a factor
+/// of safety of 1.3, and 38° with one of 1.
 #[test]
 fn downhill_the_ground_ends_the_curve() {
     let study = study(given::toyoura(), Model::Ishigami, EARTH_GRAVITY);
@@ -129,7 +130,8 @@ fn bounded(soil: Soil) -> Soil {
 }
 
 proptest! {
-    /// The resultant of the shear stresses stays within the soil's strength, at every point of the rim.
+    /// The resultant of the shear stresses stays within the soil's strength, at every point of the
+    /// rim.
     #[test]
     fn bounded_shear_stays_within_the_strength(
         soil in given::any_soil(),
@@ -169,8 +171,8 @@ proptest! {
         }
     }
 
-    /// Whatever its motion, a wheel gets no more from the ground than friction, cohesion and a wedge. (The
-    /// small-wheel model piles soil up, and has a bound of its own.)
+    /// Whatever its motion, a wheel gets no more from the ground than friction, cohesion and a
+    /// wedge. (The small-wheel model piles soil up, and has a bound of its own.)
     #[test]
     fn a_wheels_horizontal_force_stays_within_what_the_ground_resists(
         soil in given::any_soil(),
@@ -189,7 +191,8 @@ proptest! {
     }
 }
 
-/// theory-2, section 11.6: the anisotropic law lets a locked wheel resist 1.35 W where tan φ = 0.78.
+/// theory-2, section 11.6: the anisotropic law lets a locked wheel resist 1.35 W where tan φ =
+/// 0.78.
 #[test]
 fn a_locked_wheel_resists_within_its_soils_friction() {
     let most = |soil: Soil| {
@@ -208,7 +211,8 @@ fn a_locked_wheel_resists_within_its_soils_friction() {
     assert!(with_bound > friction && with_bound < friction * 1.08, "{with_bound}");
 }
 
-/// The steepest slope on which a rover with locked wheels stays, nose along or against the slope [rad].
+/// The steepest slope on which a rover with locked wheels stays, nose along or against the slope
+/// [rad].
 fn steepest_to_park_on(soil: Soil, model: &Model, yaw: f64) -> f64 {
     let stays = |slope: f64| {
         let parked = Scenario {
@@ -230,8 +234,9 @@ fn steepest_to_park_on(soil: Soil, model: &Model, yaw: f64) -> f64 {
     low
 }
 
-/// Today's presets without cohesion, and sand of the paper: a parked rover slides between the friction
-/// that its wheels mobilise and its soil's friction angle, where no wedge lies safe below it any more.
+/// Today's presets without cohesion, and sand of the paper: a parked rover slides between the
+/// friction that its wheels mobilise and its soil's friction angle, where no wedge lies safe below
+/// it any more.
 #[test]
 fn a_parked_rover_on_sand_slides_at_about_the_friction_angle() {
     let sands = preset_soils()
@@ -325,8 +330,8 @@ fn isotropic_shear_has_the_same_stresses_with_the_bound() {
 
 // ---- complete load transfer ----
 
-/// Source: theory-2, section 12, first row: 20 s from the measured starts lose 0.55, 1.30, 2.49 and 6.05°
-/// of yaw with the complete wrench of the wheels.
+/// Source: theory-2, section 12, first row: 20 s from the measured starts lose 0.55, 1.30, 2.49 and
+/// 6.05° of yaw with the complete wrench of the wheels.
 #[test]
 fn the_complete_load_transfer_loses_the_yaw_of_the_independent_computation() {
     for (measured, lost) in experiment::table_4().iter().zip([0.55, 1.30, 2.49, 6.05]) {
@@ -367,8 +372,8 @@ fn at_measured_yaw(measured: &MeasuredTraverse) -> Scenario {
     held(points, traverse(measured.slope, 0.0))
 }
 
-/// Source: theory-2, section 11.3: at the measured yaw, linear over 20 s, the rover drifts by −4, −14, −10
-/// and −45 mm. [FourWheel], Table 4, prints 3, 13, 11 and 28 mm without a sign.
+/// Source: theory-2, section 11.3: at the measured yaw, linear over 20 s, the rover drifts by −4,
+/// −14, −10 and −45 mm. [FourWheel], Table 4, prints 3, 13, 11 and 28 mm without a sign.
 #[test]
 fn the_drift_at_the_measured_yaw_is_that_of_the_independent_computation() {
     for (measured, drift) in experiment::table_4().iter().zip([-4.0, -14.0, -10.0, -45.0]) {
@@ -378,8 +383,8 @@ fn the_drift_at_the_measured_yaw_is_that_of_the_independent_computation() {
     }
 }
 
-/// The heading offset leaves a yaw moment over. Held against it the rover stays on the contour, whatever
-/// the load transfer.
+/// The heading offset leaves a yaw moment over. Held against it the rover stays on the contour,
+/// whatever the load transfer.
 #[test]
 fn a_rover_held_at_its_heading_offset_holds_the_contour() {
     for (sharing, own_moments) in [
@@ -405,7 +410,8 @@ fn a_run_at_its_own_yaw_is_itself() {
     let same = run(&held(points, free));
     for (one, other) in path.records.iter().zip(&same.records).skip(1) {
         let apart = (one.state.position - other.state.position).norm();
-        // The yaw between samples is a chord: the way differs by less than a twentieth of a millimetre.
+        // The yaw between samples is a chord: the way differs by less than a twentieth of a
+        // millimetre.
         assert!(apart < 5e-5, "{apart} m at {} s", one.time);
     }
 }

@@ -53,7 +53,8 @@ fn a_rover_that_drives_down_10_degrees_has_a_heading_there() {
     assert_eq!(curve.limited_by(), Some(LimitedBy::GroundStrength));
 }
 
-/// Pull falls again at high slip: level ground has two balances, and a drive has the one with little slip.
+/// Pull falls again at high slip: level ground has two balances, and a drive has the one with
+/// little slip.
 #[test]
 fn level_ground_has_the_balance_with_the_least_slip() {
     let curve = curve("rashid", "dry-sand", EARTH_GRAVITY, 0.0);
@@ -109,7 +110,8 @@ struct Counts {
     slides: usize,
     /// The drive tips over.
     tips: usize,
-    /// The drive settles on another balance that the same yaw has: it climbs more steeply, with less slip.
+    /// The drive settles on another balance that the same yaw has: it climbs more steeply, with
+    /// less slip.
     steeper: usize,
     /// The drive does not keep its course.
     differ: usize,
@@ -153,7 +155,8 @@ fn compare(rover: &str, soil: &str, gravity: f64, course_deg: f64) -> Counts {
     if counts.ground == 0 {
         // By any yaw near those that were held last.
         let last = curve.at(limit - deg(0.01)).map_or(heading.yaw, |it| it.yaw);
-        // Wheels that spin on the spot creep straight up where the rear mound pushes: that is no climb.
+        // Wheels that spin on the spot creep straight up where the rear mound pushes: that is no
+        // climb.
         let climbs = |way: Vec2| way.x.hypot(way.y) > 0.1 * RIM_SPEED * LOOK;
         let holds = |off: &f64| {
             let driven = end_of_drive(&scenario, limit + deg(1.0), last + deg(*off));
@@ -192,8 +195,8 @@ fn count(triples: &[(&str, &str, f64)]) -> Counts {
     })
 }
 
-/// Drives that differ are runs whose wheel loads did not settle, on slopes above 40°; where nothing was found it is for the
-/// same reason.
+/// Drives that differ are runs whose wheel loads did not settle, on slopes above 40°; where nothing
+/// was found it is for the same reason.
 fn check_counts(counts: &Counts) {
     println!("{counts:?}");
     assert!(counts.not_found * 50 <= counts.curves, "{counts:?}");
@@ -234,7 +237,8 @@ fn level_ground_needs_less_slip_than_any_slope_uphill() {
     });
 }
 
-/// Where pull is not monotone in skid, a rover that goes down a slope gets faster until its wheels skid enough.
+/// Where pull is not monotone in skid, a rover that goes down a slope gets faster until its wheels
+/// skid enough.
 #[test]
 fn a_fold_in_skid_does_not_end_the_way_down() {
     let curve = curve("yutu-2", "fjs-1-loose", MOON_GRAVITY, -90.0);
@@ -314,7 +318,8 @@ fn jumps(curve: &HeadingCurve) -> Vec<String> {
     (0..SLOPES).filter(is_jump).map(|place| format!("{:.2}°", at(place).to_degrees())).collect()
 }
 
-/// So many curves of random rovers, soils, gravities and courses: where slip jumps, and on how many.
+/// So many curves of random rovers, soils, gravities and courses: where slip jumps, and on how
+/// many.
 fn check_continuity(count: u32) {
     let all = triples();
     let found = (0..count).into_par_iter().filter(|index| {
@@ -332,7 +337,8 @@ fn check_continuity(count: u32) {
     assert!(found * 20 <= count as usize, "{found} of {count}");
 }
 
-/// Pull is not monotone everywhere in skid: where it folds, slip jumps to the next balance, as that of a drive does.
+/// Pull is not monotone everywhere in skid: where it folds, slip jumps to the next balance, as that
+/// of a drive does.
 #[test]
 fn slip_is_continuous_in_slope_but_for_few_folds() {
     check_continuity(60);

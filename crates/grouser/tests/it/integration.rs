@@ -107,7 +107,8 @@ fn rovers_under_changing_commands_end_where_a_finer_integration_ends() {
     }
 }
 
-/// With a tolerance of 1e-9, a thousand times as small. Measured: 9e-12 m and less, 8e-11 in a spot turn.
+/// With a tolerance of 1e-9, a thousand times as small. Measured: 9e-12 m and less, 8e-11 in a spot
+/// turn.
 #[test]
 fn a_smaller_tolerance_leads_nearer() {
     for (name, scenario) in runs() {

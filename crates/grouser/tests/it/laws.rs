@@ -297,9 +297,9 @@ proptest! {
     #![proptest_config(cases(2000))]
 
     /// In sand that recovers no more than it was pressed, at any slip angle: driving wheels down to
-    /// the axle, braked and locked ones to 0.4 of the radius (deeper, strong sand pulls the front of
-    /// a locked wheel down by more than it carries). Cohesion breaks the law for shallow wheels: it
-    /// shears also where there is hardly any pressure, and behind the hub it pulls down.
+    /// the axle, braked and locked ones to 0.4 of the radius (deeper, strong sand pulls the front
+    /// of a locked wheel down by more than it carries). Cohesion breaks the law for shallow wheels:
+    /// it shears also where there is hardly any pressure, and behind the hub it pulls down.
     #[test]
     fn deeper_carries_more_in_sand(
         soil in given::any_sand(), wheel in given::any_wheel(), s in -1.0..1.0,
@@ -807,7 +807,8 @@ proptest! {
         scaled_alike(&soil, (&contact, depth), scaling, scaling.r, scaling.r)?;
     }
 
-    /// Source: theory, section 7.5: with a width of its own (times s/r²) if n = 1 and no flank counts.
+    /// Source: theory, section 7.5: with a width of its own (times s/r²) if n = 1 and no flank
+    /// counts.
     #[test]
     fn at_exponent_one_and_without_a_flank_the_width_is_free(
         (soil, contact, depth) in any_weighing_sand(), scaling in any_scaling(),
@@ -882,10 +883,10 @@ proptest! {
         check_quadrature(&given::on_stand(soil, wheel, s, beta), depth, 1e-6)?;
     }
 
-    /// Where the rim skids, stress turns within a few K of the point at which it does, and isotropic
-    /// shear turns as sharply under the hub where slip ratio and angle are below a hundredth.
-    /// Measured: 99 % below 2e-7, 99.9 % below 1e-5; the worst of 1e5 were 7e-5 under wheels of
-    /// 30 cm and 1e-3 under wheels of 1 m that nearly roll.
+    /// Where the rim skids, stress turns within a few K of the point at which it does, and
+    /// isotropic shear turns as sharply under the hub where slip ratio and angle are below a
+    /// hundredth. Measured: 99 % below 2e-7, 99.9 % below 1e-5; the worst of 1e5 were 7e-5 under
+    /// wheels of 30 cm and 1e-3 under wheels of 1 m that nearly roll.
     #[test]
     fn sixteen_nodes_integrate_any_motion_to_a_few_thousandths_of_the_load_at_worst(
         (soil, wheel) in (given::any_soil(), given::any_wheel()),

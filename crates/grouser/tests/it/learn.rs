@@ -60,8 +60,9 @@ fn on_a_plane(trial: Trial<'_>) -> Trial<'_> {
     Trial { uneven: false, ..trial }
 }
 
-/// Six hidden soils of the prior, on even ground: slip and yaw of the next slope lie within the bands, but for one of either
-/// at most, and the error of the heading is less than two thirds of what it was: over many soils it is a third.
+/// Six hidden soils of the prior, on even ground: slip and yaw of the next slope lie within the
+/// bands, but for one of either at most, and the error of the heading is less than two thirds of
+/// what it was: over many soils it is a third.
 #[test]
 fn bands_hold_one_slope_ahead() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
@@ -82,7 +83,8 @@ fn bands_hold_under_another_theory() {
     assert!(held(&answers).into_iter().all(|held| 4.0 * held > 2.5), "{answers:?}");
 }
 
-/// Shear moduli that are off by half: after two metres of the wheels' way the heading is off by less than half as much.
+/// Shear moduli that are off by half: after two metres of the wheels' way the heading is off by
+/// less than half as much.
 #[test]
 fn the_heading_is_learnt_within_two_metres() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
@@ -91,7 +93,8 @@ fn the_heading_is_learnt_within_two_metres() {
     assert!(errors.len() == 2 && sums[1] < 0.5 * sums[0], "{errors:?}");
 }
 
-/// A learner that is copied half-way goes on as the one it was copied from: what it knows is all in it.
+/// A learner that is copied half-way goes on as the one it was copied from: what it knows is all in
+/// it.
 #[test]
 fn a_copy_goes_on_where_it_was() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
@@ -134,7 +137,8 @@ fn the_order_of_columns_does_not_matter() {
     assert_eq!(learnt(&table), learnt(&table.lines().map(turned).collect::<String>()));
 }
 
-/// Wheel speeds that are read once a second, beside ten readings a second of the rest, make stretches of the same way.
+/// Wheel speeds that are read once a second, beside ten readings a second of the rest, make
+/// stretches of the same way.
 #[test]
 fn wheel_speeds_that_are_read_seldom_hold_until_the_next() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
@@ -155,7 +159,8 @@ fn wheel_speeds_that_are_read_seldom_hold_until_the_next() {
     assert!(seldom.stretches + 2 > all.stretches, "{all:?} {seldom:?}");
 }
 
-/// Up a slope that steepens, and on soil that is weaker ahead, until the rover stands: called 5 s and 0.3 m ahead, and more.
+/// Up a slope that steepens, and on soil that is weaker ahead, until the rover stands: called 5 s
+/// and 0.3 m ahead, and more.
 #[test]
 fn entrapment_is_called_ahead() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
@@ -168,7 +173,8 @@ fn entrapment_is_called_ahead() {
     }
 }
 
-/// Onto sand in which wheels slip more: flagged within half a metre of the wheels' way, and nothing before.
+/// Onto sand in which wheels slip more: flagged within half a metre of the wheels' way, and nothing
+/// before.
 #[test]
 fn another_soil_is_flagged() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
@@ -179,8 +185,8 @@ fn another_soil_is_flagged() {
     assert!(matter.iter().all(|it| is_in_time(it)), "{all:?}");
 }
 
-/// On one soil, level and across slopes, nothing is warned of: neither on even ground nor where it leans and is stronger
-/// here than there.
+/// On one soil, level and across slopes, nothing is warned of: neither on even ground nor where it
+/// leans and is stronger here than there.
 #[test]
 fn nothing_is_warned_of_on_one_soil() {
     let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);

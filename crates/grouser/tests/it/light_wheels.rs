@@ -46,8 +46,8 @@ fn without_tension(soil: &Soil, forces: &WheelForces) -> f64 {
 proptest! {
     #![proptest_config(given::cases(2000))]
 
-    /// Friction of what the wheel carries, cohesion over its contact, and wedges of soil ahead and at one side.
-    /// Cohesion counts as far as the wheel's pressure keeps the soil from tension.
+    /// Friction of what the wheel carries, cohesion over its contact, and wedges of soil ahead and
+    /// at one side. Cohesion counts as far as the wheel's pressure keeps the soil from tension.
     #[test]
     fn no_wheel_is_held_by_more_than_friction_cohesion_and_wedges(
         contact in any_forward_contact(),
@@ -65,8 +65,9 @@ proptest! {
         }
     }
 
-    /// A wheel that has hardly sunk carries more the deeper it sinks, whatever its motion and however cohesive the
-    /// soil: so its load, however small, is carried at one sinkage, which vanishes with the load.
+    /// A wheel that has hardly sunk carries more the deeper it sinks, whatever its motion and
+    /// however cohesive the soil: so its load, however small, is carried at one sinkage, which
+    /// vanishes with the load.
     #[test]
     fn a_shallow_wheel_carries_more_the_deeper_it_sinks(
         contact in any_forward_contact(),
@@ -93,8 +94,8 @@ fn preset_soil(name: &str) -> Soil {
     document::read_soil(&source, &Overrides::none()).expect("it is read").value
 }
 
-/// On every soil of ours, with every model: of a ten-thousandth of its ordinary load a wheel keeps no more than a
-/// fifth of its sinkage, and of its ordinary bound a fiftieth.
+/// On every soil of ours, with every model: of a ten-thousandth of its ordinary load a wheel keeps
+/// no more than a fifth of its sinkage, and of its ordinary bound a fiftieth.
 #[test]
 fn sinkage_and_force_vanish_with_the_load() {
     const DECADES: i32 = 4;
@@ -140,7 +141,8 @@ fn a_locked_wheel_without_a_load_is_no_anchor() {
     let (sinkage, force) = locked_on_direct_90(0.022);
     assert!(sinkage < 1e-3 && force < 0.1, "{sinkage} m, {force} N");
     let loads = [0.022, 0.22, 2.2, 22.0, 220.0].map(locked_on_direct_90);
-    // It was 20 times the load under 22 N. Source: wheels of Pavlov and Johnson (2022), up to 2.8 times.
+    // It was 20 times the load under 22 N. Source: wheels of Pavlov and Johnson (2022), up to 2.8
+    // times.
     assert!(loads[3].1 < 3.0 * 22.0, "{loads:?}");
     assert!(loads.is_sorted_by(|one, other| one.0 < other.0 && one.1 < other.1), "{loads:?}");
 }
@@ -159,8 +161,8 @@ fn pull_on_granite(shear_of: impl Fn(Shear) -> Shear, s: f64) -> f64 {
 
 const SINKAGE: f64 = 0.005;
 
-/// What braking by a slip of `s` takes from the pull, over √|s| [N]: between −√(2|s|) and √(2|s|) from straight
-/// down the isotropic stress turns round.
+/// What braking by a slip of `s` takes from the pull, over √|s| [N]: between −√(2|s|) and √(2|s|)
+/// from straight down the isotropic stress turns round.
 ///
 /// ```text
 /// −ΔF_x/√|s| → 4 √2 r b τ(0),   τ(0) = (c + σ tan φ)(1 − e^(−r (θ_f − sin θ_f)/K)) straight down
@@ -182,7 +184,8 @@ fn isotropic_shear_gives_the_pull_the_root_of_the_slip_from_below() {
     }
 }
 
-/// The anisotropic law has the sign of the displacement, which has grown since the entry: one slope.
+/// The anisotropic law has the sign of the displacement, which has grown since the entry: one
+/// slope.
 #[test]
 fn anisotropic_shear_gives_the_pull_one_slope_at_zero_slip() {
     let anisotropic = |shear| match shear {

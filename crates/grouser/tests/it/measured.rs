@@ -97,9 +97,9 @@ const FITTED: [&str; 9] = [
     "soil.small_wheel.exit.with_slip_angle",
 ];
 
-/// An independent fit, from general values, finds the shipped soil again: at twice the load of the tests
-/// both pull and sink alike. (Sixteen values once found two soils, equally good in the tests, that pulled
-/// differently by 20 to 40 % there.)
+/// An independent fit, from general values, finds the shipped soil again: at twice the load of the
+/// tests both pull and sink alike. (Sixteen values once found two soils, equally good in the tests,
+/// that pulled differently by 20 to 40 % there.)
 #[test]
 fn a_fit_from_other_starts_predicts_the_same_at_twice_the_load() {
     let general = [
@@ -256,7 +256,8 @@ fn the_notice_of_the_licence_goes_with_the_rows() {
     assert!(comments.join("\n").contains(notice.trim()), "{comments:?}");
 }
 
-/// A name is a data set of the program, else a file; a misspelt name is answered with the right one.
+/// A name is a data set of the program, else a file; a misspelt name is answered with the right
+/// one.
 #[test]
 fn a_name_finds_a_data_set_and_a_path_a_file() {
     let find = |name: &str| measurements::Source::find(Path::new(name));
@@ -353,10 +354,10 @@ fn published(place: usize, model: Model, settings: &[&str]) -> Group {
     study.run().overall
 }
 
-/// Source: theory notes, section 11.2, an independent implementation: without a fitted constant 3.2 N and
-/// 3.4 mm, 1.8 N and 6.0 mm. DIFFERENCE: the notes do not say how their points are averaged; ours are
-/// cells, of equal weight; 0.9 N and 0.3 mm are allowed. Their 24 N of the VIPER wheel was of one a tenth
-/// too large; with the right one ours has 28.7 N, which nobody else has computed.
+/// Source: theory notes, section 11.2, an independent implementation: without a fitted constant 3.2
+/// N and 3.4 mm, 1.8 N and 6.0 mm. DIFFERENCE: the notes do not say how their points are averaged;
+/// ours are cells, of equal weight; 0.9 N and 0.3 mm are allowed. Their 24 N of the VIPER wheel was
+/// of one a tenth too large; with the right one ours has 28.7 N, which nobody else has computed.
 #[test]
 fn rft_predicts_the_published_wheels_as_well_as_elsewhere() {
     for (place, pull, sinkage) in [(0, 3.2, Some(3.4)), (1, 1.8, Some(6.0)), (2, 28.7, None)] {
@@ -370,8 +371,9 @@ fn rft_predicts_the_published_wheels_as_well_as_elsewhere() {
     }
 }
 
-/// Source: theory notes, section 11.1: the measured pull is met as well by λ = 0 with the published shear
-/// modulus as by λ = 1 with 3.5 times that; the torque, 0.56 against 1.72 N·m, tells them apart.
+/// Source: theory notes, section 11.1: the measured pull is met as well by λ = 0 with the published
+/// shear modulus as by λ = 1 with 3.5 times that; the torque, 0.56 against 1.72 N·m, tells them
+/// apart.
 #[test]
 fn torque_tells_the_wheel_sinkage_ratio_from_the_shear_modulus() {
     let rmse = |ratio: &str, modulus: &str, quantity| {
@@ -393,8 +395,8 @@ fn torque_tells_the_wheel_sinkage_ratio_from_the_shear_modulus() {
     assert!(rmse("1", "0.011", Quantity::DrawbarPull) > 2.5 * pull, "the published modulus alone");
 }
 
-/// Source: Hu et al., arXiv 2405.11001: 88 kg, track 1.22 m, wheelbase 1.28 m, centre of mass about 0.59 m high.
-/// No body has a moment of inertia above the sum of the other two.
+/// Source: Hu et al., arXiv 2405.11001: 88 kg, track 1.22 m, wheelbase 1.28 m, centre of mass about
+/// 0.59 m high. No body has a moment of inertia above the sum of the other two.
 #[test]
 fn the_viper_rover_has_the_published_masses_and_lengths() {
     let rover = Source::find(Kind::Rover, "mgru3").expect("a preset");
@@ -437,7 +439,8 @@ fn the_simulated_climbs_are_those_of_the_figure() {
     }
 }
 
-/// A heading that holds the contour is compared with the mean of the yaws at the start and at the end.
+/// A heading that holds the contour is compared with the mean of the yaws at the start and at the
+/// end.
 #[test]
 fn the_yaw_of_table_4_is_the_mean_of_each_run() {
     let printed = grouser::document::experiment::table_4();

@@ -90,8 +90,8 @@ proptest! {
             row("slip_ratio_total_speed", motion.total().to_string()),
         ];
         for slip in told {
-            // The creep speed, 1 µm/s, is another share of the speed where only ratios are told: of the
-            // slowest hub's millimetre per second, straight ahead, 4 mm at 75°.
+            // The creep speed, 1 µm/s, is another share of the speed where only ratios are told: of
+            // the slowest hub's millimetre per second, straight ahead, 4 mm at 75°.
             prop_assert!((slip.ratio - motion.ratio).abs() < 1e-5);
             prop_assert!((slip.total() - motion.total()).abs() < 1e-5);
             prop_assert!((slip.angle - motion.angle).abs() < 1e-3);

@@ -1,5 +1,5 @@
-//! Messages name keys: what sets them is a flag in the program and an argument in Python, and each front
-//! end says so itself.
+//! Messages name keys: what sets them is a flag in the program and an argument in Python, and each
+//! front end says so itself.
 
 use std::fs;
 

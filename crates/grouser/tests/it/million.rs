@@ -290,7 +290,8 @@ fn a_million_wheels_settle() {
 fn a_hundred_thousand_wheels_settle_by_bekkers_theory() {
     let tally = check_cases(&Model::Bekker, 100_000);
     assert!(tally.settled > 90_000, "{tally:?}");
-    // A power law in the sinkage, in which the search goes straight. Measured: 4.3 each, at most 11.
+    // A power law in the sinkage, in which the search goes straight. Measured: 4.3 each, at most
+    // 11.
     assert!(tally.mean_evaluations() < 5.0, "{} each", tally.mean_evaluations());
     assert!(tally.most_evaluations <= 20, "{tally:?}");
 }

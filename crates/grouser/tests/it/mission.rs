@@ -104,8 +104,8 @@ fn a_rover_that_is_turned_round_reverses_the_same_way() {
     assert!((forward.energy() - backward.energy()).abs() < 1e-5);
 }
 
-/// On the spot a rover turns by its angle and ends within 0.1 m of its place. On the way it strays little more, but for
-/// half a turn on a slope, over which it slides both ways.
+/// On the spot a rover turns by its angle and ends within 0.1 m of its place. On the way it strays
+/// little more, but for half a turn on a slope, over which it slides both ways.
 #[test]
 fn a_turn_on_the_spot_ends_at_its_angle_and_place() {
     for (slope, start, angle, strays) in [
@@ -332,7 +332,8 @@ fn plans_that_are_none_name_their_leg() {
     assert!(error.to_string().contains("number of legs"), "{error}");
 }
 
-/// The same mission is the same to the last bit, leg by leg or at once, and with its records taken on the way.
+/// The same mission is the same to the last bit, leg by leg or at once, and with its records taken
+/// on the way.
 #[test]
 fn a_mission_is_determined() {
     let legs = vec![
@@ -398,8 +399,8 @@ pub(crate) const SENSORS: Sensors = Sensors {
     seed: 1,
 };
 
-/// The track that the rover takes itself to follow keeps to the contour, and the real one to three times the error of the
-/// sensors' closed form.
+/// The track that the rover takes itself to follow keeps to the contour, and the real one to three
+/// times the error of the sensors' closed form.
 #[test]
 fn a_contour_is_held_by_what_sensors_say() {
     let leg =
@@ -421,7 +422,8 @@ fn a_contour_is_held_by_what_sensors_say() {
     }
 }
 
-/// Without errors a rover that measures knows as much as one that knows all, but for what it reckons between fixes.
+/// Without errors a rover that measures knows as much as one that knows all, but for what it
+/// reckons between fixes.
 #[test]
 fn perfect_sensors_are_nearly_the_truth() {
     let perfect = Sensors { heading_deviation: 0.0, odometry_deviation: 0.0, ..SENSORS };

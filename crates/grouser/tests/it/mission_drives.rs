@@ -1,4 +1,5 @@
-//! What turns the wheels of a leg: laws of slip and speeds of each wheel, against runs and closed forms.
+//! What turns the wheels of a leg: laws of slip and speeds of each wheel, against runs and closed
+//! forms.
 
 use grouser::mission::{Heading, Leg, Manoeuvre, Mission, MissionReport, MissionRun};
 use grouser::simulation::Scenario;
@@ -20,8 +21,9 @@ fn with(drive: DriveLaw, manoeuvre: Manoeuvre) -> Leg {
     Leg { drive, ..Leg::new(manoeuvre) }
 }
 
-/// A straight leg along the contour has the angle between nose and way that a traverse has: its yaw. In its first control
-/// period a mission knows its slip already, a traverse does not yet: with laws that ask for it a third of a millimetre.
+/// A straight leg along the contour has the angle between nose and way that a traverse has: its
+/// yaw. In its first control period a mission knows its slip already, a traverse does not yet: with
+/// laws that ask for it a third of a millimetre.
 #[test]
 fn a_straight_leg_with_any_law_is_a_traverse() {
     let laws = [
@@ -48,8 +50,8 @@ fn a_straight_leg_with_any_law_is_a_traverse() {
     }
 }
 
-/// By Eq. 18 a rover goes as fast as it is meant to, whichever way: straight, on arcs and in reverse, on flat ground and
-/// across a slope.
+/// By Eq. 18 a rover goes as fast as it is meant to, whichever way: straight, on arcs and in
+/// reverse, on flat ground and across a slope.
 #[test]
 fn by_eq_18_a_rover_keeps_its_speed_over_the_ground() {
     let arc = |angle: f64, reverse| Manoeuvre::Arc { radius: 3.0, angle: deg(angle), reverse };
@@ -75,8 +77,8 @@ fn by_eq_18_a_rover_keeps_its_speed_over_the_ground() {
     }
 }
 
-/// A motor that turns twice as fast as it is told slips by what a drive allows, and costs less; the closed form of a
-/// hub that the other wheels push on at 1 - s of their rims.
+/// A motor that turns twice as fast as it is told slips by what a drive allows, and costs less; the
+/// closed form of a hub that the other wheels push on at 1 - s of their rims.
 #[test]
 fn a_wheel_that_runs_away_is_held_at_the_limit() {
     let speed = PerWheel::Each(vec![1.0, 1.0, 2.0, 1.0]);
@@ -91,8 +93,9 @@ fn a_wheel_that_runs_away_is_held_at_the_limit() {
     assert!(limited.energy() < constant.energy());
 }
 
-/// All wheels of a rover that drives straight on turn alike and slip alike, and its soil knows no rate: up a slope that asks
-/// for more slip than is allowed, a limit makes it slower and nothing else.
+/// All wheels of a rover that drives straight on turn alike and slip alike, and its soil knows no
+/// rate: up a slope that asks for more slip than is allowed, a limit makes it slower and nothing
+/// else.
 #[test]
 fn a_limit_of_slip_does_not_help_up_a_plane() {
     let base = complete_traverse(9.0, 90.0);

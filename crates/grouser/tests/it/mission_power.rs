@@ -90,7 +90,8 @@ fn a_mission_without_records_takes_the_same() {
     assert_eq!(taken(&ways[0].report), taken(&driven(&mission)));
 }
 
-/// A rover stops at the first look at which a number is above its limit, as it would have been without.
+/// A rover stops at the first look at which a number is above its limit, as it would have been
+/// without.
 #[test]
 fn missions_stop_where_current_temperature_or_discharge_pass_their_limit() {
     for approach in [Approach::Dynamic, Approach::QuasiSteady] {

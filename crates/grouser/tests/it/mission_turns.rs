@@ -80,7 +80,8 @@ fn an_arc_reaches_its_yaw_or_says_what_it_lacks() {
     assert!(ends.len() > 120 && short > 0 && short < ends.len() / 2, "{short} of {}", ends.len());
 }
 
-/// Whether an arc fell short, checked, and a line that says so; nothing where the wheels cannot be steered so far.
+/// Whether an arc fell short, checked, and a line that says so; nothing where the wheels cannot be
+/// steered so far.
 fn end_of_arc(
     (rover, steering, slope, radius, angle): &(&str, &str, f64, f64, f64),
 ) -> Option<(bool, String)> {

@@ -1,4 +1,5 @@
-//! Motors of data sheets: whether their numbers agree, and how a rover names one and changes single keys.
+//! Motors of data sheets: whether their numbers agree, and how a rover names one and changes single
+//! keys.
 
 use grouser::document::{
     DocumentError, Kind, LoadedRover, Overrides, Source, preset, presets, read_motor, read_rover,
@@ -10,7 +11,8 @@ fn motor(name: &str) -> Motor {
     read_motor(&source, &Overrides::none()).expect("a motor").value
 }
 
-/// Source: the data sheets that the presets name: nominal voltage [V], speed without load [rpm], stall torque [mN·m].
+/// Source: the data sheets that the presets name: nominal voltage [V], speed without load [rpm],
+/// stall torque [mN·m].
 const PRINTED: [(&str, f64, f64, f64); 5] = [
     ("maxon-a-max-22", 12.0, 10400.0, 24.3),
     ("maxon-re-25", 12.0, 4860.0, 129.0),
@@ -19,8 +21,9 @@ const PRINTED: [(&str, f64, f64, f64); 5] = [
     ("faulhaber-1331", 12.0, 9900.0, 9.90),
 ];
 
-/// (V − R i_0)/k is the speed without load, k V/R the torque that stalls. A tolerance of 3 % for the speed: friction grows
-/// with it, most under graphite brushes; and of 1.5 % for the torque, which is printed with or without friction.
+/// (V − R i_0)/k is the speed without load, k V/R the torque that stalls. A tolerance of 3 % for
+/// the speed: friction grows with it, most under graphite brushes; and of 1.5 % for the torque,
+/// which is printed with or without friction.
 #[test]
 fn numbers_of_a_data_sheet_agree() {
     assert_eq!(presets(Kind::Motor).count(), PRINTED.len());
@@ -33,8 +36,8 @@ fn numbers_of_a_data_sheet_agree() {
     }
 }
 
-/// Each keeps 150 s or more of an overload's heat, and its winding is a part of that: what the two bodies of the data sheet
-/// are to be as one.
+/// Each keeps 150 s or more of an overload's heat, and its winding is a part of that: what the two
+/// bodies of the data sheet are to be as one.
 #[test]
 fn a_winding_and_its_housing_warm_as_slowly_as_the_data_sheet_says() {
     for (name, seconds) in
@@ -100,7 +103,8 @@ fn a_rover_changes_single_keys_of_a_motor_and_says_so() {
     assert!((motor.control.expect("the document's").gain - 2.0).abs() < 1e-12);
 }
 
-/// Another motor takes the place of all keys that the document has; those that are set beside it stay.
+/// Another motor takes the place of all keys that the document has; those that are set beside it
+/// stay.
 #[test]
 fn another_motor_can_be_set_from_outside() {
     let document = "[motor]\npreset = \"maxon-re-25\"\ngear_ratio = 500.0";

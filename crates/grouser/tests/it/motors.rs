@@ -47,7 +47,8 @@ fn a_run_with_motors_is_the_run_without_bit_for_bit() {
     assert_eq!(without.work.evaluations, motors.work.evaluations);
 }
 
-/// The energy is the integral of the power, and that of the run's motors with their losses: by hand from each record.
+/// The energy is the integral of the power, and that of the run's motors with their losses: by hand
+/// from each record.
 #[test]
 fn battery_energy_is_the_integral_of_what_the_motors_take() {
     for approach in [Approach::Dynamic, Approach::QuasiSteady] {
@@ -132,7 +133,8 @@ fn shares(record: &Record) -> Vec<f64> {
     record.wheels.iter().map(|wheel| wheel.wheel_speed * radius / RIM_SPEED).collect()
 }
 
-/// Closed form of the droop, under the torque that each wheel takes; with an integral nothing is missing.
+/// Closed form of the droop, under the torque that each wheel takes; with an integral nothing is
+/// missing.
 #[test]
 fn wheels_turn_at_the_speed_at_which_motor_and_soil_agree() {
     let integral = SpeedControl { integral: 975.0, ..PROPORTIONAL };
@@ -200,8 +202,8 @@ fn stiff_motors_without_losses_give_the_ideal_drive() {
     }
 }
 
-/// Downhill wheels carry more, turn slower, and let the nose fall: by how much more than with motors that hold their speed,
-/// in 20 s, for a tenth of the speed at 1 N·m.
+/// Downhill wheels carry more, turn slower, and let the nose fall: by how much more than with
+/// motors that hold their speed, in 20 s, for a tenth of the speed at 1 N·m.
 #[test]
 fn droop_of_a_tenth_at_a_newton_metre_lets_the_nose_fall_further() {
     // R/(k N η (k N + K_p)) = 0.1 ω_0.
@@ -221,8 +223,9 @@ fn stalled(run: &Trajectory) -> bool {
     matches!(run.outcome, Outcome::Immobilised { because: StuckBecause::MotorsStall, .. })
 }
 
-/// A limit of the current is a limit of the torque: below what the wheels need on level ground they stall, above it they
-/// turn as they are set to; on a slope between both, too, one stalls and the other climbs.
+/// A limit of the current is a limit of the torque: below what the wheels need on level ground they
+/// stall, above it they turn as they are set to; on a slope between both, too, one stalls and the
+/// other climbs.
 #[test]
 fn wheels_stall_whose_motors_may_not_give_what_the_slope_takes() {
     let up = |slope: f64, current: f64| {
@@ -251,7 +254,8 @@ fn wheels_stall_whose_motors_may_not_give_what_the_slope_takes() {
     }
 }
 
-/// At the voltage of half the no-load speed the wheels turn at most so fast, and take no more voltage.
+/// At the voltage of half the no-load speed the wheels turn at most so fast, and take no more
+/// voltage.
 #[test]
 fn a_limit_of_the_voltage_is_a_limit_of_the_speed() {
     for approach in [Approach::Dynamic, Approach::QuasiSteady] {
@@ -275,7 +279,8 @@ fn a_limit_of_the_voltage_is_a_limit_of_the_speed() {
     }
 }
 
-/// An integral does not wind up at a limit: when the set speed comes back within it, the wheels follow within its time.
+/// An integral does not wind up at a limit: when the set speed comes back within it, the wheels
+/// follow within its time.
 #[test]
 fn a_controller_comes_back_from_its_limit_without_winding_up() {
     let control = SpeedControl { voltage: Some(4.0), integral: 975.0, ..PROPORTIONAL };
@@ -289,8 +294,8 @@ fn a_controller_comes_back_from_its_limit_without_winding_up() {
     }
 }
 
-/// Set to stand on a slope, a wheel with a self-locking gear stands; one without creeps as its short-circuited winding lets
-/// it, and friction above what the slope asks for holds it, too.
+/// Set to stand on a slope, a wheel with a self-locking gear stands; one without creeps as its
+/// short-circuited winding lets it, and friction above what the slope asks for holds it, too.
 #[test]
 fn a_rover_that_is_set_to_stand_holds_by_its_gear_or_by_friction() {
     let open = SpeedControl { gain: 0.0, ..PROPORTIONAL };
@@ -380,8 +385,8 @@ pub(crate) fn powered(motor: Motor, battery: Battery, scenario: Scenario) -> Sce
     Scenario { rover: Rover::draft(parts).checked().expect("a rover"), ..scenario }
 }
 
-/// Closed form: a nearly steady current warms a winding to θ_0 + R(θ) i² R_th with its time constant; on level ground the
-/// current is steady, and R(θ) is that of copper.
+/// Closed form: a nearly steady current warms a winding to θ_0 + R(θ) i² R_th with its time
+/// constant; on level ground the current is steady, and R(θ) is that of copper.
 #[test]
 fn windings_warm_by_their_current() {
     for approach in [Approach::Dynamic, Approach::QuasiSteady] {
@@ -409,7 +414,8 @@ fn windings_warm_by_their_current() {
     }
 }
 
-/// The energy is the integral of all that is drawn, and the charge falls by it and by what the battery loses itself.
+/// The energy is the integral of all that is drawn, and the charge falls by it and by what the
+/// battery loses itself.
 #[test]
 fn a_battery_gives_what_motors_and_electronics_draw() {
     for approach in [Approach::Dynamic, Approach::QuasiSteady] {
@@ -454,7 +460,8 @@ fn battery_and_windings_change_no_bit_of_an_ideal_drive() {
     assert_eq!(states(&plain), states(&powered));
 }
 
-/// An empty battery, and one that cannot give the power, end the run; one at the end of its charge slows the motors.
+/// An empty battery, and one that cannot give the power, end the run; one at the end of its charge
+/// slows the motors.
 #[test]
 fn a_battery_that_fails_is_an_outcome() {
     let ends = |battery: Battery| {
@@ -479,7 +486,8 @@ fn a_battery_that_fails_is_an_outcome() {
     assert!(voltage < 8.3);
 }
 
-/// A hot winding lets through less current, until its rover stalls; the current never passes what is allowed.
+/// A hot winding lets through less current, until its rover stalls; the current never passes what
+/// is allowed.
 #[test]
 fn a_derated_motor_stalls_before_it_burns() {
     let control = SpeedControl { integral: 975.0, current: Some(0.6), ..PROPORTIONAL };
@@ -529,8 +537,9 @@ fn motors_slow_down_as_the_battery_empties() {
     }
 }
 
-/// What motors cost whose speed depends on their load: wheels that are settled in a dynamic run of 20 s, and evaluations of a
-/// quasi-steady one of ten minutes, over those of a rover whose motors hold their speed.
+/// What motors cost whose speed depends on their load: wheels that are settled in a dynamic run of
+/// 20 s, and evaluations of a quasi-steady one of ten minutes, over those of a rover whose motors
+/// hold their speed.
 #[test]
 fn motors_cost_at_most_twice_a_dynamic_run() {
     let integral = SpeedControl { integral: 975.0, ..PROPORTIONAL };

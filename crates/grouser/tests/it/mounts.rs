@@ -118,9 +118,9 @@ fn a_document_has_wheels_of_their_own_and_steering() {
     assert!(too_far.contains("`rover.mount.0.steering_deg` is 91"), "{too_far}");
 }
 
-/// Wide wheels on one side turn a climbing rover to the side that pulls less, as the test stand says: in
-/// dry sand theirs, for its pressure grows more than in proportion with depth and they stay in its
-/// soft top; in cohesive soil the other, for they hold on to more of it.
+/// Wide wheels on one side turn a climbing rover to the side that pulls less, as the test stand
+/// says: in dry sand theirs, for its pressure grows more than in proportion with depth and they
+/// stay in its soft top; in cohesive soil the other, for they hold on to more of it.
 #[test]
 fn wide_wheels_on_one_side_turn_the_rover_to_the_side_that_pulls_less() {
     let wide = |wheel: Wheel| Wheel { width: 2.0 * wheel.width, ..wheel };
@@ -177,9 +177,9 @@ fn a_larger_wheel_needs_a_higher_hub_and_turns_slower() {
 }
 
 /// Front wheels to the left and rear wheels to the right by δ: the axles' normals meet on the line
-/// through the middle of the wheelbase L, at R = L/(2 tan δ). Left and right wheels have one angle, a
-/// misfit that cancels but for the square of half the track over R, and rims as fast as their distances
-/// from there.
+/// through the middle of the wheelbase L, at R = L/(2 tan δ). Left and right wheels have one angle,
+/// a misfit that cancels but for the square of half the track over R, and rims as fast as their
+/// distances from there.
 #[test]
 fn front_and_rear_wheels_steered_against_each_other_drive_an_arc() {
     for steering in [deg(5.0), deg(-10.0)] {
@@ -201,8 +201,8 @@ fn front_and_rear_wheels_steered_against_each_other_drive_an_arc() {
     }
 }
 
-/// Each wheel across its line to one centre, and as fast as its distance from there: the arc is that
-/// of the kinematics, and the wheels slip no more than on a straight way.
+/// Each wheel across its line to one centre, and as fast as its distance from there: the arc is
+/// that of the kinematics, and the wheels slip no more than on a straight way.
 #[test]
 fn wheels_steered_about_one_centre_drive_about_it() {
     let centre = Vec2::new(0.01, 1.0);
@@ -240,8 +240,8 @@ fn all_wheels_steered_alike_let_the_rover_crab() {
 }
 
 /// What is the body's forward is nobody's business: a rover with its parts turned in its frame, its
-/// wheels steered the other way and its yaw to match, is the same rover. All that counts directions is
-/// in here: motion, loads, torques and moments in the balance of loads, powers.
+/// wheels steered the other way and its yaw to match, is the same rover. All that counts directions
+/// is in here: motion, loads, torques and moments in the balance of loads, powers.
 #[test]
 fn a_rover_described_in_a_turned_frame_is_the_same_rover() {
     let turn = deg(35.0);
@@ -346,8 +346,8 @@ fn masses_and_energies_of_different_wheels_add_up() {
     }
 }
 
-/// The heading offset of a rover with different wheels: each with its own forces at the one slip ratio
-/// and the one slip angle, which together hold the rover on the slope.
+/// The heading offset of a rover with different wheels: each with its own forces at the one slip
+/// ratio and the one slip angle, which together hold the rover on the slope.
 #[test]
 fn an_attitude_of_different_wheels_holds_the_slope() {
     let rover = changed(|place, mount| {

@@ -9,8 +9,8 @@ use grouser::units::{MARS_GRAVITY, deg};
 
 use crate::given::{smooth_wheel, toyoura};
 
-/// KLS-1, by plates of 30, 35 and 37.5 mm radius. Source: Lim et al., Journal of Astronomy and Space Sciences
-/// 38(4):237-244, 2021.
+/// KLS-1, by plates of 30, 35 and 37.5 mm radius. Source: Lim et al., Journal of Astronomy and
+/// Space Sciences 38(4):237-244, 2021.
 const KLS_1: &str =
     "soil.pressure_sinkage={ law = \"bekker\", k_c_kn = -44.06, k_phi_kn = 3581.8, n = 1.2594 }";
 
@@ -38,7 +38,8 @@ fn check_refusal<T>(found: Result<T, String>, parts: &[&str]) {
     assert!(parts.iter().all(|part| message.contains(part)), "{message}");
 }
 
-/// With KLS-1 as published, 35 mm sink under 82.8 kPa: k = 3581.8 − 44.06/0.035 kN/m^(n+2), times 0.07^1.2594.
+/// With KLS-1 as published, 35 mm sink under 82.8 kPa: k = 3581.8 − 44.06/0.035 kN/m^(n+2), times
+/// 0.07^1.2594.
 #[test]
 fn published_negative_moduli_are_a_soil_for_their_plates() {
     let kls = soil(&[KLS_1, "soil.domain.width_m=[0.03, 0.0375]"]).expect("published");

@@ -1,4 +1,5 @@
-//! A model of one's own, wherever a model is asked for. Its heading has a closed form: see `examples`.
+//! A model of one's own, wherever a model is asked for. Its heading has a closed form: see
+//! `examples`.
 
 use grouser::contact::validity::Flag;
 use grouser::contact::{Contact, Model, WheelForces, WheelSoilModel};
@@ -44,7 +45,8 @@ fn a_wheel_test_settles_by_it() {
     }
 }
 
-/// A drive settles into the steady motion; both ways to compute it agree; on a hill as on the plane.
+/// A drive settles into the steady motion; both ways to compute it agree; on a hill as on the
+/// plane.
 #[test]
 fn dynamic_and_quasi_steady_runs_follow_it() {
     let base = scenario().expect("the preset is read");
@@ -76,8 +78,8 @@ fn a_mission_holds_the_contour_by_it() {
     assert!(end.place().x > 2.95 && end.place().y.abs() < 0.03, "{}", end.place());
 }
 
-/// It has no document's name, so the scenario's value alone asks for it. Samples differ in their soils, which it
-/// ignores, and in what any model may get wrong, which is left out here.
+/// It has no document's name, so the scenario's value alone asks for it. Samples differ in their
+/// soils, which it ignores, and in what any model may get wrong, which is left out here.
 #[test]
 fn bands_have_it_in_every_sample() {
     let mut loaded =

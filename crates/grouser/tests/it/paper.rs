@@ -19,8 +19,8 @@ use super::given;
 
 // ---- What the core has of it ----
 
-/// Tables 1 to 3 of the core and of the documents are the same bits, and what a scenario has that says
-/// no more.
+/// Tables 1 to 3 of the core and of the documents are the same bits, and what a scenario has that
+/// says no more.
 #[test]
 fn the_cores_sand_and_rover_are_those_of_the_documents() {
     let scenario = read_scenario(&Source::default_scenario(), &Overrides::none()).expect("it");
@@ -86,9 +86,9 @@ fn table_3_shear_moduli_at_15_degrees() {
     }
 }
 
-/// Source: [FourWheel], Table 3: k'φ = 1203.54, without a unit.
-/// DIFFERENCE: read as 1203.54 m/s² times ρ, as the laboratory's code does, it is 122.7 times γ. As
-/// printed, with γ, the sand is g times too stiff, and Table 4's rover finds no level attitude at 15°.
+/// Source: [FourWheel], Table 3: k'φ = 1203.54, without a unit. DIFFERENCE: read as 1203.54 m/s²
+/// times ρ, as the laboratory's code does, it is 122.7 times γ. As printed, with γ, the sand is g
+/// times too stiff, and Table 4's rover finds no level attitude at 15°.
 #[test]
 fn table_3_frictional_modulus_is_not_for_use_with_the_unit_weight() {
     let stiffness = |k_phi| {
@@ -217,8 +217,8 @@ fn with_the_tuned_shear_modulus_of_0_3_the_wheel_cannot_pull() {
     assert!(matches!(curve.limit(), Err(NoHeading::CannotMove(_))));
 }
 
-/// Source: [FourWheel], section 4.2: the untuned model "overestimates the forces at high slip".
-/// A larger modulus does lower them, so the direction of the tuning is right; 0.030 (theory, section
+/// Source: [FourWheel], section 4.2: the untuned model "overestimates the forces at high slip". A
+/// larger modulus does lower them, so the direction of the tuning is right; 0.030 (theory, section
 /// 0.4) raises them. DIFFERENCE: Fig. 7's measured curve is not printed as numbers.
 #[test]
 fn a_larger_shear_modulus_lowers_the_pull_at_every_slip() {
@@ -249,7 +249,8 @@ fn fig_7_drawbar_pull_grows_with_slip() {
     assert!(growth(10) < 0.6 * growth(1), "{} N, then {} N", growth(1), growth(10));
 }
 
-/// Source: JFR abstracts (theory, section 2.9): side force falls with slip and rises with slip angle.
+/// Source: JFR abstracts (theory, section 2.9): side force falls with slip and rises with slip
+/// angle.
 #[test]
 fn side_force_falls_with_slip_and_rises_with_slip_angle() {
     let side = |s: f64, beta: f64| {
@@ -294,8 +295,8 @@ const TABLE_4: [[f64; 4]; 4] = [
 ];
 
 /// Source: [FourWheel], Table 4, rows "Model", 5 to 15°: within the ±1.5° that the theory allows
-/// (section 4.4): ours are 1.3, 0.5 and 1.4° lower.
-/// DIFFERENCE: the wheel's radius and width and the ratio λ are not printed there; ours are assumed.
+/// (section 4.4): ours are 1.3, 0.5 and 1.4° lower. DIFFERENCE: the wheel's radius and width and
+/// the ratio λ are not printed there; ours are assumed.
 #[test]
 fn table_4_models_attitudes_up_to_15_degrees() {
     let curve = curve_with(given::toyoura(), LoadSharing::QuasiStatic);
@@ -306,10 +307,10 @@ fn table_4_models_attitudes_up_to_15_degrees() {
     }
 }
 
-/// Source: [FourWheel], Table 4, row "Model", 20°: 15.5°.
-/// DIFFERENCE: ours is 21.4°, beyond the ±2.5° that the theory allows, and there the curve is steep:
-/// its fold is less than a degree away. The measured start is 21.63°, and with K_x0 = 0.020 instead
-/// of 0.036 ours would be the paper's 15.5°.
+/// Source: [FourWheel], Table 4, row "Model", 20°: 15.5°. DIFFERENCE: ours is 21.4°, beyond the
+/// ±2.5° that the theory allows, and there the curve is steep: its fold is less than a degree away.
+/// The measured start is 21.63°, and with K_x0 = 0.020 instead of 0.036 ours would be the paper's
+/// 15.5°.
 #[test]
 fn table_4_models_attitude_on_20_degrees_is_not_ours() {
     let curve = curve_with(given::toyoura(), LoadSharing::QuasiStatic);
@@ -373,9 +374,9 @@ fn table_4_model_keeps_its_yaw() {
     }
 }
 
-/// Source: [FourWheel], Table 4: the experiment lost 2.75, 2.41, 0.44 and 9.58° of yaw.
-/// DIFFERENCE: the paper's model loses none. With the wheels' torque in the pitch balance ours loses
-/// 0.56, 1.4, 2.9 and 7.2°: the right sign, and the right order but for the row of 15°.
+/// Source: [FourWheel], Table 4: the experiment lost 2.75, 2.41, 0.44 and 9.58° of yaw. DIFFERENCE:
+/// the paper's model loses none. With the wheels' torque in the pitch balance ours loses 0.56, 1.4,
+/// 2.9 and 7.2°: the right sign, and the right order but for the row of 15°.
 #[test]
 fn table_4_yaw_losses_have_the_sign_that_the_wheels_torque_gives_them() {
     let curve = curve_with(given::toyoura(), LoadSharing::QuasiStatic);
@@ -444,8 +445,9 @@ fn table_4_distance_errors_of_the_model_are_below_the_measured_ones() {
     }
 }
 
-/// Source: [FourWheel], section 5.2: "reasonable … up to 15 degrees slope". Its wheels: no radius, no
-/// width. Within what could be theirs the attitude on 10° moves by less than a degree and a half.
+/// Source: [FourWheel], section 5.2: "reasonable … up to 15 degrees slope". Its wheels: no radius,
+/// no width. Within what could be theirs the attitude on 10° moves by less than a degree and a
+/// half.
 #[test]
 fn the_assumed_wheel_decides_little_on_10_degrees() {
     for radius in [0.10, 0.105, 0.115] {

@@ -127,7 +127,8 @@ fn a_rover_that_goes_past_the_end_has_left_the_path() {
     assert!(beside.cross_track < 0.0, "it drifts downhill, to the right: {beside:?}");
 }
 
-/// Where the path leads back 12 cm beside itself, a rover that drives out is not taken to be on its way back.
+/// Where the path leads back 12 cm beside itself, a rover that drives out is not taken to be on its
+/// way back.
 #[test]
 fn a_path_that_leads_back_beside_itself_is_no_short_cut() {
     let places = [[0.0, 0.0], [1.0, 0.0], [1.0, -0.12], [-1.0, -0.12]];

@@ -206,7 +206,8 @@ fn moduli_by_direction_are_correlated() {
     assert!((correlation - 0.5).abs() < 0.047, "{correlation}");
 }
 
-/// What the soil says itself wins over priors: its distribution, and its median where it has no value.
+/// What the soil says itself wins over priors: its distribution, and its median where it has no
+/// value.
 #[test]
 fn a_soils_own_uncertainty_goes_before_its_priors() {
     let own = "[[uncertainty.parameter]]\nkey = \"exit.ratio\"\ndistribution = \"uniform\"\n\

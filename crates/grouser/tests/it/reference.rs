@@ -282,10 +282,10 @@ fn yaw_moment_with_transfers(slope_deg: f64, pitch: f64, roll: f64) -> f64 {
     moment - rover.centre_of_mass().perp(&force)
 }
 
-/// Load transfer in pitch alone or in roll alone invents a yaw moment that both together do not have.
-/// Source: theory, section 4.5, first table.
-/// DIFFERENCE: that table holds the attitude found with its own height of the centre of mass, ours
-/// the one found with ours, up to 0.3° apart on 20°.
+/// Load transfer in pitch alone or in roll alone invents a yaw moment that both together do not
+/// have. Source: theory, section 4.5, first table. DIFFERENCE: that table holds the attitude found
+/// with its own height of the centre of mass, ours the one found with ours, up to 0.3° apart on
+/// 20°.
 #[test]
 fn pitch_or_roll_transfer_alone_invents_a_yaw_moment() {
     for (slope, [both, pitch_only, roll_only, none], within) in [

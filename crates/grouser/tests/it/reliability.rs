@@ -1,9 +1,10 @@
 //! Stated probabilities of a no-go against drives by simulation.
 //!
-//! Cells of uneven ground are drawn, with a stated probability of a no-go on a course. On each the rover is driven in a
-//! soil and by a model that the probability knows nothing of: it starts with the heading of the map, measures over every
-//! stretch which course it made good, and turns by what it is off. A drive is a no-go if the rover stops or slides, if it
-//! slips more than the rule allows, or if no heading that it tries holds the course.
+//! Cells of uneven ground are drawn, with a stated probability of a no-go on a course. On each the
+//! rover is driven in a soil and by a model that the probability knows nothing of: it starts with
+//! the heading of the map, measures over every stretch which course it made good, and turns by what
+//! it is off. A drive is a no-go if the rover stops or slides, if it slips more than the rule
+//! allows, or if no heading that it tries holds the course.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -68,7 +69,8 @@ fn drives(count: usize, samples: u32) -> Vec<Drive> {
     let chosen: Vec<_> = chosen.take(count).enumerate().collect();
     let one = |(number, (map, found)): (usize, (&MobilityMap, CellMotion))| {
         let sample = inputs.sample(DRIVEN_SEED, number as u64).unwrap();
-        // Where the soil as written has no heading, one begins with that of the steepest slope that has one.
+        // Where the soil as written has no heading, one begins with that of the steepest slope that
+        // has one.
         let table = &map.tables()[0];
         let motion = found.motion.or_else(|| table.motion(table.limit()?)).unwrap();
         let drive = On { loaded: &loaded, study: &study, sample, slope: found.slope };
@@ -108,7 +110,8 @@ impl On<'_> {
         true
     }
 
-    /// Slip ratio, and the course that is made good [rad], over some seconds; none if the rover stops or slides.
+    /// Slip ratio, and the course that is made good [rad], over some seconds; none if the rover
+    /// stops or slides.
     fn stretch(&self, yaw: f64) -> Option<(f64, f64)> {
         let rim_speed = self.study.rim_speed;
         let mut scenario: Scenario = self.loaded.value.clone();
@@ -134,7 +137,8 @@ impl On<'_> {
     }
 }
 
-/// Drives by stated probability, in tenths: how many, their mean stated probability, and the share that was a no-go.
+/// Drives by stated probability, in tenths: how many, their mean stated probability, and the share
+/// that was a no-go.
 fn by_tenth(drives: &[Drive]) -> Vec<(usize, f64, f64)> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 9")]
     let tenth = |drive: &Drive| ((drive.stated * 10.0) as usize).min(9);
@@ -147,8 +151,8 @@ fn by_tenth(drives: &[Drive]) -> Vec<(usize, f64, f64)> {
     (0..10).map(bin).collect()
 }
 
-/// How far an observed share may be off a stated one: three standard errors, those of the drives and of the samples that
-/// the probability was stated by.
+/// How far an observed share may be off a stated one: three standard errors, those of the drives
+/// and of the samples that the probability was stated by.
 fn allowance(stated: f64, drives: usize, samples: u32) -> f64 {
     let variance = (stated * (1.0 - stated)).max(0.01);
     3.0 * (variance / drives as f64 + variance / f64::from(samples)).sqrt()

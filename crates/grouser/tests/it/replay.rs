@@ -1,4 +1,5 @@
-//! Drives whose telemetry is off by one thing, replayed: that thing is named, and nothing where nothing is off.
+//! Drives whose telemetry is off by one thing, replayed: that thing is named, and nothing where
+//! nothing is off.
 
 use crate::learn::drive::{Drive, Leg, scenario};
 use grouser::document::LoadedScenario;
@@ -21,7 +22,8 @@ const LEGS: [Leg; 6] = [
 ];
 /// The same on slopes without level ground, which have a direction.
 const SLOPES: [Leg; 5] = [LEGS[1], LEGS[2], LEGS[3], LEGS[4], LEGS[5]];
-/// Steeper and longer, 12 m there and back: a yaw of the sensor turns a pull that is no more than the slope's.
+/// Steeper and longer, 12 m there and back: a yaw of the sensor turns a pull that is no more than
+/// the slope's.
 const STEEP: [Leg; 4] =
     [(14.0, 8.0, 3.0), (14.0, 172.0, 3.0), (12.0, 40.0, 3.0), (12.0, 140.0, 3.0)];
 
@@ -203,7 +205,8 @@ fn a_run_replays_itself() {
     assert_eq!(pointed(&found), []);
 }
 
-/// A soil drawn from an uncertain one is mostly within the bands over its samples; samples depend on the seed alone.
+/// A soil drawn from an uncertain one is mostly within the bands over its samples; samples depend
+/// on the seed alone.
 #[test]
 fn bands_hold_a_soil_of_the_prior() {
     let prior = scenario(&[MODEL, "scenario.soil=toyoura-uncertain"]);

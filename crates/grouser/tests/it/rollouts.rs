@@ -1,7 +1,8 @@
-//! Random rovers, soils, grounds, gravities and wheel speeds: every run ends with an outcome, or its start is refused by name.
+//! Random rovers, soils, grounds, gravities and wheel speeds: every run ends with an outcome, or
+//! its start is refused by name.
 //!
-//! Each case depends on its number alone, so that one that fails can be run again by itself. Scenarios are documents, as
-//! users write them.
+//! Each case depends on its number alone, so that one that fails can be run again by itself.
+//! Scenarios are documents, as users write them.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -159,7 +160,8 @@ enum Ending {
     LeftOff,
 }
 
-/// Leads a case to its end: by its own drive, or by new speeds of the wheels once in a while; and its document.
+/// Leads a case to its end: by its own drive, or by new speeds of the wheels once in a while; and
+/// its document.
 fn rollout(case: u64) -> (Ending, String) {
     /// Evaluations of the motion after which a case is left off [-].
     const MOST_EVALUATIONS: u64 = 5_000;
@@ -201,8 +203,8 @@ fn rollout(case: u64) -> (Ending, String) {
     (Ending::Outcome("completed"), text)
 }
 
-/// Where loads are sought in vain 2 ms after the start: the balance on four wheels that turn against each other seems to end
-/// in a fold there, and none was found with a wheel lifted.
+/// Where loads are sought in vain 2 ms after the start: the balance on four wheels that turn
+/// against each other seems to end in a fold there, and none was found with a wheel lifted.
 const IN_VAIN: [u64; 1] = [648];
 
 /// How many cases had each ending, by its name. None fails but those [`IN_VAIN`].
@@ -228,16 +230,17 @@ fn check(cases: impl IntoParallelIterator<Item = u64>) -> BTreeMap<&'static str,
     counts
 }
 
-/// Some of them, and those whose loads did not settle: two wheels lift at once over ripples and in a crater, and a rigid rover
-/// of six wheels that turn against each other.
+/// Some of them, and those whose loads did not settle: two wheels lift at once over ripples and in
+/// a crater, and a rigid rover of six wheels that turn against each other.
 #[test]
 fn random_rollouts_end_with_an_outcome() {
     let cases: Vec<u64> = (0..24).chain([1380, 1681, 1705, 1774]).collect();
     check(cases);
 }
 
-/// Wheels that turn against each other in cohesive soil pull and brake with no more than friction, cohesion and wedges give.
-/// While a light wheel was an anchor there, no loads balanced this rover on rockers at its start.
+/// Wheels that turn against each other in cohesive soil pull and brake with no more than friction,
+/// cohesion and wedges give. While a light wheel was an anchor there, no loads balanced this rover
+/// on rockers at its start.
 #[test]
 fn wheels_that_turn_against_each_other_in_cohesive_soil_are_balanced_at_the_start() {
     let (ending, text) = rollout(1681);

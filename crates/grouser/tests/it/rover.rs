@@ -123,8 +123,8 @@ fn without_forces(state: &RoverState) -> Acceleration {
     dynamics::acceleration(&rover, Vec2::zeros(), state, soil)
 }
 
-/// A rover that nothing touches keeps momentum, angular momentum and energy, with its centre of mass
-/// 1.5 m off the point that its equations are written about.
+/// A rover that nothing touches keeps momentum, angular momentum and energy, with its centre of
+/// mass 1.5 m off the point that its equations are written about.
 #[test]
 fn a_force_free_rover_keeps_its_momentum() {
     let lost = lost_in_flight(3.0, without_forces);
@@ -145,7 +145,8 @@ struct Signs {
     centrifugal: f64,
 }
 
-/// [FourWheel], Eqs 5-10, without forces: the mass matrix and the centrifugal terms in the slope frame.
+/// [FourWheel], Eqs 5-10, without forces: the mass matrix and the centrifugal terms in the slope
+/// frame.
 fn printed_equations(state: &RoverState, signs: Signs) -> Acceleration {
     let rover = lopsided();
     let (m, s, i) = (rover.mass(), rover.first_moment(), rover.yaw_inertia());
@@ -439,8 +440,8 @@ fn tipping_slope(rover: &Rover, yaw: f64) -> f64 {
 proptest! {
     #![proptest_config(cases(200))]
 
-    /// A rover on a rectangle of wheels tips where the vertical through its centre of mass leaves it:
-    /// tan α = (way to the edge, downhill) / height.
+    /// A rover on a rectangle of wheels tips where the vertical through its centre of mass leaves
+    /// it: tan α = (way to the edge, downhill) / height.
     #[test]
     fn a_rover_tips_where_geometry_says(yaw in -PI..PI) {
         let rover = given::hakuto();
@@ -463,7 +464,8 @@ fn the_papers_rover_tips_at_57_degrees() {
 }
 
 /// Moments of the wheels' forces and own moments about the common centre of mass, by the levers:
-/// the hubs lie H − r_s below it. Forces that balance the slope's pull, so that nothing accelerates.
+/// the hubs lie H − r_s below it. Forces that balance the slope's pull, so that nothing
+/// accelerates.
 #[test]
 fn loads_balance_the_moments_of_everything_that_acts_on_the_wheels() {
     let (rover, ground, yaw) = (given::hakuto(), plane(deg(15.0)), deg(20.0));
@@ -487,9 +489,9 @@ fn loads_balance_the_moments_of_everything_that_acts_on_the_wheels() {
 
 // ---- the ground ----
 
-/// Axes of the ground are square to each other and to its normal, the first of them level across y: the
-/// climb along each is the sine of its inclination, and what a weight loses into the ground it has
-/// along it.
+/// Axes of the ground are square to each other and to its normal, the first of them level across y:
+/// the climb along each is the sine of its inclination, and what a weight loses into the ground it
+/// has along it.
 #[test]
 fn a_weight_is_divided_between_the_ground_and_its_axes() {
     let normal = Vec3::new(0.2, -0.3, 0.8).normalize();

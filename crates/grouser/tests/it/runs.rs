@@ -194,10 +194,10 @@ impl Apart {
 /// What a quasi-steady run may differ by from a dynamic one.
 ///
 /// It settles at once, and so leaves out what the first instants change: in position and yaw the
-/// velocities that have to settle, times the time they take. That is 3 ms where slip is small
-/// and ten times as much where the wheels nearly spin. Afterwards velocities lag behind their
-/// balance by up to 3e-4 of the rims' speed (measured, in arcs across a slope; 1e-5 in traverses), and
-/// what was lost in yaw stays.
+/// velocities that have to settle, times the time they take. That is 3 ms where slip is small and
+/// ten times as much where the wheels nearly spin. Afterwards velocities lag behind their balance
+/// by up to 3e-4 of the rims' speed (measured, in arcs across a slope; 1e-5 in traverses), and what
+/// was lost in yaw stays.
 fn tolerance(dynamic: &Trajectory, steady: &Trajectory) -> Apart {
     /// Longest time of settling [s].
     const SETTLING: f64 = LONGEST_SETTLING;
@@ -348,7 +348,8 @@ fn check_mirrored(original: &Scenario, mirrored: &Scenario, yaw_of: impl Fn(f64)
     let (original, mirrored) = (run(original), run(mirrored));
     let (here, there) = (&original.last().state, &mirrored.last().state);
     let expected = Vec2::new(-here.position.x, here.position.y);
-    // A tenth of the integrator's tolerance: yaws differ in size, and so do the errors they may have.
+    // A tenth of the integrator's tolerance: yaws differ in size, and so do the errors they may
+    // have.
     assert!((there.position - expected).norm() < 1e-7, "{} and {expected}", there.position);
     assert!((there.yaw - yaw_of(here.yaw)).abs() < 1e-7);
 }
@@ -371,7 +372,8 @@ fn backward_is_forward_in_a_mirror() {
     }
 }
 
-/// A rover with its wheels mirrored from left to right, driven forward the other way along the slope.
+/// A rover with its wheels mirrored from left to right, driven forward the other way along the
+/// slope.
 #[test]
 fn left_is_right_in_a_mirror() {
     for sharing in [LoadSharing::QuasiStatic, LoadSharing::QuasiStaticTorque] {
@@ -388,8 +390,8 @@ fn left_is_right_in_a_mirror() {
     }
 }
 
-/// Source: theory, section 7.5: in weighing sand the same rover goes the same way under any gravity,
-/// in a time and at a speed that go with its root.
+/// Source: theory, section 7.5: in weighing sand the same rover goes the same way under any
+/// gravity, in a time and at a speed that go with its root.
 #[test]
 fn on_the_moon_the_same_rover_goes_the_same_way_more_slowly() {
     let earth = traverse(deg(15.0), deg(5.0));
@@ -602,10 +604,10 @@ fn a_steady_spot_turn_balances_its_moments() {
 
 /// With the paper's moduli a spot turn drifts off: the wheels of one side slip less, see a smaller
 /// slip angle, shear a stiffer soil, and so slip less. K_x = 0.036 + 0.043 |β| was fitted to slip
-/// angles well below those of a spot turn (35 to 38°), and the drift is what the fit is worth there:
-/// with half the slope, with constant moduli or with isotropic shear there is none. Even a rover that
-/// all but is its own mirror image drifts, to either side.
-/// LIMIT: use `isotropic` shear for spot turns.
+/// angles well below those of a spot turn (35 to 38°), and the drift is what the fit is worth
+/// there: with half the slope, with constant moduli or with isotropic shear there is none. Even a
+/// rover that all but is its own mirror image drifts, to either side. LIMIT: use `isotropic` shear
+/// for spot turns.
 #[test]
 fn the_papers_shear_moduli_make_a_spot_turn_drift() {
     let with_slope = |per_radian: f64| Shear::Anisotropic {

@@ -18,7 +18,8 @@ fn scenario(settings: &[&str]) -> Scenario {
 /// Denser by a tenth, and sheared sooner by a tenth.
 const STATED: Compaction = Compaction { density: 1.1, shear_modulus: 0.9 };
 
-/// What each wheel of a rover finds that goes straight at a crab angle [rad], its wheels with a slip ratio of 0.2.
+/// What each wheel of a rover finds that goes straight at a crab angle [rad], its wheels with a
+/// slip ratio of 0.2.
 fn found(ruts: Ruts, rover: &Rover, crab: f64) -> Vec<Compaction> {
     let velocity = Vec2::new(crab.cos(), -crab.sin());
     let rim_speed = velocity.x / 0.8;
@@ -32,8 +33,8 @@ fn shares(rover: &Rover, crab: f64) -> Vec<f64> {
     all.iter().map(|it| (it.density - 1.0) / (STATED.density - 1.0)).collect()
 }
 
-/// Source: the overlap o = 1 − L |sin γ|/b by hand: HAKUTO's wheels are 0.36 m apart and 0.08 m wide. Straight ahead it
-/// is whole, and of other signs the same.
+/// Source: the overlap o = 1 − L |sin γ|/b by hand: HAKUTO's wheels are 0.36 m apart and 0.08 m
+/// wide. Straight ahead it is whole, and of other signs the same.
 #[test]
 fn rear_wheels_overlap_as_the_way_lets_them() {
     let rover = scenario(&[]).rover;
@@ -99,8 +100,9 @@ fn without_overlap_the_soil_is_fresh() {
     assert_ne!(rates(&fresh, deg(12.0)), rates(&crabbed, deg(12.0)));
 }
 
-/// Source: an independent computation (Python): the yaw lost with 10 % more density and 10 % less modulus, the overlap
-/// that of the measured yaw at the start. Ours follows the way, which the yaw leaves as it falls.
+/// Source: an independent computation (Python): the yaw lost with 10 % more density and 10 % less
+/// modulus, the overlap that of the measured yaw at the start. Ours follows the way, which the yaw
+/// leaves as it falls.
 #[test]
 fn ruts_take_yaw_as_an_independent_implementation_has_it() {
     let base = Scenario { ruts: Ruts::Stated(STATED), ..scenario(&[]) };

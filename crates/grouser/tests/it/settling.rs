@@ -1,5 +1,5 @@
-//! All wheels of a rover settle under loads that depend on their forces: loads, sinkages and forces are those of each
-//! other, wherever the search began.
+//! All wheels of a rover settle under loads that depend on their forces: loads, sinkages and forces
+//! are those of each other, wherever the search began.
 
 use grouser::contact::{Contact, Model, Slip};
 use grouser::simulation::Scenario;
@@ -11,7 +11,8 @@ use proptest::prelude::*;
 
 use super::given;
 
-/// How far what settles may be from what it should be, over the weight [-]: what a kink of the forces leaves.
+/// How far what settles may be from what it should be, over the weight [-]: what a kink of the
+/// forces leaves.
 const TOLERANCE: f64 = 1e-9;
 
 fn check(ground: &OnGround<'_>, state: &RoverState, wheels: &[WheelReaction]) {

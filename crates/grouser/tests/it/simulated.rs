@@ -29,7 +29,8 @@ fn reading(trial: &SimulatedTrial, quantity: Quantity) -> f64 {
 }
 
 /// Over 4000 trials a mean is known to 1.6 % of the noise and a deviation to 1.1 %; five times as
-/// much is allowed, and that two quantities do not go together: their correlation is known to 1.6 %.
+/// much is allowed, and that two quantities do not go together: their correlation is known to 1.6
+/// %.
 #[test]
 fn readings_scatter_normally_about_the_truth() {
     let test = test(&[0.3], 4000, 1);

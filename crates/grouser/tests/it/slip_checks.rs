@@ -1,4 +1,5 @@
-//! Slip checks: limits on slip over a metre, asked of what visual odometry says, on beds whose friction scatters.
+//! Slip checks: limits on slip over a metre, asked of what visual odometry says, on beds whose
+//! friction scatters.
 
 use grouser::mission::{
     Leg, LegOutcome, Limited, Manoeuvre, Mission, MissionReport, MissionRun, Sensors, Stop,
@@ -12,7 +13,8 @@ use super::mission::SENSORS;
 
 /// Limit of slip over a metre of the rims' way.
 const LIMIT: f64 = 0.4;
-/// Three standard deviations of slip over a metre, of which two fixes say each half with 2 %: 3 (1 - 0.4) 0.02/√2.
+/// Three standard deviations of slip over a metre, of which two fixes say each half with 2 %: 3 (1
+/// - 0.4) 0.02/√2.
 const ERROR: f64 = 0.026;
 
 fn checked_drive(slope: f64, way: f64, seed: u64) -> Mission {
@@ -26,8 +28,8 @@ fn driven(mission: &Mission) -> MissionReport {
     MissionRun::new(mission).expect("a mission").to_end().expect("it can be computed")
 }
 
-/// On the soil that is expected a check stops no rover, whatever its odometry says: straight up 8° it slips by 26 %, ten
-/// standard deviations of a fix over a metre below the limit.
+/// On the soil that is expected a check stops no rover, whatever its odometry says: straight up 8°
+/// it slips by 26 %, ten standard deviations of a fix over a metre below the limit.
 fn check_without_alarm(seeds: std::ops::Range<u64>) {
     seeds.into_par_iter().for_each(|seed| {
         let mut plan = checked_drive(8.0, 100.0, seed);
@@ -58,7 +60,8 @@ struct Count {
     entrapped: usize,
     /// They spun for a second before they had slipped too much over a metre.
     spun: usize,
-    /// They slipped too much over a metre, and drove on for more than half a metre of their rims, to the next fix.
+    /// They slipped too much over a metre, and drove on for more than half a metre of their rims,
+    /// to the next fix.
     missed: usize,
 }
 
@@ -100,8 +103,8 @@ fn way_after_too_much_slip(records: &[Record]) -> Option<f64> {
     Some(RIM_SPEED * (records[records.len() - 1].time - pair[METRE].time))
 }
 
-/// No rover drives on that has slipped too much over a metre, whatever its odometry says and wherever its bed is soft; one
-/// that spins before a metre is gone ends its run after a second.
+/// No rover drives on that has slipped too much over a metre, whatever its odometry says and
+/// wherever its bed is soft; one that spins before a metre is gone ends its run after a second.
 #[test]
 fn slip_checks_miss_no_rover_that_gets_stuck() {
     let count = Count::of_beds(14.0, 0..100);

@@ -1,4 +1,5 @@
-//! Slip from the currents of motors: how well it holds, where it is ill-posed, and what a wrong soil does to it.
+//! Slip from the currents of motors: how well it holds, where it is ill-posed, and what a wrong
+//! soil does to it.
 
 use grouser::contact::{Contact, Model, Slip, settle};
 use grouser::document::measurements::motor_log::{LogChoice, read_motor_log};
@@ -87,8 +88,8 @@ fn of_torque(
     estimator.estimate(&record)[0].expect("a reading")
 }
 
-/// Torques with 5 % of noise, across slopes and straight up them to a slip of 0.4; with loads that are read, and with those
-/// of the load transfer.
+/// Torques with 5 % of noise, across slopes and straight up them to a slip of 0.4; with loads that
+/// are read, and with those of the load transfer.
 #[test]
 fn intervals_hold_the_slip_as_often_as_they_say() {
     let drives = [(0.0, 0.0), (5.0, 2.0), (10.0, 5.0), (15.0, 9.0), (18.0, 13.0)];
@@ -130,7 +131,8 @@ fn loads_follow_from_the_torques_of_all_wheels() {
     }
 }
 
-/// At a slip of 0.05 in soil that is known, to 0.005, whatever the load and the slip angle; and so backward.
+/// At a slip of 0.05 in soil that is known, to 0.005, whatever the load and the slip angle; and so
+/// backward.
 #[test]
 fn without_noise_the_slip_is_found() {
     let estimator = estimator(&drive(0.0, 0.0), SlipSettings::USUAL);
@@ -157,8 +159,9 @@ fn short(modulus: f64) -> Soil {
     Soil { shear, ..toyoura() }
 }
 
-/// The status is `ill-posed` exactly where the interval is wider than 0.2: with K_x of 5 mm from a slip of 0.15 on, with
-/// 10 mm from 0.3 on, and with Toyoura's 36 mm from 0.55 on, under 17 N and with 5 % and 0.005 N·m of noise.
+/// The status is `ill-posed` exactly where the interval is wider than 0.2: with K_x of 5 mm from a
+/// slip of 0.15 on, with 10 mm from 0.3 on, and with Toyoura's 36 mm from 0.55 on, under 17 N and
+/// with 5 % and 0.005 N·m of noise.
 #[test]
 fn saturated_torque_is_ill_posed_and_says_so() {
     for (modulus, from) in [(0.005, 0.15), (0.010, 0.30), (0.036, 0.55)] {
@@ -197,7 +200,8 @@ fn a_wrong_friction_angle_biases_the_slip() {
     assert!((0.025..0.035).contains(&low) && (-0.03..-0.02).contains(&high), "{low}, {high}");
 }
 
-/// Samples of what the soil's document leaves open widen the interval: from 0.05 to 0.3, with the priors of Toyoura sand.
+/// Samples of what the soil's document leaves open widen the interval: from 0.05 to 0.3, with the
+/// priors of Toyoura sand.
 #[test]
 fn an_uncertain_soil_widens_the_interval() {
     let overrides = Overrides::parse(["soil.friction_angle_deg=37.5"]).expect("a setting");
@@ -274,7 +278,8 @@ fn a_course_gives_the_slip_angle() {
     assert!((angle(&held) + deg(5.0)).abs() < 1e-12);
 }
 
-/// With its wheels at the crab angle and its body on the contour a rover's wheels see what they see with the body turned.
+/// With its wheels at the crab angle and its body on the contour a rover's wheels see what they see
+/// with the body turned.
 #[test]
 fn a_steering_angle_counts_against_the_course() {
     let mut scenario = drive(10.0, 0.0);

@@ -61,8 +61,8 @@ fn horizontal(forces: &WheelForces) -> f64 {
     forces.drawbar_pull.hypot(forces.side_force)
 }
 
-/// tan φ N + c A, and what the wedges of soil in front and at one side resist [N]: each weighs as much
-/// as the piled-up wall's own wedge with the pile on it, and slides up a plane at 45° − φ/2.
+/// tan φ N + c A, and what the wedges of soil in front and at one side resist [N]: each weighs as
+/// much as the piled-up wall's own wedge with the pile on it, and slides up a plane at 45° − φ/2.
 pub(crate) fn friction_and_wedges(contact: &Contact, load: f64, sinkage: f64) -> f64 {
     const STRIPS: u32 = 2000;
     let Contact { wheel, soil, gravity, .. } = contact;
@@ -303,8 +303,8 @@ proptest! {
     }
 }
 
-/// Down to the axle the soil's capacity grows as the pressure–sinkage law lets it, F_z ∝ h^(n + ½), or
-/// more slowly: nothing holds a wheel up there but the soil.
+/// Down to the axle the soil's capacity grows as the pressure–sinkage law lets it, F_z ∝ h^(n + ½),
+/// or more slowly: nothing holds a wheel up there but the soil.
 #[test]
 fn no_wall_holds_a_wheel_at_its_axle() {
     for kind in SOILS {
@@ -329,8 +329,8 @@ fn no_wall_holds_a_wheel_at_its_axle() {
     }
 }
 
-/// A locked wheel digs deeper and deeper with its load, without a jump, until it has sunk to the axle:
-/// then no sinkage carries it, and the most that the soil carries is reported.
+/// A locked wheel digs deeper and deeper with its load, without a jump, until it has sunk to the
+/// axle: then no sinkage carries it, and the most that the soil carries is reported.
 #[test]
 fn locked_wheels_sink_to_the_axle_without_a_jump() {
     for kind in SOILS {
@@ -358,9 +358,9 @@ fn locked_wheels_sink_to_the_axle_without_a_jump() {
     }
 }
 
-/// On cohesionless sand no slope steeper than the angle of friction can be crossed: all wheels together
-/// resist no more than tan φ times what they carry there. The heading offset of a rover whose wheels
-/// could push off against mounds and walls of soil for ever ends there too.
+/// On cohesionless sand no slope steeper than the angle of friction can be crossed: all wheels
+/// together resist no more than tan φ times what they carry there. The heading offset of a rover
+/// whose wheels could push off against mounds and walls of soil for ever ends there too.
 #[test]
 fn no_contour_is_held_on_sand_steeper_than_its_angle_of_friction() {
     for name in ["cmu-direct90-smooth", "cmu-direct90-grouser", "dry-sand", "toyoura"] {
@@ -416,8 +416,8 @@ fn on_a_slope_wedges_resist_as_rankine_has_it() {
     }
 }
 
-/// A document without the table means the general values, not that the terms are off; and a key that it
-/// leaves out has its own.
+/// A document without the table means the general values, not that the terms are off; and a key
+/// that it leaves out has its own.
 #[test]
 fn what_a_soil_does_not_state_has_its_general_value() {
     let general = soil::SmallWheel::GENERAL;
@@ -429,8 +429,8 @@ fn what_a_soil_does_not_state_has_its_general_value() {
     assert_eq!(stated, soil::SmallWheel { mounds, ..general });
 }
 
-/// On a smooth rim δ is a share of φ; between grousers soil slides on soil; a stated δ is that of any
-/// wheel.
+/// On a smooth rim δ is a share of φ; between grousers soil slides on soil; a stated δ is that of
+/// any wheel.
 #[test]
 fn a_smooth_rim_has_a_share_of_the_soils_friction() {
     let slip = Slip::on_test_stand(0.4, deg(10.0));

@@ -44,7 +44,8 @@ fn steering_angles_of_zero_change_no_bit() {
     }
 }
 
-/// Closed form: a hub goes round its kingpin, at the distance of the offset, and takes its mass with it.
+/// Closed form: a hub goes round its kingpin, at the distance of the offset, and takes its mass
+/// with it.
 #[test]
 fn a_hub_moves_about_its_kingpin_and_its_mass_follows() {
     let rover = with_kingpins();
@@ -121,7 +122,8 @@ fn documents_say_how_wheels_are_steered() {
     assert!(unsteered.contains("kingpin offset of `middle-left`"), "{unsteered}");
 }
 
-/// The order of the wheels is a matter of writing: results come in that order, and are the same to rounding.
+/// The order of the wheels is a matter of writing: results come in that order, and are the same to
+/// rounding.
 #[test]
 fn permuting_mounts_permutes_results() {
     let order = [2, 0, 3, 1];
@@ -159,8 +161,9 @@ fn crab(study: &HeadingStudy) -> HeadingCurve {
     study.curve().expect("a study")
 }
 
-/// A body that is turned, with its wheels steered back, moves as before, but for the load transfer: with loads
-/// alike, the wheels' crab angle is the body's heading offset, on every slope up to the same limit.
+/// A body that is turned, with its wheels steered back, moves as before, but for the load transfer:
+/// with loads alike, the wheels' crab angle is the body's heading offset, on every slope up to the
+/// same limit.
 #[test]
 fn with_loads_alike_wheels_crab_by_the_angle_that_the_nose_would_be_turned_by() {
     for own_moments in [OwnMoments::Neglected, OwnMoments::Included] {
@@ -181,8 +184,9 @@ fn with_loads_alike_wheels_crab_by_the_angle_that_the_nose_would_be_turned_by() 
     }
 }
 
-/// What holds the contour in the study holds it in the equations of motion: along and across the contour nothing is
-/// left over of the forces of a rover whose wheels have the crab angle, and its yaw moment is the one reported.
+/// What holds the contour in the study holds it in the equations of motion: along and across the
+/// contour nothing is left over of the forces of a rover whose wheels have the crab angle, and its
+/// yaw moment is the one reported.
 #[test]
 fn a_crab_angle_balances_the_forces_along_and_across_the_contour() {
     for rover in [steerable(), with_kingpins(), six_wheels()] {
@@ -276,7 +280,8 @@ fn legs_that_do_not_steer_change_no_bit() {
     assert_eq!(fixed.trajectory.records, steered.trajectory.records);
 }
 
-/// The angle of the study holds the contour from the start; without it, the rover learns it on the way.
+/// The angle of the study holds the contour from the start; without it, the rover learns it on the
+/// way.
 #[test]
 fn a_crab_leg_stays_on_the_contour() {
     for rover in [steerable(), six_wheels(), with_kingpins()] {
@@ -333,8 +338,8 @@ fn wheels_turn_no_faster_and_no_further_than_they_can() {
     assert!(MissionRun::new(&fixed).is_err());
 }
 
-/// Closed form: the axle of every wheel points to the centre of the circle, and its rim is as fast as its distance from
-/// there.
+/// Closed form: the axle of every wheel points to the centre of the circle, and its rim is as fast
+/// as its distance from there.
 #[test]
 fn axles_of_an_arc_point_to_its_centre() {
     for rover in [steerable(), with_kingpins(), six_wheels()] {
@@ -362,8 +367,8 @@ fn axles_of_an_arc_point_to_its_centre() {
     }
 }
 
-/// On firm ground wheels that are steered round an arc roll: it is the circle, its slip that of a straight way, and it
-/// takes less work than an arc by the sides.
+/// On firm ground wheels that are steered round an arc roll: it is the circle, its slip that of a
+/// straight way, and it takes less work than an arc by the sides.
 #[test]
 fn a_steered_arc_is_its_circle() {
     let (radius, angle) = (1.2, deg(60.0));
@@ -452,8 +457,8 @@ fn wheels_point_to_a_place_beside_the_nose() {
     }
 }
 
-/// A body that is turned by 90°, with its wheels steered back by as much, moves as before where loads are alike: over
-/// time, along the same way, with the same work.
+/// A body that is turned by 90°, with its wheels steered back by as much, moves as before where
+/// loads are alike: over time, along the same way, with the same work.
 #[test]
 fn a_body_turned_by_90_degrees_with_its_wheels_steered_back_moves_as_before() {
     let quarter = deg(90.0);

@@ -85,8 +85,8 @@ fn short_steps_add_up_to_long_ones() {
     assert!(apart(&long.now().state, &short.now().state) < TOLERANCE);
 }
 
-/// Speeds that change at every step of 20 ms: a tolerance a thousand times as tight leads to the same place, nearer
-/// than the tolerance times the way and times the speed.
+/// Speeds that change at every step of 20 ms: a tolerance a thousand times as tight leads to the
+/// same place, nearer than the tolerance times the way and times the speed.
 #[test]
 fn steps_under_changing_speeds_are_as_exact_as_the_tolerance() {
     let waves = |k: usize| {
@@ -111,8 +111,8 @@ fn steps_under_changing_speeds_are_as_exact_as_the_tolerance() {
     }
 }
 
-/// A step is one evaluation of the motion and little more where the commands change by little: this many
-/// evaluations, those of Jacobians included.
+/// A step is one evaluation of the motion and little more where the commands change by little: this
+/// many evaluations, those of Jacobians included.
 #[test]
 fn a_step_under_slowly_changing_speeds_takes_few_evaluations() {
     let scenario = traverse(deg(10.0), 0.0);

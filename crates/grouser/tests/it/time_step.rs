@@ -60,7 +60,8 @@ fn above_the_ground_there_is_no_reaction() {
 }
 
 /// A locked wheel that slides is stopped, as by dry friction: backward Euler never lets it turn
-/// back, however long the step. Taken at the start of the step, the force would throw it to and fro.
+/// back, however long the step. Taken at the start of the step, the force would throw it to and
+/// fro.
 #[test]
 fn a_locked_wheel_slides_to_a_stop_and_not_back() {
     for duration in [0.001, 0.002, 0.005, 0.02] {

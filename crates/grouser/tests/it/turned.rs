@@ -1,4 +1,5 @@
-//! Which way the ground falls is nobody's choice: runs and missions on turned ground are the turned runs and missions.
+//! Which way the ground falls is nobody's choice: runs and missions on turned ground are the turned
+//! runs and missions.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -115,12 +116,13 @@ fn for_at_most(longest: f64, scenario: Scenario) -> Scenario {
     Scenario { duration: scenario.duration.min(longest), ..scenario }
 }
 
-/// Relative to the way: what rounding leaves of dynamic runs, whose steps are chosen by estimates of their error and kept to
-/// a tolerance of 1e-6.
+/// Relative to the way: what rounding leaves of dynamic runs, whose steps are chosen by estimates
+/// of their error and kept to a tolerance of 1e-6.
 const DYNAMIC: f64 = 1e-6;
 /// The same of missions, which turn wheels once a control period by what was seen.
 const MISSION: f64 = 3e-6;
-/// The same of a mission with turns on the spot, which begin and end their shifts by thresholds: a millimetre in a metre.
+/// The same of a mission with turns on the spot, which begin and end their shifts by thresholds: a
+/// millimetre in a metre.
 const WITH_TURNS: f64 = 1e-3;
 
 /// * `longest`: so long the runs are at most [s]
@@ -255,7 +257,8 @@ fn random_states() -> Vec<(Scenario, RoverState, Vec<f64>)> {
     (0..20).map(one).collect()
 }
 
-/// What the motion of a run is made of, where no solver's tolerance stands between: rates turn with the ground.
+/// What the motion of a run is made of, where no solver's tolerance stands between: rates turn with
+/// the ground.
 #[test]
 fn rates_turn_with_the_ground() {
     let mut compared = 0;
@@ -286,8 +289,8 @@ fn rates_turn_with_the_ground() {
     assert!(compared >= 15, "{compared}");
 }
 
-/// On 45° a rover slides and on 60° its weight falls outside its wheels, on a plane as on the same plane by heights, whichever
-/// way that falls.
+/// On 45° a rover slides and on 60° its weight falls outside its wheels, on a plane as on the same
+/// plane by heights, whichever way that falls.
 #[test]
 fn a_rover_slides_and_tips_over_alike_on_any_ground() {
     let base = scenarios().into_iter().find(|(name, _)| name == "60°").expect("it is there").1;
@@ -302,7 +305,8 @@ fn a_rover_slides_and_tips_over_alike_on_any_ground() {
     }
 }
 
-/// A drive along the contour of a hill comes round it at the height at which it began: 12° of slope, 4 m from its tip.
+/// A drive along the contour of a hill comes round it at the height at which it began: 12° of
+/// slope, 4 m from its tip.
 #[test]
 fn a_contour_leg_goes_round_a_hill() {
     let text = r#"
@@ -329,7 +333,8 @@ fn a_contour_leg_goes_round_a_hill() {
     let start = mission.mission().scenario.ground.start;
     let radii = report.trajectory.records.iter().map(|it| (start + it.state.position).norm());
     let off = radii.map(|radius| (radius - 4.0).abs()).fold(0.0, f64::max);
-    // Half way round, within 6 cm of map, 8 mm of height: what its heading offset asks for is learnt on the way.
+    // Half way round, within 6 cm of map, 8 mm of height: what its heading offset asks for is
+    // learnt on the way.
     let end = start + report.trajectory.last().state.position;
     assert!(off < 0.06, "{off} m off the contour");
     assert!(end.y > 3.5, "{end}");

@@ -242,7 +242,8 @@ fn wrong_uncertainties_say_what_where_and_how_to_mend_it() {
     }
 }
 
-/// A soil has the distributions of campaigns, a mean beside its value, and rows beside distributions.
+/// A soil has the distributions of campaigns, a mean beside its value, and rows beside
+/// distributions.
 #[test]
 fn soils_and_campaigns_speak_one_language() {
     let text = toyoura_with(

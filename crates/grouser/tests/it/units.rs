@@ -1,5 +1,5 @@
-//! A word has one unit, wherever a table says it: in the library and in the documents. (The Python package
-//! asks the library.)
+//! A word has one unit, wherever a table says it: in the library and in the documents. (The Python
+//! package asks the library.)
 
 use std::fs;
 use std::path::Path;

@@ -179,7 +179,8 @@ fn every_flag_is_raised_by_its_rule_and_not_beside_it() {
     }
 }
 
-/// A soil that keeps forces within what it resists hides nothing: where it has reduced a force the law asked for more.
+/// A soil that keeps forces within what it resists hides nothing: where it has reduced a force the
+/// law asked for more.
 #[test]
 fn a_force_that_the_soils_bound_has_reduced_is_flagged() {
     let bounded = Soil { shear_bound: ShearBound::Coulomb, ..given::toyoura() };
@@ -192,7 +193,8 @@ fn a_force_that_the_soils_bound_has_reduced_is_flagged() {
     }
 }
 
-/// Cohesion holds a locked wheel by more than its light load's friction: as published, of 800 Pa over its contact.
+/// Cohesion holds a locked wheel by more than its light load's friction: as published, of 800 Pa
+/// over its contact.
 #[test]
 fn a_light_wheel_that_cohesion_alone_would_hold_is_flagged() {
     let cohesive = Soil { shear_bound: ShearBound::Coulomb, ..given::simulant_2007() };
@@ -247,7 +249,8 @@ fn the_papers_headings_carry_no_flag() {
     }
 }
 
-/// By the paper's shear law a rover holds on slopes on which the sand itself slides: that is flagged.
+/// By the paper's shear law a rover holds on slopes on which the sand itself slides: that is
+/// flagged.
 #[test]
 fn a_rover_on_a_slope_steeper_than_the_ground_is_flagged() {
     let scenario = scenario(&["scenario.slope_deg=35", "scenario.duration_s=0.2"]);

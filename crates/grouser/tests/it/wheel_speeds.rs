@@ -59,7 +59,8 @@ fn nothing_accelerates_in_a_straight_motion() {
             let state = RoverState { yaw: motion.yaw, velocity, ..RoverState::default() };
             let rates = Equations::of(&run, &rims).rates(&state).expect("it is a motion");
             let linear = rates.acceleration.velocity_rate.norm();
-            // A push of 1e-6 of the weight; resistive force theory, which is stiffer, feels creep more.
+            // A push of 1e-6 of the weight; resistive force theory, which is stiffer, feels creep
+            // more.
             let most = if settings.contains(&"scenario.model=rft") { 5e-4 } else { 1e-5 };
             assert!(linear < most, "{settings:?} {freedom:?}: {linear} m/s²");
             let turning = rates.acceleration.yaw_acceleration.abs();
@@ -71,8 +72,9 @@ fn nothing_accelerates_in_a_straight_motion() {
     }
 }
 
-/// Where a small error of the yaw fades, a run at these speeds stays on the contour for a minute without a hand on it.
-/// What it drifts is what its start costs, at which it moves along its own axis.
+/// Where a small error of the yaw fades, a run at these speeds stays on the contour for a minute
+/// without a hand on it. What it drifts is what its start costs, at which it moves along its own
+/// axis.
 #[test]
 fn a_run_at_these_speeds_stays_on_the_contour() {
     let (base, found) = (scenario(&[]), study(&[]));
@@ -89,7 +91,8 @@ fn a_run_at_these_speeds_stays_on_the_contour() {
     }
 }
 
-/// An error of the yaw grows or fades in a run as the study says: over the way, by e for each 1/growth.
+/// An error of the yaw grows or fades in a run as the study says: over the way, by e for each
+/// 1/growth.
 #[test]
 fn an_error_of_the_yaw_changes_as_fast_as_the_study_says() {
     let (base, found) = (scenario(&[]), study(&[]));
@@ -133,8 +136,8 @@ fn the_mirror_image_holds_the_contour_too() {
     assert!((there.x + back.x).abs() < 1e-6 && (there.y - back.y).abs() < 1e-6, "{there} {back}");
 }
 
-/// The wheels of a four-wheel rover in three equations leave one freedom too few, or one more: what is free can only
-/// help, and what bounds it less too.
+/// The wheels of a four-wheel rover in three equations leave one freedom too few, or one more: what
+/// is free can only help, and what bounds it less too.
 #[test]
 fn more_freedom_is_never_worse() {
     for settings in SETTINGS {
@@ -148,9 +151,9 @@ fn more_freedom_is_never_worse() {
     }
 }
 
-/// With the paper's loads forces follow loads, and one speed of all wheels leaves hardly a yaw moment: speeds of
-/// their own move the limit by less than 0.01°. With complete loads the moment has to be balanced as well, which
-/// costs hundredths of a degree.
+/// With the paper's loads forces follow loads, and one speed of all wheels leaves hardly a yaw
+/// moment: speeds of their own move the limit by less than 0.01°. With complete loads the moment
+/// has to be balanced as well, which costs hundredths of a degree.
 #[test]
 fn speeds_of_their_own_hardly_move_the_steepest_slope() {
     for (settings, most) in [(SETTINGS[1], 0.01), (SETTINGS[0], 0.06)] {
@@ -196,8 +199,8 @@ fn speeds_keep_their_bound() {
     }
 }
 
-/// Backward, a wheel drags more than one with the same load can pull, whatever its slip: two wheels of four that turn
-/// backward stop the other two.
+/// Backward, a wheel drags more than one with the same load can pull, whatever its slip: two wheels
+/// of four that turn backward stop the other two.
 #[test]
 fn wheels_that_turn_backward_outweigh_those_that_drive() {
     let base = scenario(&[]);
@@ -217,8 +220,8 @@ fn wheels_that_turn_backward_outweigh_those_that_drive() {
     assert_eq!(study(&[]).steepest(SpeedFreedom::UphillReversed), None);
 }
 
-/// What is said of least work is so: speeds of all wheels beside those found, brought back onto the contour by
-/// another solver, need more.
+/// What is said of least work is so: speeds of all wheels beside those found, brought back onto the
+/// contour by another solver, need more.
 #[test]
 fn no_speeds_nearby_need_less_work() {
     let (base, found) = (scenario(&[]), study(&[]));

@@ -1,5 +1,5 @@
-//! Calibration on plate and shear tests: the moduli of a pressure-sinkage law, cohesion, friction angle and shear
-//! modulus.
+//! Calibration on plate and shear tests: the moduli of a pressure-sinkage law, cohesion, friction
+//! angle and shear modulus.
 
 use std::path::Path;
 

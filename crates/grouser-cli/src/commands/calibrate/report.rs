@@ -283,7 +283,8 @@ fn fitted(records: &[ParameterRecord]) -> String {
     format!("{}.{interval}", values.join("; "))
 }
 
-/// The fitted keys, those that the data do not determine, and the discrepancy between model and data.
+/// The fitted keys, those that the data do not determine, and the discrepancy between model and
+/// data.
 pub(super) fn add_parameters(page: &mut Page, solved: &Solved) {
     page.text(&(Text::from("fitted keys") + parameters(&solved.records)));
     if !solved.unidentifiable.is_empty() {
@@ -337,7 +338,8 @@ fn least_known(records: &[ParameterRecord]) -> Vec<usize> {
     places
 }
 
-/// Histograms of keys and clouds of their pairs, as SVG; of a single key its histogram, as wide as a page.
+/// Histograms of keys and clouds of their pairs, as SVG; of a single key its histogram, as wide as
+/// a page.
 ///
 /// * `places`: of the keys to show
 fn corner(records: &[ParameterRecord], places: &[usize], samples: &Samples) -> String {

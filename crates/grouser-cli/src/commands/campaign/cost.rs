@@ -1,4 +1,5 @@
-//! `grouser campaign cost`: estimates time and disk space of studies, measured on one thread of this machine.
+//! `grouser campaign cost`: estimates time and disk space of studies, measured on one thread of
+//! this machine.
 
 use std::time::{Duration, Instant};
 
@@ -47,8 +48,8 @@ pub(super) fn run(args: &CampaignCostArgs) -> Result<(), Failure> {
     }
 }
 
-/// Computes one shard after another for as long as there is time, at least one; the quickest counts:
-/// whatever else the machine does only takes time.
+/// Computes one shard after another for as long as there is time, at least one; the quickest
+/// counts: whatever else the machine does only takes time.
 ///
 /// * `study`: how it was asked for
 fn cost(

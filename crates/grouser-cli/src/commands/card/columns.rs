@@ -1,4 +1,5 @@
-//! The table of the card: a row for each slope, a column for each thing that a driver sets, reads or may not exceed.
+//! The table of the card: a row for each slope, a column for each thing that a driver sets, reads
+//! or may not exceed.
 
 use grouser::document::columns::card::{
     CORRECT_EVERY, DRIVEN_DRIFT, PITCH_ENDS, RIM_WAY, SLIP_LIMIT, TIPPING_MARGIN,
@@ -233,8 +234,8 @@ fn three(sheet: &mut Sheet, lines: [&str; 3], middle: f64, y: f64) {
 /// One row of numbers.
 fn line(sheet: &mut Sheet, table: &Table<'_>, (place, row): (usize, CardRow<'_>)) {
     let large = (table.height * 0.98).min(7.4);
-    // Half the height of a digit is 0.365 of the font's. Smaller numbers stand on the same line, so that a row is
-    // one line of text for those who copy it, too.
+    // Half the height of a digit is 0.365 of the font's. Smaller numbers stand on the same line, so
+    // that a row is one line of text for those who copy it, too.
     let line = table.top + table.height * (place as f64 + 0.5) + 0.365 * large;
     let at = |x: f64| [x, line];
     let bold = |text: String, size: f64| shown(text, size).face(Face::Bold).anchor(Anchor::End);

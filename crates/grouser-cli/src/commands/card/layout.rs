@@ -1,8 +1,8 @@
 //! The layout of the card's first page.
 //!
-//! A row for each degree, or for every second one: the eye finds the slope on the left, reads the heading in the
-//! largest digits of the page beside it, and goes on to what instruments show and where to stop. What must not be
-//! driven has no row, but a black bar.
+//! A row for each degree, or for every second one: the eye finds the slope on the left, reads the
+//! heading in the largest digits of the page beside it, and goes on to what instruments show and
+//! where to stop. What must not be driven has no row, but a black bar.
 //!
 //! The page is A4; what is on it fits into the margins of a letter page as well.
 
@@ -57,8 +57,9 @@ pub(super) fn draw(texts: &Texts, picture: &Picture, card: &table::Table) -> She
     sheet
 }
 
-/// The slopes of whole degrees that are driven, or every second of them, third and so on where there are many. Level
-/// ground needs no card, and slopes between whole degrees were asked for elsewhere.
+/// The slopes of whole degrees that are driven, or every second of them, third and so on where
+/// there are many. Level ground needs no card, and slopes between whole degrees were asked for
+/// elsewhere.
 pub(super) fn shown_rows(card: &table::Table) -> Vec<CardRow<'_>> {
     let whole = |row: &CardRow<'_>| row.slope() >= 1.0 && row.slope().fract() == 0.0;
     let driven: Vec<CardRow<'_>> =

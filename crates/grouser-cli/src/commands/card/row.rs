@@ -51,7 +51,8 @@ impl<'a> CardRow<'a> {
         quantity.quantiles().map(|name| self.named(&name))
     }
 
-    /// Up to what a driver can rely on headings [°]: halves, or whole degrees where the band is wide.
+    /// Up to what a driver can rely on headings [°]: halves, or whole degrees where the band is
+    /// wide.
     pub(super) fn heading_step(self) -> f64 {
         /// Width of a band in which halves say nothing [°]. Source: ours.
         const WIDE: f64 = 4.0;

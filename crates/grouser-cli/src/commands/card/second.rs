@@ -1,4 +1,5 @@
-//! The second page of the card: where to look at the slip, and the other courses, to get there and to get out.
+//! The second page of the card: where to look at the slip, and the other courses, to get there and
+//! to get out.
 
 use grouser::document::columns::card::{SLIP_CHECK_EVERY, SLIP_LIMIT, VERDICT};
 use grouser::document::columns::card_courses::{COURSE, TURN_DOWNHILL, TURN_WAY, name_of_course};

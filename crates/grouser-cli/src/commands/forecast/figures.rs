@@ -141,8 +141,8 @@ fn largest_first(budgets: &Budgets, name: &str) -> Bars {
     }
 }
 
-/// A bar for each budget. Factors have one order in all of them: the largest on average first, and last what several
-/// have together.
+/// A bar for each budget. Factors have one order in all of them: the largest on average first, and
+/// last what several have together.
 fn budget(budgets: &Budgets) -> Bars {
     let of = |parts: &[Part], name: &str| {
         parts.iter().find(|part| part.factor == name).map_or(0.0, |part| part.own)

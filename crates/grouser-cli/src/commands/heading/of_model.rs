@@ -60,7 +60,8 @@ const CRAB: &str = "The rover crosses the slope with its body along the contour 
 const CHANCE: &str = "The share of the samples in which some heading holds the contour. The band is what so many \
                       samples leave open of that share, with 95 % confidence.";
 
-/// A chart of the curves of all models, or those of the bands of each, with the names of their files and captions.
+/// A chart of the curves of all models, or those of the bands of each, with the names of their
+/// files and captions.
 pub(super) fn figures(command: &str, all: &[OfModel]) -> Vec<(String, Chart, &'static str)> {
     if all.iter().all(|of_model| of_model.bands.is_none()) {
         let caption = match all[0].curve.steering() {

@@ -9,8 +9,8 @@ use crate::args::HeadingMapArgs;
 use crate::output::rows::four_digits;
 use crate::output::text::{Grid, Text};
 
-/// For each soil and model a table of the yaw, and one of the slip ratio; then the reasons where no heading holds a
-/// course, and the flags that any place has.
+/// For each soil and model a table of the yaw, and one of the slip ratio; then the reasons where no
+/// heading holds a course, and the flags that any place has.
 ///
 /// * `titles`: of soils and models, in the order of the rows
 pub(super) fn text(table: &Table, args: &HeadingMapArgs, titles: &[String]) -> Text {

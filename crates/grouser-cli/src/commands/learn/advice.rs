@@ -1,4 +1,5 @@
-//! What to do tomorrow: headings, looks at the slip, and test drives, as JSON, text and part of the page.
+//! What to do tomorrow: headings, looks at the slip, and test drives, as JSON, text and part of the
+//! page.
 
 use grouser::document::LoadedScenario;
 use grouser::document::columns::SLOPE;

@@ -22,8 +22,8 @@ use crate::output::{self, Format, json};
 
 /// Prints what a log that is followed tells on the way.
 ///
-/// Predictions take longer than learning. They are computed in a thread of their own, from a copy of what was learnt, so
-/// that no warning waits for them.
+/// Predictions take longer than learning. They are computed in a thread of their own, from a copy
+/// of what was learnt, so that no warning waits for them.
 pub(super) struct Live<'a> {
     args: &'a LearnArgs,
     before: &'a [SlopeBand],
@@ -70,8 +70,8 @@ impl<'a> Live<'a> {
         Ok(())
     }
 
-    /// Prints predictions that are ready, and asks for others if something was learnt and the last ones were asked for some
-    /// time ago.
+    /// Prints predictions that are ready, and asks for others if something was learnt and the last
+    /// ones were asked for some time ago.
     ///
     /// * `slopes`: [rad]
     pub(super) fn predictions(&mut self, drive: &Drive, slopes: &[f64]) -> Result<(), Failure> {

@@ -1,4 +1,5 @@
-//! The records of a log, read in a thread of their own: while a log is waited for, what was learnt is printed and kept.
+//! The records of a log, read in a thread of their own: while a log is waited for, what was learnt
+//! is printed and kept.
 
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;

@@ -1,4 +1,5 @@
-//! The tables of a drive: what stretches taught, warnings, and slips from currents beside those that were seen.
+//! The tables of a drive: what stretches taught, warnings, and slips from currents beside those
+//! that were seen.
 
 use grouser::document::LoadedScenario;
 use grouser::document::columns::{learn as columns, slip_from_current};

@@ -1,7 +1,7 @@
 //! The folder of a map: bands come to their place one by one, so that one that is there is whole.
 //!
-//! While a map is in the making a file beside its bands says of what: the same command goes on, another one does not
-//! mix its bands with them. The file goes when all is done.
+//! While a map is in the making a file beside its bands says of what: the same command goes on,
+//! another one does not mix its bands with them. The file goes when all is done.
 
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};

@@ -1,4 +1,5 @@
-//! The page of a mission: where the rover ended up, its path, the verdict on each leg, and every channel over time.
+//! The page of a mission: where the rover ended up, its path, the verdict on each leg, and every
+//! channel over time.
 
 use grouser::document::columns::ENERGY;
 use grouser::document::columns::mission::{

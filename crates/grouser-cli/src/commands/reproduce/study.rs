@@ -30,8 +30,8 @@ const LONGITUDINAL_MODULI: [f64; 3] = [0.036, 0.030, 0.3];
 const SLIP_ANGLES_DEG: [f64; 3] = [0.0, 15.0, 30.0];
 /// Models whose headings stand beside those of the paper's.
 const OTHER_MODELS: [Model; 2] = [Model::Rft, Model::Bekker];
-/// What scatters where the yaw that is lost is explained: 1° of friction, a tenth of stiffness, half a per cent of
-/// speed. Source: assumed, for a raked bed and motors under speed control.
+/// What scatters where the yaw that is lost is explained: 1° of friction, a tenth of stiffness,
+/// half a per cent of speed. Source: assumed, for a raked bed and motors under speed control.
 pub(super) const SCATTER: Scatter = Scatter {
     soil: SoilScatter {
         friction_angle: PI / 180.0,

@@ -3,7 +3,8 @@
 use grouser::document::route::RouteRecord;
 use serde_json::json;
 
-/// The line of a way, if it may be driven. It is the only one: a mission takes all lines of a file one after the other.
+/// The line of a way, if it may be driven. It is the only one: a mission takes all lines of a file
+/// one after the other.
 pub(super) fn text(way: &RouteRecord) -> String {
     let may_be_driven = way.reason.is_none();
     let feature = may_be_driven.then(|| {

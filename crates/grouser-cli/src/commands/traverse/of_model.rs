@@ -85,7 +85,8 @@ impl OfModel {
     }
 }
 
-/// The failure of a run that ends with an error, whose records until then go to the folder, if there is one.
+/// The failure of a run that ends with an error, whose records until then go to the folder, if
+/// there is one.
 fn unfinished(
     scenario: &LoadedScenario,
     run: &Trajectory,
@@ -134,8 +135,8 @@ pub(super) fn chart(all: &[OfModel]) -> Chart {
     Chart::new("Path on the slope", ("along the contour, x [m]", "uphill, y [m]"), series)
 }
 
-/// The edges of a band beside a path along the contour: it is over one time, and drawn where the rover is then, in the
-/// middle of the samples.
+/// The edges of a band beside a path along the contour: it is over one time, and drawn where the
+/// rover is then, in the middle of the samples.
 fn along_contour(times: &[TimeBand]) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
     times.iter().filter_map(|at| {
         let (x, y) = (at.x?, at.y?);

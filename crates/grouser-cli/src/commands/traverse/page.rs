@@ -107,7 +107,8 @@ fn channels(page: &mut Page, of: &OfModel) {
     over_time(page, &table, &of.scenario.value);
 }
 
-/// What becomes of the samples that ended early, and when bands are over fewer samples from then on.
+/// What becomes of the samples that ended early, and when bands are over fewer samples from then
+/// on.
 fn early(ends: &Ends) -> Vec<String> {
     match ends.sentences() {
         none if none.is_empty() => vec![format!("none of {} samples ended early", ends.samples())],

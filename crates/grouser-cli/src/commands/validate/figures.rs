@@ -87,7 +87,8 @@ pub(crate) fn all(validation: &Validation) -> Vec<Figure> {
     figures
 }
 
-/// For each quantity that was measured: measured and predicted over the slope, a colour for each course.
+/// For each quantity that was measured: measured and predicted over the slope, a colour for each
+/// course.
 pub(super) fn of_slopes(validation: &SlopeValidation) -> Vec<Figure> {
     let table = slope::slopes(&validation.points);
     let figure = |quantity: columns::Quantity| {

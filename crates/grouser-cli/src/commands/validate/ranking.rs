@@ -1,4 +1,5 @@
-//! `grouser validate --all`, or on one data set: ranks every model on every part, beside predictions without physics.
+//! `grouser validate --all`, or on one data set: ranks every model on every part, beside
+//! predictions without physics.
 
 use grouser_draw::chart::Draw;
 use std::collections::BTreeSet;

@@ -1,4 +1,5 @@
-//! `grouser validate --rover`: errors of a wheel–soil model against a rover's measured slip and yaw on slopes.
+//! `grouser validate --rover`: errors of a wheel–soil model against a rover's measured slip and yaw
+//! on slopes.
 
 use grouser_draw::chart::Draw;
 use std::path::Path;
@@ -136,7 +137,8 @@ fn settings(
     })
 }
 
-/// For people: every slope, then the errors beside those of the yardsticks, and what could not be predicted.
+/// For people: every slope, then the errors beside those of the yardsticks, and what could not be
+/// predicted.
 fn text_of(
     slopes: Text,
     validation: &SlopeValidation,
@@ -177,7 +179,8 @@ const ERRORS: [&str; 8] = [
     "within_aim",
 ];
 
-/// The quantities that were measured, each with the number of slopes on which it was, and its errors.
+/// The quantities that were measured, each with the number of slopes on which it was, and its
+/// errors.
 fn quantities(
     validation: &SlopeValidation,
     errors: &SlopeErrorsRecord,

@@ -47,7 +47,8 @@ pub(super) struct Charted<'a> {
 }
 
 impl Charted<'_> {
-    /// A quantity over the slip ratio, a series for each model, load and slip angle, with its band if there is one.
+    /// A quantity over the slip ratio, a series for each model, load and slip angle, with its band
+    /// if there is one.
     pub(super) fn chart(&self, quantity: Quantity) -> Chart {
         let table = self.drawn;
         let models = table.texts(MODEL);

@@ -50,8 +50,8 @@ impl Interpolation {
     pub(super) fn next(&self) -> Next {
         /// Sinkages that are tried: every usual law is solved by then.
         const MOST_STEPS: u32 = 8;
-        /// The next point's error is below the product of the last points' (three, or the only two), times
-        /// this.
+        /// The next point's error is below the product of the last points' (three, or the only
+        /// two), times this.
         const CURVATURE: f64 = 0.05;
         let Self { axle, exponent, ref points, count, steps } = *self;
         let (here, excess) = points[count - 1];

@@ -35,8 +35,8 @@ pub fn settle_many(
     settle_each(&loaded)
 }
 
-/// Many independent wheels, each with a model of its own, in their order; each has the bits that it has
-/// alone.
+/// Many independent wheels, each with a model of its own, in their order; each has the bits that it
+/// has alone.
 pub fn settle_each(wheels: &[LoadedWheel<'_>]) -> Vec<Result<Settled, SettleError>> {
     if wheels.len() < FEWEST {
         return wheels.iter().map(settle_wheel).collect();
@@ -101,8 +101,8 @@ impl<'a> Searching<'a> {
         self.relation.only_arc().expect("a wheel with two is not among them")
     }
 
-    /// Takes the excess where it was asked for, with sinkage [m] and reaction if all forces were asked
-    /// for; the result, if that is one.
+    /// Takes the excess where it was asked for, with sinkage [m] and reaction if all forces were
+    /// asked for; the result, if that is one.
     fn take(
         &mut self,
         at: f64,
@@ -294,7 +294,8 @@ struct Asking<'a> {
     answered: &'a mut Answered,
 }
 
-/// What they get: sinkages [m], excesses, and what the kernel computes if all forces were asked for.
+/// What they get: sinkages [m], excesses, and what the kernel computes if all forces were asked
+/// for.
 #[derive(Default)]
 struct Answered {
     sinkages: Each,

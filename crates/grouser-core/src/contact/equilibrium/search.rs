@@ -26,7 +26,8 @@ pub(super) struct Start {
 }
 
 impl Start {
-    /// At the wheel's guess, where a shallow wheel without shear would settle, or at a tenth of the radius.
+    /// At the wheel's guess, where a shallow wheel without shear would settle, or at a tenth of the
+    /// radius.
     pub(super) fn of(wheel: &LoadedWheel<'_>, relation: Option<&LoadSinkage>) -> Self {
         let radius = wheel.contact.wheel.shearing_radius();
         match relation.map(LoadSinkage::shallow) {
@@ -200,8 +201,8 @@ impl<'a> Search<'a> {
     /// The bracket where F_z has a highest value: seek it, and look whether it is enough.
     fn bracket_below_the_peak(&mut self, at_axle: Point) -> Result<(Point, Point), SettleError> {
         /// Steps of the scan from the axle up, each this long [ln h], over twelve decades: on
-        /// cohesive soil tiny loads are carried by shear at sinkages that are as tiny. It mostly ends
-        /// after a few, where the soil's strength tells that F_z is lower from there up.
+        /// cohesive soil tiny loads are carried by shear at sinkages that are as tiny. It mostly
+        /// ends after a few, where the soil's strength tells that F_z is lower from there up.
         const STEPS: i32 = 300;
         const STEP: f64 = 0.092;
         let axle = at_axle.0;

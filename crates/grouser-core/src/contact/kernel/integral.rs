@@ -104,8 +104,8 @@ fn over_pieces<const ALL: bool>(
 
 /// No branch, no call, and no order among the lanes: this loop becomes vectors.
 ///
-/// The normal stress behind the peak mirrors that before it, so two nodes that mirror each other share
-/// it.
+/// The normal stress behind the peak mirrors that before it, so two nodes that mirror each other
+/// share it.
 #[inline(always)]
 fn over_both_sides<const ALL: bool>(
     field: &StressField,

@@ -14,8 +14,8 @@ use crate::soil::{Shear, ShearModulus};
 
 /// Nodes on a span.
 ///
-/// A node lies its abscissa, a share of the span, behind the span's front end (behind the peak: before its rear
-/// end), and stands for its width of it.
+/// A node lies its abscissa, a share of the span, behind the span's front end (behind the peak:
+/// before its rear end), and stands for its width of it.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::contact) struct NodeBlock {
     pub abscissa: Lanes,
@@ -62,10 +62,10 @@ impl PieceRule {
 impl ArcRule {
     /// The one with as few nodes as 1e-6 of the load allows.
     ///
-    /// It follows from the wheel and the soil, never from the sinkage. Shear that is mobilised over a
-    /// short length bends the stress near the entry; so does a peak that lies there. The motion has a
-    /// say only under wheels that skid fast and, in the isotropic law, under wheels that slip little:
-    /// where it changes the rule, forces jump by no more than the error that is allowed.
+    /// It follows from the wheel and the soil, never from the sinkage. Shear that is mobilised over
+    /// a short length bends the stress near the entry; so does a peak that lies there. The motion
+    /// has a say only under wheels that skid fast and, in the isotropic law, under wheels that slip
+    /// little: where it changes the rule, forces jump by no more than the error that is allowed.
     pub(in crate::contact) fn of(contact: &Contact) -> &'static Self {
         /// The largest r_s/K [-] and θ_m/θ_f [-]. Source: measured, `docs/models/ishigami.md`.
         const COARSE_UP_TO: f64 = 10.0;

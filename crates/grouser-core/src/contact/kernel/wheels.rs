@@ -1,9 +1,9 @@
 //! The force integral of many wheels at once.
 //!
 //! Here the lanes of a vector are wheels, and every formula is computed for all of them before the
-//! next begins: none waits for another, as the nodes of a single wheel do. A wheel's nodes are added up in
-//! the order in which [`integral`](super::integral) adds them, so that it has the same bits alone and
-//! among others.
+//! next begins: none waits for another, as the nodes of a single wheel do. A wheel's nodes are
+//! added up in the order in which [`integral`](super::integral) adds them, so that it has the same
+//! bits alone and among others.
 
 #![expect(clippy::inline_always, reason = "all of it is compiled once for each instruction set")]
 

@@ -1,9 +1,10 @@
 //! What of a wheel lies open to soil that its grousers do not carry along.
 //!
-//! A facet pushes the soil in front of it, along its motion. Where the next grouser stands there, the
-//! soil between is shut in and turns with the wheel; it pushes with its own surface, at the
-//! grousers' tips. Seen in the wheel, soil comes in along −e_v: past a tip it falls by k = v_n/|v_t|
-//! (velocities normal to and along the rim, at the tips) per length, and the rim curves away from it:
+//! A facet pushes the soil in front of it, along its motion. Where the next grouser stands there,
+//! the soil between is shut in and turns with the wheel; it pushes with its own surface, at the
+//! grousers' tips. Seen in the wheel, soil comes in along −e_v: past a tip it falls by k =
+//! v_n/|v_t| (velocities normal to and along the rim, at the tips) per length, and the rim curves
+//! away from it:
 //!
 //! ```text
 //! e = min(h_g, p k + p²/2r)                         height of a grouser that lies open
@@ -11,16 +12,18 @@
 //! f = max(0, 1 − d/p)                               share of the rim that lies open
 //! ```
 //!
-//! with the pitch p = 2π r/N. The rim counts with its share f, and the soil shut in with 1 − f, as a
-//! cylinder of the tips' radius with the soil's own friction. A low step of a grouser does not stay
-//! open, soil lodges in its corner: its open face counts with w = e/h_g. And a cell that is deeper
-//! than wide carries its soil along whatever its motion: f and w are times p/h_g where that is below
-//! 1. So few grousers leave a bare rim with plates on it (f → 1, w → 1), and many make a cylinder of
-//!    their tips' radius (f → 0, w → 0).
+//! with the pitch p = 2π r/N. The rim counts with its share f, and the soil shut in with 1 − f, as
+//! a cylinder of the tips' radius with the soil's own friction. A low step of a grouser does not
+//! stay open, soil lodges in its corner: its open face counts with w = e/h_g. And a cell that is
+//! deeper than wide carries its soil along whatever its motion: f and w are times p/h_g where that
+//! is below
+//! 1. So few grousers leave a bare rim with plates on it (f → 1, w → 1), and many make a cylinder
+//!    of their tips' radius (f → 0, w → 0).
 //!
 //! The geometry is that of the spacing rule of Skonieczny, Moreland and Wettergreen (2012), for any
-//! motion. w is ours: any weight with those two limits would do, and between them the soil that slides
-//! over the shut-in soil's surface onto an open face is met twice, the price of the simplest one.
+//! motion. w is ours: any weight with those two limits would do, and between them the soil that
+//! slides over the shut-in soil's surface onto an open face is met twice, the price of the simplest
+//! one.
 
 #![expect(clippy::inline_always, reason = "part of the lanes' loops")]
 

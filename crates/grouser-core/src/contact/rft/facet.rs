@@ -10,21 +10,21 @@
 //! ξ = ρ g (894 μ³ − 386 μ² + 89 μ)                 μ = tan φ
 //! ```
 //!
-//! The part along e_n pushes; the part across it is friction, at most μ_s times the push. A facet is
-//! loaded where it leads, e_n·e_v ≥ 0.
+//! The part along e_n pushes; the part across it is friction, at most μ_s times the push. A facet
+//! is loaded where it leads, e_n·e_v ≥ 0.
 //!
-//! The published law jumps in three places: where a facet ceases to lead, where friction that
-//! would drive a facet is turned against it, and where the facet is upright. Here the first two pass
-//! over [`BLEND`]; the third, a hundredth of ξ, stays and is met at θ = 0 alone, the edge of every
+//! The published law jumps in three places: where a facet ceases to lead, where friction that would
+//! drive a facet is turned against it, and where the facet is upright. Here the first two pass over
+//! [`BLEND`]; the third, a hundredth of ξ, stays and is met at θ = 0 alone, the edge of every
 //! integral.
 //!
-//! Pushing and friction need no vectors: with p = |f₁ + f₂ x₃ + f₃ x₂| against the facet, the shear is
-//! f₂ v_t − f₃ z_t, where v_t and z_t are the parts of e_v and e_z along the facet, and all products of
-//! these two follow from x₁, x₂ and x₃. So [`response`] gives the factors of v_t and z_t alone, and its
-//! caller, which knows how the facets lie, multiplies them by these vectors.
+//! Pushing and friction need no vectors: with p = |f₁ + f₂ x₃ + f₃ x₂| against the facet, the shear
+//! is f₂ v_t − f₃ z_t, where v_t and z_t are the parts of e_v and e_z along the facet, and all
+//! products of these two follow from x₁, x₂ and x₃. So [`response`] gives the factors of v_t and
+//! z_t alone, and its caller, which knows how the facets lie, multiplies them by these vectors.
 //!
-//! Each stage runs over all lanes before the next one begins: the square roots and divisions of some
-//! facets are waited for while others are computed.
+//! Each stage runs over all lanes before the next one begins: the square roots and divisions of
+//! some facets are waited for while others are computed.
 
 #![expect(clippy::inline_always, reason = "all of it is compiled once for each instruction set")]
 
@@ -153,8 +153,8 @@ impl Cubic {
     }
 }
 
-/// f₁, f₂ and f₃ of plates, split into what both of their faces share and what they have against each
-/// other.
+/// f₁, f₂ and f₃ of plates, split into what both of their faces share and what they have against
+/// each other.
 pub(super) struct Faces {
     x1: Each,
     x2: Each,
@@ -193,8 +193,8 @@ pub(super) struct Response {
 ///
 /// The part of the shear along the sliding v_t that would drive a facet is turned against it. The
 /// source turns the whole vector, which jumps; turning the part alone ends as friction does. For a
-/// facet that moves nearly along its normal the turn fades: there the sliding has no direction, and the
-/// push takes far more energy than such shear could give.
+/// facet that moves nearly along its normal the turn fades: there the sliding has no direction, and
+/// the push takes far more energy than such shear could give.
 ///
 /// * `x3`: e_n·e_v [-], of the face that counts
 /// * `sliding`: |v_t|² = 1 − x₃² [-]
@@ -340,8 +340,9 @@ mod tests {
     }
 
     /// Two models of the same plates from different experiments. Over every inclination and
-    /// direction they differ by 0.16 of the stress under a plate pressed down, two fifths of the mean
-    /// stress. Where plates are pushed down by 45° or more with at most 60° of tilt they are nearer.
+    /// direction they differ by 0.16 of the stress under a plate pressed down, two fifths of the
+    /// mean stress. Where plates are pushed down by 45° or more with at most 60° of tilt they are
+    /// nearer.
     #[test]
     fn in_the_plane_it_resembles_the_two_dimensional_theory() {
         let differences = |tilts: std::ops::RangeInclusive<i32>,

@@ -89,8 +89,8 @@ impl Sums {
         }
     }
 
-    /// Both side faces, half a width [m] beside the hub. They are added to each other first, so that
-    /// a mirror between left and right keeps every bit.
+    /// Both side faces, half a width [m] beside the hub. They are added to each other first, so
+    /// that a mirror between left and right keeps every bit.
     #[inline(always)]
     pub(super) fn add_sides(&mut self, rays: &Rays, forces: &SideSums, half_width: f64) {
         let SideSums { left, right } = forces;

@@ -71,7 +71,8 @@ impl Motion {
         }
     }
 
-    /// Directions of motion at places of each ray, so far from the hub [m]; downward where nothing moves.
+    /// Directions of motion at places of each ray, so far from the hub [m]; downward where nothing
+    /// moves.
     #[inline(always)]
     fn directions(&self, rays: &Rays, hub: &HubVelocity, radius: &Each) -> Directions {
         let lateral = self.lateral;
@@ -156,7 +157,8 @@ impl FacetedWheel {
         }
     }
 
-    /// More than the soil's force on all facets [N]: the law's largest stress, as at the deepest of them.
+    /// More than the soil's force on all facets [N]: the law's largest stress, as at the deepest of
+    /// them.
     pub(super) fn most_force(&self) -> f64 {
         let Wheel { radius, width, .. } = self.wheel;
         let tip = self.wheel.shearing_radius();

@@ -24,7 +24,8 @@ impl StressField {
         })
     }
 
-    /// The same with a way to find the zeros of *j_x*: the first after the entry (−1) and the second (1).
+    /// The same with a way to find the zeros of *j_x*: the first after the entry (−1) and the
+    /// second (1).
     pub(super) fn breaks_with(&self, zero: impl Fn(f64) -> Option<f64>) -> Breaks {
         let ContactPatch { entry, max_stress, exit } = self.patch;
         let mut breaks = [entry, max_stress, exit, exit, exit, exit, exit];
@@ -127,8 +128,8 @@ pub(super) const MOST_STEPS: usize = 6;
 
 /// Newton's method for a zero of *j_x* but the entry, from where a shallow arc has it.
 ///
-/// With d half the way from the entry, j_x = 0 reads cos(θ_f − d) sin d = d r_s ω/v_x, which to second
-/// order is ⅔ d² − θ_f d + ½ θ_f² = 1 − r_s ω/v_x.
+/// With d half the way from the entry, j_x = 0 reads cos(θ_f − d) sin d = d r_s ω/v_x, which to
+/// second order is ⅔ d² − θ_f d + ½ θ_f² = 1 − r_s ω/v_x.
 #[derive(Clone, Copy)]
 pub(super) struct Newton {
     /// From the entry [rad].

@@ -104,7 +104,8 @@ impl StressLaws {
         self.kind
     }
 
-    /// The law of one of them, with a shear law of the same kind; its own is [`shear`](Self::shear).
+    /// The law of one of them, with a shear law of the same kind; its own is
+    /// [`shear`](Self::shear).
     #[inline(always)]
     pub(in crate::contact) fn law(&self, wheel: usize) -> StressLaw {
         StressLaw {

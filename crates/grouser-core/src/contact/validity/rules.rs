@@ -15,8 +15,8 @@ use crate::soil::{PressureSinkage, ShearBound, SlopeStability, SmallWheel, Soil,
 use crate::units::EARTH_GRAVITY;
 use crate::wheel::Grousers;
 
-/// How far gravity may be from the Earth's where Bekker's moduli state none, as a share [-]. Source: ours; gravity
-/// on Earth differs by half a hundredth from place to place.
+/// How far gravity may be from the Earth's where Bekker's moduli state none, as a share [-].
+/// Source: ours; gravity on Earth differs by half a hundredth from place to place.
 const SAME_GRAVITY: f64 = 0.01;
 
 /// How far a wheel's size may be from the fit's, as a share [-]. Source: ours.
@@ -229,7 +229,8 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     },
 ];
 
-/// Whether the terms are the general ones, but for what a slope does and what priors may have drawn.
+/// Whether the terms are the general ones, but for what a slope does and what priors may have
+/// drawn.
 fn has_general_terms(terms: &SmallWheel) -> bool {
     let general = SmallWheel::GENERAL;
     let mut own = SmallWheel { wedge_share: general.wedge_share, ..*terms };
@@ -272,15 +273,15 @@ fn dense_grousers(it: &Situation<'_>) -> Option<Grousers> {
     it.wheel.grousers.filter(|grousers| !has_faces && grousers.height > 0.0 && grousers.count > 0)
 }
 
-/// The spacing of the grousers [rad], and the largest at which a grouser enters the soil before the rim
-/// pushes it ahead.
+/// The spacing of the grousers [rad], and the largest at which a grouser enters the soil before the
+/// rim pushes it ahead.
 ///
 /// ```text
 /// φ_g < [√((1 + h')² − (1 − z')²) − √(1 − (1 − z')²)] / (1 − s)
 /// ```
 ///
-/// after Skonieczny, Moreland and Wettergreen (2012); h' = h_g/r, and z' = z/r with the rim's sinkage z. Skid
-/// counts as s = 0, and a rim above the soil as z = 0.
+/// after Skonieczny, Moreland and Wettergreen (2012); h' = h_g/r, and z' = z/r with the rim's
+/// sinkage z. Skid counts as s = 0, and a rim above the soil as z = 0.
 fn grousers_apart(it: &Situation<'_>) -> Option<(f64, Span)> {
     let grousers = dense_grousers(it)?;
     let (r, h_g) = (it.wheel.radius, grousers.height);
@@ -302,7 +303,8 @@ fn force_beyond_friction(it: &Situation<'_>) -> Option<(f64, Span)> {
     Some((horizontal(forces), Span::at_most(most)))
 }
 
-/// The force of the model's law as it is published, where the soil's bound has reduced it, and the bound.
+/// The force of the model's law as it is published, where the soil's bound has reduced it, and the
+/// bound.
 fn force_beyond_bound(it: &Situation<'_>) -> Option<(f64, Span)> {
     /// A bounded force has the bound but for its last digits.
     const DIGITS: f64 = 1e-9;

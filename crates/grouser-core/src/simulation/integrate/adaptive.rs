@@ -7,7 +7,8 @@
 //! are of order 5, take one step at a time and know nothing of the one before, so that a motion
 //! begins anew at once where wheels change their speeds.
 //!
-//! `setting_off` has the exponential steps with which it begins, `way` what one step knows of the next.
+//! `setting_off` has the exponential steps with which it begins, `way` what one step knows of the
+//! next.
 
 #[cfg(test)]
 mod problems;
@@ -33,13 +34,13 @@ const fn small(index: usize, coupled: &Range<usize>) -> f64 {
     if index < coupled.end { 1e-3 } else { 1e-2 }
 }
 
-/// What an unfinished motion knows: the step it is in, which may reach beyond the last time that was
-/// asked for. While the wheels keep their speeds it goes on there, as if it had never paused.
+/// What an unfinished motion knows: the step it is in, which may reach beyond the last time that
+/// was asked for. While the wheels keep their speeds it goes on there, as if it had never paused.
 #[derive(Clone, Default)]
 pub(in crate::simulation) struct History {
     known: Known,
-    /// How long the first step was after the wheels last changed their speeds [s]: what they disturb the next time is
-    /// often as much.
+    /// How long the first step was after the wheels last changed their speeds [s]: what they
+    /// disturb the next time is often as much.
     first_span: Option<f64>,
 }
 
@@ -144,15 +145,16 @@ const CAUTION: f64 = 0.9;
 const GROWTH: (f64, f64) = (0.2, 8.0);
 /// A step without rates at one of its stages is tried again with this share of its length.
 const RETREAT: f64 = 0.25;
-/// Error of the embedded step, which is of order 4, over that of the step itself, of order 5 [-]: at
-/// least so much. Source: measured, see the tests below.
+/// Error of the embedded step, which is of order 4, over that of the step itself, of order 5 [-]:
+/// at least so much. Source: measured, see the tests below.
 const EMBEDDED_EXCESS: f64 = 2.5;
 /// A motion by its rates, to a tolerance.
 struct Motion<F, const N: usize> {
     rates_at: F,
     /// The components that the rates depend on.
     coupled: Range<usize>,
-    /// How many decide how long a step is: all but the electrical energy, which goes with the motors' work, and comes last.
+    /// How many decide how long a step is: all but the electrical energy, which goes with the
+    /// motors' work, and comes last.
     deciding: usize,
     /// Whether places are in level coordinates, whose axes mean nothing.
     is_level: bool,
@@ -261,8 +263,8 @@ impl<F: Fn(&Numbers<N>) -> Option<Numbers<N>>, const N: usize> Motion<F, N> {
         Some(Attempt { step, rates: Some(rates), fastest })
     }
 
-    /// Size of a component. On level coordinates no result may depend on which way x points: places count by their distance
-    /// from the start, and yaw as a radian.
+    /// Size of a component. On level coordinates no result may depend on which way x points: places
+    /// count by their distance from the start, and yaw as a radian.
     fn size(&self, numbers: &Numbers<N>, i: usize) -> f64 {
         match i {
             0 | 1 if self.is_level => wide::hypot(numbers[0], numbers[1]),
@@ -288,8 +290,8 @@ impl<F: Fn(&Numbers<N>) -> Option<Numbers<N>>, const N: usize> Motion<F, N> {
     /// at a rate λ, the second derivative over the first, from a size |f| / λ, and a step of order
     /// 4 misses a share c (λ h)⁵ of that.
     fn first_outlook(&self, from: &Numbers<N>, rates: &Numbers<N>) -> Outlook<N> {
-        /// *c* [-]: the explicit method's greatest breach of a condition of order 5, in its embedded
-        /// step.
+        /// *c* [-]: the explicit method's greatest breach of a condition of order 5, in its
+        /// embedded step.
         const SHARE: f64 = 1e-3;
         /// Length of the trial that finds the second derivative, over the size of the motion [-].
         const TRIAL: f64 = 1e-3;

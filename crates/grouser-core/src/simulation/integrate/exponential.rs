@@ -1,21 +1,22 @@
-//! One step of an exponential method: the motion as it is to first order is followed exactly, however fast it dies out,
-//! and stages see only what that leaves out.
+//! One step of an exponential method: the motion as it is to first order is followed exactly,
+//! however fast it dies out, and stages see only what that leaves out.
 //!
 //! ```text
 //! y' = f(y) = f_0 + J (y − y_0) + g(y)         y_1 = y_0 + h φ_1(hJ) f_0 + h ∫ e^((1−θ) hJ) g dθ
 //! ```
 //!
-//! Where wheels change their speeds by a little, slip settles on another steady state along an exponential, and one
-//! step leads there, where a polynomial would need several within each of its milliseconds. An evaluation more than
-//! the Jacobian and the two of its stages is not needed.
+//! Where wheels change their speeds by a little, slip settles on another steady state along an
+//! exponential, and one step leads there, where a polynomial would need several within each of its
+//! milliseconds. An evaluation more than the Jacobian and the two of its stages is not needed.
 //!
-//! Source: Hochbruck, Ostermann and Schweitzer (2009), SIAM J. Numer. Anal. 47, 786-803, the method exprb43: of order 4,
-//! stiff problems included, with an embedded one of order 3.
+//! Source: Hochbruck, Ostermann and Schweitzer (2009), SIAM J. Numer. Anal. 47, 786-803, the method
+//! exprb43: of order 4, stiff problems included, with an embedded one of order 3.
 
 use super::rosenbrock::Linear;
 use super::step::{Numbers, Step};
 
-/// A step of a span [s] from a point; none where a stage has no rates. It has no points between its ends.
+/// A step of a span [s] from a point; none where a stage has no rates. It has no points between its
+/// ends.
 pub(super) fn exponential_step<const N: usize>(
     from: &Numbers<N>,
     linear: &Linear<N>,
@@ -213,7 +214,8 @@ mod tests {
     use super::super::step::COUPLED;
     use super::*;
 
-    /// y' = −λ y, and another number that gathers y: one step of any length ends at the closed form.
+    /// y' = −λ y, and another number that gathers y: one step of any length ends at the closed
+    /// form.
     #[test]
     fn a_linear_motion_is_followed_exactly_however_stiff() {
         let (fast, slow) = (COUPLED.start, SIZE - 1);

@@ -1,6 +1,6 @@
-//! The order conditions of one-step methods: a solution is of an order if it treats all rooted trees of
-//! that many nodes right. Source: Hairer, Norsett and Wanner (1993), Solving Ordinary Differential
-//! Equations I, section II.2; Hairer and Wanner (1996), part II, section IV.7.
+//! The order conditions of one-step methods: a solution is of an order if it treats all rooted
+//! trees of that many nodes right. Source: Hairer, Norsett and Wanner (1993), Solving Ordinary
+//! Differential Equations I, section II.2; Hairer and Wanner (1996), part II, section IV.7.
 
 use nalgebra::{SMatrix, SVector};
 

@@ -1,5 +1,5 @@
-//! One step of a linearly implicit method: the Jacobian at its start, a linear solve for each stage,
-//! an estimate of its error, and all points between its ends.
+//! One step of a linearly implicit method: the Jacobian at its start, a linear solve for each
+//! stage, an estimate of its error, and all points between its ends.
 //!
 //! Source: Hairer and Wanner (1996), Solving Ordinary Differential Equations II, section IV.7. No
 //! step depends on the one before it, so that a motion may begin anew at any time.
@@ -11,8 +11,8 @@ use nalgebra::{DMatrix, DVector, Dyn, LU, Matrix4, Matrix6, U4, U6, Vector4, Vec
 use super::rodas5p::{A, C, GAMMA, H, STAGES};
 use super::step::{COUPLED, COUPLED_BY_PLACE, Numbers, Step, length, sum};
 
-/// Step of the differences in a Jacobian [m, rad, m/s, rad/s]: forces are exact to 1e-12, and change
-/// within the creep speed of 1e-6 m/s where a hub comes to rest.
+/// Step of the differences in a Jacobian [m, rad, m/s, rad/s]: forces are exact to 1e-12, and
+/// change within the creep speed of 1e-6 m/s where a hub comes to rest.
 const DIFFERENCE: f64 = 1e-9;
 
 /// Motions with a faster rate than this [1/s] have a hub near rest: there differences to one side
@@ -121,9 +121,9 @@ impl<const N: usize> Linear<N> {
 
 /// A step of a span [s] from a point; None where a stage has no rates.
 ///
-/// Its error is the greater of two. At its end it is the last stage, which the embedded step of order
-/// 4 does without. Halfway, the continuous extension does not move as the rates there demand: what
-/// moves fast is pinned at the end of a step however long that is, and not on the way.
+/// Its error is the greater of two. At its end it is the last stage, which the embedded step of
+/// order 4 does without. Halfway, the continuous extension does not move as the rates there demand:
+/// what moves fast is pinned at the end of a step however long that is, and not on the way.
 pub(super) fn implicit_step<const N: usize>(
     from: &Numbers<N>,
     linear: &Linear<N>,

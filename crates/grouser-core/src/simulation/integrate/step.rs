@@ -5,8 +5,8 @@ use std::ops::Range;
 /// A point, or its rates.
 pub(super) type Numbers<const N: usize> = [f64; N];
 
-/// Which components the rates depend on where the ground is the same everywhere: yaw and the velocities, and whatever
-/// motors have right after them. Energies act on nothing.
+/// Which components the rates depend on where the ground is the same everywhere: yaw and the
+/// velocities, and whatever motors have right after them. Energies act on nothing.
 pub(super) const COUPLED: Range<usize> = 2..6;
 /// The same where it differs from place to place.
 pub(super) const COUPLED_BY_PLACE: Range<usize> = 0..6;

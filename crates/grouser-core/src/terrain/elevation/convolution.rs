@@ -5,10 +5,10 @@ pub(super) const POINTS: usize = 4;
 
 /// Weights of the points about a place, along one axis.
 ///
-/// The kernel of [Keys1981], Eq. (15): of the cubic ones that go through their points it is the one of
-/// third order. At an edge the source's conditions, Eqs. (19) and (25), give the point that is missing
-/// there: a parabola through the three nearest. Its weight goes to those, so that no place needs more
-/// than the grid has.
+/// The kernel of [Keys1981], Eq. (15): of the cubic ones that go through their points it is the one
+/// of third order. At an edge the source's conditions, Eqs. (19) and (25), give the point that is
+/// missing there: a parabola through the three nearest. Its weight goes to those, so that no place
+/// needs more than the grid has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stencil {
     /// The first of the points, which are neighbours.
@@ -69,7 +69,8 @@ impl Stencil {
         Self { first: if cell == 0 { 0 } else { count.max(POINTS) - POINTS }, weights }
     }
 
-    /// The weighted sum of four values: the outer ones first, so that a mirrored one has the same bits.
+    /// The weighted sum of four values: the outer ones first, so that a mirrored one has the same
+    /// bits.
     pub(super) fn sum(&self, values: [f64; POINTS]) -> f64 {
         let [a, b, c, d] = self.weights;
         let [z_a, z_b, z_c, z_d] = values;

@@ -42,8 +42,9 @@ impl Known {
     }
 }
 
-/// Gives every missing point a height: beside known points it continues them, in lines through three of
-/// them by a parabola, through two straight on; farther off it is as high as the nearest of those.
+/// Gives every missing point a height: beside known points it continues them, in lines through
+/// three of them by a parabola, through two straight on; farther off it is as high as the nearest
+/// of those.
 ///
 /// The ground between four known points then depends on known heights only.
 pub(super) fn close(heights: &mut [f32], grid: &ElevationGrid, known: &Known) {
@@ -75,8 +76,9 @@ pub(super) fn close(heights: &mut [f32], grid: &ElevationGrid, known: &Known) {
 const DIRECTIONS: [(isize, isize); 8] =
     [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)];
 
-/// The height that known points in line with a missing one have there, if any is beside it: the mean
-/// over lines, of which those through three points count alone if there are any, then those through two.
+/// The height that known points in line with a missing one have there, if any is beside it: the
+/// mean over lines, of which those through three points count alone if there are any, then those
+/// through two.
 fn continued(heights: &[f32], grid: &ElevationGrid, known: &Known, point: usize) -> Option<f32> {
     let known_at = |x: isize, y: isize| {
         let place = step(grid, point, x, y).filter(|place| known.contains(*place))?;

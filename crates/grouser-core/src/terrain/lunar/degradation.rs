@@ -1,23 +1,24 @@
 //! Craters that wear down: the shapes that a fresh one takes as its soil creeps downhill.
 //!
-//! Small impacts move soil downhill in proportion to the slope, so that the ground obeys the equation of diffusion
-//! ([FassettThomson2014]). About a crater's centre, with lengths in radii *R* of the fresh crater, that is
+//! Small impacts move soil downhill in proportion to the slope, so that the ground obeys the
+//! equation of diffusion ([FassettThomson2014]). About a crater's centre, with lengths in radii *R*
+//! of the fresh crater, that is
 //!
 //! ```text
 //! ∂z/∂τ = (1/x) ∂/∂x (x ∂z/∂x)          x = r/R, τ = κ t/R²
 //! ```
 //!
-//! with the diffusivity *κ* and the age *t*. All craters pass through the same shapes, large ones later: a shape is
-//! known by its depth over its diameter alone. They are computed once, with the Crank–Nicolson scheme on rings of equal
-//! width, from [`Crater::fresh`].
+//! with the diffusivity *κ* and the age *t*. All craters pass through the same shapes, large ones
+//! later: a shape is known by its depth over its diameter alone. They are computed once, with the
+//! Crank–Nicolson scheme on rings of equal width, from [`Crater::fresh`].
 
 use crate::terrain::surface::{Crater, Surface};
 use crate::units::Vec2;
 
 /// Intervals of a radius of the fresh crater.
 const PER_RADIUS: usize = 50;
-/// How far from the centre the ground stays level, in radii of the fresh crater: at the ages that are kept what creeps
-/// farther is less than a ten-thousandth of the diameter.
+/// How far from the centre the ground stays level, in radii of the fresh crater: at the ages that
+/// are kept what creeps farther is less than a ten-thousandth of the diameter.
 const RADII: usize = 4;
 const POINTS: usize = RADII * PER_RADIUS;
 /// Width of a ring [-].
@@ -26,8 +27,9 @@ const RING: f64 = 1.0 / PER_RADIUS as f64;
 const STEP: f64 = 0.0005;
 const STEPS_PER_SHAPE: usize = 8;
 
-/// Depth over diameter of the shallowest craters that are made [-]: the shallowest class of [Dsne2021] is below 0.07,
-/// without an end. *Assumed*: a crater of this depth has walls of 6° at most, and shows on no picture but one with a low Sun.
+/// Depth over diameter of the shallowest craters that are made [-]: the shallowest class of
+/// [Dsne2021] is below 0.07, without an end. *Assumed*: a crater of this depth has walls of 6° at
+/// most, and shows on no picture but one with a low Sun.
 pub(super) const SHALLOWEST: f64 = 0.03;
 
 /// The shapes from fresh to hardly visible.
@@ -61,7 +63,8 @@ impl Shapes {
     /// The profile of a crater.
     ///
     /// * `diameter`: of its crest as it is today [m]
-    /// * `depth`: of its centre below the crest over that diameter [-]; kept between those of the first and the last shape
+    /// * `depth`: of its centre below the crest over that diameter [-]; kept between those of the
+    ///   first and the last shape
     pub(super) fn profile(&self, diameter: f64, depth: f64) -> Profile<'_> {
         let after = self.all.partition_point(|shape| shape.depth > depth);
         let after = after.clamp(1, self.all.len() - 1);
@@ -178,8 +181,9 @@ fn creep(heights: &mut [f64]) {
 mod tests {
     use super::*;
 
-    /// Source: [FassettThomson2014], abstract: with 5.5 m²/Myr a crater of 1 km has 52 % of its first depth after 3 Gyr.
-    /// DIFFERENCE: their first profile is not ours, which has a narrower rim; ours keeps 47 %.
+    /// Source: [FassettThomson2014], abstract: with 5.5 m²/Myr a crater of 1 km has 52 % of its
+    /// first depth after 3 Gyr. DIFFERENCE: their first profile is not ours, which has a narrower
+    /// rim; ours keeps 47 %.
     #[test]
     fn after_3_billion_years_a_crater_of_1_km_has_half_of_its_depth() {
         let (diffusivity, age, radius) = (5.5, 3000.0, 500.0);

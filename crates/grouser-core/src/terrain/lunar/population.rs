@@ -22,8 +22,9 @@ pub struct AgedCrater {
 /// N(≥ D) = c/D²          on each square metre, D in metres
 /// ```
 ///
-/// Source: [Dsne2021], section 3.4.1.1, after Trask: 0.079433 D⁻², which keeps its value in any unit of length. Its
-/// text has the law for craters below 100 m on all of the Moon but its youngest surfaces, as an upper limit.
+/// Source: [Dsne2021], section 3.4.1.1, after Trask: 0.079433 D⁻², which keeps its value in any
+/// unit of length. Its text has the law for craters below 100 m on all of the Moon but its youngest
+/// surfaces, as an upper limit.
 pub const EQUILIBRIUM: f64 = 0.079_433;
 
 /// A class of craters of one look.
@@ -34,8 +35,9 @@ struct Class {
     depth: [f64; 2],
 }
 
-/// Craters by how worn they are, the freshest first. Source: [Dsne2021], table 3.4.1.2-2, after Basilevsky (1976).
-/// Its first range is open above, where ours ends with a fresh crater, and its last is open below.
+/// Craters by how worn they are, the freshest first. Source: [Dsne2021], table 3.4.1.2-2, after
+/// Basilevsky (1976). Its first range is open above, where ours ends with a fresh crater, and its
+/// last is open below.
 const CLASSES: [Class; 5] = [
     Class { share: 0.005, depth: [0.12, 0.2] },
     Class { share: 0.025, depth: [0.12, 0.2] },
@@ -55,8 +57,9 @@ pub fn expected_count(share: f64, diameter: f64, area: f64) -> f64 {
 
 /// The craters with their centres on an area, from the largest down.
 ///
-/// The number above each diameter is a Poisson process whose mean is [`expected_count`]: the diameters are those at
-/// which that mean grows by an exponential step. So more of the small ones leave the large ones where they are.
+/// The number above each diameter is a Poisson process whose mean is [`expected_count`]: the
+/// diameters are those at which that mean grows by an exponential step. So more of the small ones
+/// leave the large ones where they are.
 #[derive(Clone, Debug)]
 pub(super) struct Population {
     random: Random,
@@ -116,7 +119,8 @@ mod tests {
         Population::new(Random::stream(seed, 1), on, 1.0, 100.0, 0.196)
     }
 
-    /// The law that [`EQUILIBRIUM`] states, within three standard deviations of Poisson's distribution, at five sizes.
+    /// The law that [`EQUILIBRIUM`] states, within three standard deviations of Poisson's
+    /// distribution, at five sizes.
     #[test]
     fn as_many_craters_are_made_as_the_law_says() {
         for smallest in [50.0, 20.0, 10.0, 5.0, 2.0] {
@@ -132,7 +136,8 @@ mod tests {
         }
     }
 
-    /// Source: [Dsne2021], table 3.4.1.2-2: 0.5 % and 2.5 % are deeper than 0.12, half of all is below 0.07.
+    /// Source: [Dsne2021], table 3.4.1.2-2: 0.5 % and 2.5 % are deeper than 0.12, half of all is
+    /// below 0.07.
     #[test]
     fn craters_are_as_deep_as_the_classes_say() {
         const COUNT: usize = 20_000;

@@ -6,8 +6,9 @@
 //! v(Δ) = v₀ (Δ/Δ₀)^H          root mean square; H: Hurst exponent          [Rosenburg2011]
 //! ```
 //!
-//! It is a sum of plane waves in all directions, in equal steps of the logarithm of their lengths λ, with
-//! amplitudes ∝ λ^H: a wave of amplitude *a* and wave number *k* adds a² (1 − J₀(k Δ)) to v².
+//! It is a sum of plane waves in all directions, in equal steps of the logarithm of their lengths
+//! λ, with amplitudes ∝ λ^H: a wave of amplitude *a* and wave number *k* adds a² (1 − J₀(k Δ)) to
+//! v².
 
 use std::f64::consts::{PI, TAU};
 
@@ -21,15 +22,16 @@ use crate::units::Vec2;
 pub struct Roughness {
     /// Hurst exponent, *H*, above 0 and below 1 [-].
     pub hurst: f64,
-    /// Root mean square of the slope between points of a line that are [`BASELINE`] apart, as a tangent [-].
+    /// Root mean square of the slope between points of a line that are [`BASELINE`] apart, as a
+    /// tangent [-].
     pub rms_slope: f64,
 }
 
 /// Distance over which slopes are stated [m]: the least of those of [Rosenburg2011].
 pub const BASELINE: f64 = 17.0;
 
-/// The longest wave [m]. DIFFERENCE: [Rosenburg2011] finds smaller exponents for lengths above about 1 km; of waves that
-/// long a site shows a tilt.
+/// The longest wave [m]. DIFFERENCE: [Rosenburg2011] finds smaller exponents for lengths above
+/// about 1 km; of waves that long a site shows a tilt.
 const LONGEST: f64 = 8192.0;
 /// The golden section [-].
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -48,15 +50,16 @@ struct Wave {
 
 /// Adds the relief to heights at the points of a grid.
 ///
-/// Waves come from the longest down to two cells, so that a finer grid has the same ground with shorter waves.
+/// Waves come from the longest down to two cells, so that a finer grid has the same ground with
+/// shorter waves.
 pub(super) fn add(heights: &mut [f64], grid: &ElevationGrid, rough: Roughness, mut random: Random) {
     if rough.rms_slope == 0.0 {
         return;
     }
     let scale = scale(rough);
     let shortest = 2.0 * grid.spacing.amin();
-    // Directions of neighbouring lengths are apart by the golden section of a turn, so that every few of them look alike
-    // from all sides; a wave's phase is by chance.
+    // Directions of neighbouring lengths are apart by the golden section of a turn, so that every
+    // few of them look alike from all sides; a wave's phase is by chance.
     let start = random.uniform();
     for (place, length) in lengths().take_while(|length| *length >= shortest).enumerate() {
         let turns = start + GOLDEN * place as f64 + random.uniform() / PER_OCTAVE as f64;
@@ -73,7 +76,8 @@ fn lengths() -> impl Iterator<Item = f64> {
     (0..).map(|step: u32| LONGEST * pow(0.5, f64::from(step) / PER_OCTAVE as f64))
 }
 
-/// Amplitude of a wave of 1 m [m], with which the slope over [`BASELINE`] is the one that is asked for.
+/// Amplitude of a wave of 1 m [m], with which the slope over [`BASELINE`] is the one that is asked
+/// for.
 fn scale(rough: Roughness) -> f64 {
     /// Waves that count, in halvings: shorter ones are a thousandth of the sum.
     const OCTAVES: usize = 16;

@@ -13,12 +13,13 @@ use crate::units::Vec2;
 /// z = 0                              beyond
 /// ```
 ///
-/// with the distance *r* from the centre, the radius *R* of the crest, the depth *d* below the crest, the
-/// crest's height *h* and the width *w* of the rim's outer slope. Sizes of fresh craters are from [Pike1977].
-/// The usual shape between them is a paraboloid, d x² from the floor up, with a blanket ∝ (R/r)³ outside
-/// ([McGetchin1973], as in [MartinEtAl2014]). DIFFERENCE: these meet in an edge at the crest, with 38° inside;
-/// ours has a level crest and a continuous gradient, so that heights and slopes converge on finer grids. It
-/// is at most d/4 above that paraboloid, at x = 0.71, and within 0.18 h of that blanket.
+/// with the distance *r* from the centre, the radius *R* of the crest, the depth *d* below the
+/// crest, the crest's height *h* and the width *w* of the rim's outer slope. Sizes of fresh craters
+/// are from [Pike1977]. The usual shape between them is a paraboloid, d x² from the floor up, with
+/// a blanket ∝ (R/r)³ outside ([McGetchin1973], as in [MartinEtAl2014]). DIFFERENCE: these meet in
+/// an edge at the crest, with 38° inside; ours has a level crest and a continuous gradient, so that
+/// heights and slopes converge on finer grids. It is at most d/4 above that paraboloid, at x =
+/// 0.71, and within 0.18 h of that blanket.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crater {
     /// Where its centre is [m].
@@ -33,18 +34,19 @@ pub struct Crater {
     pub rim_width: f64,
 }
 
-/// Depth of a fresh simple crater over its diameter [-]. Source: [Pike1977], 0.196 D^1.010 in km; the power
-/// is left out, which changes a crater of 10 m by 5 %.
+/// Depth of a fresh simple crater over its diameter [-]. Source: [Pike1977], 0.196 D^1.010 in km;
+/// the power is left out, which changes a crater of 10 m by 5 %.
 const DEPTH: f64 = 0.196;
-/// Height of its rim over its diameter [-]. Source: [Pike1977], 0.036 D^1.014 in km; without the power.
+/// Height of its rim over its diameter [-]. Source: [Pike1977], 0.036 D^1.014 in km; without the
+/// power.
 const RIM_HEIGHT: f64 = 0.036;
-/// Width of its rim's outer slope over its diameter [-]. Source: [Pike1977], 0.257 D^1.011 in km; without
-/// the power.
+/// Width of its rim's outer slope over its diameter [-]. Source: [Pike1977], 0.257 D^1.011 in km;
+/// without the power.
 const RIM_WIDTH: f64 = 0.257;
 
 impl Crater {
-    /// A fresh simple crater, as small ones on the Moon are: 0.196 of its diameter deep below a rim of 0.036.
-    /// Its walls are up to 31° steep.
+    /// A fresh simple crater, as small ones on the Moon are: 0.196 of its diameter deep below a rim
+    /// of 0.036. Its walls are up to 31° steep.
     ///
     /// * `centre`: where it is [m]
     /// * `diameter`: of its crest [m], below 15 km

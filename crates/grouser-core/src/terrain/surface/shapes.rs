@@ -25,8 +25,8 @@ pub struct Incline {
 /// z = tan α (I(s) − I(s − l))        I(s) = ∫ min(1, max(0, s/b + 1/2)) ds        s: from the foot, uphill
 /// ```
 ///
-/// The slope changes evenly over a rounding of length *b*, half of it before the foot and half after it, and
-/// the same at the top.
+/// The slope changes evenly over a rounding of length *b*, half of it before the foot and half
+/// after it, and the same at the top.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ramp {
     /// A place on the line where it starts [m].

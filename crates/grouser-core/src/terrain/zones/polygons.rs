@@ -1,7 +1,8 @@
 //! Zones by polygons.
 //!
-//! A place is inside of a polygon if a ray from it to the east crosses its rings an odd number of times, so that rings
-//! within rings are holes. Edges are listed by bands from south to north: a place and a wheel meet those of few bands.
+//! A place is inside of a polygon if a ray from it to the east crosses its rings an odd number of
+//! times, so that rings within rings are holes. Edges are listed by bands from south to north: a
+//! place and a wheel meet those of few bands.
 
 use std::ops::RangeInclusive;
 
@@ -14,7 +15,8 @@ use crate::units::Vec2;
 pub struct ZonePolygon {
     /// Which of the soils, from 0; none for the ground's own.
     pub soil: Option<usize>,
-    /// Its outline and its holes: the corners of each [m], in either sense, the last one joined to the first.
+    /// Its outline and its holes: the corners of each [m], in either sense, the last one joined to
+    /// the first.
     pub rings: Vec<Vec<Vec2>>,
 }
 
@@ -121,7 +123,8 @@ impl PolygonZones {
         let edges = self.bands[self.band(at.y)].iter().map(|edge| &self.edges[*edge as usize]);
         let crossed = edges.filter(|edge| edge.is_east_of(at));
         let (mut last, mut current) = (None, (u32::MAX, false));
-        // The edges of a polygon follow each other; the last polygon that has the place covers the others.
+        // The edges of a polygon follow each other; the last polygon that has the place covers the
+        // others.
         for Edge { polygon, .. } in crossed {
             if *polygon != current.0 {
                 last = if current.1 { Some(current.0) } else { last };
@@ -151,7 +154,8 @@ impl PolygonZones {
 }
 
 impl Edge {
-    /// Whether a ray from a place to the east crosses it. Of an edge's ends, the northern one does not count.
+    /// Whether a ray from a place to the east crosses it. Of an edge's ends, the northern one does
+    /// not count.
     fn is_east_of(&self, at: Vec2) -> bool {
         let Self { south, north, .. } = *self;
         if !(south.y <= at.y && at.y < north.y) {

@@ -1,9 +1,10 @@
 //! The shares of zones below a footprint.
 //!
-//! In the footprint's coordinates, a along it and b across it, both from −1 to 1, borders are straight pieces. Between the
-//! ends and crossings of all of them the footprint is cut into strips across it; within one, the borders stand in one order,
-//! and what is between two neighbours belongs to one zone. Gauss's rule with two nodes along a strip has its weight exactly:
-//! the integrand is of degree three.
+//! In the footprint's coordinates, a along it and b across it, both from −1 to 1, borders are
+//! straight pieces. Between the ends and crossings of all of them the footprint is cut into strips
+//! across it; within one, the borders stand in one order, and what is between two neighbours
+//! belongs to one zone. Gauss's rule with two nodes along a strip has its weight exactly: the
+//! integrand is of degree three.
 
 use super::border::{Border, across, clipped, crossing};
 use super::map::Map;

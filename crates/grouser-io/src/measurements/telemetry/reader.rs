@@ -27,8 +27,8 @@ impl<'a, R: Read> TelemetryReader<'a, R> {
     /// * `rover`: the rover that was driven, for the names of its wheels
     ///
     /// # Errors
-    /// [`MeasurementError`] for a source without a header, without the time, with a column twice, or with the column
-    /// of a wheel that the rover does not have.
+    /// [`MeasurementError`] for a source without a header, without the time, with a column twice,
+    /// or with the column of a wheel that the rover does not have.
     pub fn new(
         label: impl Into<Cow<'a, str>>,
         source: R,

@@ -1,5 +1,5 @@
-//! Rows of telemetry from a source of any kind: names of columns become a header, cells become records in SI, and
-//! what is damaged is counted.
+//! Rows of telemetry from a source of any kind: names of columns become a header, cells become
+//! records in SI, and what is damaged is counted.
 
 use grouser_core::vehicle::Rover;
 
@@ -55,14 +55,15 @@ impl TelemetryRows {
     /// * `rover`: the rover that was driven, for the names of its wheels
     ///
     /// # Errors
-    /// [`MeasurementError`] for columns without the time, with a column twice, or with the column of a wheel that the
-    /// rover does not have.
+    /// [`MeasurementError`] for columns without the time, with a column twice, or with the column
+    /// of a wheel that the rover does not have.
     pub fn new(label: &str, names: Vec<String>, rover: &Rover) -> Result<Self, MeasurementError> {
         let header = Header::new(label, names, rover)?;
         Ok(Self { header, last_time: None, rows: 0, lost: Lost::default() })
     }
 
-    /// The same, gone on with after the record of a time: rows that do not come after it are out of order.
+    /// The same, gone on with after the record of a time: rows that do not come after it are out of
+    /// order.
     #[must_use]
     pub fn after(self, last_time: Option<f64>) -> Self {
         Self { last_time, ..self }

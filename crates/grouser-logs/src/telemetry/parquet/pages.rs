@@ -1,7 +1,8 @@
 //! Pages of a column, unpacked within limits.
 //!
-//! The library is made to believe that columns are not compressed: it then hands over pages as they are stored, which
-//! are unpacked here, by libraries without native code. Source: "Parquet: Compression" of the Apache Parquet format.
+//! The library is made to believe that columns are not compressed: it then hands over pages as they
+//! are stored, which are unpacked here, by libraries without native code. Source: "Parquet:
+//! Compression" of the Apache Parquet format.
 
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};

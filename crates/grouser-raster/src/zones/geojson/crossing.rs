@@ -4,7 +4,8 @@ use grouser_core::units::Vec2;
 
 /// A place where the edge of a ring crosses itself, if it does.
 ///
-/// Edges are looked at from the west to the east, each beside those that reach as far east as it begins.
+/// Edges are looked at from the west to the east, each beside those that reach as far east as it
+/// begins.
 ///
 /// * `ring`: its corners, each once
 pub(super) fn crossing(ring: &[Vec2]) -> Option<Vec2> {

@@ -8,8 +8,8 @@ use super::syntax::{Coordinates, Feature, Geometry, Root};
 use super::{bytes_of, features_in, root_of, shown, starts_so};
 use crate::error::{Fault, RasterError};
 
-/// Reads the line of a file: the places of its only `LineString`, which may stand by itself or in a Feature or
-/// FeatureCollection. Heights in it are passed over, and so are properties.
+/// Reads the line of a file: the places of its only `LineString`, which may stand by itself or in a
+/// Feature or FeatureCollection. Heights in it are passed over, and so are properties.
 ///
 /// # Errors
 /// [`RasterError`] with the file's name, if it has no line, several, other geometries or invalid

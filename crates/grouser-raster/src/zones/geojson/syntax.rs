@@ -1,7 +1,7 @@
 //! The parts of GeoJSON that zones need, as they stand in the text.
 //!
-//! What is not needed is passed over. Lists are read into as little memory as they can have, and no deeper than the parser
-//! goes; numbers of features are bounded.
+//! What is not needed is passed over. Lists are read into as little memory as they can have, and no
+//! deeper than the parser goes; numbers of features are bounded.
 
 use std::fmt;
 

@@ -1,4 +1,5 @@
-//! The prediction that the next runs should narrow, and the settings that the stand can run, parsed from text.
+//! The prediction that the next runs should narrow, and the settings that the stand can run, parsed
+//! from text.
 
 use std::ops::RangeInclusive;
 

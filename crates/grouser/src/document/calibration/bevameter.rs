@@ -1,5 +1,5 @@
-//! A calibration on plate and shear tests, from documents to documents: the moduli of a pressure-sinkage law, and
-//! cohesion, friction angle and shear modulus.
+//! A calibration on plate and shear tests, from documents to documents: the moduli of a
+//! pressure-sinkage law, and cohesion, friction angle and shear modulus.
 
 use serde::Serialize;
 use serde_json::{Map, Value as Json, json};
@@ -17,7 +17,8 @@ use crate::studies::calibration::{
     Sampling, ShearCurve,
 };
 
-/// With one width only the sum of the law's two terms is identifiable; no sampler is needed to find that out.
+/// With one width only the sum of the law's two terms is identifiable; no sampler is needed to find
+/// that out.
 const ONE_WIDTH: &str = "soil.pressure_sinkage.k_c and soil.pressure_sinkage.k_phi are not \
                          separately identifiable from plates of one width: test a second one";
 
@@ -25,11 +26,12 @@ const ONE_WIDTH: &str = "soil.pressure_sinkage.k_c and soil.pressure_sinkage.k_p
 const ONE_NORMAL_STRESS: &str = "soil.cohesion_kpa and soil.friction_angle_deg are not separately identifiable \
                                  from shear tests under one normal stress: test a second one";
 
-/// A modulus is searched to either side of zero, up to so many times what would make up all the stiffness of the
-/// stiffest plate [-]. Source: ours; the exponent may change its unit by less.
+/// A modulus is searched to either side of zero, up to so many times what would make up all the
+/// stiffness of the stiffest plate [-]. Source: ours; the exponent may change its unit by less.
 const SEARCHED_SIZES: f64 = 30.0;
 
-/// A shear modulus is searched within this factor of the displacement in which the curves rise [-]. Source: ours.
+/// A shear modulus is searched within this factor of the displacement in which the curves rise [-].
+/// Source: ours.
 const SEARCHED_RISES: f64 = 30.0;
 
 /// The keys that shear tests determine.
@@ -112,7 +114,8 @@ impl BevameterProblem {
     /// * `gravity`: *g* [m/s²]
     ///
     /// # Errors
-    /// A sentence, if there are no curves, a number of theirs is wrong, or the keys cannot be fitted.
+    /// A sentence, if there are no curves, a number of theirs is wrong, or the keys cannot be
+    /// fitted.
     pub fn new(
         soil: &Document,
         law: Option<&str>,
@@ -170,7 +173,8 @@ impl BevameterProblem {
     /// * `sampling`: of the posterior; least squares alone without
     ///
     /// # Errors
-    /// [`CalibrationError`] for curves that do not determine the soil, and if the observer stopped it.
+    /// [`CalibrationError`] for curves that do not determine the soil, and if the observer stopped
+    /// it.
     pub fn solve(
         &self,
         file: &str,
@@ -381,8 +385,8 @@ fn with_law(soil: &Document, law: &str) -> Document {
     })
 }
 
-/// The same soil, known to hold for the widths of some plates: over them the moduli are fitted, and over them one
-/// may be negative. With one width, which says nothing of others, it is as it was.
+/// The same soil, known to hold for the widths of some plates: over them the moduli are fitted, and
+/// over them one may be negative. With one width, which says nothing of others, it is as it was.
 fn with_widths(soil: &Document, plates: &[PlateCurve]) -> Document {
     let (Some(narrow), Some(wide)) = (plates.first(), plates.last()) else { return soil.clone() };
     if narrow.width == wide.width {

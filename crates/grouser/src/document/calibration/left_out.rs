@@ -9,8 +9,8 @@ use crate::studies::calibration::LeftOutGroup;
 use crate::studies::calibration::cross_validation::Coverage;
 use crate::studies::measurement::{PerQuantity, Quantity};
 
-/// A group of cells with its errors, and the coverage of its bands. As JSON an object with an object for each
-/// quantity; null for one that was not measured.
+/// A group of cells with its errors, and the coverage of its bands. As JSON an object with an
+/// object for each quantity; null for one that was not measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeftOutRecord {
     /// The errors.

@@ -1,4 +1,5 @@
-//! Results that every calibration has: parameters, discrepancies, sampler, unidentifiable parameters.
+//! Results that every calibration has: parameters, discrepancies, sampler, unidentifiable
+//! parameters.
 
 use serde::Serialize;
 
@@ -78,7 +79,8 @@ pub struct Solved {
     pub records: Vec<ParameterRecord>,
     /// And for each channel.
     pub discrepancies: Vec<DiscrepancyRecord>,
-    /// Correlation lengths of the discrepancies, in slip and in slip angle; none where they are independent.
+    /// Correlation lengths of the discrepancies, in slip and in slip angle; none where they are
+    /// independent.
     pub correlation_lengths: Vec<LengthRecord>,
     /// Unidentifiable parameters and combinations, a sentence for each.
     pub unidentifiable: Vec<String>,
@@ -131,8 +133,9 @@ impl Solved {
         }
     }
 
-    /// The outcome: `determined`; `underdetermined`, if the measurements do not determine a parameter
-    /// or a combination; `not_converged`, if least squares or the sampler has not converged.
+    /// The outcome: `determined`; `underdetermined`, if the measurements do not determine a
+    /// parameter or a combination; `not_converged`, if least squares or the sampler has not
+    /// converged.
     #[must_use]
     pub fn outcome(&self) -> &'static str {
         let worst = self.sampler.as_ref().map_or(1.0, |sampler| sampler.worst_r_hat);
@@ -145,7 +148,8 @@ impl Solved {
         }
     }
 
-    /// What to know of the solution, a sentence each: keys that end at a bound, a sampler that has not converged.
+    /// What to know of the solution, a sentence each: keys that end at a bound, a sampler that has
+    /// not converged.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         self.bound_notes().into_iter().chain(self.convergence_note()).collect()

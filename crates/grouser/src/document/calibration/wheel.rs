@@ -86,8 +86,8 @@ impl WheelProblem<'_> {
     /// Calibrates.
     ///
     /// # Errors
-    /// [`CalibrationError`] for measurements and keys that do not go together, for a model of your own, and if
-    /// the observer stopped it.
+    /// [`CalibrationError`] for measurements and keys that do not go together, for a model of your
+    /// own, and if the observer stopped it.
     pub fn solve(&self, observer: &dyn Observer) -> Result<WheelFound, CalibrationError> {
         if matches!(self.model, Model::Own(_)) {
             return Err(CalibrationError::OwnModel);
@@ -187,8 +187,8 @@ fn data_notes(tests: &WheelTests, keys: usize) -> Vec<String> {
 }
 
 impl WheelFound {
-    /// What to know of the results, a sentence each: what the data cannot show (few cells, no repeats, one load),
-    /// and the notes of the [solution](Solved::notes).
+    /// What to know of the results, a sentence each: what the data cannot show (few cells, no
+    /// repeats, one load), and the notes of the [solution](Solved::notes).
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         [self.notes.clone(), self.solved.notes()].concat()

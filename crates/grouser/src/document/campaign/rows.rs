@@ -1,4 +1,5 @@
-//! The rows of a campaign: the base with sampled numbers in their place, run, and its results as cells.
+//! The rows of a campaign: the base with sampled numbers in their place, run, and its results as
+//! cells.
 
 use super::super::columns::flags::{FLAGS, names as names_of};
 use super::super::columns::heading::{Held, held};
@@ -145,7 +146,8 @@ fn names<R>(results: &[columns::Column<R>]) -> impl Iterator<Item = &'static str
     results.iter().map(|column| column.name)
 }
 
-/// Runs the base with what a run has of its own, and adds the results to the row: at least the status.
+/// Runs the base with what a run has of its own, and adds the results to the row: at least the
+/// status.
 pub(super) fn run(study: Study, base: &Base, case: &Case<'_>, row: &mut Vec<Cell>) {
     let sampled = base.with(case.keys, case.values).map(|sampled| sampled.of(case));
     let answer = sampled.and_then(|sampled| match (study, sampled) {
@@ -163,10 +165,10 @@ pub(super) fn run(study: Study, base: &Base, case: &Case<'_>, row: &mut Vec<Cell
     }
 }
 
-/// What a quantity of a run without an answer counts as in statistics, in the column's unit: values on the safe
-/// side, as in bands ([`heading_band`](crate::studies::heading_band),
-/// [`wheel_test_band`](crate::studies::wheel_test_band)). Nothing for what could not be computed, and for what has no
-/// such value: a yaw, or work and power.
+/// What a quantity of a run without an answer counts as in statistics, in the column's unit: values
+/// on the safe side, as in bands ([`heading_band`](crate::studies::heading_band),
+/// [`wheel_test_band`](crate::studies::wheel_test_band)). Nothing for what could not be computed,
+/// and for what has no such value: a yaw, or work and power.
 pub(super) fn counted(
     base: &Base,
     keys: &[Key],

@@ -1,8 +1,9 @@
 //! Statistics of a campaign's runs. This module alone decides which runs are independent samples.
 //!
-//! In a campaign laid out for sensitivities, a point is run as A, as B, and as A with each input of B in turn.
-//! Only A and B are independent samples; the others repeat them but for one input. Summaries and probabilities
-//! are therefore over A and B alone, and sensitivities over all runs of whole points.
+//! In a campaign laid out for sensitivities, a point is run as A, as B, and as A with each input of
+//! B in turn. Only A and B are independent samples; the others repeat them but for one input.
+//! Summaries and probabilities are therefore over A and B alone, and sensitivities over all runs of
+//! whole points.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -64,8 +65,8 @@ impl QuantityStatistics {
     }
 }
 
-/// The values of those points all runs of which are there, one point after another: where a part of a campaign
-/// ends, a point may be cut in two.
+/// The values of those points all runs of which are there, one point after another: where a part of
+/// a campaign ends, a point may be cut in two.
 fn whole_points(
     plan: &Ensemble,
     runs: impl Iterator<Item = (u64, Option<f64>)>,
@@ -102,8 +103,8 @@ pub struct Frequencies {
     pub events: BTreeMap<String, usize>,
     /// Samples without a result, or not completed.
     pub failures: usize,
-    /// How often each word stands in a column of words about a leg: `stopped` in `leg_2.outcome`. In the columns'
-    /// order.
+    /// How often each word stands in a column of words about a leg: `stopped` in `leg_2.outcome`.
+    /// In the columns' order.
     pub legs: Vec<(String, BTreeMap<String, usize>)>,
 }
 

@@ -1,4 +1,5 @@
-//! The operator's card: of each slope its verdict, the soil as written, and the bands over samples of it.
+//! The operator's card: of each slope its verdict, the soil as written, and the bands over samples
+//! of it.
 
 use super::super::table::{Table, Values};
 use super::super::unit::{DEG, DEG_PER_M, M, M_PER_M, ONE};
@@ -72,7 +73,8 @@ impl OnCard<'_> {
         self.driven()?.motion.as_ref()
     }
 
-    /// The heading of a model on the soil as written, which is that of the row for the card's own model.
+    /// The heading of a model on the soil as written, which is that of the row for the card's own
+    /// model.
     fn yaw_of(&self, place: usize) -> Option<f64> {
         let (model, _) = &YAWS_OF_MODELS[place];
         match self.row.other_models.iter().find(|(it, _)| it == model) {
@@ -205,9 +207,9 @@ fn status(it: &OnCard<'_>) -> String {
     it.row.refusal.clone().unwrap_or_else(|| OK.to_owned())
 }
 
-/// A row for each slope: what the driver sets and reads, then contour traverses, each with the heading of its own
-/// soil. Bands are over the samples, and missing where there are none; where the motion by the card's heading has a
-/// band all the same, its ends are the soil as written.
+/// A row for each slope: what the driver sets and reads, then contour traverses, each with the
+/// heading of its own soil. Bands are over the samples, and missing where there are none; where the
+/// motion by the card's heading has a band all the same, its ends are the soil as written.
 #[must_use]
 pub fn table(card: &Card) -> Table {
     let rows: Vec<OnCard<'_>> = card.rows.iter().map(|row| OnCard { row, card }).collect();
@@ -268,8 +270,8 @@ const MEASURED_YAW: Quantity = quantity("measured_yaw_deg", DEG);
 const MEASURED: &str = "measured";
 const PLACE: &str = "place";
 
-/// Measured yaws, each beside the card's numbers on its slope, and whether it lies `below`, `inside` or `above`
-/// the band over samples.
+/// Measured yaws, each beside the card's numbers on its slope, and whether it lies `below`,
+/// `inside` or `above` the band over samples.
 #[must_use]
 pub fn beside(card: &Table, measured: &[MeasuredYaw]) -> Table {
     let slopes = card.numbers(SLOPE.name);

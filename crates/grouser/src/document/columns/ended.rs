@@ -1,4 +1,5 @@
-//! Counts of the samples of a band that ended early: a column for each way, made from the table of outcomes.
+//! Counts of the samples of a band that ended early: a column for each way, made from the table of
+//! outcomes.
 
 use super::{Column, whole};
 use crate::simulation::{InBand, OutcomeKind};
@@ -11,7 +12,8 @@ pub(super) const fn draws_ended<const KIND: usize>() -> Column<RunBand> {
     whole(Ended::<KIND>::NAME, Ended::<KIND>::DOC, |it| Some(it.ends.count(OutcomeKind::ALL[KIND])))
 }
 
-/// Name and description of the column that counts the samples which ended in one way, from its row of the table.
+/// Name and description of the column that counts the samples which ended in one way, from its row
+/// of the table.
 struct Ended<const KIND: usize>;
 
 impl<const KIND: usize> Ended<KIND> {

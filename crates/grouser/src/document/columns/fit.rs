@@ -41,7 +41,8 @@ pub const SETTINGS: [&str; 2] = [SLIP_ANGLE.name, TOTAL_SLIP.name];
 /// Why a cell is an extrapolation.
 const FLAGS: [Column<CellComparison>; 1] = [flags::flags(|it| flags::names(&it.findings))];
 
-/// Means over a cell: measured, the standard deviation between the trials or within a single one, and predicted.
+/// Means over a cell: measured, the standard deviation between the trials or within a single one,
+/// and predicted.
 const MEANS: [Column<CellComparison>; 4] = [
     DRAWBAR_PULL.compared("Drawbar pull", |it| means(it, Measured::DrawbarPull)),
     SIDE_FORCE.compared("Side force", |it| means(it, Measured::SideForce)),

@@ -1,4 +1,5 @@
-//! A forecast: bands on each slope, the error budget, the mean of each choice, and what tests would show.
+//! A forecast: bands on each slope, the error budget, the mean of each choice, and what tests would
+//! show.
 
 use super::super::table::Table;
 use super::super::unit::{DEG, M_PER_M, ONE};
@@ -98,7 +99,8 @@ struct Part {
     factor: &'static str,
     /// How many levels the factor has; none of what is no factor.
     levels: Option<usize>,
-    /// The part, the total and the shared part, as shares of the variance; none where there is no variance.
+    /// The part, the total and the shared part, as shares of the variance; none where there is no
+    /// variance.
     first: Option<f64>,
     total: Option<f64>,
     shared: Option<f64>,
@@ -130,8 +132,9 @@ const PARTS: [Column<Part>; 9] = [
     text("what_would_shrink_it", "What would make the part smaller", |it| Some(it.remedy.to_owned())),
 ];
 
-/// The error budgets: of the slip ratio and of the drift on each slope, and of the steepest slope. In each the parts,
-/// largest first, then the whole, which is their sum. Factors of one level are left out.
+/// The error budgets: of the slip ratio and of the drift on each slope, and of the steepest slope.
+/// In each the parts, largest first, then the whole, which is their sum. Factors of one level are
+/// left out.
 #[must_use]
 pub fn budget(forecast: &Forecast) -> Table {
     let on_slopes = forecast.slopes.iter().flat_map(|it| {
@@ -289,7 +292,8 @@ const fn of_tests<'a>() -> [Column<OnTest<'a>>; 5] {
     ]
 }
 
-/// What tests would show on the soil, and under the gravity, that was measured: a row for each test and slope.
+/// What tests would show on the soil, and under the gravity, that was measured: a row for each test
+/// and slope.
 #[must_use]
 pub fn tests(forecast: &Forecast) -> Table {
     let of_test = |test| {

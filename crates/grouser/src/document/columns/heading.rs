@@ -1,5 +1,5 @@
-//! The heading offset that holds the contour: on a slope, over slope and course, and over samples of an
-//! uncertain soil.
+//! The heading offset that holds the contour: on a slope, over slope and course, and over samples
+//! of an uncertain soil.
 
 use super::super::table::Table;
 use super::super::unit::NM;
@@ -243,9 +243,10 @@ pub fn map_brief() -> Vec<String> {
     [SOIL].into_iter().chain(names).chain([STATUS, FLAGS]).map(String::from).collect()
 }
 
-/// Quantiles and probabilities on one slope over samples of soil and model. A sample in which no heading holds the
-/// course counts as slip 1, sunk to the axles and with work without a bound, whose quantiles are missing; it has
-/// no yaw. A sample for which the search gave up counts as nothing: it is in no quantile and no probability.
+/// Quantiles and probabilities on one slope over samples of soil and model. A sample in which no
+/// heading holds the course counts as slip 1, sunk to the axles and with work without a bound,
+/// whose quantiles are missing; it has no yaw. A sample for which the search gave up counts as
+/// nothing: it is in no quantile and no probability.
 pub const BAND: [Column<SlopeBand>; 7] = [
     YAW.band("Yaw, positive uphill, over the samples that hold the course", |it| it.yaw),
     SLIP_RATIO.band("Slip ratio", |it| it.slip_ratio),

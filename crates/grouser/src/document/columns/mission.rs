@@ -71,7 +71,8 @@ pub const MISSION: [Column<DrivenMission>; 10] = [
     ENERGY.number("Work of the motors", |it| it.report.energy()),
 ];
 
-/// What motors and battery took over a mission, of a rover whose motors are known: beside [`MISSION`].
+/// What motors and battery took over a mission, of a rover whose motors are known: beside
+/// [`MISSION`].
 pub const ELECTRICAL_MISSION: [Column<DrivenMission>; 4] = [
     BATTERY_ENERGY
         .maybe("Electrical energy that motors, and with a battery the electronics, took", |it| {
@@ -101,7 +102,8 @@ pub const ELECTRICAL_LEG: [Column<DrivenLeg>; 4] = [
     }),
 ];
 
-/// Those of four columns of motors and battery that some row has: all of what is known of the rover.
+/// Those of four columns of motors and battery that some row has: all of what is known of the
+/// rover.
 fn electrical<R>(
     columns: &'static [Column<R>; 4],
     rows: &[R],
@@ -174,8 +176,8 @@ pub const LEG: [Column<DrivenLeg>; 17] = [
     }),
 ];
 
-/// What a campaign keeps of a mission beside its end: way and slip ratio, and energy; electrical energy and largest
-/// current, too, of a rover whose motors are known.
+/// What a campaign keeps of a mission beside its end: way and slip ratio, and energy; electrical
+/// energy and largest current, too, of a rover whose motors are known.
 pub(in super::super) fn kept(
     has_motors: bool,
 ) -> impl Iterator<Item = &'static Column<DrivenMission>> {
@@ -189,8 +191,8 @@ pub(in super::super) fn kept(
 /// So many columns of motors and battery are known of every rover with motors.
 const OF_MOTORS: usize = 2;
 
-/// What a campaign keeps of each leg: outcome, way, time, energy, slip ratio, and what stopped it; electrical energy and
-/// largest current, too, of a rover whose motors are known.
+/// What a campaign keeps of each leg: outcome, way, time, energy, slip ratio, and what stopped it;
+/// electrical energy and largest current, too, of a rover whose motors are known.
 pub(in super::super) fn kept_of_leg(
     has_motors: bool,
 ) -> impl Iterator<Item = &'static Column<DrivenLeg>> {
@@ -201,7 +203,8 @@ pub(in super::super) fn kept_of_leg(
     kept.chain(TAKEN.split_at(OF_MOTORS).0.iter().filter(move |_| has_motors))
 }
 
-/// The columns of a table of missions for reading: those of [`MISSION`], and of motors and battery where it has them.
+/// The columns of a table of missions for reading: those of [`MISSION`], and of motors and battery
+/// where it has them.
 #[must_use]
 pub fn missions_brief(missions: &Table) -> Vec<String> {
     let electrical = ELECTRICAL_MISSION.iter().map(|column| column.name);
@@ -237,8 +240,8 @@ fn those_of(table: &Table, names: impl Iterator<Item = &'static str>) -> Vec<Str
     names.filter(is_there).map(str::to_owned).collect()
 }
 
-/// A mission as one object of JSON: `outcome`, `energy_j`, what motors and battery took where that is known, `final`, and
-/// its `legs`.
+/// A mission as one object of JSON: `outcome`, `energy_j`, what motors and battery took where that
+/// is known, `final`, and its `legs`.
 #[derive(Clone, Copy, Debug)]
 pub struct MissionObject<'a> {
     /// The mission.
@@ -291,7 +294,8 @@ pub fn why_stopped(stopped: &Stopped) -> String {
     format!("{ahead}{cause} after {:.2} m", stopped.after)
 }
 
-/// How far a turn or an arc fell short: `turned 37.6° of 90°, 52.4° short: its yaw stands still, after 1.57 m`.
+/// How far a turn or an arc fell short:
+/// `turned 37.6° of 90°, 52.4° short: its yaw stands still, after 1.57 m`.
 #[must_use]
 pub fn why_short(short: &FellShort) -> String {
     let deg = |angle: f64| DEG.from_si(angle);

@@ -1,4 +1,5 @@
-//! A drive that was replayed: every channel over time, how far measured and predicted are apart, and what that points to.
+//! A drive that was replayed: every channel over time, how far measured and predicted are apart,
+//! and what that points to.
 
 use super::super::table::Table;
 use super::super::unit::{DEG, ONE, Unit};
@@ -86,7 +87,8 @@ pub const STRETCH: [Column<ReplayedStretch>; 2] = [
     SLOPE.maybe("Slope of the ground, as it was read", |it| it.attitude.map(|it| it[0])),
 ];
 
-/// The columns of a channel: measured, predicted and residual, and the band where samples were drawn.
+/// The columns of a channel: measured, predicted and residual, and the band where samples were
+/// drawn.
 #[must_use]
 pub fn columns_of(channel: Channel) -> [Column<ChannelValue>; 2] {
     let quantity = quantity_of(channel);

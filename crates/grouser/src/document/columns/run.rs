@@ -29,8 +29,8 @@ pub const LATERAL_SPEED: Quantity = quantity("lateral_speed_m_s", M_S);
 /// Yaw rate.
 pub const YAW_RATE: Quantity = quantity("yaw_rate_deg_s", DEG_S);
 
-/// The rover at one time. Positions are of the body's centre of mass, in the slope frame or on the map; speeds in the body
-/// frame.
+/// The rover at one time. Positions are of the body's centre of mass, in the slope frame or on the
+/// map; speeds in the body frame.
 pub const RECORD: [Column<Record>; 12] = [
     TIME.number("Time", |it| it.time),
     X.number("Of the body's centre of mass: along the contour, or on a map", |it| it.place().x),
@@ -66,7 +66,8 @@ pub const STANDING: [Column<Record>; 5] = [
     ),
 ];
 
-/// How the rover stands in a scenario: nothing on a plane, and no belly clearance where the rover's is not given.
+/// How the rover stands in a scenario: nothing on a plane, and no belly clearance where the rover's
+/// is not given.
 pub(in super::super) fn standing(
     scenario: &Scenario,
 ) -> impl Iterator<Item = &'static Column<Record>> + use<> {
@@ -198,8 +199,9 @@ pub fn raised(run: &Trajectory, scenario: &Scenario) -> Table {
     Table::of(&RAISED, &RoverOnSlope::of(scenario).over(run))
 }
 
-/// A row for each record. The columns of a wheel start with its name, as in `front-left.slip_ratio`; they are
-/// empty where the rover has just tipped over or sunk, and left out where no sample has any.
+/// A row for each record. The columns of a wheel start with its name, as in
+/// `front-left.slip_ratio`; they are empty where the rover has just tipped over or sunk, and left
+/// out where no sample has any.
 #[must_use]
 pub fn table(run: &Trajectory, scenario: &Scenario) -> Table {
     let rover = &scenario.rover;
@@ -234,8 +236,8 @@ pub fn table(run: &Trajectory, scenario: &Scenario) -> Table {
     table
 }
 
-/// The rover at one time over samples of soil and model, and which of them ended early until then. What such a sample
-/// counts as from then on is said by the table of outcomes.
+/// The rover at one time over samples of soil and model, and which of them ended early until then.
+/// What such a sample counts as from then on is said by the table of outcomes.
 pub const TIME_BAND: [Column<TimeBand>; 10] = [
     TIME.number("Time", |it| it.time),
     X.band("Along the contour", |it| it.x),
@@ -249,14 +251,16 @@ pub const TIME_BAND: [Column<TimeBand>; 10] = [
     text(ENDED_EARLY, "How these ended, with the share of each way", |it| it.ends.in_words()),
 ];
 
-/// How the rover stands at one time on ground with heights, over samples of soil and model: beside [`TIME_BAND`].
+/// How the rover stands at one time on ground with heights, over samples of soil and model: beside
+/// [`TIME_BAND`].
 pub const STANDING_BAND: [Column<TimeBand>; 3] = [
     Z.band("Height of the body's centre of mass", |it| it.height),
     ROLL.band("Roll, positive with the right side down", |it| it.roll),
     PITCH.band("Pitch, positive with the nose up", |it| it.pitch),
 ];
 
-/// How the rover stands at the end on ground with heights, over samples of soil and model: beside [`RUN_BAND`].
+/// How the rover stands at the end on ground with heights, over samples of soil and model: beside
+/// [`RUN_BAND`].
 pub const RUN_STANDING_BAND: [Column<RunBand>; 3] = [
     Z.band("Height of the body's centre of mass, at the end", |it| it.height),
     ROLL.band("Roll at the end, positive with the right side down", |it| it.roll),
@@ -289,8 +293,8 @@ fn standing_band(scenario: &Scenario) -> impl Iterator<Item = &'static Column<Ti
     ALL.iter().filter(move |_| has_heights)
 }
 
-/// A run in a few numbers over samples of soil and model. Means of a sample are over the scenario's whole duration, or over
-/// its time in the band.
+/// A run in a few numbers over samples of soil and model. Means of a sample are over the scenario's
+/// whole duration, or over its time in the band.
 pub const RUN_BAND: [Column<RunBand>; 19] = [
     X.band("Along the contour, at the end", |it| it.x),
     Y.band("Uphill, at the end", |it| it.y),

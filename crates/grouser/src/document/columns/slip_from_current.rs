@@ -137,8 +137,8 @@ const fn of_wheel<'a>() -> [Column<OfWheel<'a>>; 8] {
 /// The word for all wheels.
 const ALL: &str = "all";
 
-/// A row for each wheel with readings, then one for all. The last columns are there where slip was measured by other
-/// means.
+/// A row for each wheel with readings, then one for all. The last columns are there where slip was
+/// measured by other means.
 #[must_use]
 pub fn summary(rover: &Rover, log: &MotorLog, estimates: &[Vec<Option<SlipEstimate>>]) -> Table {
     let of = |wheel, place| OfWheel { wheel, agreement: Agreement::over(log, estimates, place) };

@@ -139,7 +139,8 @@ pub fn findings(found: &WheelSpeeds, slopes: &[f64]) -> Vec<Vec<Finding>> {
     crossings(found, slopes).into_iter().map(|crossing| crossing.findings).collect()
 }
 
-/// Rows for each slope [rad]: of wheels that turn alike, of sides and of wheels with speeds of their own.
+/// Rows for each slope [rad]: of wheels that turn alike, of sides and of wheels with speeds of
+/// their own.
 #[must_use]
 pub fn table(found: &WheelSpeeds, slopes: &[f64]) -> Table {
     of_crossings(&crossings(found, slopes))

@@ -39,8 +39,8 @@ pub fn table(rows: &[WheelTestRow]) -> Table {
     Table::of(&SETTING, rows).and(&WHEEL, &settled).and(&VALIDITY, &all)
 }
 
-/// Quantiles over samples of soil and model. Where the soil does not carry the wheel, a sample counts as sunk to
-/// the axle, with the values of [`SettledBand`].
+/// Quantiles over samples of soil and model. Where the soil does not carry the wheel, a sample
+/// counts as sunk to the axle, with the values of [`SettledBand`].
 pub const BAND: [Column<SettledBand>; 6] = [
     SINKAGE.band("Sinkage of the grouser tips", |it| it.sinkage),
     DRAWBAR_PULL.band("Force along the wheel", |it| it.drawbar_pull),

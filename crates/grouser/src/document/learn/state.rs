@@ -1,8 +1,8 @@
 //! The state of learning as a document, from which a drive goes on with the same bits.
 //!
-//! It is JSON of its own schema: the version of Grouser and the resolved scenario that it belongs to, and the state, field
-//! by field, in SI units. Numbers are written in the shortest form that reads back as the same bits. A check sum finds
-//! damage.
+//! It is JSON of its own schema: the version of Grouser and the resolved scenario that it belongs
+//! to, and the state, field by field, in SI units. Numbers are written in the shortest form that
+//! reads back as the same bits. A check sum finds damage.
 
 use serde_json::{Map, Value as Json, json};
 
@@ -129,7 +129,8 @@ impl KeptDrive {
 
     /// The drive, to be gone on with.
     ///
-    /// * `scenario`, `slope_is_known`: of the learner that is to go on, which have to be those of the state
+    /// * `scenario`, `slope_is_known`: of the learner that is to go on, which have to be those of
+    ///   the state
     ///
     /// # Errors
     /// [`StateError`] where they are others, or the state does not fit them.

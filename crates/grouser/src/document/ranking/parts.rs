@@ -136,7 +136,8 @@ pub(super) struct Part<'a> {
     pub(super) case: &'a DataSetCase,
 }
 
-/// The study of a rover on a soil, with the load transfer that the program's commands have by default.
+/// The study of a rover on a soil, with the load transfer that the program's commands have by
+/// default.
 pub(super) fn heading_study(
     usual: &Scenario,
     rover: &LoadedRover,

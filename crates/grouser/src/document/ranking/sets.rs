@@ -1,4 +1,5 @@
-//! The parts of data sets under the band of all models together: how good it is, and at which slip the pull vanishes.
+//! The parts of data sets under the band of all models together: how good it is, and at which slip
+//! the pull vanishes.
 
 use grouser_io::statistics::weighted_quantile;
 use serde::Serialize;
@@ -27,7 +28,8 @@ pub struct SetRecord {
     pub soil: String,
     /// Whether the soil was made for a model with these rows in view.
     pub in_sample: bool,
-    /// The slip ratio straight ahead at which the measured pull vanishes [-]; null where the rows do not bracket it.
+    /// The slip ratio straight ahead at which the measured pull vanishes [-]; null where the rows
+    /// do not bracket it.
     pub zero_pull_slip_measured: Option<f64>,
     /// The same, predicted: the weighted median of the models.
     pub zero_pull_slip_predicted: Option<f64>,
@@ -37,14 +39,15 @@ pub struct SetRecord {
     pub numbers: usize,
     /// The share of them that the band holds [-].
     pub held: f64,
-    /// The band's interval score over the standard deviation of what was measured, the mean over kinds of
-    /// answer [-]; null where nothing varies.
+    /// The band's interval score over the standard deviation of what was measured, the mean over
+    /// kinds of answer [-]; null where nothing varies.
     pub interval_score: Option<f64>,
     /// Each kind of answer.
     pub answers: Vec<AnswersRecord>,
 }
 
-/// The answers of one kind: forces over the load, sinkage over the shearing radius, slip [-], yaw [°].
+/// The answers of one kind: forces over the load, sinkage over the shearing radius, slip [-], yaw
+/// [°].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AnswersRecord {
     /// What was asked.
@@ -66,12 +69,12 @@ pub struct AnswersRecord {
 /// Samples of each model. Source: ours; with twice as many, weights move by a hundredth.
 const SAMPLES: u64 = 100;
 const SEED: u64 = 1;
-/// Slips of no pull that are farther apart than this [-] hint at another radius or zero. Source: ours: a tenth of
-/// the radius moves the slip by a tenth, and models differ by 0.02.
+/// Slips of no pull that are farther apart than this [-] hint at another radius or zero. Source:
+/// ours: a tenth of the radius moves the slip by a tenth, and models differ by 0.02.
 const DOUBTFUL: f64 = 0.03;
 
-/// What every model predicts of every part of the data sets that come with the program, sample by sample, on the first of
-/// its soils that was not fitted to it; a heading has no other.
+/// What every model predicts of every part of the data sets that come with the program, sample by
+/// sample, on the first of its soils that was not fitted to it; a heading has no other.
 ///
 /// * `samples`: of each model
 ///
@@ -89,8 +92,8 @@ pub fn evidence(samples: u64, seed: u64, limits: Limits) -> Result<Vec<Evidence>
 
 /// Each part of some data sets.
 ///
-/// * `are_known`: whether these are the sets of the program, from which the weights are: each is judged by weights that
-///   are found without it
+/// * `are_known`: whether these are the sets of the program, from which the weights are: each is
+///   judged by weights that are found without it
 pub(super) fn records(
     sets: &[DataSet],
     are_known: bool,
@@ -198,7 +201,8 @@ impl Part<'_> {
         })
     }
 
-    /// The slips at which the pull vanishes straight ahead: measured, and predicted with the soil as written.
+    /// The slips at which the pull vanishes straight ahead: measured, and predicted with the soil
+    /// as written.
     fn zero_pull(&self, wheel: &LoadedWheel, tests: &WheelTests) -> [Option<f64>; 2] {
         let cells = tests.cells.iter().map(|cell| measured_alone(tests, cell));
         let straight = cells.filter(|cell| cell.slip_angle == 0.0);

@@ -1,8 +1,9 @@
 //! Plate and shear tests of one soil as one experiment.
 //!
-//! Both parts of a bevameter's work speak of one soil: cohesion, friction angle and shear modulus come from its
-//! shear tests, the moduli of pressure-sinkage from its plates, and in Reece's law the plates know the cohesion
-//! too. So a soil is predicted as a whole, and both kinds of curves are fitted together.
+//! Both parts of a bevameter's work speak of one soil: cohesion, friction angle and shear modulus
+//! come from its shear tests, the moduli of pressure-sinkage from its plates, and in Reece's law
+//! the plates know the cohesion too. So a soil is predicted as a whole, and both kinds of curves
+//! are fitted together.
 
 use super::experiment::{Channel, Experiment, Observation};
 use super::plate_curve::{PlateCurve, PlatePoint};
@@ -23,8 +24,8 @@ pub struct BevameterCurves {
     pub repeats: (Vec<usize>, Vec<usize>),
 }
 
-/// Normal stresses of repeats differ by at most this share [-]. Source: ours; a stand holds its load to a few
-/// percent, and those of a series differ by much more.
+/// Normal stresses of repeats differ by at most this share [-]. Source: ours; a stand holds its
+/// load to a few percent, and those of a series differ by much more.
 pub const SAME_NORMAL_STRESS: f64 = 0.1;
 
 impl BevameterCurves {
@@ -72,7 +73,8 @@ impl BevameterCurves {
     }
 }
 
-/// The settings of some curves, rising, each with the mean over its curves; then the numbers of these.
+/// The settings of some curves, rising, each with the mean over its curves; then the numbers of
+/// these.
 fn means_by(
     curves: impl Iterator<Item = (f64, Vec<CurvePoint>)>,
     is_same: impl Fn(f64, f64) -> bool,

@@ -1,5 +1,5 @@
-//! Cross-validation: the errors of a fit at slip angles that it has not seen, each left out in turn, and
-//! how often bands of its posterior hold what was measured there.
+//! Cross-validation: the errors of a fit at slip angles that it has not seen, each left out in
+//! turn, and how often bands of its posterior hold what was measured there.
 
 use std::ops::ControlFlow;
 
@@ -27,12 +27,13 @@ pub struct LeftOut {
     pub fit: Fit,
     /// The trials left out, by their places, each predicted at its own load and motion.
     pub predictions: Vec<(usize, Result<Settled, SettleError>)>,
-    /// The bands of the cells left out; none without sampling, and none of a side force straight ahead.
+    /// The bands of the cells left out; none without sampling, and none of a side force straight
+    /// ahead.
     pub bands: Vec<LeftOutBand>,
 }
 
-/// The predicted band of the mean that the stand reads in a cell that was left out, in SI units: of the samples'
-/// predictions with their discrepancies, and with the scatter of the cell's trials.
+/// The predicted band of the mean that the stand reads in a cell that was left out, in SI units: of
+/// the samples' predictions with their discrepancies, and with the scatter of the cell's trials.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LeftOutBand {
     /// The cell, by its place.
@@ -115,7 +116,8 @@ pub fn without(tests: &WheelTests, slip_angle: f64) -> WheelTests {
 /// Fits without each slip angle in turn.
 ///
 /// * `sampler`: of the posterior without the angle, for the bands; without it there are none
-/// * `observer`: called whenever a search of a fit or a block of a posterior has ended; it can stop the work
+/// * `observer`: called whenever a search of a fit or a block of a posterior has ended; it can stop
+///   the work
 ///
 /// # Errors
 /// The same as [`Calibration::new`] and [`Calibration::fit`], for the first fit that fails.
@@ -195,9 +197,9 @@ fn bands(
     Ok(asked.into_iter().filter_map(band).collect())
 }
 
-/// The quantiles of what would be read where samples predict some values: each of them normally scattered. None
-/// where all samples predict the same: straight ahead no soil has a side force, by symmetry, and what a stand
-/// reads there is its own.
+/// The quantiles of what would be read where samples predict some values: each of them normally
+/// scattered. None where all samples predict the same: straight ahead no soil has a side force, by
+/// symmetry, and what a stand reads there is its own.
 fn quantiles_with_scatter(mut values: Vec<f64>, scatter: f64) -> Option<[f64; 4]> {
     /// The normal distribution has ended so many deviations beyond the values [-].
     const ENDS: f64 = 9.0;

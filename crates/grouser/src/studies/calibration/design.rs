@@ -1,7 +1,7 @@
 //! Proposes the next runs: those that reduce the uncertainty of a prediction most.
 //!
-//! Posterior samples give the covariance of a prediction and the outcome of a future run. Taking that as linear and normal, an outcome y with noise N shrinks the
-//! prediction's variance by
+//! Posterior samples give the covariance of a prediction and the outcome of a future run. Taking
+//! that as linear and normal, an outcome y with noise N shrinks the prediction's variance by
 //!
 //! ```text
 //! Σ_ty (Σ_yy + N)⁻¹ Σ_yt

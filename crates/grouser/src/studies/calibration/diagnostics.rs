@@ -1,4 +1,5 @@
-//! Diagnostics of the sampler and summaries of its samples: R-hat, effective sample size, moments, quantiles.
+//! Diagnostics of the sampler and summaries of its samples: R-hat, effective sample size, moments,
+//! quantiles.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;

@@ -1,8 +1,8 @@
 //! The errors of observations about a model: the scatter of their trials, and a discrepancy of the
 //! model that is alike at motions that are alike.
 //!
-//! The discrepancies of a channel have a standard deviation δ. Two of them in one family, at slips S
-//! and S' and slip angles β and β', are correlated by
+//! The discrepancies of a channel have a standard deviation δ. Two of them in one family, at slips
+//! S and S' and slip angles β and β', are correlated by
 //!
 //! ```text
 //! ρ = κ(|S − S'|/ℓ_S) κ(||β| − |β'||/ℓ_β)      κ(x) = (1 + √3 x) e^(−√3 x)
@@ -11,12 +11,13 @@
 //!
 //! with one correlation length ℓ_S in slip and one ℓ_β in slip angle for all families: a Gaussian
 //! process with a Matérn kernel (Rasmussen and Williams 2006, Eq. 4.17), as Kennedy and O'Hagan
-//! (2001) take the discrepancy of a model. The weight f_i is 1 for an observation of usual size: a wheel
-//! under twice the load is mistaken about twice the force. An observation of weight 0 can have no discrepancy.
-//! With both lengths near zero the discrepancies are independent, as they are where observations have no place.
+//! (2001) take the discrepancy of a model. The weight f_i is 1 for an observation of usual size: a
+//! wheel under twice the load is mistaken about twice the force. An observation of weight 0 can
+//! have no discrepancy. With both lengths near zero the discrepancies are independent, as they are
+//! where observations have no place.
 //!
-//! What is positive and may be several times what a model says, such as a sinkage, is counted by its logarithm:
-//! its residual is f_i ln(y_i/prediction) in units of the usual f.
+//! What is positive and may be several times what a model says, such as a sinkage, is counted by
+//! its logarithm: its residual is f_i ln(y_i/prediction) in units of the usual f.
 
 use std::f64::consts::PI;
 
@@ -39,8 +40,8 @@ const ANGLE_LENGTHS: [f64; 2] = [PI / 60.0, PI / 2.0];
 /// Where the search for that length starts [rad].
 const START_ANGLE_LENGTH: f64 = PI / 9.0;
 
-/// Observations at one place differ by this share of the discrepancy's variance at least [-], so that
-/// their covariance can be inverted.
+/// Observations at one place differ by this share of the discrepancy's variance at least [-], so
+/// that their covariance can be inverted.
 const JITTER: f64 = 1e-8;
 
 /// What is counted by its logarithm is at least this share of what was read [-].
@@ -204,8 +205,8 @@ impl Errors {
         each.map(|(&channel, weight)| found[channel] * weight).collect()
     }
 
-    /// Variances of observations on their own, s² + δ²: those of least squares, in which every cell of a
-    /// channel counts by its scatter alone.
+    /// Variances of observations on their own, s² + δ²: those of least squares, in which every cell
+    /// of a channel counts by its scatter alone.
     #[must_use]
     pub fn variances_alike(&self, found: &[f64]) -> Vec<f64> {
         let each = self.scatters.iter().zip(&self.channels);
@@ -477,8 +478,8 @@ mod tests {
 
     const SLIPS: [f64; 9] = [-1.0, -0.7, -0.5, -0.2, 0.0, 0.23, 0.5, 0.75, 0.9];
 
-    /// Three times what is predicted is ln 3 of what is read; a reading below its weight counts as that, so that
-    /// one of 0 is no more than that of a trace.
+    /// Three times what is predicted is ln 3 of what is read; a reading below its weight counts as
+    /// that, so that one of 0 is no more than that of a trace.
     #[test]
     fn a_sinkage_is_counted_by_its_logarithm() {
         let mut read = Read::new(&[0.2, 0.4], &[0.0], 0.1);
@@ -548,8 +549,8 @@ mod tests {
         assert!((difference - 0.5 * square(&residuals)).abs() < 1e-9 * difference);
     }
 
-    /// Twenty series of simulated residuals with lengths of 0.4 and 20°: on average the most likely lengths are
-    /// those, and those of independent ones are the shortest that can be.
+    /// Twenty series of simulated residuals with lengths of 0.4 and 20°: on average the most likely
+    /// lengths are those, and those of independent ones are the shortest that can be.
     #[test]
     fn correlation_lengths_are_recovered_from_residuals() {
         let errors = Errors::of(&Read::new(&SLIPS, &[0.0, deg(15.0), deg(45.0), deg(75.0)], 0.1));

@@ -61,8 +61,8 @@ pub struct Place {
     /// Its motion.
     pub site: Site,
     /// What its discrepancy is proportional to, in the channel's unit: the load of a wheel for its
-    /// forces. It has the sign that the quantity changes in a mirror, and is 0 where by symmetry there
-    /// is none: what is read there beyond the model is the stand's.
+    /// forces. It has the sign that the quantity changes in a mirror, and is 0 where by symmetry
+    /// there is none: what is read there beyond the model is the stand's.
     pub weight: f64,
     /// How its discrepancy is counted.
     pub measure: Measure,
@@ -104,14 +104,14 @@ pub trait Experiment: Sync {
 /// A discrepancy below this share of the trials' scatter is not distinguishable from zero [-].
 const LEAST_OF_SCATTER: f64 = 0.1;
 
-/// The least discrepancy, as a share of the measurements' range [-]: it keeps the weights finite where no
-/// scatter is known.
+/// The least discrepancy, as a share of the measurements' range [-]: it keeps the weights finite
+/// where no scatter is known.
 const LEAST_OF_SPREAD: f64 = 1e-4;
 
 /// The model discrepancy of each channel, δ, as a parameter: its standard deviation.
 ///
-/// The prior is uniform by the logarithm, from a tenth of the trials' scatter (below which it
-/// is not distinguishable from zero) to the size of the measured values, their root mean square (above
+/// The prior is uniform by the logarithm, from a tenth of the trials' scatter (below which it is
+/// not distinguishable from zero) to the size of the measured values, their root mean square (above
 /// which the model predicts nothing).
 #[must_use]
 pub fn discrepancies(experiment: &dyn Experiment) -> Vec<Parameter> {

@@ -1,5 +1,5 @@
-//! The best fit: bounded least squares from several starts, with weights that are estimated from the
-//! residuals.
+//! The best fit: bounded least squares from several starts, with weights that are estimated from
+//! the residuals.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -93,11 +93,11 @@ impl Fit {
 impl Calibration<'_> {
     /// Fits the parameters by least squares.
     ///
-    /// Weights and parameters depend on each other. The searches from all starts share weights
-    /// with a tenth of the measurements' spread as discrepancy; from the best of them on, the
-    /// discrepancies are found anew after each search (Paule and Mandel's equation,
-    /// Σ r²/(s² + δ²) = n less the channel's share of the parameters). Correlated errors do not shift
-    /// the weights: the fit is the point of least squares, and they tell how well it is known.
+    /// Weights and parameters depend on each other. The searches from all starts share weights with
+    /// a tenth of the measurements' spread as discrepancy; from the best of them on, the
+    /// discrepancies are found anew after each search (Paule and Mandel's equation, Σ r²/(s² + δ²)
+    /// = n less the channel's share of the parameters). Correlated errors do not shift the weights:
+    /// the fit is the point of least squares, and they tell how well it is known.
     ///
     /// * `observer`: gets each search that has ended, in any order; it can stop the fit
     ///

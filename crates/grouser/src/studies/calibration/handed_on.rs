@@ -1,11 +1,11 @@
-//! What a posterior sample hands on to predictions: the soil's constants, and the model's discrepancy
-//! as it is known after the measurements.
+//! What a posterior sample hands on to predictions: the soil's constants, and the model's
+//! discrepancy as it is known after the measurements.
 //!
 //! A sample has constants, standard deviations and correlation lengths. Given those, the
 //! discrepancy is a Gaussian process of which the residuals were read, with their scatter, at the
-//! settings of the tests. One function is drawn from it, at the slips and slip angles where a soil's
-//! [`Discrepancy`] has values: near the measurements it is about what they leave unexplained,
-//! far from them it is as wide as δ.
+//! settings of the tests. One function is drawn from it, at the slips and slip angles where a
+//! soil's [`Discrepancy`] has values: near the measurements it is about what they leave
+//! unexplained, far from them it is as wide as δ.
 
 use rayon::prelude::*;
 
@@ -134,8 +134,8 @@ impl Quantified<'_> {
     }
 }
 
-/// By how much the variance between the places of values falls short of that at them, on
-/// average; its inverse [-]. What is drawn is spread by it, so that the function is as wide as the process.
+/// By how much the variance between the places of values falls short of that at them, on average;
+/// its inverse [-]. What is drawn is spread by it, so that the function is as wide as the process.
 fn spread_by_blending(lengths: &Lengths) -> f64 {
     let [own, common] = BLENDED;
     let kept = |correlation: f64| own + common * correlation;

@@ -1,8 +1,9 @@
-//! Identifiability: parameters and combinations that the data do not determine, and pairs that compensate for
-//! each other.
+//! Identifiability: parameters and combinations that the data do not determine, and pairs that
+//! compensate for each other.
 //!
-//! It is judged by the posterior contraction, in positions (the prior's own scale, [`parameter`](super::parameter))
-//! and units of the prior's deviation: a direction of size 1 is as wide as the prior.
+//! It is judged by the posterior contraction, in positions (the prior's own scale,
+//! [`parameter`](super::parameter)) and units of the prior's deviation: a direction of size 1 is as
+//! wide as the prior.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -14,7 +15,8 @@ use super::parameter::{PRIOR_DEVIATION, position_of};
 /// Which parameters the data determine, and how well.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Identifiability {
-    /// Posterior contraction: deviation of each parameter over its prior's [-]; near 1 the data do not constrain it.
+    /// Posterior contraction: deviation of each parameter over its prior's [-]; near 1 the data do
+    /// not constrain it.
     pub contraction: Vec<f64>,
     /// Directions that the data do not determine, the widest first.
     pub unidentifiable: Vec<Combination>,
@@ -66,8 +68,8 @@ impl Identifiability {
 
     /// The identifiability by the curvature near a fit, to first order; samples are more accurate.
     ///
-    /// The curvature is taken with the prior included: least squares alone may slide along an unidentifiable
-    /// direction until a bound ends it, and nothing varies there.
+    /// The curvature is taken with the prior included: least squares alone may slide along an
+    /// unidentifiable direction until a bound ends it, and nothing varies there.
     #[must_use]
     pub fn of_fit(calibration: &Calibration, fit: &Fit) -> Self {
         let (mode, covariance) = calibration.mode_near(fit);

@@ -47,7 +47,8 @@ pub(super) fn minimise(residuals: &dyn Residuals, start: &[f64], patience: usize
         config: MPConfig {
             ftol: TOLERANCE,
             xtol: TOLERANCE,
-            // The angle between residuals and Jacobian is no reason to end, unless it is a right one.
+            // The angle between residuals and Jacobian is no reason to end, unless it is a right
+            // one.
             gtol: f64::MIN_POSITIVE,
             // Evaluations are counted here, without those of the Jacobian.
             max_fev: MPMaxFev::NoLimit,
@@ -89,7 +90,8 @@ struct Search<'a> {
     columns: Vec<MPPar>,
     /// Cost of the point that was evaluated last.
     evaluated: f64,
-    /// The last point that a step led to. The library asks for the Jacobian there, and nowhere else.
+    /// The last point that a step led to. The library asks for the Jacobian there, and nowhere
+    /// else.
     accepted: Minimum,
 }
 

@@ -1,7 +1,7 @@
 //! Bevameter tests as an experiment: pressure under plates of several widths as they sink in.
 //!
-//! With one width alone the cohesive and the frictional modulus are not separately identifiable; a calibration of
-//! such data reports it ([`identifiability`](super::identifiability)).
+//! With one width alone the cohesive and the frictional modulus are not separately identifiable; a
+//! calibration of such data reports it ([`identifiability`](super::identifiability)).
 
 use super::experiment::{Channel, Experiment, Observation};
 use super::plate_curve::{PlateCurve, PlatePoint};
@@ -39,8 +39,8 @@ impl PlateLaw {
         }
     }
 
-    /// k_c, k_φ and n near some curves, to search from: by Wong's procedure ([`WongFit`]), or, with one width,
-    /// those of its own line with hardly a cohesive part.
+    /// k_c, k_φ and n near some curves, to search from: by Wong's procedure ([`WongFit`]), or, with
+    /// one width, those of its own line with hardly a cohesive part.
     #[must_use]
     pub fn first_guess(&self, curves: &[PlateCurve]) -> [f64; 3] {
         match WongFit::of(curves) {
@@ -49,8 +49,8 @@ impl PlateLaw {
         }
     }
 
-    /// How large k_c and k_φ could be at most, if one of them made up all the stiffness of the stiffest plate; nothing
-    /// where no plate has a stiffness.
+    /// How large k_c and k_φ could be at most, if one of them made up all the stiffness of the
+    /// stiffest plate; nothing where no plate has a stiffness.
     #[must_use]
     pub fn largest_moduli(&self, curves: &[PlateCurve]) -> Option<[f64; 2]> {
         let fit = WongFit::of(curves)?;

@@ -1,8 +1,10 @@
-//! Curves of raw logs, and curves that repeat each other, made observations: means, with the scatter of repeats.
+//! Curves of raw logs, and curves that repeat each other, made observations: means, with the
+//! scatter of repeats.
 //!
-//! A log of thousands of rows is no thousand independent readings, and five repeats of a test are not one test
-//! with five times as many points. Long curves are averaged over intervals, repeats over each other; how far the
-//! repeats differ says how well their mean is known, with what they have in common along the curve.
+//! A log of thousands of rows is no thousand independent readings, and five repeats of a test are
+//! not one test with five times as many points. Long curves are averaged over intervals, repeats
+//! over each other; how far the repeats differ says how well their mean is known, with what they
+//! have in common along the curve.
 
 /// A reading of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,19 +26,20 @@ pub struct MeanCurve {
     pub repeats: usize,
 }
 
-/// A curve of more readings is averaged over so many intervals of equal length. Source: ours; the laws that are
-/// fitted bend less than what a fiftieth of a curve shows.
+/// A curve of more readings is averaged over so many intervals of equal length. Source: ours; the
+/// laws that are fitted bend less than what a fiftieth of a curve shows.
 pub const INTERVALS: usize = 50;
 
-/// Readings on either side with which the variance between repeats is averaged. Source: ours; three or five
-/// repeats alone hardly determine it at one place.
+/// Readings on either side with which the variance between repeats is averaged. Source: ours; three
+/// or five repeats alone hardly determine it at one place.
 const NEIGHBOURS: usize = 2;
 
 /// Least number of degrees of freedom [-]: of fewer, Student's t has no variance.
 const LEAST_FREEDOM: f64 = 3.0;
 
-/// A curve with at most [`INTERVALS`] points, rising in their places: the means over intervals of equal length
-/// where it has more. Their scatter is that of a single reading: readings of one log are not independent.
+/// A curve with at most [`INTERVALS`] points, rising in their places: the means over intervals of
+/// equal length where it has more. Their scatter is that of a single reading: readings of one log
+/// are not independent.
 #[must_use]
 pub fn thinned(points: &[CurvePoint]) -> Vec<CurvePoint> {
     let mut points = points.to_vec();
@@ -70,11 +73,12 @@ fn mean_point(points: &[CurvePoint]) -> CurvePoint {
 
 /// The mean over the curves of each setting, at places that all of them reach.
 ///
-/// The standard deviation of a mean is s √(D/n), with s between n repeats and the design effect D (Kish 1965) of
-/// all settings together: repeats that differ along the whole curve alike, by the plate's place in the bin,
-/// say as little about it as one reading. D is 1 where they differ from place to place at random, and the number
-/// of places where they differ by one factor. A scatter that is known from few repeats is enlarged to the standard
-/// deviation of Student's t, by √(ν/(ν − 2)) with ν = Σ (n − 1) of all settings, at least 3.
+/// The standard deviation of a mean is s √(D/n), with s between n repeats and the design effect D
+/// (Kish 1965) of all settings together: repeats that differ along the whole curve alike, by the
+/// plate's place in the bin, say as little about it as one reading. D is 1 where they differ from
+/// place to place at random, and the number of places where they differ by one factor. A scatter
+/// that is known from few repeats is enlarged to the standard deviation of Student's t, by √(ν/(ν −
+/// 2)) with ν = Σ (n − 1) of all settings, at least 3.
 ///
 /// * `settings`: for each setting, the curves that repeat each other, each [`thinned`]
 #[must_use]
@@ -130,7 +134,8 @@ impl Spread {
         self.values.len().saturating_sub(1) as f64
     }
 
-    /// The sum over the curves of their squared mean distance from the mean, in deviations, times the places.
+    /// The sum over the curves of their squared mean distance from the mean, in deviations, times
+    /// the places.
     fn squared_levels(&self) -> f64 {
         let known: Vec<usize> =
             (0..self.deviations.len()).filter(|place| self.deviations[*place] > 0.0).collect();
@@ -224,7 +229,8 @@ mod tests {
         assert!(kept.iter().all(|it| (it.value - 3.0 * it.at).abs() < 1e-9 && it.scatter == 2.0));
     }
 
-    /// Closed form: repeats that differ by a constant know their mean as well as one reading each does.
+    /// Closed form: repeats that differ by a constant know their mean as well as one reading each
+    /// does.
     #[test]
     fn repeats_that_differ_as_a_whole_count_once() {
         let curves: Vec<_> = [-1.0, -1.0, 0.0, 1.0, 1.0].map(line).to_vec();

@@ -11,9 +11,9 @@ pub struct Repeats {
 
 /// A pooled variance counts as much as this many degrees of freedom [-].
 ///
-/// Source: ours. Two or three trials hardly determine their own scatter, but a locked wheel's trials
-/// do differ more than a rolling one's: ten keep the weights of cells that are alike within a few
-/// percent of each other, and let a cell that scatters ten times as much count for less.
+/// Source: ours. Two or three trials hardly determine their own scatter, but a locked wheel's
+/// trials do differ more than a rolling one's: ten keep the weights of cells that are alike within
+/// a few percent of each other, and let a cell that scatters ten times as much count for less.
 const POOL_WEIGHT: f64 = 10.0;
 
 /// Standard deviation of each cell's mean.

@@ -1,11 +1,12 @@
-//! Shear tests of a bevameter: stress over displacement under several normal stresses, for *c*, *φ* and *K*.
+//! Shear tests of a bevameter: stress over displacement under several normal stresses, for *c*, *φ*
+//! and *K*.
 //!
 //! ```text
 //! τ = (c + σ tan φ) (1 − e^(−j/K))            Janosi and Hanamoto (1961), with Mohr and Coulomb's strength
 //! ```
 //!
-//! With one normal stress alone cohesion and friction angle are not separately identifiable. A soil that softens
-//! after a peak follows another law; the mean stress of both fits between.
+//! With one normal stress alone cohesion and friction angle are not separately identifiable. A soil
+//! that softens after a peak follows another law; the mean stress of both fits between.
 
 use super::repeated_curves::CurvePoint;
 use super::wong::straight_line;
@@ -72,8 +73,8 @@ impl ShearStrength {
         strength * (1.0 - exp(-displacement / self.modulus))
     }
 
-    /// Values near some curves, to search from: the straight line of the largest stresses over the normal ones, and
-    /// the displacement in which a curve rises.
+    /// Values near some curves, to search from: the straight line of the largest stresses over the
+    /// normal ones, and the displacement in which a curve rises.
     #[must_use]
     pub fn first_guess(curves: &[ShearCurve]) -> Self {
         let strengths: Vec<(f64, f64)> =

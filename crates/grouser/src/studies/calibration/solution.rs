@@ -1,5 +1,5 @@
-//! A calibration in its steps: least squares, posterior samples, and the parameters that the data do not
-//! determine.
+//! A calibration in its steps: least squares, posterior samples, and the parameters that the data
+//! do not determine.
 
 use std::ops::ControlFlow;
 
@@ -78,7 +78,8 @@ pub struct Solution {
     pub identifiability: Identifiability,
 }
 
-/// A sampled posterior. Its coordinates are those of the parameters, then those of the discrepancies.
+/// A sampled posterior. Its coordinates are those of the parameters, then those of the
+/// discrepancies.
 #[derive(Clone, Debug)]
 pub struct Posterior {
     /// The samples after burn-in.
@@ -136,7 +137,8 @@ impl Calibration<'_> {
         Ok(fit)
     }
 
-    /// Samples the posterior around a fit, if asked to, and finds the parameters that the data do not determine.
+    /// Samples the posterior around a fit, if asked to, and finds the parameters that the data do
+    /// not determine.
     ///
     /// # Errors
     /// [`CalibrationError::Interrupted`] if the observer stopped it,

@@ -1,5 +1,5 @@
-//! A complete calibration on wheel tests: fit, posterior samples, errors, cross-validation, and the runs to
-//! make next.
+//! A complete calibration on wheel tests: fit, posterior samples, errors, cross-validation, and the
+//! runs to make next.
 
 use super::cross_validation::{
     Coverage, LeftOut, LeftOutBand, leave_one_angle_out, slip_angles, without,

@@ -1,4 +1,5 @@
-//! Single-wheel tests as an experiment: predicts the forces and the sinkage of every cell of a test series.
+//! Single-wheel tests as an experiment: predicts the forces and the sinkage of every cell of a test
+//! series.
 
 use super::experiment::{Channel, Experiment, Measure, Observation, Place, Regime, Site};
 use super::scatter::{self, Repeats};
@@ -309,8 +310,8 @@ fn repeats_of(
 }
 
 /// What the discrepancy of a side force is proportional to, beside the load [-]: sin β, as the side
-/// force is itself, and 0 straight ahead by symmetry. In between it counts as that of 7.5° at least:
-/// half-way to the first slip angle at which a soil's discrepancy has values.
+/// force is itself, and 0 straight ahead by symmetry. In between it counts as that of 7.5° at
+/// least: half-way to the first slip angle at which a soil's discrepancy has values.
 pub(super) fn sideways(slip_angle: f64) -> f64 {
     /// sin 7.5°.
     const LEAST: f64 = 0.130_526_192_220_051_6;

@@ -1,17 +1,20 @@
-//! Moduli of Bekker's law from plates of several widths, by Wong's procedure (Wong 1980; Wong, Theory of Ground
-//! Vehicles): the one that most published moduli come from, and a good place to start a search from.
+//! Moduli of Bekker's law from plates of several widths, by Wong's procedure (Wong 1980; Wong,
+//! Theory of Ground Vehicles): the one that most published moduli come from, and a good place to
+//! start a search from.
 //!
-//! Each plate has an exponent and a stiffness of its own, by a straight line of ln p over ln z in which each
-//! reading weighs as the square of its pressure. The exponents are averaged; with their mean each plate has a
-//! stiffness K = k_c/b + k_φ, and a straight line of K over 1/b, all plates alike, has the moduli:
+//! Each plate has an exponent and a stiffness of its own, by a straight line of ln p over ln z in
+//! which each reading weighs as the square of its pressure. The exponents are averaged; with their
+//! mean each plate has a stiffness K = k_c/b + k_φ, and a straight line of K over 1/b, all plates
+//! alike, has the moduli:
 //!
 //! ```text
 //! n_j = Σ p² (ln p − ⟨ln p⟩)(ln z − ⟨ln z⟩) / Σ p² (ln z − ⟨ln z⟩)²,      n = mean n_j
 //! ln K_j = Σ p² (ln p − n ln z) / Σ p²
 //! ```
 //!
-//! Nothing keeps a modulus positive, and little keeps them certain: of plates whose exponents differ, a percent in
-//! the pressures moves k_c by tens. A [`Calibration`](super::Calibration) says how well they are known.
+//! Nothing keeps a modulus positive, and little keeps them certain: of plates whose exponents
+//! differ, a percent in the pressures moves k_c by tens. A [`Calibration`](super::Calibration) says
+//! how well they are known.
 
 use super::plate_curve::PlateCurve;
 use crate::elementary::exp;
@@ -26,7 +29,8 @@ pub struct WongFit {
     pub k_phi: f64,
     /// Sinkage exponent, *n* [-].
     pub exponent: f64,
-    /// Width [m] of each plate, its own exponent [-], and its stiffness K [N/m^(n+2)] with the mean exponent.
+    /// Width [m] of each plate, its own exponent [-], and its stiffness K [N/m^(n+2)] with the mean
+    /// exponent.
     pub plates: Vec<WongPlate>,
 }
 
@@ -42,8 +46,9 @@ pub struct WongPlate {
 }
 
 impl WongFit {
-    /// The moduli of some curves; `None` unless curves of two widths have two readings each of positive pressure
-    /// at different positive sinkages. Other readings have no logarithm and do not count.
+    /// The moduli of some curves; `None` unless curves of two widths have two readings each of
+    /// positive pressure at different positive sinkages. Other readings have no logarithm and do
+    /// not count.
     #[must_use]
     pub fn of(curves: &[PlateCurve]) -> Option<Self> {
         let logs: Vec<LogCurve> = curves.iter().filter_map(LogCurve::of).collect();
@@ -87,7 +92,8 @@ impl LogCurve {
     }
 }
 
-/// Slope and intercept of the straight line of least squares; `None` if all points are at one place.
+/// Slope and intercept of the straight line of least squares; `None` if all points are at one
+/// place.
 pub(super) fn straight_line(points: &[(f64, f64)]) -> Option<(f64, f64)> {
     let count = points.len() as f64;
     let (x, y) = points.iter().fold((0.0, 0.0), |sum, it| (sum.0 + it.0, sum.1 + it.1));

@@ -1,8 +1,9 @@
-//! The second page of the card: the other courses on each of its slopes, to get there and to get out.
+//! The second page of the card: the other courses on each of its slopes, to get there and to get
+//! out.
 //!
-//! Each is the steady motion at one yaw, with all rims at one speed forwards or backwards, or the two sides against
-//! each other to turn. The verdict is that of the first page's rule for the size of the slip, which is negative where
-//! a rover runs ahead of its rims.
+//! Each is the steady motion at one yaw, with all rims at one speed forwards or backwards, or the
+//! two sides against each other to turn. The verdict is that of the first page's rule for the size
+//! of the slip, which is negative where a rover runs ahead of its rims.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -26,9 +27,11 @@ pub enum Course {
     BackDown,
     /// Straight up again, backwards: out of a way down.
     BackUp,
-    /// Along the contour, backwards: out of a traverse. The rear is uphill by as much as the card turns the nose.
+    /// Along the contour, backwards: out of a traverse. The rear is uphill by as much as the card
+    /// turns the nose.
     BackAcross,
-    /// Turning the nose uphill on the way, from the heading of the card: uphill wheels at half the speed.
+    /// Turning the nose uphill on the way, from the heading of the card: uphill wheels at half the
+    /// speed.
     Turn,
     /// Turning it uphill on the spot: uphill wheels backwards, downhill wheels forwards.
     TurnOnTheSpot,
@@ -101,11 +104,13 @@ pub struct CourseRow {
 /// The motion on a course, over the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CourseMotion {
-    /// Mean slip ratio of the wheels, positive where rims outrun the rover, either way [-]: 1 where it is stuck.
+    /// Mean slip ratio of the wheels, positive where rims outrun the rover, either way [-]: 1 where
+    /// it is stuck.
     pub slip_ratio: Option<Band>,
     /// Largest torque of a wheel [N·m], over the samples that move.
     pub torque: Option<Band>,
-    /// Largest current of a motor [A], driving or braking, likewise; of a rover whose motors are known.
+    /// Largest current of a motor [A], driving or braking, likewise; of a rover whose motors are
+    /// known.
     pub current: Option<Band>,
     /// Drift of a way along the contour [-], over all samples: 1 where the rover is stuck.
     pub drift: Option<Band>,
@@ -121,8 +126,8 @@ pub struct CourseMotion {
 pub const TURN: f64 = PI / 18.0;
 
 impl CardStudy {
-    /// The other courses on each slope that the card does not call a no-go, course by course; `None` if `go_on` was
-    /// false before the end.
+    /// The other courses on each slope that the card does not call a no-go, course by course;
+    /// `None` if `go_on` was false before the end.
     ///
     /// * `samples`: those of the card; with none there is the soil as written alone
     /// * `go_on`: asked after each slope

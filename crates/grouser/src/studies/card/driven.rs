@@ -1,9 +1,10 @@
-//! What becomes of a rover that is driven as the card says: nose set to the row's heading, and set again after
-//! every leg.
+//! What becomes of a rover that is driven as the card says: nose set to the row's heading, and set
+//! again after every leg.
 //!
-//! A contour traverse balances forces, not the yaw moment: the nose turns on the way. In the steady motion at the
-//! heading γ it turns by κ over the way, so that over a leg of length L the heading is γ + ε + κ L/2 on average, with
-//! the error ε of the driver who set it, and the drift is that of the steady motion there.
+//! A contour traverse balances forces, not the yaw moment: the nose turns on the way. In the steady
+//! motion at the heading γ it turns by κ over the way, so that over a leg of length L the heading
+//! is γ + ε + κ L/2 on average, with the error ε of the driver who set it, and the drift is that of
+//! the steady motion there.
 
 use rand_chacha::ChaCha8Rng;
 
@@ -17,15 +18,16 @@ use crate::simulation::{MOST_SLIP, SteadyMotion};
 use crate::studies::random;
 use crate::vehicle::{Rover, roll_and_pitch};
 
-/// The nose is set to this [rad], each heading within it being as likely, and falls by this much before it is set
-/// again: 2°. Source: ours; about what a driver reads off an instrument that shows whole degrees.
+/// The nose is set to this [rad], each heading within it being as likely, and falls by this much
+/// before it is set again: 2°. Source: ours; about what a driver reads off an instrument that shows
+/// whole degrees.
 pub const HEADING_ERROR: f64 = 2.0 * std::f64::consts::PI / 180.0;
 
 /// The heading is set again after this way at the latest [m]. Source: ours.
 const LONGEST_LEG: f64 = 10.0;
 
-/// Where the heading had to be set again after less nobody can hold it [m]: no such slope is to be driven. Source:
-/// ours; a driver who stops as often does not get ahead.
+/// Where the heading had to be set again after less nobody can hold it [m]: no such slope is to be
+/// driven. Source: ours; a driver who stops as often does not get ahead.
 pub const SHORTEST_LEG: f64 = 0.1;
 
 /// The way that the drift of the card is over [m]. Source: ours; some ten lengths of a small rover.
@@ -53,7 +55,8 @@ pub struct Driven {
 pub struct DrivenMotion {
     /// After how much way the heading is to be set again [m].
     pub correct_every: f64,
-    /// By how much the nose falls over the way [rad/m], positive downhill, over the samples that move.
+    /// By how much the nose falls over the way [rad/m], positive downhill, over the samples that
+    /// move.
     pub heading_fall: Option<Band>,
     /// Drift, way downhill for a metre travelled [-], over all samples: 1 where the rover is stuck.
     pub drift: Option<Band>,
@@ -63,7 +66,8 @@ pub struct DrivenMotion {
     pub sinkage: Option<Band>,
     /// Largest torque of a wheel [N·m], likewise.
     pub torque: Option<Band>,
-    /// Largest current of a motor [A], driving or braking, likewise; of a rover whose motors are known.
+    /// Largest current of a motor [A], driving or braking, likewise; of a rover whose motors are
+    /// known.
     pub current: Option<Band>,
     /// Way of the rims for a metre of ground [-], likewise.
     pub rim_way: Option<Band>,
@@ -87,8 +91,8 @@ impl Driven {
 }
 
 impl DrivenMotion {
-    /// The same with corrections and looks at the slip at least as often as on a gentler slope: where samples get stuck,
-    /// those that are left may seem to need fewer.
+    /// The same with corrections and looks at the slip at least as often as on a gentler slope:
+    /// where samples get stuck, those that are left may seem to need fewer.
     pub(super) fn no_laxer_than(mut self, gentler: Option<&Self>) -> Self {
         if let Some(gentler) = gentler {
             self.correct_every = self.correct_every.min(gentler.correct_every);
@@ -98,8 +102,8 @@ impl DrivenMotion {
         self
     }
 
-    /// Drives all samples on a slope by a heading; `None` if the rover is stuck in each of them, or its nose falls
-    /// too fast to be held.
+    /// Drives all samples on a slope by a heading; `None` if the rover is stuck in each of them, or
+    /// its nose falls too fast to be held.
     ///
     /// * `samples`: of soil and model, one at least
     pub(super) fn of(
@@ -171,8 +175,8 @@ pub(super) fn largest_current(
     current.reduce(f64::max)
 }
 
-/// A way that a driver can keep to, at most as long as this one [m]: with one digit, or halves above 1 m; `None` where
-/// it is too short.
+/// A way that a driver can keep to, at most as long as this one [m]: with one digit, or halves
+/// above 1 m; `None` where it is too short.
 fn drivable(way: f64) -> Option<f64> {
     let step = if way >= 1.0 { 0.5 } else { 0.1 };
     // 0.3 over 0.1 is less than 3.
@@ -195,8 +199,8 @@ pub(super) fn heading_error(random: &mut ChaCha8Rng) -> f64 {
     HEADING_ERROR * (2.0 * random::uniform(random) - 1.0)
 }
 
-/// The mean error of the headings that are set over the way [rad], by the driver of one sample; none where there is
-/// one sample alone, and no band.
+/// The mean error of the headings that are set over the way [rad], by the driver of one sample;
+/// none where there is one sample alone, and no band.
 fn mean_error(place: usize, samples: usize, settings: usize) -> f64 {
     /// Seed of a driver's errors: no soil is drawn from it.
     const SEED: u64 = 0x0D12_17E5;

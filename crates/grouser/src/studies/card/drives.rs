@@ -1,13 +1,15 @@
 //! Drives by the card in time, on soils that it has not seen.
 //!
-//! The card's numbers are of steady motions at one yaw. Here a driver follows it: the nose is set to the row's
-//! heading, off by what a driver misses it by, a [`Run`] with the complete loads takes the rover as far as the card
-//! says (or farther, for one who corrects late), the nose is set again, and so on over a way. How many stay within
-//! the drift that the card states, and how many get stuck?
+//! The card's numbers are of steady motions at one yaw. Here a driver follows it: the nose is set
+//! to the row's heading, off by what a driver misses it by, a [`Run`] with the complete loads takes
+//! the rover as far as the card says (or farther, for one who corrects late), the nose is set
+//! again, and so on over a way. How many stay within the drift that the card states, and how many
+//! get stuck?
 //!
-//! Runs may be quasi-steady: velocities settle within milliseconds, legs take seconds, and where that does not hold
-//! they go on dynamically. [`CardDrives::approach`] makes all of them dynamic, to check that. The nose is set at once:
-//! what turning does to the ground is left out, as on the first page of the card.
+//! Runs may be quasi-steady: velocities settle within milliseconds, legs take seconds, and where
+//! that does not hold they go on dynamically. [`CardDrives::approach`] makes all of them dynamic,
+//! to check that. The nose is set at once: what turning does to the ground is left out, as on the
+//! first page of the card.
 
 use rayon::prelude::*;
 
@@ -67,8 +69,8 @@ impl CardDrives<'_> {
     /// * `done`: called after each drive, from any thread
     ///
     /// # Errors
-    /// [`RunError`] for a driver who never corrects late or otherwise, and of the first sample that cannot be
-    /// computed.
+    /// [`RunError`] for a driver who never corrects late or otherwise, and of the first sample that
+    /// cannot be computed.
     pub fn on(
         &self,
         row: &CardRow,
@@ -169,7 +171,8 @@ const HEADINGS: usize = 5;
 
 /// Where legs lead [m] that begin with the headings around the card's.
 ///
-/// On an even slope a leg depends on the heading alone that it begins with: those between are interpolated.
+/// On an even slope a leg depends on the heading alone that it begins with: those between are
+/// interpolated.
 struct Legs([Option<Vec2>; HEADINGS]);
 
 impl Legs {
@@ -184,8 +187,8 @@ impl Legs {
         Ok(Self(ways))
     }
 
-    /// The leg that begins with a heading which is off by an error [rad]; nothing if the rover gets stuck on one of
-    /// those beside it.
+    /// The leg that begins with a heading which is off by an error [rad]; nothing if the rover gets
+    /// stuck on one of those beside it.
     fn from(&self, error: f64) -> Option<Vec2> {
         let place = 0.5 * (error / HEADING_ERROR + 1.0) * (HEADINGS - 1) as f64;
         let below = random::place_below(place, HEADINGS - 1);
@@ -201,8 +204,8 @@ fn slowest(way: f64, rim_speed: f64) -> f64 {
 
 /// Where a run leads over a way [m]; nothing if the rover gets stuck on it.
 fn leg(scenario: &Scenario, way: f64) -> Result<Option<Vec2>, RunError> {
-    /// A run ends this near to its way [-]. The rest is as the way was on average: the nose falls by 2° on all of it,
-    /// so that the end is right to a thousandth.
+    /// A run ends this near to its way [-]. The rest is as the way was on average: the nose falls
+    /// by 2° on all of it, so that the end is right to a thousandth.
     const NEAR: f64 = 0.05;
     let rim_speed = scenario.drive.nominal_rim_speed();
     let rim_speeds = vec![rim_speed; scenario.rover.wheel_count()];

@@ -30,17 +30,18 @@ pub struct Rule {
     pub no_go_probability: f64,
 }
 
-/// No slope is a go that is not this much flatter than the soil's friction angle [rad], whatever its cohesion:
-/// 5°. Source: ours.
+/// No slope is a go that is not this much flatter than the soil's friction angle [rad], whatever
+/// its cohesion: 5°. Source: ours.
 pub const BELOW_FRICTION_ANGLE: f64 = 5.0 * PI / 180.0;
 
-/// No slope is a go on which the rover is stuck by the card's heading in more than this share of the samples [-]: 5
-/// of 1000. Source: ours.
+/// No slope is a go on which the rover is stuck by the card's heading in more than this share of
+/// the samples [-]: 5 of 1000. Source: ours.
 pub const STUCK_ON_GO: f64 = 0.005;
 
-/// The steepest slopes that can be a go, and a caution [rad], whatever the samples say: no go near the friction
-/// angle, none below the usual factor of safety, none without a stated uncertainty; and neither ground that slides by
-/// itself, nor above the friction angle, where it stands by a cohesion that wheels break, is to be driven.
+/// The steepest slopes that can be a go, and a caution [rad], whatever the samples say: no go near
+/// the friction angle, none below the usual factor of safety, none without a stated uncertainty;
+/// and neither ground that slides by itself, nor above the friction angle, where it stands by a
+/// cohesion that wheels break, is to be driven.
 ///
 /// * `is_uncertainty_stated`: of the soil
 pub(in crate::studies) fn best_slopes(
@@ -69,8 +70,8 @@ impl Rule {
     /// Checks that no slope can be both a go and a no-go.
     ///
     /// # Errors
-    /// [`ParameterError`] for shares and slip ratios outside 0 to 1, and a go that asks for less than
-    /// a no-go.
+    /// [`ParameterError`] for shares and slip ratios outside 0 to 1, and a go that asks for less
+    /// than a no-go.
     pub fn check(&self) -> Result<(), ParameterError> {
         let within = |name: &str, value: f64, most: f64, expected: &'static str| {
             let inside = (0.0..=most).contains(&value);
@@ -86,9 +87,10 @@ impl Rule {
 
     /// The verdict on a slope.
     ///
-    /// * `slips`: slip ratio of the contour traverse in each sample for which it is known, `None` where no heading holds
-    ///   the contour
-    /// * `not_found`: how many samples there are beside them, which make no slope a go and none a no-go
+    /// * `slips`: slip ratio of the contour traverse in each sample for which it is known, `None`
+    ///   where no heading holds the contour
+    /// * `not_found`: how many samples there are beside them, which make no slope a go and none a
+    ///   no-go
     pub(super) fn verdict(&self, slips: &[Option<f64>], not_found: usize) -> Verdict {
         let share_within = |most: f64, unknown: usize| {
             let count = slips.iter().flatten().filter(|slip| **slip <= most).count();

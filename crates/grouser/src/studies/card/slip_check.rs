@@ -1,10 +1,11 @@
 //! Where to stop and look at the slip, and up to which slip to go on.
 //!
-//! The samples of the card say how much rovers slip on a slope, each on a soil of its own. Here the soil changes on
-//! the way: the slip at each place is one of theirs, and places a way x apart have normal scores that are correlated
-//! by e^(−x/ℓ). A driver who looks every so many metres, and turns back where the slip is above a limit, gets stuck
-//! where it rises beyond [`MOST_SLIP`](crate::simulation::MOST_SLIP) between two looks. The interval is the longest
-//! of a few at which that happens on few enough ways.
+//! The samples of the card say how much rovers slip on a slope, each on a soil of its own. Here the
+//! soil changes on the way: the slip at each place is one of theirs, and places a way x apart have
+//! normal scores that are correlated by e^(−x/ℓ). A driver who looks every so many metres, and
+//! turns back where the slip is above a limit, gets stuck where it rises beyond
+//! [`MOST_SLIP`](crate::simulation::MOST_SLIP) between two looks. The interval is the longest of a
+//! few at which that happens on few enough ways.
 
 use std::sync::OnceLock;
 
@@ -17,18 +18,20 @@ use crate::simulation::MOST_SLIP;
 use crate::studies::ensemble::Band;
 use crate::studies::random;
 
-/// No slip above this is passed over at a stop [-]. Source: the practice of Opportunity's drivers, who had slip
-/// checked every 5 m against a limit of 40 %.
+/// No slip above this is passed over at a stop [-]. Source: the practice of Opportunity's drivers,
+/// who had slip checked every 5 m against a limit of 40 %.
 pub const MOST_CHECKED_SLIP: f64 = 0.4;
 
-/// Way over which the soil changes [m]: ℓ. Source: ours, assumed: no variogram of slip on sand is known to us.
+/// Way over which the soil changes [m]: ℓ. Source: ours, assumed: no variogram of slip on sand is
+/// known to us.
 pub const SOIL_LENGTH: f64 = 5.0;
 
-/// The share of the ways of [`DRIFT_WAY`](super::DRIFT_WAY) on which a driver who looks may get stuck [-]: 5 of 1000, as on a go.
+/// The share of the ways of [`DRIFT_WAY`](super::DRIFT_WAY) on which a driver who looks may get
+/// stuck [-]: 5 of 1000, as on a go.
 pub const STUCK_WITH_CHECKS: f64 = STUCK_ON_GO;
 
-/// Ways between two looks that are tried [m], in steps of the way. Source: ours, the longest by Opportunity's
-/// practice.
+/// Ways between two looks that are tried [m], in steps of the way. Source: ours, the longest by
+/// Opportunity's practice.
 const INTERVALS: [(f64, usize); 4] = [(5.0, 50), (2.0, 20), (1.0, 10), (0.5, 5)];
 /// Way between two places whose slips are drawn [m], and how many there are on a way.
 const STEP: f64 = 0.1;
@@ -41,8 +44,8 @@ pub struct SlipCheck {
     pub limit: f64,
     /// Way between two looks [m]; `None` where none of those that are tried is short enough.
     pub every: Option<f64>,
-    /// Share of the ways of [`DRIFT_WAY`](super::DRIFT_WAY) on which the rover gets stuck all the same [-]; without an interval, with
-    /// the shortest.
+    /// Share of the ways of [`DRIFT_WAY`](super::DRIFT_WAY) on which the rover gets stuck all the
+    /// same [-]; without an interval, with the shortest.
     pub stuck: f64,
 }
 
@@ -100,7 +103,8 @@ impl Ways {
     /// The share of the ways on which a rover gets stuck.
     ///
     /// * `steps`: between two looks
-    /// * `passed`, `free`: share of the samples with a slip within the limit, and of those that are not stuck [-]
+    /// * `passed`, `free`: share of the samples with a slip within the limit, and of those that are
+    ///   not stuck [-]
     fn stuck(&self, steps: usize, passed: f64, free: f64) -> f64 {
         let score = |share: f64| match share {
             0.0 => f64::NEG_INFINITY,
@@ -136,9 +140,9 @@ mod tests {
         assert!(INTERVALS.iter().all(|(way, steps)| (*steps as f64 * STEP - way).abs() < 1e-12));
     }
 
-    /// Where every place has a soil of its own, a rover that is not looked after is free on each of them by itself:
-    /// 1 − (1 − p)^n; who looks at every place never gets stuck, and who looks at every tenth turns back in time on
-    /// some.
+    /// Where every place has a soil of its own, a rover that is not looked after is free on each of
+    /// them by itself: 1 − (1 − p)^n; who looks at every place never gets stuck, and who looks at
+    /// every tenth turns back in time on some.
     #[test]
     fn independent_places_are_free_each_by_itself() {
         let ways = Ways::draw(1e-6);
@@ -152,8 +156,8 @@ mod tests {
         assert!(at_times > 0.0 && at_times < never);
     }
 
-    /// The more often he looks, and the less slip he passes over, the fewer get stuck; soil that changes slowly
-    /// gives him time.
+    /// The more often he looks, and the less slip he passes over, the fewer get stuck; soil that
+    /// changes slowly gives him time.
     #[test]
     fn looking_helps() {
         let (slow, quick) = (Ways::draw(SOIL_LENGTH), Ways::draw(1.0));

@@ -66,7 +66,8 @@ impl Design {
         const FINEST: f64 = 1.0 / (1_u64 << 23) as f64;
         let (sequence, place) = (index / SOBOL_LENGTH, index % SOBOL_LENGTH);
         let seed = mix(self.seed ^ mix(sequence));
-        // The lower half of a well mixed word is as good as the whole; place and dimension are small.
+        // The lower half of a well mixed word is as good as the whole; place and dimension are
+        // small.
         #[expect(clippy::cast_possible_truncation)]
         let (place, dimension, seed) = (place as u32, dimension as u32, seed as u32);
         f64::from(sobol_burley::sample(place, dimension, seed)) + within * FINEST

@@ -1,5 +1,5 @@
-//! Full factorial designs: every level of a factor with every level of the others, and which part of a result's
-//! variance each factor has.
+//! Full factorial designs: every level of a factor with every level of the others, and which part
+//! of a result's variance each factor has.
 //!
 //! The law of total variance holds on such a design without any error of sampling:
 //!
@@ -7,12 +7,13 @@
 //! V = Var(E[Y | X_i]) + E[Var(Y | X_i)]
 //! ```
 //!
-//! The first term is the *part* of factor *i* (first-order, V_i): if the factor were known, whatever its level,
-//! the variance that is left would be V − V_i on average over its levels. As every level meets every other, the
-//! parts and what only several factors cause together, their *interactions*, add up to V, and no part is negative
-//! (Sobol 1993). The *total* of a factor is its part with all of its interactions, E[Var(Y | all others)]: what
-//! would be left if it alone were unknown. Its *shared* part has an equal share of each of its interactions (Shapley
-//! effects, Owen 2014): these add up to V by themselves.
+//! The first term is the *part* of factor *i* (first-order, V_i): if the factor were known,
+//! whatever its level, the variance that is left would be V − V_i on average over its levels. As
+//! every level meets every other, the parts and what only several factors cause together, their
+//! *interactions*, add up to V, and no part is negative (Sobol 1993). The *total* of a factor is
+//! its part with all of its interactions, E[Var(Y | all others)]: what would be left if it alone
+//! were unknown. Its *shared* part has an equal share of each of its interactions (Shapley effects,
+//! Owen 2014): these add up to V by themselves.
 
 use std::iter::repeat_n;
 
@@ -38,7 +39,8 @@ pub struct VarianceBudget {
 pub struct VariancePart {
     /// Alone: by how much the variance shrinks, on average, if the factor is known.
     pub first: f64,
-    /// With all of its interactions: the variance that is left, on average, if all others are known.
+    /// With all of its interactions: the variance that is left, on average, if all others are
+    /// known.
     pub total: f64,
     /// With an equal share of each of its interactions.
     pub shared: f64,
@@ -47,7 +49,8 @@ pub struct VariancePart {
 impl Factorial {
     /// Every level of each factor with every level of the others.
     ///
-    /// * `counts`: for each factor how often each of its levels counts, once or more; the last factor varies fastest
+    /// * `counts`: for each factor how often each of its levels counts, once or more; the last
+    ///   factor varies fastest
     ///
     /// # Panics
     /// If a factor has no levels, or a level that does not count.
@@ -159,8 +162,8 @@ impl Factorial {
         means.map(|(level, it)| self.share(factor, level) * (it - mean).powi(2)).sum()
     }
 
-    /// Σ V_S/|S| over the sets S of factors that have a factor in them, where V_S is what they have together and no
-    /// set within S has: for each factor.
+    /// Σ V_S/|S| over the sets S of factors that have a factor in them, where V_S is what they have
+    /// together and no set within S has: for each factor.
     fn shared(&self, mean: f64, outputs: &[f64]) -> Vec<f64> {
         let factors = self.counts.len();
         let mut together: Vec<f64> =
@@ -310,8 +313,8 @@ mod tests {
         }
     }
 
-    /// Closed form: a sum of functions of one factor each has no interactions, and a product of two with mean zero
-    /// nothing else.
+    /// Closed form: a sum of functions of one factor each has no interactions, and a product of two
+    /// with mean zero nothing else.
     #[test]
     fn sums_do_not_interact_and_products_do_nothing_else() {
         let design = Factorial::new(vec![vec![1, 1], vec![1, 2, 1]]);

@@ -1,18 +1,19 @@
-//! The wheel–soil models of a band: where no model is asked for, each sample has one of several, by weight.
+//! The wheel–soil models of a band: where no model is asked for, each sample has one of several, by
+//! weight.
 //!
-//! Models disagree by more than the parameters of any of them vary, so that a band of one model's parameters
-//! alone is too narrow. [`weight`] is the one place of their weights, which follow from what the models have achieved
-//! ([`evidence`](crate::studies::evidence)).
+//! Models disagree by more than the parameters of any of them vary, so that a band of one model's
+//! parameters alone is too narrow. [`weight`] is the one place of their weights, which follow from
+//! what the models have achieved ([`evidence`](crate::studies::evidence)).
 
 use crate::contact::Model;
 use crate::studies::random;
 
 /// The weight of a model where a soil was made for none of them [-]; only their ratios count.
 ///
-/// Source: stacking over the measured wheels and the simulated rover of the data sets that come with the library
-/// ([`stacked`](crate::studies::evidence::stacked)), to two digits; a test computes them anew. With any one set left
-/// out they move by up to a tenth. Nobody knows what a model of your own is worth: it has no weight unless it is asked
-/// for.
+/// Source: stacking over the measured wheels and the simulated rover of the data sets that come
+/// with the library ([`stacked`](crate::studies::evidence::stacked)), to two digits; a test
+/// computes them anew. With any one set left out they move by up to a tenth. Nobody knows what a
+/// model of your own is worth: it has no weight unless it is asked for.
 #[must_use]
 pub const fn weight(model: &Model) -> f64 {
     match model {
@@ -58,8 +59,9 @@ impl Question {
     }
 }
 
-/// Whether a model has the forces that a question needs. Bekker's closed form has one stress under the whole wheel and no
-/// measured side force: across a slope it finds headings where nobody else does, or none.
+/// Whether a model has the forces that a question needs. Bekker's closed form has one stress under
+/// the whole wheel and no measured side force: across a slope it finds headings where nobody else
+/// does, or none.
 #[must_use]
 pub const fn answers(model: &Model, question: Question) -> bool {
     !matches!((model, question), (Model::Bekker, Question::Across))
@@ -76,8 +78,9 @@ pub const ACROSS: usize = {
     count
 };
 
-/// The share of the model that a soil was made for [-]; the others have the rest, by their [`weight`]. Source:
-/// ours: constants fitted with one model mean less in another, but a fit does not make its model right elsewhere.
+/// The share of the model that a soil was made for [-]; the others have the rest, by their
+/// [`weight`]. Source: ours: constants fitted with one model mean less in another, but a fit does
+/// not make its model right elsewhere.
 pub const OWN_SHARE: f64 = 0.8;
 
 /// The models that samples may have, with their shares.
@@ -108,15 +111,15 @@ impl ModelSpread {
         Self { shares: vec![(model, 1.0)] }
     }
 
-    /// All models that can answer a question, by their [`weight`]; with [`OWN_SHARE`] for one that the soil was made
-    /// for, whatever the question.
+    /// All models that can answer a question, by their [`weight`]; with [`OWN_SHARE`] for one that
+    /// the soil was made for, whatever the question.
     #[must_use]
     pub fn all(made_for: Option<&Model>, question: Question) -> Self {
         Self::by(weight, made_for, question)
     }
 
-    /// All models that can answer a question, by weights of which only the ratios count; with [`OWN_SHARE`] for one
-    /// that the soil was made for.
+    /// All models that can answer a question, by weights of which only the ratios count; with
+    /// [`OWN_SHARE`] for one that the soil was made for.
     pub(in crate::studies) fn by(
         weight: impl Fn(&Model) -> f64,
         made_for: Option<&Model>,
@@ -154,9 +157,9 @@ impl ModelSpread {
 
     /// The model of sample number `index`, which depends on the seed and that number alone.
     ///
-    /// Steps of the golden ratio around a circle whose arcs are the shares, from a start that the seed gives: any
-    /// number of samples in a row have the models by their shares, to within a few samples (Weyl 1916; the golden
-    /// ratio's discrepancy is the smallest).
+    /// Steps of the golden ratio around a circle whose arcs are the shares, from a start that the
+    /// seed gives: any number of samples in a row have the models by their shares, to within a few
+    /// samples (Weyl 1916; the golden ratio's discrepancy is the smallest).
     #[must_use]
     pub fn model(&self, seed: u64, index: u64) -> Model {
         let mut random = random::generator(seed, STREAM);

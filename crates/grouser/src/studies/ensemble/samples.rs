@@ -34,12 +34,13 @@ pub struct BandInputs {
 }
 
 impl BandInputs {
-    /// The soil of a scenario, with the model that the scenario names, or that is your own, or else the spread of
-    /// models that know forces across a wheel ([`asked`](Self::asked)).
+    /// The soil of a scenario, with the model that the scenario names, or that is your own, or else
+    /// the spread of models that know forces across a wheel ([`asked`](Self::asked)).
     #[must_use]
     pub fn of_scenario(scenario: &LoadedScenario) -> Self {
         let model = &scenario.value.model;
-        // No document names a model of your own, so that its scenario is the only one to ask for it.
+        // No document names a model of your own, so that its scenario is the only one to ask for
+        // it.
         let is_asked_for = scenario.document.model().is_some() || matches!(model, Model::Own(_));
         let chosen = is_asked_for.then(|| model.clone());
         let made_for = scenario.document.model_of_soil();
@@ -83,9 +84,9 @@ impl BandInputs {
         self.soils.is_none() && self.models.shares().len() == 1
     }
 
-    /// Sample number `index`, which depends on the seed and that number alone: a soil with what its document
-    /// leaves open and with what a model may get wrong in it, and a model. A soil whose numbers are all taken as
-    /// exact is the same in every sample.
+    /// Sample number `index`, which depends on the seed and that number alone: a soil with what its
+    /// document leaves open and with what a model may get wrong in it, and a model. A soil whose
+    /// numbers are all taken as exact is the same in every sample.
     ///
     /// # Errors
     /// [`NothingAccepted`] if no soil can be drawn.
@@ -93,8 +94,8 @@ impl BandInputs {
         self.crossed(self.models.model(seed, index), seed, [index, index])
     }
 
-    /// A model with the soil of one sample and what a model may get wrong in another, so that the two can be told
-    /// apart. It depends on its arguments alone.
+    /// A model with the soil of one sample and what a model may get wrong in another, so that the
+    /// two can be told apart. It depends on its arguments alone.
     ///
     /// * `numbers`: of the soil, and of the discrepancy
     ///
@@ -117,7 +118,8 @@ impl BandInputs {
         Ok(Sample { soil, model })
     }
 
-    /// The soil as its document has it, without what a calibration found wrong with another model than this.
+    /// The soil as its document has it, without what a calibration found wrong with another model
+    /// than this.
     pub(in crate::studies) fn nominal(&self, model: &Model) -> Soil {
         self.as_known_to(model, self.soil)
     }
@@ -127,7 +129,8 @@ impl BandInputs {
         self.soils.as_ref()
     }
 
-    /// Whether soils differ from sample to sample; if not, no model gets anything wrong in them either.
+    /// Whether soils differ from sample to sample; if not, no model gets anything wrong in them
+    /// either.
     #[must_use]
     pub fn has_soils(&self) -> bool {
         self.soils.is_some()
@@ -156,7 +159,8 @@ fn spread(chosen: Option<Model>, made_for: Option<&Model>, question: Question) -
     chosen.map_or_else(|| ModelSpread::all(made_for, question), ModelSpread::one)
 }
 
-/// Computes samples in their order, those that are alike once; nothing if `go_on` was false before the end.
+/// Computes samples in their order, those that are alike once; nothing if `go_on` was false before
+/// the end.
 ///
 /// * `go_on`: asked before each that is computed, from any thread
 /// * `one`: computes a sample
@@ -176,8 +180,8 @@ pub(in crate::studies) fn outputs_of_places<T: Clone + Send>(
     go_on: &(dyn Fn() -> bool + Sync),
     one: impl Fn(usize) -> T + Sync + Send,
 ) -> Option<Vec<T>> {
-    // Where the soil is the same in all samples there is one result for each model: looking at the first sample
-    // of a model is enough to find it.
+    // Where the soil is the same in all samples there is one result for each model: looking at the
+    // first sample of a model is enough to find it.
     let source = |(place, sample): (usize, &Sample)| {
         let first = samples.iter().position(|it| it.model == sample.model);
         first.filter(|first| samples[*first] == *sample).unwrap_or(place)

@@ -14,9 +14,10 @@
 //! T_i = (1/2N) Σ (f_A − f_ABi)² / V          (Jansen 1999)
 //! ```
 //!
-//! with the mean of f taken away first, which changes no expectation and much of the scatter. Estimates
-//! scatter about the indices and may lie just below 0. Intervals are bootstrapped over the points; they
-//! take the points for independent and are too wide, never too narrow in practice, for a Sobol design.
+//! with the mean of f taken away first, which changes no expectation and much of the scatter.
+//! Estimates scatter about the indices and may lie just below 0. Intervals are bootstrapped over
+//! the points; they take the points for independent and are too wide, never too narrow in practice,
+//! for a Sobol design.
 
 use rayon::prelude::*;
 
@@ -53,13 +54,14 @@ pub struct Sensitivity {
 const RESAMPLES: u64 = 1000;
 
 impl Sensitivity {
-    /// The indices of an output in the order of a plan's runs; nothing if fewer than two points have it or it
-    /// does not vary.
+    /// The indices of an output in the order of a plan's runs; nothing if fewer than two points
+    /// have it or it does not vary.
     ///
-    /// Points of which a run has no output are left out: the indices are then those of the part of the
-    /// inputs that has one, as far as that is still a box.
+    /// Points of which a run has no output are left out: the indices are then those of the part of
+    /// the inputs that has one, as far as that is still a box.
     ///
-    /// * `outputs`: of all runs, points one after another; a last point that is cut short is left out
+    /// * `outputs`: of all runs, points one after another; a last point that is cut short is left
+    ///   out
     /// * `inputs`: their number
     /// * `seed`: of the resampling
     #[must_use]

@@ -1,11 +1,12 @@
-//! Statistics of one quantity over many runs: mean, quantiles and probabilities, with confidence intervals.
+//! Statistics of one quantity over many runs: mean, quantiles and probabilities, with confidence
+//! intervals.
 //!
 //! Intervals are 95 % confidence intervals for independent samples: [`Quantile`]s without any
 //! assumption on the distribution, the mean by the central limit, a
-//! [`Probability`](super::Probability) by Wilson. For a Latin hypercube they are
-//! wide rather than narrow: its mean's variance is at most N/(N − 1) times that of independent samples
-//! (Owen 1997). For a scrambled Sobol design they are wide for every result that is smooth in its inputs;
-//! what is guaranteed is only that its variance is within a constant of that of independent samples.
+//! [`Probability`](super::Probability) by Wilson. For a Latin hypercube they are wide rather than
+//! narrow: its mean's variance is at most N/(N − 1) times that of independent samples (Owen 1997).
+//! For a scrambled Sobol design they are wide for every result that is smooth in its inputs; what
+//! is guaranteed is only that its variance is within a constant of that of independent samples.
 
 use grouser_io::statistics::quantile;
 
@@ -60,7 +61,8 @@ const Z: f64 = 1.959_963_984_540_054;
 const TAIL: f64 = 0.025;
 
 impl Summary {
-    /// The summary of samples, `None` for those without the quantity; nothing if fewer than two have it.
+    /// The summary of samples, `None` for those without the quantity; nothing if fewer than two
+    /// have it.
     ///
     /// * `shares`: of the quantiles [-], above 0 and below 1
     #[must_use]
@@ -88,11 +90,11 @@ impl Summary {
 }
 
 impl Quantile {
-    /// The quantile of samples from the smallest to the largest; nothing without samples, or for an invalid
-    /// share.
+    /// The quantile of samples from the smallest to the largest; nothing without samples, or for an
+    /// invalid share.
     ///
-    /// The number of samples below the true quantile is binomial whatever their distribution, so that
-    /// the quantile lies between the l-th and the u-th sample with
+    /// The number of samples below the true quantile is binomial whatever their distribution, so
+    /// that the quantile lies between the l-th and the u-th sample with
     ///
     /// ```text
     /// P(K < l) ≤ 2.5 %        P(K ≥ u) ≤ 2.5 %        K ~ Bin(n, p)
@@ -178,8 +180,8 @@ pub struct Convergence {
 }
 
 impl Convergence {
-    /// The convergence of samples in the order of their runs: after each number of runs from 16 up that is a power of
-    /// two, and after all.
+    /// The convergence of samples in the order of their runs: after each number of runs from 16 up
+    /// that is a power of two, and after all.
     ///
     /// * `shares`: of the quantiles [-]
     #[must_use]

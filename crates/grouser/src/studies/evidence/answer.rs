@@ -3,7 +3,8 @@
 use crate::contact::Model;
 use crate::studies::ensemble::models::Question;
 
-/// What a number answers. Each kind counts alike in the weights, however many of its numbers were measured.
+/// What a number answers. Each kind counts alike in the weights, however many of its numbers were
+/// measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AnswerKind {
     /// Drawbar pull, over the load [-].
@@ -35,8 +36,8 @@ impl AnswerKind {
         }
     }
 
-    /// How exactly such numbers are read off published figures [-, rad]. Source: ours; a newton, a millimetre, two
-    /// hundredths of slip and a degree, as the data sets say of themselves.
+    /// How exactly such numbers are read off published figures [-, rad]. Source: ours; a newton, a
+    /// millimetre, two hundredths of slip and a degree, as the data sets say of themselves.
     pub(super) fn noise(self) -> f64 {
         match self {
             Self::Pull | Self::SideForce | Self::Slip => 0.02,

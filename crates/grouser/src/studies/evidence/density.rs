@@ -3,16 +3,16 @@
 use crate::elementary::pow;
 use crate::elementary::wide::hypot;
 
-/// Degrees of freedom of the kernel [-]: a number that no sample is near still has a chance, so that one miss does not
-/// decide a weight alone. Source: ours.
+/// Degrees of freedom of the kernel [-]: a number that no sample is near still has a chance, so
+/// that one miss does not decide a weight alone. Source: ours.
 const FREEDOM: f64 = 4.0;
 /// Γ(5/2)/(√(4π) Γ(2)): the density of Student's t with [`FREEDOM`] at its middle.
 const AT_MIDDLE: f64 = 0.375;
 
 /// The mean over the samples of a kernel about each of them.
 ///
-/// The kernel's width is Silverman's for the samples' spread together with the noise of the number. Samples
-/// without a bound have no density anywhere.
+/// The kernel's width is Silverman's for the samples' spread together with the noise of the number.
+/// Samples without a bound have no density anywhere.
 ///
 /// * `noise`: standard deviation with which the number was read, in its unit
 pub(super) fn density(samples: &[f64], noise: f64, at: f64) -> f64 {
@@ -25,7 +25,8 @@ pub(super) fn density(samples: &[f64], noise: f64, at: f64) -> f64 {
     samples.iter().map(kernel).sum::<f64>() / samples.len().max(1) as f64
 }
 
-/// The smaller of the standard deviation and of the middle half's width over that of a normal distribution.
+/// The smaller of the standard deviation and of the middle half's width over that of a normal
+/// distribution.
 fn spread(samples: &[f64]) -> f64 {
     /// Width of a normal distribution's middle half, in standard deviations.
     const MIDDLE_HALF: f64 = 1.349;

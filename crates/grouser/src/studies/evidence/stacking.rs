@@ -9,12 +9,13 @@ use grouser_io::statistics::{interval_score, weighted_quantile};
 /// A share for each model, in the order of [`Model::ALL`], with the sum 1 [-].
 pub type Shares = [f64; Model::COUNT];
 
-/// How strongly shares are drawn towards equal ones [-]: as much as evidence of this weight, where one is all that there
-/// is. Source: ours; sets are few, and each has one wheel on one bed.
+/// How strongly shares are drawn towards equal ones [-]: as much as evidence of this weight, where
+/// one is all that there is. Source: ours; sets are few, and each has one wheel on one bed.
 pub const SHRINKAGE: f64 = 0.1;
 
-/// The shares by which a set is judged: those of all sets whose soils are from elsewhere. A soil that was made for a model
-/// with the set in view has that model with [`OWN_SHARE`](models::OWN_SHARE).
+/// The shares by which a set is judged: those of all sets whose soils are from elsewhere. A soil
+/// that was made for a model with the set in view has that model with
+/// [`OWN_SHARE`](models::OWN_SHARE).
 #[must_use]
 pub fn without(set: &Evidence, all: &[Evidence]) -> Shares {
     let others = all.iter().filter(|it| it.in_sample.is_none() && it.source != set.source);
@@ -32,9 +33,10 @@ pub fn without(set: &Evidence, all: &[Evidence]) -> Shares {
 /// max  Σ_k (1/K) Σ_s (1/S_k) (1/N_ks) Σ_i log Σ_m w_m p_m(y_i)  +  κ Σ_m (1/M) log w_m
 /// ```
 ///
-/// over kinds k of answer, the sets s that have them and their numbers i: each kind counts alike, and so does each
-/// set within a kind. p_m is the density of a model's samples; a question that a model cannot answer is put to the others, in
-/// proportion of their shares. κ is the [`SHRINKAGE`]. (Yao et al. 2018; the maximum is found by expectation and maximisation.)
+/// over kinds k of answer, the sets s that have them and their numbers i: each kind counts alike,
+/// and so does each set within a kind. p_m is the density of a model's samples; a question that a
+/// model cannot answer is put to the others, in proportion of their shares. κ is the [`SHRINKAGE`].
+/// (Yao et al. 2018; the maximum is found by expectation and maximisation.)
 #[must_use]
 pub fn stacked(evidence: &[&Evidence]) -> Shares {
     let answers = weighted(evidence);
@@ -81,8 +83,8 @@ fn weighted(evidence: &[&Evidence]) -> Vec<Weighted> {
     all
 }
 
-/// To which model an answer belongs, with which probability. One that a model was not asked belongs to that model
-/// as often as any other: it tells nothing of it.
+/// To which model an answer belongs, with which probability. One that a model was not asked belongs
+/// to that model as often as any other: it tells nothing of it.
 fn owners(shares: &Shares, densities: &[Option<f64>; Model::COUNT]) -> Shares {
     let pairs = || shares.iter().zip(densities);
     let asked: f64 = pairs().filter_map(|(share, density)| density.map(|_| share)).sum();

@@ -1,4 +1,5 @@
-//! What no sample of a soil decides: how moduli scale, what the ground of the site is, what the rover weighs.
+//! What no sample of a soil decides: how moduli scale, what the ground of the site is, what the
+//! rover weighs.
 
 use grouser_io::{LoadedSoil, UncertainSoil};
 
@@ -73,7 +74,8 @@ impl Choices {
     }
 }
 
-/// Soils of the site are drawn by another seed than those that were measured: the two have nothing in common.
+/// Soils of the site are drawn by another seed than those that were measured: the two have nothing
+/// in common.
 fn seed_of_site(seed: u64) -> u64 {
     !seed
 }

@@ -13,8 +13,8 @@ pub enum ForecastError {
     /// No soil can be drawn.
     #[error(transparent)]
     NothingAccepted(#[from] NothingAccepted),
-    /// The search for a heading gave up in one of the cases. Each level of each factor has the same cases, so that none
-    /// can be left out.
+    /// The search for a heading gave up in one of the cases. Each level of each factor has the same
+    /// cases, so that none can be left out.
     #[error("a case of the forecast: {0}")]
     NotFound(NoHeading),
 }

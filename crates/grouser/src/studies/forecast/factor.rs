@@ -1,4 +1,5 @@
-//! The factors of a forecast: what they are called, their levels, and what would make each of them smaller.
+//! The factors of a forecast: what they are called, their levels, and what would make each of them
+//! smaller.
 
 use crate::studies::ensemble::models::ModelSpread;
 

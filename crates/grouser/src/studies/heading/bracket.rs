@@ -1,4 +1,5 @@
-//! Balances of a heading by brackets: slower than following the curve, and sure where its forces are continuous.
+//! Balances of a heading by brackets: slower than following the curve, and sure where its forces
+//! are continuous.
 
 use super::first_rise::LAST;
 use super::path::{CLOSE, NEXT_SLOPES, Path, Place, Point};
@@ -15,16 +16,18 @@ impl Path<'_> {
         self.yaw_at_rest().abs() >= super::study::STRAIGHT_UP
     }
 
-    /// A next point on a steeper slope, where steps along the curve lead to none: brackets in slip, and around them in
-    /// crab angle, on both sides of the last point.
+    /// A next point on a steeper slope, where steps along the curve lead to none: brackets in slip,
+    /// and around them in crab angle, on both sides of the last point.
     pub(super) fn next_by_bracket(&self, here: &Point) -> Option<Point> {
         NEXT_SLOPES.iter().find_map(|rise| self.bracketed_on(here.place.z + rise, &here.place))
     }
 
-    /// The balance of wheels that skid more, beyond a fold where they skid: pull is not monotone in skid, and where it
-    /// no longer holds a rover that goes downhill the rover gets faster, until its wheels skid enough.
+    /// The balance of wheels that skid more, beyond a fold where they skid: pull is not monotone in
+    /// skid, and where it no longer holds a rover that goes downhill the rover gets faster, until
+    /// its wheels skid enough.
     pub(super) fn deeper_skid(&self, here: &Point) -> Option<Point> {
-        /// Slopes above the last point on which it is looked for [rad]: the fold lies within a step.
+        /// Slopes above the last point on which it is looked for [rad]: the fold lies within a
+        /// step.
         const RISES: [f64; 3] = [2e-3, 1e-2, 5e-2];
         if here.place.x >= 0.0 || !self.is_straight() {
             return None;

@@ -2,7 +2,8 @@
 
 use crate::vehicle::ReactionError;
 
-/// Slip between two looks at the thrust [-]. Source: ours, because pulls rise and fall over tenths of slip.
+/// Slip between two looks at the thrust [-]. Source: ours, because pulls rise and fall over tenths
+/// of slip.
 const LOOK: f64 = 0.04;
 /// Slip of the last look, in drive and in skid [-], and which look that is.
 pub(super) const LAST: f64 = 0.999;
@@ -21,8 +22,8 @@ pub(super) enum NoBalance {
     Fault(ReactionError),
 }
 
-/// The lowest slip around which the thrust comes to suffice, as two slips with what is left over there, over the
-/// weight.
+/// The lowest slip around which the thrust comes to suffice, as two slips with what is left over
+/// there, over the weight.
 ///
 /// * `left_over`: of the thrust at a slip, over the weight [-]
 pub(super) fn first_rise(

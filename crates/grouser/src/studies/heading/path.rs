@@ -82,7 +82,8 @@ impl Held {
 pub(super) struct Path<'a> {
     study: &'a HeadingStudy,
     held: Held,
-    /// The rover, with wheels that may be steered by any angle if they are; and the most that its own can be [rad].
+    /// The rover, with wheels that may be steered by any angle if they are; and the most that its
+    /// own can be [rad].
     rover: Cow<'a, Rover>,
     most_steering: f64,
     settled_wheels: Cell<u64>,
@@ -106,7 +107,8 @@ impl Reach {
 
 /// Slopes at which a next point is looked for, above the last [rad].
 pub(super) const NEXT_SLOPES: [f64; 4] = [2e-3, 4e-4, 5e-5, 5e-6];
-/// Force left over, over the weight, that a bracketed balance may have [-]: the root of forces that are exact to 1e-12.
+/// Force left over, over the weight, that a bracketed balance may have [-]: the root of forces that
+/// are exact to 1e-12.
 pub(super) const CLOSE: f64 = 1e-9;
 
 /// What ends a curve.
@@ -255,8 +257,9 @@ impl<'a> Path<'a> {
         self.balance(place).map(|(left_over, _)| left_over)
     }
 
-    /// Lowest slip at which thrust and weight are in equilibrium along the rover, for a crab angle and a slope. Where
-    /// pull falls again at high slip there are more of them, to which no rover comes that sets out rolling.
+    /// Lowest slip at which thrust and weight are in equilibrium along the rover, for a crab angle
+    /// and a slope. Where pull falls again at high slip there are more of them, to which no rover
+    /// comes that sets out rolling.
     pub(super) fn slip_at(&self, crab: f64, slope: f64) -> Result<f64, End> {
         let left_over = |slip_ratio: f64| {
             self.imbalance(&Place::new(slip_ratio, crab, slope)).map(|left_over| left_over[0])
@@ -268,7 +271,8 @@ impl<'a> Path<'a> {
         if left.abs() < CLOSE {
             return Ok(slip_ratio);
         }
-        // Loads that settle in more than one way depend on where they were looked at before: look anew from both ends.
+        // Loads that settle in more than one way depend on where they were looked at before: look
+        // anew from both ends.
         let anew = root::between(thrust, DEEPEST_SKID, above.0, 1e-13);
         if thrust(anew).abs() < CLOSE {
             return Ok(anew);
@@ -318,8 +322,8 @@ impl<'a> Path<'a> {
         Err(End::not_found("slip and slope of the first crab did not settle on each other"))
     }
 
-    /// Follows the curve from its one point until it folds or ends, or until a point is not below a slope, or slips
-    /// more than it need; says what ended it.
+    /// Follows the curve from its one point until it folds or ends, or until a point is not below a
+    /// slope, or slips more than it need; says what ended it.
     pub(super) fn follow(&self, points: &mut Vec<Point>, reach: Reach) -> End {
         let mut step = FIRST_STEP;
         loop {
@@ -360,7 +364,8 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// The next point along the curve, with the longest step that leads to one; or the direction in which none did.
+    /// The next point along the curve, with the longest step that leads to one; or the direction in
+    /// which none did.
     fn next_along(&self, points: &[Point], step: &mut f64) -> Result<Point, Place> {
         let here = &points[points.len() - 1];
         loop {
@@ -401,8 +406,8 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// Straight up or down a slope, where slip alone is to be found, all slips just above a point show whether there is
-    /// a balance; on other courses they do not.
+    /// Straight up or down a slope, where slip alone is to be found, all slips just above a point
+    /// show whether there is a balance; on other courses they do not.
     fn what_slips_show(&self, here: &Place) -> End {
         let unknown = || End::not_found("no next point of the curve was found");
         if !self.is_straight() {
@@ -444,7 +449,8 @@ impl<'a> Path<'a> {
     ///
     /// * `here`: the imbalances at the place itself
     fn gradients(&self, place: &Place, here: [f64; 2]) -> Option<Gradients> {
-        /// Forces are exact to 1e-12, those of loads that depend on them to 1e-11: a gradient to 1e-4.
+        /// Forces are exact to 1e-12, those of loads that depend on them to 1e-11: a gradient to
+        /// 1e-4.
         const STEP: f64 = 1e-7;
         let mut gradients = Gradients::default();
         for axis in 0..3 {
@@ -475,12 +481,14 @@ impl<'a> Path<'a> {
             .or_else(|| self.correct_by_root(guess, normal))
     }
 
-    /// The same where wheels begin to skid. There the part of the arc that slides forwards grows with the root of the slip,
-    /// and pull falls with it, without a finite slope: the root *u*, s = −u², is the unknown.
+    /// The same where wheels begin to skid. There the part of the arc that slides forwards grows
+    /// with the root of the slip, and pull falls with it, without a finite slope: the root *u*, s =
+    /// −u², is the unknown.
     fn correct_by_root(&self, guess: &Place, normal: &Place) -> Option<Point> {
         /// Above this slip a point is of the driven part of the curve [-].
         const DRIVEN: f64 = 0.05;
-        /// A difference of the root: of slip it is 1e-14 next to zero, and forces are exact to 1e-12 [-].
+        /// A difference of the root: of slip it is 1e-14 next to zero, and forces are exact to
+        /// 1e-12 [-].
         const STEP: f64 = 1e-7;
         if guess.x > DRIVEN {
             return None;
@@ -563,7 +571,8 @@ impl<'a> Path<'a> {
         End::Shown("where the wheels cannot be steered any further".into())
     }
 
-    /// Whether the curve still rises at its last point: where it does not, its end takes that point off.
+    /// Whether the curve still rises at its last point: where it does not, its end takes that point
+    /// off.
     fn climbs_at_last(&self, points: &[Point]) -> bool {
         let [.., before, last] = points else { return true };
         let way = last.place - before.place;

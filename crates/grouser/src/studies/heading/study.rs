@@ -61,7 +61,8 @@ impl Steering {
 pub const STRAIGHT_UP: f64 = FRAC_PI_2;
 
 impl HeadingStudy {
-    /// The motion into which the rover settles on a slope *α* at a yaw *γ* [rad], with all rims at one speed
+    /// The motion into which the rover settles on a slope *α* at a yaw *γ* [rad], with all rims at
+    /// one speed
     /// [m/s]: unlike on a contour traverse, its yaw moment is balanced, and it turns.
     ///
     /// # Errors
@@ -103,7 +104,8 @@ impl HeadingStudy {
         self.steady_motion_of_near(motion, slope, yaw, &rim_speeds)
     }
 
-    /// The same with each rim at its own speed [m/s], sought from a motion with these speeds on a slope that is near.
+    /// The same with each rim at its own speed [m/s], sought from a motion with these speeds on a
+    /// slope that is near.
     ///
     /// # Errors
     /// The same as [`steady_motion`](Self::steady_motion).
@@ -135,8 +137,8 @@ impl HeadingStudy {
         }
     }
 
-    /// The slope on which the rover at rest tips over at a yaw *γ* [rad]: there the weight through its centre of
-    /// mass meets the edge of the polygon of its wheels.
+    /// The slope on which the rover at rest tips over at a yaw *γ* [rad]: there the weight through
+    /// its centre of mass meets the edge of the polygon of its wheels.
     #[must_use]
     pub fn tipping_slope(&self, yaw: f64) -> f64 {
         /// A slope on which everything tips [rad].

@@ -1,9 +1,10 @@
-//! What to do tomorrow, by what was learnt: the heading to set, how often to look at the slip, and which test drive would
-//! tell most for its cost.
+//! What to do tomorrow, by what was learnt: the heading to set, how often to look at the slip, and
+//! which test drive would tell most for its cost.
 //!
-//! Forces of the soil do not depend on how fast it is sheared, so that slip, heading and the way over which a rover digs
-//! itself in are the same at every speed. Speed sets the time and the power, and no more: the advice is the speed that
-//! was asked for, unless odometry would then not be ready for each look at the slip.
+//! Forces of the soil do not depend on how fast it is sheared, so that slip, heading and the way
+//! over which a rover digs itself in are the same at every speed. Speed sets the time and the
+//! power, and no more: the advice is the speed that was asked for, unless odometry would then not
+//! be ready for each look at the slip.
 
 mod course;
 mod instruments;
@@ -35,7 +36,8 @@ pub struct AdviceSettings {
     pub limits: Limits,
     /// How slip is checked.
     pub checks: CheckSettings,
-    /// Time that odometry needs for a look at the slip while the rover goes on [s]; 0 where it stands meanwhile.
+    /// Time that odometry needs for a look at the slip while the rover goes on [s]; 0 where it
+    /// stands meanwhile.
     pub look_time: f64,
     /// The test drives that there may be.
     pub tests: TestSettings,
@@ -61,8 +63,8 @@ pub struct SlopeAdvice {
     pub heading: HeadingAdvice,
     /// How often to look at the slip at that heading; `None` without one.
     pub check: Option<CheckAdvice>,
-    /// The rim speed to set [m/s]: that which was asked for, or as slow as looks at the slip need it; `None` without a
-    /// heading.
+    /// The rim speed to set [m/s]: that which was asked for, or as slow as looks at the slip need
+    /// it; `None` without a heading.
     pub rim_speed: Option<f64>,
 }
 
@@ -185,8 +187,9 @@ impl Learner {
         Ok(Some(SlopeAdvice { heading, check: Some(check), rim_speed: Some(rim_speed) }))
     }
 
-    /// The soils at places along a way ahead, a realisation that depends on the seed and its number alone: the first is
-    /// that of [`samples`](Self::samples), the others wander and change from there.
+    /// The soils at places along a way ahead, a realisation that depends on the seed and its number
+    /// alone: the first is that of [`samples`](Self::samples), the others wander and change from
+    /// there.
     ///
     /// * `places`: ways over the ground from each to the next [m]
     ///

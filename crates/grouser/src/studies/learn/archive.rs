@@ -14,7 +14,8 @@ pub trait Archive {
     fn count(&mut self, name: &str, value: &mut u64);
     /// A text.
     fn word(&mut self, name: &str, value: &mut String);
-    /// Begins a list; how many items it has: `length` where it is written, as many as there are where it is read.
+    /// Begins a list; how many items it has: `length` where it is written, as many as there are
+    /// where it is read.
     fn list(&mut self, name: &str, length: usize) -> usize;
     /// Begins a group of named fields.
     fn group(&mut self, name: &str);

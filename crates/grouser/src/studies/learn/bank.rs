@@ -47,8 +47,9 @@ impl Bank {
 
     /// The models with their shares [-].
     ///
-    /// What the observations say for a model counts by [`LearnSettings::trust`], and a part of the shares is what it was
-    /// beforehand: no model is right, and a likelihood that takes one for right would leave only one.
+    /// What the observations say for a model counts by [`LearnSettings::trust`], and a part of the
+    /// shares is what it was beforehand: no model is right, and a likelihood that takes one for
+    /// right would leave only one.
     pub(super) fn models(&self, settings: &LearnSettings) -> ModelSpread {
         let most = self.evidence.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let told: Vec<f64> = self
@@ -132,8 +133,8 @@ impl Bank {
         self.evidence.fill(0.0);
     }
 
-    /// Sample number `index` of what is believed, which depends on the seed and that number alone. Before anything is
-    /// learnt it is that of [`BandInputs::sample`].
+    /// Sample number `index` of what is believed, which depends on the seed and that number alone.
+    /// Before anything is learnt it is that of [`BandInputs::sample`].
     ///
     /// # Errors
     /// [`NothingAccepted`] if no soil can be drawn.

@@ -1,16 +1,17 @@
 //! Whether the soil has become another: the last stretches beside what was believed before them.
 //!
-//! Over the last decimetres, up to a metre, what was read lies off what was expected by *r*, of which a part is the same
-//! all along a patch of the ground, and a part each stretch's own:
+//! Over the last decimetres, up to a metre, what was read lies off what was expected by *r*, of
+//! which a part is the same all along a patch of the ground, and a part each stretch's own:
 //!
 //! ```text
 //! S = J P Jᵀ + U / patches + R / stretches        S' = J Jᵀ + U / patches + R / stretches
 //! strangeness = ln N(r; S') − ln N(r; S)
 //! ```
 //!
-//! with the covariance P of what was believed before these stretches, and 1 of what is believed of a soil of which
-//! nothing is known. If the soil is what it was, exp(strangeness) is 1 on the mean, so that more than [`CHANGED`] has a
-//! probability below exp(−[`CHANGED`]). Stretches count by their median: a single one is no soil.
+//! with the covariance P of what was believed before these stretches, and 1 of what is believed of
+//! a soil of which nothing is known. If the soil is what it was, exp(strangeness) is 1 on the mean,
+//! so that more than [`CHANGED`] has a probability below exp(−[`CHANGED`]). Stretches count by
+//! their median: a single one is no soil.
 
 use std::collections::VecDeque;
 
@@ -28,15 +29,15 @@ pub(super) struct SoilChange {
     filter: u64,
 }
 
-/// Strangeness at which the soil counts as another: on the same soil a half metre has it with a probability below 1 to
-/// 22,000.
+/// Strangeness at which the soil counts as another: on the same soil a half metre has it with a
+/// probability below 1 to 22,000.
 const CHANGED: f64 = 10.0;
 /// The fewest stretches in a row that are taken for another soil.
 const LEAST: usize = 3;
 /// The rims' way over which they do, at most [m].
 const LONGEST: f64 = 1.05;
-/// By so much the motion has to differ from what was expected, over the fastest rim's speed [-]: what differs by less
-/// is learnt, and no reason to warn.
+/// By so much the motion has to differ from what was expected, over the fastest rim's speed [-]:
+/// what differs by less is learnt, and no reason to warn.
 const MATERIAL: f64 = 0.05;
 
 impl SoilChange {
@@ -124,7 +125,8 @@ mod tests {
     const OF_PATCH: f64 = 0.03;
     const OWN: f64 = 0.01;
 
-    /// A decimetre on which the way along the body is off what was expected; that to the side and the turn are not.
+    /// A decimetre on which the way along the body is off what was expected; that to the side and
+    /// the turn are not.
     fn passed(off: f64) -> Passed {
         let mut belief = Gaussian::standard(1);
         belief.covariance *= BELIEVED * BELIEVED;
@@ -161,8 +163,9 @@ mod tests {
         );
     }
 
-    /// Over 5000 patches of the same soil, whatever it is within what is believed: none is flagged, where the bound is
-    /// one in 22,000. A change by eight deviations of all that is uncertain is flagged within a patch, nearly every time.
+    /// Over 5000 patches of the same soil, whatever it is within what is believed: none is flagged,
+    /// where the bound is one in 22,000. A change by eight deviations of all that is uncertain is
+    /// flagged within a patch, nearly every time.
     #[test]
     fn noise_is_no_change_and_a_change_is_no_noise() {
         let mut random = random::generator(8, 2);

@@ -11,7 +11,8 @@ use grouser_io::measurements::motor_log::{MotorLog, MotorReading, MotorRecord};
 /// Records at most: of a longer drive stretches that are evenly spread.
 const MOST: usize = 400;
 
-/// A record for each stretch, with the slip of each wheel as odometry has it; nothing of a drive without currents.
+/// A record for each stretch, with the slip of each wheel as odometry has it; nothing of a drive
+/// without currents.
 #[must_use]
 pub fn motor_log(lessons: &[Lesson], rover: &Rover) -> Option<MotorLog> {
     let step = lessons.len().div_ceil(MOST).max(1);

@@ -1,4 +1,5 @@
-//! A drive that is learnt from: the learner, what it found on the way, and how far in the log it is.
+//! A drive that is learnt from: the learner, what it found on the way, and how far in the log it
+//! is.
 
 use super::archive::{Archive, items};
 use super::warnings::Warning;
@@ -45,7 +46,8 @@ impl RecordDigest {
 }
 
 impl Learner {
-    /// Why stretches of the drive taught nothing, and how many readings are left out, a sentence each.
+    /// Why stretches of the drive taught nothing, and how many readings are left out, a sentence
+    /// each.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         let sentence = |why: NotUsed| {
@@ -87,7 +89,8 @@ impl Drive {
         &self.lost
     }
 
-    /// The drive as if it ended here: the records that are too few for a stretch of their own count, too.
+    /// The drive as if it ended here: the records that are too few for a stretch of their own
+    /// count, too.
     #[must_use]
     pub fn finished(&self) -> Self {
         let mut finished = self.clone();

@@ -39,7 +39,8 @@ pub(super) struct Taken {
 /// How soils differ along the way, and what an observation may do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wandering {
-    /// The way over which the soil forgets what it was [m]: 5 % for the root of a metre, of what is known to 50 %.
+    /// The way over which the soil forgets what it was [m]: 5 % for the root of a metre, of what is
+    /// known to 50 %.
     pub way: f64,
 }
 
@@ -52,8 +53,8 @@ impl Wandering {
 const ROUNDS: usize = 4;
 /// A step this short ends them, in standard deviations of what is believed afterwards [-].
 const CLOSE: f64 = 0.3;
-/// What is farther from what was expected than this pulls no more than from there, in standard deviations [-] (Huber
-/// 1964): an outlier that got through.
+/// What is farther from what was expected than this pulls no more than from there, in standard
+/// deviations [-] (Huber 1964): an outlier that got through.
 const FARTHEST: f64 = 3.0;
 
 /// A force that no ground has to spare, over the weight [-].
@@ -129,8 +130,9 @@ impl Filter {
         Some(there.expected_slip_and_drift(&expected)[0])
     }
 
-    /// The force against the way, over the weight, under which the wheels' mean slip ratio is `deep` [-], with the soil that
-    /// is believed most; nothing where it is more than [`STRONGEST`].
+    /// The force against the way, over the weight, under which the wheels' mean slip ratio is
+    /// `deep` [-], with the soil that is believed most; nothing where it is more than
+    /// [`STRONGEST`].
     pub(super) fn holds_against(
         &self,
         study: &HeadingStudy,
@@ -192,7 +194,8 @@ impl Filter {
         self.belief.is_of(self.unknowns.count())
     }
 
-    /// The values of the soil's uncertain keys in sample number `index` of what was believed beforehand.
+    /// The values of the soil's uncertain keys in sample number `index` of what was believed
+    /// beforehand.
     ///
     /// # Errors
     /// [`NothingAccepted`] if no soil can be drawn.
@@ -202,8 +205,8 @@ impl Filter {
         own.map(|(values, _)| values).ok_or(NothingAccepted { index, tries: 1 })
     }
 
-    /// Sample number `index` of what is believed: that of what was believed beforehand, moved as mean and covariance
-    /// moved. A soil that cannot be is moved half as far, and so on.
+    /// Sample number `index` of what is believed: that of what was believed beforehand, moved as
+    /// mean and covariance moved. A soil that cannot be is moved half as far, and so on.
     pub(super) fn sample(&self, seed: u64, index: u64) -> Result<LearntSample, NothingAccepted> {
         let draw = self.unknowns.draw(seed, index)?;
         let moved = self.unknowns.moved(&draw, self.place(&draw).as_slice());
@@ -221,7 +224,8 @@ impl Filter {
     }
 }
 
-/// The last place of a range before something is so, by halving; nothing where it is not so at its end.
+/// The last place of a range before something is so, by halving; nothing where it is not so at its
+/// end.
 pub(super) fn last_before(is_so: impl Fn(f64) -> bool, mut low: f64, mut high: f64) -> Option<f64> {
     const ROUNDS: usize = 6;
     if !is_so(high) {

@@ -1,4 +1,5 @@
-//! A line that is fitted to how an observation goes with the unknowns, with what its noise is made of.
+//! A line that is fitted to how an observation goes with the unknowns, with what its noise is made
+//! of.
 
 use nalgebra::{DMatrix, DVector, Matrix3};
 
@@ -19,7 +20,8 @@ pub(super) struct Fitted {
 }
 
 impl Fitted {
-    /// Standard deviation of the way along the body by what no soil explains, over that of the fastest rim [-].
+    /// Standard deviation of the way along the body by what no soil explains, over that of the
+    /// fastest rim [-].
     pub(super) fn deviation_along(&self) -> f64 {
         self.of_patch[(0, 0)].sqrt()
     }

@@ -1,14 +1,16 @@
-//! What is believed of unknowns that are normal: a mean and a covariance, and how an observation changes them.
+//! What is believed of unknowns that are normal: a mean and a covariance, and how an observation
+//! changes them.
 //!
 //! ```text
 //! y ≈ b + J (x − x₀) + noise, R        S = J P Jᵀ + R        K = P Jᵀ S⁻¹
 //! m' = m + K [y − b − J (m − x₀)]        P' = (I − K J) P (I − K J)ᵀ + K R Kᵀ
 //! ```
 //!
-//! This is Kalman's filter (1960). Where y does not go with x along a straight line, b and J are those of the line that
-//! fits it best over the width of a belief, and what is off the line is noise ([`Line`]): first over what is believed
-//! beforehand, then over what is believed afterwards (García-Fernández et al. 2015). A tangent would do for small widths
-//! alone; over wide ones it takes the bend for a surprise, every time in the same direction.
+//! This is Kalman's filter (1960). Where y does not go with x along a straight line, b and J are
+//! those of the line that fits it best over the width of a belief, and what is off the line is
+//! noise ([`Line`]): first over what is believed beforehand, then over what is believed afterwards
+//! (García-Fernández et al. 2015). A tangent would do for small widths alone; over wide ones it
+//! takes the bend for a surprise, every time in the same direction.
 
 use std::f64::consts::TAU;
 
@@ -40,8 +42,8 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// The line over the width of a belief, by differences of √3 standard deviations along each axis of its root (Nørgaard
-    /// et al. 2000): exact up to the third power along each axis.
+    /// The line over the width of a belief, by differences of √3 standard deviations along each
+    /// axis of its root (Nørgaard et al. 2000): exact up to the third power along each axis.
     ///
     /// * `f`: the function; `None` where it has no value, which counts as that at the mean
     /// * `here`: its value at the mean
@@ -88,7 +90,8 @@ impl Gaussian {
         Self { mean: DVector::zeros(count), covariance: DMatrix::identity(count, count) }
     }
 
-    /// What is left of it after unknowns have wandered, each by x → a x + √(1 − a²) z: standard normal stays so.
+    /// What is left of it after unknowns have wandered, each by x → a x + √(1 − a²) z: standard
+    /// normal stays so.
     ///
     /// * `kept`: *a* of each, 0 to 1
     pub(super) fn forget(&mut self, kept: &DVector<f64>) {
@@ -178,8 +181,8 @@ mod tests {
         (jacobian, noise, seen.map(|it| DVector::from_row_slice(&it)))
     }
 
-    /// A linear observation in noise that is normal: the posterior is the closed form of least squares, whichever
-    /// place it is linearised at, and in whatever order the observations come.
+    /// A linear observation in noise that is normal: the posterior is the closed form of least
+    /// squares, whichever place it is linearised at, and in whatever order the observations come.
     #[test]
     fn a_linear_toy_is_the_closed_form() {
         let (jacobian, noise, seen) = linear();
@@ -223,8 +226,8 @@ mod tests {
     }
 
     proptest! {
-        /// One observation after the other is what generalised least squares makes of all of them at once:
-        /// P = (1 + Σ Jᵀ R⁻¹ J)⁻¹, m = P Σ Jᵀ R⁻¹ y.
+        /// One observation after the other is what generalised least squares makes of all of them
+        /// at once: P = (1 + Σ Jᵀ R⁻¹ J)⁻¹, m = P Σ Jᵀ R⁻¹ y.
         #[test]
         fn a_linear_toy_is_least_squares_over_all(
             seed: u64, unknowns in 1..9_usize, numbers in 1..7_usize, count in 1..9_usize,
@@ -279,7 +282,8 @@ mod tests {
         assert!((belief.covariance - DMatrix::identity(3, 3)).norm() < 1e-12);
     }
 
-    /// The density of two numbers is the product of that of the first and that of the second once the first is known.
+    /// The density of two numbers is the product of that of the first and that of the second once
+    /// the first is known.
     #[test]
     fn densities_multiply() {
         let (jacobian, noise, [seen, ..]) = linear();

@@ -1,7 +1,9 @@
-//! What each number of an observation taught: how much of the information came from forces, torques and sinkages.
+//! What each number of an observation taught: how much of the information came from forces, torques
+//! and sinkages.
 //!
-//! The information of an observation of normal unknowns is *½ ln (det S / det R)*, with the covariance *S* of what is
-//! expected and *R* of that once the unknowns are known. By the roots of both (*L Lᵀ*) it is a sum over the numbers,
+//! The information of an observation of normal unknowns is *½ ln (det S / det R)*, with the
+//! covariance *S* of what is expected and *R* of that once the unknowns are known. By the roots of
+//! both (*L Lᵀ*) it is a sum over the numbers,
 //!
 //! ```text
 //! I = Σ_i (ln L_S,ii − ln L_R,ii)
@@ -15,8 +17,8 @@ use super::gaussian::{Gaussian, Line};
 use super::stretch::Stretch;
 use crate::elementary::wide::ln;
 
-/// How much each kind of observation narrowed what is believed of the soil [nat], each for what it adds to those before
-/// it.
+/// How much each kind of observation narrowed what is believed of the soil [nat], each for what it
+/// adds to those before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct InformationByKind {
     /// The force along the body, by the velocity along it.
@@ -45,8 +47,8 @@ impl InformationByKind {
     }
 }
 
-/// How much each number of an observation narrowed what is believed [nat]. Nothing where a covariance is not positive
-/// definite.
+/// How much each number of an observation narrowed what is believed [nat]. Nothing where a
+/// covariance is not positive definite.
 ///
 /// * `belief`: before the observation
 pub(super) fn by_number(belief: &Gaussian, line: &Line) -> Vec<f64> {

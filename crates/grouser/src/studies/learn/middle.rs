@@ -15,8 +15,8 @@ pub(super) struct Middle {
     pub(super) outliers: usize,
 }
 
-/// Readings farther than this from the median are outliers, in standard deviations. Source: ours; of a thousand
-/// normal readings two are.
+/// Readings farther than this from the median are outliers, in standard deviations. Source: ours;
+/// of a thousand normal readings two are.
 const FARTHEST: f64 = 3.1;
 
 /// Fewer readings than this have their median, and no mean.
@@ -25,9 +25,9 @@ const MANY: usize = 12;
 impl Middle {
     /// Returns the middle of some readings; `None` if there are no readings.
     ///
-    /// The scatter is that of the middle half, which is 1.349 standard deviations of normal readings wide: a quarter of
-    /// outliers at each end does not show in it. Readings that are rounded to more than that have the scatter of the
-    /// middle eight tenths, 2.563 wide.
+    /// The scatter is that of the middle half, which is 1.349 standard deviations of normal
+    /// readings wide: a quarter of outliers at each end does not show in it. Readings that are
+    /// rounded to more than that have the scatter of the middle eight tenths, 2.563 wide.
     pub(super) fn of(readings: &mut [f64]) -> Option<Self> {
         const HALF: f64 = 1.348_979_500_4;
         const EIGHT_TENTHS: f64 = 2.563_103_131_1;
@@ -38,7 +38,8 @@ impl Middle {
         let at = |share: f64| grouser_io::statistics::quantile(readings, share).unwrap_or(f64::NAN);
         let (median, half) = (at(0.5), (at(0.75) - at(0.25)) / HALF);
         let scatter = if half > 0.0 { half } else { (at(0.9) - at(0.1)) / EIGHT_TENTHS };
-        // The middle half of a dozen readings may be narrow by chance: those near it tell what is near.
+        // The middle half of a dozen readings may be narrow by chance: those near it tell what is
+        // near.
         let (_, _, first) = near(readings, median, scatter);
         let (count, mean, spread) = near(readings, median, first.max(scatter));
         // Of few readings two may be outliers in one direction, and widen what counts as near.
@@ -65,8 +66,9 @@ impl Middle {
 
 /// Returns the count, mean and standard deviation of the readings that are near a middle.
 ///
-/// The deviation is that whose inverse square is right on the mean, Σ(x − m)²/(n − 3) with their mean m: readings are weighed by it, and one
-/// that is right on the mean itself would give those too much weight that lie close together by chance.
+/// The deviation is that whose inverse square is right on the mean, Σ(x − m)²/(n − 3) with their
+/// mean m: readings are weighed by it, and one that is right on the mean itself would give those
+/// too much weight that lie close together by chance.
 fn near(readings: &[f64], middle: f64, scatter: f64) -> (usize, f64, f64) {
     let near = || readings.iter().filter(|it| (**it - middle).abs() <= FARTHEST * scatter);
     let count = near().count();

@@ -1,17 +1,18 @@
-//! The motion that a soil expects where the rover was seen, with the torques and sinkages that go with it.
+//! The motion that a soil expects where the rover was seen, with the torques and sinkages that go
+//! with it.
 //!
-//! Attitude and rim speeds are taken as they were read. The velocities (u, v) and the yaw rate ω are those that leave
-//! neither a force nor a yaw moment over,
+//! Attitude and rim speeds are taken as they were read. The velocities (u, v) and the yaw rate ω
+//! are those that leave neither a force nor a yaw moment over,
 //!
 //! ```text
 //! ΣF_x(u, v, ω) + G_x = 0        ΣF_y(u, v, ω) + G_y = 0        ΣM_z(u, v, ω) + r_g × G = 0
 //! ```
 //!
-//! and are compared with those that were read, not the forces at those that were read: where wheels hardly slip, forces
-//! turn within the noise of odometry, and a soil that is judged by forces at a noisy motion is judged too weak. The same
-//! goes for the yaw rate: at one that is off, in either direction, wheels of one side slip more than those of the other,
-//! which costs pull, and takes a weaker soil for the same way. A soil in which nothing balances holds the rover where it
-//! is.
+//! and are compared with those that were read, not the forces at those that were read: where wheels
+//! hardly slip, forces turn within the noise of odometry, and a soil that is judged by forces at a
+//! noisy motion is judged too weak. The same goes for the yaw rate: at one that is off, in either
+//! direction, wheels of one side slip more than those of the other, which costs pull, and takes a
+//! weaker soil for the same way. A soil in which nothing balances holds the rover where it is.
 
 use nalgebra::{DVector, Matrix3, Vector3};
 
@@ -96,10 +97,11 @@ const STANDS: f64 = 1e-3;
 const STEADY: f64 = 0.25;
 /// How far a way to the side that was not read is unknown, over the rims' speed [-].
 const UNKNOWN_SIDE: f64 = 0.15;
-/// How far a yaw rate that was not read is unknown, its speed at the farthest wheel over the rims' [-].
+/// How far a yaw rate that was not read is unknown, its speed at the farthest wheel over the rims'
+/// [-].
 const UNKNOWN_TURN: f64 = 0.05;
-/// Odometry is this uncertain however many of it are averaged, over the rims' speed [-]: its scale and mounting. Source:
-/// ours.
+/// Odometry is this uncertain however many of it are averaged, over the rims' speed [-]: its scale
+/// and mounting. Source: ours.
 pub(in crate::studies) const ODOMETRY: f64 = 0.005;
 
 /// Slope and yaw of a stretch over which the motion may be taken as steady [rad].
@@ -153,7 +155,8 @@ impl SeenMotion {
         })
     }
 
-    /// Mean slip ratio of the wheels, and way to the left over that of the fastest rim, as they were seen [-].
+    /// Mean slip ratio of the wheels, and way to the left over that of the fastest rim, as they
+    /// were seen [-].
     pub(super) fn slip_and_drift(&self) -> [f64; 2] {
         self.slip_and_drift_of(&self.read())
     }
@@ -199,8 +202,9 @@ impl SeenMotion {
         wheel_slips(&self.rover, &self.state(motion), &self.rim_speeds).collect()
     }
 
-    /// What each wheel does in a motion, and what is left over: the force over the weight, and the yaw moment over the
-    /// weight at the [`reach`](Self::reach) [-]; `None` where the soil does not carry the rover.
+    /// What each wheel does in a motion, and what is left over: the force over the weight, and the
+    /// yaw moment over the weight at the [`reach`](Self::reach) [-]; `None` where the soil does not
+    /// carry the rover.
     fn left_over(
         &self,
         under: Under<'_>,
@@ -232,8 +236,8 @@ impl SeenMotion {
         self.expected_under(study, sample, near, Vector3::zeros())
     }
 
-    /// The same with a force besides those of soil and slope: along the body and to its left, and the yaw moment at the
-    /// [`reach`](Self::reach), each over the weight [-].
+    /// The same with a force besides those of soil and slope: along the body and to its left, and
+    /// the yaw moment at the [`reach`](Self::reach), each over the weight [-].
     pub(super) fn expected_under(
         &self,
         study: &HeadingStudy,
@@ -344,8 +348,8 @@ impl SeenMotion {
         Expected { numbers: DVector::from_vec(numbers), balance }
     }
 
-    /// What was read: the motion over the fastest rim's speed, torques over weight times shearing radius, logarithms of
-    /// sinkages.
+    /// What was read: the motion over the fastest rim's speed, torques over weight times shearing
+    /// radius, logarithms of sinkages.
     pub(super) fn seen(&self, study: &HeadingStudy) -> DVector<f64> {
         let motion = self.read() / self.fastest();
         let torques = self
@@ -362,7 +366,8 @@ impl SeenMotion {
         self.rover.mounts()[wheel].shearing_radius() * self.rover.mass() * study.gravity
     }
 
-    /// The variances of what was read, and those of a right soil's torques and sinkages, which are the same over a patch.
+    /// The variances of what was read, and those of a right soil's torques and sinkages, which are
+    /// the same over a patch.
     pub(super) fn variances(
         &self,
         study: &HeadingStudy,
@@ -389,8 +394,8 @@ impl SeenMotion {
         Variances { own: of(0), of_patch: of(1) }
     }
 
-    /// Which of the rover's readings each number of an observation is: the motion's, then the torques of all wheels, then
-    /// their sinkages.
+    /// Which of the rover's readings each number of an observation is: the motion's, then the
+    /// torques of all wheels, then their sinkages.
     pub(super) fn readings(&self) -> Vec<u64> {
         const OF_MOTION: usize = 3;
         let wheels = self.torques.len();
@@ -435,16 +440,16 @@ pub(in crate::studies) const SHALLOWEST: f64 = 1e-4;
 #[derive(Clone, Copy)]
 struct Under<'a> {
     study: &'a HeadingStudy,
-    /// A force besides those of soil and slope: along the body and to its left, and the yaw moment at the
-    /// [`reach`](SeenMotion::reach), each over the weight [-].
+    /// A force besides those of soil and slope: along the body and to its left, and the yaw moment
+    /// at the [`reach`](SeenMotion::reach), each over the weight [-].
     unexplained: Vector3<f64>,
 }
 
 /// A motion that leaves neither a force nor a yaw moment over.
 #[derive(Clone, Debug)]
 struct Balance {
-    /// Velocity along the body and to its left, and the speed at the [`reach`](SeenMotion::reach) that turning makes
-    /// [m/s].
+    /// Velocity along the body and to its left, and the speed at the [`reach`](SeenMotion::reach)
+    /// that turning makes [m/s].
     motion: Vector3<f64>,
     wheels: Vec<WheelReaction>,
     /// How the motion changes with what is left over [m/s]; `None` where nothing balances.
@@ -463,7 +468,8 @@ pub(super) struct Variances {
 /// What a soil expects of a motion.
 #[derive(Clone, Debug)]
 pub(super) struct Expected {
-    /// Motion over the fastest rim's speed, torques over weight times shearing radius, logarithms of sinkages.
+    /// Motion over the fastest rim's speed, torques over weight times shearing radius, logarithms
+    /// of sinkages.
     pub(super) numbers: DVector<f64>,
     balance: Balance,
 }

@@ -19,8 +19,8 @@ pub struct ModelNoise {
 }
 
 impl ModelNoise {
-    /// Source: ours. The ground of a decimetre or two is uneven by some tenths of a degree and by as much of its strength;
-    /// torques are those of slip from currents.
+    /// Source: ours. The ground of a decimetre or two is uneven by some tenths of a degree and by
+    /// as much of its strength; torques are those of slip from currents.
     pub const USUAL: Self = Self {
         force: 0.01,
         attitude: 0.005,
@@ -30,8 +30,8 @@ impl ModelNoise {
         way: 0.5,
     };
 
-    /// The variance of a stretch counts this often, so that stretches within [`way`](Self::way) of each other say no more
-    /// than one [-].
+    /// The variance of a stretch counts this often, so that stretches within [`way`](Self::way) of
+    /// each other say no more than one [-].
     ///
     /// * `way`: of the stretch [m]
     pub(in crate::studies) fn together(&self, way: f64) -> f64 {

@@ -1,7 +1,9 @@
-//! The state of learning, written and read field by field, so that it can go on elsewhere with the same bits.
+//! The state of learning, written and read field by field, so that it can go on elsewhere with the
+//! same bits.
 //!
-//! Each type walks its fields once, for both ways: an [`Archive`] takes them, or puts kept ones in their place. What follows
-//! from the scenario is not part of the state. An exhaustive pattern in each walk leaves no field out.
+//! Each type walks its fields once, for both ways: an [`Archive`] takes them, or puts kept ones in
+//! their place. What follows from the scenario is not part of the state. An exhaustive pattern in
+//! each walk leaves no field out.
 
 use super::archive::{Archive, items, maybes, numbers};
 use super::information::InformationByKind;
@@ -16,8 +18,8 @@ impl Learner {
         self.clone().walk(archive);
     }
 
-    /// Goes on from a state that a learner of the same scenario and settings wrote. Whether it was one; else this learner
-    /// is not to be used any more.
+    /// Goes on from a state that a learner of the same scenario and settings wrote. Whether it was
+    /// one; else this learner is not to be used any more.
     pub fn read_state(&mut self, archive: &mut dyn Archive) -> bool {
         self.walk(archive);
         self.bank.is_whole()

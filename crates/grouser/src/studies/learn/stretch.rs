@@ -1,4 +1,5 @@
-//! Telemetry in stretches: what the instruments said on the mean over a decimetre or so of the wheels' way.
+//! Telemetry in stretches: what the instruments said on the mean over a decimetre or so of the
+//! wheels' way.
 
 use super::archive::{self, Archive, items, maybes, numbers};
 use super::middle::Middle;
@@ -14,7 +15,8 @@ pub struct Stretch {
     pub time: [f64; 2],
     /// The way of the rims over it [m].
     pub way: f64,
-    /// Slope of the ground and yaw of the body, *α*, *γ* [rad], from roll and pitch; `None` without them.
+    /// Slope of the ground and yaw of the body, *α*, *γ* [rad], from roll and pitch; `None` without
+    /// them.
     pub attitude: Option<[f64; 2]>,
     /// Yaw as the telemetry has it, *γ* [rad].
     pub reported_yaw: Option<f64>,
@@ -47,7 +49,8 @@ pub struct Reading {
     pub deviation: f64,
 }
 
-/// The rims' way of a stretch [m]: short enough to see the soil change, long enough for a mean. Source: ours.
+/// The rims' way of a stretch [m]: short enough to see the soil change, long enough for a mean.
+/// Source: ours.
 pub(super) const WAY: f64 = 0.1;
 /// A stretch has this many readings of the motion at least, unless it is [`LONGEST`].
 pub(super) const LEAST_READINGS: usize = 7;
@@ -59,8 +62,8 @@ const LAST: f64 = 30.0;
 pub(in crate::studies) const GAP: f64 = 5.0;
 /// A stretch has this many records at most.
 const MOST_RECORDS: usize = 4096;
-/// Rims whose speeds differ by no more than this are alike: in standard deviations of their means, and over their speed
-/// [-].
+/// Rims whose speeds differ by no more than this are alike: in standard deviations of their means,
+/// and over their speed [-].
 const MOST_ALIKE: f64 = 4.0;
 const ALIKE: f64 = 5e-3;
 /// What a reading of the motion scatters by where too few tell, over the rims' speed [-].
@@ -69,7 +72,8 @@ pub(super) const USUAL_SCATTER: f64 = 0.05;
 pub(super) const USUAL_TORQUE: f64 = 0.1;
 const USUAL_SINKAGE: f64 = 0.003;
 
-/// Gathers records into stretches. What it gives depends on the records alone, not on how many are given at once.
+/// Gathers records into stretches. What it gives depends on the records alone, not on how many are
+/// given at once.
 #[derive(Clone, Debug)]
 pub(in crate::studies) struct Gatherer {
     rover: Rover,
@@ -145,7 +149,8 @@ impl Gatherer {
         grouser_io::statistics::quantile(&speeds, 0.5)
     }
 
-    /// Takes the velocities that a record tells: ways since the last one, or without them two fixes.
+    /// Takes the velocities that a record tells: ways since the last one, or without them two
+    /// fixes.
     fn read_motion(&mut self, record: &TelemetryRecord) {
         let [forward, leftward] = record.displacement;
         for (place, way) in [forward, leftward, record.rotation].into_iter().enumerate() {
@@ -224,7 +229,8 @@ impl Gatherer {
         })
     }
 
-    /// The rim speeds of all wheels [m/s]; that of a wheel without readings is the middle of the others.
+    /// The rim speeds of all wheels [m/s]; that of a wheel without readings is the middle of the
+    /// others.
     fn rims(
         &self,
         of: &mut impl FnMut(&dyn Fn(&TelemetryRecord) -> Option<f64>) -> Option<Middle>,
@@ -241,8 +247,8 @@ impl Gatherer {
         let mut speeds: Vec<f64> = known.iter().map(|it| it.value).collect();
         speeds.sort_by(f64::total_cmp);
         let middle = grouser_io::statistics::quantile(&speeds, 0.5)?;
-        // Rims that differ by no more than their readings' noise turn alike: where wheels hardly slip, a hundredth between
-        // them is as much as their slip.
+        // Rims that differ by no more than their readings' noise turn alike: where wheels hardly
+        // slip, a hundredth between them is as much as their slip.
         let differs = |it: &Middle| {
             (it.value - middle).abs() > MOST_ALIKE * it.deviation(0.0) + ALIKE * middle.abs()
         };
@@ -300,8 +306,8 @@ impl Middle {
     }
 }
 
-/// Slope and yaw from what there is of roll, pitch and yaw; with none of roll and pitch, the slope that is known by other
-/// means.
+/// Slope and yaw from what there is of roll, pitch and yaw; with none of roll and pitch, the slope
+/// that is known by other means.
 fn attitude(
     roll: Option<f64>,
     pitch: Option<f64>,

@@ -24,8 +24,8 @@ pub(super) struct Past {
     pub(super) strain_variance: f64,
     pub(super) slope: f64,
     pub(super) yaw: f64,
-    /// By how much the ground was weaker than that at the start, as a force against the way over the weight [-], and its
-    /// variance.
+    /// By how much the ground was weaker than that at the start, as a force against the way over
+    /// the weight [-], and its variance.
     pub(super) weakness: Option<f64>,
     pub(super) weakness_variance: f64,
 }

@@ -1,10 +1,12 @@
-//! What forces that no soil explains do to the motion, the torques and the sinkages that a soil expects.
+//! What forces that no soil explains do to the motion, the torques and the sinkages that a soil
+//! expects.
 //!
-//! Ground leans where the body does not, and is stronger here than there. Both are a force that differs from patch to
-//! patch, and slip grows with it ever faster: over many patches a rover slips more than on their mean. So the force is an
-//! unknown of the observation beside those of the soil, over whose width the line is fitted as over theirs
-//! ([`Line::over`](super::gaussian::Line::over)): it adds to what is expected on the mean, and what it moves together
-//! (velocities, torques, sinkages) is known to move together.
+//! Ground leans where the body does not, and is stronger here than there. Both are a force that
+//! differs from patch to patch, and slip grows with it ever faster: over many patches a rover slips
+//! more than on their mean. So the force is an unknown of the observation beside those of the soil,
+//! over whose width the line is fitted as over theirs
+//! ([`Line::over`](super::gaussian::Line::over)): it adds to what is expected on the mean, and what
+//! it moves together (velocities, torques, sinkages) is known to move together.
 
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
@@ -39,7 +41,8 @@ impl SeenMotion {
         noise: &ModelNoise,
     ) -> Unexplained {
         const WIDTH: f64 = 3.0;
-        /// Where nothing balances the motion is no better known than this, over the fastest rim's speed [-].
+        /// Where nothing balances the motion is no better known than this, over the fastest rim's
+        /// speed [-].
         const STUCK: f64 = 0.3;
         let size = hypot(noise.force, noise.attitude);
         let count = here.numbers.len();
@@ -57,8 +60,8 @@ impl SeenMotion {
             let bend = ahead + behind - &here.numbers * 2.0;
             shift += &bend / (2.0 * WIDTH);
             covariance += &bend * bend.transpose() * ((WIDTH - 1.0) / (4.0 * WIDTH * WIDTH));
-            // Of the leaning ground the wheels' torques know, of stronger ground they do not: there the wheels need the pull
-            // that they need elsewhere.
+            // Of the leaning ground the wheels' torques know, of stronger ground they do not: there
+            // the wheels need the pull that they need elsewhere.
             let of_ground = &slope + self.torques_of_pull(axis, size, count);
             covariance += &slope * slope.transpose() * (noise.attitude / size).powi(2);
             covariance += &of_ground * of_ground.transpose() * (noise.force / size).powi(2);
@@ -72,7 +75,8 @@ impl SeenMotion {
         Unexplained { shift, covariance, motion_by_force }
     }
 
-    /// The torques with which wheels pull by a force more, each its share, among the numbers of an observation.
+    /// The torques with which wheels pull by a force more, each its share, among the numbers of an
+    /// observation.
     ///
     /// * `axis`: 0 along the body, 1 to its left
     /// * `force`: over the weight [-]
@@ -162,8 +166,9 @@ mod tests {
         (study, motion, sample)
     }
 
-    /// Mean and covariance of the motion under forces at random are those that are fitted, within their statistical error:
-    /// where the slip grows ever faster the mean is above that without forces.
+    /// Mean and covariance of the motion under forces at random are those that are fitted, within
+    /// their statistical error: where the slip grows ever faster the mean is above that without
+    /// forces.
     #[test]
     fn forces_at_random_have_the_mean_and_the_covariance_that_are_fitted() {
         const DRAWS: u32 = 600;

@@ -1,4 +1,5 @@
-//! What driving may tell of a soil under one wheel–soil model, in coordinates that are standard normal beforehand.
+//! What driving may tell of a soil under one wheel–soil model, in coordinates that are standard
+//! normal beforehand.
 
 use crate::contact::Model;
 use crate::soil::{Discrepancy, Soil};
@@ -79,7 +80,8 @@ impl Unknowns {
         Some(Sample { soil, model: self.model.clone() })
     }
 
-    /// Sample number `index` of what is believed beforehand: that of [`BandInputs::sample`], for this model.
+    /// Sample number `index` of what is believed beforehand: that of [`BandInputs::sample`], for
+    /// this model.
     pub(super) fn draw(&self, seed: u64, index: u64) -> Result<Draw, NothingAccepted> {
         let soil = self.soil.draw(seed, index)?;
         let mut coordinates = soil.coordinates.clone();
@@ -93,8 +95,8 @@ impl Unknowns {
         Ok(Draw { soil, sample, coordinates })
     }
 
-    /// A sample moved to another place, with the values of its soil's keys in their own units; `None` where there is no
-    /// such soil. What no coordinate has, it keeps.
+    /// A sample moved to another place, with the values of its soil's keys in their own units;
+    /// `None` where there is no such soil. What no coordinate has, it keeps.
     pub(super) fn moved(&self, draw: &Draw, coordinates: &[f64]) -> Option<(Vec<f64>, Sample)> {
         let (of_soil, of_model) = coordinates.split_at(self.soil.count());
         let (values, moved) = self.soil.moved(&draw.soil, of_soil)?;

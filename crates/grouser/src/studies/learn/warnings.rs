@@ -1,4 +1,5 @@
-//! What an operator is warned of: another soil, entrapment, a wheel that no longer pulls, a sensor that lies.
+//! What an operator is warned of: another soil, entrapment, a wheel that no longer pulls, a sensor
+//! that lies.
 
 use super::archive::Archive;
 

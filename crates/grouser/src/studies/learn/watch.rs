@@ -1,6 +1,7 @@
 //! What to warn of on the way.
 //!
-//! A [`Watch`] looks at stretch after stretch. A warning is given once, and again only after a metre without its cause.
+//! A [`Watch`] looks at stretch after stretch. A warning is given once, and again only after a
+//! metre without its cause.
 
 use std::collections::BTreeMap;
 
@@ -23,7 +24,8 @@ pub(super) struct Seen<'a> {
     /// Way to the left over that of the wheels, and the same as it was expected [-].
     pub(super) drift: f64,
     pub(super) expected_drift: f64,
-    /// Torque of each wheel that was expected [N·m]; of none where there is no soil that carries the rover.
+    /// Torque of each wheel that was expected [N·m]; of none where there is no soil that carries
+    /// the rover.
     pub(super) expected_torques: &'a [f64],
     /// Thrust of all wheels that was expected, over the weight [-].
     pub(super) thrust: f64,
@@ -35,11 +37,11 @@ pub(super) struct Seen<'a> {
     pub(super) push: Option<&'a Push>,
     /// Whether the soil was just found to be another.
     pub(super) is_another_soil: bool,
-    /// The slope on which the wheels' slip reaches [`DEEP`] on this course [rad], by what was learnt; nothing where it is
-    /// steeper by more than what is asked for [rad].
+    /// The slope on which the wheels' slip reaches [`DEEP`] on this course [rad], by what was
+    /// learnt; nothing where it is steeper by more than what is asked for [rad].
     pub(super) deep_slope: &'a dyn Fn(f64) -> Option<f64>,
-    /// The force over the weight that the soil has to spare until the wheels' slip is [`DEEP`], by what was learnt [-];
-    /// nothing where it has plenty.
+    /// The force over the weight that the soil has to spare until the wheels' slip is [`DEEP`], by
+    /// what was learnt [-]; nothing where it has plenty.
     pub(super) holds_against: &'a dyn Fn() -> Option<f64>,
 }
 
@@ -48,7 +50,8 @@ pub(super) struct Seen<'a> {
 pub(super) struct Watch {
     way: f64,
     trail: Trail,
-    /// The force against the way by which the soil learnt so far is weaker than that at the start, over the weight [-].
+    /// The force against the way by which the soil learnt so far is weaker than that at the start,
+    /// over the weight [-].
     learnt: f64,
     /// The number of the filter that learnt it.
     filter: u64,
@@ -67,8 +70,8 @@ pub(super) const DEEP: f64 = 0.9;
 /// Trends are those of this way of the rims [m]; of weak ground also those of more.
 const TREND: f64 = 0.8;
 const LONG_TRENDS: [f64; 2] = [1.6, 3.2];
-/// Entrapment is looked for this far ahead [m of ground]: by a slip that grows, a slope that has begun to rise, one that
-/// rises steadily, and ground that grows weaker, which does so slowly.
+/// Entrapment is looked for this far ahead [m of ground]: by a slip that grows, a slope that has
+/// begun to rise, one that rises steadily, and ground that grows weaker, which does so slowly.
 const BY_SLIP: f64 = 1.2;
 const BY_RISE: f64 = 0.8;
 const BY_STEADY_RISE: f64 = 1.6;
@@ -77,7 +80,8 @@ const BY_WEAKNESS: f64 = 2.5;
 const SOON: f64 = 90.0;
 /// Less slip than this is no sign of entrapment [-].
 const SLIPS: f64 = 0.25;
-/// With more than this on ground that grows weaker it is near, however much the soil that was learnt has to spare [-].
+/// With more than this on ground that grows weaker it is near, however much the soil that was
+/// learnt has to spare [-].
 const SLIPS_DEEPLY: f64 = 0.4;
 /// More slip than this is entrapment whatever the trend [-].
 const SPINS: f64 = 0.6;
@@ -195,8 +199,8 @@ impl Watch {
         (trend.is_no_chance() && way <= BY_SLIP).then_some((way, Evidence::Growing { slip_ratio }))
     }
 
-    /// Way over the ground until the slope holds the rover no longer, if it grows as it did: one that rose before as well
-    /// may be expected to go on for longer.
+    /// Way over the ground until the slope holds the rover no longer, if it grows as it did: one
+    /// that rose before as well may be expected to go on for longer.
     fn slope_ahead(&self, seen: &Seen<'_>) -> Option<(f64, Evidence)> {
         let (slip_ratio, slope) = (seen.slip_ratio, self.trail.back(0)?.slope);
         let trend = |within| self.trail.trend(within, |it| Some((it.slope, 0.0)));
@@ -207,8 +211,8 @@ impl Watch {
         Some(((limit - slope) / now.rise, Evidence::Rising { slip_ratio, slope, limit }))
     }
 
-    /// Way over the ground until the ground is too weak for the rover, if it grows weaker as it did. Where the slope
-    /// changes another soil than was believed passes for one that changes.
+    /// Way over the ground until the ground is too weak for the rover, if it grows weaker as it
+    /// did. Where the slope changes another soil than was believed passes for one that changes.
     fn weakening_ahead(&self, seen: &Seen<'_>) -> Option<(f64, Evidence)> {
         /// A slope that differs by no more than this is the same [rad].
         const SAME: f64 = 0.02;
@@ -224,8 +228,8 @@ impl Watch {
         let spare = ((seen.holds_against)()? - (trend.now - self.learnt)).max(0.0);
         let slip_ratio = seen.slip_ratio;
         let evidence = Evidence::Weakening { slip_ratio, loss: trend.rise, spare };
-        // What the ground loses of the thrust at this slip it loses in proportion of the larger one at more. Where there is
-        // little thrust the loss may be of another kind.
+        // What the ground loses of the thrust at this slip it loses in proportion of the larger one
+        // at more. Where there is little thrust the loss may be of another kind.
         let thrust = seen.thrust.max(spare).max(f64::MIN_POSITIVE);
         let way = spare / trend.rise * thrust / (thrust + spare);
         (way <= BY_WEAKNESS || slip_ratio > SLIPS_DEEPLY).then_some((way, evidence))
@@ -233,7 +237,8 @@ impl Watch {
 
     /// Takes into account that the belief of the soil has changed.
     ///
-    /// * `learnt`: the force against the way that goes with it, over the weight; nothing where that is not known
+    /// * `learnt`: the force against the way that goes with it, over the weight; nothing where that
+    ///   is not known
     pub(super) fn believed(&mut self, learnt: Option<f64>) {
         match learnt {
             Some(learnt) => self.learnt += learnt,

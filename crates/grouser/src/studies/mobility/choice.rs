@@ -9,14 +9,16 @@ use crate::units::STEEPEST_SLOPE;
 pub enum CourseChoice {
     /// This one, *χ* [rad], counted from the contour, positive uphill.
     Fixed(f64),
-    /// On each slope the one that is least often a no-go, and of several the one with the least slip, up or down.
+    /// On each slope the one that is least often a no-go, and of several the one with the least
+    /// slip, up or down.
     Best,
     /// The one that is most often a no-go, and of several the one with the most slip.
     Worst,
 }
 
 impl CourseChoice {
-    /// The courses that are compared where none is fixed [rad]: straight down to straight up, 15° apart.
+    /// The courses that are compared where none is fixed [rad]: straight down to straight up, 15°
+    /// apart.
     #[must_use]
     pub fn courses(self) -> Vec<f64> {
         match self {

@@ -1,14 +1,15 @@
 //! What slip on slopes is worth to simulators whose wheels slip in proportion to the force on them.
 //!
-//! Such a wheel's slip is its *compliance* times the tangential force over the normal one, which on a slope is the tangent
-//! of the slope. Straight uphill the one lengthwise follows from the slip ratio, and with the nose along the contour the
-//! one sideways from the drift:
+//! Such a wheel's slip is its *compliance* times the tangential force over the normal one, which on
+//! a slope is the tangent of the slope. Straight uphill the one lengthwise follows from the slip
+//! ratio, and with the nose along the contour the one sideways from the drift:
 //!
 //! ```text
 //! C_x(α) = (s(α) − s(0)) / tan α        C_y(α) = tan c(α) / tan α        sin c: the drift downhill per metre of way
 //! ```
 //!
-//! The slip on level ground, s(0), comes from the soil's resistance, which those simulators do not have: it is left out.
+//! The slip on level ground, s(0), comes from the soil's resistance, which those simulators do not
+//! have: it is left out.
 
 use super::table::{MobilityStudy, MobilityTable};
 use crate::elementary::wide::{asin, tan};
@@ -22,7 +23,8 @@ pub struct SlipCompliances {
     contour: MobilityTable,
 }
 
-/// On flatter ground compliances are those of this slope [rad], 1°: they are quotients of what vanishes there.
+/// On flatter ground compliances are those of this slope [rad], 1°: they are quotients of what
+/// vanishes there.
 const FLATTEST: f64 = std::f64::consts::PI / 180.0;
 
 impl MobilityStudy {
@@ -41,8 +43,8 @@ impl MobilityStudy {
 }
 
 impl SlipCompliances {
-    /// Slip ratio for a lengthwise force as large as the load [-]. On a slope that cannot be climbed it is the one with
-    /// which a wheel stands still there.
+    /// Slip ratio for a lengthwise force as large as the load [-]. On a slope that cannot be
+    /// climbed it is the one with which a wheel stands still there.
     #[must_use]
     pub fn lengthwise(&self, slope: f64) -> f64 {
         let slope = slope.max(FLATTEST);
@@ -51,8 +53,8 @@ impl SlipCompliances {
         (slip_ratio - level).max(0.0) / tan(slope)
     }
 
-    /// Drift for a sideways force as large as the load [m/m]. On a slope where nothing holds the rover it is that of the
-    /// steepest slope where something does.
+    /// Drift for a sideways force as large as the load [m/m]. On a slope where nothing holds the
+    /// rover it is that of the steepest slope where something does.
     #[must_use]
     pub fn sideways(&self, slope: f64) -> f64 {
         let steepest = self.contour.steepest_with_drift().unwrap_or(FLATTEST);
@@ -68,7 +70,8 @@ mod tests {
     use crate::units::deg;
     use grouser_io::{self as document, Overrides, Source};
 
-    /// A wheel of the compliance slips on the slope as the rover does, beside what it slips on level ground.
+    /// A wheel of the compliance slips on the slope as the rover does, beside what it slips on
+    /// level ground.
     #[test]
     fn compliances_give_the_slip_back() {
         let scenario =

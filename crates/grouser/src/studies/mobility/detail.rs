@@ -5,8 +5,8 @@
 pub(in crate::studies) enum Detail {
     /// All: for maps.
     Full,
-    /// Fewer nodes, no drift, steepest slopes of the samples from the points of their curves, and no errors: for routes,
-    /// which have many courses.
+    /// Fewer nodes, no drift, steepest slopes of the samples from the points of their curves, and
+    /// no errors: for routes, which have many courses.
     Rough,
 }
 

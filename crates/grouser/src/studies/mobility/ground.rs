@@ -14,8 +14,8 @@ pub struct Ground<'a> {
 }
 
 impl<'a> Ground<'a> {
-    /// Ground under a rover: slopes are those between points half of the rover's length away on either side, or
-    /// neighbours where points are farther apart.
+    /// Ground under a rover: slopes are those between points half of the rover's length away on
+    /// either side, or neighbours where points are farther apart.
     #[must_use]
     pub fn under(rover: &Rover, raster: &'a Raster) -> Self {
         let hubs = rover.mounts().iter().map(|mount| mount.position.x);
@@ -46,7 +46,8 @@ impl<'a> Ground<'a> {
         [2.0 * self.reach[0] as f64 * spacing.x, 2.0 * self.reach[1] as f64 * spacing.y]
     }
 
-    /// How steeply a point's ground rises to the east and to the north [m/m]; none where its height is missing.
+    /// How steeply a point's ground rises to the east and to the north [m/m]; none where its height
+    /// is missing.
     #[must_use]
     pub fn gradient(&self, column: usize, row: usize) -> Option<Vec2> {
         self.raster.gradient(column, row, self.reach)

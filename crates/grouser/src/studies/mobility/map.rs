@@ -22,8 +22,9 @@ pub struct CellMotion {
     pub slope: f64,
     /// Course, *χ* [rad]: counted from the contour with the hill on the left, positive uphill.
     pub course: f64,
-    /// Where the nose points to hold the course [rad]: from the map's x axis to the left, of the horizontal
-    /// projection; none on level ground, which has no contour, and where no heading holds the course.
+    /// Where the nose points to hold the course [rad]: from the map's x axis to the left, of the
+    /// horizontal projection; none on level ground, which has no contour, and where no heading
+    /// holds the course.
     pub heading: Option<f64>,
     /// The motion, if a heading holds the course.
     pub motion: Option<Mobility>,

@@ -37,8 +37,8 @@ pub struct Mobility {
     pub power: f64,
     /// Speed along the course [m/s].
     pub speed: f64,
-    /// Drift downhill per metre of way, if the nose pointed along the course instead [m/m]; NaN where nothing holds
-    /// the rover then.
+    /// Drift downhill per metre of way, if the nose pointed along the course instead [m/m]; NaN
+    /// where nothing holds the rover then.
     pub drift: f64,
 }
 
@@ -46,7 +46,8 @@ pub struct Mobility {
 #[derive(Clone, Debug, PartialEq)]
 pub struct MobilityTable {
     course: f64,
-    /// The steepest slope on which a heading holds the course [rad]; none where the rover cannot move.
+    /// The steepest slope on which a heading holds the course [rad]; none where the rover cannot
+    /// move.
     limit: Option<f64>,
     nodes: Vec<Mobility>,
     largest_errors: Mobility,
@@ -60,8 +61,8 @@ pub struct OnSlope {
     pub motion: Option<Mobility>,
     /// Whether to drive there.
     pub verdict: Verdict,
-    /// In which share of the samples no heading holds the course, or it slips more than the rule allows [-]; over the
-    /// samples for which that is known, NaN where there is none.
+    /// In which share of the samples no heading holds the course, or it slips more than the rule
+    /// allows [-]; over the samples for which that is known, NaN where there is none.
     pub probability_no_go: f64,
 }
 
@@ -77,10 +78,11 @@ impl MobilityStudy {
         }
     }
 
-    /// The table of a course; `None` if `go_on` was false before the end. The result is the same for any number of
-    /// threads.
+    /// The table of a course; `None` if `go_on` was false before the end. The result is the same
+    /// for any number of threads.
     ///
-    /// What does the rover do along the contour of 10°, and is that as exact as following its curve?
+    /// What does the rover do along the contour of 10°, and is that as exact as following its
+    /// curve?
     ///
     /// ```
     /// use grouser::document::{self, Overrides, Source};
@@ -101,7 +103,8 @@ impl MobilityStudy {
     /// * `go_on`: asked before each sample, from any thread
     ///
     /// # Errors
-    /// [`ParameterError`] for a rule, a rim speed or a course out of range, and the first invalid soil.
+    /// [`ParameterError`] for a rule, a rim speed or a course out of range, and the first invalid
+    /// soil.
     pub fn table(
         &self,
         course: f64,
@@ -166,7 +169,8 @@ impl Nodes<'_> {
         let places: Vec<f64> = (0..=self.intervals).map(|node| node as f64).collect();
         let mut nodes: Vec<Mobility> =
             places.par_iter().map(|it| self.motion(it / self.intervals as f64)).collect();
-        // A slope at which no point of the curve is found, as one of rounding at its end, is as its neighbour.
+        // A slope at which no point of the curve is found, as one of rounding at its end, is as its
+        // neighbour.
         for place in 1..nodes.len() {
             if nodes[place].slip_ratio.is_nan() {
                 nodes[place] = nodes[place - 1];
@@ -251,14 +255,15 @@ impl MobilityTable {
         self.course
     }
 
-    /// The steepest slope on which a heading holds the course [rad]; none where the rover cannot move.
+    /// The steepest slope on which a heading holds the course [rad]; none where the rover cannot
+    /// move.
     #[must_use]
     pub fn limit(&self) -> Option<f64> {
         self.limit
     }
 
-    /// How far numbers of the table are from those of the curve, at most: of each kind the largest difference
-    /// found half-way between nodes.
+    /// How far numbers of the table are from those of the curve, at most: of each kind the largest
+    /// difference found half-way between nodes.
     #[must_use]
     pub fn largest_errors(&self) -> &Mobility {
         &self.largest_errors
@@ -289,8 +294,8 @@ impl MobilityTable {
         Some(self.limit? * v * (2.0 - v))
     }
 
-    /// The steepest slope of each sample that is no no-go [rad], in the order of the samples; below 0 where it cannot
-    /// move at all.
+    /// The steepest slope of each sample that is no no-go [rad], in the order of the samples; below
+    /// 0 where it cannot move at all.
     #[must_use]
     pub fn steepest_of_samples(&self) -> &[f64] {
         &self.thresholds.of_samples
@@ -309,7 +314,8 @@ impl MobilityTable {
         self.thresholds.probability_no_go(slope)
     }
 
-    /// For how many samples the search for a heading gave up before it was known whether a slope [rad] is a no-go.
+    /// For how many samples the search for a heading gave up before it was known whether a slope
+    /// [rad] is a no-go.
     #[must_use]
     pub fn not_found(&self, slope: f64) -> usize {
         self.thresholds.not_found(slope)

@@ -22,7 +22,8 @@ pub(super) struct Thresholds {
     /// Up to here a go, and from there to the next a caution [rad].
     go: f64,
     caution: f64,
-    /// The steepest slope of each sample that is no no-go [rad], rising; of those samples for which it is known.
+    /// The steepest slope of each sample that is no no-go [rad], rising; of those samples for which
+    /// it is known.
     steepest: Vec<f64>,
     /// The steepest slope of each of the other samples that is known to be no no-go [rad], rising:
     /// beyond it the search for a heading gave up.

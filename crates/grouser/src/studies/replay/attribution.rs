@@ -1,21 +1,23 @@
-//! What differences of measured and predicted point to: a linear regression on what each fault would do to them.
+//! What differences of measured and predicted point to: a linear regression on what each fault
+//! would do to them.
 //!
-//! Differences over their noise, r, and what the parameters would do to them, J, add up over the drive to
+//! Differences over their noise, r, and what the parameters would do to them, J, add up over the
+//! drive to
 //!
 //! ```text
 //! N = Σ JᵀJ        g = Σ Jᵀr        c = Σ rᵀr
 //! ```
 //!
-//! with parameters θ over their usual size, which are standard normal beforehand. Where the parameters of some causes S
-//! are not zero, the differences have the evidence
+//! with parameters θ over their usual size, which are standard normal beforehand. Where the
+//! parameters of some causes S are not zero, the differences have the evidence
 //!
 //! ```text
 //! 2 ln Z_S = g_Sᵀ (N_S + 1)⁻¹ g_S − ln det(N_S + 1) − c
 //! ```
 //!
-//! which pays for each parameter that it has to find (Kass and Raftery 1995). Causes are taken one after the other, that
-//! with the most evidence first, as long as it is very strong. Others that would have explained nearly as much cannot be told
-//! apart from it.
+//! which pays for each parameter that it has to find (Kass and Raftery 1995). Causes are taken one
+//! after the other, that with the most evidence first, as long as it is very strong. Others that
+//! would have explained nearly as much cannot be told apart from it.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -23,12 +25,14 @@ use super::differences::Differences;
 use super::faults::{COUNT, Cause, Faults, Parameter};
 use crate::elementary::wide::ln;
 
-/// Evidence from which on a cause is taken, ln of the Bayes factor: "very strong" (Kass and Raftery 1995, their 2 ln B > 10).
+/// Evidence from which on a cause is taken, ln of the Bayes factor: "very strong" (Kass and Raftery
+/// 1995, their 2 ln B > 10).
 const VERY_STRONG: f64 = 5.0;
-/// Causes whose evidence is within this of the best are not told apart from it: what is above is "strong" (2 ln B > 6).
+/// Causes whose evidence is within this of the best are not told apart from it: what is above is
+/// "strong" (2 ln B > 6).
 const STRONG: f64 = 3.0;
-/// A cause that explains less of the differences than this is not pointed to [-]: with enough telemetry the smallest
-/// difference is beyond doubt. Source: ours.
+/// A cause that explains less of the differences than this is not pointed to [-]: with enough
+/// telemetry the smallest difference is beyond doubt. Source: ours.
 const LEAST_SHARE: f64 = 0.02;
 /// Causes at most. Source: ours: after three there is more wrong than a list of causes has.
 const MOST: usize = 3;
@@ -61,7 +65,8 @@ pub enum Verdict {
 pub struct Finding {
     /// The parameter.
     pub parameter: Parameter,
-    /// Its estimate, in SI; of the soil the share by which a number is larger. Together with the other causes that are pointed to; of another cause as if it were the next.
+    /// Its estimate, in SI; of the soil the share by which a number is larger. Together with the
+    /// other causes that are pointed to; of another cause as if it were the next.
     pub estimate: f64,
     /// Its standard deviation.
     pub deviation: f64,
@@ -189,7 +194,8 @@ impl Sums {
         taken
     }
 
-    /// How much larger the squares are, where everything is fitted, than noise makes them [-]: 1 at least.
+    /// How much larger the squares are, where everything is fitted, than noise makes them [-]: 1 at
+    /// least.
     fn misfit(&self) -> f64 {
         let all = self.fitted(&Cause::ALL, 1.0);
         ((self.square - all.explained) / self.count.max(1.0)).max(1.0)

@@ -1,4 +1,5 @@
-//! What is compared over a drive, channel by channel, and how far measured and predicted are apart in each.
+//! What is compared over a drive, channel by channel, and how far measured and predicted are apart
+//! in each.
 
 use std::f64::consts::{PI, TAU};
 
@@ -65,7 +66,8 @@ const OF_MOTION: [Channel; 5] = [
 const OF_POSE: [Channel; 5] = [Channel::X, Channel::Y, Channel::Yaw, Channel::Roll, Channel::Pitch];
 
 impl Channel {
-    /// All channels of a rover, in the order in which [`ReplayedStretch::values`](super::ReplayedStretch) has them.
+    /// All channels of a rover, in the order in which
+    /// [`ReplayedStretch::values`](super::ReplayedStretch) has them.
     #[must_use]
     pub fn all(wheels: usize) -> Vec<Self> {
         let of_wheels = (0..wheels).map(Self::Torque).chain((0..wheels).map(Self::Sinkage));

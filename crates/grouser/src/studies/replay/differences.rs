@@ -9,7 +9,8 @@ use crate::elementary::wide::{hypot, ln};
 use crate::simulation::SteadyMotion;
 use crate::studies::learn::{ModelNoise, ODOMETRY, SHALLOWEST, Stretch};
 
-/// Differences of a stretch over their noise, and how the parameters of [`Parameter::ALL`] change them.
+/// Differences of a stretch over their noise, and how the parameters of [`Parameter::ALL`] change
+/// them.
 #[derive(Clone, Debug)]
 pub(super) struct Differences {
     /// Measured less predicted, with unit variance.
@@ -18,8 +19,8 @@ pub(super) struct Differences {
     pub(super) sensitivities: DMatrix<f64>,
 }
 
-/// A torque, or whatever turns the rover, that no soil explains turns it by this of its rims' speed [-]. Source: ours: a
-/// hundredth of the weight at one side of the rover.
+/// A torque, or whatever turns the rover, that no soil explains turns it by this of its rims' speed
+/// [-]. Source: ours: a hundredth of the weight at one side of the rover.
 const TURNING: f64 = 0.02;
 
 impl Differences {
@@ -64,8 +65,8 @@ fn under(situation: &Situation, faults: &Faults, near: &SteadyMotion) -> Option<
     Some(Predicted::of(&truth.motion(Some(near))?))
 }
 
-/// What was read over a stretch, as numbers without a unit: velocities over the fastest rim's, torques over weight times
-/// shearing radius, logarithms of sinkages.
+/// What was read over a stretch, as numbers without a unit: velocities over the fastest rim's,
+/// torques over weight times shearing radius, logarithms of sinkages.
 struct Seen<'s> {
     situation: &'s Situation,
     channels: Vec<Channel>,
@@ -126,7 +127,8 @@ impl<'s> Seen<'s> {
         DVector::from_iterator(self.channels.len(), self.channels.iter().map(number))
     }
 
-    /// Covariance of what was read about what a right soil predicts: of the instruments, and of what no soil explains,
+    /// Covariance of what was read about what a right soil predicts: of the instruments, and of
+    /// what no soil explains,
     /// [`ModelNoise`]: a force, or an attitude of the ground, acts as a small roll and pitch do.
     fn noise(&self, sensitivities: &DMatrix<f64>, here: &Predicted, way: f64) -> DMatrix<f64> {
         let noise = ModelNoise::USUAL;

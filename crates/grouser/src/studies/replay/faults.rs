@@ -1,4 +1,5 @@
-//! What may be wrong where measured and predicted differ: one number for each kind, and what it does to a prediction.
+//! What may be wrong where measured and predicted differ: one number for each kind, and what it
+//! does to a prediction.
 
 use std::f64::consts::PI;
 
@@ -12,8 +13,8 @@ use crate::vehicle::{RoverState, roll_and_pitch, slope_and_yaw};
 pub enum Cause {
     /// The soil is another than that of the document.
     Soil,
-    /// The rims move at other speeds than wheel speeds and radii say: the radius, an encoder, or the scale of the
-    /// odometry, which does the same.
+    /// The rims move at other speeds than wheel speeds and radii say: the radius, an encoder, or
+    /// the scale of the odometry, which does the same.
     Speed,
     /// The ground is steeper or flatter than was read or told.
     Slope,
@@ -81,7 +82,8 @@ impl Cause {
     }
 }
 
-/// A number that says how far off something is; 0 where all is as it was read and as the documents say.
+/// A number that says how far off something is; 0 where all is as it was read and as the documents
+/// say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
     /// How much stronger the soil is than assumed, the logarithm of the ratio: c and tan φ [-].
@@ -143,9 +145,9 @@ impl Parameter {
         }
     }
 
-    /// How large it is where something is wrong, its standard deviation beforehand, in SI. Source: ours: sands of one
-    /// name differ by 4° of friction and by half of their moduli, wheels with grousers by a twentieth of their radius;
-    /// sensors are mounted by eye.
+    /// How large it is where something is wrong, its standard deviation beforehand, in SI. Source:
+    /// ours: sands of one name differ by 4° of friction and by half of their moduli, wheels with
+    /// grousers by a twentieth of their radius; sensors are mounted by eye.
     #[must_use]
     pub fn usual(self) -> f64 {
         match self {
@@ -160,7 +162,8 @@ impl Parameter {
         }
     }
 
-    /// An estimate of it, and its standard deviation, as a reader expects them: logarithms become shares.
+    /// An estimate of it, and its standard deviation, as a reader expects them: logarithms become
+    /// shares.
     pub(super) fn as_share(self, [estimate, deviation]: [f64; 2]) -> [f64; 2] {
         if self.cause() == Cause::Soil {
             return [exp_m1(estimate), (1.0 + exp_m1(estimate)) * deviation];
@@ -168,7 +171,8 @@ impl Parameter {
         [estimate, deviation]
     }
 
-    /// Whether predictions have to be computed anew for it; if not, it is what instruments add to them.
+    /// Whether predictions have to be computed anew for it; if not, it is what instruments add to
+    /// them.
     pub(super) fn moves_rover(self) -> bool {
         !matches!(self, Self::Odometry | Self::YawRate | Self::Torque)
     }

@@ -1,4 +1,5 @@
-//! A run from the first pose, with the wheels turning and steered over time as they were measured, on a plane.
+//! A run from the first pose, with the wheels turning and steered over time as they were measured,
+//! on a plane.
 
 use super::track::Pose;
 use crate::simulation::{
@@ -27,8 +28,8 @@ struct Piece {
     commands: Vec<Command>,
 }
 
-/// How the wheels were seen to turn over a drive. Its size does not grow with the drive: of a long one, neighbouring
-/// commands become one.
+/// How the wheels were seen to turn over a drive. Its size does not grow with the drive: of a long
+/// one, neighbouring commands become one.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Commands(Vec<Piece>);
 
@@ -40,7 +41,8 @@ const MOST: usize = 20_000;
 pub struct FreeRun {
     /// Slope of its plane [rad].
     pub slope: f64,
-    /// Times at which it was set on the measured pose: the start, and the end of each gap of the telemetry [s].
+    /// Times at which it was set on the measured pose: the start, and the end of each gap of the
+    /// telemetry [s].
     pub starts: Vec<f64>,
     /// What ended it before the telemetry ended, and when [s].
     pub ended: Option<(f64, Ended)>,

@@ -1,4 +1,5 @@
-//! Prescribed motion: what a soil predicts at the attitude, the wheel speeds and the steering angles that were read.
+//! Prescribed motion: what a soil predicts at the attitude, the wheel speeds and the steering
+//! angles that were read.
 
 use super::channel::{Channel, ChannelValue};
 use crate::simulation::SteadyMotion;
@@ -49,7 +50,8 @@ impl Situation {
         Self { study: self.study.of_sample(sample), ..self.clone() }
     }
 
-    /// The steady motion there, sought near another; `None` where no velocities leave no force and no yaw moment over.
+    /// The steady motion there, sought near another; `None` where no velocities leave no force and
+    /// no yaw moment over.
     pub(super) fn motion(&self, near: Option<&SteadyMotion>) -> Option<SteadyMotion> {
         let Self { study, slope, yaw, rim_speeds } = self;
         let found = match near {

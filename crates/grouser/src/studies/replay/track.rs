@@ -63,7 +63,8 @@ impl Track {
         self.has_odometry || self.first_fix.is_some()
     }
 
-    /// Turns the track by an angle [rad], so that its yaw counts from the contour, unless a yaw was read.
+    /// Turns the track by an angle [rad], so that its yaw counts from the contour, unless a yaw was
+    /// read.
     ///
     /// * `poses`: others to turn with it
     pub(super) fn turn(&mut self, angle: f64, poses: &mut [&mut Option<Pose>]) {

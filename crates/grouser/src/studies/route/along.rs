@@ -1,9 +1,10 @@
 //! What it takes to drive along a given line, and where that is not safe.
 //!
-//! A line is cut into pieces no longer than the grid's points are apart, of which each is priced as a move of the lattice
-//! is: by how much it rises from one end to the other, and by how steeply the ground rises across it in the mean of both
-//! ends. Between points, heights and gradients are bilinear. A line over the lattice is cut into its moves, so that a way
-//! that was found takes the same when it is read back.
+//! A line is cut into pieces no longer than the grid's points are apart, of which each is priced as
+//! a move of the lattice is: by how much it rises from one end to the other, and by how steeply the
+//! ground rises across it in the mean of both ends. Between points, heights and gradients are
+//! bilinear. A line over the lattice is cut into its moves, so that a way that was found takes the
+//! same when it is read back.
 
 use super::answer::{LineError, Route, RouteError};
 use super::corridor::{Corridor, Step};
@@ -20,14 +21,16 @@ use crate::units::Vec2;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
     places: Vec<Vec2>,
-    /// Where the nose points at the start, from the map's x axis to the left [rad]; without it along the line.
+    /// Where the nose points at the start, from the map's x axis to the left [rad]; without it
+    /// along the line.
     pub yaw: Option<f64>,
 }
 
 impl Line {
     /// A line from place to place [m].
     ///
-    /// * `yaw`: where the nose points at the start, from the map's x axis to the left [rad]; without it along the line
+    /// * `yaw`: where the nose points at the start, from the map's x axis to the left [rad];
+    ///   without it along the line
     ///
     /// # Errors
     /// [`LineError`] for fewer than two different places, and for one that is not finite.
@@ -70,8 +73,8 @@ impl Line {
 /// What came of looking along a line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckedLine {
-    /// What the way takes, with the line's places as its waypoints; none where some of the ground is not known, or
-    /// no heading holds the course, or the rover cannot turn.
+    /// What the way takes, with the line's places as its waypoints; none where some of the ground
+    /// is not known, or no heading holds the course, or the rover cannot turn.
     pub route: Option<Route>,
     /// Where it is not safe, in order; with none it is safe.
     pub hazards: Vec<Hazard>,

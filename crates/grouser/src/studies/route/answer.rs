@@ -10,7 +10,8 @@ pub struct Ends {
     pub from: Vec2,
     /// Where it ends [m].
     pub to: Vec2,
-    /// Where the nose points at the start, from the map's x axis to the left [rad]; without it any direction.
+    /// Where the nose points at the start, from the map's x axis to the left [rad]; without it any
+    /// direction.
     pub yaw: Option<f64>,
 }
 

@@ -24,7 +24,8 @@ pub(super) struct Step {
     /// Its ends [m].
     pub(super) from: Vec2,
     pub(super) to: Vec2,
-    /// How steeply the ground rises along it and across it [m/m]; none where it is not known all around.
+    /// How steeply the ground rises along it and across it [m/m]; none where it is not known all
+    /// around.
     pub(super) rises: Option<(f64, f64)>,
 }
 
@@ -89,8 +90,8 @@ impl Corridor<'_> {
         (place - grid.south_west).component_div(&grid.spacing).map(snapped)
     }
 
-    /// The ground at a place, in cells: bilinear between its points. None beyond the map, and where one of the points is
-    /// at the edge or beside a place without a height.
+    /// The ground at a place, in cells: bilinear between its points. None beyond the map, and where
+    /// one of the points is at the edge or beside a place without a height.
     fn spot(&self, at: Vec2) -> Option<Spot> {
         let (x, y) = (snapped(at.x), snapped(at.y));
         let (low_x, low_y) = (x.floor(), y.floor());
@@ -135,8 +136,8 @@ fn snapped(at: f64) -> f64 {
     if (at - whole).abs() < NEAR { whole } else { at }
 }
 
-/// In how many pieces to go a way, in cells: in moves of the lattice if it is made of one kind of them, else in pieces that
-/// are no longer than a cell along either axis.
+/// In how many pieces to go a way, in cells: in moves of the lattice if it is made of one kind of
+/// them, else in pieces that are no longer than a cell along either axis.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

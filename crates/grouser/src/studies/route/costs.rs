@@ -14,8 +14,8 @@ use crate::studies::mobility::{Detail, Mobility, MobilityTable};
 const COURSE_STEP: f64 = std::f64::consts::PI / 24.0;
 /// How many courses have a table: straight down, …, straight up.
 pub const COURSES: usize = 25;
-/// Points along the axes of the table: from the steepest way down to the steepest way up, and from level to the steepest
-/// across.
+/// Points along the axes of the table: from the steepest way down to the steepest way up, and from
+/// level to the steepest across.
 const ALONG: usize = 401;
 const ACROSS: usize = 201;
 
@@ -46,8 +46,9 @@ pub(super) struct Costs<'a> {
     pub(super) of: &'a RouteTables,
     /// What is sought, for a metre: infinite where nobody may go.
     table: Vec<f32>,
-    /// What a metre costs at least. Downhill wheels may do less work than none: what they take out of the height is not
-    /// lost before it is gained, so that all that is above the bound is positive.
+    /// What a metre costs at least. Downhill wheels may do less work than none: what they take out
+    /// of the height is not lost before it is gained, so that all that is above the bound is
+    /// positive.
     pub(super) bound: Bound,
 }
 
@@ -348,8 +349,8 @@ impl Risk {
     }
 }
 
-/// The time of a metre on each slope by its number, between the points of a curve; none where it ends, or slips more than it
-/// may.
+/// The time of a metre on each slope by its number, between the points of a curve; none where it
+/// ends, or slips more than it may.
 fn times_of(
     curve: &HeadingCurve,
     most_slip: f64,

@@ -33,8 +33,8 @@ pub struct DrivenRoute {
 const WITHIN: f64 = 0.1;
 
 impl Route {
-    /// The mission that drives the route: a leg to each waypoint, before which the rover turns on the spot to where it
-    /// lies.
+    /// The mission that drives the route: a leg to each waypoint, before which the rover turns on
+    /// the spot to where it lies.
     ///
     /// * `scenario`: rover, soil, gravity and model
     /// * `rim_speed`: of all wheels [m/s]

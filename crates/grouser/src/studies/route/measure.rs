@@ -45,7 +45,8 @@ impl Turning {
     }
 }
 
-/// A piece of a way: how long it is on the map [m], and how steeply the ground rises along it and across it [m/m].
+/// A piece of a way: how long it is on the map [m], and how steeply the ground rises along it and
+/// across it [m/m].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Piece {
     pub(super) length: f64,

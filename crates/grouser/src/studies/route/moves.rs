@@ -1,4 +1,5 @@
-//! The moves of the lattice: sixteen directions from a cell to others, and the shortest way over them.
+//! The moves of the lattice: sixteen directions from a cell to others, and the shortest way over
+//! them.
 
 use std::f64::consts::{PI, TAU};
 
@@ -60,7 +61,8 @@ impl Moves {
         }
     }
 
-    /// Length of the shortest way over the lattice [m]: with two directions, those on either side of the straight line.
+    /// Length of the shortest way over the lattice [m]: with two directions, those on either side
+    /// of the straight line.
     ///
     /// * `columns`, `rows`: how far it leads
     pub(super) fn shortest(&self, columns: f64, rows: f64) -> f64 {

@@ -1,10 +1,11 @@
 //! The cheapest way over the lattice: A*, with what a way costs at least.
 //!
-//! A state is a cell and one of sixteen headings. From it a rover drives one move straight ahead, or turns to the next
-//! heading on either side. Both cost something, and what a way to the target costs at least is known: the shortest way
-//! over the lattice at the least price of a level metre, and what the difference in height adds to it
-//! ([`Bound`](super::costs::Bound)). That is consistent, so that a state is looked at once, and the first way found to the
-//! target is the cheapest.
+//! A state is a cell and one of sixteen headings. From it a rover drives one move straight ahead,
+//! or turns to the next heading on either side. Both cost something, and what a way to the target
+//! costs at least is known: the shortest way over the lattice at the least price of a level metre,
+//! and what the difference in height adds to it ([`Bound`](super::costs::Bound)). That is
+//! consistent, so that a state is looked at once, and the first way found to the target is the
+//! cheapest.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -24,7 +25,8 @@ pub(super) struct Lattice<'a> {
     pub(super) moves: Moves,
     columns: usize,
     rows: usize,
-    /// How steeply the ground of each cell rises to the east and to the north; NaN where nobody may go.
+    /// How steeply the ground of each cell rises to the east and to the north; NaN where nobody may
+    /// go.
     gradients: Vec<[f32; 2]>,
     costs: &'a Costs<'a>,
     /// What it costs to turn by a radian.
@@ -48,8 +50,8 @@ const BEGAN: u8 = 4;
 /// It will not be looked at again.
 const DONE: u8 = 0x80;
 
-/// How steeply the ground of a point rises to the east and to the north [m/m]; none at the edge, and beside a place without
-/// a height.
+/// How steeply the ground of a point rises to the east and to the north [m/m]; none at the edge,
+/// and beside a place without a height.
 pub(super) fn slope_at(ground: Ground<'_>, column: usize, row: usize) -> Option<[f32; 2]> {
     let found = ground.surrounds(column, row).then(|| ground.gradient(column, row));
     #[expect(clippy::cast_possible_truncation, reason = "as heights are")]
@@ -129,7 +131,8 @@ impl<'a> Lattice<'a> {
         (column < self.columns && row < self.rows).then_some(row * self.columns + column)
     }
 
-    /// How steeply the ground rises along a move and across it; none where nobody may go, there or on the way.
+    /// How steeply the ground rises along a move and across it; none where nobody may go, there or
+    /// on the way.
     pub(super) fn rises(&self, cell: usize, direction: usize) -> Option<(usize, f64, f64)> {
         let to = self.ahead(cell, direction)?;
         let [here, there] = [cell, to].map(|it| self.gradients[it]);

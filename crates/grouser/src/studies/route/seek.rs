@@ -54,7 +54,8 @@ impl RouteStudy {
         })
     }
 
-    /// Whether an area where nobody may go reaches into the cell around a place, however narrow it is.
+    /// Whether an area where nobody may go reaches into the cell around a place, however narrow it
+    /// is.
     ///
     /// * `spacing`: of the grid, to the east and to the north [m]
     fn is_kept_out(&self, place: Vec2, spacing: Vec2) -> bool {

@@ -9,8 +9,8 @@ use crate::studies::mobility::MobilityStudy;
 use crate::terrain::{Extent, SoilZones};
 use crate::units::STEEPEST_SLOPE;
 
-/// A sample that is stuck on a metre counts as so much way on top [m]. Source: ours; the order of what is driven to get
-/// around a place.
+/// A sample that is stuck on a metre counts as so much way on top [m]. Source: ours; the order of
+/// what is driven to get around a place.
 pub const STUCK_WAY: f64 = 100.0;
 
 /// The share of the samples that a risk is the mean of [-]. Source: ours.

@@ -24,8 +24,8 @@ const LEAST_DEVIATION: f64 = 1e-9;
 
 /// The slip ratios that go with a torque, over curves that are equally probable.
 ///
-/// Between two slips of a curve its torque is a straight line of which the density is integrated, so that noise
-/// may be finer than the curve's steps.
+/// Between two slips of a curve its torque is a straight line of which the density is integrated,
+/// so that noise may be finer than the curve's steps.
 ///
 /// * `curves`: torques at slips of equal steps [N·m], not a number where there is none
 /// * `deviation`: the standard deviation of a torque [N·m]
@@ -112,7 +112,8 @@ mod tests {
         }
     }
 
-    /// Closed form: on a straight line the slip is normal about the torque, with the same deviation.
+    /// Closed form: on a straight line the slip is normal about the torque, with the same
+    /// deviation.
     #[test]
     fn a_straight_line_has_the_normal_interval() {
         for steps in [10, 240] {
@@ -132,7 +133,8 @@ mod tests {
         assert!(band.low >= 0.5 && band.high <= 0.55, "{band:?}");
     }
 
-    /// A level curve says nothing: the prior's middle 95 %. Of a curve with a peak both sides count.
+    /// A level curve says nothing: the prior's middle 95 %. Of a curve with a peak both sides
+    /// count.
     #[test]
     fn level_and_folded_curves_are_wide() {
         let level = band(&[vec![0.3; 101]], 0.3, 0.01);

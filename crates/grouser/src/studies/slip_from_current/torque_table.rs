@@ -13,12 +13,13 @@ use crate::wheel::Wheel;
 
 /// Slips of a curve, in equal steps.
 const SLIPS: usize = 241;
-/// A load is this many times the next smaller one of the table. Torque over load differs by a few percent from one to the
-/// next, and what is between them by a part in 10⁴.
+/// A load is this many times the next smaller one of the table. Torque over load differs by a few
+/// percent from one to the next, and what is between them by a part in 10⁴.
 const LOAD_RATIO: f64 = 1.05;
 /// Slip angles of the table are whole multiples of this [rad]: 2.5°.
 const ANGLE_STEP: f64 = PI / 72.0;
-/// Slopes are rounded to whole multiples of this [rad], 0.5°: they change no more than the resistance of wedges.
+/// Slopes are rounded to whole multiples of this [rad], 0.5°: they change no more than the
+/// resistance of wedges.
 const SLOPE_STEP: f64 = PI / 360.0;
 
 /// Where a wheel is in the table.
@@ -80,7 +81,8 @@ impl TorqueTable {
         Self { kinds, wheels, gravity, samples, slips, nodes: RwLock::default() }
     }
 
-    /// Torques at each slip [N·m], for each sample; not a number where the soil does not carry the wheel.
+    /// Torques at each slip [N·m], for each sample; not a number where the soil does not carry the
+    /// wheel.
     pub(super) fn curves(&self, place: Place) -> Vec<Vec<f64>> {
         let corners = self.corners(place).map(|(node, share)| (self.node(node), share));
         let curve = |sample: usize| {

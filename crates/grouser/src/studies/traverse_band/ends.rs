@@ -7,7 +7,8 @@ use crate::simulation::{InBand, OutcomeKind};
 pub struct Ends {
     /// All samples.
     samples: usize,
-    /// Those that ended so, in the order of [`OutcomeKind::ALL`]; 0 for those that count to the end.
+    /// Those that ended so, in the order of [`OutcomeKind::ALL`]; 0 for those that count to the
+    /// end.
     early: [usize; OutcomeKind::ALL.len()],
 }
 
@@ -61,7 +62,8 @@ impl Ends {
         counts.filter(|(_, count)| *count > 0)
     }
 
-    /// Which share ended early, and how: `immobilised 12.5 %, off_map 4.2 %`; nothing where none did.
+    /// Which share ended early, and how: `immobilised 12.5 %, off_map 4.2 %`; nothing where none
+    /// did.
     #[must_use]
     pub fn in_words(&self) -> Option<String> {
         let percent = |count| 100.0 * self.share(count);
@@ -71,7 +73,8 @@ impl Ends {
         (!each.is_empty()).then(|| each.join(", "))
     }
 
-    /// What becomes of those samples in the band, a sentence for each way; nothing where none ended early.
+    /// What becomes of those samples in the band, a sentence for each way; nothing where none ended
+    /// early.
     #[must_use]
     pub fn sentences(&self) -> Vec<String> {
         let all = self.samples;

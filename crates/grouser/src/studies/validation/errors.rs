@@ -1,5 +1,5 @@
-//! Errors of predictions against measured means: root mean square, bias, shares of the largest measured value, and
-//! whether they are within the aim.
+//! Errors of predictions against measured means: root mean square, bias, shares of the largest
+//! measured value, and whether they are within the aim.
 
 use super::super::measurement::Quantity;
 
@@ -69,9 +69,11 @@ impl Errors {
     }
 
     /// The same with the aim for a wheel's quantity: of the largest measured value 25 % for drawbar
-    /// pull, or 5 % of the load if that is more, 40 % for sinkage, 25 % for torque. Side force has none.
+    /// pull, or 5 % of the load if that is more, 40 % for sinkage, 25 % for torque. Side force has
+    /// none.
     ///
-    /// Source: ours, set before any of the published tests was predicted with these models' defaults.
+    /// Source: ours, set before any of the published tests was predicted with these models'
+    /// defaults.
     ///
     /// * `load`: of the wheel [N]
     /// * `is_complete`: whether every trial has a prediction
@@ -98,8 +100,8 @@ impl Errors {
         (self.largest > 0.0).then(|| self.bias / self.largest)
     }
 
-    /// The root mean square error over the standard deviation of what was measured, √(1 − R²) [-]: 0 is
-    /// perfect, 1 no better than the mean.
+    /// The root mean square error over the standard deviation of what was measured, √(1 − R²) [-]:
+    /// 0 is perfect, 1 no better than the mean.
     #[must_use]
     pub fn score(&self) -> Option<f64> {
         self.r2.map(|r2| (1.0 - r2).max(0.0).sqrt())

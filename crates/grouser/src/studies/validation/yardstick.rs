@@ -1,18 +1,19 @@
-//! Predictions without physics, to compare models with: the mean of a set, and interpolation within it.
+//! Predictions without physics, to compare models with: the mean of a set, and interpolation within
+//! it.
 //!
-//! A model that is not better than these has nothing to say about that set. They have seen the other
-//! measurements of the set, so a model from published constants that comes near them is good.
+//! A model that is not better than these has nothing to say about that set. They have seen the
+//! other measurements of the set, so a model from published constants that comes near them is good.
 
 /// A prediction from the other measurements of a set alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Yardstick {
     /// The mean of all cells, the predicted one among them: its score is 1.
     Mean,
-    /// Linear over slip (over slope, of a rover) between the neighbouring cells of the same slip angle (course),
-    /// the predicted one left out; beyond the last one its value.
+    /// Linear over slip (over slope, of a rover) between the neighbouring cells of the same slip
+    /// angle (course), the predicted one left out; beyond the last one its value.
     Interpolation,
-    /// Linear over slip angle between the neighbouring ones, the predicted angle left out as a whole, each
-    /// interpolated to the same slip; beyond the last angle its value.
+    /// Linear over slip angle between the neighbouring ones, the predicted angle left out as a
+    /// whole, each interpolated to the same slip; beyond the last angle its value.
     AngleLeftOut,
 }
 
@@ -41,7 +42,8 @@ impl Yardstick {
         }
     }
 
-    /// Predicts every measurement from the others; `None` where there are no others to predict it from.
+    /// Predicts every measurement from the others; `None` where there are no others to predict it
+    /// from.
     #[must_use]
     pub fn predict(self, all: &[Placed]) -> Vec<Option<f64>> {
         match self {
@@ -159,8 +161,8 @@ mod tests {
         assert_eq!(found[3], None);
     }
 
-    /// Two repeats that were not called one cell stand at one slip: the one predicts the other with half
-    /// of what is beside them.
+    /// Two repeats that were not called one cell stand at one slip: the one predicts the other with
+    /// half of what is beside them.
     #[test]
     fn cells_of_one_slip_make_no_division_by_zero() {
         let all = placed(&[[0.0, 0.3, 1.0], [0.0, 0.3, 2.0], [0.0, 0.3, 6.0]]);

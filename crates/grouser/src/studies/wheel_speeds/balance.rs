@@ -14,11 +14,11 @@ use crate::vehicle::kinematics::wheel_slips;
 use crate::vehicle::on_ground::forces_of;
 use crate::vehicle::{RoverState, WheelReaction, dynamics};
 
-/// Force, and moment over the farthest wheel's distance, that are left over: both over the weight, along and across
-/// the rover and about its centre of mass.
+/// Force, and moment over the farthest wheel's distance, that are left over: both over the weight,
+/// along and across the rover and about its centre of mass.
 ///
-/// The unknowns are the yaw, a number for each speed, and the slope. All forces depend on ratios of speeds, so that
-/// the rover's own speed is not one of them.
+/// The unknowns are the yaw, a number for each speed, and the slope. All forces depend on ratios of
+/// speeds, so that the rover's own speed is not one of them.
 pub(super) struct Balance<'a> {
     study: &'a WheelSpeedStudy,
     aim: Aim,
@@ -42,8 +42,8 @@ const NEARBY: f64 = 0.1;
 /// By this much a slope may be below 0 [rad], so that level ground is within the bounds.
 const LEVEL: f64 = 1e-6;
 
-/// The unknown of a rim speed, *κ*, over the rover's: its slip ratio, 1 − 1/κ and κ − 1, continued to wheels that turn
-/// backwards. So speeds have an even spread from locked to spinning.
+/// The unknown of a rim speed, *κ*, over the rover's: its slip ratio, 1 − 1/κ and κ − 1, continued
+/// to wheels that turn backwards. So speeds have an even spread from locked to spinning.
 fn unknown_of(rim_speed: f64) -> f64 {
     if rim_speed >= 1.0 { 1.0 - 1.0 / rim_speed } else { rim_speed - 1.0 }
 }
@@ -142,7 +142,8 @@ impl<'a> Balance<'a> {
         Some((wheels, stance.pull))
     }
 
-    /// Work of the motors per metre of way [J/m]. What a wheel would give back that is dragged, no motor takes.
+    /// Work of the motors per metre of way [J/m]. What a wheel would give back that is dragged, no
+    /// motor takes.
     fn energy_per_metre(&self, place: &Place, wheels: &[WheelReaction]) -> f64 {
         let mounts = self.study.heading.rover.mounts();
         let each = wheels.iter().zip(self.rim_speeds(place)).zip(mounts);
@@ -152,8 +153,9 @@ impl<'a> Balance<'a> {
         work.sum()
     }
 
-    /// How fast a small error of the yaw grows over the way [1/m]: that of the velocities' steady state, *−(∂a/∂V)⁻¹
-    /// ∂a/∂γ*, and where that state is unstable by itself the rate at which it is left.
+    /// How fast a small error of the yaw grows over the way [1/m]: that of the velocities' steady
+    /// state, *−(∂a/∂V)⁻¹ ∂a/∂γ*, and where that state is unstable by itself the rate at which it
+    /// is left.
     fn yaw_growth(&self, place: &Place) -> Option<f64> {
         /// Steps, over the speed, or of the yaw [rad]: forces are exact to 1e-11.
         const STEP: f64 = 1e-6;

@@ -11,7 +11,8 @@ pub enum SpeedFreedom {
     BySide,
     /// Every wheel, forward or backward.
     ByWheel,
-    /// Every wheel, and those of the uphill side turn backward or stand, as [Mochizuki2024] proposes against drift.
+    /// Every wheel, and those of the uphill side turn backward or stand, as [Mochizuki2024]
+    /// proposes against drift.
     UphillReversed,
 }
 
@@ -32,8 +33,8 @@ impl SpeedFreedom {
 
 /// Finds wheel speeds at which a rover crosses slopes straight along the contour.
 ///
-/// By how much must the downhill wheels turn faster on 10° such that the nose does not fall, and how much steeper
-/// a slope can be crossed?
+/// By how much must the downhill wheels turn faster on 10° such that the nose does not fall, and
+/// how much steeper a slope can be crossed?
 ///
 /// ```
 /// use grouser::document::{self, Overrides, Source};
@@ -59,11 +60,12 @@ pub struct WheelSpeedStudy {
     pub most_ratio: f64,
 }
 
-/// The fastest wheel over the mean, unless another is asked for [-]. Source: ours; motors that are geared for one speed
-/// have about so much above it.
+/// The fastest wheel over the mean, unless another is asked for [-]. Source: ours; motors that are
+/// geared for one speed have about so much above it.
 pub const USUAL_RATIO: f64 = 2.0;
 
-/// A rover that goes straight along the contour, with nothing left over to accelerate or to turn it.
+/// A rover that goes straight along the contour, with nothing left over to accelerate or to turn
+/// it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StraightMotion {
     /// Slope, *α* [rad].

@@ -1,9 +1,10 @@
-//! The best point of a surface that equations define, within bounds: a search by directions, for functions that are
-//! continuous and have kinks.
+//! The best point of a surface that equations define, within bounds: a search by directions, for
+//! functions that are continuous and have kinks.
 //!
-//! From a point on the surface it looks along the value's own gradient and along further directions, each laid into
-//! the surface's tangent, and comes back onto the surface by Gauss and Newton's steps. What leaves the bounds comes
-//! back onto them too. A step that finds nothing better is halved (Kolda, Lewis and Torczon 2003).
+//! From a point on the surface it looks along the value's own gradient and along further
+//! directions, each laid into the surface's tangent, and comes back onto the surface by Gauss and
+//! Newton's steps. What leaves the bounds comes back onto them too. A step that finds nothing
+//! better is halved (Kolda, Lewis and Torczon 2003).
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,8 +13,8 @@ pub(super) type Place = DVector<f64>;
 
 /// What is sought.
 pub(super) trait Problem {
-    /// The equations' values, which are 0 on the surface, and the value that is to be large; none where there is
-    /// nothing.
+    /// The equations' values, which are 0 on the surface, and the value that is to be large; none
+    /// where there is nothing.
     fn evaluate(&self, place: &Place) -> Option<(DVector<f64>, f64)>;
     /// Numbers that are to be 0 or more.
     fn bounds(&self, place: &Place) -> DVector<f64>;

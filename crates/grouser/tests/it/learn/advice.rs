@@ -23,7 +23,8 @@ use super::truths;
 
 const PRIOR: [&str; 2] = ["scenario.soil=toyoura-uncertain", "scenario.model=ishigami"];
 
-/// The prior of an information study (theory, 13 f): all numbers on their own, with its relative deviations.
+/// The prior of an information study (theory, 13 f): all numbers on their own, with its relative
+/// deviations.
 const STUDY: &str = r#"
 schema = "scenario/1"
 name = "information study"
@@ -59,8 +60,9 @@ fn without_tests() -> AdviceSettings {
     AdviceSettings { tests: TestSettings { legs: Vec::new(), ..tests() }, ..settings() }
 }
 
-/// On level ground the nose goes along the way, nobody gets stuck, and looks are as far apart as they may be. Where none
-/// may get stuck at all, no look is safe enough: none of a thousand is not yet never.
+/// On level ground the nose goes along the way, nobody gets stuck, and looks are as far apart as
+/// they may be. Where none may get stuck at all, no look is safe enough: none of a thousand is not
+/// yet never.
 #[test]
 fn level_ground_needs_few_looks() {
     let learner = learner(&scenario(&PRIOR));
@@ -80,7 +82,8 @@ fn level_ground_needs_few_looks() {
     assert_eq!(found.slopes[0].check.expect("looks").check, None);
 }
 
-/// The less often a rover may get stuck, the shorter the interval; and odometry that takes its time slows the rover down.
+/// The less often a rover may get stuck, the shorter the interval; and odometry that takes its time
+/// slows the rover down.
 #[test]
 fn stricter_probabilities_have_shorter_intervals() {
     let learner = learner(&scenario(&PRIOR));
@@ -141,8 +144,8 @@ fn leg(drives: &[TestDrive], slope: f64, yaw: f64) -> &TestDrive {
     drives.iter().find(is_it).expect("a leg")
 }
 
-/// Source: theory, 13 (f). Level ground tells nothing of K_y, legs along the contour tell most of it, and legs uphill tell
-/// most of K_x.
+/// Source: theory, 13 (f). Level ground tells nothing of K_y, legs along the contour tell most of
+/// it, and legs uphill tell most of K_x.
 #[test]
 fn legs_tell_what_the_information_study_says() {
     let learner = learner(&study_of_information());
@@ -183,8 +186,8 @@ fn settings_of_tests() -> AdviceSettings {
     settings
 }
 
-/// There is no learner, and so no advice on test drives, of a soil that is known; and a leg that was driven for as long as it
-/// tells anything is not advised again.
+/// There is no learner, and so no advice on test drives, of a soil that is known; and a leg that
+/// was driven for as long as it tells anything is not advised again.
 #[test]
 fn nothing_is_to_be_learnt_of_what_is_known() {
     let exact = scenario(&["scenario.soil=toyoura", "soil.priors=none", "scenario.model=ishigami"]);
@@ -216,7 +219,8 @@ fn truth_seed(truth: &grouser::studies::ensemble::samples::Sample) -> u64 {
     truth.soil.friction_angle.to_bits()
 }
 
-/// Mean of what is left of the width of the heading's band after a leg on hidden soils, over that before.
+/// Mean of what is left of the width of the heading's band after a leg on hidden soils, over that
+/// before.
 fn narrowed(prior: &LoadedScenario, drive: &TestDrive, count: u32) -> f64 {
     let width = |learner: &Learner| {
         let samples = learner.samples(5, 40).unwrap();
@@ -232,7 +236,8 @@ fn narrowed(prior: &LoadedScenario, drive: &TestDrive, count: u32) -> f64 {
     after.iter().sum::<f64>() / after.len() as f64 / before
 }
 
-/// What legs are expected to leave of the heading's band is in the order of what simulated drives leave of it.
+/// What legs are expected to leave of the heading's band is in the order of what simulated drives
+/// leave of it.
 fn check_order(count: u32, legs: &[(f64, f64)]) {
     let prior = study_of_information();
     let found = advice(&learner(&prior), &[8.0], &settings_of_tests());
@@ -278,7 +283,8 @@ fn place_at(place: f64) -> usize {
     (0..1000).position(|whole| f64::from(whole) >= place - 0.5).expect("it is on the way")
 }
 
-/// Whether a rover gets stuck on soils that no advice has seen, looked at ten times as often as the advice does.
+/// Whether a rover gets stuck on soils that no advice has seen, looked at ten times as often as the
+/// advice does.
 fn gets_stuck(
     study: &HeadingStudy,
     learner: &Learner,
@@ -289,7 +295,8 @@ fn gets_stuck(
     const STEP: f64 = 0.1;
     let places = place_at(WAY_AHEAD / STEP);
     let each = place_at(check.every / STEP);
-    // Over the ground it goes less far than its rims: soils are looked up by the way over the ground.
+    // Over the ground it goes less far than its rims: soils are looked up by the way over the
+    // ground.
     let soils = learner.soils_ahead(SoilAhead::USUAL, (4711, way), &vec![STEP; places]).unwrap();
     let (mut ground, mut since) = (0.0, 0.0);
     for place in 0..places {
@@ -387,7 +394,8 @@ fn mission(
     Mission { scenario, legs: vec![leg], stops: Vec::new(), sensors: Some(sensors) }
 }
 
-/// The same by missions: their engine has its own limits on slip over a way, odometry and judgement of what is stuck.
+/// The same by missions: their engine has its own limits on slip over a way, odometry and judgement
+/// of what is stuck.
 #[test]
 #[ignore = "minutes"]
 fn few_missions_get_stuck_with_the_looks_that_are_advised() {

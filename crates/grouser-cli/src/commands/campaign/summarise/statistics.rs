@@ -207,7 +207,8 @@ impl Statistics {
     }
 }
 
-/// How many columns are in memory at once: each pass over the files brings that many, and checks them.
+/// How many columns are in memory at once: each pass over the files brings that many, and checks
+/// them.
 fn columns_at_once(runs: &[Range<u64>]) -> usize {
     const BYTES: usize = 1 << 28;
     let rows: u64 = runs.iter().map(|runs| runs.end - runs.start).sum();

@@ -1,7 +1,8 @@
 //! The first steps after wheels have changed their speeds: exponential ones.
 //!
-//! What new speeds disturb dies out along an exponential. Where it is little, one or two such steps lead to
-//! the next steady slip; where they do not, the motion goes on as [`adaptive`](super) has it.
+//! What new speeds disturb dies out along an exponential. Where it is little, one or two such steps
+//! lead to the next steady slip; where they do not, the motion goes on as [`adaptive`](super) has
+//! it.
 
 use super::super::exponential::exponential_step;
 use super::super::rosenbrock::Linear;
@@ -10,13 +11,13 @@ use super::way::{Outlook, Way};
 use super::{CAUTION, GROWTH, Motion, RETREAT, SHORTEST};
 use crate::elementary::pow;
 
-/// Error of the embedded step, which is of order 3, over that of the step itself, of order 4 [-]: at least
-/// so much. Source: measured, see the tests below.
+/// Error of the embedded step, which is of order 3, over that of the step itself, of order 4 [-]:
+/// at least so much. Source: measured, see the tests below.
 const OVERESTIMATE: f64 = 25.0;
 
 impl<F: Fn(&Numbers<N>) -> Option<Numbers<N>>, const N: usize> Motion<F, N> {
-    /// The first steps of a motion. They lead to a time [s], or as far as a few of them do; none where the
-    /// first fails.
+    /// The first steps of a motion. They lead to a time [s], or as far as a few of them do; none
+    /// where the first fails.
     ///
     /// * `first_span`: how long the first step is to be [s], if that is known, and was afterwards
     /// * `on_step`: called for each step
@@ -52,8 +53,8 @@ impl<F: Fn(&Numbers<N>) -> Option<Numbers<N>>, const N: usize> Motion<F, N> {
         way
     }
 
-    /// An exponential step up to a time [s] at most, and the rates at its end; none where there is no such
-    /// step that is exact enough.
+    /// An exponential step up to a time [s] at most, and the rates at its end; none where there is
+    /// no such step that is exact enough.
     ///
     /// * `rates`: where it begins
     /// * `longest`: how long it may be [s], and the next one afterwards
@@ -94,7 +95,8 @@ impl<F: Fn(&Numbers<N>) -> Option<Numbers<N>>, const N: usize> Motion<F, N> {
     }
 }
 
-/// The span [s] that leads from one time to another, rounding included: it must not leave a rest of the way.
+/// The span [s] that leads from one time to another, rounding included: it must not leave a rest of
+/// the way.
 fn whole_span(now: f64, time: f64) -> f64 {
     let span = time - now;
     if now + span < time { span.next_up() } else { span }
@@ -107,8 +109,8 @@ mod tests {
     use super::super::problems::{Problem, kaps, of};
     use super::*;
 
-    /// What [`OVERESTIMATE`] promises, for motions that settle as slip does: steps that are taken are as exact as the
-    /// tolerance.
+    /// What [`OVERESTIMATE`] promises, for motions that settle as slip does: steps that are taken
+    /// are as exact as the tolerance.
     #[test]
     fn exponential_steps_that_are_taken_are_as_exact_as_the_tolerance() {
         let mut taken = 0;

@@ -1,23 +1,24 @@
-//! How far a motion has come, and what its last step knows of the next one: how long that should be, and
-//! by which method.
+//! How far a motion has come, and what its last step knows of the next one: how long that should
+//! be, and by which method.
 
 use super::super::step::{Numbers, Step};
 
 /// Steps that are longer than this, times the motion's fastest rate, are implicit: explicit ones
 /// are stable up to 3.3. Source: Hairer and Wanner (1996), section IV.2.
 pub(super) const STIFF: f64 = 3.0;
-/// Steps that are shorter than this, times the same, are explicit. Source: ours, half of it, so that
-/// there is no swinging between both.
+/// Steps that are shorter than this, times the same, are explicit. Source: ours, half of it, so
+/// that there is no swinging between both.
 const MILD: f64 = 1.5;
 
-/// Steps that after so many are not this many times as long as the first of them are stuck. Explicit
-/// ones are then followed by an implicit one: their own estimate of the fastest rate may miss it,
-/// and where slip settles steps become longer faster. Source: ours.
+/// Steps that after so many are not this many times as long as the first of them are stuck.
+/// Explicit ones are then followed by an implicit one: their own estimate of the fastest rate may
+/// miss it, and where slip settles steps become longer faster. Source: ours.
 const STAGNANT: u32 = 8;
 const LONGER: f64 = 1.5;
-/// Implicit steps that are stuck are followed by one of this length, times the motion's fastest rate.
-/// They are linear in the rates; where those have a kink, as where a hub all but rests, long steps
-/// keep an error that no shorter one of them loses, and one that follows the fastest motion does.
+/// Implicit steps that are stuck are followed by one of this length, times the motion's fastest
+/// rate. They are linear in the rates; where those have a kink, as where a hub all but rests, long
+/// steps keep an error that no shorter one of them loses, and one that follows the fastest motion
+/// does.
 const SETTLING: f64 = 0.5;
 
 /// A motion on its way.

@@ -41,8 +41,9 @@ impl Residuals for Regression {
 /// More than any of these searches takes, MGH10 from afar included.
 const PATIENCE: usize = 1000;
 
-/// Every start leads to the certified values: seven digits of the sum of squares. A search that ends
-/// at a gain of 1e-9 leaves five to seven of the parameters, and four along the flat valley of MGH09.
+/// Every start leads to the certified values: seven digits of the sum of squares. A search that
+/// ends at a gain of 1e-9 leaves five to seven of the parameters, and four along the flat valley of
+/// MGH09.
 fn check_certified(regression: &Regression) {
     for start in regression.starts {
         let Minimum { coordinates, cost, converged } = minimise(regression, start, PATIENCE);
@@ -227,8 +228,8 @@ fn rat43_is_found_from_both_starts() {
     });
 }
 
-/// (x − 3)², which has no residual left of 1. Its slope is given ten times too flat, so that from 10
-/// the first step goes to −60.
+/// (x − 3)², which has no residual left of 1. Its slope is given ten times too flat, so that from
+/// 10 the first step goes to −60.
 struct EndsAtOne;
 
 impl Residuals for EndsAtOne {

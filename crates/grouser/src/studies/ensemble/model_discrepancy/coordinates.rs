@@ -6,8 +6,9 @@ use super::process::{ANGLE_LENGTH, FORCE, SINKAGE, SLIP_LENGTH, TORQUE, correlat
 use crate::soil::Discrepancy;
 use crate::soil::discrepancy::{Blend, LARGEST, SIDE_VALUES, SLIP_ANGLES, SLIPS, VALUES};
 
-/// Coordinates of a discrepancy: what it is at a few motions in which rovers drive, standard normal and uncorrelated
-/// under the deviations and lengths of this file. What is left of it beyond them is not theirs to tell.
+/// Coordinates of a discrepancy: what it is at a few motions in which rovers drive, standard normal
+/// and uncorrelated under the deviations and lengths of this file. What is left of it beyond them
+/// is not theirs to tell.
 #[derive(Clone, Debug)]
 pub struct DiscrepancyCoordinates {
     parts: Vec<Part>,
@@ -60,8 +61,9 @@ impl Quantity {
         }
     }
 
-    /// Slips and slip angles at which it is known: about where rovers drive on level ground and on slopes. The side
-    /// force, none straight ahead, is so at an angle that it has a value of its own at.
+    /// Slips and slip angles at which it is known: about where rovers drive on level ground and on
+    /// slopes. The side force, none straight ahead, is so at an angle that it has a value of its
+    /// own at.
     fn places(self) -> [(f64, f64); 2] {
         let angle =
             if matches!(self, Self::SideForce) { SLIP_ANGLES[1] } else { 0.5 * SLIP_ANGLES[1] };
@@ -152,7 +154,8 @@ impl Part {
         let covariance = quantity.covariance();
         let with_values = &covariance * rows.transpose();
         let between = &rows * &with_values;
-        // Places that differ are not the same function of the values: the matrix is positive definite.
+        // Places that differ are not the same function of the values: the matrix is positive
+        // definite.
         let factor = Cholesky::new(between.clone()).map_or(between, |root| root.l());
         let inverse =
             factor.try_inverse().unwrap_or_else(|| DMatrix::zeros(weights.len(), weights.len()));
@@ -165,7 +168,8 @@ mod tests {
     use super::super::process::drawn;
     use super::*;
 
-    /// Coordinates of 4000 samples are standard normal and uncorrelated, and what is left beyond them is independent.
+    /// Coordinates of 4000 samples are standard normal and uncorrelated, and what is left beyond
+    /// them is independent.
     #[test]
     fn coordinates_are_standard_normal() {
         let axes = DiscrepancyCoordinates::new();

@@ -13,20 +13,22 @@ use crate::studies::heading_band::SlopeBand;
 pub struct HeadingAdvice {
     /// Slope, *α* [rad].
     pub slope: f64,
-    /// The heading that holds the contour, *γ* [rad], positive uphill: the median over the samples, and its band; `None`
-    /// where no heading holds it in half of them.
+    /// The heading that holds the contour, *γ* [rad], positive uphill: the median over the samples,
+    /// and its band; `None` where no heading holds it in half of them.
     pub contour: Option<Band>,
-    /// The steepest heading, 0 to 90°, at which the slip keeps its limit in as many samples as it must [rad]; `None`
-    /// where it does not even with the nose on the contour.
+    /// The steepest heading, 0 to 90°, at which the slip keeps its limit in as many samples as it
+    /// must [rad]; `None` where it does not even with the nose on the contour.
     pub steepest: Option<f64>,
-    /// What to set; `None` where no heading both keeps the limit and does not take the rover far off the contour.
+    /// What to set; `None` where no heading both keeps the limit and does not take the rover far
+    /// off the contour.
     pub advised: Option<AdvisedHeading>,
 }
 
 /// A heading, with what the rover does at it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AdvisedHeading {
-    /// Heading, *γ* [rad]: that which holds the contour, or the steepest that keeps the limit where that is less.
+    /// Heading, *γ* [rad]: that which holds the contour, or the steepest that keeps the limit where
+    /// that is less.
     pub yaw: f64,
     /// Samples in which the slip keeps its limit.
     pub within: Probability,
@@ -34,7 +36,8 @@ pub struct AdvisedHeading {
     pub slip_ratio: Band,
     /// Drift, way downhill for a metre travelled [-], likewise.
     pub drift: Band,
-    /// Torque of all wheels over their shearing radii [N], over the samples that move: power over the rims' speed.
+    /// Torque of all wheels over their shearing radii [N], over the samples that move: power over
+    /// the rims' speed.
     pub thrust: Option<Band>,
 }
 
@@ -129,8 +132,8 @@ pub(super) fn slip_of(motion: Option<&SteadyMotion>) -> f64 {
     motion.map_or(STUCK, SteadyMotion::slip_ratio)
 }
 
-/// The steepest heading at which the slip is within its limit in one soil [rad]: it grows as the nose turns uphill. `None`
-/// where it is not with the nose on the contour.
+/// The steepest heading at which the slip is within its limit in one soil [rad]: it grows as the
+/// nose turns uphill. `None` where it is not with the nose on the contour.
 fn steepest_within(study: &HeadingStudy, slope: f64, limits: &Limits) -> Option<f64> {
     /// To a third of a degree.
     const ROUNDS: usize = 8;

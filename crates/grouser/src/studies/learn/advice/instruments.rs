@@ -23,7 +23,8 @@ pub struct Instruments {
 }
 
 impl Instruments {
-    /// Odometry that scatters by 5 % of the rims' speed and torques by a tenth, on the mean of seven readings; no sinkage.
+    /// Odometry that scatters by 5 % of the rims' speed and torques by a tenth, on the mean of
+    /// seven readings; no sinkage.
     #[must_use]
     pub fn usual() -> Self {
         let readings = (stretch::LEAST_READINGS as f64).sqrt();
@@ -66,7 +67,8 @@ fn reach(rover: &Rover) -> f64 {
 }
 
 impl Instruments {
-    /// A stretch of a leg as they would read it; torques and sinkages of what a soil expects have no values yet.
+    /// A stretch of a leg as they would read it; torques and sinkages of what a soil expects have
+    /// no values yet.
     pub(super) fn stretch(
         &self,
         leg: &TestLeg,
@@ -74,7 +76,8 @@ impl Instruments {
         [forward, leftward, turning]: [f64; 3],
         rover: &Rover,
     ) -> Stretch {
-        /// A wheel's torque over its share of the weight times its radius, by which its deviation is taken [-].
+        /// A wheel's torque over its share of the weight times its radius, by which its deviation
+        /// is taken [-].
         const TORQUE: f64 = 0.3;
         const SINKAGE: f64 = 0.01;
         let wheels = rover.wheel_count();

@@ -1,16 +1,17 @@
 //! How often to stop and look at the slip, and at which slip to go no further.
 //!
-//! Between two looks the rover drives blind over a way of its rims. A look compares the ground that odometry saw since the
-//! last one with the rims' way,
+//! Between two looks the rover drives blind over a way of its rims. A look compares the ground that
+//! odometry saw since the last one with the rims' way,
 //!
 //! ```text
 //! ŝ = 1 − (1 − s_m)(1 + q z)        z standard normal
 //! ```
 //!
-//! with the mean slip s_m over the interval and odometry's relative error q, and ends the drive where ŝ is above the limit.
-//! The rover gets stuck where there is no steady motion, or its wheels slip by more than
-//! [`MOST_SLIP`](crate::simulation::MOST_SLIP), before a look has ended the drive. The soil along each of many ways is a
-//! [`SoilWay`]; all intervals and limits are judged on the same ways.
+//! with the mean slip s_m over the interval and odometry's relative error q, and ends the drive
+//! where ŝ is above the limit. The rover gets stuck where there is no steady motion, or its wheels
+//! slip by more than [`MOST_SLIP`](crate::simulation::MOST_SLIP), before a look has ended the
+//! drive. The soil along each of many ways is a [`SoilWay`]; all intervals and limits are judged on
+//! the same ways.
 
 use super::super::bank::Bank;
 use super::super::settings::LearnSettings;
@@ -34,7 +35,8 @@ pub struct CheckSettings {
     pub odometry_error: f64,
     /// The soil ahead.
     pub soil: SoilAhead,
-    /// Ways that are simulated. Without a stuck rover among 1000 the probability is known to be below 0.4 %.
+    /// Ways that are simulated. Without a stuck rover among 1000 the probability is known to be
+    /// below 0.4 %.
     pub ways: u32,
 }
 
@@ -52,8 +54,8 @@ impl CheckSettings {
 /// The way of the rims that is looked ahead [m]: that over which cards have their drift.
 pub const WAY_AHEAD: f64 = 10.0;
 
-/// Ways of the rims between two looks that are tried [m], in steps of [`STEP`]. Source: as cards', the longest by the
-/// practice of Opportunity's drivers.
+/// Ways of the rims between two looks that are tried [m], in steps of [`STEP`]. Source: as cards',
+/// the longest by the practice of Opportunity's drivers.
 const INTERVALS: [(f64, usize); 4] = [(5.0, 10), (2.0, 4), (1.0, 2), (0.5, 1)];
 /// Way of the rims between two places whose slip is computed [m].
 const STEP: f64 = 0.5;
@@ -71,7 +73,8 @@ const PRACTICE: (usize, f64) = (10, 0.4);
 pub struct CheckAdvice {
     /// Slope, *α* [rad].
     pub slope: f64,
-    /// The check that is advised; `None` where none of those that are tried is known to be safe enough.
+    /// The check that is advised; `None` where none of those that are tried is known to be safe
+    /// enough.
     pub check: Option<Check>,
     /// Ways on which a rover gets stuck that nobody looks after.
     pub unchecked: Probability,
@@ -90,7 +93,8 @@ pub struct Check {
     pub limit: f64,
     /// Ways on which the rover gets stuck all the same.
     pub stuck: Probability,
-    /// Ways that a look ends, of those on which the rover would not have got stuck; `None` where there are none.
+    /// Ways that a look ends, of those on which the rover would not have got stuck; `None` where
+    /// there are none.
     pub false_stops: Option<Probability>,
 }
 
@@ -110,7 +114,8 @@ struct SlipWay {
 
 impl CheckAdvice {
     /// * `course`: slope and yaw [rad]
-    /// * `seed`: of the soils at the start, as [`Learner::samples`](super::super::Learner::samples) has it
+    /// * `seed`: of the soils at the start, as [`Learner::samples`](super::super::Learner::samples)
+    ///   has it
     /// * `go_on`: asked before each way; `None` if it was false
     ///
     /// # Errors
@@ -154,8 +159,8 @@ impl CheckAdvice {
     }
 }
 
-/// The lowest limit that ends no more ways than it may: among these fewest get stuck with it. `None` where each ends too
-/// many.
+/// The lowest limit that ends no more ways than it may: among these fewest get stuck with it.
+/// `None` where each ends too many.
 fn best_limit(ways: &[SlipWay], interval: (f64, usize), settings: &CheckSettings) -> Option<Check> {
     let limits = LIMITS.map(|step| f64::from(step) / LIMIT_STEPS);
     limits
@@ -184,7 +189,8 @@ impl Check {
     }
 }
 
-/// Whether slip between two places some steps apart needs no closer look: it is far from where it runs away.
+/// Whether slip between two places some steps apart needs no closer look: it is far from where it
+/// runs away.
 fn is_calm(first: f64, last: f64) -> bool {
     const LIGHT: f64 = 0.4;
     const CHANGE: f64 = 0.1;
@@ -192,7 +198,8 @@ fn is_calm(first: f64, last: f64) -> bool {
 }
 
 impl SlipWay {
-    /// Drives a way on a course. Where the slip is light and hardly changes over a few places, it is a line between them.
+    /// Drives a way on a course. Where the slip is light and hardly changes over a few places, it
+    /// is a line between them.
     fn driven(
         study: &HeadingStudy,
         soil: &mut SoilWay<'_>,
@@ -268,7 +275,8 @@ mod tests {
         assert!(INTERVALS.iter().all(|(way, steps)| (*steps as f64 * STEP - way).abs() < 1e-12));
     }
 
-    /// A look stops a rover whose slip rises in time, a later one does not; a slip that comes at once no look catches.
+    /// A look stops a rover whose slip rises in time, a later one does not; a slip that comes at
+    /// once no look catches.
     #[test]
     fn a_look_in_time_stops_the_rover() {
         let rising = way(&[0.1, 0.2, 0.5, 0.8, 1.0]);
@@ -285,8 +293,8 @@ mod tests {
         assert_eq!(short.end(1, 0.4, 0.02), End::Stopped);
     }
 
-    /// Ways on which nobody gets stuck are looked at as rarely as may be, at the lowest limit that ends none of them; where
-    /// none may get stuck at all no look is safe enough.
+    /// Ways on which nobody gets stuck are looked at as rarely as may be, at the lowest limit that
+    /// ends none of them; where none may get stuck at all no look is safe enough.
     #[test]
     fn ways_without_a_stuck_rover_need_few_looks() {
         let ways: Vec<SlipWay> = (0..1000).map(|_| way(&[0.22; STEPS])).collect();

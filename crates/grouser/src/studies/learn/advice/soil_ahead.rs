@@ -1,4 +1,5 @@
-//! The soil on the way ahead: it begins as one of those that are believed possible, wanders, and at times is another.
+//! The soil on the way ahead: it begins as one of those that are believed possible, wanders, and at
+//! times is another.
 
 use rand_chacha::ChaCha8Rng;
 
@@ -14,8 +15,9 @@ use grouser_io::statistics::NothingAccepted;
 /// How the soil differs along the way ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoilAhead {
-    /// The way on which it is another once on the mean [m], drawn from what was believed before the drive; `None` where
-    /// it never is at once. Between two changes it wanders as [`Wandering`](super::super::Wandering) says.
+    /// The way on which it is another once on the mean [m], drawn from what was believed before the
+    /// drive; `None` where it never is at once. Between two changes it wanders as
+    /// [`Wandering`](super::super::Wandering) says.
     pub change_way: Option<f64>,
 }
 
@@ -40,8 +42,8 @@ pub(super) struct SoilWay<'a> {
     changes: u64,
 }
 
-/// Seeds of what happens ahead differ by this from those of the soil at the start, and of one change from those of the
-/// next.
+/// Seeds of what happens ahead differ by this from those of the soil at the start, and of one
+/// change from those of the next.
 const AHEAD: u64 = 0x5011_A4EA_D000_0000;
 
 impl<'a> SoilWay<'a> {

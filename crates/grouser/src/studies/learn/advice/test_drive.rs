@@ -1,21 +1,23 @@
 //! The test drives that tell most of tomorrow's slopes for what they cost.
 //!
-//! A leg on a slope at a yaw would be taken in by the filter as stretches of a decimetre. In a filter of normal unknowns
-//! how much a stretch narrows the belief does not depend on what is read, so that it is known beforehand:
+//! A leg on a slope at a yaw would be taken in by the filter as stretches of a decimetre. In a
+//! filter of normal unknowns how much a stretch narrows the belief does not depend on what is read,
+//! so that it is known beforehand:
 //!
 //! ```text
 //! P' = P − P Jᵀ (J P Jᵀ + R)⁻¹ J P
 //! ```
 //!
-//! with the line (J, R) that the filter itself fits over the width of what is believed, first before and then after
-//! a stretch. Tomorrow's headings and slips are lines of the same unknowns, h ≈ H x, and what a leg tells of them is
+//! with the line (J, R) that the filter itself fits over the width of what is believed, first
+//! before and then after a stretch. Tomorrow's headings and slips are lines of the same unknowns, h
+//! ≈ H x, and what a leg tells of them is
 //!
 //! ```text
 //! I = ½ ln det(H P Hᵀ + D) − ½ ln det(H P' Hᵀ + D)
 //! ```
 //!
-//! with what nobody needs to know better, *D*. Legs are chosen one after the other, each as that with the most
-//! information for its cost after those before it.
+//! with what nobody needs to know better, *D*. Legs are chosen one after the other, each as that
+//! with the most information for its cost after those before it.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -76,12 +78,13 @@ pub struct TestSettings {
     pub instruments: Instruments,
 }
 
-/// Yaws at which legs are tried [rad]: along the contour, crabwise up, straight up, crabwise down, straight down.
+/// Yaws at which legs are tried [rad]: along the contour, crabwise up, straight up, crabwise down,
+/// straight down.
 const YAWS: [f64; 5] = [0.0, FRAC_PI_4, FRAC_PI_2, -FRAC_PI_4, -FRAC_PI_2];
 
 impl TestSettings {
-    /// Legs of one length [m] on some slopes [rad]: along the contour, at 45° and straight up and down; on level ground,
-    /// where all yaws are alike, along it alone.
+    /// Legs of one length [m] on some slopes [rad]: along the contour, at 45° and straight up and
+    /// down; on level ground, where all yaws are alike, along it alone.
     #[must_use]
     pub fn on_slopes(slopes: &[f64], way: f64) -> Self {
         let each = slopes.iter().flat_map(|slope| {
@@ -127,7 +130,8 @@ pub struct TestDrive {
     pub information: f64,
     /// The same for its cost [nat/J] or [nat/m].
     pub per_cost: f64,
-    /// Standard deviations of the soil's uncertain numbers after it over those before any [-], by their keys.
+    /// Standard deviations of the soil's uncertain numbers after it over those before any [-], by
+    /// their keys.
     pub left: Vec<(String, f64)>,
 }
 
@@ -135,12 +139,13 @@ pub struct TestDrive {
 const MOST_STRETCHES: usize = 1000;
 /// Legs that tell less than this are not worth driving [nat]: a band that narrows by 2 %.
 const LEAST_INFORMATION: f64 = 0.02;
-/// Nobody needs to know a heading better than this [rad], half a degree, nor a slip [-]. Source: ours.
+/// Nobody needs to know a heading better than this [rad], half a degree, nor a slip [-]. Source:
+/// ours.
 const HEADING_NEEDED: f64 = 0.5 * std::f64::consts::PI / 180.0;
 const SLIP_NEEDED: f64 = 0.02;
 
-/// Work of the wheels that pull over a leg, and that by which height is won back that was lost on it [J]: motors that brake
-/// give nothing back, and a leg downhill is not for nothing.
+/// Work of the wheels that pull over a leg, and that by which height is won back that was lost on
+/// it [J]: motors that brake give nothing back, and a leg downhill is not for nothing.
 fn work(study: &HeadingStudy, motion: &SteadyMotion, leg: &TestLeg, rim_speed: f64) -> f64 {
     let each = motion.wheels.iter().zip(study.rover.mounts());
     let thrust = |(wheel, mount): (&WheelReaction, &Mount)| {
@@ -282,7 +287,8 @@ impl Planner<'_> {
         own.map(|(key, (before, after))| (key.to_owned(), after / before)).collect()
     }
 
-    /// What is expected to be believed after a leg. The mean stays: nothing is known of where it will go.
+    /// What is expected to be believed after a leg. The mean stays: nothing is known of where it
+    /// will go.
     fn after(&self, candidate: &Candidate, belief: &Gaussian) -> Option<Gaussian> {
         let noise = &self.settings.noise;
         let line = |over: &Gaussian| {
@@ -356,7 +362,8 @@ impl Planner<'_> {
         })
     }
 
-    /// A leg, if its slip keeps the limit and the rover moves on it with the soil that is believed most.
+    /// A leg, if its slip keeps the limit and the rover moves on it with the soil that is believed
+    /// most.
     fn candidate(&self, leg: &TestLeg, slips: &[f64]) -> Option<Candidate> {
         let kept = slips.iter().filter(|slip| **slip <= self.limits.slip_ratio).count();
         let within = Probability { successes: kept, trials: slips.len() };
