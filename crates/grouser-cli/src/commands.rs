@@ -11,7 +11,6 @@ mod destinations;
 pub(crate) mod draw;
 pub(crate) mod forecast;
 pub(crate) mod heading;
-mod heading_band;
 pub(crate) mod heading_map;
 pub(crate) mod import;
 pub(crate) mod import_telemetry;

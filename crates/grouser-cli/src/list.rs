@@ -25,6 +25,13 @@ pub(crate) fn parse(text: &str) -> Result<Numbers, String> {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Numbers(pub(crate) Vec<f64>);
 
+impl Numbers {
+    /// The numbers as a flag takes them again: `5,10,15`.
+    pub(crate) fn joined(&self) -> String {
+        self.0.iter().map(ToString::to_string).collect::<Vec<_>>().join(",")
+    }
+}
+
 /// Longer lists are slips of the pen.
 pub(crate) const MOST: usize = 1_000_000;
 

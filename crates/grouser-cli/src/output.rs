@@ -1,6 +1,8 @@
 //! Output: results to the standard output, messages to the standard error, files to a folder.
 
 pub(crate) mod activity;
+pub(crate) mod answer;
+mod crossed;
 pub(crate) mod file;
 pub(crate) mod folder;
 pub(crate) mod json;

@@ -152,6 +152,22 @@ impl Document {
         Model::ALL.into_iter().find(|model| model.name() == name)
     }
 
+    /// A line that says which model a single answer has, where nobody names one and it is not the
+    /// usual one; empty elsewhere.
+    ///
+    /// * `soil`: the key of the soil, or nothing if the document is one
+    #[must_use]
+    pub fn usual_model_line(&self, soil: &str) -> String {
+        let of_soil = if soil.is_empty() { None } else { self.model_of_soil() };
+        let is_named = self.model().or(of_soil).is_some();
+        if is_named || !self.leaves_sinkage_ratio_to_priors(soil) {
+            return String::new();
+        }
+        let model = self.usual_model(soil);
+        let model = model.name();
+        format!("model: {model}, as the soil leaves its wheel sinkage ratio to priors\n")
+    }
+
     /// The document as TOML.
     #[must_use]
     pub fn to_toml(&self) -> String {

@@ -9,8 +9,10 @@
 //! assert_eq!(chart.series[0].points.len(), 3);
 //! ```
 
+mod over;
 mod series;
 
+pub use self::over::{axis, by_part, by_unit};
 pub use self::series::{BAND_COLOUR, Series, Style};
 
 /// A figure of any kind.

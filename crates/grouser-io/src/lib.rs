@@ -32,6 +32,7 @@
 //! # Ok::<(), grouser_io::DocumentError>(())
 //! ```
 
+pub mod answer;
 mod base;
 pub mod campaign;
 mod cell;
@@ -61,6 +62,7 @@ mod presets;
 mod priors;
 mod raster_file;
 mod read;
+pub mod reading;
 mod rows;
 mod samples;
 mod schema;

@@ -4,7 +4,7 @@
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 
 pub use super::cell::{BETWEEN_NAMES, Cell, ColumnKind, Values};
-use super::columns::Column;
+use super::columns::{Column, Quantity};
 
 /// Rows by their columns. As JSON it is a list of rows, an object each.
 ///
@@ -89,6 +89,16 @@ impl Table {
             Values::Whole(values) => *values.first()?,
             _ => None,
         }
+    }
+
+    /// The ends of a band over a quantity, (x, low, high), where all three are there.
+    ///
+    /// * `band`: the names of the columns of a band or of a probability: of its low end, its middle
+    ///   and its high end
+    #[must_use]
+    pub fn edges(&self, over: Quantity, [low, _, high]: [String; 3]) -> Vec<(f64, f64, f64)> {
+        let ends = self.points(over.name, &low).zip(self.points(over.name, &high));
+        ends.map(|((x, low), (_, high))| (x, low, high)).collect()
     }
 
     /// Some columns of some rows, by names and places.
@@ -211,13 +221,18 @@ pub struct Row<'t> {
     row: usize,
 }
 
+impl Row<'_> {
+    /// Writes its values as entries of an object of JSON.
+    pub(crate) fn write<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
+        let columns = &self.table.columns;
+        columns.iter().try_for_each(|(name, values)| values.write(map, name, self.row))
+    }
+}
+
 impl Serialize for Row<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let columns = &self.table.columns;
-        let mut map = serializer.serialize_map(Some(columns.len()))?;
-        for (name, values) in columns {
-            values.write(&mut map, name, self.row)?;
-        }
+        let mut map = serializer.serialize_map(Some(self.table.columns.len()))?;
+        self.write(&mut map)?;
         map.end()
     }
 }

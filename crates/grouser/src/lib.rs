@@ -58,5 +58,6 @@ pub use grouser_core::{
 };
 use grouser_core::{elementary, newton, root};
 
+pub mod answers;
 pub mod document;
 pub mod studies;

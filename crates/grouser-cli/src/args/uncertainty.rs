@@ -1,6 +1,7 @@
 //! Arguments of everything that gives bands.
 
 use clap::Args;
+use grouser::answers::Sampling;
 
 /// Samples of soil and model.
 #[derive(Clone, Copy, Debug, Args)]
@@ -24,6 +25,20 @@ pub(crate) struct UncertaintyArgs {
     #[arg(long, value_name = "S", default_value_t = 1, requires = DRAWN)]
     #[arg(allow_negative_numbers = true)]
     pub(crate) seed: u64,
+}
+
+impl SamplingArgs {
+    /// The samples that are asked for, if any are.
+    pub(crate) fn with_seed(self, seed: u64) -> Option<Sampling> {
+        self.uncertainty.then_some(Sampling { count: self.samples, seed })
+    }
+}
+
+impl UncertaintyArgs {
+    /// The samples that are asked for, if any are.
+    pub(crate) fn sampling(self) -> Option<Sampling> {
+        self.sampling.with_seed(self.seed)
+    }
 }
 
 /// The arguments that need a seed.

@@ -5,6 +5,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use grouser::contact::InstructionSet;
+use grouser::document::reading::four_digits;
 use grouser_bench::{Accuracy, Fixtures, OPERATIONS_OF_A_FORCE, Unit};
 use serde_json::{Map, Value, json};
 
@@ -13,7 +14,7 @@ use crate::args::BenchArgs;
 use crate::failure::Failure;
 use crate::output;
 use crate::output::Format;
-use crate::output::rows::{Rows, aligned, four_digits};
+use crate::output::rows::{Rows, aligned};
 
 /// The time of a unit of work, and its accuracy.
 struct Row {

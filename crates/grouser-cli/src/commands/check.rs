@@ -3,12 +3,12 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use grouser::document::reading::four_digits;
 use grouser::document::{self, Assumed, Checked, Source, escape};
 
 use crate::args::CheckArgs;
 use crate::failure::Failure;
 use crate::output;
-use crate::output::rows::four_digits;
 
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     if args.flags {

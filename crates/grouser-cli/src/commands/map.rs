@@ -7,6 +7,7 @@ mod page;
 
 use grouser::document::columns::LIMIT_SLOPE;
 use grouser::document::columns::map::{bands, chosen};
+use grouser::document::reading::rounded_down;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::mobility::{CourseChoice, Ground, MobilityMap};
 use grouser_map::{BandSummary, Look, MapColumn, style, summaries, write_band};
@@ -20,7 +21,7 @@ use super::{Answer, sampling};
 use crate::args::MapArgs;
 use crate::failure::Failure;
 use crate::inputs::{self, MapInputs};
-use crate::output::rows::{Rows, rounded_down};
+use crate::output::rows::Rows;
 use crate::output::{self, Format};
 
 /// A file of the map.

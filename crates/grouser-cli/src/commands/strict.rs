@@ -1,12 +1,12 @@
 //! Flags as errors, where `--strict` asks for it.
 
 use grouser::contact::validity::Finding;
+use grouser::document::reading::row_in_words;
 use grouser::document::table::Table;
 use grouser::document::validity::OutsideDomain;
 
 use crate::args::StrictArgs;
 use crate::failure::Failure;
-use crate::output::rows::Rows;
 
 /// Checks, if that is asked for, that no row carries a flag.
 ///
@@ -23,8 +23,8 @@ pub(crate) fn check<'f>(
         return Ok(());
     }
     let named = |place: usize| {
-        let row = Rows::of_table(&table.select(settings, &[place]));
-        format!("row {} ({})", place + 1, row.first_in_words())
+        let row = table.select(settings, &[place]);
+        format!("row {} ({})", place + 1, row_in_words(&row.row(0)))
     };
     Ok(OutsideDomain::check(rows, named)?)
 }

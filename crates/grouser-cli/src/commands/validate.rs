@@ -12,6 +12,7 @@ use std::path::Path;
 use grouser::document::columns::SLIP_ANGLE;
 use grouser::document::columns::fit::{self, column_of};
 use grouser::document::measurements::{self, Choice, Measurements};
+use grouser::document::reading::four_digits;
 use grouser::document::table::Table;
 use grouser::document::validation::{ErrorsRecord, GroupRecord, ReferenceRecord};
 use grouser::studies::measurement::Quantity;
@@ -24,7 +25,7 @@ use crate::args::{StrictArgs, ValidateArgs};
 use crate::failure::Failure;
 use crate::inputs::{self, StandInputs};
 use crate::output::folder::OutputFolder;
-use crate::output::rows::{Rows, aligned, four_digits};
+use crate::output::rows::{Rows, aligned};
 use crate::output::text::Text;
 use crate::output::{self, Format};
 

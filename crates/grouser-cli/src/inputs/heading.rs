@@ -1,47 +1,70 @@
 //! The inputs of headings: on slopes of one scenario, and over slope, course and soil.
 
-use grouser::document::{self, LoadedScenario};
+use grouser::answers::heading::HeadingQuestion;
+use grouser::answers::heading_map::HeadingMapQuestion;
+use grouser::document;
 
-use super::{balanced, check_numbers, check_samples, check_slopes};
+use super::{balanced, check_numbers, check_samples, check_slopes, refuse_sampled_keys, single};
 use crate::args::{HeadingArgs, HeadingMapArgs, SettingArgs};
 use crate::failure::Failure;
 
-/// The scenario whose rover, soil and load transfer `heading` takes; its slope is not used.
-///
-/// * `setting`: those of the arguments, with one model
-pub(crate) fn heading(
-    args: &HeadingArgs,
-    setting: &SettingArgs,
-) -> Result<LoadedScenario, Failure> {
+/// The question of `heading`: for each model that is asked for the scenario whose rover, soil and
+/// load transfer count; its slope is not used.
+pub(crate) fn heading(args: &HeadingArgs) -> Result<HeadingQuestion, Failure> {
     check_slopes(&args.slope_deg)?;
-    let scenario = args.scenario.as_deref();
+    let (name, sampling) = (args.scenario.as_deref(), args.uncertainty.sampling());
     let (rover, soil) = (args.parts.rover.as_ref(), args.parts.soil.as_ref());
-    balanced("heading", scenario, rover, soil, setting, &args.balance)
+    let read = |setting: &SettingArgs| {
+        let scenario = balanced("heading", name, rover, soil, setting, &args.balance)?;
+        if sampling.is_some() {
+            refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
+        }
+        Ok(scenario)
+    };
+    let settings = args.setting.each_model();
+    let scenarios = settings.iter().map(read).collect::<Result<Vec<_>, Failure>>()?;
+    if let Some(sampling) = sampling {
+        check_samples(sampling.count, args.slope_deg.0.len())?;
+    }
+    Ok(HeadingQuestion {
+        scenarios,
+        slopes_deg: args.slope_deg.0.clone(),
+        steering: args.steering.into(),
+        most_speed_ratio: args.wheel_speeds.then_some(args.most_speed_ratio),
+        sampling,
+    })
 }
 
-/// The scenarios of a heading map, one for each model that is asked for and soil: all soils of the
-/// first model, then those of the next.
-pub(crate) fn heading_map(args: &HeadingMapArgs) -> Result<Vec<LoadedScenario>, Failure> {
+/// The question of a heading map. Its scenarios are one for each model that is asked for and soil:
+/// all soils of the first model, then those of the next.
+pub(crate) fn heading_map(args: &HeadingMapArgs) -> Result<HeadingMapQuestion, Failure> {
     use document::study;
     check_slopes(&args.slope_deg)?;
     check_numbers("--course-deg", &args.course_deg, &study::COURSE_DEG)?;
-    let [_] = args.rim_speed_m_s.0[..] else {
-        return Err(Failure::Usage("--rim-speed-m-s: expected a single value".into()));
-    };
-    check_numbers("--rim-speed-m-s", &args.rim_speed_m_s, &study::MAP_SPEED_M_S)?;
+    let rim_speed = single("--rim-speed-m-s", &args.rim_speed_m_s, &study::MAP_SPEED_M_S)?;
     let soils: Vec<Option<&String>> =
         if args.soil.is_empty() { vec![None] } else { args.soil.iter().map(Some).collect() };
     let settings = args.setting.each_model();
     let rows = settings.len() * soils.len() * args.slope_deg.0.len() * args.course_deg.0.len();
-    let sampling = args.uncertainty.sampling;
-    check_samples(if sampling.uncertainty { sampling.samples } else { 1 }, rows)?;
-    let (scenario, rover) = (args.scenario.as_deref(), args.rover.as_ref());
-    let of_setting = |setting: &SettingArgs| {
-        let read = |soil: Option<&String>| {
-            balanced("heading-map", scenario, rover, soil, setting, &args.balance)
-        };
-        soils.iter().copied().map(read).collect::<Result<Vec<_>, _>>()
+    let sampling = args.uncertainty.sampling();
+    check_samples(sampling.map_or(1, |it| it.count), rows)?;
+    let (name, rover) = (args.scenario.as_deref(), args.rover.as_ref());
+    let read = |setting: &SettingArgs, soil: Option<&String>| {
+        let scenario = balanced("heading-map", name, rover, soil, setting, &args.balance)?;
+        if sampling.is_some() {
+            refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
+        }
+        Ok(scenario)
     };
-    let all = settings.iter().map(of_setting).collect::<Result<Vec<_>, _>>()?;
-    Ok(all.into_iter().flatten().collect())
+    let pairs = settings.iter().flat_map(|setting| soils.iter().map(move |soil| (setting, *soil)));
+    let scenarios =
+        pairs.map(|(setting, soil)| read(setting, soil)).collect::<Result<Vec<_>, Failure>>()?;
+    Ok(HeadingMapQuestion {
+        scenarios,
+        has_every_model: args.setting.has_every_model(),
+        slopes_deg: args.slope_deg.0.clone(),
+        courses_deg: args.course_deg.0.clone(),
+        rim_speed,
+        sampling,
+    })
 }

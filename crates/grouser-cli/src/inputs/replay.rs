@@ -1,16 +1,15 @@
 //! The inputs of replaying a drive.
 
-use grouser::document::{self, LoadedScenario};
-use grouser::studies::ensemble::samples::{BandInputs, Sample};
+use grouser::answers::replay::ReplayQuestion;
+use grouser::document;
 
 use super::{balanced_overrides, refuse_sampled_keys, scenario_source};
 use crate::args::ReplayArgs;
-use crate::commands::sampling;
 use crate::failure::Failure;
 
-/// The scenario that is predicted with, whose slope is that of the flag, and samples of soil and
-/// model, where they are asked for.
-pub(crate) fn replay(args: &ReplayArgs) -> Result<(LoadedScenario, Vec<Sample>), Failure> {
+/// The scenario that is predicted with, whose slope is that of the flag, and how many samples of
+/// soil and model.
+pub(crate) fn replay(args: &ReplayArgs) -> Result<ReplayQuestion, Failure> {
     let (parts, setting) = (&args.parts, &args.setting);
     let (rover, soil) = (parts.rover.as_ref(), parts.soil.as_ref());
     let mut overrides = balanced_overrides("replay", rover, soil, setting, &args.balance)?;
@@ -19,12 +18,10 @@ pub(crate) fn replay(args: &ReplayArgs) -> Result<(LoadedScenario, Vec<Sample>),
     }
     let source = scenario_source("--scenario", args.scenario.as_deref())?;
     let scenario = document::read_scenario(&source, &overrides)?;
-    if !args.uncertainty.sampling.uncertainty {
-        return Ok((scenario, Vec::new()));
+    let sampling = args.uncertainty.sampling();
+    if sampling.is_some() {
+        refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
     }
-    refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
-    let inputs = BandInputs::of_scenario(&scenario);
-    let samples =
-        sampling::draw(&inputs, args.uncertainty.sampling.samples, args.uncertainty.seed)?;
-    Ok((scenario, samples))
+    let (log, has_slope) = (args.log.display().to_string(), args.slope_deg.is_some());
+    Ok(ReplayQuestion { log, scenario, has_slope, sampling })
 }

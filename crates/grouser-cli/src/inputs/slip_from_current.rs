@@ -2,11 +2,11 @@
 
 use std::ops::RangeInclusive;
 
+use grouser::answers::slip_from_current::SlipQuestion;
 use grouser::document::measurements::motor_log::{LogChoice, MotorLog, read_motor_log};
 use grouser::document::measurements::read_bytes;
 use grouser::document::unit::{DEG, DIRECTION_DEG, less_whole_turns};
-use grouser::document::{self, LoadedScenario, escape};
-use grouser::studies::ensemble::samples::BandInputs;
+use grouser::document::{self, escape};
 use grouser::studies::slip_from_current::{NoEstimator, SlipEstimator, SlipSettings, TorqueNoise};
 
 use super::{balanced_overrides, check_numbers, refuse_sampled_keys, scenario_source, single};
@@ -17,9 +17,7 @@ use crate::list::Numbers;
 
 /// The inputs of slip from currents.
 pub(crate) struct SlipInputs {
-    pub(crate) scenario: LoadedScenario,
-    pub(crate) band: BandInputs,
-    pub(crate) settings: SlipSettings,
+    pub(crate) question: SlipQuestion,
     pub(crate) estimator: SlipEstimator,
     pub(crate) log: MotorLog,
     /// The log as it was read.
@@ -43,12 +41,13 @@ pub(crate) fn slip_from_current(args: &SlipFromCurrentArgs) -> Result<SlipInputs
     let source = scenario_source("--scenario", args.scenario.as_deref())?;
     let scenario = document::read_scenario(&source, &overrides)?;
     let settings = settings(args)?;
-    let band = BandInputs::of_scenario(&scenario);
-    let samples = if args.uncertainty.sampling.uncertainty {
-        refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
-        sampling::draw(&band, args.uncertainty.sampling.samples, args.uncertainty.seed)?
-    } else {
-        Vec::new()
+    let sampling = args.uncertainty.sampling();
+    let samples = match sampling {
+        Some(it) => {
+            refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
+            sampling::draw_of(&scenario, it)?
+        }
+        None => Vec::new(),
     };
     let estimator = SlipEstimator::new(&scenario.value, samples, settings);
     let estimator = estimator.map_err(|error| match error {
@@ -65,7 +64,17 @@ pub(crate) fn slip_from_current(args: &SlipFromCurrentArgs) -> Result<SlipInputs
     let bytes = read_bytes(&args.log, choice.limits)?;
     let label = escape::path(&args.log);
     let log = read_motor_log(&label, &bytes, &choice, &scenario.value.rover)?;
-    Ok(SlipInputs { scenario, band, settings, estimator, log, bytes })
+    let one = |numbers: &Option<Numbers>| numbers.as_ref().map(|it| it.0[0]);
+    let question = SlipQuestion {
+        log: args.log.display().to_string(),
+        ignored: args.ignore.clone(),
+        scenario,
+        yaw_deg: one(&args.yaw_deg),
+        course_deg: one(&args.course_deg),
+        settings,
+        sampling,
+    };
+    Ok(SlipInputs { question, estimator, log, bytes })
 }
 
 fn settings(args: &SlipFromCurrentArgs) -> Result<SlipSettings, Failure> {

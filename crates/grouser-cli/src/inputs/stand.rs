@@ -1,5 +1,6 @@
 //! The inputs of test stands: wheel, soil, gravity and model.
 
+use grouser::answers::wheel_test::{SimulatedStand, WheelTestQuestion};
 use grouser::contact::Model;
 use grouser::document::{self, Kind, Overrides, Source};
 use grouser::simulation::Scenario;
@@ -22,30 +23,48 @@ pub(crate) struct StandInputs {
     pub(crate) band: BandInputs,
 }
 
-/// The stand with each model that is asked for.
-pub(crate) fn wheel_test(args: &WheelTestArgs) -> Result<Vec<StandInputs>, Failure> {
+/// The question of a wheel test.
+pub(crate) fn wheel_test(args: &WheelTestArgs) -> Result<WheelTestQuestion, Failure> {
     use document::study;
     check_numbers("--load-n", &args.load_n, &study::LOAD_N)?;
     check_numbers("--slip-ratio", &args.slip_ratio, &study::SLIP_RATIO)?;
     check_numbers("--slip-angle-deg", &args.slip_angle_deg, &study::SLIP_ANGLE_DEG)?;
-    check_count(&[&args.load_n, &args.slip_ratio, &args.slip_angle_deg])?;
+    let lists = [&args.load_n, &args.slip_ratio, &args.slip_angle_deg];
+    check_count(&lists)?;
     if let Some(trials) = args.stand.trials {
         check_stand(&args.stand, trials)?;
     }
     let settings = args.setting.each_model();
-    if args.sampling.uncertainty {
-        let lists = [&args.load_n, &args.slip_ratio, &args.slip_angle_deg];
+    let sampling = args.sampling.with_seed(args.stand.seed);
+    if let Some(sampling) = sampling {
         let rows: usize = lists.iter().map(|list| list.0.len()).product();
-        check_samples(args.sampling.samples, settings.len() * rows)?;
+        check_samples(sampling.count, settings.len() * rows)?;
     }
-    let each = |setting: &SettingArgs| {
+    let read = |setting: &SettingArgs| {
         let stand = stand(&args.soil, &args.wheel, setting)?;
-        if args.sampling.uncertainty {
+        if sampling.is_some() {
             refuse_sampled_keys(setting, stand.soil.uncertain.as_ref())?;
         }
         Ok(stand)
     };
-    settings.iter().map(each).collect()
+    let stands = settings.iter().map(read).collect::<Result<Vec<_>, Failure>>()?;
+    let models = stands.iter().map(|stand| (stand.model.clone(), stand.band.clone())).collect();
+    // Stands differ by their models alone.
+    let StandInputs { soil, wheel, gravity, .. } = stand(&args.soil, &args.wheel, &settings[0])?;
+    let StandArgs { noise_n, noise_mm, noise_nm, seed, .. } = args.stand;
+    let simulated = |trials| SimulatedStand { trials, noise_n, noise_mm, noise_nm, seed };
+    Ok(WheelTestQuestion {
+        soil,
+        wheel,
+        gravity,
+        models,
+        is_model_named: args.setting.model.is_some(),
+        loads: args.load_n.0.clone(),
+        slip_angles_deg: args.slip_angle_deg.0.clone(),
+        slip_ratios: args.slip_ratio.0.clone(),
+        stand: args.stand.trials.map(simulated),
+        sampling,
+    })
 }
 
 /// A soil and gravity [m/s²].

@@ -6,7 +6,8 @@ use grouser::contact::validity::Flag;
 use grouser::document::columns::flags::FLAGS;
 use grouser::document::columns::{STATUS, X, Y, Z};
 use grouser::document::escape;
-use grouser::document::table::{BETWEEN_NAMES, Table};
+use grouser::document::reading::{joined, metres, short};
+use grouser::document::table::Table;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -95,14 +96,6 @@ impl Rows {
         self.raised().iter().map(pair).collect()
     }
 
-    /// The first row as `load_n 17, slip_ratio 0.2`.
-    pub(crate) fn first_in_words(&self) -> String {
-        let cells = self.0.first().into_iter().flatten();
-        let cells: Vec<String> =
-            cells.map(|(key, value)| format!("{key} {}", short(value))).collect();
-        cells.join(", ")
-    }
-
     /// The flags that any row has, in the order of the list.
     fn raised(&self) -> Vec<Flag> {
         let is_raised = |flag: &Flag| {
@@ -165,12 +158,6 @@ fn flatten(prefix: &str, map: Map<String, Value>, into: &mut Map<String, Value>)
     }
 }
 
-/// Names of a list as one text.
-fn joined(names: &[Value]) -> String {
-    let names: Vec<&str> = names.iter().filter_map(Value::as_str).collect();
-    names.join(BETWEEN_NAMES)
-}
-
 /// A value with every digit; a text so that no spreadsheet computes it.
 fn exact(value: &Value) -> String {
     match value {
@@ -181,60 +168,8 @@ fn exact(value: &Value) -> String {
     }
 }
 
-/// A value for reading: a number with four significant digits, null as a dash.
-pub(crate) fn short(value: &Value) -> String {
-    match value {
-        Value::Null => "-".into(),
-        Value::String(text) => text.clone(),
-        Value::Array(names) if names.is_empty() => "-".into(),
-        Value::Array(names) => joined(names),
-        Value::Number(number) => number.as_f64().map_or_else(|| number.to_string(), four_digits),
-        other => other.to_string(),
-    }
-}
-
 /// Columns of places, which on a map are far from the origin.
 const PLACES: [&str; 3] = [X.name, Y.name, Z.name];
-
-/// A place [m], to the millimetre, or with four significant digits where these are finer.
-pub(crate) fn metres(value: f64) -> String {
-    /// From here on four digits are coarser than a millimetre [m].
-    const FAR: f64 = 10.0;
-    if value.abs() < FAR { four_digits(value) } else { trimmed(&format!("{value:.3}")) }
-}
-
-/// A number with four significant digits.
-pub(crate) fn four_digits(value: f64) -> String {
-    /// What is smaller is left over where terms cancel, in any unit of ours.
-    const NOISE: f64 = 1e-9;
-    let value = if value.abs() < NOISE { 0.0 } else { value };
-    let scientific = format!("{value:.3e}");
-    let (digits, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
-    match exponent.parse::<usize>() {
-        // 0 to 9999: as many decimals as digits are left. Up to a million: none.
-        Ok(exponent @ 0..=3) => trimmed(&format!("{value:.*}", 3 - exponent)),
-        Ok(4..=6) => format!("{value:.0}"),
-        _ if value.abs() >= 1e-4 && value.abs() < 1.0 => {
-            let decimals = 3 + exponent.trim_start_matches('-').parse::<usize>().unwrap_or(0);
-            trimmed(&format!("{value:.decimals$}"))
-        }
-        _ => format!("{}e{exponent}", trimmed(digits)),
-    }
-}
-
-/// A limit with two decimals, rounded down: what is rounded up is beyond it.
-pub(crate) fn rounded_down(limit: f64) -> String {
-    format!("{:.2}", (limit * 100.0).floor() / 100.0)
-}
-
-/// Without the zeros that end a decimal fraction.
-fn trimmed(text: &str) -> String {
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text.to_owned()
-    }
-}
 
 /// Columns under their headers: numbers to the right, words to the left, each cell on its line.
 pub(crate) fn aligned(header: &[String], rows: &[Vec<String>]) -> Text {
@@ -244,29 +179,6 @@ pub(crate) fn aligned(header: &[String], rows: &[Vec<String>]) -> Text {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_read_with_four_digits() {
-        for (value, text) in [
-            (0.0, "0"),
-            (5.035_561, "5.036"),
-            (-0.055_399_7, "-0.0554"),
-            (17.0, "17"),
-            (1203.54, "1204"),
-            (1.234e-9, "1.234e-9"),
-            (-3.4e-13, "0"),
-            (123_456_789.0, "1.235e8"),
-        ] {
-            assert_eq!(four_digits(value), text);
-        }
-    }
-
-    #[test]
-    fn places_are_read_to_the_millimetre() {
-        for (value, text) in [(0.123_456, "0.1235"), (-25_871.123_4, "-25871.123"), (12.0, "12")] {
-            assert_eq!(metres(value), text);
-        }
-    }
 
     #[test]
     fn csv_quotes_what_needs_it_and_leaves_null_empty() {

@@ -154,9 +154,3 @@ impl<T: Into<Text>> FromIterator<T> for Text {
         parts.into_iter().fold(Self::default(), |text, part| text + part)
     }
 }
-
-/// A text with a capital letter at its start.
-pub(crate) fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
-}

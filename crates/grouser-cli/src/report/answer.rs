@@ -1,22 +1,21 @@
 //! What the pages of all commands have in common: the charts of every channel, what the columns
 //! are, and all that repeats the answer.
 
+use grouser::answers::{Answer, Meaning, meanings};
 use grouser::contact::validity::Finding;
 use grouser::document::columns::run::{
     BELLY_CLEARANCE, ELECTRICAL, ELECTRICAL_RECORD, RECORD, STANDING, STEERING_RECORD, WHEEL_RECORD,
 };
 use grouser::document::columns::wheel::WHEEL;
-use grouser::document::columns::{Column, Quantity, SLOPE, TIME, X, Y};
+use grouser::document::columns::{SLOPE, TIME, X, Y};
+use grouser::document::figure::{by_part, by_unit};
+use grouser::document::reading::four_digits;
 use grouser::document::table::Table;
-use grouser::document::unit::ONE;
 use grouser::document::{Document, Loaded};
 use grouser::simulation::{Record, Scenario};
-use grouser_draw::chart::{Chart, Series, Style};
 use grouser_draw::relief_of;
 
 use super::page::Page;
-use crate::output::rows::four_digits;
-use crate::output::text::capitalised;
 
 /// What an answer was computed from.
 pub(crate) struct Basis {
@@ -30,6 +29,16 @@ pub(crate) struct Basis {
 impl Basis {
     pub(crate) fn new(repeat: String) -> Self {
         Self { documents: Vec::new(), assumptions: Vec::new(), repeat }
+    }
+
+    /// The basis of an answer.
+    pub(crate) fn of(answer: &Answer, repeat: &str) -> Self {
+        let texts = answer.documents.iter().map(|it| (it.file.clone(), it.toml.clone()));
+        Self {
+            documents: texts.collect(),
+            assumptions: answer.assumptions().into_iter().map(str::to_owned).collect(),
+            repeat: repeat.to_owned(),
+        }
     }
 
     /// The same with a document that lies beside the page.
@@ -75,26 +84,6 @@ pub(crate) fn close<'f>(
     }
     page.paragraph(&format!("Made by grouser {}.", env!("CARGO_PKG_VERSION")));
     page.to_html()
-}
-
-/// A column's name, unit and meaning, for readers.
-pub(crate) struct Meaning {
-    name: String,
-    unit: &'static str,
-    doc: &'static str,
-}
-
-/// What columns are; those of several quantiles are one each.
-pub(crate) fn meanings<R>(columns: &[Column<R>]) -> Vec<Meaning> {
-    let each = |column: &Column<R>| {
-        let names = column.names();
-        let name = match &names[..] {
-            [one] => one.clone(),
-            several => several.join(", "),
-        };
-        Meaning { name, unit: column.unit.symbol, doc: column.doc }
-    };
-    columns.iter().map(each).collect()
 }
 
 /// What the channels of a run are.
@@ -173,78 +162,4 @@ pub(crate) fn over_time(page: &mut Page, table: &Table, scenario: &Scenario) {
     page.charts(&by_part(table, TIME, &wheels, &WHEEL));
     page.charts(&by_part(table, TIME, &wheels, &ELECTRICAL));
     page.charts(&by_part(table, TIME, &wheels, &STEERING_RECORD));
-}
-
-/// A chart for each unit of some columns over another: columns of one unit share an axis.
-pub(crate) fn by_unit<R>(table: &Table, over: Quantity, columns: &[Column<R>]) -> Vec<Chart> {
-    let is_number =
-        |column: &&Column<R>| column.name != over.name && !table.numbers(column.name).is_empty();
-    let columns: Vec<&Column<R>> = columns.iter().filter(is_number).collect();
-    let mut units: Vec<&str> = Vec::new();
-    for column in &columns {
-        if !units.contains(&column.unit.symbol) {
-            units.push(column.unit.symbol);
-        }
-    }
-    let chart = |unit: &&str| {
-        let of_unit: Vec<&&Column<R>> =
-            columns.iter().filter(|column| column.unit.symbol == *unit).collect();
-        let series = of_unit.iter().enumerate().map(|(place, column)| {
-            let name = if of_unit.len() > 1 { label(column) } else { String::new() };
-            let points = table.points(over.name, column.name);
-            Series::new(name, Style::of_line(place), place + 1, points)
-        });
-        let labels: Vec<String> = of_unit.iter().map(|column| label(column)).collect();
-        Chart::new(
-            capitalised(&shared(&labels)),
-            (axis(over), if *unit == ONE.symbol { String::new() } else { format!("[{unit}]") }),
-            series.collect(),
-        )
-    };
-    units.iter().map(chart).collect()
-}
-
-/// A chart for each column over another, with a curve for each prefix of the column's name.
-///
-/// * `prefixes`: of names in the table, each with the name of its curve
-pub(crate) fn by_part<R>(
-    table: &Table,
-    over: Quantity,
-    prefixes: &[(String, String)],
-    columns: &[Column<R>],
-) -> Vec<Chart> {
-    let chart = |column: &Column<R>| {
-        let series = prefixes.iter().enumerate().map(|(place, (prefix, name))| {
-            let points = table.points(over.name, &format!("{prefix}{}", column.name));
-            Series::new(name, Style::of_line(place), place + 1, points)
-        });
-        let series: Vec<Series> = series.filter(|series| !series.points.is_empty()).collect();
-        let unit = column.unit.symbol;
-        let unit = if unit == ONE.symbol { String::new() } else { format!("[{unit}]") };
-        let chart = Chart::new(capitalised(&label(column)), (axis(over), unit), series);
-        (!chart.series.is_empty()).then_some(chart)
-    };
-    columns.iter().filter_map(chart).collect()
-}
-
-/// What names have in common: their last word, or all of them.
-fn shared(names: &[String]) -> String {
-    let last = |name: &String| name.rsplit(' ').next().unwrap_or_default().to_owned();
-    match names {
-        [only] => only.clone(),
-        all if all.iter().all(|name| name.len() == 1) => format!("position, {}", all.join(" and ")),
-        [first, rest @ ..] if rest.iter().all(|name| last(name) == last(first)) => last(first),
-        _ => names.join(", "),
-    }
-}
-
-/// A column's name in words, without its unit.
-fn label<R>(column: &Column<R>) -> String {
-    Quantity { name: column.name, unit: column.unit }.label()
-}
-
-/// A quantity and its unit, for an axis.
-pub(crate) fn axis(quantity: Quantity) -> String {
-    let (label, unit) = (quantity.label(), quantity.unit.symbol);
-    if unit == ONE.symbol { label } else { format!("{label} [{unit}]") }
 }

@@ -3,6 +3,7 @@
 
 use grouser::contact::Model;
 use grouser::document::columns::{SLOPE, YAW};
+use grouser::document::reading::rounded_down;
 use grouser::document::unit::MM;
 use grouser::studies::comparison::{Levelness, MeasuredTraverse};
 use grouser::studies::heading_band::SlopeBand;
@@ -13,7 +14,6 @@ use serde_json::{Map, Value, json};
 
 use super::figures::Figure;
 use super::tables::{Table, column, printed, row_of};
-use crate::output::rows::rounded_down;
 
 /// All that the report is made of.
 pub(crate) struct Study {

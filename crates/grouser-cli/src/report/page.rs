@@ -1,6 +1,7 @@
 //! The page: one HTML file that needs nothing from outside.
 
 use grouser::contact::validity::{Finding, Flag};
+use grouser::document::reading::capitalised;
 use grouser_draw::chart::{Chart, small_svg};
 use std::fmt::Write as _;
 
@@ -10,7 +11,7 @@ use grouser::document::table as results;
 use super::figures::Figure;
 use super::tables::Table;
 use crate::output::rows::Rows;
-use crate::output::text::{Part, Text, capitalised};
+use crate::output::text::{Part, Text};
 
 /// A table of more rows is shown when a reader asks for it.
 const MOST_ROWS: usize = 40;

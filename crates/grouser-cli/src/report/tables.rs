@@ -2,12 +2,13 @@
 //! measurements.
 
 use grouser::document::columns::{SINKAGE, SLIP_RATIO, SLOPE, YAW};
+use grouser::document::reading::rounded_down;
 use grouser::document::unit::MM;
 use grouser::studies::comparison::{Levelness, MeasuredTraverse, yaw_error};
 use grouser::studies::reproduction::{Reproduction, SlopeRuns};
 use serde_json::{Map, Value, json};
 
-use crate::output::rows::{Rows, aligned, rounded_down};
+use crate::output::rows::{Rows, aligned};
 use crate::output::text::Text;
 
 /// A table: words for people, keys for files.

@@ -8,11 +8,11 @@
 //! J ω' = T(i, ω) − T_soil      i = (V − k N ω)/R          the wheel: T as in `motor`
 //! ```
 //!
-//! Without an integral a load leaves an error, the droop: at rest of all others ω = ω_0 − R i/(k N
-//! + K_p). With one the error fades with the time K_p/K_i, unless a limit holds. A load that asks
-//! for more than the limits allow slows the wheel, until the soil asks for less. The winding's
-//! inductance is left out: currents settle within a millisecond. Source of the integral's
-//! correction, back-calculation: [AstromHagglund2006].
+//! Without an integral a load leaves an error, the droop: at rest of all others
+//! ω = ω_0 − R i/(k N + K_p). With one the error fades with the time K_p/K_i, unless a limit holds.
+//! A load that asks for more than the limits allow slows the wheel, until the soil asks for less.
+//! The winding's inductance is left out: currents settle within a millisecond. Source of the
+//! integral's correction, back-calculation: [AstromHagglund2006].
 
 use crate::error::{ParameterError, not_negative, positive};
 

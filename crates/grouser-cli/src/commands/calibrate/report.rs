@@ -5,6 +5,7 @@ use grouser::document::calibration::{
 };
 use grouser::document::columns::fit::column_of;
 use grouser::document::columns::{LOAD, SLIP_ANGLE, SLIP_RATIO};
+use grouser::document::reading::four_digits;
 use grouser::document::validation::GroupRecord;
 use grouser::document::{Document, SAMPLES_FILE, SoilFamily};
 use grouser::studies::calibration::Posterior;
@@ -18,7 +19,7 @@ use super::wheel::Problem;
 use crate::args::CalibrateArgs;
 use crate::failure::Failure;
 use crate::output::folder::OutputFolder;
-use crate::output::rows::{Rows, aligned, four_digits};
+use crate::output::rows::{Rows, aligned};
 use crate::output::text::Text;
 use crate::output::{self, Format};
 use crate::report::page::Page;

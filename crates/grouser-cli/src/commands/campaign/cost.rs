@@ -4,6 +4,7 @@
 use std::time::{Duration, Instant};
 
 use grouser::document::Campaign;
+use grouser::document::reading::four_digits;
 use grouser_store::shard_bytes;
 use rayon::ThreadPoolBuilder;
 use serde::Serialize;
@@ -14,7 +15,6 @@ use crate::args::{CampaignCostArgs, TableOrJson};
 use crate::commands::Answer;
 use crate::failure::Failure;
 use crate::output;
-use crate::output::rows::four_digits;
 
 /// What was measured of a study, and what it means for as many runs as were asked about.
 #[derive(Serialize)]

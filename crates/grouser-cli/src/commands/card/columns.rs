@@ -5,12 +5,12 @@ use grouser::document::columns::card::{
     CORRECT_EVERY, DRIVEN_DRIFT, PITCH_ENDS, RIM_WAY, SLIP_LIMIT, TIPPING_MARGIN,
 };
 use grouser::document::columns::{CURRENT, Quantity, ROLL, SINKAGE, TORQUE};
+use grouser::document::reading::four_digits;
 use grouser_draw::{Anchor, BLACK, Face, Shape, Sheet, Stroke, WHITE};
 
 use super::layout::{LEFT, RIGHT, fitting, shown};
 use super::row::{CardRow, in_steps, upwards};
 use super::texts::Texts;
-use crate::output::rows::four_digits;
 
 /// Rows on the page.
 pub(super) struct Table<'a> {

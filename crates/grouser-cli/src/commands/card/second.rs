@@ -5,6 +5,7 @@ use grouser::document::columns::card::{SLIP_CHECK_EVERY, SLIP_LIMIT, VERDICT};
 use grouser::document::columns::card_courses::{COURSE, TURN_DOWNHILL, TURN_WAY, name_of_course};
 use grouser::document::columns::{Quantity, SLIP_RATIO, SLOPE};
 use grouser::document::escape;
+use grouser::document::reading::four_digits;
 use grouser::document::table;
 use grouser::studies::card::courses::{Course, TURN};
 use grouser::studies::card::{
@@ -18,7 +19,6 @@ use super::layout::{
 };
 use super::row::{CardRow, upwards};
 use super::texts::{Texts, degrees, percent};
-use crate::output::rows::four_digits;
 
 /// Where the rows begin [mm], how high the head above them is, and how high they are at most.
 const ROWS: f64 = 84.0;

@@ -3,6 +3,7 @@
 use grouser::contact::Model;
 use grouser::contact::validity::Flag;
 use grouser::document::columns::SLOPE;
+use grouser::document::reading::{four_digits, rounded_down};
 use grouser::soil::SlopeStability;
 use grouser::studies::card::{
     BELOW_FRICTION_ANGLE, Card, CardRow, HEADING_ERROR, MOST_CHECKED_SLIP, Rule, SHORTEST_LEG,
@@ -13,7 +14,6 @@ use grouser::studies::ensemble::samples::BandInputs;
 use super::row::upwards;
 use crate::args::{CardArgs, SideChoice};
 use crate::inputs::CardInputs;
-use crate::output::rows::{four_digits, rounded_down};
 
 /// All texts of a card that depend on its inputs.
 pub(super) struct Texts {

@@ -5,12 +5,12 @@ use grouser::document::columns::forecast::{
     FACTOR, INTERACTIONS, QUANTITY, SHARED_SHARE, VARIANCE_SHARE, WHOLE, slips_of_choices,
 };
 use grouser::document::columns::{LIMIT_SLOPE, Quantity, SLIP_RATIO, SLOPE, YAW};
+use grouser::document::reading::four_digits;
 use grouser::document::table::Table;
 use grouser::studies::forecast::{FactorKind, Forecast};
 use grouser_draw::chart::{Bars, Chart, Draw, Series, Style};
 
 use super::tables::Tables;
-use crate::output::rows::four_digits;
 
 /// A figure.
 pub(super) struct Figure {

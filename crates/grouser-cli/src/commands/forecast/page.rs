@@ -4,13 +4,14 @@ use grouser::document::columns::forecast::{
     self as columns, FACTOR, INTERACTIONS, SHARED_SHARE, VARIANCE_SHARE,
 };
 use grouser::document::columns::{SLIP_RATIO, SLOPE};
+use grouser::document::reading::four_digits;
 use grouser::document::table::Table;
 use grouser::studies::forecast::{Factor, FactorKind, Forecast, REMEDY_OF_INTERACTIONS};
 
 use super::figures::Figure;
 use super::tables::Tables;
 use crate::inputs::ForecastInputs;
-use crate::output::rows::{Rows, four_digits};
+use crate::output::rows::Rows;
 use crate::report::page::Page;
 
 pub(super) fn html(

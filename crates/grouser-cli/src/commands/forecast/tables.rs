@@ -2,10 +2,11 @@
 
 use grouser::document::columns::forecast::{self as columns, DEVIATION, FACTOR, QUANTITY, WHOLE};
 use grouser::document::columns::{LIMIT_SLOPE, SLIP_RATIO, SLOPE};
+use grouser::document::reading::rounded_down;
 use grouser::document::table::Table;
 use grouser::studies::forecast::Forecast;
 
-use crate::output::rows::{Rows, rounded_down};
+use crate::output::rows::Rows;
 use crate::output::text::Text;
 
 /// The tables of a forecast.

@@ -1,9 +1,12 @@
 //! What to do tomorrow: headings, looks at the slip, and test drives, as JSON, text and part of the
 //! page.
 
+use grouser::answers::{Meaning, meanings};
 use grouser::document::LoadedScenario;
 use grouser::document::columns::SLOPE;
 use grouser::document::columns::advice as columns;
+use grouser::document::reading::capitalised;
+use grouser::document::reading::four_digits;
 use grouser::document::table::Table;
 use grouser::studies::heading_band::HeadingBand;
 use grouser::studies::learn::advice::{Advice, Instruments, TestCost};
@@ -15,9 +18,8 @@ use crate::commands::sampling;
 use crate::failure::Failure;
 use crate::inputs;
 use crate::list::Numbers;
-use crate::output::rows::{Rows, four_digits};
+use crate::output::rows::Rows;
 use crate::output::text::Text;
-use crate::report::answer::{Meaning, meanings};
 use crate::report::page::Page;
 
 /// The tables of an advice.
@@ -111,10 +113,7 @@ impl AdviceTables {
         page.heading("Advice");
         page.list(self.sentences());
         page.rows("What to do on each slope", &self.slopes, &columns::slopes_brief());
-        page.paragraph(&format!(
-            "{}.",
-            crate::output::text::capitalised(self.about_drives().trim_end_matches(':'))
-        ));
+        page.paragraph(&format!("{}.", capitalised(self.about_drives().trim_end_matches(':'))));
         if self.test_drives.rows() > 0 {
             let brief = columns::legs_brief();
             page.rows("Test drives to make, one after the other", &self.test_drives, &brief);

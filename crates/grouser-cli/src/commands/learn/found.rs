@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use grouser::document::columns::learn::sentence;
 use grouser::document::columns::{SLIP_RATIO, SLOPE, YAW};
+use grouser::document::reading::four_digits;
 use grouser::document::table::Table;
 use grouser::studies::learn::{Drive, Learner, Warning};
 
 use super::advice::AdviceTables;
-use crate::output::rows::four_digits;
 
 /// What a drive taught.
 pub(in crate::commands) struct Found {

@@ -1,5 +1,6 @@
 //! What a drive taught, as text and as a page.
 
+use grouser::answers::meanings;
 use grouser::document::LoadedScenario;
 use grouser::document::columns::learn::{
     self as columns, BY_ACROSS, BY_ALONG, BY_SINKAGE, BY_TORQUE, BY_TURNING, EXPECTED_SLIP,
@@ -7,6 +8,8 @@ use grouser::document::columns::learn::{
 };
 use grouser::document::columns::slip_from_current::{TRUE_SLIP, WHEEL};
 use grouser::document::columns::{SLIP_RATIO, SLOPE, TIME};
+use grouser::document::figure::axis;
+use grouser::document::reading::four_digits;
 use grouser::document::table::Table;
 use grouser::vehicle::Rover;
 use grouser_draw::chart::{BAND_COLOUR, Chart, Series, Style};
@@ -16,9 +19,9 @@ use super::cards::Cards;
 use super::found::{Found, of_row, shares, warning};
 use super::tables::Tables;
 use crate::args::LearnArgs;
-use crate::output::rows::{Rows, four_digits};
+use crate::output::rows::Rows;
 use crate::output::text::Text;
-use crate::report::answer::{self, Basis, axis, meanings};
+use crate::report::answer::{self, Basis};
 use crate::report::page::Page;
 
 /// For reading: predictions with those before the drive, warnings and notes.

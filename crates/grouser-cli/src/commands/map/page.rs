@@ -1,7 +1,9 @@
 //! The page of a map.
 
+use grouser::answers::meanings;
 use grouser::document::columns::map::{HEADING, bands};
 use grouser::document::columns::{POWER, SINKAGE, SLIP_RATIO};
+use grouser::document::reading::four_digits;
 use grouser::studies::mobility::{Ground, MobilityMap};
 use grouser_draw::map::map_picture;
 use grouser_map::{BandSummary, Look, MapColumn};
@@ -9,8 +11,7 @@ use grouser_map::{BandSummary, Look, MapColumn};
 use super::numbers::{errors, label};
 use crate::args::MapArgs;
 use crate::inputs::MapInputs;
-use crate::output::rows::four_digits;
-use crate::report::answer::{self, Basis, meanings};
+use crate::report::answer::{self, Basis};
 use crate::report::page::Page;
 
 /// The name of the page.

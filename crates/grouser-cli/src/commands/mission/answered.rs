@@ -2,13 +2,11 @@
 
 use grouser::document::columns::YAW;
 use grouser::document::columns::run;
+use grouser::document::reading::{capitalised, four_digits, metres};
 use grouser::document::table::Table;
 use grouser::document::{LoadedMission, escape};
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
 use grouser_draw::path_of;
-
-use crate::output::rows::{four_digits, metres};
-use crate::output::text::capitalised;
 
 /// A document of a mission, and what was driven: one mission, or all alternatives.
 pub(super) struct Answered {

@@ -1,16 +1,18 @@
 //! The page of a mission: where the rover ended up, its path, the verdict on each leg, and every
 //! channel over time.
 
+use grouser::answers::meanings;
 use grouser::document::columns::ENERGY;
 use grouser::document::columns::mission::{
     ELECTRICAL_LEG, ELECTRICAL_MISSION, LEG, MISSION, legs_brief, missions_brief,
 };
 use grouser::document::columns::run;
+use grouser::document::figure::axis;
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
 use grouser_draw::chart::{Bars, Draw};
 
 use super::answered::{Answered, reasons, sentence};
-use crate::report::answer::{self, Basis, axis, meanings, over_ground, over_time, run_meanings};
+use crate::report::answer::{self, Basis, over_ground, over_time, run_meanings};
 use crate::report::page::Page;
 
 pub(super) fn html(answered: &Answered) -> String {

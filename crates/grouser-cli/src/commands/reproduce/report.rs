@@ -3,6 +3,7 @@
 use grouser::contact::validity::Finding;
 use grouser::document::LoadedScenario;
 use grouser::document::columns::run::table as run_table;
+use grouser::document::reading::four_digits;
 use grouser::simulation::{Scenario, Trajectory};
 use grouser::studies::reproduction::{Reproduction, SlopeRuns};
 use grouser::studies::validity::RoverOnSlope;
@@ -11,7 +12,7 @@ use grouser_draw::chart::Draw;
 use super::study::SCATTER;
 use crate::failure::Failure;
 use crate::output::folder::OutputFolder;
-use crate::output::rows::{Rows, four_digits};
+use crate::output::rows::Rows;
 use crate::report::REPORT;
 use crate::report::experiment::{self as against, Study};
 use crate::report::figures::{self, Figure};

@@ -1,5 +1,6 @@
 //! The page of a route.
 
+use grouser::document::reading::four_digits;
 use grouser::document::route::RouteRecord;
 use grouser_draw::map::{Track, ways_over_ground};
 
@@ -7,7 +8,7 @@ use super::record::{self, Brief};
 use super::way::Way;
 use crate::args::RouteArgs;
 use crate::inputs::{Asked, RouteInputs};
-use crate::output::rows::{Rows, four_digits};
+use crate::output::rows::Rows;
 use crate::report::answer::{self, Basis};
 use crate::report::page::Page;
 

@@ -3,10 +3,9 @@
 use std::fmt::Write as _;
 
 use grouser::document::columns::{ENERGY, TIME};
+use grouser::document::reading::four_digits;
 use grouser::document::route::RouteRecord;
 use serde::Serialize;
-
-use crate::output::rows::four_digits;
 
 /// What a way is called.
 pub(super) fn name(record: &RouteRecord) -> String {

@@ -3,6 +3,8 @@
 use grouser::contact::validity::Finding;
 use grouser::document::columns::run::{self, STANDING_BAND, TIME_BAND};
 use grouser::document::columns::{Column, MODEL, Quantity, SINKAGE, SLIP_RATIO, TIME, X, Y, YAW};
+use grouser::document::figure::axis;
+use grouser::document::reading::{capitalised, four_digits, metres};
 use grouser::document::table::Table;
 use grouser::studies::drive::Drive;
 use grouser::studies::traverse_band::Ends;
@@ -12,9 +14,7 @@ use grouser_draw::chart::{BAND_COLOUR, Chart, Draw, Series, Style};
 use super::of_model::{OfModel, chart, reason};
 use crate::args::{EVERY_MODEL, TraverseArgs};
 use crate::commands::sampling;
-use crate::output::rows::{four_digits, metres};
-use crate::output::text::capitalised;
-use crate::report::answer::{self, Basis, axis, over_ground, over_time, run_meanings};
+use crate::report::answer::{self, Basis, over_ground, over_time, run_meanings};
 use crate::report::page::Page;
 
 pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {

@@ -3,13 +3,12 @@
 use grouser::document::columns::fit::{self, column_of};
 use grouser::document::columns::slope;
 use grouser::document::columns::{self, COURSE, SLIP_ANGLE, SLIP_RATIO, SLOPE, TOTAL_SLIP, YAW};
+use grouser::document::reading::capitalised;
 use grouser::document::table::Table;
 use grouser::studies::measurement::Quantity;
 use grouser::studies::slope_validation::SlopeValidation;
 use grouser::studies::validation::Validation;
 use grouser_draw::chart::{Chart, Series, Style};
-
-use crate::output::text::capitalised;
 
 /// A chart with its file's name, without ending, and its caption.
 pub(crate) struct Figure {

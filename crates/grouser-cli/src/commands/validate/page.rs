@@ -4,6 +4,7 @@ use grouser_draw::chart::Draw;
 use std::path::Path;
 
 use grouser::document::columns::fit::column_of;
+use grouser::document::reading::four_digits;
 use grouser::document::validation::GroupRecord;
 use grouser::studies::measurement::Quantity;
 use grouser::studies::validation::Validation;
@@ -11,7 +12,6 @@ use grouser::studies::validation::Validation;
 use super::{ERRORS, error_rows, figures, groups_and_sums};
 use crate::args::ValidateArgs;
 use crate::inputs::StandInputs;
-use crate::output::rows::four_digits;
 use crate::report::page::Page;
 
 pub(super) fn html(

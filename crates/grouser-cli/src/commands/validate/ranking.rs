@@ -10,6 +10,7 @@ use grouser::document::ranking::{
     Found, OverAll, RankedModel, RankedYardstick, Ranking, RankingError, SetRecord, rank_all,
     rank_one,
 };
+use grouser::document::reading::four_digits;
 use grouser::document::table::Table;
 use grouser::document::validation::{ErrorsRecord, PartErrors};
 use grouser::document::{Kind, Source, measurements};
@@ -21,7 +22,7 @@ use super::figures;
 use crate::args::ValidateArgs;
 use crate::failure::Failure;
 use crate::output::folder::OutputFolder;
-use crate::output::rows::{aligned, csv, csv_of_nested, four_digits};
+use crate::output::rows::{aligned, csv, csv_of_nested};
 use crate::output::text::Text;
 use crate::output::{self, Format};
 use crate::report::REPORT;

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use grouser::document::Campaign;
 use grouser::document::campaign::{Column, Frequencies, QuantityStatistics, Role};
+use grouser::document::reading::four_digits;
 use grouser::document::table::{ColumnKind, Values};
 use grouser::studies::ensemble::sensitivity::Sensitivity;
 use grouser::studies::ensemble::statistics::{Convergence, Estimate, Quantile, Summary};
@@ -12,7 +13,6 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use crate::failure::Failure;
-use crate::output::rows::four_digits;
 
 /// Half of all are below [-].
 const MEDIAN: f64 = 0.5;

@@ -1,0 +1,113 @@
+//! The writer of answers: to a terminal, as JSON, as CSV, and into a folder with a page.
+
+use grouser::answers::{Answer, AnswerError, Block, Shown};
+use grouser::document::table::Table;
+use grouser_draw::chart::Draw;
+
+use super::folder::OutputFolder;
+use super::rows::Rows;
+use super::text::Text;
+use super::{Format, crossed, json};
+use crate::failure::Failure;
+use crate::report::REPORT;
+use crate::report::answer::{Basis, close};
+use crate::report::page::Page;
+
+/// Writes an answer into its folder, if it has one, and prints it.
+///
+/// * `repeat`: the command that gives the answer again, typed in its folder
+pub(crate) fn give(
+    answer: &Answer,
+    repeat: &str,
+    folder: Option<OutputFolder>,
+    format: Format,
+) -> Result<(), Failure> {
+    if let Some(mut folder) = folder {
+        add_to(&mut folder, answer, repeat)?;
+        folder.finish()?;
+    }
+    match format {
+        Format::Table => super::show(text(answer)),
+        Format::Csv => match answer.tables.first() {
+            Some((_, table)) => super::print(&Rows::of_table(table).to_csv()?),
+            None => Ok(()),
+        },
+        Format::Json => super::print_json(answer),
+    }
+}
+
+/// The files of an answer.
+fn add_to(folder: &mut OutputFolder, answer: &Answer, repeat: &str) -> Result<(), Failure> {
+    folder.add(format!("{}.json", answer.name), json::text(answer) + "\n");
+    for (name, table) in &answer.tables {
+        folder.add(format!("{name}.csv"), Rows::of_table(table).to_csv()?);
+    }
+    for block in &answer.page {
+        if let Block::Figure { figure, file: Some(file), .. } = block {
+            folder.add(format!("{file}.svg"), figure.to_svg());
+        }
+    }
+    folder.add(REPORT, html(answer, repeat));
+    for document in &answer.documents {
+        folder.add(document.file.as_str(), document.toml.as_str());
+        for companion in &document.companions {
+            folder.add(companion.name.clone(), companion.content.clone());
+        }
+    }
+    Ok(())
+}
+
+/// What a terminal shows.
+fn text(answer: &Answer) -> Text {
+    let shown = |shown: &Shown| match shown {
+        Shown::Rows(table, columns) => Rows::of_table(table).to_table(columns),
+        Shown::Crossed { table, columns, crossing } => match super::terminal::width() {
+            Some(_) => crossed::text(table, crossing),
+            None => Rows::of_table(table).to_table(columns),
+        },
+        Shown::Some { table, columns, most, what } => some(table, columns, *most, what),
+        Shown::Words(words) => words.into(),
+    };
+    answer.screen.iter().map(shown).collect()
+}
+
+/// Some of many rows, as far apart as each other, and where all are.
+fn some(table: &Table, columns: &[String], most: usize, what: &str) -> Text {
+    let count = table.rows();
+    let shown: Vec<usize> = (0..count.min(most)).map(|row| row * count / count.min(most)).collect();
+    let rows = Rows::of_table(&table.rows_at(&shown)).to_table(columns);
+    if count <= most {
+        return rows;
+    }
+    rows + format!("{most} of {count} {what}; --format csv prints all\n")
+}
+
+fn html(answer: &Answer, repeat: &str) -> String {
+    let mut page = Page::new(&answer.title);
+    for block in &answer.page {
+        match block {
+            Block::Verdict(text) => page.answer(text),
+            Block::Heading(text) => page.heading(text),
+            Block::Words(text) => page.paragraph(text),
+            Block::List(items) => page.list(items),
+            Block::Rows { caption, table, columns } => page.rows(caption, table, columns),
+            Block::Figure { figure, caption, .. } => page.drawing(&figure.to_svg(), caption),
+            Block::Charts(charts) => page.charts(charts),
+        }
+    }
+    close(page, &answer.findings, &answer.columns, &Basis::of(answer, repeat))
+}
+
+impl From<AnswerError> for Failure {
+    fn from(error: AnswerError) -> Self {
+        match error {
+            AnswerError::Parameter(error) => error.into(),
+            AnswerError::OutsideDomain(error) => error.into(),
+            AnswerError::Samples(error) => Self::Usage(format!(
+                "the soil's uncertainty reaches too far: {error}\nhint: smaller standard \
+                 deviations keep the samples within the ranges of their keys"
+            )),
+            AnswerError::Stopped => Self::Interrupted(error.to_string()),
+        }
+    }
+}

@@ -1,0 +1,292 @@
+//! The answer of a study, as data: what it was computed from, tables, figures and sentences.
+//!
+//! A study declares its answer once. What writes one to a terminal, as JSON, CSV, a page or a folder
+//! knows no study: it takes the parts in their order.
+
+use std::sync::Arc;
+
+use grouser_core::contact::validity::Finding;
+use serde::ser::{Serialize, SerializeMap, Serializer};
+use serde_json::{Map, Value};
+
+use super::columns::Column;
+use super::figure::{Chart, Figure};
+use super::loaded::Loaded;
+use super::table::Table;
+use super::tree::Companion;
+
+/// What a study answers. As JSON it is an object: the schema, the version, the inputs, and the
+/// results.
+///
+/// ```
+/// use grouser_io::answer::{Answer, Part};
+/// use grouser_io::table::Table;
+///
+/// let mut answer = Answer::new("heading", "Heading offset that holds the contour");
+/// answer.input("slope_deg", [5.0, 10.0]);
+/// answer.results.push(Part::rows("rows", Table::default()));
+/// let json = serde_json::to_value(&answer)?;
+/// assert_eq!(json["schema"], "grouser.heading.v1");
+/// assert_eq!(json["inputs"]["slope_deg"][1], 10.0);
+/// # Ok::<(), serde_json::Error>(())
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Answer {
+    /// The name that its schema and its files have: `heading`.
+    pub name: String,
+    /// What it is about: the title of its page.
+    pub title: String,
+    /// What it was computed from, in the words and units of documents.
+    pub inputs: Map<String, Value>,
+    /// The models of a band with their shares; nothing without a band.
+    pub model_weights: Option<Value>,
+    /// The results of JSON, in their order.
+    pub results: Vec<Part>,
+    /// Tables that are files of CSV, each with its name without the ending. The first is the answer
+    /// where CSV is asked for.
+    pub tables: Vec<(String, Arc<Table>)>,
+    /// What a terminal shows, in its order.
+    pub screen: Vec<Shown>,
+    /// What a page shows, in its order, before what all pages end with.
+    pub page: Vec<Block>,
+    /// Where results are outside a domain.
+    pub findings: Vec<Finding>,
+    /// What the columns are.
+    pub columns: Vec<Meaning>,
+    /// The documents that it was computed from.
+    pub documents: Vec<Attached>,
+}
+
+/// A part of the results.
+#[derive(Clone, Debug)]
+pub enum Part {
+    /// A list of rows under a key.
+    Rows(&'static str, Arc<Table>),
+    /// The first row of a table, under a key; without one its entries stand in the answer itself.
+    Row(Option<&'static str>, Table),
+    /// Anything else, under a key.
+    Value(&'static str, Value),
+}
+
+/// Something that a terminal shows.
+#[derive(Clone, Debug)]
+pub enum Shown {
+    /// Columns of a table, by their names.
+    Rows(Arc<Table>, Vec<String>),
+    /// The same, in the width of a terminal as tables of two columns against each other.
+    Crossed {
+        /// All rows.
+        table: Arc<Table>,
+        /// The columns where no terminal is.
+        columns: Vec<String>,
+        /// How they are set against each other.
+        crossing: Crossing,
+    },
+    /// Columns of some of many rows, as far apart as each other.
+    Some {
+        /// All rows.
+        table: Arc<Table>,
+        /// The columns.
+        columns: Vec<String>,
+        /// How many rows at the most.
+        most: usize,
+        /// What the rows are.
+        what: &'static str,
+    },
+    /// Words, with the line ends that they need.
+    Words(String),
+}
+
+/// Tables of two columns against each other: one goes down, one across.
+#[derive(Clone, Debug)]
+pub struct Crossing {
+    /// What each block of rows is of; all blocks have as many rows.
+    pub titles: Vec<String>,
+    /// The column that goes down.
+    pub down: &'static str,
+    /// The column that goes across; its values change last.
+    pub across: &'static str,
+    /// What goes across, for reading.
+    pub across_label: String,
+    /// The columns that stand in cells, a table for each.
+    pub cells: Vec<String>,
+}
+
+/// A block of a page.
+#[derive(Clone, Debug)]
+pub enum Block {
+    /// A sentence that answers the question.
+    Verdict(String),
+    /// A heading.
+    Heading(String),
+    /// A paragraph.
+    Words(String),
+    /// A list.
+    List(Vec<String>),
+    /// Columns of a table, by their names, under a caption.
+    Rows {
+        /// What the rows are.
+        caption: &'static str,
+        /// All columns.
+        table: Arc<Table>,
+        /// The columns for reading.
+        columns: Vec<String>,
+    },
+    /// A figure.
+    Figure {
+        /// What is drawn.
+        figure: Figure,
+        /// What it shows.
+        caption: String,
+        /// The name of its file in a folder, without the ending, if it has one.
+        file: Option<String>,
+    },
+    /// Small charts side by side.
+    Charts(Vec<Chart>),
+}
+
+/// A column's name, unit and meaning, for readers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Meaning {
+    /// Its name; several of quantiles are one text.
+    pub name: String,
+    /// Symbol of its unit.
+    pub unit: &'static str,
+    /// What it is.
+    pub doc: &'static str,
+}
+
+/// A document that an answer was computed from.
+#[derive(Clone, Debug)]
+pub struct Attached {
+    /// The name of its file.
+    pub file: String,
+    /// Its complete text.
+    pub toml: String,
+    /// The files that it names.
+    pub companions: Vec<Companion>,
+    /// What it assumes.
+    pub assumptions: Vec<String>,
+}
+
+impl Answer {
+    /// An answer without content.
+    ///
+    /// * `name`: of its schema and files
+    /// * `title`: of its page
+    pub fn new(name: impl Into<String>, title: impl Into<String>) -> Self {
+        Self { name: name.into(), title: title.into(), ..Self::default() }
+    }
+
+    /// Adds an input, in the words and units of documents.
+    pub fn input(&mut self, key: &str, value: impl Into<Value>) {
+        self.inputs.insert(key.to_owned(), value.into());
+    }
+
+    /// Adds a document by the name of its file.
+    pub fn attach<V>(&mut self, file: impl Into<String>, document: &Loaded<V>) {
+        self.documents.push(Attached {
+            file: file.into(),
+            toml: document.to_toml(),
+            companions: document.companions.clone(),
+            assumptions: document.assumptions.clone(),
+        });
+    }
+
+    /// Adds a figure to the page.
+    ///
+    /// * `file`: its name without the ending; empty: it is on the page alone
+    pub fn figure(&mut self, file: &str, figure: impl Into<Figure>, caption: impl Into<String>) {
+        let file = (!file.is_empty()).then(|| file.to_owned());
+        self.page.push(Block::Figure { figure: figure.into(), caption: caption.into(), file });
+    }
+
+    /// Adds a heading to the page.
+    pub fn heading(&mut self, text: impl Into<String>) {
+        self.page.push(Block::Heading(text.into()));
+    }
+
+    /// The assumptions of all its documents, each once.
+    #[must_use]
+    pub fn assumptions(&self) -> Vec<&str> {
+        let mut all: Vec<&str> = Vec::new();
+        for assumption in self.documents.iter().flat_map(|it| &it.assumptions) {
+            if !all.contains(&assumption.as_str()) {
+                all.push(assumption);
+            }
+        }
+        all
+    }
+}
+
+impl Part {
+    /// Rows under a key.
+    pub fn rows(key: &'static str, table: impl Into<Arc<Table>>) -> Self {
+        Self::Rows(key, table.into())
+    }
+}
+
+/// What columns are; those of several quantiles are one each.
+#[must_use]
+pub fn meanings<R>(columns: &[Column<R>]) -> Vec<Meaning> {
+    let each = |column: &Column<R>| {
+        let name = column.names().join(", ");
+        Meaning { name, unit: column.unit.symbol, doc: column.doc }
+    };
+    columns.iter().map(each).collect()
+}
+
+impl Serialize for Answer {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("schema", &format!("grouser.{}.v1", self.name))?;
+        map.serialize_entry("version", env!("CARGO_PKG_VERSION"))?;
+        map.serialize_entry("inputs", &self.inputs)?;
+        if let Some(weights) = &self.model_weights {
+            map.serialize_entry("model_weights", weights)?;
+        }
+        for part in &self.results {
+            match part {
+                Part::Rows(key, table) => map.serialize_entry(key, &**table)?,
+                Part::Row(Some(key), table) => map.serialize_entry(key, &table.row(0))?,
+                Part::Row(None, table) => table.row(0).write(&mut map)?,
+                Part::Value(key, value) => map.serialize_entry(key, value)?,
+            }
+        }
+        map.end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+    use crate::cell::Values;
+
+    #[test]
+    fn json_has_its_parts_in_their_order() {
+        let table = |name: &str, number: f64| Table {
+            columns: vec![(name.to_owned(), Values::Float(vec![Some(number), None]))],
+        };
+        let mut answer = Answer::new("heading", "A heading");
+        answer.input("slope_deg", 5.0);
+        answer.results = vec![
+            Part::Row(None, table("limit_slope_deg", 20.0)),
+            Part::Row(Some("work"), table("energy_j", 3.0)),
+            Part::rows("rows", table("yaw_deg", 1.5)),
+            Part::Value("notes", json!(["one"])),
+        ];
+        let text = serde_json::to_string(&answer).unwrap();
+        let keys: Vec<String> = serde_json::from_str::<Map<String, Value>>(&text)
+            .unwrap()
+            .into_iter()
+            .map(|(key, _)| key)
+            .collect();
+        let expected = ["schema", "version", "inputs", "limit_slope_deg", "work", "rows", "notes"];
+        assert_eq!(keys, expected);
+        assert!(
+            text.contains(r#""work":{"energy_j":3.0},"rows":[{"yaw_deg":1.5},{"yaw_deg":null}]"#)
+        );
+    }
+}

@@ -1,0 +1,115 @@
+//! What a wheel–soil model answers about headings.
+
+use super::super::{AnswerError, Extent};
+use super::HeadingQuestion;
+use super::bands::Bands;
+use crate::document::LoadedScenario;
+use crate::document::columns::heading::{self, LIMIT_REASON, LIMITED_BY};
+use crate::document::columns::wheel_speeds::{self, NONE_FOUND, WHEELS};
+use crate::document::columns::{ENERGY_PER_METRE, LIMIT_SLOPE, SLOPE};
+use crate::document::reading::rounded_down;
+use crate::document::table::Table;
+use crate::studies::heading::{HeadingCurve, HeadingStudy, LimitedBy};
+use crate::studies::wheel_speeds::{WheelSpeedStudy, WheelSpeeds};
+
+/// What a model answers.
+pub(super) struct OfModel<'q> {
+    pub(super) scenario: &'q LoadedScenario,
+    pub(super) curve: HeadingCurve,
+    pub(super) bands: Option<Bands>,
+    /// With wheels at speeds of their own: the steepest slopes, a row for each freedom.
+    pub(super) own_speeds: Option<Table>,
+    /// A row for each slope.
+    pub(super) table: Table,
+    /// The steepest slope: one row.
+    pub(super) limit: Table,
+}
+
+impl<'q> OfModel<'q> {
+    /// Follows the curve of a scenario, and computes what else is asked for.
+    pub(super) fn of(
+        question: &HeadingQuestion,
+        scenario: &'q LoadedScenario,
+        extent: &Extent<'_>,
+    ) -> Result<Self, AnswerError> {
+        let study = HeadingStudy::of(&scenario.value);
+        let curve = HeadingStudy { steering: question.steering, ..study.clone() }.curve()?;
+        let bands = question.sampling.map(|sampling| {
+            Bands::of(sampling, scenario, (&study, &curve), &question.slopes(), extent)
+        });
+        let bands = bands.transpose()?;
+        let slopes = question.slopes();
+        let mut table = heading::table(&curve, &scenario.value.rover, &slopes);
+        if extent.is_strict {
+            let flags = heading::findings(&curve, &slopes);
+            extent.check(flags.iter().map(|it| &**it), &table, &[SLOPE.name])?;
+        }
+        let mut limit = heading::steepest(&curve);
+        let own_speeds = question.most_speed_ratio.map(|most_ratio| {
+            WheelSpeeds::from(WheelSpeedStudy { heading: study, most_ratio }, curve.clone())
+        });
+        let own_speeds = own_speeds.transpose()?;
+        if let Some(own) = &own_speeds {
+            table = wheel_speeds::table(own, &slopes);
+        }
+        let own_speeds = own_speeds.map(|own| wheel_speeds::limits(&own));
+        if let Some(bands) = &bands {
+            table = heading::with_bands(table, &bands.asked);
+            limit.columns.extend(bands.limit.columns.clone());
+        }
+        Ok(Self { scenario, curve, bands, own_speeds, table, limit })
+    }
+
+    pub(super) fn name(&self) -> &'static str {
+        self.scenario.value.model.name()
+    }
+
+    /// The results at the points of the curve, which crowd where it bends.
+    pub(super) fn dense(&self) -> Table {
+        let slopes: Vec<f64> = self.curve.headings().into_iter().map(|it| it.slope).collect();
+        heading::table(&self.curve, &self.scenario.value.rover, &slopes)
+    }
+
+    /// What is said about its steepest slope.
+    ///
+    /// * `is_named`: whether each line begins with the model's name
+    pub(super) fn lines(&self, is_named: bool) -> String {
+        let name = if is_named { format!("{}: ", self.name()) } else { String::new() };
+        let band = self.bands.as_ref().map(|bands| format!("{name}{}", bands.limit_line()));
+        let own = self.own_speeds.as_ref().map(|limits| own_lines(&name, limits));
+        let limit = limit_line(&self.limit);
+        format!("{name}{limit}{}{}", band.unwrap_or_default(), own.unwrap_or_default())
+    }
+}
+
+fn limit_line(limit: &Table) -> String {
+    let slope = limit.numbers(LIMIT_SLOPE.name)[0];
+    let reason = limit.texts(LIMIT_REASON)[0].as_deref().unwrap_or_default();
+    match slope {
+        Some(slope) => {
+            let slope = rounded_down(slope);
+            format!("steepest slope on which a heading holds the contour: {slope}°, {reason}\n")
+        }
+        None if limit.texts(LIMITED_BY)[0].as_deref() == Some(LimitedBy::NotFound.name()) => {
+            format!("{reason}\n")
+        }
+        None => format!("no heading holds the contour on any slope: {reason}\n"),
+    }
+}
+
+/// What wheels at speeds of their own hold at the most.
+fn own_lines(name: &str, limits: &Table) -> String {
+    let rows = limits.texts(WHEELS).iter().zip(limits.numbers(LIMIT_SLOPE.name));
+    let energies = limits.numbers(ENERGY_PER_METRE.name);
+    let lines = rows.zip(energies).skip(1).map(|((wheels, slope), energy)| {
+        let wheels = wheels.as_deref().unwrap_or_default();
+        match (slope, energy) {
+            (Some(slope), Some(energy)) => {
+                let slope = rounded_down(*slope);
+                format!("{name}with wheels {wheels}: {slope}°, with {energy:.1} J/m\n")
+            }
+            _ => format!("{name}with wheels {wheels}: {NONE_FOUND}\n"),
+        }
+    });
+    lines.collect()
+}

@@ -1,0 +1,224 @@
+//! A drive that was measured beside the one that is predicted.
+
+use std::sync::Arc;
+
+use serde_json::json;
+
+use super::{Answer, Block, Part, Sampling, Shown, meanings, samples};
+use crate::document::LoadedScenario;
+use crate::document::columns::replay::{
+    self as columns, FINDINGS, STRETCH, WORK, brief_channels, brief_findings, columns_of,
+    measured_channels, prefix_of, quantity_of,
+};
+use crate::document::columns::{ENERGY, SLOPE, TIME};
+use crate::document::figure::{BAND_COLOUR, Chart, Series, Style, axis};
+use crate::document::reading::{capitalised, four_digits, sentence};
+use crate::document::table::Table;
+use crate::studies::ensemble::samples::BandInputs;
+use crate::studies::replay::{Channel, Prediction, Replay};
+use crate::vehicle::Rover;
+
+/// What was replayed, from what.
+#[derive(Clone, Debug)]
+pub struct ReplayQuestion {
+    /// The log's name.
+    pub log: String,
+    /// The scenario that is predicted with.
+    pub scenario: LoadedScenario,
+    /// Whether the slope is the scenario's, and not the log's.
+    pub has_slope: bool,
+    /// The samples of its bands, if it has any.
+    pub sampling: Option<Sampling>,
+}
+
+/// A drive that was replayed, as tables and sentences.
+struct Found<'r> {
+    replay: &'r Replay,
+    rover: &'r Rover,
+    over_time: Arc<Table>,
+    channels: Arc<Table>,
+    findings: Arc<Table>,
+    /// What the differences point to.
+    sentences: Vec<String>,
+    notes: Vec<String>,
+}
+
+impl ReplayQuestion {
+    /// The answer.
+    ///
+    /// * `replay`: the log, replayed with the scenario and the samples
+    /// * `notes`: on what of the log was left out
+    #[must_use]
+    pub fn answer(&self, name: &str, replay: &Replay, notes: Vec<String>) -> Answer {
+        let rover = &self.scenario.value.rover;
+        let found = Found {
+            replay,
+            rover,
+            over_time: columns::over_time(replay, rover).into(),
+            channels: columns::channels(replay, rover).into(),
+            findings: columns::findings(replay).into(),
+            sentences: columns::sentences(replay),
+            notes: notes.into_iter().chain(columns::notes(replay)).collect(),
+        };
+        let mut answer = Answer::new(name, "The drive, replayed");
+        self.state(&mut answer);
+        found.results(&mut answer);
+        for (name, table) in
+            [(name, &found.over_time), ("channels", &found.channels), ("findings", &found.findings)]
+        {
+            answer.tables.push((name.to_owned(), Arc::clone(table)));
+        }
+        let (channels, findings) = found.brief();
+        let lines: String = found.lines().iter().map(|line| format!("{line}\n")).collect();
+        answer.screen = vec![
+            Shown::Rows(Arc::clone(&found.channels), channels),
+            Shown::Words("\n".into()),
+            Shown::Rows(Arc::clone(&found.findings), findings),
+            Shown::Words(format!("\n{lines}")),
+        ];
+        answer.attach("scenario.toml", &self.scenario);
+        self.page(&mut answer, &found);
+        answer
+    }
+
+    /// The inputs of the answer.
+    fn state(&self, answer: &mut Answer) {
+        let document = &self.scenario.document;
+        let of_document = |key: &str| document.get(key).cloned().unwrap_or_default();
+        answer.input("log", self.log.as_str());
+        answer.input("rover", of_document("rover"));
+        answer.input("soil", of_document("soil"));
+        let slope = self.has_slope.then(|| of_document(SLOPE.name));
+        answer.input(SLOPE.name, slope.unwrap_or_default());
+        for key in ["gravity_m_s2", "load_transfer", "wheel_moments"] {
+            answer.input(key, of_document(key));
+        }
+        answer.input("model", self.scenario.value.model.name());
+        answer.input("samples", self.sampling.map(|it| it.count));
+        answer.input("seed", self.sampling.map(|it| it.seed));
+        let weights = |_| samples::weights(&BandInputs::of_scenario(&self.scenario));
+        answer.model_weights = Some(json!(self.sampling.map(weights)));
+    }
+
+    fn page(&self, answer: &mut Answer, found: &Found<'_>) {
+        let verdicts = found.sentences.iter().map(|it| Block::Verdict(sentence(it)));
+        answer.page.extend(verdicts);
+        let name = |key: &str| self.scenario.document.text(key).unwrap_or("unnamed").to_owned();
+        answer.page.push(Block::List(vec![
+            format!("rover: {}", name("rover.name")),
+            format!("soil: {}", name("soil.name")),
+            format!("model: {}", self.scenario.value.model.name()),
+        ]));
+        answer.page.push(Block::List(found.whole()));
+        answer.page.push(Block::List(found.notes.clone()));
+        let (channels, findings) = found.brief();
+        answer.heading("What the differences point to");
+        let caption = "What may be wrong, and by how much";
+        let table = Arc::clone(&found.findings);
+        answer.page.push(Block::Rows { caption, table, columns: findings });
+        answer.heading("Measured less predicted");
+        let (caption, table) = ("Each channel, in its own unit", Arc::clone(&found.channels));
+        answer.page.push(Block::Rows { caption, table, columns: channels });
+        for (title, prediction) in [
+            ("At the attitude and wheel speeds that were read", Prediction::Prescribed),
+            ("Run freely from the first pose", Prediction::FreeRun),
+        ] {
+            answer.heading(title);
+            answer.page.push(Block::Charts(found.charts(prediction)));
+        }
+        let first = |it: &Channel| *it == it.of_first_wheel();
+        let channels = Channel::all(found.rover.wheel_count()).into_iter().filter(first);
+        answer.columns = meanings(&STRETCH);
+        answer.columns.extend(channels.flat_map(|it| meanings(&columns_of(it))));
+        answer.columns.extend(meanings(&FINDINGS));
+    }
+}
+
+impl Found<'_> {
+    /// The results of JSON.
+    fn results(&self, answer: &mut Answer) {
+        let replay = self.replay;
+        let work = replay.energy.map(|energy| Table::of(&WORK, &[energy]));
+        let ended = replay.free_run.ended.as_ref();
+        let replayed = json!({
+            "records": replay.taken.records,
+            "stretches": replay.taken.stretches,
+            "compared_stretches": replay.stretches.len(),
+            "explained_stretches": replay.explained_stretches,
+            "outliers": replay.taken.outliers,
+            "free_run": {
+                (SLOPE.name): SLOPE.unit.from_si(replay.free_run.slope),
+                "starts": replay.free_run.starts.len(),
+                "ended": ended.map(|(time, _)| json!({ (TIME.name): time })),
+            },
+        });
+        answer.results = vec![
+            Part::Value("points_to", json!(self.sentences)),
+            Part::rows("findings", Arc::clone(&self.findings)),
+            Part::rows("channels", Arc::clone(&self.channels)),
+        ];
+        answer.results.extend(work.map(|work| Part::Row(Some("work"), work)));
+        answer.results.extend([
+            Part::rows("stretches", Arc::clone(&self.over_time)),
+            Part::Value("replayed", replayed),
+            Part::Value("notes", json!(self.notes)),
+        ]);
+    }
+
+    /// The columns for reading, of channels and of findings.
+    fn brief(&self) -> (Vec<String>, Vec<String>) {
+        let channels = brief_channels(self.replay).into_iter().map(String::from).collect();
+        (channels, brief_findings().map(String::from).into())
+    }
+
+    /// What the differences point to, what was replayed, and notes: a line each.
+    fn lines(&self) -> Vec<String> {
+        let points = self.sentences.iter().map(|it| format!("points to: {it}"));
+        let notes = self.notes.iter().map(|note| format!("note: {note}"));
+        points.chain(self.whole()).chain(notes).collect()
+    }
+
+    /// How much was replayed.
+    fn whole(&self) -> Vec<String> {
+        let taken = &self.replay.taken;
+        let (stretches, records) = (taken.stretches, taken.records);
+        let work = self.replay.energy.map(|work| {
+            let [measured, predicted] = work.map(|it| four_digits(ENERGY.unit.from_si(it)));
+            let unit = ENERGY.unit.symbol;
+            format!("work of the wheels: measured {measured} {unit}, predicted {predicted} {unit}")
+        });
+        let compared = format!("replayed {stretches} stretches of {records} records");
+        [compared].into_iter().chain(work).collect()
+    }
+
+    /// Two charts of each channel: both sides over time, and the residual.
+    fn charts(&self, prediction: Prediction) -> Vec<Chart> {
+        let channels = measured_channels(self.replay, self.rover).into_iter().map(|(_, it)| it);
+        let shown = channels.filter(|it| it.prediction() == prediction);
+        shown.flat_map(|channel| self.of_channel(channel)).collect()
+    }
+
+    fn of_channel(&self, channel: Channel) -> [Chart; 2] {
+        let (quantity, prefix) = (quantity_of(channel), prefix_of(channel, self.rover));
+        let named = |name: &str| format!("{prefix}{name}");
+        let over = |name: &str| -> Vec<(f64, f64)> {
+            self.over_time.points(TIME.name, &named(name)).collect()
+        };
+        let edges = self.over_time.edges(TIME, quantity.quantiles().map(|name| named(&name)));
+        let mut series = Vec::new();
+        if !edges.is_empty() {
+            series.push(Series::band("95 %", BAND_COLOUR, edges));
+        }
+        series.push(Series::new("measured", Style::Line, 1, over(&quantity.measurement())));
+        series.push(Series::new("predicted", Style::Dashed, 2, over(quantity.name)));
+        let title = capitalised(&quantity.label());
+        let title = match prefix.trim_end_matches('.') {
+            "" => title,
+            wheel => format!("{title}, {wheel}"),
+        };
+        let residual = Series::new("", Style::Line, 1, over(&quantity.residual()));
+        let of_residual = format!("{title}: measured less predicted");
+        let axes = || (axis(TIME), axis(quantity));
+        [Chart::new(title, axes(), series), Chart::new(of_residual, axes(), vec![residual])]
+    }
+}

@@ -1,0 +1,57 @@
+//! The samples of an answer with bands, and what it says of their models.
+
+use serde_json::{Map, Value, json};
+
+use super::{Answer, AnswerError};
+use crate::contact::Model;
+use crate::studies::ensemble::samples::{BandInputs, Sample};
+
+/// How many samples, and of which stream of random numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sampling {
+    /// The number of samples.
+    pub count: u32,
+    /// The stream.
+    pub seed: u64,
+}
+
+impl Sampling {
+    /// Draws the samples.
+    pub(super) fn draw(self, inputs: &BandInputs) -> Result<Vec<Sample>, AnswerError> {
+        Ok(inputs.samples(self.seed, self.count)?)
+    }
+
+    /// Adds the samples to the inputs of an answer.
+    pub(super) fn state(self, answer: &mut Answer) {
+        answer.input("samples", self.count);
+        answer.input("seed", self.seed);
+    }
+}
+
+/// The models of the samples, each with its share [-].
+pub(super) fn weights(inputs: &BandInputs) -> Value {
+    let pair = |(model, share): &(Model, f64)| (model.name().to_owned(), json!(share));
+    Value::Object(inputs.models().shares().iter().map(pair).collect::<Map<_, _>>())
+}
+
+/// The models of the samples with their shares, as a line to read; nothing where there is one
+/// alone.
+pub(super) fn line(inputs: &BandInputs) -> String {
+    if inputs.models().shares().len() < 2 {
+        return String::new();
+    }
+    let mut shares = inputs.models().shares().to_vec();
+    shares.sort_by(|one, other| other.1.total_cmp(&one.1));
+    let share = |(model, share): &(Model, f64)| format!("{} {:.0} %", model.name(), 100.0 * share);
+    let shares: Vec<String> = shares.iter().map(share).collect();
+    format!("models of the samples: {}\n", shares.join(", "))
+}
+
+/// The weights of several scenarios, in their order; one object where all are alike.
+pub(super) fn one_or_each(mut weights: Vec<Value>) -> Value {
+    match weights.pop() {
+        Some(last) if weights.iter().all(|it| *it == last) => last,
+        Some(last) => weights.into_iter().chain([last]).collect(),
+        None => Value::Null,
+    }
+}
