@@ -201,6 +201,16 @@ impl Answer {
         self.page.push(Block::Figure { figure: figure.into(), caption: caption.into(), file });
     }
 
+    /// Adds columns of a table to the page.
+    pub fn rows(&mut self, caption: &'static str, table: &Arc<Table>, columns: Vec<String>) {
+        self.page.push(Block::Rows { caption, table: Arc::clone(table), columns });
+    }
+
+    /// Adds a paragraph to the page.
+    pub fn words(&mut self, text: impl Into<String>) {
+        self.page.push(Block::Words(text.into()));
+    }
+
     /// Adds a heading to the page.
     pub fn heading(&mut self, text: impl Into<String>) {
         self.page.push(Block::Heading(text.into()));

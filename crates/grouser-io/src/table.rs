@@ -43,6 +43,12 @@ impl Table {
         self.columns.first().map_or(0, |(_, values)| values.len())
     }
 
+    /// The names of its columns.
+    #[must_use]
+    pub fn names(&self) -> Vec<String> {
+        self.columns.iter().map(|(name, _)| name.clone()).collect()
+    }
+
     /// The values of a column.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&Values> {

@@ -1,6 +1,7 @@
 //! Questions with their answers: from the documents that a question is about to the tables, figures
 //! and sentences that every front end shows.
 
+pub mod forecast;
 pub mod heading;
 pub mod heading_map;
 pub mod replay;

@@ -50,8 +50,9 @@ fn add_to(folder: &mut OutputFolder, answer: &Answer, repeat: &str) -> Result<()
     folder.add(REPORT, html(answer, repeat));
     for document in &answer.documents {
         folder.add(document.file.as_str(), document.toml.as_str());
+        let beside = document.file.rfind('/').map_or("", |end| &document.file[..=end]);
         for companion in &document.companions {
-            folder.add(companion.name.clone(), companion.content.clone());
+            folder.add(format!("{beside}{}", companion.name), companion.content.clone());
         }
     }
     Ok(())

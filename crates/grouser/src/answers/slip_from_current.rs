@@ -144,7 +144,7 @@ impl SlipQuestion {
             answer.figure(&format!("figures/{wheel}"), chart, CAPTION);
         }
         answer.heading("What it comes to");
-        let (caption, columns) = ("Each wheel, and all of them", names(&wheels));
+        let (caption, columns) = ("Each wheel, and all of them", wheels.names());
         answer.page.push(Block::Rows { caption, table: wheels, columns });
         answer.page.push(Block::List(states(&rows).lines().map(String::from).collect()));
         answer.heading("Every reading");
@@ -162,13 +162,9 @@ fn screen(answer: &mut Answer, rows: &Arc<Table>, wheels: &Arc<Table>, notes: &[
     answer.screen = vec![
         Shown::Some { table: Arc::clone(rows), columns: brief(rows), most: ROWS, what: "readings" },
         Shown::Words(states(rows) + "\n"),
-        Shown::Rows(Arc::clone(wheels), names(wheels)),
+        Shown::Rows(Arc::clone(wheels), wheels.names()),
         Shown::Words(format!("\n{notes}")),
     ];
-}
-
-fn names(table: &Table) -> Vec<String> {
-    table.columns.iter().map(|(name, _)| name.clone()).collect()
 }
 
 /// What the words in the column of states mean, a line for each that is not `ok`.

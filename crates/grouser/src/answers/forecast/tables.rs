@@ -1,31 +1,31 @@
 //! The tables of a forecast, and what is printed of them.
 
-use grouser::document::columns::forecast::{self as columns, DEVIATION, FACTOR, QUANTITY, WHOLE};
-use grouser::document::columns::{LIMIT_SLOPE, SLIP_RATIO, SLOPE};
-use grouser::document::reading::rounded_down;
-use grouser::document::table::Table;
-use grouser::studies::forecast::Forecast;
+use std::sync::Arc;
 
-use crate::output::rows::Rows;
-use crate::output::text::Text;
+use super::super::Shown;
+use crate::document::columns::forecast::{self as columns, DEVIATION, FACTOR, QUANTITY, WHOLE};
+use crate::document::columns::{LIMIT_SLOPE, SLIP_RATIO, SLOPE};
+use crate::document::reading::rounded_down;
+use crate::document::table::Table;
+use crate::studies::forecast::Forecast;
 
 /// The tables of a forecast.
 pub(super) struct Tables {
-    pub(super) rows: Table,
+    pub(super) rows: Arc<Table>,
     pub(super) limit: Table,
-    pub(super) budget: Table,
-    pub(super) choices: Table,
-    pub(super) tests: Table,
+    pub(super) budget: Arc<Table>,
+    pub(super) choices: Arc<Table>,
+    pub(super) tests: Arc<Table>,
 }
 
 impl Tables {
     pub(super) fn of(forecast: &Forecast) -> Self {
         Self {
-            rows: columns::table(forecast),
+            rows: columns::table(forecast).into(),
             limit: columns::steepest(forecast),
-            budget: columns::budget(forecast),
-            choices: columns::choices(forecast),
-            tests: columns::tests(forecast),
+            budget: columns::budget(forecast).into(),
+            choices: columns::choices(forecast).into(),
+            tests: columns::tests(forecast).into(),
         }
     }
 
@@ -48,21 +48,22 @@ impl Tables {
         widest.and_then(|row| slip.numbers(SLOPE.name)[row])
     }
 
-    /// For reading.
-    pub(super) fn text(&self, notes: &[String]) -> Text {
+    /// What a terminal shows.
+    pub(super) fn screen(&self, notes: &[String]) -> Vec<Shown> {
         let budget = self.budget_of(&[SLIP_RATIO.name, LIMIT_SLOPE.name]);
-        let budget = Rows::of_table(&budget).to_table(&columns::budget_brief());
-        let tests = if self.tests.rows() == 0 {
-            Text::default()
-        } else {
-            let names: Vec<&String> = self.tests.columns.iter().map(|(name, _)| name).collect();
-            let tests = Rows::of_table(&self.tests).to_table(&names);
-            Text::from("\ntests where the soil was measured\n") + tests
-        };
-        let notes: String = notes.iter().map(|note| format!("note: {note}\n")).collect();
         let title = "\nerror budget of the slip ratio and of the steepest slope\n";
-        let rows = Rows::of_table(&self.rows).to_table(&columns::brief());
-        rows + self.limit_line() + title + budget + tests + format!("\n{notes}")
+        let mut shown = vec![
+            Shown::Rows(Arc::clone(&self.rows), columns::brief()),
+            Shown::Words(self.limit_line() + title),
+            Shown::Rows(budget.into(), columns::budget_brief()),
+        ];
+        if self.tests.rows() > 0 {
+            shown.push(Shown::Words("\ntests where the soil was measured\n".into()));
+            shown.push(Shown::Rows(Arc::clone(&self.tests), self.tests.names()));
+        }
+        let notes: String = notes.iter().map(|note| format!("note: {note}\n")).collect();
+        shown.push(Shown::Words(format!("\n{notes}")));
+        shown
     }
 
     /// The steepest slope, in a line.

@@ -1,89 +1,74 @@
 //! The figures of a forecast: bands over slope, the budget, and what each choice would mean.
 
-use grouser::document::columns::card::DRIFT;
-use grouser::document::columns::forecast::{
+use crate::document::columns::card::DRIFT;
+use crate::document::columns::forecast::{
     FACTOR, INTERACTIONS, QUANTITY, SHARED_SHARE, VARIANCE_SHARE, WHOLE, slips_of_choices,
 };
-use grouser::document::columns::{LIMIT_SLOPE, Quantity, SLIP_RATIO, SLOPE, YAW};
-use grouser::document::reading::four_digits;
-use grouser::document::table::Table;
-use grouser::studies::forecast::{FactorKind, Forecast};
-use grouser_draw::chart::{Bars, Chart, Draw, Series, Style};
+use crate::document::columns::{LIMIT_SLOPE, Quantity, SLIP_RATIO, SLOPE, YAW};
+use crate::document::figure::{BAND_COLOUR, Bars, Chart, Series, Style};
+use crate::document::reading::four_digits;
+use crate::document::table::Table;
+use crate::studies::forecast::{FactorKind, Forecast};
 
+use super::super::Answer;
 use super::tables::Tables;
 
-/// A figure.
-pub(super) struct Figure {
-    /// Name of its file, without ending.
-    pub(super) file: &'static str,
-    pub(super) caption: &'static str,
-    pub(super) svg: String,
-}
-
-/// All of them, in the order of the page.
-pub(super) fn all(forecast: &Forecast, tables: &Tables) -> Vec<Figure> {
+/// Adds the error budget to the page.
+pub(super) fn budget_to(answer: &mut Answer, tables: &Tables) {
     let budgets = budgets(&tables.budget);
     let widest = name_of(SLIP_RATIO.name, tables.widest_slip());
-    let mut figures = vec![
-        Figure {
-            file: "budget",
-            caption: "The error budget: which share of the variance of the slip ratio, of the drift and of the steepest \
-                      slope each factor has alone, and what several have only together. Parts of a bar add up to 100 %.",
-            svg: budget(&budgets).to_svg(),
-        },
-        Figure {
-            file: "budget-slip",
-            caption: "The factors of the slip on the slope on which it is least known, each with an equal share of its \
-                      interactions: all of them add up to 100 %.",
-            svg: largest_first(&budgets, &widest).to_svg(),
-        },
-        Figure {
-            file: "budget-limit",
-            caption: "The same of the steepest slope.",
-            svg: largest_first(&budgets, &name_of(LIMIT_SLOPE.name, None)).to_svg(),
-        },
-        Figure {
-            file: "slip",
-            caption: "Slip ratio of a contour traverse over the slope, over all cases; 1 where no heading holds the \
-                      contour.",
-            svg: band(&tables.rows, SLIP_RATIO, "Slip ratio of a contour traverse", "slip ratio")
-                .to_svg(),
-        },
-        Figure {
-            file: "drift",
-            caption: "Drift with the nose on the contour over the slope, over all cases; 1, straight downhill, where \
-                      the rover slides.",
-            svg: band(&tables.rows, DRIFT, "Drift with the nose on the contour", "drift [m/m]")
-                .to_svg(),
-        },
-        Figure {
-            file: "yaw",
-            caption: "Yaw that holds the contour over the slope. The upper edge ends where in more than 2.5 % of the \
-                      cases no heading does so, the median where in half of them.",
-            svg: band(
-                &tables.rows,
-                YAW,
-                "Heading that holds the contour",
-                "yaw, positive uphill [°]",
-            )
-            .to_svg(),
-        },
-    ];
-    let of_choices = [
+    let limit = name_of(LIMIT_SLOPE.name, None);
+    answer.figure(
+        "budget",
+        budget(&budgets),
+        "The error budget: which share of the variance of the slip ratio, of the drift and of the \
+         steepest slope each factor has alone, and what several have only together. Parts of a bar \
+         add up to 100 %.",
+    );
+    answer.figure(
+        "budget-slip",
+        largest_first(&budgets, &widest),
+        "The factors of the slip on the slope on which it is least known, each with an equal share \
+         of its interactions: all of them add up to 100 %.",
+    );
+    let caption = "The same of the steepest slope.";
+    answer.figure("budget-limit", largest_first(&budgets, &limit), caption);
+}
+
+/// Adds the bands over the slope to the page, and what each choice would mean.
+pub(super) fn bands_to(answer: &mut Answer, forecast: &Forecast, tables: &Tables) {
+    let rows = &tables.rows;
+    answer.figure(
+        "slip",
+        band(rows, SLIP_RATIO, "Slip ratio of a contour traverse", "slip ratio"),
+        "Slip ratio of a contour traverse over the slope, over all cases; 1 where no heading holds \
+         the contour.",
+    );
+    answer.figure(
+        "drift",
+        band(rows, DRIFT, "Drift with the nose on the contour", "drift [m/m]"),
+        "Drift with the nose on the contour over the slope, over all cases; 1, straight downhill, \
+         where the rover slides.",
+    );
+    answer.figure(
+        "yaw",
+        band(rows, YAW, "Heading that holds the contour", "yaw, positive uphill [°]"),
+        "Yaw that holds the contour over the slope. The upper edge ends where in more than 2.5 % \
+         of the cases no heading does so, the median where in half of them.",
+    );
+    for (kind, file, title) in [
         (FactorKind::GravityScaling, "scaling", "Mean slip by how moduli scale"),
         (FactorKind::Ground, "ground", "Mean slip by the ground of the site"),
         (FactorKind::RoverMass, "mass", "Mean slip by the rover's mass"),
         (FactorKind::Model, "model", "Mean slip by the wheel-soil model"),
-    ];
-    for (kind, file, title) in of_choices {
+    ] {
         let curves = slips_of_choices(forecast, kind);
         if curves.len() > 1 {
-            let caption = "Mean slip ratio of the cases of each choice over the slope; 1 where no heading holds the \
-                           contour.";
-            figures.push(Figure { file, caption, svg: by_choice(title, curves).to_svg() });
+            let caption = "Mean slip ratio of the cases of each choice over the slope; 1 where no \
+                           heading holds the contour.";
+            answer.figure(file, by_choice(title, curves), caption);
         }
     }
-    figures
 }
 
 /// A part of a budget.
@@ -179,19 +164,16 @@ fn name_of(quantity: &str, slope: Option<f64>) -> String {
 /// A band over the slope.
 fn band(table: &Table, quantity: Quantity, title: &str, y_label: &str) -> Chart {
     let [low, median, high] = quantity.quantiles();
-    let edges: Vec<(f64, f64, f64)> = table
-        .numbers(SLOPE.name)
-        .iter()
-        .zip(table.numbers(&low).iter().zip(table.numbers(&high)))
-        .filter_map(|(slope, (low, high))| Some(((*slope)?, (*low)?, (*high)?)))
-        .collect();
-    let points = |name: &str| table.points(SLOPE.name, name).collect::<Vec<_>>();
+    let ends = table.numbers(&low).iter().zip(table.numbers(&high));
+    let edges = table.numbers(SLOPE.name).iter().zip(ends);
+    let edges = edges.filter_map(|(slope, (low, high))| Some(((*slope)?, (*low)?, (*high)?)));
+    let medians = table.points(SLOPE.name, &median);
     Chart::new(
         title,
         ("slope [°]", y_label),
         vec![
-            Series::band("95 % of the cases", 6, edges),
-            Series::new("median", Style::Line, 0, points(&median)),
+            Series::band("95 % of the cases", BAND_COLOUR, edges),
+            Series::new("median", Style::Line, 0, medians),
         ],
     )
 }
