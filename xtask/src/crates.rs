@@ -66,8 +66,8 @@ fn features() -> Result<bool> {
     println!("features: {different} crates that two builds compile differently");
     if different > 0 {
         println!(
-            "name the missing features in the workspace's Cargo.toml, in its list of crates that are \
-             not used, and in the package that lacks them"
+            "name the missing features in the workspace's Cargo.toml, in its list of crates that \
+             are not used, and in the package that lacks them"
         );
     }
     Ok(different == 0)

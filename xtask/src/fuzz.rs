@@ -100,7 +100,8 @@ struct Finding {
 pub(crate) fn check(plan: &Plan) -> Result<Count> {
     if !cfg!(unix) {
         println!(
-            "limits of memory and time are set by a POSIX shell, which is not here: nothing was tried"
+            "limits of memory and time are set by a POSIX shell, which is not here: nothing was \
+             tried"
         );
         return Ok(Count::skipped());
     }
@@ -282,7 +283,8 @@ mod tests {
         let sum = "awk -F, 'NR > 1 { sum += $2 } END { print sum }' numbers.csv";
         assert!(!findings(sum, oracle()).is_empty());
         let checked = format!(
-            "[ \"$(cksum < numbers.csv)\" = '2780361304 32' ] || {{ echo 'error: damaged' >&2; exit 2; }}; {sum}"
+            "[ \"$(cksum < numbers.csv)\" = '2780361304 32' ] || {{ echo 'error: damaged' >&2; \
+             exit 2; }}; {sum}"
         );
         let found = findings(&checked, oracle());
         assert!(found.is_empty(), "{found:?}");

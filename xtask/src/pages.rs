@@ -117,7 +117,8 @@ fn looked_at(python: &Path, browser: &str, folder: &Path, pages: &[&str]) -> Res
 
 /// The script of axe, in the package that has it.
 fn rules_of_axe(python: &Path) -> Result<String> {
-    let ask = "import pathlib, axe_playwright_python as a; print(pathlib.Path(a.__file__).parent / 'axe.min.js')";
+    let ask = "import pathlib, axe_playwright_python as a; print(pathlib.Path(a.__file__).parent / \
+               'axe.min.js')";
     let output = Command::new(python).args(["-c", ask]).output().context("Python did not start")?;
     ensure!(output.status.success(), "axe-playwright-python is not installed");
     Ok(String::from_utf8(output.stdout)?.trim().to_owned())

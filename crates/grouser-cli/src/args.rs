@@ -67,7 +67,8 @@ pub(crate) use wheel_test::{StandArgs, WheelTestArgs};
 #[command(name = "grouser", version, max_term_width = 100, arg_required_else_help = true)]
 #[command(after_help = "Start with `grouser reproduce`: the source paper's study, as a page to \
                         open in a browser. Exit codes: 0 done, 1 the run or the disk failed, 2 \
-                        wrong use or a bad document, 3 some runs of a campaign failed, 130 interrupted.")]
+                        wrong use or a bad document, 3 some runs of a campaign failed, 130 \
+                        interrupted.")]
 pub(crate) struct Cli {
     #[command(flatten)]
     pub(crate) terminal: TerminalArgs,
@@ -204,10 +205,10 @@ pub(crate) struct SettingArgs {
 pub(crate) const EVERY_MODEL: &str = "all";
 
 /// The help of `--model` in commands that take [`EVERY_MODEL`].
-const MODEL_OR_ALL: &str = "\
-    The wheel-soil model: `ishigami`, `bekker`, `small-wheel` or `rft`, or `all` for the results of each. Without it \
-    that of the scenario or of its soil, or else `small-wheel` where the soil leaves its wheel sinkage ratio to \
-    priors, and `ishigami` where it does not";
+const MODEL_OR_ALL: &str = "The wheel-soil model: `ishigami`, `bekker`, `small-wheel` or `rft`, or \
+    `all` for the results of each. Without it that of the scenario or of its soil, or else \
+    `small-wheel` where the soil leaves its wheel sinkage ratio to priors, and `ishigami` where it \
+    does not";
 
 impl SettingArgs {
     /// Whether every model is asked for.

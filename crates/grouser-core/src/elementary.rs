@@ -181,7 +181,8 @@ mod tests {
     /// Source: mpmath with 50 digits, rounded to the nearest double.
     #[test]
     #[rustfmt::skip]
-    #[expect(clippy::unreadable_literal, clippy::type_complexity, clippy::approx_constant, reason = "as printed there")]
+    #[expect(clippy::unreadable_literal, clippy::type_complexity, clippy::approx_constant, reason = "as \
+        printed there")]
     fn known_values_are_met_to_one_unit_in_the_last_place() {
         let known: [(&str, fn(f64) -> f64, &[(f64, f64)]); 5] = [
         (

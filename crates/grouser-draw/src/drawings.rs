@@ -47,22 +47,25 @@ pub fn of_a_wheel(wheel: &WheelInSoil<'_>) -> [Drawing; 3] {
     [
         Drawing {
             name: "wheel",
-            caption: "A wheel in its soil, from its left side: the arc in contact from the entry angle θ_f to the \
-                      exit angle θ_r, the angle θ_m of the largest normal stress, the normal stress σ and the \
-                      shear stress τ on the rim, the sinkage h, and the forces on the hub.",
+            caption: "A wheel in its soil, from its left side: the arc in contact from the entry \
+                      angle θ_f to the exit angle θ_r, the angle θ_m of the largest normal stress, \
+                      the normal stress σ and the shear stress τ on the rim, the sinkage h, and \
+                      the forces on the hub.",
             sheet: wheel::sheet(wheel),
         },
         Drawing {
             name: "shear",
-            caption: "Along the arc in contact, from where the rim enters the soil: the shear displacement j that \
-                      builds up, the normal stress σ, and the shear stress τ that j mobilises.",
+            caption: "Along the arc in contact, from where the rim enters the soil: the shear \
+                      displacement j that builds up, the normal stress σ, and the shear stress τ \
+                      that j mobilises.",
             sheet: shear::sheet(wheel),
         },
         Drawing {
             name: "bulldozing",
-            caption: "A wheel that drifts sideways pushes soil with its side wall, seen from behind: a wedge fails \
-                      along a plane at the angle X_c, and piles up at the friction angle φ. The resistance R_b grows \
-                      with the depth and acts at two thirds of it.",
+            caption: "A wheel that drifts sideways pushes soil with its side wall, seen from \
+                      behind: a wedge fails along a plane at the angle X_c, and piles up at the \
+                      friction angle φ. The resistance R_b grows with the depth and acts at two \
+                      thirds of it.",
             sheet: bulldozing::sheet(wheel),
         },
     ]
@@ -74,21 +77,23 @@ pub fn of_a_slope(crossing: &Crossing<'_>) -> [Drawing; 3] {
     [
         Drawing {
             name: "frames",
-            caption: "The frames: x_s runs along the contour, y_s uphill, z_s away from the slope; x_b, y_b, z_b are \
-                      the body's, turned by the yaw γ. The slope is inclined by α.",
+            caption: "The frames: x_s runs along the contour, y_s uphill, z_s away from the slope; \
+                      x_b, y_b, z_b are the body's, turned by the yaw γ. The slope is inclined by \
+                      α.",
             sheet: frames::sheet(crossing),
         },
         Drawing {
             name: "slope",
-            caption: "A rover that holds the contour: seen from the side, its weight pulls it downhill with W sin α; \
-                      seen from above the slope, its nose points uphill by the yaw γ, it moves along the contour, \
-                      and every wheel has the slip angle β = −γ.",
+            caption: "A rover that holds the contour: seen from the side, its weight pulls it \
+                      downhill with W sin α; seen from above the slope, its nose points uphill by \
+                      the yaw γ, it moves along the contour, and every wheel has the slip angle β \
+                      = −γ.",
             sheet: slope::sheet(crossing),
         },
         Drawing {
             name: "loads",
-            caption: "How the wheels share the load, seen from above: each disc has an area in proportion to the load \
-                      of its wheel. The wheels below the body carry more.",
+            caption: "How the wheels share the load, seen from above: each disc has an area in \
+                      proportion to the load of its wheel. The wheels below the body carry more.",
             sheet: loads::sheet(crossing),
         },
     ]

@@ -30,7 +30,8 @@ pub enum Form {
 /// The ending of a name is not that of a form.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the ending decides what is written: `.gif`, `.mp4`, `.html` or `.glb` for the run, `.svg` or `.png` for its last picture"
+    "the ending decides what is written: `.gif`, `.mp4`, `.html` or `.glb` for the run, `.svg` or \
+     `.png` for its last picture"
 )]
 pub struct UnknownEnding;
 

@@ -20,7 +20,8 @@ impl Animation {
     pub fn to_html(&self) -> String {
         let shown = match self.scene.ground {
             Around::Plane { .. } => {
-                "Rover, wheels, tracks and the soil's forces on the wheels, on a piece of the slope."
+                "Rover, wheels, tracks and the soil's forces on the wheels, on a piece of the \
+                 slope."
             }
             Around::Heights(_) => "Rover, its way and the ground's heights.",
         };

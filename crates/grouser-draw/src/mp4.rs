@@ -16,8 +16,8 @@ const PIXELS: f64 = 1280.0;
 pub enum VideoError {
     /// There is no such program.
     #[error(
-        "an .mp4 is made by ffmpeg, which is not installed: install it (such as by `apt install ffmpeg` or \
-         `brew install ffmpeg`), or write a .gif or .html"
+        "an .mp4 is made by ffmpeg, which is not installed: install it (such as by `apt install \
+         ffmpeg` or `brew install ffmpeg`), or write a .gif or .html"
     )]
     NoProgram,
     /// It did not make a film.

@@ -111,7 +111,8 @@ fn write_text(svg: &mut String, text: &Text, at: Place) {
     let (left, top) = (short(x), short(y));
     let _ = write!(
         svg,
-        "<g transform=\"translate({left} {top}){turn}\"><g transform=\"scale({scale:.7} {:.7})\"{}>",
+        "<g transform=\"translate({left} {top}){turn}\"><g transform=\"scale({scale:.7} \
+         {:.7})\"{}>",
         -scale,
         ink("fill", text.colour)
     );

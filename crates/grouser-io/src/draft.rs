@@ -72,7 +72,8 @@ fn beside() -> &'static Json {
         schema["properties"][soil::LIKE] = json!({
             "type": "string",
             "minLength": 1,
-            "description": "The preset of a soil that it is like: from this one come the values without an answer.",
+            "description": "The preset of a soil that it is like: from this one come the values \
+                            without an answer.",
         });
         schema
     })

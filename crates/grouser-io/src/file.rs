@@ -26,8 +26,8 @@ pub enum FileProblem {
     Folder,
     /// A device, a socket, or a pipe with a name.
     #[error(
-        "this is {what}, not a file: files are read, and pipes that are open already, as /dev/stdin \
-         and /dev/fd/N"
+        "this is {what}, not a file: files are read, and pipes that are open already, as \
+         /dev/stdin and /dev/fd/N"
     )]
     NotAFile {
         /// What it is.

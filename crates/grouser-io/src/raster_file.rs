@@ -41,7 +41,8 @@ pub(crate) fn options(document: &Document) -> ReadOptions {
 pub(crate) fn found(what: &str, fault: &Fault) -> Found {
     let own_hint = match fault {
         Fault::NotPlaced | Fault::NotReferenced => Some(
-            "give `terrain.cell_size_m`, and `terrain.south_west_m` if its south-western point is not the origin",
+            "give `terrain.cell_size_m`, and `terrain.south_west_m` if its south-western point is \
+             not the origin",
         ),
         Fault::Bands { .. } => Some("`terrain.band` says which has the heights, from 1"),
         _ => None,

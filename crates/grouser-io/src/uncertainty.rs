@@ -284,8 +284,8 @@ fn contradiction(statements: &[Statement<'_>], error: Contradiction) -> Document
     let origin = own.or(statements.iter().rfind(stating)).unwrap_or(&statements[0]);
     let origin = origin.origin("correlation");
     DocumentError::at(origin, Problem::Contradiction(error)).with_hint(
-        "pairs that are not named have none, and ±1 is too much for any: name the pairs between, or \
-         make the others smaller"
+        "pairs that are not named have none, and ±1 is too much for any: name the pairs between, \
+         or make the others smaller"
             .to_owned(),
     )
 }

@@ -323,7 +323,8 @@ fn check_suspension(rover: &Rover) -> Result<(), Misfit> {
     let Some(suspension) = parts.suspension else { return Ok(()) };
     suspension.check(&parts.complete_mounts()).map_err(|error| {
         Misfit::new("suspension", error).with_hint(
-            "rockers carry two wheels on a side, with [suspension.bogie] three; without [suspension] the wheels are rigidly joined",
+            "rockers carry two wheels on a side, with [suspension.bogie] three; without \
+             [suspension] the wheels are rigidly joined",
         )
     })
 }
@@ -357,7 +358,8 @@ fn check_steering(rover: &Rover) -> Result<(), Misfit> {
             Some(axis) if mount.steering.abs() > axis.limit => {
                 let limit = DEG.as_given(axis.limit);
                 let name = format!(
-                    "the steering angle of `{wheel}`, whose limit is {limit}° to either side, in degrees"
+                    "the steering angle of `{wheel}`, whose limit is {limit}° to either side, in \
+                     degrees"
                 );
                 return misfit("steering_deg", name, angle, "at most its limit");
             }
@@ -525,7 +527,8 @@ fn check_course(course: &PrescribedYaw, start: f64) -> Result<(), Misfit> {
 }
 
 /// What to do about a yaw at the start that a yaw over time contradicts.
-const TWO_YAWS: &str = "leave out `start.yaw_deg`, or leave out `drive.yaw_deg`: without it the wheels' moments turn the rover";
+const TWO_YAWS: &str = "leave out `start.yaw_deg`, or leave out `drive.yaw_deg`: without it the \
+                        wheels' moments turn the rover";
 
 /// What does not go together, and what to write instead.
 const COMPLETE: &str =

@@ -77,7 +77,8 @@ pub fn style(look: Look, of: &BandSummary, label: &str) -> String {
             let (colour, word) = (colour.code(), word.unwrap_or_default());
             let _ = writeln!(
                 text,
-                "        <paletteEntry value=\"{at}\" color=\"{colour}\" alpha=\"255\" label=\"{word}\"/>"
+                "        <paletteEntry value=\"{at}\" color=\"{colour}\" alpha=\"255\" \
+                 label=\"{word}\"/>"
             );
         }
         text += "      </colorPalette>\n    </rasterrenderer>\n";
@@ -85,12 +86,15 @@ pub fn style(look: Look, of: &BandSummary, label: &str) -> String {
         let [low, high] = scale.ends();
         let _ = writeln!(
             text,
-            "    <rasterrenderer type=\"singlebandpseudocolor\" band=\"1\" opacity=\"1\" alphaBand=\"-1\" nodataColor=\"\" classificationMin=\"{low}\" classificationMax=\"{high}\">"
+            "    <rasterrenderer type=\"singlebandpseudocolor\" band=\"1\" opacity=\"1\" \
+             alphaBand=\"-1\" nodataColor=\"\" classificationMin=\"{low}\" \
+             classificationMax=\"{high}\">"
         );
         text += "      <rasterTransparency/>\n      <rastershader>\n";
         let _ = writeln!(
             text,
-            "        <colorrampshader colorRampType=\"INTERPOLATED\" classificationMode=\"2\" clip=\"0\" minimumValue=\"{low}\" maximumValue=\"{high}\" labelPrecision=\"4\">"
+            "        <colorrampshader colorRampType=\"INTERPOLATED\" classificationMode=\"2\" \
+             clip=\"0\" minimumValue=\"{low}\" maximumValue=\"{high}\" labelPrecision=\"4\">"
         );
         for Stop { at, colour, .. } in scale.stops() {
             let colour = colour.code();

@@ -218,7 +218,8 @@ pub enum Fault {
     },
     /// A geometry by itself, or something else.
     #[error(
-        "is of type {kind}, and polygons with a property \"soil\" are a Feature or a FeatureCollection"
+        "is of type {kind}, and polygons with a property \"soil\" are a Feature or a \
+         FeatureCollection"
     )]
     NoFeatures {
         /// Its type.

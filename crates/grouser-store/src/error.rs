@@ -19,7 +19,8 @@ pub enum StoreError {
         source: io::Error,
     },
     /// A file stands where the folder has to be.
-    #[error("{} is a file: a campaign needs a folder, a new one or that of the same study", .0.display())]
+    #[error("{} is a file: a campaign needs a folder, a new one or that of the same \
+             study", .0.display())]
     NotAFolder(PathBuf),
     /// Another program writes there.
     #[error(

@@ -56,7 +56,8 @@ impl Subject {
 const LINES: [(&str, &str, &[&str]); 42] = [
     (
         "wheel-test",
-        "wheel-test --soil soil.toml --wheel wheel.toml --load-n 17 --slip-ratio -0.4:0.8:0.4 --format json",
+        "wheel-test --soil soil.toml --wheel wheel.toml --load-n 17 --slip-ratio -0.4:0.8:0.4 \
+         --format json",
         &["soil.toml", "wheel.toml"],
     ),
     (
@@ -101,12 +102,14 @@ const LINES: [(&str, &str, &[&str]); 42] = [
     ),
     (
         "traverse, drive",
-        "traverse --drive eq18 --reference-slip-ratio 0.2 --duration-s 0.5 --simulation quasi-steady --out run",
+        "traverse --drive eq18 --reference-slip-ratio 0.2 --duration-s 0.5 --simulation \
+         quasi-steady --out run",
         &[],
     ),
     (
         "card",
-        "card --soil uncertain.toml --samples 2 --model ishigami --measured yaws.csv --out card.svg",
+        "card --soil uncertain.toml --samples 2 --model ishigami --measured yaws.csv --out \
+         card.svg",
         &["uncertain.toml", "yaws.csv"],
     ),
     (
@@ -116,12 +119,14 @@ const LINES: [(&str, &str, &[&str]); 42] = [
     ),
     (
         "learn",
-        "learn drive.csv --prior uncertain.toml --model ishigami --samples 2 --predict-slope-deg 5 --out learnt --format json",
+        "learn drive.csv --prior uncertain.toml --model ishigami --samples 2 --predict-slope-deg 5 \
+         --out learnt --format json",
         &["drive.csv", "uncertain.toml"],
     ),
     (
         "learn, MCAP",
-        "learn run.mcap --prior uncertain.toml --model ishigami --samples 2 --predict-slope-deg 5 --format json",
+        "learn run.mcap --prior uncertain.toml --model ishigami --samples 2 --predict-slope-deg 5 \
+         --format json",
         &["run.mcap", "uncertain.toml"],
     ),
     (
@@ -136,12 +141,14 @@ const LINES: [(&str, &str, &[&str]); 42] = [
     ),
     (
         "replay",
-        "replay drive.csv --soil uncertain.toml --uncertainty --samples 2 --mcap drive.mcap --out replayed --format json",
+        "replay drive.csv --soil uncertain.toml --uncertainty --samples 2 --mcap drive.mcap --out \
+         replayed --format json",
         &["drive.csv", "uncertain.toml"],
     ),
     (
         "forecast",
-        "forecast --soil soil.toml --site moon --slope-deg 5 --model ishigami --samples 2 --discrepancies 2 --scaling reece --ground as-measured,uncertain.toml --out moon",
+        "forecast --soil soil.toml --site moon --slope-deg 5 --model ishigami --samples 2 \
+         --discrepancies 2 --scaling reece --ground as-measured,uncertain.toml --out moon",
         &["soil.toml", "uncertain.toml"],
     ),
     (
@@ -151,7 +158,8 @@ const LINES: [(&str, &str, &[&str]); 42] = [
     ),
     (
         "validate, csv",
-        "validate --data test.csv --wheel hakuto --soil toyoura --where slip_angle_deg=0 --format csv",
+        "validate --data test.csv --wheel hakuto --soil toyoura --where slip_angle_deg=0 --format \
+         csv",
         &["test.csv"],
     ),
     (
@@ -166,22 +174,26 @@ const LINES: [(&str, &str, &[&str]); 42] = [
     ),
     (
         "calibrate",
-        "calibrate --data test.csv --wheel hakuto --soil soil.toml --fit soil.friction_angle_deg --point-fit --format json",
+        "calibrate --data test.csv --wheel hakuto --soil soil.toml --fit soil.friction_angle_deg \
+         --point-fit --format json",
         &["test.csv", "soil.toml"],
     ),
     (
         "calibrate, plates",
-        "calibrate --plates plates.csv --soil soil.toml --plate-law bekker --fit soil.pressure_sinkage.k_phi --point-fit",
+        "calibrate --plates plates.csv --soil soil.toml --plate-law bekker --fit \
+         soil.pressure_sinkage.k_phi --point-fit",
         &["plates.csv", "soil.toml"],
     ),
     (
         "calibrate, plates and shear",
-        "calibrate --plates plates.csv --shear shear.csv --soil soil.toml --plate-law bekker --point-fit",
+        "calibrate --plates plates.csv --shear shear.csv --soil soil.toml --plate-law bekker \
+         --point-fit",
         &["plates.csv", "shear.csv", "soil.toml"],
     ),
     (
         "import",
-        "import lab.csv --delimiter ; --decimal-comma --column load_n=W --column slip_ratio=slip:% --column sinkage_mm=z:cm --out ours.csv",
+        "import lab.csv --delimiter ; --decimal-comma --column load_n=W --column slip_ratio=slip:% \
+         --column sinkage_mm=z:cm --out ours.csv",
         &["lab.csv"],
     ),
     (
@@ -211,7 +223,8 @@ const LINES: [(&str, &str, &[&str]); 42] = [
     ),
     (
         "traverse, npy",
-        "traverse --terrain map.npy --set scenario.terrain.cell_size_m=2 --duration-s 0.2 --simulation quasi-steady --format csv",
+        "traverse --terrain map.npy --set scenario.terrain.cell_size_m=2 --duration-s 0.2 \
+         --simulation quasi-steady --format csv",
         &["map.npy"],
     ),
     (
@@ -302,7 +315,8 @@ fn documents(program: &Path) -> Result<Vec<(String, Vec<u8>)>> {
         ("rover.toml", "presets hakuto --kind rover"),
         (
             "test.csv",
-            "wheel-test --load-n 20 --slip-ratio 0:0.6:0.2 --slip-angle-deg 0,15 --trials 3 --format csv",
+            "wheel-test --load-n 20 --slip-ratio 0:0.6:0.2 --slip-angle-deg 0,15 --trials 3 \
+             --format csv",
         ),
     ];
     const WRITTEN: [(&str, &str); 13] = [

@@ -97,7 +97,8 @@ pub(super) fn run(
 ) -> Result<Answer> {
     let Limits { memory_kib, processor_s, file_blocks, waiting_s } = limits;
     let script = format!(
-        "ulimit -v {memory_kib}; ulimit -t {processor_s}; ulimit -f {file_blocks}; ulimit -c 0; exec \"$0\" \"$@\""
+        "ulimit -v {memory_kib}; ulimit -t {processor_s}; ulimit -f {file_blocks}; ulimit -c 0; \
+         exec \"$0\" \"$@\""
     );
     let output = tempfile::tempdir().context("a folder for the output")?;
     let [stdout, stderr] = ["stdout", "stderr"].map(|name| output.path().join(name));

@@ -33,8 +33,9 @@ pub(crate) enum CampaignCommand {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "The same command goes on with a campaign that was interrupted in any way. Exit codes: 0 all \
-                        runs are there, 3 some of them failed (their rows say why), 130 interrupted."
+    after_help = "The same command goes on with a campaign that was interrupted in any way. Exit \
+                        codes: 0 all runs are there, 3 some of them failed (their rows say why), \
+                        130 interrupted."
 )]
 pub(crate) struct CampaignRunArgs {
     /// The study: a campaign document's file or preset.

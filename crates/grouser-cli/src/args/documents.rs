@@ -25,8 +25,8 @@ const WORLDS: [&str; GRAVITIES.len()] = [GRAVITIES[0].0, GRAVITIES[1].0, GRAVITI
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "On a terminal, and with a filter, the list has advice in place of sources: what a soil or a \
-                        rover is for, and how well it is known."
+    after_help = "On a terminal, and with a filter, the list has advice in place of sources: what \
+                        a soil or a rover is for, and how well it is known."
 )]
 pub(crate) struct PresetsArgs {
     /// The preset to print as TOML; where kinds share its name, --kind says which. The name of a

@@ -9,8 +9,9 @@ use super::{BalanceArgs, PartArgs, SettingArgs};
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Stresses are drawn as the model `ishigami` has them; the heading is that of the model of the \
-                        soil or of --model. A drawing is an SVG that fits a light and a dark page."
+    after_help = "Stresses are drawn as the model `ishigami` has them; the heading is that of the \
+                        model of the soil or of --model. A drawing is an SVG that fits a light and \
+                        a dark page."
 )]
 pub(crate) struct DrawArgs {
     /// A scenario's file or preset, for its rover, soil and gravity; without it the default

@@ -8,11 +8,11 @@ use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Every choice meets every other, every wheel-soil model, every sample of the \
-                        soil and every sample of what a model gets wrong. Choices of one kind count \
-                        alike; name one alone to leave the others out. The error budget says which of \
-                        them the spread is due to. docs/guide/forecast.md explains the choices and the \
-                        budget."
+    after_help = "Every choice meets every other, every wheel-soil model, every sample of the soil \
+                        and every sample of what a model gets wrong. Choices of one kind count \
+                        alike; name one alone to leave the others out. The error budget says which \
+                        of them the spread is due to. docs/guide/forecast.md explains the choices \
+                        and the budget."
 )]
 pub(crate) struct ForecastArgs {
     /// A scenario's file or preset, for its rover, soil, load transfer and rim speed; without it

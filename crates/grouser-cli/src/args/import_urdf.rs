@@ -6,9 +6,10 @@ use clap::Args;
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Links that roll are wheels, all others the body. Joints about an axis across the rover between the two \
-                  are rockers and bogies, joints about an upright axis steer. What was taken for granted stands under \
-                  `assumed` in the document, and on stderr."
+    after_help = "Links that roll are wheels, all others the body. Joints about an axis across the \
+                  rover between the two are rockers and bogies, joints about an upright axis \
+                  steer. What was taken for granted stands under `assumed` in the document, and on \
+                  stderr."
 )]
 pub(crate) struct ImportUrdfArgs {
     /// The URDF: of xacro, what `xacro FILE` prints.

@@ -21,9 +21,10 @@ pub(crate) enum MakeTerrainCommand {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "The ground is made by chance and is no place of the Moon. The origin is in its middle. With smaller cells \
-                  the same seed and size give the same craters, and smaller ones as well. `map` and `route` read the file; \
-                  docs/guide/terrain.md has the sources."
+    after_help = "The ground is made by chance and is no place of the Moon. The origin is in its \
+                  middle. With smaller cells the same seed and size give the same craters, and \
+                  smaller ones as well. `map` and `route` read the file; docs/guide/terrain.md has \
+                  the sources."
 )]
 pub(crate) struct MoonArgs {
     /// Length of a side [m], up to 20000, and 8 to 4096 cells.

@@ -11,9 +11,10 @@ use crate::output::Format;
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Writes a cloud-optimised GeoTIFF for each number, in the coordinates of DEM, a style for QGIS beside \
-                  each, map.html to look at, and map.json. Stopped half-way, the same command goes on where it was. \
-                  docs/guide/maps.md shows a map and explains how to read it."
+    after_help = "Writes a cloud-optimised GeoTIFF for each number, in the coordinates of DEM, a \
+                  style for QGIS beside each, map.html to look at, and map.json. Stopped half-way, \
+                  the same command goes on where it was. docs/guide/maps.md shows a map and \
+                  explains how to read it."
 )]
 pub(crate) struct MapArgs {
     /// A map of heights: a GeoTIFF in metres, or text with x, y and z in each line.

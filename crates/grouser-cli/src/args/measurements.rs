@@ -32,9 +32,9 @@ impl ReadArgs {
                       grouser validate --data NAME|FILE.toml [OPTIONS]\n       \
                       grouser validate --all [--data-dir DIR] [OPTIONS]",
     after_help = "Errors are of means over the trials of a cell, which are rows that repeat each \
-                  other; every cell weighs the same. Beside them stand predictions without physics: the mean, and \
-                  interpolation between the other cells. docs/guide/data.md lists the columns of FILE.csv, \
-                  docs/validation.md what the numbers mean."
+                  other; every cell weighs the same. Beside them stand predictions without \
+                  physics: the mean, and interpolation between the other cells. docs/guide/data.md \
+                  lists the columns of FILE.csv, docs/validation.md what the numbers mean."
 )]
 pub(crate) struct ValidateArgs {
     /// Measured wheel tests, or a rover's measured slip or yaw over slope: a data set that comes

@@ -6,9 +6,8 @@ use clap::{ArgGroup, Args};
 use super::{OutputArgs, RunArgs, SettingArgs, SlopeArgs, StrictArgs, WRITTEN};
 
 /// The help of `--mcap`.
-const LOG_OF_A_MISSION: &str = "\
-    Also log the mission: `.mcap` for Foxglove and Rerun, with what became of each leg. With --out, a name alone is a \
-    file in DIR";
+const LOG_OF_A_MISSION: &str = "Also log the mission: `.mcap` for Foxglove and Rerun, with what \
+    became of each leg. With --out, a name alone is a file in DIR";
 
 #[derive(Debug, Args)]
 #[command(mut_arg("mcap", |mcap| mcap.help(LOG_OF_A_MISSION)))]

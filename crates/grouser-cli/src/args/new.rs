@@ -7,8 +7,9 @@ use grouser::document::Kind;
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "On a terminal it asks; elsewhere, and with --yes, what --set does not answer has its usual \
-                        value, and the output says which. `grouser new rover --questions` lists the questions."
+    after_help = "On a terminal it asks; elsewhere, and with --yes, what --set does not answer has \
+                        its usual value, and the output says which. `grouser new rover \
+                        --questions` lists the questions."
 )]
 pub(crate) struct NewArgs {
     /// The kind of document.

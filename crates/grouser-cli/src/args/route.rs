@@ -11,11 +11,12 @@ use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Ways lead over the points of DEM in sixteen directions, and turns are made on the spot. The way is then \
-                  driven by simulation, so that predicted and simulated time, work and slip stand side by side. With --out \
-                  there is route.geojson, whose legs `mission --terrain DEM --legs-from` drives. With --along the numbers \
-                  are those of a given line, and each stretch of it that is not safe is named. docs/guide/maps.md explains \
-                  the numbers."
+    after_help = "Ways lead over the points of DEM in sixteen directions, and turns are made on \
+                  the spot. The way is then driven by simulation, so that predicted and simulated \
+                  time, work and slip stand side by side. With --out there is route.geojson, whose \
+                  legs `mission --terrain DEM --legs-from` drives. With --along the numbers are \
+                  those of a given line, and each stretch of it that is not safe is named. \
+                  docs/guide/maps.md explains the numbers."
 )]
 pub(crate) struct RouteArgs {
     /// A map of heights: a GeoTIFF in metres, or text with x, y and z in each line.

@@ -77,7 +77,8 @@ fn stored(folder: &Path) -> Result<(Results, Campaign), Failure> {
     let (theirs, ours) = (&results.manifest().version, env!("CARGO_PKG_VERSION"));
     if theirs != ours {
         return Err(Failure::Usage(format!(
-            "the folder {} was computed by grouser {theirs}, this is {ours}: its numbers may differ",
+            "the folder {} was computed by grouser {theirs}, this is {ours}: its numbers may \
+             differ",
             folder.display()
         )));
     }

@@ -30,7 +30,8 @@ impl<'a> Target<'a> {
         if path.extension().is_none_or(|ending| !ending.eq_ignore_ascii_case(ENDING)) {
             let shown = escape::path(path);
             return Err(Failure::Usage(format!(
-                "--mcap {shown}: the name of a log ends with `.{ENDING}`, by which Foxglove and Rerun know it"
+                "--mcap {shown}: the name of a log ends with `.{ENDING}`, by which Foxglove and \
+                 Rerun know it"
             )));
         }
         Ok(Self { place: Place::of(path, has_folder, may_replace)? })

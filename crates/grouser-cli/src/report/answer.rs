@@ -76,8 +76,8 @@ pub(crate) fn close<'f>(
     page.paragraph("In the folder of this page:");
     page.code(&basis.repeat);
     page.paragraph(
-        "The inputs are complete in the files beside this page. The same version gives the same numbers to the last \
-         digit.",
+        "The inputs are complete in the files beside this page. The same version gives the same \
+         numbers to the last digit.",
     );
     for (name, text) in &basis.documents {
         page.document(name, text);
@@ -126,8 +126,9 @@ pub(crate) fn drawing_of_ground(scenario: &Scenario, records: &[Record]) -> Opti
 
 /// The same on a page.
 pub(crate) fn over_ground(page: &mut Page, scenario: &Scenario, records: &[Record]) {
-    const CAPTION: &str = "The ground, the way of the body's centre of mass over it, and the rover at its start, on the \
-        way and at its end, to scale. Numbers are the map's coordinates; the body is a likeness.";
+    const CAPTION: &str = "The ground, the way of the body's centre of mass over it, and the rover \
+        at its start, on the way and at its end, to scale. Numbers are the map's coordinates; the \
+        body is a likeness.";
     if let Some(drawing) = drawing_of_ground(scenario, records) {
         page.drawing(&drawing, CAPTION);
     }

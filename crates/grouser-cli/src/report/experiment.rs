@@ -143,10 +143,11 @@ pub(crate) fn caveats(study: &Study) -> String {
         )
     });
     format!(
-        "This is a reproduction, no validation: the exit angle's ratio λ, the bulldozing law and the reading of k'φ \
-         were chosen with these four headings in view. A heading that holds the contour is compared with the mean of \
-         a run's yaw, not with its start; the run on 20° was started high on purpose, at 21.63°, and ended at \
-         12.05°, so that its agreement with a start is none.{near}"
+        "This is a reproduction, no validation: the exit angle's ratio λ, the bulldozing law and \
+         the reading of k'φ were chosen with these four headings in view. A heading that holds the \
+         contour is compared with the mean of a run's yaw, not with its start; the run on 20° was \
+         started high on purpose, at 21.63°, and ended at 12.05°, so that its agreement with a \
+         start is none.{near}"
     )
 }
 
@@ -182,7 +183,8 @@ pub(crate) fn by_model(study: &Reproduction) -> Table {
     let others = study.other_headings.iter();
     columns.extend(others.map(|(model, _)| column(key(model), model.name(), 2)));
     Table {
-        caption: "Heading offset that holds the contour by each wheel-soil model, in degrees; a dash where none does",
+        caption: "Heading offset that holds the contour by each wheel-soil model, in degrees; a \
+                  dash where none does",
         file: "models",
         columns,
         rows: study.slopes.iter().map(row).collect(),
@@ -202,11 +204,20 @@ pub(crate) fn drift(study: &Reproduction) -> Figure {
     let level = points(|runs| runs.uncompensated.last().state.position.y.abs());
     Figure {
         file: "drift-at-measured-yaw",
-        caption: "Distance from the contour at the end of a run that is held at the measured yaw, predicted and \
-                  measured, beside that of a run with its nose along the contour. The paper prints no sign; all \
-                  predictions are downhill."
+        caption: "Distance from the contour at the end of a run that is held at the measured yaw, \
+                  predicted and measured, beside that of a run with its nose along the contour. \
+                  The paper prints no sign; all predictions are downhill."
             .into(),
-        chart: Chart::new("Drift at the measured yaw", ("slope [°]", "distance from the contour [mm]"), vec![
+        chart: Chart::new(
+            "Drift at the measured \
+                           yaw",
+            (
+                "slope \
+                                                         [°]",
+                "distance from the contour \
+            [mm]",
+            ),
+            vec![
                 Series::new("nose along the contour", Style::Dotted, 3, level),
                 Series::new("at the measured yaw, predicted", Style::Squares, 1, ours),
                 Series::new(
@@ -215,7 +226,8 @@ pub(crate) fn drift(study: &Reproduction) -> Figure {
                     2,
                     points(|runs| runs.measured.final_distance_error),
                 ),
-            ]),
+            ],
+        ),
     }
 }
 
@@ -242,8 +254,9 @@ pub(crate) fn lost_yaw(study: &Study) -> Table {
         }))
     };
     Table {
-        caption: "Yaw lost on the way from the measured start, in degrees: by complete loads alone, with rear wheels in compacted ruts too, and with soil and \
-                  speeds that scatter; standard deviations by each cause alone and by all",
+        caption: "Yaw lost on the way from the measured start, in degrees: by complete loads \
+                  alone, with rear wheels in compacted ruts too, and with soil and speeds that \
+                  scatter; standard deviations by each cause alone and by all",
         file: "lost-yaw",
         columns: vec![
             column(SLOPE.name, "slope", 0),
@@ -282,9 +295,11 @@ pub(crate) fn lost_yaw_figure(study: &Study) -> Figure {
     Figure {
         file: "lost-yaw",
         caption: format!(
-            "Yaw lost in 20 s from the measured starts. The line is what complete loads take on even sand with \
-                  even motors, the dotted one with rear wheels in compacted ruts; the band holds 95 % of {} runs on each slope in which friction, stiffness and speeds \
-                  scatter. With loads by the weight alone, as in the paper, nothing is lost.",
+            "Yaw lost in 20 s from the measured starts. The line is what complete loads take on \
+                  even sand with even motors, the dotted one with rear wheels in compacted ruts; \
+                  the band holds 95 % of {} runs on each slope in which friction, stiffness and \
+                  speeds scatter. With loads by the weight alone, as in the paper, nothing is \
+                  lost.",
             study.lost.first().map_or(0, |loss| loss.below_measured.trials)
         ),
         chart: Chart::new(
@@ -326,10 +341,11 @@ pub(crate) fn lost_yaw_verdict(study: &Study) -> String {
     };
     let (ours, theirs) = (mean(&|loss| loss.by_loads), mean(&measured));
     format!(
-        "Of the {all} measured losses {inside} lie within what complete loads and this scatter give in 95 % of runs. \
-         More than that was lost on: {more}; less on: {less}. {verdict} Over the slopes the loads take {ours:.1}° and \
-         {theirs:.1}° were measured, as far as is printed in one run each. Nothing here was tuned to these runs; repeated \
-         runs on one slope would tell."
+        "Of the {all} measured losses {inside} lie within what complete loads and this scatter \
+         give in 95 % of runs. More than that was lost on: {more}; less on: {less}. {verdict} Over \
+         the slopes the loads take {ours:.1}° and {theirs:.1}° were measured, as far as is printed \
+         in one run each. Nothing here was tuned to these runs; repeated runs on one slope would \
+         tell."
     )
 }
 

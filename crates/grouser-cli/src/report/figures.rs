@@ -80,10 +80,11 @@ pub(crate) fn heading(study: &Reproduction, band: &[SlopeBand]) -> Figure {
         file: "fig10-attitude",
         caption: format!(
             "Fig. 10 of the paper: the heading offset that holds the contour, there called \
-                  attitude, over the slope. The curve ends where turning further uphill costs more thrust than it gains. The \
-                  measured runs lose yaw from start to end; on 20° they were started high on purpose. The band: \
-                  sand known as well as preset toyoura-uncertain says, any of three models, complete loads, {} \
-                  samples; it ends where fewer than 97.5 % of them hold the contour.",
+                  attitude, over the slope. The curve ends where turning further uphill costs more \
+                  thrust than it gains. The measured runs lose yaw from start to end; on 20° they \
+                  were started high on purpose. The band: sand known as well as preset \
+                  toyoura-uncertain says, any of three models, complete loads, {} samples; it ends \
+                  where fewer than 97.5 % of them hold the contour.",
             band.first().map_or(0, |on| on.level.trials)
         ),
         chart: Chart::new(
@@ -171,7 +172,8 @@ fn wheel_curves(study: &Reproduction) -> Figure {
         format!(
             " With the {} that the paper reports after tuning, read as metres, the wheel does not \
              pull at any slip: a rover on such wheels could not move, so the number cannot be what \
-             was used. (0.03 would be near; a grouser thrust added apart would be another reading.)",
+             was used. (0.03 would be near; a grouser thrust added apart would be another \
+             reading.)",
             curve.longitudinal_modulus
         )
     });
@@ -280,9 +282,9 @@ fn slip_along_run(study: &Reproduction, rover: &Rover) -> Figure {
     Figure {
         file: "slip-along-run",
         caption: format!(
-            "Slip ratio of each wheel in the first moments of a run from rest on {}, with \
-             the heading offset. The wheels turn from the first instant; slip settles within a tenth of a \
-             second and stays for the rest of the run.",
+            "Slip ratio of each wheel in the first moments of a run from rest on {}, with the \
+             heading offset. The wheels turn from the first instant; slip settles within a tenth \
+             of a second and stays for the rest of the run.",
             start_up_slope(study)
         ),
         chart: Chart::new(

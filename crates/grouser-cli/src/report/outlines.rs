@@ -9,8 +9,9 @@ use grouser_draw::{Place, Shape, Sheet, Stroke, Text, draw_outline, reach};
 /// Name of the drawing's file, without ending.
 pub(crate) const FILE: &str = "fig9-outlines";
 /// The text below it.
-pub(crate) const CAPTION: &str = "The runs of Fig. 9 from above, to scale, uphill at the top; the rover's wheels at the start and at \
-                                  the end. Grey: nose along the contour. Black: with the heading offset.";
+pub(crate) const CAPTION: &str = "The runs of Fig. 9 from above, to scale, uphill at the top; the \
+                                  rover's wheels at the start and at the end. Grey: nose along the \
+                                  contour. Black: with the heading offset.";
 
 /// Width of the drawing [mm].
 const WIDTH: f64 = 180.0;

@@ -178,7 +178,8 @@ pub(crate) fn mean_yaw(study: &Reproduction) -> Table {
         }))
     };
     Table {
-        caption: "Heading offset that holds the contour, beside the mean of the measured yaw, in degrees",
+        caption: "Heading offset that holds the contour, beside the mean of the measured yaw, in \
+                  degrees",
         file: "mean-yaw",
         columns: vec![
             column(SLOPE.name, "slope", 0),
@@ -203,7 +204,8 @@ pub(crate) fn measured_yaw_drift(study: &Reproduction) -> Table {
         }))
     };
     Table {
-        caption: "Drift at the end of a run held at the measured yaw, in millimetres, uphill positive",
+        caption: "Drift at the end of a run held at the measured yaw, in millimetres, uphill \
+                  positive",
         file: "measured-yaw-drift",
         columns: vec![
             column(SLOPE.name, "slope [°]", 0),

@@ -282,8 +282,8 @@ fn shear_tests_of_another_laboratory_give_their_soil() {
         }
     }
     place.write("lab.csv", rows.join("\n"));
-    let import = "import lab.csv --column normal_stress_kpa=sigma:bar --column shear_displacement_mm=j:cm \
-                  --column shear_stress_kpa=tau:Pa --out shear.csv";
+    let import = "import lab.csv --column normal_stress_kpa=sigma:bar --column \
+                  shear_displacement_mm=j:cm --column shear_stress_kpa=tau:Pa --out shear.csv";
     let answer = place.run(&words(import));
     assert_eq!(answer.code(), 0, "{}", answer.conversation());
     let found = json(&place, "calibrate --soil dry-sand --shear shear.csv --point-fit");
@@ -317,7 +317,8 @@ fn what_cannot_be_fitted_is_refused() {
             &format!("{stand} --fit soil.friction_angle_deg --target pull"),
             &format!("{stand} --fit soil.friction_angle_deg --target torque_nm:speed=1"),
             &format!("{stand} --fit soil.friction_angle_deg --steps 1"),
-            "calibrate --data few.csv --wheel hakuto --soil toyoura --fit soil.friction_angle_deg,soil.cohesion_kpa",
+            "calibrate --data few.csv --wheel hakuto --soil toyoura --fit \
+             soil.friction_angle_deg,soil.cohesion_kpa",
             "calibrate --plates plates.csv --soil toyoura",
             "calibrate --plates nowhere.csv --soil toyoura",
         ],

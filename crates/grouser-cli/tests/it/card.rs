@@ -508,7 +508,8 @@ fn drives_are_told_beside_what_the_card_states() {
 #[test]
 fn an_uncorrected_traverse_ends_low_with_its_nose_down_and_the_card_says_to_correct() {
     let place = Place::new();
-    let line = "traverse --slope-deg 13 --yaw-deg 6.863 --load-transfer quasi-static-torque --duration-s 167 --set soil.priors=none";
+    let line = "traverse --slope-deg 13 --yaw-deg 6.863 --load-transfer quasi-static-torque \
+                --duration-s 167 --set soil.priors=none";
     let end = &place.json(line)["final"];
     assert!(
         (number(&end["y_m"]) + 1.47).abs() < 0.01 && (number(&end["yaw_deg"]) + 9.7).abs() < 0.1,

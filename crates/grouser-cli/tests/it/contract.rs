@@ -554,8 +554,8 @@ fn documents_are_presets_or_files() {
 fn every_flag_of_a_traverse_reaches_the_scenario() {
     let json = Place::new().json(
         "traverse --rover el-dorado-2 --soil simulant-2007 --slope-deg 7.5 --yaw-deg -5 \
-         --duration-s 0.2 --ground-speed-m-s 0.05 --drive eq18 --reference-slip-ratio 0.1 --start rest \
-         --load-transfer uniform --wheel-moments included --model bekker --gravity-m-s2 3.71",
+         --duration-s 0.2 --ground-speed-m-s 0.05 --drive eq18 --reference-slip-ratio 0.1 --start \
+         rest --load-transfer uniform --wheel-moments included --model bekker --gravity-m-s2 3.71",
     );
     let scenario = &json["inputs"]["scenario"];
     assert_eq!(scenario["slope_deg"], 7.5);

@@ -64,7 +64,8 @@ fn nothing_is_noted_of_choices_that_are_not_made() {
     assert_eq!(home["tests"], json!([]));
     assert!(!home["notes"].to_string().contains("`bekker`"), "{}", home["notes"]);
     let assumed = place.json(
-        "forecast --soil dry-sand --site mars --slope-deg 5 --samples 2 --discrepancies 2 --model ishigami",
+        "forecast --soil dry-sand --site mars --slope-deg 5 --samples 2 --discrepancies 2 --model \
+         ishigami",
     );
     assert!(assumed["notes"].to_string().contains("which is assumed"), "{}", assumed["notes"]);
     assert!(assumed["notes"].to_string().contains("priors"), "{}", assumed["notes"]);
@@ -109,8 +110,9 @@ fn the_folder_has_the_page_and_all_that_repeats_it() {
     place.results("check moon/scenario.toml moon/ground-1/soil.toml moon/ground-2/soil.toml");
     // From the folder's documents the same numbers.
     let again = place.json(
-        "forecast moon/scenario.toml --site moon --slope-deg 10 --samples 2 --discrepancies 2 --mass \
-         equal-mass,flight=0.65 --ground as-measured,moon/ground-1/soil.toml,moon/ground-2/soil.toml",
+        "forecast moon/scenario.toml --site moon --slope-deg 10 --samples 2 --discrepancies 2 \
+         --mass equal-mass,flight=0.65 --ground \
+         as-measured,moon/ground-1/soil.toml,moon/ground-2/soil.toml",
     );
     let first: Value = serde_json::from_str(&place.read("moon/forecast.json")).expect("JSON");
     assert_eq!(again["rows"], first["rows"]);

@@ -152,7 +152,8 @@ fn calibrate_refuses_more_cells_than_it_can_fit() {
     let header = "load_n,slip_ratio,sinkage_mm\n".to_owned();
     place.write("many.csv", header + &rows.collect::<String>());
     let answer = place.line(
-        "calibrate --data many.csv --wheel hakuto --soil toyoura --fit soil.cohesion_kpa --point-fit",
+        "calibrate --data many.csv --wheel hakuto --soil toyoura --fit soil.cohesion_kpa \
+         --point-fit",
     );
     assert_eq!(answer.code(), 2);
     assert!(answer.stderr.contains("10001 observations are more than 10000"), "{}", answer.stderr);

@@ -7,15 +7,15 @@ use crate::program::{Place, number};
 /// A place with the log of a drive along 8° of a sand that is softer than the prior says.
 fn driven() -> Place {
     let place = Place::new();
-    let run = "traverse --rover hakuto --soil toyoura --set soil.shear.lateral_m=0.022 --slope-deg 8 \
-               --set soil.shear.longitudinal_m=0.05 --set scenario.start.yaw_deg=4 --simulation quasi-steady \
-               --duration-s 30 --format csv";
+    let run = "traverse --rover hakuto --soil toyoura --set soil.shear.lateral_m=0.022 --slope-deg \
+               8 --set soil.shear.longitudinal_m=0.05 --set scenario.start.yaw_deg=4 --simulation \
+               quasi-steady --duration-s 30 --format csv";
     place.write("log.csv", place.results(run));
     place
 }
 
-const COMMAND: &str = "learn log.csv --prior toyoura-uncertain --rover hakuto --model ishigami --slope-deg 8 \
-                       --predict-slope-deg 5,10 --samples 60";
+const COMMAND: &str = "learn log.csv --prior toyoura-uncertain --rover hakuto --model ishigami \
+                       --slope-deg 8 --predict-slope-deg 5,10 --samples 60";
 
 /// The command's contract: headings and slips with bands, that hold what the soil of the drive has.
 #[test]
@@ -53,8 +53,8 @@ fn a_drive_narrows_the_next_slopes() {
 #[test]
 fn a_run_has_telemetry() {
     let place = Place::new();
-    let run = "traverse --rover hakuto --soil toyoura --slope-deg 6 --simulation quasi-steady --duration-s 30 \
-               --set scenario.start.yaw_deg=3";
+    let run = "traverse --rover hakuto --soil toyoura --slope-deg 6 --simulation quasi-steady \
+               --duration-s 30 --set scenario.start.yaw_deg=3";
     for (name, flags) in [
         ("one.csv", "--sensor outliers=0.05"),
         ("again.csv", "--sensor outliers=0.05 --sensor-seed 1"),

@@ -15,9 +15,9 @@ use crate::program::{Place, number};
 /// A place with the telemetry of a drive along 8° of a sand that is softer than the prior says.
 fn driven() -> Place {
     let place = Place::new();
-    let run = "traverse --rover hakuto --soil toyoura --set soil.shear.lateral_m=0.022 --slope-deg 8 \
-               --set soil.shear.longitudinal_m=0.05 --set scenario.start.yaw_deg=4 --simulation quasi-steady \
-               --duration-s 24 --telemetry log.csv --sensor outliers=0.02";
+    let run = "traverse --rover hakuto --soil toyoura --set soil.shear.lateral_m=0.022 --slope-deg \
+               8 --set soil.shear.longitudinal_m=0.05 --set scenario.start.yaw_deg=4 --simulation \
+               quasi-steady --duration-s 24 --telemetry log.csv --sensor outliers=0.02";
     place.results(run);
     place
 }

@@ -197,8 +197,9 @@ fn bad_missions_are_refused_with_the_leg_that_is_wrong() {
 fn flags_change_what_a_mission_says() {
     let place = Place::new();
     place.write("m.toml", begins("[[leg]]\ndrive_m = 0.2\n"));
-    let line = "mission m.toml --slope-deg 4 --gravity-m-s2 moon --model small-wheel --set mission.leg.0.drive_m=0.3 \
-                --set soil.friction_angle_deg=36 --simulation quasi-steady";
+    let line = "mission m.toml --slope-deg 4 --gravity-m-s2 moon --model small-wheel --set \
+                mission.leg.0.drive_m=0.3 --set soil.friction_angle_deg=36 --simulation \
+                quasi-steady";
     let answer = place.json(line);
     let mission = &answer["inputs"]["mission"];
     assert_eq!((number(&mission["slope_deg"]), number(&mission["gravity_m_s2"])), (4.0, 1.62));

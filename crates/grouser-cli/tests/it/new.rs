@@ -7,7 +7,8 @@ use crate::program::Place;
 #[test]
 fn a_rover_from_flags_passes_the_check_and_drives() {
     let place = Place::new();
-    let line = "new rover Grasshopper --yes --set total_mass_kg=12 --set track_m=0.5 --set wheelbase_m=0.55";
+    let line = "new rover Grasshopper --yes --set total_mass_kg=12 --set track_m=0.5 --set \
+                wheelbase_m=0.55";
     let text = place.results(line);
     insta::assert_snapshot!("new_rover", text);
     insta::assert_snapshot!("new_rover_document", place.read("grasshopper.toml"));

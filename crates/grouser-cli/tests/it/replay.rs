@@ -8,8 +8,9 @@ use crate::program::{Place, number};
 fn driven() -> Place {
     let place = Place::new();
     place.results(
-        "traverse --rover hakuto --soil toyoura --model ishigami --slope-deg 8 --simulation quasi-steady \
-         --set scenario.start.yaw_deg=4 --duration-s 60 --telemetry drive.csv --format csv",
+        "traverse --rover hakuto --soil toyoura --model ishigami --slope-deg 8 --simulation \
+         quasi-steady --set scenario.start.yaw_deg=4 --duration-s 60 --telemetry drive.csv \
+         --format csv",
     );
     place
 }
@@ -51,8 +52,8 @@ fn a_wrong_radius_is_named() {
     let speed = findings.iter().find(|it| it["cause"] == "speed").expect("speed");
     assert_ne!(speed["finding"], "nothing", "{speed}");
     assert!((number(&speed["estimate"]) - 0.048).abs() < 0.02, "{speed}");
-    let banded = "replay drive.csv --rover hakuto --soil toyoura-uncertain --model ishigami --uncertainty \
-                  --samples 8 --seed 2";
+    let banded = "replay drive.csv --rover hakuto --soil toyoura-uncertain --model ishigami \
+                  --uncertainty --samples 8 --seed 2";
     let answer = place.json(banded);
     let first = &answer["stretches"][0];
     assert!(number(&first["slip_ratio_p2_5"]) <= number(&first["slip_ratio_p97_5"]), "{first}");

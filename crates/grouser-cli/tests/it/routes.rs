@@ -20,7 +20,8 @@ fn places(route: &Value) -> Vec<[f64; 2]> {
 fn a_route_goes_around_and_can_be_driven() {
     let place = Place::new();
     place.write("ridge.xyz", heights(ridge));
-    let line = "route ridge.xyz --from 7002,-298 --to 7010.5,-298 --samples 2 --alternatives --no-drive --out out";
+    let line = "route ridge.xyz --from 7002,-298 --to 7010.5,-298 --samples 2 --alternatives \
+                --no-drive --out out";
     let route = place.json(line);
     assert_eq!(route["status"], "found");
     let way = places(&route);
@@ -48,7 +49,8 @@ fn a_route_goes_around_and_can_be_driven() {
         "schema = \"mission/1\"\n[terrain]\nfile = \"ridge.xyz\"\nstart_m = [7002.0, -298.0]\n";
     place.write("mission.toml", mission);
     let legs = place.json(
-        "mission mission.toml --legs-from short/route.geojson --set mission.simulation=quasi-steady",
+        "mission mission.toml --legs-from short/route.geojson --set \
+         mission.simulation=quasi-steady",
     );
     let rows = legs["legs"].as_array().or(legs["rows"].as_array()).expect("legs");
     let last = rows.last().expect("a leg");
@@ -110,7 +112,8 @@ fn a_route_keeps_out_of_areas() {
     let place = Place::new();
     place.write("flat.xyz", heights(|_, _| 2.0));
     place.write("keep.geojson", square(7005.0, -300.0, 4.0).to_string());
-    let line = "route flat.xyz --from 7002,-298 --to 7010.5,-298 --samples 2 --no-drive --keep-out keep.geojson";
+    let line = "route flat.xyz --from 7002,-298 --to 7010.5,-298 --samples 2 --no-drive --keep-out \
+                keep.geojson";
     let route = place.json(line);
     assert!(places(&route).iter().any(|[_, y]| *y > -296.2), "{route}");
     let inside = place.json(&line.replace("7010.5,-298", "7007,-298"));

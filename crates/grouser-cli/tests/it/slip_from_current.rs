@@ -8,8 +8,8 @@ use crate::program::{Place, number};
 fn driven() -> Place {
     let place = Place::new();
     place.write("r.toml", rover(&format!("resistance_ohm = 10.0\n{MOTOR}")));
-    let run = "traverse --rover r.toml --slope-deg 8 --set scenario.start.yaw_deg=90 --simulation quasi-steady \
-               --duration-s 2 --format csv";
+    let run = "traverse --rover r.toml --slope-deg 8 --set scenario.start.yaw_deg=90 --simulation \
+               quasi-steady --duration-s 2 --format csv";
     place.write("log.csv", place.results(run));
     place
 }
@@ -69,7 +69,8 @@ fn a_folder_repeats_itself() {
     {
         assert!(page.contains(part), "{part}");
     }
-    let repeat = "slip-from-current out/log.csv --scenario out/scenario.toml --noise-nm=0.01 --ignore load_n";
+    let repeat = "slip-from-current out/log.csv --scenario out/scenario.toml --noise-nm=0.01 \
+                  --ignore load_n";
     assert!(page.contains("--noise-nm=0.01") && page.contains("--scenario scenario.toml"));
     assert_eq!(
         place.results(&format!("{repeat} --format csv")),

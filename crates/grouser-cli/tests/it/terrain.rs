@@ -155,7 +155,9 @@ fn ground_by_formulas_stands_in_documents() {
     let pitches = run["samples"].as_array().expect("samples").iter();
     let lowest = pitches.map(|it| number(&it["pitch_deg"])).fold(0.0, f64::min);
     assert!((-1.1 * steepest..-0.7 * steepest).contains(&lowest), "{lowest} {steepest}");
-    let crater = "--set scenario.terrain.surface=crater --set scenario.terrain.diameter_m=10 --set scenario.terrain.depth_m=1 --set scenario.terrain.rim_height_m=0.2 --set scenario.terrain.rim_width_m=2";
+    let crater = "--set scenario.terrain.surface=crater --set scenario.terrain.diameter_m=10 --set \
+                  scenario.terrain.depth_m=1 --set scenario.terrain.rim_height_m=0.2 --set \
+                  scenario.terrain.rim_width_m=2";
     let at_rim = place
         .json(&format!("traverse s.toml {crater} --start-x-m -5 --start-y-m 0 --duration-s 1"));
     let [rim, level] = [&at_rim, &run].map(|run| number(&run["samples"][0]["z_m"]));
@@ -222,7 +224,8 @@ fn bands_over_heights_have_place_height_and_attitude() {
     place.write("map.xyz", map(|x, y| 0.1 * (x + 0.5 * y).sin()));
     let start = format!("--start-x-m {} --start-y-m {}", CORNER[0] + 2.0, CORNER[1] + 3.0);
     let line = format!(
-        "traverse --terrain map.xyz {start} --duration-s 4 --simulation quasi-steady --yaw-deg 90 --uncertainty --samples 10"
+        "traverse --terrain map.xyz {start} --duration-s 4 --simulation quasi-steady --yaw-deg 90 \
+         --uncertainty --samples 10"
     );
     let json = place.json(&line);
     let names = keys(&json["bands"][0]);

@@ -147,7 +147,8 @@ fn rows_are_chosen_by_their_columns() {
 fn a_validation_is_repeated_from_its_folder() {
     let place = with_test();
     let printed = place.results(&format!(
-        "{JUDGE} --data test.csv --set soil.cohesion_kpa=0.3 --gravity-m-s2 9.8 --format json --out run"
+        "{JUDGE} --data test.csv --set soil.cohesion_kpa=0.3 --gravity-m-s2 9.8 --format json \
+         --out run"
     ));
     assert_eq!(printed, place.read("run/validation.json"));
     let again = place.json(
@@ -217,7 +218,8 @@ fn wrong_validations() {
             "validate --data cmu-single-wheel --model rft",
             "validate --data test.csv --wheel hakuto --rover hakuto --soil toyoura",
             "validate --data test.csv --rover hakuto --soil toyoura",
-            "validate --data viper-slip-slope --rover mgru3 --soil grc-1 --set scenario.slope_deg=3",
+            "validate --data viper-slip-slope --rover mgru3 --soil grc-1 --set \
+             scenario.slope_deg=3",
             "validate --data test.csv --all",
             "validate --all --data-dir none",
             "validate --all --data-dir .",

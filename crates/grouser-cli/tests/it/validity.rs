@@ -64,7 +64,8 @@ fn a_table_explains_its_flags_and_has_no_column_without_any() {
     let place = Place::new();
     let flagged = place.results("wheel-test --slip-ratio 0.2,0.99");
     assert!(flagged.lines().next().expect("a header").ends_with("flags"), "{flagged}");
-    let note = "slip-outside: The slip ratio is outside the tests of the model or of the soil's fit, or near 1.";
+    let note = "slip-outside: The slip ratio is outside the tests of the model or of the soil's \
+                fit, or near 1.";
     assert_eq!(flagged.matches(note).count(), 1, "{flagged}");
     assert!(!place.results("wheel-test --slip-ratio 0.2").contains("flags"));
 }

@@ -210,7 +210,8 @@ mod tests {
     /// Source: mpmath with 60 digits, rounded to the nearest double.
     #[test]
     #[rustfmt::skip]
-    #[expect(clippy::unreadable_literal, clippy::type_complexity, clippy::approx_constant, reason = "as printed there")]
+    #[expect(clippy::unreadable_literal, clippy::type_complexity, clippy::approx_constant, reason = "as \
+        printed there")]
     fn known_values_are_met() {
         let known: [(&str, fn(f64) -> f64, f64, &[(f64, f64)]); 8] = [
             ("sin", sin, 2.0, &[(3.0, 0.1411200080598672), (1e-09, 1e-09), (22.0, -0.008851309290403876), (355.0, -3.014435335948845e-05), (-7.5, -0.9379999767747389), (100000.0, 0.03574879797201651), (123456.789, -0.9986640823432246)]),
@@ -225,7 +226,8 @@ mod tests {
         for (name, function, most, values) in known {
             for &(x, expected) in values {
                 let value = function(x);
-                assert!(ulps(value, expected) <= most, "{name} {x:e} is {value:e}, not {expected:e}");
+                assert!(ulps(value, expected) <= most, "{name} {x:e} is {value:e}, not \
+                                                        {expected:e}");
             }
         }
     }

@@ -193,7 +193,8 @@ rows! {
     }
     Shortfall {
         Reactive, Ends, needs_wheels: false,
-        "Yaw that a turn or an arc lacks where it ends; without it 2°: beyond, the leg is `fell_short`."
+        "Yaw that a turn or an arc lacks where it ends; without it 2°: beyond, the leg is \
+         `fell_short`."
     }
 }
 

@@ -21,8 +21,8 @@ pub enum RunError {
     },
     /// The rover does not stand on its wheels alone where it starts.
     #[error(
-        "where the rover starts its underside touches the ground at x = {x:.3} m, y = {y:.3} m, by {depth:.3} m: \
-         let it start elsewhere, or with a larger `belly_clearance_m`",
+        "where the rover starts its underside touches the ground at x = {x:.3} m, y = {y:.3} m, by \
+         {depth:.3} m: let it start elsewhere, or with a larger `belly_clearance_m`",
         x = place.x,
         y = place.y
     )]
@@ -34,9 +34,9 @@ pub enum RunError {
     },
     /// At its start no loads of the wheels balance the rover.
     #[error(
-        "where the rover starts no wheel loads balance it: what wheels that turn so pull and brake takes the load from wheel \
-         to wheel, of {wheel} most; wheels that turn against each other are the usual reason: let it start from rest, or with \
-         other wheel speeds"
+        "where the rover starts no wheel loads balance it: what wheels that turn so pull and brake \
+         takes the load from wheel to wheel, of {wheel} most; wheels that turn against each other \
+         are the usual reason: let it start from rest, or with other wheel speeds"
     )]
     UnbalancedStart {
         /// Name of the wheel whose load moves most.
@@ -44,8 +44,8 @@ pub enum RunError {
     },
     /// The motion takes more and more evaluations for less and less time.
     #[error(
-        "the run cannot be computed beyond {time:.3} s, at x = {x:.3} m, y = {y:.3} m: {reason}; ground or wheel speeds \
-         that change too fast for the rover's size are the usual reason",
+        "the run cannot be computed beyond {time:.3} s, at x = {x:.3} m, y = {y:.3} m: {reason}; \
+         ground or wheel speeds that change too fast for the rover's size are the usual reason",
         x = place.x,
         y = place.y
     )]
@@ -59,9 +59,9 @@ pub enum RunError {
     },
     /// The integrator could not go on.
     #[error(
-        "the run cannot be computed beyond {time:.3} s: no time step is short enough for the motion \
-         there ({reason}); a locked or suddenly braked wheel is the usual reason, another speed \
-         or a rolling start may avoid it"
+        "the run cannot be computed beyond {time:.3} s: no time step is short enough for the \
+         motion there ({reason}); a locked or suddenly braked wheel is the usual reason, another \
+         speed or a rolling start may avoid it"
     )]
     Stalled {
         /// When [s].

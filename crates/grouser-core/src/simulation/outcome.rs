@@ -164,7 +164,8 @@ impl StuckBecause {
                     .into()
             }
             Self::SunkToAxle { wheel, load, capacity } => format!(
-                "wheel {wheel} sank to its axle: it bears {load:.3} N, the soil carries {capacity:.3} N"
+                "wheel {wheel} sank to its axle: it bears {load:.3} N, the soil carries \
+                 {capacity:.3} N"
             ),
         }
     }
@@ -176,7 +177,8 @@ impl PowerLost {
         match self {
             Self::Empty => "its battery is empty".into(),
             Self::BelowCutoff { voltage, cutoff } => format!(
-                "its battery falls to {voltage:.2} V, below the {cutoff:.2} V at which the electronics switch off"
+                "its battery falls to {voltage:.2} V, below the {cutoff:.2} V at which the \
+                 electronics switch off"
             ),
             Self::TooMuchDrawn { power } => {
                 format!("its battery cannot give the {power:.1} W that motors and electronics draw")

@@ -118,7 +118,8 @@ rows! {
     }
     Immobilised {
         name: "immobilised",
-        meaning: "The rover is stuck: its wheels or motors no longer get it ahead, or a wheel sank to its axle",
+        meaning: "The rover is stuck: its wheels or motors no longer get it ahead, or a wheel sank \
+                  to its axle",
         severity: Severity::Stuck,
         in_band: InBand::Stuck,
         ends_runs: true,

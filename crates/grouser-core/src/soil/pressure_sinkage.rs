@@ -224,8 +224,10 @@ impl PressureSinkage {
 }
 
 /// What a negative modulus asks of a soil.
-const WITHOUT_WIDTHS: &str = "finite and not negative, unless the soil states for which widths it holds: with \
-                              `domain.width_m = [smallest, largest]`, over which the stiffness must be above zero";
+const WITHOUT_WIDTHS: &str = "finite and not negative, unless the soil states for which widths it \
+                              holds: with `domain.width_m = [smallest, largest]`, over which the \
+                              stiffness must be above zero";
 
 /// What a stiffness must be under a wheel.
-const NOT_STIFF: &str = "above zero: a negative modulus holds for the widths of its plates, `domain.width_m`, and near them";
+const NOT_STIFF: &str = "above zero: a negative modulus holds for the widths of its plates, \
+                         `domain.width_m`, and near them";

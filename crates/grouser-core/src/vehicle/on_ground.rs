@@ -73,8 +73,8 @@ pub enum ReactionError {
     },
     /// Loads and reactions of wheels on uneven ground did not settle on each other.
     #[error(
-        "no wheel loads were found that balance the rover with the soil's forces under them: the last ones change that of \
-         wheel {wheel} most, by {change:.1e} of the weight"
+        "no wheel loads were found that balance the rover with the soil's forces under them: the \
+         last ones change that of wheel {wheel} most, by {change:.1e} of the weight"
     )]
     LoadsDoNotSettle {
         /// Name of the wheel whose load changes most.
@@ -84,7 +84,8 @@ pub enum ReactionError {
     },
     /// Loads and torques did not settle on each other.
     #[error(
-        "the wheel loads did not settle: after {rounds} rounds they still move by {change:.1e}, that of wheel {wheel} most"
+        "the wheel loads did not settle: after {rounds} rounds they still move by {change:.1e}, \
+         that of wheel {wheel} most"
     )]
     Unsettled {
         /// Name of the wheel whose load moves most.

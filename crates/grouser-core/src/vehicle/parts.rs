@@ -104,7 +104,8 @@ impl SteeringAxis {
         }
         let limit = self.limit;
         let name = format!(
-            "steering angle of wheel {wheel}, which turns by {limit:.3} to either side at most [rad]"
+            "steering angle of wheel {wheel}, which turns by {limit:.3} to either side at most \
+             [rad]"
         );
         Err(ParameterError::new(name, angle, "within that limit"))
     }

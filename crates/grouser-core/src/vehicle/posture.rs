@@ -123,7 +123,8 @@ pub struct StandingMotion {
 
 /// No posture was found.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("at {x:.3} m, {y:.3} m the wheels do not come to stand: gaps of {gap:.1e} m remain", x = place.x, y = place.y)]
+#[error("at {x:.3} m, {y:.3} m the wheels do not come to stand: gaps of {gap:.1e} m \
+         remain", x = place.x, y = place.y)]
 pub struct NoPosture {
     /// Where that is, seen from above [m].
     pub place: Vec2,

@@ -48,9 +48,14 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
                     "The heading offset that holds the contour of the scenario's slope.",
                     |all: &mut Settings| all.study = Study::Heading,
                 ),
-                word(Study::Mission.name(), "A mission, and what became of each of its legs.", |all| {
-                    all.study = Study::Mission;
-                }),
+                word(
+                    Study::Mission.name(),
+                    "A mission, and what became of each of its \
+                                             legs.",
+                    |all| {
+                        all.study = Study::Mission;
+                    },
+                ),
                 word(Study::WheelTest.name(), "A wheel on a test stand.", |all| {
                     all.study = Study::WheelTest;
                 }),
@@ -60,12 +65,20 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
             "runs",
             1..=MOST_RUNS,
             "uint64",
-            "How many runs; with `sensitivity`, how many points, each with two runs more than there are inputs.",
+            "How many runs; with `sensitivity`, how many points, each with two runs more than \
+             there are inputs.",
             |all, runs| all.runs = runs,
         ),
-        whole("seed", 0..=LARGEST_SEED, "uint64", "Seed of the random numbers: the same seed, the same samples.", |all: &mut Settings, seed| {
-            all.seed = seed;
-        })
+        whole(
+            "seed",
+            0..=LARGEST_SEED,
+            "uint64",
+            "Seed of the random numbers: the same seed, the \
+                                                   same samples.",
+            |all: &mut Settings, seed| {
+                all.seed = seed;
+            },
+        )
         .otherwise(Fill::Whole(1)),
         whole(
             "shard_runs",
@@ -79,10 +92,16 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
             "sampling",
             "How the samples are spread.",
             &[
-                word("monte-carlo", "Independent samples.", |all: &mut Settings| all.sampling = Sampling::MonteCarlo),
+                word(
+                    "monte-carlo",
+                    "Independent \
+                                     samples.",
+                    |all: &mut Settings| all.sampling = Sampling::MonteCarlo,
+                ),
                 word(
                     "latin-hypercube",
-                    "One sample in each of as many equal parts of every input's distribution as there are runs.",
+                    "One sample in each of as many equal parts of every input's distribution as \
+                     there are runs.",
                     |all: &mut Settings| all.sampling = Sampling::LatinHypercube,
                 ),
                 word("sobol", "The Sobol sequence, scrambled.", |all: &mut Settings| {
@@ -91,11 +110,9 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
             ],
         )
         .otherwise(Fill::Keyword("monte-carlo")),
-        flag(
-            "sensitivity",
-            "Whether the runs are a design for Sobol indices.",
-            |all, yes| all.sensitivity = yes,
-        ),
+        flag("sensitivity", "Whether the runs are a design for Sobol indices.", |all, yes| {
+            all.sensitivity = yes
+        }),
         flag(
             "soil_uncertainty",
             "Whether the soil's own `uncertainty` is sampled, too.",
@@ -104,14 +121,16 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
         // Not filled in: a study's hash is of its resolved document.
         field(
             "model_uncertainty",
-            "Whether the wheel-soil model of each run is drawn, too, by the weights of the models; not where the base names its model.",
+            "Whether the wheel-soil model of each run is drawn, too, by the weights of the models; \
+             not where the base names its model.",
             Shape::Flag(|all: &mut Settings, yes| all.model_uncertainty = yes),
         )
         .optional(),
         part(
             "scenario",
             Kind::Scenario,
-            "The run that is varied, for `traverse` and `heading`: a preset's name, a path from this document's folder, or a scenario's keys.",
+            "The run that is varied, for `traverse` and `heading`: a preset's name, a path from \
+             this document's folder, or a scenario's keys.",
             &At {
                 inner: &SCENARIO,
                 at: |all: &mut Settings| -> &mut Scenario {
@@ -123,7 +142,8 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
         part(
             "mission",
             Kind::Mission,
-            "The mission that is varied, for `mission`, without alternatives: a preset's name, a path from this document's folder, or a mission's keys.",
+            "The mission that is varied, for `mission`, without alternatives: a preset's name, a \
+             path from this document's folder, or a mission's keys.",
             &At {
                 inner: &MISSION,
                 at: |all: &mut Settings| -> &mut Plan {

@@ -13,7 +13,8 @@ pub(crate) struct Common {
 }
 
 pub(crate) static DATA_SET: Table<Common> = Table {
-    doc: "A file of measured wheel tests, or of a rover on slopes, and the wheels, rovers and soils in it.",
+    doc: "A file of measured wheel tests, or of a rover on slopes, and the wheels, rovers and \
+          soils in it.",
     fields: &[
         schema("data-set/1"),
         name(),
@@ -49,7 +50,8 @@ static CASE: Table<Common> = Table {
             .one_of(TESTED),
         note(
             "rover",
-            "The rover, in place of a wheel: a preset, or a path. The rows are slip, yaw or both, over slope.",
+            "The rover, in place of a wheel: a preset, or a path. The rows are slip, yaw or both, \
+             over slope.",
         )
         .one_of(TESTED),
         texts(

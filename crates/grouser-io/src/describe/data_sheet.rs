@@ -33,7 +33,8 @@ pub(crate) static DATA_SHEET: Table<DataSheet> = Table {
             "axle_count",
             2..=10,
             "uint32",
-            "Axles, each with a wheel on the left and one on the right: 2 for four wheels, 3 for six.",
+            "Axles, each with a wheel on the left and one on the right: 2 for four wheels, 3 for \
+             six.",
             |sheet: &mut DataSheet, count| sheet.axles = u32::try_from(count).unwrap_or(u32::MAX),
         ),
         number("wheelbase_m", M, 0.02..=50.0, "From the first axle to the last", |sheet| {

@@ -8,7 +8,8 @@ pub(super) use grouser_core::simulation::scatter::LARGEST_SEED;
 use grouser_core::vehicle::{ByWheel, PerWheel};
 
 pub(super) static BY_WHEEL: Table<ByWheel> = Table {
-    doc: "What is known to differ from wheel to wheel: one number for all, or a list with one for each mount, in their order.",
+    doc: "What is known to differ from wheel to wheel: one number for all, or a list with one for \
+          each mount, in their order.",
     fields: &[
         per_wheel(
             numbers(
@@ -28,7 +29,8 @@ pub(super) static BY_WHEEL: Table<ByWheel> = Table {
                 ONE,
                 0.1..=10.0,
                 FORM,
-                "Factor on the soil's stiffness: on k_c and k_phi, and on that of resistive force theory []",
+                "Factor on the soil's stiffness: on k_c and k_phi, and on that of resistive force \
+                 theory []",
                 |all: &mut ByWheel, count| all.stiffness = room(count),
                 |all: &mut ByWheel, place| all.stiffness.number_mut(place),
             ),
@@ -61,7 +63,8 @@ pub(super) fn room(count: Option<usize>) -> PerWheel {
 }
 
 pub(super) static SCATTER: Table<Scatter> = Table {
-    doc: "What scatters unknown: standard deviations, and which of the beds and motors that they describe a run has.",
+    doc: "What scatters unknown: standard deviations, and which of the beds and motors that they \
+          describe a run has.",
     fields: &[
         number(
             "friction_angle_std_deg",
@@ -75,7 +78,8 @@ pub(super) static SCATTER: Table<Scatter> = Table {
             "stiffness_std",
             ONE,
             0.0..=1.0,
-            "Standard deviation of the soil's stiffness from place to place, as a share of it (of its logarithm)",
+            "Standard deviation of the soil's stiffness from place to place, as a share of it (of \
+             its logarithm)",
             |all: &mut Scatter| Some(&mut all.soil.stiffness),
         )
         .or(0.0),
@@ -83,7 +87,8 @@ pub(super) static SCATTER: Table<Scatter> = Table {
             "correlation_length_m",
             M,
             1000.0,
-            "Distance at which the correlation of the soil has fallen to 1/e; not below a footprint's length",
+            "Distance at which the correlation of the soil has fallen to 1/e; not below a \
+             footprint's length",
             |all: &mut Scatter| Some(&mut all.soil.correlation_length),
         )
         .or(Scatter::USUAL_LENGTH),
@@ -91,7 +96,8 @@ pub(super) static SCATTER: Table<Scatter> = Table {
             "speed_std",
             ONE,
             0.0..=0.2,
-            "Standard deviation of each wheel's speed over a run, as a share of what its motor is told (of its logarithm)",
+            "Standard deviation of each wheel's speed over a run, as a share of what its motor is \
+             told (of its logarithm)",
             |all: &mut Scatter| Some(&mut all.speed),
         )
         .or(0.0),
@@ -99,7 +105,8 @@ pub(super) static SCATTER: Table<Scatter> = Table {
             "seed",
             0..=LARGEST_SEED,
             "uint64",
-            "Which realisation a single run has; the runs of a campaign have one each, by its own seed.",
+            "Which realisation a single run has; the runs of a campaign have one each, by its own \
+             seed.",
             |all: &mut Scatter, seed| all.seed = seed,
         )
         .otherwise(Fill::Whole(0)),

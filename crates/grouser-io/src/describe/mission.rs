@@ -35,7 +35,8 @@ pub(crate) fn blank() -> Plan {
 }
 
 pub(crate) static MISSION: Table<Plan> = Table {
-    doc: "Legs that a rover drives one after the other over a plane of soil, or over ground with heights, and limits at which it stops.",
+    doc: "Legs that a rover drives one after the other over a plane of soil, or over ground with \
+          heights, and limits at which it stops.",
     fields: &[
         schema("mission/1"),
         purpose(),
@@ -58,7 +59,8 @@ pub(crate) static MISSION: Table<Plan> = Table {
         Run::START,
         table(
             "stop",
-            "Limits at which the rover stops in every leg that has none of its own for the same number.",
+            "Limits at which the rover stops in every leg that has none of its own for the same \
+             number.",
             &At { inner: &STOPS, at: |plan: &mut Plan| &mut plan.stops },
         )
         .otherwise(Fill::Keys(&[])),
@@ -70,7 +72,8 @@ pub(crate) static MISSION: Table<Plan> = Table {
         .optional(),
         note(
             LEGS_FROM,
-            "A file with legs, which come before those of the document: CSV with keys of a leg in its first line, or GeoJSON with places in metres.",
+            "A file with legs, which come before those of the document: CSV with keys of a leg in \
+             its first line, or GeoJSON with places in metres.",
         )
         .optional(),
         list(
@@ -105,35 +108,63 @@ const EXACT: Sensors = Sensors {
 };
 
 static SENSORS: Table<Sensors> = Table {
-    doc: "A measured heading, and visual odometry between whose fixes the rover reckons on from the turns of its rims.",
+    doc: "A measured heading, and visual odometry between whose fixes the rover reckons on from \
+          the turns of its rims.",
     fields: &[
-        number("heading_std_deg", DEG, 0.0..=45.0, "Standard deviation of a measured heading", |it: &mut Sensors| {
-            Some(&mut it.heading_deviation)
-        })
+        number(
+            "heading_std_deg",
+            DEG,
+            0.0..=45.0,
+            "Standard deviation of a measured \
+                                                    heading",
+            |it: &mut Sensors| Some(&mut it.heading_deviation),
+        )
         .or(1.0),
-        positive("heading_interval_s", S, 3600.0, "Time between two headings", |it: &mut Sensors| {
-            Some(&mut it.heading_interval)
-        })
+        positive(
+            "heading_interval_s",
+            S,
+            3600.0,
+            "Time between two headings",
+            |it: &mut Sensors| Some(&mut it.heading_interval),
+        )
         .or(1.0),
-        number("heading_delay_s", S, 0.0..=60.0, "How old a heading is when it is known", |it: &mut Sensors| {
-            Some(&mut it.heading_delay)
-        })
+        number(
+            "heading_delay_s",
+            S,
+            0.0..=60.0,
+            "How old a heading is when it is \
+                                                  known",
+            |it: &mut Sensors| Some(&mut it.heading_delay),
+        )
         .or(0.0),
         number(
             "odometry_std",
             ONE,
             0.0..=1.0,
-            "Standard deviation of a fix of visual odometry along the way since the last one and across it, over that way",
+            "Standard deviation of a fix of visual odometry along the way since the last one and \
+             across it, over that way",
             |it: &mut Sensors| Some(&mut it.odometry_deviation),
         )
         .or(0.02),
-        positive("odometry_interval_m", M, 100.0, "Way of the rims between two fixes", |it: &mut Sensors| {
-            Some(&mut it.odometry_interval)
-        })
+        positive(
+            "odometry_interval_m",
+            M,
+            100.0,
+            "Way of the rims between two \
+                                                   fixes",
+            |it: &mut Sensors| Some(&mut it.odometry_interval),
+        )
         .or(0.5),
-        whole("seed", 0..=LARGEST_SEED, "uint64", "Which realisation of the errors.", |it: &mut Sensors, seed| {
-            it.seed = seed;
-        })
+        whole(
+            "seed",
+            0..=LARGEST_SEED,
+            "uint64",
+            "Which realisation of the \
+                                                   errors.",
+            |it: &mut Sensors, seed| {
+                it.seed = seed;
+            },
+        )
         .otherwise(Fill::Whole(0)),
     ],
 };
@@ -158,7 +189,8 @@ static ALTERNATIVE: Table<Alternative> = Table {
 };
 
 static LEG: Table<LegKeys> = Table {
-    doc: "One leg: exactly one of `drive_m`, `turn_deg`, `arc`, `goto` and `wait_s`, and how it is driven.",
+    doc: "One leg: exactly one of `drive_m`, `turn_deg`, `arc`, `goto` and `wait_s`, and how it is \
+          driven.",
     fields: &[
         number(
             "drive_m",
@@ -172,12 +204,18 @@ static LEG: Table<LegKeys> = Table {
             "by",
             "What measures `drive_m`; without it `ground`.",
             &[
-                word("ground", "The way of the centre of mass over the ground.", |leg: &mut LegKeys| {
-                    leg.by = Some(Measure::Ground);
-                }),
+                word(
+                    "ground",
+                    "The way of the centre of mass over the \
+                                ground.",
+                    |leg: &mut LegKeys| {
+                        leg.by = Some(Measure::Ground);
+                    },
+                ),
                 word(
                     "odometry",
-                    "The way of the rims, mean of all wheels: where they slip, less ground is gone.",
+                    "The way of the rims, mean of all wheels: where they slip, less ground is \
+                     gone.",
                     |leg: &mut LegKeys| leg.by = Some(Measure::Odometry),
                 ),
             ],
@@ -199,7 +237,8 @@ static LEG: Table<LegKeys> = Table {
         .optional(),
         table(
             "goto",
-            "It drives along a straight line to a place, towards which it turns on the spot first where that is not ahead.",
+            "It drives along a straight line to a place, towards which it turns on the spot first \
+             where that is not ahead.",
             &At { inner: &WAYPOINT, at: |leg: &mut LegKeys| leg.goto.get_or_insert_default() },
         )
         .optional(),
@@ -211,20 +250,31 @@ static LEG: Table<LegKeys> = Table {
             "steering",
             "What leads the rover round an `arc`; without it `sides`.",
             &[
-                word("sides", "The speeds of its sides: wheels slip sideways.", |leg: &mut LegKeys| {
-                    leg.steering = Some(Steering::Sides);
-                }),
+                word(
+                    "sides",
+                    "The speeds of its sides: wheels slip \
+                               sideways.",
+                    |leg: &mut LegKeys| {
+                        leg.steering = Some(Steering::Sides);
+                    },
+                ),
                 word(
                     "ackermann",
-                    "The wheels that are steered: each axle points to the centre of the circle, and rims are as fast as their distances from there.",
+                    "The wheels that are steered: each axle points to the centre of the circle, \
+                     and rims are as fast as their distances from there.",
                     |leg: &mut LegKeys| leg.steering = Some(Steering::Ackermann),
                 ),
             ],
         )
         .optional(),
-        flag("reverse", "Whether an arc, or the way to a place, is driven backward.", |leg: &mut LegKeys, yes| {
-            leg.reverse = yes;
-        })
+        flag(
+            "reverse",
+            "Whether an arc, or the way to a place, is driven \
+                         backward.",
+            |leg: &mut LegKeys, yes| {
+                leg.reverse = yes;
+            },
+        )
         .optional(),
         numbers(
             "speed_m_s",
@@ -232,28 +282,33 @@ static LEG: Table<LegKeys> = Table {
             -FASTEST..=FASTEST,
             Form::OneOrEach(
                 "Speed of every wheel's rim, above 0",
-                "Speed of the rim of each mount's wheel as for a drive forward, in the mounts' order; below 0 it turns against the others",
+                "Speed of the rim of each mount's wheel as for a drive forward, in the mounts' \
+                 order; below 0 it turns against the others",
             ),
-            "Speed of the rims, (r + h_g) ω []; a list gives one for each mount; without it that of the leg before, of a first leg 0.06",
+            "Speed of the rims, (r + h_g) ω []; a list gives one for each mount; without it that \
+             of the leg before, of a first leg 0.06",
             |leg: &mut LegKeys, count| leg.speed = Some(room(count)),
             |leg: &mut LegKeys, place| leg.speed.get_or_insert(room(None)).number_mut(place),
         )
         .optional(),
         table(
             "drive",
-            "What turns the wheels of a `drive_m`, an `arc` or a `goto`; without it they keep their speeds.",
+            "What turns the wheels of a `drive_m`, an `arc` or a `goto`; without it they keep \
+             their speeds.",
             &DRIVE,
         )
         .optional(),
         direction(
             "yaw_deg",
-            "Yaw before the leg, γ: of a first leg that of the start, of another turned to on the spot; held only where `heading` says so; whole turns do not count",
+            "Yaw before the leg, γ: of a first leg that of the start, of another turned to on the \
+             spot; held only where `heading` says so; whole turns do not count",
             |leg: &mut LegKeys| Some(leg.yaw.get_or_insert(0.0)),
         )
         .optional(),
         words(
             "heading",
-            "What `drive_m` holds on its way; without it nothing: the wheels keep one speed. `goto` knows `crab` alone.",
+            "What `drive_m` holds on its way; without it nothing: the wheels keep one speed. \
+             `goto` knows `crab` alone.",
             &[
                 word("hold", "The yaw with which the leg begins.", |leg: &mut LegKeys| {
                     leg.held = Some(Held::Hold);
@@ -270,7 +325,9 @@ static LEG: Table<LegKeys> = Table {
                 ),
                 word(
                     "crab",
-                    "The yaw and the line with which the leg begins: the sides hold the yaw, and the wheels that are steered turn together as far as the line needs; with `goto`, towards its place.",
+                    "The yaw and the line with which the leg begins: the sides hold the yaw, and \
+                     the wheels that are steered turn together as far as the line needs; with \
+                     `goto`, towards its place.",
                     |leg: &mut LegKeys| leg.held = Some(Held::Crab),
                 ),
             ],
@@ -280,7 +337,9 @@ static LEG: Table<LegKeys> = Table {
             "crab_deg",
             DEG,
             -90.0..=90.0,
-            "Crab angle with which a leg of heading `crab` begins, above 0 to the left, of a `goto` beyond the direction of its place; without it 0, and the rover learns it on the way",
+            "Crab angle with which a leg of heading `crab` begins, above 0 to the left, of a \
+             `goto` beyond the direction of its place; without it 0, and the rover learns it on \
+             the way",
             |leg: &mut LegKeys| Some(leg.crab.get_or_insert(0.0)),
         )
         .optional(),
@@ -294,7 +353,8 @@ static LEG: Table<LegKeys> = Table {
             "look_ahead_m",
             M,
             1000.0,
-            "How far ahead the way is simulated before it is driven: where a limit would be passed, the rover stops before",
+            "How far ahead the way is simulated before it is driven: where a limit would be \
+             passed, the rover stops before",
             |leg: &mut LegKeys| Some(leg.look_ahead.get_or_insert(0.0)),
         )
         .optional(),
@@ -361,7 +421,8 @@ static ARC: Table<Arc> = Table {
             "angle_deg",
             DEG,
             -LARGEST_TURN..=LARGEST_TURN,
-            "How far the rover turns on it, above 0 to its left: it drives on until its yaw has turned so far, for at most twice the circle's way",
+            "How far the rover turns on it, above 0 to its left: it drives on until its yaw has \
+             turned so far, for at most twice the circle's way",
             |arc: &mut Arc| Some(&mut arc.angle),
         ),
     ],
@@ -371,7 +432,8 @@ static ARC: Table<Arc> = Table {
 const NEAR: f64 = 0.1;
 
 static WAYPOINT: Table<Waypoint> = Table {
-    doc: "A place to drive to, in the slope frame: x along the contour, y uphill, from where the mission starts; on ground with heights, on its map.",
+    doc: "A place to drive to, in the slope frame: x along the contour, y uphill, from where the \
+          mission starts; on ground with heights, on its map.",
     fields: &[
         X,
         Y,
@@ -383,7 +445,8 @@ static WAYPOINT: Table<Waypoint> = Table {
 };
 
 static PLACE: Table<Waypoint> = Table {
-    doc: "A place in the slope frame: x along the contour, y uphill, from where the mission starts; on ground with heights, on its map.",
+    doc: "A place in the slope frame: x along the contour, y uphill, from where the mission \
+          starts; on ground with heights, on its map.",
     fields: &[X, Y],
 };
 

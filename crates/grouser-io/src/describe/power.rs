@@ -42,17 +42,26 @@ pub(super) const NO_BATTERY: Battery = Battery {
 };
 
 pub(crate) static MOTOR: Table<Motor> = Table {
-    doc: "A DC motor behind a gear. Without a speed controller it turns as fast as it is set to, and takes the current that this needs.",
+    doc: "A DC motor behind a gear. Without a speed controller it turns as fast as it is set to, \
+          and takes the current that this needs.",
     fields: &[
         schema("motor/1"),
         name(),
         source(),
         notes(),
         assumed(),
-        preset("A preset whose keys it takes where it has none of its own: those of the motor and the gear of a data sheet."),
-        positive("resistance_ohm", OHM, 1e6, "Resistance of the winding at 20 °C, R", |motor: &mut Motor| {
-            Some(&mut motor.resistance)
-        }),
+        preset(
+            "A preset whose keys it takes where it has none of its own: those of the motor and \
+                the gear of a data sheet.",
+        ),
+        positive(
+            "resistance_ohm",
+            OHM,
+            1e6,
+            "Resistance of the winding at 20 °C, \
+                                              R",
+            |motor: &mut Motor| Some(&mut motor.resistance),
+        ),
         positive(
             "torque_constant_nm_a",
             NM_A,
@@ -67,9 +76,14 @@ pub(crate) static MOTOR: Table<Motor> = Table {
             "Turns of the motor for one of the wheel, N",
             |motor: &mut Motor| Some(&mut motor.gear_ratio),
         ),
-        number("gear_efficiency", ONE, 0.01..=1.0, "Efficiency of the gear, η", |motor: &mut Motor| {
-            Some(&mut motor.efficiency)
-        }),
+        number(
+            "gear_efficiency",
+            ONE,
+            0.01..=1.0,
+            "Efficiency of the gear, \
+                                                    η",
+            |motor: &mut Motor| Some(&mut motor.efficiency),
+        ),
         number(
             "friction_torque_nm",
             NM,
@@ -80,20 +94,28 @@ pub(crate) static MOTOR: Table<Motor> = Table {
         .or(0.0),
         flag(
             "self_locking",
-            "Whether the wheel cannot turn the gear: then the motor holds a slope without current, and brakes with none.",
+            "Whether the wheel cannot turn the gear: then the motor holds a slope without current, \
+             and brakes with none.",
             |motor: &mut Motor, yes| motor.is_self_locking = yes,
         )
         .optional(),
         table(
             "control",
-            "Its speed controller: with one, the wheel turns slower under load. Left out, it turns as fast as it is set to, whatever that takes.",
-            &At { inner: &CONTROL, at: |motor: &mut Motor| motor.control.get_or_insert(NO_CONTROL) },
+            "Its speed controller: with one, the wheel turns slower under load. Left out, it turns \
+             as fast as it is set to, whatever that takes.",
+            &At {
+                inner: &CONTROL,
+                at: |motor: &mut Motor| motor.control.get_or_insert(NO_CONTROL),
+            },
         )
         .optional(),
         table(
             "winding",
             "How warm its winding becomes; left out, nothing is said of that.",
-            &At { inner: &WINDING, at: |motor: &mut Motor| motor.winding.get_or_insert(NO_WINDING) },
+            &At {
+                inner: &WINDING,
+                at: |motor: &mut Motor| motor.winding.get_or_insert(NO_WINDING),
+            },
         )
         .optional(),
     ],
@@ -106,14 +128,16 @@ static CONTROL: Table<SpeedControl> = Table {
             "gain_v_s_rad",
             V_S_RAD,
             0.0..=1e9,
-            "Voltage that it adds to that of the set speed for each rad/s that the wheel is too slow, K_p",
+            "Voltage that it adds to that of the set speed for each rad/s that the wheel is too \
+             slow, K_p",
             |control: &mut SpeedControl| Some(&mut control.gain),
         ),
         number(
             "integral_v_rad",
             V_RAD,
             0.0..=1e9,
-            "Voltage that it adds for each radian that the wheel is behind, K_i; 0 leaves an error under load, the droop",
+            "Voltage that it adds for each radian that the wheel is behind, K_i; 0 leaves an error \
+             under load, the droop",
             |control: &mut SpeedControl| Some(&mut control.integral),
         )
         .or(0.0),
@@ -172,7 +196,8 @@ static WINDING: Table<Winding> = Table {
             "derated_from_degc",
             DEG_C,
             -270.0..=1000.0,
-            "Temperature from which on the current limit falls, to nothing at the highest; left out, it does not",
+            "Temperature from which on the current limit falls, to nothing at the highest; left \
+             out, it does not",
             |winding: &mut Winding| Some(winding.derated_from.get_or_insert(0.0)),
         )
         .optional(),
@@ -180,11 +205,17 @@ static WINDING: Table<Winding> = Table {
 };
 
 pub(super) static BATTERY: Table<Battery> = Table {
-    doc: "A battery behind its internal resistance, and the electronics that it feeds besides the motors.",
+    doc: "A battery behind its internal resistance, and the electronics that it feeds besides the \
+          motors.",
     fields: &[
-        positive("capacity_wh", WH, 1e9, "Energy that it holds when it is full", |battery: &mut Battery| {
-            Some(&mut battery.capacity)
-        }),
+        positive(
+            "capacity_wh",
+            WH,
+            1e9,
+            "Energy that it holds when it is \
+                                          full",
+            |battery: &mut Battery| Some(&mut battery.capacity),
+        ),
         positive(
             "full_voltage_v",
             V,
@@ -211,7 +242,8 @@ pub(super) static BATTERY: Table<Battery> = Table {
             "cutoff_voltage_v",
             V,
             0.0..=1e5,
-            "Voltage at its terminals below which the electronics switch off: the rover stops with `brown_out`",
+            "Voltage at its terminals below which the electronics switch off: the rover stops with \
+             `brown_out`",
             |battery: &mut Battery| Some(&mut battery.cutoff_voltage),
         )
         .or(0.0),

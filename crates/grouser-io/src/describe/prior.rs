@@ -6,8 +6,8 @@ use super::about::{name, notes, schema};
 use super::uncertainty::{CORRELATION_OF_PRIOR, OF_PRIOR, REASON_DOC};
 
 pub(crate) static PRIORS: Table<Priors> = Table {
-    doc: "What is believed of the numbers of a soil that its source does not print, or prints without \
-          saying how well they are known.",
+    doc: "What is believed of the numbers of a soil that its source does not print, or prints \
+          without saying how well they are known.",
     fields: &[
         schema("prior/1"),
         name(),

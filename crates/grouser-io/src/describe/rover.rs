@@ -49,7 +49,9 @@ pub(crate) static ROVER: Table<RoverParts> = Table {
         part(
             "motor",
             Kind::Motor,
-            "The motor of every wheel whose mount has no other: a preset's name, a path from this document's folder, or a motor's keys; without it nothing is said of current and battery.",
+            "The motor of every wheel whose mount has no other: a preset's name, a path from this \
+             document's folder, or a motor's keys; without it nothing is said of current and \
+             battery.",
             &At {
                 inner: &MOTOR,
                 at: |rover: &mut RoverParts| rover.wheel_unit.motor.get_or_insert(NO_MOTOR),
@@ -68,7 +70,8 @@ pub(crate) static ROVER: Table<RoverParts> = Table {
         .optional(),
         table(
             "battery",
-            "The battery, and what the electronics draw from it; without it nothing is known of its voltage and charge.",
+            "The battery, and what the electronics draw from it; without it nothing is known of \
+             its voltage and charge.",
             &At {
                 inner: &BATTERY,
                 at: |rover: &mut RoverParts| rover.battery.get_or_insert(NO_BATTERY),
@@ -77,7 +80,8 @@ pub(crate) static ROVER: Table<RoverParts> = Table {
         .optional(),
         table(
             "suspension",
-            "How the wheels are joined to the body: on rockers with a differential, two wheels on a side, or with bogies three; left out, rigidly.",
+            "How the wheels are joined to the body: on rockers with a differential, two wheels on \
+             a side, or with bogies three; left out, rigidly.",
             &At {
                 inner: &SUSPENSION,
                 at: |rover: &mut RoverParts| rover.suspension.get_or_insert(NO_SUSPENSION),
@@ -88,7 +92,8 @@ pub(crate) static ROVER: Table<RoverParts> = Table {
             "belly_clearance_m",
             M,
             0.0..=10.0,
-            "Height of the body's flat underside, between the wheels' hubs, over level hard ground; left out, nothing is said of high-centring",
+            "Height of the body's flat underside, between the wheels' hubs, over level hard \
+             ground; left out, nothing is said of high-centring",
             |rover: &mut RoverParts| Some(rover.belly_clearance.get_or_insert(0.0)),
         )
         .optional(),
@@ -122,7 +127,8 @@ static SUSPENSION: Table<Suspension> = Table {
     doc: "Rockers on both sides, alike, with a differential that turns them against each other.",
     fields: &[
         pivot(
-            "Axis of the rockers, seen from the side, from the body's centre of mass: x forward, z up",
+            "Axis of the rockers, seen from the side, from the body's centre of mass: x forward, z \
+             up",
             |it: &mut Suspension, axis| it.pivot.get_mut(axis),
         ),
         table(
@@ -143,7 +149,8 @@ static BOGIE: Table<Bogie> = Table {
     doc: "A link with two wheels, joined to a rocker.",
     fields: &[
         pivot(
-            "Its axis, seen from the side, from the body's centre of mass where the rover stands on a plane: x forward, z up",
+            "Its axis, seen from the side, from the body's centre of mass where the rover stands \
+             on a plane: x forward, z up",
             |it: &mut Bogie, axis| it.pivot.get_mut(axis),
         ),
         words(
@@ -231,7 +238,8 @@ static MOUNT: Table<MountParts> = Table {
             M,
             -100.0..=100.0,
             Form::Exactly(3),
-            "The wheel's centre, at a steering angle of zero, from the body's centre of mass: x forward, y left, z up",
+            "The wheel's centre, at a steering angle of zero, from the body's centre of mass: x \
+             forward, y left, z up",
             |_, _| {},
             |mount, axis| mount.position.get_mut(axis),
         ),
@@ -239,12 +247,14 @@ static MOUNT: Table<MountParts> = Table {
             "steering_deg",
             DEG,
             -90.0..=90.0,
-            "Steering angle, δ: the wheel is turned to the left by this much, for good if it has no limit of steering; left out, it points straight ahead",
+            "Steering angle, δ: the wheel is turned to the left by this much, for good if it has \
+             no limit of steering; left out, it points straight ahead",
             |mount: &mut MountParts| Some(&mut mount.steering),
         )
         .optional(),
         steering_limit(
-            "How far this wheel can be steered to either side, instead of the rover's; 0 if it is not steered",
+            "How far this wheel can be steered to either side, instead of the rover's; 0 if it is \
+             not steered",
             |mount: &mut MountParts| Some(mount.steered.limit.get_or_insert(0.0)),
         )
         .optional(),
@@ -258,7 +268,8 @@ static MOUNT: Table<MountParts> = Table {
             M,
             -10.0..=10.0,
             Form::Exactly(2),
-            "Kingpin offset, k: from the wheel's centre, at a steering angle of zero, to the upright axis about which it is steered: x forward, y left",
+            "Kingpin offset, k: from the wheel's centre, at a steering angle of zero, to the \
+             upright axis about which it is steered: x forward, y left",
             |_, _| {},
             |mount: &mut MountParts, axis| mount.kingpin_offset.get_mut(axis),
         )
@@ -269,7 +280,8 @@ static MOUNT: Table<MountParts> = Table {
         )
         .optional(),
         unit_inertia(
-            "Moments of inertia of this wheel with its motor about its hub [kg·m²], instead of the wheel unit's.",
+            "Moments of inertia of this wheel with its motor about its hub [kg·m²], instead of the \
+             wheel unit's.",
             &At {
                 inner: &INERTIA,
                 at: |mount: &mut MountParts| mount.inertia.get_or_insert(NO_INERTIA),
@@ -279,7 +291,8 @@ static MOUNT: Table<MountParts> = Table {
         part(
             "wheel",
             Kind::Wheel,
-            "The geometry of this wheel, instead of the wheel unit's: a preset's name, a path from this document's folder, or a wheel's keys.",
+            "The geometry of this wheel, instead of the wheel unit's: a preset's name, a path from \
+             this document's folder, or a wheel's keys.",
             &At {
                 inner: &WHEEL,
                 at: |mount: &mut MountParts| mount.wheel.get_or_insert(wheel::BLANK),
@@ -289,11 +302,9 @@ static MOUNT: Table<MountParts> = Table {
         part(
             "motor",
             Kind::Motor,
-            "The motor of this wheel, instead of the rover's: a preset's name, a path from this document's folder, or a motor's keys.",
-            &At {
-                inner: &MOTOR,
-                at: |mount: &mut MountParts| mount.motor.get_or_insert(NO_MOTOR),
-            },
+            "The motor of this wheel, instead of the rover's: a preset's name, a path from this \
+             document's folder, or a motor's keys.",
+            &At { inner: &MOTOR, at: |mount: &mut MountParts| mount.motor.get_or_insert(NO_MOTOR) },
         )
         .optional(),
     ],

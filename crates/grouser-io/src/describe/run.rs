@@ -94,64 +94,72 @@ impl<T: OfScenario> Run<T> {
     )
     .or(Numerics::DEFAULT.sample_interval);
     pub(super) const LOAD_TRANSFER: Field<T> = words(
-            "load_transfer",
-            "Load transfer: how the weight is shared among the wheels.",
-            &[
-                word(
-                    "complete",
-                    "The wheels' torque in pitch, their overturning moments in roll, and their aligning moments in yaw.",
-                    |all: &mut T| all.scenario().sharing = LoadSharing::Complete,
-                ),
-                word(
-                    "quasi-static",
-                    "The weight's pull along the slope, in pitch and roll: the source paper's.",
-                    |all: &mut T| all.scenario().sharing = LoadSharing::QuasiStatic,
-                ),
-                word(
-                    "quasi-static-torque",
-                    "The same, with the wheels' torque in pitch.",
-                    |all: &mut T| all.scenario().sharing = LoadSharing::QuasiStaticTorque,
-                ),
-                word("uniform", "Equal loads.", |all: &mut T| all.scenario().sharing = LoadSharing::Uniform),
-            ],
-        )
-        .otherwise(Fill::Keyword("complete"));
+        "load_transfer",
+        "Load transfer: how the weight is shared among the wheels.",
+        &[
+            word(
+                "complete",
+                "The wheels' torque in pitch, their overturning moments in roll, and their \
+                     aligning moments in yaw.",
+                |all: &mut T| all.scenario().sharing = LoadSharing::Complete,
+            ),
+            word(
+                "quasi-static",
+                "The weight's pull along the slope, in pitch and roll: the source paper's.",
+                |all: &mut T| all.scenario().sharing = LoadSharing::QuasiStatic,
+            ),
+            word(
+                "quasi-static-torque",
+                "The same, with the wheels' torque in pitch.",
+                |all: &mut T| all.scenario().sharing = LoadSharing::QuasiStaticTorque,
+            ),
+            word(
+                "uniform",
+                "Equal \
+                                 loads.",
+                |all: &mut T| all.scenario().sharing = LoadSharing::Uniform,
+            ),
+        ],
+    )
+    .otherwise(Fill::Keyword("complete"));
     pub(super) const WHEEL_MOMENTS: Field<T> = words(
-            "wheel_moments",
-            "Whether the wheels' own overturning and aligning moments act on the rover; without it they do where the load transfer is complete.",
-            &[
-                word("neglected", "They are reported only.", |all: &mut T| {
-                    all.scenario().own_moments = OwnMoments::Neglected;
-                }),
-                word("included", "They act on the rover.", |all: &mut T| {
-                    all.scenario().own_moments = OwnMoments::Included;
-                }),
-            ],
-        )
-        .following(
-            "load_transfer",
-            &[
-                ("complete", "included"),
-                ("quasi-static", "neglected"),
-                ("quasi-static-torque", "neglected"),
-                ("uniform", "neglected"),
-            ],
-        );
+        "wheel_moments",
+        "Whether the wheels' own overturning and aligning moments act on the rover; without it \
+             they do where the load transfer is complete.",
+        &[
+            word("neglected", "They are reported only.", |all: &mut T| {
+                all.scenario().own_moments = OwnMoments::Neglected;
+            }),
+            word("included", "They act on the rover.", |all: &mut T| {
+                all.scenario().own_moments = OwnMoments::Included;
+            }),
+        ],
+    )
+    .following(
+        "load_transfer",
+        &[
+            ("complete", "included"),
+            ("quasi-static", "neglected"),
+            ("quasi-static-torque", "neglected"),
+            ("uniform", "neglected"),
+        ],
+    );
     pub(super) const SIMULATION: Field<T> = words(
-            "simulation",
-            "Whether velocities are integrated, or those of a steady state at every instant.",
-            &[
-                word("dynamic", "They are integrated with the pose.", |all: &mut T| {
-                    all.scenario().numerics.approach = Approach::Dynamic;
-                }),
-                word(
-                    "quasi-steady",
-                    "They are those at which nothing accelerates: fast; where that is not valid, dynamic.",
-                    |all: &mut T| all.scenario().numerics.approach = Approach::QuasiSteady,
-                ),
-            ],
-        )
-        .otherwise(Fill::Keyword("dynamic"));
+        "simulation",
+        "Whether velocities are integrated, or those of a steady state at every instant.",
+        &[
+            word("dynamic", "They are integrated with the pose.", |all: &mut T| {
+                all.scenario().numerics.approach = Approach::Dynamic;
+            }),
+            word(
+                "quasi-steady",
+                "They are those at which nothing accelerates: fast; where that is not valid, \
+                     dynamic.",
+                |all: &mut T| all.scenario().numerics.approach = Approach::QuasiSteady,
+            ),
+        ],
+    )
+    .otherwise(Fill::Keyword("dynamic"));
     pub(super) const BY_WHEEL: Field<T> = table(
         "by_wheel",
         "How the soil below each wheel, and its speed, differ from what is said of all.",
@@ -173,7 +181,8 @@ impl<T: OfScenario> Run<T> {
             }),
             word(
                 "compacted",
-                "Denser soil that shears sooner, by the passes before (Holm 1969), as far as ruts overlap on a straight way.",
+                "Denser soil that shears sooner, by the passes before (Holm 1969), as far as ruts \
+                 overlap on a straight way.",
                 |all: &mut T| all.scenario().ruts = Ruts::Compacted,
             ),
         ],

@@ -74,26 +74,26 @@ pub(crate) static SCENARIO: Table<Scenario> = Table {
         Run::GRAVITY,
         Run::SLOPE,
         Run::TERRAIN,
-        positive("duration_s", S, LONGEST_DURATION, "How long the run lasts", |run: &mut Scenario| {
-            Some(&mut run.duration)
-        })
+        positive(
+            "duration_s",
+            S,
+            LONGEST_DURATION,
+            "How long the run lasts",
+            |run: &mut Scenario| Some(&mut run.duration),
+        )
         .or(PAPERS_DURATION),
         Run::SAMPLE_INTERVAL,
         Run::LOAD_TRANSFER,
         Run::WHEEL_MOMENTS,
         Run::SIMULATION,
-        table(
-            "drive",
-            "What turns the wheels.",
-            &DRIVE,
-        )
-        .otherwise(Fill::Keys(&[])),
+        table("drive", "What turns the wheels.", &DRIVE).otherwise(Fill::Keys(&[])),
         Run::BY_WHEEL,
         Run::SCATTER,
         Run::RUTS,
         table(
             "slope_stability",
-            "What is asked of the ground's own strength (infinite slope) by headings, maps and cards; a run is not changed by it.",
+            "What is asked of the ground's own strength (infinite slope) by headings, maps and \
+             cards; a run is not changed by it.",
             &At { inner: &SLOPE_STABILITY, at: |run: &mut Scenario| &mut run.stability },
         )
         .otherwise(Fill::Keys(&[])),
@@ -211,7 +211,8 @@ const YAW: Field<Scenario> = pairs(
     "yaw_deg",
     [S, DEG],
     &[0.0..=LONGEST_DURATION, -LARGEST_YAW..=LARGEST_YAW],
-    "Yaw over time, γ [°], as pairs of time [s] and yaw: straight between them, constant before and after; without it the wheels' moments turn the rover",
+    "Yaw over time, γ [°], as pairs of time [s] and yaw: straight between them, constant before \
+     and after; without it the wheels' moments turn the rover",
     |run: &mut Scenario, count| {
         run.yaw = Some(PrescribedYaw { points: vec![(0.0, 0.0); count] });
     },
@@ -247,7 +248,8 @@ static SLOPE_STABILITY: Table<SlopeStability> = Table {
             "depth_m",
             M,
             1000.0,
-            "Depth of the layer that would slide, z, straight down; it counts where there is cohesion",
+            "Depth of the layer that would slide, z, straight down; it counts where there is \
+             cohesion",
             |asked: &mut SlopeStability| Some(&mut asked.depth),
         )
         .or(SlopeStability::USUAL.depth),

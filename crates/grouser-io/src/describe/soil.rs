@@ -79,12 +79,17 @@ pub(crate) static SOIL: Table<Soil> = Table {
         }),
         words(
             "friction_test",
-            "The kind of test that the friction angle is from, which tells what of it a wheel mobilises; \
-             without it, not printed.",
+            "The kind of test that the friction angle is from, which tells what of it a wheel \
+             mobilises; without it, not printed.",
             &[
                 word("triaxial", "The peak of triaxial tests.", at_constant_volume),
                 word("plane-strain", "The peak of tests in plane strain.", at_constant_volume),
-                word("direct-shear", "A shear box, or an annular shear test of a bevameter.", at_peak),
+                word(
+                    "direct-shear",
+                    "A shear box, or an annular shear test of a \
+                                      bevameter.",
+                    at_peak,
+                ),
                 word("repose", "The angle of repose.", at_peak),
             ],
         )
@@ -93,8 +98,8 @@ pub(crate) static SOIL: Table<Soil> = Table {
             "constant_volume_share",
             ONE,
             0.0..=1.0,
-            "How far friction under a wheel has gone from tan φ, 0, to sin φ of soil that shears on at \
-             constant volume, 1; without it, as the kind of test says, or else the priors",
+            "How far friction under a wheel has gone from tan φ, 0, to sin φ of soil that shears \
+             on at constant volume, 1; without it, as the kind of test says, or else the priors",
             |soil: &mut Soil| Some(&mut soil.constant_volume_share),
         )
         .optional(),
@@ -128,7 +133,8 @@ pub(crate) static SOIL: Table<Soil> = Table {
         .or_prior(),
         table(
             "small_wheel",
-            "Terms of the model `small-wheel`, for one wheel on this soil; general values without it.",
+            "Terms of the model `small-wheel`, for one wheel on this soil; general values without \
+             it.",
             &At { inner: &SMALL_WHEEL, at: |soil: &mut Soil| &mut soil.small_wheel },
         )
         .optional(),
@@ -162,9 +168,9 @@ pub(crate) static SOIL: Table<Soil> = Table {
         part(
             "priors",
             Kind::Prior,
-            "What is believed of the numbers that are not stated above; without it, `general`. In a \
-             resolved document, the rows that hold for this soil: a number that they call missing is the \
-             prior's, not the source's.",
+            "What is believed of the numbers that are not stated above; without it, `general`. In \
+             a resolved document, the rows that hold for this soil: a number that they call \
+             missing is the prior's, not the source's.",
             &Beside(&PRIORS),
         )
         .optional(),
@@ -232,7 +238,8 @@ static BULLDOZING: Table<Bulldozing> = Table {
             word("sine", "In proportion to sin β.", |law| *law = Bulldozing::Sine),
             word(
                 "sine-squared",
-                "In proportion to sin² β, with its part along the wheel and the surcharge of piled soil.",
+                "In proportion to sin² β, with its part along the wheel and the surcharge of piled \
+                 soil.",
                 |law| *law = Bulldozing::SineSquared,
             ),
         ],

@@ -80,7 +80,8 @@ fn crater(terrain: &mut Ground) -> Option<&mut Crater> {
 }
 
 pub(super) static TERRAIN: Laws<Ground> = Laws {
-    doc: "Ground with heights, in place of the plane. Places are on a map: x east, y north, in metres.",
+    doc: "Ground with heights, in place of the plane. Places are on a map: x east, y north, in \
+          metres.",
     key: "surface",
     may_be_left_out: true,
     is_written_last: false,
@@ -94,7 +95,8 @@ pub(super) static TERRAIN: Laws<Ground> = Laws {
                 fields: &[
                     note(
                         FILE,
-                        "A GeoTIFF in metres of a projection, a NumPy array (.npy), or text with x, y and z in each line: a path from this document's folder.",
+                        "A GeoTIFF in metres of a projection, a NumPy array (.npy), or text with \
+                         x, y and z in each line: a path from this document's folder.",
                     ),
                     STARTS,
                     zones::SOIL_FILE,
@@ -109,16 +111,25 @@ pub(super) static TERRAIN: Laws<Ground> = Laws {
                     .optional(),
                     place(
                         SOUTH_WEST,
-                        "The point farthest to the south and west of a file that does not say it, x and y: the middle of its cell; left out, the origin",
+                        "The point farthest to the south and west of a file that does not say it, \
+                         x and y: the middle of its cell; left out, the origin",
                         |_, _| None,
                     ),
-                    whole(BAND, 1..=65_535, "uint16", "Which band of a GeoTIFF has the heights, from 1.", |_, _| {})
-                        .optional(),
+                    whole(
+                        BAND,
+                        1..=65_535,
+                        "uint16",
+                        "Which band of a GeoTIFF has the heights, \
+                                                       from 1.",
+                        |_, _| {},
+                    )
+                    .optional(),
                     number(
                         MISSING,
                         M,
                         -1e38..=1e38,
-                        "A height that stands for a missing one, beside those that the file declares",
+                        "A height that stands for a missing one, beside those that the file \
+                         declares",
                         |_| None,
                     )
                     .optional(),
@@ -133,7 +144,11 @@ pub(super) static TERRAIN: Laws<Ground> = Laws {
                 doc: "A plane through the map's origin.",
                 fields: &[
                     slope(|it| Some(&mut incline(it)?.slope)),
-                    uphill("Direction in which it rises, from east to the left", |it| Some(&mut incline(it)?.uphill)),
+                    uphill(
+                        "Direction in which it rises, from east to the \
+                            left",
+                        |it| Some(&mut incline(it)?.uphill),
+                    ),
                     STARTS,
                     zones::SOIL_FILE,
                     zones::ZONES,
@@ -147,13 +162,31 @@ pub(super) static TERRAIN: Laws<Ground> = Laws {
             table: Table {
                 doc: "An incline between two level pieces of ground.",
                 fields: &[
-                    place("foot_m", "A place on the line where it starts, x and y; left out, the origin", |terrain, axis| {
-                        ramp(terrain)?.foot.get_mut(axis)
-                    }),
+                    place(
+                        "foot_m",
+                        "A place on the line where it starts, x and y; left out, the \
+                                     origin",
+                        |terrain, axis| ramp(terrain)?.foot.get_mut(axis),
+                    ),
                     slope(|it| Some(&mut ramp(it)?.slope)),
-                    uphill("Direction in which it rises, from east to the left", |it| Some(&mut ramp(it)?.uphill)),
-                    positive("length_m", M, LARGEST, "Its length on the map", |it| Some(&mut ramp(it)?.length)),
-                    rounding("Length on the map over which the slope changes, at its foot and at its top", |it| Some(&mut ramp(it)?.rounding)),
+                    uphill(
+                        "Direction in which it rises, from east to the \
+                            left",
+                        |it| Some(&mut ramp(it)?.uphill),
+                    ),
+                    positive(
+                        "length_m",
+                        M,
+                        LARGEST,
+                        "Its length on the \
+                                                      map",
+                        |it| Some(&mut ramp(it)?.length),
+                    ),
+                    rounding(
+                        "Length on the map over which the slope changes, at its foot and at \
+                              its top",
+                        |it| Some(&mut ramp(it)?.rounding),
+                    ),
                     STARTS,
                     zones::SOIL_FILE,
                     zones::ZONES,
@@ -167,14 +200,24 @@ pub(super) static TERRAIN: Laws<Ground> = Laws {
             table: Table {
                 doc: "A cone about a vertical axis.",
                 fields: &[
-                    place("tip_m", "Where its axis is, x and y; left out, the origin", |terrain, axis| {
-                        cone(terrain)?.tip.get_mut(axis)
-                    }),
-                    number(SLOPE, DEG, -STEEPEST..=STEEPEST,
+                    place(
+                        "tip_m",
+                        "Where its axis is, x and y; left out, the \
+                                    origin",
+                        |terrain, axis| cone(terrain)?.tip.get_mut(axis),
+                    ),
+                    number(
+                        SLOPE,
+                        DEG,
+                        -STEEPEST..=STEEPEST,
                         "Inclination: above 0 a hill, below a pit",
                         |it| Some(&mut cone(it)?.slope),
                     ),
-                    rounding("How far from the axis the tip is rounded", |it| Some(&mut cone(it)?.rounding)),
+                    rounding(
+                        "How far from the axis the tip is \
+                              rounded",
+                        |it| Some(&mut cone(it)?.rounding),
+                    ),
                     STARTS,
                     zones::SOIL_FILE,
                     zones::ZONES,
@@ -195,9 +238,28 @@ pub(super) static TERRAIN: Laws<Ground> = Laws {
                         "Half of the height from trough to crest",
                         |it| Some(&mut ripple(it)?.amplitude),
                     ),
-                    positive("wavelength_m", M, LARGEST, "Distance from crest to crest", |it| Some(&mut ripple(it)?.wavelength)),
-                    uphill("Direction from crest to crest, from east to the left", |it| Some(&mut ripple(it)?.across)),
-                    number("phase_deg", DEG, -360.0..=360.0, "Phase at the origin", |it| Some(&mut ripple(it)?.phase)).or(0.0),
+                    positive(
+                        "wavelength_m",
+                        M,
+                        LARGEST,
+                        "Distance from crest to \
+                                                          crest",
+                        |it| Some(&mut ripple(it)?.wavelength),
+                    ),
+                    uphill(
+                        "Direction from crest to crest, from east to the \
+                            left",
+                        |it| Some(&mut ripple(it)?.across),
+                    ),
+                    number(
+                        "phase_deg",
+                        DEG,
+                        -360.0..=360.0,
+                        "Phase at the \
+                        origin",
+                        |it| Some(&mut ripple(it)?.phase),
+                    )
+                    .or(0.0),
                     STARTS,
                     zones::SOIL_FILE,
                     zones::ZONES,
@@ -211,10 +273,20 @@ pub(super) static TERRAIN: Laws<Ground> = Laws {
             table: Table {
                 doc: "A bowl with a rim, in level ground.",
                 fields: &[
-                    place("centre_m", "Where its centre is, x and y; left out, the origin", |terrain, axis| {
-                        crater(terrain)?.centre.get_mut(axis)
-                    }),
-                    positive("diameter_m", M, LARGEST, "Diameter of the crest", |it| Some(&mut crater(it)?.diameter)),
+                    place(
+                        "centre_m",
+                        "Where its centre is, x and y; left out, the \
+                                       origin",
+                        |terrain, axis| crater(terrain)?.centre.get_mut(axis),
+                    ),
+                    positive(
+                        "diameter_m",
+                        M,
+                        LARGEST,
+                        "Diameter of the \
+                                                        crest",
+                        |it| Some(&mut crater(it)?.diameter),
+                    ),
                     number(
                         "depth_m",
                         M,
@@ -259,7 +331,8 @@ const NO_CRATER: Crater = Crater {
 
 const STARTS: Field<Ground> = place(
     START,
-    "Where the body's centre of mass is at the start, on the map, x and y; left out, the middle of the map, or the origin of a formula",
+    "Where the body's centre of mass is at the start, on the map, x and y; left out, the middle of \
+     the map, or the origin of a formula",
     |terrain, axis| terrain.start.get_mut(axis),
 );
 

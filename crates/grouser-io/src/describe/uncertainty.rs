@@ -51,7 +51,8 @@ static OF_SOIL: Laws<Parameter> =
     Laws { may_be_left_out: true, is_written_last: true, ..PARAMETER };
 
 const PARAMETER: Laws<Parameter> = Laws {
-    doc: "A number that is not known exactly. Its distribution is cut off at the ends of the key's range.",
+    doc: "A number that is not known exactly. Its distribution is cut off at the ends of the key's \
+          range.",
     key: "distribution",
     may_be_left_out: false,
     is_written_last: false,
@@ -95,7 +96,8 @@ const PARAMETER: Laws<Parameter> = Laws {
 pub(super) const KEY: Field<Parameter> = text(
     "key",
     0,
-    "A number of this document or, in a campaign, of what is varied, with the tables it stands in: `pressure_sinkage.k_phi`, `soil.cohesion_kpa`.",
+    "A number of this document or, in a campaign, of what is varied, with the tables it stands in: \
+     `pressure_sinkage.k_phi`, `soil.cohesion_kpa`.",
     |it, key| key.clone_into(&mut it.key),
 );
 
@@ -248,7 +250,8 @@ const KEY_OF_PRIOR: Field<Parameter> =
 const RELATIVE_TO: Field<Parameter> = text(
     "relative_to",
     0,
-    "A number of the soil of which the numbers of this row are multiples; without it, they are in the key's unit.",
+    "A number of the soil of which the numbers of this row are multiples; without it, they are in \
+     the key's unit.",
     |it: &mut Parameter, key| key.clone_into(&mut it.belief.relative_to),
 )
 .optional();
@@ -283,8 +286,8 @@ const UNLESS: Field<Parameter> = text(
 const WHEN: Field<Parameter> = text(
     "when",
     0,
-    "A keyword of the soil and what it has to be, as `known_from.shear=copied`: the row is only for soils \
-     that have it.",
+    "A keyword of the soil and what it has to be, as `known_from.shear=copied`: the row is only \
+     for soils that have it.",
     |it: &mut Parameter, when| when.clone_into(&mut it.belief.when),
 )
 .optional();

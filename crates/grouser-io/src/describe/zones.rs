@@ -24,7 +24,9 @@ const LARGEST_CLASS: u64 = 1 << 24;
 
 pub(super) const SOIL_FILE: Field<Ground> = note(
     FILE,
-    "Zones of soil: a raster of class numbers (GeoTIFF, .npy, xyz text), or GeoJSON polygons in metres with a property `soil`; a path from this document's folder. Where no zone is, the soil is the scenario's.",
+    "Zones of soil: a raster of class numbers (GeoTIFF, .npy, xyz text), or GeoJSON polygons in \
+     metres with a property `soil`; a path from this document's folder. Where no zone is, the soil \
+     is the scenario's.",
 )
 .optional();
 
@@ -41,13 +43,20 @@ pub(super) const ZONES: Field<Ground> =
 static ZONE: Table<Soil> = Table {
     doc: "The soil of a zone.",
     fields: &[
-        whole(CLASS, 0..=LARGEST_CLASS, "uint32", "The zone's class number in the file.", |_, _| {})
-            .optional(),
+        whole(
+            CLASS,
+            0..=LARGEST_CLASS,
+            "uint32",
+            "The zone's class number in the file.",
+            |_, _| {},
+        )
+        .optional(),
         note(NAME, "The zone's name in the file, in place of a class number.").optional(),
         part(
             SOIL,
             Kind::Soil,
-            "Its soil: a preset's name, a path from this document's folder, or a soil's keys; left out, the scenario's.",
+            "Its soil: a preset's name, a path from this document's folder, or a soil's keys; left \
+             out, the scenario's.",
             &At { inner: &soil::SOIL, at: |soil: &mut Soil| soil },
         )
         .optional(),

@@ -147,15 +147,24 @@ impl Answers {
         ];
         let mut assumed: Vec<String> =
             places.iter().filter_map(|(key, of)| self.reason(key, of)).collect();
-        assumed.push("mount.position_m: the centre of mass midway between the first and the last axle, the axles evenly spaced".to_owned());
+        assumed.push(
+            "mount.position_m: the centre of mass midway between the first and the last \
+                      axle, the axles evenly spaced"
+                .to_owned(),
+        );
         let sizes: Vec<String> =
             BODY.iter().filter_map(|key| self.reason(key, "body.inertia_kg_m2")).collect();
         assumed.extend(sizes);
         let [l, b, h] = BODY.map(|key| self.number(key));
         assumed.push(format!(
-            "body.inertia_kg_m2: a uniform box of l = {l} m, b = {b} m, h = {h} m: m (b² + h²) / 12, m (l² + h²) / 12, m (l² + b²) / 12"
+            "body.inertia_kg_m2: a uniform box of l = {l} m, b = {b} m, h = {h} m: m (b² + h²) / \
+             12, m (l² + h²) / 12, m (l² + b²) / 12"
         ));
-        assumed.push("wheel_unit.inertia_kg_m2: a uniform cylinder of the wheel's radius r and width b: m (3 r² + b²) / 12, m r² / 2, m (3 r² + b²) / 12".to_owned());
+        assumed.push(
+            "wheel_unit.inertia_kg_m2: a uniform cylinder of the wheel's radius r and \
+                      width b: m (3 r² + b²) / 12, m r² / 2, m (3 r² + b²) / 12"
+                .to_owned(),
+        );
         assumed
     }
 

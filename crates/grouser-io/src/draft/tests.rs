@@ -112,7 +112,8 @@ fn what_is_estimated_is_marked() {
         "\"mount.position_m: wheelbase_m 0.48, 0.24 m times the cube root of the mass in kg",
         "\"wheel_unit.mass_kg: 0.4, all wheels with their motors have a fifth of the mass\"",
         "mass_kg = 6.4   # 8 kg less 4 wheels of 0.4 kg",
-        "# The wheel's centre, at a steering angle of zero, from the body's centre of mass: x forward, y left, z up [m].",
+        "# The wheel's centre, at a steering angle of zero, from the body's centre of mass: x \
+         forward, y left, z up [m].",
         "# Moments of inertia about its centre of mass [kg·m²].",
     ] {
         assert!(text.contains(line), "{line}\n{text}");

@@ -28,12 +28,14 @@ pub const BEVAMETER_SETS: [BevameterSet; 3] = [
     BevameterSet {
         name: "cullinan-plates",
         rows: include_str!("../../data/measurements/cullinan_plates.csv"),
-        about: "Cullinan sand, lightly compacted, under one round plate, three repeats (Kruger et al. 2023)",
+        about: "Cullinan sand, lightly compacted, under one round plate, three repeats (Kruger et \
+                al. 2023)",
     },
     BevameterSet {
         name: "cullinan-shear",
         rows: include_str!("../../data/measurements/cullinan_shear.csv"),
-        about: "Cullinan sand, lightly compacted, sheared under one normal stress (Kruger et al. 2023)",
+        about: "Cullinan sand, lightly compacted, sheared under one normal stress (Kruger et al. \
+                2023)",
     },
 ];
 

@@ -137,7 +137,8 @@ pub enum MeasurementProblem {
         why: &'static str,
     },
     /// A number outside its range.
-    #[error("`{column}` is {}, it must be from {} to {}", number(*.value), number(*.least), number(*.most))]
+    #[error("`{column}` is {}, it must be from {} to \
+             {}", number(*.value), number(*.least), number(*.most))]
     OutOfRange {
         /// Its column.
         column: String,

@@ -97,7 +97,8 @@ impl<'a> Header<'a> {
     fn hint_of_missing(&self, meanings: &[Meaning]) -> String {
         if let Some((_, delimiter)) = other_delimiter(&self.names) {
             return format!(
-                "fields are parted by commas here; an import with the delimiter {delimiter} makes it so"
+                "fields are parted by commas here; an import with the delimiter {delimiter} makes \
+                 it so"
             );
         }
         let named = self.names.iter().zip(&self.columns).filter(|(name, _)| !name.is_empty());

@@ -84,8 +84,8 @@ pub const COLUMNS: [SlopeColumn; 10] = [
     column(SLOPE, "slope of the ground", 0.0..=60.0),
     column(
         COURSE,
-        "direction of travel from the contour, positive uphill; straight up the slope, 90°, if there is no \
-         such column",
+        "direction of travel from the contour, positive uphill; straight up the slope, 90°, if \
+         there is no such column",
         -90.0..=90.0,
     ),
     column(
@@ -95,7 +95,8 @@ pub const COLUMNS: [SlopeColumn; 10] = [
     ),
     column(
         SLIP_WITHOUT_GROUSERS,
-        "instead: slip ratio by the speed of the rim without its grousers, converted when it is read",
+        "instead: slip ratio by the speed of the rim without its grousers, converted when it is \
+         read",
         SLIP,
     ),
     column(YAW, "yaw at which the rover holds its course, positive uphill", TURN),

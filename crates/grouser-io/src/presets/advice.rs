@@ -58,7 +58,8 @@ const SOILS: [(&str, &str, &str); 31] = [
     (
         "lunar-nominal",
         "moon",
-        "the Moon under traffic: Lunar Roving Vehicle constants, second-hand; slips more than rovers did",
+        "the Moon under traffic: Lunar Roving Vehicle constants, second-hand; slips more than \
+         rovers did",
     ),
     ("lunar-umd", "moon", "a second opinion on the Moon: a course's values, not traced further"),
     ("lunar-chrono", "moon", "to compare with Project Chrono's Apollo-site demonstration"),
@@ -75,7 +76,8 @@ const SOILS: [(&str, &str, &str); 31] = [
     (
         "lunar-30-60-cm",
         "moon",
-        "ground that was dug free: recommended values, with bands; no wheel on the surface meets it",
+        "ground that was dug free: recommended values, with bands; no wheel on the surface meets \
+         it",
     ),
     ("hit-lss1", "earth", "a lunar simulant of Harbin, values of 2015; second-hand"),
     ("hit-lss1-2011", "earth", "the wheel ding-2011-smooth, values of 2011; second-hand"),
@@ -97,7 +99,8 @@ const SOILS: [(&str, &str, &str); 31] = [
     (
         "grc-3",
         "earth",
-        "the wheel viper-engineering; friction measured over density, with bands, the rest second-hand",
+        "the wheel viper-engineering; friction measured over density, with bands, the rest \
+         second-hand",
     ),
     ("mars-simulant", "earth", "a Mars simulant on Earth; second-hand"),
     (
@@ -120,7 +123,8 @@ const SOILS: [(&str, &str, &str); 31] = [
     (
         "direct-90",
         "earth",
-        "the smooth wheel of Carnegie Mellon: one stiffness from plates, an exponent fitted to its tests",
+        "the smooth wheel of Carnegie Mellon: one stiffness from plates, an exponent fitted to its \
+         tests",
     ),
     ("direct-90-grousers", "earth", "the same sand under the wheel with grousers"),
     (

@@ -58,7 +58,8 @@ pub enum UrdfError {
     TwoRoots(String, String),
     /// No wheels.
     #[error(
-        "no wheels were found: no cylinder rolls without end (type continuous) about an axis across the rover; the links are {0}"
+        "no wheels were found: no cylinder rolls without end (type continuous) about an axis \
+         across the rover; the links are {0}"
     )]
     NoWheels(String),
     /// More wheels than a rover has.
@@ -130,7 +131,8 @@ pub enum UrdfError {
     Sides(&'static str, String, String),
     /// Bogies on the way, but not of all.
     #[error(
-        "wheels of one side hang on rockers and bogies in a way that is not known here: on each side one wheel is on the rocker, and two on its bogie"
+        "wheels of one side hang on rockers and bogies in a way that is not known here: on each \
+         side one wheel is on the rocker, and two on its bogie"
     )]
     OtherSuspension,
     /// Nothing to carry.

@@ -60,7 +60,11 @@ impl Found {
             return Err(UrdfError::NoBody);
         }
         if off_diagonal(&body.inertia) > 0.05 {
-            notes.push("the body's products of inertia are left out: the rover's axes are taken as its principal axes".to_owned());
+            notes.push(
+                "the body's products of inertia are left out: the rover's axes are taken as \
+                        its principal axes"
+                    .to_owned(),
+            );
         }
         let suspension = suspension(robot, &wheels, &body, options)?;
         let mounts = wheels
@@ -150,7 +154,8 @@ fn mount(
                 let [lower, upper, less] = [lower, upper, less].map(|it| shown(it.to_degrees()));
                 let joint = joint_name(robot, link);
                 notes.push(format!(
-                    "joint {joint} steers from {lower} to {upper} degrees: the rover steers by {less} degrees to either side"
+                    "joint {joint} steers from {lower} to {upper} degrees: the rover steers by \
+                     {less} degrees to either side"
                 ));
             }
             less

@@ -190,14 +190,18 @@ impl MessageRows {
         let mut notes = vec![format!("the mapping '{}' looks for {columns} columns", self.mapping)];
         let Counts { without_stamp, with_stamp, outside, damaged, .. } = self.counts;
         if without_stamp > 0 && with_stamp > 0 {
-            notes.push(format!("{without_stamp} messages have no time of their own, and count at the time at which they were recorded"));
+            notes.push(format!(
+                "{without_stamp} messages have no time of their own, and count at \
+                                the time at which they were recorded"
+            ));
         }
         let window = self.plan.window as f64 / 1e9;
         for (count, what) in [
             (
                 self.merge.late,
                 format!(
-                    "readings came more than {window} s too late and are left out (window_s in the mapping)"
+                    "readings came more than {window} s too late and are left out (window_s in the \
+                     mapping)"
                 ),
             ),
             (

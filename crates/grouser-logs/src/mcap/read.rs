@@ -74,7 +74,10 @@ impl Damage {
     /// A sentence for each kind of damage.
     pub(crate) fn sentences(&self) -> Vec<String> {
         let cut = self.cut_at.map(|byte| {
-            format!("the log ends at byte {byte} without its end, as after a loss of power; all before is read")
+            format!(
+                "the log ends at byte {byte} without its end, as after a loss of power; all \
+                     before is read"
+            )
         });
         let counts = [
             (self.chunks, "chunks are damaged and read to the damage only"),

@@ -55,8 +55,8 @@ pub(crate) fn of(title: &str, rover: &Rover, names: &[WheelName]) -> String {
         );
         let _ = writeln!(
             text,
-            "  <joint name=\"{rim}\" type=\"continuous\"><parent link=\"{frame}\"/><child link=\"{rim}\"/>\
-             <axis xyz=\"0 1 0\"/></joint>"
+            "  <joint name=\"{rim}\" type=\"continuous\"><parent link=\"{frame}\"/><child \
+             link=\"{rim}\"/><axis xyz=\"0 1 0\"/></joint>"
         );
     }
     text + "</robot>\n"
@@ -66,8 +66,8 @@ fn inertial(text: &mut String, mass: f64, inertia: Inertia) {
     let Inertia { xx, yy, zz } = inertia;
     let _ = writeln!(
         text,
-        "    <inertial><mass value=\"{mass}\"/><inertia ixx=\"{xx}\" iyy=\"{yy}\" izz=\"{zz}\" ixy=\"0\" ixz=\"0\" \
-         iyz=\"0\"/></inertial>"
+        "    <inertial><mass value=\"{mass}\"/><inertia ixx=\"{xx}\" iyy=\"{yy}\" izz=\"{zz}\" \
+         ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial>"
     );
 }
 
@@ -75,8 +75,8 @@ fn visual_of_block(text: &mut String, block: &Block) {
     let (middle, size) = (0.5 * (block.low + block.high), block.high - block.low);
     let _ = writeln!(
         text,
-        "    <visual><origin xyz=\"{} {} {}\"/><geometry><box size=\"{} {} {}\"/></geometry><material \
-         name=\"body\"/></visual>",
+        "    <visual><origin xyz=\"{} {} {}\"/><geometry><box size=\"{} {} \
+         {}\"/></geometry><material name=\"body\"/></visual>",
         middle.x, middle.y, middle.z, size.x, size.y, size.z
     );
 }

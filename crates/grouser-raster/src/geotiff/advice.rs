@@ -53,7 +53,8 @@ fn on_earth(longitude: f64, latitude: f64) -> String {
 
 fn stereographic(longitude: f64, latitude: f64, body: &str) -> String {
     format!(
-        "+proj=stere +lat_0={latitude:.4} +lon_0={longitude:.4} +k=1 +x_0=0 +y_0=0 {body} +units=m +no_defs"
+        "+proj=stere +lat_0={latitude:.4} +lon_0={longitude:.4} +k=1 +x_0=0 +y_0=0 {body} +units=m \
+         +no_defs"
     )
 }
 

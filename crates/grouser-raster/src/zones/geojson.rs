@@ -159,7 +159,8 @@ fn is_in_degrees(name: &str) -> bool {
 
 /// What a feature calls its soil.
 fn key_of(feature: &Feature) -> Result<ZoneKey, String> {
-    const WANTED: &str = "hint: ogr2ogr -sql \"SELECT *, UNIT AS soil FROM LAYER\" OUT.geojson IN makes it of a property UNIT";
+    const WANTED: &str = "hint: ogr2ogr -sql \"SELECT *, UNIT AS soil FROM LAYER\" OUT.geojson IN \
+                          makes it of a property UNIT";
     match feature.properties.as_ref().and_then(|properties| properties.soil.as_ref()) {
         Some(syntax::Soil::Key(key)) => Ok(key.clone()),
         Some(syntax::Soil::Other) => {

@@ -161,7 +161,8 @@ fn features_that_are_no_zones_are_refused_by_their_number() {
     let with = |soil: &str, rings: &str| collection(&[feature("1", SQUARE), feature(soil, rings)]);
     refused(
         &with("\"a\"", "[[[0,0],[1,0],[1,1],[0,1]]]"),
-        "in feature 2, counted from 1: its ring 1 is not closed: it begins at 0, 0 and ends at 0, 1",
+        "in feature 2, counted from 1: its ring 1 is not closed: it begins at 0, 0 and ends at 0, \
+         1",
     );
     refused(&with("\"a\"", "[[[0,0],[1,0],[0,0]]]"), "has 3 places");
     refused(&with("\"a\"", "[[]]"), "ring 1 is empty");

@@ -69,7 +69,8 @@ fn coverage(trial: &Trial<'_>, repeats: u32) {
     let other = sand("small-wheel");
     let even = Trial { uneven: false, ..*trial };
     println!(
-        "| the hidden soil | ground | drives | slip within its band | heading within its band | error of the heading, before and after | even ranks: slip, heading, K_x, K_y |"
+        "| the hidden soil | ground | drives | slip within its band | heading within its band | \
+         error of the heading, before and after | even ranks: slip, heading, K_x, K_y |"
     );
     println!("|---|---|---|---|---|---|---|");
     for (name, ground, trial) in [
@@ -87,7 +88,8 @@ fn coverage(trial: &Trial<'_>, repeats: u32) {
             .map(|place| format!("{:.2}", uniformity(answers.iter().map(|it| it.ranks[place]))));
         let ranks: Vec<String> = ranks.collect();
         println!(
-            "| {name} | {ground} | {} | {slip:.0} % | {yaw:.0} % | {before:.1}° and {after:.1}° | {} |",
+            "| {name} | {ground} | {} | {slip:.0} % | {yaw:.0} % | {before:.1}° and {after:.1}° | \
+             {} |",
             answers.len(),
             ranks.join(", ")
         );
@@ -107,7 +109,8 @@ fn heading(trial: &Trial<'_>, repeats: u32) {
 
 fn change(trial: &Trial<'_>, repeats: u32) {
     println!(
-        "| what changes | ground | drives | that move otherwise | flagged of these | within 0.5 m | median way | something flagged before |"
+        "| what changes | ground | drives | that move otherwise | flagged of these | within 0.5 m \
+         | median way | something flagged before |"
     );
     println!("|---|---|---|---|---|---|---|---|");
     for (ground, trial) in grounds(trial) {
@@ -138,7 +141,9 @@ fn grounds<'a>(trial: &Trial<'a>) -> [(&'static str, Trial<'a>); 2] {
 
 fn entrapment(trial: &Trial<'_>, repeats: u32) {
     println!(
-        "| how the rover gets stuck | ground | drives | way left when it begins: 5th percentile, median | called 0.3 m and 5 s ahead or more | way ahead: 5th percentile, median | time ahead: 5th percentile, median |"
+        "| how the rover gets stuck | ground | drives | way left when it begins: 5th percentile, \
+         median | called 0.3 m and 5 s ahead or more | way ahead: 5th percentile, median | time \
+         ahead: 5th percentile, median |"
     );
     println!("|---|---|---|---|---|---|---|");
     let all_ways = [
@@ -164,7 +169,8 @@ fn entrapment(trial: &Trial<'_>, repeats: u32) {
         let ([far, farther], [soon_s, later_s]) = (of(&|it| it.way), of(&|it| it.time));
         let [least, usual] = sorted(&|it| it.left);
         println!(
-            "| {} | {ground} | {} | {least:.2} m, {usual:.2} m | {soon} | {far:.2} m, {farther:.2} m | {soon_s:.0} s, {later_s:.0} s |",
+            "| {} | {ground} | {} | {least:.2} m, {usual:.2} m | {soon} | {far:.2} m, {farther:.2} \
+             m | {soon_s:.0} s, {later_s:.0} s |",
             way.name(),
             all.len()
         );

@@ -157,7 +157,8 @@ pub fn mass_of(text: &str, q: f64) -> Result<RoverMass, String> {
     }
     let Some((name, factor)) = text.split_once('=') else {
         return Err(format!(
-            "'{text}' is no mass: write {}, or a name with the factor on the document's mass, such as flight=0.65",
+            "'{text}' is no mass: write {}, or a name with the factor on the document's mass, such \
+             as flight=0.65",
             MASSES.join(", ")
         ));
     };
@@ -175,8 +176,9 @@ pub fn mass_of(text: &str, q: f64) -> Result<RoverMass, String> {
 }
 
 /// What is to be said where constants that do not know gravity are carried to another one.
-pub const BEKKER_IS_CARRIED: &str = "`bekker` keeps moduli that were measured under another gravity: no measurement supports it and it obeys no \
-     scaling law; under a smaller gravity a rover sinks too little, and may slip less or more";
+pub const BEKKER_IS_CARRIED: &str = "`bekker` keeps moduli that were measured under another \
+     gravity: no measurement supports it and it obeys no scaling law; under a smaller gravity a \
+     rover sinks too little, and may slip less or more";
 
 #[cfg(test)]
 mod tests {

@@ -224,7 +224,8 @@ impl HazardRecord {
         let number = |number: Option<f64>| number.unwrap_or(f64::NAN);
         match danger {
             Danger::UnknownGround => {
-                "the ground is not known all around: beyond the map, at its edge, or beside a place without a height"
+                "the ground is not known all around: beyond the map, at its edge, or beside a \
+                 place without a height"
                     .to_owned()
             }
             Danger::KeptOut => "it leads where nobody may go".to_owned(),

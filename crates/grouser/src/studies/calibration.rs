@@ -126,8 +126,8 @@ pub enum CalibrationError {
     NoParameters,
     /// The fitted soil is a document, which has no name for a model of your own.
     #[error(
-        "the fitted soil is a document that names its model, and documents have no name for a model of your own: fit it \
-         with `studies::calibration`, which gives the parameters alone"
+        "the fitted soil is a document that names its model, and documents have no name for a \
+         model of your own: fit it with `studies::calibration`, which gives the parameters alone"
     )]
     OwnModel,
     /// There are not enough observations for the parameters.

@@ -376,7 +376,8 @@ impl HeadingStudy {
         }
         let is_crab = held.is_steered();
         if is_crab && !self.rover.is_steerable() {
-            let expected = "one or more where wheels hold the course: `steering_limit_deg` says how far they turn";
+            let expected = "one or more where wheels hold the course: `steering_limit_deg` says \
+                            how far they turn";
             return Err(ParameterError::new("number of wheels that are steered", 0.0, expected));
         }
         for mount in self.rover.mounts() {

@@ -158,23 +158,23 @@ impl SlipStatus {
         match self {
             Self::Ok => "the current gives the slip to 0.2 or better",
             Self::IllPosed => {
-                "the current does not give the slip: slip ratios more than 0.2 apart go with it, because torque hardly \
-                 changes with slip here, or the soil is not known well enough"
+                "the current does not give the slip: slip ratios more than 0.2 apart go with it, \
+                 because torque hardly changes with slip here, or the soil is not known well enough"
             }
             Self::Standing => {
                 "the wheel stands: there is no slip, and the current says nothing of it"
             }
             Self::SelfLocking => {
-                "the ground drives the wheel, and the self-locking gear keeps that from the motor: the \
-                 current says nothing of the slip"
+                "the ground drives the wheel, and the self-locking gear keeps that from the motor: \
+                 the current says nothing of the slip"
             }
             Self::TorqueTooHigh => {
-                "more torque than this soil gives at any slip: a rock, a harder soil, a larger load, or a \
-                 motor with more friction"
+                "more torque than this soil gives at any slip: a rock, a harder soil, a larger \
+                 load, or a motor with more friction"
             }
             Self::TorqueTooLow => {
-                "less torque than this soil gives at any slip: a softer or looser soil, a smaller load, or \
-                 a wheel that is pushed faster"
+                "less torque than this soil gives at any slip: a softer or looser soil, a smaller \
+                 load, or a wheel that is pushed faster"
             }
             Self::NotCarried => "this soil does not carry the wheel under its load at any slip",
             Self::Unloaded => "the wheel carries nothing, so that no slip makes a torque",
@@ -221,8 +221,9 @@ impl SlipEstimate {
 pub enum NoEstimator {
     /// No wheel has a motor that is known.
     #[error(
-        "no wheel of the rover has a [motor], so that a current says nothing of its torque: add [motor] to its document, with \
-         resistance_ohm, torque_constant_nm_a, gear_ratio, gear_efficiency and friction_torque_nm"
+        "no wheel of the rover has a [motor], so that a current says nothing of its torque: add \
+         [motor] to its document, with resistance_ohm, torque_constant_nm_a, gear_ratio, \
+         gear_efficiency and friction_torque_nm"
     )]
     NoMotor,
     /// A value is out of its range.

@@ -90,7 +90,8 @@ fn more_rows_than_the_limit_are_refused_and_a_higher_limit_reads_them() {
     let error = read(&rows(11), 10).unwrap_err().to_string();
     assert_eq!(
         error,
-        "a.csv:12: has more than 10 rows, the most that are read: split the file, or raise the limit"
+        "a.csv:12: has more than 10 rows, the most that are read: split the file, or raise the \
+         limit"
     );
     assert_eq!(read(&rows(10), 10).expect("ten").tests.trials.len(), 10);
     assert_eq!(read(&rows(11), 11).expect("eleven").tests.trials.len(), 11);

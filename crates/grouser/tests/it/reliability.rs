@@ -166,7 +166,8 @@ fn check(count: usize, samples: u32) {
     let brier = mean(&|it| (it.stated - f64::from(u8::from(it.is_no_go))).powi(2));
     let without = observed * (1.0 - observed);
     println!(
-        "{count} drives: stated {stated:.3}, observed {observed:.3}, Brier {brier:.4}, of the mean {without:.4}"
+        "{count} drives: stated {stated:.3}, observed {observed:.3}, Brier {brier:.4}, of the mean \
+         {without:.4}"
     );
     println!("| stated | drives | mean stated | observed |\n|---|---|---|---|");
     let bins = by_tenth(&drives);

@@ -300,7 +300,8 @@ fn strictness_names_flag_row_value_and_range() {
             .contains("row 1: slip-outside: the slip ratio is 0.95, the domain is -0.1 to 0.9")
     );
     assert!(error.to_string().contains(
-        "row 0: slip-angle-outside: the slip angle is 50 °, the domain is at most 45 ° (and 1 more row)"
+        "row 0: slip-angle-outside: the slip angle is 50 °, the domain is at most 45 ° (and 1 more \
+         row)"
     ));
     let none: [&[grouser::contact::validity::Finding]; 2] = [&[], &[]];
     assert_eq!(OutsideDomain::check(none, |place| place.to_string()), Ok(()));

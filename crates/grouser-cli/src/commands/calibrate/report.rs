@@ -215,8 +215,8 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
     let model = problem.stand.model.name();
     page.answer(&fitted(&found.solved.records));
     page.paragraph(&format!(
-        "Fitted to {} ({} trials in {} cells) with the model {model}, {wheel}; keys that are not fitted are those of \
-         {soil}.",
+        "Fitted to {} ({} trials in {} cells) with the model {model}, {wheel}; keys that are not \
+         fitted are those of {soil}.",
         problem.file,
         problem.measured.tests.trials.len(),
         problem.measured.tests.cells.len(),
@@ -308,9 +308,9 @@ pub(super) fn add_posterior(folder: &mut OutputFolder, page: &mut Page, solved: 
     page.drawing(
         &corner(&solved.records, &shown, samples),
         &format!(
-            "Posterior of each fitted key (histogram) and of each pair (samples). A slanted cloud is \
-             a correlated pair: one key compensates for the other. A cloud that fills its bounds is a \
-             key that the data do not constrain.{which}"
+            "Posterior of each fitted key (histogram) and of each pair (samples). A slanted cloud \
+             is a correlated pair: one key compensates for the other. A cloud that fills its \
+             bounds is a key that the data do not constrain.{which}"
         ),
     );
     let all: Vec<usize> = (0..solved.records.len()).collect();

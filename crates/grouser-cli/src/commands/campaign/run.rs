@@ -83,8 +83,8 @@ fn tell_of_many_files(campaign: &Campaign, folder: &Folder) {
     let shards = folder.missing().len();
     if shards > MANY {
         output::message(&format!(
-            "note: {shards} files of {} runs each will be written; `shard_runs`, up to 1000000, makes them \
-             fewer and larger, and --shard I/N splits them over N folders",
+            "note: {shards} files of {} runs each will be written; `shard_runs`, up to 1000000, \
+             makes them fewer and larger, and --shard I/N splits them over N folders",
             campaign.shard_runs()
         ));
     }

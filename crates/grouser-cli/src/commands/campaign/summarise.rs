@@ -32,7 +32,8 @@ pub(super) fn run(args: &CampaignSummariseArgs) -> Result<(), Failure> {
     let (results, campaign) = stored(&args.folder)?;
     if let Some(part) = results.manifest().part {
         output::message(&format!(
-            "note: this is part {part} of a campaign; `grouser campaign merge` brings the parts together"
+            "note: this is part {part} of a campaign; `grouser campaign merge` brings the parts \
+             together"
         ));
     }
     results.require_all()?;

@@ -104,9 +104,11 @@ pub(super) fn draw(texts: &Texts, card: &table::Table, courses: &table::Table) -
 fn steps(sheet: &mut Sheet, texts: &Texts) {
     let steps = [
         "1  Stop every so many metres and look at the slip since the last stop.",
-        "2  Above the limit: turn back, backwards by the way you came. Across the slope the REAR goes uphill then,",
+        "2  Above the limit: turn back, backwards by the way you came. Across the slope the REAR \
+         goes uphill then,",
         "    by as much as page 1 turns the nose. Never go on where the table is black.",
-        "3  Turn on the way, with the uphill wheels at half speed; on the spot only where it is not black.",
+        "3  Turn on the way, with the uphill wheels at half speed; on the spot only where it is \
+         not black.",
     ];
     let y = lines(sheet, &steps, TOP + 18.5, RIGHT - LEFT);
     date(sheet, &texts.date, y + 1.5);
@@ -280,10 +282,11 @@ fn foot(sheet: &mut Sheet, texts: &Texts, top: f64) {
 fn notes(texts: &Texts) -> Vec<(&'static str, String)> {
     let ways = format!("{} m", four_digits(DRIFT_WAY));
     let check = format!(
-        "with these stops at most {stuck} of ways of {ways} along the contour get stuck between two looks. The soil is \
-         taken to change on the way: slip at each place is that of one of the samples, places x apart are correlated \
-         by e^(−x/{length} m) (assumed). 5 m at most; 'all the way': not even stops every half metre suffice. The limit \
-         is the one of page 1: 97.5 % of the samples stay below, {most} at most.",
+        "with these stops at most {stuck} of ways of {ways} along the contour get stuck between \
+         two looks. The soil is taken to change on the way: slip at each place is that of one of \
+         the samples, places x apart are correlated by e^(−x/{length} m) (assumed). 5 m at most; \
+         'all the way': not even stops every half metre suffice. The limit is the one of page 1: \
+         97.5 % of the samples stay below, {most} at most.",
         stuck = percent(STUCK_WITH_CHECKS),
         length = four_digits(SOIL_LENGTH),
         most = percent(MOST_CHECKED_SLIP),
@@ -298,15 +301,17 @@ fn notes(texts: &Texts) -> Vec<(&'static str, String)> {
         (
             "Slip",
             format!(
-                "mean of the wheels, in per cent of the rims' way. {range}Below 0 the rover runs ahead of its rims and \
-                 skids. '–': in more than 2.5 % of the samples the rover is stuck."
+                "mean of the wheels, in per cent of the rims' way. {range}Below 0 the rover runs \
+                 ahead of its rims and skids. '–': in more than 2.5 % of the samples the rover is \
+                 stuck."
             ),
         ),
         (
             "Turn",
             format!(
-                "from the heading of page 1 uphill. For {turn} it takes up to so many metres, and the rover comes lower by \
-                 up to so many centimetres, in 97.5 % of the samples that turn: a correction is a fifth of it. On the spot the two sides run against each \
+                "from the heading of page 1 uphill. For {turn} it takes up to so many metres, and \
+                 the rover comes lower by up to so many centimetres, in 97.5 % of the samples that \
+                 turn: a correction is a fifth of it. On the spot the two sides run against each \
                  other; samples that do not turn count as stuck.",
                 turn = degrees(TURN)
             ),
@@ -314,16 +319,17 @@ fn notes(texts: &Texts) -> Vec<(&'static str, String)> {
         (
             "Verdicts",
             format!(
-                "white: go; hatched: caution; black: no-go, by the rule of page 1 for the size of the slip. None is a go \
-                 within {below} of the friction angle. Slopes that page 1 calls no-go have none.",
+                "white: go; hatched: caution; black: no-go, by the rule of page 1 for the size of \
+                 the slip. None is a go within {below} of the friction angle. Slopes that page 1 \
+                 calls no-go have none.",
                 below = degrees(BELOW_FRICTION_ANGLE)
             ),
         ),
         (
             "Leaves out",
-            "how deep wheels have dug already: where the rover is stuck no row holds. Turning downhill, starts, stops, and \
-             steered wheels. \
-             Power, torque and wheel way on page 1 are mechanical."
+            "how deep wheels have dug already: where the rover is stuck no row holds. Turning \
+             downhill, starts, stops, and steered wheels. Power, torque and wheel way on page 1 \
+             are mechanical."
                 .to_owned(),
         ),
     ]

@@ -61,9 +61,9 @@ pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Texts {
         facts: facts(args, inputs, card),
         holds_for:
             "steady driving along the contour of an even slope of one soil, with all wheels \
-                    turning alike and the nose set again as the card says. Not true any more, and to be made \
-                    anew: once a reading is above its limit on two legs in a row, or rover, load or ground are \
-                    others than on the day of the soil."
+                    turning alike and the nose set again as the card says. Not true any more, and \
+                    to be made anew: once a reading is above its limit on two legs in a row, or \
+                    rover, load or ground are others than on the day of the soil."
                 .to_owned(),
         leaves_out: "rocks, ripples, layers, slopes that change, starts, stops and turns; what \
                      no model of the bands knows comes on top: a real rover scatters by more."
@@ -104,9 +104,9 @@ pub(super) fn percent(share: f64) -> String {
 /// What the columns are.
 fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
     let roll = format!(
-        "what instruments show with the nose set: roll reads the slope itself, and uphill side and nose are higher. Pitch \
-         above its range: the nose is too far uphill by more than {error}; below: too far down. Where the range begins \
-         with 0 pitch cannot tell.",
+        "what instruments show with the nose set: roll reads the slope itself, and uphill side and \
+         nose are higher. Pitch above its range: the nose is too far uphill by more than {error}; \
+         below: too far down. Where the range begins with 0 pitch cannot tell.",
         error = degrees(HEADING_ERROR)
     );
     let every = format!(
@@ -115,12 +115,12 @@ fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
         if draws.is_some() { " in 97.5 % of the samples" } else { "" },
         degrees(HEADING_ERROR)
     );
-    let readings = "Slip: mean of the wheels, in per cent of the rims' way; drift: downhill, for a metre \
-                    travelled, over 10 m; sinkage: mean of the wheels; torque: of the wheel that has most; both of samples \
-                    that are not stuck.";
+    let readings = "Slip: mean of the wheels, in per cent of the rims' way; drift: downhill, for a \
+                    metre travelled, over 10 m; sinkage: mean of the wheels; torque: of the wheel \
+                    that has most; both of samples that are not stuck.";
     let others = format!(
-        "wheel way: metres of rim for a metre of ground{}. Tips over: how much steeper the slope could be before the \
-         rover at rest tips.",
+        "wheel way: metres of rim for a metre of ground{}. Tips over: how much steeper the slope \
+         could be before the rover at rest tips.",
         if draws.is_some() { ", median" } else { "" }
     );
     let Some(draws) = draws else {
@@ -133,8 +133,8 @@ fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
         ];
     };
     let nose = format!(
-        "median of all {draws} samples of soil and model; 95 % of them need a heading in the range beside it. \
-         'None': in more than 2.5 % of them no heading holds the contour."
+        "median of all {draws} samples of soil and model; 95 % of them need a heading in the range \
+         beside it. 'None': in more than 2.5 % of them no heading holds the contour."
     );
     vec![
         ("Nose", nose),
@@ -143,8 +143,8 @@ fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
         (
             "Stop if above",
             format!(
-                "97.5 % of the samples stay below; slip at most {most}. {readings} '–': in more than 2.5 % of the \
-             samples the rover is stuck.",
+                "97.5 % of the samples stay below; slip at most {most}. {readings} '–': in more \
+             than 2.5 % of the samples the rover is stuck.",
                 most = percent(MOST_CHECKED_SLIP)
             ),
         ),
@@ -193,8 +193,8 @@ fn rule(inputs: &CardInputs, draws: Option<usize>) -> Vec<(&'static str, String)
         ),
         Some(draws) => (
             format!(
-                "in at least {share} of {draws} samples a heading holds the contour with slip up to {go_slip}, and \
-                 at most {} get stuck by the card's heading",
+                "in at least {share} of {draws} samples a heading holds the contour with slip up \
+                 to {go_slip}, and at most {} get stuck by the card's heading",
                 percent(STUCK_ON_GO)
             ),
             format!("in less than {least} of them a heading does so with slip up to {stop_slip}"),
@@ -208,13 +208,13 @@ fn rule(inputs: &CardInputs, draws: Option<usize>) -> Vec<(&'static str, String)
         "on no slope: the soil's document does not state how uncertain it is.".to_owned()
     } else {
         format!(
-            "{held}; and the slope is {below} or more below the soil's friction angle of {friction}, and stands \
-             with a factor of safety of {usual}."
+            "{held}; and the slope is {below} or more below the soil's friction angle of \
+             {friction}, and stands with a factor of safety of {usual}."
         )
     };
     let no_go = format!(
-        "{not_held}, the slope is above {friction}, the ground slides, the rover tips over, or the nose falls by {fall} \
-         within {way}. A steeper slope never gets a better verdict.",
+        "{not_held}, the slope is above {friction}, the ground slides, the rover tips over, or the \
+         nose falls by {fall} within {way}. A steeper slope never gets a better verdict.",
         fall = degrees(HEADING_ERROR),
         way = format_args!("{} m", four_digits(SHORTEST_LEG))
     );

@@ -99,8 +99,8 @@ impl AdviceTables {
     fn about_drives(&self) -> String {
         match self.heading_width_slope_deg {
             Some(slope) if self.test_drives.rows() > 0 => format!(
-                "test drives, one after the other, that tell most of these slopes for their {}; the heading is least \
-                 certain on {}°:",
+                "test drives, one after the other, that tell most of these slopes for their {}; \
+                 the heading is least certain on {}°:",
                 self.test_cost,
                 four_digits(slope)
             ),

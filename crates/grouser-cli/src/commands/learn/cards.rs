@@ -51,7 +51,8 @@ impl Cards {
     pub(super) fn show(&self, page: &mut Page) {
         page.heading("Today's card beside yesterday's");
         page.paragraph(
-            "The cards themselves are in cards.html and cards.pdf, yesterday's on the left; today's alone is in card.pdf.",
+            "The cards themselves are in cards.html and cards.pdf, yesterday's on the left; \
+             today's alone is in card.pdf.",
         );
         page.rows("Both cards, slope by slope", &self.table, &card_days::brief());
     }

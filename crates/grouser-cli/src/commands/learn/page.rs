@@ -192,7 +192,8 @@ fn basis(args: &LearnArgs, scenario: &LoadedScenario) -> Basis {
     };
     let slope = args.slope_deg.as_ref().map_or(String::new(), |it| format!(" --slope-deg={it}"));
     let repeat = format!(
-        "grouser learn log.csv --scenario scenario.toml{slope} --predict-slope-deg {} --samples {} --seed {}{}",
+        "grouser learn log.csv --scenario scenario.toml{slope} --predict-slope-deg {} --samples {} \
+         --seed {}{}",
         list(&args.predict_slope_deg),
         args.samples,
         args.seed,

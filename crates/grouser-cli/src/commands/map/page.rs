@@ -39,9 +39,10 @@ pub(super) fn html(
     };
     let [east, north] = ground.slope_length();
     page.paragraph(&format!(
-        "Slopes are taken over {} m to the east and {} m to the north. Numbers are read from a table over slope, which is \
-         within {}° of the heading, {} of the slip ratio, {} W and {} mm of what `heading-map` computes on the same slope. \
-         What a map cannot know: steps and stones between its points, and soil that differs from place to place.",
+        "Slopes are taken over {} m to the east and {} m to the north. Numbers are read from a \
+         table over slope, which is within {}° of the heading, {} of the slip ratio, {} W and {} \
+         mm of what `heading-map` computes on the same slope. What a map cannot know: steps and \
+         stones between its points, and soil that differs from place to place.",
         four_digits(east),
         four_digits(north),
         error(HEADING.name),
@@ -50,7 +51,8 @@ pub(super) fn html(
         error(SINKAGE.name),
     ));
     let repeat = format!(
-        "grouser map DEM scenario.toml --course-deg {} --samples {} --seed {} --rim-speed-m-s {} --out OTHER",
+        "grouser map DEM scenario.toml --course-deg {} --samples {} --seed {} --rim-speed-m-s {} \
+         --out OTHER",
         args.course_deg, args.samples, args.seed, inputs.study.rim_speed
     );
     let basis = Basis::new(repeat).with("scenario.toml", &inputs.scenario);
@@ -70,15 +72,20 @@ pub(super) fn picture(
 
 fn course(asked: &str) -> String {
     match asked {
-        "best" => "Each place has the course that is least often a no-go there, and of several the one with the least \
-                   slip."
-            .to_owned(),
-        "worst" => "Each place has the course that is most often a no-go there, and of several the one with the most \
-                    slip."
-            .to_owned(),
+        "best" => {
+            "Each place has the course that is least often a no-go there, and of several the \
+                   one with the least slip."
+                .to_owned()
+        }
+        "worst" => {
+            "Each place has the course that is most often a no-go there, and of several the \
+                    one with the most slip."
+                .to_owned()
+        }
         degrees => format!(
-            "The course is {degrees}°, counted from the contour with the hill on the left, positive uphill. On a rover \
-             that is its own mirror image it is the same with the hill on the right."
+            "The course is {degrees}°, counted from the contour with the hill on the left, \
+             positive uphill. On a rover that is its own mirror image it is the same with the hill \
+             on the right."
         ),
     }
 }

@@ -61,8 +61,9 @@ fn of_way(page: &mut Page, answered: &Answered, way: &DrivenMission) {
     over_ground(page, scenario, &way.report.trajectory.records);
     page.drawing(
         &answered.path(way),
-        "The path from above, to scale, uphill or north at the top, a colour for each leg. The rover is drawn at \
-         the start, in grey, and where each leg ended, with its number; a cross marks a leg that did not end as it says.",
+        "The path from above, to scale, uphill or north at the top, a colour for each leg. The \
+         rover is drawn at the start, in grey, and where each leg ended, with its number; a cross \
+         marks a leg that did not end as it says.",
     );
     let legs = way.table();
     page.rows("What became of each leg", &legs, &legs_brief(&legs));

@@ -21,9 +21,9 @@ use crate::report::page::Page;
 use crate::report::tables::{self, Table};
 
 /// The paper. The copy that this was made from names no authors.
-pub(super) const PAPER: &str = "The paper: \"Dynamical modeling and simulation of the four-wheel micro rover in sandy terrain\", Space \
-                     Robotics Laboratory, Tohoku University, with the HAKUTO team, about 2017 (the copy at hand \
-                     prints no authors' names).";
+pub(super) const PAPER: &str = "The paper: \"Dynamical modeling and simulation of the four-wheel \
+                     micro rover in sandy terrain\", Space Robotics Laboratory, Tohoku University, \
+                     with the HAKUTO team, about 2017 (the copy at hand prints no authors' names).";
 
 /// A page in the making, and the folder of its numbers.
 struct Report<'a> {
@@ -144,7 +144,8 @@ fn opening(page: &mut Page, study: &Reproduction) {
         "A four-wheel rover that crosses a slope of loose sand slides downhill as it drives. \
          Pointed uphill by the right angle it stays on the contour instead. Which angle is right \
          depends on the soil, the wheels and the slope; this page computes it for the HAKUTO rover \
-         on Toyoura sand, and compares it with the experiment of the paper that the model comes from.",
+         on Toyoura sand, and compares it with the experiment of the paper that the model comes \
+         from.",
     );
     let answers = study.slopes.iter().filter_map(|runs| {
         let heading = runs.heading.as_ref().ok()?;
@@ -171,12 +172,12 @@ fn comparison(report: &mut Report<'_>, study: &Reproduction) -> Result<(), Failu
     report.table(&tables::yaw_loss(study))?;
     report.page.paragraph(
         "The paper's model keeps its yaw, the measured rover loses some. With load transfer by the \
-         weight alone (quasi-static) the loads follow the wheel forces and the yaw moments cancel. With \
-         the torque of the wheels in the pitch balance (quasi-static-torque) the rear wheels carry \
-         more and hold the slope better, and the nose falls downhill: the right sign, and on some \
-         slopes about the size, of what was measured. The complete load transfer has the wheels' own \
-         overturning and aligning moments as well; it is what all other commands take. The length of \
-         the measured runs is not printed.",
+         weight alone (quasi-static) the loads follow the wheel forces and the yaw moments cancel. \
+         With the torque of the wheels in the pitch balance (quasi-static-torque) the rear wheels \
+         carry more and hold the slope better, and the nose falls downhill: the right sign, and on \
+         some slopes about the size, of what was measured. The complete load transfer has the \
+         wheels' own overturning and aligning moments as well; it is what all other commands take. \
+         The length of the measured runs is not printed.",
     );
     Ok(())
 }
@@ -191,8 +192,8 @@ fn second_test(report: &mut Report<'_>, study: &Reproduction) -> Result<(), Fail
     report.page.paragraph(
         "And the yaw can be imposed: held at what was measured, taken to go straight from start to \
          end over the 20 s (assumed), the rover drifts as the balance of forces alone decides. The \
-         model's constants were chosen with the headings in view; nothing was tuned to these drifts. \
-         The paper prints them without a sign; ours are negative downhill.",
+         model's constants were chosen with the headings in view; nothing was tuned to these \
+         drifts. The paper prints them without a sign; ours are negative downhill.",
     );
     report.table(&tables::measured_yaw_drift(study))?;
     report.figure(&against::drift(study))
@@ -204,9 +205,10 @@ fn lost_on_the_way(report: &mut Report<'_>, study: &Study) -> Result<(), Failure
     report.page.answer(&against::lost_yaw_verdict(study));
     report.table(&against::lost_yaw(study))?;
     report.page.paragraph(&format!(
-        "Scattered runs have sand whose friction angle differs from place to place by {}° and whose stiffness by {} % \
-         (standard deviations, correlated over {} m), and wheels whose speeds differ by {} %; all of that is assumed for a \
-         raked bed. Runs that end early, because the rover slides or gets stuck, count with the yaw that they had then. {}",
+        "Scattered runs have sand whose friction angle differs from place to place by {}° and \
+         whose stiffness by {} % (standard deviations, correlated over {} m), and wheels whose \
+         speeds differ by {} %; all of that is assumed for a raked bed. Runs that end early, \
+         because the rover slides or gets stuck, count with the yaw that they had then. {}",
         four_digits(SCATTER.soil.friction_angle.to_degrees()),
         four_digits(100.0 * SCATTER.soil.stiffness),
         SCATTER.soil.correlation_length,

@@ -24,7 +24,8 @@ pub(super) fn html(
     page.answer(&sentence(&records[0]));
     page.drawing(
         &picture(inputs, ways),
-        "The ground as a Sun in the north-west lights it, 30° above the horizon. Rings: where the way turns.",
+        "The ground as a Sun in the north-west lights it, 30° above the horizon. Rings: where the \
+         way turns.",
     );
     page.heading("What each way takes");
     page.text(&rows.to_table(&Brief::COLUMNS));
@@ -37,7 +38,8 @@ pub(super) fn html(
     }
     page.paragraph(if is_given { OF_A_LINE } else { OF_THE_LATTICE });
     page.paragraph(
-        "What the way cannot know: steps and stones between the points of the map, and soil that differs from place to place.",
+        "What the way cannot know: steps and stones between the points of the map, and soil that \
+         differs from place to place.",
     );
     let repeat = format!(
         "{} --samples {} --seed {}",
@@ -62,13 +64,14 @@ pub(super) fn picture(inputs: &RouteInputs, ways: &[Way]) -> String {
 }
 
 /// How the numbers of ways that were sought come about.
-const OF_THE_LATTICE: &str = "Predicted by tables of the steady motion on each slope and course, with turns on the spot as \
-                              on level ground. The lattice's sixteen directions make a way up to 2.8 % longer than it need \
-                              be.";
+const OF_THE_LATTICE: &str = "Predicted by tables of the steady motion on each slope and course, \
+                              with turns on the spot as on level ground. The lattice's sixteen \
+                              directions make a way up to 2.8 % longer than it need be.";
 
 /// How the numbers of a given line come about.
-const OF_A_LINE: &str = "Predicted by tables of the steady motion on each slope and course, piece by piece as long as the \
-                         map's points are apart, with turns on the spot as on level ground.";
+const OF_A_LINE: &str = "Predicted by tables of the steady motion on each slope and course, piece \
+                         by piece as long as the map's points are apart, with turns on the spot as \
+                         on level ground.";
 
 /// The command that asks the same.
 fn question(inputs: &RouteInputs, best: &RouteRecord) -> String {

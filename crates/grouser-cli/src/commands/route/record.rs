@@ -28,7 +28,8 @@ pub(super) fn lines(record: &RouteRecord) -> String {
     if let Some(driven) = &record.simulated {
         let _ = writeln!(
             text,
-            "{name}: driven by simulation: {}, {} s ({:+.1} %), {} J ({:+.1} %), {} m from the target",
+            "{name}: driven by simulation: {}, {} s ({:+.1} %), {} J ({:+.1} %), {} m from the \
+             target",
             driven.outcome,
             four_digits(driven.time_s),
             100.0 * driven.time_error,

@@ -31,7 +31,8 @@ pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {
     let of_path = if is_on_a_map {
         "The path, seen from above."
     } else {
-        "The path on the slope, seen from above it. The start is at the origin, the contour line is y = 0."
+        "The path on the slope, seen from above it. The start is at the origin, the contour line \
+         is y = 0."
     };
     page.drawing(&chart(all).to_svg(), of_path);
     match all {

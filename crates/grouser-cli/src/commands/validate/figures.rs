@@ -71,16 +71,16 @@ pub(crate) fn all(validation: &Validation) -> Vec<Figure> {
         figures.push(Figure {
             file: file.clone(),
             chart: over_slip(&cells, name, unit),
-            caption: "Dots are means over the trials of a cell, bars the standard deviation between \
-                      them. Predictions are of the same trials, at their own loads, so lines \
-                      bend where the load does.",
+            caption: "Dots are means over the trials of a cell, bars the standard deviation \
+                      between them. Predictions are of the same trials, at their own loads, so \
+                      lines bend where the load does.",
         });
         figures.push(Figure {
             file: format!("{file}-residuals"),
             chart: residuals(&cells, name, unit),
-            caption: "Prediction minus measurement, cell by cell: above zero the model predicts too much. \
-                      Where a bar reaches zero, the trials differ from each other as much as from \
-                      the model.",
+            caption: "Prediction minus measurement, cell by cell: above zero the model predicts \
+                      too much. Where a bar reaches zero, the trials differ from each other as \
+                      much as from the model.",
         });
     }
     figures
@@ -119,7 +119,8 @@ pub(super) fn of_slopes(validation: &SlopeValidation) -> Vec<Figure> {
                 ("slope [°]", format!("{name} [{unit}]")),
                 series,
             ),
-            caption: "Dots are measured. Where no heading holds a course along or up the slope, the slip counts as 1.",
+            caption: "Dots are measured. Where no heading holds a course along or up the slope, \
+                      the slip counts as 1.",
         })
     };
     [SLIP_RATIO, YAW].into_iter().filter_map(figure).collect()

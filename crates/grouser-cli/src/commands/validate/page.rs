@@ -35,12 +35,12 @@ pub(super) fn html(
         "Every trial is predicted at its own load and motion. Trials that repeat each other form a \
          cell; measurement and prediction are averaged over it, and every cell weighs the same. \
          rmse: root mean square of prediction minus measurement. bias: its mean, positive where \
-         the model predicts too much. repeatability: standard deviation between the trials of a cell; \
-         a model whose rmse is as small agrees as well as the experiment does with itself. r2: 1 is \
-         perfect, 0 no better than the mean of the measured values. rmse_share: rmse over the largest \
-         measured value. within_aim: whether that is what a prediction from published constants should \
-         reach. The last rows are predictions without physics: the mean of the set, and interpolation between \
-         the other cells.",
+         the model predicts too much. repeatability: standard deviation between the trials of a \
+         cell; a model whose rmse is as small agrees as well as the experiment does with itself. \
+         r2: 1 is perfect, 0 no better than the mean of the measured values. rmse_share: rmse over \
+         the largest measured value. within_aim: whether that is what a prediction from published \
+         constants should reach. The last rows are predictions without physics: the mean of the \
+         set, and interpolation between the other cells.",
     );
     let groups = groups_and_sums(validation);
     for quantity in Quantity::ALL {

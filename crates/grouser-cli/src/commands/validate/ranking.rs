@@ -44,8 +44,8 @@ pub(super) fn of_all(args: &ValidateArgs) -> Result<(), Failure> {
 
 /// On one data set: a preset, or a document.
 pub(super) fn of_one(args: &ValidateArgs, data: &Path) -> Result<(), Failure> {
-    const BOTH: &str = "one model is judged with --soil and either --wheel or --rover; a data set by its \
-                        name, or its document (FILE.toml), alone ranks all models";
+    const BOTH: &str = "one model is judged with --soil and either --wheel or --rover; a data set \
+                        by its name, or its document (FILE.toml), alone ranks all models";
     let folder = OutputFolder::for_args(&args.output)?;
     let of_one_model = [
         ("--soil", args.soil.is_some()),

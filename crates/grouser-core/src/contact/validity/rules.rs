@@ -29,7 +29,8 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::LoadOutside,
         name: "load-outside",
-        meaning: "The wheel's load is outside the range in which the soil's constants were measured or fitted.",
+        meaning: "The wheel's load is outside the range in which the soil's constants were \
+                  measured or fitted.",
         quantity: "load",
         criterion: "the load is outside the soil's `domain.load_n`",
         source: "the soil's document",
@@ -40,9 +41,10 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         name: "radius-outside",
         meaning: "The wheel is smaller or larger than those for which the model was tested.",
         quantity: "radius of the rim",
-        criterion: "the radius of the rim is outside 0.09 to 0.63 m (`ishigami`), or below 0.25 m (`bekker`)",
-        source: "wheels of Ishigami et al. (2007) and of Wong and Reece (1967); Bekker (1969): less accurate below \
-                 20 inches in diameter",
+        criterion: "the radius of the rim is outside 0.09 to 0.63 m (`ishigami`), or below 0.25 m \
+                    (`bekker`)",
+        source: "wheels of Ishigami et al. (2007) and of Wong and Reece (1967); Bekker (1969): \
+                 less accurate below 20 inches in diameter",
         judge: |it| Some((it.wheel.radius, it.model.domain().radius)),
     },
     Rule {
@@ -50,18 +52,21 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         name: "other-wheel",
         meaning: "The soil's constants were fitted to a wheel of another radius or width.",
         quantity: "radius or width of the rim",
-        criterion: "radius or width is more than 2 % outside the soil's `domain.radius_m` or `domain.width_m`",
+        criterion: "radius or width is more than 2 % outside the soil's `domain.radius_m` or \
+                    `domain.width_m`",
         source: "the soil's document; the 2 % are ours",
         judge: other_wheel,
     },
     Rule {
         flag: Flag::SinkageOutside,
         name: "sinkage-outside",
-        meaning: "The wheel sinks deeper than the model holds, or than the tests behind the soil's constants went.",
+        meaning: "The wheel sinks deeper than the model holds, or than the tests behind the soil's \
+                  constants went.",
         quantity: "sinkage over shearing radius",
-        criterion: "h/r_s is above 1/3 (`ishigami`, `bekker`), 0.95 (`small-wheel`) or 1 (`rft`), or outside the \
-                    soil's `domain.sinkage_over_radius`",
-        source: "Bekker (1969): up to a sixth of the diameter; the deepest wheels of Pavlov and Johnson (2022); the axle",
+        criterion: "h/r_s is above 1/3 (`ishigami`, `bekker`), 0.95 (`small-wheel`) or 1 (`rft`), \
+                    or outside the soil's `domain.sinkage_over_radius`",
+        source: "Bekker (1969): up to a sixth of the diameter; the deepest wheels of Pavlov and \
+                 Johnson (2022); the axle",
         judge: |it| {
             let depth = it.settled?.sinkage / it.wheel.shearing_radius();
             Some((depth, it.domain(|domain| domain.depth)))
@@ -70,10 +75,11 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::SlipOutside,
         name: "slip-outside",
-        meaning: "The slip ratio is outside the tests of the model or of the soil's fit, or near 1.",
+        meaning: "The slip ratio is outside the tests of the model or of the soil's fit, or near \
+                  1.",
         quantity: "slip ratio",
-        criterion: "s is outside -0.1 to 0.9 (`ishigami`, `bekker`), -1 to 0.975 (`small-wheel`), or the soil's \
-                    `domain.slip_ratio`",
+        criterion: "s is outside -0.1 to 0.9 (`ishigami`, `bekker`), -1 to 0.975 (`small-wheel`), \
+                    or the soil's `domain.slip_ratio`",
         source: "Ishigami et al. (2007): 0 to 0.8, a tenth more is ours; Pavlov and Johnson (2022)",
         judge: |it| Some((it.slip?.ratio, it.domain(|domain| domain.slip_ratio))),
     },
@@ -82,7 +88,8 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         name: "slip-angle-outside",
         meaning: "The slip angle is outside the tests of the model or of the soil's fit.",
         quantity: "slip angle",
-        criterion: "β is above 45° to either side (`ishigami`) or 75° (`small-wheel`), or outside the soil's `domain.slip_angle_deg`",
+        criterion: "β is above 45° to either side (`ishigami`) or 75° (`small-wheel`), or outside \
+                    the soil's `domain.slip_angle_deg`",
         source: "Ishigami et al. (2007); Pavlov and Johnson (2022)",
         judge: |it| Some((it.slip?.angle.abs(), it.domain(|domain| domain.slip_angle))),
     },
@@ -100,8 +107,9 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         name: "bekker-gravity",
         meaning: "Bekker's moduli do not scale with gravity, and were measured under another one.",
         quantity: "gravity",
-        criterion: "the soil has Bekker's law, and g is outside its `domain.gravity_m_s2`, or differs by more than \
-                    1 % from the Earth's where that is not stated; not for `rft`",
+        criterion: "the soil has Bekker's law, and g is outside its `domain.gravity_m_s2`, or \
+                    differs by more than 1 % from the Earth's where that is not stated; not for \
+                    `rft`",
         source: "granular scaling, Slonaker et al. (2017), which these moduli do not obey",
         judge: bekker_gravity,
     },
@@ -119,7 +127,8 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         name: "slope-beyond-strength",
         meaning: "The slope comes near to where the ground itself slides.",
         quantity: "factor of safety of the ground",
-        criterion: "an infinite slope that slides 1 m below its surface has a factor of safety below 1.3",
+        criterion: "an infinite slope that slides 1 m below its surface has a factor of safety \
+                    below 1.3",
         source: "limit equilibrium of the infinite slope; 1.3 is usual for temporary slopes",
         judge: |it| {
             let SlopeStability { factor_of_safety, depth } = SlopeStability::USUAL;
@@ -130,10 +139,11 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::GrousersExposed,
         name: "grousers-exposed",
-        meaning: "The grousers are deeper than the wheel sinks: the rim does not touch the soil, and the model, \
-                  which takes the grousers as dense, has no law for their number.",
+        meaning: "The grousers are deeper than the wheel sinks: the rim does not touch the soil, \
+                  and the model, which takes the grousers as dense, has no law for their number.",
         quantity: "sinkage",
-        criterion: "the sinkage of the tips is below the grousers' height; not for `rft`, which has their faces",
+        criterion: "the sinkage of the tips is below the grousers' height; not for `rft`, which \
+                    has their faces",
         source: "geometry",
         judge: |it| {
             let grousers = dense_grousers(it)?;
@@ -145,16 +155,16 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
         name: "grousers-apart",
         meaning: "The grousers are too far apart to move the soil between them as one body.",
         quantity: "spacing of the grousers",
-        criterion: "2π/N is above [√((1 + h_g/r)² − (1 − z/r)²) − √(1 − (1 − z/r)²)] / (1 − s), z the sinkage of \
-                    the rim; not for `rft`",
+        criterion: "2π/N is above [√((1 + h_g/r)² − (1 − z/r)²) − √(1 − (1 − z/r)²)] / (1 − s), z \
+                    the sinkage of the rim; not for `rft`",
         source: "Skonieczny, Moreland and Wettergreen (2012)",
         judge: grousers_apart,
     },
     Rule {
         flag: Flag::GrouserNumber,
         name: "grouser-number",
-        meaning: "There are so few grousers that at times none is in the soil; the model takes them as dense, and \
-                  their number has no effect.",
+        meaning: "There are so few grousers that at times none is in the soil; the model takes \
+                  them as dense, and their number has no effect.",
         quantity: "grousers in the soil",
         criterion: "the arc in contact is shorter than the spacing of the grousers; not for `rft`",
         source: "geometry",
@@ -168,17 +178,20 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::ForceBeyondFriction,
         name: "force-beyond-friction",
-        meaning: "The model asks more of the soil along the ground than its friction and cohesion allow.",
+        meaning: "The model asks more of the soil along the ground than its friction and cohesion \
+                  allow.",
         quantity: "force along the ground",
-        criterion: "√(F_x² + F_y²) is above c A + F_z tan φ, A the arc in contact times the width; where \
-                    `shear.bound` keeps it within what the soil resists: above that bound, before bound and cut-off reduced it",
+        criterion: "√(F_x² + F_y²) is above c A + F_z tan φ, A the arc in contact times the width; \
+                    where `shear.bound` keeps it within what the soil resists: above that bound, \
+                    before bound and cut-off reduced it",
         source: "Mohr-Coulomb; with the bound, a wedge of soil ahead, Chen (1975)",
         judge: force_beyond_friction,
     },
     Rule {
         flag: Flag::NoSideForce,
         name: "no-side-force",
-        meaning: "The wheel moves sideways; Bekker's theory has no force across the wheel, ours is an addition.",
+        meaning: "The wheel moves sideways; Bekker's theory has no force across the wheel, ours is \
+                  an addition.",
         quantity: "slip angle",
         criterion: "`bekker` with a slip angle",
         source: "Bekker (1969), plane motion only",
@@ -199,9 +212,11 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::TermsMissing,
         name: "terms-missing",
-        meaning: "The soil states no terms for the model `small-wheel`: general values stand for them.",
+        meaning: "The soil states no terms for the model `small-wheel`: general values stand for \
+                  them.",
         quantity: "sets of terms for the small-wheel model",
-        criterion: "`small-wheel` on a soil without `small_wheel`, or with nothing of it but what priors have",
+        criterion: "`small-wheel` on a soil without `small_wheel`, or with nothing of it but what \
+                    priors have",
         source: "two wheels on one sand, Pavlov and Johnson (2022); Lyasko (2010)",
         judge: |it| {
             let terms = if has_general_terms(&it.soil.small_wheel) { 0.0 } else { 1.0 };

@@ -34,7 +34,8 @@ pub enum ZonesError {
     },
     /// A corner without a place.
     #[error(
-        "polygon {polygon}, counted from 1, has a corner at x = {x} m, y = {y} m, and all must be finite"
+        "polygon {polygon}, counted from 1, has a corner at x = {x} m, y = {y} m, and all must be \
+         finite"
     )]
     Corner {
         /// The polygon.

@@ -5,9 +5,10 @@ use grouser_core::soil::Discrepancy;
 use grouser_core::soil::discrepancy::{LARGEST, SIDE_VALUES, VALUES};
 
 pub(super) static DISCREPANCY: Table<Discrepancy> = Table {
-    doc: "What a model gets wrong in this soil under one wheel, as a function of slip and slip angle: none for keys that are left out. \
-          Each list has the values at slips by the total speed of -1, -0.5, 0, 0.5 and 1 for a slip angle of 0°, then for 15°, 45° and 90°. \
-          They come from a calibration's samples, and are not to be set by hand.",
+    doc: "What a model gets wrong in this soil under one wheel, as a function of slip and slip \
+          angle: none for keys that are left out. Each list has the values at slips by the total \
+          speed of -1, -0.5, 0, 0.5 and 1 for a slip angle of 0°, then for 15°, 45° and 90°. They \
+          come from a calibration's samples, and are not to be set by hand.",
     fields: &[
         values(
             "drawbar_pull",
@@ -18,7 +19,8 @@ pub(super) static DISCREPANCY: Table<Discrepancy> = Table {
         values(
             "side_force",
             SIDE_VALUES,
-            "Added to the side force, in shares of the load; it begins with 15°, since there is none at 0°",
+            "Added to the side force, in shares of the load; it begins with 15°, since there is \
+             none at 0°",
             |all, place| all.side_force.get_mut(place),
         ),
         values("sinkage", VALUES, "Added to the logarithm of the sinkage", |all, place| {

@@ -5,8 +5,8 @@ use grouser_core::soil::{Domain, Span};
 use std::ops::RangeInclusive;
 
 pub(super) static DOMAIN: Table<Domain> = Table {
-    doc: "The ranges within which the constants were measured or fitted, each as [smallest, largest]; results \
-          outside carry flags.",
+    doc: "The ranges within which the constants were measured or fitted, each as [smallest, \
+          largest]; results outside carry flags.",
     fields: &[
         note("wheel", "The wheel of the fit, by its preset's name.").optional(),
         range("load_n", N, 0.0..=1e5, "Loads on the wheel", |it, place| end(&mut it.load, place)),

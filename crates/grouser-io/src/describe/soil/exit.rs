@@ -37,7 +37,8 @@ pub(super) static EXIT: Laws<Exit> = Laws {
                 *law = Exit::QuadraticInSlip { at_zero: 0.0, per_slip: 0.0, per_slip_squared: 0.0 };
             },
             table: Table {
-                doc: "λ = at_zero + per_slip s + per_slip2 s², skid counting as s = 0, λ never below 0.",
+                doc: "λ = at_zero + per_slip s + per_slip2 s², skid counting as s = 0, λ never \
+                      below 0.",
                 fields: &[
                     number("at_zero", ONE, 0.0..=LARGEST_EXIT_RATIO, "λ at zero slip", |law| {
                         match law {

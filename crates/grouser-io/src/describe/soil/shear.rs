@@ -30,7 +30,8 @@ pub(super) static SHEAR: Laws<Soil> = Laws {
                 soil.shear = Shear::Anisotropic { longitudinal: LINEAR, lateral: LINEAR }
             },
             table: Table {
-                doc: "Each axis on its own, with moduli linear in the slip angle (Ishigami et al. 2007).",
+                doc: "Each axis on its own, with moduli linear in the slip angle (Ishigami et al. \
+                      2007).",
                 fields: &[LONGITUDINAL, LONGITUDINAL_GROWTH, LATERAL, LATERAL_GROWTH, BOUND],
             },
         },
@@ -41,7 +42,8 @@ pub(super) static SHEAR: Laws<Soil> = Laws {
                 soil.shear = Shear::Anisotropic { longitudinal: QUADRATIC, lateral: QUADRATIC }
             },
             table: Table {
-                doc: "Each axis on its own, with moduli quadratic in the slip angle (the laboratory's, 2007).",
+                doc: "Each axis on its own, with moduli quadratic in the slip angle (the \
+                      laboratory's, 2007).",
                 fields: &[
                     LONGITUDINAL,
                     LONGITUDINAL_GROWTH,
@@ -104,7 +106,8 @@ const BOUND: Field<Soil> = words(
         }),
         word(
             "coulomb",
-            "The resultant shear stress stays within c + σ tan φ, and a wheel's horizontal force within friction, cohesion and the wedge of soil ahead of it.",
+            "The resultant shear stress stays within c + σ tan φ, and a wheel's horizontal force \
+             within friction, cohesion and the wedge of soil ahead of it.",
             |soil: &mut Soil| soil.shear_bound = ShearBound::Coulomb,
         ),
     ],

@@ -8,7 +8,8 @@ const DEFAULTS: Fill = Fill::Keys(&[]);
 const GENERAL: SmallWheel = SmallWheel::GENERAL;
 
 pub(super) static SMALL_WHEEL: Table<SmallWheel> = Table {
-    doc: "What a small wheel's soil does beyond the classical law. A key that is left out has its general value.",
+    doc: "What a small wheel's soil does beyond the classical law. A key that is left out has its \
+          general value.",
     fields: &[
         table(
             "sinkage",
@@ -96,7 +97,8 @@ static EXIT_SHIFT: Table<ExitShift> = Table {
             "fading",
             ONE,
             0.0..=1.0,
-            "Share of λ that a wheel spinning on the spot has lost, in proportion to the slip by total speed",
+            "Share of λ that a wheel spinning on the spot has lost, in proportion to the slip by \
+             total speed",
             |shift: &mut ExitShift| Some(&mut shift.fading),
         )
         .or(GENERAL.exit.fading),

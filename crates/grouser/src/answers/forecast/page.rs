@@ -94,11 +94,13 @@ fn verdict(tables: &Tables) -> String {
         let factor = factors[row].as_deref().unwrap_or_default();
         let [alone, all] = [shares[row].unwrap_or_default(), share].map(|share| 100.0 * share);
         format!(
-            " Of its variance {factor} has most: {alone:.0} % alone, {all:.0} % with its share of interactions."
+            " Of its variance {factor} has most: {alone:.0} % alone, {all:.0} % with its share of \
+             interactions."
         )
     });
     format!(
-        "The slip is least known on {}°: {low} to {high} (95 % of the cases), median {median}.{due}",
+        "The slip is least known on {}°: {low} to {high} (95 % of the cases), median \
+         {median}.{due}",
         four_digits(slope)
     )
 }

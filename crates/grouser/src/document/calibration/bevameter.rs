@@ -23,8 +23,9 @@ const ONE_WIDTH: &str = "soil.pressure_sinkage.k_c and soil.pressure_sinkage.k_p
                          separately identifiable from plates of one width: test a second one";
 
 /// With one normal stress only c + σ tan φ is identifiable.
-const ONE_NORMAL_STRESS: &str = "soil.cohesion_kpa and soil.friction_angle_deg are not separately identifiable \
-                                 from shear tests under one normal stress: test a second one";
+const ONE_NORMAL_STRESS: &str = "soil.cohesion_kpa and soil.friction_angle_deg are not separately \
+                                 identifiable from shear tests under one normal stress: test a \
+                                 second one";
 
 /// A modulus is searched to either side of zero, up to so many times what would make up all the
 /// stiffness of the stiffest plate [-]. Source: ours; the exponent may change its unit by less.
@@ -289,7 +290,8 @@ fn notes(tests: &BevameterTests, curves: &BevameterCurves) -> Vec<String> {
     let mut notes = Vec::new();
     if long > 0 {
         notes.push(format!(
-            "{long} curves of more than {INTERVALS} rows are averaged over {INTERVALS} intervals of equal length"
+            "{long} curves of more than {INTERVALS} rows are averaged over {INTERVALS} intervals \
+             of equal length"
         ));
     }
     let (of_plates, of_shear) = &curves.repeats;
@@ -304,8 +306,8 @@ fn notes(tests: &BevameterTests, curves: &BevameterCurves) -> Vec<String> {
     let repeated = plates.chain(shear).filter(|(count, _)| **count > 1);
     notes.extend(repeated.map(|(count, what)| {
         format!(
-            "{what} was repeated: the mean of {count} curves counts, as far as all of them reach, with the \
-             scatter between them"
+            "{what} was repeated: the mean of {count} curves counts, as far as all of them reach, \
+             with the scatter between them"
         )
     }));
     notes

@@ -166,7 +166,8 @@ impl Solved {
             let bound = if fit - lower < upper - fit { lower } else { upper };
             fit_std.is_none().then(|| {
                 format!(
-                    "{key} ends at its bound, {bound}: its standard deviation is not known there; {remedy}"
+                    "{key} ends at its bound, {bound}: its standard deviation is not known there; \
+                     {remedy}"
                 )
             })
         };
@@ -178,8 +179,9 @@ impl Solved {
         let worst = self.sampler.as_ref()?.worst_r_hat;
         (worst > GOOD_R_HAT).then(|| {
             format!(
-                "the sampler has not converged: R-hat is {worst:.3} at worst, of {}, above {GOOD_R_HAT}: quantiles \
-                 are not to be relied on; walk more steps, or fit fewer keys",
+                "the sampler has not converged: R-hat is {worst:.3} at worst, of {}, above \
+                 {GOOD_R_HAT}: quantiles are not to be relied on; walk more steps, or fit fewer \
+                 keys",
                 self.worst_mixed()
             )
         })

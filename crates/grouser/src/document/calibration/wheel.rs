@@ -160,16 +160,16 @@ fn data_notes(tests: &WheelTests, keys: usize) -> Vec<String> {
     let cells = tests.cells.len();
     if cells < CELLS_PER_KEY * keys {
         notes.push(format!(
-            "{cells} cells are few for {keys} fitted {}: fit fewer, or measure at least {} different settings of \
-             slip, slip angle and load",
+            "{cells} cells are few for {keys} fitted {}: fit fewer, or measure at least {} \
+             different settings of slip, slip angle and load",
             if keys == 1 { "key" } else { "keys" },
             CELLS_PER_KEY * keys
         ));
     }
     if tests.trials.len() == cells {
         notes.push(
-            "no trial is repeated: how much trials scatter is not known, and every deviation counts as the model's; \
-             repeat some trials"
+            "no trial is repeated: how much trials scatter is not known, and every deviation \
+             counts as the model's; repeat some trials"
                 .to_owned(),
         );
     }
@@ -179,8 +179,8 @@ fn data_notes(tests: &WheelTests, keys: usize) -> Vec<String> {
         let [low, high] = [low, high].map(|load| format!("{load:.1}"));
         let loads = if low == high { low } else { format!("{low} to {high}") };
         notes.push(format!(
-            "all trials have one load, {loads} N: how the soil answers another load is not known from \
-             them"
+            "all trials have one load, {loads} N: how the soil answers another load is not known \
+             from them"
         ));
     }
     notes

@@ -48,23 +48,26 @@ fn heading(advice: &SlopeAdvice) -> Option<&AdvisedHeading> {
 pub const SLOPE_COLUMNS: [Column<SlopeAdvice>; 20] = [
     SLOPE.given("Slope", |it| Some(it.heading.slope)),
     YAW.maybe(
-        "Heading to set, positive uphill: that which holds the contour, or the steepest that keeps the limit of slip \
-         where that is less; missing where there is none",
+        "Heading to set, positive uphill: that which holds the contour, or the steepest that keeps \
+         the limit of slip where that is less; missing where there is none",
         |it| heading(it).map(|it| it.yaw),
     ),
     CONTOUR_YAW.maybe(
-        "Heading that holds the contour: the median; missing where none does in half of the samples",
+        "Heading that holds the contour: the median; missing where none does in half of the \
+         samples",
         |it| it.heading.contour.map(|it| it.median),
     ),
     CONTOUR_YAW.band("The same over the samples that hold the contour", |it| it.heading.contour),
     STEEPEST_YAW.maybe(
-        "Steepest heading, 0° to 90°, at which the slip keeps its limit in as many samples as it must; missing where it \
-         does not with the nose on the contour",
+        "Steepest heading, 0° to 90°, at which the slip keeps its limit in as many samples as it \
+         must; missing where it does not with the nose on the contour",
         |it| it.heading.steepest,
     ),
-    PROBABILITY_WITHIN.probability("Probability that the slip keeps its limit at the heading to set", |it| {
-        heading(it).map(|it| it.within)
-    }),
+    PROBABILITY_WITHIN.probability(
+        "Probability that the slip keeps its limit at the heading to \
+                                    set",
+        |it| heading(it).map(|it| it.within),
+    ),
     SLIP_RATIO.maybe("Slip ratio at that heading: the median; 1 where the rover is stuck", |it| {
         heading(it).map(|it| it.slip_ratio.median)
     }),
@@ -73,22 +76,22 @@ pub const SLOPE_COLUMNS: [Column<SlopeAdvice>; 20] = [
         heading(it).map(|it| it.drift)
     }),
     RIM_SPEED.maybe("Rim speed to set", |it| it.rim_speed),
-    POWER.band("Power of the motors then, over the samples in which the rover is not stuck", |it| {
-        heading(it)?.power(it.rim_speed?)
-    }),
+    POWER
+        .band("Power of the motors then, over the samples in which the rover is not stuck", |it| {
+            heading(it)?.power(it.rim_speed?)
+        }),
     SLIP_CHECK_EVERY.maybe(
-        "Way of the rims after which to look at the slip; missing where no interval is known to be safe enough",
+        "Way of the rims after which to look at the slip; missing where no interval is known to be \
+         safe enough",
         |it| it.check?.check.map(|it| it.every),
     ),
     SLIP_LIMIT.maybe("Slip ratio over that way above which to go no further", |it| {
         it.check?.check.map(|it| it.limit)
     }),
-    BLIND_TIME.maybe("Time between two looks", |it| {
-        Some(it.check?.check?.every / it.rim_speed?)
-    }),
+    BLIND_TIME.maybe("Time between two looks", |it| Some(it.check?.check?.every / it.rim_speed?)),
     PROBABILITY_STUCK_WITH_CHECKS.probability(
-        "Probability of getting stuck over 10 m of the rims' way with these looks; where no interval is safe enough with \
-         the shortest",
+        "Probability of getting stuck over 10 m of the rims' way with these looks; where no \
+         interval is safe enough with the shortest",
         |it| it.check.map(|it| it.check.unwrap_or(it.closest).stuck),
     ),
     PROBABILITY_FALSE_STOP.probability(
@@ -99,7 +102,8 @@ pub const SLOPE_COLUMNS: [Column<SlopeAdvice>; 20] = [
         it.check.map(|it| it.unchecked)
     }),
     PROBABILITY_STUCK_PRACTICE.probability(
-        "Probability of getting stuck with a look every 5 m against a limit of 40 %, as Opportunity's drivers had it",
+        "Probability of getting stuck with a look every 5 m against a limit of 40 %, as \
+         Opportunity's drivers had it",
         |it| it.check.map(|it| it.practice.stuck),
     ),
     super::maybe(
@@ -151,7 +155,8 @@ pub fn sentence(advice: &SlopeAdvice) -> String {
     let lower = advice.heading.contour.is_some_and(|it| set.yaw < it.median);
     let heading = match (lower, &advice.heading.contour) {
         (true, Some(contour)) => format!(
-            "{slope}: set the heading to {}, not to the {} that hold the contour: the slip would not keep its limit",
+            "{slope}: set the heading to {}, not to the {} that hold the contour: the slip would \
+             not keep its limit",
             degrees(set.yaw),
             degrees(contour.median)
         ),
@@ -170,13 +175,14 @@ fn look(advice: &SlopeAdvice) -> String {
             check.every, check.limit
         ),
         None if checks.closest.stuck.successes == 0 => format!(
-            "no look at the slip is known to be safe enough: none of {} ways has a stuck rover, which shows a \
-             probability of less than {} and no more",
+            "no look at the slip is known to be safe enough: none of {} ways has a stuck rover, \
+             which shows a probability of less than {} and no more",
             checks.closest.stuck.trials,
             percent(checks.closest.stuck.interval().1)
         ),
         None => format!(
-            "no look at the slip is known to be safe enough: every {} m the rover gets stuck on {} of the ways",
+            "no look at the slip is known to be safe enough: every {} m the rover gets stuck on {} \
+             of the ways",
             checks.closest.every,
             percent(checks.closest.stuck.estimate())
         ),
@@ -189,23 +195,27 @@ pub const TEST_COLUMNS: [Column<TestDrive>; 14] = [
     YAW.given("Yaw from the contour, positive uphill", |it| Some(it.leg.yaw)),
     WAY.given("Way of the rims", |it| Some(it.leg.way)),
     SLIP_RATIO.number("Mean slip ratio of the wheels that is expected", |it| it.slip_ratio),
-    PROBABILITY_WITHIN.probability("Probability that the slip keeps its limit", |it| Some(it.within)),
+    PROBABILITY_WITHIN.probability(
+        "Probability that the slip keeps its \
+                                    limit",
+        |it| Some(it.within),
+    ),
     ENERGY.number(
-        "Work of the wheels that pull, and that by which height is won back that is lost on the leg",
+        "Work of the wheels that pull, and that by which height is won back that is lost on the \
+         leg",
         |it| it.energy,
     ),
     HEADING_WIDTH_BEFORE.number(
-        "Width of the 95 % band of tomorrow's heading on the slope where it is least certain, before the leg",
+        "Width of the 95 % band of tomorrow's heading on the slope where it is least certain, \
+         before the leg",
         |it| it.widths[0],
     ),
     HEADING_WIDTH.number("The same after it, as it is to be expected", |it| it.widths[1]),
-    SLIP_WIDTH_BEFORE.number("Width of the 95 % band of the slip there before the leg", |it| {
-        it.slip_widths[0]
-    }),
+    SLIP_WIDTH_BEFORE
+        .number("Width of the 95 % band of the slip there before the leg", |it| it.slip_widths[0]),
     SLIP_WIDTH.number("The same after it, as it is to be expected", |it| it.slip_widths[1]),
-    INFORMATION.number("What the leg tells of the headings and slips of the slopes", |it| {
-        it.information
-    }),
+    INFORMATION
+        .number("What the leg tells of the headings and slips of the slopes", |it| it.information),
     PER_JOULE.number("The same for its work", |it| it.information / it.energy),
     PER_METRE.number("The same for its way", |it| it.information / it.leg.way),
     text(NARROWS, "What it narrows most of the soil, with what is left of its uncertainty", |it| {

@@ -89,8 +89,8 @@ const fn driven<'a>() -> [Column<OnCard<'a>>; 22] {
     const MODEL: &str = "Heading of this model on the soil as written";
     [
         YAW.maybe(
-            "Heading that is set, positive uphill: the median over all samples; missing where no heading holds the \
-             contour in half of them",
+            "Heading that is set, positive uphill: the median over all samples; missing where no \
+             heading holds the contour in half of them",
             |it| it.driven().map(|it| it.yaw),
         ),
         ROLL.maybe("Roll that instruments show then, positive with the uphill side higher", |it| {
@@ -106,26 +106,31 @@ const fn driven<'a>() -> [Column<OnCard<'a>>; 22] {
             it.driven().map(|it| it.pitch_range[1])
         }),
         CORRECT_EVERY.maybe(
-            "Way after which the heading is to be set again; missing on no-go slopes, as all that is driven",
+            "Way after which the heading is to be set again; missing on no-go slopes, as all that \
+             is driven",
             |it| it.motion().map(|it| it.correct_every),
         ),
-        HEADING_FALL.band("By how much the nose falls over the way, over the samples that move", |it| {
-            it.motion()?.heading_fall
-        }),
+        HEADING_FALL.band(
+            "By how much the nose falls over the way, over the samples that \
+                           move",
+            |it| it.motion()?.heading_fall,
+        ),
         DRIVEN_DRIFT.band(
-            "Drift per metre travelled over 10 m when driven so by a driver who sets the heading to 2°, positive \
-             downhill; 1 where the rover is stuck",
+            "Drift per metre travelled over 10 m when driven so by a driver who sets the heading \
+             to 2°, positive downhill; 1 where the rover is stuck",
             |it| it.motion()?.drift,
         ),
-        DRIVEN_SLIP.band("Mean slip ratio of the wheels when driven so; 1 where it is stuck", |it| {
-            it.motion()?.slip_ratio
-        }),
+        DRIVEN_SLIP
+            .band("Mean slip ratio of the wheels when driven so; 1 where it is stuck", |it| {
+                it.motion()?.slip_ratio
+            }),
         SINKAGE.band("Mean sinkage of the wheels, over the samples that move", |it| {
             it.motion()?.sinkage
         }),
         TORQUE.band("Largest torque of a wheel, likewise", |it| it.motion()?.torque),
         CURRENT.band(
-            "Largest current of a motor, driving or braking, likewise; of a rover whose motors are known",
+            "Largest current of a motor, driving or braking, likewise; of a rover whose motors are \
+             known",
             |it| it.motion()?.current,
         ),
         RIM_WAY.band("Way of the rims for a metre of ground, likewise", |it| it.motion()?.rim_way),
@@ -136,16 +141,20 @@ const fn driven<'a>() -> [Column<OnCard<'a>>; 22] {
             it.motion().map(|it| it.slip_check.limit)
         }),
         SLIP_CHECK_EVERY.maybe(
-            "Way between two looks at the slip; missing where the shortest that is tried is too long",
+            "Way between two looks at the slip; missing where the shortest that is tried is too \
+             long",
             |it| it.motion()?.slip_check.every,
         ),
         PROBABILITY_STUCK_WITH_CHECKS.maybe(
-            "Share of ways of 10 m on which a rover gets stuck between two looks, on soil that changes on the way",
+            "Share of ways of 10 m on which a rover gets stuck between two looks, on soil that \
+             changes on the way",
             |it| it.motion().map(|it| it.slip_check.stuck),
         ),
-        TIPPING_MARGIN.maybe("How much steeper the slope could be before the rover at rest tips over", |it| {
-            it.driven().map(|it| it.tipping_margin)
-        }),
+        TIPPING_MARGIN.maybe(
+            "How much steeper the slope could be before the rover at rest tips \
+                              over",
+            |it| it.driven().map(|it| it.tipping_margin),
+        ),
         YAW_AS_WRITTEN.maybe("Heading that holds the contour on the soil as written", |it| {
             it.row.level.map(|level| level.yaw)
         }),
@@ -162,11 +171,13 @@ const fn held<'a>() -> [Column<OnCard<'a>>; 13] {
             "Headings that hold the contour, over all samples; an end is missing where none does",
             |it| it.row.bands.as_ref()?.yaw,
         ),
-        SLIP_RATIO.maybe("Slip ratio of every wheel on the soil as written, by its heading", |it| {
-            it.row.level.map(|level| level.slip_ratio)
-        }),
+        SLIP_RATIO
+            .maybe("Slip ratio of every wheel on the soil as written, by its heading", |it| {
+                it.row.level.map(|level| level.slip_ratio)
+            }),
         SLIP_RATIO.band(
-            "The same over the samples, by the heading of each; 1 where no heading holds the contour",
+            "The same over the samples, by the heading of each; 1 where no heading holds the \
+             contour",
             |it| it.row.bands.as_ref()?.slip_ratio,
         ),
         POWER.maybe("Mechanical power of the motors on the soil as written, likewise", |it| {
@@ -179,9 +190,12 @@ const fn held<'a>() -> [Column<OnCard<'a>>; 13] {
             .probability("Share of the samples with a heading that holds the contour", |it| {
                 it.row.bands.as_ref().map(|bands| bands.level)
             }),
-        whole(DRAWS_LEVEL, "Samples with a heading that holds the contour: power is over them", |it| {
-            it.row.bands.as_ref().map(|bands| bands.level.successes)
-        }),
+        whole(
+            DRAWS_LEVEL,
+            "Samples with a heading that holds the contour: power is over \
+                            them",
+            |it| it.row.bands.as_ref().map(|bands| bands.level.successes),
+        ),
         whole(
             "draws_held",
             "Samples in which the rover does not slide at yaw 0; in others the drift counts as 1",

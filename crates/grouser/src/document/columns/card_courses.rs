@@ -31,20 +31,22 @@ const COURSES: [Column<CourseRow>; 12] = [
     SLOPE.given("Slope", |it| Some(it.slope)),
     text(
         COURSE,
-        "`up`, `back-down` (out of a way up), `down`, `back-up` (out of a way down), `back-across` (along the contour \
-         backwards, the rear uphill), `turn` (the nose uphill, uphill wheels at half speed) or `turn-on-the-spot`",
+        "`up`, `back-down` (out of a way up), `down`, `back-up` (out of a way down), `back-across` \
+         (along the contour backwards, the rear uphill), `turn` (the nose uphill, uphill wheels at \
+         half speed) or `turn-on-the-spot`",
         |it| Some(name_of_course(it.course).into()),
     ),
     text(VERDICT, "`go`, `caution` or `no-go`", |it| Some(name_of(it.verdict).into())),
     YAW.number("Yaw, positive where the nose points uphill", |it| it.yaw),
     SLIP_RATIO.band(
-        "Mean slip ratio of the wheels, negative where the rover runs ahead of its rims, either way; 1 where it is \
-         stuck; missing on no-go slopes, as all that is driven",
+        "Mean slip ratio of the wheels, negative where the rover runs ahead of its rims, either \
+         way; 1 where it is stuck; missing on no-go slopes, as all that is driven",
         |it| motion(it)?.slip_ratio,
     ),
     TORQUE.band("Largest torque of a wheel, over the samples that move", |it| motion(it)?.torque),
     CURRENT.band(
-        "Largest current of a motor, driving or braking, likewise; of a rover whose motors are known",
+        "Largest current of a motor, driving or braking, likewise; of a rover whose motors are \
+         known",
         |it| motion(it)?.current,
     ),
     DRIVEN_DRIFT.band("Drift per metre travelled of the way backwards along the contour", |it| {
@@ -54,10 +56,10 @@ const COURSES: [Column<CourseRow>; 12] = [
         motion(it)?.turn_way
     }),
     TURN_DOWNHILL.band("Way downhill meanwhile", |it| motion(it)?.turn_downhill),
-    PROBABILITY_STUCK.probability(
-        "Share of the samples that are stuck, or do not turn uphill",
-        |it| motion(it).map(|it| it.stuck),
-    ),
+    PROBABILITY_STUCK
+        .probability("Share of the samples that are stuck, or do not turn uphill", |it| {
+            motion(it).map(|it| it.stuck)
+        }),
     TIPPING_MARGIN
         .number("How much steeper the slope could be before the rover at rest tips over", |it| {
             it.tipping_margin

@@ -68,7 +68,8 @@ const CASES: &str = "cases";
 pub fn steepest(forecast: &Forecast) -> Table {
     const LIMIT: [Column<Forecast>; 2] = [
         LIMIT_SLOPE.band(
-            "Steepest slope on which a heading holds the contour; 0 where the rover cannot drive on level ground",
+            "Steepest slope on which a heading holds the contour; 0 where the rover cannot drive \
+             on level ground",
             |it| it.limit,
         ),
         whole(CASES, "All cases", |it| Some(it.cases)),
@@ -112,24 +113,37 @@ struct Part {
 const PARTS: [Column<Part>; 9] = [
     text(QUANTITY, "What the budget is of", |it| Some(it.quantity.name.to_owned())),
     SLOPE.given("Slopes; none for the steepest slope", |it| it.slope),
-    text(FACTOR, "A factor, `interactions` of several, or the `whole`", |it| Some(it.factor.to_owned())),
+    text(
+        FACTOR,
+        "A factor, `interactions` of several, or the \
+                  `whole`",
+        |it| Some(it.factor.to_owned()),
+    ),
     whole("levels", "How many levels the factor has", |it| it.levels),
     VARIANCE_SHARE.maybe(
-        "Share of the variance that the factor has alone: by so much the variance shrinks, on average, if it is known",
+        "Share of the variance that the factor has alone: by so much the variance shrinks, on \
+         average, if it is known",
         |it| it.first,
     ),
     TOTAL_SHARE.maybe(
-        "The same with all of its interactions: so much of the variance would be left if all others were known",
+        "The same with all of its interactions: so much of the variance would be left if all \
+         others were known",
         |it| it.total,
     ),
     SHARED_SHARE.maybe(
-        "The same with an equal share of each of its interactions: these add up to 1 over the factors",
+        "The same with an equal share of each of its interactions: these add up to 1 over the \
+         factors",
         |it| it.shared,
     ),
     DEVIATION.number("Square root of the part, in the unit of the quantity", |it| {
         it.quantity.unit.from_si(it.deviation)
     }),
-    text("what_would_shrink_it", "What would make the part smaller", |it| Some(it.remedy.to_owned())),
+    text(
+        "what_would_shrink_it",
+        "What would make the part \
+                                  smaller",
+        |it| Some(it.remedy.to_owned()),
+    ),
 ];
 
 /// The error budgets: of the slip ratio and of the drift on each slope, and of the steepest slope.

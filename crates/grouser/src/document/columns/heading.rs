@@ -211,8 +211,8 @@ pub fn steepest(curve: &HeadingCurve) -> Table {
 pub const LIMIT_REASON: &str = "limit_reason";
 /// The same as one of a few words.
 pub const LIMITED_BY: &str = "limited_by";
-const WHAT_LIMITS: &str = "What ends the curve there: the `wheels`, the ground's own strength (`ground-strength`), the \
-     `range` of slopes, or the search, which gave up (`not-found`)";
+const WHAT_LIMITS: &str = "What ends the curve there: the `wheels`, the ground's own strength \
+     (`ground-strength`), the `range` of slopes, or the search, which gave up (`not-found`)";
 
 /// A row for each soil, course and slope of a map.
 ///

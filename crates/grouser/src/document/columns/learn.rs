@@ -141,9 +141,9 @@ pub fn sentence(evidence: &Evidence) -> String {
     let degrees = |angle: f64| SLOPE.unit.from_si(angle);
     match evidence {
         Evidence::Strange { slip_ratio, expected, drift, expected_drift } => format!(
-            "three or more stretches move as the soil learnt so far does not let them: now a slip ratio of \
-             {slip_ratio:.2} where {expected:.2} was expected, and {:.0} mm to the left for each metre of the wheels' \
-             way where {:.0} were",
+            "three or more stretches move as the soil learnt so far does not let them: now a slip \
+             ratio of {slip_ratio:.2} where {expected:.2} was expected, and {:.0} mm to the left \
+             for each metre of the wheels' way where {:.0} were",
             1e3 * drift,
             1e3 * expected_drift
         ),
@@ -152,14 +152,14 @@ pub fn sentence(evidence: &Evidence) -> String {
             format!("the slip ratio is {slip_ratio:.2}, and grows")
         }
         Evidence::Weakening { slip_ratio, loss, spare } => format!(
-            "the ground grows weaker, by a pull of {:.1} % of the weight for each metre; on this course it has {:.1} % to \
-             spare, and the slip ratio is {slip_ratio:.2}",
+            "the ground grows weaker, by a pull of {:.1} % of the weight for each metre; on this \
+             course it has {:.1} % to spare, and the slip ratio is {slip_ratio:.2}",
             100.0 * loss,
             100.0 * spare.max(0.0)
         ),
         Evidence::Rising { slip_ratio, slope, limit } => format!(
-            "the ground rises, and on this course the soil holds the rover up to {:.1}° only; the slope is {:.1}° \
-             now, the slip ratio {slip_ratio:.2}",
+            "the ground rises, and on this course the soil holds the rover up to {:.1}° only; the \
+             slope is {:.1}° now, the slip ratio {slip_ratio:.2}",
             degrees(*limit),
             degrees(*slope)
         ),
@@ -169,8 +169,8 @@ pub fn sentence(evidence: &Evidence) -> String {
             degrees(*by_attitude)
         ),
         Evidence::Outrun { slip_ratio } => format!(
-            "odometry has the rover faster than its wheels turn, by a slip ratio of {slip_ratio:.2}: its scale, or a \
-             wheel speed, is wrong"
+            "odometry has the rover faster than its wheels turn, by a slip ratio of \
+             {slip_ratio:.2}: its scale, or a wheel speed, is wrong"
         ),
         Evidence::Idle { wheel, share } => format!(
             "{wheel} has less than {:.0} % of the torque of the other wheels",

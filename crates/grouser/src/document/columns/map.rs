@@ -18,9 +18,11 @@ pub const VERDICT: &str = "verdict";
 pub const fn bands() -> [Column<CellMotion>; 8] {
     [
         SLOPE.number("Slope of the ground over the rover's length", |it| it.slope),
-        HEADING.maybe("Yaw of the body that holds the course, on the map from east to the left", |it| {
-            it.heading
-        }),
+        HEADING.maybe(
+            "Yaw of the body that holds the course, on the map from east to the \
+                       left",
+            |it| it.heading,
+        ),
         SLIP_RATIO.maybe("Slip ratio of every wheel", |it| it.motion.map(|it| it.slip_ratio)),
         DRIFT.maybe("Way downhill for a metre of way, with the nose along the course", |it| {
             it.motion.map(|it| it.drift)
@@ -31,7 +33,8 @@ pub const fn bands() -> [Column<CellMotion>; 8] {
             Some(verdict_number(it.verdict).into())
         }),
         PROBABILITY_NO_GO.number(
-            "Share of the samples in which no heading holds the course, or it slips more than the no-go limit",
+            "Share of the samples in which no heading holds the course, or it slips more than the \
+             no-go limit",
             |it| it.probability_no_go,
         ),
     ]

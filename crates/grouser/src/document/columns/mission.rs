@@ -88,7 +88,8 @@ pub const ELECTRICAL_MISSION: [Column<DrivenMission>; 4] = [
 /// What motors and battery took over a leg, of a rover whose motors are known: beside [`LEG`].
 pub const ELECTRICAL_LEG: [Column<DrivenLeg>; 4] = [
     BATTERY_ENERGY.maybe(
-        "Electrical energy that motors, and with a battery the electronics, took, with the turn before it",
+        "Electrical energy that motors, and with a battery the electronics, took, with the turn \
+         before it",
         |it| Some(it.report.taken?.energy),
     ),
     CURRENT.maybe("Largest current of a motor, with the turn before it", |it| {
@@ -97,9 +98,8 @@ pub const ELECTRICAL_LEG: [Column<DrivenLeg>; 4] = [
     TEMPERATURE.maybe("Highest temperature of a motor's winding, with the turn before it", |it| {
         it.report.taken?.temperature
     }),
-    STATE_OF_CHARGE.maybe("State of charge of the battery where it ended", |it| {
-        it.report.taken?.charge
-    }),
+    STATE_OF_CHARGE
+        .maybe("State of charge of the battery where it ended", |it| it.report.taken?.charge),
 ];
 
 /// Those of four columns of motors and battery that some row has: all of what is known of the

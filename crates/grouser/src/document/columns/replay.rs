@@ -148,7 +148,8 @@ const CHANNELS: [Column<Summarised>; 9] = [
     text(WHEEL, "The wheel, of torques and sinkages", |it| it.wheel.clone()),
     text(
         PREDICTION,
-        "`prescribed`: at the attitude, wheel speeds and steering angles that were read; `free-run`: from the first pose, with these wheel speeds",
+        "`prescribed`: at the attitude, wheel speeds and steering angles that were read; \
+         `free-run`: from the first pose, with these wheel speeds",
         |it| Some(it.summary.channel.prediction().name().to_owned()),
     ),
     whole("stretches", "Stretches that have both", |it| Some(it.summary.count)),
@@ -216,13 +217,15 @@ pub const FINDINGS: [Column<Finding>; 9] = [
     }),
     text(
         PARAMETER,
-        "How far it is off, with the unit of the two numbers beside it; without a unit a share: 0.05 is 5 %",
+        "How far it is off, with the unit of the two numbers beside it; without a unit a share: \
+         0.05 is 5 %",
         |it| Some(quantity_of_parameter(it.parameter).name.to_owned()),
     ),
     number(
         ESTIMATE,
         ONE,
-        "By how much what is true is above what was read or assumed; of sensors, by how much they read too much",
+        "By how much what is true is above what was read or assumed; of sensors, by how much they \
+         read too much",
         |it| quantity_of_parameter(it.parameter).unit.from_si(it.estimate),
     ),
     number(DEVIATION, ONE, "Its standard deviation", |it| {
@@ -341,7 +344,8 @@ pub fn notes(replay: &Replay) -> Vec<String> {
     let starts = replay.free_run.starts.len();
     if starts > 1 {
         notes.push(format!(
-            "the free run is set on the measured pose {starts} times: at the start, and behind each gap"
+            "the free run is set on the measured pose {starts} times: at the start, and behind \
+             each gap"
         ));
     }
     if let Some((time, ended)) = &replay.free_run.ended {

@@ -57,7 +57,8 @@ pub const STANDING: [Column<Record>; 5] = [
     ROLL.maybe("Roll, positive with the right side down", |it| Some(it.standing()?.roll)),
     PITCH.maybe("Pitch, positive with the nose up", |it| Some(it.standing()?.pitch)),
     quantity("stability_margin_deg", DEG).maybe(
-        "Force-angle margin: by how much the weight's direction may turn before the rover tips over",
+        "Force-angle margin: by how much the weight's direction may turn before the rover tips \
+         over",
         |it| it.standing().and(it.stability_margin),
     ),
     BELLY_CLEARANCE.maybe(

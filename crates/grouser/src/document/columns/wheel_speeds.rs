@@ -75,8 +75,9 @@ const fn settings<'a>() -> [Column<Crossing<'a>>; 2] {
         SLOPE.given("Slopes", |it| Some(it.slope)),
         text(
             WHEELS,
-            "Which wheels have a speed in common: `alike`, all; `by-side`, those of a side; `by-wheel`, none; \
-             `uphill-reversed`, none, and those of the uphill side turn backward or stand",
+            "Which wheels have a speed in common: `alike`, all; `by-side`, those of a side; \
+             `by-wheel`, none; `uphill-reversed`, none, and those of the uphill side turn backward \
+             or stand",
             |it| Some(it.wheels.into()),
         ),
     ]
@@ -99,15 +100,18 @@ pub const fn results<'a>() -> [Column<Crossing<'a>>; 7] {
             it.number(HeadingOffset::torque, StraightMotion::torque)
         }),
         ENERGY_PER_METRE.maybe(
-            "Work of the motors per metre along the contour; a wheel that is dragged gives nothing back",
+            "Work of the motors per metre along the contour; a wheel that is dragged gives nothing \
+             back",
             |it| it.number(|alike| alike.energy_per_metre(it.rover), |own| own.energy_per_metre),
         ),
         YAW_MOMENT.maybe(
-            "Yaw moment left over; negative turns the nose downhill. Wheels at speeds of their own leave none",
+            "Yaw moment left over; negative turns the nose downhill. Wheels at speeds of their own \
+             leave none",
             |it| it.number(|alike| alike.yaw_moment, |_| 0.0),
         ),
         YAW_GROWTH.maybe(
-            "How fast a small error of the yaw grows over the way, of a motion that is steady; negative where it fades",
+            "How fast a small error of the yaw grows over the way, of a motion that is steady; \
+             negative where it fades",
             |it| match &it.found {
                 Found::Alike(_) => None,
                 Found::Own(own) => own.as_ref().map(|own| own.yaw_growth),

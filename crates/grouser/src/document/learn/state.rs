@@ -27,7 +27,8 @@ pub enum StateError {
     OtherVersion(String),
     /// It goes on from another soil.
     #[error(
-        "it belongs to another prior: `{kept}`, not `{given}`, or one of that name with other numbers"
+        "it belongs to another prior: `{kept}`, not `{given}`, or one of that name with other \
+         numbers"
     )]
     OtherPrior {
         /// The name of the soil that it belongs to.
@@ -37,7 +38,8 @@ pub enum StateError {
     },
     /// It is of another rover.
     #[error(
-        "it belongs to another rover: `{kept}`, not `{given}`, or one of that name with other numbers"
+        "it belongs to another rover: `{kept}`, not `{given}`, or one of that name with other \
+         numbers"
     )]
     OtherRover {
         /// The name of the rover that it belongs to.

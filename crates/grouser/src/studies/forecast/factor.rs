@@ -39,30 +39,33 @@ impl FactorKind {
     pub const fn remedy(self) -> &'static str {
         match self {
             Self::GravityScaling => {
-                "plate and wheel tests of one soil under several gravities, in partial-gravity flights, a drop tower or \
-                 at the site, tell which moduli grow with gravity"
+                "plate and wheel tests of one soil under several gravities, in partial-gravity \
+                 flights, a drop tower or at the site, tell which moduli grow with gravity"
             }
             Self::Ground => {
-                "cohesion, friction angle and density measured at the site: a cone penetrometer, a trench, the tracks of \
-                 a rover that was there"
+                "cohesion, friction angle and density measured at the site: a cone penetrometer, a \
+                 trench, the tracks of a rover that was there"
             }
             Self::RoverMass => "the mass of the rover that flies, in place of the variants",
             Self::Model => {
-                "wheel tests with the wheel that flies, over slip and slip angle, rank the models; a soil made for one of \
-                 them keeps it in four fifths of the cases"
+                "wheel tests with the wheel that flies, over slip and slip angle, rank the models; \
+                 a soil made for one of them keeps it in four fifths of the cases"
             }
             Self::SoilParameters => {
-                "wheel or plate tests of the soil: a calibration narrows its numbers, and shows which of them matter"
+                "wheel or plate tests of the soil: a calibration narrows its numbers, and shows \
+                 which of them matter"
             }
             Self::ModelDiscrepancy => {
-                "wheel tests with the wheel that flies: a calibration finds what the model gets wrong under it"
+                "wheel tests with the wheel that flies: a calibration finds what the model gets \
+                 wrong under it"
             }
         }
     }
 }
 
 /// What would make the part smaller that no factor has alone.
-pub const REMEDY_OF_INTERACTIONS: &str = "no measurement of its own: it comes down with the factors whose total is much larger than their part";
+pub const REMEDY_OF_INTERACTIONS: &str = "no measurement of its own: it comes down with the \
+                                          factors whose total is much larger than their part";
 
 /// A factor with its levels.
 #[derive(Clone, Debug, PartialEq)]

@@ -68,8 +68,8 @@ impl Cause {
         match self {
             Self::Soil => "the soil is another than that of the document",
             Self::Speed => {
-                "the rims move at another speed than was read: the wheels' radius, an encoder's scale, \
-                 or the odometry's"
+                "the rims move at another speed than was read: the wheels' radius, an encoder's \
+                 scale, or the odometry's"
             }
             Self::Slope => "the ground is steeper or flatter than was read or stated",
             Self::RollMounting => "the sensor of roll and pitch is mounted with a roll",

@@ -77,8 +77,8 @@ pub enum NoRoute {
     },
     /// What lies between cannot be crossed.
     #[error(
-        "the ground between start and target cannot be crossed within the limits: from the start {reached} of {cells} \
-         places can be reached"
+        "the ground between start and target cannot be crossed within the limits: from the start \
+         {reached} of {cells} places can be reached"
     )]
     Cut {
         /// How many places can be reached.
@@ -96,7 +96,8 @@ pub enum NoRoute {
 pub enum RouteError {
     /// An end that is not on the map.
     #[error(
-        "the {end} at x {:.2} m, y {:.2} m is not on the map, which goes from x {:.2} to {:.2} m and from y {:.2} to {:.2} m",
+        "the {end} at x {:.2} m, y {:.2} m is not on the map, which goes from x {:.2} to {:.2} m \
+         and from y {:.2} to {:.2} m",
         .place.x, .place.y, .corners[0].x, .corners[1].x, .corners[0].y, .corners[1].y
     )]
     OffTheMap {
@@ -109,7 +110,8 @@ pub enum RouteError {
     },
     /// More places than states can be told apart.
     #[error(
-        "{cells} places are more than a way can be sought over, {MOST_CELLS}: cut out the area of the drive"
+        "{cells} places are more than a way can be sought over, {MOST_CELLS}: cut out the area of \
+         the drive"
     )]
     TooLarge {
         /// How many.
@@ -142,8 +144,9 @@ pub enum LineError {
     },
     /// A line of another place.
     #[error(
-        "the line is not on the map: it lies within x {:.2} to {:.2} m and y {:.2} to {:.2} m, and the map goes from x {:.2} \
-         to {:.2} m and from y {:.2} to {:.2} m; both need the same projection",
+        "the line is not on the map: it lies within x {:.2} to {:.2} m and y {:.2} to {:.2} m, and \
+         the map goes from x {:.2} to {:.2} m and from y {:.2} to {:.2} m; both need the same \
+         projection",
         .line[0].x, .line[1].x, .line[0].y, .line[1].y,
         .corners[0].x, .corners[1].x, .corners[0].y, .corners[1].y
     )]

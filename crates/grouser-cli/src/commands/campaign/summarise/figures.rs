@@ -65,8 +65,8 @@ fn convergence(curve: &Curve, steps: &[&ConvergenceRecord]) -> Option<Figure> {
     Some(Figure {
         file: format!("{quantity}-convergence"),
         caption: format!(
-            "The median of {quantity} after the first runs, with its 95 % interval: more runs narrow it \
-             with the square root of their number."
+            "The median of {quantity} after the first runs, with its 95 % interval: more runs \
+             narrow it with the square root of their number."
         ),
         chart: Chart::new(
             format!("{quantity}: convergence"),
@@ -106,8 +106,8 @@ fn sensitivity(curve: &Curve, shares: &[&SensitivityRecord]) -> Option<Figure> {
     Some(Figure {
         file: format!("{quantity}-sensitivity"),
         caption: format!(
-            "Share of the variance of {quantity} that each input causes, alone (first order) and with its \
-             interactions with others (total)."
+            "Share of the variance of {quantity} that each input causes, alone (first order) and \
+             with its interactions with others (total)."
         ),
         chart: chart.with_y_names(shares.iter().rev().map(|it| it.input.clone())),
     })

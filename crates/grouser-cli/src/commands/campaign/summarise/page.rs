@@ -28,11 +28,11 @@ pub(super) fn html(
     ]);
     page.heading("Numbers");
     page.paragraph(
-        "Quantiles are over the runs that have a result; their intervals hold for any distribution; \
-         a dash in one is an end that so few runs do not bound. \
-         All intervals are for independent samples: those of a Latin hypercube or a Sobol design are \
-         rather too wide. Of a campaign for sensitivities, quantiles and probabilities are over the runs \
-         of both independent sets, A and B.",
+        "Quantiles are over the runs that have a result; their intervals hold for any \
+         distribution; a dash in one is an end that so few runs do not bound. All intervals are \
+         for independent samples: those of a Latin hypercube or a Sobol design are rather too \
+         wide. Of a campaign for sensitivities, quantiles and probabilities are over the runs of \
+         both independent sets, A and B.",
     );
     for table in statistics.tables() {
         page.grid(table.caption, &table.header, &table.cells);
