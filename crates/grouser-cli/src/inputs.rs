@@ -19,7 +19,7 @@ use std::ops::RangeInclusive;
 
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::{
-    self, Document, DocumentError, Kind, LoadedScenario, Overrides, Source, UncertainSoil,
+    self, DocumentError, Kind, LoadedScenario, Overrides, Source, UncertainSoil,
 };
 
 pub(crate) use self::advice::advice;
@@ -173,21 +173,6 @@ fn single(flag: &str, numbers: &Numbers, range: &RangeInclusive<f64>) -> Result<
     };
     check_numbers(flag, numbers, range)?;
     Ok(number)
-}
-
-/// The line below a table that says which model a single answer has, where nobody names one and it
-/// is not the usual one; nothing elsewhere.
-///
-/// * `document`: of a soil, or of a scenario with its soil
-/// * `soil`: the key of the soil, or nothing if the document is one
-pub(crate) fn model_line(document: &Document, soil: &str) -> String {
-    let of_soil = if soil.is_empty() { None } else { document.model_of_soil() };
-    let is_named = document.model().or(of_soil).is_some();
-    if is_named || !document.leaves_sinkage_ratio_to_priors(soil) {
-        return String::new();
-    }
-    let model = document.usual_model(soil).name();
-    format!("model: {model}, as the soil leaves its wheel sinkage ratio to priors\n")
 }
 
 /// The settings that every run takes.

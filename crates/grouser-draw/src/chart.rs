@@ -5,7 +5,7 @@
 //! its colours for a dark screen.
 //!
 //! ```
-//! use grouser_draw::chart::{Chart, Draw, Series, Style};
+//! use grouser_draw::chart::{Chart, Drawable, Series, Style};
 //!
 //! let pull = Series::new("dry sand", Style::Line, 1, [(0.0, -2.0), (0.2, 5.0), (0.4, 8.0)]);
 //! let chart = Chart::new("Drawbar pull", ("slip ratio", "drawbar pull [N]"), vec![pull]);
@@ -45,7 +45,7 @@ const EDGE: f64 = 2.0;
 const INTERVALS: usize = 10;
 
 /// A figure that can be drawn.
-pub trait Draw {
+pub trait Drawable {
     /// The figure on a sheet as wide as a page.
     fn sheet(&self) -> Sheet;
 
@@ -56,7 +56,7 @@ pub trait Draw {
     }
 }
 
-impl Draw for Figure {
+impl Drawable for Figure {
     fn sheet(&self) -> Sheet {
         match self {
             Self::Chart(chart) => chart.sheet(),
@@ -67,7 +67,7 @@ impl Draw for Figure {
     }
 }
 
-impl Draw for Chart {
+impl Drawable for Chart {
     fn sheet(&self) -> Sheet {
         sheet_of(self, PAGE)
     }

@@ -19,12 +19,12 @@ use super::tree::Companion;
 /// results.
 ///
 /// ```
-/// use grouser_io::answer::{Answer, Part};
+/// use grouser_io::answer::{Answer, Member};
 /// use grouser_io::table::Table;
 ///
 /// let mut answer = Answer::new("heading", "Heading offset that holds the contour");
 /// answer.input("slope_deg", [5.0, 10.0]);
-/// answer.results.push(Part::rows("rows", Table::default()));
+/// answer.results.push(Member::rows("rows", Table::default()));
 /// let json = serde_json::to_value(&answer)?;
 /// assert_eq!(json["schema"], "grouser.heading.v1");
 /// assert_eq!(json["inputs"]["slope_deg"][1], 10.0);
@@ -41,25 +41,25 @@ pub struct Answer {
     /// The models of a band with their shares; nothing without a band.
     pub model_weights: Option<Value>,
     /// The results of JSON, in their order.
-    pub results: Vec<Part>,
+    pub results: Vec<Member>,
     /// Tables that are files of CSV, each with its name without the ending. The first is the answer
     /// where CSV is asked for.
     pub tables: Vec<(String, Arc<Table>)>,
     /// What a terminal shows, in its order.
-    pub screen: Vec<Shown>,
+    pub screen: Vec<Displayed>,
     /// What a page shows, in its order, before what all pages end with.
-    pub page: Vec<Block>,
+    pub page: Vec<PageBlock>,
     /// Where results are outside a domain.
     pub findings: Vec<Finding>,
     /// What the columns are.
-    pub columns: Vec<Meaning>,
+    pub columns: Vec<ColumnMeaning>,
     /// The documents that it was computed from.
     pub documents: Vec<Attached>,
 }
 
 /// A part of the results.
 #[derive(Clone, Debug)]
-pub enum Part {
+pub enum Member {
     /// A list of rows under a key.
     Rows(&'static str, Arc<Table>),
     /// The first row of a table, under a key; without one its entries stand in the answer itself.
@@ -70,7 +70,7 @@ pub enum Part {
 
 /// Something that a terminal shows.
 #[derive(Clone, Debug)]
-pub enum Shown {
+pub enum Displayed {
     /// Columns of a table, by their names.
     Rows(Arc<Table>, Vec<String>),
     /// The same, in the width of a terminal as tables of two columns against each other.
@@ -80,7 +80,7 @@ pub enum Shown {
         /// The columns where no terminal is.
         columns: Vec<String>,
         /// How they are set against each other.
-        crossing: Crossing,
+        crossing: CrossTable,
     },
     /// Columns of some of many rows, as far apart as each other.
     Some {
@@ -99,7 +99,7 @@ pub enum Shown {
 
 /// Tables of two columns against each other: one goes down, one across.
 #[derive(Clone, Debug)]
-pub struct Crossing {
+pub struct CrossTable {
     /// What each block of rows is of; all blocks have as many rows.
     pub titles: Vec<String>,
     /// The column that goes down.
@@ -114,7 +114,7 @@ pub struct Crossing {
 
 /// A block of a page.
 #[derive(Clone, Debug)]
-pub enum Block {
+pub enum PageBlock {
     /// A sentence that answers the question.
     Verdict(String),
     /// A heading.
@@ -147,7 +147,7 @@ pub enum Block {
 
 /// A column's name, unit and meaning, for readers.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Meaning {
+pub struct ColumnMeaning {
     /// Its name; several of quantiles are one text.
     pub name: String,
     /// Symbol of its unit.
@@ -198,22 +198,22 @@ impl Answer {
     /// * `file`: its name without the ending; empty: it is on the page alone
     pub fn figure(&mut self, file: &str, figure: impl Into<Figure>, caption: impl Into<String>) {
         let file = (!file.is_empty()).then(|| file.to_owned());
-        self.page.push(Block::Figure { figure: figure.into(), caption: caption.into(), file });
+        self.page.push(PageBlock::Figure { figure: figure.into(), caption: caption.into(), file });
     }
 
     /// Adds columns of a table to the page.
     pub fn rows(&mut self, caption: &'static str, table: &Arc<Table>, columns: Vec<String>) {
-        self.page.push(Block::Rows { caption, table: Arc::clone(table), columns });
+        self.page.push(PageBlock::Rows { caption, table: Arc::clone(table), columns });
     }
 
     /// Adds a paragraph to the page.
     pub fn words(&mut self, text: impl Into<String>) {
-        self.page.push(Block::Words(text.into()));
+        self.page.push(PageBlock::Words(text.into()));
     }
 
     /// Adds a heading to the page.
     pub fn heading(&mut self, text: impl Into<String>) {
-        self.page.push(Block::Heading(text.into()));
+        self.page.push(PageBlock::Heading(text.into()));
     }
 
     /// The assumptions of all its documents, each once.
@@ -229,7 +229,7 @@ impl Answer {
     }
 }
 
-impl Part {
+impl Member {
     /// Rows under a key.
     pub fn rows(key: &'static str, table: impl Into<Arc<Table>>) -> Self {
         Self::Rows(key, table.into())
@@ -238,10 +238,10 @@ impl Part {
 
 /// What columns are; those of several quantiles are one each.
 #[must_use]
-pub fn meanings<R>(columns: &[Column<R>]) -> Vec<Meaning> {
+pub fn meanings<R>(columns: &[Column<R>]) -> Vec<ColumnMeaning> {
     let each = |column: &Column<R>| {
         let name = column.names().join(", ");
-        Meaning { name, unit: column.unit.symbol, doc: column.doc }
+        ColumnMeaning { name, unit: column.unit.symbol, doc: column.doc }
     };
     columns.iter().map(each).collect()
 }
@@ -257,10 +257,10 @@ impl Serialize for Answer {
         }
         for part in &self.results {
             match part {
-                Part::Rows(key, table) => map.serialize_entry(key, &**table)?,
-                Part::Row(Some(key), table) => map.serialize_entry(key, &table.row(0))?,
-                Part::Row(None, table) => table.row(0).write(&mut map)?,
-                Part::Value(key, value) => map.serialize_entry(key, value)?,
+                Member::Rows(key, table) => map.serialize_entry(key, &**table)?,
+                Member::Row(Some(key), table) => map.serialize_entry(key, &table.row(0))?,
+                Member::Row(None, table) => table.row(0).write(&mut map)?,
+                Member::Value(key, value) => map.serialize_entry(key, value)?,
             }
         }
         map.end()
@@ -282,10 +282,10 @@ mod tests {
         let mut answer = Answer::new("heading", "A heading");
         answer.input("slope_deg", 5.0);
         answer.results = vec![
-            Part::Row(None, table("limit_slope_deg", 20.0)),
-            Part::Row(Some("work"), table("energy_j", 3.0)),
-            Part::rows("rows", table("yaw_deg", 1.5)),
-            Part::Value("notes", json!(["one"])),
+            Member::Row(None, table("limit_slope_deg", 20.0)),
+            Member::Row(Some("work"), table("energy_j", 3.0)),
+            Member::rows("rows", table("yaw_deg", 1.5)),
+            Member::Value("notes", json!(["one"])),
         ];
         let text = serde_json::to_string(&answer).unwrap();
         let keys: Vec<String> = serde_json::from_str::<Map<String, Value>>(&text)

@@ -16,12 +16,12 @@ use crate::document::table::Table;
 use crate::document::validity::OutsideDomain;
 use crate::error::ParameterError;
 
-pub use self::samples::Sampling;
+pub use self::samples::{Sampling, weights};
 pub use grouser_io::answer::*;
 
 /// How far an answer goes, and what it asks on its way.
 #[derive(Clone, Copy)]
-pub struct Extent<'a> {
+pub struct Depth<'a> {
     /// Whether it has figures and a page: their curves need more points than the rows.
     pub has_page: bool,
     /// Whether a flag of validity is an error.
@@ -30,9 +30,9 @@ pub struct Extent<'a> {
     pub go_on: &'a (dyn Fn() -> bool + Sync),
 }
 
-impl Extent<'_> {
+impl Depth<'_> {
     /// The rows and sentences alone, flags among them, all samples.
-    pub const ROWS: Extent<'static> = Extent { has_page: false, is_strict: false, go_on: &|| true };
+    pub const ROWS: Depth<'static> = Depth { has_page: false, is_strict: false, go_on: &|| true };
 
     /// Checks that no row carries a flag, if that is asked for.
     ///

@@ -12,6 +12,7 @@
 //!
 //! | layer | modules | contents |
 //! |---|---|---|
+//! | answers | [`answers`] | questions with their answers: tables, figures and sentences |
 //! | documents | [`document`] | documents with units in their names, presets, results as tables |
 //! | studies | [`studies`] | wheel tests, heading offsets, calibration, campaigns, the paper's comparison |
 //! | simulation | [`simulation`] | a run, from its scenario to its trajectory |

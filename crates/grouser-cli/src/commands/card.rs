@@ -10,6 +10,7 @@ mod texts;
 
 use std::path::{Path, PathBuf};
 
+use grouser::answers;
 use grouser::document::card::RuleRecord;
 use grouser::document::columns::card::{self, MeasuredYaw, YAW_AS_WRITTEN};
 use grouser::document::columns::{SLOPE, YAW, card_courses, card_drives};
@@ -212,7 +213,7 @@ fn settings(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Value {
     if card.draws.is_some() {
         settings["samples"] = args.samples.into();
         settings["seed"] = args.seed.into();
-        settings[sampling::WEIGHTS] = sampling::weights(&BandInputs::of_scenario(&inputs.scenario));
+        settings[sampling::WEIGHTS] = answers::weights(&BandInputs::of_scenario(&inputs.scenario));
     }
     if args.drives.is_some() {
         settings["seed_of_drives"] = other_seed(args.seed).into();

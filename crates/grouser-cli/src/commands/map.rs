@@ -5,6 +5,7 @@ mod gazebo;
 mod numbers;
 mod page;
 
+use grouser::answers;
 use grouser::document::columns::LIMIT_SLOPE;
 use grouser::document::columns::map::{bands, chosen};
 use grouser::document::reading::rounded_down;
@@ -244,6 +245,6 @@ fn settings(args: &MapArgs, inputs: &MapInputs) -> Value {
         "no_go_probability": inputs.study.rule.no_go_probability,
         "samples": args.samples,
         "seed": args.seed,
-        (sampling::WEIGHTS): sampling::weights(&band),
+        (sampling::WEIGHTS): answers::weights(&band),
     })
 }

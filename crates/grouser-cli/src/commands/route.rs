@@ -7,6 +7,7 @@ mod way;
 
 use std::sync::Arc;
 
+use grouser::answers;
 use grouser::document::columns::{SLOPE, YAW};
 use grouser::document::route::RouteRecord;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
@@ -197,6 +198,6 @@ fn settings(args: &RouteArgs, inputs: &RouteInputs) -> Value {
         "rim_speed_m_s": inputs.study.mobility.rim_speed,
         "samples": args.samples,
         "seed": args.seed,
-        (sampling::WEIGHTS): sampling::weights(&band),
+        (sampling::WEIGHTS): answers::weights(&band),
     })
 }

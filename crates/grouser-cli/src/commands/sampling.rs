@@ -3,7 +3,6 @@
 use grouser::answers::Sampling;
 use grouser::document::LoadedScenario;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
-use serde_json::{Map, Value, json};
 
 use crate::args::UncertaintyArgs;
 use crate::failure::Failure;
@@ -29,13 +28,6 @@ pub(crate) fn draw_of(
 
 /// The key of [`weights`].
 pub(super) const WEIGHTS: &str = "model_weights";
-
-/// The models of the samples, each with its share [-].
-pub(super) fn weights(inputs: &BandInputs) -> Value {
-    let pair =
-        |(model, share): &(grouser::contact::Model, f64)| (model.name().to_owned(), json!(share));
-    Value::Object(inputs.models().shares().iter().map(pair).collect::<Map<_, _>>())
-}
 
 /// Computes with a bar that goes on with every sample. The study asks whether to go on, and is
 /// never stopped: Ctrl-C ends the program.

@@ -3,6 +3,7 @@
 mod of_model;
 mod page;
 
+use grouser::answers;
 use grouser::contact::validity::Flag;
 use grouser::document::LoadedScenario;
 use grouser::document::columns::run::{self, RunObject};
@@ -12,7 +13,7 @@ use grouser::document::table::{Row, Table};
 use grouser::simulation::{Run, Scenario, Trajectory};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::traverse_band::{Ends, RunBand};
-use grouser_draw::chart::Draw;
+use grouser_draw::chart::Drawable;
 use grouser_draw::{Shown, title_of};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -170,8 +171,7 @@ fn settings(args: &TraverseArgs, all: &[OfModel]) -> Value {
         settings["samples"] = sampling.samples.into();
         settings["seed"] = seed.into();
         if let [one] = all {
-            settings[sampling::WEIGHTS] =
-                sampling::weights(&BandInputs::of_scenario(&one.scenario));
+            settings[sampling::WEIGHTS] = answers::weights(&BandInputs::of_scenario(&one.scenario));
         }
     }
     settings
@@ -282,7 +282,7 @@ fn table(run: &Trajectory, scenario: &LoadedScenario) -> Text {
     );
     Rows::of_table(&samples).to_table(&names)
         + flag_lines(run, &scenario.value)
-        + inputs::model_line(&scenario.document, "soil")
+        + scenario.document.usual_model_line("soil")
         + outcome
 }
 

@@ -6,7 +6,7 @@ mod page;
 mod ranking;
 mod slopes;
 
-use grouser_draw::chart::Draw;
+use grouser_draw::chart::Drawable;
 use std::path::Path;
 
 use grouser::document::columns::SLIP_ANGLE;

@@ -1,8 +1,8 @@
 //! The writer of answers: to a terminal, as JSON, as CSV, and into a folder with a page.
 
-use grouser::answers::{Answer, AnswerError, Block, Shown};
+use grouser::answers::{Answer, AnswerError, Displayed, PageBlock};
 use grouser::document::table::Table;
-use grouser_draw::chart::Draw;
+use grouser_draw::chart::Drawable;
 
 use super::folder::OutputFolder;
 use super::rows::Rows;
@@ -43,7 +43,7 @@ fn add_to(folder: &mut OutputFolder, answer: &Answer, repeat: &str) -> Result<()
         folder.add(format!("{name}.csv"), Rows::of_table(table).to_csv()?);
     }
     for block in &answer.page {
-        if let Block::Figure { figure, file: Some(file), .. } = block {
+        if let PageBlock::Figure { figure, file: Some(file), .. } = block {
             folder.add(format!("{file}.svg"), figure.to_svg());
         }
     }
@@ -60,14 +60,14 @@ fn add_to(folder: &mut OutputFolder, answer: &Answer, repeat: &str) -> Result<()
 
 /// What a terminal shows.
 fn text(answer: &Answer) -> Text {
-    let shown = |shown: &Shown| match shown {
-        Shown::Rows(table, columns) => Rows::of_table(table).to_table(columns),
-        Shown::Crossed { table, columns, crossing } => match super::terminal::width() {
+    let shown = |shown: &Displayed| match shown {
+        Displayed::Rows(table, columns) => Rows::of_table(table).to_table(columns),
+        Displayed::Crossed { table, columns, crossing } => match super::terminal::width() {
             Some(_) => crossed::text(table, crossing),
             None => Rows::of_table(table).to_table(columns),
         },
-        Shown::Some { table, columns, most, what } => some(table, columns, *most, what),
-        Shown::Words(words) => words.into(),
+        Displayed::Some { table, columns, most, what } => some(table, columns, *most, what),
+        Displayed::Words(words) => words.into(),
     };
     answer.screen.iter().map(shown).collect()
 }
@@ -87,13 +87,13 @@ fn html(answer: &Answer, repeat: &str) -> String {
     let mut page = Page::new(&answer.title);
     for block in &answer.page {
         match block {
-            Block::Verdict(text) => page.answer(text),
-            Block::Heading(text) => page.heading(text),
-            Block::Words(text) => page.paragraph(text),
-            Block::List(items) => page.list(items),
-            Block::Rows { caption, table, columns } => page.rows(caption, table, columns),
-            Block::Figure { figure, caption, .. } => page.drawing(&figure.to_svg(), caption),
-            Block::Charts(charts) => page.charts(charts),
+            PageBlock::Verdict(text) => page.answer(text),
+            PageBlock::Heading(text) => page.heading(text),
+            PageBlock::Words(text) => page.paragraph(text),
+            PageBlock::List(items) => page.list(items),
+            PageBlock::Rows { caption, table, columns } => page.rows(caption, table, columns),
+            PageBlock::Figure { figure, caption, .. } => page.drawing(&figure.to_svg(), caption),
+            PageBlock::Charts(charts) => page.charts(charts),
         }
     }
     close(page, &answer.findings, &answer.columns, &Basis::of(answer, repeat))

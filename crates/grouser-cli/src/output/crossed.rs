@@ -1,6 +1,6 @@
 //! Rows as tables of two of their columns against each other: one goes down, one across.
 
-use grouser::answers::Crossing;
+use grouser::answers::CrossTable;
 use grouser::contact::validity::Flag;
 use grouser::document::columns::flags::FLAGS;
 use grouser::document::columns::{OK, STATUS};
@@ -11,7 +11,7 @@ use grouser::document::reading::four_digits;
 
 /// A table for each block of rows and each column that stands in cells; then the reasons where
 /// there is no number, and the flags that any row has.
-pub(super) fn text(table: &Table, crossing: &Crossing) -> Text {
+pub(super) fn text(table: &Table, crossing: &CrossTable) -> Text {
     let mut reasons = Reasons::default();
     let count = table.rows() / crossing.titles.len().max(1);
     let parts = crossing.titles.iter().enumerate().map(|(place, title)| {
@@ -51,7 +51,7 @@ impl Reasons {
 /// The cells of a column; where there is no number, the mark of the reason.
 ///
 /// * `part`: rows whose value of the column across changes last
-fn grid(part: &Table, name: &str, crossing: &Crossing, reasons: &mut Reasons) -> Grid {
+fn grid(part: &Table, name: &str, crossing: &CrossTable, reasons: &mut Reasons) -> Grid {
     let numbers = part.numbers(name);
     let statuses = part.texts(STATUS);
     let mut cell = |place: usize| match (numbers[place], statuses[place].as_deref()) {

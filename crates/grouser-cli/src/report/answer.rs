@@ -1,7 +1,7 @@
 //! What the pages of all commands have in common: the charts of every channel, what the columns
 //! are, and all that repeats the answer.
 
-use grouser::answers::{Answer, Meaning, meanings};
+use grouser::answers::{Answer, ColumnMeaning, meanings};
 use grouser::contact::validity::Finding;
 use grouser::document::columns::run::{
     BELLY_CLEARANCE, ELECTRICAL, ELECTRICAL_RECORD, RECORD, STANDING, STEERING_RECORD, WHEEL_RECORD,
@@ -58,7 +58,7 @@ impl Basis {
 pub(crate) fn close<'f>(
     mut page: Page,
     findings: impl IntoIterator<Item = &'f Finding>,
-    meanings: &[Meaning],
+    meanings: &[ColumnMeaning],
     basis: &Basis,
 ) -> String {
     page.flags(findings);
@@ -87,10 +87,10 @@ pub(crate) fn close<'f>(
 }
 
 /// What the channels of a run are.
-pub(crate) fn run_meanings(scenario: &Scenario) -> Vec<Meaning> {
+pub(crate) fn run_meanings(scenario: &Scenario) -> Vec<ColumnMeaning> {
     let rover = &scenario.rover;
     let has_motors = rover.has_motors();
-    let electrical = |columns: Vec<Meaning>| if has_motors { columns } else { Vec::new() };
+    let electrical = |columns: Vec<ColumnMeaning>| if has_motors { columns } else { Vec::new() };
     [
         meanings(&RECORD),
         if scenario.ground.is_plane() { Vec::new() } else { meanings(&STANDING) },

@@ -4,7 +4,7 @@ use super::axis::{Axis, range};
 use super::frame::{
     Frame, LINE, MIDDLE, colour, height_below, height_beside, lines, text, width_beside, write,
 };
-use super::{Bars, Draw, EDGE, INTERVALS, LETTERS, PAGE, TITLE, sheet};
+use super::{Bars, Drawable, EDGE, INTERVALS, LETTERS, PAGE, TITLE, sheet};
 use crate::sheet::{Colour, Face, Shape, Sheet, width};
 use crate::style::{Ground, Role, series};
 
@@ -16,7 +16,7 @@ const WIDEST: f64 = 50.0;
 /// Side of the sample beside a part's name [mm].
 const SAMPLE: f64 = 3.4;
 
-impl Draw for Bars {
+impl Drawable for Bars {
     fn sheet(&self) -> Sheet {
         let title = lines(&self.title, TITLE, PAGE[0] - 2.0 * EDGE);
         let x_label = lines(&self.x_label, LETTERS, 0.6 * PAGE[0]);

@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::frame::{Frame, LINE, height_below, lines, width_beside, write};
 use super::panel::{Panel, Weight};
-use super::{Chart, Draw, EDGE, Grid, TITLE, sheet};
+use super::{Chart, Drawable, EDGE, Grid, TITLE, sheet};
 use crate::sheet::Sheet;
 use crate::style::Role;
 
@@ -26,7 +26,7 @@ struct Cell<'c> {
     y: Axis,
 }
 
-impl Draw for Grid {
+impl Drawable for Grid {
     fn sheet(&self) -> Sheet {
         let cells = cells_of(self);
         let (rows, columns) =

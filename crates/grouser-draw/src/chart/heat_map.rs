@@ -3,7 +3,7 @@
 use super::axis::{Axis, is_drawn, range};
 use super::colour_bar::{colour_bar, colour_bar_width};
 use super::frame::{Frame, LINE, colour, height_below, lines, width_beside, write};
-use super::{Draw, EDGE, HeatMap, LETTERS, PAGE, TITLE, sheet};
+use super::{Drawable, EDGE, HeatMap, LETTERS, PAGE, TITLE, sheet};
 use crate::scale::Scale;
 use crate::sheet::{Cells, Face, Sheet, width};
 use crate::style::Role;
@@ -11,7 +11,7 @@ use crate::style::Role;
 /// From the table to the colours of its numbers [mm].
 const GAP: f64 = 5.0;
 
-impl Draw for HeatMap {
+impl Drawable for HeatMap {
     fn sheet(&self) -> Sheet {
         let [title, y_label] = [(&self.title, TITLE), (&self.y_label, LETTERS)]
             .map(|(text, size)| lines(text, size, PAGE[0] - 2.0 * EDGE));

@@ -111,7 +111,7 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
         )
         .otherwise(Fill::Keyword("monte-carlo")),
         flag("sensitivity", "Whether the runs are a design for Sobol indices.", |all, yes| {
-            all.sensitivity = yes
+            all.sensitivity = yes;
         }),
         flag(
             "soil_uncertainty",

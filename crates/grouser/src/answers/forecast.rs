@@ -9,7 +9,7 @@ use std::sync::Arc;
 use serde_json::{Map, Value, json};
 
 use self::tables::Tables;
-use super::{Answer, Part, samples};
+use super::{Answer, Member, samples};
 use crate::document::forecast::notes;
 use crate::document::{LoadedScenario, LoadedSoil};
 use crate::studies::ensemble::samples::BandInputs;
@@ -50,12 +50,12 @@ impl ForecastQuestion<'_> {
             ("choices", "choices", &tables.choices),
             ("tests", "tests", &tables.tests),
         ];
-        answer.results.push(Part::Row(None, tables.limit.clone()));
+        answer.results.push(Member::Row(None, tables.limit.clone()));
         for (key, file, table) in all {
-            answer.results.push(Part::rows(key, Arc::clone(table)));
+            answer.results.push(Member::rows(key, Arc::clone(table)));
             answer.tables.push((file.to_owned(), Arc::clone(table)));
         }
-        answer.results.push(Part::Value("notes", json!(notes)));
+        answer.results.push(Member::Value("notes", json!(notes)));
         answer.screen = tables.screen(&notes);
         answer.attach("scenario.toml", self.scenario);
         for (place, ground) in self.grounds.iter().enumerate() {

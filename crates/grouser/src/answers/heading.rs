@@ -3,13 +3,14 @@
 mod bands;
 mod figures;
 mod of_model;
+mod question;
 
 use std::sync::Arc;
 
 use self::of_model::OfModel;
-use super::{Answer, AnswerError, Block, Extent, Part, Sampling, Shown, meanings, samples};
+pub use self::question::HeadingQuestion;
+use super::{Answer, AnswerError, Depth, Displayed, Member, PageBlock, meanings, samples};
 use crate::contact::validity::Finding;
-use crate::document::LoadedScenario;
 use crate::document::columns::heading::{self, held, steered};
 use crate::document::columns::{MODEL, SLOPE, wheel_speeds};
 use crate::document::figure::by_unit;
@@ -18,31 +19,14 @@ use crate::document::table::Table;
 use crate::studies::ensemble::samples::BandInputs;
 use crate::studies::heading::Steering;
 
-/// The question.
-#[derive(Clone, Debug)]
-pub struct HeadingQuestion {
-    /// The scenarios whose rover, soil, gravity and load transfer count: one, or one for each of
-    /// several models.
-    pub scenarios: Vec<LoadedScenario>,
-    /// Slopes [°], as they were given.
-    pub slopes_deg: Vec<f64>,
-    /// What holds the contour.
-    pub steering: Steering,
-    /// The fastest wheel's speed over the mean of all at the most [-], where wheels may turn at
-    /// speeds of their own.
-    pub most_speed_ratio: Option<f64>,
-    /// The samples of its bands, if it has any.
-    pub sampling: Option<Sampling>,
-}
-
 impl HeadingQuestion {
     /// The answer.
     ///
     /// # Errors
     /// [`AnswerError`]: a soil, a wheel or a ratio that is not valid, a soil whose uncertainty
     /// reaches too far, a flag where none is accepted, or a stop on the way.
-    pub fn answer(&self, name: &str, extent: &Extent<'_>) -> Result<Answer, AnswerError> {
-        let each = |scenario| OfModel::of(self, scenario, extent);
+    pub fn answer(&self, name: &str, depth: &Depth<'_>) -> Result<Answer, AnswerError> {
+        let each = |scenario| OfModel::of(self, scenario, depth);
         let all: Vec<OfModel> = self.scenarios.iter().map(each).collect::<Result<_, _>>()?;
         let (mut rows, mut limits) = (Table::default(), Table::default());
         for of_model in &all {
@@ -55,38 +39,21 @@ impl HeadingQuestion {
         let mut answer = Answer::new(name, "Heading offset that holds the contour");
         self.state(&mut answer);
         let is_one = !self.has_several() && self.most_speed_ratio.is_none();
-        let limits = if is_one { Part::Row(None, limits) } else { Part::rows("limits", limits) };
-        answer.results = vec![limits, Part::rows("rows", Arc::clone(&rows))];
+        let limits =
+            if is_one { Member::Row(None, limits) } else { Member::rows("limits", limits) };
+        answer.results = vec![limits, Member::rows("rows", Arc::clone(&rows))];
         answer.tables.push((name.to_owned(), Arc::clone(&rows)));
         let lines: String = all.iter().map(|it| it.lines(self.has_several())).collect();
         let words = lines + &self.model_lines();
-        answer.screen = vec![Shown::Rows(Arc::clone(&rows), columns.clone()), Shown::Words(words)];
+        answer.screen =
+            vec![Displayed::Rows(Arc::clone(&rows), columns.clone()), Displayed::Words(words)];
         for (place, of_model) in all.iter().enumerate() {
             answer.attach(self.file(place), of_model.scenario);
         }
-        if extent.has_page {
+        if depth.has_page {
             self.page(&mut answer, &all, rows, columns);
         }
         Ok(answer)
-    }
-
-    /// Whether there is an answer for each of several models.
-    fn has_several(&self) -> bool {
-        self.scenarios.len() > 1
-    }
-
-    /// The name of a scenario's file.
-    ///
-    /// * `place`: among the scenarios
-    #[must_use]
-    pub fn file(&self, place: usize) -> String {
-        format!("scenario{}.toml", self.end(&self.scenarios[place]))
-    }
-
-    /// The end of a scenario's files' names: nothing if it is alone.
-    fn end(&self, scenario: &LoadedScenario) -> String {
-        let name = scenario.value.model.name();
-        if self.has_several() { format!("-{name}") } else { String::new() }
     }
 
     /// A table of a model's results, with its name where there are several.
@@ -152,18 +119,18 @@ impl HeadingQuestion {
         for of_model in all {
             let lines = of_model.lines(self.has_several());
             let verdict: Vec<String> = lines.lines().map(sentence).collect();
-            answer.page.push(Block::Verdict(verdict.join(" ")));
+            answer.page.push(PageBlock::Verdict(verdict.join(" ")));
         }
         let document = &all[0].scenario.document;
         let name = |key: &str| document.text(key).unwrap_or("unnamed").to_owned();
-        answer.page.push(Block::List(vec![
+        answer.page.push(PageBlock::List(vec![
             format!("rover: {}", name("rover.name")),
             format!("soil: {}", name("soil.name")),
         ]));
         self.figures(answer, all);
-        answer.page.push(Block::Rows { caption: "On each slope", table: rows, columns });
+        answer.page.push(PageBlock::Rows { caption: "On each slope", table: rows, columns });
         answer.heading("Everything over the slope");
-        answer.page.push(Block::Charts(match all {
+        answer.page.push(PageBlock::Charts(match all {
             [one] => by_unit(&one.dense(), SLOPE, &held()),
             several => figures::of_models(several),
         }));
@@ -174,10 +141,5 @@ impl HeadingQuestion {
         if self.steering == Steering::Crab {
             answer.columns.splice(0..0, meanings(&steered()));
         }
-    }
-
-    /// Slopes [rad].
-    fn slopes(&self) -> Vec<f64> {
-        self.slopes_deg.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect()
     }
 }

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use super::{
-    Answer, AnswerError, Block, Crossing, Extent, Part, Sampling, Shown, meanings, samples,
+    Answer, AnswerError, CrossTable, Depth, Displayed, Member, PageBlock, Sampling, meanings,
+    samples,
 };
 use crate::document::columns::heading::{self, held};
 use crate::document::columns::{COURSE, MODEL, Quantity, SLIP_RATIO, SLOPE, YAW};
@@ -36,7 +37,7 @@ pub struct HeadingMapQuestion {
 }
 
 impl HeadingMapQuestion {
-    /// How often [`Extent::go_on`] is asked.
+    /// How often [`Depth::go_on`] is asked.
     #[must_use]
     pub fn samples(&self) -> usize {
         let each = self.scenarios.len() * self.courses_deg.len();
@@ -48,29 +49,29 @@ impl HeadingMapQuestion {
     /// # Errors
     /// [`AnswerError`]: a soil or a course that is not valid, a soil whose uncertainty reaches too
     /// far, a flag where none is accepted, or a stop on the way.
-    pub fn answer(&self, name: &str, extent: &Extent<'_>) -> Result<Answer, AnswerError> {
+    pub fn answer(&self, name: &str, depth: &Depth<'_>) -> Result<Answer, AnswerError> {
         let studies: Vec<HeadingStudy> =
             self.scenarios.iter().map(|scenario| HeadingStudy::of(&scenario.value)).collect();
         let courses = in_si(COURSE, &self.courses_deg);
         let map = HeadingMap::of(&studies, &courses, &in_si(SLOPE, &self.slopes_deg))?;
-        let table = Arc::new(self.table(&studies, &map, extent)?);
+        let table = Arc::new(self.table(&studies, &map, depth)?);
         let flags = map.rows.iter().flat_map(|row| &row.findings);
-        extent.check(flags.map(|it| &**it), &table, &heading::SETTINGS)?;
+        depth.check(flags.map(|it| &**it), &table, &heading::SETTINGS)?;
 
         let mut answer = Answer::new(name, "Heading offset over slope and course");
         self.state(&mut answer);
-        answer.results.push(Part::rows("rows", Arc::clone(&table)));
+        answer.results.push(Member::rows("rows", Arc::clone(&table)));
         answer.tables.push((name.to_owned(), Arc::clone(&table)));
-        let crossed = Shown::Crossed {
+        let crossed = Displayed::Crossed {
             table: Arc::clone(&table),
             columns: self.brief(),
             crossing: self.crossing(),
         };
-        answer.screen = vec![crossed, Shown::Words(self.model_lines())];
+        answer.screen = vec![crossed, Displayed::Words(self.model_lines())];
         for (place, scenario) in self.scenarios.iter().enumerate() {
             answer.attach(self.file(place), scenario);
         }
-        if extent.has_page {
+        if depth.has_page {
             self.page(&mut answer, &map, table);
         }
         Ok(answer)
@@ -103,14 +104,14 @@ impl HeadingMapQuestion {
         &self,
         studies: &[HeadingStudy],
         map: &HeadingMap,
-        extent: &Extent<'_>,
+        depth: &Depth<'_>,
     ) -> Result<Table, AnswerError> {
         let (names, rover) = (self.soils(), &self.scenarios[0].value.rover);
         let mut table = heading::map_table(map, &names, rover, self.rim_speed);
         if let Some(sampling) = self.sampling {
             let draw = |scenario| sampling.draw(&self.band_inputs(scenario));
             let samples = self.scenarios.iter().map(draw).collect::<Result<Vec<_>, _>>()?;
-            let bands = map.bands(studies, &samples, extent.go_on)?;
+            let bands = map.bands(studies, &samples, depth.go_on)?;
             table = heading::map_with_bands(table, &bands.ok_or(AnswerError::Stopped)?);
         }
         if self.has_every_model {
@@ -155,13 +156,13 @@ impl HeadingMapQuestion {
     }
 
     /// How a terminal sets slopes against courses.
-    fn crossing(&self) -> Crossing {
+    fn crossing(&self) -> CrossTable {
         let mut cells = vec![YAW.name.to_owned(), SLIP_RATIO.name.to_owned()];
         if self.sampling.is_some() {
             let [_, _, high] = SLIP_RATIO.quantiles();
             cells.push(high);
         }
-        Crossing {
+        CrossTable {
             titles: self.titles(),
             down: SLOPE.name,
             across: COURSE.name,
@@ -208,8 +209,8 @@ impl HeadingMapQuestion {
     }
 
     fn page(&self, answer: &mut Answer, map: &HeadingMap, table: Arc<Table>) {
-        answer.page.push(Block::Verdict(sentence(map)));
-        answer.page.push(Block::Words(
+        answer.page.push(PageBlock::Verdict(sentence(map)));
+        answer.page.push(PageBlock::Words(
             "A course is the direction of travel, counted from the contour line: 0° is along it, \
              90° straight up, −90° straight down. The yaw beyond the course is how far the nose \
              must point uphill of the way that the rover shall take."
@@ -224,7 +225,7 @@ impl HeadingMapQuestion {
         }
         answer.heading("Every slope and course");
         let columns = heading::map_brief();
-        answer.page.push(Block::Rows { caption: "Heading offsets", table, columns });
+        answer.page.push(PageBlock::Rows { caption: "Heading offsets", table, columns });
         answer.findings = map.rows.iter().flat_map(|row| row.findings.concat()).collect();
         answer.columns = meanings(&held());
     }

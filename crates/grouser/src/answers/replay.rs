@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde_json::json;
 
-use super::{Answer, Block, Part, Sampling, Shown, meanings, samples};
+use super::{Answer, Displayed, Member, PageBlock, Sampling, meanings, samples};
 use crate::document::LoadedScenario;
 use crate::document::columns::replay::{
     self as columns, FINDINGS, STRETCH, WORK, brief_channels, brief_findings, columns_of,
@@ -71,10 +71,10 @@ impl ReplayQuestion {
         let (channels, findings) = found.brief();
         let lines: String = found.lines().iter().map(|line| format!("{line}\n")).collect();
         answer.screen = vec![
-            Shown::Rows(Arc::clone(&found.channels), channels),
-            Shown::Words("\n".into()),
-            Shown::Rows(Arc::clone(&found.findings), findings),
-            Shown::Words(format!("\n{lines}")),
+            Displayed::Rows(Arc::clone(&found.channels), channels),
+            Displayed::Words("\n".into()),
+            Displayed::Rows(Arc::clone(&found.findings), findings),
+            Displayed::Words(format!("\n{lines}")),
         ];
         answer.attach("scenario.toml", &self.scenario);
         self.page(&mut answer, &found);
@@ -101,30 +101,30 @@ impl ReplayQuestion {
     }
 
     fn page(&self, answer: &mut Answer, found: &Found<'_>) {
-        let verdicts = found.sentences.iter().map(|it| Block::Verdict(sentence(it)));
+        let verdicts = found.sentences.iter().map(|it| PageBlock::Verdict(sentence(it)));
         answer.page.extend(verdicts);
         let name = |key: &str| self.scenario.document.text(key).unwrap_or("unnamed").to_owned();
-        answer.page.push(Block::List(vec![
+        answer.page.push(PageBlock::List(vec![
             format!("rover: {}", name("rover.name")),
             format!("soil: {}", name("soil.name")),
             format!("model: {}", self.scenario.value.model.name()),
         ]));
-        answer.page.push(Block::List(found.whole()));
-        answer.page.push(Block::List(found.notes.clone()));
+        answer.page.push(PageBlock::List(found.whole()));
+        answer.page.push(PageBlock::List(found.notes.clone()));
         let (channels, findings) = found.brief();
         answer.heading("What the differences point to");
         let caption = "What may be wrong, and by how much";
         let table = Arc::clone(&found.findings);
-        answer.page.push(Block::Rows { caption, table, columns: findings });
+        answer.page.push(PageBlock::Rows { caption, table, columns: findings });
         answer.heading("Measured less predicted");
         let (caption, table) = ("Each channel, in its own unit", Arc::clone(&found.channels));
-        answer.page.push(Block::Rows { caption, table, columns: channels });
+        answer.page.push(PageBlock::Rows { caption, table, columns: channels });
         for (title, prediction) in [
             ("At the attitude and wheel speeds that were read", Prediction::Prescribed),
             ("Run freely from the first pose", Prediction::FreeRun),
         ] {
             answer.heading(title);
-            answer.page.push(Block::Charts(found.charts(prediction)));
+            answer.page.push(PageBlock::Charts(found.charts(prediction)));
         }
         let first = |it: &Channel| *it == it.of_first_wheel();
         let channels = Channel::all(found.rover.wheel_count()).into_iter().filter(first);
@@ -153,15 +153,15 @@ impl Found<'_> {
             },
         });
         answer.results = vec![
-            Part::Value("points_to", json!(self.sentences)),
-            Part::rows("findings", Arc::clone(&self.findings)),
-            Part::rows("channels", Arc::clone(&self.channels)),
+            Member::Value("points_to", json!(self.sentences)),
+            Member::rows("findings", Arc::clone(&self.findings)),
+            Member::rows("channels", Arc::clone(&self.channels)),
         ];
-        answer.results.extend(work.map(|work| Part::Row(Some("work"), work)));
+        answer.results.extend(work.map(|work| Member::Row(Some("work"), work)));
         answer.results.extend([
-            Part::rows("stretches", Arc::clone(&self.over_time)),
-            Part::Value("replayed", replayed),
-            Part::Value("notes", json!(self.notes)),
+            Member::rows("stretches", Arc::clone(&self.over_time)),
+            Member::Value("replayed", replayed),
+            Member::Value("notes", json!(self.notes)),
         ]);
     }
 

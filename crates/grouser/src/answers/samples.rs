@@ -29,7 +29,8 @@ impl Sampling {
 }
 
 /// The models of the samples, each with its share [-].
-pub(super) fn weights(inputs: &BandInputs) -> Value {
+#[must_use]
+pub fn weights(inputs: &BandInputs) -> Value {
     let pair = |(model, share): &(Model, f64)| (model.name().to_owned(), json!(share));
     Value::Object(inputs.models().shares().iter().map(pair).collect::<Map<_, _>>())
 }

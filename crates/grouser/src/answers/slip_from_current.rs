@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use super::{Answer, Block, Part, Sampling, Shown, meanings, samples};
+use super::{Answer, Displayed, Member, PageBlock, Sampling, meanings, samples};
 use crate::document::LoadedScenario;
 use crate::document::columns::slip_from_current::{
     self as columns, ESTIMATE, SHARE_HELD, TRUE_SLIP, WHEEL, brief,
@@ -63,9 +63,9 @@ impl SlipQuestion {
         let mut answer = Answer::new(name, "Slip from motor current");
         self.state(&mut answer);
         answer.results = vec![
-            Part::rows("wheels", Arc::clone(&wheels)),
-            Part::rows("rows", Arc::clone(&rows)),
-            Part::Value("notes", json!(notes)),
+            Member::rows("wheels", Arc::clone(&wheels)),
+            Member::rows("rows", Arc::clone(&rows)),
+            Member::Value("notes", json!(notes)),
         ];
         answer.tables =
             vec![(name.to_owned(), Arc::clone(&rows)), ("wheels".into(), Arc::clone(&wheels))];
@@ -132,24 +132,24 @@ impl SlipQuestion {
     }
 
     fn page(&self, answer: &mut Answer, rows: Arc<Table>, wheels: Arc<Table>, notes: Vec<String>) {
-        answer.page.push(Block::Verdict(verdict(&wheels)));
+        answer.page.push(PageBlock::Verdict(verdict(&wheels)));
         let name = |key: &str| self.scenario.document.text(key).unwrap_or("unnamed").to_owned();
-        answer.page.push(Block::List(vec![
+        answer.page.push(PageBlock::List(vec![
             format!("rover: {}", name("rover.name")),
             format!("soil: {}", name("soil.name")),
         ]));
-        answer.page.push(Block::List(notes));
+        answer.page.push(PageBlock::List(notes));
         answer.heading("Each wheel over time");
         for (wheel, chart) in charts(&self.scenario.value.rover, &rows) {
             answer.figure(&format!("figures/{wheel}"), chart, CAPTION);
         }
         answer.heading("What it comes to");
         let (caption, columns) = ("Each wheel, and all of them", wheels.names());
-        answer.page.push(Block::Rows { caption, table: wheels, columns });
-        answer.page.push(Block::List(states(&rows).lines().map(String::from).collect()));
+        answer.page.push(PageBlock::Rows { caption, table: wheels, columns });
+        answer.page.push(PageBlock::List(states(&rows).lines().map(String::from).collect()));
         answer.heading("Every reading");
         let (caption, columns) = ("Readings and slip", brief(&rows));
-        answer.page.push(Block::Rows { caption, table: rows, columns });
+        answer.page.push(PageBlock::Rows { caption, table: rows, columns });
         answer.columns = meanings(&columns::of_reading());
         answer.columns.extend(meanings(&ESTIMATE));
         answer.columns.extend(meanings(&columns::of_truth()));
@@ -160,10 +160,15 @@ impl SlipQuestion {
 fn screen(answer: &mut Answer, rows: &Arc<Table>, wheels: &Arc<Table>, notes: &[String]) {
     let notes: String = notes.iter().map(|note| format!("note: {note}\n")).collect();
     answer.screen = vec![
-        Shown::Some { table: Arc::clone(rows), columns: brief(rows), most: ROWS, what: "readings" },
-        Shown::Words(states(rows) + "\n"),
-        Shown::Rows(Arc::clone(wheels), wheels.names()),
-        Shown::Words(format!("\n{notes}")),
+        Displayed::Some {
+            table: Arc::clone(rows),
+            columns: brief(rows),
+            most: ROWS,
+            what: "readings",
+        },
+        Displayed::Words(states(rows) + "\n"),
+        Displayed::Rows(Arc::clone(wheels), wheels.names()),
+        Displayed::Words(format!("\n{notes}")),
     ];
 }
 

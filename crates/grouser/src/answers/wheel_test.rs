@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use serde_json::json;
 
-use super::{Answer, AnswerError, Block, Extent, Part, Sampling, Shown, meanings, samples};
+use super::{
+    Answer, AnswerError, Depth, Displayed, Member, PageBlock, Sampling, meanings, samples,
+};
 use crate::contact::Model;
 use crate::document::columns::wheel::WHEEL;
 use crate::document::columns::{
@@ -74,21 +76,23 @@ impl WheelTestQuestion {
     /// # Errors
     /// [`AnswerError`]: a soil whose uncertainty reaches too far, a flag where none is accepted, or
     /// a stop on the way.
-    pub fn answer(&self, name: &str, extent: &Extent<'_>) -> Result<Answer, AnswerError> {
+    pub fn answer(&self, name: &str, depth: &Depth<'_>) -> Result<Answer, AnswerError> {
         let mut rows = Table::default();
         for (model, inputs) in &self.models {
-            rows.append(self.named(model, self.of_model(model, inputs, extent)?));
+            rows.append(self.named(model, self.of_model(model, inputs, depth)?));
         }
         let rows = Arc::new(rows);
         let mut answer = Answer::new(name, "A wheel test");
         self.state(&mut answer);
-        answer.results.push(Part::rows("rows", Arc::clone(&rows)));
+        answer.results.push(Member::rows("rows", Arc::clone(&rows)));
         answer.tables.push((name.to_owned(), Arc::clone(&rows)));
-        answer.screen =
-            vec![Shown::Rows(Arc::clone(&rows), self.brief()), Shown::Words(self.model_line())];
+        answer.screen = vec![
+            Displayed::Rows(Arc::clone(&rows), self.brief()),
+            Displayed::Words(self.model_line()),
+        ];
         answer.attach("soil.toml", &self.soil);
         answer.attach("wheel.toml", &self.wheel);
-        if extent.has_page {
+        if depth.has_page {
             self.page(&mut answer, &rows);
         }
         Ok(answer)
@@ -112,19 +116,19 @@ impl WheelTestQuestion {
         &self,
         model: &Model,
         inputs: &BandInputs,
-        extent: &Extent<'_>,
+        depth: &Depth<'_>,
     ) -> Result<Table, AnswerError> {
         let test = self.plan(model);
         let found = test.run();
         let table = columns::wheel_test::table(&found);
         let flags = found.iter().map(|row| &*row.findings);
-        extent.check(flags, &table, &columns::wheel_test::SETTINGS)?;
+        depth.check(flags, &table, &columns::wheel_test::SETTINGS)?;
         if let Some(stand) = self.stand {
             return Ok(columns::stand::table(&stand.of(test).run()));
         }
         let Some(sampling) = self.sampling else { return Ok(table) };
         let samples = sampling.draw(&self.asked(inputs))?;
-        let bands = test.bands(&samples, extent.go_on).ok_or(AnswerError::Stopped)?;
+        let bands = test.bands(&samples, depth.go_on).ok_or(AnswerError::Stopped)?;
         Ok(columns::wheel_test::with_bands(table, &bands))
     }
 
@@ -230,9 +234,9 @@ impl WheelTestQuestion {
         let dense = self.dense();
         let style = if self.stand.is_some() { Style::Dots } else { Style::Line };
         let charted = Charted { rows, drawn: dense.as_ref().unwrap_or(rows), style };
-        answer.page.push(Block::Verdict(charted.sentence()));
+        answer.page.push(PageBlock::Verdict(charted.sentence()));
         let model = if self.has_several() { "every model" } else { self.model_name() };
-        answer.page.push(Block::List(vec![
+        answer.page.push(PageBlock::List(vec![
             format!("wheel: {}", self.wheel.document.name()),
             format!("soil: {}", self.soil.document.name()),
             format!("gravity: {} m/s²", self.gravity),
@@ -249,7 +253,7 @@ impl WheelTestQuestion {
         }
         answer.heading("Every row");
         let (caption, columns) = ("Settings and results", self.brief());
-        answer.page.push(Block::Rows { caption, table: Arc::clone(rows), columns });
+        answer.page.push(PageBlock::Rows { caption, table: Arc::clone(rows), columns });
         let tests = self.models.iter().map(|(model, _)| self.plan(model));
         answer.findings = tests.flat_map(|it| it.run()).flat_map(|row| row.findings).collect();
         answer.columns = meanings(&WHEEL);

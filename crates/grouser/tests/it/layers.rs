@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of each layer, from the foundations up.
-const LAYERS: [&[&str]; 8] = [
+const LAYERS: [&[&str]; 9] = [
     &[
         "units",
         "error",
@@ -28,6 +28,7 @@ const LAYERS: [&[&str]; 8] = [
     &["mission"],
     &["studies"],
     &["document"],
+    &["answers"],
 ];
 const STUDIES: usize = 6;
 const IO: usize = 7;

@@ -8,7 +8,7 @@ use grouser::document::checkpoint::fingerprint;
 use grouser::document::measurements::Limits;
 use grouser::document::measurements::bevameter_sets::rows_of;
 use grouser::document::{Document, escape, plates, shear_tests};
-use grouser_draw::chart::{Chart, Draw, Series, Style};
+use grouser_draw::chart::{Chart, Drawable, Series, Style};
 use serde_json::{Value, json};
 
 use super::super::Answer;

@@ -11,7 +11,7 @@ use grouser::document::{Document, SAMPLES_FILE, SoilFamily};
 use grouser::studies::calibration::Posterior;
 use grouser::studies::calibration::diagnostics::{Samples, correlations_of};
 use grouser::studies::measurement::Quantity;
-use grouser_draw::chart::{Chart, Draw, Grid, Series, Style};
+use grouser_draw::chart::{Chart, Drawable, Grid, Series, Style};
 use serde::Serialize;
 
 use super::super::{Answer, validate};

@@ -4,7 +4,7 @@ mod figures;
 mod page;
 mod statistics;
 
-use grouser_draw::chart::Draw;
+use grouser_draw::chart::Drawable;
 use serde::Serialize;
 
 use self::statistics::Statistics;

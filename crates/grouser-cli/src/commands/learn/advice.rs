@@ -1,7 +1,7 @@
 //! What to do tomorrow: headings, looks at the slip, and test drives, as JSON, text and part of the
 //! page.
 
-use grouser::answers::{Meaning, meanings};
+use grouser::answers::{ColumnMeaning, meanings};
 use grouser::document::LoadedScenario;
 use grouser::document::columns::SLOPE;
 use grouser::document::columns::advice as columns;
@@ -154,7 +154,7 @@ pub(super) fn settings(args: &AdviceArgs) -> Option<Vec<(&'static str, String)>>
 }
 
 /// What the columns are.
-pub(super) fn of_columns() -> Vec<Meaning> {
+pub(super) fn of_columns() -> Vec<ColumnMeaning> {
     let both = [meanings(&columns::SLOPE_COLUMNS), meanings(&columns::TEST_COLUMNS)];
     both.into_iter().flatten().collect()
 }

@@ -9,7 +9,7 @@ use grouser::document::columns::mission::{
 use grouser::document::columns::run;
 use grouser::document::figure::axis;
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
-use grouser_draw::chart::{Bars, Draw};
+use grouser_draw::chart::{Bars, Drawable};
 
 use super::answered::{Answered, reasons, sentence};
 use crate::report::answer::{self, Basis, over_ground, over_time, run_meanings};

@@ -7,7 +7,7 @@ use grouser::document::reading::four_digits;
 use grouser::simulation::{Scenario, Trajectory};
 use grouser::studies::reproduction::{Reproduction, SlopeRuns};
 use grouser::studies::validity::RoverOnSlope;
-use grouser_draw::chart::Draw;
+use grouser_draw::chart::Drawable;
 
 use super::study::SCATTER;
 use crate::failure::Failure;

@@ -9,7 +9,7 @@ use grouser::document::table::Table;
 use grouser::studies::drive::Drive;
 use grouser::studies::traverse_band::Ends;
 use grouser::units::Vec2;
-use grouser_draw::chart::{BAND_COLOUR, Chart, Draw, Series, Style};
+use grouser_draw::chart::{BAND_COLOUR, Chart, Drawable, Series, Style};
 
 use super::of_model::{OfModel, chart, reason};
 use crate::args::{EVERY_MODEL, TraverseArgs};

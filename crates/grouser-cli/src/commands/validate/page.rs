@@ -1,6 +1,6 @@
 //! The page of a validation: the answer, the errors, the figures.
 
-use grouser_draw::chart::Draw;
+use grouser_draw::chart::Drawable;
 use std::path::Path;
 
 use grouser::document::columns::fit::column_of;

@@ -1,7 +1,7 @@
 //! `grouser validate --all`, or on one data set: ranks every model on every part, beside
 //! predictions without physics.
 
-use grouser_draw::chart::Draw;
+use grouser_draw::chart::Drawable;
 use std::collections::BTreeSet;
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! `grouser validate --rover`: errors of a wheel–soil model against a rover's measured slip and yaw
 //! on slopes.
 
-use grouser_draw::chart::Draw;
+use grouser_draw::chart::Drawable;
 use std::path::Path;
 
 use grouser::document::LoadedScenario;

@@ -72,7 +72,7 @@ pub(super) fn bands_to(answer: &mut Answer, forecast: &Forecast, tables: &Tables
 }
 
 /// A part of a budget.
-struct Part {
+struct FactorShare {
     factor: String,
     /// Alone, and with an equal share of its interactions [%].
     own: f64,
@@ -80,7 +80,7 @@ struct Part {
 }
 
 /// Names and parts of each budget.
-type Budgets = Vec<(String, Vec<Part>)>;
+type Budgets = Vec<(String, Vec<FactorShare>)>;
 
 /// The budgets of a table, those of one quantity after each other.
 fn budgets(table: &Table) -> Budgets {
@@ -89,7 +89,7 @@ fn budgets(table: &Table) -> Budgets {
     let percent = |quantity: Quantity, row: usize| {
         100.0 * table.numbers(quantity.name)[row].unwrap_or_default()
     };
-    let mut budgets: Vec<(&str, String, Vec<Part>)> = Vec::new();
+    let mut budgets: Vec<(&str, String, Vec<FactorShare>)> = Vec::new();
     for row in 0..table.rows() {
         let (Some(quantity), Some(factor)) = (&quantities[row], &factors[row]) else { continue };
         let name = name_of(quantity, slopes[row]);
@@ -98,7 +98,7 @@ fn budgets(table: &Table) -> Budgets {
         }
         if let Some((.., parts)) = budgets.last_mut().filter(|_| factor != WHOLE) {
             let (own, shared) = (percent(VARIANCE_SHARE, row), percent(SHARED_SHARE, row));
-            parts.push(Part { factor: factor.clone(), own, shared });
+            parts.push(FactorShare { factor: factor.clone(), own, shared });
         }
     }
     let order = [SLIP_RATIO, DRIFT, LIMIT_SLOPE].map(|it| it.name);
@@ -110,9 +110,9 @@ fn budgets(table: &Table) -> Budgets {
 fn largest_first(budgets: &Budgets, name: &str) -> Bars {
     let parts = budgets.iter().find(|(it, _)| it == name).map(|(_, parts)| parts);
     let factors = parts.into_iter().flatten().filter(|part| part.factor != INTERACTIONS);
-    let mut factors: Vec<&Part> = factors.collect();
+    let mut factors: Vec<&FactorShare> = factors.collect();
     factors.sort_by(|one, other| other.shared.total_cmp(&one.shared));
-    let bar = |part: &&Part| {
+    let bar = |part: &&FactorShare| {
         // Below zero by round-off only.
         let interactions = (part.shared - part.own).max(0.0);
         (part.factor.clone(), vec![part.own, interactions])
@@ -129,10 +129,11 @@ fn largest_first(budgets: &Budgets, name: &str) -> Bars {
 /// A bar for each budget. Factors have one order in all of them: the largest on average first, and
 /// last what several have together.
 fn budget(budgets: &Budgets) -> Bars {
-    let of = |parts: &[Part], name: &str| {
+    let of = |parts: &[FactorShare], name: &str| {
         parts.iter().find(|part| part.factor == name).map_or(0.0, |part| part.own)
     };
-    let names_of = |parts: &Vec<Part>| parts.iter().map(|part| part.factor.clone()).collect();
+    let names_of =
+        |parts: &Vec<FactorShare>| parts.iter().map(|part| part.factor.clone()).collect();
     let mut names: Vec<String> = budgets.first().map_or(Vec::new(), |(_, parts)| names_of(parts));
     let sum = |name: &str| budgets.iter().map(|(_, parts)| of(parts, name)).sum::<f64>();
     let order = |name: &String| (name == INTERACTIONS, -sum(name));
@@ -140,7 +141,7 @@ fn budget(budgets: &Budgets) -> Bars {
         let (one, other) = (order(one), order(other));
         one.0.cmp(&other.0).then(one.1.total_cmp(&other.1))
     });
-    let lengths = |parts: &[Part]| names.iter().map(|name| of(parts, name)).collect();
+    let lengths = |parts: &[FactorShare]| names.iter().map(|name| of(parts, name)).collect();
     Bars {
         title: "Error budget".into(),
         x_label: "share of the variance [%]".into(),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::super::Shown;
+use super::super::Displayed;
 use crate::document::columns::forecast::{self as columns, DEVIATION, FACTOR, QUANTITY, WHOLE};
 use crate::document::columns::{LIMIT_SLOPE, SLIP_RATIO, SLOPE};
 use crate::document::reading::rounded_down;
@@ -49,20 +49,20 @@ impl Tables {
     }
 
     /// What a terminal shows.
-    pub(super) fn screen(&self, notes: &[String]) -> Vec<Shown> {
+    pub(super) fn screen(&self, notes: &[String]) -> Vec<Displayed> {
         let budget = self.budget_of(&[SLIP_RATIO.name, LIMIT_SLOPE.name]);
         let title = "\nerror budget of the slip ratio and of the steepest slope\n";
         let mut shown = vec![
-            Shown::Rows(Arc::clone(&self.rows), columns::brief()),
-            Shown::Words(self.limit_line() + title),
-            Shown::Rows(budget.into(), columns::budget_brief()),
+            Displayed::Rows(Arc::clone(&self.rows), columns::brief()),
+            Displayed::Words(self.limit_line() + title),
+            Displayed::Rows(budget.into(), columns::budget_brief()),
         ];
         if self.tests.rows() > 0 {
-            shown.push(Shown::Words("\ntests where the soil was measured\n".into()));
-            shown.push(Shown::Rows(Arc::clone(&self.tests), self.tests.names()));
+            shown.push(Displayed::Words("\ntests where the soil was measured\n".into()));
+            shown.push(Displayed::Rows(Arc::clone(&self.tests), self.tests.names()));
         }
         let notes: String = notes.iter().map(|note| format!("note: {note}\n")).collect();
-        shown.push(Shown::Words(format!("\n{notes}")));
+        shown.push(Displayed::Words(format!("\n{notes}")));
         shown
     }
 

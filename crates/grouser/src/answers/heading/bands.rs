@@ -1,6 +1,6 @@
 //! Quantiles of the heading offset over samples of soil and model.
 
-use super::super::{AnswerError, Extent, Sampling};
+use super::super::{AnswerError, Depth, Sampling};
 use crate::document::LoadedScenario;
 use crate::document::columns::heading::{self, DRAWS, DRAWS_MOBILE};
 use crate::document::columns::{LIMIT_SLOPE, PROBABILITY_LEVEL, SLOPE, YAW};
@@ -41,12 +41,12 @@ impl Bands {
         scenario: &LoadedScenario,
         (study, nominal): (&HeadingStudy, &HeadingCurve),
         slopes: &[f64],
-        extent: &Extent<'_>,
+        depth: &Depth<'_>,
     ) -> Result<Self, AnswerError> {
         let samples = sampling.draw(&BandInputs::of_scenario(scenario))?;
-        let charted = if extent.has_page { chart_slopes(nominal) } else { Vec::new() };
+        let charted = if depth.has_page { chart_slopes(nominal) } else { Vec::new() };
         let all: Vec<f64> = slopes.iter().chain(&charted).copied().collect();
-        let band = HeadingBand::of(study, &samples, &all, extent.go_on)?;
+        let band = HeadingBand::of(study, &samples, &all, depth.go_on)?;
         let band = band.ok_or(AnswerError::Stopped)?;
         let (asked, along) = band.slopes.split_at(slopes.len());
         Ok(Self {

@@ -1,8 +1,8 @@
 //! Figures of headings over slope.
 
 use super::super::Answer;
-use super::HeadingQuestion;
 use super::of_model::OfModel;
+use super::question::HeadingQuestion;
 use crate::document::columns::heading::{self, held, turned};
 use crate::document::columns::{Quantity, SLOPE};
 use crate::document::figure::{Chart, Series, Style, axis};

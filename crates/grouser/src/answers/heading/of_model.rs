@@ -1,8 +1,8 @@
 //! What a wheel–soil model answers about headings.
 
-use super::super::{AnswerError, Extent};
-use super::HeadingQuestion;
+use super::super::{AnswerError, Depth};
 use super::bands::Bands;
+use super::question::HeadingQuestion;
 use crate::document::LoadedScenario;
 use crate::document::columns::heading::{self, LIMIT_REASON, LIMITED_BY};
 use crate::document::columns::wheel_speeds::{self, NONE_FOUND, WHEELS};
@@ -30,19 +30,19 @@ impl<'q> OfModel<'q> {
     pub(super) fn of(
         question: &HeadingQuestion,
         scenario: &'q LoadedScenario,
-        extent: &Extent<'_>,
+        depth: &Depth<'_>,
     ) -> Result<Self, AnswerError> {
         let study = HeadingStudy::of(&scenario.value);
         let curve = HeadingStudy { steering: question.steering, ..study.clone() }.curve()?;
         let bands = question.sampling.map(|sampling| {
-            Bands::of(sampling, scenario, (&study, &curve), &question.slopes(), extent)
+            Bands::of(sampling, scenario, (&study, &curve), &question.slopes(), depth)
         });
         let bands = bands.transpose()?;
         let slopes = question.slopes();
         let mut table = heading::table(&curve, &scenario.value.rover, &slopes);
-        if extent.is_strict {
+        if depth.is_strict {
             let flags = heading::findings(&curve, &slopes);
-            extent.check(flags.iter().map(|it| &**it), &table, &[SLOPE.name])?;
+            depth.check(flags.iter().map(|it| &**it), &table, &[SLOPE.name])?;
         }
         let mut limit = heading::steepest(&curve);
         let own_speeds = question.most_speed_ratio.map(|most_ratio| {

@@ -1,7 +1,7 @@
 //! The page of a summary.
 
 use grouser::document::Campaign;
-use grouser_draw::chart::Draw;
+use grouser_draw::chart::Drawable;
 use grouser_store::Results;
 
 use super::figures::Figure;

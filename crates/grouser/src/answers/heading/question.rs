@@ -1,0 +1,49 @@
+//! The question of headings.
+
+use super::super::Sampling;
+use crate::document::LoadedScenario;
+use crate::document::columns::SLOPE;
+use crate::studies::heading::Steering;
+
+/// The question.
+#[derive(Clone, Debug)]
+pub struct HeadingQuestion {
+    /// The scenarios whose rover, soil, gravity and load transfer count: one, or one for each of
+    /// several models.
+    pub scenarios: Vec<LoadedScenario>,
+    /// Slopes [°], as they were given.
+    pub slopes_deg: Vec<f64>,
+    /// What holds the contour.
+    pub steering: Steering,
+    /// The fastest wheel's speed over the mean of all at the most [-], where wheels may turn at
+    /// speeds of their own.
+    pub most_speed_ratio: Option<f64>,
+    /// The samples of its bands, if it has any.
+    pub sampling: Option<Sampling>,
+}
+
+impl HeadingQuestion {
+    /// Whether there is an answer for each of several models.
+    pub(super) fn has_several(&self) -> bool {
+        self.scenarios.len() > 1
+    }
+
+    /// The name of a scenario's file.
+    ///
+    /// * `place`: among the scenarios
+    #[must_use]
+    pub fn file(&self, place: usize) -> String {
+        format!("scenario{}.toml", self.end(&self.scenarios[place]))
+    }
+
+    /// The end of a scenario's files' names: nothing if it is alone.
+    pub(super) fn end(&self, scenario: &LoadedScenario) -> String {
+        let name = scenario.value.model.name();
+        if self.has_several() { format!("-{name}") } else { String::new() }
+    }
+
+    /// Slopes [rad].
+    pub(super) fn slopes(&self) -> Vec<f64> {
+        self.slopes_deg.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect()
+    }
+}
