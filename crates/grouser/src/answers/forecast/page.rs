@@ -64,6 +64,7 @@ impl ForecastQuestion<'_> {
         figures::bands_to(answer, forecast, tables);
         let slopes = forecast.slopes.iter();
         answer.findings = slopes.flat_map(|slope| slope.findings.iter().copied()).collect();
+        answer.columns = columns::all_meanings();
     }
 
     fn what_was_computed(&self, forecast: &Forecast) -> Vec<String> {

@@ -1,6 +1,7 @@
 //! A forecast: bands on each slope, the error budget, the mean of each choice, and what tests would
 //! show.
 
+use super::super::answer::{ColumnMeaning, meanings};
 use super::super::table::Table;
 use super::super::unit::{DEG, M_PER_M, ONE};
 use super::card::DRIFT;
@@ -49,6 +50,19 @@ const SLOPES: [Column<SlopeForecast>; 9] = [
 #[must_use]
 pub fn table(forecast: &Forecast) -> Table {
     Table::of(&SLOPES, &forecast.slopes)
+}
+
+/// What the columns of all tables are, those of slopes first.
+#[must_use]
+pub fn all_meanings() -> Vec<ColumnMeaning> {
+    let all = [meanings(&SLOPES), meanings(&PARTS), meanings(&levels()), meanings(&of_tests())];
+    let mut known = Vec::new();
+    for meaning in all.into_iter().flatten() {
+        if !known.contains(&meaning) {
+            known.push(meaning);
+        }
+    }
+    known
 }
 
 /// The columns of [`table`] for reading.
