@@ -31,6 +31,7 @@ mod rustdoc;
 mod schema;
 mod site;
 mod texts;
+mod times;
 mod tools;
 mod wasm;
 mod workflows;
@@ -69,6 +70,7 @@ cargo xtask CHORE
   outputs --compare FOLDER FOLDER
                       whether two such folders are the same but for the keys of xtask/renamed.txt
   learning [STUDY]    measure what learning from drives is worth, and write it into docs/guide/learn.md
+  times               measure the units of work, and write their times into docs/performance.md
   python-times        measure what Python costs, and write it into docs/performance.md
   count [--check | --build]
                       count crates, lines and cycles of modules, and write them into ARCHITECTURE.md;
@@ -143,6 +145,10 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         }
         ["python-times"] => {
             python::write_times()?;
+            true
+        }
+        ["times"] => {
+            times::write()?;
             true
         }
         ["wasm"] => good(wasm::check()?),

@@ -134,8 +134,6 @@ pub(crate) enum Command {
     ImportTelemetry(ImportTelemetryArgs),
     /// Make a rover of URDF, the format in which robots are described to ROS.
     ImportUrdf(ImportUrdfArgs),
-    /// Measure how fast and how accurately this machine computes.
-    Bench(BenchArgs),
     /// Make a rover, a wheel, a soil or a scenario of your own: asks, or takes answers by flags.
     New(NewArgs),
     /// Check documents: soils, wheels, motors, rovers, scenarios, missions, data sets, campaigns,
@@ -325,21 +323,4 @@ pub(crate) enum TableOrJson {
     Table,
     /// For programs: every digit.
     Json,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct BenchArgs {
-    /// Time to measure, in all [s]: the longer, the smaller the effect of other work on the
-    /// machine.
-    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = bench_seconds)]
-    pub(crate) seconds: f64,
-    /// Form of what is printed.
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) format: Format,
-}
-
-fn bench_seconds(text: &str) -> Result<f64, String> {
-    let seconds: f64 = text.parse().map_err(|_| format!("'{text}' is not a number"))?;
-    let range = 0.1..=600.0;
-    range.contains(&seconds).then_some(seconds).ok_or_else(|| "it must be 0.1 to 600".to_owned())
 }

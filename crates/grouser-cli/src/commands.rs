@@ -1,7 +1,6 @@
 //! The commands, each in a module of its own.
 
 mod animation;
-pub(crate) mod bench;
 pub(crate) mod calibrate;
 pub(crate) mod campaign;
 pub(crate) mod card;

@@ -6,7 +6,7 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Subcommand, ValueEnum};
 use grouser_store::Part;
 
-use super::{OutputArgs, TableOrJson, bench_seconds};
+use super::{OutputArgs, TableOrJson};
 
 #[derive(Debug, Args)]
 pub(crate) struct CampaignArgs {
@@ -142,9 +142,15 @@ pub(crate) struct CampaignCostArgs {
     #[arg(long, value_name = "N", default_value_t = 1_000_000_000, value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) runs: u64,
     /// Time to measure, in all [s].
-    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = bench_seconds)]
+    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = measured_seconds)]
     pub(crate) seconds: f64,
     /// Form of what is printed.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: TableOrJson,
+}
+
+fn measured_seconds(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.parse().map_err(|_| format!("'{text}' is not a number"))?;
+    let range = 0.1..=600.0;
+    range.contains(&seconds).then_some(seconds).ok_or_else(|| "it must be 0.1 to 600".to_owned())
 }

@@ -122,9 +122,9 @@ fn a_terminal_gets_its_width_and_colours() {
 #[test]
 fn long_work_is_seen_at_work() {
     let place = Place::new();
-    let line = "bench --seconds 0.1";
-    assert!(in_terminal(&place, 80, line).contains("measuring"));
-    assert!(!in_terminal(&place, 80, &format!("{line} --quiet")).contains("measuring"));
+    let line = "heading --soil toyoura-uncertain --slope-deg 5 --uncertainty --samples 300";
+    assert!(in_terminal(&place, 80, line).contains(" samples "));
+    assert!(!in_terminal(&place, 80, &format!("{line} --quiet")).contains(" samples "));
     // No count of steps is known here.
     let line = "wheel-test --model rft --load-n 1:200:0.2 --slip-ratio 0.1,0.5,0.9 --format csv";
     let started = std::time::Instant::now();

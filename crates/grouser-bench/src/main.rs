@@ -1,20 +1,42 @@
-//! `grouser bench`: how fast this machine computes, and how accurately.
+//! How fast this machine computes, and how accurately: `cargo run --release -p grouser-bench`.
 
+use std::error::Error;
 use std::hint::black_box;
+use std::io::{Write, stdout};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use clap::{Parser, ValueEnum};
+use grouser::answers::{Answer, Member};
 use grouser::contact::InstructionSet;
 use grouser::document::reading::four_digits;
 use grouser_bench::{Accuracy, Fixtures, OPERATIONS_OF_A_FORCE, Unit};
 use serde_json::{Map, Value, json};
 
-use super::Answer;
-use crate::args::BenchArgs;
-use crate::failure::Failure;
-use crate::output;
-use crate::output::Format;
-use crate::output::rows::{Rows, aligned};
+/// Measures how fast this machine computes, and how accurately.
+#[derive(Debug, Parser)]
+#[command(name = "grouser-bench", version)]
+struct Arguments {
+    /// Time to measure, in all [s], 0.1 to 600: the longer, the smaller the effect of other work on
+    /// the machine.
+    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = seconds)]
+    seconds: f64,
+    /// Form of what is printed.
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+}
+
+/// How times are printed.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum Format {
+    /// For reading: aligned columns, few digits.
+    #[default]
+    Table,
+    /// For programs: every digit.
+    Json,
+    /// For spreadsheets: every digit, a header.
+    Csv,
+}
 
 /// The time of a unit of work, and its accuracy.
 struct Row {
@@ -27,13 +49,46 @@ struct Row {
     error: Option<(&'static str, f64, String)>,
 }
 
-pub(crate) fn run(args: &BenchArgs) -> Result<(), Failure> {
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments = Arguments::parse();
+    let rows = measured(arguments.seconds)?;
+    let set = InstructionSet::best().name();
+    let threads = grouser_bench::threads();
+    let text = match arguments.format {
+        Format::Table => {
+            format!("{}\n{set}, {threads} threads; the best of many times\n", table(&rows))
+        }
+        Format::Json => {
+            let mut answer = Answer::new("bench", "Times and errors");
+            answer.input("seconds", arguments.seconds);
+            answer.results.push(Member::Values(values(&rows)));
+            answer.results.push(Member::Value("threads", json!(threads)));
+            answer.results.push(Member::Value("instruction_set", json!(set)));
+            serde_json::to_string_pretty(&answer)? + "\n"
+        }
+        Format::Csv => {
+            let values = values(&rows);
+            let keys: Vec<&str> = values.keys().map(String::as_str).collect();
+            let numbers: Vec<String> = values.values().map(Value::to_string).collect();
+            format!("{}\n{}\n", keys.join(","), numbers.join(","))
+        }
+    };
+    Ok(stdout().write_all(text.as_bytes())?)
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let seconds: f64 = text.parse().map_err(|_| format!("'{text}' is not a number"))?;
+    let range = 0.1..=600.0;
+    range.contains(&seconds).then_some(seconds).ok_or_else(|| "it must be 0.1 to 600".to_owned())
+}
+
+/// A row for each unit of work.
+///
+/// * `seconds`: time for all of them together [s]
+fn measured(seconds: f64) -> Result<Vec<Row>, Box<dyn Error>> {
     let fixtures = Fixtures::new()?;
-    let budget = Duration::from_secs_f64(args.seconds / Unit::ALL.len() as f64);
-    let bar = output::progress_bar(Unit::ALL.len() as u64 + 1);
-    bar.set_message("measuring");
+    let budget = Duration::from_secs_f64(seconds / Unit::ALL.len() as f64);
     let accuracy = Accuracy::of(&fixtures);
-    bar.inc(1);
     let mut rows = Vec::new();
     for unit in Unit::ALL {
         let seconds = best(budget, || fixtures.work(unit).count);
@@ -41,32 +96,26 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), Failure> {
         if unit == Unit::Operation {
             rows.push(least_of_force(seconds));
         }
-        bar.inc(1);
     }
-    bar.finish_and_clear();
     rows.extend(start_up());
-    let set = InstructionSet::best().name();
-    let threads = grouser_bench::threads();
-    match args.format {
-        Format::Table => {
-            let header = ["work", "time", "error"].map(str::to_owned);
-            let cells = rows.iter().map(|row| {
-                let error = row.error.as_ref().map_or("-".to_owned(), |it| it.2.clone());
-                vec![row.what.to_owned(), format!("{} {}", four_digits(row.value), row.unit), error]
-            });
-            let table = aligned(&header, &cells.collect::<Vec<_>>());
-            output::print(&format!("{table}\n{set}, {threads} threads; the best of many times\n"))
-        }
-        Format::Json => {
-            output::print_json(&Answer::new("bench", json!({ "seconds": args.seconds }), {
-                let mut all = values(&rows);
-                all.insert("threads".into(), threads.into());
-                all.insert("instruction_set".into(), set.into());
-                all
-            }))
-        }
-        Format::Csv => output::print(&Rows::from_maps(vec![values(&rows)]).to_csv()?),
-    }
+    Ok(rows)
+}
+
+/// The rows in aligned columns.
+fn table(rows: &[Row]) -> String {
+    let cells = |row: &Row| {
+        let error = row.error.as_ref().map_or("-", |(_, _, text)| text);
+        [row.what.to_owned(), format!("{} {}", four_digits(row.value), row.unit), error.to_owned()]
+    };
+    let header = ["work", "time", "error"].map(str::to_owned);
+    let lines: Vec<[String; 3]> = [header].into_iter().chain(rows.iter().map(cells)).collect();
+    let width = |column: usize| {
+        lines.iter().map(|line| line[column].chars().count()).max().unwrap_or_default()
+    };
+    let (first, second) = (width(0), width(1));
+    let line =
+        |[what, time, error]: &[String; 3]| format!("{what:<first$}  {time:<second$}  {error}\n");
+    lines.iter().map(line).collect()
 }
 
 fn values(rows: &[Row]) -> Map<String, Value> {
@@ -148,10 +197,12 @@ fn least_of_force(operation: f64) -> Row {
     Row { what, key: "force_ns_least", value, unit: "ns", error: None }
 }
 
-/// Time from the start of the program to its first answer; missing where it cannot start itself.
+/// Time from the start of the program to its first answer; missing where it is not built beside this
+/// one.
 fn start_up() -> Option<Row> {
     const TIMES: usize = 10;
-    let program = std::env::current_exe().ok()?;
+    let name = format!("grouser{}", std::env::consts::EXE_SUFFIX);
+    let program = std::env::current_exe().ok()?.with_file_name(name);
     let start = || {
         let before = Instant::now();
         let mut answer = Command::new(&program);
