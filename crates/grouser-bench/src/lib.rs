@@ -1,8 +1,8 @@
 //! Benchmarks: units of work that measure Grouser's speed, each with the accuracy that it reaches.
 //!
-//! One home for what the program `grouser-bench` measures, `cargo bench` compares and the count of instructions
-//! watches. Everything is fixed: the same wheels, rovers and soils at every call, so that two
-//! measurements differ by the code and the machine alone. There is no clock here.
+//! One home for what the program `grouser-bench` measures, `cargo bench` compares and the count of
+//! instructions watches. Everything is fixed: the same wheels, rovers and soils at every call, so
+//! that two measurements differ by the code and the machine alone. There is no clock here.
 
 mod accuracy;
 mod arrays;

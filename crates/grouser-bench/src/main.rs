@@ -197,8 +197,8 @@ fn least_of_force(operation: f64) -> Row {
     Row { what, key: "force_ns_least", value, unit: "ns", error: None }
 }
 
-/// Time from the start of the program to its first answer; missing where it is not built beside this
-/// one.
+/// Time from the start of the program to its first answer; missing where it is not built beside
+/// this one.
 fn start_up() -> Option<Row> {
     const TIMES: usize = 10;
     let name = format!("grouser{}", std::env::consts::EXE_SUFFIX);

@@ -28,6 +28,7 @@ use std::path::PathBuf;
 
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use grouser::answers::EVERY_MODEL;
 use grouser::contact::Model;
 
 use crate::output::Format;
@@ -198,9 +199,6 @@ pub(crate) struct SettingArgs {
     #[arg(long = "gravity-m-s2", value_name = "G", allow_hyphen_values = true)]
     pub(crate) gravity: Option<String>,
 }
-
-/// The word for every model.
-pub(crate) const EVERY_MODEL: &str = "all";
 
 /// The help of `--model` in commands that take [`EVERY_MODEL`].
 const MODEL_OR_ALL: &str = "The wheel-soil model: `ishigami`, `bekker`, `small-wheel` or `rft`, or \

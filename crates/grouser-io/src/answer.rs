@@ -38,7 +38,7 @@ pub struct Answer {
     pub title: String,
     /// What it was computed from, in the words and units of documents.
     pub inputs: Map<String, Value>,
-    /// The models of a band with their shares; nothing without a band.
+    /// The models of a band with their shares, as JSON has them; `None` where it has no such key.
     pub model_weights: Option<Value>,
     /// The results of JSON, in their order.
     pub results: Vec<Member>,
@@ -62,7 +62,8 @@ pub struct Answer {
 pub enum Member {
     /// A list of rows under a key.
     Rows(&'static str, Arc<Table>),
-    /// The first row of a table, under a key; without one its entries stand in the answer itself.
+    /// The row of a table that has one, under a key; without one its entries stand in the answer
+    /// itself.
     Row(Option<&'static str>, Table),
     /// Anything else, under a key.
     Value(&'static str, Value),
@@ -85,7 +86,7 @@ pub enum Displayed {
         crossing: CrossTable,
     },
     /// Columns of some of many rows, as far apart as each other.
-    Some {
+    Excerpt {
         /// All rows.
         table: Arc<Table>,
         /// The columns.
@@ -106,7 +107,9 @@ pub struct CrossTable {
     pub titles: Vec<String>,
     /// The column that goes down.
     pub down: &'static str,
-    /// The column that goes across; its values change last.
+    /// How many values it has.
+    pub rows_down: usize,
+    /// The column that goes across; its values change slowest.
     pub across: &'static str,
     /// What goes across, for reading.
     pub across_label: String,
@@ -197,15 +200,35 @@ impl Answer {
 
     /// Adds a figure to the page.
     ///
-    /// * `file`: its name without the ending; empty: it is on the page alone
-    pub fn figure(&mut self, file: &str, figure: impl Into<Figure>, caption: impl Into<String>) {
-        let file = (!file.is_empty()).then(|| file.to_owned());
+    /// * `file`: its name without the ending, if it is a file too
+    pub fn figure(
+        &mut self,
+        file: Option<&str>,
+        figure: impl Into<Figure>,
+        caption: impl Into<String>,
+    ) {
+        let file = file.map(str::to_owned);
         self.page.push(PageBlock::Figure { figure: figure.into(), caption: caption.into(), file });
     }
 
     /// Adds columns of a table to the page.
     pub fn rows(&mut self, caption: &'static str, table: &Arc<Table>, columns: Vec<String>) {
         self.page.push(PageBlock::Rows { caption, table: Arc::clone(table), columns });
+    }
+
+    /// Adds a sentence that answers the question to the page.
+    pub fn verdict(&mut self, text: impl Into<String>) {
+        self.page.push(PageBlock::Verdict(text.into()));
+    }
+
+    /// Adds a list to the page.
+    pub fn list(&mut self, items: impl IntoIterator<Item = String>) {
+        self.page.push(PageBlock::List(items.into_iter().collect()));
+    }
+
+    /// Adds small charts side by side to the page.
+    pub fn charts(&mut self, charts: Vec<Chart>) {
+        self.page.push(PageBlock::Charts(charts));
     }
 
     /// Adds a paragraph to the page.

@@ -97,14 +97,14 @@ impl Table {
         }
     }
 
-    /// The ends of a band over a quantity, (x, low, high), where all three are there.
+    /// The edges of a band over a quantity, (x, low, high), in the rows that have all three.
     ///
-    /// * `band`: the names of the columns of a band or of a probability: of its low end, its middle
-    ///   and its high end
+    /// * `ends`: the names of the columns of its low and its high end
     #[must_use]
-    pub fn edges(&self, over: Quantity, [low, _, high]: [String; 3]) -> Vec<(f64, f64, f64)> {
-        let ends = self.points(over.name, &low).zip(self.points(over.name, &high));
-        ends.map(|((x, low), (_, high))| (x, low, high)).collect()
+    pub fn edges(&self, over: Quantity, ends: [&str; 2]) -> Vec<(f64, f64, f64)> {
+        let [lows, highs] = ends.map(|end| self.numbers(end));
+        let rows = self.numbers(over.name).iter().zip(lows.iter().zip(highs));
+        rows.filter_map(|(x, (low, high))| Some(((*x)?, (*low)?, (*high)?))).collect()
     }
 
     /// Some columns of some rows, by names and places.
@@ -240,5 +240,27 @@ impl Serialize for Row<'_> {
         let mut map = serializer.serialize_map(Some(self.table.columns.len()))?;
         self.write(&mut map)?;
         map.end()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::columns::{SLIP_RATIO, SLOPE};
+
+    #[test]
+    fn a_row_that_lacks_one_end_has_no_edges() {
+        let [low, _, high] = SLIP_RATIO.quantiles();
+        let column = |name: &str, numbers: [Option<f64>; 3]| {
+            (name.to_owned(), Values::Float(numbers.to_vec()))
+        };
+        let table = Table {
+            columns: vec![
+                column(SLOPE.name, [Some(5.0), Some(10.0), Some(15.0)]),
+                column(&low, [Some(0.1), Some(0.2), Some(0.3)]),
+                column(&high, [Some(0.4), None, Some(0.6)]),
+            ],
+        };
+        assert_eq!(table.edges(SLOPE, [&low, &high]), [(5.0, 0.1, 0.4), (15.0, 0.3, 0.6)]);
     }
 }

@@ -1,5 +1,5 @@
 //! Questions with their answers: from the documents that a question is about to the tables, figures
-//! and sentences that every front end shows.
+//! and sentences that the program shows.
 
 pub mod forecast;
 pub mod heading;
@@ -19,9 +19,9 @@ use crate::error::ParameterError;
 pub use self::samples::{Sampling, weights};
 pub use grouser_io::answer::*;
 
-/// How far an answer goes, and what it asks on its way.
+/// Whether an answer has a page, refuses flags, and whom it asks on its way.
 #[derive(Clone, Copy)]
-pub struct Depth<'a> {
+pub struct AnswerOptions<'a> {
     /// Whether it has figures and a page: their curves need more points than the rows.
     pub has_page: bool,
     /// Whether a flag of validity is an error.
@@ -30,31 +30,44 @@ pub struct Depth<'a> {
     pub go_on: &'a (dyn Fn() -> bool + Sync),
 }
 
-impl Depth<'_> {
+impl AnswerOptions<'_> {
     /// The rows and sentences alone, flags among them, all samples.
-    pub const ROWS: Depth<'static> = Depth { has_page: false, is_strict: false, go_on: &|| true };
+    pub const ROWS: AnswerOptions<'static> =
+        AnswerOptions { has_page: false, is_strict: false, go_on: &|| true };
 
-    /// Checks that no row carries a flag, if that is asked for.
-    ///
-    /// * `rows`: the flags of each row
-    /// * `table`: the same rows
-    /// * `settings`: the columns that tell rows apart
+    /// Checks that no row carries a flag, if that is asked for: [`check_flags`].
     fn check<'f>(
         &self,
         rows: impl IntoIterator<Item = &'f [Finding]>,
         table: &Table,
         settings: &[&str],
     ) -> Result<(), OutsideDomain> {
-        if !self.is_strict {
-            return Ok(());
-        }
-        let named = |place: usize| {
-            let row = table.select(settings, &[place]);
-            format!("row {} ({})", place + 1, reading::row_in_words(&row.row(0)))
-        };
-        OutsideDomain::check(rows, named)
+        if self.is_strict { check_flags(rows, table, settings) } else { Ok(()) }
     }
 }
+
+/// Checks that no row carries a flag.
+///
+/// * `rows`: the flags of each row
+/// * `table`: the same rows
+/// * `settings`: the columns that tell rows apart
+///
+/// # Errors
+/// [`OutsideDomain`] with the flags and their first rows.
+pub fn check_flags<'f>(
+    rows: impl IntoIterator<Item = &'f [Finding]>,
+    table: &Table,
+    settings: &[&str],
+) -> Result<(), OutsideDomain> {
+    let named = |place: usize| {
+        let row = table.select(settings, &[place]);
+        format!("row {} ({})", place + 1, reading::row_in_words(&row.row(0)))
+    };
+    OutsideDomain::check(rows, named)
+}
+
+/// What stands for every model, in inputs and as a choice.
+pub const EVERY_MODEL: &str = "all";
 
 /// Why a question has no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -68,6 +81,12 @@ pub enum AnswerError {
     /// The soil's uncertainty reaches beyond the ranges of its keys.
     #[error(transparent)]
     Samples(#[from] NothingAccepted),
+    /// A list that is asked about is empty.
+    #[error("there are no {0} to answer for")]
+    Empty(&'static str),
+    /// Two choices that have no answer together.
+    #[error("{0} and {1} have no answer together")]
+    Together(&'static str, &'static str),
     /// It was stopped on the way.
     #[error("it was stopped before its end")]
     Stopped,

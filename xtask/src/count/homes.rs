@@ -17,13 +17,14 @@ type Rule = fn(&Sources) -> usize;
 
 /// What is counted, the most that there may be, and by which rule. A limit only ever gets smaller.
 ///
-/// Lines of Rust were 98,800 at the most before strings were wrapped at a hundred columns.
+/// Lines of Rust were 98,800 at the most before strings were wrapped at a hundred columns (some 500
+/// more) and before six commands had questions in the library (some 250 more).
 const COUNTS: [(&str, usize, Rule); 9] = [
     ("lines of Rust without comments and tests", 99_560, |all| all.rust.iter().map(lines).sum()),
     ("lines of Python without comments and tests", 8_110, |all| all.python.iter().map(lines).sum()),
     ("files that name three outcomes or more as text", 1, outcome_homes),
-    ("inputs of an answer written by hand (`fn settings`)", 13, |all| {
-        all.rust_count("fn settings(")
+    ("inputs of an answer written by hand (`fn settings`, `fn state`)", 19, |all| {
+        all.rust_count("fn settings(") + all.rust_count("fn state(&self, answer")
     }),
     ("records of results beside column tables (`derive(Serialize)`)", 56, |all| {
         all.rust.iter().map(|(_, text)| text.matches("Serialize)]").count()).sum()

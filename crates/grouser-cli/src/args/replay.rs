@@ -9,11 +9,14 @@ use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs, TelemetryArgs, Uncer
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Velocities, torques and sinkages are predicted at the attitude and the wheel speeds that were read; the \
-                        track and the yaw by a run from the first pose with these wheel speeds. The differences point to \
-                        the soil, a speed, a slope or the mounting of a sensor, or to nothing.\n\
-                        Example:\n  grouser replay drive.csv --rover hakuto --soil toyoura --out replayed\n\
-                        docs/guide/replay.md explains the channels, the findings, and how far they are to be trusted."
+    after_help = "Velocities, torques and sinkages are predicted at the attitude and the wheel \
+                  speeds that were read; the track and the yaw by a run from the first pose with \
+                  these wheel speeds. The differences point to the soil, a speed, a slope or the \
+                  mounting of a sensor, or to nothing.\n\
+                  Example:\n  \
+                  grouser replay drive.csv --rover hakuto --soil toyoura --out replayed\n\
+                  docs/guide/replay.md explains the channels, the findings, and how far they are \
+                  to be trusted."
 )]
 pub(crate) struct ReplayArgs {
     /// Telemetry of the drive (`telemetry/1` as CSV or Parquet, or MCAP), or `-` to read CSV from

@@ -52,12 +52,14 @@ fn repeat(args: &ForecastArgs, inputs: &ForecastInputs) -> String {
     let study = &inputs.study;
     let samples =
         format!("{} --discrepancies {} --seed {}", args.samples, args.discrepancies, args.seed);
-    let (site, measured, slopes) = (&args.site, study.measured_under, args.slope_deg.joined());
+    let (site, slopes) = (&args.site, args.slope_deg.joined());
+    let measured = args.measured_gravity.as_ref();
+    let measured = measured.map_or(String::new(), |it| format!(" --measured-gravity-m-s2 {it}"));
     let (speed, scalings, masses) = (study.rim_speed, args.scaling.join(","), args.mass.join(","));
     let grounds = grounds(study).join(",");
     let model = args.model.as_ref().map_or(String::new(), |model| format!(" --model {model}"));
     format!(
-        "grouser forecast scenario.toml --site {site} --measured-gravity-m-s2 {measured} \
+        "grouser forecast scenario.toml --site {site}{measured} \
          --slope-deg {slopes} --rim-speed-m-s {speed} --ground {grounds} --scaling {scalings} \
          --mass {masses}{model} --samples {samples}"
     )

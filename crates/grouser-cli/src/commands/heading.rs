@@ -1,6 +1,6 @@
 //! `grouser heading`: the heading offset that holds the contour on a slope.
 
-use grouser::answers::Depth;
+use grouser::answers::AnswerOptions;
 use grouser::answers::heading::HeadingQuestion;
 use grouser::studies::heading::Steering;
 
@@ -15,10 +15,9 @@ use crate::output::folder::OutputFolder;
 pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let question = inputs::heading(args)?;
-    let samples = question.sampling.map_or(0, |it| it.count as usize * question.scenarios.len());
-    let answer = sampling::with_bar(samples, |go_on| {
+    let answer = sampling::with_bar(question.samples(), |go_on| {
         let (has_page, is_strict) = (folder.is_some(), args.strict.strict);
-        question.answer(command, &Depth { has_page, is_strict, go_on })
+        question.answer(command, &AnswerOptions { has_page, is_strict, go_on })
     })?;
     give(&answer, &repeat(command, args, &question), folder, args.output.format)
 }

@@ -1,6 +1,6 @@
 //! `grouser heading-map`: the heading offset over slope, course and soil.
 
-use grouser::answers::Depth;
+use grouser::answers::AnswerOptions;
 use grouser::answers::heading_map::HeadingMapQuestion;
 
 use super::sampling;
@@ -17,7 +17,7 @@ pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
     let question = inputs::heading_map(args)?;
     let answer = sampling::with_bar(question.samples(), |go_on| {
         let (has_page, is_strict) = (folder.is_some(), args.strict.strict);
-        question.answer(command, &Depth { has_page, is_strict, go_on })
+        question.answer(command, &AnswerOptions { has_page, is_strict, go_on })
     })?;
     give(&answer, &repeat(command, args, &question), folder, args.output.format)
 }

@@ -10,23 +10,15 @@ use crate::output;
 
 /// The samples.
 pub(crate) fn draw(inputs: &BandInputs, samples: u32, seed: u64) -> Result<Vec<Sample>, Failure> {
-    inputs.samples(seed, samples).map_err(|error| {
-        Failure::Usage(format!(
-            "the soil's uncertainty reaches too far: {error}\nhint: smaller standard deviations \
-             keep the samples within the ranges of their keys"
-        ))
-    })
+    Ok(inputs.samples(seed, samples)?)
 }
 
 /// The samples of a scenario's soil and model.
-pub(crate) fn draw_of(
-    scenario: &LoadedScenario,
-    Sampling { count, seed }: Sampling,
-) -> Result<Vec<Sample>, Failure> {
-    draw(&BandInputs::of_scenario(scenario), count, seed)
+pub(crate) fn draw_of(scenario: &LoadedScenario, of: Sampling) -> Result<Vec<Sample>, Failure> {
+    Ok(of.draw(&BandInputs::of_scenario(scenario))?)
 }
 
-/// The key of [`weights`].
+/// The key of the models of a band with their shares.
 pub(super) const WEIGHTS: &str = "model_weights";
 
 /// Computes with a bar that goes on with every sample. The study asks whether to go on, and is

@@ -1,9 +1,8 @@
 //! Flags as errors, where `--strict` asks for it.
 
+use grouser::answers::check_flags;
 use grouser::contact::validity::Finding;
-use grouser::document::reading::row_in_words;
 use grouser::document::table::Table;
-use grouser::document::validity::OutsideDomain;
 
 use crate::args::StrictArgs;
 use crate::failure::Failure;
@@ -19,12 +18,5 @@ pub(crate) fn check<'f>(
     table: &Table,
     settings: &[&str],
 ) -> Result<(), Failure> {
-    if !args.strict {
-        return Ok(());
-    }
-    let named = |place: usize| {
-        let row = table.select(settings, &[place]);
-        format!("row {} ({})", place + 1, row_in_words(&row.row(0)))
-    };
-    Ok(OutsideDomain::check(rows, named)?)
+    if args.strict { Ok(check_flags(rows, table, settings)?) } else { Ok(()) }
 }

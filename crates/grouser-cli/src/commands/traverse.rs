@@ -4,6 +4,7 @@ mod of_model;
 mod page;
 
 use grouser::answers;
+use grouser::answers::EVERY_MODEL;
 use grouser::contact::validity::Flag;
 use grouser::document::LoadedScenario;
 use grouser::document::columns::run::{self, RunObject};
@@ -22,7 +23,7 @@ use self::of_model::{OfModel, RECORDS, chart, reason};
 use super::animation::Target;
 use super::destinations::Destinations;
 use super::{Answer, sampling};
-use crate::args::{EVERY_MODEL, TraverseArgs, UncertaintyArgs};
+use crate::args::{TraverseArgs, UncertaintyArgs};
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output::folder::OutputFolder;

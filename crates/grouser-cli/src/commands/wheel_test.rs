@@ -1,6 +1,6 @@
 //! `grouser wheel-test`: forces and sinkage of one wheel on a test stand.
 
-use grouser::answers::Depth;
+use grouser::answers::AnswerOptions;
 use grouser::answers::wheel_test::{SimulatedStand, WheelTestQuestion};
 
 use super::sampling;
@@ -14,10 +14,9 @@ use crate::output::folder::OutputFolder;
 pub(crate) fn run(args: &WheelTestArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let question = inputs::wheel_test(args)?;
-    let samples = question.sampling.map_or(0, |it| it.count as usize * question.models.len());
-    let answer = sampling::with_bar(samples, |go_on| {
+    let answer = sampling::with_bar(question.samples(), |go_on| {
         let (has_page, is_strict) = (folder.is_some(), args.strict.strict);
-        question.answer("wheel-test", &Depth { has_page, is_strict, go_on })
+        question.answer("wheel-test", &AnswerOptions { has_page, is_strict, go_on })
     })?;
     give(&answer, &repeat(args, &question), folder, args.output.format)
 }

@@ -13,6 +13,9 @@ use crate::failure::Failure;
 pub(crate) fn heading(args: &HeadingArgs) -> Result<HeadingQuestion, Failure> {
     check_slopes(&args.slope_deg)?;
     let (name, sampling) = (args.scenario.as_deref(), args.uncertainty.sampling());
+    if let Some(sampling) = sampling {
+        check_samples(sampling.count, args.slope_deg.0.len())?;
+    }
     let (rover, soil) = (args.parts.rover.as_ref(), args.parts.soil.as_ref());
     let read = |setting: &SettingArgs| {
         let scenario = balanced("heading", name, rover, soil, setting, &args.balance)?;
@@ -23,9 +26,6 @@ pub(crate) fn heading(args: &HeadingArgs) -> Result<HeadingQuestion, Failure> {
     };
     let settings = args.setting.each_model();
     let scenarios = settings.iter().map(read).collect::<Result<Vec<_>, Failure>>()?;
-    if let Some(sampling) = sampling {
-        check_samples(sampling.count, args.slope_deg.0.len())?;
-    }
     Ok(HeadingQuestion {
         scenarios,
         slopes_deg: args.slope_deg.0.clone(),

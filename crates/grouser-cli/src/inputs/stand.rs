@@ -50,7 +50,9 @@ pub(crate) fn wheel_test(args: &WheelTestArgs) -> Result<WheelTestQuestion, Fail
     let stands = settings.iter().map(read).collect::<Result<Vec<_>, Failure>>()?;
     let models = stands.iter().map(|stand| (stand.model.clone(), stand.band.clone())).collect();
     // Stands differ by their models alone.
-    let StandInputs { soil, wheel, gravity, .. } = stand(&args.soil, &args.wheel, &settings[0])?;
+    let first = stands.into_iter().next();
+    let StandInputs { soil, wheel, gravity, .. } =
+        first.unwrap_or_else(|| unreachable!("some model is asked for"));
     let StandArgs { noise_n, noise_mm, noise_nm, seed, .. } = args.stand;
     let simulated = |trials| SimulatedStand { trials, noise_n, noise_mm, noise_nm, seed };
     Ok(WheelTestQuestion {

@@ -1,6 +1,7 @@
 //! The writer of answers: to a terminal, as JSON, as CSV, and into a folder with a page.
 
 use grouser::answers::{Answer, AnswerError, Displayed, PageBlock};
+use grouser::document::statistics::NothingAccepted;
 use grouser::document::table::Table;
 use grouser_draw::chart::Drawable;
 
@@ -66,14 +67,14 @@ fn text(answer: &Answer) -> Text {
             Some(_) => crossed::text(table, crossing),
             None => Rows::of_table(table).to_table(columns),
         },
-        Displayed::Some { table, columns, most, what } => some(table, columns, *most, what),
+        Displayed::Excerpt { table, columns, most, what } => excerpt(table, columns, *most, what),
         Displayed::Words(words) => words.into(),
     };
     answer.screen.iter().map(shown).collect()
 }
 
 /// Some of many rows, as far apart as each other, and where all are.
-fn some(table: &Table, columns: &[String], most: usize, what: &str) -> Text {
+fn excerpt(table: &Table, columns: &[String], most: usize, what: &str) -> Text {
     let count = table.rows();
     let shown: Vec<usize> = (0..count.min(most)).map(|row| row * count / count.min(most)).collect();
     let rows = Rows::of_table(&table.rows_at(&shown)).to_table(columns);
@@ -104,11 +105,18 @@ impl From<AnswerError> for Failure {
         match error {
             AnswerError::Parameter(error) => error.into(),
             AnswerError::OutsideDomain(error) => error.into(),
-            AnswerError::Samples(error) => Self::Usage(format!(
-                "the soil's uncertainty reaches too far: {error}\nhint: smaller standard \
-                 deviations keep the samples within the ranges of their keys"
-            )),
+            AnswerError::Samples(error) => error.into(),
             AnswerError::Stopped => Self::Interrupted(error.to_string()),
+            AnswerError::Empty(_) | AnswerError::Together(..) => Self::Usage(error.to_string()),
         }
+    }
+}
+
+impl From<NothingAccepted> for Failure {
+    fn from(error: NothingAccepted) -> Self {
+        Self::Usage(format!(
+            "the soil's uncertainty reaches too far: {error}\nhint: smaller standard deviations \
+             keep the samples within the ranges of their keys"
+        ))
     }
 }

@@ -50,7 +50,7 @@ impl Reasons {
 
 /// The cells of a column; where there is no number, the mark of the reason.
 ///
-/// * `part`: rows whose value of the column across changes last
+/// * `part`: a block, in which the value of the column across changes slowest
 fn grid(part: &Table, name: &str, crossing: &CrossTable, reasons: &mut Reasons) -> Grid {
     let numbers = part.numbers(name);
     let statuses = part.texts(STATUS);
@@ -60,15 +60,13 @@ fn grid(part: &Table, name: &str, crossing: &CrossTable, reasons: &mut Reasons) 
         (None, _) => "-".to_owned(),
     };
     let all = |name: &str| part.numbers(name).iter().map(|it| it.unwrap_or(f64::NAN));
-    let across: Vec<f64> = all(crossing.across).collect();
-    let blocks: Vec<&[f64]> = across.chunk_by(|one, next| one == next).collect();
-    let rows = part.rows() / blocks.len().max(1);
+    let rows = crossing.rows_down.max(1);
+    let across: Vec<f64> = all(crossing.across).step_by(rows).collect();
     let first = std::iter::once(crossing.down.to_owned());
-    let header: Vec<String> =
-        first.chain(blocks.iter().map(|block| four_digits(block[0]))).collect();
+    let header: Vec<String> = first.chain(across.iter().map(|it| four_digits(*it))).collect();
     let row = |(place, down): (usize, f64)| {
         let mut cells = vec![four_digits(down)];
-        cells.extend((0..blocks.len()).map(|block| cell(block * rows + place)));
+        cells.extend((0..across.len()).map(|column| cell(column * rows + place)));
         cells
     };
     let cells: Vec<Vec<String>> = all(crossing.down).take(rows).enumerate().map(row).collect();
@@ -90,4 +88,42 @@ fn flag_lines(table: &Table) -> String {
             .then(|| format!("{} ({count} of {} places): {meaning}\n", flag.name(), all.len()))
     };
     Flag::ALL.into_iter().filter_map(line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use grouser::document::columns::{COURSE, SLOPE, YAW};
+    use grouser::document::table::Values;
+
+    use super::*;
+
+    #[test]
+    fn every_column_of_a_repeated_value_has_its_own_cells() {
+        let column = |name: &str, numbers: &[f64]| {
+            (name.to_owned(), Values::Float(numbers.iter().copied().map(Some).collect()))
+        };
+        let status = Values::Text(vec![Some(OK.to_owned()); 6]);
+        let table = Table {
+            columns: vec![
+                column(COURSE.name, &[0.0, 0.0, 0.0, 0.0, 30.0, 30.0]),
+                column(SLOPE.name, &[5.0, 10.0, 5.0, 10.0, 5.0, 10.0]),
+                column(YAW.name, &[1.0, 2.0, 1.0, 2.0, 31.0, 32.0]),
+                (STATUS.to_owned(), status),
+            ],
+        };
+        let crossing = CrossTable {
+            titles: vec!["sand".into()],
+            down: SLOPE.name,
+            rows_down: 2,
+            across: COURSE.name,
+            across_label: "course".into(),
+            cells: vec![YAW.name.into()],
+        };
+        let shown = text(&table, &crossing).to_string();
+        let rows: Vec<Vec<&str>> =
+            shown.lines().map(|line| line.split_whitespace().collect()).collect();
+        assert_eq!(rows[1], ["slope_deg", "0", "0", "30"]);
+        assert_eq!(rows[2], ["5", "1", "1", "31"]);
+        assert_eq!(rows[3], ["10", "2", "2", "32"]);
+    }
 }

@@ -209,14 +209,8 @@ pub(crate) fn drift(study: &Reproduction) -> Figure {
                   The paper prints no sign; all predictions are downhill."
             .into(),
         chart: Chart::new(
-            "Drift at the measured \
-                           yaw",
-            (
-                "slope \
-                                                         [°]",
-                "distance from the contour \
-            [mm]",
-            ),
+            "Drift at the measured yaw",
+            ("slope [°]", "distance from the contour [mm]"),
             vec![
                 Series::new("nose along the contour", Style::Dotted, 3, level),
                 Series::new("at the measured yaw, predicted", Style::Squares, 1, ours),

@@ -50,8 +50,7 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
                 ),
                 word(
                     Study::Mission.name(),
-                    "A mission, and what became of each of its \
-                                             legs.",
+                    "A mission, and what became of each of its legs.",
                     |all| {
                         all.study = Study::Mission;
                     },
@@ -73,8 +72,7 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
             "seed",
             0..=LARGEST_SEED,
             "uint64",
-            "Seed of the random numbers: the same seed, the \
-                                                   same samples.",
+            "Seed of the random numbers: the same seed, the same samples.",
             |all: &mut Settings, seed| {
                 all.seed = seed;
             },
@@ -92,12 +90,9 @@ pub(crate) static CAMPAIGN: Table<Settings> = Table {
             "sampling",
             "How the samples are spread.",
             &[
-                word(
-                    "monte-carlo",
-                    "Independent \
-                                     samples.",
-                    |all: &mut Settings| all.sampling = Sampling::MonteCarlo,
-                ),
+                word("monte-carlo", "Independent samples.", |all: &mut Settings| {
+                    all.sampling = Sampling::MonteCarlo;
+                }),
                 word(
                     "latin-hypercube",
                     "One sample in each of as many equal parts of every input's distribution as \

@@ -115,8 +115,7 @@ static SENSORS: Table<Sensors> = Table {
             "heading_std_deg",
             DEG,
             0.0..=45.0,
-            "Standard deviation of a measured \
-                                                    heading",
+            "Standard deviation of a measured heading",
             |it: &mut Sensors| Some(&mut it.heading_deviation),
         )
         .or(1.0),
@@ -132,8 +131,7 @@ static SENSORS: Table<Sensors> = Table {
             "heading_delay_s",
             S,
             0.0..=60.0,
-            "How old a heading is when it is \
-                                                  known",
+            "How old a heading is when it is known",
             |it: &mut Sensors| Some(&mut it.heading_delay),
         )
         .or(0.0),
@@ -150,8 +148,7 @@ static SENSORS: Table<Sensors> = Table {
             "odometry_interval_m",
             M,
             100.0,
-            "Way of the rims between two \
-                                                   fixes",
+            "Way of the rims between two fixes",
             |it: &mut Sensors| Some(&mut it.odometry_interval),
         )
         .or(0.5),
@@ -159,8 +156,7 @@ static SENSORS: Table<Sensors> = Table {
             "seed",
             0..=LARGEST_SEED,
             "uint64",
-            "Which realisation of the \
-                                                   errors.",
+            "Which realisation of the errors.",
             |it: &mut Sensors, seed| {
                 it.seed = seed;
             },
@@ -206,8 +202,7 @@ static LEG: Table<LegKeys> = Table {
             &[
                 word(
                     "ground",
-                    "The way of the centre of mass over the \
-                                ground.",
+                    "The way of the centre of mass over the ground.",
                     |leg: &mut LegKeys| {
                         leg.by = Some(Measure::Ground);
                     },
@@ -252,8 +247,7 @@ static LEG: Table<LegKeys> = Table {
             &[
                 word(
                     "sides",
-                    "The speeds of its sides: wheels slip \
-                               sideways.",
+                    "The speeds of its sides: wheels slip sideways.",
                     |leg: &mut LegKeys| {
                         leg.steering = Some(Steering::Sides);
                     },
@@ -269,8 +263,7 @@ static LEG: Table<LegKeys> = Table {
         .optional(),
         flag(
             "reverse",
-            "Whether an arc, or the way to a place, is driven \
-                         backward.",
+            "Whether an arc, or the way to a place, is driven backward.",
             |leg: &mut LegKeys, yes| {
                 leg.reverse = yes;
             },

@@ -58,8 +58,7 @@ pub(crate) static MOTOR: Table<Motor> = Table {
             "resistance_ohm",
             OHM,
             1e6,
-            "Resistance of the winding at 20 °C, \
-                                              R",
+            "Resistance of the winding at 20 °C, R",
             |motor: &mut Motor| Some(&mut motor.resistance),
         ),
         positive(
@@ -80,8 +79,7 @@ pub(crate) static MOTOR: Table<Motor> = Table {
             "gear_efficiency",
             ONE,
             0.01..=1.0,
-            "Efficiency of the gear, \
-                                                    η",
+            "Efficiency of the gear, η",
             |motor: &mut Motor| Some(&mut motor.efficiency),
         ),
         number(
@@ -212,8 +210,7 @@ pub(super) static BATTERY: Table<Battery> = Table {
             "capacity_wh",
             WH,
             1e9,
-            "Energy that it holds when it is \
-                                          full",
+            "Energy that it holds when it is full",
             |battery: &mut Battery| Some(&mut battery.capacity),
         ),
         positive(

@@ -113,12 +113,9 @@ impl<T: OfScenario> Run<T> {
                 "The same, with the wheels' torque in pitch.",
                 |all: &mut T| all.scenario().sharing = LoadSharing::QuasiStaticTorque,
             ),
-            word(
-                "uniform",
-                "Equal \
-                                 loads.",
-                |all: &mut T| all.scenario().sharing = LoadSharing::Uniform,
-            ),
+            word("uniform", "Equal loads.", |all: &mut T| {
+                all.scenario().sharing = LoadSharing::Uniform;
+            }),
         ],
     )
     .otherwise(Fill::Keyword("complete"));

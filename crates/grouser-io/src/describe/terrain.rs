@@ -119,8 +119,7 @@ pub(super) static TERRAIN: Laws<Ground> = Laws {
                         BAND,
                         1..=65_535,
                         "uint16",
-                        "Which band of a GeoTIFF has the heights, \
-                                                       from 1.",
+                        "Which band of a GeoTIFF has the heights, from 1.",
                         |_, _| {},
                     )
                     .optional(),
@@ -144,11 +143,9 @@ pub(super) static TERRAIN: Laws<Ground> = Laws {
                 doc: "A plane through the map's origin.",
                 fields: &[
                     slope(|it| Some(&mut incline(it)?.slope)),
-                    uphill(
-                        "Direction in which it rises, from east to the \
-                            left",
-                        |it| Some(&mut incline(it)?.uphill),
-                    ),
+                    uphill("Direction in which it rises, from east to the left", |it| {
+                        Some(&mut incline(it)?.uphill)
+                    }),
                     STARTS,
                     zones::SOIL_FILE,
                     zones::ZONES,
@@ -164,24 +161,16 @@ pub(super) static TERRAIN: Laws<Ground> = Laws {
                 fields: &[
                     place(
                         "foot_m",
-                        "A place on the line where it starts, x and y; left out, the \
-                                     origin",
+                        "A place on the line where it starts, x and y; left out, the origin",
                         |terrain, axis| ramp(terrain)?.foot.get_mut(axis),
                     ),
                     slope(|it| Some(&mut ramp(it)?.slope)),
-                    uphill(
-                        "Direction in which it rises, from east to the \
-                            left",
-                        |it| Some(&mut ramp(it)?.uphill),
-                    ),
-                    positive(
-                        "length_m",
-                        M,
-                        LARGEST,
-                        "Its length on the \
-                                                      map",
-                        |it| Some(&mut ramp(it)?.length),
-                    ),
+                    uphill("Direction in which it rises, from east to the left", |it| {
+                        Some(&mut ramp(it)?.uphill)
+                    }),
+                    positive("length_m", M, LARGEST, "Its length on the map", |it| {
+                        Some(&mut ramp(it)?.length)
+                    }),
                     rounding(
                         "Length on the map over which the slope changes, at its foot and at \
                               its top",
@@ -202,8 +191,7 @@ pub(super) static TERRAIN: Laws<Ground> = Laws {
                 fields: &[
                     place(
                         "tip_m",
-                        "Where its axis is, x and y; left out, the \
-                                    origin",
+                        "Where its axis is, x and y; left out, the origin",
                         |terrain, axis| cone(terrain)?.tip.get_mut(axis),
                     ),
                     number(
@@ -213,11 +201,9 @@ pub(super) static TERRAIN: Laws<Ground> = Laws {
                         "Inclination: above 0 a hill, below a pit",
                         |it| Some(&mut cone(it)?.slope),
                     ),
-                    rounding(
-                        "How far from the axis the tip is \
-                              rounded",
-                        |it| Some(&mut cone(it)?.rounding),
-                    ),
+                    rounding("How far from the axis the tip is rounded", |it| {
+                        Some(&mut cone(it)?.rounding)
+                    }),
                     STARTS,
                     zones::SOIL_FILE,
                     zones::ZONES,
@@ -238,27 +224,15 @@ pub(super) static TERRAIN: Laws<Ground> = Laws {
                         "Half of the height from trough to crest",
                         |it| Some(&mut ripple(it)?.amplitude),
                     ),
-                    positive(
-                        "wavelength_m",
-                        M,
-                        LARGEST,
-                        "Distance from crest to \
-                                                          crest",
-                        |it| Some(&mut ripple(it)?.wavelength),
-                    ),
-                    uphill(
-                        "Direction from crest to crest, from east to the \
-                            left",
-                        |it| Some(&mut ripple(it)?.across),
-                    ),
-                    number(
-                        "phase_deg",
-                        DEG,
-                        -360.0..=360.0,
-                        "Phase at the \
-                        origin",
-                        |it| Some(&mut ripple(it)?.phase),
-                    )
+                    positive("wavelength_m", M, LARGEST, "Distance from crest to crest", |it| {
+                        Some(&mut ripple(it)?.wavelength)
+                    }),
+                    uphill("Direction from crest to crest, from east to the left", |it| {
+                        Some(&mut ripple(it)?.across)
+                    }),
+                    number("phase_deg", DEG, -360.0..=360.0, "Phase at the origin", |it| {
+                        Some(&mut ripple(it)?.phase)
+                    })
                     .or(0.0),
                     STARTS,
                     zones::SOIL_FILE,
@@ -275,18 +249,12 @@ pub(super) static TERRAIN: Laws<Ground> = Laws {
                 fields: &[
                     place(
                         "centre_m",
-                        "Where its centre is, x and y; left out, the \
-                                       origin",
+                        "Where its centre is, x and y; left out, the origin",
                         |terrain, axis| crater(terrain)?.centre.get_mut(axis),
                     ),
-                    positive(
-                        "diameter_m",
-                        M,
-                        LARGEST,
-                        "Diameter of the \
-                                                        crest",
-                        |it| Some(&mut crater(it)?.diameter),
-                    ),
+                    positive("diameter_m", M, LARGEST, "Diameter of the crest", |it| {
+                        Some(&mut crater(it)?.diameter)
+                    }),
                     number(
                         "depth_m",
                         M,

@@ -9,7 +9,10 @@ use std::sync::Arc;
 
 use self::of_model::OfModel;
 pub use self::question::HeadingQuestion;
-use super::{Answer, AnswerError, Depth, Displayed, Member, PageBlock, meanings, samples};
+use super::{
+    Answer, AnswerError, AnswerOptions, Displayed, EVERY_MODEL, Member, PageBlock, meanings,
+    samples,
+};
 use crate::contact::validity::Finding;
 use crate::document::columns::heading::{self, held, steered};
 use crate::document::columns::{MODEL, SLOPE, wheel_speeds};
@@ -25,8 +28,9 @@ impl HeadingQuestion {
     /// # Errors
     /// [`AnswerError`]: a soil, a wheel or a ratio that is not valid, a soil whose uncertainty
     /// reaches too far, a flag where none is accepted, or a stop on the way.
-    pub fn answer(&self, name: &str, depth: &Depth<'_>) -> Result<Answer, AnswerError> {
-        let each = |scenario| OfModel::of(self, scenario, depth);
+    pub fn answer(&self, name: &str, options: &AnswerOptions<'_>) -> Result<Answer, AnswerError> {
+        self.check()?;
+        let each = |scenario| OfModel::of(self, scenario, options);
         let all: Vec<OfModel> = self.scenarios.iter().map(each).collect::<Result<_, _>>()?;
         let (mut rows, mut limits) = (Table::default(), Table::default());
         for of_model in &all {
@@ -50,7 +54,7 @@ impl HeadingQuestion {
         for (place, of_model) in all.iter().enumerate() {
             answer.attach(self.file(place), of_model.scenario);
         }
-        if depth.has_page {
+        if options.has_page {
             self.page(&mut answer, &all, rows, columns);
         }
         Ok(answer)
@@ -78,7 +82,7 @@ impl HeadingQuestion {
     /// The inputs of the answer.
     fn state(&self, answer: &mut Answer) {
         let first = &self.scenarios[0];
-        let model = if self.has_several() { "all" } else { first.value.model.name() };
+        let model = if self.has_several() { EVERY_MODEL } else { first.value.model.name() };
         let of_document = |key: &str| first.document.get(key).cloned().unwrap_or_default();
         for key in ["rover", "soil", "gravity_m_s2"] {
             answer.input(key, of_document(key));
@@ -119,14 +123,14 @@ impl HeadingQuestion {
         for of_model in all {
             let lines = of_model.lines(self.has_several());
             let verdict: Vec<String> = lines.lines().map(sentence).collect();
-            answer.page.push(PageBlock::Verdict(verdict.join(" ")));
+            answer.verdict(verdict.join(" "));
         }
         let document = &all[0].scenario.document;
         let name = |key: &str| document.text(key).unwrap_or("unnamed").to_owned();
-        answer.page.push(PageBlock::List(vec![
+        answer.list([
             format!("rover: {}", name("rover.name")),
             format!("soil: {}", name("soil.name")),
-        ]));
+        ]);
         self.figures(answer, all);
         answer.page.push(PageBlock::Rows { caption: "On each slope", table: rows, columns });
         answer.heading("Everything over the slope");

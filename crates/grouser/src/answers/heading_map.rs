@@ -5,8 +5,8 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use super::{
-    Answer, AnswerError, CrossTable, Depth, Displayed, Member, PageBlock, Sampling, meanings,
-    samples,
+    Answer, AnswerError, AnswerOptions, CrossTable, Displayed, Member, PageBlock, Sampling,
+    meanings, samples,
 };
 use crate::document::columns::heading::{self, held};
 use crate::document::columns::{COURSE, MODEL, Quantity, SLIP_RATIO, SLOPE, YAW};
@@ -37,7 +37,7 @@ pub struct HeadingMapQuestion {
 }
 
 impl HeadingMapQuestion {
-    /// How often [`Depth::go_on`] is asked.
+    /// How often [`AnswerOptions::go_on`] is asked.
     #[must_use]
     pub fn samples(&self) -> usize {
         let each = self.scenarios.len() * self.courses_deg.len();
@@ -49,14 +49,23 @@ impl HeadingMapQuestion {
     /// # Errors
     /// [`AnswerError`]: a soil or a course that is not valid, a soil whose uncertainty reaches too
     /// far, a flag where none is accepted, or a stop on the way.
-    pub fn answer(&self, name: &str, depth: &Depth<'_>) -> Result<Answer, AnswerError> {
+    pub fn answer(&self, name: &str, options: &AnswerOptions<'_>) -> Result<Answer, AnswerError> {
+        for (what, count) in [
+            ("scenarios", self.scenarios.len()),
+            ("slopes", self.slopes_deg.len()),
+            ("courses", self.courses_deg.len()),
+        ] {
+            if count == 0 {
+                return Err(AnswerError::Empty(what));
+            }
+        }
         let studies: Vec<HeadingStudy> =
             self.scenarios.iter().map(|scenario| HeadingStudy::of(&scenario.value)).collect();
         let courses = in_si(COURSE, &self.courses_deg);
         let map = HeadingMap::of(&studies, &courses, &in_si(SLOPE, &self.slopes_deg))?;
-        let table = Arc::new(self.table(&studies, &map, depth)?);
+        let table = Arc::new(self.table(&studies, &map, options)?);
         let flags = map.rows.iter().flat_map(|row| &row.findings);
-        depth.check(flags.map(|it| &**it), &table, &heading::SETTINGS)?;
+        options.check(flags.map(|it| &**it), &table, &heading::SETTINGS)?;
 
         let mut answer = Answer::new(name, "Heading offset over slope and course");
         self.state(&mut answer);
@@ -71,7 +80,7 @@ impl HeadingMapQuestion {
         for (place, scenario) in self.scenarios.iter().enumerate() {
             answer.attach(self.file(place), scenario);
         }
-        if depth.has_page {
+        if options.has_page {
             self.page(&mut answer, &map, table);
         }
         Ok(answer)
@@ -104,14 +113,14 @@ impl HeadingMapQuestion {
         &self,
         studies: &[HeadingStudy],
         map: &HeadingMap,
-        depth: &Depth<'_>,
+        options: &AnswerOptions<'_>,
     ) -> Result<Table, AnswerError> {
         let (names, rover) = (self.soils(), &self.scenarios[0].value.rover);
         let mut table = heading::map_table(map, &names, rover, self.rim_speed);
         if let Some(sampling) = self.sampling {
             let draw = |scenario| sampling.draw(&self.band_inputs(scenario));
             let samples = self.scenarios.iter().map(draw).collect::<Result<Vec<_>, _>>()?;
-            let bands = map.bands(studies, &samples, depth.go_on)?;
+            let bands = map.bands(studies, &samples, options.go_on)?;
             table = heading::map_with_bands(table, &bands.ok_or(AnswerError::Stopped)?);
         }
         if self.has_every_model {
@@ -165,6 +174,7 @@ impl HeadingMapQuestion {
         CrossTable {
             titles: self.titles(),
             down: SLOPE.name,
+            rows_down: self.slopes_deg.len(),
             across: COURSE.name,
             across_label: format!("{} (across, positive uphill)", COURSE.name),
             cells,
@@ -209,18 +219,17 @@ impl HeadingMapQuestion {
     }
 
     fn page(&self, answer: &mut Answer, map: &HeadingMap, table: Arc<Table>) {
-        answer.page.push(PageBlock::Verdict(sentence(map)));
-        answer.page.push(PageBlock::Words(
+        answer.verdict(sentence(map));
+        answer.words(
             "A course is the direction of travel, counted from the contour line: 0° is along it, \
              90° straight up, −90° straight down. The yaw beyond the course is how far the nose \
-             must point uphill of the way that the rover shall take."
-                .into(),
-        ));
+             must point uphill of the way that the rover shall take.",
+        );
         for (place, name) in self.titles().iter().enumerate() {
             let number = self.number(place);
             for (file, figure) in self.figures(map, &table, place, name) {
                 let caption = "Grey: no heading holds the course.";
-                answer.figure(&format!("{file}{number}"), figure, caption);
+                answer.figure(Some(&format!("{file}{number}")), figure, caption);
             }
         }
         answer.heading("Every slope and course");

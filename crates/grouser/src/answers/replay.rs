@@ -104,13 +104,13 @@ impl ReplayQuestion {
         let verdicts = found.sentences.iter().map(|it| PageBlock::Verdict(sentence(it)));
         answer.page.extend(verdicts);
         let name = |key: &str| self.scenario.document.text(key).unwrap_or("unnamed").to_owned();
-        answer.page.push(PageBlock::List(vec![
+        answer.list([
             format!("rover: {}", name("rover.name")),
             format!("soil: {}", name("soil.name")),
             format!("model: {}", self.scenario.value.model.name()),
-        ]));
-        answer.page.push(PageBlock::List(found.whole()));
-        answer.page.push(PageBlock::List(found.notes.clone()));
+        ]);
+        answer.list(found.whole());
+        answer.list(found.notes.clone());
         let (channels, findings) = found.brief();
         answer.heading("What the differences point to");
         let caption = "What may be wrong, and by how much";
@@ -124,7 +124,7 @@ impl ReplayQuestion {
             ("Run freely from the first pose", Prediction::FreeRun),
         ] {
             answer.heading(title);
-            answer.page.push(PageBlock::Charts(found.charts(prediction)));
+            answer.charts(found.charts(prediction));
         }
         let first = |it: &Channel| *it == it.of_first_wheel();
         let channels = Channel::all(found.rover.wheel_count()).into_iter().filter(first);
@@ -204,7 +204,8 @@ impl Found<'_> {
         let over = |name: &str| -> Vec<(f64, f64)> {
             self.over_time.points(TIME.name, &named(name)).collect()
         };
-        let edges = self.over_time.edges(TIME, quantity.quantiles().map(|name| named(&name)));
+        let [low, _, high] = quantity.quantiles().map(|name| named(&name));
+        let edges = self.over_time.edges(TIME, [&low, &high]);
         let mut series = Vec::new();
         if !edges.is_empty() {
             series.push(Series::band("95 %", BAND_COLOUR, edges));

@@ -2,8 +2,9 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{Answer, AnswerError};
+use super::Answer;
 use crate::contact::Model;
+use crate::document::statistics::NothingAccepted;
 use crate::studies::ensemble::samples::{BandInputs, Sample};
 
 /// How many samples, and of which stream of random numbers.
@@ -17,8 +18,11 @@ pub struct Sampling {
 
 impl Sampling {
     /// Draws the samples.
-    pub(super) fn draw(self, inputs: &BandInputs) -> Result<Vec<Sample>, AnswerError> {
-        Ok(inputs.samples(self.seed, self.count)?)
+    ///
+    /// # Errors
+    /// [`NothingAccepted`] if the soil's uncertainty reaches beyond the ranges of its keys.
+    pub fn draw(self, inputs: &BandInputs) -> Result<Vec<Sample>, NothingAccepted> {
+        inputs.samples(self.seed, self.count)
     }
 
     /// Adds the samples to the inputs of an answer.

@@ -98,8 +98,8 @@ impl SlipQuestion {
             notes.push(if some(|record| record.course.is_some()) {
                 "slip angles are those of the yaw against the course".to_owned()
             } else {
-                "slip angles are those of a rover that goes where it points; one that holds the \
-                 contour has a course of 0°"
+                "slip angles are those of a rover that goes where it points; \
+                 course_deg = 0 is for one that holds the contour"
                     .to_owned()
             });
         }
@@ -132,21 +132,21 @@ impl SlipQuestion {
     }
 
     fn page(&self, answer: &mut Answer, rows: Arc<Table>, wheels: Arc<Table>, notes: Vec<String>) {
-        answer.page.push(PageBlock::Verdict(verdict(&wheels)));
+        answer.verdict(verdict(&wheels));
         let name = |key: &str| self.scenario.document.text(key).unwrap_or("unnamed").to_owned();
-        answer.page.push(PageBlock::List(vec![
+        answer.list([
             format!("rover: {}", name("rover.name")),
             format!("soil: {}", name("soil.name")),
-        ]));
-        answer.page.push(PageBlock::List(notes));
+        ]);
+        answer.list(notes);
         answer.heading("Each wheel over time");
         for (wheel, chart) in charts(&self.scenario.value.rover, &rows) {
-            answer.figure(&format!("figures/{wheel}"), chart, CAPTION);
+            answer.figure(Some(&format!("figures/{wheel}")), chart, CAPTION);
         }
         answer.heading("What it comes to");
         let (caption, columns) = ("Each wheel, and all of them", wheels.names());
         answer.page.push(PageBlock::Rows { caption, table: wheels, columns });
-        answer.page.push(PageBlock::List(states(&rows).lines().map(String::from).collect()));
+        answer.list(states(&rows).lines().map(String::from));
         answer.heading("Every reading");
         let (caption, columns) = ("Readings and slip", brief(&rows));
         answer.page.push(PageBlock::Rows { caption, table: rows, columns });
@@ -160,7 +160,7 @@ impl SlipQuestion {
 fn screen(answer: &mut Answer, rows: &Arc<Table>, wheels: &Arc<Table>, notes: &[String]) {
     let notes: String = notes.iter().map(|note| format!("note: {note}\n")).collect();
     answer.screen = vec![
-        Displayed::Some {
+        Displayed::Excerpt {
             table: Arc::clone(rows),
             columns: brief(rows),
             most: ROWS,
@@ -209,8 +209,8 @@ fn charts(rover: &Rover, rows: &Table) -> Vec<(String, Chart)> {
         let of_wheel = of_wheel.filter(|(_, wheel)| wheel.as_ref() == Some(name));
         let places: Vec<usize> = of_wheel.map(|(place, _)| place).collect();
         let rows = rows.rows_at(&places);
-        let [_, median, _] = SLIP_RATIO.quantiles();
-        let edges = rows.edges(TIME, SLIP_RATIO.quantiles());
+        let [low, median, high] = SLIP_RATIO.quantiles();
+        let edges = rows.edges(TIME, [&low, &high]);
         let states = rows.texts(STATUS).iter().enumerate();
         let ill_posed = states
             .filter(|(_, status)| status.as_deref() == Some(SlipStatus::IllPosed.name()))

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use serde_json::json;
 
 use super::{
-    Answer, AnswerError, Depth, Displayed, Member, PageBlock, Sampling, meanings, samples,
+    Answer, AnswerError, AnswerOptions, Displayed, EVERY_MODEL, Member, PageBlock, Sampling,
+    meanings, samples,
 };
 use crate::contact::Model;
 use crate::document::columns::wheel::WHEEL;
@@ -76,10 +77,16 @@ impl WheelTestQuestion {
     /// # Errors
     /// [`AnswerError`]: a soil whose uncertainty reaches too far, a flag where none is accepted, or
     /// a stop on the way.
-    pub fn answer(&self, name: &str, depth: &Depth<'_>) -> Result<Answer, AnswerError> {
+    pub fn answer(&self, name: &str, options: &AnswerOptions<'_>) -> Result<Answer, AnswerError> {
+        if self.models.is_empty() {
+            return Err(AnswerError::Empty("models"));
+        }
+        if self.stand.is_some() && self.sampling.is_some() {
+            return Err(AnswerError::Together("a simulated stand", "samples"));
+        }
         let mut rows = Table::default();
         for (model, inputs) in &self.models {
-            rows.append(self.named(model, self.of_model(model, inputs, depth)?));
+            rows.append(self.named(model, self.of_model(model, inputs, options)?));
         }
         let rows = Arc::new(rows);
         let mut answer = Answer::new(name, "A wheel test");
@@ -92,10 +99,16 @@ impl WheelTestQuestion {
         ];
         answer.attach("soil.toml", &self.soil);
         answer.attach("wheel.toml", &self.wheel);
-        if depth.has_page {
+        if options.has_page {
             self.page(&mut answer, &rows);
         }
         Ok(answer)
+    }
+
+    /// How often [`AnswerOptions::go_on`] is asked.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.sampling.map_or(0, |it| it.count as usize * self.models.len())
     }
 
     /// The name of the model, or that there are several.
@@ -103,7 +116,7 @@ impl WheelTestQuestion {
     pub fn model_name(&self) -> &'static str {
         match &self.models[..] {
             [(model, _)] => model.name(),
-            _ => "all",
+            _ => EVERY_MODEL,
         }
     }
 
@@ -116,19 +129,19 @@ impl WheelTestQuestion {
         &self,
         model: &Model,
         inputs: &BandInputs,
-        depth: &Depth<'_>,
+        options: &AnswerOptions<'_>,
     ) -> Result<Table, AnswerError> {
         let test = self.plan(model);
         let found = test.run();
         let table = columns::wheel_test::table(&found);
         let flags = found.iter().map(|row| &*row.findings);
-        depth.check(flags, &table, &columns::wheel_test::SETTINGS)?;
+        options.check(flags, &table, &columns::wheel_test::SETTINGS)?;
         if let Some(stand) = self.stand {
             return Ok(columns::stand::table(&stand.of(test).run()));
         }
         let Some(sampling) = self.sampling else { return Ok(table) };
         let samples = sampling.draw(&self.asked(inputs))?;
-        let bands = test.bands(&samples, depth.go_on).ok_or(AnswerError::Stopped)?;
+        let bands = test.bands(&samples, options.go_on).ok_or(AnswerError::Stopped)?;
         Ok(columns::wheel_test::with_bands(table, &bands))
     }
 
@@ -234,20 +247,21 @@ impl WheelTestQuestion {
         let dense = self.dense();
         let style = if self.stand.is_some() { Style::Dots } else { Style::Line };
         let charted = Charted { rows, drawn: dense.as_ref().unwrap_or(rows), style };
-        answer.page.push(PageBlock::Verdict(charted.sentence()));
+        answer.verdict(charted.sentence());
         let model = if self.has_several() { "every model" } else { self.model_name() };
-        answer.page.push(PageBlock::List(vec![
+        answer.list([
             format!("wheel: {}", self.wheel.document.name()),
             format!("soil: {}", self.soil.document.name()),
             format!("gravity: {} m/s²", self.gravity),
             format!("wheel–soil model: {model}"),
-        ]));
+        ]);
         answer.heading("Over the slip ratio");
         let has_side_force = self.slip_angles_deg.iter().any(|angle| *angle != 0.0);
         let name = answer.name.clone();
-        let figures = [(DRAWBAR_PULL, &*name), (SINKAGE, "sinkage"), (TORQUE, "torque")];
+        let figures =
+            [(DRAWBAR_PULL, Some(&*name)), (SINKAGE, Some("sinkage")), (TORQUE, Some("torque"))];
         for (quantity, file) in
-            figures.into_iter().chain(has_side_force.then_some((SIDE_FORCE, "")))
+            figures.into_iter().chain(has_side_force.then_some((SIDE_FORCE, None)))
         {
             answer.figure(file, charted.chart(quantity), caption(quantity));
         }
@@ -306,7 +320,8 @@ impl Charted<'_> {
         let mut lines: Vec<Series> = Vec::new();
         for rows in places.chunk_by(|one, next| names[*one] == names[*next]) {
             let (name, part) = (&names[rows[0]], table.rows_at(rows));
-            let edges = part.edges(SLIP_RATIO, quantity.quantiles());
+            let [low, _, high] = quantity.quantiles();
+            let edges = part.edges(SLIP_RATIO, [&low, &high]);
             if !edges.is_empty() {
                 let colour = if rows.len() < table.rows() { lines.len() } else { BAND_COLOUR };
                 bands.push(Series::band(format!("95 %, {name}"), colour, edges));

@@ -453,8 +453,8 @@ fn campaign(base: &str) -> Result<Campaign, DocumentError> {
     document::read_campaign(&Source::text("study.toml", text), &Overrides::none())
 }
 
-/// On 22° not all of the models hold the contour: the others' runs have no slip, and count as slip
-/// 1.
+/// On 22° not all of the models hold the contour: the others' runs have no slip, and count as
+/// slip 1.
 #[test]
 fn a_campaign_draws_models_and_leaves_no_run_out() {
     let base = "study = \"heading\"\nscenario = { soil = \"toyoura\", slope_deg = 22.0 }";

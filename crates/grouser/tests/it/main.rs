@@ -1,5 +1,6 @@
 //! The claims of the library, tested from outside.
 
+mod answers;
 mod bands;
 mod batches;
 mod bevameter;

@@ -13,8 +13,8 @@ use super::mission::SENSORS;
 
 /// Limit of slip over a metre of the rims' way.
 const LIMIT: f64 = 0.4;
-/// Three standard deviations of slip over a metre, of which two fixes say each half with 2 %: 3 (1
-/// - 0.4) 0.02/√2.
+/// Three standard deviations of slip over a metre, of which two fixes say each half with 2 %:
+/// 3 (1 − 0.4) 0.02/√2.
 const ERROR: f64 = 0.026;
 
 fn checked_drive(slope: f64, way: f64, seed: u64) -> Mission {

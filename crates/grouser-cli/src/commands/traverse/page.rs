@@ -1,5 +1,6 @@
 //! The page of a traverse: where the rover ends up, its path, and every channel over time.
 
+use grouser::answers::EVERY_MODEL;
 use grouser::contact::validity::Finding;
 use grouser::document::columns::run::{self, STANDING_BAND, TIME_BAND};
 use grouser::document::columns::{Column, MODEL, Quantity, SINKAGE, SLIP_RATIO, TIME, X, Y, YAW};
@@ -12,7 +13,7 @@ use grouser::units::Vec2;
 use grouser_draw::chart::{BAND_COLOUR, Chart, Drawable, Series, Style};
 
 use super::of_model::{OfModel, chart, reason};
-use crate::args::{EVERY_MODEL, TraverseArgs};
+use crate::args::TraverseArgs;
 use crate::commands::sampling;
 use crate::report::answer::{self, Basis, over_ground, over_time, run_meanings};
 use crate::report::page::Page;

@@ -15,10 +15,9 @@
 //! with the pitch p = 2π r/N. The rim counts with its share f, and the soil shut in with 1 − f, as
 //! a cylinder of the tips' radius with the soil's own friction. A low step of a grouser does not
 //! stay open, soil lodges in its corner: its open face counts with w = e/h_g. And a cell that is
-//! deeper than wide carries its soil along whatever its motion: f and w are times p/h_g where that
-//! is below
-//! 1. So few grousers leave a bare rim with plates on it (f → 1, w → 1), and many make a cylinder
-//!    of their tips' radius (f → 0, w → 0).
+//! deeper than wide carries its soil along whatever its motion: f and w are times min(1, p/h_g).
+//! So few grousers leave a bare rim with plates on it (f → 1, w → 1), and many make a cylinder of
+//! their tips' radius (f → 0, w → 0).
 //!
 //! The geometry is that of the spacing rule of Skonieczny, Moreland and Wettergreen (2012), for any
 //! motion. w is ours: any weight with those two limits would do, and between them the soil that

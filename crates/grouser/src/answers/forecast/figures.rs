@@ -19,39 +19,39 @@ pub(super) fn budget_to(answer: &mut Answer, tables: &Tables) {
     let widest = name_of(SLIP_RATIO.name, tables.widest_slip());
     let limit = name_of(LIMIT_SLOPE.name, None);
     answer.figure(
-        "budget",
+        Some("budget"),
         budget(&budgets),
         "The error budget: which share of the variance of the slip ratio, of the drift and of the \
          steepest slope each factor has alone, and what several have only together. Parts of a bar \
          add up to 100 %.",
     );
     answer.figure(
-        "budget-slip",
+        Some("budget-slip"),
         largest_first(&budgets, &widest),
         "The factors of the slip on the slope on which it is least known, each with an equal share \
          of its interactions: all of them add up to 100 %.",
     );
     let caption = "The same of the steepest slope.";
-    answer.figure("budget-limit", largest_first(&budgets, &limit), caption);
+    answer.figure(Some("budget-limit"), largest_first(&budgets, &limit), caption);
 }
 
 /// Adds the bands over the slope to the page, and what each choice would mean.
 pub(super) fn bands_to(answer: &mut Answer, forecast: &Forecast, tables: &Tables) {
     let rows = &tables.rows;
     answer.figure(
-        "slip",
+        Some("slip"),
         band(rows, SLIP_RATIO, "Slip ratio of a contour traverse", "slip ratio"),
         "Slip ratio of a contour traverse over the slope, over all cases; 1 where no heading holds \
          the contour.",
     );
     answer.figure(
-        "drift",
+        Some("drift"),
         band(rows, DRIFT, "Drift with the nose on the contour", "drift [m/m]"),
         "Drift with the nose on the contour over the slope, over all cases; 1, straight downhill, \
          where the rover slides.",
     );
     answer.figure(
-        "yaw",
+        Some("yaw"),
         band(rows, YAW, "Heading that holds the contour", "yaw, positive uphill [°]"),
         "Yaw that holds the contour over the slope. The upper edge ends where in more than 2.5 % \
          of the cases no heading does so, the median where in half of them.",
@@ -66,7 +66,7 @@ pub(super) fn bands_to(answer: &mut Answer, forecast: &Forecast, tables: &Tables
         if curves.len() > 1 {
             let caption = "Mean slip ratio of the cases of each choice over the slope; 1 where no \
                            heading holds the contour.";
-            answer.figure(file, by_choice(title, curves), caption);
+            answer.figure(Some(file), by_choice(title, curves), caption);
         }
     }
 }
@@ -165,9 +165,7 @@ fn name_of(quantity: &str, slope: Option<f64>) -> String {
 /// A band over the slope.
 fn band(table: &Table, quantity: Quantity, title: &str, y_label: &str) -> Chart {
     let [low, median, high] = quantity.quantiles();
-    let ends = table.numbers(&low).iter().zip(table.numbers(&high));
-    let edges = table.numbers(SLOPE.name).iter().zip(ends);
-    let edges = edges.filter_map(|(slope, (low, high))| Some(((*slope)?, (*low)?, (*high)?)));
+    let edges = table.edges(SLOPE, [&low, &high]);
     let medians = table.points(SLOPE.name, &median);
     Chart::new(
         title,

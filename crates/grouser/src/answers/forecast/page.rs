@@ -1,6 +1,6 @@
 //! The page of a forecast: the answer, the budget, what would shrink it, and every choice.
 
-use super::super::{Answer, PageBlock};
+use super::super::Answer;
 use super::tables::Tables;
 use super::{ForecastQuestion, figures};
 use crate::document::columns::forecast::{
@@ -18,9 +18,9 @@ impl ForecastQuestion<'_> {
         forecast: &Forecast,
         (tables, notes): (&Tables, &[String]),
     ) {
-        answer.page.push(PageBlock::Verdict(verdict(tables)));
-        answer.page.push(PageBlock::List(self.what_was_computed(forecast)));
-        answer.page.push(PageBlock::List(notes.to_vec()));
+        answer.verdict(verdict(tables));
+        answer.list(self.what_was_computed(forecast));
+        answer.list(notes.to_vec());
         answer.heading("Forecast");
         answer.words(
             "Each number has a band over all cases: the 2.5 %, 50 % and 97.5 % quantiles. A case \
@@ -44,7 +44,7 @@ impl ForecastQuestion<'_> {
         figures::budget_to(answer, tables);
         answer.rows("Parts, largest first", &tables.budget, columns::budget_brief());
         answer.heading("What would shrink it");
-        answer.page.push(PageBlock::List(remedies(forecast)));
+        answer.list(remedies(forecast));
         answer.heading("What each choice would mean");
         let caption = "Means of the cases of each choice";
         answer.rows(caption, &tables.choices, columns::choices_brief());

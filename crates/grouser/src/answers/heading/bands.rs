@@ -1,6 +1,6 @@
 //! Quantiles of the heading offset over samples of soil and model.
 
-use super::super::{AnswerError, Depth, Sampling};
+use super::super::{AnswerError, AnswerOptions, Sampling};
 use crate::document::LoadedScenario;
 use crate::document::columns::heading::{self, DRAWS, DRAWS_MOBILE};
 use crate::document::columns::{LIMIT_SLOPE, PROBABILITY_LEVEL, SLOPE, YAW};
@@ -41,12 +41,12 @@ impl Bands {
         scenario: &LoadedScenario,
         (study, nominal): (&HeadingStudy, &HeadingCurve),
         slopes: &[f64],
-        depth: &Depth<'_>,
+        options: &AnswerOptions<'_>,
     ) -> Result<Self, AnswerError> {
         let samples = sampling.draw(&BandInputs::of_scenario(scenario))?;
-        let charted = if depth.has_page { chart_slopes(nominal) } else { Vec::new() };
+        let charted = if options.has_page { chart_slopes(nominal) } else { Vec::new() };
         let all: Vec<f64> = slopes.iter().chain(&charted).copied().collect();
-        let band = HeadingBand::of(study, &samples, &all, depth.go_on)?;
+        let band = HeadingBand::of(study, &samples, &all, options.go_on)?;
         let band = band.ok_or(AnswerError::Stopped)?;
         let (asked, along) = band.slopes.split_at(slopes.len());
         Ok(Self {
@@ -89,12 +89,12 @@ impl Bands {
 
     /// Yaw over slope, with its band.
     pub(super) fn chart(&self, nominal: Series) -> Chart {
-        let [_, median, _] = YAW.quantiles();
+        let [low, median, high] = YAW.quantiles();
         let drawn: Vec<usize> = (0..self.along.rows())
             .filter(|row| self.probability(PROBABILITY_LEVEL.name, *row) >= LEAST_DRAWN)
             .collect();
         let along = self.along.rows_at(&drawn);
-        let edges = along.edges(SLOPE, YAW.quantiles());
+        let edges = along.edges(SLOPE, [&low, &high]);
         Chart::new(
             format!("Heading offset that holds the contour, {} samples", self.draws()),
             ("slope [°]", "yaw, positive uphill [°]"),
@@ -108,14 +108,13 @@ impl Bands {
 
     /// The probability of a contour traverse over slope.
     pub(super) fn chance_chart(&self) -> Chart {
-        let interval = PROBABILITY_LEVEL.interval();
+        let [chance, low, high] = PROBABILITY_LEVEL.interval();
         let rows = 0..self.along.rows();
-        let is_impossible = |row: usize| self.probability(&interval[0], row) < LEAST_CHANCE;
+        let is_impossible = |row: usize| self.probability(&chance, row) < LEAST_CHANCE;
         let end = rows.clone().position(is_impossible).map_or(rows.end, |end| end + 1);
         let shown = self.along.rows_at(&(0..end).collect::<Vec<_>>());
-        let chances: Vec<_> = shown.points(SLOPE.name, &interval[0]).collect();
-        let [chance, low, high] = interval;
-        let edges = shown.edges(SLOPE, [low, chance, high]);
+        let chances = shown.points(SLOPE.name, &chance);
+        let edges = shown.edges(SLOPE, [&low, &high]);
         Chart::new(
             format!("Probability of a contour traverse, {} samples", self.draws()),
             ("slope [°]", "probability"),

@@ -27,14 +27,14 @@ impl HeadingQuestion {
                 Steering::None => CURVE,
                 Steering::Crab => CRAB,
             };
-            return answer.figure(&name, chart(all), caption);
+            return answer.figure(Some(&name), chart(all), caption);
         }
         for of_model in all {
             let Some(bands) = &of_model.bands else { continue };
             let end = self.end(of_model.scenario);
             let nominal = line("soil as written", 1, &of_model.curve);
-            answer.figure(&format!("{name}{end}"), bands.chart(nominal), CURVE);
-            answer.figure(&format!("probability{end}"), bands.chance_chart(), CHANCE);
+            answer.figure(Some(&format!("{name}{end}")), bands.chart(nominal), CURVE);
+            answer.figure(Some(&format!("probability{end}")), bands.chance_chart(), CHANCE);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What a wheel–soil model answers about headings.
 
-use super::super::{AnswerError, Depth};
+use super::super::{AnswerError, AnswerOptions};
 use super::bands::Bands;
 use super::question::HeadingQuestion;
 use crate::document::LoadedScenario;
@@ -30,19 +30,19 @@ impl<'q> OfModel<'q> {
     pub(super) fn of(
         question: &HeadingQuestion,
         scenario: &'q LoadedScenario,
-        depth: &Depth<'_>,
+        options: &AnswerOptions<'_>,
     ) -> Result<Self, AnswerError> {
         let study = HeadingStudy::of(&scenario.value);
         let curve = HeadingStudy { steering: question.steering, ..study.clone() }.curve()?;
         let bands = question.sampling.map(|sampling| {
-            Bands::of(sampling, scenario, (&study, &curve), &question.slopes(), depth)
+            Bands::of(sampling, scenario, (&study, &curve), &question.slopes(), options)
         });
         let bands = bands.transpose()?;
         let slopes = question.slopes();
         let mut table = heading::table(&curve, &scenario.value.rover, &slopes);
-        if depth.is_strict {
+        if options.is_strict {
             let flags = heading::findings(&curve, &slopes);
-            depth.check(flags.iter().map(|it| &**it), &table, &[SLOPE.name])?;
+            options.check(flags.iter().map(|it| &**it), &table, &[SLOPE.name])?;
         }
         let mut limit = heading::steepest(&curve);
         let own_speeds = question.most_speed_ratio.map(|most_ratio| {

@@ -1,6 +1,6 @@
 //! The question of headings.
 
-use super::super::Sampling;
+use super::super::{AnswerError, Sampling};
 use crate::document::LoadedScenario;
 use crate::document::columns::SLOPE;
 use crate::studies::heading::Steering;
@@ -23,6 +23,31 @@ pub struct HeadingQuestion {
 }
 
 impl HeadingQuestion {
+    /// How often [`AnswerOptions::go_on`] is asked.
+    ///
+    /// [`AnswerOptions::go_on`]: super::super::AnswerOptions::go_on
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.sampling.map_or(0, |it| it.count as usize * self.scenarios.len())
+    }
+
+    /// Checks that there is something to answer, and that its parts have an answer together.
+    pub(super) fn check(&self) -> Result<(), AnswerError> {
+        if self.scenarios.is_empty() {
+            return Err(AnswerError::Empty("scenarios"));
+        }
+        let choices = [
+            ("steered wheels", self.steering != Steering::None),
+            ("wheels at speeds of their own", self.most_speed_ratio.is_some()),
+            ("samples", self.sampling.is_some()),
+        ];
+        let mut chosen = choices.into_iter().filter(|(_, is_chosen)| *is_chosen);
+        match (chosen.next(), chosen.next()) {
+            (Some((one, _)), Some((other, _))) => Err(AnswerError::Together(one, other)),
+            _ => Ok(()),
+        }
+    }
+
     /// Whether there is an answer for each of several models.
     pub(super) fn has_several(&self) -> bool {
         self.scenarios.len() > 1

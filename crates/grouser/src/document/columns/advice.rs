@@ -63,11 +63,10 @@ pub const SLOPE_COLUMNS: [Column<SlopeAdvice>; 20] = [
          must; missing where it does not with the nose on the contour",
         |it| it.heading.steepest,
     ),
-    PROBABILITY_WITHIN.probability(
-        "Probability that the slip keeps its limit at the heading to \
-                                    set",
-        |it| heading(it).map(|it| it.within),
-    ),
+    PROBABILITY_WITHIN
+        .probability("Probability that the slip keeps its limit at the heading to set", |it| {
+            heading(it).map(|it| it.within)
+        }),
     SLIP_RATIO.maybe("Slip ratio at that heading: the median; 1 where the rover is stuck", |it| {
         heading(it).map(|it| it.slip_ratio.median)
     }),
@@ -195,11 +194,8 @@ pub const TEST_COLUMNS: [Column<TestDrive>; 14] = [
     YAW.given("Yaw from the contour, positive uphill", |it| Some(it.leg.yaw)),
     WAY.given("Way of the rims", |it| Some(it.leg.way)),
     SLIP_RATIO.number("Mean slip ratio of the wheels that is expected", |it| it.slip_ratio),
-    PROBABILITY_WITHIN.probability(
-        "Probability that the slip keeps its \
-                                    limit",
-        |it| Some(it.within),
-    ),
+    PROBABILITY_WITHIN
+        .probability("Probability that the slip keeps its limit", |it| Some(it.within)),
     ENERGY.number(
         "Work of the wheels that pull, and that by which height is won back that is lost on the \
          leg",

@@ -110,11 +110,10 @@ const fn driven<'a>() -> [Column<OnCard<'a>>; 22] {
              is driven",
             |it| it.motion().map(|it| it.correct_every),
         ),
-        HEADING_FALL.band(
-            "By how much the nose falls over the way, over the samples that \
-                           move",
-            |it| it.motion()?.heading_fall,
-        ),
+        HEADING_FALL
+            .band("By how much the nose falls over the way, over the samples that move", |it| {
+                it.motion()?.heading_fall
+            }),
         DRIVEN_DRIFT.band(
             "Drift per metre travelled over 10 m when driven so by a driver who sets the heading \
              to 2°, positive downhill; 1 where the rover is stuck",
@@ -151,8 +150,7 @@ const fn driven<'a>() -> [Column<OnCard<'a>>; 22] {
             |it| it.motion().map(|it| it.slip_check.stuck),
         ),
         TIPPING_MARGIN.maybe(
-            "How much steeper the slope could be before the rover at rest tips \
-                              over",
+            "How much steeper the slope could be before the rover at rest tips over",
             |it| it.driven().map(|it| it.tipping_margin),
         ),
         YAW_AS_WRITTEN.maybe("Heading that holds the contour on the soil as written", |it| {
@@ -192,8 +190,7 @@ const fn held<'a>() -> [Column<OnCard<'a>>; 13] {
             }),
         whole(
             DRAWS_LEVEL,
-            "Samples with a heading that holds the contour: power is over \
-                            them",
+            "Samples with a heading that holds the contour: power is over them",
             |it| it.row.bands.as_ref().map(|bands| bands.level.successes),
         ),
         whole(

@@ -127,12 +127,9 @@ struct Part {
 const PARTS: [Column<Part>; 9] = [
     text(QUANTITY, "What the budget is of", |it| Some(it.quantity.name.to_owned())),
     SLOPE.given("Slopes; none for the steepest slope", |it| it.slope),
-    text(
-        FACTOR,
-        "A factor, `interactions` of several, or the \
-                  `whole`",
-        |it| Some(it.factor.to_owned()),
-    ),
+    text(FACTOR, "A factor, `interactions` of several, or the `whole`", |it| {
+        Some(it.factor.to_owned())
+    }),
     whole("levels", "How many levels the factor has", |it| it.levels),
     VARIANCE_SHARE.maybe(
         "Share of the variance that the factor has alone: by so much the variance shrinks, on \
@@ -152,12 +149,9 @@ const PARTS: [Column<Part>; 9] = [
     DEVIATION.number("Square root of the part, in the unit of the quantity", |it| {
         it.quantity.unit.from_si(it.deviation)
     }),
-    text(
-        "what_would_shrink_it",
-        "What would make the part \
-                                  smaller",
-        |it| Some(it.remedy.to_owned()),
-    ),
+    text("what_would_shrink_it", "What would make the part smaller", |it| {
+        Some(it.remedy.to_owned())
+    }),
 ];
 
 /// The error budgets: of the slip ratio and of the drift on each slope, and of the steepest slope.
