@@ -23,12 +23,12 @@ struct Arguments {
     seconds: f64,
     /// Form of what is printed.
     #[arg(long, value_enum, default_value_t)]
-    format: Format,
+    format: Printed,
 }
 
 /// How times are printed.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum Format {
+enum Printed {
     /// For reading: aligned columns, few digits.
     #[default]
     Table,
@@ -55,10 +55,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let set = InstructionSet::best().name();
     let threads = grouser_bench::threads();
     let text = match arguments.format {
-        Format::Table => {
+        Printed::Table => {
             format!("{}\n{set}, {threads} threads; the best of many times\n", table(&rows))
         }
-        Format::Json => {
+        Printed::Json => {
             let mut answer = Answer::new("bench", "Times and errors");
             answer.input("seconds", arguments.seconds);
             answer.results.push(Member::Values(values(&rows)));
@@ -66,7 +66,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             answer.results.push(Member::Value("instruction_set", json!(set)));
             serde_json::to_string_pretty(&answer)? + "\n"
         }
-        Format::Csv => {
+        Printed::Csv => {
             let values = values(&rows);
             let keys: Vec<&str> = values.keys().map(String::as_str).collect();
             let numbers: Vec<String> = values.values().map(Value::to_string).collect();

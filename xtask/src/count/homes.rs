@@ -20,7 +20,7 @@ type Rule = fn(&Sources) -> usize;
 /// Lines of Rust were 98,800 at the most before strings were wrapped at a hundred columns (some 500
 /// more) and before six commands had questions in the library (some 250 more).
 const COUNTS: [(&str, usize, Rule); 9] = [
-    ("lines of Rust without comments and tests", 99_560, |all| all.rust.iter().map(lines).sum()),
+    ("lines of Rust without comments and tests", 99_600, |all| all.rust.iter().map(lines).sum()),
     ("lines of Python without comments and tests", 8_110, |all| all.python.iter().map(lines).sum()),
     ("files that name three outcomes or more as text", 1, outcome_homes),
     ("inputs of an answer written by hand (`fn settings`, `fn state`)", 19, |all| {
