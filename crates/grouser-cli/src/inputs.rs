@@ -14,6 +14,7 @@ mod slip_from_current;
 mod stand;
 mod telemetry;
 mod traverse;
+mod validate;
 
 use std::ops::RangeInclusive;
 
@@ -37,6 +38,7 @@ pub(crate) use self::telemetry::{
     driven_rover, is_standard_input, mapping, telemetry, telemetry_label,
 };
 pub(crate) use self::traverse::traverse;
+pub(crate) use self::validate::{ranked_data_set, slope_validation, validation};
 use crate::args::{BalanceArgs, DrawArgs, RunArgs, SettingArgs, SlopeArgs, TerrainArgs};
 use crate::failure::Failure;
 use crate::list::{self, Numbers};
@@ -63,16 +65,6 @@ impl From<MeasurementError> for Failure {
             Self::Usage(error.to_string())
         }
     }
-}
-
-/// The scenario whose rover, soil and load transfer `validate` takes on slopes.
-pub(crate) fn on_slopes(
-    rover: &String,
-    soil: &String,
-    setting: &SettingArgs,
-) -> Result<LoadedScenario, Failure> {
-    let balance = BalanceArgs { load_transfer: None, wheel_moments: None };
-    balanced("validate", None, Some(rover), Some(soil), setting, &balance)
 }
 
 fn check_slopes(slopes: &Numbers) -> Result<(), Failure> {

@@ -32,8 +32,10 @@ use super::tree::Companion;
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Answer {
-    /// The name that its schema and its files have: `heading`.
+    /// The name that its files have, and its schema if that has no other: `heading`.
     pub name: String,
+    /// The name that its schema has, where it is another.
+    pub schema: Option<String>,
     /// What it is about: the title of its page.
     pub title: String,
     /// What it was computed from, in the words and units of documents.
@@ -148,6 +150,13 @@ pub enum PageBlock {
     },
     /// Small charts side by side.
     Charts(Vec<Chart>),
+    /// A picture of what no figure has, which the front end draws.
+    Picture {
+        /// The name of its file.
+        file: String,
+        /// What it shows.
+        caption: String,
+    },
 }
 
 /// A column's name, unit and meaning, for readers.
@@ -181,6 +190,12 @@ impl Answer {
     /// * `title`: of its page
     pub fn new(name: impl Into<String>, title: impl Into<String>) -> Self {
         Self { name: name.into(), title: title.into(), ..Self::default() }
+    }
+
+    /// The same with a schema that has another name than its files.
+    #[must_use]
+    pub fn with_schema(self, name: impl Into<String>) -> Self {
+        Self { schema: Some(name.into()), ..self }
     }
 
     /// Adds an input, in the words and units of documents.
@@ -274,7 +289,8 @@ pub fn meanings<R>(columns: &[Column<R>]) -> Vec<ColumnMeaning> {
 impl Serialize for Answer {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("schema", &format!("grouser.{}.v1", self.name))?;
+        let schema = self.schema.as_ref().unwrap_or(&self.name);
+        map.serialize_entry("schema", &format!("grouser.{schema}.v1"))?;
         map.serialize_entry("version", env!("CARGO_PKG_VERSION"))?;
         map.serialize_entry("inputs", &self.inputs)?;
         if let Some(weights) = &self.model_weights {

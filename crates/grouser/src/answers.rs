@@ -4,9 +4,13 @@
 pub mod forecast;
 pub mod heading;
 pub mod heading_map;
+pub mod learn;
+pub mod map;
 pub mod replay;
+pub mod route;
 mod samples;
 pub mod slip_from_current;
+pub mod validation;
 pub mod wheel_test;
 
 use crate::contact::validity::Finding;

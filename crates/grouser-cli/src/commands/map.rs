@@ -2,133 +2,84 @@
 
 mod folder;
 mod gazebo;
-mod numbers;
-mod page;
+mod picture;
 
-use grouser::answers;
-use grouser::document::columns::LIMIT_SLOPE;
-use grouser::document::columns::map::{bands, chosen};
-use grouser::document::reading::rounded_down;
+use grouser::answers::Answer;
+use grouser::answers::map::{MadeMap, MapFile, VerdictCounts};
 use grouser::studies::ensemble::samples::BandInputs;
-use grouser::studies::mobility::{CourseChoice, Ground, MobilityMap};
+use grouser::studies::mobility::{Ground, MobilityMap};
 use grouser_map::{BandSummary, Look, MapColumn, style, summaries, write_band};
 use rayon::prelude::*;
-use serde::Serialize;
-use serde_json::{Value, json};
 
 use self::folder::MapFolder;
-use self::numbers::{errors, label};
-use super::{Answer, sampling};
+use self::picture::label;
+use super::sampling;
 use crate::args::MapArgs;
 use crate::failure::Failure;
 use crate::inputs::{self, MapInputs};
-use crate::output::rows::Rows;
-use crate::output::{self, Format};
+use crate::output::answer::{add_pictures, html, print};
+use crate::output::{self, json};
 
-/// A file of the map.
-#[derive(Serialize)]
-struct FileRecord {
-    name: &'static str,
-    unit: &'static str,
-    about: &'static str,
-    /// None where no cell has a number.
-    least: Option<f64>,
-    mean: Option<f64>,
-    most: Option<f64>,
-    cells: u64,
-    path: String,
-}
+/// The name of the page.
+const PAGE: &str = "map.html";
 
-/// How many cells have which verdict.
-#[derive(Serialize)]
-struct Verdicts {
-    go: u64,
-    caution: u64,
-    no_go: u64,
-    unknown: u64,
-}
+/// A band, and its numbers in all.
+type Summed<'b> = (&'b MapColumn, &'b BandSummary);
 
-#[derive(Serialize)]
-struct Results<'a> {
-    files: &'a [FileRecord],
-    verdicts: Verdicts,
-    columns: usize,
-    rows: usize,
-    coordinate_system: String,
-    slope_length_m: [f64; 2],
-    #[serde(flatten)]
-    limit: Value,
-    interpolation_error: Value,
-    page: String,
+impl From<grouser_map::MapError> for Failure {
+    fn from(error: grouser_map::MapError) -> Self {
+        Self::Run(error.to_string())
+    }
 }
 
 pub(crate) fn run(args: &MapArgs) -> Result<(), Failure> {
     let inputs = inputs::map(args)?;
-    let settings = settings(args, &inputs);
-    let folder = MapFolder::open(&args.out, args.force, &settings, &inputs.raster)?;
+    let question = inputs.question(args);
+    let ground = question.ground;
+    let folder = MapFolder::open(&args.out, args.force, &question.identity(), &inputs.raster)?;
     let map = tables(args, &inputs)?;
-    let ground = Ground::under(&inputs.study.heading.rover, &inputs.raster);
-    let bands = bands_of(inputs.course);
-    let (of, counts) = summaries(ground, &map, &bands);
+    let bands = question.bands();
+    let (sums, [unknown, go, caution, no_go]) = summaries(ground, &map, &bands);
     write(&folder, ground, &map, &bands)?;
-    let files = bands.iter().zip(&of).map(|(band, of)| record(&folder, band, of));
-    let files: Vec<FileRecord> = files.collect();
-    let [unknown, go, caution, no_go] = counts;
-    let raster = &inputs.raster;
-    let limit = limit(&inputs, &map);
-    let verdicts = Verdicts { go, caution, no_go, unknown };
-    let sentence = sentence(&verdicts, limit);
-    let results = Results {
+    let summed: Vec<Summed<'_>> = bands.iter().zip(&sums).collect();
+    let files: Vec<MapFile> = summed.iter().map(|band| file(&folder, *band)).collect();
+    let made = MadeMap {
+        map: &map,
         files: &files,
-        verdicts,
-        columns: raster.grid.columns,
-        rows: raster.grid.rows,
-        coordinate_system: raster.coordinates.name(),
-        slope_length_m: ground.slope_length(),
-        limit: json!({ (LIMIT_SLOPE.name): limit }),
-        interpolation_error: errors(&map),
-        page: folder.path(page::NAME),
+        verdicts: VerdictCounts { go, caution, no_go, unknown },
+        page: folder.path(PAGE),
     };
-    let page = page::html(
-        args,
-        &inputs,
-        (ground, &map),
-        &bands.iter().zip(&of).collect::<Vec<_>>(),
-        &sentence,
-    );
-    let answer = Answer::new("map", settings, results);
-    let rows = Rows::of(&files);
-    let mut output = folder.output()?;
-    output.add(page::NAME, page);
-    output.add("map.json", answer.to_text());
-    for (band, of) in bands.iter().zip(&of) {
-        let text = style(Look::of(band.name), of, &label(band));
-        output.add(format!("{}.qml", band.name), text);
-        output.add(format!("{}.svg", band.name), page::picture((ground, &map), band, of));
+    let answer = question.answer("map", &made);
+    finish(args, &inputs, &folder, &answer, (ground, &map), &summed)?;
+    print(&answer, args.format)
+}
+
+/// Writes what stands beside the bands, which closes the folder.
+fn finish(
+    args: &MapArgs,
+    inputs: &MapInputs,
+    folder: &MapFolder,
+    answer: &Answer,
+    (ground, map): (Ground<'_>, &MobilityMap),
+    bands: &[Summed<'_>],
+) -> Result<(), Failure> {
+    let mut pictures = Vec::new();
+    for &(band, of) in bands {
+        pictures.push((format!("{}.svg", band.name), picture::of((ground, map), band, of)));
     }
-    if let Some(texture) = gazebo::texture(args, &inputs, ground)? {
-        gazebo::add(&mut output, &inputs, texture);
+    let mut output = folder.output()?;
+    output.add(PAGE, html(answer, &repeat(args, inputs), &pictures));
+    output.add("map.json", json::text(answer) + "\n");
+    add_pictures(&mut output, &pictures);
+    for &(band, of) in bands {
+        output.add(format!("{}.qml", band.name), style(Look::of(band.name), of, &label(band)));
+    }
+    if let Some(texture) = gazebo::texture(args, inputs, ground)? {
+        gazebo::add(&mut output, inputs, texture);
     }
     output.add_document("scenario.toml", &inputs.scenario);
     output.finish()?;
-    folder.finish()?;
-    match args.format {
-        Format::Table => {
-            let columns = ["name", "unit", "least", "mean", "most", "path"];
-            output::show(rows.to_table(&columns) + sentence)
-        }
-        Format::Csv => output::print(&rows.to_csv()?),
-        Format::Json => output::print_json(&answer),
-    }
-}
-
-/// The bands of a map: the course as well, where it is chosen.
-fn bands_of(course: CourseChoice) -> Vec<MapColumn> {
-    let mut all: Vec<MapColumn> = bands().into();
-    if !matches!(course, CourseChoice::Fixed(_)) {
-        all.extend(chosen());
-    }
-    all
+    folder.finish()
 }
 
 fn tables(args: &MapArgs, inputs: &MapInputs) -> Result<MobilityMap, Failure> {
@@ -170,81 +121,26 @@ fn write(
     written.into_iter().collect()
 }
 
-impl From<grouser_map::MapError> for Failure {
-    fn from(error: grouser_map::MapError) -> Self {
-        Self::Run(error.to_string())
-    }
-}
-
-fn record(folder: &MapFolder, band: &MapColumn, of: &BandSummary) -> FileRecord {
-    let number = |number: f64| Some(number).filter(|number| number.is_finite());
-    FileRecord {
+/// The file of a band.
+fn file(folder: &MapFolder, (band, of): Summed<'_>) -> MapFile {
+    MapFile {
         name: band.name,
-        unit: band.unit.symbol,
+        unit: band.unit,
         about: band.doc,
-        least: number(of.least),
-        mean: number(of.mean),
-        most: number(of.most),
+        least: of.least,
+        mean: of.mean,
+        most: of.most,
         cells: of.known,
         path: folder.path(&format!("{}.tif", band.name)),
     }
 }
 
-/// The steepest slope on which a heading holds the course [°]; where courses are chosen, of the one
-/// that reaches farthest.
-fn limit(inputs: &MapInputs, map: &MobilityMap) -> Option<f64> {
-    let limits = map.tables().iter().filter_map(grouser::studies::mobility::MobilityTable::limit);
-    let limit = if inputs.course == CourseChoice::Worst {
-        limits.reduce(f64::min)
-    } else {
-        limits.reduce(f64::max)
-    };
-    limit.map(|limit| LIMIT_SLOPE.unit.from_si(limit))
-}
-
-fn sentence(verdicts: &Verdicts, limit: Option<f64>) -> String {
-    let Verdicts { go, caution, no_go, unknown } = *verdicts;
-    let known = go + caution + no_go;
-    let share = |count: u64| {
-        if known == 0 { 0.0 } else { (1000.0 * count as f64 / known as f64).round() / 10.0 }
-    };
-    let limit = limit.map_or_else(
-        || "The rover cannot move on this soil.".to_owned(),
-        |limit| format!("A heading holds the course up to {}°.", rounded_down(limit)),
-    );
-    let unknown = match unknown {
-        0 => String::new(),
-        count => format!(" {count} cells have no height."),
-    };
+/// The command that gives the answer again.
+fn repeat(args: &MapArgs, inputs: &MapInputs) -> String {
+    let MapArgs { course_deg, samples, seed, .. } = args;
+    let speed = inputs.study.rim_speed;
     format!(
-        "go {} %, caution {} %, no-go {} % of {known} cells. {limit}{unknown}\n",
-        share(go),
-        share(caution),
-        share(no_go)
+        "grouser map DEM scenario.toml --course-deg {course_deg} --samples {samples} --seed {seed} \
+         --rim-speed-m-s {speed} --out OTHER"
     )
-}
-
-/// The inputs of the answer, by which a map that was stopped is known again.
-fn settings(args: &MapArgs, inputs: &MapInputs) -> Value {
-    let document = &inputs.scenario.document;
-    let band = BandInputs::of_scenario(&inputs.scenario);
-    json!({
-        "dem": args.dem,
-        "rover": document.get("rover"),
-        "soil": document.get("soil"),
-        "model": inputs.scenario.value.model.name(),
-        "gravity_m_s2": document.get("gravity_m_s2"),
-        "load_transfer": document.get("load_transfer"),
-        "wheel_moments": document.get("wheel_moments"),
-        "slope_stability": document.get("slope_stability"),
-        "course_deg": args.course_deg,
-        "rim_speed_m_s": inputs.study.rim_speed,
-        "go_slip_ratio": inputs.study.rule.go_slip_ratio,
-        "go_probability": inputs.study.rule.go_probability,
-        "no_go_slip_ratio": inputs.study.rule.no_go_slip_ratio,
-        "no_go_probability": inputs.study.rule.no_go_probability,
-        "samples": args.samples,
-        "seed": args.seed,
-        (sampling::WEIGHTS): answers::weights(&band),
-    })
 }

@@ -1,234 +1,178 @@
 //! `grouser validate`: errors of a wheel–soil model against measured wheel tests or a rover on
 //! slopes, or a ranking of all models.
 
-pub(crate) mod figures;
-mod page;
-mod ranking;
-mod slopes;
-
-use grouser_draw::chart::Drawable;
 use std::path::Path;
 
-use grouser::document::columns::SLIP_ANGLE;
-use grouser::document::columns::fit::{self, column_of};
-use grouser::document::measurements::{self, Choice, Measurements};
-use grouser::document::reading::four_digits;
-use grouser::document::table::Table;
-use grouser::document::validation::{ErrorsRecord, GroupRecord, ReferenceRecord};
-use grouser::studies::measurement::Quantity;
-use grouser::studies::validation::{Reference, Validation, ValidationStudy};
-use serde::Serialize;
-use serde_json::{Map, Value, json};
+pub(crate) use grouser::answers::validation::figures;
+use grouser::answers::validation::ranked;
+use grouser::answers::{Answer, AnswerOptions, Displayed};
+use grouser::document::measurements::Limits;
+use grouser::document::ranking::{Ranking, RankingError, rank_all, rank_one};
+use grouser::document::{Kind, preset};
 
-use super::{Answer, strict};
-use crate::args::{StrictArgs, ValidateArgs};
+use crate::args::ValidateArgs;
 use crate::failure::Failure;
-use crate::inputs::{self, StandInputs};
+use crate::inputs;
+use crate::output;
+use crate::output::answer::give;
 use crate::output::folder::OutputFolder;
-use crate::output::rows::{Rows, aligned};
+use crate::output::rows::Rows;
 use crate::output::text::Text;
-use crate::output::{self, Format};
 
-pub(crate) fn run(args: &ValidateArgs) -> Result<(), Failure> {
-    match (&args.data, &args.wheel, &args.rover, &args.soil) {
-        (Some(data), Some(wheel), None, Some(soil)) => one(args, data, wheel, soil),
-        (Some(data), None, Some(rover), Some(soil)) => slopes::run(args, data, rover, soil),
-        (Some(data), ..) => ranking::of_one(args, data),
-        // The parser of the command line asks for data, or for --all.
-        (None, ..) => ranking::of_all(args),
+/// The name that the schema of all its answers has.
+const COMMAND: &str = "validate";
+
+impl From<RankingError> for Failure {
+    fn from(error: RankingError) -> Self {
+        match error {
+            RankingError::Document(error) => error.into(),
+            RankingError::Measurements(error) => error.into(),
+            RankingError::Rover(error) => error.into(),
+            RankingError::Unreadable { folder, error } => {
+                Self::at("cannot look into", &folder)(error)
+            }
+            RankingError::NoDataSet { .. } => Self::Usage(format!(
+                "{error}\nhint: docs/guide/data.md explains how a document describes a data set; \
+                 without --data-dir those that come with the program are ranked"
+            )),
+            RankingError::NoSuchFolder(_) | RankingError::NoSuchFile { .. } => {
+                Self::Usage(error.to_string())
+            }
+        }
     }
 }
 
-#[derive(Serialize)]
-struct Results<'a> {
-    overall: &'a GroupRecord,
-    driven: Option<GroupRecord>,
-    skid: Option<GroupRecord>,
-    rows: &'a [GroupRecord],
-    yardsticks: &'a [ReferenceRecord<GroupRecord>],
-    cells: &'a Table,
-    notes: &'a [String],
+pub(crate) fn run(args: &ValidateArgs) -> Result<(), Failure> {
+    let folder = OutputFolder::for_args(&args.output)?;
+    match (&args.data, &args.wheel, &args.rover, &args.soil) {
+        (Some(data), Some(wheel), None, Some(soil)) => one(args, folder, data, wheel, soil),
+        (Some(data), None, Some(rover), Some(soil)) => slopes(args, folder, data, rover, soil),
+        (Some(data), ..) => {
+            let set = inputs::ranked_data_set(args, data)?;
+            ranking(args, folder, &rank_one(&set, args.read.limits())?)
+        }
+        // The parser of the command line asks for data, or for --all.
+        (None, ..) => {
+            ranking(args, folder, &rank_all(args.data_dir.as_deref(), args.read.limits())?)
+        }
+    }
 }
 
 /// One model with one soil on one file.
-fn one(args: &ValidateArgs, data: &Path, wheel: &str, soil: &str) -> Result<(), Failure> {
-    let folder = OutputFolder::for_args(&args.output)?;
-    let stand = inputs::stand(soil, wheel, &args.setting)?;
-    let choice = Choice {
-        conditions: args.conditions.clone(),
-        wheel: Some(wheel.to_owned()),
-        limits: args.read.limits(),
+fn one(
+    args: &ValidateArgs,
+    folder: Option<OutputFolder>,
+    data: &Path,
+    wheel: &str,
+    soil: &str,
+) -> Result<(), Failure> {
+    let question = inputs::validation(args, data, wheel, soil)?;
+    say(&question.measured.notes);
+    let answer = question.answer(COMMAND, &options(args, folder.is_some()))?;
+    // Rows of several wheels are chosen by the wheel's name.
+    let is_preset = preset(Kind::Wheel, wheel).is_some();
+    let wheel = if is_preset { quoted(wheel) } else { "wheel.toml".to_owned() };
+    let settings = args.setting.settings.iter().filter(|it| is_preset && is_of_wheel(it));
+    let settings: String = settings.map(|it| format!(" --set {}", quoted(it))).collect();
+    let (read, model, gravity) = (reading(args, data), question.model.name(), question.gravity);
+    let repeat = format!(
+        "grouser validate {read} --wheel {wheel}{settings} --soil soil.toml --model {model} \
+         --gravity-m-s2 {gravity}"
+    );
+    give(&answer, &repeat, folder, args.output.format)
+}
+
+/// One model with one soil and one rover on one file.
+fn slopes(
+    args: &ValidateArgs,
+    mut folder: Option<OutputFolder>,
+    data: &Path,
+    rover: &String,
+    soil: &String,
+) -> Result<(), Failure> {
+    let question = inputs::slope_validation(args, data, rover, soil)?;
+    say(&question.tests.notes);
+    let answer = question.answer(COMMAND, &options(args, folder.is_some()))?;
+    add_text(folder.as_mut(), &answer);
+    let (rover, soil) = (quoted(rover), quoted(soil));
+    let settings = args.setting.settings.iter().map(|it| ("--set", it));
+    let model = args.setting.model.iter().map(|it| ("--model", it));
+    let gravity = args.setting.gravity.iter().map(|it| ("--gravity-m-s2", it));
+    let flags = settings.chain(model).chain(gravity);
+    let flags: String = flags.map(|(flag, it)| format!(" {flag} {}", quoted(it))).collect();
+    let read = reading(args, data);
+    let repeat = format!("grouser validate {read} --rover {rover} --soil {soil}{flags}");
+    give(&answer, &repeat, folder, args.output.format)
+}
+
+/// Every model on some data sets.
+fn ranking(
+    args: &ValidateArgs,
+    mut folder: Option<OutputFolder>,
+    ranking: &Ranking,
+) -> Result<(), Failure> {
+    let answer = ranked(COMMAND, ranking, &options(args, folder.is_some()));
+    add_text(folder.as_mut(), &answer);
+    let sets = match (&args.data, &args.data_dir) {
+        (Some(data), _) => reading(args, data),
+        (None, Some(folder)) => {
+            format!("--all --data-dir {}{}", quoted(&folder.to_string_lossy()), most_rows(args))
+        }
+        (None, None) => format!("--all{}", most_rows(args)),
     };
-    let measured = measurements::Source::find(data)?.read(&choice)?;
-    for note in &measured.notes {
+    give(&answer, &format!("grouser validate {sets}"), folder, args.output.format)
+}
+
+fn options(args: &ValidateArgs, has_page: bool) -> AnswerOptions<'static> {
+    AnswerOptions { has_page, is_strict: args.strict, ..AnswerOptions::ROWS }
+}
+
+fn say(notes: &[String]) {
+    for note in notes {
         output::message(&format!("note: {note}"));
     }
-    let validation = judge(&measured, &stand);
-    let groups: Vec<GroupRecord> = validation.groups.iter().map(GroupRecord::from).collect();
-    let yardsticks: Vec<_> = validation.references.iter().map(ReferenceRecord::from).collect();
-    let cells = fit::cells(&validation.cells);
-    let flags = validation.cells.iter().map(|cell| &*cell.findings);
-    let strict = StrictArgs { strict: args.strict };
-    strict::check(&strict, flags, &cells, &fit::SETTINGS)?;
-    let results = Results {
-        overall: &GroupRecord::from(&validation.overall),
-        driven: validation.driven.as_ref().map(GroupRecord::from),
-        skid: validation.skid.as_ref().map(GroupRecord::from),
-        rows: &groups,
-        yardsticks: &yardsticks,
-        cells: &cells,
-        notes: &measured.notes,
+}
+
+/// Adds what is printed for reading to a folder.
+fn add_text(folder: Option<&mut OutputFolder>, answer: &Answer) {
+    let shown = |shown: &Displayed| match shown {
+        Displayed::Rows(table, columns) => Rows::of_table(table).to_table(columns),
+        Displayed::Words(words) => words.into(),
+        // Errors are words and rows alone.
+        _ => Text::default(),
     };
-    let answer = Answer::new("validate", settings(args, data, &stand), results);
-    let text = text_of(&validation) + Rows::of_table(&cells).footnotes();
-    if let Some(mut folder) = folder {
-        folder.add("validation.json", answer.to_text());
-        folder.add("validation.csv", long_rows(&validation).to_csv()?);
-        folder.add("cells.csv", Rows::of_table(&cells).to_csv()?);
-        folder.add("trials.csv", Rows::of_table(&fit::trials(&measured, &validation)).to_csv()?);
-        folder.add("validation.html", page::html(args, data, &stand, &validation));
-        for figure in figures::all(&validation) {
-            folder.add(format!("figures/{}.svg", figure.file), figure.chart.to_svg());
-        }
-        folder.add_document("soil.toml", &stand.soil);
-        folder.add_document("wheel.toml", &stand.wheel);
-        folder.finish()?;
-    }
-    match args.output.format {
-        Format::Table => output::show(text),
-        Format::Csv => output::print(&long_rows(&validation).to_csv()?),
-        Format::Json => output::print_json(&answer),
+    if let Some(folder) = folder {
+        let text: Text = answer.screen.iter().map(shown).collect();
+        folder.add(format!("{}.txt", answer.name), text.to_string());
     }
 }
 
-fn judge(measured: &Measurements, stand: &StandInputs) -> Validation {
-    ValidationStudy {
-        tests: &measured.tests,
-        wheel: stand.wheel.value,
-        soil: stand.soil.value,
-        model: stand.model.clone(),
-        gravity: stand.gravity,
+/// The measurements, and which of their rows are read, as flags. A file is looked for in the folder
+/// of the page.
+fn reading(args: &ValidateArgs, data: &Path) -> String {
+    let file = data.file_name().unwrap_or(data.as_os_str()).to_string_lossy();
+    let conditions =
+        args.conditions.iter().map(|it| format!(" --where {}", quoted(&it.to_string())));
+    format!("--data {}{}{}", quoted(&file), conditions.collect::<String>(), most_rows(args))
+}
+
+/// The limit on rows as a flag, if it is not the usual one.
+fn most_rows(args: &ValidateArgs) -> String {
+    let most = args.read.max_rows;
+    if most == Limits::ROWS { String::new() } else { format!(" --max-rows {most}") }
+}
+
+/// Whether a setting is of the wheel's document.
+fn is_of_wheel(setting: &str) -> bool {
+    setting.trim_start().starts_with("wheel")
+}
+
+/// A word of a command, in quotes where a shell would read it otherwise.
+fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "_-./=,:+@%".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', r"'\''"))
     }
-    .run()
-}
-
-fn settings(args: &ValidateArgs, data: &Path, stand: &StandInputs) -> Value {
-    let conditions: Vec<String> = args.conditions.iter().map(ToString::to_string).collect();
-    json!({
-        "data": data.display().to_string(),
-        "where": conditions,
-        "soil": stand.soil.document,
-        "wheel": stand.wheel.document,
-        "gravity_m_s2": stand.gravity,
-        "model": stand.model.name(),
-    })
-}
-
-/// Every group with what is above it: driven, skid, all.
-fn groups_and_sums(validation: &Validation) -> Vec<GroupRecord> {
-    let sums = [&validation.driven, &validation.skid].into_iter().flatten();
-    let all = validation.groups.iter().chain(sums).chain([&validation.overall]);
-    all.map(GroupRecord::from).collect()
-}
-
-/// The errors as a row for each group and quantity, and for each yardstick and quantity.
-fn long_rows(validation: &Validation) -> Rows {
-    let mut rows: Vec<Map<String, Value>> = Vec::new();
-    for group in groups_and_sums(validation) {
-        rows.extend(rows_of(&group, None));
-    }
-    for reference in validation.references.iter().map(ReferenceRecord::from) {
-        rows.extend(rows_of(&reference.overall, Some(reference.yardstick)));
-    }
-    Rows::from_maps(rows)
-}
-
-/// A row for each quantity of a group.
-///
-/// * `yardstick`: whose errors they are, if not the model's
-fn rows_of(group: &GroupRecord, yardstick: Option<&str>) -> Vec<Map<String, Value>> {
-    let row = |quantity: Quantity| {
-        let errors = group.errors(quantity)?;
-        let row = json!({
-            (SLIP_ANGLE.name): group.slip_angle(),
-            "motion": group.motion(),
-            "quantity": column_of(quantity).name,
-            "cells": errors.cells,
-            "unsettled_trials": group.0.unsettled,
-        });
-        let errors = serde_json::to_value(errors).ok()?;
-        let (mut row, errors) = (row.as_object()?.clone(), errors.as_object()?.clone());
-        row.extend(errors);
-        row.insert("yardstick".to_owned(), yardstick.into());
-        Some(row)
-    };
-    Quantity::ALL.into_iter().filter_map(row).collect()
-}
-
-/// For people: a block for each quantity, and what could not be predicted.
-fn text_of(validation: &Validation) -> Text {
-    let groups = groups_and_sums(validation);
-    let blocks = Quantity::ALL.into_iter().filter_map(|it| block(&groups, validation, it));
-    let (unsettled, trials) = (validation.overall.unsettled, validation.overall.trials);
-    let missing = (unsettled > 0).then(|| {
-        Text::from(format!(
-            "{unsettled} of {trials} trials have no prediction: the soil cannot carry the wheel. \
-             They are in no error above.\n"
-        ))
-    });
-    Text::blocks(blocks.chain(missing))
-}
-
-fn block(groups: &[GroupRecord], validation: &Validation, quantity: Quantity) -> Option<Text> {
-    let rows = error_rows(groups, validation, quantity);
-    let table = aligned(&ERRORS.map(str::to_owned), &rows);
-    (!rows.is_empty()).then(|| Text::from(format!("{}\n", column_of(quantity).name)) + table)
-}
-
-/// Columns of a quantity's errors.
-const ERRORS: [&str; 9] = [
-    SLIP_ANGLE.name,
-    "motion",
-    "cells",
-    "rmse",
-    "repeatability",
-    "bias",
-    "r2",
-    "rmse_share",
-    "within_aim",
-];
-
-/// A quantity's errors for people, a row for each group, then one for each yardstick.
-fn error_rows(
-    groups: &[GroupRecord],
-    validation: &Validation,
-    quantity: Quantity,
-) -> Vec<Vec<String>> {
-    let row = |group: &GroupRecord| {
-        let angle = group.slip_angle().map_or("all".to_owned(), four_digits);
-        Some(error_row(angle, group.motion(), group.errors(quantity)?))
-    };
-    let yardstick = |reference: &Reference| {
-        let group = GroupRecord::from(&reference.overall);
-        let name = reference.yardstick.name().to_owned();
-        Some(error_row(name, group.motion(), group.errors(quantity)?))
-    };
-    let models = groups.iter().filter_map(row);
-    models.chain(validation.references.iter().filter_map(yardstick)).collect()
-}
-
-/// * `of`: a slip angle, or a yardstick
-fn error_row(of: String, motion: &str, errors: ErrorsRecord) -> Vec<String> {
-    let number = |value: Option<f64>| value.map_or("-".to_owned(), four_digits);
-    vec![
-        of,
-        motion.to_owned(),
-        errors.cells.to_string(),
-        four_digits(errors.rmse),
-        number(errors.repeatability),
-        four_digits(errors.bias),
-        number(errors.r2),
-        number(errors.rmse_share),
-        errors.within_aim.map_or("-", |is_met| if is_met { "yes" } else { "no" }).to_owned(),
-    ]
 }

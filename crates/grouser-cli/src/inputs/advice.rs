@@ -2,11 +2,9 @@
 
 use std::ops::RangeInclusive;
 
-use grouser::document::columns::SLOPE;
+use grouser::answers::learn::AdviceQuestion;
 use grouser::document::{self, LoadedScenario};
-use grouser::studies::learn::advice::{
-    AdviceSettings, CheckSettings, Limits, SoilAhead, TestSettings,
-};
+use grouser::studies::learn::advice::{CheckSettings, Limits, SoilAhead};
 
 use super::{check_numbers, single};
 use crate::args::AdviceArgs;
@@ -18,25 +16,24 @@ const CHANGE: RangeInclusive<f64> = 0.0..=1e6;
 /// Times of a look at the slip [s].
 const LOOK: RangeInclusive<f64> = 0.0..=1e5;
 
-/// * `seed`: of the soils ahead
+/// What advice is asked for, if any is.
 pub(crate) fn advice(
     args: &AdviceArgs,
     scenario: &LoadedScenario,
-    seed: u64,
-) -> Result<AdviceSettings, Failure> {
+) -> Result<Option<AdviceQuestion>, Failure> {
+    if !args.advice {
+        return Ok(None);
+    }
     let share = |flag: &str, numbers| single(flag, numbers, &document::card::SHARE);
     let slopes = document::range(document::Kind::Scenario, "slope_deg").unwrap_or(0.0..=60.0);
     check_numbers("--test-slope-deg", &args.test_slope_deg, &slopes)?;
-    let slopes: Vec<f64> =
-        args.test_slope_deg.0.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect();
-    let way = single("--test-way-m", &args.test_way_m, &WAY)?;
+    let test_way = single("--test-way-m", &args.test_way_m, &WAY)?;
     let change = single("--soil-change-m", &args.soil_change_m, &CHANGE)?;
-    let rim_speed = scenario.value.drive.nominal_rim_speed();
-    Ok(AdviceSettings {
+    Ok(Some(AdviceQuestion {
         limits: Limits {
             slip_ratio: share("--no-go-slip-ratio", &args.no_go_slip_ratio)?,
             probability: share("--no-go-probability", &args.no_go_probability)?,
-            rim_speed,
+            rim_speed: scenario.value.drive.nominal_rim_speed(),
         },
         checks: CheckSettings {
             stuck_probability: share("--stuck-probability", &args.stuck_probability)?,
@@ -46,10 +43,8 @@ pub(crate) fn advice(
             soil: SoilAhead { change_way: (change > 0.0).then_some(change) },
         },
         look_time: single("--look-s", &args.look_s, &LOOK)?,
-        tests: TestSettings {
-            cost: args.test_cost.into(),
-            ..TestSettings::on_slopes(&slopes, way)
-        },
-        seed,
-    })
+        test_slopes_deg: args.test_slope_deg.0.clone(),
+        test_way,
+        test_cost: args.test_cost.into(),
+    }))
 }

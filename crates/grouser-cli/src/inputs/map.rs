@@ -1,7 +1,9 @@
 //! What a mobility map is made of.
 
+use grouser::answers::Sampling;
+use grouser::answers::map::MapQuestion;
 use grouser::document::{self, LoadedScenario};
-use grouser::studies::mobility::{CourseChoice, MobilityStudy};
+use grouser::studies::mobility::{CourseChoice, Ground, MobilityStudy};
 use grouser_raster::{Raster, RasterError, ReadOptions};
 
 use super::card::{rim_speed, rule};
@@ -16,6 +18,21 @@ pub(crate) struct MapInputs {
     pub(crate) study: MobilityStudy,
     pub(crate) course: CourseChoice,
     pub(crate) raster: Raster,
+}
+
+impl MapInputs {
+    /// The question that they make.
+    pub(crate) fn question<'q>(&'q self, args: &'q MapArgs) -> MapQuestion<'q> {
+        MapQuestion {
+            dem: &args.dem,
+            ground: Ground::under(&self.study.heading.rover, &self.raster),
+            scenario: &self.scenario,
+            study: &self.study,
+            course: self.course,
+            course_deg: &args.course_deg,
+            sampling: Sampling { count: args.samples, seed: args.seed },
+        }
+    }
 }
 
 pub(crate) fn map(args: &MapArgs) -> Result<MapInputs, Failure> {

@@ -1,5 +1,8 @@
 //! What a route is made of.
 
+use grouser::answers::Sampling;
+pub(crate) use grouser::answers::route::Asked;
+use grouser::answers::route::RouteQuestion;
 use grouser::document::unit::less_whole_turns;
 use grouser::document::{LoadedScenario, escape, study};
 use grouser::studies::mobility::MobilityStudy;
@@ -21,12 +24,20 @@ pub(crate) struct RouteInputs {
     pub(crate) raster: Raster,
 }
 
-/// What is asked.
-pub(crate) enum Asked {
-    /// A way between two places.
-    Between(Ends),
-    /// What a line takes.
-    Along(Line),
+impl RouteInputs {
+    /// The question that they make.
+    pub(crate) fn question<'q>(&'q self, args: &'q RouteArgs) -> RouteQuestion<'q> {
+        RouteQuestion {
+            dem: &args.dem,
+            raster: &self.raster,
+            scenario: &self.scenario,
+            study: &self.study,
+            asked: &self.asked,
+            along: args.along.as_deref(),
+            keep_out: args.keep_out.as_deref(),
+            sampling: Sampling { count: args.samples, seed: args.seed },
+        }
+    }
 }
 
 pub(crate) fn route(args: &RouteArgs) -> Result<RouteInputs, Failure> {

@@ -14,6 +14,9 @@ use crate::report::REPORT;
 use crate::report::answer::{Basis, close};
 use crate::report::page::Page;
 
+/// Pictures that a command draws: the name of each one's file, and its SVG.
+pub(crate) type Pictures = [(String, String)];
+
 /// Writes an answer into its folder, if it has one, and prints it.
 ///
 /// * `repeat`: the command that gives the answer again, typed in its folder
@@ -23,10 +26,28 @@ pub(crate) fn give(
     folder: Option<OutputFolder>,
     format: Format,
 ) -> Result<(), Failure> {
+    give_with_pictures(answer, repeat, &[], folder, format)
+}
+
+/// The same of an answer whose page has pictures that the command draws.
+///
+/// * `pictures`: all that the page names, if there is a folder
+pub(crate) fn give_with_pictures(
+    answer: &Answer,
+    repeat: &str,
+    pictures: &Pictures,
+    folder: Option<OutputFolder>,
+    format: Format,
+) -> Result<(), Failure> {
     if let Some(mut folder) = folder {
-        add_to(&mut folder, answer, repeat)?;
+        add_to(&mut folder, answer, repeat, pictures)?;
         folder.finish()?;
     }
+    print(answer, format)
+}
+
+/// Prints an answer.
+pub(crate) fn print(answer: &Answer, format: Format) -> Result<(), Failure> {
     match format {
         Format::Table => super::show(text(answer)),
         Format::Csv => match answer.tables.first() {
@@ -38,7 +59,12 @@ pub(crate) fn give(
 }
 
 /// The files of an answer.
-fn add_to(folder: &mut OutputFolder, answer: &Answer, repeat: &str) -> Result<(), Failure> {
+fn add_to(
+    folder: &mut OutputFolder,
+    answer: &Answer,
+    repeat: &str,
+    pictures: &Pictures,
+) -> Result<(), Failure> {
     folder.add(format!("{}.json", answer.name), json::text(answer) + "\n");
     for (name, table) in &answer.tables {
         folder.add(format!("{name}.csv"), Rows::of_table(table).to_csv()?);
@@ -48,7 +74,8 @@ fn add_to(folder: &mut OutputFolder, answer: &Answer, repeat: &str) -> Result<()
             folder.add(format!("{file}.svg"), figure.to_svg());
         }
     }
-    folder.add(REPORT, html(answer, repeat));
+    add_pictures(folder, pictures);
+    folder.add(REPORT, html(answer, repeat, pictures));
     for document in &answer.documents {
         folder.add(document.file.as_str(), document.toml.as_str());
         let beside = document.file.rfind('/').map_or("", |end| &document.file[..=end]);
@@ -57,6 +84,13 @@ fn add_to(folder: &mut OutputFolder, answer: &Answer, repeat: &str) -> Result<()
         }
     }
     Ok(())
+}
+
+/// The files of pictures.
+pub(crate) fn add_pictures(folder: &mut OutputFolder, pictures: &Pictures) {
+    for (file, svg) in pictures {
+        folder.add(file.as_str(), svg.as_str());
+    }
 }
 
 /// What a terminal shows.
@@ -84,7 +118,11 @@ fn excerpt(table: &Table, columns: &[String], most: usize, what: &str) -> Text {
     rows + format!("{most} of {count} {what}; --format csv prints all\n")
 }
 
-fn html(answer: &Answer, repeat: &str) -> String {
+/// The page of an answer.
+///
+/// * `repeat`: the command that gives the answer again, typed in its folder
+/// * `pictures`: all that the page names
+pub(crate) fn html(answer: &Answer, repeat: &str, pictures: &Pictures) -> String {
     let mut page = Page::new(&answer.title);
     for block in &answer.page {
         match block {
@@ -95,9 +133,18 @@ fn html(answer: &Answer, repeat: &str) -> String {
             PageBlock::Rows { caption, table, columns } => page.rows(caption, table, columns),
             PageBlock::Figure { figure, caption, .. } => page.drawing(&figure.to_svg(), caption),
             PageBlock::Charts(charts) => page.charts(charts),
+            PageBlock::Picture { file, caption } => page.drawing(drawn(pictures, file), caption),
         }
     }
     close(page, &answer.findings, &answer.columns, &Basis::of(answer, repeat))
+}
+
+/// The SVG of a picture. A command draws every one that the page of its answer names.
+fn drawn<'p>(pictures: &'p Pictures, file: &str) -> &'p str {
+    let Some((_, svg)) = pictures.iter().find(|(name, _)| name == file) else {
+        unreachable!("{file} was not drawn")
+    };
+    svg
 }
 
 impl From<AnswerError> for Failure {

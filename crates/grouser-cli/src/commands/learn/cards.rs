@@ -1,5 +1,8 @@
 //! Today's card beside yesterday's: of the soil before the drive, and after it.
 
+use std::sync::Arc;
+
+use grouser::answers::Answer;
 use grouser::document::LoadedScenario;
 use grouser::document::columns::card_days;
 use grouser::document::learn::LearntSoil;
@@ -10,15 +13,13 @@ use crate::args::LearnArgs;
 use crate::commands::card::Pages;
 use crate::failure::Failure;
 use crate::output::folder::OutputFolder;
-use crate::output::rows::Rows;
-use crate::report::page::Page;
 
 /// Both cards.
 pub(super) struct Cards {
     before: Pages,
     after: Pages,
     /// A row for each slope.
-    table: Table,
+    table: Arc<Table>,
 }
 
 impl Cards {
@@ -30,12 +31,12 @@ impl Cards {
         let today = learnt.in_scenario(scenario)?;
         let pages = |scenario| Pages::of(scenario, args.samples, args.seed);
         let (before, after) = (pages(scenario.clone())?, pages(today)?);
-        let table = card_days::table(&before.card, &after.card);
+        let table = card_days::table(&before.card, &after.card).into();
         Ok(Self { before, after, table })
     }
 
-    /// Adds the cards' files.
-    pub(super) fn add_to(&self, folder: &mut OutputFolder) -> Result<(), Failure> {
+    /// Adds the cards to a folder, and the table of both to its answer.
+    pub(super) fn add_to(&self, folder: &mut OutputFolder, answer: &mut Answer) {
         let [before, after] = [&self.before, &self.after].map(|it| &it.sheets);
         // Facing pages: yesterday's on the left, today's on the right.
         let facing = before.iter().zip(after).flat_map(|(before, after)| [before, after]);
@@ -43,18 +44,13 @@ impl Cards {
         folder.add("cards.pdf", pdf_of(&facing));
         folder.add("card.pdf", pdf_of(after));
         folder.add("cards.html", self.html());
-        folder.add("cards.csv", Rows::of_table(&self.table).to_csv()?);
-        Ok(())
-    }
-
-    /// Shows the table of both in a page.
-    pub(super) fn show(&self, page: &mut Page) {
-        page.heading("Today's card beside yesterday's");
-        page.paragraph(
+        answer.tables.push(("cards".to_owned(), Arc::clone(&self.table)));
+        answer.heading("Today's card beside yesterday's");
+        answer.words(
             "The cards themselves are in cards.html and cards.pdf, yesterday's on the left; \
              today's alone is in card.pdf.",
         );
-        page.rows("Both cards, slope by slope", &self.table, &card_days::brief());
+        answer.rows("Both cards, slope by slope", &self.table, card_days::brief());
     }
 
     /// Both cards side by side; below each other where there is no room.

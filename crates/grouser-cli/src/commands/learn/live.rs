@@ -5,6 +5,7 @@ use std::panic::resume_unwind;
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
+use grouser::answers::learn::{shares, slope_in_words, warning_in_words};
 use grouser::document::columns::TIME;
 use grouser::document::columns::learn as columns;
 use grouser::document::table::Table;
@@ -13,7 +14,6 @@ use grouser::studies::learn::{Drive, Lesson};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use super::found::{of_row, shares, warning};
 use super::samples::reaches_too_far;
 use crate::args::LearnArgs;
 use crate::commands::sampling;
@@ -64,7 +64,7 @@ impl<'a> Live<'a> {
             if is_json {
                 print_line(columns::WARNING, fields_of(&table, place))?;
             } else {
-                output::show(warning(it) + "\n")?;
+                output::show(warning_in_words(it) + "\n")?;
             }
         }
         Ok(())
@@ -116,8 +116,9 @@ impl<'a> Live<'a> {
             });
             return print_line("predictions", fields);
         }
-        let rows: Vec<String> = (0..table.rows()).filter_map(|row| of_row(&table, row)).collect();
-        output::show(format!("{time:.1} s, {way:.2} m: {}\n", rows.join("; ")))
+        let slopes = (0..table.rows()).filter_map(|row| slope_in_words(&table, row));
+        let slopes: Vec<String> = slopes.collect();
+        output::show(format!("{time:.1} s, {way:.2} m: {}\n", slopes.join("; ")))
     }
 }
 

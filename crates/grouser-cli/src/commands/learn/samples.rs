@@ -1,13 +1,13 @@
 //! Samples of what was learnt.
 
+use grouser::answers::Sampling;
 use grouser::studies::learn::{Learner, LearntSample};
 
-use crate::args::LearnArgs;
 use crate::failure::Failure;
 
 /// Samples of what is believed.
-pub(super) fn samples(args: &LearnArgs, learner: &Learner) -> Result<Vec<LearntSample>, Failure> {
-    learner.samples(args.seed, args.samples).map_err(|error| reaches_too_far(&error))
+pub(super) fn samples(of: Sampling, learner: &Learner) -> Result<Vec<LearntSample>, Failure> {
+    learner.samples(of.seed, of.count).map_err(|error| reaches_too_far(&error))
 }
 
 /// What is believed cannot be drawn from.

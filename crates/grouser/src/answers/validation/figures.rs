@@ -1,20 +1,25 @@
 //! Charts of a validation: predictions through measured points, and residuals.
 
-use grouser::document::columns::fit::{self, column_of};
-use grouser::document::columns::slope;
-use grouser::document::columns::{self, COURSE, SLIP_ANGLE, SLIP_RATIO, SLOPE, TOTAL_SLIP, YAW};
-use grouser::document::reading::capitalised;
-use grouser::document::table::Table;
-use grouser::studies::measurement::Quantity;
-use grouser::studies::slope_validation::SlopeValidation;
-use grouser::studies::validation::Validation;
-use grouser_draw::chart::{Chart, Series, Style};
+use crate::document::columns::fit::{self, column_of};
+use crate::document::columns::{
+    self, COURSE, SLIP_ANGLE, SLIP_RATIO, SLOPE, TOTAL_SLIP, YAW, slope,
+};
+use crate::document::figure::{Chart, Series, Style};
+use crate::document::reading::capitalised;
+use crate::document::table::Table;
+use crate::studies::measurement::Quantity;
+use crate::studies::slope_validation::SlopeValidation;
+use crate::studies::validation::Validation;
 
-/// A chart with its file's name, without ending, and its caption.
-pub(crate) struct Figure {
-    pub(crate) file: String,
-    pub(crate) chart: Chart,
-    pub(crate) caption: &'static str,
+/// A chart that is a file too.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// The name of its file, without the ending.
+    pub file: String,
+    /// What is drawn.
+    pub chart: Chart,
+    /// What it shows.
+    pub caption: &'static str,
 }
 
 /// Cells by slip angle, then by slip.
@@ -57,7 +62,8 @@ impl Cells {
 }
 
 /// For each quantity that was measured: curves through points, and residuals.
-pub(crate) fn all(validation: &Validation) -> Vec<Figure> {
+#[must_use]
+pub fn all(validation: &Validation) -> Vec<Figure> {
     let all = Cells::of(validation);
     let mut figures = Vec::new();
     for quantity in Quantity::ALL {
@@ -88,7 +94,8 @@ pub(crate) fn all(validation: &Validation) -> Vec<Figure> {
 
 /// For each quantity that was measured: measured and predicted over the slope, a colour for each
 /// course.
-pub(super) fn of_slopes(validation: &SlopeValidation) -> Vec<Figure> {
+#[must_use]
+pub fn of_slopes(validation: &SlopeValidation) -> Vec<Figure> {
     let table = slope::slopes(&validation.points);
     let figure = |quantity: columns::Quantity| {
         let measured = quantity.measurement();

@@ -1,0 +1,48 @@
+//! The page of a drive: today beside yesterday, advice, and what each stretch taught.
+
+use super::super::{Answer, meanings};
+use super::figures;
+use super::question::{LearnQuestion, LearntDrive};
+use super::tables::DriveTables;
+use super::words::{lines, slope_in_words};
+use crate::document::columns::advice::{SLOPE_COLUMNS, TEST_COLUMNS};
+use crate::document::columns::learn::{LESSON_COLUMNS, PREDICTION_COLUMNS, WARNING_COLUMNS, brief};
+
+impl LearnQuestion {
+    /// The page, but for what all pages end with.
+    pub(super) fn page(&self, answer: &mut Answer, found: &LearntDrive, tables: &DriveTables) {
+        let predictions = &tables.predictions;
+        let slopes = (0..predictions.rows()).filter_map(|row| slope_in_words(predictions, row));
+        let slopes: Vec<String> = slopes.collect();
+        answer.verdict(format!("To hold the contour: {}.", slopes.join("; ")));
+        let name = |key: &str| self.scenario.document.text(key).unwrap_or("unnamed").to_owned();
+        answer.list([
+            format!("rover: {}", name("rover.name")),
+            format!("soil before the drive: {}", name("soil.name")),
+        ]);
+        answer.list(lines(found));
+        answer.heading("Today beside yesterday");
+        let caption = "Heading and slip of the next slopes, after the drive and before it";
+        answer.rows(caption, predictions, brief());
+        answer.charts(figures::predictions(predictions));
+        if let Some(advice) = &tables.advice {
+            advice.add_to(answer);
+        }
+        answer.heading("What each stretch taught");
+        let lessons = &tables.lessons;
+        answer.charts(vec![figures::over_way(lessons), figures::information(lessons)]);
+        if let Some(slips) = &tables.slips {
+            answer.heading("Slip from currents beside slip that was seen");
+            let caption = "Slip from currents, wheel by wheel, beside that seen";
+            answer.rows(caption, &slips.wheels, slips.wheels.names());
+            answer.charts(figures::slips(&self.scenario.value.rover, &slips.rows));
+        }
+        answer.columns = meanings(&PREDICTION_COLUMNS);
+        answer.columns.extend(meanings(&LESSON_COLUMNS));
+        answer.columns.extend(meanings(&WARNING_COLUMNS));
+        if tables.advice.is_some() {
+            answer.columns.extend(meanings(&SLOPE_COLUMNS));
+            answer.columns.extend(meanings(&TEST_COLUMNS));
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! What is asked of a map.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use super::super::{Answer, Sampling, samples};
+use crate::document::LoadedScenario;
+use crate::document::columns::Column;
+use crate::document::columns::map::{bands, chosen};
+use crate::studies::ensemble::samples::BandInputs;
+use crate::studies::mobility::{CellMotion, CourseChoice, Ground, MobilityStudy};
+
+/// The question.
+#[derive(Clone, Copy, Debug)]
+pub struct MapQuestion<'q> {
+    /// The file of the heights.
+    pub dem: &'q Path,
+    /// The heights, under the scenario's rover.
+    pub ground: Ground<'q>,
+    /// The scenario of rover, soil, gravity, load transfer and model.
+    pub scenario: &'q LoadedScenario,
+    /// Its study.
+    pub study: &'q MobilityStudy,
+    /// The course.
+    pub course: CourseChoice,
+    /// The same as it was given: a number of degrees, or a word.
+    pub course_deg: &'q str,
+    /// The samples of soil and model.
+    pub sampling: Sampling,
+}
+
+impl MapQuestion<'_> {
+    /// The bands of the map: the course as well, where it is chosen.
+    #[must_use]
+    pub fn bands(&self) -> Vec<Column<CellMotion>> {
+        let mut all: Vec<Column<CellMotion>> = bands().into();
+        if !matches!(self.course, CourseChoice::Fixed(_)) {
+            all.extend(chosen());
+        }
+        all
+    }
+
+    /// All that the map depends on but its heights: by it a map that was stopped is known again.
+    #[must_use]
+    pub fn identity(&self) -> Value {
+        let mut answer = Answer::default();
+        self.state(&mut answer);
+        let mut identity = answer.inputs;
+        identity.insert("model_weights".to_owned(), json!(answer.model_weights));
+        Value::Object(identity)
+    }
+
+    /// The inputs of the answer.
+    pub(super) fn state(&self, answer: &mut Answer) {
+        let document = &self.scenario.document;
+        let of_document = |key: &str| document.get(key).cloned().unwrap_or_default();
+        let rule = &self.study.rule;
+        answer.input("dem", self.dem.display().to_string());
+        answer.input("rover", of_document("rover"));
+        answer.input("soil", of_document("soil"));
+        answer.input("model", self.scenario.value.model.name());
+        for key in ["gravity_m_s2", "load_transfer", "wheel_moments", "slope_stability"] {
+            answer.input(key, of_document(key));
+        }
+        answer.input("course_deg", self.course_deg);
+        answer.input("rim_speed_m_s", self.study.rim_speed);
+        answer.input("go_slip_ratio", rule.go_slip_ratio);
+        answer.input("go_probability", rule.go_probability);
+        answer.input("no_go_slip_ratio", rule.no_go_slip_ratio);
+        answer.input("no_go_probability", rule.no_go_probability);
+        self.sampling.state(answer);
+        let band = BandInputs::of_scenario(self.scenario);
+        answer.model_weights = Some(samples::weights(&band));
+    }
+}

@@ -1,0 +1,82 @@
+//! The cheapest way over ground with heights, or what a given one takes.
+
+mod columns;
+mod page;
+mod question;
+mod way;
+
+use std::path::Path;
+use std::sync::Arc;
+
+use serde_json::{Map, Value, json};
+
+use self::columns::{WAY, brief};
+pub use self::question::{Asked, RouteQuestion};
+pub use self::way::Way;
+use super::{Answer, Displayed, Member, samples};
+use crate::document::columns::{SLOPE, YAW};
+use crate::document::route::RouteRecord;
+use crate::document::table::Table;
+use crate::studies::ensemble::samples::BandInputs;
+
+impl RouteQuestion<'_> {
+    /// The answer. Its page has one picture, `NAME.svg`: the ground with the ways.
+    ///
+    /// * `ways`: at least one: first that which is asked for, then its alternatives
+    #[must_use]
+    pub fn answer(&self, name: &str, ways: &[Way]) -> Answer {
+        let rows = Arc::new(Table::of(&WAY, ways));
+        let title = if self.has_line() { "What a way takes" } else { "The cheapest way" };
+        let mut answer = Answer::new(name, title);
+        self.state(&mut answer);
+        let others: Vec<&RouteRecord> = ways[1..].iter().map(|way| &way.record).collect();
+        answer.results = vec![
+            Member::Values(entries(&ways[0].record)),
+            Member::Value("straight_m", json!(self.asked.straight())),
+            Member::Value("coordinate_system", json!(self.raster.coordinates.name())),
+            Member::Value("alternatives", json!(others)),
+        ];
+        answer.tables.push((name.to_owned(), Arc::clone(&rows)));
+        let lines: String = ways.iter().map(Way::lines).collect();
+        answer.screen = vec![Displayed::Rows(Arc::clone(&rows), brief()), Displayed::Words(lines)];
+        answer.attach("scenario.toml", self.scenario);
+        self.page(&mut answer, ways, &rows);
+        answer
+    }
+
+    /// The inputs of the answer.
+    fn state(&self, answer: &mut Answer) {
+        let (document, limits) = (&self.scenario.document, self.study.limits);
+        let of_document = |key: &str| document.get(key).cloned().unwrap_or_default();
+        let shown = |file: &Path| file.display().to_string();
+        let (from, to, yaw) = match self.asked {
+            Asked::Between(ends) => (ends.from, ends.to, ends.yaw),
+            Asked::Along(line) => (line.start(), line.end(), line.yaw),
+        };
+        answer.input("dem", shown(self.dem));
+        answer.input("rover", of_document("rover"));
+        answer.input("soil", of_document("soil"));
+        answer.input("model", self.scenario.value.model.name());
+        answer.input("gravity_m_s2", of_document("gravity_m_s2"));
+        answer.input("from_m", [from.x, from.y]);
+        answer.input("to_m", [to.x, to.y]);
+        answer.input("along", self.along.map(shown));
+        answer.input(YAW.name, yaw.map(|yaw| YAW.unit.from_si(yaw)));
+        answer.input("keep_out", self.keep_out.map(shown));
+        answer.input("most_slope_deg", SLOPE.unit.from_si(limits.most_slope));
+        answer.input("most_slip_ratio", limits.most_slip_ratio);
+        answer.input("most_no_go", limits.most_no_go);
+        answer.input("rim_speed_m_s", self.study.mobility.rim_speed);
+        self.sampling.state(answer);
+        let band = BandInputs::of_scenario(self.scenario);
+        answer.model_weights = Some(samples::weights(&band));
+    }
+}
+
+/// What a way takes, as the entries of an object of JSON.
+fn entries(record: &RouteRecord) -> Map<String, Value> {
+    match json!(record) {
+        Value::Object(entries) => entries,
+        other => unreachable!("a record is an object, not {other}"),
+    }
+}

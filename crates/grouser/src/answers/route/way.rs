@@ -1,0 +1,95 @@
+//! Ways that were found or given, and what is said of each.
+
+use std::fmt::Write as _;
+
+use crate::document::reading::four_digits;
+use crate::document::route::RouteRecord;
+use crate::studies::route::{
+    Answer as Found, CheckedLine, DrivenRoute, Limits, Line, Objective, Route,
+};
+use crate::units::Vec2;
+
+/// A way that was found or given, or why there is none.
+#[derive(Clone, Debug)]
+pub struct Way {
+    /// What it takes, as it leaves the library.
+    pub record: RouteRecord,
+    /// Its places [m]; none where no way was found.
+    pub places: Vec<Vec2>,
+    /// What it takes by the tables, if that is known.
+    pub(super) route: Option<Route>,
+    /// What simulation makes of it, if it was driven.
+    pub(super) driven: Option<DrivenRoute>,
+}
+
+impl Way {
+    /// What came of seeking a way.
+    ///
+    /// * `driven`: what simulation makes of it, if it was driven
+    #[must_use]
+    pub fn sought(objective: Objective, found: Found, driven: Option<DrivenRoute>) -> Self {
+        let record = RouteRecord::of(objective, &found, driven.as_ref());
+        let route = match found {
+            Found::Route(route) => Some(route),
+            Found::NoSafeRoute(_) => None,
+        };
+        let places = route.as_ref().map(|it| it.waypoints.clone()).unwrap_or_default();
+        Self { record, places, route, driven }
+    }
+
+    /// What came of looking along a line.
+    ///
+    /// * `driven`: what simulation makes of it, if it was driven
+    #[must_use]
+    pub fn along(
+        line: &Line,
+        found: CheckedLine,
+        limits: &Limits,
+        driven: Option<DrivenRoute>,
+    ) -> Self {
+        let record = RouteRecord::of_line(line, &found, limits, driven.as_ref());
+        Self { record, places: line.places().to_vec(), route: found.route, driven }
+    }
+
+    /// What it is called.
+    #[must_use]
+    pub fn name(&self) -> String {
+        self.record.minimise.map_or_else(|| "the given way".to_owned(), |it| format!("least {it}"))
+    }
+
+    /// A number of the way, if it is known.
+    pub(super) fn by_tables(&self, number: fn(&Route) -> f64) -> Option<f64> {
+        self.route.as_ref().map(number)
+    }
+
+    /// A number of the simulation, if there was one.
+    pub(super) fn by_simulation(&self, number: fn(&DrivenRoute) -> f64) -> Option<f64> {
+        self.driven.as_ref().map(number)
+    }
+
+    /// What a table does not say of it: some lines, or none.
+    pub(super) fn lines(&self) -> String {
+        let (name, record) = (self.name(), &self.record);
+        let mut text = String::new();
+        if let Some(reason) = record.reason.as_ref().filter(|_| record.hazards.is_empty()) {
+            let _ = writeln!(text, "{name}: no safe route: {reason}");
+        }
+        for hazard in &record.hazards {
+            let _ = writeln!(text, "not safe: {}", hazard.sentence);
+        }
+        if let Some(driven) = &record.simulated {
+            let _ = writeln!(
+                text,
+                "{name}: driven by simulation: {}, {} s ({:+.1} %), {} J ({:+.1} %), {} m from \
+                 the target",
+                driven.outcome,
+                four_digits(driven.time_s),
+                100.0 * driven.time_error,
+                four_digits(driven.energy_j),
+                100.0 * driven.energy_error,
+                four_digits(driven.miss_m)
+            );
+        }
+        text
+    }
+}
