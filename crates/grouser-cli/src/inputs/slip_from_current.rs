@@ -69,8 +69,8 @@ pub(crate) fn slip_from_current(args: &SlipFromCurrentArgs) -> Result<SlipInputs
         log: args.log.display().to_string(),
         ignored: args.ignore.clone(),
         scenario,
-        yaw_deg: one(&args.yaw_deg),
-        course_deg: one(&args.course_deg),
+        given_yaw: one(&args.yaw_deg),
+        given_course: one(&args.course_deg),
         settings,
         sampling,
     };

@@ -208,8 +208,8 @@ impl HeadingMapQuestion {
         for key in ["gravity_m_s2", "load_transfer", "wheel_moments"] {
             answer.input(key, of_document(key));
         }
-        answer.input("course_deg", self.courses_deg.clone());
-        answer.input("slope_deg", self.slopes_deg.clone());
+        answer.input(COURSE.name, self.courses_deg.clone());
+        answer.input(SLOPE.name, self.slopes_deg.clone());
         answer.input("rim_speed_m_s", self.rim_speed);
         if let Some(sampling) = self.sampling {
             sampling.state(answer);

@@ -30,9 +30,9 @@ pub struct SlipQuestion {
     /// The scenario of rover, soil and slope.
     pub scenario: LoadedScenario,
     /// Yaw and course that stand for those of the log [°], as they were given.
-    pub yaw_deg: Option<f64>,
+    pub given_yaw: Option<f64>,
     /// The same of the course.
-    pub course_deg: Option<f64>,
+    pub given_course: Option<f64>,
     /// Noise of torques, and the range of slips.
     pub settings: SlipSettings,
     /// The samples of soil and model, if there are any.
@@ -115,8 +115,8 @@ impl SlipQuestion {
         for key in ["rover", "soil", SLOPE.name] {
             answer.input(key, of_document(key));
         }
-        answer.input("yaw_deg", self.yaw_deg);
-        answer.input(COURSE.name, self.course_deg);
+        answer.input("yaw_deg", self.given_yaw);
+        answer.input(COURSE.name, self.given_course);
         for key in ["gravity_m_s2", "load_transfer", "wheel_moments"] {
             answer.input(key, of_document(key));
         }

@@ -131,13 +131,12 @@ fn is_a_key_too(name: &str) -> bool {
 }
 
 /// Where a name that only results have stands once more, and why.
-const OTHER_PLACES: [(&str, &str); 9] = [
+const OTHER_PLACES: [(&str, &str); 8] = [
     // Plates sink, too, in results of their own.
     ("sinkage_mm", "document/calibration/bevameter.rs"),
     // Options of the program and arguments of Python's functions, which results repeat.
     ("course_deg", "src/args/heading.rs"),
     ("course_deg", "src/args/slip_from_current.rs"),
-    ("course_deg", "commands/heading_map.rs"),
     ("course_deg", "src/args/map.rs"),
     ("course_deg", "commands/map.rs"),
     // A direction on a path that is asked for.
