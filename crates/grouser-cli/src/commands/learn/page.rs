@@ -69,10 +69,9 @@ pub(super) fn html(
     let rows = (0..found.predictions.rows()).filter_map(|row| of_row(&found.predictions, row));
     let sentences: Vec<String> = rows.collect();
     page.answer(&format!("To hold the contour: {}.", sentences.join("; ")));
-    let name = |key: &str| scenario.document.text(key).unwrap_or("unnamed").to_owned();
     page.list([
-        format!("rover: {}", name("rover.name")),
-        format!("soil before the drive: {}", name("soil.name")),
+        format!("rover: {}", scenario.document.name_of("rover")),
+        format!("soil before the drive: {}", scenario.document.name_of("soil")),
     ]);
     page.list(lines(found));
     page.heading("Today beside yesterday");
@@ -114,9 +113,7 @@ fn predictions(table: &Table) -> [Chart; 2] {
             let band =
                 |name: &str, colour: usize, quantity: grouser::document::columns::Quantity| {
                     let [low, _, high] = quantity.quantiles();
-                    let ends = table.points(SLOPE.name, &low).zip(table.points(SLOPE.name, &high));
-                    let edges: Vec<_> = ends.map(|((x, low), (_, high))| (x, low, high)).collect();
-                    Series::band(name, colour, edges)
+                    Series::band(name, colour, table.edges(SLOPE, [&low, &high]))
                 };
             let median = table.points(SLOPE.name, after.name);
             let series = vec![
@@ -168,18 +165,13 @@ fn slips_from_currents(rover: &Rover, rows: &Table) -> Vec<Chart> {
     let names = rows.texts(WHEEL);
     let [low, median, high] = SLIP_RATIO.quantiles();
     let of_wheel = |wheel: &str| {
-        let points = |column: &str| -> Vec<(f64, f64)> {
-            let values = rows.numbers(TIME.name).iter().zip(rows.numbers(column));
-            let of_rows = names.iter().zip(values);
-            let own = of_rows.filter(|(name, _)| name.as_deref() == Some(wheel));
-            own.filter_map(|(_, (time, value))| (*time).zip(*value)).collect()
-        };
-        let ends = points(&low).into_iter().zip(points(&high));
-        let edges: Vec<_> = ends.map(|((time, low), (_, high))| (time, low, high)).collect();
+        let own = names.iter().enumerate();
+        let own = own.filter(|(_, name)| name.as_deref() == Some(wheel)).map(|(place, _)| place);
+        let own = rows.rows_at(&own.collect::<Vec<_>>());
         let series = vec![
-            Series::band("from its current, 95 %", AFTER, edges),
-            Series::new("from its current", Style::Line, 1, points(&median)),
-            Series::new("seen", Style::Dashed, 2, points(TRUE_SLIP.name)),
+            Series::band("from its current, 95 %", AFTER, own.edges(TIME, [&low, &high])),
+            Series::new("from its current", Style::Line, 1, own.points(TIME.name, &median)),
+            Series::new("seen", Style::Dashed, 2, own.points(TIME.name, TRUE_SLIP.name)),
         ];
         Chart::new(wheel.to_owned(), (axis(TIME), axis(SLIP_RATIO)), series)
     };

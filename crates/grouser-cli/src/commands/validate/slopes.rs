@@ -93,8 +93,8 @@ fn html(
 ) -> String {
     let mut page = Page::new("Measured and predicted on slopes");
     page.list([
-        format!("rover: {}", scenario.document.text("rover.name").unwrap_or("unnamed")),
-        format!("soil: {}", scenario.document.text("soil.name").unwrap_or("unnamed")),
+        format!("rover: {}", scenario.document.name_of("rover")),
+        format!("soil: {}", scenario.document.name_of("soil")),
         format!("wheel–soil model: {}", scenario.value.model.name()),
     ]);
     page.list(&tests.notes);
