@@ -1,6 +1,5 @@
 //! The map of costs: counted by the units of work, and written into its document.
 
-use std::fs;
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, ensure};
@@ -17,9 +16,5 @@ pub(crate) fn write() -> Result<()> {
     let mut command = Command::new(workspace::build_work(workspace::Profile::Dev)?);
     let output = command.arg("costs").stderr(Stdio::inherit()).output().context("the map")?;
     ensure!(output.status.success(), "the costs cannot be counted");
-    let (path, map) = (workspace::root().join(FILE), String::from_utf8(output.stdout)?);
-    let text = fs::read_to_string(&path).context(FILE)?;
-    let text = markers::with_content_by(&text, MAP, &map).context(FILE)?;
-    print!("{map}");
-    fs::write(&path, text).context(FILE)
+    markers::write_content_by(FILE, MAP, &String::from_utf8(output.stdout)?)
 }

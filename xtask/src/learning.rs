@@ -1,7 +1,6 @@
 //! What learning from a drive is worth: measured by the example `learning`, and written into the
 //! guide.
 
-use std::fs;
 use std::process::Stdio;
 
 use anyhow::{Context, Result, ensure};
@@ -25,12 +24,8 @@ pub(crate) fn write(only: Option<&str>) -> Result<()> {
             .output()
             .context("cargo did not start")?;
         ensure!(output.status.success(), "{study} cannot be measured");
-        let (path, table) = (workspace::root().join(FILE), String::from_utf8(output.stdout)?);
-        let text = fs::read_to_string(&path).context(FILE)?;
         let block = format!("measured by: cargo xtask learning {study}");
-        let text = markers::with_content_by(&text, &block, &table).context(FILE)?;
-        print!("{table}");
-        fs::write(&path, text).context(FILE)?;
+        markers::write_content_by(FILE, &block, &String::from_utf8(output.stdout)?)?;
     }
     Ok(())
 }

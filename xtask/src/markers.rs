@@ -5,9 +5,12 @@
 //! `cargo xtask CHORE` are that chore's to write. Markers in fenced code are examples and do not
 //! count.
 
+use std::fs;
+
 use anyhow::{Context, Result, bail};
 
 use crate::markdown::Page;
+use crate::workspace;
 
 /// What a block shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -155,6 +158,18 @@ pub(crate) fn content_by<'t>(markdown: &'t str, by: &str) -> Result<&'t str> {
     let (_, rest) = markdown.split_once(&start).with_context(|| format!("no block `{by}`"))?;
     let (content, _) = rest.split_once(END).with_context(|| format!("`{by}` has no `{END}`"))?;
     Ok(content)
+}
+
+/// Prints another content of the block of a chore, and writes it into its document.
+///
+/// * `file`: the document, as a path from the root
+/// * `by`: as in [`content_by`]
+pub(crate) fn write_content_by(file: &str, by: &str, content: &str) -> Result<()> {
+    let path = workspace::root().join(file);
+    let markdown = fs::read_to_string(&path).with_context(|| file.to_owned())?;
+    let written = with_content_by(&markdown, by, content).with_context(|| file.to_owned())?;
+    print!("{content}");
+    fs::write(&path, written).with_context(|| file.to_owned())
 }
 
 /// A text with another content in the block of a chore.

@@ -107,11 +107,7 @@ pub(crate) fn write_times() -> Result<()> {
     command.arg(workspace::build_work(workspace::Profile::Release)?);
     let output = command.stderr(Stdio::inherit()).output().context("Python did not start")?;
     ensure!(output.status.success(), "the times cannot be measured");
-    let (path, times) = (workspace::root().join(PERFORMANCE), String::from_utf8(output.stdout)?);
-    let text = fs::read_to_string(&path).context(PERFORMANCE)?;
-    let text = markers::with_content_by(&text, TIMES, &times).context(PERFORMANCE)?;
-    print!("{times}");
-    fs::write(&path, text).context(PERFORMANCE)
+    markers::write_content_by(PERFORMANCE, TIMES, &String::from_utf8(output.stdout)?)
 }
 
 /// The Python of an environment that has the package as it is now, built once in a run.

@@ -1,6 +1,5 @@
 //! The times of units of work, written into their document.
 
-use std::fs;
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, ensure};
@@ -19,9 +18,5 @@ pub(crate) fn write() -> Result<()> {
     let output = program.stderr(Stdio::inherit()).output().context("the program did not start")?;
     ensure!(output.status.success(), "the times cannot be measured");
     let times = format!("```text\n{}```\n", String::from_utf8(output.stdout)?);
-    let path = workspace::root().join(PERFORMANCE);
-    let text = fs::read_to_string(&path).context(PERFORMANCE)?;
-    let text = markers::with_content_by(&text, TIMES, &times).context(PERFORMANCE)?;
-    print!("{times}");
-    fs::write(&path, text).context(PERFORMANCE)
+    markers::write_content_by(PERFORMANCE, TIMES, &times)
 }

@@ -11,7 +11,7 @@ use grouser::answers::{Answer, Member};
 use grouser::contact::InstructionSet;
 use grouser::document::reading::four_digits;
 use grouser_bench::{Accuracy, Fixtures, OPERATIONS_OF_A_FORCE, Unit};
-use serde_json::{Map, Value, json};
+use serde_json::json;
 
 /// Measures how fast this machine computes, and how accurately.
 #[derive(Debug, Parser)]
@@ -61,15 +61,15 @@ fn main() -> Result<(), Box<dyn Error>> {
         Printed::Json => {
             let mut answer = Answer::new("bench", "Times and errors");
             answer.input("seconds", arguments.seconds);
-            answer.results.push(Member::Values(values(&rows)));
+            let values = values(&rows).into_iter().map(|(key, it)| Member::Value(key, json!(it)));
+            answer.results.extend(values);
             answer.results.push(Member::Value("threads", json!(threads)));
             answer.results.push(Member::Value("instruction_set", json!(set)));
             serde_json::to_string_pretty(&answer)? + "\n"
         }
         Printed::Csv => {
-            let values = values(&rows);
-            let keys: Vec<&str> = values.keys().map(String::as_str).collect();
-            let numbers: Vec<String> = values.values().map(Value::to_string).collect();
+            let (keys, numbers): (Vec<&str>, Vec<String>) =
+                values(&rows).into_iter().map(|(key, it)| (key, it.to_string())).unzip();
             format!("{}\n{}\n", keys.join(","), numbers.join(","))
         }
     };
@@ -118,10 +118,11 @@ fn table(rows: &[Row]) -> String {
     lines.iter().map(line).collect()
 }
 
-fn values(rows: &[Row]) -> Map<String, Value> {
-    let times = rows.iter().map(|row| (row.key.to_owned(), json!(row.value)));
+/// All times, then all errors, by their keys.
+fn values(rows: &[Row]) -> Vec<(&'static str, f64)> {
+    let times = rows.iter().map(|row| (row.key, row.value));
     let errors = rows.iter().filter_map(|row| row.error.as_ref());
-    times.chain(errors.map(|(key, value, _)| ((*key).to_owned(), json!(value)))).collect()
+    times.chain(errors.map(|(key, value, _)| (*key, *value))).collect()
 }
 
 /// The shortest time of one piece of work [s], among all that fit into the budget.

@@ -10,6 +10,7 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use serde_json::{Map, Value};
 
 use super::columns::Column;
+use super::document::Document;
 use super::figure::{Chart, Figure};
 use super::loaded::Loaded;
 use super::table::Table;
@@ -69,8 +70,6 @@ pub enum Member {
     Row(Option<&'static str>, Table),
     /// Anything else, under a key.
     Value(&'static str, Value),
-    /// Entries that stand in the answer itself.
-    Values(Map<String, Value>),
 }
 
 /// Something that a terminal shows.
@@ -203,6 +202,13 @@ impl Answer {
         self.inputs.insert(key.to_owned(), value.into());
     }
 
+    /// Adds the values of some keys of a document; null where it has none.
+    pub fn inputs_of<'k>(&mut self, document: &Document, keys: impl IntoIterator<Item = &'k str>) {
+        for key in keys {
+            self.input(key, document.get(key).cloned().unwrap_or_default());
+        }
+    }
+
     /// Adds a document by the name of its file.
     pub fn attach<V>(&mut self, file: impl Into<String>, document: &Loaded<V>) {
         self.documents.push(Attached {
@@ -302,9 +308,6 @@ impl Serialize for Answer {
                 Member::Row(Some(key), table) => map.serialize_entry(key, &table.row(0))?,
                 Member::Row(None, table) => table.row(0).write(&mut map)?,
                 Member::Value(key, value) => map.serialize_entry(key, value)?,
-                Member::Values(entries) => {
-                    entries.iter().try_for_each(|(key, value)| map.serialize_entry(key, value))?;
-                }
             }
         }
         map.end()

@@ -86,6 +86,13 @@ impl Document {
         self.get(path)?.as_str()
     }
 
+    /// The name of a part of it, such as `rover`; `unnamed` where it has none.
+    #[must_use]
+    pub fn name_of(&self, part: &str) -> &str {
+        let name = self.get(part).and_then(|part| part.get("name"));
+        name.and_then(Json::as_str).unwrap_or("unnamed")
+    }
+
     /// The number under a dotted key, in the unit of the key. Counts are no numbers here.
     #[must_use]
     pub fn number(&self, path: &str) -> Option<f64> {

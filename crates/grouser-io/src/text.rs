@@ -58,7 +58,7 @@ impl Reader<'_> {
         if depth > DEEPEST {
             return Err(DocumentError::at(&origin, Problem::TooDeep { limit: DEEPEST }));
         }
-        // The parser sorts by name; whatever is wrong first is to be told first.
+        // The parser sorts by name; what is wrong first is reported first.
         let mut written: Vec<_> = table.iter().collect();
         written.sort_by_key(|(key, _)| key.span().start);
         let mut entries = Vec::new();

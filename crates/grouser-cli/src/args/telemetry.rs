@@ -7,11 +7,11 @@ use clap::Args;
 /// How a log of messages is read.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct TelemetryArgs {
-    /// Of a log of messages (MCAP): which of its topics and fields are which columns, a file or one
-    /// of `grouser`, `ros`, `foxglove`; without it the one of these that fits.
+    /// For a log of messages (MCAP): which of its topics and fields are which columns, a file or
+    /// one of `grouser`, `ros`, `foxglove`; without it the one of these that fits.
     #[arg(long, value_name = "FILE|NAME")]
     pub(crate) mapping: Option<PathBuf>,
-    /// Of such a log: the topic that is meant where several have messages of a type; can be
+    /// For such a log: the topic that is meant where several have messages of a type; can be
     /// repeated.
     #[arg(long = "topic", value_name = "TYPE=TOPIC", value_parser = choice)]
     pub(crate) topics: Vec<(String, String)>,

@@ -35,10 +35,9 @@ pub(crate) fn run(args: &DrawArgs) -> Result<(), Failure> {
     let wheel = WheelInSoil { contact: &contact, settled: &settled, load };
     let crossing = Crossing { rover, slope, yaw: heading.yaw, gravity, wheels: &heading.wheels };
     let mut page = Page::new("The theory in drawings");
-    let name = |key: &str| scenario.document.text(key).unwrap_or("unnamed").to_owned();
     page.list([
-        format!("rover: {}", name("rover.name")),
-        format!("soil: {}", name("soil.name")),
+        format!("rover: {}", scenario.document.name_of("rover")),
+        format!("soil: {}", scenario.document.name_of("soil")),
         format!("slope: {}°", args.slope_deg),
         format!("the drawn wheel: load {load:.1} N, slip ratio {}", args.slip_ratio),
     ]);

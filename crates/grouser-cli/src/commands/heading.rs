@@ -32,7 +32,7 @@ fn repeat(command: &str, args: &HeadingArgs, question: &HeadingQuestion) -> Stri
         HeadingQuestion { most_speed_ratio: Some(ratio), .. } => {
             format!(" --wheel-speeds --most-speed-ratio {ratio}")
         }
-        _ => sampling::flags(&args.uncertainty),
+        _ => sampling::flags(question.sampling),
     };
     let line =
         |place| format!("grouser {command} {} --slope-deg {slopes}{rest}", question.file(place));

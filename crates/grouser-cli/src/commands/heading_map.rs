@@ -25,7 +25,7 @@ pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
 /// The commands that give the answer again, one for each scenario.
 fn repeat(command: &str, args: &HeadingMapArgs, question: &HeadingMapQuestion) -> String {
     let [slopes, courses] = [&args.slope_deg, &args.course_deg].map(Numbers::joined);
-    let (speed, samples) = (question.rim_speed, sampling::flags(&args.uncertainty));
+    let (speed, samples) = (question.rim_speed, sampling::flags(question.sampling));
     let line = |place| {
         let file = question.file(place);
         format!(

@@ -22,7 +22,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     }
     let answer = question.answer("replay", &replay, notes);
     let slope = args.slope_deg.as_ref().map_or(String::new(), |it| format!(" --slope-deg={it}"));
-    let samples = sampling::flags(&args.uncertainty);
+    let samples = sampling::flags(question.sampling);
     let repeat = format!("grouser replay log.csv --scenario scenario.toml{slope}{samples}");
     give(&answer, &repeat, folder, args.output.format)
 }

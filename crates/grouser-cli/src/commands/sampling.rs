@@ -4,7 +4,6 @@ use grouser::answers::Sampling;
 use grouser::document::LoadedScenario;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 
-use crate::args::UncertaintyArgs;
 use crate::failure::Failure;
 use crate::output;
 
@@ -41,12 +40,7 @@ pub(super) fn with_bar<T>(
 }
 
 /// The flags that ask for the same samples again, after a blank; nothing where none are asked for.
-pub(super) fn flags(args: &UncertaintyArgs) -> String {
-    of(args.sampling())
-}
-
-/// The same of samples.
-pub(super) fn of(sampling: Option<Sampling>) -> String {
+pub(super) fn flags(sampling: Option<Sampling>) -> String {
     sampling.map_or(String::new(), |Sampling { count, seed }| {
         format!(" --uncertainty --samples {count} --seed {seed}")
     })

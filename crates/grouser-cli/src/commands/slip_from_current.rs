@@ -37,7 +37,7 @@ fn repeat(args: &SlipFromCurrentArgs, question: &SlipQuestion) -> String {
         names if names.is_empty() => names,
         names => format!(" --ignore {names}"),
     };
-    let samples = sampling::flags(&args.uncertainty);
+    let samples = sampling::flags(question.sampling);
     let flags: String = flags.collect();
     format!("grouser slip-from-current log.csv --scenario scenario.toml{flags}{ignored}{samples}")
 }

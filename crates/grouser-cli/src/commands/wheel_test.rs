@@ -33,7 +33,7 @@ fn repeat(args: &WheelTestArgs, question: &WheelTestQuestion) -> String {
              --seed {seed}"
         )
     });
-    let (stand, samples) = (stand.unwrap_or_default(), sampling::of(question.sampling));
+    let (stand, samples) = (stand.unwrap_or_default(), sampling::flags(question.sampling));
     format!(
         "grouser wheel-test --soil soil.toml --wheel wheel.toml --model {model} \
          --gravity-m-s2 {gravity} --load-n {loads} --slip-angle-deg {angles} --slip-ratio {slips}\

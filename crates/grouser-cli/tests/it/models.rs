@@ -18,8 +18,8 @@ fn a_table_says_which_model_a_soil_has_that_leaves_its_sinkage_ratio_to_priors()
     for line in TABLES {
         let text = place.results(&format!("{line} --soil grc-1"));
         assert_eq!(text.matches(&format!("\n{LINE}")).count(), 1, "{line}: {text}");
-        // Where the model is the usual one, or is asked for, or every row has its own, nobody has
-        // to be told.
+        // Where the model is the usual one, or is asked for, or every row has its own, the line
+        // is left out.
         for rest in ["--soil toyoura", "--soil grc-1 --model rft", "--soil grc-1 --model all"] {
             let text = place.results(&format!("{line} {rest}"));
             assert!(!text.contains("model: "), "{line} {rest}: {text}");

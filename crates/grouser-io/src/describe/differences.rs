@@ -96,8 +96,8 @@ pub(super) static SCATTER: Table<Scatter> = Table {
             "speed_std",
             ONE,
             0.0..=0.2,
-            "Standard deviation of each wheel's speed over a run, as a share of what its motor is \
-             told (of its logarithm)",
+            "Standard deviation of each wheel's speed over a run, as a share of the speed that its \
+             motor is set to (of its logarithm)",
             |all: &mut Scatter| Some(&mut all.speed),
         )
         .or(0.0),

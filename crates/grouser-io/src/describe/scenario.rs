@@ -34,7 +34,7 @@ pub(super) const PAPERS_SLIP: f64 = 0.2;
 const PAPERS_DURATION: f64 = 20.0;
 
 /// The most that a drive lets a wheel slip [-]. Source: ours; at this slip Opportunity's drives
-/// were told to stop.
+/// were commanded to stop.
 pub(super) const USUAL_LIMIT: f64 = 0.4;
 
 const NO_TARGET: SlipTarget = SlipTarget { speed: 0.0, slip_ratio: 0.0 };

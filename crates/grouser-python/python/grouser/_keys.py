@@ -1060,8 +1060,8 @@ class ScenarioScatter(TypedDict, total=False):
     """Distance at which the correlation of the soil has fallen to 1/e; not below a footprint's
     length [m]."""
     speed_std: float
-    """Standard deviation of each wheel's speed over a run, as a share of what its motor is told
-    (of its logarithm) [-]."""
+    """Standard deviation of each wheel's speed over a run, as a share of the speed that its motor
+    is set to (of its logarithm) [-]."""
     seed: int
     """Which realisation a single run has; the runs of a campaign have one each, by its own
     seed."""

@@ -69,12 +69,10 @@ impl ForecastQuestion<'_> {
     fn state(&self, answer: &mut Answer) {
         let (document, study) = (&self.scenario.document, self.study);
         let choices = &study.choices;
-        let of_document = |key: &str| document.get(key).cloned().unwrap_or_default();
         let masses = choices.masses.iter().map(|mass| (mass.name.clone(), json!(mass.factor)));
-        answer.input("rover", of_document("rover"));
-        answer.input("soil", of_document("soil"));
+        answer.inputs_of(document, ["rover", "soil"]);
         answer.input("site", self.site);
-        answer.input("gravity_m_s2", of_document("gravity_m_s2"));
+        answer.inputs_of(document, ["gravity_m_s2"]);
         answer.input("measured_gravity_m_s2", study.measured_under);
         let scalings = choices.scalings.iter().map(|scaling| scaling.name());
         answer.input("scaling", scalings.collect::<Value>());
@@ -84,8 +82,7 @@ impl ForecastQuestion<'_> {
         answer.input("mass", masses.collect::<Map<_, _>>());
         answer.input("slope_deg", self.slopes_deg.to_vec());
         answer.input("rim_speed_m_s", study.rim_speed);
-        answer.input("load_transfer", of_document("load_transfer"));
-        answer.input("wheel_moments", of_document("wheel_moments"));
+        answer.inputs_of(document, ["load_transfer", "wheel_moments"]);
         let [samples, discrepancies] = study.samples;
         answer.input("samples", samples);
         answer.input("discrepancies", discrepancies);

@@ -10,8 +10,7 @@ use std::sync::Arc;
 use self::of_model::OfModel;
 pub use self::question::HeadingQuestion;
 use super::{
-    Answer, AnswerError, AnswerOptions, Displayed, EVERY_MODEL, Member, PageBlock, meanings,
-    samples,
+    Answer, AnswerError, AnswerOptions, Displayed, EVERY_MODEL, Member, meanings, samples,
 };
 use crate::contact::validity::Finding;
 use crate::document::columns::heading::{self, held, steered};
@@ -55,7 +54,7 @@ impl HeadingQuestion {
             answer.attach(self.file(place), of_model.scenario);
         }
         if options.has_page {
-            self.page(&mut answer, &all, rows, columns);
+            self.page(&mut answer, &all, &rows, columns);
         }
         Ok(answer)
     }
@@ -83,14 +82,9 @@ impl HeadingQuestion {
     fn state(&self, answer: &mut Answer) {
         let first = &self.scenarios[0];
         let model = if self.has_several() { EVERY_MODEL } else { first.value.model.name() };
-        let of_document = |key: &str| first.document.get(key).cloned().unwrap_or_default();
-        for key in ["rover", "soil", "gravity_m_s2"] {
-            answer.input(key, of_document(key));
-        }
+        answer.inputs_of(&first.document, ["rover", "soil", "gravity_m_s2"]);
         answer.input("model", model);
-        for key in ["load_transfer", "wheel_moments"] {
-            answer.input(key, of_document(key));
-        }
+        answer.inputs_of(&first.document, ["load_transfer", "wheel_moments"]);
         answer.input("slope_deg", self.slopes_deg.clone());
         if self.steering != Steering::None {
             answer.input("steering", self.steering.name());
@@ -117,7 +111,7 @@ impl HeadingQuestion {
         &self,
         answer: &mut Answer,
         all: &[OfModel<'_>],
-        rows: Arc<Table>,
+        rows: &Arc<Table>,
         columns: Vec<String>,
     ) {
         for of_model in all {
@@ -126,18 +120,17 @@ impl HeadingQuestion {
             answer.verdict(verdict.join(" "));
         }
         let document = &all[0].scenario.document;
-        let name = |key: &str| document.text(key).unwrap_or("unnamed").to_owned();
         answer.list([
-            format!("rover: {}", name("rover.name")),
-            format!("soil: {}", name("soil.name")),
+            format!("rover: {}", document.name_of("rover")),
+            format!("soil: {}", document.name_of("soil")),
         ]);
         self.figures(answer, all);
-        answer.page.push(PageBlock::Rows { caption: "On each slope", table: rows, columns });
+        answer.rows("On each slope", rows, columns);
         answer.heading("Everything over the slope");
-        answer.page.push(PageBlock::Charts(match all {
+        answer.charts(match all {
             [one] => by_unit(&one.dense(), SLOPE, &held()),
             several => figures::of_models(several),
-        }));
+        });
         let slopes = self.slopes();
         let findings = all.iter().flat_map(|it| heading::findings(&it.curve, &slopes));
         answer.findings = findings.flatten().collect::<Vec<Finding>>();

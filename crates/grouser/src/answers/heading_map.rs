@@ -5,8 +5,7 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use super::{
-    Answer, AnswerError, AnswerOptions, CrossTable, Displayed, Member, PageBlock, Sampling,
-    meanings, samples,
+    Answer, AnswerError, AnswerOptions, CrossTable, Displayed, Member, Sampling, meanings, samples,
 };
 use crate::document::columns::heading::{self, held};
 use crate::document::columns::{COURSE, MODEL, Quantity, SLIP_RATIO, SLOPE, YAW};
@@ -81,7 +80,7 @@ impl HeadingMapQuestion {
             answer.attach(self.file(place), scenario);
         }
         if options.has_page {
-            self.page(&mut answer, &map, table);
+            self.page(&mut answer, &map, &table);
         }
         Ok(answer)
     }
@@ -140,7 +139,7 @@ impl HeadingMapQuestion {
 
     /// The names of the soils, one for each scenario.
     fn soils(&self) -> Vec<String> {
-        let name = |it: &LoadedScenario| it.document.text("soil.name").unwrap_or("unnamed").into();
+        let name = |it: &LoadedScenario| it.document.name_of("soil").into();
         self.scenarios.iter().map(name).collect()
     }
 
@@ -198,16 +197,13 @@ impl HeadingMapQuestion {
     /// The inputs of the answer.
     fn state(&self, answer: &mut Answer) {
         let first = &self.scenarios[0].document;
-        let of_document = |key: &str| first.get(key).cloned().unwrap_or_default();
         let each = |value: fn(&LoadedScenario) -> Value| {
             self.scenarios.iter().map(value).collect::<Value>()
         };
-        answer.input("rover", of_document("rover"));
+        answer.inputs_of(first, ["rover"]);
         answer.input("soils", each(|it| it.document.get("soil").cloned().unwrap_or_default()));
         answer.input("models", each(|it| it.value.model.name().into()));
-        for key in ["gravity_m_s2", "load_transfer", "wheel_moments"] {
-            answer.input(key, of_document(key));
-        }
+        answer.inputs_of(first, ["gravity_m_s2", "load_transfer", "wheel_moments"]);
         answer.input(COURSE.name, self.courses_deg.clone());
         answer.input(SLOPE.name, self.slopes_deg.clone());
         answer.input("rim_speed_m_s", self.rim_speed);
@@ -218,7 +214,7 @@ impl HeadingMapQuestion {
         }
     }
 
-    fn page(&self, answer: &mut Answer, map: &HeadingMap, table: Arc<Table>) {
+    fn page(&self, answer: &mut Answer, map: &HeadingMap, table: &Arc<Table>) {
         answer.verdict(sentence(map));
         answer.words(
             "A course is the direction of travel, counted from the contour line: 0° is along it, \
@@ -227,14 +223,13 @@ impl HeadingMapQuestion {
         );
         for (place, name) in self.titles().iter().enumerate() {
             let number = self.number(place);
-            for (file, figure) in self.figures(map, &table, place, name) {
+            for (file, figure) in self.figures(map, table, place, name) {
                 let caption = "Grey: no heading holds the course.";
                 answer.figure(Some(&format!("{file}{number}")), figure, caption);
             }
         }
         answer.heading("Every slope and course");
-        let columns = heading::map_brief();
-        answer.page.push(PageBlock::Rows { caption: "Heading offsets", table, columns });
+        answer.rows("Heading offsets", table, heading::map_brief());
         answer.findings = map.rows.iter().flat_map(|row| row.findings.concat()).collect();
         answer.columns = meanings(&held());
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde_json::json;
 
-use super::{Answer, Displayed, Member, PageBlock, Sampling, meanings, samples};
+use super::{Answer, Displayed, Member, Sampling, meanings, samples};
 use crate::document::LoadedScenario;
 use crate::document::columns::replay::{
     self as columns, FINDINGS, STRETCH, WORK, brief_channels, brief_findings, columns_of,
@@ -84,15 +84,11 @@ impl ReplayQuestion {
     /// The inputs of the answer.
     fn state(&self, answer: &mut Answer) {
         let document = &self.scenario.document;
-        let of_document = |key: &str| document.get(key).cloned().unwrap_or_default();
         answer.input("log", self.log.as_str());
-        answer.input("rover", of_document("rover"));
-        answer.input("soil", of_document("soil"));
-        let slope = self.has_slope.then(|| of_document(SLOPE.name));
-        answer.input(SLOPE.name, slope.unwrap_or_default());
-        for key in ["gravity_m_s2", "load_transfer", "wheel_moments"] {
-            answer.input(key, of_document(key));
-        }
+        answer.inputs_of(document, ["rover", "soil"]);
+        let slope = document.get(SLOPE.name).filter(|_| self.has_slope);
+        answer.input(SLOPE.name, slope.cloned().unwrap_or_default());
+        answer.inputs_of(document, ["gravity_m_s2", "load_transfer", "wheel_moments"]);
         answer.input("model", self.scenario.value.model.name());
         answer.input("samples", self.sampling.map(|it| it.count));
         answer.input("seed", self.sampling.map(|it| it.seed));
@@ -101,24 +97,21 @@ impl ReplayQuestion {
     }
 
     fn page(&self, answer: &mut Answer, found: &Found<'_>) {
-        let verdicts = found.sentences.iter().map(|it| PageBlock::Verdict(sentence(it)));
-        answer.page.extend(verdicts);
-        let name = |key: &str| self.scenario.document.text(key).unwrap_or("unnamed").to_owned();
+        for it in &found.sentences {
+            answer.verdict(sentence(it));
+        }
         answer.list([
-            format!("rover: {}", name("rover.name")),
-            format!("soil: {}", name("soil.name")),
+            format!("rover: {}", self.scenario.document.name_of("rover")),
+            format!("soil: {}", self.scenario.document.name_of("soil")),
             format!("model: {}", self.scenario.value.model.name()),
         ]);
         answer.list(found.whole());
         answer.list(found.notes.clone());
         let (channels, findings) = found.brief();
         answer.heading("What the differences point to");
-        let caption = "What may be wrong, and by how much";
-        let table = Arc::clone(&found.findings);
-        answer.page.push(PageBlock::Rows { caption, table, columns: findings });
+        answer.rows("What may be wrong, and by how much", &found.findings, findings);
         answer.heading("Measured less predicted");
-        let (caption, table) = ("Each channel, in its own unit", Arc::clone(&found.channels));
-        answer.page.push(PageBlock::Rows { caption, table, columns: channels });
+        answer.rows("Each channel, in its own unit", &found.channels, channels);
         for (title, prediction) in [
             ("At the attitude and wheel speeds that were read", Prediction::Prescribed),
             ("Run freely from the first pose", Prediction::FreeRun),

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use super::{Answer, Displayed, Member, PageBlock, Sampling, meanings, samples};
+use super::{Answer, Displayed, Member, Sampling, meanings, samples};
 use crate::document::LoadedScenario;
 use crate::document::columns::slip_from_current::{
     self as columns, ESTIMATE, SHARE_HELD, TRUE_SLIP, WHEEL, brief,
@@ -71,7 +71,7 @@ impl SlipQuestion {
             vec![(name.to_owned(), Arc::clone(&rows)), ("wheels".into(), Arc::clone(&wheels))];
         screen(&mut answer, &rows, &wheels, &notes);
         answer.attach("scenario.toml", &self.scenario);
-        self.page(&mut answer, rows, wheels, notes);
+        self.page(&mut answer, (&rows, &wheels), notes);
         answer
     }
 
@@ -109,17 +109,12 @@ impl SlipQuestion {
     /// The inputs of the answer.
     fn state(&self, answer: &mut Answer) {
         let document = &self.scenario.document;
-        let of_document = |key: &str| document.get(key).cloned().unwrap_or_default();
         answer.input("log", self.log.as_str());
         answer.input("ignore", self.ignored.clone());
-        for key in ["rover", "soil", SLOPE.name] {
-            answer.input(key, of_document(key));
-        }
+        answer.inputs_of(document, ["rover", "soil", SLOPE.name]);
         answer.input("yaw_deg", self.given_yaw);
         answer.input(COURSE.name, self.given_course);
-        for key in ["gravity_m_s2", "load_transfer", "wheel_moments"] {
-            answer.input(key, of_document(key));
-        }
+        answer.inputs_of(document, ["gravity_m_s2", "load_transfer", "wheel_moments"]);
         answer.input("model", self.scenario.value.model.name());
         answer.input("relative_noise", self.settings.noise.relative);
         answer.input("noise_nm", self.settings.noise.absolute);
@@ -131,25 +126,27 @@ impl SlipQuestion {
         }
     }
 
-    fn page(&self, answer: &mut Answer, rows: Arc<Table>, wheels: Arc<Table>, notes: Vec<String>) {
-        answer.verdict(verdict(&wheels));
-        let name = |key: &str| self.scenario.document.text(key).unwrap_or("unnamed").to_owned();
+    fn page(
+        &self,
+        answer: &mut Answer,
+        (rows, wheels): (&Arc<Table>, &Arc<Table>),
+        notes: Vec<String>,
+    ) {
+        answer.verdict(verdict(wheels));
         answer.list([
-            format!("rover: {}", name("rover.name")),
-            format!("soil: {}", name("soil.name")),
+            format!("rover: {}", self.scenario.document.name_of("rover")),
+            format!("soil: {}", self.scenario.document.name_of("soil")),
         ]);
         answer.list(notes);
         answer.heading("Each wheel over time");
-        for (wheel, chart) in charts(&self.scenario.value.rover, &rows) {
+        for (wheel, chart) in charts(&self.scenario.value.rover, rows) {
             answer.figure(Some(&format!("figures/{wheel}")), chart, CAPTION);
         }
         answer.heading("What it comes to");
-        let (caption, columns) = ("Each wheel, and all of them", wheels.names());
-        answer.page.push(PageBlock::Rows { caption, table: wheels, columns });
-        answer.list(states(&rows).lines().map(String::from));
+        answer.rows("Each wheel, and all of them", wheels, wheels.names());
+        answer.list(states(rows).lines().map(String::from));
         answer.heading("Every reading");
-        let (caption, columns) = ("Readings and slip", brief(&rows));
-        answer.page.push(PageBlock::Rows { caption, table: rows, columns });
+        answer.rows("Readings and slip", rows, brief(rows));
         answer.columns = meanings(&columns::of_reading());
         answer.columns.extend(meanings(&ESTIMATE));
         answer.columns.extend(meanings(&columns::of_truth()));

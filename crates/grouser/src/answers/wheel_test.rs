@@ -5,8 +5,7 @@ use std::sync::Arc;
 use serde_json::json;
 
 use super::{
-    Answer, AnswerError, AnswerOptions, Displayed, EVERY_MODEL, Member, PageBlock, Sampling,
-    meanings, samples,
+    Answer, AnswerError, AnswerOptions, Displayed, EVERY_MODEL, Member, Sampling, meanings, samples,
 };
 use crate::contact::Model;
 use crate::document::columns::wheel::WHEEL;
@@ -21,7 +20,7 @@ use crate::studies::ensemble::models::Question;
 use crate::studies::ensemble::samples::BandInputs;
 use crate::studies::measurement::PerQuantity;
 use crate::studies::simulated_test::SimulatedTest;
-use crate::studies::wheel_test::WheelTest;
+use crate::studies::wheel_test::{WheelTest, WheelTestRow};
 
 /// The question.
 #[derive(Clone, Debug)]
@@ -84,12 +83,15 @@ impl WheelTestQuestion {
         if self.stand.is_some() && self.sampling.is_some() {
             return Err(AnswerError::Together("a simulated stand", "samples"));
         }
+        let mut answer = Answer::new(name, "A wheel test");
         let mut rows = Table::default();
         for (model, inputs) in &self.models {
-            rows.append(self.named(model, self.of_model(model, inputs, options)?));
+            let test = self.plan(model);
+            let found = test.run();
+            rows.append(self.named(model, self.of_model(test, inputs, &found, options)?));
+            answer.findings.extend(found.into_iter().flat_map(|row| row.findings));
         }
         let rows = Arc::new(rows);
-        let mut answer = Answer::new(name, "A wheel test");
         self.state(&mut answer);
         answer.results.push(Member::rows("rows", Arc::clone(&rows)));
         answer.tables.push((name.to_owned(), Arc::clone(&rows)));
@@ -125,15 +127,17 @@ impl WheelTestQuestion {
     }
 
     /// The rows of one model.
+    ///
+    /// * `inputs`: what its bands are drawn from
+    /// * `found`: what its test came to
     fn of_model(
         &self,
-        model: &Model,
+        test: WheelTest,
         inputs: &BandInputs,
+        found: &[WheelTestRow],
         options: &AnswerOptions<'_>,
     ) -> Result<Table, AnswerError> {
-        let test = self.plan(model);
-        let found = test.run();
-        let table = columns::wheel_test::table(&found);
+        let table = columns::wheel_test::table(found);
         let flags = found.iter().map(|row| &*row.findings);
         options.check(flags, &table, &columns::wheel_test::SETTINGS)?;
         if let Some(stand) = self.stand {
@@ -266,10 +270,7 @@ impl WheelTestQuestion {
             answer.figure(file, charted.chart(quantity), caption(quantity));
         }
         answer.heading("Every row");
-        let (caption, columns) = ("Settings and results", self.brief());
-        answer.page.push(PageBlock::Rows { caption, table: Arc::clone(rows), columns });
-        let tests = self.models.iter().map(|(model, _)| self.plan(model));
-        answer.findings = tests.flat_map(|it| it.run()).flat_map(|row| row.findings).collect();
+        answer.rows("Settings and results", rows, self.brief());
         answer.columns = meanings(&WHEEL);
     }
 }

@@ -77,10 +77,9 @@ fn of_way(page: &mut Page, answered: &Answered, way: &DrivenMission) {
 
 fn what_was_driven(answered: &Answered) -> Vec<String> {
     let document = &answered.document.document;
-    let name = |key: &str| document.text(key).unwrap_or("unnamed").to_owned();
     let mut lines = vec![
-        format!("rover: {}", name("rover.name")),
-        format!("soil: {}", name("soil.name")),
+        format!("rover: {}", document.name_of("rover")),
+        format!("soil: {}", document.name_of("soil")),
         answer::ground(document, &answered.document.value.scenario),
     ];
     lines.extend(document.text("notes").map(str::to_owned));

@@ -85,10 +85,9 @@ fn on_slope(place: Vec2, yaw: &str) -> String {
 
 fn what_was_run(first: &OfModel) -> Vec<String> {
     let document = &first.scenario.document;
-    let name = |key: &str| document.text(key).unwrap_or("unnamed").to_owned();
     let mut lines = vec![
-        format!("rover: {}", name("rover.name")),
-        format!("soil: {}", name("soil.name")),
+        format!("rover: {}", document.name_of("rover")),
+        format!("soil: {}", document.name_of("soil")),
         answer::ground(document, &first.scenario.value),
     ];
     if let Some(band) = &first.band {
@@ -122,8 +121,7 @@ fn early(ends: &Ends) -> Vec<String> {
 fn band<R>(table: &Table, column: &Column<R>) -> Option<Chart> {
     let quantity = Quantity { name: column.name, unit: column.unit };
     let [low, median, high] = quantity.quantiles();
-    let ends = table.points(TIME.name, &low).zip(table.points(TIME.name, &high));
-    let edges: Vec<_> = ends.map(|((time, low), (_, high))| (time, low, high)).collect();
+    let edges = table.edges(TIME, [&low, &high]);
     let medians = table.points(TIME.name, &median);
     (!edges.is_empty()).then(|| {
         let series = vec![
@@ -161,7 +159,7 @@ fn of_models(page: &mut Page, all: &[OfModel]) {
 
 fn basis(args: &TraverseArgs, all: &[OfModel]) -> Basis {
     let model = if all.len() > 1 { format!(" --model {EVERY_MODEL}") } else { String::new() };
-    let samples = sampling::flags(&args.uncertainty);
+    let samples = sampling::flags(args.uncertainty.sampling());
     let repeat = format!("grouser traverse scenario.toml{model}{samples}");
     Basis::new(repeat).with("scenario.toml", &all[0].scenario)
 }
