@@ -70,6 +70,8 @@ pub enum Member {
     Row(Option<&'static str>, Table),
     /// Anything else, under a key.
     Value(&'static str, Value),
+    /// Entries that stand in the answer itself.
+    Entries(Map<String, Value>),
 }
 
 /// Something that a terminal shows.
@@ -308,6 +310,11 @@ impl Serialize for Answer {
                 Member::Row(Some(key), table) => map.serialize_entry(key, &table.row(0))?,
                 Member::Row(None, table) => table.row(0).write(&mut map)?,
                 Member::Value(key, value) => map.serialize_entry(key, value)?,
+                Member::Entries(entries) => {
+                    for (key, value) in entries {
+                        map.serialize_entry(key, value)?;
+                    }
+                }
             }
         }
         map.end()

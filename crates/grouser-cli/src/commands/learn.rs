@@ -30,7 +30,7 @@ use crate::failure::Failure;
 use crate::inputs::{self, Following};
 use crate::interrupt;
 use crate::output::Format;
-use crate::output::answer::give;
+use crate::output::answer::{give, write};
 use crate::output::folder::OutputFolder;
 
 pub(crate) fn run(args: &LearnArgs) -> Result<(), Failure> {
@@ -51,9 +51,8 @@ pub(crate) fn run(args: &LearnArgs) -> Result<(), Failure> {
     }
     let repeat = repeat(args, &question);
     if args.follow && args.output.format == Format::Json {
-        // The answer is the last line. Without anything to show its folder alone is written.
-        answer.screen.clear();
-        give(&answer, &repeat, folder, Format::Table)?;
+        // The answer is the last line.
+        write(&answer, &repeat, &[], folder)?;
         return live::print_line("answer", &answer);
     }
     give(&answer, &repeat, folder, args.output.format)

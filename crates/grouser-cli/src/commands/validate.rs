@@ -5,7 +5,7 @@ use std::path::Path;
 
 pub(crate) use grouser::answers::validation::figures;
 use grouser::answers::validation::ranked;
-use grouser::answers::{Answer, AnswerOptions, Displayed};
+use grouser::answers::{Answer, AnswerOptions};
 use grouser::document::measurements::Limits;
 use grouser::document::ranking::{Ranking, RankingError, rank_all, rank_one};
 use grouser::document::{Kind, preset};
@@ -14,10 +14,8 @@ use crate::args::ValidateArgs;
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output;
-use crate::output::answer::give;
+use crate::output::answer::{give, text};
 use crate::output::folder::OutputFolder;
-use crate::output::rows::Rows;
-use crate::output::text::Text;
 
 /// The name that the schema of all its answers has.
 const COMMAND: &str = "validate";
@@ -135,15 +133,8 @@ fn say(notes: &[String]) {
 
 /// Adds what is printed for reading to a folder.
 fn add_text(folder: Option<&mut OutputFolder>, answer: &Answer) {
-    let shown = |shown: &Displayed| match shown {
-        Displayed::Rows(table, columns) => Rows::of_table(table).to_table(columns),
-        Displayed::Words(words) => words.into(),
-        // Errors are words and rows alone.
-        _ => Text::default(),
-    };
     if let Some(folder) = folder {
-        let text: Text = answer.screen.iter().map(shown).collect();
-        folder.add(format!("{}.txt", answer.name), text.to_string());
+        folder.add(format!("{}.txt", answer.name), text(answer).to_string());
     }
 }
 

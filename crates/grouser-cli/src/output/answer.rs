@@ -39,11 +39,20 @@ pub(crate) fn give_with_pictures(
     folder: Option<OutputFolder>,
     format: Format,
 ) -> Result<(), Failure> {
-    if let Some(mut folder) = folder {
-        add_to(&mut folder, answer, repeat, pictures)?;
-        folder.finish()?;
-    }
+    write(answer, repeat, pictures, folder)?;
     print(answer, format)
+}
+
+/// Writes an answer into its folder, if it has one.
+pub(crate) fn write(
+    answer: &Answer,
+    repeat: &str,
+    pictures: &Pictures,
+    folder: Option<OutputFolder>,
+) -> Result<(), Failure> {
+    let Some(mut folder) = folder else { return Ok(()) };
+    add_to(&mut folder, answer, repeat, pictures)?;
+    folder.finish()
 }
 
 /// Prints an answer.
@@ -94,7 +103,7 @@ pub(crate) fn add_pictures(folder: &mut OutputFolder, pictures: &Pictures) {
 }
 
 /// What a terminal shows.
-fn text(answer: &Answer) -> Text {
+pub(crate) fn text(answer: &Answer) -> Text {
     let shown = |shown: &Displayed| match shown {
         Displayed::Rows(table, columns) => Rows::of_table(table).to_table(columns),
         Displayed::Crossed { table, columns, crossing } => match super::terminal::width() {

@@ -85,11 +85,6 @@ impl Rows {
         self.0.iter().map(cells).collect()
     }
 
-    /// What the flags of the rows mean, a line each, to stand under a table.
-    pub(crate) fn footnotes(&self) -> String {
-        self.meanings().iter().map(|(name, meaning)| format!("{name}: {meaning}\n")).collect()
-    }
-
     /// The flags of the rows, each with its meaning.
     fn meanings(&self) -> Vec<(String, String)> {
         let pair = |flag: &Flag| (flag.name().to_owned(), flag.rule().meaning.to_owned());
@@ -124,38 +119,6 @@ pub(crate) fn csv<M: Borrow<Map<String, Value>>>(
     }
     let bytes = writer.into_inner().map_err(|error| Failure::Run(format!("CSV: {error}")))?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
-}
-
-/// Records with objects inside, as CSV: the columns of an inner object have its key before theirs.
-pub(crate) fn csv_of_nested<T: Serialize>(records: &[T]) -> Result<String, Failure> {
-    let mut maps = Vec::new();
-    for record in records {
-        let mut flat = Map::new();
-        if let Ok(Value::Object(map)) = serde_json::to_value(record) {
-            flatten("", map, &mut flat);
-        }
-        maps.push(flat);
-    }
-    // What is null in one record may be an object in another.
-    let mut columns: Vec<String> = Vec::new();
-    for key in maps.iter().flat_map(Map::keys) {
-        if !columns.contains(key) {
-            columns.push(key.clone());
-        }
-    }
-    csv(&columns, maps.iter())
-}
-
-fn flatten(prefix: &str, map: Map<String, Value>, into: &mut Map<String, Value>) {
-    for (key, value) in map {
-        match value {
-            Value::Object(inner) => flatten(&format!("{prefix}{key}_"), inner, into),
-            Value::Null if prefix.is_empty() => {}
-            value => {
-                into.insert(format!("{prefix}{key}"), value);
-            }
-        }
-    }
 }
 
 /// A value with every digit; a text so that no spreadsheet computes it.

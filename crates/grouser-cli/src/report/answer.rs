@@ -61,12 +61,15 @@ pub(crate) fn close<'f>(
     meanings: &[ColumnMeaning],
     basis: &Basis,
 ) -> String {
+    let has_documents = !basis.documents.is_empty();
     page.flags(findings);
-    page.heading("Assumptions in force");
-    if basis.assumptions.is_empty() {
-        page.paragraph("No number of the inputs is marked as assumed.");
-    } else {
-        page.list(&basis.assumptions);
+    if has_documents {
+        page.heading("Assumptions in force");
+        if basis.assumptions.is_empty() {
+            page.paragraph("No number of the inputs is marked as assumed.");
+        } else {
+            page.list(&basis.assumptions);
+        }
     }
     page.heading("What the columns are");
     let header = ["column", "unit", "what it is"].map(str::to_owned);
@@ -75,10 +78,12 @@ pub(crate) fn close<'f>(
     page.heading("To have it again");
     page.paragraph("In the folder of this page:");
     page.code(&basis.repeat);
-    page.paragraph(
-        "The inputs are complete in the files beside this page. The same version gives the same \
-         numbers to the last digit.",
-    );
+    if has_documents {
+        page.paragraph(
+            "The inputs are complete in the files beside this page. The same version gives the \
+             same numbers to the last digit.",
+        );
+    }
     for (name, text) in &basis.documents {
         page.document(name, text);
     }

@@ -166,7 +166,7 @@ fn a_validation_is_repeated_from_its_folder() {
             assert!(svg.contains("<svg") && svg.trim_end().ends_with("</svg>"), "{file}");
         }
     }
-    let html = place.read("run/validation.html");
+    let html = place.read("run/report.html");
     assert!(
         html.contains("Root mean square errors of the model") && html.matches("<svg").count() == 8,
         "{html}"

@@ -31,7 +31,7 @@ impl RouteQuestion<'_> {
         self.state(&mut answer);
         let others: Vec<&RouteRecord> = ways[1..].iter().map(|way| &way.record).collect();
         answer.results = vec![
-            Member::Values(entries(&ways[0].record)),
+            Member::Entries(entries(&ways[0].record)),
             Member::Value("straight_m", json!(self.asked.straight())),
             Member::Value("coordinate_system", json!(self.raster.coordinates.name())),
             Member::Value("alternatives", json!(others)),
