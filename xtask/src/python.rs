@@ -41,7 +41,7 @@ const LOOKING: [&str; 2] = ["playwright>=1.45,<2", "axe-playwright-python>=0.1.4
 /// What builds and tests the package besides what it requires itself, by name: where from is for
 /// pip's own settings to say.
 const BUILDING: &str = "maturin>=1.16,<2";
-const TESTING: [&str; 2] = ["pytest>=8", "hypothesis>=6"];
+const TESTING: [&str; 3] = ["pytest>=8", "pytest-xdist>=3.5", "hypothesis>=6"];
 /// What reads the program's logs: the container, Foxglove's schemas, and Rerun, which is large (100
 /// MB).
 const LOGS: [&str; 4] = [
@@ -69,7 +69,7 @@ pub(crate) fn check(extent: Extent) -> Result<Count> {
         install(&python, &heavy.map(|one| one.text).collect::<Vec<_>>())?;
     }
     let program = workspace::build_program()?;
-    let mut count = pytest(&python, &program, &["tests"])?;
+    let mut count = pytest(&python, &program, &["-n", "2", "--dist", "loadfile", "tests"])?;
     count += pytest(&python, &program, &["--doctest-modules", "--pyargs", "grouser"])?;
     count += types(&python, &["-m", "mypy.stubtest", "grouser._core"])?;
     count += types(&python, &["-m", "mypy", "--strict", "tests/user_script.py"])?;

@@ -413,6 +413,7 @@ def test_a_vector_environment_has_the_pictures_of_single_ones() -> None:
 
 def test_a_window_is_drawn_after_each_step(monkeypatch: pytest.MonkeyPatch) -> None:
     plt = pytest.importorskip("matplotlib.pyplot")
+    plt.close("all")
     pauses: list[float] = []
     monkeypatch.setattr(plt, "pause", pauses.append)
     env = grouser.gym.LevelTraverseEnv(render_mode="human")

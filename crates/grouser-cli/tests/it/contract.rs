@@ -185,27 +185,6 @@ fn a_wheel_test_has_bands_beside_its_values() {
     }
 }
 
-/// What scripts read of the band of all models on each set.
-#[test]
-fn each_set_has_its_zero_pull_and_its_interval_score() {
-    let place = Place::new();
-    let json = place.json("validate --all");
-    let sets = json["sets"].as_array().expect("sets");
-    let case = |name: &str| sets.iter().find(|it| it["case"] == name).expect("it is there");
-    assert_eq!(sets.len(), 7);
-    for set in sets {
-        assert!(number(&set["interval_score"]) > 0.0, "{set}");
-        assert!(set["zero_pull_slip_measured"].is_null() || set["answers"][0]["kind"] != "yaw");
-    }
-    // A tenth in the radius would move it by a tenth.
-    let viper = case("viper-trec-grc3");
-    let [measured, predicted] =
-        ["measured", "predicted"].map(|end| number(&viper[format!("zero_pull_slip_{end}")]));
-    assert!((measured - 0.007).abs() < 0.001 && (measured - predicted).abs() < 0.03, "{viper}");
-    assert_eq!(viper["zero_pull_is_doubtful"], false);
-    assert!(case("mgru3-grc1")["zero_pull_slip_measured"].is_null());
-}
-
 /// Bekker's closed form has a part in what needs no force across a wheel.
 #[test]
 fn model_weights_go_with_the_question() {

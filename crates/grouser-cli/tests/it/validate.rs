@@ -391,8 +391,29 @@ fn without_a_folder_the_data_sets_of_the_program_are_ranked() {
     let models = json["models"].as_array().expect("models");
     let rft = models.iter().find(|one| one["model"] == "rft").expect("it needs no fitted soil");
     assert_eq!((&rft["parts"], &rft["scores"][6]["score"]), (&6.into(), &Value::Null));
+    check_sets(&json);
     let own = place.json("validate --all --data-dir lab");
     assert_eq!(own["inputs"]["data_sets"], serde_json::json!(["Our stand"]));
+}
+
+/// What scripts read of the band of all models on each set.
+///
+/// * `json`: a ranking
+fn check_sets(json: &Value) {
+    let sets = json["sets"].as_array().expect("sets");
+    let case = |name: &str| sets.iter().find(|it| it["case"] == name).expect("it is there");
+    assert_eq!(sets.len(), 7);
+    for set in sets {
+        assert!(number(&set["interval_score"]) > 0.0, "{set}");
+        assert!(set["zero_pull_slip_measured"].is_null() || set["answers"][0]["kind"] != "yaw");
+    }
+    // A tenth in the radius would move it by a tenth.
+    let viper = case("viper-trec-grc3");
+    let [measured, predicted] =
+        ["measured", "predicted"].map(|end| number(&viper[format!("zero_pull_slip_{end}")]));
+    assert!((measured - 0.007).abs() < 0.001 && (measured - predicted).abs() < 0.03, "{viper}");
+    assert_eq!(viper["zero_pull_is_doubtful"], false);
+    assert!(case("mgru3-grc1")["zero_pull_slip_measured"].is_null());
 }
 
 /// A data set by its name alone: every model, with the published soils, and no physics beside them.

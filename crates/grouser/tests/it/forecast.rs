@@ -119,16 +119,25 @@ fn check_part(kind: FactorKind, whole: &Forecast, known: &[Forecast]) {
     }
 }
 
+/// The forecast with some choices on one slope.
+fn at(choices: Choices) -> Forecast {
+    forecast(&scenario(&[UNCERTAIN]), choices, &[12.0])
+}
+
 #[test]
 fn a_choice_that_is_made_shrinks_the_variance_by_its_part() {
-    let scenario = scenario(&[UNCERTAIN]);
-    let at = |choices: Choices| forecast(&scenario, choices, &[12.0]);
     let all = all_choices();
-    let scalings = all.scalings.iter().map(|it| at(Choices { scalings: vec![*it], ..all.clone() }));
-    check_part(FactorKind::GravityScaling, &WHOLE, &scalings.collect::<Vec<_>>());
     let grounds =
         all.grounds.iter().map(|it| at(Choices { grounds: vec![it.clone()], ..all.clone() }));
     check_part(FactorKind::Ground, &WHOLE, &grounds.collect::<Vec<_>>());
+}
+
+#[test]
+#[ignore = "half a minute"]
+fn every_choice_that_is_made_shrinks_the_variance_by_its_part() {
+    let all = all_choices();
+    let scalings = all.scalings.iter().map(|it| at(Choices { scalings: vec![*it], ..all.clone() }));
+    check_part(FactorKind::GravityScaling, &WHOLE, &scalings.collect::<Vec<_>>());
     let masses =
         all.masses.iter().map(|it| at(Choices { masses: vec![it.clone()], ..all.clone() }));
     check_part(FactorKind::RoverMass, &WHOLE, &masses.collect::<Vec<_>>());

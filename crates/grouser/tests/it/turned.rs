@@ -15,8 +15,8 @@ use rayon::prelude::*;
 
 use crate::million::Draw;
 
-/// Directions by which everything is turned [°]: two squarely, one obliquely, and one nearly not.
-const FEW: [f64; 4] = [90.0, 180.0, 217.0, -0.5];
+/// Directions by which everything is turned [°]: one squarely, one obliquely.
+const FEW: [f64; 2] = [90.0, 217.0];
 
 fn sixteen() -> Vec<f64> {
     (1..=16).map(|step| 22.5 * f64::from(step) + if step % 4 == 0 { 7.0 } else { 0.0 }).collect()
@@ -204,7 +204,7 @@ fn turned_scenarios_give_turned_runs() {
 
 #[test]
 fn turned_missions_give_turned_drives() {
-    check_missions(&FEW[2..3]);
+    check_missions(&FEW[1..]);
 }
 
 #[test]
