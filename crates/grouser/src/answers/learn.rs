@@ -18,6 +18,7 @@ use self::tables::DriveTables;
 pub use self::words::{shares, slope_in_words, warning_in_words};
 use super::{Answer, Attached, Member};
 use crate::document::LoadedScenario;
+use crate::document::columns::SLOPE;
 use crate::document::columns::learn::WAY;
 use crate::document::learn::files_of_prior;
 use crate::studies::learn::Learner;
@@ -45,15 +46,11 @@ impl LearnQuestion {
     /// The inputs of the answer.
     fn state(&self, answer: &mut Answer) {
         let document = &self.scenario.document;
-        let of_document = |key: &str| document.get(key).cloned().unwrap_or_default();
         answer.input("log", self.log.as_str());
-        answer.input("rover", of_document("rover"));
-        answer.input("soil", of_document("soil"));
-        let slope = self.has_slope.then(|| of_document("slope_deg"));
-        answer.input("slope_deg", slope.unwrap_or_default());
-        for key in ["gravity_m_s2", "load_transfer", "wheel_moments"] {
-            answer.input(key, of_document(key));
-        }
+        answer.inputs_of(document, ["rover", "soil"]);
+        let slope = document.get(SLOPE.name).filter(|_| self.has_slope);
+        answer.input(SLOPE.name, slope.cloned());
+        answer.inputs_of(document, ["gravity_m_s2", "load_transfer", "wheel_moments"]);
         answer.input("model", document.model().map(|model| model.name()));
         answer.input("predict_slope_deg", self.slopes_deg.clone());
         self.sampling.state(answer);

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value, json};
 
-use self::columns::{WAY, brief};
+use self::columns::{MOST_SLOPE, WAY, brief};
 pub use self::question::{Asked, RouteQuestion};
 pub use self::way::Way;
 use super::{Answer, Displayed, Member, samples};
@@ -47,23 +47,21 @@ impl RouteQuestion<'_> {
     /// The inputs of the answer.
     fn state(&self, answer: &mut Answer) {
         let (document, limits) = (&self.scenario.document, self.study.limits);
-        let of_document = |key: &str| document.get(key).cloned().unwrap_or_default();
         let shown = |file: &Path| file.display().to_string();
         let (from, to, yaw) = match self.asked {
             Asked::Between(ends) => (ends.from, ends.to, ends.yaw),
             Asked::Along(line) => (line.start(), line.end(), line.yaw),
         };
         answer.input("dem", shown(self.dem));
-        answer.input("rover", of_document("rover"));
-        answer.input("soil", of_document("soil"));
+        answer.inputs_of(document, ["rover", "soil"]);
         answer.input("model", self.scenario.value.model.name());
-        answer.input("gravity_m_s2", of_document("gravity_m_s2"));
+        answer.inputs_of(document, ["gravity_m_s2"]);
         answer.input("from_m", [from.x, from.y]);
         answer.input("to_m", [to.x, to.y]);
         answer.input("along", self.along.map(shown));
         answer.input(YAW.name, yaw.map(|yaw| YAW.unit.from_si(yaw)));
         answer.input("keep_out", self.keep_out.map(shown));
-        answer.input("most_slope_deg", SLOPE.unit.from_si(limits.most_slope));
+        answer.input(MOST_SLOPE.name, SLOPE.unit.from_si(limits.most_slope));
         answer.input("most_slip_ratio", limits.most_slip_ratio);
         answer.input("most_no_go", limits.most_no_go);
         answer.input("rim_speed_m_s", self.study.mobility.rim_speed);

@@ -15,10 +15,10 @@ impl LearnQuestion {
         let slopes = (0..predictions.rows()).filter_map(|row| slope_in_words(predictions, row));
         let slopes: Vec<String> = slopes.collect();
         answer.verdict(format!("To hold the contour: {}.", slopes.join("; ")));
-        let name = |key: &str| self.scenario.document.text(key).unwrap_or("unnamed").to_owned();
+        let document = &self.scenario.document;
         answer.list([
-            format!("rover: {}", name("rover.name")),
-            format!("soil before the drive: {}", name("soil.name")),
+            format!("rover: {}", document.name_of("rover")),
+            format!("soil before the drive: {}", document.name_of("soil")),
         ]);
         answer.list(lines(found));
         answer.heading("Today beside yesterday");

@@ -54,15 +54,12 @@ impl MapQuestion<'_> {
     /// The inputs of the answer.
     pub(super) fn state(&self, answer: &mut Answer) {
         let document = &self.scenario.document;
-        let of_document = |key: &str| document.get(key).cloned().unwrap_or_default();
         let rule = &self.study.rule;
         answer.input("dem", self.dem.display().to_string());
-        answer.input("rover", of_document("rover"));
-        answer.input("soil", of_document("soil"));
+        answer.inputs_of(document, ["rover", "soil"]);
         answer.input("model", self.scenario.value.model.name());
-        for key in ["gravity_m_s2", "load_transfer", "wheel_moments", "slope_stability"] {
-            answer.input(key, of_document(key));
-        }
+        let keys = ["gravity_m_s2", "load_transfer", "wheel_moments", "slope_stability"];
+        answer.inputs_of(document, keys);
         answer.input("course_deg", self.course_deg);
         answer.input("rim_speed_m_s", self.study.rim_speed);
         answer.input("go_slip_ratio", rule.go_slip_ratio);

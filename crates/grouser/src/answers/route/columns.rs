@@ -10,7 +10,8 @@ const LENGTH: Quantity = quantity("length_m", M);
 const TURNED: Quantity = quantity("turned_deg", DEG);
 const MEAN_SLIP: Quantity = quantity("mean_slip_ratio", ONE);
 const MOST_SLIP: Quantity = quantity("most_slip_ratio", ONE);
-const MOST_SLOPE: Quantity = quantity("most_slope_deg", DEG);
+/// The steepest slope.
+pub(super) const MOST_SLOPE: Quantity = quantity("most_slope_deg", DEG);
 const SIMULATED_TIME: Quantity = quantity("simulated_time_s", S);
 const SIMULATED_ENERGY: Quantity = quantity("simulated_energy_j", J);
 

@@ -77,19 +77,18 @@ impl SlopeValidationQuestion {
         let document = &self.scenario.document;
         answer.input("data", self.data.as_str());
         answer.input("where", written(&self.conditions));
-        for key in ["rover", "soil", "gravity_m_s2", "load_transfer", "wheel_moments"] {
-            answer.input(key, document.get(key).cloned().unwrap_or_default());
-        }
+        let keys = ["rover", "soil", "gravity_m_s2", "load_transfer", "wheel_moments"];
+        answer.inputs_of(document, keys);
         answer.input("model", self.scenario.value.model.name());
         answer.input("slopes", self.tests.points.len());
     }
 
     /// The page, but for what all pages end with.
     fn page(&self, answer: &mut Answer, found: &Found) {
-        let name = |key: &str| self.scenario.document.text(key).unwrap_or("unnamed").to_owned();
+        let document = &self.scenario.document;
         answer.list([
-            format!("rover: {}", name("rover.name")),
-            format!("soil: {}", name("soil.name")),
+            format!("rover: {}", document.name_of("rover")),
+            format!("soil: {}", document.name_of("soil")),
             format!("wheel–soil model: {}", self.scenario.value.model.name()),
         ]);
         answer.list(self.tests.notes.clone());
