@@ -23,7 +23,7 @@ use lines::Lines;
 use modules::{Cycle, Modules};
 
 /// The most cycles that all crates together may have. It only ever gets smaller.
-const MOST_CYCLES: usize = 6;
+const MOST_CYCLES: usize = 5;
 
 /// Where the numbers stand, and their blocks there.
 const FILE: &str = "ARCHITECTURE.md";
