@@ -29,7 +29,7 @@ impl MapInputs {
             scenario: &self.scenario,
             study: &self.study,
             course: self.course,
-            course_deg: &args.course_deg,
+            given_course: &args.course_deg,
             sampling: Sampling { count: args.samples, seed: args.seed },
         }
     }

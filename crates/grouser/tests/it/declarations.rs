@@ -131,14 +131,15 @@ fn is_a_key_too(name: &str) -> bool {
 }
 
 /// Where a name that only results have stands once more, and why.
-const OTHER_PLACES: [(&str, &str); 10] = [
+const OTHER_PLACES: [(&str, &str); 11] = [
     // Plates sink, too, in results of their own.
     ("sinkage_mm", "document/calibration/bevameter.rs"),
     // Options of the program and arguments of Python's functions, which results repeat.
     ("course_deg", "src/args/heading.rs"),
     ("course_deg", "src/args/slip_from_current.rs"),
     ("course_deg", "src/args/map.rs"),
-    ("course_deg", "commands/map.rs"),
+    ("most_slope_deg", "src/args/route.rs"),
+    ("most_slope_deg", "grouser-python/src/routes.rs"),
     // A direction on a path that is asked for.
     ("heading_deg", "grouser-python/src/paths.rs"),
     ("course_deg", "grouser-python/src/studies.rs"),

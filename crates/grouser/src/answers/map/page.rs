@@ -65,7 +65,7 @@ impl MapQuestion<'_> {
                 "The course is {}°, counted from the contour with the hill on the left, positive \
                  uphill. On a rover that is its own mirror image it is the same with the hill on \
                  the right.",
-                self.course_deg
+                self.given_course
             ),
         }
     }

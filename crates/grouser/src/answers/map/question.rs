@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 
 use super::super::{Answer, Sampling, samples};
 use crate::document::LoadedScenario;
-use crate::document::columns::Column;
 use crate::document::columns::map::{bands, chosen};
+use crate::document::columns::{COURSE, Column};
 use crate::studies::ensemble::samples::BandInputs;
 use crate::studies::mobility::{CellMotion, CourseChoice, Ground, MobilityStudy};
 
@@ -25,7 +25,7 @@ pub struct MapQuestion<'q> {
     /// The course.
     pub course: CourseChoice,
     /// The same as it was given: a number of degrees, or a word.
-    pub course_deg: &'q str,
+    pub given_course: &'q str,
     /// The samples of soil and model.
     pub sampling: Sampling,
 }
@@ -60,7 +60,7 @@ impl MapQuestion<'_> {
         answer.input("model", self.scenario.value.model.name());
         let keys = ["gravity_m_s2", "load_transfer", "wheel_moments", "slope_stability"];
         answer.inputs_of(document, keys);
-        answer.input("course_deg", self.course_deg);
+        answer.input(COURSE.name, self.given_course);
         answer.input("rim_speed_m_s", self.study.rim_speed);
         answer.input("go_slip_ratio", rule.go_slip_ratio);
         answer.input("go_probability", rule.go_probability);
