@@ -52,8 +52,8 @@ pub struct Answer {
     pub screen: Vec<Displayed>,
     /// What a page shows, in its order, before what all pages end with.
     pub page: Vec<PageBlock>,
-    /// Where results are outside a domain.
-    pub findings: Vec<Finding>,
+    /// Where results are outside a domain; `None` where nobody looked.
+    pub findings: Option<Vec<Finding>>,
     /// What the columns are.
     pub columns: Vec<ColumnMeaning>,
     /// The documents that it was computed from.

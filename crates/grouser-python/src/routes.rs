@@ -105,22 +105,26 @@ impl Sought<'_> {
         } else {
             inputs.samples(seed, samples).map_err(Problem::Sampling)?
         };
+        let ground = Ground::under(&self.study.mobility.heading.rover, self.raster);
+        let ends = Ends {
+            from: self.task.from_m.unwrap_or_default().into(),
+            to: self.task.to_m.unwrap_or_default().into(),
+            yaw: self.task.yaw(),
+        };
+        match self.line {
+            Some(line) => line.check(ground)?,
+            None => ends.check(ground)?,
+        }
         let with_risk = objectives.contains(&Objective::Risk);
         let tables = self.study.tables(&samples, with_risk, go_on).map_err(Problem::Parameter)?;
         // Who stopped it gets the signal, and no records.
         let Some(tables) = tables else { return Ok(Vec::new()) };
-        let ground = Ground::under(&self.study.mobility.heading.rover, self.raster);
         if let Some(line) = self.line {
             let found = self.study.along(&tables, ground, line)?;
             let driven = self.driven(found.route.as_ref())?;
             let limits = &self.study.limits;
             return Ok(vec![RouteRecord::of_line(line, &found, limits, driven.as_ref())]);
         }
-        let ends = Ends {
-            from: self.task.from_m.unwrap_or_default().into(),
-            to: self.task.to_m.unwrap_or_default().into(),
-            yaw: self.task.yaw(),
-        };
         let record = |objective: &Objective| {
             let answer = self.study.route(&tables, ground, &ends, *objective)?;
             let route = match &answer {

@@ -14,11 +14,13 @@ pub mod validation;
 pub mod wheel_test;
 
 use crate::contact::validity::Finding;
+use crate::document::columns;
 use crate::document::reading;
 use crate::document::statistics::NothingAccepted;
 use crate::document::table::Table;
 use crate::document::validity::OutsideDomain;
 use crate::error::ParameterError;
+use crate::studies::heading::HeadingStudy;
 
 pub use self::samples::{Sampling, weights};
 pub use grouser_io::answer::*;
@@ -68,6 +70,20 @@ pub fn check_flags<'f>(
         format!("row {} ({})", place + 1, reading::row_in_words(&row.row(0)))
     };
     OutsideDomain::check(rows, named)
+}
+
+/// The flags of steady motions on the soil as written: on each of some courses [rad], and on each
+/// degree of the slopes up to the steepest [rad].
+fn findings_up_to(
+    study: &HeadingStudy,
+    courses: impl IntoIterator<Item = f64>,
+    steepest: f64,
+) -> Vec<Finding> {
+    let degrees = (0_u8..).map(|degree| f64::from(degree).to_radians());
+    let slopes: Vec<f64> = degrees.take_while(|it| *it < steepest).chain([steepest]).collect();
+    // A course without a curve has no motion that a flag could be of.
+    let curves = courses.into_iter().filter_map(|course| study.curve_on(course).ok());
+    curves.flat_map(|curve| columns::heading::findings(&curve, &slopes).concat()).collect()
 }
 
 /// What stands for every model, in inputs and as a choice.

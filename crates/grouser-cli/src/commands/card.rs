@@ -353,9 +353,10 @@ impl<'a> Target<'a> {
         let mut folder = match self {
             Self::File(out, form) => {
                 let files = form.files(sheets);
-                return files
-                    .iter()
-                    .try_for_each(|(end, bytes)| file::write(&with_end(out, end), bytes));
+                return files.iter().try_for_each(|(end, bytes)| {
+                    let out = with_end(out, end);
+                    file::write(&out, bytes).inspect(|()| file::say_written(&out))
+                });
             }
             Self::Folder(folder) => folder,
         };
@@ -385,7 +386,7 @@ fn report(answers: &Answers<'_>, courses: &Table, sheets: &[Sheet; 2]) -> String
     page.rows("The rows of the card", &answers.rows, &brief);
     let names: Vec<&String> = courses.columns.iter().map(|(name, _)| name).collect();
     page.rows("Other courses", courses, &names);
-    page.flags(answers.card.rows.iter().flat_map(|row| &row.findings));
+    page.flags(Some(answers.card.rows.iter().flat_map(|row| &row.findings)));
     let scenario = &answers.inputs.scenario;
     page.heading("Assumptions in force");
     page.list(&scenario.assumptions);

@@ -28,7 +28,8 @@ pub(crate) fn run(args: &ImportTelemetryArgs) -> Result<(), Failure> {
         Some(out) => file::write_by(out, |writer| {
             let failed = |error| Failure::at("cannot write", out)(error);
             convert(log, (out, writer), &rover, failed)
-        }),
+        })
+        .inspect(|()| file::say_written(out)),
         None => output::print_by(|writer| {
             convert(log, (Path::new("-"), writer), &rover, output::failed_to_print)
         }),

@@ -27,7 +27,7 @@ pub(crate) fn run(args: &ImportUrdfArgs) -> Result<(), Failure> {
         output::message(&format!("note: {}", escape::line(note)));
     }
     match &args.out {
-        Some(out) => file::write(out, found.toml.as_bytes()),
+        Some(out) => file::write(out, found.toml.as_bytes()).inspect(|()| file::say_written(out)),
         None => output::print(&found.toml),
     }
 }

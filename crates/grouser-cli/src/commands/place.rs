@@ -35,7 +35,7 @@ impl<'a> Place<'a> {
         content: impl FnOnce(&mut dyn Write) -> Result<(), Failure>,
     ) -> Result<(), Failure> {
         let Some(folder) = folder.filter(|_| self.is_in_folder) else {
-            return file::write_by(self.path, content);
+            return file::write_by(self.path, content).inspect(|()| file::say_written(self.path));
         };
         let mut bytes = Vec::new();
         content(&mut bytes)?;

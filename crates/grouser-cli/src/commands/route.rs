@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use grouser::answers::route::Way;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
-use grouser::studies::mobility::Ground;
 use grouser::studies::route::{
     Answer as Found, COURSES, DrivenRoute, Ends, Line, Objective, Route, RouteError, RouteTables,
 };
@@ -42,6 +41,8 @@ pub(crate) fn run(args: &RouteArgs) -> Result<(), Failure> {
 
 /// The way that is asked for, and its alternatives.
 fn ways(args: &RouteArgs, inputs: &RouteInputs) -> Result<Vec<Way>, Failure> {
+    // What has no answer is said before the tables, which take a while.
+    inputs.asked.check(inputs.ground())?;
     let samples = samples(args, inputs)?;
     let wanted = objectives(args);
     let with_risk = args.along.is_none() && wanted.contains(&Objective::Risk);
@@ -79,11 +80,9 @@ fn sought(
     ends: &Ends,
     objective: Objective,
 ) -> Result<Way, Failure> {
-    let RouteInputs { study, raster, .. } = inputs;
-    let ground = Ground::under(&study.mobility.heading.rover, raster);
     let bar = output::progress_bar(0);
     bar.set_message(format!("least {}", objective.name()));
-    let found = study.route(tables, ground, ends, objective)?;
+    let found = inputs.study.route(tables, inputs.ground(), ends, objective)?;
     bar.finish_and_clear();
     let route = match &found {
         Found::Route(route) => Some(route),
@@ -99,9 +98,8 @@ fn given(
     tables: &RouteTables,
     line: &Line,
 ) -> Result<Way, Failure> {
-    let RouteInputs { study, raster, .. } = inputs;
-    let ground = Ground::under(&study.mobility.heading.rover, raster);
-    let found = study.along(tables, ground, line)?;
+    let RouteInputs { study, .. } = inputs;
+    let found = study.along(tables, inputs.ground(), line)?;
     let driven = drive(args, found.route.as_ref(), inputs)?;
     Ok(Way::along(line, found, &study.limits, driven))
 }

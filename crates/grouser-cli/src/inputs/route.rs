@@ -5,7 +5,7 @@ pub(crate) use grouser::answers::route::Asked;
 use grouser::answers::route::RouteQuestion;
 use grouser::document::unit::less_whole_turns;
 use grouser::document::{LoadedScenario, escape, study};
-use grouser::studies::mobility::MobilityStudy;
+use grouser::studies::mobility::{Ground, MobilityStudy};
 use grouser::studies::route::{Ends, Limits, Line, LineError, RouteStudy};
 use grouser::units::Vec2;
 use grouser_raster::{Raster, ReadOptions};
@@ -25,6 +25,11 @@ pub(crate) struct RouteInputs {
 }
 
 impl RouteInputs {
+    /// The ground, as the rover stands on it.
+    pub(crate) fn ground(&self) -> Ground<'_> {
+        Ground::under(&self.study.mobility.heading.rover, &self.raster)
+    }
+
     /// The question that they make.
     pub(crate) fn question<'q>(&'q self, args: &'q RouteArgs) -> RouteQuestion<'q> {
         RouteQuestion {

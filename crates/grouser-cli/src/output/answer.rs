@@ -145,7 +145,7 @@ pub(crate) fn html(answer: &Answer, repeat: &str, pictures: &Pictures) -> String
             PageBlock::Picture { file, caption } => page.drawing(drawn(pictures, file), caption),
         }
     }
-    close(page, &answer.findings, &answer.columns, &Basis::of(answer, repeat))
+    close(page, answer.findings.as_ref(), &answer.columns, &Basis::of(answer, repeat))
 }
 
 /// The SVG of a picture. A command draws every one that the page of its answer names.

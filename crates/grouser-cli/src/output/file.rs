@@ -64,6 +64,13 @@ pub(crate) fn write(out: &Path, content: &[u8]) -> Result<(), Failure> {
     write_by(out, |file| file.write_all(content).map_err(Failure::at("cannot write", out)))
 }
 
+/// Tells a terminal which file was written.
+pub(crate) fn say_written(out: &Path) {
+    if super::terminal::has_progress() {
+        super::message(&format!("wrote {}", escape::path(out)));
+    }
+}
+
 /// Writes beside and renames, so that the file is whole or not there. It has the permissions of the
 /// file that it replaces, or those of any new file.
 ///

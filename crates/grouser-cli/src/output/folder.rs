@@ -61,6 +61,12 @@ impl OutputFolder {
                 "{shown} is a file: the output needs a folder, a new one or an empty one"
             )));
         }
+        if let Some(ending) = file_ending(target).filter(|_| !target.is_dir()) {
+            return Err(Failure::Usage(format!(
+                "{shown}: the output is a folder of files, and no name of a folder ends in \
+                 .{ending}\nhint: its page is {REPORT}, which prints as PDF from any browser"
+            )));
+        }
         if old_files == OldFiles::Keep && has_entries(target)? {
             return Err(Failure::Usage(format!(
                 "the folder {shown} is not empty: choose another, or add --force to replace the \
@@ -142,6 +148,14 @@ impl OutputFolder {
         }
         Ok(())
     }
+}
+
+/// The ending of a name by which a file is meant.
+fn file_ending(target: &Path) -> Option<String> {
+    const FILES: [&str; 10] =
+        ["csv", "gif", "html", "json", "mcap", "parquet", "pdf", "png", "svg", "toml"];
+    let ending = target.extension()?.to_string_lossy().to_lowercase();
+    FILES.contains(&&*ending).then_some(ending)
 }
 
 /// Whether there is something in a folder; there is nothing in one that does not exist.

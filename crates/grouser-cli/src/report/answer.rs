@@ -57,7 +57,7 @@ impl Basis {
 /// the answer again.
 pub(crate) fn close<'f>(
     mut page: Page,
-    findings: impl IntoIterator<Item = &'f Finding>,
+    findings: Option<impl IntoIterator<Item = &'f Finding>>,
     meanings: &[ColumnMeaning],
     basis: &Basis,
 ) -> String {

@@ -55,11 +55,17 @@ impl Page {
     }
 
     /// What is an extrapolation, each flag once.
-    pub(crate) fn flags<'f>(&mut self, findings: impl IntoIterator<Item = &'f Finding>) {
+    pub(crate) fn flags<'f>(&mut self, findings: Option<impl IntoIterator<Item = &'f Finding>>) {
+        self.heading("Validity");
+        let Some(findings) = findings else {
+            return self.paragraph(
+                "Whether results are outside the stated domain of the model or the soil was not \
+                 looked for.",
+            );
+        };
         let mut flags: Vec<Flag> = findings.into_iter().map(|finding| finding.flag).collect();
         flags.sort();
         flags.dedup();
-        self.heading("Validity");
         if flags.is_empty() {
             self.paragraph("No result is outside the stated domain of the model or the soil.");
         } else {

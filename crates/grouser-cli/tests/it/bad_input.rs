@@ -425,6 +425,7 @@ fn folders_that_cannot_be_used() {
             &["wheel-test", "--out", "."],
             &["wheel-test", "--out", ""],
             &["wheel-test", "--out", "none/../other"],
+            &["wheel-test", "--out", "new.pdf"],
             &["reproduce", "--samples", "2", "--out", "full"],
             &["reproduce", "--samples", "2", "--out", "file"],
         ],

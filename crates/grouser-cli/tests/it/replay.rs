@@ -43,6 +43,33 @@ fn a_drive_beside_its_prediction() {
     }
 }
 
+/// Without odometry, torques and sinkages nothing was compared, and the answer says so; whether a
+/// result is outside a domain is not looked for.
+#[test]
+fn nothing_that_was_compared_is_no_agreement() {
+    let place = driven();
+    let log = place.read("drive.csv");
+    let mut rows = log.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let header = rows.next().expect("a header");
+    let is_kept = |name: &str| {
+        matches!(name, "time_s" | "roll_deg" | "pitch_deg") || name.starts_with("wheel_speed_rad_s")
+    };
+    let kept: Vec<usize> = (0..header.len()).filter(|place| is_kept(header[*place])).collect();
+    assert!(kept.len() > 4, "{header:?}");
+    let line = |row: &Vec<&str>| kept.iter().map(|at| row[*at]).collect::<Vec<_>>().join(",");
+    let lines: Vec<String> =
+        std::iter::once(line(&header)).chain(rows.map(|it| line(&it))).collect();
+    place.write("bare.csv", lines.join("\n"));
+    let answer =
+        place.json("replay bare.csv --rover hakuto --soil toyoura --model ishigami --out bare");
+    let points = answer["points_to"].as_array().expect("sentences");
+    assert!(points[0].as_str().expect("words").starts_with("cannot tell"), "{points:?}");
+    let findings = answer["findings"].as_array().expect("findings");
+    assert!(findings.iter().all(|it| it["finding"] == "cannot-tell"), "{findings:?}");
+    let page = place.read("bare/report.html");
+    assert!(page.contains("was not looked for") && !page.contains("No result is outside"));
+}
+
 /// Wheels that are assumed a twentieth too small, and bands over samples of the soil.
 #[test]
 fn a_wrong_radius_is_named() {

@@ -133,7 +133,7 @@ impl HeadingQuestion {
         });
         let slopes = self.slopes();
         let findings = all.iter().flat_map(|it| heading::findings(&it.curve, &slopes));
-        answer.findings = findings.flatten().collect::<Vec<Finding>>();
+        answer.findings = Some(findings.flatten().collect::<Vec<Finding>>());
         answer.columns = meanings(&held());
         if self.steering == Steering::Crab {
             answer.columns.splice(0..0, meanings(&steered()));

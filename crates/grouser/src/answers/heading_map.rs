@@ -230,7 +230,8 @@ impl HeadingMapQuestion {
         }
         answer.heading("Every slope and course");
         answer.rows("Heading offsets", table, heading::map_brief());
-        answer.findings = map.rows.iter().flat_map(|row| row.findings.concat()).collect();
+        let findings = map.rows.iter().flat_map(|row| row.findings.concat());
+        answer.findings = Some(findings.collect());
         answer.columns = meanings(&held());
     }
 

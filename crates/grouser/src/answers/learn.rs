@@ -19,8 +19,10 @@ pub use self::words::{shares, slope_in_words, warning_in_words};
 use super::{Answer, Attached, Member};
 use crate::document::LoadedScenario;
 use crate::document::columns::SLOPE;
+use crate::document::columns::heading::findings;
 use crate::document::columns::learn::WAY;
 use crate::document::learn::files_of_prior;
+use crate::studies::heading::HeadingStudy;
 use crate::studies::learn::Learner;
 
 /// The name of the file of the soil that was learnt.
@@ -40,6 +42,9 @@ impl LearnQuestion {
         answer.screen = tables.screen(&words::lines(found));
         answer.documents.push(before_the_drive(&self.scenario));
         self.page(&mut answer, found, &tables);
+        let slopes = self.slopes();
+        let curve = HeadingStudy::of(&self.scenario.value).curve().ok();
+        answer.findings = curve.map(|curve| findings(&curve, &slopes).concat());
         answer
     }
 

@@ -166,9 +166,9 @@ impl Found<'_> {
 
     /// What the differences point to, what was replayed, and notes: a line each.
     fn lines(&self) -> Vec<String> {
-        let points = self.sentences.iter().map(|it| format!("points to: {it}"));
+        let found = self.sentences.iter().map(|it| format!("finding: {it}"));
         let notes = self.notes.iter().map(|note| format!("note: {note}"));
-        points.chain(self.whole()).chain(notes).collect()
+        found.chain(self.whole()).chain(notes).collect()
     }
 
     /// How much was replayed.

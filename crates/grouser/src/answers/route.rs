@@ -13,11 +13,13 @@ use serde_json::{Map, Value, json};
 use self::columns::{MOST_SLOPE, WAY, brief};
 pub use self::question::{Asked, RouteQuestion};
 pub use self::way::Way;
-use super::{Answer, Displayed, Member, samples};
+use super::{Answer, Displayed, Member, findings_up_to, samples};
+use crate::contact::validity::Finding;
 use crate::document::columns::{SLOPE, YAW};
 use crate::document::route::RouteRecord;
 use crate::document::table::Table;
 use crate::studies::ensemble::samples::BandInputs;
+use crate::studies::heading::STRAIGHT_UP;
 
 impl RouteQuestion<'_> {
     /// The answer. Its page has one picture, `NAME.svg`: the ground with the ways.
@@ -41,7 +43,17 @@ impl RouteQuestion<'_> {
         answer.screen = vec![Displayed::Rows(Arc::clone(&rows), brief()), Displayed::Words(lines)];
         answer.attach("scenario.toml", self.scenario);
         self.page(&mut answer, ways, &rows);
+        answer.findings = self.findings(ways);
         answer
+    }
+
+    /// The flags of the soil as written up to the steepest slope of the ways, along the contour and
+    /// straight up and down; `None` where no way is known.
+    fn findings(&self, ways: &[Way]) -> Option<Vec<Finding>> {
+        let slopes = ways.iter().filter_map(|way| way.by_tables(|it| it.most_slope));
+        let steepest = slopes.reduce(f64::max)?;
+        let courses = [-STRAIGHT_UP, 0.0, STRAIGHT_UP];
+        Some(findings_up_to(&self.study.mobility.heading, courses, steepest))
     }
 
     /// The inputs of the answer.

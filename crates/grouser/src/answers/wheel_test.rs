@@ -89,7 +89,8 @@ impl WheelTestQuestion {
             let test = self.plan(model);
             let found = test.run();
             rows.append(self.named(model, self.of_model(test, inputs, &found, options)?));
-            answer.findings.extend(found.into_iter().flat_map(|row| row.findings));
+            let found = found.into_iter().flat_map(|row| row.findings);
+            answer.findings.get_or_insert_default().extend(found);
         }
         let rows = Arc::new(rows);
         self.state(&mut answer);

@@ -3,6 +3,7 @@
 
 use crate::learn::drive::{Drive, Leg, scenario};
 use grouser::document::LoadedScenario;
+use grouser::document::columns::replay::sentences;
 use grouser::simulation::Run;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::learn::TelemetryRecord;
@@ -88,7 +89,8 @@ fn misread(
 
 /// The causes that are pointed to, alone or with others.
 fn pointed(replay: &Replay) -> Vec<Cause> {
-    let points = |it: &&Finding| it.verdict != Verdict::Nothing;
+    let points =
+        |it: &&Finding| matches!(it.verdict, Verdict::PointsTo | Verdict::Underdetermined(_));
     let mut causes: Vec<Cause> =
         replay.findings.iter().filter(points).map(|it| it.parameter.cause()).collect();
     causes.dedup();
@@ -118,6 +120,45 @@ fn where_nothing_is_off_nothing_is_pointed_to() {
         assert_eq!(pointed(&found), [], "{:#?}", found.findings);
         assert!(found.explained_stretches > 40, "{}", found.explained_stretches);
     }
+}
+
+/// A log of attitude and wheel speeds alone is compared with nothing: that is no agreement. With
+/// torques the soil shows, and what odometry alone would show does not.
+#[test]
+fn what_nothing_was_read_of_cannot_be_told() {
+    let records = telemetry(&[], &LEGS, SensorModels::USUAL);
+    let without = |keeps_torques: bool| {
+        let mut records = records.clone();
+        for record in &mut records {
+            record.displacement = [None; 2];
+            record.position = [None; 2];
+            (record.rotation, record.yaw) = (None, None);
+            for wheel in &mut record.wheels {
+                (wheel.sinkage, wheel.current) = (None, None);
+                wheel.torque = wheel.torque.filter(|_| keeps_torques);
+            }
+        }
+        replay(records)
+    };
+    let blind = without(false);
+    assert!(blind.explained_stretches > 0 && !blind.findings.is_empty());
+    for finding in &blind.findings {
+        assert_eq!(finding.verdict, Verdict::CannotTell, "{finding:?}");
+    }
+    assert_eq!(
+        sentences(&blind),
+        [
+            "cannot tell: the log has no velocities of the body, no yaw rate, no torques, no sinkages"
+        ]
+    );
+    let by_torques = without(true);
+    let verdict = |parameter| &finding(&by_torques, parameter).verdict;
+    assert_eq!(*verdict(Parameter::Odometry), Verdict::CannotTell);
+    assert_eq!(*verdict(Parameter::YawRate), Verdict::CannotTell);
+    assert_eq!(*verdict(Parameter::Torque), Verdict::Nothing, "{:#?}", by_torques.findings);
+    let said = sentences(&by_torques);
+    assert!(said[0].contains("point to nothing"), "{said:?}");
+    assert!(said[1].starts_with("cannot tell of ") && said[1].contains("no sinkages"), "{said:?}");
 }
 
 /// Slip and torques are off together.

@@ -49,7 +49,7 @@ pub(super) fn html(answered: &Answered) -> String {
     columns.extend(run_meanings(scenario));
     let basis = Basis::new("grouser mission mission.toml".to_owned());
     let basis = basis.with("mission.toml", &answered.document);
-    answer::close(page, &findings, &columns, &basis)
+    answer::close(page, Some(&findings), &columns, &basis)
 }
 
 /// The path of a mission, its legs, and every channel.

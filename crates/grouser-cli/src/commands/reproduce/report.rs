@@ -83,7 +83,7 @@ pub(super) fn write(
     for figure in figures::along_a_run(paper, rover) {
         report.figure(&figure)?;
     }
-    report.page.flags(&findings(paper, &scenario.value));
+    report.page.flags(Some(&findings(paper, &scenario.value)));
     closing(&mut report.page, scenario);
     let page = report.page.to_html();
     add_traverses(folder, paper, &scenario.value)?;

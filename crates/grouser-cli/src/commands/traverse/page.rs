@@ -45,7 +45,7 @@ pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {
         .flat_map(|it| run::each_findings(&it.run, &it.scenario.value).into_iter().flatten())
         .collect();
     let columns = all.first().map_or(Vec::new(), |it| run_meanings(&it.scenario.value));
-    answer::close(page, &findings, &columns, &basis(args, all))
+    answer::close(page, Some(&findings), &columns, &basis(args, all))
 }
 
 /// Where a rover ended up, and what that took.

@@ -63,7 +63,8 @@ impl ForecastQuestion<'_> {
         answer.heading("Figures");
         figures::bands_to(answer, forecast, tables);
         let slopes = forecast.slopes.iter();
-        answer.findings = slopes.flat_map(|slope| slope.findings.iter().copied()).collect();
+        let findings = slopes.flat_map(|slope| slope.findings.iter().copied());
+        answer.findings = Some(findings.collect());
         answer.columns = columns::all_meanings();
     }
 

@@ -4,12 +4,14 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::super::{Answer, Sampling, samples};
+use super::super::{Answer, Sampling, findings_up_to, samples};
+use super::files::MadeMap;
+use crate::contact::validity::Finding;
 use crate::document::LoadedScenario;
 use crate::document::columns::map::{bands, chosen};
-use crate::document::columns::{COURSE, Column};
+use crate::document::columns::{COURSE, Column, SLOPE};
 use crate::studies::ensemble::samples::BandInputs;
-use crate::studies::mobility::{CellMotion, CourseChoice, Ground, MobilityStudy};
+use crate::studies::mobility::{CellMotion, CourseChoice, Ground, MobilityStudy, MobilityTable};
 
 /// The question.
 #[derive(Clone, Copy, Debug)]
@@ -49,6 +51,16 @@ impl MapQuestion<'_> {
         let mut identity = answer.inputs;
         identity.insert("model_weights".to_owned(), json!(answer.model_weights));
         Value::Object(identity)
+    }
+
+    /// The flags of the soil as written: on the map's courses, and each degree of its slopes.
+    pub(super) fn findings(&self, made: &MadeMap<'_>) -> Vec<Finding> {
+        let slopes = made.files.iter().find(|file| file.name == SLOPE.name);
+        let steepest = slopes.map_or(0.0, |file| SLOPE.unit.to_si(file.most));
+        // A map without a known slope has no number.
+        let steepest = if steepest.is_finite() { steepest } else { 0.0 };
+        let courses = made.map.tables().iter().map(MobilityTable::course);
+        findings_up_to(&self.study.heading, courses, steepest)
     }
 
     /// The inputs of the answer.

@@ -6,7 +6,8 @@ use grouser_raster::Raster;
 
 use super::super::Sampling;
 use crate::document::LoadedScenario;
-use crate::studies::route::{Ends, Line, RouteStudy};
+use crate::studies::mobility::Ground;
+use crate::studies::route::{Ends, Line, RouteError, RouteStudy};
 
 /// The question.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +40,17 @@ pub enum Asked {
 }
 
 impl Asked {
+    /// Checks that the ground has what is asked about.
+    ///
+    /// # Errors
+    /// [`RouteError`] for places that are not on the map, and too many of them.
+    pub fn check(&self, ground: Ground<'_>) -> Result<(), RouteError> {
+        match self {
+            Self::Between(ends) => ends.check(ground),
+            Self::Along(line) => line.check(ground),
+        }
+    }
+
     /// The straight line from start to target [m].
     #[must_use]
     pub fn straight(&self) -> f64 {

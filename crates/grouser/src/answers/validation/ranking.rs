@@ -83,7 +83,7 @@ fn page(answer: &mut Answer, ranking: &Ranking, blocks: Vec<Block>) {
             answer.figure(Some(&format!("figures/{part}-{file}")), chart, caption);
         }
     }
-    answer.findings = ranking.rows.iter().flat_map(findings).collect();
+    answer.findings = Some(ranking.rows.iter().flat_map(findings).collect());
     answer.columns = meanings_of_errors();
 }
 

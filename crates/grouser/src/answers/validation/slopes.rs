@@ -102,7 +102,8 @@ impl SlopeValidationQuestion {
         }
         answer.heading("Figures");
         draw(answer, figures::of_slopes(&found.validation));
-        answer.findings = points.iter().flat_map(|it| it.findings.iter().copied()).collect();
+        let findings = points.iter().flat_map(|it| it.findings.iter().copied());
+        answer.findings = Some(findings.collect());
         answer.columns = meanings_of_errors();
     }
 }

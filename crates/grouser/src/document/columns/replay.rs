@@ -212,9 +212,12 @@ pub const fn quantity_of_parameter(parameter: Parameter) -> Quantity {
 /// The columns of [`findings`].
 pub const FINDINGS: [Column<Finding>; 9] = [
     text(CAUSE, "What may be wrong", |it| Some(it.parameter.cause().name().to_owned())),
-    text(FINDING, "`points-to`, `underdetermined` or `nothing`", |it| {
-        Some(verdict_name(&it.verdict).to_owned())
-    }),
+    text(
+        FINDING,
+        "`points-to`, `underdetermined`, `nothing`, or `cannot-tell` where nothing was read that \
+         would show it",
+        |it| Some(verdict_name(&it.verdict).to_owned()),
+    ),
     text(
         PARAMETER,
         "How far it is off, with the unit of the two numbers beside it; without a unit a share: \
@@ -261,6 +264,7 @@ const fn verdict_name(verdict: &Verdict) -> &'static str {
         Verdict::PointsTo => "points-to",
         Verdict::Underdetermined(_) => "underdetermined",
         Verdict::Nothing => "nothing",
+        Verdict::CannotTell => "cannot-tell",
     }
 }
 
@@ -274,22 +278,61 @@ pub fn findings(replay: &Replay) -> Table {
 #[must_use]
 pub fn sentences(replay: &Replay) -> Vec<String> {
     if replay.explained_stretches == 0 {
-        return vec!["no stretch could be predicted, so that nothing is pointed to".to_owned()];
+        return vec!["cannot tell: no stretch could be predicted".to_owned()];
     }
+    let is_pointed_to =
+        |it: &Finding| matches!(it.verdict, Verdict::PointsTo | Verdict::Underdetermined(_));
+    let mut causes = causes(replay, is_pointed_to);
+    causes.sort_by(|(_, one), (_, other)| other.total_cmp(one));
+    let mut sentences: Vec<String> =
+        causes.iter().map(|(cause, _)| sentence(replay, *cause)).collect();
+    let hidden = self::causes(replay, |it| it.verdict == Verdict::CannotTell);
+    let hidden: Vec<&str> = hidden.iter().map(|(cause, _)| cause.name()).collect();
+    if hidden.len() == Cause::ALL.len() {
+        return vec![format!("cannot tell: {}", missing_readings(replay))];
+    }
+    if sentences.is_empty() {
+        let none =
+            "the differences are within the noise of instruments and model, and point to nothing";
+        sentences.push(none.to_owned());
+    }
+    if !hidden.is_empty() {
+        let (hidden, missing) = (hidden.join(", "), missing_readings(replay));
+        sentences.push(format!("cannot tell of {hidden}: {missing}"));
+    }
+    sentences
+}
+
+/// The causes of some findings, each with the share of the differences that it explains.
+fn causes(replay: &Replay, which: impl Fn(&Finding) -> bool) -> Vec<(Cause, f64)> {
     let mut causes: Vec<(Cause, f64)> = Vec::new();
-    for finding in replay.findings.iter().filter(|it| it.verdict != Verdict::Nothing) {
+    for finding in replay.findings.iter().filter(|it| which(it)) {
         let cause = finding.parameter.cause();
         if causes.iter().all(|(known, _)| *known != cause) {
             causes.push((cause, finding.share));
         }
     }
-    if causes.is_empty() {
-        let none =
-            "the differences are within the noise of instruments and model, and point to nothing";
-        return vec![none.to_owned()];
+    causes
+}
+
+/// Which readings there are none of, or that those there are show too little.
+fn missing_readings(replay: &Replay) -> String {
+    type Is = fn(&Channel) -> bool;
+    let kinds: [(&str, Is); 4] = [
+        ("velocities of the body", |it| {
+            matches!(it, Channel::ForwardSpeed | Channel::LateralSpeed)
+        }),
+        ("yaw rate", |it| *it == Channel::YawRate),
+        ("torques", |it| matches!(it, Channel::Torque(_))),
+        ("sinkages", |it| matches!(it, Channel::Sinkage(_))),
+    ];
+    let is_missing = |is: Is| !replay.channels.iter().any(|it| is(&it.channel));
+    let missing: Vec<&str> =
+        kinds.into_iter().filter(|(_, is)| is_missing(*is)).map(|(name, _)| name).collect();
+    match &missing[..] {
+        [] => "what was read on this drive shows too little of it".to_owned(),
+        missing => format!("the log has no {}", missing.join(", no ")),
     }
-    causes.sort_by(|(_, one), (_, other)| other.total_cmp(one));
-    causes.iter().map(|(cause, _)| sentence(replay, *cause)).collect()
 }
 
 fn sentence(replay: &Replay, cause: Cause) -> String {

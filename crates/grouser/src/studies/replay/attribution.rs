@@ -36,6 +36,9 @@ const STRONG: f64 = 3.0;
 const LEAST_SHARE: f64 = 0.02;
 /// Causes at most. Source: ours: after three there is more wrong than a list of causes has.
 const MOST: usize = 3;
+/// A parameter that the differences leave as uncertain as this, over its usual size, is one that
+/// nothing was learnt of [-]. Source: ours.
+const NOT_LEARNT: f64 = 0.9;
 
 /// Differences added up over a drive.
 #[derive(Clone, Debug)]
@@ -58,6 +61,8 @@ pub enum Verdict {
     Underdetermined(Vec<Cause>),
     /// They do not point to it.
     Nothing,
+    /// Nothing was read that would show it.
+    CannotTell,
 }
 
 /// A cause with its parameters.
@@ -88,6 +93,15 @@ struct Fit {
     evidence: f64,
     /// Squares that are explained.
     explained: f64,
+}
+
+impl Fit {
+    /// Whether the differences say anything of a parameter of a cause.
+    fn has_learnt(&self, cause: Cause) -> bool {
+        let of_cause = |place: usize| Parameter::ALL[place].cause() == cause;
+        let pairs = self.places.iter().zip(&self.deviations);
+        pairs.into_iter().any(|(place, deviation)| of_cause(*place) && *deviation < NOT_LEARNT)
+    }
 }
 
 impl Sums {
@@ -134,7 +148,8 @@ impl Sums {
                     let others = rivals.iter().filter(|it| **it != cause);
                     Verdict::Underdetermined([*best].into_iter().chain(others.copied()).collect())
                 }
-                (None, None) => Verdict::Nothing,
+                (None, None) if with.has_learnt(cause) => Verdict::Nothing,
+                (None, None) => Verdict::CannotTell,
             };
             let fit = if found.is_some() { &whole } else { &with };
             let evidence = with.evidence - without.evidence;

@@ -63,6 +63,15 @@ impl Line {
         self.places[self.places.len() - 1]
     }
 
+    /// Checks what no table is needed for: that some of it lies on the map, and that it is no longer
+    /// than can be looked at.
+    ///
+    /// # Errors
+    /// [`RouteError`] for a line none of which lies on the map, and one that is too long.
+    pub fn check(&self, ground: Ground<'_>) -> Result<(), RouteError> {
+        Corridor { ground }.check(&self.places)
+    }
+
     /// The straight line from its start to its end [m].
     #[must_use]
     pub fn straight(&self) -> f64 {
@@ -93,8 +102,8 @@ impl RouteStudy {
         ground: Ground<'_>,
         line: &Line,
     ) -> Result<CheckedLine, RouteError> {
+        line.check(ground)?;
         let corridor = Corridor { ground };
-        corridor.check(line.places())?;
         let mut look = Look::from(self, tables, line.start());
         let mut before = line.yaw;
         for (number, pair) in line.places.windows(2).enumerate() {

@@ -16,7 +16,6 @@ use rayon::prelude::*;
 use super::costs::Costs;
 use super::moves::{DIRECTIONS, MOVES, Moves};
 use crate::studies::mobility::Ground;
-use crate::terrain::Extent;
 use crate::units::Vec2;
 
 /// The cells of a grid as a rover meets them.
@@ -58,6 +57,20 @@ pub(super) fn slope_at(ground: Ground<'_>, column: usize, row: usize) -> Option<
     found.flatten().map(|it| [it.x as f32, it.y as f32])
 }
 
+/// The cell nearest to a place; nothing beyond the map.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked before")]
+pub(super) fn cell_at(ground: Ground<'_>, place: Vec2) -> Option<usize> {
+    let grid = &ground.raster().grid;
+    let from = place - grid.south_west;
+    let (x, y) = (from.x / grid.spacing.x, from.y / grid.spacing.y);
+    let inside = |at: f64, count: usize| (-0.5..=count as f64 - 0.5).contains(&at);
+    if !inside(x, grid.columns) || !inside(y, grid.rows) {
+        return None;
+    }
+    let near = |at: f64, count: usize| (at.round().max(0.0) as usize).min(count - 1);
+    Some(near(y, grid.rows) * grid.columns + near(x, grid.columns))
+}
+
 impl<'a> Lattice<'a> {
     /// * `is_open`: whether one may go to a place, besides what its slope says
     /// * `turn`: what it costs to turn by a radian
@@ -85,19 +98,6 @@ impl<'a> Lattice<'a> {
         }
     }
 
-    /// The cell nearest to a place; none beyond the map.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked before")]
-    pub(super) fn cell(&self, place: Vec2) -> Option<usize> {
-        let grid = &self.ground.raster().grid;
-        let (x, y) = self.moves.steps(place - grid.south_west);
-        let inside = |at: f64, count: usize| (-0.5..=count as f64 - 0.5).contains(&at);
-        if !inside(x, self.columns) || !inside(y, self.rows) {
-            return None;
-        }
-        let near = |at: f64, count: usize| (at.round().max(0.0) as usize).min(count - 1);
-        Some(near(y, self.rows) * self.columns + near(x, self.columns))
-    }
-
     /// The place of a cell [m].
     pub(super) fn place(&self, cell: usize) -> Vec2 {
         self.ground.raster().grid.point(cell % self.columns, cell / self.columns)
@@ -106,11 +106,6 @@ impl<'a> Lattice<'a> {
     /// The heights.
     pub(super) fn raster(&self) -> &Raster {
         self.ground.raster()
-    }
-
-    /// What the map spans.
-    pub(super) fn extent(&self) -> Extent {
-        self.ground.raster().grid.extent()
     }
 
     /// Whether one may stand there.

@@ -3,7 +3,7 @@
 use super::answer::{Answer, Ends, MOST_CELLS, NoRoute, Route, RouteError};
 use super::costs::{Costs, RouteTables};
 use super::measure::{Measure, Piece, Turning};
-use super::search::{Found, Lattice};
+use super::search::{Found, Lattice, cell_at};
 use super::study::{Objective, RouteStudy};
 use crate::studies::mobility::Ground;
 use crate::terrain::Footprint;
@@ -23,10 +23,8 @@ impl RouteStudy {
         ends: &Ends,
         objective: Objective,
     ) -> Result<Answer, RouteError> {
-        let cells = ground.raster().grid.columns * ground.raster().grid.rows;
-        if cells > MOST_CELLS {
-            return Err(RouteError::TooLarge { cells });
-        }
+        let [from, to] = ends.cells(ground)?;
+        let cells = cells_of(ground);
         let costs = Costs::of(tables, objective);
         let turning = match Turning::of(&self.mobility) {
             Ok(turning) => turning,
@@ -39,12 +37,11 @@ impl RouteStudy {
         let spacing = ground.raster().grid.spacing;
         let is_open = |place| !self.is_kept_out(place, spacing);
         let lattice = Lattice::new(ground, &costs, turn, is_open);
-        let [from, to] =
-            [self.end(&lattice, "start", ends.from)?, self.end(&lattice, "target", ends.to)?];
-        let (from, to) = match (from, to) {
-            (Ok(from), Ok(to)) => (from, to),
-            (Err(none), _) | (_, Err(none)) => return Ok(Answer::NoSafeRoute(none)),
-        };
+        for ((end, place), cell) in ends.named().into_iter().zip([from, to]) {
+            if let Some(why) = self.why_nobody_stands(&lattice, cell) {
+                return Ok(Answer::NoSafeRoute(NoRoute::End { end, place, why }));
+            }
+        }
         let heading = ends.yaw.map(|yaw| lattice.moves.nearest(yaw));
         Ok(match lattice.search(from, to, heading) {
             Found::Way(way, headings) => {
@@ -68,28 +65,53 @@ impl RouteStudy {
         areas.under(place, Vec2::zeros(), cell).iter().any(|share| share.soil.is_some())
     }
 
-    /// The cell of an end of the way.
-    fn end(
-        &self,
-        lattice: &Lattice<'_>,
-        end: &'static str,
-        place: Vec2,
-    ) -> Result<Result<usize, NoRoute>, RouteError> {
-        let Some(cell) = lattice.cell(place) else {
-            return Err(RouteError::OffTheMap { end, place, corners: lattice.corners() });
-        };
-        let why = match () {
+    /// Why no way begins or ends in a cell; nothing where one may.
+    fn why_nobody_stands(&self, lattice: &Lattice<'_>, cell: usize) -> Option<&'static str> {
+        match () {
             () if self.is_kept_out(lattice.place(cell), lattice.spacing()) => {
-                "lies where nobody may go"
+                Some("lies where nobody may go")
             }
             () if !lattice.is_open(cell) => {
-                "lies at the edge of the map, or beside a place without a height"
+                Some("lies at the edge of the map, or beside a place without a height")
             }
-            () if !lattice.has_way(cell) => "is a no-go in every direction",
-            () => return Ok(Ok(cell)),
-        };
-        Ok(Err(NoRoute::End { end, place, why }))
+            () if !lattice.has_way(cell) => Some("is a no-go in every direction"),
+            () => None,
+        }
     }
+}
+
+impl Ends {
+    /// Checks what no table is needed for: that both ends are on the map, and that the map is not
+    /// too large to seek a way over.
+    ///
+    /// # Errors
+    /// [`RouteError`] for ends that are not on the map, and a map that is too large.
+    pub fn check(&self, ground: Ground<'_>) -> Result<(), RouteError> {
+        self.cells(ground).map(drop)
+    }
+
+    /// The cells of both ends.
+    fn cells(&self, ground: Ground<'_>) -> Result<[usize; 2], RouteError> {
+        let cells = cells_of(ground);
+        if cells > MOST_CELLS {
+            return Err(RouteError::TooLarge { cells });
+        }
+        let extent = ground.raster().grid.extent();
+        let corners = [extent.south_west, extent.north_east];
+        let cell = |(end, place)| {
+            cell_at(ground, place).ok_or(RouteError::OffTheMap { end, place, corners })
+        };
+        let [from, to] = self.named().map(cell);
+        Ok([from?, to?])
+    }
+
+    fn named(&self) -> [(&'static str, Vec2); 2] {
+        [("start", self.from), ("target", self.to)]
+    }
+}
+
+fn cells_of(ground: Ground<'_>) -> usize {
+    ground.raster().grid.columns * ground.raster().grid.rows
 }
 
 /// What a way takes, move by move.
@@ -122,11 +144,5 @@ impl Lattice<'_> {
     /// How far apart its points are, to the east and to the north [m].
     fn spacing(&self) -> Vec2 {
         self.raster().grid.spacing
-    }
-
-    /// South-west and north-east of the map [m].
-    fn corners(&self) -> [Vec2; 2] {
-        let extent = self.extent();
-        [extent.south_west, extent.north_east]
     }
 }

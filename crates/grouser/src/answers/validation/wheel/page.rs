@@ -50,7 +50,7 @@ impl ValidationQuestion {
         answer.heading("Figures");
         draw(answer, figures::all(validation));
         let findings = validation.cells.iter().flat_map(|cell| cell.findings.iter().copied());
-        answer.findings = findings.collect();
+        answer.findings = Some(findings.collect());
         answer.columns = meanings_of_errors();
     }
 
