@@ -1,5 +1,7 @@
 //! Numbers as flags write them: `5`, `5,10,15`, `0:0.9:0.1`, and mixtures.
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+
 /// A list of numbers from a flag.
 ///
 /// Whether a number makes sense, a NaN or an infinity above all, is for its range to tell.
@@ -19,6 +21,15 @@ pub(crate) fn parse(text: &str) -> Result<Numbers, String> {
         }
     }
     Ok(Numbers(numbers))
+}
+
+/// A parser of a flag that takes one of some values by its name.
+pub(crate) fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
+    all: [T; N],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    let value = move |word: String| all.into_iter().find(|it| name(*it) == word);
+    PossibleValuesParser::new(all.map(name)).try_map(move |word| value(word).ok_or("unknown"))
 }
 
 /// A parsed list. (A type of its own, for the parser of flags would take a `Vec` apart.)

@@ -12,6 +12,7 @@ pub(crate) mod terminal;
 pub(crate) mod text;
 
 use std::borrow::Cow;
+use std::fmt::Display;
 use std::io::{BufWriter, ErrorKind, Write, stderr, stdout};
 use std::path::Path;
 
@@ -101,6 +102,11 @@ pub(crate) fn message(text: &str) {
         activity::make_room();
         write_message(&format!("{text}\n"));
     }
+}
+
+/// Prints what to know of the results, a line each.
+pub(crate) fn notes(notes: impl IntoIterator<Item = impl Display>) {
+    notes.into_iter().for_each(|note| message(&format!("note: {note}")));
 }
 
 /// A message with its labels in colours where the standard error has them.

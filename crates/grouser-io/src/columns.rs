@@ -162,6 +162,12 @@ pub const fn quantity(name: &'static str, unit: Unit) -> Quantity {
 }
 
 impl Quantity {
+    /// Numbers that were given in its unit, in SI.
+    #[must_use]
+    pub fn in_si(self, given: &[f64]) -> Vec<f64> {
+        given.iter().map(|number| self.unit.to_si(*number)).collect()
+    }
+
     /// The names of the three quantiles: 2.5 %, 50 % and 97.5 %.
     #[must_use]
     pub fn quantiles(self) -> [String; 3] {

@@ -2,7 +2,6 @@
 
 use std::ops::RangeInclusive;
 
-use grouser::document::card::RuleRecord;
 use grouser::document::columns::flags::{self, FLAGS};
 use grouser::document::columns::run::{
     ELECTRICAL, ELECTRICAL_RECORD, ENERGY_ERROR, RECORD, STANDING, STEERING_RECORD, WHEEL_RECORD,
@@ -10,7 +9,7 @@ use grouser::document::columns::run::{
 };
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{
-    self, COURSE, LIMIT_SLOPE, LOAD, Quantity, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE,
+    self, COURSE, LIMIT_SLOPE, LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE,
 };
 use grouser::document::forecast as words;
 use grouser::document::simulated_test::{NOISE, TRIALS};
@@ -231,7 +230,7 @@ pub(crate) fn heading_map<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let slopes = slopes(&slope_deg)?;
     check(COURSE.name, course_deg.as_slice()?, &COURSE_DEG)?;
-    let courses = in_si(COURSE, course_deg.as_slice()?);
+    let courses = COURSE.in_si(course_deg.as_slice()?);
     check("rim_speed_m_s", &[rim_speed_m_s], &MAP_SPEED_M_S)?;
     let all = scenarios.iter().map(|scenario| scenario.scenario());
     let all = all.collect::<PyResult<Vec<_>>>()?;
@@ -306,7 +305,7 @@ pub(crate) fn heading_map_band<'py>(
     let slopes = slopes(&slope_deg)?;
     check("samples", &[f64::from(samples)], &SAMPLES)?;
     check(COURSE.name, course_deg.as_slice()?, &COURSE_DEG)?;
-    let courses = in_si(COURSE, course_deg.as_slice()?);
+    let courses = COURSE.in_si(course_deg.as_slice()?);
     let question = Question::of_all(courses.iter().map(|course| Question::on_course(*course)));
     let all = scenarios.iter().map(|scenario| {
         let scenario = scenario.scenario()?;
@@ -459,7 +458,7 @@ pub(crate) fn card<'py>(
 /// The limits of [`Rule::DEFAULT`] by their names.
 #[pyfunction]
 pub(crate) fn card_rule(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
-    record_to_python(py, &RuleRecord::from(&Rule::DEFAULT))
+    record_to_python(py, &Rule::DEFAULT)
 }
 
 /// A gravity [m/s²] by its name, or as a number in a text.
@@ -613,7 +612,7 @@ fn plan(
         gravity,
         model,
         loads: load_n.as_slice()?.to_vec(),
-        slip_angles: in_si(SLIP_ANGLE, slip_angle_deg.as_slice()?),
+        slip_angles: SLIP_ANGLE.in_si(slip_angle_deg.as_slice()?),
         slip_ratios: slip_ratio.as_slice()?.to_vec(),
     };
     test.check().map_err(|error| errors::of_parameter(&error))?;
@@ -666,9 +665,5 @@ const COURSES: usize = 64;
 pub(crate) fn slopes(slope_deg: &PyReadonlyArray1<'_, f64>) -> PyResult<Vec<f64>> {
     let range = document::range(Kind::Scenario, SLOPE.name).unwrap_or(0.0..=60.0);
     check(SLOPE.name, slope_deg.as_slice()?, &range)?;
-    Ok(in_si(SLOPE, slope_deg.as_slice()?))
-}
-
-fn in_si(quantity: Quantity, values: &[f64]) -> Vec<f64> {
-    values.iter().map(|value| quantity.unit.to_si(*value)).collect()
+    Ok(SLOPE.in_si(slope_deg.as_slice()?))
 }

@@ -79,7 +79,8 @@ fn findings_up_to(
     courses: impl IntoIterator<Item = f64>,
     steepest: f64,
 ) -> Vec<Finding> {
-    let degrees = (0_u8..).map(|degree| f64::from(degree).to_radians());
+    const DEGREE: f64 = std::f64::consts::PI / 180.0;
+    let degrees = (0_u8..).map(|degree| f64::from(degree) * DEGREE);
     let slopes: Vec<f64> = degrees.take_while(|it| *it < steepest).chain([steepest]).collect();
     // A course without a curve has no motion that a flag could be of.
     let curves = courses.into_iter().filter_map(|course| study.curve_on(course).ok());

@@ -4,7 +4,6 @@
 mod bevameter;
 pub mod calibration;
 pub mod campaign;
-pub mod card;
 pub mod checkpoint;
 pub mod columns;
 mod doubts;

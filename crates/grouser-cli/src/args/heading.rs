@@ -1,7 +1,7 @@
 //! Arguments of `heading` and `heading-map`.
 
+use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
-use clap::{Args, ValueEnum};
 use grouser::studies::heading::Steering;
 use grouser::studies::wheel_speeds::USUAL_RATIO;
 
@@ -24,8 +24,9 @@ pub(crate) struct HeadingArgs {
     pub(crate) slope_deg: Numbers,
     /// What holds the contour: the body's yaw (`none`), or the wheels that are steered, with the
     /// body along the contour (`crab`). The rover's document says which are steered.
-    #[arg(long, value_name = "WHAT", value_enum, default_value_t, conflicts_with_all = ["wheel_speeds", "uncertainty"])]
-    pub(crate) steering: SteeringArg,
+    #[arg(long, value_name = "WHAT", default_value = "none", conflicts_with_all = ["wheel_speeds", "uncertainty"])]
+    #[arg(value_parser = list::one_of(Steering::ALL, Steering::name))]
+    pub(crate) steering: Steering,
     /// Also let wheels turn at speeds of their own: those of each side, or of each wheel, that hold
     /// the contour with the yaw moment balanced and the least work, and the steepest slopes.
     #[arg(long, conflicts_with = "uncertainty")]
@@ -43,23 +44,6 @@ pub(crate) struct HeadingArgs {
     pub(crate) strict: StrictArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
-}
-
-/// What holds the contour.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SteeringArg {
-    #[default]
-    None,
-    Crab,
-}
-
-impl From<SteeringArg> for Steering {
-    fn from(steering: SteeringArg) -> Self {
-        match steering {
-            SteeringArg::None => Self::None,
-            SteeringArg::Crab => Self::Crab,
-        }
-    }
 }
 
 #[derive(Debug, Args)]

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
+use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
-use clap::{Args, ValueEnum};
 use grouser::studies::route::Objective;
 
 use super::{BalanceArgs, OutputArgs, PartArgs, RuleArgs, SettingArgs};
@@ -43,8 +43,9 @@ pub(crate) struct RouteArgs {
     pub(crate) along: Option<PathBuf>,
     /// What the way has least of: time, work of the wheels, or time in the worst tenth of the
     /// samples.
-    #[arg(long, value_name = "WHAT", value_enum, default_value_t)]
-    pub(crate) minimise: ObjectiveArg,
+    #[arg(long, value_name = "WHAT", default_value = "time")]
+    #[arg(value_parser = list::one_of(Objective::ALL, Objective::name))]
+    pub(crate) minimise: Objective,
     /// Yaw at the start [°], from the map's x axis to the left; without it the first turn is free.
     #[arg(long, value_name = "DEG", value_parser = list::parse, allow_hyphen_values = true)]
     pub(crate) yaw_deg: Option<Numbers>,
@@ -85,23 +86,4 @@ pub(crate) struct RouteArgs {
     pub(crate) setting: SettingArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
-}
-
-/// What a way has least of.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum ObjectiveArg {
-    #[default]
-    Time,
-    Energy,
-    Risk,
-}
-
-impl From<ObjectiveArg> for Objective {
-    fn from(objective: ObjectiveArg) -> Self {
-        match objective {
-            ObjectiveArg::Time => Self::Time,
-            ObjectiveArg::Energy => Self::Energy,
-            ObjectiveArg::Risk => Self::Risk,
-        }
-    }
 }

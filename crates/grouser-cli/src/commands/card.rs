@@ -11,7 +11,6 @@ mod texts;
 use std::path::{Path, PathBuf};
 
 use grouser::answers;
-use grouser::document::card::RuleRecord;
 use grouser::document::columns::card::{self, MeasuredYaw, YAW_AS_WRITTEN};
 use grouser::document::columns::{SLOPE, YAW, card_courses, card_drives};
 use grouser::document::table::{Row, Table};
@@ -47,7 +46,7 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
         Some(file) => measured::read(file, args.read.limits())?,
         None => Vec::new(),
     };
-    let samples = samples(args, &inputs)?;
+    let samples = sampling::draw_if_uncertain(&inputs.scenario, args.samples, args.seed)?;
     let study = study(args, &inputs);
     let card = compute(&study, &samples, &measured)?;
     let all = card::table(&card);
@@ -94,7 +93,7 @@ impl Pages {
     pub(super) fn of(scenario: LoadedScenario, samples: u32, seed: u64) -> Result<Self, Failure> {
         let args = CardArgs { samples, seed, ..CardArgs::usual() };
         let inputs = CardInputs::usual(&args, scenario)?;
-        let samples = self::samples(&args, &inputs)?;
+        let samples = sampling::draw_if_uncertain(&inputs.scenario, args.samples, args.seed)?;
         let study = study(&args, &inputs);
         let card = compute(&study, &samples, &[])?;
         let rows = shown(&card::table(&card), &[]);
@@ -105,15 +104,6 @@ impl Pages {
         let sheets = [layout::draw(&texts, &picture, &rows), second::draw(&texts, &rows, &courses)];
         Ok(Self { card, sheets })
     }
-}
-
-/// The samples; none where one soil and one model are all there is.
-fn samples(args: &CardArgs, inputs: &CardInputs) -> Result<Vec<Sample>, Failure> {
-    let band = BandInputs::of_scenario(&inputs.scenario);
-    if band.is_certain() {
-        return Ok(Vec::new());
-    }
-    sampling::draw(&band, args.samples, args.seed)
 }
 
 fn study(args: &CardArgs, inputs: &CardInputs) -> CardStudy {
@@ -208,7 +198,7 @@ fn settings(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Value {
         "wheel_moments": document.get("wheel_moments"),
         "uphill": if args.uphill == SideChoice::Left { "left" } else { "right" },
         "rim_speed_m_s": inputs.rim_speed,
-        "rule": RuleRecord::from(&inputs.rule),
+        "rule": inputs.rule,
     });
     if card.draws.is_some() {
         settings["samples"] = args.samples.into();
@@ -353,10 +343,9 @@ impl<'a> Target<'a> {
         let mut folder = match self {
             Self::File(out, form) => {
                 let files = form.files(sheets);
-                return files.iter().try_for_each(|(end, bytes)| {
-                    let out = with_end(out, end);
-                    file::write(&out, bytes).inspect(|()| file::say_written(&out))
-                });
+                return files
+                    .iter()
+                    .try_for_each(|(end, bytes)| file::write_result(&with_end(out, end), bytes));
             }
             Self::Folder(folder) => folder,
         };

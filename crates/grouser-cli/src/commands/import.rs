@@ -37,7 +37,7 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
     }
     check(&label, &text, layout.limits)?;
     match &args.out {
-        Some(out) => file::write(out, text.as_bytes()).inspect(|()| file::say_written(out)),
+        Some(out) => file::write_result(out, text.as_bytes()),
         None => output::print(&text),
     }
 }

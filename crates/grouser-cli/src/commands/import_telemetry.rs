@@ -88,9 +88,7 @@ fn convert(
         return Err(Failure::Usage(format!("{}: has no rows of telemetry", log.label())));
     }
     writer.finish().map_err(&failed)?;
-    for note in log.notes() {
-        output::message(&format!("note: {}", escape::line(&note)));
-    }
+    output::notes(log.notes().iter().map(|note| escape::line(note)));
     output::message(&format!("{records} records of telemetry"));
     Ok(())
 }

@@ -23,11 +23,9 @@ pub(crate) fn run(args: &ImportUrdfArgs) -> Result<(), Failure> {
         .map_err(|error| refused(escape::visible(&with_flags(&error)).into_owned()))?;
     let source = Source::text(format!("the rover of {name}"), found.toml.clone());
     document::read_rover(&source, &Overrides::none())?;
-    for note in &found.notes {
-        output::message(&format!("note: {}", escape::line(note)));
-    }
+    output::notes(found.notes.iter().map(|note| escape::line(note)));
     match &args.out {
-        Some(out) => file::write(out, found.toml.as_bytes()).inspect(|()| file::say_written(out)),
+        Some(out) => file::write_result(out, found.toml.as_bytes()),
         None => output::print(&found.toml),
     }
 }

@@ -6,7 +6,6 @@ mod picture;
 
 use grouser::answers::Answer;
 use grouser::answers::map::{MadeMap, MapFile, VerdictCounts};
-use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::mobility::{Ground, MobilityMap};
 use grouser_map::{BandSummary, Look, MapColumn, style, summaries, write_band};
 use rayon::prelude::*;
@@ -83,12 +82,7 @@ fn finish(
 }
 
 fn tables(args: &MapArgs, inputs: &MapInputs) -> Result<MobilityMap, Failure> {
-    let band = BandInputs::of_scenario(&inputs.scenario);
-    let samples = if band.is_certain() {
-        Vec::new()
-    } else {
-        sampling::draw(&band, args.samples, args.seed)?
-    };
+    let samples = sampling::draw_if_uncertain(&inputs.scenario, args.samples, args.seed)?;
     let count = samples.len().max(1) * inputs.course.courses().len();
     let map = sampling::with_bar(count, |go_on| {
         MobilityMap::of(&inputs.study, inputs.course, &samples, go_on)

@@ -5,7 +5,6 @@ mod geojson;
 use std::sync::Arc;
 
 use grouser::answers::route::Way;
-use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::route::{
     Answer as Found, COURSES, DrivenRoute, Ends, Line, Objective, Route, RouteError, RouteTables,
 };
@@ -43,7 +42,7 @@ pub(crate) fn run(args: &RouteArgs) -> Result<(), Failure> {
 fn ways(args: &RouteArgs, inputs: &RouteInputs) -> Result<Vec<Way>, Failure> {
     // What has no answer is said before the tables, which take a while.
     inputs.asked.check(inputs.ground())?;
-    let samples = samples(args, inputs)?;
+    let samples = sampling::draw_if_uncertain(&inputs.scenario, args.samples, args.seed)?;
     let wanted = objectives(args);
     let with_risk = args.along.is_none() && wanted.contains(&Objective::Risk);
     let tables = sampling::with_bar(samples.len().max(1) * COURSES, |go_on| {
@@ -58,17 +57,9 @@ fn ways(args: &RouteArgs, inputs: &RouteInputs) -> Result<Vec<Way>, Failure> {
     }
 }
 
-fn samples(args: &RouteArgs, inputs: &RouteInputs) -> Result<Vec<Sample>, Failure> {
-    let band = BandInputs::of_scenario(&inputs.scenario);
-    if band.is_certain() {
-        return Ok(Vec::new());
-    }
-    sampling::draw(&band, args.samples, args.seed)
-}
-
 /// What ways are to have least of, the one that is asked for first.
 fn objectives(args: &RouteArgs) -> Vec<Objective> {
-    let chosen: Objective = args.minimise.into();
+    let chosen = args.minimise;
     let others = Objective::ALL.into_iter().filter(|it| args.alternatives && *it != chosen);
     std::iter::once(chosen).chain(others).collect()
 }
@@ -126,7 +117,7 @@ fn repeat(args: &RouteArgs, inputs: &RouteInputs) -> String {
     let asked = match &inputs.asked {
         Asked::Along(_) => "--along LINE.geojson".to_owned(),
         Asked::Between(Ends { from, to, .. }) => {
-            let least = Objective::from(args.minimise).name();
+            let least = args.minimise.name();
             format!("--from {},{} --to {},{} --minimise {least}", from.x, from.y, to.x, to.y)
         }
     };

@@ -17,6 +17,16 @@ pub(crate) fn draw_of(scenario: &LoadedScenario, of: Sampling) -> Result<Vec<Sam
     Ok(of.draw(&BandInputs::of_scenario(scenario))?)
 }
 
+/// The samples of a scenario's soil and model; none where one soil and one model are all there is.
+pub(super) fn draw_if_uncertain(
+    scenario: &LoadedScenario,
+    samples: u32,
+    seed: u64,
+) -> Result<Vec<Sample>, Failure> {
+    let inputs = BandInputs::of_scenario(scenario);
+    if inputs.is_certain() { Ok(Vec::new()) } else { draw(&inputs, samples, seed) }
+}
+
 /// The key of the models of a band with their shares.
 pub(super) const WEIGHTS: &str = "model_weights";
 

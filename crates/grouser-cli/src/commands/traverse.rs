@@ -13,7 +13,7 @@ use grouser::document::reading::{four_digits, metres};
 use grouser::document::table::{Row, Table};
 use grouser::simulation::{Run, Scenario, Trajectory};
 use grouser::studies::ensemble::samples::BandInputs;
-use grouser::studies::traverse_band::{Ends, RunBand};
+use grouser::studies::traverse_band::RunBand;
 use grouser_draw::chart::Drawable;
 use grouser_draw::{Shown, title_of};
 use serde::Serialize;
@@ -128,7 +128,7 @@ impl OfModel {
             Format::Table => output::show(table(&self.run, &self.scenario) + self.band_table()),
             Format::Csv => {
                 tell_end(&self.run);
-                self.band.iter().for_each(|band| tell_early(&band.run.ends));
+                self.band.iter().for_each(|band| output::notes(band.run.ends.sentences()));
                 output::print(&rows.to_csv()?)
             }
             Format::Json => output::print_json(&answer),
@@ -233,11 +233,6 @@ fn output_all(
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),
     }
-}
-
-/// What becomes of samples that ended early, beside rows of numbers.
-fn tell_early(ends: &Ends) {
-    ends.sentences().iter().for_each(|it| output::message(&format!("note: {it}")));
 }
 
 /// Rows of numbers do not say that a run ended early, or why.

@@ -65,7 +65,7 @@ fn one(
     soil: &str,
 ) -> Result<(), Failure> {
     let question = inputs::validation(args, data, wheel, soil)?;
-    say(&question.measured.notes);
+    output::notes(&question.measured.notes);
     let answer = question.answer(COMMAND, &options(args, folder.is_some()))?;
     // Rows of several wheels are chosen by the wheel's name.
     let is_preset = preset(Kind::Wheel, wheel).is_some();
@@ -89,7 +89,7 @@ fn slopes(
     soil: &String,
 ) -> Result<(), Failure> {
     let question = inputs::slope_validation(args, data, rover, soil)?;
-    say(&question.tests.notes);
+    output::notes(&question.tests.notes);
     let answer = question.answer(COMMAND, &options(args, folder.is_some()))?;
     add_text(folder.as_mut(), &answer);
     let (rover, soil) = (quoted(rover), quoted(soil));
@@ -123,12 +123,6 @@ fn ranking(
 
 fn options(args: &ValidateArgs, has_page: bool) -> AnswerOptions<'static> {
     AnswerOptions { has_page, is_strict: args.strict, ..AnswerOptions::ROWS }
-}
-
-fn say(notes: &[String]) {
-    for note in notes {
-        output::message(&format!("note: {note}"));
-    }
 }
 
 /// Adds what is printed for reading to a folder.

@@ -24,7 +24,7 @@ pub(crate) fn advice(
     if !args.advice {
         return Ok(None);
     }
-    let share = |flag: &str, numbers| single(flag, numbers, &document::card::SHARE);
+    let share = |flag: &str, numbers| single(flag, numbers, &document::study::SHARE);
     let slopes = document::range(document::Kind::Scenario, "slope_deg").unwrap_or(0.0..=60.0);
     check_numbers("--test-slope-deg", &args.test_slope_deg, &slopes)?;
     let test_way = single("--test-way-m", &args.test_way_m, &WAY)?;

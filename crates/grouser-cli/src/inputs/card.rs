@@ -37,14 +37,13 @@ impl CardInputs {
 
 /// The limits of go and no-go.
 pub(super) fn rule(flags: &RuleArgs) -> Result<Rule, Failure> {
-    use document::card::{RuleRecord, SHARE};
-    let record = RuleRecord {
+    use document::study::SHARE;
+    let rule = Rule {
         go_slip_ratio: single("--go-slip-ratio", &flags.go_slip_ratio, &SHARE)?,
         go_probability: single("--go-probability", &flags.go_probability, &SHARE)?,
         no_go_slip_ratio: single("--no-go-slip-ratio", &flags.no_go_slip_ratio, &SHARE)?,
         no_go_probability: single("--no-go-probability", &flags.no_go_probability, &SHARE)?,
     };
-    let rule = Rule::from(&record);
     rule.check()?;
     Ok(rule)
 }

@@ -29,7 +29,7 @@ pub(crate) fn heading(args: &HeadingArgs) -> Result<HeadingQuestion, Failure> {
     Ok(HeadingQuestion {
         scenarios,
         slopes_deg: args.slope_deg.0.clone(),
-        steering: args.steering.into(),
+        steering: args.steering,
         most_speed_ratio: args.wheel_speeds.then_some(args.most_speed_ratio),
         sampling,
     })

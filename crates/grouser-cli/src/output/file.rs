@@ -64,6 +64,11 @@ pub(crate) fn write(out: &Path, content: &[u8]) -> Result<(), Failure> {
     write_by(out, |file| file.write_all(content).map_err(Failure::at("cannot write", out)))
 }
 
+/// Writes a file that was asked for, as [`write`] does, and tells a terminal.
+pub(crate) fn write_result(out: &Path, content: &[u8]) -> Result<(), Failure> {
+    write(out, content).inspect(|()| say_written(out))
+}
+
 /// Tells a terminal which file was written.
 pub(crate) fn say_written(out: &Path) {
     if super::terminal::has_progress() {

@@ -96,30 +96,10 @@ pub(super) fn sheet(crossing: &Crossing<'_>) -> Sheet {
 /// The outline of the body and the wheels on the slope.
 fn body(pen: &mut Pen, crossing: &Crossing<'_>, view: &View) {
     let (sin, cos) = wide::sin_cos(crossing.yaw);
-    let reach =
-        crossing.rover.mounts().iter().fold(1e-9_f64, |most, mount| {
-            most.max(mount.position.x.abs()).max(mount.position.y.abs())
-        });
     // The hubs are this far out [mm].
-    let scale = 17.0 / reach;
-    let at = |x: f64, y: f64| {
+    pen.rover_from_above(crossing.rover, 17.0, |scale, x, y| {
         view.place([scale * (x * cos - y * sin), scale * (x * sin + y * cos), 0.0])
-    };
-    let mounts = crossing.rover.mounts();
-    let [long, wide] = [0, 1]
-        .map(|k| mounts.iter().fold(0.0_f64, |most, mount| most.max(mount.position[k].abs())));
-    let [x, y] = [0.9 * long, 0.6 * wide];
-    pen.outlined([at(-x, -y), at(x, -y), at(x, y), at(-x, y)], Role::BodyTop, Role::BodyDark);
-    for mount in mounts {
-        let (radius, half) = (mount.shearing_radius(), mount.unit.wheel.width / 2.0);
-        let [x, y] = [mount.position.x, mount.position.y];
-        let corners = [[-radius, -half], [radius, -half], [radius, half], [-radius, half]];
-        pen.outlined(
-            corners.map(|corner| at(x + corner[0], y + corner[1])),
-            Role::Wheel,
-            Role::Rim,
-        );
-    }
+    });
 }
 
 fn arrow(pen: &mut Pen, view: &View, axis: [f64; 3], name: &str, role: Role) {

@@ -2,6 +2,7 @@
 
 use crate::sheet::{Anchor, Colour, Face, Place, Shape, Sheet, Stroke, Text};
 use grouser_core::elementary::wide;
+use grouser_core::vehicle::Rover;
 
 use crate::style::{Ground, Role};
 
@@ -47,6 +48,31 @@ impl Pen {
     ) {
         let stroke = Stroke::new(0.4, colour(line)).rounded();
         self.sheet.draw(Shape::area(points, colour(fill)).outlined(stroke));
+    }
+
+    /// The outline of a rover's body and its wheels.
+    ///
+    /// * `reach`: how far out the hubs are on paper [mm]
+    /// * `at`: where a place of the body is on paper, by the scale [mm/m], x and y [m]
+    pub(super) fn rover_from_above(
+        &mut self,
+        rover: &Rover,
+        reach: f64,
+        at: impl Fn(f64, f64, f64) -> Place,
+    ) {
+        let mounts = rover.mounts();
+        let [long, wide] = [0, 1]
+            .map(|k| mounts.iter().fold(0.0_f64, |most, mount| most.max(mount.position[k].abs())));
+        let scale = reach / long.max(wide).max(1e-9);
+        let at = |x: f64, y: f64| at(scale, x, y);
+        let [x, y] = [0.9 * long, 0.6 * wide];
+        self.outlined([at(-x, -y), at(x, -y), at(x, y), at(-x, y)], Role::BodyTop, Role::BodyDark);
+        for mount in mounts {
+            let (radius, half) = (mount.shearing_radius(), mount.unit.wheel.width / 2.0);
+            let [x, y] = [mount.position.x, mount.position.y];
+            let corners = [[-radius, -half], [radius, -half], [radius, half], [-radius, half]];
+            self.outlined(corners.map(|[dx, dy]| at(x + dx, y + dy)), Role::Wheel, Role::Rim);
+        }
     }
 
     /// An arrow, with a smaller head where it is short; nothing where it has no length.

@@ -91,29 +91,9 @@ fn from_above(pen: &mut Pen, crossing: &Crossing<'_>, centre: Place) {
     }
     pen.arrow([103.0, 34.0], [103.0, 20.0], Role::Ink, 0.4);
     pen.note("uphill", [105.0, 26.0], Anchor::Start);
-    let reach =
-        crossing.rover.mounts().iter().fold(1e-9_f64, |most, mount| {
-            most.max(mount.position.x.abs()).max(mount.position.y.abs())
-        });
-    let scale = 16.0 / reach;
-    let at = |x: f64, y: f64| {
+    pen.rover_from_above(crossing.rover, 16.0, |scale, x, y| {
         [centre[0] + scale * (x * cos - y * sin), centre[1] - scale * (x * sin + y * cos)]
-    };
-    let mounts = crossing.rover.mounts();
-    let [long, wide] = [0, 1]
-        .map(|k| mounts.iter().fold(0.0_f64, |most, mount| most.max(mount.position[k].abs())));
-    let [x, y] = [0.9 * long, 0.6 * wide];
-    pen.outlined([at(-x, -y), at(x, -y), at(x, y), at(-x, y)], Role::BodyTop, Role::BodyDark);
-    for mount in mounts {
-        let (radius, half) = (mount.shearing_radius(), mount.unit.wheel.width / 2.0);
-        let [x, y] = [mount.position.x, mount.position.y];
-        let corners = [[-radius, -half], [radius, -half], [radius, half], [-radius, half]];
-        pen.outlined(
-            corners.map(|corner| at(x + corner[0], y + corner[1])),
-            Role::Wheel,
-            Role::Rim,
-        );
-    }
+    });
     pen.area(circle(centre, 1.0), Role::Ink);
     // Where the nose points, and where the rover goes.
     let nose = [centre[0] + 38.0 * cos, centre[1] - 38.0 * sin];

@@ -8,7 +8,7 @@ use super::{
     Answer, AnswerError, AnswerOptions, CrossTable, Displayed, Member, Sampling, meanings, samples,
 };
 use crate::document::columns::heading::{self, held};
-use crate::document::columns::{COURSE, MODEL, Quantity, SLIP_RATIO, SLOPE, YAW};
+use crate::document::columns::{COURSE, MODEL, SLIP_RATIO, SLOPE, YAW};
 use crate::document::figure::HeatMap;
 use crate::document::table::{Table, Values};
 use crate::document::{LoadedScenario, escape};
@@ -60,8 +60,8 @@ impl HeadingMapQuestion {
         }
         let studies: Vec<HeadingStudy> =
             self.scenarios.iter().map(|scenario| HeadingStudy::of(&scenario.value)).collect();
-        let courses = in_si(COURSE, &self.courses_deg);
-        let map = HeadingMap::of(&studies, &courses, &in_si(SLOPE, &self.slopes_deg))?;
+        let courses = COURSE.in_si(&self.courses_deg);
+        let map = HeadingMap::of(&studies, &courses, &SLOPE.in_si(&self.slopes_deg))?;
         let table = Arc::new(self.table(&studies, &map, options)?);
         let flags = map.rows.iter().flat_map(|row| &row.findings);
         options.check(flags.map(|it| &**it), &table, &heading::SETTINGS)?;
@@ -278,10 +278,6 @@ impl HeadingMapQuestion {
             values,
         }
     }
-}
-
-fn in_si(quantity: Quantity, list: &[f64]) -> Vec<f64> {
-    list.iter().map(|number| quantity.unit.to_si(*number)).collect()
 }
 
 /// How many of the pairs of slope and course can be held.

@@ -162,14 +162,13 @@ impl WheelTestQuestion {
     }
 
     fn plan(&self, model: &Model) -> WheelTest {
-        let angles = self.slip_angles_deg.iter().map(|angle| SLIP_ANGLE.unit.to_si(*angle));
         WheelTest {
             wheel: self.wheel.value,
             soil: self.soil.value,
             gravity: self.gravity,
             model: model.clone(),
             loads: self.loads.clone(),
-            slip_angles: angles.collect(),
+            slip_angles: SLIP_ANGLE.in_si(&self.slip_angles_deg),
             slip_ratios: self.slip_ratios.clone(),
         }
     }

@@ -8,7 +8,7 @@ use crate::studies::route::{
 };
 
 /// A way, as it leaves; without a way there is a reason instead of numbers.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct RouteRecord {
     /// What it has least of; none of a line that was given.
     pub minimise: Option<&'static str>,
@@ -114,7 +114,7 @@ impl RouteRecord {
                 minimise: Some(minimise),
                 status: "no-safe-route",
                 reason: Some(reason.to_string()),
-                ..Self::unknown()
+                ..Self::default()
             },
         }
     }
@@ -130,7 +130,7 @@ impl RouteRecord {
         driven: Option<&DrivenRoute>,
     ) -> Self {
         let record =
-            found.route.as_ref().map_or_else(Self::unknown, |it| Self::of_route(it, driven));
+            found.route.as_ref().map_or_else(Self::default, |it| Self::of_route(it, driven));
         let hazards: Vec<HazardRecord> =
             found.hazards.iter().map(|hazard| HazardRecord::of(hazard, limits)).collect();
         let reason = hazards.first().map(|first| match hazards.len() {
@@ -149,9 +149,7 @@ impl RouteRecord {
 
     fn of_route(route: &Route, driven: Option<&DrivenRoute>) -> Self {
         Self {
-            minimise: None,
             status: "found",
-            reason: None,
             length_m: Some(route.length),
             time_s: Some(route.time),
             energy_j: Some(route.energy),
@@ -162,29 +160,8 @@ impl RouteRecord {
             probability_no_go: Some(route.probability_no_go),
             waypoints: route.waypoints.iter().map(|it| [it.x, it.y]).collect(),
             arrivals: route.arrivals.iter().map(ArrivalRecord::of).collect(),
-            hazards: Vec::new(),
             simulated: driven.map(|driven| SimulatedRecord::of(route, driven)),
-        }
-    }
-
-    /// A way whose cost is not known.
-    fn unknown() -> Self {
-        Self {
-            minimise: None,
-            status: "no-safe-route",
-            reason: None,
-            length_m: None,
-            time_s: None,
-            energy_j: None,
-            turned_deg: None,
-            mean_slip_ratio: None,
-            most_slip_ratio: None,
-            most_slope_deg: None,
-            probability_no_go: None,
-            waypoints: Vec::new(),
-            arrivals: Vec::new(),
-            hazards: Vec::new(),
-            simulated: None,
+            ..Self::default()
         }
     }
 }

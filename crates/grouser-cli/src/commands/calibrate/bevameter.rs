@@ -31,7 +31,7 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     let law = args.plate_law.map(PlateLawChoice::name);
     let problem =
         BevameterProblem::new(&soil.document, law, gravity, &tests).map_err(Failure::Usage)?;
-    note(problem.notes());
+    output::notes(problem.notes());
     let settings = settings(args, &files, problem.soil(), gravity);
     let checkpoint = Checkpoint::open(args, settings.to_string())?;
     let progress = Progress::new(checkpoint.as_ref());
@@ -39,7 +39,7 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
         .solve(&files.names(), sampling(args, checkpoint.as_ref()), &progress)
         .map_err(|error| progress.failure(error))?;
     let solved = &found.solved;
-    report::tell(&solved.notes());
+    output::notes(solved.notes());
     let answer = Answer::new("calibrate", settings, found.results());
     let blocks = [vec![report::parameters(&solved.records)], report::conclusions(solved)].concat();
     let text = Text::blocks(blocks);
@@ -75,12 +75,12 @@ impl<'a> Files<'a> {
         let mut tests = BevameterTests::default();
         if let Some((file, bytes)) = &self.plates {
             let read = plates::read_from(&escape::path(file), bytes.as_slice(), limits)?;
-            note(&read.notes);
+            output::notes(&read.notes);
             tests.plates = read.curves;
         }
         if let Some((file, bytes)) = &self.shear {
             let read = shear_tests::read_from(&escape::path(file), bytes.as_slice(), limits)?;
-            note(&read.notes);
+            output::notes(&read.notes);
             tests.shear = read.curves;
         }
         Ok(tests)
@@ -96,12 +96,6 @@ impl<'a> Files<'a> {
             file.file_name().map_or_else(String::new, |it| it.to_string_lossy().into_owned())
         };
         self.each().map(name).collect::<Vec<_>>().join(" and ")
-    }
-}
-
-fn note(notes: &[String]) {
-    for note in notes {
-        output::message(&format!("note: {note}"));
     }
 }
 

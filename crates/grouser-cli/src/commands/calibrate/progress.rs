@@ -59,9 +59,7 @@ impl Observer for Progress<'_> {
     }
 
     fn fitted(&self, fit: &Fit) {
-        for note in fit_notes(fit) {
-            output::message(&format!("note: {note}"));
-        }
+        output::notes(fit_notes(fit));
     }
 
     fn walked(&self, state: &PosteriorState) -> ControlFlow<()> {

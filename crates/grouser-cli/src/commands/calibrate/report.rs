@@ -61,13 +61,6 @@ pub(super) fn add_soil(
     Ok(())
 }
 
-/// Prints what to know of the results.
-pub(super) fn tell(notes: &[String]) {
-    for note in notes {
-        output::message(&format!("note: {note}"));
-    }
-}
-
 /// The report as text: blocks with an empty line between them.
 pub(super) fn text(found: &WheelFound, target: &str) -> Text {
     let solved = &found.solved;

@@ -33,7 +33,7 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     let checkpoint = Checkpoint::open(args, problem.settings.to_string())?;
     let found = find(args, &problem, checkpoint.as_ref())?;
     let solved = &found.solved;
-    report::tell(&found.notes());
+    output::notes(found.notes());
     let answer = Answer::new("calibrate", problem.settings.clone(), found.results(&args.target));
     let text = report::text(&found, &args.target);
     if let Some(mut folder) = folder {
@@ -61,9 +61,7 @@ fn problem(args: &CalibrateArgs) -> Result<Problem, Failure> {
     // Read once: of a pipe there is no second time.
     let bytes = rows.bytes(limits)?;
     let measured = measurements::read_from(&rows.label(), &*bytes, &choice)?;
-    for note in &measured.notes {
-        output::message(&format!("note: {note}"));
-    }
+    output::notes(&measured.notes);
     let family = SoilFamily::new(&stand.soil.document, &args.fit)
         .map_err(|problem| Failure::Usage(format!("--fit: {problem}")))?;
     let settings = settings(args, (data, &bytes), &stand, &family);

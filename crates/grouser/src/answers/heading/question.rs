@@ -69,6 +69,6 @@ impl HeadingQuestion {
 
     /// Slopes [rad].
     pub(super) fn slopes(&self) -> Vec<f64> {
-        self.slopes_deg.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect()
+        SLOPE.in_si(&self.slopes_deg)
     }
 }

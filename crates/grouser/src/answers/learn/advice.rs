@@ -60,8 +60,8 @@ impl AdviceQuestion {
     /// * `drive`: its last lesson has what is read on a drive
     /// * `seed`: of the soils ahead
     pub(super) fn after(&self, drive: &Drive, rover: &Rover, seed: u64) -> AdviceSettings {
-        let slopes = self.test_slopes_deg.iter().map(|slope| SLOPE.unit.to_si(*slope));
-        let mut tests = TestSettings::on_slopes(&slopes.collect::<Vec<_>>(), self.test_way);
+        let slopes = SLOPE.in_si(&self.test_slopes_deg);
+        let mut tests = TestSettings::on_slopes(&slopes, self.test_way);
         tests.cost = self.test_cost;
         if let Some(last) = drive.lessons().last() {
             tests.instruments = Instruments::of(&last.stretch, rover);

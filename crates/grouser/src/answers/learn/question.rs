@@ -63,7 +63,7 @@ impl LearnQuestion {
     /// Slopes for which heading and slip are predicted [rad].
     #[must_use]
     pub fn slopes(&self) -> Vec<f64> {
-        self.slopes_deg.iter().map(|slope| SLOPE.unit.to_si(*slope)).collect()
+        SLOPE.in_si(&self.slopes_deg)
     }
 
     /// The settings of the advice that is asked for, if any is.

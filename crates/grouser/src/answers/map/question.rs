@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::super::{Answer, Sampling, findings_up_to, samples};
-use super::files::MadeMap;
+use super::files::{MadeMap, MapFile};
 use crate::contact::validity::Finding;
 use crate::document::LoadedScenario;
 use crate::document::columns::map::{bands, chosen};
@@ -55,10 +55,10 @@ impl MapQuestion<'_> {
 
     /// The flags of the soil as written: on the map's courses, and each degree of its slopes.
     pub(super) fn findings(&self, made: &MadeMap<'_>) -> Vec<Finding> {
-        let slopes = made.files.iter().find(|file| file.name == SLOPE.name);
-        let steepest = slopes.map_or(0.0, |file| SLOPE.unit.to_si(file.most));
         // A map without a known slope has no number.
-        let steepest = if steepest.is_finite() { steepest } else { 0.0 };
+        let is_slope = |file: &&MapFile| file.name == SLOPE.name && file.most.is_finite();
+        let slopes = made.files.iter().find(is_slope);
+        let steepest = slopes.map_or(0.0, |file| SLOPE.unit.to_si(file.most));
         let courses = made.map.tables().iter().map(MobilityTable::course);
         findings_up_to(&self.study.heading, courses, steepest)
     }
@@ -66,7 +66,6 @@ impl MapQuestion<'_> {
     /// The inputs of the answer.
     pub(super) fn state(&self, answer: &mut Answer) {
         let document = &self.scenario.document;
-        let rule = &self.study.rule;
         answer.input("dem", self.dem.display().to_string());
         answer.inputs_of(document, ["rover", "soil"]);
         answer.input("model", self.scenario.value.model.name());
@@ -74,10 +73,9 @@ impl MapQuestion<'_> {
         answer.inputs_of(document, keys);
         answer.input(COURSE.name, self.given_course);
         answer.input("rim_speed_m_s", self.study.rim_speed);
-        answer.input("go_slip_ratio", rule.go_slip_ratio);
-        answer.input("go_probability", rule.go_probability);
-        answer.input("no_go_slip_ratio", rule.no_go_slip_ratio);
-        answer.input("no_go_probability", rule.no_go_probability);
+        if let Value::Object(rule) = json!(self.study.rule) {
+            answer.inputs.extend(rule);
+        }
         self.sampling.state(answer);
         let band = BandInputs::of_scenario(self.scenario);
         answer.model_weights = Some(samples::weights(&band));

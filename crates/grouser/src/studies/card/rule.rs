@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use serde::Serialize;
+
 use crate::error::ParameterError;
 use crate::soil::SlopeStability;
 use crate::studies::heading::HeadingStudy;
@@ -18,7 +20,7 @@ pub enum Verdict {
 }
 
 /// The limits of the verdicts. Source of all numbers: ours; a mission has its own.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Rule {
     /// Go: a contour traverse exists and slips at most this much [-] …
     pub go_slip_ratio: f64,
