@@ -100,11 +100,6 @@ impl Sought<'_> {
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Vec<RouteRecord>, Failure> {
         let Task { samples, seed, .. } = *self.task;
-        let samples = if inputs.is_certain() {
-            Vec::new()
-        } else {
-            inputs.samples(seed, samples).map_err(Problem::Sampling)?
-        };
         let ground = Ground::under(&self.study.mobility.heading.rover, self.raster);
         let ends = Ends {
             from: self.task.from_m.unwrap_or_default().into(),
@@ -115,6 +110,11 @@ impl Sought<'_> {
             Some(line) => line.check(ground)?,
             None => ends.check(ground)?,
         }
+        let samples = if inputs.is_certain() {
+            Vec::new()
+        } else {
+            inputs.samples(seed, samples).map_err(Problem::Sampling)?
+        };
         let with_risk = objectives.contains(&Objective::Risk);
         let tables = self.study.tables(&samples, with_risk, go_on).map_err(Problem::Parameter)?;
         // Who stopped it gets the signal, and no records.

@@ -73,18 +73,18 @@ pub fn check_flags<'f>(
 }
 
 /// The flags of steady motions on the soil as written: on each of some courses [rad], and on each
-/// degree of the slopes up to the steepest [rad].
+/// degree of the slopes up to the steepest [rad]; `None` where no course has a curve.
 fn findings_up_to(
     study: &HeadingStudy,
     courses: impl IntoIterator<Item = f64>,
     steepest: f64,
-) -> Vec<Finding> {
+) -> Option<Vec<Finding>> {
     const DEGREE: f64 = std::f64::consts::PI / 180.0;
     let degrees = (0_u8..).map(|degree| f64::from(degree) * DEGREE);
     let slopes: Vec<f64> = degrees.take_while(|it| *it < steepest).chain([steepest]).collect();
-    // A course without a curve has no motion that a flag could be of.
     let curves = courses.into_iter().filter_map(|course| study.curve_on(course).ok());
-    curves.flat_map(|curve| columns::heading::findings(&curve, &slopes).concat()).collect()
+    let found = curves.map(|curve| columns::heading::findings(&curve, &slopes).concat());
+    found.reduce(|all, more| [all, more].concat())
 }
 
 /// What stands for every model, in inputs and as a choice.

@@ -40,7 +40,7 @@ pub(crate) fn run(args: &RouteArgs) -> Result<(), Failure> {
 
 /// The way that is asked for, and its alternatives.
 fn ways(args: &RouteArgs, inputs: &RouteInputs) -> Result<Vec<Way>, Failure> {
-    // What has no answer is said before the tables, which take a while.
+    // Places off the map are refused before the tables, which take a while.
     inputs.asked.check(inputs.ground())?;
     let samples = sampling::draw_if_uncertain(&inputs.scenario, args.samples, args.seed)?;
     let wanted = objectives(args);

@@ -64,7 +64,8 @@ impl OutputFolder {
         if let Some(ending) = file_ending(target).filter(|_| !target.is_dir()) {
             return Err(Failure::Usage(format!(
                 "{shown}: the output is a folder of files, and no name of a folder ends in \
-                 .{ending}\nhint: its page is {REPORT}, which prints as PDF from any browser"
+                 .{ending}\nhint: --format prints rows for a file; a folder has a page, which \
+                 prints as PDF from any browser"
             )));
         }
         if old_files == OldFiles::Keep && has_entries(target)? {
@@ -152,8 +153,10 @@ impl OutputFolder {
 
 /// The ending of a name by which a file is meant.
 fn file_ending(target: &Path) -> Option<String> {
-    const FILES: [&str; 10] =
-        ["csv", "gif", "html", "json", "mcap", "parquet", "pdf", "png", "svg", "toml"];
+    const FILES: [&str; 16] = [
+        "csv", "geojson", "gif", "glb", "html", "json", "mcap", "mp4", "npy", "parquet", "pdf",
+        "png", "svg", "tif", "tiff", "toml",
+    ];
     let ending = target.extension()?.to_string_lossy().to_lowercase();
     FILES.contains(&&*ending).then_some(ending)
 }

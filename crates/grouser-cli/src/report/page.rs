@@ -59,17 +59,17 @@ impl Page {
         self.heading("Validity");
         let Some(findings) = findings else {
             return self.paragraph(
-                "Whether results are outside the stated domain of the model or the soil was not \
-                 looked for.",
+                "This answer does not check whether results are outside the stated domain of the \
+                 model or the soil.",
             );
         };
         let mut flags: Vec<Flag> = findings.into_iter().map(|finding| finding.flag).collect();
         flags.sort();
         flags.dedup();
         if flags.is_empty() {
-            self.paragraph("No result is outside the stated domain of the model or the soil.");
+            self.paragraph("No result on the soil as written is outside the stated domains.");
         } else {
-            self.paragraph("Some results are extrapolations. Flags and their meanings:");
+            self.paragraph("Some results on the soil as written are extrapolations. Their flags:");
             self.list(flags.iter().map(|flag| format!("{}: {}", flag.name(), flag.rule().meaning)));
         }
     }

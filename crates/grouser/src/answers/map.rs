@@ -47,7 +47,7 @@ impl MapQuestion<'_> {
             vec![Displayed::Rows(files, brief()), Displayed::Words(format!("{sentence}\n"))];
         answer.attach("scenario.toml", self.scenario);
         self.page(&mut answer, made.files, &errors, sentence);
-        answer.findings = Some(self.findings(made));
+        answer.findings = self.findings(made);
         answer
     }
 }

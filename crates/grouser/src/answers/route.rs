@@ -53,7 +53,7 @@ impl RouteQuestion<'_> {
         let slopes = ways.iter().filter_map(|way| way.by_tables(|it| it.most_slope));
         let steepest = slopes.reduce(f64::max)?;
         let courses = [-STRAIGHT_UP, 0.0, STRAIGHT_UP];
-        Some(findings_up_to(&self.study.mobility.heading, courses, steepest))
+        findings_up_to(&self.study.mobility.heading, courses, steepest)
     }
 
     /// The inputs of the answer.

@@ -54,7 +54,7 @@ impl MapQuestion<'_> {
     }
 
     /// The flags of the soil as written: on the map's courses, and each degree of its slopes.
-    pub(super) fn findings(&self, made: &MadeMap<'_>) -> Vec<Finding> {
+    pub(super) fn findings(&self, made: &MadeMap<'_>) -> Option<Vec<Finding>> {
         // A map without a known slope has no number.
         let is_slope = |file: &&MapFile| file.name == SLOPE.name && file.most.is_finite();
         let slopes = made.files.iter().find(is_slope);

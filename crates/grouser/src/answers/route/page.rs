@@ -38,7 +38,8 @@ impl RouteQuestion<'_> {
         answer.words(if self.has_line() { OF_A_LINE } else { OF_THE_LATTICE });
         answer.words(
             "What the way cannot know: steps and stones between the points of the map, and soil \
-             that differs from place to place.",
+             that differs from place to place. Flags of validity are of driving along the contour, \
+             straight up and straight down, up to the steepest slope of the ways.",
         );
         answer.columns = meanings(&WAY);
     }

@@ -214,8 +214,8 @@ pub const FINDINGS: [Column<Finding>; 9] = [
     text(CAUSE, "What may be wrong", |it| Some(it.parameter.cause().name().to_owned())),
     text(
         FINDING,
-        "`points-to`, `underdetermined`, `nothing`, or `cannot-tell` where nothing was read that \
-         would show it",
+        "`points-to`, `underdetermined`, `nothing`, or `cannot-tell` where the differences leave \
+         its numbers as uncertain as before",
         |it| Some(verdict_name(&it.verdict).to_owned()),
     ),
     text(
@@ -288,8 +288,10 @@ pub fn sentences(replay: &Replay) -> Vec<String> {
         causes.iter().map(|(cause, _)| sentence(replay, *cause)).collect();
     let hidden = self::causes(replay, |it| it.verdict == Verdict::CannotTell);
     let hidden: Vec<&str> = hidden.iter().map(|(cause, _)| cause.name()).collect();
+    const UNCERTAIN: &str = "what was read on this drive leaves them as uncertain as before";
     if hidden.len() == Cause::ALL.len() {
-        return vec![format!("cannot tell: {}", missing_readings(replay))];
+        let why = missing_readings(replay).unwrap_or_else(|| UNCERTAIN.to_owned());
+        return vec![format!("cannot tell: {why}")];
     }
     if sentences.is_empty() {
         let none =
@@ -297,8 +299,7 @@ pub fn sentences(replay: &Replay) -> Vec<String> {
         sentences.push(none.to_owned());
     }
     if !hidden.is_empty() {
-        let (hidden, missing) = (hidden.join(", "), missing_readings(replay));
-        sentences.push(format!("cannot tell of {hidden}: {missing}"));
+        sentences.push(format!("cannot tell of {}: {UNCERTAIN}", hidden.join(", ")));
     }
     sentences
 }
@@ -315,8 +316,8 @@ fn causes(replay: &Replay, which: impl Fn(&Finding) -> bool) -> Vec<(Cause, f64)
     causes
 }
 
-/// Which readings there are none of, or that those there are show too little.
-fn missing_readings(replay: &Replay) -> String {
+/// Which kinds of readings a log does not have, if it lacks any.
+fn missing_readings(replay: &Replay) -> Option<String> {
     type Is = fn(&Channel) -> bool;
     let kinds: [(&str, Is); 4] = [
         ("velocities of the body", |it| {
@@ -329,10 +330,7 @@ fn missing_readings(replay: &Replay) -> String {
     let is_missing = |is: Is| !replay.channels.iter().any(|it| is(&it.channel));
     let missing: Vec<&str> =
         kinds.into_iter().filter(|(_, is)| is_missing(*is)).map(|(name, _)| name).collect();
-    match &missing[..] {
-        [] => "what was read on this drive shows too little of it".to_owned(),
-        missing => format!("the log has no {}", missing.join(", no ")),
-    }
+    (!missing.is_empty()).then(|| format!("the log has no {}", missing.join(", no ")))
 }
 
 fn sentence(replay: &Replay, cause: Cause) -> String {

@@ -61,7 +61,7 @@ pub enum Verdict {
     Underdetermined(Vec<Cause>),
     /// They do not point to it.
     Nothing,
-    /// Nothing was read that would show it.
+    /// They leave its parameters as uncertain as before.
     CannotTell,
 }
 

@@ -210,14 +210,14 @@ fn over_slopes(part: &[RankedModel], quantity: Quantity) -> Option<Arc<Table>> {
     let places = first.numbers(SLOPE.name).iter().zip(first.numbers(COURSE.name));
     let places = places.map(|(slope, course)| format!("{}°, {}°", number(*slope), number(*course)));
     let mut header = vec![format!("{} on slope, course", quantity.name)];
-    header.extend(told_apart(&places.collect::<Vec<_>>()));
+    header.extend(with_unique_names(&places.collect::<Vec<_>>()));
     let models = tables.iter().map(|(model, table)| line(model, table.numbers(quantity.name)));
     let rows = std::iter::once(line("measured", measured)).chain(models);
     Some(table(&header, rows.collect()))
 }
 
 /// Names, with a number where one stands again: columns need names of their own.
-fn told_apart(names: &[String]) -> impl Iterator<Item = String> {
+fn with_unique_names(names: &[String]) -> impl Iterator<Item = String> {
     let earlier = |place: usize| names[..place].iter().filter(|it| **it == names[place]).count();
     names.iter().enumerate().map(move |(place, name)| match earlier(place) {
         0 => name.clone(),
