@@ -59,7 +59,7 @@ pub(crate) use slip_from_current::SlipFromCurrentArgs;
 pub(crate) use telemetry::TelemetryArgs;
 pub(crate) use terminal::{TerminalArgs, colours_of};
 pub(crate) use traverse::TraverseArgs;
-pub(crate) use uncertainty::{SamplingArgs, UncertaintyArgs};
+pub(crate) use uncertainty::{BeliefArgs, SamplingArgs, UncertaintyArgs};
 pub(crate) use wheel_test::{StandArgs, WheelTestArgs};
 
 /// Predicts how a wheeled rover moves on loose soil: sinkage, slip, drift, the heading that holds

@@ -45,6 +45,10 @@ pub(crate) struct Answer<R> {
     schema: String,
     version: &'static str,
     inputs: Value,
+    /// What is believed of the soil: its name, the number of samples, and the models with their
+    /// shares.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    belief: Option<Value>,
     /// The models of a band with their shares, where there is a band.
     #[serde(skip_serializing_if = "Option::is_none")]
     model_weights: Option<Value>,
@@ -53,12 +57,13 @@ pub(crate) struct Answer<R> {
 }
 
 impl<R: Serialize> Answer<R> {
-    /// * `inputs`: [`sampling::WEIGHTS`] among them stand beside them in the answer
+    /// * `inputs`: [`sampling::BELIEF`] and [`sampling::WEIGHTS`] among them stand beside them in the
+    ///   answer
     pub(crate) fn new(command: &str, mut inputs: Value, results: R) -> Self {
         let schema = format!("grouser.{command}.v1");
-        let model_weights =
-            inputs.as_object_mut().and_then(|inputs| inputs.remove(sampling::WEIGHTS));
-        Self { schema, version: env!("CARGO_PKG_VERSION"), inputs, model_weights, results }
+        let mut beside = |key: &str| inputs.as_object_mut().and_then(|inputs| inputs.remove(key));
+        let (belief, model_weights) = (beside(sampling::BELIEF), beside(sampling::WEIGHTS));
+        Self { schema, version: env!("CARGO_PKG_VERSION"), inputs, belief, model_weights, results }
     }
 
     /// The text of a line.

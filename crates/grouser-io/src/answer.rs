@@ -13,7 +13,7 @@ use super::columns::Column;
 use super::document::Document;
 use super::figure::{Chart, Figure};
 use super::loaded::Loaded;
-use super::table::Table;
+use super::table::{Table, WithObject};
 use super::tree::Companion;
 
 /// What a study answers. As JSON it is an object: the schema, the version, the inputs, and the
@@ -41,6 +41,9 @@ pub struct Answer {
     pub title: String,
     /// What it was computed from, in the words and units of documents.
     pub inputs: Map<String, Value>,
+    /// What is believed of the soil, as JSON has it: its name, the number of samples, and the models
+    /// with their shares; `None` where it has no such key.
+    pub belief: Option<Value>,
     /// The models of a band with their shares, as JSON has them; `None` where it has no such key.
     pub model_weights: Option<Value>,
     /// The results of JSON, in their order.
@@ -65,6 +68,8 @@ pub struct Answer {
 pub enum Member {
     /// A list of rows under a key.
     Rows(&'static str, Arc<Table>),
+    /// The same, each row with an object under a key of its own.
+    With(&'static str, Arc<Table>, &'static str, Table),
     /// The row of a table that has one, under a key; without one its entries stand in the answer
     /// itself.
     Row(Option<&'static str>, Table),
@@ -301,12 +306,18 @@ impl Serialize for Answer {
         map.serialize_entry("schema", &format!("grouser.{schema}.v1"))?;
         map.serialize_entry("version", env!("CARGO_PKG_VERSION"))?;
         map.serialize_entry("inputs", &self.inputs)?;
+        if let Some(belief) = &self.belief {
+            map.serialize_entry("belief", belief)?;
+        }
         if let Some(weights) = &self.model_weights {
             map.serialize_entry("model_weights", weights)?;
         }
         for part in &self.results {
             match part {
                 Member::Rows(key, table) => map.serialize_entry(key, &**table)?,
+                Member::With(key, rows, name, of) => {
+                    map.serialize_entry(key, &WithObject { rows, name, of })?;
+                }
                 Member::Row(Some(key), table) => map.serialize_entry(key, &table.row(0))?,
                 Member::Row(None, table) => table.row(0).write(&mut map)?,
                 Member::Value(key, value) => map.serialize_entry(key, value)?,

@@ -53,6 +53,20 @@ impl<V> Loaded<V> {
         self.uncertain.as_ref().filter(|soils| soils.is_stated() || !self.assumed.is_empty())
     }
 
+    /// The same document with another meaning: that of a part of its value.
+    #[must_use]
+    pub fn with_value<W>(&self, value: W) -> Loaded<W> {
+        let Self { document, uncertain, assumptions, assumed, companions, .. } = self;
+        Loaded {
+            document: document.clone(),
+            value,
+            uncertain: uncertain.clone(),
+            assumptions: assumptions.clone(),
+            assumed: assumed.clone(),
+            companions: companions.clone(),
+        }
+    }
+
     /// The resolved document as TOML: read again, with its [`companions`](Self::companions) beside
     /// it, it gives the same value.
     #[must_use]

@@ -220,6 +220,42 @@ impl Serialize for Table {
     }
 }
 
+/// Rows each of which has an object as its last entry: the row of another table.
+#[derive(Clone, Copy, Debug)]
+pub struct WithObject<'t> {
+    /// The rows.
+    pub rows: &'t Table,
+    /// The key of the object.
+    pub name: &'static str,
+    /// The objects, as many.
+    pub of: &'t Table,
+}
+
+impl Serialize for WithObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let row = |row: usize| {
+            let (of, object) = (self.rows.row(row), self.of.row(row));
+            RowWithObject { row: of, name: self.name, object }
+        };
+        serializer.collect_seq((0..self.rows.rows()).map(row))
+    }
+}
+
+struct RowWithObject<'t> {
+    row: Row<'t>,
+    name: &'static str,
+    object: Row<'t>,
+}
+
+impl Serialize for RowWithObject<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        self.row.write(&mut map)?;
+        map.serialize_entry(self.name, &self.object)?;
+        map.end()
+    }
+}
+
 /// A row of a table: as JSON an object.
 #[derive(Clone, Copy, Debug)]
 pub struct Row<'t> {
@@ -247,6 +283,18 @@ impl Serialize for Row<'_> {
 mod tests {
     use super::*;
     use crate::columns::{SLIP_RATIO, SLOPE};
+
+    #[test]
+    fn a_row_has_its_object_last() {
+        let table = |name: &str, numbers: [Option<f64>; 2]| Table {
+            columns: vec![(name.to_owned(), Values::Float(numbers.to_vec()))],
+        };
+        let rows = table("slope_deg", [Some(5.0), Some(10.0)]);
+        let of = table("yaw_deg", [Some(2.0), None]);
+        let text = serde_json::to_string(&WithObject { rows: &rows, name: "advice", of: &of });
+        let expected = r#"[{"slope_deg":5.0,"advice":{"yaw_deg":2.0}},{"slope_deg":10.0,"advice":{"yaw_deg":null}}]"#;
+        assert_eq!(text.unwrap(), expected);
+    }
 
     #[test]
     fn a_row_that_lacks_one_end_has_no_edges() {

@@ -1,7 +1,7 @@
 //! Styles with which QGIS shows bands.
 //!
-//! Colours are those of our own pictures of maps: a [`Scale`], with the green, orange and vermilion
-//! of Okabe and Ito for go, caution and no-go.
+//! Colours are those of our own pictures of maps: a [`Scale`], with the green, orange, vermilion and
+//! purple of Okabe and Ito for go, caution, no-go and cannot tell.
 
 // Colours are written as style sheets write them.
 #![allow(clippy::unreadable_literal)]
@@ -19,13 +19,17 @@ pub enum Look {
     Ramp,
     /// Directions, −180° to 180°.
     Cycle,
-    /// Go, caution, no-go.
+    /// Go, caution, no-go, cannot tell.
     Verdicts,
 }
 
 /// Verdicts: the number, the colour and the word.
-const VERDICTS: [(u8, u32, &str); 3] =
-    [(1, 0x009e73, "go"), (2, 0xe69f00, "caution"), (3, 0xd55e00, "no-go")];
+const VERDICTS: [(u8, u32, &str); 4] = [
+    (1, 0x009e73, "go"),
+    (2, 0xe69f00, "caution"),
+    (3, 0xd55e00, "no-go"),
+    (4, 0xcc79a7, "cannot tell"),
+];
 
 impl Look {
     /// How a band of this name is shown.

@@ -19,13 +19,14 @@ pub struct BandSummary {
     pub mean: f64,
 }
 
-/// The summary of each band, and how many places have each verdict: unknown, go, caution, no-go.
+/// The summary of each band, and how many places have each verdict: unknown, go, caution, no-go,
+/// cannot tell.
 #[must_use]
 pub fn summaries(
     ground: Ground<'_>,
     map: &MobilityMap,
     bands: &[MapColumn],
-) -> (Vec<BandSummary>, [u64; 4]) {
+) -> (Vec<BandSummary>, [u64; 5]) {
     let grid = &ground.raster().grid;
     let of_row = |row: usize| {
         let mut all = Sums::new(bands.len());
@@ -42,7 +43,7 @@ pub fn summaries(
 
 struct Sums {
     bands: Vec<Sum>,
-    verdicts: [u64; 4],
+    verdicts: [u64; 5],
 }
 
 #[derive(Clone, Copy)]
@@ -56,7 +57,7 @@ struct Sum {
 impl Sums {
     fn new(bands: usize) -> Self {
         let none = Sum { known: 0, least: f64::NAN, most: f64::NAN, total: 0.0 };
-        Self { bands: vec![none; bands], verdicts: [0; 4] }
+        Self { bands: vec![none; bands], verdicts: [0; 5] }
     }
 
     fn add(&mut self, cell: Option<CellMotion>, bands: &[MapColumn]) {

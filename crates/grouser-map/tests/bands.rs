@@ -2,7 +2,8 @@
 
 use grouser::document::columns::map::{bands, chosen};
 use grouser::document::{self, Overrides, Source};
-use grouser::studies::mobility::{CourseChoice, Ground, MobilityMap, MobilityStudy};
+use grouser::studies::mobility::{CourseChoice, Ground, MobilityMap};
+use grouser::studies::verdict::SlopeStudy;
 use grouser_core::terrain::ElevationGrid;
 use grouser_core::units::Vec2;
 use grouser_map::{Look, style, summaries, write_band};
@@ -24,10 +25,10 @@ fn dome() -> Raster {
     Raster { grid, base: 1700.0, heights, coordinates: CoordinateSystem::default() }
 }
 
-fn map(choice: CourseChoice) -> (MobilityStudy, MobilityMap) {
+fn map(choice: CourseChoice) -> (SlopeStudy, MobilityMap) {
     let scenario =
         document::read_scenario(&Source::default_scenario(), &Overrides::none()).unwrap();
-    let study = MobilityStudy::of(&scenario);
+    let study = SlopeStudy::of(&scenario);
     let map = MobilityMap::of(&study, choice, &[], &|| true).unwrap().unwrap();
     (study, map)
 }

@@ -4,9 +4,8 @@ use grouser::document::columns::map::{bands, chosen};
 use grouser::document::columns::{COURSE, Column, LIMIT_SLOPE, POWER, SINKAGE, SLIP_RATIO, YAW};
 use grouser::document::study::{COURSE_DEG, MAP_SPEED_M_S};
 use grouser::studies::ensemble::samples::BandInputs;
-use grouser::studies::mobility::{
-    CellMotion, CourseChoice, Ground, MobilityMap, MobilityStudy, MobilityTable,
-};
+use grouser::studies::mobility::{CellMotion, CourseChoice, Ground, MobilityMap, MobilityTable};
+use grouser::studies::verdict::SlopeStudy;
 use grouser_raster::{CoordinateSystem, Raster};
 use numpy::{PyArray1, PyArrayMethods as _};
 use pyo3::prelude::*;
@@ -45,7 +44,7 @@ pub(crate) fn mobility_map<'py>(
     check("samples", &[f64::from(samples)], &SAMPLES)?;
     let course = choice(course)?;
     let scenario = scenario.scenario()?;
-    let mut study = MobilityStudy::of(scenario);
+    let mut study = SlopeStudy::of(scenario);
     if let Some(speed) = rim_speed_m_s {
         check("rim_speed_m_s", &[speed], &MAP_SPEED_M_S)?;
         study.rim_speed = speed;

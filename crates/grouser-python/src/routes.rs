@@ -10,7 +10,8 @@ use grouser::document::unit::less_whole_turns;
 use grouser::mission::MissionError;
 use grouser::simulation::Scenario;
 use grouser::studies::ensemble::samples::BandInputs;
-use grouser::studies::mobility::{Ground, MobilityStudy};
+use grouser::studies::mobility::Ground;
+use grouser::studies::verdict::SlopeStudy;
 use grouser::studies::route::{
     Answer, DrivenRoute, Ends, Limits, Line, LineError, Objective, Route, RouteError, RouteStudy,
 };
@@ -63,7 +64,7 @@ pub(crate) fn routes<'py>(
     check("samples", &[f64::from(task.samples)], &SAMPLES)?;
     let loaded = scenario.scenario()?;
     let raster = raster_of(terrain);
-    let study = study(&task, MobilityStudy::of(loaded), &raster)?;
+    let study = study(&task, SlopeStudy::of(loaded), &raster)?;
     let line = line(&task)?;
     let objectives =
         task.minimise.iter().map(|it| objective(it)).collect::<PyResult<Vec<Objective>>>()?;
@@ -169,7 +170,7 @@ fn of_line(error: &LineError) -> PyErr {
 }
 
 /// The study with its limits.
-fn study(task: &Task, mut mobility: MobilityStudy, raster: &Raster) -> PyResult<RouteStudy> {
+fn study(task: &Task, mut mobility: SlopeStudy, raster: &Raster) -> PyResult<RouteStudy> {
     let checked = |name: &str, value: Option<f64>, range| match value {
         Some(value) => check(name, &[value], range).map(|()| Some(value)),
         None => Ok(None),

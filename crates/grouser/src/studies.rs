@@ -10,7 +10,8 @@
 //! | [`mobility`] | the same as tables over slope, to read maps and routes from |
 //! | [`route`] | the cheapest way over ground with heights: in time, work or risk |
 //! | [`wheel_speeds`] | contour traverses with wheels at speeds of their own |
-//! | [`card`] | the operator's card: heading, slip, drift, power, go or no-go |
+//! | [`verdict`] | what to do on a slope: the heading to set, go or no-go, and why |
+//! | [`card`] | the operator's card: that on every slope, with slip, drift and power |
 //! | [`forecast`] | slip, drift, heading and steepest slope under another gravity, with one error budget |
 //! | [`simulated_telemetry`] | what instruments with their faults say of a drive |
 //! | [`measurement`], [`simulated_test`] | measured wheel tests, and simulated ones whose soil is known |
@@ -52,6 +53,7 @@ pub mod slope_validation;
 pub mod traverse_band;
 pub mod validation;
 pub mod validity;
+pub mod verdict;
 pub mod wheel_speeds;
 pub mod wheel_test;
 pub mod wheel_test_band;

@@ -15,8 +15,8 @@ pub(crate) struct AdviceArgs {
     /// A heading is advised only if it slips at most this much ...
     #[arg(long, value_name = "S", value_parser = list::parse, default_value = "0.6", allow_hyphen_values = true, requires = "advice")]
     pub(crate) no_go_slip_ratio: Numbers,
-    /// ... on at least this share of the samples.
-    #[arg(long, value_name = "P", value_parser = list::parse, default_value = "0.8", allow_hyphen_values = true, requires = "advice")]
+    /// ... on all but less than this share of the samples.
+    #[arg(long, value_name = "P", value_parser = list::parse, default_value = "0.2", allow_hyphen_values = true, requires = "advice")]
     pub(crate) no_go_probability: Numbers,
     /// Looks at the slip are to be so many that the rover gets stuck on at most this share of the
     /// ways of 10 m.

@@ -14,8 +14,8 @@ use crate::output::Format;
 #[command(
     after_help = "Soil and wheel-soil model are sampled N times, and every number has a 95 % \
                         band. Where the soil's uncertainty is not stated, or one --model is asked \
-                        for, it is sampled in the other alone; without the soil's, no slope is a \
-                        go. docs/guide/card.md shows a card and explains how to read it."
+                        for, it is sampled in the other alone; without the soil's, nobody can tell \
+                        whether a slope is a go. docs/guide/card.md shows a card and explains how to read it."
 )]
 pub(crate) struct CardArgs {
     /// A scenario's file or preset, for its rover, soil, gravity, load transfer and rim speed;
@@ -82,17 +82,20 @@ impl CardArgs {
 /// Limits of go and no-go.
 #[derive(Debug, Args)]
 pub(crate) struct RuleArgs {
-    /// Go: a contour traverse slips at most this much ...
+    /// Go: a heading holds the course and slips at most this much ...
     #[arg(long, value_name = "S", value_parser = list::parse, default_value = "0.3", allow_hyphen_values = true)]
     pub(crate) go_slip_ratio: Numbers,
-    /// ... on at least this share of the samples.
+    /// ... on at least this share of the samples ...
     #[arg(long, value_name = "P", value_parser = list::parse, default_value = "0.95", allow_hyphen_values = true)]
     pub(crate) go_probability: Numbers,
-    /// No-go: a contour traverse slips at most this much ...
+    /// ... and in 97.5 % of them the rover drifts off its course by at most this [m/m].
+    #[arg(long, value_name = "D", value_parser = list::parse, default_value = "0.1", allow_hyphen_values = true)]
+    pub(crate) go_drift_m_per_m: Numbers,
+    /// No-go: no heading holds the course, or it slips more than this ...
     #[arg(long, value_name = "S", value_parser = list::parse, default_value = "0.6", allow_hyphen_values = true)]
     pub(crate) no_go_slip_ratio: Numbers,
-    /// ... on less than this share of the samples.
-    #[arg(long, value_name = "P", value_parser = list::parse, default_value = "0.8", allow_hyphen_values = true)]
+    /// ... on at least this share of the samples; or the rover gets stuck on as many.
+    #[arg(long, value_name = "P", value_parser = list::parse, default_value = "0.2", allow_hyphen_values = true)]
     pub(crate) no_go_probability: Numbers,
 }
 

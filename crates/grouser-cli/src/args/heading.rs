@@ -6,11 +6,15 @@ use grouser::studies::heading::Steering;
 use grouser::studies::wheel_speeds::USUAL_RATIO;
 
 use super::{
-    BalanceArgs, MODEL_OR_ALL, OutputArgs, PartArgs, SettingArgs, StrictArgs, UncertaintyArgs,
+    BalanceArgs, BeliefArgs, MODEL_OR_ALL, OutputArgs, PartArgs, RuleArgs, SettingArgs, StrictArgs,
+    UncertaintyArgs,
 };
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
+#[command(after_help = "The heading is the median over samples of soil and model, as on the operator's \
+                        card, and each slope has the card's verdict. Steered wheels and wheels at \
+                        speeds of their own are answered for the soil as its document has it.")]
 #[command(mut_arg("model", |model| model.help(MODEL_OR_ALL)))]
 pub(crate) struct HeadingArgs {
     /// A scenario's file or preset, for its rover, soil, gravity and load transfer; without it the
@@ -24,18 +28,20 @@ pub(crate) struct HeadingArgs {
     pub(crate) slope_deg: Numbers,
     /// What holds the contour: the body's yaw (`none`), or the wheels that are steered, with the
     /// body along the contour (`crab`). The rover's document says which are steered.
-    #[arg(long, value_name = "WHAT", default_value = "none", conflicts_with_all = ["wheel_speeds", "uncertainty"])]
+    #[arg(long, value_name = "WHAT", default_value = "none", conflicts_with = "wheel_speeds")]
     #[arg(value_parser = list::one_of(Steering::ALL, Steering::name))]
     pub(crate) steering: Steering,
     /// Also let wheels turn at speeds of their own: those of each side, or of each wheel, that hold
     /// the contour with the yaw moment balanced and the least work, and the steepest slopes.
-    #[arg(long, conflicts_with = "uncertainty")]
+    #[arg(long)]
     pub(crate) wheel_speeds: bool,
     /// With `--wheel-speeds`: the fastest wheel's speed over the mean of all, at most; above 1.
     #[arg(long, value_name = "RATIO", default_value_t = USUAL_RATIO, requires = "wheel_speeds")]
     pub(crate) most_speed_ratio: f64,
     #[command(flatten)]
-    pub(crate) uncertainty: UncertaintyArgs,
+    pub(crate) belief: BeliefArgs,
+    #[command(flatten)]
+    pub(crate) rule: RuleArgs,
     #[command(flatten)]
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]

@@ -3,13 +3,18 @@
 use clap::builder::{NonEmptyStringValueParser, Resettable};
 use clap::{ArgGroup, Args};
 
-use super::{OutputArgs, RunArgs, SettingArgs, SlopeArgs, StrictArgs, WRITTEN};
+use super::{
+    BeliefArgs, OutputArgs, RuleArgs, RunArgs, SettingArgs, SlopeArgs, StrictArgs, WRITTEN,
+};
 
 /// The help of `--mcap`.
 const LOG_OF_A_MISSION: &str = "Also log the mission: `.mcap` for Foxglove and Rerun, with what \
     became of each leg. With --out, a name alone is a file in DIR";
 
 #[derive(Debug, Args)]
+#[command(after_help = "The mission is driven as it is written, and quasi-steadily on samples of soil \
+                        and model: how many of them complete it is what it risks. Each leg has the \
+                        operator's card's advice for its course and slope.")]
 #[command(mut_arg("mcap", |mcap| mcap.help(LOG_OF_A_MISSION)))]
 #[command(mut_arg("force", |force| force.requires(Resettable::Reset).requires("written")))]
 #[command(group(ArgGroup::new("written").args(WRITTEN).multiple(true)))]
@@ -26,6 +31,10 @@ pub(crate) struct MissionArgs {
     pub(crate) run: RunArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) belief: BeliefArgs,
+    #[command(flatten)]
+    pub(crate) rule: RuleArgs,
     #[command(flatten)]
     pub(crate) strict: StrictArgs,
     #[command(flatten)]

@@ -41,5 +41,39 @@ impl UncertaintyArgs {
     }
 }
 
+/// Samples of soil and model by which a question is answered, or none.
+#[derive(Clone, Copy, Debug, Args)]
+pub(crate) struct BeliefArgs {
+    /// Answer by the soil as its document has it and by one model, without samples.
+    #[arg(long, conflicts_with_all = ["samples", "seed", "uncertainty"])]
+    pub(crate) nominal: bool,
+    /// Number of samples of soil and model, 2 to 100000. Without it a draft of 40.
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
+    pub(crate) samples: Option<u32>,
+    /// Seed of the samples: the same seed gives the same soils and models. Without it 1.
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    pub(crate) seed: Option<u64>,
+    /// Samples are the usual answer: it changes nothing.
+    #[arg(long, hide = true)]
+    pub(crate) uncertainty: bool,
+}
+
+impl BeliefArgs {
+    /// How many samples a first answer has: its bands are rough, and it comes at once.
+    const DRAFT: u32 = 40;
+
+    /// The samples, unless the question is about the soil as written.
+    pub(crate) fn sampling(self) -> Option<Sampling> {
+        let (count, seed) = (self.samples.unwrap_or(Self::DRAFT), self.seed.unwrap_or(1));
+        (!self.nominal).then_some(Sampling { count, seed })
+    }
+
+    /// Whether samples are asked for by name.
+    pub(crate) fn is_asked_for(self) -> bool {
+        self.uncertainty || self.samples.is_some() || self.seed.is_some()
+    }
+}
+
 /// The arguments that need a seed.
 pub(super) const DRAWN: &str = "drawn";

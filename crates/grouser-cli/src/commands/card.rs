@@ -10,15 +10,17 @@ mod texts;
 
 use std::path::{Path, PathBuf};
 
-use grouser::answers;
+use grouser::answers::Sampling;
 use grouser::document::columns::card::{self, MeasuredYaw, YAW_AS_WRITTEN};
+use grouser::document::columns::verdict::{ADVICE, ADVICE_OBJECT};
 use grouser::document::columns::{SLOPE, YAW, card_courses, card_drives};
-use grouser::document::table::{Row, Table};
+use grouser::document::table::{Row, Table, WithObject};
 use grouser::document::{LoadedScenario, escape};
 use grouser::simulation::Approach;
 use grouser::studies::card::drives::{CardDrives, RowDrives};
-use grouser::studies::card::{Card, CardStudy, Side};
+use grouser::studies::card::Card;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
+use grouser::studies::verdict::{Side, SlopeStudy};
 use grouser_draw::{Sheet, markup, pdf_of};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -60,12 +62,13 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
         inputs: &inputs,
         card: &card,
         beside: card::beside(&rows, &measured),
+        advice: rows.select(&advice_names(), &(0..rows.rows()).collect::<Vec<_>>()),
         rows,
         drives,
     };
     let is_whole = target.is_some() || args.format == Format::Json;
-    let courses = is_whole.then(|| sampling::whole(study.courses(&card.rows, &samples, &|| true)));
-    let courses = card_courses::table(&courses.unwrap_or_default());
+    let courses = is_whole.then(|| study.courses(&card.rows, &samples, &|| true)).transpose()?;
+    let courses = card_courses::table(&courses.map(sampling::whole).unwrap_or_default());
     if let Some(target) = target {
         let (uphill, texts) = (args.uphill, texts::of(args, &inputs, &card));
         let picture = Picture::of(&inputs.scenario.value.rover, uphill);
@@ -97,8 +100,8 @@ impl Pages {
         let study = study(&args, &inputs);
         let card = compute(&study, &samples, &[])?;
         let rows = shown(&card::table(&card), &[]);
-        let courses =
-            card_courses::table(&sampling::whole(study.courses(&card.rows, &samples, &|| true)));
+        let courses = sampling::whole(study.courses(&card.rows, &samples, &|| true)?);
+        let courses = card_courses::table(&courses);
         let picture = Picture::of(&inputs.scenario.value.rover, args.uphill);
         let texts = texts::of(&args, &inputs, &card);
         let sheets = [layout::draw(&texts, &picture, &rows), second::draw(&texts, &rows, &courses)];
@@ -106,14 +109,14 @@ impl Pages {
     }
 }
 
-fn study(args: &CardArgs, inputs: &CardInputs) -> CardStudy {
+fn study(args: &CardArgs, inputs: &CardInputs) -> SlopeStudy {
     let uphill = if args.uphill == SideChoice::Right { Side::Right } else { Side::Left };
     let (rim_speed, rule) = (inputs.rim_speed, inputs.rule);
-    CardStudy { rim_speed, rule, ..CardStudy::of(&inputs.scenario, uphill) }
+    SlopeStudy { rim_speed, rule, ..SlopeStudy::of(&inputs.scenario).with_uphill(uphill) }
 }
 
 fn compute(
-    study: &CardStudy,
+    study: &SlopeStudy,
     samples: &[Sample],
     measured: &[MeasuredYaw],
 ) -> Result<Card, Failure> {
@@ -133,7 +136,7 @@ const LATENESSES: [f64; 2] = [1.0, 2.0];
 fn drives(
     args: &CardArgs,
     inputs: &CardInputs,
-    study: &CardStudy,
+    study: &SlopeStudy,
     card: &Card,
 ) -> Result<Option<Table>, Failure> {
     let Some(count) = args.drives else { return Ok(None) };
@@ -141,7 +144,7 @@ fn drives(
     let others = sampling::draw(&BandInputs::of_scenario(&inputs.scenario), count, seed)?;
     let slopes = layout::slopes(&card::table(card));
     let is_shown = |slope: f64| slopes.iter().any(|it| SLOPE.unit.to_si(*it) == slope);
-    let rows: Vec<_> = card.rows.iter().filter(|row| is_shown(row.slope)).collect();
+    let rows: Vec<_> = card.rows.iter().filter(|row| is_shown(row.advice.slope)).collect();
     let bar = output::progress_bar((LATENESSES.len() * rows.len() * others.len()) as u64);
     bar.set_message("drives");
     let mut all: Vec<RowDrives> = Vec::new();
@@ -178,12 +181,25 @@ fn shown(rows: &Table, measured: &[MeasuredYaw]) -> Table {
 struct Results<'a> {
     #[serde(flatten)]
     steepest: Row<'a>,
-    rows: &'a Table,
+    rows: WithObject<'a>,
     courses: &'a Table,
     #[serde(skip_serializing_if = "Option::is_none")]
     measured: Option<&'a Table>,
     #[serde(skip_serializing_if = "Option::is_none")]
     drives: Option<&'a Table>,
+}
+
+/// From which slope on there is no go, and why, as a line; nothing where there is none.
+fn no_go_line(rows: &Table) -> String {
+    let first = CardRow::all(rows).find(|row| row.is_no_go());
+    first.map_or_else(String::new, |row| {
+        format!("{}° and steeper: no-go: {}\n", row.slope(), row.reason())
+    })
+}
+
+/// The columns of the advice.
+fn advice_names() -> Vec<&'static str> {
+    ADVICE.iter().map(|column| column.name).collect()
 }
 
 /// The inputs of the card.
@@ -203,8 +219,9 @@ fn settings(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Value {
     if card.draws.is_some() {
         settings["samples"] = args.samples.into();
         settings["seed"] = args.seed.into();
-        settings[sampling::WEIGHTS] = answers::weights(&BandInputs::of_scenario(&inputs.scenario));
     }
+    let sampling = Sampling { count: args.samples, seed: args.seed };
+    settings[sampling::BELIEF] = sampling.belief(&inputs.scenario);
     if args.drives.is_some() {
         settings["seed_of_drives"] = other_seed(args.seed).into();
     }
@@ -270,6 +287,8 @@ struct Answers<'a> {
     inputs: &'a CardInputs,
     card: &'a Card,
     rows: Table,
+    /// The advice of each row.
+    advice: Table,
     beside: Table,
     drives: Option<Table>,
 }
@@ -285,7 +304,9 @@ impl Answers<'_> {
             return Rows::of_table(beside).to_table(&card::beside_brief());
         }
         let brief = if card.draws.is_some() { card::bands_brief() } else { card::brief() };
-        let text = Rows::of_table(rows).to_table(&brief);
+        let driven = CardRow::all(rows).position(CardRow::is_no_go).unwrap_or(rows.rows());
+        let table = rows.rows_at(&(0..driven).collect::<Vec<_>>());
+        let text = Rows::of_table(&table).to_table(&brief) + no_go_line(rows);
         let scenario = &inputs.scenario;
         if scenario.stated_uncertainty().is_some() {
             return text;
@@ -295,11 +316,12 @@ impl Answers<'_> {
             (Some(_), None) => "bands are of the models alone",
             (None, _) => "no bands",
         };
-        text + format!("no uncertainty of this soil is stated: {bands}; no slope is a go\n")
+        text + format!("no uncertainty of this soil is stated: {bands}; nobody can tell a go\n")
     }
 
     fn json<'a>(&'a self, steepest: &'a Table, courses: &'a Table) -> Answer<Results<'a>> {
-        let Self { args, inputs, card, rows, beside, drives } = self;
+        let Self { args, inputs, card, rows, advice, beside, drives } = self;
+        let rows = WithObject { rows, name: ADVICE_OBJECT, of: advice };
         let measured = (beside.rows() > 0).then_some(beside);
         let drives = drives.as_ref();
         let results = Results { steepest: steepest.row(0), rows, courses, measured, drives };

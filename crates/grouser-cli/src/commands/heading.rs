@@ -32,7 +32,10 @@ fn repeat(command: &str, args: &HeadingArgs, question: &HeadingQuestion) -> Stri
         HeadingQuestion { most_speed_ratio: Some(ratio), .. } => {
             format!(" --wheel-speeds --most-speed-ratio {ratio}")
         }
-        _ => sampling::flags(question.sampling),
+        HeadingQuestion { sampling: None, .. } => " --nominal".to_owned(),
+        HeadingQuestion { sampling: Some(sampling), .. } => {
+            sampling::numbers(*sampling) + &sampling::rule_flags(&question.rule)
+        }
     };
     let line =
         |place| format!("grouser {command} {} --slope-deg {slopes}{rest}", question.file(place));

@@ -36,16 +36,16 @@ pub(crate) fn run(args: &MapArgs) -> Result<(), Failure> {
     let question = inputs.question(args);
     let ground = question.ground;
     let folder = MapFolder::open(&args.out, args.force, &question.identity(), &inputs.raster)?;
-    let map = tables(args, &inputs)?;
+    let map = tables(args, &inputs, ground.steepest())?;
     let bands = question.bands();
-    let (sums, [unknown, go, caution, no_go]) = summaries(ground, &map, &bands);
+    let (sums, [unknown, go, caution, no_go, cannot_tell]) = summaries(ground, &map, &bands);
     write(&folder, ground, &map, &bands)?;
     let summed: Vec<Summed<'_>> = bands.iter().zip(&sums).collect();
     let files: Vec<MapFile> = summed.iter().map(|band| file(&folder, *band)).collect();
     let made = MadeMap {
         map: &map,
         files: &files,
-        verdicts: VerdictCounts { go, caution, no_go, unknown },
+        verdicts: VerdictCounts { go, caution, cannot_tell, no_go, unknown },
         page: folder.path(PAGE),
     };
     let answer = question.answer("map", &made);
@@ -81,11 +81,13 @@ fn finish(
     folder.finish()
 }
 
-fn tables(args: &MapArgs, inputs: &MapInputs) -> Result<MobilityMap, Failure> {
+/// * `steepest`: slope of the ground [rad]
+fn tables(args: &MapArgs, inputs: &MapInputs, steepest: f64) -> Result<MobilityMap, Failure> {
     let samples = sampling::draw_if_uncertain(&inputs.scenario, args.samples, args.seed)?;
-    let count = samples.len().max(1) * inputs.course.courses().len();
+    // Every course, then those that are chosen, there and back.
+    let count = samples.len().max(1) * (inputs.course.courses().len() + 2);
     let map = sampling::with_bar(count, |go_on| {
-        MobilityMap::of(&inputs.study, inputs.course, &samples, go_on)
+        MobilityMap::of(&inputs.study, inputs.course, steepest, &samples, go_on)
     });
     Ok(sampling::whole(map?))
 }
@@ -132,9 +134,9 @@ fn file(folder: &MapFolder, (band, of): Summed<'_>) -> MapFile {
 /// The command that gives the answer again.
 fn repeat(args: &MapArgs, inputs: &MapInputs) -> String {
     let MapArgs { course_deg, samples, seed, .. } = args;
-    let speed = inputs.study.rim_speed;
+    let (speed, rule) = (inputs.study.rim_speed, sampling::rule_flags(&inputs.study.rule));
     format!(
         "grouser map DEM scenario.toml --course-deg {course_deg} --samples {samples} --seed {seed} \
-         --rim-speed-m-s {speed} --out OTHER"
+         --rim-speed-m-s {speed}{rule} --out OTHER"
     )
 }

@@ -1,6 +1,7 @@
 //! `grouser mission`: drives a rover through legs, with limits at which it stops.
 
 mod answered;
+mod believed;
 mod page;
 
 use grouser::document::columns::TIME;
@@ -12,8 +13,9 @@ use serde::Serialize;
 use serde_json::json;
 
 use self::answered::{Answered, reasons, sentence};
+use self::believed::Believed;
 use super::destinations::Destinations;
-use super::{Answer, strict};
+use super::{Answer, sampling, strict};
 use crate::args::{MissionArgs, StrictArgs};
 use crate::failure::Failure;
 use crate::inputs;
@@ -43,7 +45,11 @@ pub(crate) fn run(args: &MissionArgs) -> Result<(), Failure> {
         || args.strict.strict;
     let drive = if has_records { DrivenMission::all } else { DrivenMission::all_ends };
     let ways = drive(&missions)?;
-    let answered = Answered { document, ways };
+    let believed = match args.belief.sampling() {
+        Some(sampling) => Some(Believed::of(args, &document, (&missions, &ways), sampling)?),
+        None => None,
+    };
+    let answered = Answered { document, ways, believed };
     answered.check(&args.strict)?;
     if let Some(animation) = animation {
         animation.write(&title_of(&answered.document), &answered.shown(), folder.as_mut())?;
@@ -94,12 +100,23 @@ impl Answered {
 
     fn output(&self, args: &MissionArgs, folder: Option<OutputFolder>) -> Result<(), Failure> {
         let rows = Rows::of_table(&self.table());
-        let object = |mission| MissionObject { mission };
-        let results = match &self.ways[..] {
-            [one] => Results::One(object(one)),
-            ways => Results::Several { alternatives: ways.iter().map(object).collect() },
+        let object = |(place, mission)| {
+            let believed = self.believed.as_ref().map(|it| it.way(place));
+            MissionObject { mission, believed }
         };
-        let inputs = json!({ "mission": self.document.document });
+        let results = match &self.ways[..] {
+            [one] => Results::One(object((0, one))),
+            ways => {
+                Results::Several { alternatives: ways.iter().enumerate().map(object).collect() }
+            }
+        };
+        let mut inputs = json!({ "mission": self.document.document });
+        if let Some(Believed { belief, rule, sampling, .. }) = &self.believed {
+            inputs["rule"] = json!(rule);
+            inputs["samples"] = sampling.count.into();
+            inputs["seed"] = sampling.seed.into();
+            inputs[sampling::BELIEF] = belief.clone();
+        }
         let answer = Answer::new("mission", inputs, results);
         if let Some(mut folder) = folder {
             folder.add("mission.json", answer.to_text());
@@ -133,12 +150,14 @@ impl Answered {
     }
 
     fn text(&self) -> Text {
-        let blocks = self.ways.iter().map(|way| {
+        let blocks = self.ways.iter().enumerate().map(|(place, way)| {
             let name = if way.name.is_empty() { String::new() } else { format!("{}\n", way.name) };
             let legs = way.table();
             let legs = Rows::of_table(&legs).to_table(&legs_brief(&legs));
             let sentences = reasons(way) + &sentence(way) + "\n";
-            Text::from(name) + legs + Text::from(sentences)
+            let risk = self.believed.as_ref().map_or_else(Vec::new, |it| it.sentences(place, way));
+            let risk: String = risk.into_iter().map(|line| line + "\n").collect();
+            Text::from(name + &risk) + legs + Text::from(sentences)
         });
         let blocks = Text::blocks(blocks);
         if self.ways.len() == 1 {

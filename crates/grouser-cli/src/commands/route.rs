@@ -8,6 +8,8 @@ use grouser::answers::route::Way;
 use grouser::studies::route::{
     Answer as Found, COURSES, DrivenRoute, Ends, Line, Objective, Route, RouteError, RouteTables,
 };
+use grouser::studies::ensemble::samples::Sample;
+use grouser::studies::verdict::Advice;
 use grouser_draw::map::{Track, ways_over_ground};
 
 use super::sampling;
@@ -50,10 +52,11 @@ fn ways(args: &RouteArgs, inputs: &RouteInputs) -> Result<Vec<Way>, Failure> {
     });
     let tables = sampling::whole(tables?);
     match &inputs.asked {
-        Asked::Between(ends) => {
-            wanted.into_iter().map(|it| sought(args, inputs, &tables, ends, it)).collect()
-        }
-        Asked::Along(line) => Ok(vec![given(args, inputs, &tables, line)?]),
+        Asked::Between(ends) => wanted
+            .into_iter()
+            .map(|it| sought(args, inputs, (&tables, &samples), ends, it))
+            .collect(),
+        Asked::Along(line) => Ok(vec![given(args, inputs, (&tables, &samples), line)?]),
     }
 }
 
@@ -67,7 +70,7 @@ fn objectives(args: &RouteArgs) -> Vec<Objective> {
 fn sought(
     args: &RouteArgs,
     inputs: &RouteInputs,
-    tables: &RouteTables,
+    (tables, samples): (&RouteTables, &[Sample]),
     ends: &Ends,
     objective: Objective,
 ) -> Result<Way, Failure> {
@@ -80,19 +83,30 @@ fn sought(
         Found::NoSafeRoute(_) => None,
     };
     let driven = drive(args, route, inputs)?;
-    Ok(Way::sought(objective, found, driven))
+    let legs = route.map(|route| advice(inputs, route, samples)).transpose()?;
+    Ok(Way::sought(objective, found, driven, &legs.unwrap_or_default()))
 }
 
 fn given(
     args: &RouteArgs,
     inputs: &RouteInputs,
-    tables: &RouteTables,
+    (tables, samples): (&RouteTables, &[Sample]),
     line: &Line,
 ) -> Result<Way, Failure> {
     let RouteInputs { study, .. } = inputs;
     let found = study.along(tables, inputs.ground(), line)?;
     let driven = drive(args, found.route.as_ref(), inputs)?;
-    Ok(Way::along(line, found, &study.limits, driven))
+    let legs = advice(inputs, &found.seen, samples)?;
+    Ok(Way::along(line, found, &study.limits, driven, &legs))
+}
+
+/// What to do on each leg of a way.
+fn advice(inputs: &RouteInputs, route: &Route, samples: &[Sample]) -> Result<Vec<Advice>, Failure> {
+    let bar = output::progress_bar(0);
+    bar.set_message("advice for each leg");
+    let found = route.advice(&inputs.study.mobility, samples, &|| true);
+    bar.finish_and_clear();
+    Ok(sampling::whole(found?))
 }
 
 /// Drives a way by simulation, if there is one and that is asked for.
@@ -122,7 +136,27 @@ fn repeat(args: &RouteArgs, inputs: &RouteInputs) -> String {
         }
     };
     let (samples, seed) = (args.samples, args.seed);
-    format!("grouser route DEM scenario.toml {asked} --samples {samples} --seed {seed}")
+    let study = &inputs.study;
+    let limits = [
+        ("most-slope-deg", args.most_slope_deg.as_ref()),
+        ("most-slip-ratio", args.most_slip_ratio.as_ref()),
+        ("most-no-go", args.most_no_go.as_ref()),
+        ("yaw-deg", args.yaw_deg.as_ref()),
+        ("rim-speed-m-s", args.rim_speed_m_s.as_ref()),
+    ];
+    let limits = limits.into_iter().filter_map(|(flag, given)| {
+        Some(format!(" --{flag} {}", given?.joined()))
+    });
+    let switches =
+        [(args.alternatives, " --alternatives"), (args.no_drive, " --no-drive")];
+    let switches = switches.into_iter().filter_map(|(is_set, flag)| is_set.then_some(flag));
+    let keep_out = if args.keep_out.is_some() { " --keep-out AREAS.geojson" } else { "" };
+    let rest: String = limits.chain(switches.map(str::to_owned)).collect();
+    let rule = sampling::rule_flags(&study.mobility.rule);
+    format!(
+        "grouser route DEM scenario.toml {asked}{keep_out}{rest}{rule} --samples {samples} \
+         --seed {seed}"
+    )
 }
 
 /// The ground and the ways.

@@ -3,6 +3,8 @@
 use grouser::answers::Sampling;
 use grouser::document::LoadedScenario;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
+use grouser::studies::verdict::Rule;
+use serde_json::json;
 
 use crate::failure::Failure;
 use crate::output;
@@ -18,21 +20,23 @@ pub(crate) fn draw_of(scenario: &LoadedScenario, of: Sampling) -> Result<Vec<Sam
 }
 
 /// The samples of a scenario's soil and model; none where one soil and one model are all there is.
-pub(super) fn draw_if_uncertain(
+pub(crate) fn draw_if_uncertain(
     scenario: &LoadedScenario,
-    samples: u32,
+    count: u32,
     seed: u64,
 ) -> Result<Vec<Sample>, Failure> {
-    let inputs = BandInputs::of_scenario(scenario);
-    if inputs.is_certain() { Ok(Vec::new()) } else { draw(&inputs, samples, seed) }
+    Ok(Sampling { count, seed }.draw_if_uncertain(&BandInputs::of_scenario(scenario))?)
 }
+
+/// The key of what is believed of the soil.
+pub(super) const BELIEF: &str = "belief";
 
 /// The key of the models of a band with their shares.
 pub(super) const WEIGHTS: &str = "model_weights";
 
 /// Computes with a bar that goes on with every sample. The study asks whether to go on, and is
 /// never stopped: Ctrl-C ends the program.
-pub(super) fn with_bar<T>(
+pub(crate) fn with_bar<T>(
     samples: usize,
     compute: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T,
 ) -> T {
@@ -50,13 +54,24 @@ pub(super) fn with_bar<T>(
 }
 
 /// The flags that ask for the same samples again, after a blank; nothing where none are asked for.
-pub(super) fn flags(sampling: Option<Sampling>) -> String {
-    sampling.map_or(String::new(), |Sampling { count, seed }| {
-        format!(" --uncertainty --samples {count} --seed {seed}")
-    })
+pub(crate) fn flags(sampling: Option<Sampling>) -> String {
+    sampling.map_or(String::new(), |sampling| " --uncertainty".to_owned() + &numbers(sampling))
+}
+
+/// The flags of the number of samples and of their seed, after a blank.
+pub(crate) fn numbers(Sampling { count, seed }: Sampling) -> String {
+    format!(" --samples {count} --seed {seed}")
+}
+
+/// The flags of a rule that is not the usual one, after a blank each.
+pub(crate) fn rule_flags(rule: &Rule) -> String {
+    let (own, usual) = (json!(rule), json!(Rule::DEFAULT));
+    let entries = own.as_object().into_iter().flatten();
+    let changed = entries.filter(|(key, value)| usual.get(key) != Some(value));
+    changed.map(|(key, value)| format!(" --{} {value}", key.replace('_', "-"))).collect()
 }
 
 /// The result of a study that was not stopped.
-pub(super) fn whole<T>(found: Option<T>) -> T {
+pub(crate) fn whole<T>(found: Option<T>) -> T {
     found.unwrap_or_else(|| unreachable!("it was not stopped"))
 }

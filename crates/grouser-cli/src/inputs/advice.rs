@@ -32,7 +32,7 @@ pub(crate) fn advice(
     Ok(Some(AdviceQuestion {
         limits: Limits {
             slip_ratio: share("--no-go-slip-ratio", &args.no_go_slip_ratio)?,
-            probability: share("--no-go-probability", &args.no_go_probability)?,
+            no_go_probability: share("--no-go-probability", &args.no_go_probability)?,
             rim_speed: scenario.value.drive.nominal_rim_speed(),
         },
         checks: CheckSettings {

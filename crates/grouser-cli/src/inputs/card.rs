@@ -1,7 +1,7 @@
 //! The inputs of a card.
 
 use grouser::document::{self, LoadedScenario};
-use grouser::studies::card::Rule;
+use grouser::studies::verdict::Rule;
 
 use super::{balanced, refuse_sampled_keys, single};
 use crate::args::{CardArgs, RuleArgs};
@@ -36,11 +36,12 @@ impl CardInputs {
 }
 
 /// The limits of go and no-go.
-pub(super) fn rule(flags: &RuleArgs) -> Result<Rule, Failure> {
+pub(crate) fn rule(flags: &RuleArgs) -> Result<Rule, Failure> {
     use document::study::SHARE;
     let rule = Rule {
         go_slip_ratio: single("--go-slip-ratio", &flags.go_slip_ratio, &SHARE)?,
         go_probability: single("--go-probability", &flags.go_probability, &SHARE)?,
+        go_drift_m_per_m: single("--go-drift-m-per-m", &flags.go_drift_m_per_m, &SHARE)?,
         no_go_slip_ratio: single("--no-go-slip-ratio", &flags.no_go_slip_ratio, &SHARE)?,
         no_go_probability: single("--no-go-probability", &flags.no_go_probability, &SHARE)?,
     };

@@ -3,7 +3,9 @@
 use grouser::answers::heading::HeadingQuestion;
 use grouser::answers::heading_map::HeadingMapQuestion;
 use grouser::document;
+use grouser::studies::heading::Steering;
 
+use super::card::rule;
 use super::{balanced, check_numbers, check_samples, check_slopes, refuse_sampled_keys, single};
 use crate::args::{HeadingArgs, HeadingMapArgs, SettingArgs};
 use crate::failure::Failure;
@@ -12,7 +14,12 @@ use crate::failure::Failure;
 /// load transfer count; its slope is not used.
 pub(crate) fn heading(args: &HeadingArgs) -> Result<HeadingQuestion, Failure> {
     check_slopes(&args.slope_deg)?;
-    let (name, sampling) = (args.scenario.as_deref(), args.uncertainty.sampling());
+    let name = args.scenario.as_deref();
+    // What is no heading of the body has no samples, unless they are asked for by name: then it
+    // is refused.
+    let has_headings = args.steering == Steering::None && !args.wheel_speeds;
+    let is_sampled = has_headings || args.belief.is_asked_for();
+    let sampling = args.belief.sampling().filter(|_| is_sampled);
     if let Some(sampling) = sampling {
         check_samples(sampling.count, args.slope_deg.0.len())?;
     }
@@ -32,6 +39,7 @@ pub(crate) fn heading(args: &HeadingArgs) -> Result<HeadingQuestion, Failure> {
         steering: args.steering,
         most_speed_ratio: args.wheel_speeds.then_some(args.most_speed_ratio),
         sampling,
+        rule: rule(&args.rule)?,
     })
 }
 

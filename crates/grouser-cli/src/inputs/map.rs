@@ -3,7 +3,8 @@
 use grouser::answers::Sampling;
 use grouser::answers::map::MapQuestion;
 use grouser::document::{self, LoadedScenario};
-use grouser::studies::mobility::{CourseChoice, Ground, MobilityStudy};
+use grouser::studies::mobility::{CourseChoice, Ground};
+use grouser::studies::verdict::SlopeStudy;
 use grouser_raster::{Raster, RasterError, ReadOptions};
 
 use super::card::{rim_speed, rule};
@@ -15,7 +16,7 @@ use crate::list::{self, Numbers};
 /// What a mobility map is made of.
 pub(crate) struct MapInputs {
     pub(crate) scenario: LoadedScenario,
-    pub(crate) study: MobilityStudy,
+    pub(crate) study: SlopeStudy,
     pub(crate) course: CourseChoice,
     pub(crate) raster: Raster,
 }
@@ -41,10 +42,10 @@ pub(crate) fn map(args: &MapArgs) -> Result<MapInputs, Failure> {
     let (setting, balance) = (&args.setting, &args.balance);
     let scenario = balanced("map", args.scenario.as_deref(), rover, soil, setting, balance)?;
     refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
-    let study = MobilityStudy {
+    let study = SlopeStudy {
         rim_speed: rim_speed(args.rim_speed_m_s.as_ref(), &scenario)?,
         rule: rule(&args.rule)?,
-        ..MobilityStudy::of(&scenario)
+        ..SlopeStudy::of(&scenario)
     };
     let raster = grouser_raster::read(&args.dem, &ReadOptions::default())?;
     Ok(MapInputs { scenario, study, course, raster })

@@ -5,7 +5,8 @@ pub(crate) use grouser::answers::route::Asked;
 use grouser::answers::route::RouteQuestion;
 use grouser::document::unit::less_whole_turns;
 use grouser::document::{LoadedScenario, escape, study};
-use grouser::studies::mobility::{Ground, MobilityStudy};
+use grouser::studies::mobility::Ground;
+use grouser::studies::verdict::SlopeStudy;
 use grouser::studies::route::{Ends, Limits, Line, LineError, RouteStudy};
 use grouser::units::Vec2;
 use grouser_raster::{Raster, ReadOptions};
@@ -51,10 +52,10 @@ pub(crate) fn route(args: &RouteArgs) -> Result<RouteInputs, Failure> {
     let (setting, balance) = (&args.setting, &args.balance);
     let scenario = balanced("route", args.scenario.as_deref(), rover, soil, setting, balance)?;
     refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
-    let mobility = MobilityStudy {
+    let mobility = SlopeStudy {
         rim_speed: rim_speed(args.rim_speed_m_s.as_ref(), &scenario)?,
         rule: rule(&args.rule)?,
-        ..MobilityStudy::of(&scenario)
+        ..SlopeStudy::of(&scenario)
     };
     let limits = limits(args, &mobility)?;
     let raster = grouser_raster::read(&args.dem, &ReadOptions::default())?;
@@ -92,7 +93,7 @@ fn place(flag: &str, numbers: Option<&Numbers>) -> Result<Vec2, Failure> {
     }
 }
 
-fn limits(args: &RouteArgs, mobility: &MobilityStudy) -> Result<Limits, Failure> {
+fn limits(args: &RouteArgs, mobility: &SlopeStudy) -> Result<Limits, Failure> {
     let mut limits = Limits::of(mobility);
     if let Some(slope) = &args.most_slope_deg {
         limits.most_slope = single("--most-slope-deg", slope, &study::MOST_SLOPE_DEG)?.to_radians();

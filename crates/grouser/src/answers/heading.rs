@@ -7,6 +7,8 @@ mod question;
 
 use std::sync::Arc;
 
+use serde_json::{Value, json};
+
 use self::of_model::OfModel;
 pub use self::question::HeadingQuestion;
 use super::{
@@ -14,6 +16,7 @@ use super::{
 };
 use crate::contact::validity::Finding;
 use crate::document::columns::heading::{self, held, steered};
+use crate::document::columns::verdict::{self, ADVICE_OBJECT};
 use crate::document::columns::{MODEL, SLOPE, wheel_speeds};
 use crate::document::figure::by_unit;
 use crate::document::reading::sentence;
@@ -44,7 +47,15 @@ impl HeadingQuestion {
         let is_one = !self.has_several() && self.most_speed_ratio.is_none();
         let limits =
             if is_one { Member::Row(None, limits) } else { Member::rows("limits", limits) };
-        answer.results = vec![limits, Member::rows("rows", Arc::clone(&rows))];
+        let advice = all.iter().filter_map(|it| it.bands.as_ref()).flat_map(|it| it.advice.clone());
+        let advice = verdict::advice(&advice.collect::<Vec<_>>());
+        answer.results = vec![
+            limits,
+            match self.sampling {
+                Some(_) => Member::With("rows", Arc::clone(&rows), ADVICE_OBJECT, advice),
+                None => Member::rows("rows", Arc::clone(&rows)),
+            },
+        ];
         answer.tables.push((name.to_owned(), Arc::clone(&rows)));
         let lines: String = all.iter().map(|it| it.lines(self.has_several())).collect();
         let words = lines + &self.model_lines();
@@ -68,7 +79,7 @@ impl HeadingQuestion {
     /// The columns for reading.
     fn brief(&self, first: &OfModel<'_>) -> Vec<String> {
         let mut names = match first {
-            OfModel { bands: Some(_), .. } => heading::bands_brief(),
+            OfModel { bands: Some(_), .. } => heading::advised_brief(),
             OfModel { own_speeds: Some(_), .. } => wheel_speeds::brief(&first.scenario.value.rover),
             _ => heading::brief(self.steering),
         };
@@ -93,9 +104,12 @@ impl HeadingQuestion {
             answer.input("most_speed_ratio", ratio);
         }
         if let Some(sampling) = self.sampling {
+            if let Value::Object(rule) = json!(self.rule) {
+                answer.inputs.extend(rule);
+            }
             sampling.state(answer);
-            let weights = || samples::weights(&BandInputs::of_scenario(first));
-            answer.model_weights = (!self.has_several()).then(weights);
+            let belief = |scenario| sampling.belief(scenario);
+            answer.belief = Some(samples::one_or_each(self.scenarios.iter().map(belief).collect()));
         }
     }
 
@@ -114,10 +128,11 @@ impl HeadingQuestion {
         rows: &Arc<Table>,
         columns: Vec<String>,
     ) {
-        for of_model in all {
-            let lines = of_model.lines(self.has_several());
-            let verdict: Vec<String> = lines.lines().map(sentence).collect();
-            answer.verdict(verdict.join(" "));
+        for line in all.iter().flat_map(|it| {
+            let lines = it.lines(self.has_several());
+            lines.lines().map(sentence).collect::<Vec<_>>()
+        }) {
+            answer.verdict(line);
         }
         let document = &all[0].scenario.document;
         answer.list([
@@ -135,6 +150,9 @@ impl HeadingQuestion {
         let findings = all.iter().flat_map(|it| heading::findings(&it.curve, &slopes));
         answer.findings = Some(findings.flatten().collect::<Vec<Finding>>());
         answer.columns = meanings(&held());
+        if self.sampling.is_some() {
+            answer.columns.splice(0..0, meanings(&verdict::ADVICE));
+        }
         if self.steering == Steering::Crab {
             answer.columns.splice(0..0, meanings(&steered()));
         }

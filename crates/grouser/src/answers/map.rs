@@ -12,7 +12,8 @@ use self::files::{FILES, brief};
 pub use self::files::{MadeMap, MapFile, VerdictCounts};
 pub use self::question::MapQuestion;
 use super::{Answer, Displayed, Member};
-use crate::document::columns::map::HEADING;
+use crate::document::columns::map::{CLASS, HEADING};
+use crate::document::columns::verdict::{self, ADVICE, ADVICE_OBJECT};
 use crate::document::columns::{LIMIT_SLOPE, POWER, SINKAGE, SLIP_RATIO, YAW};
 use crate::document::reading::rounded_down;
 use crate::document::table::Table;
@@ -28,12 +29,21 @@ impl MapQuestion<'_> {
         let sentence = sentence(made.verdicts, limit);
         let mut answer = Answer::new(name, "Where the rover can go");
         self.state(&mut answer);
-        let VerdictCounts { go, caution, no_go, unknown } = made.verdicts;
-        let verdicts = json!({ "go": go, "caution": caution, "no_go": no_go, "unknown": unknown });
+        let VerdictCounts { go, caution, cannot_tell, no_go, unknown } = made.verdicts;
+        let verdicts = json!({
+            "go": go,
+            "caution": caution,
+            "cannot_tell": cannot_tell,
+            "no_go": no_go,
+            "unknown": unknown,
+        });
+        let slopes = Arc::new(Table::of(&CLASS, made.map.advice()));
+        let advice = verdict::advice(made.map.advice());
         let raster = self.ground.raster();
         answer.results = vec![
             Member::rows("files", Arc::clone(&files)),
             Member::Value("verdicts", verdicts),
+            Member::With("slopes", Arc::clone(&slopes), ADVICE_OBJECT, advice),
             Member::Value("columns", json!(raster.grid.columns)),
             Member::Value("rows", json!(raster.grid.rows)),
             Member::Value("coordinate_system", json!(raster.coordinates.name())),
@@ -43,10 +53,13 @@ impl MapQuestion<'_> {
             Member::Value("page", json!(made.page)),
         ];
         answer.tables.push((name.to_owned(), Arc::clone(&files)));
+        answer.tables.push(("slopes".to_owned(), slopes));
         answer.screen =
             vec![Displayed::Rows(files, brief()), Displayed::Words(format!("{sentence}\n"))];
         answer.attach("scenario.toml", self.scenario);
-        self.page(&mut answer, made.files, &errors, sentence);
+        let all = Table::default().and(&CLASS, &made.map.advice().iter().map(Some).collect::<Vec<_>>());
+        let all = all.and(&ADVICE, &made.map.advice().iter().map(Some).collect::<Vec<_>>());
+        self.page(&mut answer, made.files, (&errors, &Arc::new(all)), sentence);
         answer.findings = self.findings(made);
         answer
     }
@@ -77,8 +90,8 @@ fn errors(map: &MobilityMap) -> Value {
 
 /// How much of the map is what, and up to where a heading holds the course.
 fn sentence(verdicts: VerdictCounts, limit: Option<f64>) -> String {
-    let VerdictCounts { go, caution, no_go, unknown } = verdicts;
-    let known = go + caution + no_go;
+    let VerdictCounts { go, caution, cannot_tell, no_go, unknown } = verdicts;
+    let known = go + caution + cannot_tell + no_go;
     let share = |count: u64| {
         if known == 0 { 0.0 } else { (1000.0 * count as f64 / known as f64).round() / 10.0 }
     };
@@ -91,9 +104,10 @@ fn sentence(verdicts: VerdictCounts, limit: Option<f64>) -> String {
         count => format!(" {count} cells have no height."),
     };
     format!(
-        "go {} %, caution {} %, no-go {} % of {known} cells. {limit}{unknown}",
+        "go {} %, caution {} %, cannot tell {} %, no-go {} % of {known} cells. {limit}{unknown}",
         share(go),
         share(caution),
+        share(cannot_tell),
         share(no_go)
     )
 }

@@ -13,12 +13,11 @@ use serde_json::{Map, Value, json};
 use self::columns::{MOST_SLOPE, WAY, brief};
 pub use self::question::{Asked, RouteQuestion};
 pub use self::way::Way;
-use super::{Answer, Displayed, Member, findings_up_to, samples};
+use super::{Answer, Displayed, Member, findings_up_to};
 use crate::contact::validity::Finding;
 use crate::document::columns::{SLOPE, YAW};
 use crate::document::route::RouteRecord;
 use crate::document::table::Table;
-use crate::studies::ensemble::samples::BandInputs;
 use crate::studies::heading::STRAIGHT_UP;
 
 impl RouteQuestion<'_> {
@@ -78,8 +77,10 @@ impl RouteQuestion<'_> {
         answer.input("most_no_go", limits.most_no_go);
         answer.input("rim_speed_m_s", self.study.mobility.rim_speed);
         self.sampling.state(answer);
-        let band = BandInputs::of_scenario(self.scenario);
-        answer.model_weights = Some(samples::weights(&band));
+        if let Value::Object(rule) = json!(self.study.mobility.rule) {
+            answer.inputs.extend(rule);
+        }
+        answer.belief = Some(self.sampling.belief(self.scenario));
     }
 }
 

@@ -4,6 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::Answer;
 use crate::contact::Model;
+use crate::document::LoadedScenario;
 use crate::document::statistics::NothingAccepted;
 use crate::studies::ensemble::samples::{BandInputs, Sample};
 
@@ -17,6 +18,27 @@ pub struct Sampling {
 }
 
 impl Sampling {
+    /// Draws the samples of a scenario's soil and model; none where one soil and one model are all
+    /// there is.
+    ///
+    /// # Errors
+    /// The same as [`draw`](Self::draw).
+    pub fn draw_if_uncertain(self, inputs: &BandInputs) -> Result<Vec<Sample>, NothingAccepted> {
+        if inputs.is_certain() { Ok(Vec::new()) } else { self.draw(inputs) }
+    }
+
+    /// What is believed of a scenario's soil and model: name, number of samples, and the models with
+    /// their shares.
+    #[must_use]
+    pub fn belief(self, scenario: &LoadedScenario) -> Value {
+        let inputs = BandInputs::of_scenario(scenario);
+        json!({
+            "name": scenario.document.text("soil.name"),
+            "samples": if inputs.is_certain() { 1 } else { self.count },
+            "model_weights": weights(&inputs),
+        })
+    }
+
     /// Draws the samples.
     ///
     /// # Errors

@@ -18,6 +18,7 @@ pub mod run;
 pub mod slip_from_current;
 pub mod slope;
 pub mod stand;
+pub mod verdict;
 pub mod wheel_speeds;
 pub mod wheel_test;
 

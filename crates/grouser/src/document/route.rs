@@ -1,11 +1,14 @@
 //! Results of [routes](crate::studies::route) as they leave the library, with units in their names.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
-use super::columns::{SLOPE, YAW};
+use super::columns::verdict::{ADVICE_OBJECT, advice};
+use super::columns::{COURSE, Column, SLOPE, YAW};
+use super::table::{Table, WithObject};
 use crate::studies::route::{
     Answer, Arrival, CheckedLine, Danger, DrivenRoute, Hazard, Limits, Line, Objective, Route,
 };
+use crate::studies::verdict::Advice;
 
 /// A way, as it leaves; without a way there is a reason instead of numbers.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -36,11 +39,44 @@ pub struct RouteRecord {
     pub waypoints: Vec<[f64; 2]>,
     /// What it takes up to each of them.
     pub arrivals: Vec<ArrivalRecord>,
+    /// What to do on each leg between them.
+    pub legs: AdvisedLegs,
     /// Where a line that was given is not safe.
     pub hazards: Vec<HazardRecord>,
     /// What simulation makes of it, if it was driven.
     pub simulated: Option<SimulatedRecord>,
 }
+
+/// The legs of a way, with advice for the worst place of each. As JSON they are rows, each with an
+/// object `advice`.
+#[derive(Clone, Debug, Default)]
+pub struct AdvisedLegs {
+    /// A row for each leg.
+    pub rows: Table,
+    /// What to do on it.
+    pub advice: Table,
+}
+
+impl AdvisedLegs {
+    /// * `all`: for each leg
+    #[must_use]
+    pub fn of(all: &[Advice]) -> Self {
+        Self { rows: Table::of(&LEG, all), advice: advice(all) }
+    }
+}
+
+impl Serialize for AdvisedLegs {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self { rows, advice } = self;
+        WithObject { rows, name: ADVICE_OBJECT, of: advice }.serialize(serializer)
+    }
+}
+
+/// The worst place of a leg.
+const LEG: [Column<Advice>; 2] = [
+    SLOPE.number("Slope at the worst place, up to a whole degree", |it| it.slope),
+    COURSE.number("Course there, from the contour, positive uphill", |it| it.course),
+];
 
 /// What a way takes up to a waypoint, before it turns there.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -103,12 +139,19 @@ impl RouteRecord {
     /// What came of seeking a way.
     ///
     /// * `driven`: what simulation makes of it, if it was driven
+    /// * `legs`: what to do on each
     #[must_use]
-    pub fn of(objective: Objective, answer: &Answer, driven: Option<&DrivenRoute>) -> Self {
+    pub fn of(
+        objective: Objective,
+        answer: &Answer,
+        driven: Option<&DrivenRoute>,
+        legs: &[Advice],
+    ) -> Self {
         let minimise = objective.name();
         match answer {
             Answer::Route(route) => {
-                Self { minimise: Some(minimise), ..Self::of_route(route, driven) }
+                let legs = AdvisedLegs::of(legs);
+                Self { minimise: Some(minimise), legs, ..Self::of_route(route, driven) }
             }
             Answer::NoSafeRoute(reason) => Self {
                 minimise: Some(minimise),
@@ -122,12 +165,14 @@ impl RouteRecord {
     /// What came of looking along a line.
     ///
     /// * `driven`: what simulation makes of it, if it was driven
+    /// * `legs`: what to do on each
     #[must_use]
     pub fn of_line(
         line: &Line,
         found: &CheckedLine,
         limits: &Limits,
         driven: Option<&DrivenRoute>,
+        legs: &[Advice],
     ) -> Self {
         let record =
             found.route.as_ref().map_or_else(Self::default, |it| Self::of_route(it, driven));
@@ -143,6 +188,7 @@ impl RouteRecord {
             reason,
             waypoints: line.places().iter().map(|it| [it.x, it.y]).collect(),
             hazards,
+            legs: AdvisedLegs::of(legs),
             ..record
         }
     }

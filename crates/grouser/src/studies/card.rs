@@ -1,56 +1,20 @@
 //! The operator's card: for each slope the heading to set, what instruments show at it, how often
 //! it is to be set again, the readings at which to stop, and a verdict to go or not.
 //!
-//! Every number has a band over samples of soil and model, and a slope is judged by the share of
-//! them in which a heading holds the contour at an acceptable slip. No slope is a go on a soil
-//! whose uncertainty its document does not state, nor near the soil's friction angle, nor beyond
-//! what the ground itself stands. The [`Rule`] is the caller's; a verdict never gets better on a
-//! steeper slope.
+//! Heading and verdict are the [`Advice`] that every study gives for a slope; every other number
+//! has a band over samples of soil and model. A verdict depends on its slope alone; corrections and
+//! looks at the slip are never rarer on a steeper slope.
 
 pub mod courses;
-mod driven;
 pub mod drives;
-mod rule;
-mod slip_check;
 
-use grouser_io::LoadedScenario;
-
-use super::ensemble::models::{Question, answers};
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
-use super::heading::{
-    HeadingCurve, HeadingOffset, HeadingStudy, LimitedBy, NoHeading, STRAIGHT_DOWN, STUCK,
-};
+use super::heading::{HeadingCurve, HeadingOffset, LimitedBy, STRAIGHT_DOWN};
+use super::verdict::{Advice, DrivenMotion, Held, SlopeStudy};
 use crate::contact::Model;
 use crate::contact::validity::Finding;
 use crate::error::ParameterError;
-pub use driven::{DRIFT_WAY, Driven, DrivenMotion, HEADING_ERROR, SHORTEST_LEG};
-pub(super) use rule::best_slopes;
-pub use rule::{BELOW_FRICTION_ANGLE, Rule, STUCK_ON_GO, Verdict};
-pub use slip_check::{MOST_CHECKED_SLIP, SOIL_LENGTH, STUCK_WITH_CHECKS, SlipCheck};
-
-/// The inputs of a card.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CardStudy {
-    /// Rover, soil as its document has it, gravity, model and load transfer.
-    pub heading: HeadingStudy,
-    /// Rim speed ω r_s [m/s], for the power.
-    pub rim_speed: f64,
-    /// The limits of the verdicts.
-    pub rule: Rule,
-    /// Whether the soil's document states its uncertainty; priors do not count. If not, no slope is
-    /// a go.
-    pub is_uncertainty_stated: bool,
-}
-
-/// A side of the rover.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// The left one, as in the paper.
-    Left,
-    /// The right one.
-    Right,
-}
 
 /// The card's numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,19 +35,13 @@ pub struct Card {
 /// One slope of the card.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CardRow {
-    /// Slope, *α* [rad].
-    pub slope: f64,
-    /// The verdict.
-    pub verdict: Verdict,
+    /// The heading to set, what becomes of a rover that is driven by it, and the verdict.
+    pub advice: Advice,
     /// On the soil as written; `None` where no heading holds the contour.
     pub level: Option<Level>,
     /// Heading of each of the other models on the soil as written, *γ* [rad]; `None` where none
     /// holds the contour.
     pub other_models: Vec<(Model, Option<f64>)>,
-    /// Driven by the card's heading, the median over all samples, or on the soil as written where
-    /// there are none; `None` where no heading holds the contour in half of them. Its motion is
-    /// computed where the slope is no no-go.
-    pub driven: Option<Driven>,
     /// Why no heading holds the contour on the soil as written; nothing where one does.
     pub refusal: Option<String>,
     /// Drift on the soil as written, way downhill for a metre along the contour with the nose on
@@ -109,16 +67,9 @@ pub struct Level {
 /// One slope over the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CardBands {
-    /// Samples in which a heading holds the contour, of those for which that is known: power is
-    /// over them.
-    pub level: Probability,
-    /// For how many samples the search for a heading gave up: they are in no band.
-    pub not_found: usize,
-    /// Yaw, *γ* [rad], over all samples: above every number where no heading holds the contour.
-    pub yaw: Option<Band>,
     /// Slip ratio, *s* [-], over all samples: 1 where no heading holds the contour.
     pub slip_ratio: Option<Band>,
-    /// Power of the motors [W].
+    /// Power of the motors [W], over the samples in which a heading holds the contour.
     pub power: Option<Band>,
     /// Samples in which the rover does not slide with the nose on the contour.
     pub held: Probability,
@@ -132,9 +83,8 @@ struct Draw {
     limit: Result<(f64, String), String>,
     /// Whether the limit is one, and not only the last slope before the search gave up.
     is_limit_known: bool,
-    /// On each slope whether the search gave up.
-    not_found: Vec<bool>,
     /// On each slope.
+    held: Vec<Held>,
     levels: Vec<Option<Level>>,
     refusals: Vec<Option<String>>,
     drifts: Vec<DrawnDrift>,
@@ -168,24 +118,7 @@ impl DrawnDrift {
     }
 }
 
-impl CardStudy {
-    /// The study of a scenario, with its rim speed and [`Rule::DEFAULT`].
-    ///
-    /// * `uphill`: the side of the rover that is uphill
-    #[must_use]
-    pub fn of(scenario: &LoadedScenario, uphill: Side) -> Self {
-        let mut heading = HeadingStudy::of(&scenario.value);
-        if uphill == Side::Right {
-            heading.rover = heading.rover.mirrored();
-        }
-        Self {
-            heading,
-            rim_speed: scenario.value.drive.nominal_rim_speed(),
-            rule: Rule::DEFAULT,
-            is_uncertainty_stated: scenario.stated_uncertainty().is_some(),
-        }
-    }
-
+impl SlopeStudy {
     /// Computes the card; `None` if `go_on` was false before the end. Samples are shared among
     /// threads and keep their order: the result is the same for any number of threads.
     ///
@@ -193,13 +126,14 @@ impl CardStudy {
     ///
     /// ```
     /// use grouser::document::{self, Overrides, Source};
-    /// use grouser::studies::card::{CardStudy, Side, Verdict};
+    /// use grouser::studies::verdict::{SlopeStudy, Verdict};
     /// use grouser::units::deg;
     ///
     /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?;
-    /// let study = CardStudy { is_uncertainty_stated: true, ..CardStudy::of(&scenario, Side::Left) };
+    /// let study = SlopeStudy { is_uncertainty_stated: true, ..SlopeStudy::of(&scenario) };
     /// let card = study.card(&[], &[5.0, 10.0, 20.0].map(deg), &|| true)?.expect("not stopped");
-    /// let verdicts: Vec<Verdict> = card.rows.iter().map(|row| row.verdict).collect();
+    /// let verdicts = card.rows.iter().map(|row| row.advice.judgement.verdict);
+    /// let verdicts: Vec<Verdict> = verdicts.collect();
     /// assert_eq!(verdicts, [Verdict::Go, Verdict::Go, Verdict::Caution]);
     /// let level = card.rows[1].level.expect("10° can be crossed");
     /// assert_eq!(format!("{:.2} W", level.power), "0.40 W");
@@ -220,8 +154,7 @@ impl CardStudy {
         slopes: &[f64],
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Card>, ParameterError> {
-        self.rule.check()?;
-        crate::error::positive("rim speed [m/s]", self.rim_speed)?;
+        self.check()?;
         if let Some(pair) = slopes.windows(2).find(|pair| pair[0] >= pair[1]) {
             return Err(ParameterError::new("slope [rad]", pair[1], "above the one before it"));
         }
@@ -231,7 +164,7 @@ impl CardStudy {
         let Some(draws) = draws else { return Ok(None) };
         // In order, so that the error is always that of the first soil.
         let draws: Vec<Draw> = draws.into_iter().collect::<Result<_, ParameterError>>()?;
-        let found = Found { curve, others: self.other_curves()?, nominal: &nominal, draws: &draws };
+        let found = Found { curve, others: self.other_models()?, nominal: &nominal, draws: &draws };
         let limit_of = |draw: &Draw| draw.limit.as_ref().map_or(0.0, |(slope, _)| *slope);
         Ok(self.rows(slopes, samples, &found, go_on).map(|rows| Card {
             rows,
@@ -242,22 +175,6 @@ impl CardStudy {
         }))
     }
 
-    /// Soil and model without uncertainty.
-    fn nominal(&self) -> Sample {
-        Sample { soil: self.heading.soil, model: self.heading.model.clone() }
-    }
-
-    /// The contour traverses of the models that the soil as written is not computed with.
-    fn other_curves(&self) -> Result<Vec<(Model, HeadingCurve)>, ParameterError> {
-        let is_other =
-            |model: &Model| answers(model, Question::Across) && *model != self.heading.model;
-        let curve = |model: Model| {
-            let study = HeadingStudy { model: model.clone(), ..self.heading.clone() };
-            Ok((model, study.curve()?))
-        };
-        Model::ALL.into_iter().filter(is_other).map(curve).collect()
-    }
-
     /// * `go_on`: asked before each slope that is driven
     fn rows(
         &self,
@@ -266,48 +183,20 @@ impl CardStudy {
         found: &Found<'_>,
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Option<Vec<CardRow>> {
-        let as_written = [self.nominal()];
-        let samples = if samples.is_empty() { &as_written } else { samples };
-        let mut worst = Verdict::Go;
         let mut gentler: Option<DrivenMotion> = None;
         let row = |(place, slope): (usize, &f64)| {
-            let mut driven = self.driven(found.judged(), place, *slope);
-            let slips = slips_at(found.judged(), place);
-            let by_slips = self.rule.verdict(&slips, found.judged().len() - slips.len());
-            worst = worst.max(by_slips).max(self.best_verdict(*slope, driven.as_ref()));
-            if let Some(driven) = driven.as_mut().filter(|_| worst != Verdict::NoGo) {
-                if !go_on() {
-                    return None;
-                }
-                let course = (*slope, driven.yaw);
-                let motion = DrivenMotion::of(&self.heading, samples, self.rim_speed, course);
-                driven.motion = motion.map(|motion| motion.no_laxer_than(gentler.as_ref()));
-                gentler = driven.motion.or(gentler);
-                worst = worst.max(verdict_of(driven.motion.as_ref()));
+            if !go_on() {
+                return None;
             }
-            Some(found.row(place, *slope, (worst, driven)))
+            let held: Vec<Held> = found.judged().iter().map(|draw| draw.held[place]).collect();
+            let mut advice = self.judged((*slope, 0.0), &held, samples);
+            if let Some(driven) = &mut advice.driven {
+                driven.motion = driven.motion.map(|it| it.no_laxer_than(gentler.as_ref()));
+                gentler = driven.motion.or(gentler);
+            }
+            Some(found.row(place, advice))
         };
         slopes.iter().enumerate().map(row).collect()
-    }
-
-    /// The card's heading on a slope, if there is one, and what the rover does at it without
-    /// moving.
-    fn driven(&self, draws: &[Draw], place: usize, slope: f64) -> Option<Driven> {
-        let yaw = yaws_at(draws, place)?.median;
-        yaw.is_finite().then(|| Driven::at_rest(&self.heading, slope, yaw))
-    }
-
-    /// The best verdict that a slope can have, whatever the samples say: that of [`best_slopes`],
-    /// and no rover that tips over is to be driven.
-    fn best_verdict(&self, slope: f64, driven: Option<&Driven>) -> Verdict {
-        let (go, caution) = best_slopes(&self.heading, self.is_uncertainty_stated);
-        if slope > caution || driven.is_some_and(|it| it.tipping_margin <= 0.0) {
-            Verdict::NoGo
-        } else if go.is_none_or(|go| slope > go) {
-            Verdict::Caution
-        } else {
-            Verdict::Go
-        }
     }
 
     fn draw(&self, sample: &Sample, slopes: &[f64]) -> Result<Draw, ParameterError> {
@@ -318,22 +207,19 @@ impl CardStudy {
             slip_ratio: heading.slip_ratio,
             power: heading.power(&study.rover, self.rim_speed),
         };
-        let held: Vec<_> = slopes.iter().map(|slope| level.at(*slope)).collect();
+        let found: Vec<_> = slopes.iter().map(|slope| level.at(*slope)).collect();
         Ok(Draw {
             is_limit_known: match level.limit() {
                 Ok(_) => level.limited_by() != Some(LimitedBy::NotFound),
                 Err(none) => !none.is_not_found(),
             },
-            not_found: held
-                .iter()
-                .map(|it| it.as_ref().is_err_and(NoHeading::is_not_found))
-                .collect(),
+            held: found.iter().map(|it| Held::of(&level, it)).collect(),
             limit: level
                 .limit()
                 .map(|(slope, reason)| (slope, reason.to_owned()))
                 .map_err(|error| error.to_string()),
-            refusals: held.iter().map(|it| Some(it.as_ref().err()?.to_string())).collect(),
-            levels: held.iter().map(|it| it.as_ref().ok().map(keep)).collect(),
+            refusals: found.iter().map(|it| Some(it.as_ref().err()?.to_string())).collect(),
+            levels: found.iter().map(|it| it.as_ref().ok().map(keep)).collect(),
             drifts: slopes.iter().map(|slope| DrawnDrift::at(&drift, *slope)).collect(),
         })
     }
@@ -354,23 +240,13 @@ impl Found<'_> {
         if self.draws.is_empty() { std::slice::from_ref(self.nominal) } else { self.draws }
     }
 
-    fn row(
-        &self,
-        place: usize,
-        slope: f64,
-        (verdict, driven): (Verdict, Option<Driven>),
-    ) -> CardRow {
-        let (nominal, draws) = (self.nominal, self.draws);
+    fn row(&self, place: usize, advice: Advice) -> CardRow {
+        let (nominal, draws, slope) = (self.nominal, self.draws, advice.slope);
+        let yaw = |(model, curve): &(Model, HeadingCurve)| (model.clone(), yaw_on(curve, slope));
         CardRow {
-            slope,
-            verdict,
+            advice,
             level: nominal.levels[place],
-            other_models: self
-                .others
-                .iter()
-                .map(|(it, curve)| (it.clone(), yaw_on(curve, slope)))
-                .collect(),
-            driven,
+            other_models: self.others.iter().map(yaw).collect(),
             refusal: nominal.refusals[place].clone(),
             drift: nominal.drifts[place].held(),
             bands: (!draws.is_empty()).then(|| CardBands::over(draws, place)),
@@ -379,50 +255,18 @@ impl Found<'_> {
     }
 }
 
-/// The best verdict that the motion by the card's heading allows.
-fn verdict_of(motion: Option<&DrivenMotion>) -> Verdict {
-    match motion {
-        Some(motion) if motion.stuck.estimate() <= STUCK_ON_GO => Verdict::Go,
-        Some(_) => Verdict::Caution,
-        None => Verdict::NoGo,
-    }
-}
-
-/// Yaws of all samples on one of the slopes: above every number where no heading holds the contour.
-fn yaws_at(draws: &[Draw], place: usize) -> Option<Band> {
-    let yaw = |level: Option<Level>| level.map_or(f64::INFINITY, |level| level.yaw);
-    Band::of(known_at(draws, place).map(yaw))
-}
-
-/// The contour traverses on one of the slopes, of the samples for which it is known whether there
-/// is one.
-fn known_at(draws: &[Draw], place: usize) -> impl Iterator<Item = Option<Level>> {
-    draws.iter().filter(move |draw| !draw.not_found[place]).map(move |draw| draw.levels[place])
-}
-
 /// The heading on a slope, if one holds the course.
 fn yaw_on(curve: &HeadingCurve, slope: f64) -> Option<f64> {
     curve.at(slope).ok().map(|heading| heading.yaw)
 }
 
-/// Slip ratios of the contour traverses on one of the slopes.
-fn slips_at(draws: &[Draw], place: usize) -> Vec<Option<f64>> {
-    known_at(draws, place).map(|level| level.map(|level| level.slip_ratio)).collect()
-}
-
 impl CardBands {
     fn over(draws: &[Draw], place: usize) -> Self {
-        let levels: Vec<Level> = draws.iter().filter_map(|draw| draw.levels[place]).collect();
         let drifts = || draws.iter().map(|draw| draw.drifts[place]).filter(|it| it.is_known());
-        let slips = slips_at(draws, place);
-        let (known, trials) = (slips.len(), draws.len());
-        let slips = slips.into_iter().map(|slip| slip.unwrap_or(STUCK));
+        let levels = draws.iter().filter_map(|draw| draw.levels[place]);
         Self {
-            level: Probability { successes: levels.len(), trials: known },
-            not_found: trials - known,
-            yaw: yaws_at(draws, place),
-            slip_ratio: Band::of(slips),
-            power: Band::of(levels.iter().map(|level| level.power)),
+            slip_ratio: Band::of(draws.iter().filter_map(|draw| draw.held[place].slip_ratio())),
+            power: Band::of(levels.map(|level| level.power)),
             held: Probability {
                 successes: drifts().filter_map(DrawnDrift::held).count(),
                 trials: drifts().count(),

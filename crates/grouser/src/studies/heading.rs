@@ -327,15 +327,29 @@ impl HeadingStudy {
         self.follow(self.held(course), Reach { slip_ratio: most_slip, ..Reach::END })
     }
 
+    /// The first part of the same curve, as far as a slope [rad] and no further. Next to the fold,
+    /// where a curve's last points come from the search for it, it may differ from the whole curve
+    /// by round-off.
+    ///
+    /// # Errors
+    /// The same as [`curve_on`](Self::curve_on).
+    pub(super) fn curve_to_slope(
+        &self,
+        course: f64,
+        slope: f64,
+    ) -> Result<HeadingCurve, ParameterError> {
+        check_course(course)?;
+        self.follow(self.held(course), Reach { slope, ..Reach::END })
+    }
+
     /// Finds the heading offset that holds the contour on one slope [rad]. The curve is followed as
-    /// far as that slope and no further. Next to the fold, where a curve's last points come from
-    /// the search for it, the answer may differ from the whole curve's by round-off.
+    /// far as that slope and no further, next to the fold to round-off.
     ///
     /// # Errors
     /// [`ParameterError`] if the soil or gravity is invalid; [`NoHeading`] within if no heading
     /// holds the contour there.
     pub fn on_slope(&self, slope: f64) -> Result<Result<HeadingOffset, NoHeading>, ParameterError> {
-        Ok(self.follow(self.held(0.0), Reach { slope, ..Reach::END })?.at(slope))
+        Ok(self.curve_to_slope(0.0, slope)?.at(slope))
     }
 
     /// Follows the curve of drift: the nose stays along the contour, γ = 0, and the course turns

@@ -5,14 +5,15 @@
 //! [`heading`](super::heading) for each.
 //!
 //! Bands are over all samples. One in which no heading holds the course counts as slip 1, sunk to
-//! the axle, with work per metre without a bound: it is not left out, since what is left would be
-//! the strong soils alone. A yaw it has not: bands of the yaw are over the samples that hold the
-//! course, and their share is beside it. A sample for which the search for a heading gave up says
-//! nothing about the soil: it is in no band and no probability, and how many there are is counted.
+//! the axle, with work per metre without a bound, and with a yaw above every number: it is not left
+//! out, since what is left would be the strong soils alone. A sample for which the search for a
+//! heading gave up says nothing about the soil: it is in no band and no probability, and how many
+//! there are is counted.
 
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, LimitedBy, NoHeading, STUCK};
+use super::verdict::{Advice, Held, SlopeStudy};
 use crate::error::ParameterError;
 use crate::vehicle::Rover;
 
@@ -40,7 +41,7 @@ pub struct SlopeBand {
     pub level: Probability,
     /// For how many samples the search gave up on this slope.
     pub not_found: usize,
-    /// Yaw, *γ* [rad], positive uphill, over those samples.
+    /// Yaw, *γ* [rad], positive uphill; above every number where no heading holds the course.
     pub yaw: Option<Band>,
     /// Slip ratio of every wheel, *s* [-]; 1 where no heading holds the course.
     pub slip_ratio: Option<Band>,
@@ -49,13 +50,15 @@ pub struct SlopeBand {
     /// Work of the wheels per metre along the course [J/m]; infinite where no heading holds the
     /// course.
     pub energy_per_metre: Option<Band>,
+    /// Course, *χ* [rad].
+    course: f64,
+    /// Whether each sample holds it.
+    held: Vec<Held>,
 }
 
 /// The numbers of a heading offset that the bands need.
 #[derive(Clone, Copy)]
 struct Kept {
-    /// Missing where no heading holds the course.
-    yaw: Option<f64>,
     slip_ratio: f64,
     sinkage: f64,
     energy_per_metre: f64,
@@ -71,6 +74,7 @@ struct OfSample {
     is_mobile: Option<bool>,
     /// Missing where the search gave up.
     on_slopes: Vec<Option<Kept>>,
+    held: Vec<Held>,
 }
 
 impl HeadingBand {
@@ -140,22 +144,25 @@ impl HeadingBand {
         let Some(all) = outputs_of_samples(samples, go_on, one) else { return Ok(None) };
         // Collected in order, so that the error is always that of the first soil.
         let all = all.into_iter().collect::<Result<Vec<OfSample>, ParameterError>>()?;
-        Ok(Some(Self::over(&all, slopes)))
+        Ok(Some(Self::over(&all, slopes, course)))
     }
 
-    fn over(samples: &[OfSample], slopes: &[f64]) -> Self {
+    fn over(samples: &[OfSample], slopes: &[f64], course: f64) -> Self {
         let slopes = slopes.iter().enumerate().map(|(place, slope)| {
             let kept = || samples.iter().filter_map(|sample| sample.on_slopes[place].as_ref());
             let trials = kept().count();
-            let yaws: Vec<f64> = kept().filter_map(|kept| kept.yaw).collect();
+            let held: Vec<Held> = samples.iter().map(|sample| sample.held[place]).collect();
+            let successes = held.iter().filter(|it| it.is_held()).count();
             SlopeBand {
                 slope: *slope,
-                level: Probability { successes: yaws.len(), trials },
+                level: Probability { successes, trials },
                 not_found: samples.len() - trials,
-                yaw: Band::of(yaws),
+                yaw: Band::of(held.iter().filter_map(|it| it.yaw())),
                 slip_ratio: Band::of(kept().map(|kept| kept.slip_ratio)),
                 sinkage: Band::of(kept().map(|kept| kept.sinkage)),
                 energy_per_metre: Band::of(kept().map(|kept| kept.energy_per_metre)),
+                course,
+                held,
             }
         });
         let mobile = || samples.iter().filter_map(|sample| sample.is_mobile);
@@ -170,6 +177,17 @@ impl HeadingBand {
     }
 }
 
+impl SlopeBand {
+    /// What to do there.
+    ///
+    /// * `study`: of the same rover, gravity and load transfer
+    /// * `samples`: that the band is over
+    #[must_use]
+    pub fn advice(&self, study: &SlopeStudy, samples: &[Sample]) -> Advice {
+        study.judged((self.slope, self.course), &self.held, samples)
+    }
+}
+
 impl HeadingStudy {
     /// The study with a sample's soil and model.
     #[must_use]
@@ -180,8 +198,9 @@ impl HeadingStudy {
 
 impl OfSample {
     fn of(curve: &HeadingCurve, rover: &Rover, slopes: &[f64]) -> Self {
-        let on_slope = |slope: &f64| match curve.at(*slope) {
-            Ok(heading) => Some(Kept::of(&heading, rover)),
+        let found: Vec<_> = slopes.iter().map(|slope| curve.at(*slope)).collect();
+        let on_slope = |found: &Result<HeadingOffset, NoHeading>| match found {
+            Ok(heading) => Some(Kept::of(heading, rover)),
             Err(
                 NoHeading::CannotMove(_)
                 | NoHeading::TooSteep { .. }
@@ -196,14 +215,14 @@ impl OfSample {
         let is_mobile = curve
             .limit()
             .map_or_else(|none| (!none.is_not_found()).then_some(false), |_| Some(true));
-        Self { limit, is_mobile, on_slopes: slopes.iter().map(on_slope).collect() }
+        let held = found.iter().map(|it| Held::of(curve, it)).collect();
+        Self { limit, is_mobile, on_slopes: found.iter().map(on_slope).collect(), held }
     }
 }
 
 impl Kept {
     fn of(heading: &HeadingOffset, rover: &Rover) -> Self {
         Self {
-            yaw: Some(heading.yaw),
             slip_ratio: heading.slip_ratio,
             sinkage: heading.mean_sinkage(),
             energy_per_metre: heading.energy_per_metre(rover),
@@ -213,6 +232,6 @@ impl Kept {
     /// No heading holds the course: the wheels turn on the spot, and dig in down to their axles.
     fn stuck(rover: &Rover) -> Self {
         let sinkage = rover.mean_axle_height();
-        Self { yaw: None, slip_ratio: STUCK, sinkage, energy_per_metre: f64::INFINITY }
+        Self { slip_ratio: STUCK, sinkage, energy_per_metre: f64::INFINITY }
     }
 }

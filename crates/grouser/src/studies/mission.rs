@@ -2,8 +2,16 @@
 
 use rayon::prelude::*;
 
-use crate::mission::{Leg, LegReport, Mission, MissionError, MissionReport, MissionRun};
+use super::ensemble::Probability;
+use super::ensemble::samples::{Sample, outputs_of_samples};
+use super::mobility::{advised_place, slope_and_course};
+use crate::elementary::wide::{asin, sin_cos, tan};
+use crate::mission::{
+    Heading, Leg, LegReport, Manoeuvre, Mission, MissionError, MissionReport, MissionRun,
+};
+use crate::simulation::{Approach, Numerics, Scenario};
 use crate::units::Vec2;
+use crate::vehicle::RoverState;
 
 /// A mission that was driven, leg by leg.
 #[derive(Clone, Debug)]
@@ -79,8 +87,141 @@ impl DrivenMission {
         Self { name: name.to_owned(), planned: mission.legs.len(), legs: legs.collect(), report }
     }
 
+    /// For each leg that was begun the place that advice is about, as slope and course [rad]: on a
+    /// plane its slope and the course that the leg asks for, over ground with heights the steepest
+    /// place of the way; `None` for legs that lead nowhere.
+    #[must_use]
+    pub fn places(&self, scenario: &Scenario) -> Vec<Option<(f64, f64)>> {
+        let start = &self.report.trajectory.records[0].state;
+        let mut before = (start.position, start.yaw);
+        let place = |leg: &DrivenLeg| {
+            let (from, yaw) = before;
+            before = (leg.report.end.position, leg.report.end.yaw);
+            let way = leg.way(from, yaw)?;
+            Some(leg.place(scenario, from, way))
+        };
+        self.legs.iter().map(place).collect()
+    }
+
     /// Those of its legs that lead somewhere.
     pub fn ways(&self) -> impl Iterator<Item = &LegReport> {
         self.legs.iter().map(|leg| &leg.report).filter(|report| report.slip_ratio.is_some())
     }
+}
+
+impl DrivenLeg {
+    /// The way that it asks for, from where it begins [m]; `None` for one that leads nowhere.
+    fn way(&self, from: Vec2, yaw: f64) -> Option<Vec2> {
+        let way = match self.leg.manoeuvre {
+            Manoeuvre::Turn { .. } | Manoeuvre::Wait { .. } => return None,
+            Manoeuvre::Goto { place, .. } => place - from,
+            Manoeuvre::Arc { .. } => self.report.end.position - from,
+            Manoeuvre::Drive { distance, .. } => {
+                let (sin, cos) = sin_cos(self.leg.yaw.unwrap_or(yaw));
+                Vec2::new(cos, sin) * distance
+            }
+        };
+        (way.norm() > 0.0).then_some(way)
+    }
+
+    fn place(&self, scenario: &Scenario, from: Vec2, way: Vec2) -> (f64, f64) {
+        /// Places of the way that are looked at.
+        const PLACES: usize = 33;
+        let is_contour = self.leg.heading == Heading::Contour;
+        let yaw = crate::elementary::wide::atan2(way.y, way.x);
+        if let Some(slope) = scenario.ground.plane_slope() {
+            let along = way.normalize();
+            let course = asin(along.y.clamp(-1.0, 1.0));
+            let (_, course) = advised_place((slope, if is_contour { 0.0 } else { course }));
+            return (slope, course);
+        }
+        let gone = self.report.end.position - from;
+        let look = |place: usize| {
+            let position = from + gone * (place as f64 / (PLACES - 1) as f64);
+            let (velocity, yaw_rate) = (Vec2::zeros(), 0.0);
+            let state = RoverState { position, yaw, velocity, yaw_rate };
+            let (lie, _) = scenario.ground_under(&state);
+            let rise = tan(asin(lie.steepness().clamp(0.0, 1.0)));
+            let uphill = lie.uphill().unwrap_or_else(Vec2::zeros);
+            let along = if is_contour { 0.0 } else { rise * uphill.dot(&way.normalize()) };
+            slope_and_course(along, (rise * rise - along * along).max(0.0).sqrt())
+        };
+        let steepest = (0..PLACES).map(look).max_by(|one, other| one.0.total_cmp(&other.0));
+        advised_place(steepest.unwrap_or_default())
+    }
+}
+
+/// What a mission risks: how it ends on other soils and models.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MissionRisk {
+    /// Samples that complete all legs, of those that can be computed.
+    pub completed: Probability,
+    /// Samples that cannot be computed.
+    pub not_computed: usize,
+    /// The commonest end of the others.
+    pub commonest: Option<CommonEnd>,
+}
+
+/// How a mission ends that is not completed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CommonEnd {
+    /// In this leg, counted from 1.
+    pub leg: usize,
+    /// The outcome, by its name.
+    pub outcome: &'static str,
+    /// So many samples end so.
+    pub count: usize,
+}
+
+impl MissionRisk {
+    /// Drives a mission on each sample, quasi-steadily; `None` if `go_on` was false before the end.
+    /// Soils of zones, and what scatters, are the mission's own in all of them.
+    ///
+    /// * `samples`: of soil and model; with none there is the mission as it is written alone
+    /// * `go_on`: asked before each sample, from any thread
+    pub fn of(
+        mission: &Mission,
+        samples: &[Sample],
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Self> {
+        let scenario = &mission.scenario;
+        let as_written = [Sample { soil: scenario.ground.soil, model: scenario.model.clone() }];
+        let samples = if samples.is_empty() { &as_written } else { samples };
+        let ends = outputs_of_samples(samples, go_on, |sample| end_of(mission, sample).ok())?;
+        let known: Vec<Option<(usize, &'static str)>> = ends.iter().copied().flatten().collect();
+        let failed: Vec<(usize, &'static str)> = known.iter().copied().flatten().collect();
+        let count = |end: &(usize, &'static str)| failed.iter().filter(|it| *it == end).count();
+        // Of those that are as common the one that comes first on the way.
+        let commonest = failed.iter().max_by_key(|end| (count(end), std::cmp::Reverse(end.0)));
+        Some(Self {
+            completed: Probability {
+                successes: known.len() - failed.len(),
+                trials: known.len(),
+            },
+            not_computed: ends.len() - known.len(),
+            commonest: commonest.map(|end| CommonEnd {
+                leg: end.0,
+                outcome: end.1,
+                count: count(end),
+            }),
+        })
+    }
+}
+
+/// In which leg a mission ends on a sample, counted from 1, and how; nothing if it is completed.
+fn end_of(
+    mission: &Mission,
+    sample: &Sample,
+) -> Result<Option<(usize, &'static str)>, MissionError> {
+    let mut scenario = mission.scenario.clone();
+    scenario.ground.soil = sample.soil;
+    scenario.model = sample.model.clone();
+    scenario.numerics = Numerics { approach: Approach::QuasiSteady, ..scenario.numerics };
+    let mission = Mission { scenario, ..mission.clone() };
+    let mut run = MissionRun::new(&mission)?;
+    while run.next_leg_watched(&mut |_| true)?.is_some() {}
+    let report = run.finish();
+    let is_whole = report.legs.len() == mission.legs.len()
+        && report.legs.last().is_some_and(|leg| leg.outcome.is_completed());
+    Ok((!is_whole).then(|| (report.legs.len(), report.outcome())))
 }

@@ -14,9 +14,12 @@
 //! ([`MobilityTable::largest_errors`]).
 //!
 //! How likely a slope is a no-go comes from samples of soil and model: each has a steepest slope on
-//! which a heading holds the course and slips no more than the [`Rule`](super::card::Rule) allows,
+//! which a heading holds the course and slips no more than the [`Rule`](super::verdict::Rule) allows,
 //! and the probability at a slope is the share of the samples whose steepest is below it. No curve
 //! in between is stored: the steepest slopes, sorted, say it exactly.
+//!
+//! Verdicts are those of the [advice](super::verdict) on whole degrees: a place has that of the
+//! degree above its slope.
 
 mod choice;
 mod compliance;
@@ -31,15 +34,58 @@ pub use self::compliance::SlipCompliances;
 pub(super) use self::detail::Detail;
 pub use self::ground::Ground;
 pub use self::map::{CellMotion, MobilityMap};
-pub use self::table::{Mobility, MobilityStudy, MobilityTable, OnSlope};
+pub use self::table::{Mobility, MobilityTable, OnSlope};
+use super::heading::STRAIGHT_UP;
+use crate::elementary::wide::atan2;
+use crate::units::STEEPEST_SLOPE;
+use grouser_io::unit::DEG;
+
+/// The steepest slope of each class [rad]: whole degrees.
+fn classes() -> impl Iterator<Item = f64> {
+    (0_u32..).map(|degree| DEG.to_si(f64::from(degree))).take_while(|it| *it <= STEEPEST_SLOPE)
+}
+
+/// The class of a slope [rad]: the whole degree above it, and the steepest for all beyond.
+#[must_use]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a slope is not negative, and the steepest is small"
+)]
+pub fn class_of(slope: f64) -> usize {
+    /// So much above a whole degree is the rounding of heights [°].
+    const ROUNDING: f64 = 0.01;
+    let steepest = DEG.from_si(STEEPEST_SLOPE);
+    (DEG.from_si(slope) - ROUNDING).ceil().clamp(0.0, steepest) as usize
+}
+
+/// Slope and course [rad] of a way over ground that rises along it, and across it [m/m].
+#[must_use]
+pub fn slope_and_course(along: f64, across: f64) -> (f64, f64) {
+    let rise = (along * along + across * across).sqrt();
+    if rise == 0.0 {
+        return (0.0, 0.0);
+    }
+    // On the slope itself the way up is longer than on the map.
+    let steepness = (1.0 + rise * rise).sqrt();
+    (atan2(rise, 1.0), atan2(along * steepness, across.abs()))
+}
+
+/// Slope and course [rad] for which advice is given to a way on a map: the slope is that of its
+/// class, the course is to a degree.
+#[must_use]
+pub fn advised_place((slope, course): (f64, f64)) -> (f64, f64) {
+    let degrees = DEG.from_si(course).round();
+    (DEG.to_si(class_of(slope) as f64), DEG.to_si(degrees).clamp(-STRAIGHT_UP, STRAIGHT_UP))
+}
 
 #[cfg(test)]
 mod tests {
     use std::f64::consts::FRAC_PI_2;
 
     use super::*;
-    use crate::studies::card::Verdict;
     use crate::studies::ensemble::samples::{BandInputs, Sample};
+    use crate::studies::verdict::{Reason, SlopeStudy, Verdict};
     use crate::units::{Vec2, deg};
     use grouser_io::LoadedScenario;
     use grouser_io::{self as document, Overrides, Source};
@@ -49,8 +95,8 @@ mod tests {
         document::read_scenario(&Source::default_scenario(), &overrides).unwrap()
     }
 
-    fn table_of(course: f64) -> (MobilityStudy, MobilityTable) {
-        let study = MobilityStudy::of(&scenario(&[]));
+    fn table_of(course: f64) -> (SlopeStudy, MobilityTable) {
+        let study = SlopeStudy::of(&scenario(&[]));
         let table = study.table(course, &[], &|| true).unwrap().unwrap();
         (study, table)
     }
@@ -84,7 +130,7 @@ mod tests {
     fn the_probability_is_that_of_the_samples() {
         let loaded = scenario(&["scenario.soil=toyoura-uncertain"]);
         let samples = BandInputs::of_scenario(&loaded).samples(3, 40).unwrap();
-        let study = MobilityStudy::of(&loaded);
+        let study = SlopeStudy::of(&loaded);
         let table = study.table(0.0, &samples, &|| true).unwrap().unwrap();
         for slope in [5.0, 12.0, 17.0, 19.0, 21.0, 23.0, 30.0].map(deg) {
             let is_no_go = |sample: &&Sample| {
@@ -93,25 +139,65 @@ mod tests {
             };
             let counted = samples.iter().filter(is_no_go).count() as f64 / 40.0;
             assert_eq!(table.at(slope).probability_no_go, counted, "{slope}");
-            let verdict = table.at(slope).verdict;
-            assert!(counted < 0.21 || verdict == Verdict::NoGo, "{slope}: {counted} {verdict:?}");
         }
-        assert_eq!(table.at(deg(3.0)).verdict, Verdict::Go);
+    }
+
+    /// A place has the verdict of the whole degree above it.
+    #[test]
+    fn the_verdict_of_a_place_is_the_advice_for_its_class() {
+        let loaded = scenario(&["scenario.soil=toyoura-uncertain"]);
+        let samples = BandInputs::of_scenario(&loaded).samples(3, 20).unwrap();
+        let study = SlopeStudy::of(&loaded);
+        let fixed = CourseChoice::Fixed(0.0);
+        let map = MobilityMap::of(&study, fixed, deg(25.0), &samples, &|| true).unwrap().unwrap();
+        assert_eq!(map.advice().len(), 26);
+        let at = |slope: f64| map.at(Vec2::new(0.0, deg(slope).tan())).verdict;
+        let advice = |slope: f64| {
+            let on = study.advice(0.0, &[DEG.to_si(slope)], &samples, &|| true).unwrap().unwrap();
+            on[0].judgement
+        };
+        for (slope, class) in [(2.1, 3.0), (3.0, 3.0), (9.5, 10.0), (12.0, 12.0), (22.5, 23.0)] {
+            assert_eq!(at(slope), advice(class).verdict, "{slope}");
+        }
+        assert_eq!((at(2.1), at(22.5)), (Verdict::Go, Verdict::NoGo));
+        assert_eq!(at(26.5), Verdict::CannotTell, "nobody looked there");
     }
 
     #[test]
-    fn without_a_stated_uncertainty_no_slope_is_a_go() {
-        let (_, table) = table_of(0.0);
-        assert_eq!(table.at(deg(3.0)).verdict, Verdict::Caution);
-        assert_eq!(table.at(deg(40.0)).verdict, Verdict::NoGo);
+    fn without_a_stated_uncertainty_nobody_can_tell() {
+        let study = SlopeStudy::of(&scenario(&[]));
+        let slopes = [3.0, 40.0].map(deg);
+        let advice = study.advice(0.0, &slopes, &[], &|| true).unwrap().unwrap();
+        let [gentle, steep] = [0, 1].map(|place: usize| advice[place].judgement);
+        assert_eq!(gentle.verdict, Verdict::CannotTell);
+        assert_eq!(gentle.reason, Reason::NoStatedUncertainty);
+        assert_eq!(steep.verdict, Verdict::NoGo);
+    }
+
+    /// Down is easy where up is not: who is to come back may not go.
+    #[test]
+    fn the_best_course_counts_the_way_back() {
+        let loaded = scenario(&["scenario.soil=toyoura-uncertain"]);
+        let samples = BandInputs::of_scenario(&loaded).samples(3, 20).unwrap();
+        let study = SlopeStudy::of(&loaded);
+        let slope = deg(16.0);
+        let map = |choice| {
+            MobilityMap::of(&study, choice, slope, &samples, &|| true).unwrap().unwrap()
+        };
+        let (best, down) = (map(CourseChoice::Best), map(CourseChoice::Fixed(-FRAC_PI_2)));
+        let (best, down) = (&best.advice()[16], &down.advice()[16]);
+        assert!(best.course.abs() < deg(89.0), "{best:?}");
+        let back = study.advice(-best.course, &[slope], &samples, &|| true).unwrap().unwrap();
+        assert!(best.judgement.verdict >= back[0].judgement.verdict);
+        assert!(best.judgement.verdict > down.judgement.verdict, "{best:?} {down:?}");
     }
 
     /// Turning the ground turns the heading by as much, and nothing else.
     #[test]
     fn headings_turn_with_the_ground() {
-        let study = MobilityStudy::of(&scenario(&[]));
+        let study = SlopeStudy::of(&scenario(&[]));
         let map =
-            MobilityMap::of(&study, CourseChoice::Fixed(0.0), &[], &|| true).unwrap().unwrap();
+            MobilityMap::of(&study, CourseChoice::Fixed(0.0), deg(10.0), &[], &|| true).unwrap().unwrap();
         let rise = deg(10.0).tan();
         let contour = map.at(Vec2::new(0.0, rise));
         let yaw = contour.motion.unwrap().crab;
@@ -129,18 +215,18 @@ mod tests {
     /// Straight up, where the nose has to point uphill on the map.
     #[test]
     fn straight_up_leads_up_the_gradient() {
-        let study = MobilityStudy::of(&scenario(&[]));
+        let study = SlopeStudy::of(&scenario(&[]));
         let up = CourseChoice::Fixed(FRAC_PI_2);
-        let map = MobilityMap::of(&study, up, &[], &|| true).unwrap().unwrap();
+        let map = MobilityMap::of(&study, up, deg(5.0), &[], &|| true).unwrap().unwrap();
         let heading = map.at(Vec2::new(0.05, 0.05)).heading.unwrap();
         assert!((heading.to_degrees() - 45.0).abs() < 1e-6, "{heading}");
     }
 
     #[test]
     fn the_best_course_is_no_worse_than_any_and_the_worst_no_better() {
-        let study = MobilityStudy::of(&scenario(&[]));
+        let study = SlopeStudy::of(&scenario(&[]));
         let [best, worst] = [CourseChoice::Best, CourseChoice::Worst]
-            .map(|choice| MobilityMap::of(&study, choice, &[], &|| true).unwrap().unwrap());
+            .map(|choice| MobilityMap::of(&study, choice, deg(26.0), &[], &|| true).unwrap().unwrap());
         for degrees in [2.0, 8.0, 14.0, 19.0, 26.0] {
             let gradient = Vec2::new(deg(degrees).tan(), 0.0);
             let (good, bad) = (best.at(gradient), worst.at(gradient));

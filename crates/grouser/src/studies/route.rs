@@ -39,7 +39,8 @@ mod tests {
     use super::moves::DIRECTIONS;
     use super::search::{Found, Lattice};
     use super::*;
-    use crate::studies::mobility::{Ground, MobilityStudy};
+    use crate::studies::mobility::Ground;
+use crate::studies::verdict::SlopeStudy;
     use crate::terrain::{ElevationGrid, SoilZones, ZonePolygon};
     use crate::units::{Vec2, deg};
     use grouser_io::{self as document, Overrides, Source};
@@ -67,7 +68,7 @@ mod tests {
     fn study() -> RouteStudy {
         let scenario =
             document::read_scenario(&Source::default_scenario(), &Overrides::none()).unwrap();
-        let mobility = MobilityStudy::of(&scenario);
+        let mobility = SlopeStudy::of(&scenario);
         let limits = Limits::of(&mobility);
         RouteStudy { mobility, limits, keep_out: None }
     }

@@ -11,7 +11,8 @@ use std::f64::consts::FRAC_PI_2;
 use grouser::document::{self, LoadedScenario, Overrides, Source};
 use grouser::simulation::{Approach, Outcome, PrescribedYaw, Run, Scenario};
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
-use grouser::studies::mobility::{CellMotion, CourseChoice, Ground, MobilityMap, MobilityStudy};
+use grouser::studies::mobility::{CellMotion, CourseChoice, Ground, MobilityMap};
+use grouser::studies::verdict::SlopeStudy;
 use grouser::terrain::ElevationGrid;
 use grouser::units::{Vec2, deg};
 use grouser::vehicle::DriveLaw;
@@ -47,7 +48,7 @@ fn ground() -> Raster {
 fn drives(count: usize, samples: u32) -> Vec<Drive> {
     let overrides = Overrides::parse(["scenario.soil=toyoura-uncertain"]).unwrap();
     let loaded = document::read_scenario(&Source::default_scenario(), &overrides).unwrap();
-    let study = MobilityStudy::of(&loaded);
+    let study = SlopeStudy::of(&loaded);
     let inputs = BandInputs::of_scenario(&loaded);
     let samples = inputs.samples(STATED_SEED, samples).unwrap();
     let maps = COURSES.map(|course| {
@@ -83,7 +84,7 @@ fn drives(count: usize, samples: u32) -> Vec<Drive> {
 /// Ground as steep as a cell, with the soil and the model of a sample.
 struct On<'a> {
     loaded: &'a LoadedScenario,
-    study: &'a MobilityStudy,
+    study: &'a SlopeStudy,
     sample: Sample,
     slope: f64,
 }

@@ -139,23 +139,28 @@ pub(super) fn draw(sheet: &mut Sheet, texts: &Texts, table: &Table<'_>) {
     frame(sheet, table);
 }
 
-/// The strip on the left: white to go, hatched for caution.
+/// The strip on the left: white to go, hatched for caution, densely where nobody can tell.
 fn verdicts(sheet: &mut Sheet, table: &Table<'_>) {
-    for (verdict, word) in [("go", "GO"), ("caution", "CAUTION")] {
-        let count = table.rows.iter().filter(|row| row.verdict() == verdict).count();
-        let Some(first) = table.rows.iter().position(|row| row.verdict() == verdict) else {
-            continue;
+    let mut first = 0;
+    for rows in table.rows.chunk_by(|one, other| one.verdict() == other.verdict()) {
+        let (word, hatch) = match rows[0].verdict() {
+            "go" => ("GO", None),
+            "caution" => ("CAUTION", Some(2.4)),
+            _ => ("CANNOT TELL", Some(1.2)),
         };
-        let (top, height) = (table.top + table.height * first as f64, table.height * count as f64);
+        let (top, height) =
+            (table.top + table.height * first as f64, table.height * rows.len() as f64);
+        first += rows.len();
         let (corner, size) = ([LEFT, top], [STRIP - LEFT, height]);
-        if verdict == "caution" {
-            sheet.hatch(corner, size, 2.4, Stroke::black(0.45));
+        if let Some(distance) = hatch {
+            sheet.hatch(corner, size, distance, Stroke::black(0.45));
         }
         sheet.draw(Shape::rectangle(corner, size, WHITE).outlined(Stroke::black(0.6)).unfilled());
         let text = strip_word(word, height);
         let is_wide = height < LOW_STRIP && text.width() > STRIP - LEFT - 1.0;
-        if let ("CAUTION", true) = (word, is_wide) {
-            broken(sheet, ["CAU-", "TION"], [f64::midpoint(LEFT, STRIP), top + height / 2.0]);
+        if is_wide && word != "GO" {
+            let parts = if word == "CAUTION" { ["CAU-", "TION"] } else { ["CANNOT", "TELL"] };
+            broken(sheet, parts, [f64::midpoint(LEFT, STRIP), top + height / 2.0]);
             continue;
         }
         let (middle, half) = ([f64::midpoint(LEFT, STRIP), top + height / 2.0], text.width() / 2.0);

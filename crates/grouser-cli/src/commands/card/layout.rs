@@ -63,7 +63,7 @@ pub(super) fn draw(texts: &Texts, picture: &Picture, card: &table::Table) -> She
 pub(super) fn shown_rows(card: &table::Table) -> Vec<CardRow<'_>> {
     let whole = |row: &CardRow<'_>| row.slope() >= 1.0 && row.slope().fract() == 0.0;
     let driven: Vec<CardRow<'_>> =
-        CardRow::all(card).filter(whole).filter(|row| !row.is_no_go()).collect();
+        CardRow::all(card).take_while(|row| !row.is_no_go()).filter(whole).collect();
     let step = driven.len().div_ceil(MOST_ROWS).max(1) as f64;
     driven.into_iter().filter(|row| row.slope() % step == 0.0).collect()
 }
@@ -102,15 +102,7 @@ pub(super) fn titles(sheet: &mut Sheet, texts: &Texts, about: &str, page: u8) {
     sheet.text(shown(title, size).face(Face::Bold), [LEFT, TOP + 6.0]);
     sheet.text(shown(about, 4.4).face(Face::Bold), [LEFT, TOP + 12.5]);
     let place = shown(format!("page {page} of 2"), 3.0).anchor(Anchor::End);
-    let left = RIGHT - place.width() - 4.0;
     sheet.text(place, [RIGHT, TOP - 1.0]);
-    if !texts.outside.is_empty() {
-        let loud = shown("OUTSIDE ITS DOMAIN: see page 1, at the end", 3.2);
-        let loud = loud.face(Face::Bold).colour(WHITE).anchor(Anchor::End);
-        let width = loud.width() + 3.0;
-        sheet.draw(Shape::rectangle([left - width, TOP - 4.6], [width, 5.0], BLACK));
-        sheet.text(loud, [left - 1.5, TOP - 1.0]);
-    }
 }
 
 /// The day of the soil, loud where it is not known; where it ends [mm].

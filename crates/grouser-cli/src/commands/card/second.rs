@@ -1,15 +1,16 @@
 //! The second page of the card: where to look at the slip, and the other courses, to get there and
 //! to get out.
 
-use grouser::document::columns::card::{SLIP_CHECK_EVERY, SLIP_LIMIT, VERDICT};
+use grouser::document::columns::card::{SLIP_CHECK_EVERY, SLIP_LIMIT};
 use grouser::document::columns::card_courses::{COURSE, TURN_DOWNHILL, TURN_WAY, name_of_course};
+use grouser::document::columns::verdict::{PROBABILITY_STUCK, VERDICT};
 use grouser::document::columns::{Quantity, SLIP_RATIO, SLOPE};
 use grouser::document::escape;
 use grouser::document::reading::four_digits;
 use grouser::document::table;
 use grouser::studies::card::courses::{Course, TURN};
-use grouser::studies::card::{
-    BELOW_FRICTION_ANGLE, DRIFT_WAY, MOST_CHECKED_SLIP, SOIL_LENGTH, STUCK_WITH_CHECKS,
+use grouser::studies::verdict::{
+    BELOW_FRICTION_ANGLE, DRIFT_WAY, MOST_CHECKED_SLIP, SOIL_LENGTH, STUCK_WITH_CHECKS, Verdict,
 };
 use grouser_draw::{Anchor, BLACK, Face, Shape, Sheet, Stroke, WHITE};
 
@@ -29,7 +30,7 @@ const ROWS_END: f64 = 205.0;
 
 /// Edges of the slope and of the columns of the slip check [mm].
 const SLOPE_EDGE: f64 = 25.0;
-const CHECK: [f64; 3] = [SLOPE_EDGE, 39.0, 53.0];
+const CHECK: [f64; 4] = [SLOPE_EDGE, 35.5, 46.0, 56.5];
 
 /// A course with the right edge of its column [mm].
 struct Place {
@@ -41,7 +42,7 @@ struct Place {
 }
 
 const PLACES: [Place; 7] = [
-    Place { course: Course::Up, head: ["UP", "nose first", ""], left: CHECK[2], right: 71.0 },
+    Place { course: Course::Up, head: ["UP", "nose first", ""], left: CHECK[3], right: 71.0 },
     Place {
         course: Course::BackDown,
         head: ["BACK DOWN", "rear first, out", "of a way up"],
@@ -122,13 +123,13 @@ fn heads(sheet: &mut Sheet, texts: &Texts) {
         let size = fitting(text, 3.2, right - left - 1.0).max(LEAST_SIZE);
         sheet.text(bold(text, size).colour(WHITE), [left.midpoint(right), top + 3.7]);
     };
-    group([CHECK[0], CHECK[2]], "SLIP CHECK");
+    group([CHECK[0], CHECK[3]], "SLIP CHECK");
     let slip = if texts.has_bands {
         "SLIP ON OTHER COURSES, %: 95 % of samples"
     } else {
         "SLIP ON OTHER COURSES, %"
     };
-    group([CHECK[2] + 0.4, PLACES[4].right], slip);
+    group([CHECK[3] + 0.4, PLACES[4].right], slip);
     group([PLACES[5].left + 0.4, RIGHT], &format!("TURN UPHILL: slip, %; by {}", degrees(TURN)));
     sheet.text(bold("SLOPE", 3.4), [LEFT.midpoint(SLOPE_EDGE), ROWS - 2.0]);
     let mut column = |[left, right]: [f64; 2], lines: [&str; 3]| {
@@ -141,6 +142,7 @@ fn heads(sheet: &mut Sheet, texts: &Texts) {
     };
     column([CHECK[0], CHECK[1]], ["look", "every", "m"]);
     column([CHECK[1], CHECK[2]], ["back if", "above", "%"]);
+    column([CHECK[2], CHECK[3]], ["stuck", "anyway", "%"]);
     for place in &PLACES {
         column([place.left, place.right], place.head);
     }
@@ -159,7 +161,10 @@ fn line(sheet: &mut Sheet, row: CardRow<'_>, courses: &table::Table, [top, heigh
     let bold = middle(slope, large).face(Face::Bold);
     let every = row.number(SLIP_CHECK_EVERY).map_or("all the way".to_owned(), four_digits);
     let limit = row.number(SLIP_LIMIT).map(|limit| upwards(limit * 100.0, 1)).unwrap_or_default();
-    for (text, [left, right]) in [(every, [CHECK[0], CHECK[1]]), (limit, [CHECK[1], CHECK[2]])] {
+    let stuck = row.number(PROBABILITY_STUCK);
+    let stuck = stuck.map(|stuck| upwards(stuck * 100.0, 1)).unwrap_or_default();
+    for (place, text) in [every, limit, stuck].into_iter().enumerate() {
+        let [left, right] = [CHECK[place], CHECK[place + 1]];
         let size = fitting(&text, small, right - left - 1.0).max(LEAST_SIZE);
         sheet.text(middle(text, size), at(left, right));
     }
@@ -228,7 +233,7 @@ impl<'a> Cell<'a> {
         Some(text.replace('-', "−"))
     }
 
-    /// White to go, hatched for caution, black for no-go.
+    /// White to go, hatched for caution, densely where nobody can tell, black for no-go.
     fn draw(
         &self,
         sheet: &mut Sheet,
@@ -237,7 +242,7 @@ impl<'a> Cell<'a> {
         (y, size): (f64, f64),
     ) {
         let (corner, area) = ([left, top], [right - left, height]);
-        if self.verdict() == "no-go" {
+        if self.verdict() == Verdict::NoGo.name() {
             sheet.draw(Shape::rectangle(corner, area, BLACK));
             let text = shown("NO-GO", size).face(Face::Bold).colour(WHITE).anchor(Anchor::Middle);
             return sheet.text(text, [left.midpoint(right), y]);
@@ -245,8 +250,9 @@ impl<'a> Cell<'a> {
         let text = self.slip().unwrap_or_default();
         let size = fitting(&text, size, right - left - 3.0).max(LEAST_SIZE);
         let text = shown(text, size).anchor(Anchor::Middle);
-        if self.verdict() == "caution" {
-            sheet.hatch(corner, area, 1.8, Stroke::black(0.35));
+        if self.verdict() != Verdict::Go.name() {
+            let distance = if self.verdict() == Verdict::Caution.name() { 1.8 } else { 0.9 };
+            sheet.hatch(corner, area, distance, Stroke::black(0.35));
             let width = text.width() + 1.2;
             let corner = [left.midpoint(right) - width / 2.0, top + 0.14 * height];
             sheet.draw(Shape::rectangle(corner, [width, 0.72 * height], WHITE));
@@ -260,8 +266,8 @@ fn frame(sheet: &mut Sheet, bottom: f64) {
     sheet.draw(Shape::line([[LEFT, ROWS], [RIGHT, ROWS]], Stroke::black(0.45)));
     let light = PLACES.iter().map(|place| (place.right, Stroke::grey(0.15, 0.5)));
     let turn = TURN_EDGES.iter().map(|x| (*x, Stroke::grey(0.15, 0.5)));
-    let heavy = [CHECK[0], CHECK[2], PLACES[4].right].map(|x| (x, Stroke::black(0.8)));
-    let check = [(CHECK[1], Stroke::grey(0.15, 0.5))];
+    let heavy = [CHECK[0], CHECK[3], PLACES[4].right].map(|x| (x, Stroke::black(0.8)));
+    let check = [CHECK[1], CHECK[2]].map(|x| (x, Stroke::grey(0.15, 0.5)));
     for (x, stroke) in light.chain(turn).chain(check).chain(heavy) {
         sheet.draw(Shape::line([[x, ROWS], [x, bottom]], stroke));
     }
@@ -282,11 +288,12 @@ fn foot(sheet: &mut Sheet, texts: &Texts, top: f64) {
 fn notes(texts: &Texts) -> Vec<(&'static str, String)> {
     let ways = format!("{} m", four_digits(DRIFT_WAY));
     let check = format!(
-        "with these stops at most {stuck} of ways of {ways} along the contour get stuck between \
+        "with these stops {stuck} of ways at most of {ways} along the contour get stuck between \
          two looks. The soil is taken to change on the way: slip at each place is that of one of \
          the samples, places x apart are correlated by e^(−x/{length} m) (assumed). 5 m at most; \
-         'all the way': not even stops every half metre suffice. The limit is the one of page 1: \
-         97.5 % of the samples stay below, {most} at most.",
+         'all the way': not even stops every half metre suffice. 'Stuck anyway': on how many ways, \
+         with these stops. The limit is the one of page 1: 97.5 % of the samples that hold the \
+         contour by their own heading stay below, {most} at most.",
         stuck = percent(STUCK_WITH_CHECKS),
         length = four_digits(SOIL_LENGTH),
         most = percent(MOST_CHECKED_SLIP),
@@ -319,9 +326,9 @@ fn notes(texts: &Texts) -> Vec<(&'static str, String)> {
         (
             "Verdicts",
             format!(
-                "white: go; hatched: caution; black: no-go, by the rule of page 1 for the size of \
-                 the slip. None is a go within {below} of the friction angle. Slopes that page 1 \
-                 calls no-go have none.",
+                "white: go; hatched: caution; dense: nobody can tell; black: no-go. Straight up and \
+                 down by all of page 1's rule, others by its slip. None is to be driven within \
+                 {below} of the friction angle. Slopes that page 1 calls no-go have none.",
                 below = degrees(BELOW_FRICTION_ANGLE)
             ),
         ),

@@ -5,11 +5,12 @@ use grouser::contact::validity::Flag;
 use grouser::document::columns::SLOPE;
 use grouser::document::reading::{four_digits, rounded_down};
 use grouser::soil::SlopeStability;
-use grouser::studies::card::{
-    BELOW_FRICTION_ANGLE, Card, CardRow, HEADING_ERROR, MOST_CHECKED_SLIP, Rule, SHORTEST_LEG,
+use grouser::studies::card::{Card, CardRow};
+use grouser::studies::ensemble::samples::BandInputs;
+use grouser::studies::verdict::{
+    BELOW_FRICTION_ANGLE, HEADING_ERROR, MOST_CHECKED_SLIP, Rule, SHORTEST_LEG, SLIDES_ON_NO_GO,
     STUCK_ON_GO, Verdict,
 };
-use grouser::studies::ensemble::samples::BandInputs;
 
 use super::row::upwards;
 use crate::args::{CardArgs, SideChoice};
@@ -57,7 +58,7 @@ pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Texts {
         setting: setting(inputs),
         has_bands: card.draws.is_some(),
         legend: legend(card.draws),
-        rule: rule(inputs, card.draws),
+        rule: rule(inputs, card),
         facts: facts(args, inputs, card),
         holds_for:
             "steady driving along the contour of an even slope of one soil, with all wheels \
@@ -143,7 +144,8 @@ fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
         (
             "Stop if above",
             format!(
-                "97.5 % of the samples stay below; slip at most {most}. {readings} '–': in more \
+                "97.5 % of the samples stay below; slip: of those that hold the contour by their \
+             own heading, {most} at most. {readings} '–': in more \
              than 2.5 % of the samples the rover is stuck.",
                 most = percent(MOST_CHECKED_SLIP)
             ),
@@ -158,7 +160,7 @@ fn extrapolations(card: &Card) -> Vec<String> {
     let carries = |row: &CardRow, flag| row.findings.iter().any(|it| it.flag == flag);
     let line = |flag: Flag| {
         let first = held().find(|row| carries(row, flag))?;
-        let slope = four_digits(SLOPE.unit.from_si(first.slope));
+        let slope = four_digits(SLOPE.unit.from_si(first.advice.slope));
         Some(format!("from {slope}° ({}): {}", flag.name(), flag.rule().meaning))
     };
     Flag::ALL.into_iter().filter_map(line).collect()
@@ -182,11 +184,12 @@ fn assumed(inputs: &CardInputs) -> Vec<String> {
     inputs.scenario.assumptions.iter().map(short).collect()
 }
 
-fn rule(inputs: &CardInputs, draws: Option<usize>) -> Vec<(&'static str, String)> {
+fn rule(inputs: &CardInputs, card: &Card) -> Vec<(&'static str, String)> {
     let rule: &Rule = &inputs.rule;
     let (go_slip, stop_slip) = (percent(rule.go_slip_ratio), percent(rule.no_go_slip_ratio));
     let (share, least) = (percent(rule.go_probability), percent(rule.no_go_probability));
-    let (held, not_held) = match draws {
+    let drift = four_digits(100.0 * rule.go_drift_m_per_m);
+    let (held, not_held) = match card.draws {
         None => (
             format!("a heading holds the contour with slip up to {go_slip}"),
             format!("no heading holds the contour with slip up to {stop_slip}"),
@@ -194,32 +197,48 @@ fn rule(inputs: &CardInputs, draws: Option<usize>) -> Vec<(&'static str, String)
         Some(draws) => (
             format!(
                 "in at least {share} of {draws} samples a heading holds the contour with slip up \
-                 to {go_slip}, and at most {} get stuck by the card's heading",
+                 to {go_slip}; at most {} get stuck by the card's heading; 97.5 % drift by at most \
+                 {drift} cm/m",
                 percent(STUCK_ON_GO)
             ),
-            format!("in less than {least} of them a heading does so with slip up to {stop_slip}"),
+            format!(
+                "in {least} of them or more no heading does so with slip up to {stop_slip}, or the \
+                 rover gets stuck; or {} slide",
+                percent(SLIDES_ON_NO_GO)
+            ),
         ),
     };
     let value = &inputs.scenario.value;
     let below = degrees(BELOW_FRICTION_ANGLE);
     let friction = degrees(value.ground.soil.friction_angle);
     let usual = four_digits(SlopeStability::USUAL.factor_of_safety);
-    let go = if inputs.scenario.stated_uncertainty().is_none() {
-        "on no slope: the soil's document does not state how uncertain it is.".to_owned()
-    } else {
-        format!(
-            "{held}; and the slope is {below} or more below the soil's friction angle of \
-             {friction}, and stands with a factor of safety of {usual}."
-        )
-    };
-    let no_go = format!(
-        "{not_held}, the slope is above {friction}, the ground slides, the rover tips over, or the \
-         nose falls by {fall} within {way}. A steeper slope never gets a better verdict.",
-        fall = degrees(HEADING_ERROR),
-        way = format_args!("{} m", four_digits(SHORTEST_LEG))
-    );
+    let go = format!("{held}; the slope stands with a factor of safety of {usual}.");
     let between = "all between: not without a second look, and with slip measured on the way.";
-    vec![("GO", go), ("CAUTION", between.to_owned()), ("NO-GO", no_go)]
+    let open = "the soil's document states no uncertainty, most of the samples are outside a \
+                domain, or the search for a heading gave up.";
+    let no_go = format!(
+        "{not_held}; the slope is within {below} of the friction angle of {friction}, the ground \
+         slides, the rover tips over, or the nose falls by {fall} within {way} m.",
+        fall = degrees(HEADING_ERROR),
+        way = four_digits(SHORTEST_LEG)
+    );
+    let here = |verdict: Verdict, text: String| match first_of(card, verdict) {
+        Some(first) => format!("{text} Here {first}."),
+        None => text,
+    };
+    vec![
+        ("GO", go),
+        ("CAUTION", here(Verdict::Caution, between.to_owned())),
+        ("CANNOT TELL", here(Verdict::CannotTell, open.to_owned())),
+        ("NO-GO", here(Verdict::NoGo, no_go)),
+    ]
+}
+
+/// From which slope on a card has a verdict, and why.
+fn first_of(card: &Card, verdict: Verdict) -> Option<String> {
+    let first = card.rows.iter().map(|row| &row.advice).find(|it| it.judgement.verdict == verdict)?;
+    let slope = four_digits(SLOPE.unit.from_si(first.slope));
+    Some(format!("from {slope}°: {}", first.judgement.reason.meaning()))
 }
 
 /// How well the soil is known, and what the bands are over.
@@ -291,7 +310,7 @@ fn facts(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Vec<(&'static str
 
 /// Rows that may be driven.
 fn driven(card: &Card) -> impl Iterator<Item = &CardRow> {
-    card.rows.iter().filter(|row| row.verdict != Verdict::NoGo)
+    card.rows.iter().take_while(|row| row.advice.judgement.verdict != Verdict::NoGo)
 }
 
 /// The most power that rows of the page take.
@@ -320,7 +339,7 @@ fn other_models(inputs: &CardInputs, card: &Card) -> String {
         None => format!("{} none", model.name()),
     };
     let all: Vec<String> = std::iter::once(&own).chain(&row.other_models).map(say).collect();
-    let slope = four_digits(SLOPE.unit.from_si(row.slope));
+    let slope = four_digits(SLOPE.unit.from_si(row.advice.slope));
     format!("on {slope}°, for the soil as written: nose uphill by {}", all.join(", "))
 }
 

@@ -8,10 +8,14 @@ use grouser::document::{LoadedMission, escape};
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
 use grouser_draw::path_of;
 
+use super::believed::Believed;
+
 /// A document of a mission, and what was driven: one mission, or all alternatives.
 pub(super) struct Answered {
     pub(super) document: LoadedMission,
     pub(super) ways: Vec<DrivenMission>,
+    /// What they risk, if samples were drawn.
+    pub(super) believed: Option<Believed>,
 }
 
 impl Answered {

@@ -4,22 +4,32 @@
 use grouser::answers::meanings;
 use grouser::document::columns::ENERGY;
 use grouser::document::columns::mission::{
-    ELECTRICAL_LEG, ELECTRICAL_MISSION, LEG, MISSION, legs_brief, missions_brief,
+    ELECTRICAL_LEG, ELECTRICAL_MISSION, LEG, MISSION, RISK, legs_brief, missions_brief,
 };
+use grouser::document::columns::verdict::ADVICE;
 use grouser::document::columns::run;
 use grouser::document::figure::axis;
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
 use grouser_draw::chart::{Bars, Drawable};
 
 use super::answered::{Answered, reasons, sentence};
+use crate::commands::sampling;
 use crate::report::answer::{self, Basis, over_ground, over_time, run_meanings};
 use crate::report::page::Page;
 
 pub(super) fn html(answered: &Answered) -> String {
     let mut page = Page::new(&format!("Mission: {}", answered.document.document.name()));
-    for way in &answered.ways {
+    for (place, way) in answered.ways.iter().enumerate() {
         let name = if way.name.is_empty() { String::new() } else { format!("{}: ", way.name) };
-        page.answer(&format!("{name}{}.", sentence(way)));
+        let believed = answered.believed.as_ref().map(|it| it.sentences(place, way));
+        let mut believed = believed.into_iter().flatten();
+        if let Some(risk) = believed.next() {
+            page.answer(&format!("{name}{risk}"));
+            let legs: Vec<String> = believed.collect();
+            page.list(&legs);
+        }
+        let nominal = if answered.believed.is_some() { "As it is written: " } else { "" };
+        page.answer(&format!("{name}{nominal}{}.", sentence(way)));
     }
     page.list(what_was_driven(answered));
     if answered.ways.len() > 1 {
@@ -47,7 +57,15 @@ pub(super) fn html(answered: &Answered) -> String {
         }
     }
     columns.extend(run_meanings(scenario));
-    let basis = Basis::new("grouser mission mission.toml".to_owned());
+    let flags = match &answered.believed {
+        Some(it) => sampling::numbers(it.sampling) + &sampling::rule_flags(&it.rule),
+        None => " --nominal".to_owned(),
+    };
+    if answered.believed.is_some() {
+        columns.extend(meanings(&RISK));
+        columns.extend(meanings(&ADVICE));
+    }
+    let basis = Basis::new(format!("grouser mission mission.toml{flags}"));
     let basis = basis.with("mission.toml", &answered.document);
     answer::close(page, Some(&findings), &columns, &basis)
 }

@@ -29,6 +29,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::LoadOutside,
         name: "load-outside",
+        forbids_driving: true,
         meaning: "The wheel's load is outside the range in which the soil's constants were \
                   measured or fitted.",
         quantity: "load",
@@ -39,6 +40,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::RadiusOutside,
         name: "radius-outside",
+        forbids_driving: true,
         meaning: "The wheel is smaller or larger than those for which the model was tested.",
         quantity: "radius of the rim",
         criterion: "the radius of the rim is outside 0.09 to 0.63 m (`ishigami`), or below 0.25 m \
@@ -50,6 +52,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::OtherWheel,
         name: "other-wheel",
+        forbids_driving: false,
         meaning: "The soil's constants were fitted to a wheel of another radius or width.",
         quantity: "radius or width of the rim",
         criterion: "radius or width is more than 2 % outside the soil's `domain.radius_m` or \
@@ -60,6 +63,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::SinkageOutside,
         name: "sinkage-outside",
+        forbids_driving: true,
         meaning: "The wheel sinks deeper than the model holds, or than the tests behind the soil's \
                   constants went.",
         quantity: "sinkage over shearing radius",
@@ -75,6 +79,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::SlipOutside,
         name: "slip-outside",
+        forbids_driving: true,
         meaning: "The slip ratio is outside the tests of the model or of the soil's fit, or near \
                   1.",
         quantity: "slip ratio",
@@ -86,6 +91,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::SlipAngleOutside,
         name: "slip-angle-outside",
+        forbids_driving: true,
         meaning: "The slip angle is outside the tests of the model or of the soil's fit.",
         quantity: "slip angle",
         criterion: "β is above 45° to either side (`ishigami`) or 75° (`small-wheel`), or outside \
@@ -96,6 +102,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::GravityOutside,
         name: "gravity-outside",
+        forbids_driving: false,
         meaning: "The soil's constants are stated for another gravity.",
         quantity: "gravity",
         criterion: "g is outside the soil's `domain.gravity_m_s2`",
@@ -105,6 +112,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::BekkerGravity,
         name: "bekker-gravity",
+        forbids_driving: true,
         meaning: "Bekker's moduli do not scale with gravity, and were measured under another one.",
         quantity: "gravity",
         criterion: "the soil has Bekker's law, and g is outside its `domain.gravity_m_s2`, or \
@@ -116,6 +124,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::ModulusDoubtful,
         name: "modulus-doubtful",
+        forbids_driving: true,
         meaning: "Bekker's moduli are so small that they look like kN; they are taken as N.",
         quantity: "modulus k_c/b + k_phi",
         criterion: "Bekker's law with k_c/b + k_phi below 1e4 N/m^(n+2); not for `rft`",
@@ -125,6 +134,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::SlopeBeyondStrength,
         name: "slope-beyond-strength",
+        forbids_driving: false,
         meaning: "The slope comes near to where the ground itself slides.",
         quantity: "factor of safety of the ground",
         criterion: "an infinite slope that slides 1 m below its surface has a factor of safety \
@@ -139,6 +149,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::GrousersExposed,
         name: "grousers-exposed",
+        forbids_driving: false,
         meaning: "The grousers are deeper than the wheel sinks: the rim does not touch the soil, \
                   and the model, which takes the grousers as dense, has no law for their number.",
         quantity: "sinkage",
@@ -153,6 +164,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::GrousersApart,
         name: "grousers-apart",
+        forbids_driving: false,
         meaning: "The grousers are too far apart to move the soil between them as one body.",
         quantity: "spacing of the grousers",
         criterion: "2π/N is above [√((1 + h_g/r)² − (1 − z/r)²) − √(1 − (1 − z/r)²)] / (1 − s), z \
@@ -163,6 +175,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::GrouserNumber,
         name: "grouser-number",
+        forbids_driving: false,
         meaning: "There are so few grousers that at times none is in the soil; the model takes \
                   them as dense, and their number has no effect.",
         quantity: "grousers in the soil",
@@ -178,6 +191,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::ForceBeyondFriction,
         name: "force-beyond-friction",
+        forbids_driving: true,
         meaning: "The model asks more of the soil along the ground than its friction and cohesion \
                   allow.",
         quantity: "force along the ground",
@@ -190,6 +204,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::NoSideForce,
         name: "no-side-force",
+        forbids_driving: true,
         meaning: "The wheel moves sideways; Bekker's theory has no force across the wheel, ours is \
                   an addition.",
         quantity: "slip angle",
@@ -203,6 +218,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::NoCohesion,
         name: "no-cohesion",
+        forbids_driving: false,
         meaning: "The soil is cohesive, and the model has no cohesion.",
         quantity: "cohesion",
         criterion: "`rft` with a cohesion above 0",
@@ -212,6 +228,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::TermsMissing,
         name: "terms-missing",
+        forbids_driving: false,
         meaning: "The soil states no terms for the model `small-wheel`: general values stand for \
                   them.",
         quantity: "sets of terms for the small-wheel model",
@@ -226,6 +243,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::Assumed,
         name: "assumed",
+        forbids_driving: false,
         meaning: "Values that the soil's source does not print are the medians of priors.",
         quantity: "number of assumed values",
         criterion: "the soil's document leaves out a value that the model uses",

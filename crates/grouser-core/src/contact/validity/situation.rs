@@ -80,6 +80,10 @@ pub struct Rule {
     pub flag: Flag,
     /// Its name in results.
     pub name: &'static str,
+    /// Whether nobody is to drive by a result that carries it: the model's law, or the constants,
+    /// are known to be wrong there. Where the bands cover what is left out, as grousers that are
+    /// few, or a value that is assumed, it does not.
+    pub forbids_driving: bool,
     /// What it means: a sentence.
     pub meaning: &'static str,
     /// The compared number, in words.

@@ -32,10 +32,11 @@ impl<'q> OfModel<'q> {
         scenario: &'q LoadedScenario,
         options: &AnswerOptions<'_>,
     ) -> Result<Self, AnswerError> {
-        let study = HeadingStudy::of(&scenario.value);
+        let slope_study = question.study(scenario);
+        let study = slope_study.heading.clone();
         let curve = HeadingStudy { steering: question.steering, ..study.clone() }.curve()?;
         let bands = question.sampling.map(|sampling| {
-            Bands::of(sampling, scenario, (&study, &curve), &question.slopes(), options)
+            Bands::of(sampling, scenario, (&slope_study, &curve), &question.slopes(), options)
         });
         let bands = bands.transpose()?;
         let slopes = question.slopes();
@@ -54,7 +55,7 @@ impl<'q> OfModel<'q> {
         }
         let own_speeds = own_speeds.map(|own| wheel_speeds::limits(&own));
         if let Some(bands) = &bands {
-            table = heading::with_bands(table, &bands.asked);
+            table = heading::advised(table, &bands.advice, &bands.asked, &bands.of_models);
             limit.columns.extend(bands.limit.columns.clone());
         }
         Ok(Self { scenario, curve, bands, own_speeds, table, limit })
@@ -75,10 +76,14 @@ impl<'q> OfModel<'q> {
     /// * `is_named`: whether each line begins with the model's name
     pub(super) fn lines(&self, is_named: bool) -> String {
         let name = if is_named { format!("{}: ", self.name()) } else { String::new() };
+        let advice = self.bands.as_ref().map(Bands::advice_lines).unwrap_or_default();
         let band = self.bands.as_ref().map(|bands| format!("{name}{}", bands.limit_line()));
         let own = self.own_speeds.as_ref().map(|limits| own_lines(&name, limits));
         let limit = limit_line(&self.limit);
-        format!("{name}{limit}{}{}", band.unwrap_or_default(), own.unwrap_or_default())
+        let limit = if self.bands.is_some() { format!("as written, {limit}") } else { limit };
+        let (band, own) = (band.unwrap_or_default(), own.unwrap_or_default());
+        let named = |line: &str| format!("{name}{line}\n");
+        advice.lines().map(named).collect::<String>() + &format!("{name}{limit}{band}{own}")
     }
 }
 

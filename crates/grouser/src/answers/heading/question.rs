@@ -4,6 +4,7 @@ use super::super::{AnswerError, Sampling};
 use crate::document::LoadedScenario;
 use crate::document::columns::SLOPE;
 use crate::studies::heading::Steering;
+use crate::studies::verdict::{Rule, SlopeStudy};
 
 /// The question.
 #[derive(Clone, Debug)]
@@ -18,8 +19,11 @@ pub struct HeadingQuestion {
     /// The fastest wheel's speed over the mean of all at the most [-], where wheels may turn at
     /// speeds of their own.
     pub most_speed_ratio: Option<f64>,
-    /// The samples of its bands, if it has any.
+    /// The samples of soil and model that it is answered by; without them by the soil as its document
+    /// has it, and one model.
     pub sampling: Option<Sampling>,
+    /// The limits of the verdicts.
+    pub rule: Rule,
 }
 
 impl HeadingQuestion {
@@ -65,6 +69,11 @@ impl HeadingQuestion {
     pub(super) fn end(&self, scenario: &LoadedScenario) -> String {
         let name = scenario.value.model.name();
         if self.has_several() { format!("-{name}") } else { String::new() }
+    }
+
+    /// What advice is about.
+    pub(super) fn study(&self, scenario: &LoadedScenario) -> SlopeStudy {
+        SlopeStudy { rule: self.rule, ..SlopeStudy::of(scenario) }
     }
 
     /// Slopes [rad].

@@ -42,7 +42,7 @@ impl AdviceQuestion {
         let slopes: Vec<String> = self.test_slopes_deg.iter().map(ToString::to_string).collect();
         [
             ("no_go_slip_ratio", limits.slip_ratio.to_string()),
-            ("no_go_probability", limits.probability.to_string()),
+            ("no_go_probability", limits.no_go_probability.to_string()),
             ("stuck_probability", checks.stuck_probability.to_string()),
             ("false_stops", checks.false_stops.to_string()),
             ("odometry_error", checks.odometry_error.to_string()),

@@ -45,6 +45,8 @@ pub struct VerdictCounts {
     pub go: u64,
     /// Drive after a second check.
     pub caution: u64,
+    /// Nobody can tell.
+    pub cannot_tell: u64,
     /// Do not drive.
     pub no_go: u64,
     /// Places without a height.

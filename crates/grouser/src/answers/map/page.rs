@@ -1,5 +1,7 @@
 //! The page of a map.
 
+use std::sync::Arc;
+
 use serde_json::Value;
 
 use super::super::{Answer, PageBlock, meanings};
@@ -8,18 +10,20 @@ use super::question::MapQuestion;
 use crate::document::columns::map::{HEADING, bands};
 use crate::document::columns::{POWER, SINKAGE, SLIP_RATIO};
 use crate::document::reading::four_digits;
+use crate::document::table::Table;
 use crate::studies::mobility::CourseChoice;
 
 impl MapQuestion<'_> {
     /// The page, but for what all pages end with.
     ///
     /// * `errors`: how far numbers of the map are from those of its curves, at most
+    /// * `advice`: for each class of slopes
     /// * `verdict`: what the map comes to
     pub(super) fn page(
         &self,
         answer: &mut Answer,
         files: &[MapFile],
-        errors: &Value,
+        (errors, advice): (&Value, &Arc<Table>),
         verdict: String,
     ) {
         answer.verdict(verdict);
@@ -28,6 +32,10 @@ impl MapQuestion<'_> {
             let (file, caption) = (format!("{name}.svg"), format!("{about}. Empty: no number."));
             answer.page.push(PageBlock::Picture { file, caption });
         }
+        answer.heading("What to do on each slope");
+        answer.words("A place has the verdict of the slope above its own; the operator's card of the \
+                      same rover and soil says the same of it.");
+        answer.rows("Advice for each class of slopes", advice, advice.names());
         answer.heading("How exact the map is");
         let error = |name: &str| {
             errors.get(name).and_then(Value::as_f64).map_or_else(String::new, four_digits)
@@ -52,8 +60,8 @@ impl MapQuestion<'_> {
     fn of_course(&self) -> String {
         match self.course {
             CourseChoice::Best => {
-                "Each place has the course that is least often a no-go there, and of several the \
-                 one with the least slip."
+                "Each place has the course that is least often a no-go there, or on the way back, \
+                 and of several the one with the least slip."
                     .to_owned()
             }
             CourseChoice::Worst => {

@@ -4,14 +4,14 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::super::{Answer, Sampling, findings_up_to, samples};
+use super::super::{Answer, Sampling, findings_up_to};
 use super::files::{MadeMap, MapFile};
 use crate::contact::validity::Finding;
 use crate::document::LoadedScenario;
 use crate::document::columns::map::{bands, chosen};
 use crate::document::columns::{COURSE, Column, SLOPE};
-use crate::studies::ensemble::samples::BandInputs;
-use crate::studies::mobility::{CellMotion, CourseChoice, Ground, MobilityStudy, MobilityTable};
+use crate::studies::mobility::{CellMotion, CourseChoice, Ground, MobilityTable};
+use crate::studies::verdict::SlopeStudy;
 
 /// The question.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +23,7 @@ pub struct MapQuestion<'q> {
     /// The scenario of rover, soil, gravity, load transfer and model.
     pub scenario: &'q LoadedScenario,
     /// Its study.
-    pub study: &'q MobilityStudy,
+    pub study: &'q SlopeStudy,
     /// The course.
     pub course: CourseChoice,
     /// The same as it was given: a number of degrees, or a word.
@@ -49,7 +49,7 @@ impl MapQuestion<'_> {
         let mut answer = Answer::default();
         self.state(&mut answer);
         let mut identity = answer.inputs;
-        identity.insert("model_weights".to_owned(), json!(answer.model_weights));
+        identity.insert("belief".to_owned(), json!(answer.belief));
         Value::Object(identity)
     }
 
@@ -77,7 +77,6 @@ impl MapQuestion<'_> {
             answer.inputs.extend(rule);
         }
         self.sampling.state(answer);
-        let band = BandInputs::of_scenario(self.scenario);
-        answer.model_weights = Some(samples::weights(&band));
+        answer.belief = Some(self.sampling.belief(self.scenario));
     }
 }

@@ -6,8 +6,9 @@ use super::super::{Answer, PageBlock, meanings};
 use super::columns::{WAY, brief};
 use super::question::RouteQuestion;
 use super::way::Way;
+use crate::document::columns::verdict::ADVICE;
 use crate::document::reading::four_digits;
-use crate::document::route::RouteRecord;
+use crate::document::route::{AdvisedLegs, RouteRecord};
 use crate::document::table::Table;
 
 /// How the numbers of ways that were sought come about.
@@ -35,6 +36,14 @@ impl RouteQuestion<'_> {
         for way in ways {
             way.lines().lines().for_each(|line| answer.words(line));
         }
+        for way in ways.iter().filter(|way| way.record.legs.rows.rows() > 0) {
+            let AdvisedLegs { rows, advice } = &way.record.legs;
+            let mut legs = rows.clone();
+            legs.columns.extend(advice.columns.clone());
+            let names = legs.names();
+            answer.words(format!("What to do on each leg of {}, at its worst place:", way.name()));
+            answer.rows("Advice for each leg", &Arc::new(legs), names);
+        }
         answer.words(if self.has_line() { OF_A_LINE } else { OF_THE_LATTICE });
         answer.words(
             "What the way cannot know: steps and stones between the points of the map, and soil \
@@ -42,6 +51,7 @@ impl RouteQuestion<'_> {
              straight up and straight down, up to the steepest slope of the ways.",
         );
         answer.columns = meanings(&WAY);
+        answer.columns.extend(meanings(&ADVICE));
     }
 }
 

@@ -7,6 +7,7 @@ use crate::document::route::RouteRecord;
 use crate::studies::route::{
     Answer as Found, CheckedLine, DrivenRoute, Limits, Line, Objective, Route,
 };
+use crate::studies::verdict::Advice;
 use crate::units::Vec2;
 
 /// A way that was found or given, or why there is none.
@@ -26,9 +27,15 @@ impl Way {
     /// What came of seeking a way.
     ///
     /// * `driven`: what simulation makes of it, if it was driven
+    /// * `legs`: what to do on each
     #[must_use]
-    pub fn sought(objective: Objective, found: Found, driven: Option<DrivenRoute>) -> Self {
-        let record = RouteRecord::of(objective, &found, driven.as_ref());
+    pub fn sought(
+        objective: Objective,
+        found: Found,
+        driven: Option<DrivenRoute>,
+        legs: &[Advice],
+    ) -> Self {
+        let record = RouteRecord::of(objective, &found, driven.as_ref(), legs);
         let route = match found {
             Found::Route(route) => Some(route),
             Found::NoSafeRoute(_) => None,
@@ -40,14 +47,16 @@ impl Way {
     /// What came of looking along a line.
     ///
     /// * `driven`: what simulation makes of it, if it was driven
+    /// * `legs`: what to do on each
     #[must_use]
     pub fn along(
         line: &Line,
         found: CheckedLine,
         limits: &Limits,
         driven: Option<DrivenRoute>,
+        legs: &[Advice],
     ) -> Self {
-        let record = RouteRecord::of_line(line, &found, limits, driven.as_ref());
+        let record = RouteRecord::of_line(line, &found, limits, driven.as_ref(), legs);
         Self { record, places: line.places().to_vec(), route: found.route, driven }
     }
 

@@ -2,10 +2,9 @@
 
 use super::super::table::Table;
 use super::super::unit::{DEG, M_S, ONE, S};
-use super::card::{
-    DRIFT, PROBABILITY_STUCK, PROBABILITY_STUCK_WITH_CHECKS, SLIP_CHECK_EVERY, SLIP_LIMIT,
-};
+use super::card::{DRIFT, SLIP_CHECK_EVERY, SLIP_LIMIT};
 use super::learn::{INFORMATION, WAY};
+use super::verdict::{PROBABILITY_STUCK, PROBABILITY_STUCK_WITHOUT_CHECKS};
 use super::{Column, ENERGY, POWER, Quantity, SLIP_RATIO, SLOPE, YAW, quantity, text};
 use crate::studies::learn::advice::{Advice, AdvisedHeading, SlopeAdvice, TestDrive};
 
@@ -88,7 +87,7 @@ pub const SLOPE_COLUMNS: [Column<SlopeAdvice>; 20] = [
         it.check?.check.map(|it| it.limit)
     }),
     BLIND_TIME.maybe("Time between two looks", |it| Some(it.check?.check?.every / it.rim_speed?)),
-    PROBABILITY_STUCK_WITH_CHECKS.probability(
+    PROBABILITY_STUCK.probability(
         "Probability of getting stuck over 10 m of the rims' way with these looks; where no \
          interval is safe enough with the shortest",
         |it| it.check.map(|it| it.check.unwrap_or(it.closest).stuck),
@@ -97,9 +96,10 @@ pub const SLOPE_COLUMNS: [Column<SlopeAdvice>; 20] = [
         "Probability that a look ends a way on which the rover would not have got stuck",
         |it| it.check.and_then(|it| it.check.unwrap_or(it.closest).false_stops),
     ),
-    PROBABILITY_STUCK.probability("Probability of getting stuck over 10 m without a look", |it| {
-        it.check.map(|it| it.unchecked)
-    }),
+    PROBABILITY_STUCK_WITHOUT_CHECKS
+        .probability("Probability of getting stuck over 10 m without a look", |it| {
+            it.check.map(|it| it.unchecked)
+        }),
     PROBABILITY_STUCK_PRACTICE.probability(
         "Probability of getting stuck with a look every 5 m against a limit of 40 %, as \
          Opportunity's drivers had it",
@@ -131,7 +131,7 @@ pub fn slopes_brief() -> Vec<String> {
         RIM_SPEED,
         SLIP_CHECK_EVERY,
         SLIP_LIMIT,
-        PROBABILITY_STUCK_WITH_CHECKS,
+        PROBABILITY_STUCK,
         PROBABILITY_FALSE_STOP,
     ]
     .map(|it| it.name.to_owned())

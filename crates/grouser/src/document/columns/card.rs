@@ -1,17 +1,20 @@
-//! The operator's card: of each slope its verdict, the soil as written, and the bands over samples
-//! of it.
+//! The operator's card: of each slope the advice, the soil as written, and the bands over samples of
+//! it.
 
 use super::super::table::{Table, Values};
 use super::super::unit::{DEG, DEG_PER_M, M, M_PER_M, ONE};
 use super::flags::{self, FLAGS};
 use super::heading::{DRAWS, DRAWS_LEVEL};
+pub use super::verdict::{PROBABILITY_STUCK, PROBABILITY_STUCK_WITHOUT_CHECKS, REASON, VERDICT};
+use super::verdict::ADVICE;
 use super::{
     CURRENT, Column, LIMIT_SLOPE, OK, PITCH, POWER, PROBABILITY_LEVEL, Quantity, ROLL, SINKAGE,
     SLIP_RATIO, SLOPE, STATUS, TORQUE, YAW, quantity, text, whole,
 };
 use crate::contact::Model;
-use crate::studies::card::{Card, CardRow, Driven, DrivenMotion, Verdict};
+use crate::studies::card::{Card, CardRow};
 use crate::studies::ensemble::models::ACROSS;
+use crate::studies::verdict::{Advice, Driven, DrivenMotion};
 
 /// Drift at yaw 0.
 pub const DRIFT: Quantity = quantity("downhill_m_per_m", M_PER_M);
@@ -30,14 +33,10 @@ pub const DRIVEN_SLIP: Quantity = quantity("driven_slip_ratio", ONE);
 pub const RIM_WAY: Quantity = quantity("rim_way_m_per_m", M_PER_M);
 /// How much steeper the slope could be before the rover tips over.
 pub const TIPPING_MARGIN: Quantity = quantity("tipping_margin_deg", DEG);
-/// The share of the samples that are stuck.
-pub const PROBABILITY_STUCK: Quantity = quantity("probability_stuck", ONE);
 /// The slip above which to turn back where the slip is looked at.
 pub const SLIP_LIMIT: Quantity = quantity("slip_limit", ONE);
 /// Way between two looks at the slip.
 pub const SLIP_CHECK_EVERY: Quantity = quantity("slip_check_every_m", M);
-/// The share of the ways on which a rover gets stuck all the same.
-pub const PROBABILITY_STUCK_WITH_CHECKS: Quantity = quantity("probability_stuck_with_checks", ONE);
 /// The heading on the soil as written.
 pub const YAW_AS_WRITTEN: Quantity = quantity("yaw_deg_as_written", DEG);
 /// The headings of the models that know forces across a wheel, on the soil as written.
@@ -46,19 +45,6 @@ pub const YAWS_OF_MODELS: [(Model, Quantity); ACROSS] = [
     (Model::SmallWheel, quantity("yaw_deg_small_wheel", DEG)),
     (Model::Rft, quantity("yaw_deg_rft", DEG)),
 ];
-/// The verdict on a slope: go, caution or no-go.
-pub const VERDICT: &str = "verdict";
-
-/// The keyword of a verdict.
-#[must_use]
-pub const fn name_of(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Go => "go",
-        Verdict::Caution => "caution",
-        Verdict::NoGo => "no-go",
-    }
-}
-
 struct OnCard<'a> {
     row: &'a CardRow,
     card: &'a Card,
@@ -66,7 +52,7 @@ struct OnCard<'a> {
 
 impl OnCard<'_> {
     fn driven(&self) -> Option<&Driven> {
-        self.row.driven.as_ref()
+        self.row.advice.driven.as_ref()
     }
 
     fn motion(&self) -> Option<&DrivenMotion> {
@@ -85,14 +71,9 @@ impl OnCard<'_> {
 }
 
 /// What the driver sets, reads and may not exceed.
-const fn driven<'a>() -> [Column<OnCard<'a>>; 22] {
+const fn driven<'a>() -> [Column<OnCard<'a>>; 20] {
     const MODEL: &str = "Heading of this model on the soil as written";
     [
-        YAW.maybe(
-            "Heading that is set, positive uphill: the median over all samples; missing where no \
-             heading holds the contour in half of them",
-            |it| it.driven().map(|it| it.yaw),
-        ),
         ROLL.maybe("Roll that instruments show then, positive with the uphill side higher", |it| {
             it.driven().map(|it| it.roll)
         }),
@@ -133,9 +114,10 @@ const fn driven<'a>() -> [Column<OnCard<'a>>; 22] {
             |it| it.motion()?.current,
         ),
         RIM_WAY.band("Way of the rims for a metre of ground, likewise", |it| it.motion()?.rim_way),
-        PROBABILITY_STUCK.probability("Share of the samples that are stuck when driven so", |it| {
-            it.motion().map(|it| it.stuck)
-        }),
+        PROBABILITY_STUCK_WITHOUT_CHECKS
+            .probability("Share of the samples that are stuck when driven so", |it| {
+                it.motion().map(|it| it.stuck)
+            }),
         SLIP_LIMIT.maybe("Slip above which to turn back at a look", |it| {
             it.motion().map(|it| it.slip_check.limit)
         }),
@@ -143,11 +125,6 @@ const fn driven<'a>() -> [Column<OnCard<'a>>; 22] {
             "Way between two looks at the slip; missing where the shortest that is tried is too \
              long",
             |it| it.motion()?.slip_check.every,
-        ),
-        PROBABILITY_STUCK_WITH_CHECKS.maybe(
-            "Share of ways of 10 m on which a rover gets stuck between two looks, on soil that \
-             changes on the way",
-            |it| it.motion().map(|it| it.slip_check.stuck),
         ),
         TIPPING_MARGIN.maybe(
             "How much steeper the slope could be before the rover at rest tips over",
@@ -163,12 +140,8 @@ const fn driven<'a>() -> [Column<OnCard<'a>>; 22] {
 }
 
 /// How sure that is, and contour traverses by each sample's own heading.
-const fn held<'a>() -> [Column<OnCard<'a>>; 13] {
+const fn held<'a>() -> [Column<OnCard<'a>>; 12] {
     [
-        YAW.band(
-            "Headings that hold the contour, over all samples; an end is missing where none does",
-            |it| it.row.bands.as_ref()?.yaw,
-        ),
         SLIP_RATIO
             .maybe("Slip ratio of every wheel on the soil as written, by its heading", |it| {
                 it.row.level.map(|level| level.slip_ratio)
@@ -186,12 +159,12 @@ const fn held<'a>() -> [Column<OnCard<'a>>; 13] {
         DRIFT.band("The same over the samples", |it| it.row.bands.as_ref()?.drift),
         PROBABILITY_LEVEL
             .probability("Share of the samples with a heading that holds the contour", |it| {
-                it.row.bands.as_ref().map(|bands| bands.level)
+                it.row.bands.as_ref().map(|_| it.row.advice.level)
             }),
         whole(
             DRAWS_LEVEL,
             "Samples with a heading that holds the contour: power is over them",
-            |it| it.row.bands.as_ref().map(|bands| bands.level.successes),
+            |it| it.row.bands.as_ref().map(|_| it.row.advice.level.successes),
         ),
         whole(
             "draws_held",
@@ -206,12 +179,7 @@ const fn held<'a>() -> [Column<OnCard<'a>>; 13] {
     ]
 }
 
-const fn slope<'a>() -> [Column<OnCard<'a>>; 2] {
-    [
-        SLOPE.given("Slope", |it| Some(it.row.slope)),
-        text(VERDICT, "`go`, `caution` or `no-go`", |it| Some(name_of(it.row.verdict).into())),
-    ]
-}
+const SLOPES: [Column<Advice>; 1] = [SLOPE.given("Slope", |it| Some(it.slope))];
 
 /// Why no heading holds the contour on the soil as written.
 fn status(it: &OnCard<'_>) -> String {
@@ -225,15 +193,23 @@ fn status(it: &OnCard<'_>) -> String {
 pub fn table(card: &Card) -> Table {
     let rows: Vec<OnCard<'_>> = card.rows.iter().map(|row| OnCard { row, card }).collect();
     let all: Vec<Option<&OnCard<'_>>> = rows.iter().map(Some).collect();
+    let advice: Vec<Option<&Advice>> = card.rows.iter().map(|row| Some(&row.advice)).collect();
     let driven = driven();
     let driven = driven.iter().filter(|it| card.has_motors || it.name != CURRENT.name);
-    Table::default().and(&slope(), &all).and(driven, &all).and(&held(), &all)
+    let table = Table::default().and(&SLOPES, &advice).and(&ADVICE, &advice);
+    table.and(driven, &all).and(&held(), &all)
+}
+
+/// The advice of [`table`] alone.
+#[must_use]
+pub fn advice(card: &Card) -> Table {
+    Table::default().and(&ADVICE, &card.rows.iter().map(|row| Some(&row.advice)).collect::<Vec<_>>())
 }
 
 /// The columns of [`table`] for reading.
 #[must_use]
 pub fn brief() -> Vec<String> {
-    let before = [SLOPE.name, VERDICT, YAW.name].map(String::from);
+    let before = [SLOPE.name, VERDICT, REASON, PROBABILITY_STUCK.name, YAW.name].map(String::from);
     before.into_iter().chain(brief_of_driven()).chain([FLAGS.to_owned()]).collect()
 }
 
@@ -241,7 +217,8 @@ pub fn brief() -> Vec<String> {
 #[must_use]
 pub fn bands_brief() -> Vec<String> {
     let [low, _, high] = YAW.quantiles();
-    let before = [SLOPE.name, VERDICT, YAW.name, &low, &high].map(String::from);
+    let advice = [SLOPE.name, VERDICT, REASON, PROBABILITY_STUCK.name, YAW.name, &low, &high];
+    let before = advice.map(String::from);
     let after = [PROBABILITY_LEVEL.name, FLAGS].map(String::from);
     before.into_iter().chain(brief_of_driven()).chain(after).collect()
 }

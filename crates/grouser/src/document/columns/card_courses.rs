@@ -2,7 +2,10 @@
 
 use super::super::table::Table;
 use super::super::unit::M;
-use super::card::{DRIVEN_DRIFT, PROBABILITY_STUCK, TIPPING_MARGIN, VERDICT, name_of};
+use super::card::{DRIVEN_DRIFT, TIPPING_MARGIN};
+use super::verdict::{
+    PROBABILITY_STUCK, PROBABILITY_STUCK_WITHOUT_CHECKS, REASON, VERDICT,
+};
 use super::{CURRENT, Column, Quantity, SLIP_RATIO, SLOPE, TORQUE, YAW, quantity, text};
 use crate::studies::card::courses::{Course, CourseMotion, CourseRow};
 
@@ -27,7 +30,7 @@ pub const fn name_of_course(course: Course) -> &'static str {
     }
 }
 
-const COURSES: [Column<CourseRow>; 12] = [
+const COURSES: [Column<CourseRow>; 14] = [
     SLOPE.given("Slope", |it| Some(it.slope)),
     text(
         COURSE,
@@ -36,7 +39,17 @@ const COURSES: [Column<CourseRow>; 12] = [
          half speed) or `turn-on-the-spot`",
         |it| Some(name_of_course(it.course).into()),
     ),
-    text(VERDICT, "`go`, `caution` or `no-go`", |it| Some(name_of(it.verdict).into())),
+    text(VERDICT, "Whether to drive there: `go`, `caution`, `cannot_tell` or `no_go`", |it| {
+        Some(it.judgement.verdict.name().to_owned())
+    }),
+    text(REASON, "What decides the verdict, in a word", |it| {
+        Some(it.judgement.reason.name().to_owned())
+    }),
+    PROBABILITY_STUCK.maybe(
+        "Share of ways of 10 m on which the rover gets stuck between two looks at the slip; \
+         straight up and down",
+        |it| motion(it)?.stuck_with_checks,
+    ),
     YAW.number("Yaw, positive where the nose points uphill", |it| it.yaw),
     SLIP_RATIO.band(
         "Mean slip ratio of the wheels, negative where the rover runs ahead of its rims, either \
@@ -56,7 +69,7 @@ const COURSES: [Column<CourseRow>; 12] = [
         motion(it)?.turn_way
     }),
     TURN_DOWNHILL.band("Way downhill meanwhile", |it| motion(it)?.turn_downhill),
-    PROBABILITY_STUCK
+    PROBABILITY_STUCK_WITHOUT_CHECKS
         .probability("Share of the samples that are stuck, or do not turn uphill", |it| {
             motion(it).map(|it| it.stuck)
         }),

@@ -2,8 +2,9 @@
 
 use super::super::table::Table;
 use super::super::unit::ONE;
-use super::card::{SLIP_LIMIT, VERDICT, name_of};
+use super::card::SLIP_LIMIT;
 use super::learn::BEFORE_YAW;
+use super::verdict::VERDICT;
 use super::{Column, Quantity, SLIP_RATIO, SLOPE, YAW, quantity, text};
 use crate::studies::card::{Card, CardRow};
 
@@ -22,28 +23,29 @@ struct Days<'a> {
 
 /// The heading that a card sets [rad].
 fn yaw(row: &CardRow) -> Option<f64> {
-    row.driven.as_ref().map(|it| it.yaw)
+    row.advice.heading()
+}
+
+/// Its verdict.
+fn verdict(row: &CardRow) -> String {
+    row.advice.judgement.verdict.name().to_owned()
 }
 
 /// The slip at which it turns back [-].
 fn slip_limit(row: &CardRow) -> Option<f64> {
-    Some(row.driven.as_ref()?.motion.as_ref()?.slip_check.limit)
+    Some(row.advice.driven?.motion?.slip_check.limit)
 }
 
 const fn columns<'a>() -> [Column<Days<'a>>; 11] {
     [
-        SLOPE.given("Slope", |it| Some(it.after.slope)),
-        text(VERDICT, "Today's verdict: `go`, `caution` or `no-go`", |it| {
-            Some(name_of(it.after.verdict).into())
-        }),
-        text(BEFORE_VERDICT, "Yesterday's verdict", |it| Some(name_of(it.before.verdict).into())),
+        SLOPE.given("Slope", |it| Some(it.after.advice.slope)),
+        text(VERDICT, "Today's verdict", |it| Some(verdict(it.after))),
+        text(BEFORE_VERDICT, "Yesterday's verdict", |it| Some(verdict(it.before))),
         YAW.maybe("Heading that today's card sets", |it| yaw(it.after)),
-        YAW.band("Headings that hold the contour, over today's samples", |it| {
-            it.after.bands.as_ref()?.yaw
-        }),
+        YAW.band("Headings that hold the contour, over today's samples", |it| it.after.advice.yaw),
         BEFORE_YAW.maybe("Heading that yesterday's card set", |it| yaw(it.before)),
         BEFORE_YAW.band("Headings that hold the contour, over yesterday's samples", |it| {
-            it.before.bands.as_ref()?.yaw
+            it.before.advice.yaw
         }),
         SLIP_RATIO
             .band("Slip ratio over today's samples", |it| it.after.bands.as_ref()?.slip_ratio),

@@ -3,15 +3,20 @@
 
 use super::super::table::Table;
 use super::super::unit::NM;
+use super::card::{YAW_AS_WRITTEN, YAWS_OF_MODELS};
 use super::flags::{self, FLAGS};
+use super::verdict::{ADVICE, PROBABILITY_STUCK, REASON, VERDICT};
 use super::{
     COURSE, Column, ENERGY_PER_METRE, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, Quantity, SINKAGE,
     SLIP_RATIO, SLOPE, STATUS, STEERING, TORQUE, YAW, quantity, text, whole,
 };
+use crate::contact::Model;
 use crate::contact::validity::Finding;
+use crate::studies::ensemble::models::ACROSS;
 use crate::studies::heading::{HeadingCurve, HeadingOffset, LimitedBy, NoHeading, Steering};
 use crate::studies::heading_band::{HeadingBand, SlopeBand};
 use crate::studies::heading_map::{HeadingMap, HeadingRow};
+use crate::studies::verdict::Advice;
 use crate::vehicle::Rover;
 
 /// A rover that holds its course, as the rows of tables need it.
@@ -244,11 +249,11 @@ pub fn map_brief() -> Vec<String> {
 }
 
 /// Quantiles and probabilities on one slope over samples of soil and model. A sample in which no
-/// heading holds the course counts as slip 1, sunk to the axles and with work without a bound,
-/// whose quantiles are missing; it has no yaw. A sample for which the search gave up counts as
+/// heading holds the course counts as slip 1, sunk to the axles, and with yaw and work without a
+/// bound, whose quantiles are missing. A sample for which the search gave up counts as
 /// nothing: it is in no quantile and no probability.
 pub const BAND: [Column<SlopeBand>; 7] = [
-    YAW.band("Yaw, positive uphill, over the samples that hold the course", |it| it.yaw),
+    YAW.band("Yaw, positive uphill; an end is missing where no heading holds it", |it| it.yaw),
     SLIP_RATIO.band("Slip ratio", |it| it.slip_ratio),
     SINKAGE.band("Mean sinkage of the wheels", |it| it.sinkage),
     ENERGY_PER_METRE
@@ -278,6 +283,60 @@ pub const BAND_LIMIT: [Column<HeadingBand>; 3] = [
     }),
     whole(DRAWS, "Samples for which it is known whether it can", |it| Some(it.mobile.trials)),
 ];
+
+/// The heading of a model on the soil as written [rad]; `None` where none holds the course.
+pub type ModelYaw = (Model, Option<f64>);
+
+/// A table with a row for each slope, the advice for it, the columns of [`BAND`], and the headings
+/// of the models on the soil as written.
+///
+/// * `table`: of the soil as written, whose yaw is [`YAW_AS_WRITTEN`] here
+/// * `of_models`: on each slope, the soil's own model among them
+#[must_use]
+pub fn advised(
+    table: Table,
+    advice: &[Advice],
+    bands: &[SlopeBand],
+    of_models: &[Vec<ModelYaw>],
+) -> Table {
+    let mut written = table.columns.into_iter().map(|(name, values)| {
+        let is_yaw = name == YAW.name;
+        (if is_yaw { YAW_AS_WRITTEN.name.to_owned() } else { name }, values)
+    });
+    let all: Vec<Option<&Advice>> = advice.iter().map(Some).collect();
+    let mut table = Table { columns: written.next().into_iter().collect() }.and(&ADVICE, &all);
+    table.columns.extend(written);
+    let bands: Vec<_> = bands.iter().map(Some).collect();
+    let models: Vec<_> = of_models.iter().map(Some).collect();
+    // Bands of the yaw are among the advice.
+    let of_band = BAND.iter().filter(|column| column.name != YAW.name);
+    table.and(of_band, &bands).and(&OF_MODELS, &models)
+}
+
+/// The headings of the models on the soil as written.
+const OF_MODELS: [Column<Vec<ModelYaw>>; ACROSS] = {
+    const DOC: &str = "Heading of this model on the soil as written";
+    [
+        YAWS_OF_MODELS[0].1.maybe(DOC, |it| yaw_of(it, 0)),
+        YAWS_OF_MODELS[1].1.maybe(DOC, |it| yaw_of(it, 1)),
+        YAWS_OF_MODELS[2].1.maybe(DOC, |it| yaw_of(it, 2)),
+    ]
+};
+
+fn yaw_of(all: &[ModelYaw], place: usize) -> Option<f64> {
+    all.iter().find(|(model, _)| *model == YAWS_OF_MODELS[place].0)?.1
+}
+
+/// The columns of [`advised`] for reading.
+#[must_use]
+pub fn advised_brief() -> Vec<String> {
+    let [low, _, high] = YAW.quantiles();
+    let [_, _, slip] = SLIP_RATIO.quantiles();
+    let advice = [SLOPE.name, VERDICT, REASON, PROBABILITY_STUCK.name, YAW.name, &low, &high];
+    let models = YAWS_OF_MODELS.iter().map(|(_, quantity)| quantity.name);
+    let rest = [PROBABILITY_LEVEL.name, &slip].into_iter().chain(models).chain([FLAGS]);
+    advice.into_iter().chain(rest).map(String::from).collect()
+}
 
 /// A table with a row for each slope, and the columns of [`BAND`] added.
 #[must_use]

@@ -49,9 +49,9 @@ pub struct PredictedSlope {
 pub const PREDICTION_COLUMNS: [Column<PredictedSlope>; 9] = [
     SLOPE.given("Slope", |it| Some(it.after.slope)),
     YAW.maybe("Yaw that holds the contour, positive uphill: the median", |it| {
-        it.after.yaw.map(|band| band.median)
+        it.after.yaw.map(|band| band.median).filter(|yaw| yaw.is_finite())
     }),
-    YAW.band("The same over the samples that hold the contour", |it| it.after.yaw),
+    YAW.band("The same over all samples; an end is missing where none does", |it| it.after.yaw),
     SLIP_RATIO.maybe("Slip ratio there: the median; 1 where no heading holds the contour", |it| {
         it.after.slip_ratio.map(|band| band.median)
     }),

@@ -3,15 +3,14 @@
 use super::{COURSE, Column, POWER, Quantity, SINKAGE, SLIP_RATIO, SLOPE, quantity, whole};
 use crate::document::columns::run::DRIFT;
 use crate::document::unit::{DEG, ONE};
-use crate::studies::card::Verdict;
 use crate::studies::mobility::CellMotion;
+use crate::studies::verdict::{Advice, Verdict};
 
 /// Where the nose points.
 pub const HEADING: Quantity = quantity("heading_deg", DEG);
 /// Share of the samples in which a place is a no-go.
 pub const PROBABILITY_NO_GO: Quantity = quantity("probability_no_go", ONE);
-/// The name of the verdicts' band.
-pub const VERDICT: &str = "verdict";
+pub use super::verdict::VERDICT;
 
 /// What a map of one course has for each place; verdicts are [numbers](verdict_number).
 #[must_use]
@@ -29,7 +28,7 @@ pub const fn bands() -> [Column<CellMotion>; 8] {
         }),
         POWER.maybe("Power of the wheels", |it| it.motion.map(|it| it.power)),
         SINKAGE.maybe("Mean sinkage of the wheels", |it| it.motion.map(|it| it.sinkage)),
-        whole(VERDICT, "Whether to drive there: 1 go, 2 caution, 3 no-go", |it| {
+        whole(VERDICT, "Whether to drive there: 1 go, 2 caution, 3 no-go, 4 cannot tell", |it| {
             Some(verdict_number(it.verdict).into())
         }),
         PROBABILITY_NO_GO.number(
@@ -40,6 +39,12 @@ pub const fn bands() -> [Column<CellMotion>; 8] {
     ]
 }
 
+/// A class of slopes of a map: those down to the one before.
+pub const CLASS: [Column<Advice>; 2] = [
+    SLOPE.number("The steepest slope of the class", |it| it.slope),
+    COURSE.number("The course there: from the contour, positive uphill", |it| it.course),
+];
+
 /// What a map has as well where the course is chosen place by place.
 #[must_use]
 pub const fn chosen() -> [Column<CellMotion>; 1] {
@@ -49,12 +54,14 @@ pub const fn chosen() -> [Column<CellMotion>; 1] {
         })]
 }
 
-/// The number of a verdict on a map: 1 go, 2 caution, 3 no-go. Where nothing is known it is 0.
+/// The number of a verdict on a map: 1 go, 2 caution, 3 no-go, 4 cannot tell. Where no height is
+/// known it is 0.
 #[must_use]
 pub const fn verdict_number(verdict: Verdict) -> u8 {
     match verdict {
         Verdict::Go => 1,
         Verdict::Caution => 2,
         Verdict::NoGo => 3,
+        Verdict::CannotTell => 4,
     }
 }

@@ -3,18 +3,20 @@
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::super::limited_quantity;
-use super::super::table::Table;
+use super::super::table::{Table, WithObject};
 use super::super::unit::{DEG, M};
 use super::run::{BATTERY_ENERGY, DISTANCE, END, METHOD, STANDING, STATE_OF_CHARGE};
+use super::verdict::{ADVICE, ADVICE_OBJECT};
 use super::{
-    CURRENT, Column, ENERGY, Quantity, SLIP_RATIO, TEMPERATURE, TIME, X, Y, YAW, maybe, quantity,
+    CURRENT, Column, ENERGY, PROBABILITY_COMPLETED, Quantity, SLIP_RATIO, TEMPERATURE, TIME, X, Y, YAW, maybe, quantity,
     text, whole,
 };
 use crate::mission::{
     Cause, FellShort, Heading, Kind, Leg, LegOutcome, Limited, Manoeuvre, Measure, Steering, Stop,
     Stopped, Taken,
 };
-use crate::studies::mission::{DrivenLeg, DrivenMission};
+use crate::studies::mission::{DrivenLeg, DrivenMission, MissionRisk};
+use crate::studies::verdict::Advice;
 use crate::units::Vec2;
 
 impl DrivenMission {
@@ -45,6 +47,24 @@ impl DrivenLeg {
         }
     }
 }
+
+/// What a mission risks.
+pub const RISK: [Column<MissionRisk>; 5] = [
+    PROBABILITY_COMPLETED
+        .probability("Share of the samples that complete all legs", |it| Some(it.completed)),
+    text("commonest_end", "The commonest end of the others, by its name", |it| {
+        it.commonest.as_ref().map(|end| end.outcome.to_owned())
+    }),
+    whole("commonest_end_leg", "The leg in which they end so, from 1", |it| {
+        it.commonest.as_ref().map(|end| end.leg)
+    }),
+    whole("commonest_end_draws", "How many samples end so", |it| {
+        it.commonest.as_ref().map(|end| end.count)
+    }),
+    whole("draws_not_computed", "Samples that cannot be computed, and count as nothing", |it| {
+        Some(it.not_computed)
+    }),
+];
 
 /// A mission among its alternatives.
 pub const MISSION: [Column<DrivenMission>; 10] = [
@@ -246,6 +266,8 @@ fn those_of(table: &Table, names: impl Iterator<Item = &'static str>) -> Vec<Str
 pub struct MissionObject<'a> {
     /// The mission.
     pub mission: &'a DrivenMission,
+    /// What it risks, and what to do on each leg that was begun, if that was asked for.
+    pub believed: Option<(&'a MissionRisk, &'a [Option<Advice>])>,
 }
 
 impl Serialize for MissionObject<'_> {
@@ -259,13 +281,25 @@ impl Serialize for MissionObject<'_> {
             map.serialize_entry(ALTERNATIVE, name)?;
         }
         map.serialize_entry(OUTCOME, report.outcome())?;
+        if let Some((risk, _)) = self.believed {
+            RISK.iter().try_for_each(|column| column.write(&mut map, risk))?;
+        }
         map.serialize_entry(ENERGY.name, &report.energy())?;
         let ways = std::slice::from_ref(self.mission);
         electrical(&ELECTRICAL_MISSION, ways, |way| way.report.taken())
             .try_for_each(|column| column.write(&mut map, self.mission))?;
         METHOD.iter().try_for_each(|column| column.write(&mut map, &report.trajectory))?;
         map.serialize_entry("final", &end.row(0))?;
-        map.serialize_entry("legs", &self.mission.table())?;
+        let legs = self.mission.table();
+        match self.believed {
+            Some((_, advice)) => {
+                let advice: Vec<_> = advice.iter().map(Option::as_ref).collect();
+                let advice = Table::default().and(&ADVICE, &advice);
+                let legs = WithObject { rows: &legs, name: ADVICE_OBJECT, of: &advice };
+                map.serialize_entry("legs", &legs)?;
+            }
+            None => map.serialize_entry("legs", &legs)?,
+        }
         map.end()
     }
 }

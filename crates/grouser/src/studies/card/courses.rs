@@ -2,17 +2,22 @@
 //! out.
 //!
 //! Each is the steady motion at one yaw, with all rims at one speed forwards or backwards, or the
-//! two sides against each other to turn. The verdict is that of the first page's rule for the size
-//! of the slip, which is negative where a rover runs ahead of its rims.
+//! two sides against each other to turn. Straight up and down have the verdict that every study
+//! gives; on the others it is that of the first page's rule for the size of the slip, which is
+//! negative where a rover runs ahead of its rims, and none is better than on a gentler slope.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::super::ensemble::samples::{Sample, outputs_of_places};
 use super::super::ensemble::{Band, Probability};
-use super::super::heading::{STRAIGHT_DOWN, STUCK};
-use super::driven::{largest_current, largest_torque};
-use super::{CardRow, CardStudy, Driven, STUCK_ON_GO, Verdict};
+use super::super::heading::{STRAIGHT_DOWN, STRAIGHT_UP, STUCK};
+use super::super::verdict::{
+    Advice, Driven, DrivenMotion, Held, Judgement, Reason, STUCK_ON_GO, SlopeStudy, Verdict,
+    largest_current, largest_torque,
+};
+use super::CardRow;
 use crate::elementary::wide::sin;
+use crate::error::ParameterError;
 use crate::simulation::{MOST_SLIP, SteadyMotion};
 use crate::vehicle::Rover;
 
@@ -61,6 +66,15 @@ impl Course {
         }
     }
 
+    /// The course that advice is given on, from the contour [rad].
+    fn advised(self) -> Option<f64> {
+        match self {
+            Self::Up => Some(STRAIGHT_UP),
+            Self::Down => Some(-STRAIGHT_UP),
+            _ => None,
+        }
+    }
+
     /// Whether the rover is to turn.
     fn turns(self) -> bool {
         matches!(self, Self::Turn | Self::TurnOnTheSpot)
@@ -94,7 +108,7 @@ pub struct CourseRow {
     /// Yaw, *γ* [rad], positive uphill.
     pub yaw: f64,
     /// The verdict.
-    pub verdict: Verdict,
+    pub judgement: Judgement,
     /// By how much the slope could be steeper before the rover tips over, at rest [rad].
     pub tipping_margin: f64,
     /// Over the samples; `None` where the first page says no-go, or they were not asked for.
@@ -120,72 +134,97 @@ pub struct CourseMotion {
     pub turn_downhill: Option<Band>,
     /// Samples in which the rover is stuck, or its nose does not turn uphill.
     pub stuck: Probability,
+    /// Share of ways of 10 m on which it gets stuck between two looks at the slip [-]; straight up
+    /// and down.
+    pub stuck_with_checks: Option<f64>,
 }
 
 /// The turn that ways are given for [rad]: 10°.
 pub const TURN: f64 = PI / 18.0;
 
-impl CardStudy {
+impl SlopeStudy {
     /// The other courses on each slope that the card does not call a no-go, course by course;
     /// `None` if `go_on` was false before the end.
     ///
     /// * `samples`: those of the card; with none there is the soil as written alone
-    /// * `go_on`: asked after each slope
-    #[must_use]
+    /// * `go_on`: asked after each slope, and with samples, from any thread
+    ///
+    /// # Errors
+    /// The same as [`card`](Self::card).
     pub fn courses(
         &self,
         rows: &[CardRow],
+        samples: &[Sample],
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Vec<CourseRow>>, ParameterError> {
+        let driven = rows.iter().filter(|row| row.advice.judgement.verdict != Verdict::NoGo);
+        let driven = driven.filter_map(|row| Some((row.advice.slope, row.advice.heading()?)));
+        let driven: Vec<(f64, f64)> = driven.collect();
+        let slopes: Vec<f64> = driven.iter().map(|(slope, _)| *slope).collect();
+        let mut all = Vec::new();
+        for course in Course::ALL {
+            let rows = match course.advised() {
+                Some(advised) => {
+                    let advice = self.advice(advised, &slopes, samples, go_on)?;
+                    advice.map(|it| it.iter().map(|it| CourseRow::of(course, it)).collect())
+                }
+                None => self.on_course(course, &driven, samples, go_on),
+            };
+            let Some(rows) = rows else { return Ok(None) };
+            all.extend::<Vec<CourseRow>>(rows);
+        }
+        Ok(Some(all))
+    }
+
+    /// One course: never better on a steeper slope.
+    ///
+    /// * `driven`: slopes, and the heading that holds the contour on each [rad]
+    fn on_course(
+        &self,
+        course: Course,
+        driven: &[(f64, f64)],
         samples: &[Sample],
         go_on: &dyn Fn() -> bool,
     ) -> Option<Vec<CourseRow>> {
         let as_written = [self.nominal()];
         let samples = if samples.is_empty() { &as_written } else { samples };
-        let of_course = |course| self.on_course(course, rows, samples, go_on);
-        let all: Option<Vec<Vec<CourseRow>>> = Course::ALL.into_iter().map(of_course).collect();
-        all.map(|courses| courses.concat())
-    }
-
-    /// One course: never better on a steeper slope.
-    fn on_course(
-        &self,
-        course: Course,
-        rows: &[CardRow],
-        samples: &[Sample],
-        go_on: &dyn Fn() -> bool,
-    ) -> Option<Vec<CourseRow>> {
-        let mut worst = Verdict::Go;
+        let mut worst = Judgement::GO;
         let mut before: Vec<Option<SteadyMotion>> = vec![None; samples.len()];
         let rim_speeds = course.rim_speeds(&self.heading.rover, self.rim_speed);
-        let driven = rows.iter().filter(|row| row.verdict != Verdict::NoGo);
-        let on_slope = |(slope, contour): (f64, f64)| {
-            let yaw = course.yaw(contour);
+        let on_slope = |(slope, contour): &(f64, f64)| {
+            let (slope, yaw) = (*slope, course.yaw(*contour));
             let at_rest = Driven::at_rest(&self.heading, slope, yaw);
-            worst = worst.max(self.best_verdict(slope, Some(&at_rest)));
+            worst = worst.or(self.at_rest(slope, Some(&at_rest)));
             let mut motion = None;
-            if worst != Verdict::NoGo {
+            if worst.verdict != Verdict::NoGo {
                 let steady = self.motions((slope, yaw, &rim_speeds), samples, &before);
                 let rover = &self.heading.rover;
                 let on_course = |it: &Option<SteadyMotion>| {
                     OnCourse::of(course, rover, it.as_ref()?, &rim_speeds)
                 };
                 let all: Vec<Option<OnCourse>> = steady.iter().map(on_course).collect();
-                worst = worst.max(self.verdict_of_course(&all));
+                worst = worst.or(self.judgement_of_course(yaw, &all));
                 motion = Some(CourseMotion::over(course, &all));
                 before = steady;
             }
             let tipping_margin = at_rest.tipping_margin;
-            let row = CourseRow { slope, course, yaw, verdict: worst, tipping_margin, motion };
+            let row = CourseRow { slope, course, yaw, judgement: worst, tipping_margin, motion };
             go_on().then_some(row)
         };
-        driven.filter_map(|row| Some((row.slope, row.driven?.yaw))).map(on_slope).collect()
+        driven.iter().map(on_slope).collect()
     }
 
-    fn verdict_of_course(&self, motions: &[Option<OnCourse>]) -> Verdict {
-        let slips: Vec<Option<f64>> =
-            motions.iter().map(|it| it.map(|it| it.slip_ratio.abs())).collect();
+    fn judgement_of_course(&self, yaw: f64, motions: &[Option<OnCourse>]) -> Judgement {
+        let held = |it: &Option<OnCourse>| match it {
+            Some(it) => Held::At { yaw, slip_ratio: it.slip_ratio, is_outside: false },
+            None => Held::Not,
+        };
+        let held: Vec<Held> = motions.iter().map(held).collect();
         let stuck = motions.iter().filter(|it| it.is_none()).count();
         let is_free = stuck as f64 <= STUCK_ON_GO * motions.len() as f64;
-        self.rule.verdict(&slips, 0).max(if is_free { Verdict::Go } else { Verdict::Caution })
+        let mut found = self.rule.on_slips(&held);
+        found.add(!is_free, Verdict::Caution, Reason::Stuck);
+        found
     }
 
     /// The motion in each sample, if there is a steady one.
@@ -205,6 +244,31 @@ impl CardStudy {
             }
         };
         outputs_of_places(samples, &|| true, |place| motion(place).ok()).unwrap_or_default()
+    }
+}
+
+impl CourseRow {
+    /// A course that every study gives advice on.
+    fn of(course: Course, advice: &Advice) -> Self {
+        let (yaw, driven) = (advice.course, advice.driven);
+        let over = |motion: DrivenMotion| CourseMotion {
+            slip_ratio: motion.slip_ratio,
+            torque: motion.torque,
+            current: motion.current,
+            drift: None,
+            turn_way: None,
+            turn_downhill: None,
+            stuck: motion.stuck,
+            stuck_with_checks: Some(motion.slip_check.stuck),
+        };
+        Self {
+            slope: advice.slope,
+            course,
+            yaw: driven.map_or(yaw, |it| it.yaw),
+            judgement: advice.judgement,
+            tipping_margin: driven.map_or(f64::NAN, |it| it.tipping_margin),
+            motion: driven.and_then(|it| it.motion).map(over),
+        }
     }
 }
 
@@ -260,6 +324,7 @@ impl CourseMotion {
             turn_way: of_turn(|it| it.turn_way),
             turn_downhill: of_turn(|it| it.turn_way * it.drift),
             stuck: Probability { successes: stuck, trials: motions.len() },
+            stuck_with_checks: None,
         }
     }
 }

@@ -14,8 +14,10 @@
 use rayon::prelude::*;
 
 use super::super::heading::STRAIGHT_DOWN;
-use super::driven::{HEADING_ERROR, heading_error, settings};
-use super::{CardRow, CardStudy, Verdict};
+use super::super::verdict::{
+    HEADING_ERROR, SlopeStudy, Verdict, heading_error, settings,
+};
+use super::CardRow;
 use crate::error::{ParameterError, positive};
 use crate::simulation::{
     Approach, LEAST_STEP, MOST_SLIP, Motion, Numerics, Run, RunError, Scatter, Scenario, Start,
@@ -30,7 +32,7 @@ use crate::vehicle::{ByWheel, DriveLaw, Ruts};
 #[derive(Clone, Copy, Debug)]
 pub struct CardDrives<'a> {
     /// The study that the card is of: its rover, gravity, load transfer and rim speed.
-    pub study: &'a CardStudy,
+    pub study: &'a SlopeStudy,
     /// The driver corrects after so many times the way that the card says [-]: 1 as it says.
     pub lateness: f64,
     /// How the runs are computed.
@@ -81,11 +83,11 @@ impl CardDrives<'_> {
         if samples.is_empty() {
             return Err(ParameterError::new("samples to drive", 0.0, "one at least").into());
         }
-        let Some((driven, motion)) = row.driven.and_then(|it| Some((it, it.motion?))) else {
+        let Some((driven, motion)) = row.advice.driven.and_then(|it| Some((it, it.motion?))) else {
             return Ok(None);
         };
         let course =
-            Course { slope: row.slope, yaw: driven.yaw, leg: motion.correct_every * self.lateness };
+            Course { slope: row.advice.slope, yaw: driven.yaw, leg: motion.correct_every * self.lateness };
         let drive = |(index, sample): (usize, &Sample)| {
             let drift = self.drive(&course, sample, index as u64);
             done();
@@ -99,8 +101,8 @@ impl CardDrives<'_> {
         let within = drifts.iter().flatten().filter(|drift| **drift <= stated).count();
         let stuck = drifts.iter().filter(|drift| drift.is_none()).count();
         Ok(Some(RowDrives {
-            slope: row.slope,
-            verdict: row.verdict,
+            slope: row.advice.slope,
+            verdict: row.advice.judgement.verdict,
             lateness: self.lateness,
             way: course.legs() as f64 * course.leg,
             stated_drift: stated,
@@ -229,8 +231,8 @@ fn leg(scenario: &Scenario, way: f64) -> Result<Option<Vec2>, RunError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::studies::card::Rule;
     use crate::studies::heading::HeadingStudy;
+    use crate::studies::verdict::Rule;
     use crate::units::deg;
     use grouser_io::{Overrides, Source, read_scenario};
 
@@ -240,12 +242,8 @@ mod tests {
         let scenario = read_scenario(&Source::default_scenario(), &Overrides::none());
         let heading = HeadingStudy::of(&scenario.expect("a preset").value);
         let sample = Sample { soil: heading.soil, model: heading.model.clone() };
-        let study = CardStudy {
-            heading,
-            rim_speed: 0.06,
-            rule: Rule::DEFAULT,
-            is_uncertainty_stated: true,
-        };
+        let (rim_speed, rule) = (0.06, Rule::DEFAULT);
+        let study = SlopeStudy { heading, rim_speed, rule, is_uncertainty_stated: true };
         let drives =
             CardDrives { study: &study, lateness: 1.0, approach: Approach::QuasiSteady, seed: 1 };
         for (slope, yaw, way) in [(3.0, 1.3, 2.0), (12.0, 6.3, 0.3), (17.0, 12.0, 0.2)] {

@@ -100,7 +100,7 @@ impl AdviceSettings {
         };
         crate::error::positive("rim speed [m/s]", limits.rim_speed)?;
         share("the no-go slip ratio", limits.slip_ratio)?;
-        share("the no-go probability", limits.probability)?;
+        share("the no-go probability", limits.no_go_probability)?;
         share("the probability of getting stuck", checks.stuck_probability)?;
         share("the share of false stops", checks.false_stops)?;
         share("the error of odometry", checks.odometry_error)?;

@@ -1,16 +1,16 @@
 //! Which course is looked at, slope by slope.
 
+use super::classes;
 use super::table::{MobilityTable, OnSlope};
 use crate::studies::heading::STRAIGHT_UP;
-use crate::units::STEEPEST_SLOPE;
 
 /// The direction of travel that a map is of.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CourseChoice {
     /// This one, *χ* [rad], counted from the contour, positive uphill.
     Fixed(f64),
-    /// On each slope the one that is least often a no-go, and of several the one with the least
-    /// slip, up or down.
+    /// On each slope the one that is least often a no-go, there or on the way back, and of several
+    /// the one with the least slip.
     Best,
     /// The one that is most often a no-go, and of several the one with the most slip.
     Worst,
@@ -28,52 +28,40 @@ impl CourseChoice {
             }
         }
     }
-}
 
-/// The chosen one of several tables, by slope.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Choice {
-    /// For each interval of slopes the number of a table.
-    tables: Vec<usize>,
-}
-
-/// Width of an interval of slopes [rad]: a twentieth of a degree.
-const WIDTH: f64 = std::f64::consts::PI / 3600.0;
-
-impl Choice {
-    /// * `tables`: at least one
-    pub(super) fn of(choice: CourseChoice, tables: &[MobilityTable]) -> Self {
-        if let CourseChoice::Fixed(_) = choice {
-            return Self { tables: vec![0] };
-        }
-        let middles = (0..).map(|interval| (f64::from(interval) + 0.5) * WIDTH);
-        let chosen = middles.take_while(|slope| *slope < STEEPEST_SLOPE).map(|slope| {
-            let worse = |one: &usize, other: &usize| {
-                let [one, other] = [one, other].map(|it| rank(&tables[*it].at(slope)));
-                one[0].total_cmp(&other[0]).then(one[1].total_cmp(&other[1]))
-            };
+    /// For each class of slopes the number of its table.
+    ///
+    /// * `tables`: of these courses
+    pub(super) fn by_class(self, tables: &[MobilityTable]) -> Vec<usize> {
+        let chosen = |slope: f64| {
+            let on_slope: Vec<OnSlope> = tables.iter().map(|table| table.at(slope)).collect();
             let all = 0..tables.len();
-            let found = match choice {
-                CourseChoice::Worst => all.max_by(worse),
-                CourseChoice::Best | CourseChoice::Fixed(_) => all.min_by(worse),
+            let found = match self {
+                Self::Fixed(_) => None,
+                Self::Best => all.min_by(|one, other| {
+                    let rank = |place: usize| {
+                        // The way back of a course is the one as far down as it is up.
+                        let back = on_slope[on_slope.len() - 1 - place].probability_no_go;
+                        let [there, slip] = rank(&on_slope[place]);
+                        [there.max(back), slip]
+                    };
+                    worse(rank(*one), rank(*other))
+                }),
+                Self::Worst => all.max_by(|one, other| {
+                    worse(rank(&on_slope[*one]), rank(&on_slope[*other]))
+                }),
             };
             found.unwrap_or(0)
-        });
-        Self { tables: chosen.collect() }
-    }
-
-    /// The number of the table for a slope [rad].
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a slope is not negative, and the last interval is open"
-    )]
-    pub(super) fn at(&self, slope: f64) -> usize {
-        self.tables[((slope / WIDTH) as usize).min(self.tables.len() - 1)]
+        };
+        classes().map(chosen).collect()
     }
 }
 
 /// How bad a motion is: by how often it fails, then by its slip.
 fn rank(found: &OnSlope) -> [f64; 2] {
     [found.probability_no_go, found.motion.map_or(f64::INFINITY, |motion| motion.slip_ratio.abs())]
+}
+
+fn worse(one: [f64; 2], other: [f64; 2]) -> std::cmp::Ordering {
+    one[0].total_cmp(&other[0]).then(one[1].total_cmp(&other[1]))
 }

@@ -11,10 +11,11 @@
 //! The slip on level ground, s(0), comes from the soil's resistance, which those simulators do not
 //! have: it is left out.
 
-use super::table::{MobilityStudy, MobilityTable};
+use super::table::MobilityTable;
 use crate::elementary::wide::{asin, tan};
 use crate::error::ParameterError;
 use crate::studies::heading::STRAIGHT_UP;
+use crate::studies::verdict::SlopeStudy;
 
 /// Compliances of all wheels together, by slope.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,7 +28,7 @@ pub struct SlipCompliances {
 /// vanishes there.
 const FLATTEST: f64 = std::f64::consts::PI / 180.0;
 
-impl MobilityStudy {
+impl SlopeStudy {
     /// Compliances of the soil as written; `None` if `go_on` was false before the end.
     ///
     /// # Errors
@@ -76,7 +77,7 @@ mod tests {
     fn compliances_give_the_slip_back() {
         let scenario =
             document::read_scenario(&Source::default_scenario(), &Overrides::none()).unwrap();
-        let study = MobilityStudy::of(&scenario);
+        let study = SlopeStudy::of(&scenario);
         let found = study.slip_compliances(&|| true).unwrap().unwrap();
         let up = study.heading.curve_on(STRAIGHT_UP).unwrap();
         let level = up.at(0.0).unwrap().slip_ratio;

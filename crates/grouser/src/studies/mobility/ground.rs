@@ -1,8 +1,10 @@
 //! The ground that a map is of.
 
 use grouser_raster::Raster;
+use rayon::prelude::*;
 
 use super::map::{CellMotion, MobilityMap};
+use crate::elementary::wide::atan2;
 use crate::units::Vec2;
 use crate::vehicle::Rover;
 
@@ -51,6 +53,17 @@ impl<'a> Ground<'a> {
     #[must_use]
     pub fn gradient(&self, column: usize, row: usize) -> Option<Vec2> {
         self.raster.gradient(column, row, self.reach)
+    }
+
+    /// The steepest slope of all points whose slope is known [rad].
+    #[must_use]
+    pub fn steepest(&self) -> f64 {
+        let grid = &self.raster.grid;
+        let of_row = |row: usize| {
+            let gradients = (0..grid.columns).filter_map(|column| self.gradient(column, row));
+            gradients.map(|it| it.norm()).fold(0.0, f64::max)
+        };
+        atan2((0..grid.rows).into_par_iter().map(of_row).reduce(|| 0.0, f64::max), 1.0)
     }
 
     /// Whether the ground is known all around a point, as far as a rover's wheels reach.

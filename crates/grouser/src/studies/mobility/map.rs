@@ -1,18 +1,21 @@
 //! What a rover does at a place of a map.
 
-use super::choice::{Choice, CourseChoice};
-use super::table::{Mobility, MobilityStudy, MobilityTable, OnSlope};
+use super::choice::CourseChoice;
+use super::table::{Mobility, MobilityTable, OnSlope};
+use super::{class_of, classes};
 use crate::elementary::wide::{atan2, sin_cos};
 use crate::error::ParameterError;
-use crate::studies::card::Verdict;
 use crate::studies::ensemble::samples::Sample;
+use crate::studies::verdict::{Advice, SlopeStudy, Verdict};
 use crate::units::Vec2;
 
 /// Motions of a rover at any place of ground with one soil, from the gradient there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MobilityMap {
     tables: Vec<MobilityTable>,
-    choice: Choice,
+    /// For each class of slopes the number of its table.
+    choice: Vec<usize>,
+    advice: Vec<Advice>,
 }
 
 /// What a rover does at a place.
@@ -35,23 +38,46 @@ pub struct CellMotion {
 }
 
 impl MobilityMap {
-    /// Makes the tables; `None` if `go_on` was false before the end.
+    /// Makes the tables and the advice; `None` if `go_on` was false before the end.
     ///
+    /// * `steepest`: slope of the ground [rad]
     /// * `samples`: of soil and model; with none the soil as written is judged by
     /// * `go_on`: asked before each sample of each course, from any thread
     ///
     /// # Errors
-    /// The same as [`MobilityStudy::table`].
+    /// The same as [`SlopeStudy::table`].
     pub fn of(
-        study: &MobilityStudy,
+        study: &SlopeStudy,
         choice: CourseChoice,
+        steepest: f64,
         samples: &[Sample],
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Self>, ParameterError> {
         let table = |course: f64| study.table(course, samples, go_on);
         let tables =
             choice.courses().into_iter().map(table).collect::<Result<Option<Vec<_>>, _>>()?;
-        Ok(tables.map(|tables| Self { choice: Choice::of(choice, &tables), tables }))
+        let Some(tables) = tables else { return Ok(None) };
+        let by_class = choice.by_class(&tables);
+        let course = |class: usize| tables[by_class[class]].course();
+        let slopes = classes().take(class_of(steepest) + 1).enumerate();
+        let places: Vec<_> = slopes.map(|(class, slope)| (slope, course(class))).collect();
+        let Some(mut advice) = study.advice_at(&places, samples, go_on)? else { return Ok(None) };
+        if choice == CourseChoice::Best {
+            // Who drives down what he cannot climb does not come back.
+            let back: Vec<_> = places.iter().map(|(slope, course)| (*slope, -*course)).collect();
+            let Some(back) = study.advice_at(&back, samples, go_on)? else { return Ok(None) };
+            for (there, back) in advice.iter_mut().zip(back) {
+                there.judgement = there.judgement.or(back.judgement);
+            }
+        }
+        Ok(Some(Self { choice: by_class, tables, advice }))
+    }
+
+    /// Advice for each class of slopes of the map: for whole degrees from level ground up, each for
+    /// all slopes down to the one before.
+    #[must_use]
+    pub fn advice(&self) -> &[Advice] {
+        &self.advice
     }
 
     /// The tables, one for each course that is compared.
@@ -71,8 +97,12 @@ impl MobilityMap {
     #[must_use]
     pub fn at(&self, gradient: Vec2) -> CellMotion {
         let slope = atan2(gradient.norm(), 1.0);
-        let table = &self.tables[self.choice.at(slope)];
-        let OnSlope { motion, verdict, probability_no_go } = table.at(slope);
+        let class = class_of(slope);
+        let table = &self.tables[self.choice[class]];
+        let OnSlope { motion, probability_no_go } = table.at(slope);
+        // Steeper than the ground is said to be: nobody looked.
+        let advice = self.advice.get(class);
+        let verdict = advice.map_or(Verdict::CannotTell, |it| it.judgement.verdict);
         let course = table.course();
         let heading = motion.filter(|_| is_inclined(gradient)).map(|motion| {
             let along = atan2(-gradient.x, gradient.y);

@@ -1,28 +1,14 @@
 //! Motions along one course, by slope.
 
-use grouser_io::LoadedScenario;
 use rayon::prelude::*;
 
 use super::detail::Detail;
-use super::thresholds::{Judged, Thresholds};
+use super::thresholds::Thresholds;
 use crate::elementary::wide::sin;
 use crate::error::ParameterError;
-use crate::studies::card::{Rule, Verdict};
 use crate::studies::ensemble::samples::Sample;
-use crate::studies::heading::{HeadingCurve, HeadingOffset, HeadingStudy};
-
-/// What tables are made of.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MobilityStudy {
-    /// Rover, soil, gravity and model.
-    pub heading: HeadingStudy,
-    /// Rim speed of all wheels, for power and time [m/s].
-    pub rim_speed: f64,
-    /// What makes a go or a no-go.
-    pub rule: Rule,
-    /// Whether the soil says how uncertain it is; without that no slope is a go.
-    pub is_uncertainty_stated: bool,
-}
+use crate::studies::heading::{HeadingCurve, HeadingOffset};
+use crate::studies::verdict::SlopeStudy;
 
 /// The steady motion of a rover on a slope along a course.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,25 +45,12 @@ pub struct MobilityTable {
 pub struct OnSlope {
     /// The motion, if a heading holds the course.
     pub motion: Option<Mobility>,
-    /// Whether to drive there.
-    pub verdict: Verdict,
     /// In which share of the samples no heading holds the course, or it slips more than the rule
     /// allows [-]; over the samples for which that is known, NaN where there is none.
     pub probability_no_go: f64,
 }
 
-impl MobilityStudy {
-    /// The study of a scenario, with its rim speed and [`Rule::DEFAULT`].
-    #[must_use]
-    pub fn of(scenario: &LoadedScenario) -> Self {
-        Self {
-            heading: HeadingStudy::of(&scenario.value),
-            rim_speed: scenario.value.drive.nominal_rim_speed(),
-            rule: Rule::DEFAULT,
-            is_uncertainty_stated: scenario.stated_uncertainty().is_some(),
-        }
-    }
-
+impl SlopeStudy {
     /// The table of a course; `None` if `go_on` was false before the end. The result is the same
     /// for any number of threads.
     ///
@@ -86,11 +59,11 @@ impl MobilityStudy {
     ///
     /// ```
     /// use grouser::document::{self, Overrides, Source};
-    /// use grouser::studies::mobility::MobilityStudy;
+    /// use grouser::studies::verdict::SlopeStudy;
     /// use grouser::units::deg;
     ///
     /// let scenario = document::read_scenario(&Source::default_scenario(), &Overrides::none())?;
-    /// let study = MobilityStudy::of(&scenario);
+    /// let study = SlopeStudy::of(&scenario);
     /// let table = study.table(0.0, &[], &|| true)?.expect("not stopped");
     /// let motion = table.at(deg(10.0)).motion.expect("a heading holds the contour");
     /// let exact = study.heading.curve()?.at(deg(10.0))?;
@@ -122,19 +95,13 @@ impl MobilityStudy {
         detail: Detail,
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<MobilityTable>, ParameterError> {
-        self.rule.check()?;
-        crate::error::positive("rim speed [m/s]", self.rim_speed)?;
+        self.check()?;
         let curve = self.heading.curve_on(course)?;
         let drift = match detail {
             Detail::Full => Some(self.heading.drift_curve_along(course)?),
             Detail::Rough => None,
         };
-        let judged = Judged {
-            heading: &self.heading,
-            rule: &self.rule,
-            is_uncertainty_stated: self.is_uncertainty_stated,
-        };
-        let Some(thresholds) = Thresholds::of(&judged, course, samples, detail, go_on)? else {
+        let Some(thresholds) = Thresholds::of(self, course, samples, detail, go_on)? else {
             return Ok(None);
         };
         let limit = curve.limit().ok().map(|(slope, _)| slope);
@@ -157,7 +124,7 @@ impl MobilityStudy {
 
 /// Where the numbers of a table come from.
 struct Nodes<'a> {
-    study: &'a MobilityStudy,
+    study: &'a SlopeStudy,
     curve: &'a HeadingCurve,
     drift: Option<&'a HeadingCurve>,
     limit: f64,
@@ -274,7 +241,6 @@ impl MobilityTable {
     pub fn at(&self, slope: f64) -> OnSlope {
         OnSlope {
             motion: self.motion(slope),
-            verdict: self.thresholds.verdict(slope),
             probability_no_go: self.thresholds.probability_no_go(slope),
         }
     }

@@ -85,6 +85,9 @@ pub struct CheckedLine {
     /// What the way takes, with the line's places as its waypoints; none where some of the ground
     /// is not known, or no heading holds the course, or the rover cannot turn.
     pub route: Option<Route>,
+    /// The same whatever is known of its costs: the places, slopes and samples of all that was
+    /// looked at.
+    pub seen: Route,
     /// Where it is not safe, in order; with none it is safe.
     pub hazards: Vec<Hazard>,
 }
@@ -208,7 +211,8 @@ impl<'a> Look<'a> {
 
     fn finish(self, end: Vec2) -> CheckedLine {
         let route = self.measure.finish(end);
-        CheckedLine { route: self.is_priced.then_some(route), hazards: self.hazards.finish() }
+        let hazards = self.hazards.finish();
+        CheckedLine { route: self.is_priced.then(|| route.clone()), seen: route, hazards }
     }
 }
 

@@ -1,6 +1,9 @@
 //! Ways, and why there are none.
 
 use crate::error::ParameterError;
+use crate::studies::ensemble::samples::Sample;
+use crate::studies::mobility::advised_place;
+use crate::studies::verdict::{Advice, SlopeStudy};
 use crate::units::Vec2;
 
 /// From where to where.
@@ -40,6 +43,25 @@ pub struct Route {
     pub most_slope: f64,
     /// In which share of the samples some place of the way is a no-go [-].
     pub probability_no_go: f64,
+    /// The worst place of each leg from waypoint to waypoint, as slope and course [rad]: where most
+    /// of the samples fail, and of several the steepest.
+    pub worst: Vec<(f64, f64)>,
+}
+
+impl Route {
+    /// What to do on each leg; `None` if `go_on` was false before the end.
+    ///
+    /// # Errors
+    /// The same as [`SlopeStudy::advice`].
+    pub fn advice(
+        &self,
+        study: &SlopeStudy,
+        samples: &[Sample],
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Vec<Advice>>, ParameterError> {
+        let places: Vec<_> = self.worst.iter().map(|place| advised_place(*place)).collect();
+        study.advice_at(&places, samples, go_on)
+    }
 }
 
 /// What a way takes from its start to one of its waypoints, before it turns there.

@@ -4,11 +4,11 @@ use rayon::prelude::*;
 
 use super::hazard::Danger;
 use super::study::{Limits, Objective, RouteStudy, STUCK_WAY, WORST_SHARE};
-use crate::elementary::wide::{atan2, cos};
+use crate::elementary::wide::cos;
 use crate::error::ParameterError;
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
 use crate::studies::heading::{HeadingCurve, LimitedBy, STRAIGHT_UP};
-use crate::studies::mobility::{Detail, Mobility, MobilityTable};
+use crate::studies::mobility::{Detail, Mobility, MobilityTable, slope_and_course};
 
 /// Courses from straight down to straight up are so far apart [rad]: 7.5°.
 const COURSE_STEP: f64 = std::f64::consts::PI / 24.0;
@@ -194,7 +194,7 @@ impl RouteTables {
 
     /// A metre of way, whatever the limits; none where no heading holds the course.
     pub(super) fn steady_metre(&self, along: f64, across: f64) -> Option<Metre> {
-        let (slope, course) = on_slope(along, across);
+        let (slope, course) = slope_and_course(along, across);
         let motion = self.motion(slope, course)?;
         let length = (1.0 + along * along).sqrt();
         Some(Metre {
@@ -212,7 +212,7 @@ impl RouteTables {
         across: f64,
         metre: &Metre,
     ) -> impl Iterator<Item = (Danger, f64)> {
-        let (slope, course) = on_slope(along, across);
+        let (slope, course) = slope_and_course(along, across);
         let Limits { most_slope, most_slip_ratio, most_no_go } = self.limits;
         let slip = metre.slip_ratio;
         let steep = (slope > most_slope).then_some((Danger::TooSteep, slope));
@@ -220,7 +220,8 @@ impl RouteTables {
             (slip.is_nan() || slip > most_slip_ratio).then_some((Danger::TooMuchSlip, slip));
         let no_go = move || {
             let probability = self.probability_no_go(slope, course);
-            (probability > most_no_go).then_some((Danger::NoGo, probability))
+            let is_too_often = probability > 0.0 && probability >= most_no_go;
+            is_too_often.then_some((Danger::NoGo, probability))
         };
         // The last one takes long, and is not asked for if one before it is enough.
         steep.into_iter().chain(slips).chain(std::iter::once_with(no_go).flatten())
@@ -248,12 +249,12 @@ impl RouteTables {
     }
 
     /// Whether each sample may go no farther on a slope and course.
-    pub(super) fn fails(&self, along: f64, across: f64) -> impl Iterator<Item = bool> {
-        let (slope, course) = on_slope(along, across);
+    pub(super) fn fails(&self, along: f64, across: f64) -> impl Iterator<Item = bool> + Clone {
+        let (slope, course) = slope_and_course(along, across);
         self.fails_on(slope, course)
     }
 
-    fn fails_on(&self, slope: f64, course: f64) -> impl Iterator<Item = bool> {
+    fn fails_on(&self, slope: f64, course: f64) -> impl Iterator<Item = bool> + Clone {
         let (below, share) = self.between(course);
         let pairs = self.tables[below]
             .steepest_of_samples()
@@ -266,17 +267,6 @@ impl RouteTables {
         let failed = self.fails_on(slope, course).filter(|fails| *fails).count();
         failed as f64 / self.tables[0].steepest_of_samples().len() as f64
     }
-}
-
-/// Slope and course of a way [rad].
-fn on_slope(along: f64, across: f64) -> (f64, f64) {
-    let rise = (along * along + across * across).sqrt();
-    if rise == 0.0 {
-        return (0.0, 0.0);
-    }
-    // On the slope itself the way up is longer than on the map.
-    let steepness = (1.0 + rise * rise).sqrt();
-    (atan2(rise, 1.0), atan2(along * steepness, across.abs()))
 }
 
 /// The courses of the tables [rad].
@@ -335,7 +325,7 @@ impl Risk {
         reason = "places in the table"
     )]
     fn at(&self, along: f64, across: f64) -> f64 {
-        let (slope, course) = on_slope(along, across);
+        let (slope, course) = slope_and_course(along, across);
         let x = (slope / SLOPE_STEP).min((SLOPES - 1) as f64);
         let y = (course + STRAIGHT_UP) / (2.0 * COURSE_STEP);
         let (column, row) =

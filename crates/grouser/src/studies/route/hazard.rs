@@ -15,7 +15,7 @@ pub enum Danger {
     TooSteep,
     /// The wheels slip more than the limit; the worst is the slip ratio [-].
     TooMuchSlip,
-    /// It is a no-go in more of the samples than the limit; the worst is their share [-].
+    /// It is a no-go in as many of the samples as the limit, or more; the worst is their share [-].
     NoGo,
     /// The line turns there, and the rover cannot turn on the spot on level ground.
     NoTurn,
@@ -44,7 +44,7 @@ impl Danger {
             Self::NoHeading => "no-heading",
             Self::TooSteep => "too-steep",
             Self::TooMuchSlip => "too-much-slip",
-            Self::NoGo => "no-go",
+            Self::NoGo => "no_go",
             Self::NoTurn => "no-turn",
         }
     }

@@ -3,7 +3,8 @@
 use super::answer::{Arrival, Route};
 use super::costs::{Metre, RouteTables};
 use crate::simulation::NotSteady;
-use crate::studies::mobility::MobilityStudy;
+use crate::studies::verdict::SlopeStudy;
+use crate::studies::mobility::slope_and_course;
 use crate::units::Vec2;
 
 /// Turning on the spot on level ground.
@@ -17,8 +18,8 @@ pub(super) struct Turning {
 
 impl Turning {
     /// By the steady motion with both sides against each other; or why there is none.
-    pub(super) fn of(study: &MobilityStudy) -> Result<Self, String> {
-        let MobilityStudy { heading, rim_speed, .. } = study;
+    pub(super) fn of(study: &SlopeStudy) -> Result<Self, String> {
+        let SlopeStudy { heading, rim_speed, .. } = study;
         let rims: Vec<f64> = heading
             .rover
             .mounts()
@@ -61,6 +62,8 @@ pub(super) struct Measure<'a> {
     route: Route,
     /// Whether each sample has met a no-go.
     failed: Vec<bool>,
+    /// How many of them fail at the worst place of the leg, with its slope and course [rad].
+    worst: (usize, f64, f64),
 }
 
 impl<'a> Measure<'a> {
@@ -78,8 +81,10 @@ impl<'a> Measure<'a> {
             most_slip_ratio: 0.0,
             most_slope: 0.0,
             probability_no_go: 0.0,
+            worst: Vec::new(),
         };
-        let mut measure = Self { tables, turning, route, failed: Vec::new() };
+        let mut measure =
+            Self { tables, turning, route, failed: Vec::new(), worst: (0, 0.0, 0.0) };
         measure.arrive(start);
         measure
     }
@@ -87,6 +92,10 @@ impl<'a> Measure<'a> {
     /// Another waypoint, with what has been taken up to it; the sums have no turns yet.
     pub(super) fn arrive(&mut self, place: Vec2) {
         let Self { route, turning, .. } = self;
+        if !route.waypoints.is_empty() {
+            let (_, slope, course) = std::mem::take(&mut self.worst);
+            route.worst.push((slope, course));
+        }
         route.waypoints.push(place);
         route.arrivals.push(Arrival {
             length: route.length,
@@ -114,9 +123,13 @@ impl<'a> Measure<'a> {
             route.mean_slip_ratio += length * metre.length * metre.slip_ratio;
             route.most_slip_ratio = route.most_slip_ratio.max(metre.slip_ratio);
         }
-        let rise = (along * along + across * across).sqrt();
-        route.most_slope = route.most_slope.max(crate::elementary::wide::atan2(rise, 1.0));
+        let (slope, course) = slope_and_course(along, across);
+        route.most_slope = route.most_slope.max(slope);
         let fails = self.tables.fails(along, across);
+        let here = (fails.clone().filter(|fails| *fails).count(), slope, course);
+        if (here.0, slope) > (self.worst.0, self.worst.1) {
+            self.worst = here;
+        }
         if self.failed.is_empty() {
             self.failed.extend(fails);
         } else {

@@ -5,7 +5,7 @@ use std::path::Path;
 use grouser_raster::zones::ZoneKey;
 use grouser_raster::{RasterError, read_areas};
 
-use crate::studies::mobility::MobilityStudy;
+use crate::studies::verdict::SlopeStudy;
 use crate::terrain::{Extent, SoilZones};
 use crate::units::STEEPEST_SLOPE;
 
@@ -50,7 +50,8 @@ pub struct Limits {
     pub most_slope: f64,
     /// The largest slip ratio on the soil as written [-].
     pub most_slip_ratio: f64,
-    /// In which share of the samples a place may be a no-go [-].
+    /// A place is one to keep out of where it is a no-go in at least this share of the samples [-],
+    /// and in any.
     pub most_no_go: f64,
 }
 
@@ -58,7 +59,7 @@ pub struct Limits {
 #[derive(Clone, Debug)]
 pub struct RouteStudy {
     /// Rover, soil, model, rim speed, rule.
-    pub mobility: MobilityStudy,
+    pub mobility: SlopeStudy,
     /// Where a way may lead.
     pub limits: Limits,
     /// Where it may not: any zone of these.
@@ -83,13 +84,13 @@ impl RouteStudy {
 }
 
 impl Limits {
-    /// Those of a study's rule: slip up to its no-go, and as many samples without it as it allows.
+    /// Those of a study's rule: slip up to its no-go, in more samples than make one.
     #[must_use]
-    pub fn of(study: &MobilityStudy) -> Self {
+    pub fn of(study: &SlopeStudy) -> Self {
         Self {
             most_slope: STEEPEST_SLOPE,
             most_slip_ratio: study.rule.no_go_slip_ratio,
-            most_no_go: 1.0 - study.rule.no_go_probability,
+            most_no_go: study.rule.no_go_probability,
         }
     }
 }

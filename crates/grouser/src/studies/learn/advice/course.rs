@@ -51,18 +51,16 @@ impl HeadingAdvice {
         limits: &Limits,
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Option<Self> {
-        /// Share of the samples in which a heading has to hold the contour [-].
-        const HALF: f64 = 0.5;
         let slope = band.slope;
-        let contour = band.yaw.filter(|_| band.level.estimate() >= HALF);
+        let contour = band.yaw.filter(|yaw| yaw.median.is_finite());
         let steepest = outputs_of_samples(samples, go_on, |sample| {
             steepest_within(&study.of_sample(sample), slope, limits)
         })?;
-        let steepest = share_quantile(steepest, limits.probability);
+        let steepest = kept_by_enough(steepest, limits);
         let yaw = contour.zip(steepest).map(|(contour, steepest)| contour.median.min(steepest));
         let advised = match yaw {
             Some(yaw) => Some(AdvisedHeading::at(study, samples, (slope, yaw), limits, go_on)?)
-                .filter(|it| it.within.estimate() >= limits.probability),
+                .filter(|it| limits.is_kept(it.within.successes, it.within.trials)),
             None => None,
         };
         Some(Self { slope, contour, steepest, advised })
@@ -156,11 +154,10 @@ fn steepest_within(study: &HeadingStudy, slope: f64, limits: &Limits) -> Option<
     Some(low)
 }
 
-/// The highest value that a share of all reaches; `None` where that share has none.
-fn share_quantile(values: Vec<Option<f64>>, share: f64) -> Option<f64> {
-    // 0.8 of 5 is 4, whatever the rounding.
-    let enough =
-        (1..=values.len()).find(|count| *count as f64 >= share * values.len() as f64 - 1e-9)?;
+/// The highest value that enough of all reach; `None` where not enough have one.
+fn kept_by_enough(values: Vec<Option<f64>>, limits: &Limits) -> Option<f64> {
+    let all = values.len();
+    let enough = (1..=all).find(|count| limits.is_kept(*count, all))?;
     let mut known: Vec<f64> = values.into_iter().flatten().collect();
     known.sort_by(|one, other| other.total_cmp(one));
     known.get(enough - 1).copied()
@@ -171,11 +168,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_share_of_all_reaches_the_value() {
+    fn enough_of_all_reach_the_value() {
         let values = || vec![Some(3.0), None, Some(1.0), Some(2.0), Some(5.0)];
-        assert_eq!(share_quantile(values(), 0.2), Some(5.0));
-        assert_eq!(share_quantile(values(), 0.8), Some(1.0));
-        assert_eq!(share_quantile(values(), 0.81), None);
-        assert_eq!(share_quantile(values(), 0.6), Some(2.0));
+        let by = |no_go_probability: f64| {
+            let limits = Limits { slip_ratio: 0.6, no_go_probability, rim_speed: 0.06 };
+            kept_by_enough(values(), &limits)
+        };
+        assert_eq!(by(1.0), Some(5.0));
+        assert_eq!(by(0.8), Some(3.0));
+        assert_eq!(by(0.21), Some(1.0));
+        // One in five is as many as make a no-go.
+        assert_eq!(by(0.2), None);
     }
 }

@@ -367,7 +367,7 @@ impl Planner<'_> {
     fn candidate(&self, leg: &TestLeg, slips: &[f64]) -> Option<Candidate> {
         let kept = slips.iter().filter(|slip| **slip <= self.limits.slip_ratio).count();
         let within = Probability { successes: kept, trials: slips.len() };
-        if within.estimate() < self.limits.probability {
+        if !self.limits.is_kept(kept, slips.len()) {
             return None;
         }
         let rim_speed = self.limits.rim_speed;

@@ -50,15 +50,21 @@ pub struct SlipCheck {
 }
 
 impl SlipCheck {
+    /// The slip above which to turn back [-]: what 97.5 % of the samples stay below that hold the
+    /// course each by its own heading, 40 % at most. It is no less on a steeper slope.
+    ///
+    /// * `slips`: of the samples [-], 1 where no heading holds the course
+    pub(super) fn limit(slips: impl Iterator<Item = f64>) -> f64 {
+        Band::of(slips).map_or(MOST_CHECKED_SLIP, |band| band.high).min(MOST_CHECKED_SLIP)
+    }
+
     /// The check for a slope.
     ///
     /// * `slips`: of all samples [-], 1 where stuck; one at least
-    pub(super) fn of(slips: &[f64]) -> Self {
+    pub(super) fn of(slips: &[f64], limit: f64) -> Self {
         static WAYS: OnceLock<Ways> = OnceLock::new();
         let mut sorted = slips.to_vec();
         sorted.sort_by(f64::total_cmp);
-        let usual = Band::of(sorted.iter().copied());
-        let limit = usual.map_or(MOST_CHECKED_SLIP, |band| band.high).min(MOST_CHECKED_SLIP);
         let share_within =
             |most: f64| sorted.partition_point(|slip| *slip <= most) as f64 / sorted.len() as f64;
         let (passed, free) = (share_within(limit), share_within(MOST_SLIP));
@@ -174,12 +180,13 @@ mod tests {
     #[test]
     fn a_slope_on_which_nobody_gets_stuck_is_looked_at_rarely() {
         let slips = [0.1, 0.2, 0.15, 0.3];
-        let check = SlipCheck::of(&slips);
+        let check = |slips: &[f64]| SlipCheck::of(slips, SlipCheck::limit(slips.iter().copied()));
+        let (often, check) = (check, check(&slips));
         assert_eq!((check.every, check.stuck), (Some(5.0), 0.0));
         assert!(check.limit > 0.28 && check.limit <= 0.3);
         let mut worse = vec![0.2; 97];
         worse.extend([1.0; 3]);
-        let check = SlipCheck::of(&worse);
+        let check = often(&worse);
         // All that he sees is 0.2, until it is 1.
         assert_eq!((check.every, check.limit), (None, MOST_CHECKED_SLIP));
         assert!(check.stuck > STUCK_WITH_CHECKS);

@@ -12,6 +12,7 @@ use super::super::ensemble::samples::{Sample, outputs_of_samples};
 use super::super::ensemble::{Band, Probability, outputs};
 use super::super::heading::{HeadingStudy, STRAIGHT_DOWN, STUCK};
 use super::slip_check::SlipCheck;
+use crate::soil::SlopeStability;
 use crate::elementary::wide::sin;
 use crate::simulation::power::electrical;
 use crate::simulation::{MOST_SLIP, SteadyMotion};
@@ -58,7 +59,8 @@ pub struct DrivenMotion {
     /// By how much the nose falls over the way [rad/m], positive downhill, over the samples that
     /// move.
     pub heading_fall: Option<Band>,
-    /// Drift, way downhill for a metre travelled [-], over all samples: 1 where the rover is stuck.
+    /// Drift, way off the course and downhill for a metre travelled [-], over all samples: 1 where
+    /// the rover is stuck.
     pub drift: Option<Band>,
     /// Mean slip ratio of the wheels [-], over all samples: 1 where the rover is stuck.
     pub slip_ratio: Option<Band>,
@@ -73,13 +75,16 @@ pub struct DrivenMotion {
     pub rim_way: Option<Band>,
     /// Samples in which the rover is stuck: it has no steady motion, or its wheels all but spin.
     pub stuck: Probability,
+    /// Samples in which the ground slides by itself, or the rover off its course faster than its
+    /// rims turn.
+    pub slides: Probability,
     /// Where to stop and look at the slip.
     pub slip_check: SlipCheck,
 }
 
 impl Driven {
     /// What does not depend on the soil.
-    pub(super) fn at_rest(study: &HeadingStudy, slope: f64, yaw: f64) -> Self {
+    pub(in super::super) fn at_rest(study: &HeadingStudy, slope: f64, yaw: f64) -> Self {
         let [roll, pitch] = roll_and_pitch(slope, yaw);
         let pitch_range = [-HEADING_ERROR, HEADING_ERROR].map(|error| {
             let [_, pitch] = roll_and_pitch(slope, yaw + error);
@@ -93,7 +98,7 @@ impl Driven {
 impl DrivenMotion {
     /// The same with corrections and looks at the slip at least as often as on a gentler slope:
     /// where samples get stuck, those that are left may seem to need fewer.
-    pub(super) fn no_laxer_than(mut self, gentler: Option<&Self>) -> Self {
+    pub(in super::super) fn no_laxer_than(mut self, gentler: Option<&Self>) -> Self {
         if let Some(gentler) = gentler {
             self.correct_every = self.correct_every.min(gentler.correct_every);
             let looks = self.slip_check.every.zip(gentler.slip_check.every);
@@ -106,11 +111,13 @@ impl DrivenMotion {
     /// its nose falls too fast to be held.
     ///
     /// * `samples`: of soil and model, one at least
+    /// * `slip_limit`: above which the driver turns back at a look [-]
     pub(super) fn of(
         study: &HeadingStudy,
         samples: &[Sample],
         rim_speed: f64,
-        (slope, yaw): (f64, f64),
+        (slope, course, yaw): (f64, f64, f64),
+        slip_limit: f64,
     ) -> Option<Self> {
         let moves = |motion: SteadyMotion| (motion.slip_ratio() <= MOST_SLIP).then_some(motion);
         let motions = outputs_of_samples(samples, &|| true, |sample| {
@@ -128,8 +135,14 @@ impl DrivenMotion {
             let mean = yaw + error + 0.5 * motion.turning() * correct_every;
             let study = study.of_sample(&samples[place]);
             let motion = study.steady_motion_near(motion, slope, mean, rim_speed).ok()?;
-            Some(-sin(moves(motion)?.course()))
+            Some(sin(course - moves(motion)?.course()))
         });
+        let slides = |(sample, motion): (&Sample, &Option<SteadyMotion>)| {
+            let own = SlopeStability { factor_of_safety: 1.0, ..study.stability };
+            let off = |it: &SteadyMotion| sin(course - it.course()) * it.speed() > rim_speed;
+            slope > sample.soil.stable_slope(study.gravity, own) || motion.as_ref().is_some_and(off)
+        };
+        let slides = samples.iter().zip(&motions).filter(|it| slides(*it)).count();
         let slip = |it: &Option<SteadyMotion>| it.as_ref().map_or(STUCK, SteadyMotion::slip_ratio);
         let slips: Vec<f64> = motions.iter().map(slip).collect();
         let stuck = motions.iter().filter(|it| it.is_none()).count();
@@ -138,13 +151,14 @@ impl DrivenMotion {
             correct_every,
             heading_fall: Band::of(moving().map(|it| -it.turning())),
             drift: Band::of(drift.into_iter().map(|it| it.unwrap_or(STRAIGHT_DOWN))),
-            slip_check: SlipCheck::of(&slips),
+            slip_check: SlipCheck::of(&slips, slip_limit),
             slip_ratio: Band::of(slips),
             sinkage: Band::of(moving().map(mean_sinkage)),
             torque: Band::of(moving().map(largest_torque)),
             current: Band::of(moving().filter_map(|it| largest_current(&study.rover, it, &rims))),
             rim_way: Band::of(moving().map(|it| rim_speed / it.speed())),
             stuck: Probability { successes: stuck, trials: samples.len() },
+            slides: Probability { successes: slides, trials: samples.len() },
         })
     }
 }
@@ -156,14 +170,14 @@ fn mean_sinkage(motion: &SteadyMotion) -> f64 {
 }
 
 /// Torque of the wheel that has most [N·m].
-pub(super) fn largest_torque(motion: &SteadyMotion) -> f64 {
+pub(in super::super) fn largest_torque(motion: &SteadyMotion) -> f64 {
     motion.wheels.iter().map(|wheel| wheel.settled.forces.torque.abs()).fold(0.0, f64::max)
 }
 
 /// Current of the motor that takes most [A], driving or braking, where motors are known.
 ///
 /// * `rim_speeds`: [m/s]
-pub(super) fn largest_current(
+pub(in super::super) fn largest_current(
     rover: &Rover,
     motion: &SteadyMotion,
     rim_speeds: &[f64],
@@ -187,7 +201,7 @@ fn drivable(way: f64) -> Option<f64> {
 /// How often the nose is set over [`DRIFT_WAY`].
 ///
 /// * `leg`: way between two settings [m]
-pub(super) fn settings(leg: f64) -> usize {
+pub(in super::super) fn settings(leg: f64) -> usize {
     /// Legs are not shorter.
     const MOST: u32 = 1000;
     let enough = |legs: &u32| f64::from(*legs) * leg >= DRIFT_WAY - 1e-9;
@@ -195,7 +209,7 @@ pub(super) fn settings(leg: f64) -> usize {
 }
 
 /// By how much a driver who sets the nose misses the heading [rad].
-pub(super) fn heading_error(random: &mut ChaCha8Rng) -> f64 {
+pub(in super::super) fn heading_error(random: &mut ChaCha8Rng) -> f64 {
     HEADING_ERROR * (2.0 * random::uniform(random) - 1.0)
 }
 

@@ -1,0 +1,115 @@
+//! What a mission risks on other soils and models, and what to do on each of its legs.
+
+use grouser::answers::Sampling;
+use grouser::document::LoadedMission;
+use grouser::document::columns::{SLOPE, YAW};
+use grouser::document::reading::{capitalised, four_digits};
+use grouser::mission::Mission;
+use grouser::studies::ensemble::samples::{BandInputs, Sample};
+use grouser::studies::mission::{DrivenMission, MissionRisk};
+use grouser::studies::verdict::{Advice, Rule, SlopeStudy};
+use serde_json::Value;
+
+use crate::args::MissionArgs;
+use crate::commands::sampling::{whole, with_bar};
+use crate::failure::Failure;
+use crate::inputs;
+
+/// What each mission risks, and the advice for each of its legs that leads somewhere.
+pub(super) struct Believed {
+    pub(super) sampling: Sampling,
+    pub(super) rule: Rule,
+    /// Name, samples and models, as JSON has them.
+    pub(super) belief: Value,
+    ways: Vec<(MissionRisk, Vec<Option<Advice>>)>,
+}
+
+impl Believed {
+    /// * `missions`, `ways`: by their names, and as they were driven
+    pub(super) fn of(
+        args: &MissionArgs,
+        document: &LoadedMission,
+        (missions, ways): (&[(String, Mission)], &[DrivenMission]),
+        sampling: Sampling,
+    ) -> Result<Self, Failure> {
+        let rule = inputs::rule(&args.rule)?;
+        let scenario = document.with_value(document.value.scenario.clone());
+        let samples = sampling.draw_if_uncertain(&BandInputs::of_scenario(&scenario))?;
+        let study = SlopeStudy { rule, ..SlopeStudy::of(&scenario) };
+        let pairs = missions.iter().zip(ways);
+        let all = pairs.map(|((_, mission), way)| {
+            let count = samples.len().max(1);
+            let risk = with_bar(count, |go_on| MissionRisk::of(mission, &samples, go_on));
+            Ok((whole(risk), advice(&study, mission, way, &samples)?))
+        });
+        let ways = all.collect::<Result<_, Failure>>()?;
+        Ok(Self { sampling, rule, belief: sampling.belief(&scenario), ways })
+    }
+
+    /// What one of the missions risks.
+    pub(super) fn way(&self, place: usize) -> (&MissionRisk, &[Option<Advice>]) {
+        let (risk, advice) = &self.ways[place];
+        (risk, advice)
+    }
+
+    /// The same in sentences: the whole first, then the legs that are no go.
+    pub(super) fn sentences(&self, place: usize, way: &DrivenMission) -> Vec<String> {
+        let (risk, advice) = self.way(place);
+        let mut all = vec![in_words(risk)];
+        for (leg, advice) in way.legs.iter().zip(advice) {
+            let Some(advice) = advice else { continue };
+            let slope = four_digits(SLOPE.unit.from_si(advice.slope));
+            let course = four_digits(SLOPE.unit.from_si(advice.course));
+            let nose = advice.heading().map_or_else(String::new, |yaw| {
+                format!("nose at {:.1}°; ", YAW.unit.from_si(yaw))
+            });
+            all.push(format!(
+                "Leg {} (slope {slope}°, course {course}°): {nose}{}.",
+                leg.number,
+                advice.judgement.sentence()
+            ));
+        }
+        all
+    }
+}
+
+/// Advice for the legs of a mission, by the speed of its scenario.
+fn advice(
+    study: &SlopeStudy,
+    mission: &Mission,
+    way: &DrivenMission,
+    samples: &[Sample],
+) -> Result<Vec<Option<Advice>>, Failure> {
+    let places = way.places(&mission.scenario);
+    let known: Vec<_> = places.iter().copied().flatten().collect();
+    let found = study.advice_at(&known, samples, &|| true)?;
+    let mut found = whole(found).into_iter();
+    Ok(places.iter().map(|place| place.and_then(|_| found.next())).collect())
+}
+
+/// How probable it is that a mission is completed, and how it ends otherwise.
+fn in_words(risk: &MissionRisk) -> String {
+    let percent = |share: f64| format!("{} %", four_digits((1000.0 * share).round() / 10.0));
+    let completed = risk.completed;
+    let (low, high) = completed.interval();
+    let end = risk.commonest.as_ref().map_or_else(String::new, |end| {
+        format!(
+            "; it ends most often in leg {}: {}, in {} of {}",
+            end.leg,
+            end.outcome.replace(['-', '_'], " "),
+            end.count,
+            completed.trials
+        )
+    });
+    let lost = match risk.not_computed {
+        0 => String::new(),
+        some => format!("; {some} more could not be computed"),
+    };
+    capitalised(&format!(
+        "completed on {} of {} samples of soil and model (95 %: {} to {}){end}{lost}.",
+        percent(completed.estimate()),
+        completed.trials,
+        percent(low),
+        percent(high)
+    ))
+}

@@ -1,0 +1,49 @@
+//! Advice on a slope: whether to drive there and why, the heading to set, and how often a rover
+//! gets stuck by it.
+
+use super::super::table::Table;
+use super::super::unit::ONE;
+use super::{Column, Quantity, YAW, quantity, text};
+use crate::studies::verdict::Advice;
+
+/// The verdict on a slope.
+pub const VERDICT: &str = "verdict";
+/// What decides it.
+pub const REASON: &str = "reason";
+/// The share of ways on which a rover gets stuck although its slip is looked at.
+pub const PROBABILITY_STUCK: Quantity = quantity("probability_stuck", ONE);
+/// The share of the samples that are stuck, whoever looks.
+pub const PROBABILITY_STUCK_WITHOUT_CHECKS: Quantity =
+    quantity("probability_stuck_without_checks", ONE);
+/// The object of JSON that has these columns.
+pub const ADVICE_OBJECT: &str = "advice";
+
+/// Advice.
+pub const ADVICE: [Column<Advice>; 5] = [
+    text(VERDICT, "Whether to drive there: `go`, `caution`, `cannot_tell` or `no_go`", |it| {
+        Some(it.judgement.verdict.name().to_owned())
+    }),
+    text(REASON, "What decides the verdict, in a word", |it| {
+        Some(it.judgement.reason.name().to_owned())
+    }),
+    PROBABILITY_STUCK.maybe(
+        "Share of ways of 10 m on which a rover that is driven by this heading gets stuck, although \
+         its slip is looked at as often as the card says; missing where it is not driven",
+        Advice::probability_stuck,
+    ),
+    YAW.maybe(
+        "Heading that is set, positive uphill: the median over all samples; missing where no \
+         heading holds the course in half of them",
+        Advice::heading,
+    ),
+    YAW.band(
+        "Headings that hold the course, over all samples; an end is missing where none does",
+        |it| it.yaw,
+    ),
+];
+
+/// A row for each advice.
+#[must_use]
+pub fn advice(all: &[Advice]) -> Table {
+    Table::of(&ADVICE, all)
+}
