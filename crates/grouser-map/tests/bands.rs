@@ -5,7 +5,7 @@ use grouser::document::{self, Overrides, Source};
 use grouser::studies::mobility::{CourseChoice, Ground, MobilityMap};
 use grouser::studies::verdict::SlopeStudy;
 use grouser_core::terrain::ElevationGrid;
-use grouser_core::units::Vec2;
+use grouser_core::units::{Vec2, deg};
 use grouser_map::{Look, style, summaries, write_band};
 use grouser_raster::{CoordinateSystem, Raster, ReadOptions};
 
@@ -29,7 +29,7 @@ fn map(choice: CourseChoice) -> (SlopeStudy, MobilityMap) {
     let scenario =
         document::read_scenario(&Source::default_scenario(), &Overrides::none()).unwrap();
     let study = SlopeStudy::of(&scenario);
-    let map = MobilityMap::of(&study, choice, &[], &|| true).unwrap().unwrap();
+    let map = MobilityMap::of(&study, choice, deg(30.0), &[], &|| true).unwrap().unwrap();
     (study, map)
 }
 

@@ -91,7 +91,7 @@ mod _core {
     use super::slip_from_current::SlipFromCurrent;
     #[pymodule_export]
     use super::studies::{
-        card, card_rule, forecast, gravity_of, heading, heading_band, heading_map,
+        card, card_rule, forecast, gravity_of, heading, heading_map,
         heading_map_band, simulate, simulate_band, simulated_wheel_test, wheel_speeds,
         wheel_test_band,
     };

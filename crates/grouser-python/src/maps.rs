@@ -1,8 +1,11 @@
 //! Mobility maps: what a rover does at every point of a map of heights.
 
-use grouser::document::columns::map::{bands, chosen};
+use grouser::answers::Sampling;
+use grouser::document::columns::map::{CLASS, bands, chosen};
+use grouser::document::columns::verdict::{ADVICE, ADVICE_OBJECT};
 use grouser::document::columns::{COURSE, Column, LIMIT_SLOPE, POWER, SINKAGE, SLIP_RATIO, YAW};
 use grouser::document::study::{COURSE_DEG, MAP_SPEED_M_S};
+use grouser::document::table::Table;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::mobility::{CellMotion, CourseChoice, Ground, MobilityMap, MobilityTable};
 use grouser::studies::verdict::SlopeStudy;
@@ -12,6 +15,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 
+use crate::columns::table_to_python;
 use crate::descriptions::Document;
 use crate::errors;
 use crate::interrupt::listening;
@@ -21,7 +25,7 @@ use crate::wheels::check;
 
 /// Bands by name, each with its unit, what it is, and its numbers in rows from north to south; then
 /// x of the columns and y of the rows [m]; then how far the numbers are from those of the curves at
-/// most, and other numbers of the map.
+/// most, other numbers of the map, and the `advice` for each class of slopes.
 type Parts<'py> = (
     Vec<(&'static str, &'static str, &'static str, Bound<'py, PyAny>)>,
     Bound<'py, PyArray1<f64>>,
@@ -58,13 +62,11 @@ pub(crate) fn mobility_map<'py>(
     let grid = raster.grid;
     let found = listening(py, move |cancelled| {
         let go_on = || !cancelled.is_set();
-        let samples = if inputs.is_certain() {
-            Vec::new()
-        } else {
-            inputs.samples(seed, samples).map_err(Problem::Sampling)?
-        };
-        let map = MobilityMap::of(&study, course, &samples, &go_on).map_err(Problem::Parameter)?;
+        let sampling = Sampling { count: samples, seed };
+        let samples = sampling.draw_if_uncertain(&inputs).map_err(Problem::Sampling)?;
         let ground = Ground::under(&study.heading.rover, &raster);
+        let map = MobilityMap::of(&study, course, ground.steepest(), &samples, &go_on)
+            .map_err(Problem::Parameter)?;
         let numbers = map.map(|map| (numbers(ground, &map, &columns), map));
         Ok((numbers, columns, ground.slope_length()))
     })?;
@@ -159,5 +161,8 @@ fn about<'py>(
     let limit = limits.reduce(f64::max).map(|limit| LIMIT_SLOPE.unit.from_si(limit));
     about.set_item(LIMIT_SLOPE.name, limit.unwrap_or(f64::NAN))?;
     about.set_item("slope_length_m", slope_length.to_vec())?;
+    let advice: Vec<_> = map.advice().iter().map(Some).collect();
+    let advice = Table::default().and(&CLASS, &advice).and(&ADVICE, &advice);
+    about.set_item(ADVICE_OBJECT, table_to_python(py, advice)?)?;
     Ok(about)
 }

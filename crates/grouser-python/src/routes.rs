@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use grouser::answers::Sampling;
 use grouser::document::columns::YAW;
 use grouser::document::route::RouteRecord;
 use grouser::document::study::{MAP_SPEED_M_S, MOST_SLOPE_DEG, SHARE, START_YAW_DEG};
@@ -111,10 +112,12 @@ impl Sought<'_> {
             Some(line) => line.check(ground)?,
             None => ends.check(ground)?,
         }
-        let samples = if inputs.is_certain() {
-            Vec::new()
-        } else {
-            inputs.samples(seed, samples).map_err(Problem::Sampling)?
+        let sampling = Sampling { count: samples, seed };
+        let samples = sampling.draw_if_uncertain(inputs).map_err(Problem::Sampling)?;
+        let mobility = &self.study.mobility;
+        let advice = |route: &Route| {
+            let legs = route.advice(mobility, &samples, go_on).map_err(Problem::Parameter)?;
+            Ok::<_, Failure>(legs.unwrap_or_default())
         };
         let with_risk = objectives.contains(&Objective::Risk);
         let tables = self.study.tables(&samples, with_risk, go_on).map_err(Problem::Parameter)?;
@@ -124,7 +127,8 @@ impl Sought<'_> {
             let found = self.study.along(&tables, ground, line)?;
             let driven = self.driven(found.route.as_ref())?;
             let limits = &self.study.limits;
-            return Ok(vec![RouteRecord::of_line(line, &found, limits, driven.as_ref())]);
+            let legs = advice(&found.seen)?;
+            return Ok(vec![RouteRecord::of_line(line, &found, limits, driven.as_ref(), &legs)]);
         }
         let record = |objective: &Objective| {
             let answer = self.study.route(&tables, ground, &ends, *objective)?;
@@ -132,7 +136,8 @@ impl Sought<'_> {
                 Answer::Route(route) => Some(route),
                 Answer::NoSafeRoute(_) => None,
             };
-            Ok(RouteRecord::of(*objective, &answer, self.driven(route)?.as_ref()))
+            let legs = route.map(advice).transpose()?.unwrap_or_default();
+            Ok(RouteRecord::of(*objective, &answer, self.driven(route)?.as_ref(), &legs))
         };
         objectives.iter().map(record).collect()
     }

@@ -2,6 +2,8 @@
 
 use std::ops::RangeInclusive;
 
+use grouser::answers::heading::HeadingQuestion;
+use grouser::answers::{Answer, AnswerError, AnswerOptions, Member, Sampling};
 use grouser::document::columns::flags::{self, FLAGS};
 use grouser::document::columns::run::{
     ELECTRICAL, ELECTRICAL_RECORD, ENERGY_ERROR, RECORD, STANDING, STEERING_RECORD, WHEEL_RECORD,
@@ -9,7 +11,7 @@ use grouser::document::columns::run::{
 };
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{
-    self, COURSE, LIMIT_SLOPE, LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE,
+    self, COURSE, LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE,
 };
 use grouser::document::forecast as words;
 use grouser::document::simulated_test::{NOISE, TRIALS};
@@ -19,7 +21,6 @@ use grouser::document::{self, Kind};
 use grouser::error::ParameterError;
 use grouser::simulation::{Run, RunError, Scenario, Trajectory, WheelRecord};
 use grouser::soil::GravityScaling;
-use grouser::studies::card::{CardStudy, Rule, Side};
 use grouser::studies::ensemble::NothingAccepted;
 use grouser::studies::ensemble::models::{ModelSpread, Question};
 use grouser::studies::ensemble::samples::BandInputs;
@@ -31,6 +32,7 @@ use grouser::studies::measurement::PerQuantity;
 use grouser::studies::simulated_test::SimulatedTest;
 use grouser::studies::traverse_band::{TraverseBand, record_times};
 use grouser::studies::validity::RoverOnSlope;
+use grouser::studies::verdict::{Rule, Side, SlopeStudy};
 use grouser::studies::wheel_speeds::{WheelSpeedStudy, WheelSpeeds};
 use grouser::studies::wheel_test::WheelTest;
 use numpy::{PyArray2, PyReadonlyArray1};
@@ -155,12 +157,14 @@ pub(crate) fn wheel_sample_columns() -> impl Iterator<Item = (&'static str, Whee
     own.chain(results)
 }
 
-/// Results on each slope, the steepest slope [°], what ends the curve there in a sentence, and in a
-/// word.
-type Headings<'py> = (Bound<'py, PyDict>, Option<f64>, String, Option<String>);
+/// The heading that holds the contour on each slope: a table as the program has it, the steepest
+/// slope as a row, and with samples what is believed of the soil.
+type Headings<'py> = (Bound<'py, PyDict>, Bound<'py, PyAny>, Bound<'py, PyAny>);
 
-/// The heading offset that holds the contour on each slope, the steepest slope, what ends the curve
-/// there in a sentence, and in a word.
+/// The heading that holds the contour on each slope.
+///
+/// * `sampling`: number of samples, and their seed; without it the soil as written and one model
+/// * `rule`: the limits of the verdicts, in the order of [`Rule`]'s fields
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
 pub(crate) fn heading<'py>(
@@ -168,21 +172,61 @@ pub(crate) fn heading<'py>(
     scenario: &Document,
     slope_deg: PyReadonlyArray1<'py, f64>,
     steering: &str,
+    sampling: Option<(u32, u64)>,
+    rule: [f64; 5],
 ) -> PyResult<Headings<'py>> {
-    let slopes = slopes(&slope_deg)?;
+    slopes(&slope_deg)?;
+    if let Some((samples, _)) = sampling {
+        check("samples", &[f64::from(samples)], &SAMPLES)?;
+    }
     let steering = Steering::ALL.into_iter().find(|it| it.name() == steering).unwrap_or_default();
-    let scenario = scenario.scenario()?.value.clone();
-    let found = listening(py, move |_| {
-        let curve = HeadingStudy { steering, ..HeadingStudy::of(&scenario) }.curve()?;
-        Ok((
-            columns::heading::table(&curve, &scenario.rover, &slopes),
-            columns::heading::steepest(&curve),
-        ))
+    let question = HeadingQuestion {
+        scenarios: vec![scenario.scenario()?.clone()],
+        slopes_deg: slope_deg.as_slice()?.to_vec(),
+        steering,
+        most_speed_ratio: None,
+        sampling: sampling.map(|(count, seed)| Sampling { count, seed }),
+        rule: rule_of(rule)?,
+    };
+    let found = listening(py, move |cancelled| {
+        let go_on = || !cancelled.is_set();
+        question.answer("heading", &AnswerOptions { go_on: &go_on, ..AnswerOptions::ROWS })
     })?;
-    let (table, limit) = found.map_err(|error: ParameterError| errors::of_parameter(&error))?;
-    let reason = limit.texts(columns::heading::LIMIT_REASON)[0].clone().unwrap_or_default();
-    let limited_by = limit.texts(columns::heading::LIMITED_BY)[0].clone();
-    Ok((table_to_python(py, table)?, limit.numbers(LIMIT_SLOPE.name)[0], reason, limited_by))
+    let answer = match found {
+        // Who stopped it gets the signal, and no answer.
+        Err(AnswerError::Stopped) => Answer::default(),
+        found => found.map_err(|error| of_answer(&error))?,
+    };
+    let rows = answer.tables.first().map(|(_, rows)| Table::clone(rows)).unwrap_or_default();
+    let limit = answer.results.iter().find_map(|it| match it {
+        Member::Row(None, limit) => Some(limit),
+        _ => None,
+    });
+    let limit = record_to_python(py, &limit.map(|it| it.row(0)))?;
+    Ok((table_to_python(py, rows)?, limit, record_to_python(py, &answer.belief)?))
+}
+
+/// The limits of the verdicts.
+fn rule_of(rule: [f64; 5]) -> PyResult<Rule> {
+    let [go_slip_ratio, go_probability, go_drift_m_per_m, no_go_slip_ratio, no_go_probability] =
+        rule;
+    let rule = Rule {
+        go_slip_ratio,
+        go_probability,
+        go_drift_m_per_m,
+        no_go_slip_ratio,
+        no_go_probability,
+    };
+    rule.check().map_err(|error| errors::of_parameter(&error))?;
+    Ok(rule)
+}
+
+fn of_answer(error: &AnswerError) -> PyErr {
+    match error {
+        AnswerError::Parameter(error) => errors::of_parameter(error),
+        AnswerError::Samples(error) => Problem::Sampling(*error).raised(),
+        other => errors::parameter(other.to_string(), "steering", None, "one of them"),
+    }
 }
 
 /// Wheels at speeds of their own: a row for each slope and for which wheels have a speed in common,
@@ -259,35 +303,6 @@ pub(crate) fn heading_map<'py>(
         Ok(table)
     })?;
     table_to_python(py, table.map_err(|error: ParameterError| errors::of_parameter(&error))?)
-}
-
-/// Statistics over samples of soil and model: of the heading offset on each slope, and of the
-/// steepest slope.
-#[pyfunction]
-#[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
-pub(crate) fn heading_band<'py>(
-    py: Python<'py>,
-    scenario: &Document,
-    slope_deg: PyReadonlyArray1<'py, f64>,
-    seed: u64,
-    samples: u32,
-) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyAny>)> {
-    let slopes = slopes(&slope_deg)?;
-    check("samples", &[f64::from(samples)], &SAMPLES)?;
-    let scenario = scenario.scenario()?;
-    let inputs = BandInputs::of_scenario(scenario);
-    let weights = inputs.models().clone();
-    let study = HeadingStudy::of(&scenario.value);
-    let found = listening(py, move |cancelled| {
-        let samples = inputs.samples(seed, samples).map_err(Problem::Sampling)?;
-        let go_on = || !cancelled.is_set();
-        HeadingBand::of(&study, &samples, &slopes, &go_on).map_err(Problem::Parameter)
-    })?;
-    let band = found.map_err(|problem| problem.raised())?;
-    let table = Table::of(&columns::heading::BAND, band.as_ref().map_or(&[], |band| &band.slopes));
-    let table = with_weights(table_to_python(py, table)?, &weights)?;
-    let limit = band.as_ref().map(columns::heading::band_limit);
-    Ok((table, record_to_python(py, &limit.as_ref().map(|it| it.row(0)))?))
 }
 
 /// Statistics over samples of soil and model for each soil, course and slope of a map, in the order
@@ -411,7 +426,7 @@ fn weights_to_python<'py>(py: Python<'py>, weights: &ModelSpread) -> PyResult<Bo
 /// The operator's card over samples of soil and model: its rows, the other courses, and the
 /// steepest slope.
 ///
-/// * `rule`: go slip ratio, go probability, no-go slip ratio, no-go probability [-]
+/// * `rule`: the limits of the verdicts, in the order of [`Rule`]'s fields
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
 pub(crate) fn card<'py>(
@@ -421,7 +436,7 @@ pub(crate) fn card<'py>(
     seed_and_samples: (u64, u32),
     rim_speed_m_s: Option<f64>,
     is_uphill_right: bool,
-    rule: [f64; 4],
+    rule: [f64; 5],
 ) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>, Bound<'py, PyAny>)> {
     let slopes = slopes(&slope_deg)?;
     let (seed, samples) = seed_and_samples;
@@ -430,20 +445,18 @@ pub(crate) fn card<'py>(
     let rim_speed = rim_speed_m_s.unwrap_or_else(|| scenario.value.drive.nominal_rim_speed());
     check("rim_speed_m_s", &[rim_speed], &MAP_SPEED_M_S)?;
     let uphill = if is_uphill_right { Side::Right } else { Side::Left };
-    let [go_slip_ratio, go_probability, no_go_slip_ratio, no_go_probability] = rule;
-    let rule = Rule { go_slip_ratio, go_probability, no_go_slip_ratio, no_go_probability };
-    let study = CardStudy { rim_speed, rule, ..CardStudy::of(scenario, uphill) };
+    let rule = rule_of(rule)?;
+    let study =
+        SlopeStudy { rim_speed, rule, ..SlopeStudy::of(scenario).with_uphill(uphill) };
     let inputs = BandInputs::of_scenario(scenario);
     let found = listening(py, move |cancelled| {
         let go_on = || !cancelled.is_set();
-        let samples = if inputs.is_certain() {
-            Vec::new()
-        } else {
-            inputs.samples(seed, samples).map_err(Problem::Sampling)?
-        };
+        let sampling = Sampling { count: samples, seed };
+        let samples = sampling.draw_if_uncertain(&inputs).map_err(Problem::Sampling)?;
         let card = study.card(&samples, &slopes, &go_on).map_err(Problem::Parameter)?;
-        let courses = card.as_ref().and_then(|card| study.courses(&card.rows, &samples, &go_on));
-        Ok(card.zip(courses))
+        let Some(card) = card else { return Ok(None) };
+        let courses = study.courses(&card.rows, &samples, &go_on).map_err(Problem::Parameter)?;
+        Ok(courses.map(|courses| (card, courses)))
     })?;
     let Some((card, courses)) = found.map_err(|problem: Problem| problem.raised())? else {
         return Ok((PyDict::new(py), PyDict::new(py), py.None().into_bound(py)));

@@ -24,13 +24,13 @@ def results() -> list[Any]:
         gr.simulate(slope_deg=40.0),
         gr.rollout([gr.Scenario(duration_s=0.5), gr.Scenario(slope_deg=40.0)]),
         gr.rollout(slope_deg=[[5.0], [6.0]], yaw_deg=[0.0, 1.0], duration_s=0.5),
-        gr.heading(slope_deg=[5.0, 30.0]),
+        gr.heading(slope_deg=[5.0, 30.0], nominal=True),
         gr.heading_map(soil=["toyoura", "lunar-nominal"], slope_deg=[0, 30], course_deg=[0, 20]),
         gr.wheel_speeds(slope_deg=[5.0, 30.0]),
         gr.wheel_speeds(slope_deg=[]).limits,
         gr.wheel_test(load_n=[10, 1e5], slip_ratio=[0.0, 0.2]),
         gr.wheel_test(load_n=[10, 1e5], slip_ratio=[0.0, 0.2], trials=2),
-        gr.heading(soil="toyoura-uncertain", slope_deg=[5.0, 40.0], uncertainty=True, samples=5),
+        gr.heading(soil="toyoura-uncertain", slope_deg=[5.0, 40.0], samples=5),
         gr.calibrate(READINGS, "toyoura", "hakuto", fit="shear.longitudinal_m", point_fit=True),
         gr.settle("toyoura", "hakuto", load_n=[[10.0], [1e5]], slip_ratio=[0.1, 0.2, 0.3]),
         gr.wheel_forces("toyoura", "hakuto", sinkage_mm=10.0, slip_ratio=0.2),
@@ -60,8 +60,12 @@ def test_units_stand_in_the_fields_metadata() -> None:
     fit = gr.calibrate(READINGS, "toyoura", "hakuto", fit="cohesion_kpa", point_fit=True).to_arrow()
     assert fit.schema.field("fit").metadata is None, "its unit is the key's"
     assert fit.schema.field("posterior_contraction").metadata == {b"units": b"1"}
-    texts = gr.heading(slope_deg=[5.0]).to_arrow().schema.field("status")
-    assert texts.type == pyarrow.string() and texts.metadata is None
+    level = gr.heading(slope_deg=[5.0], samples=2).to_arrow().schema
+    for name in ("status", "verdict"):
+        texts = level.field(name)
+        assert texts.type == pyarrow.string() and texts.metadata is None
+    for name in ("yaw_deg_p97_5", "yaw_deg_as_written", "yaw_deg_rft"):
+        assert level.field(name).metadata == {b"units": "°".encode()}
 
 
 def test_a_stream_can_be_left_unread() -> None:

@@ -210,7 +210,7 @@ def test_its_soil_is_a_description_with_uncertainty(found: gr.Calibration) -> No
     soil = found.soil
     assert soil.uncertainty["samples"] in soil.files
     assert soil.shear["longitudinal_m"] == found.fit[1]
-    level = gr.heading(soil=soil, slope_deg=10.0, uncertainty=True, samples=20)
+    level = gr.heading(soil=soil, slope_deg=10.0, samples=20)
     assert level.band is not None and level.band.draws == 20
     run = gr.Scenario(soil=soil)
     for one in (soil, run, run.site):

@@ -46,18 +46,22 @@ RESULTS = [
 LEFT_OUT = {(gr.Headings, "power_w"), (gr.SimulatedWheelTest, "trial")}
 
 
+#: Attributes whose sentence says more than that of their column.
+SAYS_MORE = {(gr.Headings, "yaw_deg")}
+
+
 def docs_of(result: type) -> dict[str, str]:
-    """The sentence below each attribute of a class."""
+    """The sentence below each attribute of a class, with those that it inherits."""
     # Classes say that they are of the package, so that `inspect` does not find their files.
     files = sorted(Path(gr.__file__).parent.glob("_*.py"))
     nodes = (node for file in files for node in ast.parse(file.read_text("utf-8")).body)
-    classes = (node for node in nodes if isinstance(node, ast.ClassDef))
-    (tree,) = (node for node in classes if node.name == result.__name__)
+    names = {base.__name__ for base in result.__mro__}
     docs = {}
-    for field, below in zip(tree.body, tree.body[1:]):
-        if isinstance(field, ast.AnnAssign) and isinstance(below, ast.Expr):
-            assert isinstance(field.target, ast.Name) and isinstance(below.value, ast.Constant)
-            docs[field.target.id] = " ".join(str(below.value.value).split())
+    for tree in (node for node in nodes if isinstance(node, ast.ClassDef) and node.name in names):
+        for field, below in zip(tree.body, tree.body[1:]):
+            if isinstance(field, ast.AnnAssign) and isinstance(below, ast.Expr):
+                assert isinstance(field.target, ast.Name) and isinstance(below.value, ast.Constant)
+                docs[field.target.id] = " ".join(str(below.value.value).split())
     return docs
 
 
@@ -92,7 +96,8 @@ def test_docs_have_the_sentence_and_the_unit_of_the_column(
         # Upper ends and the like speak of "its" quantity; what is set names its shape.
         if text.startswith(("Its ", "Lower end of its", "Upper end of")) or "shape (" in text:
             continue
-        assert text == sentence, name
+        is_same = text.startswith(sentence) if (result, name) in SAYS_MORE else text == sentence
+        assert is_same, name
         compared += 1
     assert compared >= 4
 

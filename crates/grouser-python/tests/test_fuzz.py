@@ -104,10 +104,12 @@ def test_heading_map(slope: Any, course: Any, speed: Any, soil: Any) -> None:
 @settings(max_examples=150, deadline=None)
 @given(slope=anything, samples=anything, seed=anything, soil=things)
 def test_heading(slope: Any, samples: Any, seed: Any, soil: Any) -> None:
-    result_or_ours(gr.heading, slope_deg=slope)
-    result_or_ours(gr.heading, soil=soil, slope_deg=5.0)
+    result_or_ours(gr.heading, slope_deg=slope, nominal=True)
+    result_or_ours(gr.heading, soil=soil, slope_deg=5.0, nominal=True)
+    result_or_ours(gr.heading, slope_deg=5.0, rule=soil, samples=2)
+    result_or_ours(gr.heading, slope_deg=5.0, rule={"go_slip_ratio": slope}, samples=2)
     if not (isinstance(samples, int) and samples > 20):
-        uncertain = {"soil": "toyoura-uncertain", "slope_deg": 5.0, "uncertainty": True}
+        uncertain = {"soil": "toyoura-uncertain", "slope_deg": 5.0}
         result_or_ours(gr.heading, samples=samples, seed=2, **uncertain)
         result_or_ours(gr.heading, samples=2, seed=seed, **uncertain)
 

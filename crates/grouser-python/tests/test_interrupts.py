@@ -13,10 +13,10 @@ import pytest
 CALLS = {
     "simulate": ("", "gr.simulate(duration_s=86400, drive={'law': 'eq18'}, sample_interval_s=0.1)"),
     "rollout": ("", "gr.rollout(duration_s=np.full(20_000, 2000.0))"),
-    "heading": ("", "gr.heading(slope_deg=np.linspace(0, 20, 5_000_000))"),
+    "heading": ("", "gr.heading(slope_deg=np.linspace(0, 20, 5_000_000), nominal=True)"),
     "heading, uncertain": (
         "",
-        "gr.heading(soil='toyoura-uncertain', slope_deg=10, uncertainty=True, samples=100_000)",
+        "gr.heading(soil='toyoura-uncertain', slope_deg=10, samples=100_000)",
     ),
     "wheel_speeds": ("", "gr.wheel_speeds(slope_deg=np.linspace(0, 20, 5_000_000))"),
     "heading_map": ("", "gr.heading_map(course_deg=np.linspace(-60, 60, 200_000))"),

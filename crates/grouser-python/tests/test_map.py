@@ -33,9 +33,39 @@ def test_a_plane_has_the_numbers_of_the_heading_map(rises_deg: float) -> None:
     assert float(abs(apart).max()) < found.attrs["interpolation_error_heading_deg"] + 0.01
 
 
+def test_each_whole_degree_of_a_map_has_advice() -> None:
+    asked = {"soil": "toyoura-uncertain", "samples": 4}
+    found = gr.map(plane(5.5, 30.0), **asked)
+    slopes = found.advice_slope_deg.values
+    np.testing.assert_allclose(slopes, np.arange(len(slopes)), atol=1e-9)
+    # A place has the advice for the whole degree above its slope: all of a plane the last.
+    assert 0.0 <= slopes[-1] - float(found.slope_deg.max()) < 1.0
+    numbers = {1: "go", 2: "caution", 3: "no_go", 4: "cannot_tell"}
+    verdicts = {numbers[int(it)] for it in found.verdict.values.flat}
+    assert verdicts == {found.advice_verdict.values[-1]}
+    texts, yaws = ("verdict", "reason"), ("yaw_deg", "yaw_deg_p2_5", "yaw_deg_p97_5")
+    for name in (*texts, *yaws, "probability_stuck", "course_deg"):
+        variable = found[f"advice_{name}"]
+        assert variable.dims == ("advice_slope_deg",)
+        assert variable.attrs["long_name"] and variable.attrs["units"]
+    assert found.advice_yaw_deg.attrs["units"] == found.advice_slope_deg.attrs["units"] == "°"
+    assert "advice" not in found.attrs and not found.advice_course_deg.values.any()
+    level = gr.heading(slope_deg=[5.0], **asked)
+    assert level.verdict is not None and level.reason is not None
+    assert found.advice_verdict.values[5] == level.verdict[0]
+    assert found.advice_reason.values[5] == level.reason[0]
+    np.testing.assert_allclose(found.advice_yaw_deg[5], level.yaw_deg[0], rtol=1e-6)
+
+
+def test_a_soil_without_stated_uncertainty_leaves_a_map_open() -> None:
+    found = gr.map(plane(5.0, 30.0), soil="toyoura", samples=4)
+    assert set(found.advice_verdict.values) == {"cannot_tell"} and (found.verdict == 4.0).all()
+    assert set(found.advice_reason.values) == {"no_stated_uncertainty"}
+
+
 def test_a_map_has_coordinates_units_and_gaps() -> None:
     found = gr.map(plane(5.0, 30.0, gap=True), soil="toyoura-uncertain", samples=4)
-    assert isinstance(found, xarray.Dataset) and found.sizes == {"y": 9, "x": 12}
+    assert isinstance(found, xarray.Dataset) and found.slip_ratio.sizes == {"y": 9, "x": 12}
     assert found.x.values[[0, -1]].tolist() == [300.0, 305.5]
     assert found.y.values[[0, -1]].tolist() == [-36.0, -40.0]
     assert found.heading_deg.attrs["units"] == "°" and found.power_w.attrs["long_name"]

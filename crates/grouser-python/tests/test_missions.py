@@ -53,14 +53,57 @@ def check_same(found: gr.DrivenMission, answer: dict[str, Any]) -> None:
 def test_legs_are_the_programs(program: Program, settings: dict[str, Any], tmp_path: Path) -> None:
     mission = gr.Mission(SHORT, **settings)
     (tmp_path / "mission.toml").write_text(mission.to_toml())
-    check_same(gr.mission(mission), program("mission", str(tmp_path / "mission.toml")))
+    file = str(tmp_path / "mission.toml")
+    check_same(gr.mission(mission), program("mission", file, "--nominal"))
+
+
+def test_what_a_mission_risks_is_the_programs(program: Program, tmp_path: Path) -> None:
+    mission = gr.Mission(SHORT, soil="toyoura-uncertain", simulation="quasi-steady")
+    (tmp_path / "mission.toml").write_text(mission.to_toml())
+    file = str(tmp_path / "mission.toml")
+    answer = program("mission", file, "--samples", "6", "--seed", "3")
+    found = gr.mission(mission, samples=6, seed=3)
+    assert found.risk is not None and found.advice is not None
+    assert found.risk == {name: answer[name] for name in found.risk}
+    assert 0.0 <= found.risk["probability_completed"] <= 1.0
+    advice = [leg.pop("advice") for leg in answer["legs"]]
+    check_same(found, answer)
+    assert list(found.advice) == list(advice[0])
+    for name in found.advice:
+        assert same(found.advice[name], advice, name), name
+    # No turn on the spot and no wait has advice: only what leads somewhere.
+    has_advice = [verdict is not None for verdict in found.advice["verdict"]]
+    assert has_advice == [True, False, True, False, True][: len(found.legs)]
+
+
+def test_without_samples_nothing_is_risked(short: gr.DrivenMission) -> None:
+    assert short.risk is None and short.advice is None
+    for bad in ({"samples": 1}, {"samples": 2.5}, {"samples": 2, "seed": -1}):
+        with pytest.raises(gr.ParameterError, match=list(bad)[-1]):
+            gr.mission(SHORT, **bad)
+
+
+def test_what_was_driven_can_be_pickled() -> None:
+    """Alternatives and results by model are mappings with slots, without a dictionary of names."""
+    legs = {"a": {"drive_m": 0.1}, "b": {"drive_m": 0.1, "yaw_deg": 9.0}}
+    ways = [{"name": name, "leg": [leg]} for name, leg in legs.items()]
+    found = gr.mission({"name": "ways", "slope_deg": 8.0, "alternative": ways}, samples=2)
+    for again in (pickle.loads(pickle.dumps(found)), copy.deepcopy(found)):
+        assert again.mission == found.mission and list(again.alternatives) == ["a", "b"]
+        assert again.legs.to_pandas().equals(found.legs.to_pandas())
+        assert again.alternatives.to_pandas().equals(found.alternatives.to_pandas())
+        assert again.trajectory.y_m.tolist() == found.trajectory.y_m.tolist()
+        assert again.risk == found.risk and list(again.advice) == list(found.advice)
+    level = gr.heading(slope_deg=5.0, model="all", nominal=True)
+    assert list(pickle.loads(pickle.dumps(level))) == list(level)
+    with pytest.raises(AttributeError, match="'Alternatives' object has no attribute 'ways'"):
+        found.alternatives.ways  # type: ignore[attr-defined]
 
 
 def test_a_mission_that_is_stopped_is_the_programs(program: Program) -> None:
     found = gr.mission("slip-check", slope_deg=14.0, simulation="quasi-steady")
-    check_same(
-        found, program("mission", "slip-check", "--slope-deg", "14", "--simulation", "quasi-steady")
-    )
+    settings = ("--slope-deg", "14", "--simulation", "quasi-steady", "--nominal")
+    check_same(found, program("mission", "slip-check", *settings))
     assert found.outcome == found.legs.outcome[-1] == "stopped"
     assert found.legs.stopped_by[-1] == "slip_ratio" and found.legs.stopped_kind[-1] == "reactive"
     assert found.legs_completed == len(found.legs) - 1 < found.legs_planned
@@ -69,7 +112,8 @@ def test_a_mission_that_is_stopped_is_the_programs(program: Program) -> None:
 
 def test_alternatives_are_the_programs(program: Program) -> None:
     found = gr.mission("two-steps-forward", simulation="quasi-steady")
-    answers = program("mission", "two-steps-forward", "--simulation", "quasi-steady")["alternatives"]
+    settings = ("--simulation", "quasi-steady", "--nominal")
+    answers = program("mission", "two-steps-forward", *settings)["alternatives"]
     assert list(found.alternatives) == [answer["alternative"] for answer in answers]
     for way, answer in zip(found.alternatives.values(), answers):
         assert way.alternative == answer["alternative"] and not way.alternatives
@@ -114,7 +158,8 @@ def test_results_are_tables(short: gr.DrivenMission) -> None:
 def test_a_mission_is_drawn_as_it_was_driven(short: gr.DrivenMission, program: Program, tmp_path: Path) -> None:
     (tmp_path / "mission.toml").write_text(short.mission.to_toml())
     picture = tmp_path / "program.svg"
-    program("mission", str(tmp_path / "mission.toml"), "--animate", str(picture))
+    file = str(tmp_path / "mission.toml")
+    program("mission", file, "--nominal", "--animate", str(picture))
     animation = short.trajectory.animate(tmp_path / "python.svg", names=["short"])
     assert (tmp_path / "python.svg").read_bytes() == picture.read_bytes()
     assert animation.to_bytes("glb")[:4] == b"glTF"

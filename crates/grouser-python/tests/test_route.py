@@ -27,15 +27,33 @@ def wall(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 def test_over_level_ground_the_way_is_straight() -> None:
     way = gr.route(ground(), from_m=(302.0, -36.0), to_m=(310.0, -36.0), drive=False, samples=2)
-    assert isinstance(way, xarray.Dataset) and way.sizes == {"waypoint": 2}
+    assert isinstance(way, xarray.Dataset) and way.sizes == {"waypoint": 2, "leg": 1}
     assert way.x.values.tolist() == [302.0, 310.0] and way.y.values.tolist() == [-36.0, -36.0]
     assert way.x.attrs["units"] == "m" and way.energy_j.attrs["units"] == "J"
     assert way.attrs["status"] == "found" and "reason" not in way.attrs
     np.testing.assert_allclose(way.attrs["length_m"], 8.0, rtol=1e-12)
-    level = gr.heading(slope_deg=[0.0])
+    level = gr.heading(slope_deg=[0.0], nominal=True)
     np.testing.assert_allclose(way.attrs["most_slip_ratio"], level.slip_ratio[0], atol=2e-3)
     for name in ("length_m", "time_s", "energy_j"):
         assert way[name].values.tolist() == [0.0, way.attrs[name]]
+
+
+def test_each_leg_has_advice() -> None:
+    """Across a slope of 8° and then up it: each leg has the slope and course of its worst place."""
+    slope = ground(lambda x, y: np.tan(np.radians(8.0)) * y + 0.0 * x)
+    across_and_up = [[302.0, -38.0], [308.0, -38.0], [308.0, -34.0]]
+    settings = {"soil": "toyoura-uncertain", "along": across_and_up, "samples": 4}
+    way = gr.route(slope, drive=False, **settings)
+    assert way.sizes["leg"] == way.sizes["waypoint"] - 1 == 2
+    # A place is judged as one on the whole degree above its slope.
+    assert ((way.leg_slope_deg > 7.9) & (way.leg_slope_deg < 9.1)).all()
+    np.testing.assert_allclose(way.leg_course_deg, [0.0, 90.0], atol=1e-6)
+    assert set(way.leg_verdict.values) <= {"go", "caution", "cannot_tell", "no_go"}
+    assert way.leg_reason.dims == ("leg",) and all(way.leg_reason.values)
+    assert way.leg_yaw_deg.attrs["units"] == "°" and "legs" not in way.attrs
+    level = gr.heading(soil="toyoura-uncertain", slope_deg=way.leg_slope_deg[:1], samples=4)
+    assert level.verdict is not None and level.verdict[0] == way.leg_verdict[0]
+    np.testing.assert_allclose(way.leg_yaw_deg[0], level.yaw_deg[0], rtol=1e-6)
 
 
 def test_a_way_is_driven_and_takes_what_it_says() -> None:
@@ -83,7 +101,7 @@ def test_a_way_that_was_found_takes_the_same_when_it_is_given() -> None:
     places = np.column_stack([found.x, found.y])
     given = gr.route(bumps, along=places, drive=False, samples=3)
     assert given.attrs["status"] == "safe" and "minimise" not in given.attrs
-    assert given.sizes == {"waypoint": found.sizes["waypoint"], "hazard": 0}
+    assert given.sizes == {**found.sizes, "hazard": 0}
     for name in ("length_m", "time_s", "energy_j"):
         np.testing.assert_allclose(given[name], found[name], rtol=1e-9)
         np.testing.assert_allclose(given.attrs[name], found.attrs[name], rtol=1e-9)
@@ -115,7 +133,7 @@ def test_a_given_way_is_not_safe_where_it_says(tmp_path: Path) -> None:
 
 def test_without_a_safe_route_there_is_a_reason(tmp_path: Path) -> None:
     way = gr.route(ground(wall), from_m=(302.0, -36.0), to_m=(311.0, -36.0), samples=2)
-    assert way.attrs["status"] == "no-safe-route" and way.sizes == {"waypoint": 0}
+    assert way.attrs["status"] == "no-safe-route" and way.sizes == {"waypoint": 0, "leg": 0}
     assert "cannot be crossed within the limits" in way.attrs["reason"]
     assert "length_m" not in way.attrs and way.time_s.attrs["units"] == "s"
     gentle = {"from_m": (302.0, -36.0), "to_m": (304.0, -36.0), "drive": False, "samples": 2}

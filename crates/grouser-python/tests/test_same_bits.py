@@ -26,6 +26,17 @@ def same(column: Any, rows: list[dict[str, Any]], name: str) -> bool:
     return np.asarray(column, dtype=np.float64).tobytes() == answer.tobytes()
 
 
+def check_rows(columns: Any, rows: list[dict[str, Any]], kept: slice = slice(None)) -> None:
+    """Bit for bit, each column of rows with advice, and the same columns in their advice, which is
+    the last of each."""
+    assert all(list(row)[-1] == "advice" for row in rows)
+    advice = [row["advice"] for row in rows]
+    for own in (rows, advice):
+        for name in own[0].keys() - {"advice"}:
+            assert same(columns[name][kept], own, name), name
+    assert {"verdict", "reason", "probability_stuck", "yaw_deg"} < advice[0].keys()
+
+
 def test_wheel_test(program: Program) -> None:
     for soil, wheel in [("toyoura", "hakuto"), ("cmu-direct90-smooth", "cmu-smooth")]:
         rows = program(
@@ -66,9 +77,29 @@ def test_traverse_of_a_file(program: Program, tmp_path: Any) -> None:
 def test_heading(program: Program) -> None:
     answer = program("heading", "--slope-deg", "0:24:3")
     level = gr.heading(slope_deg=np.arange(0, 25, 3))
+    check_rows(level.columns, answer["rows"])
+    assert list(level.to_pandas()) == list(answer["rows"][0])[:-1]
+    assert answer["belief"]["samples"] == 40
+    check_limits(level, answer)
+
+
+def check_limits(level: gr.Headings, answer: dict[str, Any]) -> None:
+    """The steepest slope, and what is believed."""
+    assert level.band is not None
+    assert level.band.model_weights == answer["belief"]["model_weights"]
+    assert level.limit_slope_deg == answer["limit_slope_deg"]
+    assert (level.limit_message, level.limited_by) == (answer["limit_reason"], answer["limited_by"])
+    for name in ("limit_slope_deg_p2_5", "limit_slope_deg_p97_5", "draws_mobile", "draws"):
+        assert getattr(level.band, name) == answer[name]
+
+
+def test_heading_on_the_soil_as_written(program: Program) -> None:
+    answer = program("heading", "--slope-deg", "0:24:3", "--nominal")
+    level = gr.heading(slope_deg=np.arange(0, 25, 3), nominal=True)
     assert level.limit_slope_deg == answer["limit_slope_deg"]
     for name in answer["rows"][0]:
         assert same(getattr(level, name), answer["rows"], name), name
+    assert list(level.to_pandas()) == list(answer["rows"][0])
 
 
 @pytest.mark.parametrize(
@@ -180,20 +211,29 @@ def test_heading_on_an_uncertain_soil(program: Program) -> None:
     level = gr.heading(
         soil="toyoura-uncertain", slope_deg=[5, 15, 40], uncertainty=True, samples=30, seed=9
     )
-    table = level.to_pandas()
-    for name in answer["rows"][0].keys() - {"status", "draws"}:
-        assert same(table[name], answer["rows"], name), name
-    assert level.band is not None and level.band.model_weights == answer["model_weights"]
-    for name in ("limit_slope_deg_p2_5", "limit_slope_deg_p97_5", "draws_mobile", "draws"):
-        assert getattr(level.band, name) == answer[name]
+    check_rows(level.columns, answer["rows"])
+    check_limits(level, answer)
+
+
+def test_heading_by_a_rule(program: Program) -> None:
+    answer = program(
+        "heading", "--soil", "toyoura-uncertain", "--slope-deg", "5,12", "--samples", "12",
+        "--go-slip-ratio", "0.01",
+    )  # fmt: skip
+    settings: dict[str, Any] = {"soil": "toyoura-uncertain", "slope_deg": [5, 12], "samples": 12}
+    level = gr.heading(**settings, rule={"go_slip_ratio": 0.01})
+    check_rows(level.columns, answer["rows"])
+    usual = gr.heading(**settings)
+    assert level.verdict is not None and usual.verdict is not None
+    assert level.verdict.tolist() != usual.verdict.tolist()
+    assert level.yaw_deg.tolist() == usual.yaw_deg.tolist()
 
 
 def test_card(program: Program) -> None:
     answer = program("card", "--soil", "toyoura-uncertain", "--samples", "12", "--seed", "4")
     card = gr.card(soil="toyoura-uncertain", samples=12, seed=4)
     rows = answer["rows"]
-    for name in rows[0]:
-        assert same(card.columns[name][: len(rows)], rows, name), name
+    check_rows(card.columns, rows, slice(len(rows)))
     for name in answer["courses"][0]:
         assert same(card.courses.columns[name], answer["courses"], name), name
     for name in ("draws", "limit_slope_deg", "limit_slope_deg_p97_5"):
@@ -288,7 +328,10 @@ def test_folders_without_data_sets(tmp_path: Path) -> None:
 
 
 def test_every_model_of_the_program(program: Program) -> None:
-    rows = program("heading", "--slope-deg", "5,12", "--model", "all")["rows"]
-    found = gr.heading(slope_deg=[5, 12], model="all").to_pandas()
+    asked = ("heading", "--slope-deg", "5,12", "--model", "all")
+    rows = program(*asked, "--nominal")["rows"]
+    found = gr.heading(slope_deg=[5, 12], model="all", nominal=True).to_pandas()
     for name in rows[0]:
         assert same(found[name], rows, name), name
+    rows = program(*asked, "--samples", "3")["rows"]
+    check_rows(gr.heading(slope_deg=[5, 12], model="all", samples=3).to_pandas(), rows)

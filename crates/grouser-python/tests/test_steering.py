@@ -22,7 +22,8 @@ def test_crab_angles_are_the_programs(program: Program) -> None:
     assert crab.limit_slope_deg == answer["limit_slope_deg"]
     assert not crab.yaw_deg[:2].any() and "steering_deg" in crab.to_pandas()
     assert crab.to_xarray().steering_deg.units == "°"
-    level = gr.heading(rover="hakuto-steered", slope_deg=[5, 10, 30])
+    assert crab.band is None and crab.verdict is None
+    level = gr.heading(rover="hakuto-steered", slope_deg=[5, 10, 30], nominal=True)
     assert level.steering_deg is None and "steering_deg" not in level.to_pandas()
     assert np.allclose(level.yaw_deg[:2], crab.steering_deg[:2], atol=0.01)
 

@@ -25,7 +25,7 @@ def test_names_are_those_of_the_list() -> None:
 def test_a_wheel_test_and_headings_have_the_flags_of_the_program() -> None:
     test = gr.wheel_test(load_n=[17.0], slip_ratio=[0.2, 0.95])
     assert test.flags.ravel().tolist() == ["", "slip-outside"]
-    headings = gr.heading(slope_deg=[5.0, 35.0])
+    headings = gr.heading(slope_deg=[5.0, 35.0], nominal=True)
     assert headings.flags.tolist() == ["", "slope-beyond-strength"]
     chart = gr.heading_map(slope_deg=[5.0], course_deg=[0.0], gravity_m_s2=gr.MOON_GRAVITY)
     assert chart.flags.shape == (1, 1, 1) and "gravity-outside" in chart.flags[0, 0, 0]

@@ -52,7 +52,10 @@ def stopped_by(mission: gr.Mission) -> dict[str, str | None]:
 def main() -> None:
     site: gr.Site = gr.Site("toyoura", slope_deg=10.0).replace(gravity_m_s2=gr.MOON_GRAVITY)
     soil: gr.Soil = gr.Soil("toyoura").replace(cohesion_kpa=0.5)
-    level: gr.Headings = gr.heading(slope_deg=[5.0, 10.0])
+    level: gr.Headings = gr.heading(slope_deg=[5.0, 10.0], samples=4, rule={"go_slip_ratio": 0.2})
+    stuck: NDArray[np.float64] | None = level.probability_stuck
+    if level.band is not None and level.verdict is not None:
+        print(level.verdict[0], level.band.yaw_deg_p97_5 - level.yaw_deg, stuck)
     speeds: gr.WheelSpeeds = gr.wheel_speeds(slope_deg=[5.0], most_speed_ratio=1.5)
     ratios: NDArray[np.float64] = speeds.speed_ratio
     steepest: NDArray[np.float64] = speeds.limits.limit_slope_deg

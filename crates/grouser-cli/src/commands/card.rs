@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use grouser::answers::Sampling;
 use grouser::document::columns::card::{self, MeasuredYaw, YAW_AS_WRITTEN};
 use grouser::document::columns::verdict::{ADVICE, ADVICE_OBJECT};
-use grouser::document::columns::{SLOPE, YAW, card_courses, card_drives};
+use grouser::document::columns::{Column, SLOPE, YAW, card_courses, card_drives};
 use grouser::document::table::{Row, Table, WithObject};
 use grouser::document::{LoadedScenario, escape};
 use grouser::simulation::Approach;
@@ -62,7 +62,7 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
         inputs: &inputs,
         card: &card,
         beside: card::beside(&rows, &measured),
-        advice: rows.select(&advice_names(), &(0..rows.rows()).collect::<Vec<_>>()),
+        advice: advice(&rows),
         rows,
         drives,
     };
@@ -197,9 +197,11 @@ fn no_go_line(rows: &Table) -> String {
     })
 }
 
-/// The columns of the advice.
-fn advice_names() -> Vec<&'static str> {
-    ADVICE.iter().map(|column| column.name).collect()
+/// The advice of each row.
+fn advice(rows: &Table) -> Table {
+    let names: Vec<String> = ADVICE.iter().flat_map(Column::names).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    rows.select(&names, &(0..rows.rows()).collect::<Vec<_>>())
 }
 
 /// The inputs of the card.

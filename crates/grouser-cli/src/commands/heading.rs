@@ -1,7 +1,7 @@
 //! `grouser heading`: the heading offset that holds the contour on a slope.
 
-use grouser::answers::AnswerOptions;
 use grouser::answers::heading::HeadingQuestion;
+use grouser::answers::{AnswerOptions, Displayed};
 use grouser::studies::heading::Steering;
 
 use super::sampling;
@@ -15,10 +15,13 @@ use crate::output::folder::OutputFolder;
 pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let question = inputs::heading(args)?;
-    let answer = sampling::with_bar(question.samples(), |go_on| {
+    let mut answer = sampling::with_bar(question.samples(), |go_on| {
         let (has_page, is_strict) = (folder.is_some(), args.strict.strict);
         question.answer(command, &AnswerOptions { has_page, is_strict, go_on })
     })?;
+    if question.sampling.is_some() && args.belief.samples.is_none() {
+        answer.screen.push(Displayed::Words(sampling::DRAFT_LINE.to_owned()));
+    }
     give(&answer, &repeat(command, args, &question), folder, args.output.format)
 }
 

@@ -15,8 +15,10 @@ use grouser::answers::Answer;
 use grouser::answers::learn::{LearnQuestion, LearntDrive, SOIL_FILE};
 use grouser::document::learn::LearntSoil;
 use grouser::document::{LoadedScenario, SAMPLES_FILE, escape};
+use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::heading_band::HeadingBand;
 use grouser::studies::learn::{Drive, LearnSettings, Learner, LearntSample, TelemetryRecord};
+use grouser::studies::verdict::SlopeStudy;
 
 use self::cards::Cards;
 use self::live::Live;
@@ -119,12 +121,15 @@ fn learn(args: &LearnArgs, question: &LearnQuestion) -> Result<LearntDrive, Fail
     let learner = drive.learner();
     let samples = samples(question.sampling, learner)?;
     let after = band(learner, &samples, &slopes)?;
+    let drawn: Vec<Sample> = samples.iter().map(|it| it.sample.clone()).collect();
+    let study = SlopeStudy::of(scenario);
+    let verdicts = after.slopes.iter().map(|slope| slope.advice(&study, &drawn)).collect();
     let advice = advice::of(question, &drive, (&samples, &after))?;
     let narrowed = learner.narrowed(args.seed, args.samples);
     let narrowed = narrowed.map_err(|error| reaches_too_far(&error))?;
     let lost = drive.lost().sentences();
     let notes = lost.into_iter().chain(ending.notes).chain(learner.notes()).collect();
-    Ok(LearntDrive { drive, before, after, advice, narrowed, slips: None, notes })
+    Ok(LearntDrive { drive, before, after, verdicts, advice, narrowed, slips: None, notes })
 }
 
 /// How a log ended.

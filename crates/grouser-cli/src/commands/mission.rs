@@ -160,11 +160,13 @@ impl Answered {
             Text::from(name + &risk) + legs + Text::from(sentences)
         });
         let blocks = Text::blocks(blocks);
+        let is_draft = self.believed.as_ref().is_some_and(|it| it.is_draft);
+        let draft = Text::from(if is_draft { sampling::DRAFT_LINE } else { "" });
         if self.ways.len() == 1 {
-            return blocks;
+            return blocks + draft;
         }
         let missions = self.table();
         let missions = Rows::of_table(&missions).to_table(&missions_brief(&missions));
-        blocks + Text::from("\n") + missions
+        blocks + Text::from("\n") + missions + draft
     }
 }

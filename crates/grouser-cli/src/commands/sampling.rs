@@ -28,6 +28,9 @@ pub(crate) fn draw_if_uncertain(
     Ok(Sampling { count, seed }.draw_if_uncertain(&BandInputs::of_scenario(scenario))?)
 }
 
+/// What is said of a draft.
+pub(crate) const DRAFT_LINE: &str = "a draft: --samples 200 has the samples of the operator's card\n";
+
 /// The key of what is believed of the soil.
 pub(super) const BELIEF: &str = "belief";
 

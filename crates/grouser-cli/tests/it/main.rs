@@ -1,5 +1,6 @@
 //! The program as its users meet it: what they type, what it answers, what it leaves behind.
 
+mod advice;
 mod animation;
 mod bad_input;
 mod calibrate;

@@ -323,6 +323,14 @@ impl Mission {
         self.scenario.check().map_err(whole)
     }
 
+    /// Speed of the fastest rims on its first leg that leads somewhere [m/s]: that of its first leg
+    /// where none does.
+    #[must_use]
+    pub fn rim_speed(&self) -> f64 {
+        let leads = |leg: &&Leg| leg.manoeuvre.direction() != 0.0;
+        self.legs.iter().find(leads).or(self.legs.first()).map_or(USUAL_SPEED, Leg::speed)
+    }
+
     /// The limits of a leg: its own, and those of the mission for other numbers.
     pub(super) fn stops_of(&self, leg: &Leg) -> Vec<Stop> {
         let is_own = |stop: &Stop| leg.stops.iter().any(|own| own.limited == stop.limited);

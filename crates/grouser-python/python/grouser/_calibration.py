@@ -123,8 +123,8 @@ class Calibration(_tables.Tabular):
     """Settings and diagnostics of the sampler: ``seed``, ``ensembles``, ``walkers``, ``steps``,
     ``acceptance``, ``worst_r_hat``, ``least_effective_samples``."""
     soil: Soil
-    """The fitted soil, with the posterior samples as uncertainty: for `heading` with
-    ``uncertainty=True``."""
+    """The fitted soil, with the posterior samples as uncertainty: for `heading` and every other
+    study that has samples."""
     validation: Validation | None = None
     """Errors of the fitted model; None for plate tests."""
     cross_validation: tuple[Mapping[str, Any], ...] = ()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -14,6 +14,7 @@ from ._arrays import Floats, line, number, whole_number
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError
 from ._studies import scenario_of
+from ._verdicts import limits_of
 
 if TYPE_CHECKING:
     import pandas
@@ -33,9 +34,9 @@ class CardCourses(_tables.Tabular):
     """``up``, ``back-down``, ``down``, ``back-up``, ``back-across``, ``turn`` or
     ``turn-on-the-spot``."""
     verdict: NDArray[np.object_]
-    """``go``, ``caution`` or ``no-go``."""
+    """``go``, ``caution``, ``cannot_tell`` or ``no_go``."""
     columns: Mapping[str, NDArray[Any]]
-    """All columns, by the names of the program's table."""
+    """All columns, by the names of the program's table; ``reason`` is what decides the verdict."""
 
     def _table(self) -> Mapping[str, Any]:
         return self.columns
@@ -61,9 +62,18 @@ class Card(_tables.Tabular):
     slope_deg: Floats
     """Slopes [°]."""
     verdict: NDArray[np.object_]
-    """``go``, ``caution`` or ``no-go``."""
+    """``go``, ``caution``, ``cannot_tell`` or ``no_go``. Where the soil's document states no
+    uncertainty nobody can tell a go."""
+    reason: NDArray[np.object_]
+    """What decides the verdict, in a word: ``all_met``, ``share_that_holds``, ``stuck``, ``drift``,
+    ``friction_margin``, ``no_stated_uncertainty`` …"""
+    probability_stuck: Floats
+    """Share of ways of 10 m on which a rover that is driven so gets stuck, although its slip is
+    looked at as often as the card says [-]; NaN where it is not driven. Without these looks it is
+    ``probability_stuck_without_checks`` among the `columns`."""
     yaw_deg: Floats
-    """Heading to set [°], positive uphill: the median over all samples."""
+    """Heading to set [°], positive uphill: the median over all samples; NaN where no heading holds
+    the contour in half of them."""
     roll_deg: Floats
     """Roll that instruments show then [°]."""
     pitch_deg: Floats
@@ -100,21 +110,8 @@ class Card(_tables.Tabular):
         return f"<Card of {len(self.slope_deg)} slopes, go {upto}>"
 
 
-#: What a driver sets and reads first.
-_SHOWN = (
-    "slope_deg",
-    "verdict",
-    "yaw_deg",
-    "roll_deg",
-    "pitch_deg",
-    "correct_every_m",
-    "slip_limit",
-    "slip_check_every_m",
-    "flags",
-)
-
-#: The limits of a rule, as the program has them without flags.
-_RULE: dict[str, float] = _core.card_rule()
+#: What a driver sets and reads first: all but the tables.
+_SHOWN = tuple(one.name for one in fields(Card)[:-3])
 
 
 def card(
@@ -142,7 +139,8 @@ def card(
         Its rover, soil, gravity, model, load transfer and rim speed are used.
     slope_deg : array_like, shape (slopes,), optional
         Slopes [°], 0 to 60, rising; without them each whole degree, as the program takes them. A
-        verdict never gets better on a steeper slope, so that it depends on those before it.
+        verdict depends on its slope alone. The heading is to be set again, and the slip to be
+        looked at, no less often than on the gentler slopes.
     samples : int
         Number of samples of soil and model, 2 to 100000.
     seed : int
@@ -152,8 +150,11 @@ def card(
     uphill : {"left", "right"}
         The side of the rover that is uphill.
     rule : mapping, optional
-        Limits of the verdicts, any of ``go_slip_ratio`` (0.3), ``go_probability`` (0.95),
-        ``no_go_slip_ratio`` (0.6) and ``no_go_probability`` (0.8).
+        Limits of the verdicts, any of these. Go: a heading holds the contour and slips at most
+        ``go_slip_ratio`` (0.3) in at least the share ``go_probability`` (0.95) of the samples, and
+        in 97.5 % of them the rover drifts at most ``go_drift_m_per_m`` (0.1). No-go: no heading
+        holds the contour, or it slips more than ``no_go_slip_ratio`` (0.6), in the share
+        ``no_go_probability`` (0.2) of the samples or more, or the rover gets stuck as often.
     **changes
         Keys of the scenario with other values.
 
@@ -172,7 +173,7 @@ def card(
     >>> import grouser as gr
     >>> card = gr.card(soil="toyoura-uncertain", slope_deg=[5.0, 40.0], samples=12)
     >>> card.verdict.tolist()
-    ['go', 'no-go']
+    ['go', 'no_go']
     >>> bool(card.roll_deg[0] <= 5.0 and card.correct_every_m[0] >= 0.1)
     True
     >>> card.courses.to_pandas().query("course == 'back-across'")["verdict"].tolist()
@@ -182,15 +183,10 @@ def card(
     run = scenario_of(scenario, changes)
     if uphill not in ("left", "right"):
         raise ParameterError(f"uphill {uphill!r}: it must be 'left' or 'right'", "uphill")
-    unknown = set(rule or {}) - set(_RULE)
-    if unknown:
-        names = ", ".join(_RULE)
-        raise ParameterError(f"rule: {sorted(unknown)[0]!r} is none of {names}", "rule")
-    limits = [number(name, value) for name, value in {**_RULE, **(rule or {})}.items()]
     speed = None if rim_speed_m_s is None else number("rim_speed_m_s", rim_speed_m_s)
     draws = (whole_number("seed", seed), whole_number("samples", samples, most=2**32 - 1))
     rows, courses, steepest = _core.card(
-        run._document, slopes, draws, speed, uphill == "right", limits
+        run._document, slopes, draws, speed, uphill == "right", limits_of(rule)
     )
     rows, courses = _tables.arrays_of(rows), _tables.arrays_of(courses)
     of_course = ("slope_deg", "course", "verdict")

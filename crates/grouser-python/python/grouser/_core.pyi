@@ -49,7 +49,6 @@ __all__ = [
     "forecast",
     "gravity_of",
     "heading",
-    "heading_band",
     "heading_map",
     "heading_map_band",
     "import_telemetry",
@@ -391,7 +390,9 @@ def spread_labels(
 ) -> list[float]: ...
 def style_colours(dark: bool) -> dict[str, list[str]]: ...
 def simulate(scenario: Document) -> dict[str, Any]: ...
-def drive_mission(mission: Document) -> list[dict[str, Any]]: ...
+def drive_mission(
+    mission: Document, sampling: tuple[int, int] | None
+) -> list[dict[str, Any]]: ...
 def rollout(
     scenarios: Sequence[Document],
     scenario_index: NDArray[np.int64] | None,
@@ -421,11 +422,12 @@ def forecast(
     seed: int,
 ) -> dict[str, Any]: ...
 def heading(
-    scenario: Document, slope_deg: _Floats, steering: str
-) -> tuple[dict[str, Any], float | None, str, str | None]: ...
-def heading_band(
-    scenario: Document, slope_deg: _Floats, seed: int, samples: int
-) -> tuple[dict[str, Any], dict[str, Any]]: ...
+    scenario: Document,
+    slope_deg: _Floats,
+    steering: str,
+    sampling: tuple[int, int] | None,
+    rule: Sequence[float],
+) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any] | None]: ...
 def simulated_wheel_test(
     soil: Document,
     wheel: Document,

@@ -323,7 +323,7 @@ class Soil(_Description, _keys.SoilKeys):
 
     def sample(self, n: int, seed: int = 1) -> list[Soil]:
         """Samples of an uncertain soil, by the deviations or the samples that its document states,
-        and by priors where it states none: the soils of the studies with ``uncertainty=True``.
+        and by priors where it states none: the soils of the studies that have samples.
 
         Sample *i* depends on the seed and *i* alone, so that more samples begin with the same ones.
         Those studies sample the error of the wheel–soil model as well, which is not a number of the

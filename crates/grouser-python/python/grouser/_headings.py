@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core, _tables
+from . import _core, _shown, _tables
 from ._arrays import Floats, line, number, whole_number
 from ._heading_band import HeadingBand, HeadingMapBand
 from ._descriptions import Scenario, Soil, Source
 from ._errors import ParameterError
-from ._models import ByModel, each_model
+from ._models import MODELS, ByModel, each_model
 from ._studies import columns_of, scenario_of, soil_of
+from ._verdicts import limits_of
 
 if TYPE_CHECKING:
     import pandas
@@ -23,28 +24,35 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 #: Fields of a `HeadingMap`; `Headings` have all but the power.
-_HEADING = _tables.COLUMNS["heading"]
-#: In the order of the program's tables.
-_HELD = tuple(name for name in _HEADING if name != "power_w")
+_HELD = tuple(name for name in _tables.COLUMNS["heading"] if name != "power_w")
 
 
 @dataclass(frozen=True, eq=False)
 class Headings(_tables.Tabular):
-    """Heading offsets that hold the contour line: arrays of shape (slopes,), NaN where none
-    does.
+    """Heading offsets that hold the contour line, and whether to drive by them: arrays of shape
+    (slopes,), NaN where there is no number.
+
+    The heading to set, its verdict and the `band` are over samples of soil and model. Slip,
+    sinkage, torque, energy and yaw moment, and the steepest slope, are those of the soil as its
+    document has it, with one model and its own heading, `yaw_deg_as_written`. With
+    ``nominal=True`` there is nothing else.
 
     Examples
     --------
     >>> import grouser as gr
-    >>> level = gr.heading(slope_deg=[5, 10, 15])
+    >>> level = gr.heading(slope_deg=[5, 10, 15], nominal=True)
     >>> bool((level.yaw_deg[1:] > level.yaw_deg[:-1]).all())        # steeper: turn further uphill
     True
     >>> bool(level.to_pandas()["slip_ratio"].max() == level.slip_ratio[2])
     True
+    >>> believed = gr.heading(soil="toyoura-uncertain", slope_deg=[5, 10])
+    >>> bool((believed.yaw_deg == believed.band.yaw_deg_p50).all())
+    True
     """
 
     limit_slope_deg: float | None
-    """The steepest slope on which the contour can be held [°]; None where the rover cannot move."""
+    """The steepest slope on which the contour can be held, on the soil as written [°]; None where
+    the rover cannot move."""
     limit_message: str
     """What ends the curve there."""
     limited_by: str | None
@@ -52,13 +60,14 @@ class Headings(_tables.Tabular):
     ``range``, of the slopes; or ``not-found``, where the search gave up and nothing is known of
     steeper slopes; None where the rover cannot move."""
     status: NDArray[np.object_]
-    """Of each slope: ``ok``, or why no heading offset holds the contour."""
+    """Of each slope: ``ok``, or why no heading offset holds the contour on the soil as written."""
     flags: NDArray[np.object_]
     """Why each row is an extrapolation: names of `FLAGS`, joined by ``;``."""
     slope_deg: Floats
     """Slopes [°]."""
     yaw_deg: Floats
-    """Yaw that holds the course [°], positive uphill."""
+    """Yaw that holds the course [°], positive uphill: the heading to set, which is the median over
+    all samples. NaN where no heading holds the course in half of them."""
     slip_ratio: Floats
     """Slip ratio of every wheel; with wheels steered, of these [-]."""
     sinkage_mm: Floats
@@ -69,17 +78,28 @@ class Headings(_tables.Tabular):
     """Work of the wheels per metre along the course [J/m]."""
     yaw_moment_nm: Floats
     """Yaw moment left over [N·m]; negative turns the nose downhill."""
+    columns: Mapping[str, NDArray[Any]]
+    """All columns, by the names of the program's table."""
     steering_deg: Floats | None = None
     """Steering angle of every wheel that is steered [°], positive uphill; None without
     ``steering="crab"``."""
+    verdict: NDArray[np.object_] | None = None
+    """Whether to drive there, as on the operator's card: ``go``, ``caution``, ``cannot_tell`` or
+    ``no_go``; None with ``nominal=True``, as all that follows."""
+    reason: NDArray[np.object_] | None = None
+    """What decides the verdict, in a word, as in `Card`."""
+    probability_stuck: Floats | None = None
+    """Share of ways of 10 m on which a rover that is driven so gets stuck, although its slip is
+    looked at as often as the card says [-]; NaN where it is not driven."""
+    yaw_deg_as_written: Floats | None = None
+    """Yaw that holds the contour on the soil as written [°]."""
+    of_models: Mapping[str, Floats] | None = None
+    """The same by each wheel–soil model that knows the forces across a wheel [°]."""
     band: HeadingBand | None = None
-    """The same over samples of soil and model, with ``uncertainty=True``; else None."""
+    """Quantiles over the samples, and the probability that a heading holds the contour."""
 
-    def _table(self) -> dict[str, Any]:
-        band = {} if self.band is None else self.band._table()
-        steered = () if self.steering_deg is None else ("steering_deg",)
-        numbers = columns_of(self, ("slope_deg", *steered, *_HELD))
-        return {**numbers, "status": self.status, "flags": self.flags, **band}
+    def _table(self) -> Mapping[str, Any]:
+        return self.columns
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each slope."""
@@ -87,12 +107,13 @@ class Headings(_tables.Tabular):
 
     def to_xarray(self) -> xarray.Dataset:
         """A dataset over ``slope_deg`` with units in the attributes."""
-        columns = self._table()
+        columns = dict(self.columns)
         coords = {"slope_deg": columns.pop("slope_deg")}
         return _tables.dataset(("slope_deg",), columns, coords)
 
     def plot(self, axes: Axes | None = None, **style: Any) -> Axes:
-        """Plots the yaw over the slope, with its band if there is one.
+        """Plots the heading to set over the slope, with the band of the samples if there is one.
+        The band ends where its upper end is above every number.
 
         Dots are the slopes that were asked for. The lines between them are straight: near the steepest
         slope, where the curve rises fast, ask for more slopes.
@@ -107,7 +128,8 @@ class Headings(_tables.Tabular):
         axes = _tables.axes_or_new(axes)
         if self.band is not None:
             ends = (self.band.yaw_deg_p2_5, self.band.yaw_deg_p97_5)
-            axes.fill_between(self.slope_deg, *ends, alpha=0.25, label="95 % of the samples")
+            label = None if "label" in style else "95 % of the samples"
+            axes.fill_between(self.slope_deg, *ends, alpha=0.25, label=label)
         turned, what = self.yaw_deg, "yaw"
         if self.steering_deg is not None:
             turned, what = self.steering_deg, "steering angle"
@@ -119,7 +141,12 @@ class Headings(_tables.Tabular):
     def __repr__(self) -> str:
         limit = self.limit_slope_deg
         steepest = "the rover cannot move" if limit is None else f"the steepest is {limit:.2f}°"
-        return f"<Headings on {len(self.status)} slopes, {steepest}>"
+        if self.band is None or self.verdict is None or len(self.status) != 1:
+            return f"<Headings on {len(self.status)} slopes, {steepest}>"
+        ends = (self.yaw_deg, self.band.yaw_deg_p2_5, self.band.yaw_deg_p97_5)
+        yaw, low, high = (_shown.cell(it[0]) for it in ends)
+        band = f"{yaw}° ({low}° to {high}°), {self.verdict[0]}"
+        return f"<Headings on {self.slope_deg[0]:g}°: {band}; as written {steepest}>"
 
 
 @overload
@@ -130,9 +157,11 @@ def heading(
     model: Literal["all"],
     slope_deg: ArrayLike = ...,
     steering: Literal["none", "crab"] = ...,
-    uncertainty: bool = ...,
+    nominal: bool = ...,
     samples: int = ...,
     seed: int = ...,
+    rule: Mapping[str, float] | None = ...,
+    uncertainty: bool | None = ...,
     **changes: Any,
 ) -> ByModel[Headings]: ...
 
@@ -145,9 +174,11 @@ def heading(
     model: str | None = ...,
     slope_deg: ArrayLike = ...,
     steering: Literal["none", "crab"] = ...,
-    uncertainty: bool = ...,
+    nominal: bool = ...,
     samples: int = ...,
     seed: int = ...,
+    rule: Mapping[str, float] | None = ...,
+    uncertainty: bool | None = ...,
     **changes: Any,
 ) -> Headings: ...
 
@@ -159,15 +190,22 @@ def heading(
     model: str | None = None,
     slope_deg: ArrayLike = (5.0, 10.0, 15.0, 20.0),
     steering: Literal["none", "crab"] = "none",
-    uncertainty: bool = False,
-    samples: int = 200,
+    nominal: bool = False,
+    samples: int = 40,
     seed: int = 1,
+    rule: Mapping[str, float] | None = None,
+    uncertainty: bool | None = None,
     **changes: Any,
 ) -> Headings | ByModel[Headings]:
-    """The heading offset that holds the contour line, on each slope ([FourWheel], Fig. 10).
+    """The heading offset that holds the contour line, on each slope ([FourWheel], Fig. 10), and
+    whether to drive there.
 
     A rover that drives straight across a slope drifts downhill. With its nose turned uphill by the
     heading offset (the paper says *attitude*, others crab angle) it holds the contour line.
+
+    The answer is by what is believed of soil and model: the heading to set is the median over
+    samples of both, and the verdict is that of the operator's `card`. With ``nominal=True`` it is
+    that of the soil as its document has it, and of one model.
 
     Parameters
     ----------
@@ -181,14 +219,18 @@ def heading(
         Slopes [°], 0 to 60.
     steering : "none" or "crab"
         What holds the contour: the body's yaw, or with ``"crab"`` the wheels that are steered, with
-        the body along the contour. Not together with ``uncertainty``.
-    uncertainty : bool
-        Whether to sample what is uncertain, for `Headings.band`: the soil, where its document says
-        so, and the wheel–soil model, where none is asked for by ``model``.
+        the body along the contour. That is answered without samples.
+    nominal : bool
+        Whether to take the soil as its document has it, and one model, without samples.
     samples : int
-        Number of samples, 2 to 100000.
+        Number of samples, 2 to 100000: of the soil, where its document is uncertain, and of the
+        wheel–soil model, where none is asked for by ``model``. So few as 40 give rough bands.
     seed : int
         Seed of the samples: the same seed gives the same soils and models.
+    rule : mapping, optional
+        Limits of the verdicts, as for `card`.
+    uncertainty : bool, optional
+        Samples are the usual answer: it changes nothing.
     **changes
         Keys of the scenario with other values.
 
@@ -206,13 +248,18 @@ def heading(
     Examples
     --------
     >>> import grouser as gr
-    >>> round(float(gr.heading(slope_deg=[10.0]).yaw_deg[0]), 1)
+    >>> round(float(gr.heading(slope_deg=[10.0], nominal=True).yaw_deg[0]), 1)
     5.0
     >>> crab = gr.heading(rover="hakuto-steered", slope_deg=[10.0], steering="crab")
     >>> bool(crab.steering_deg[0] > 0.0 and crab.yaw_deg[0] == 0.0)
     True
-    >>> level = gr.heading(soil="toyoura-uncertain", slope_deg=10.0, uncertainty=True, samples=20)
-    >>> bool(level.band.yaw_deg_p2_5[0] < level.band.yaw_deg_p97_5[0])
+
+    May one drive, and with which heading, in sand that is not known well?
+
+    >>> level = gr.heading(soil="toyoura-uncertain", slope_deg=[5.0, 28.0])
+    >>> level.verdict.tolist()
+    ['go', 'no_go']
+    >>> bool(level.band.yaw_deg_p2_5[0] < level.yaw_deg[0] < level.band.yaw_deg_p97_5[0])
     True
     """
     if steering not in ("none", "crab"):
@@ -220,31 +267,29 @@ def heading(
     if uncertainty and steering == "crab":
         raise ParameterError('uncertainty goes with steering="none"', "uncertainty")
     if model == "all":
-        settings: dict[str, Any] = {
-            "slope_deg": slope_deg,
-            "steering": steering,
-            "uncertainty": uncertainty,
-            "samples": samples,
-            "seed": seed,
-        }
+        settings: dict[str, Any] = {"slope_deg": slope_deg, "steering": steering}
+        settings |= {"nominal": nominal, "samples": samples, "seed": seed, "rule": rule}
         return each_model(lambda name: heading(scenario, model=name, **settings, **changes))
     changes = changes if model is None else {**changes, "model": model}
     slopes, run = line("slope_deg", slope_deg), scenario_of(scenario, changes)
-    found, limit, reason, limited_by = _core.heading(run._document, slopes, steering)
-    band = None
-    if uncertainty:
+    sampling = None
+    if not nominal and steering == "none":
         count = whole_number("samples", samples, most=2**32 - 1)
-        band = HeadingBand._of(run, slopes, whole_number("seed", seed), count)
-    status = np.array(found.pop("status"), dtype=object)
-    flags = np.array(found.pop("flags"), dtype=object)
+        sampling = count, whole_number("seed", seed)
+    rows, limit, belief = _core.heading(run._document, slopes, steering, sampling, limits_of(rule))
+    columns = _tables.arrays_of(rows)
+    names = [one.name for one in fields(Headings)]
+    own: dict[str, Any] = {name: columns[name] for name in names if name in columns}
+    if belief is not None:
+        yaws = {name: f"yaw_deg_{name.replace('-', '_')}" for name in MODELS}
+        own["of_models"] = {name: columns[it] for name, it in yaws.items() if it in columns}
+        own["band"] = HeadingBand._of(columns, limit, belief)
     return Headings(
-        limit_slope_deg=limit,
-        limit_message=reason,
-        limited_by=limited_by,
-        status=status,
-        flags=flags,
-        band=band,
-        **found,
+        limit_slope_deg=limit["limit_slope_deg"],
+        limit_message=limit["limit_reason"],
+        limited_by=limit["limited_by"],
+        columns=columns,
+        **own,
     )
 
 
@@ -295,10 +340,9 @@ class HeadingMap(_tables.Tabular):
     """The same over samples of soil and model, with ``uncertainty=True``; else None."""
 
     def _columns(self) -> dict[str, Any]:
-        names = (*_HELD, "power_w", "limit_slope_deg")
+        names = (*_HELD, "power_w", "limit_slope_deg", "status", "flags", "limited_by")
         band = {} if self.band is None else self.band._table()
-        texts = {"status": self.status, "flags": self.flags, "limited_by": self.limited_by}
-        return {**columns_of(self, names), **texts, **band}
+        return {**columns_of(self, names), **band}
 
     def _table(self) -> dict[str, Any]:
         soil, course, slope = np.meshgrid(
@@ -370,9 +414,10 @@ def heading_map(
         Directions of travel from the contour [°], −90 to 90, positive uphill.
     rim_speed_m_s : float
         Rim speed [m/s], for the power.
-    uncertainty, samples, seed
-        As for `heading`: whether to sample soil and model, for `HeadingMap.band`, how many samples,
-        and their seed.
+    uncertainty : bool
+        Whether to sample soil and model, for `HeadingMap.band`.
+    samples, seed : int
+        Number of samples, 2 to 100000, and their seed.
     **changes
         Keys of the scenario with other values.
 
@@ -407,11 +452,10 @@ def heading_map(
     speed = number("rim_speed_m_s", rim_speed_m_s)
     found = _core.heading_map([run._document for run in runs], slopes, courses, speed)
     shape = (len(runs), len(courses), len(slopes))
-    numbers = {name: found[name].reshape(shape) for name in (*_HEADING, "limit_slope_deg")}
-    texts = {
-        name: np.array(found[name], dtype=object).reshape(shape)
-        for name in ("status", "flags", "limited_by")
-    }
+    cells: dict[str, Any] = _tables.arrays_of(found)
+    cells = {name: it.reshape(shape) for name, it in cells.items()}
+    cells |= {"soil": tuple(run.soil.name for run in runs)}
+    cells |= {"course_deg": courses, "slope_deg": slopes}
     band = None
     if uncertainty:
         drawn = whole_number("seed", seed), whole_number("samples", samples, most=2**32 - 1)
@@ -419,11 +463,4 @@ def heading_map(
         bands, weights = _core.heading_map_band(documents, slopes, courses, *drawn)
         columns = {name: values.reshape(shape) for name, values in bands.items()}
         band = HeadingMapBand(**columns, model_weights=tuple(weights))
-    return HeadingMap(
-        soil=tuple(run.soil.name for run in runs),
-        course_deg=courses,
-        slope_deg=slopes,
-        band=band,
-        **texts,
-        **numbers,
-    )
+    return HeadingMap(**cells, band=band)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
-from . import _core
+from . import _core, _tables
 from ._arrays import number, whole_number
 from ._descriptions import Scenario, Source
-from ._errors import ParameterError
 from ._studies import scenario_of
-from ._terrain import Terrain
+from ._terrain import Terrain, native_of
+from ._verdicts import ADVICE
 
 if TYPE_CHECKING:
     import xarray
@@ -42,7 +42,8 @@ def map(
     rim_speed_m_s : float, optional
         Rim speed [m/s], for the power; by default the scenario's.
     samples, seed : int
-        How many samples of soil and model the probability of a no-go is counted in, and their seed.
+        How many samples of soil and model the probability of a no-go and the advice are over, and
+        their seed.
     **changes
         Keys of the scenario with other values.
 
@@ -52,8 +53,12 @@ def map(
         A variable for each number, with its unit and what it is in ``attrs``, over ``y`` from north
         to south and ``x`` from west to east [m]; NaN where the height is missing, and but for the
         slope, the verdict and the probability where no heading holds the course. ``verdict`` is 1
-        go, 2 caution, 3 no-go. Its ``attrs`` say how far numbers are at most from those of
-        `heading_map` for the same slope.
+        go, 2 caution, 3 no-go, 4 cannot tell: the advice for the whole degree above the slope of
+        the place. That advice is over ``advice_slope_deg``, up to the steepest slope of the map:
+        ``advice_verdict``, ``advice_reason`` (what decides it), ``advice_probability_stuck``, the
+        heading to set, ``advice_yaw_deg``, with its band (``…_p2_5``, ``…_p97_5``), and the course
+        that it is for, ``advice_course_deg``. The dataset's ``attrs`` say how far numbers are at
+        most from those of `heading_map` for the same slope.
 
     Raises
     ------
@@ -78,20 +83,17 @@ def map(
     >>> steepest = found.slope_deg.where(found.slip_ratio == found.slip_ratio.max())
     >>> bool(steepest.max() == found.slope_deg.max())
     True
+    >>> str(found.advice_reason.isel(advice_slope_deg=5).values)
+    'no_stated_uncertainty'
     """
     import xarray
 
-    if not isinstance(terrain, Terrain):
-        raise ParameterError(
-            f"terrain is {type(terrain).__name__}, it must be a Terrain: Terrain.from_file, "
-            "from_rasterio and from_xarray make one",
-            "terrain",
-        )
+    ground = native_of(terrain)
     run = scenario_of(scenario, changes)
     course = course_deg if isinstance(course_deg, str) else number("course_deg", course_deg)
     speed = None if rim_speed_m_s is None else number("rim_speed_m_s", rim_speed_m_s)
     drawn = whole_number("samples", samples, most=2**32 - 1), whole_number("seed", seed)
-    bands, x, y, about = _core.mobility_map(run._document, terrain._native, course, speed, *drawn)
+    bands, x, y, about = _core.mobility_map(run._document, ground, course, speed, *drawn)
     variables = {
         name: (("y", "x"), values, {"units": unit, "long_name": doc})
         for name, unit, doc, values in bands
@@ -101,5 +103,6 @@ def map(
         name: ((name,), values, {**places, "standard_name": places["standard_name"].format(name)})
         for name, values in (("y", y), ("x", x))
     }
+    variables |= _tables.described("advice_slope_deg", ADVICE, about.pop("advice"), "advice_")
     notes = {"course_deg": course_deg, "samples": samples, "seed": seed, **about}
     return xarray.Dataset(variables, coords=coordinates, attrs=notes)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from . import _core, _tables
 from ._animations import Animation
-from ._arrays import Floats
+from ._arrays import Floats, whole_number
 from ._descriptions import Mission, Source
 from ._studies import Trajectory, columns_of, trajectory_of
 
@@ -205,6 +205,16 @@ class DrivenMission(_tables.Tabular):
     motor, of a rover whose motors are known; ``winding_temperature_degc`` [°C], the highest, where
     their windings are, and ``state_of_charge`` [-] at the end, where the battery is. Empty without
     motors."""
+    risk: Mapping[str, Any] | None = None
+    """What the mission risks on samples of soil and model: the share that completes all legs,
+    ``probability_completed``, with its 95 % confidence interval (``…_low``, ``…_high``); how the
+    others end most often, ``commonest_end``, in which leg and in how many samples
+    (``commonest_end_leg``, ``commonest_end_draws``); and ``draws_not_computed``. None without
+    ``samples``."""
+    advice: Mapping[str, NDArray[Any]] | None = None
+    """What to do on each leg that was begun, as columns, with NaN and None for one that leads
+    nowhere: ``verdict`` and ``reason`` as in `Card`, ``probability_stuck``, and the heading to set,
+    ``yaw_deg``, from the contour, with its band (``yaw_deg_p2_5`` …). None without ``samples``."""
 
     def _table(self) -> dict[str, Any]:
         return self.legs._table()
@@ -254,10 +264,12 @@ class DrivenMission(_tables.Tabular):
 
 
 #: Fields of the row of a mission, in the order of the program's table.
-_ROW = tuple(one.name for one in fields(DrivenMission)[5:] if one.name != "electrical")
+_ROW = tuple(one.name for one in fields(DrivenMission)[5:-3])
 
 
-def mission(mission: Mission | Source, /, **changes: Any) -> DrivenMission:
+def mission(
+    mission: Mission | Source, /, *, samples: int | None = None, seed: int = 1, **changes: Any
+) -> DrivenMission:
     """Drives a rover through the legs of a mission, to its end or to the limit that stops it.
 
     Results are reproducible bit for bit, here and in the program's ``grouser mission``.
@@ -266,6 +278,12 @@ def mission(mission: Mission | Source, /, **changes: Any) -> DrivenMission:
     ----------
     mission : Mission, name, path or mapping
         The mission.
+    samples : int, optional
+        Number of samples of soil and model, 2 to 100000, on which the mission is driven as well,
+        quasi-steadily, for `DrivenMission.risk` and `DrivenMission.advice`. Without it the mission
+        is driven as it is written, and no more.
+    seed : int
+        Seed of the samples: the same seed gives the same soils and models.
     **changes
         Keys of the mission with other values: ``slope_deg=15.0``, ``stop={…}``.
 
@@ -299,12 +317,24 @@ def mission(mission: Mission | Source, /, **changes: Any) -> DrivenMission:
     >>> check = gr.mission("slip-check", simulation="quasi-steady", slope_deg=14.0)
     >>> check.outcome, check.legs.stopped_by[-1]
     ('stopped', 'slip_ratio')
+
+    How likely is it that a short drive is completed, if sand and model are not known well?
+
+    >>> leg = {"drive_m": 1.0, "yaw_deg": 3.0}
+    >>> plan = gr.Mission(soil="toyoura-uncertain", slope_deg=5.0, leg=[leg])
+    >>> drive = gr.mission(plan, samples=10)
+    >>> bool(0.5 < drive.risk["probability_completed"] <= 1.0), len(drive.advice["verdict"])
+    (True, 1)
     """
     if isinstance(mission, Mission) and not changes:
         plan = mission
     else:
         plan = Mission(mission, **changes)
-    found = _core.drive_mission(plan._document)
+    sampling = None
+    if samples is not None:
+        count = whole_number("samples", samples, most=2**32 - 1)
+        sampling = count, whole_number("seed", seed)
+    found = _core.drive_mission(plan._document, sampling)
     ways = [_driven(plan, way, Alternatives({})) for way in found]
     named = {way.alternative: way for way in ways if way.alternative}
     return _driven(plan, found[0], Alternatives(named)) if named else ways[0]
@@ -321,6 +351,7 @@ def _driven(plan: Mission, found: Mapping[str, Any], alternatives: Alternatives)
         mission=plan,
         alternative=row["alternative"],
     )
+    advice = _tables.arrays_of(found["advice"]) if "advice" in found else None
     legs, of_legs = _split(_tables.arrays_of(found["legs"]), [one.name for one in fields(Legs)])
     return DrivenMission(
         mission=plan,
@@ -329,6 +360,8 @@ def _driven(plan: Mission, found: Mapping[str, Any], alternatives: Alternatives)
         trajectory=run,
         alternatives=alternatives,
         electrical=electrical,
+        risk=found.get("risk"),
+        advice=advice,
         **row,
     )
 

@@ -27,10 +27,10 @@ class ByModel(_tables.Tabular, Mapping[str, _Result]):
 
     Examples
     --------
-    How far do the models disagree about the heading offset that holds the contour?
+    How far do the models disagree about the heading offset on the soil as written?
 
     >>> import grouser as gr
-    >>> found = gr.heading("traverse-10-deg", slope_deg=10.0, model="all")
+    >>> found = gr.heading("traverse-10-deg", slope_deg=10.0, model="all", nominal=True)
     >>> tuple(found) == gr.MODELS
     True
     >>> yaws = [float(level.yaw_deg[0]) for level in found.values()]

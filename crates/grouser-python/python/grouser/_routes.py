@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
-from . import _core
+from . import _core, _tables
 from ._arrays import number, numbers, whole_number
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError
 from ._studies import scenario_of
-from ._terrain import Terrain
+from ._terrain import Terrain, native_of
+from ._verdicts import ADVICE
 
 if TYPE_CHECKING:
     import xarray
@@ -23,24 +24,21 @@ if TYPE_CHECKING:
 Objective = Literal["time", "energy", "risk"]
 
 _OBJECTIVES = ("time", "energy", "risk")
-#: Numbers at each waypoint: unit and what they are.
+#: Numbers at each waypoint, and what they are.
 _ARRIVALS = {
-    "length_m": ("m", "Length over the ground from the start"),
-    "time_s": ("s", "Time from the start, before the turn at the waypoint"),
-    "energy_j": ("J", "Work of the wheels from the start, before the turn at the waypoint"),
+    "length_m": "Length over the ground from the start",
+    "time_s": "Time from the start, before the turn at the waypoint",
+    "energy_j": "Work of the wheels from the start, before the turn at the waypoint",
 }
-#: Words of each stretch that is not safe: their key, and what they are.
-_HAZARD_WORDS = {
-    "danger": ("danger", "What is not safe"),
-    "hazard_sentence": ("sentence", "What is not safe, where, and by how much"),
-}
-#: Where each stretch that is not safe is.
-_HAZARD_PLACES = {
+#: Of each stretch that is not safe: what it is, and where.
+_HAZARDS = {
+    "danger": "What is not safe",
     "from_m": "Where it begins, as length on the map from the start",
     "to_m": "Where it ends, as length on the map from the start",
     "x_m": "x where it begins",
     "y_m": "y where it begins",
 }
+_SENTENCE = {"sentence": "What is not safe, where, and by how much"}
 
 
 @overload
@@ -155,8 +153,13 @@ def route(
         the ``status``, ``"found"`` or ``"no-safe-route"``, and of the whole way what
         ``grouser route`` writes: ``length_m``, ``time_s``, ``energy_j``, ``turned_deg``, slip, slope
         and ``probability_no_go``, and ``simulated_…`` of the simulation. If no way is safe there
-        are no waypoints, and a ``reason`` instead of the numbers. With ``alternatives`` a dataset
-        for each objective, the chosen one first. Of a way given by ``along`` the status is
+        are no waypoints, and a ``reason`` instead of the numbers. What to do on each leg between
+        waypoints is over ``leg``. It is the advice for the worst place of the leg, to a whole
+        degree, with the slope and course ``leg_slope_deg`` and ``leg_course_deg``: whether to drive
+        there and why (``leg_verdict``, ``leg_reason``), ``leg_probability_stuck``, and the heading
+        to set, ``leg_yaw_deg``, from the contour, with its band (``…_p2_5``, ``…_p97_5``). With
+        ``alternatives`` a dataset for each objective, the chosen one first. Of a way given by
+        ``along`` the status is
         ``"safe"`` or ``"not-safe"``, and each stretch that is not safe is a ``hazard``: what it is
         (``danger``, and ``hazard_sentence``), from which length on the map to which (``from_m``,
         ``to_m``), and where it begins (``x_m``, ``y_m``). Where the ground is not known or no
@@ -194,12 +197,7 @@ def route(
     >>> straight.attrs["status"], str(straight.danger[0].values)
     ('not-safe', 'too-much-slip')
     """
-    if not isinstance(terrain, Terrain):
-        raise ParameterError(
-            f"terrain is {type(terrain).__name__}, it must be a Terrain: Terrain.from_file, "
-            "from_rasterio and from_xarray make one",
-            "terrain",
-        )
+    ground = native_of(terrain)
     run = scenario_of(scenario, changes)
     chosen = [minimise, *(it for it in _OBJECTIVES if alternatives and it != minimise)]
     limits = {
@@ -218,7 +216,7 @@ def route(
         "seed": whole_number("seed", seed),
     }
     task |= {name: None if value is None else number(name, value) for name, value in limits.items()}
-    found = _core.routes(run._document, terrain._native, task)
+    found = _core.routes(run._document, ground, task)
     notes = {"samples": samples, "seed": seed}
     if along is not None:
         return _line_dataset(found[0], notes)
@@ -273,15 +271,10 @@ def _dataset(way: Mapping[str, Any], notes: Mapping[str, int]) -> xarray.Dataset
     }
     # Of a line that has no numbers there are places all the same.
     arrivals = way["arrivals"] or [dict.fromkeys(_ARRIVALS, np.nan)] * len(places)
-    variables = {
-        name: (
-            over,
-            np.array([arrival[name] for arrival in arrivals], dtype=np.float64),
-            {"units": unit, "long_name": doc},
-        )
-        for name, (unit, doc) in _ARRIVALS.items()
-    }
-    apart = ("waypoints", "arrivals", "hazards")
+    legs = [{**leg, **leg["advice"]} for leg in way["legs"]]
+    variables = _variables("waypoint", _ARRIVALS, arrivals)
+    variables |= _variables("leg", ADVICE, legs, "leg_")
+    apart = ("waypoints", "arrivals", "hazards", "legs")
     whole = {name: it for name, it in way.items() if name not in apart}
     simulated = whole.pop("simulated") or {}
     attributes = {**whole, **{f"simulated_{name}": it for name, it in simulated.items()}, **notes}
@@ -292,18 +285,13 @@ def _dataset(way: Mapping[str, Any], notes: Mapping[str, int]) -> xarray.Dataset
 
 def _line_dataset(way: Mapping[str, Any], notes: Mapping[str, int]) -> xarray.Dataset:
     """Of a way that was given: with its hazards."""
-    hazards = way["hazards"]
-    over = ("hazard",)
-    words = {
-        name: (over, np.array([it[key] for it in hazards], dtype=np.str_), {"long_name": doc})
-        for name, (key, doc) in _HAZARD_WORDS.items()
-    }
-    lengths = {
-        name: (
-            over,
-            np.array([it[name] for it in hazards], dtype=np.float64),
-            {"units": "m", "long_name": doc},
-        )
-        for name, doc in _HAZARD_PLACES.items()
-    }
-    return _dataset(way, notes).assign(words | lengths)
+    hazards = _variables("hazard", _HAZARDS, way["hazards"])
+    sentences = _variables("hazard", _SENTENCE, way["hazards"], "hazard_")
+    return _dataset(way, notes).assign(hazards | sentences)
+
+
+def _variables(
+    dim: str, docs: Mapping[str, str], rows: Sequence[Mapping[str, Any]], prefix: str = ""
+) -> dict[str, Any]:
+    columns = {name: [row[name] for row in rows] for name in docs}
+    return _tables.described(dim, docs, columns, prefix)

@@ -38,7 +38,7 @@ def standing_of(result: Any) -> dict[str, Any]:
 
 
 @dataclass(frozen=True, eq=False)
-class TraverseBand(_tables.Tabular):
+class TraverseBand(_tables.Band):
     """A run over samples of soil and model: arrays of shape (times,).
 
     ``…_p2_5``, ``…_p50`` and ``…_p97_5`` are quantiles over the samples: 95 % of the values lie
@@ -122,9 +122,6 @@ class TraverseBand(_tables.Tabular):
     """Its median [°]."""
     pitch_deg_p97_5: Floats | None = None
     """Its upper end [°]."""
-
-    def _table(self) -> dict[str, Any]:
-        return _tables.columns_of_band(self)
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each time."""

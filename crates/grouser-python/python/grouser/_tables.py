@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,11 +21,14 @@ if TYPE_CHECKING:
 COLUMNS = {
     kind: tuple(name for name, _, _ in columns) for kind, columns in _core.result_columns().items()
 }
+#: Columns of words in datasets.
+_WORDS = ("danger", "reason", "sentence", "verdict")
 
 
 def unit_of(name: str) -> str:
     """The unit in a name, by the library's table; 1 for ratios."""
-    return _core.unit_of(name) or "1"
+    # `yaw_deg_as_written` and `yaw_deg_rft` say behind the unit whose yaw it is.
+    return _core.unit_of(name) or ("°" if "_deg_" in name else "1")
 
 
 def arrays_of(table: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
@@ -37,18 +39,36 @@ def arrays_of(table: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
     }
 
 
-def columns_of_band(band: Any) -> dict[str, Any]:
-    """The fields of a band that are arrays: what else it has is no column."""
-    values = {field.name: getattr(band, field.name) for field in fields(band)}
-    return {name: found for name, found in values.items() if isinstance(found, np.ndarray)}
-
-
 def variable(dims: tuple[str, ...], name: str, values: Any) -> tuple[Any, ...]:
     """A variable for xarray, with its unit where it is a number."""
     array = np.asarray(values)
     if array.dtype.kind != "f":
         return dims, array
     return dims, array, {"units": unit_of(name)}
+
+
+def described(
+    dim: str, docs: Mapping[str, str], columns: Mapping[str, Any], prefix: str = ""
+) -> dict[str, Any]:
+    """Columns as variables for xarray over one dimension, each with its unit and what it is.
+
+    Parameters
+    ----------
+    dim
+        The dimension.
+    docs
+        What the columns are, by their names.
+    columns
+        The columns, among others.
+    prefix
+        What stands before the name of each variable.
+    """
+    found = {}
+    for name, doc in docs.items():
+        values = np.array(columns[name], dtype=np.str_ if name in _WORDS else np.float64)
+        notes = {"units": _core.unit_of(name) or "-", "long_name": doc}
+        found[prefix + name] = ((dim,), values, notes)
+    return found
 
 
 def with_inputs(
@@ -138,8 +158,17 @@ class Tabular:
 
         def __getattr__(self, name: str) -> object:
             """Refuses a name, with the present one where it is withdrawn."""
-            meant = present_name(name, self.__dict__)
+            # With slots there is no dictionary, and asking for it comes here again.
+            known = () if name == "__dict__" else getattr(self, "__dict__", ())
+            meant = present_name(name, known)
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}{meant}")
+
+
+class Band(Tabular):
+    """A dataclass of quantiles over samples. Its columns are the fields that are arrays."""
+
+    def _table(self) -> dict[str, Any]:
+        return {name: it for name, it in vars(self).items() if isinstance(it, np.ndarray)}
 
 
 def _arrow_column(unit: str | None, cells: Any) -> tuple[str | None, Any]:

@@ -425,6 +425,17 @@ class Terrain:
         return f"<Terrain {columns} × {rows}: x {west:g} to {east:g} m, y {south:g} to {north:g} m>"
 
 
+def native_of(terrain: Any) -> _core.Terrain:
+    """The native half of what must be a terrain."""
+    if not isinstance(terrain, Terrain):
+        raise ParameterError(
+            f"terrain is {type(terrain).__name__}, it must be a Terrain: Terrain.from_file, "
+            "from_rasterio and from_xarray make one",
+            "terrain",
+        )
+    return terrain._native
+
+
 def _of_parts(*parts: Any) -> Terrain:
     """A map that was pickled."""
     return Terrain._of(_core.Terrain.of_parts(*parts))

@@ -28,7 +28,7 @@ _COORDS = ("load_n", "slip_angle_deg", "slip_ratio", "trial")
 
 
 @dataclass(frozen=True, eq=False)
-class WheelTestBand(_tables.Tabular):
+class WheelTestBand(_tables.Band):
     """A wheel test over samples of soil and model: arrays of shape (loads, angles, ratios).
 
     ``…_p2_5``, ``…_p50`` and ``…_p97_5`` are quantiles over the samples: 95 % of the values lie
@@ -79,9 +79,6 @@ class WheelTestBand(_tables.Tabular):
     """All samples."""
     model_weights: Mapping[str, float]
     """The share of the samples that each wheel–soil model computes [-]."""
-
-    def _table(self) -> dict[str, Any]:
-        return _tables.columns_of_band(self)
 
     def __repr__(self) -> str:
         return f"<WheelTestBand of {' × '.join(map(str, self.draws.shape))} loads, angles, ratios>"

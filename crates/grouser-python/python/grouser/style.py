@@ -181,7 +181,8 @@ def name_curves(axes: Axes | None = None) -> Axes:
     >>> import matplotlib.pyplot as plt
     >>> axes = plt.subplots()[1]
     >>> for name in ("toyoura", "lunar-nominal"):
-    ...     axes = gr.heading(soil=name, slope_deg=[5, 10, 15]).plot(axes, label=name)
+    ...     level = gr.heading(soil=name, slope_deg=[5, 10, 15], nominal=True)
+    ...     axes = level.plot(axes, label=name)
     >>> [text.get_text() for text in gr.style.name_curves(axes).texts]
     ['lunar-nominal', 'toyoura']
     """

@@ -21,6 +21,7 @@ use crate::document::LoadedScenario;
 use crate::document::columns::SLOPE;
 use crate::document::columns::heading::findings;
 use crate::document::columns::learn::WAY;
+use crate::document::columns::verdict::{self, ADVICE_OBJECT};
 use crate::document::learn::files_of_prior;
 use crate::studies::heading::HeadingStudy;
 use crate::studies::learn::Learner;
@@ -67,7 +68,12 @@ impl LearnQuestion {
     fn results(&self, answer: &mut Answer, found: &LearntDrive, tables: &DriveTables) {
         let learner = found.drive.learner();
         answer.results = vec![
-            Member::rows("predictions", Arc::clone(&tables.predictions)),
+            Member::With(
+                "predictions",
+                Arc::clone(&tables.predictions),
+                ADVICE_OBJECT,
+                verdict::advice(&found.verdicts),
+            ),
             Member::rows("warnings", Arc::clone(&tables.warnings)),
             Member::Value("learnt", learnt(learner)),
             Member::Value("models", json!(shares(learner))),

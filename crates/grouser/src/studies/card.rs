@@ -164,7 +164,7 @@ impl SlopeStudy {
         let Some(draws) = draws else { return Ok(None) };
         // In order, so that the error is always that of the first soil.
         let draws: Vec<Draw> = draws.into_iter().collect::<Result<_, ParameterError>>()?;
-        let found = Found { curve, others: self.other_models()?, nominal: &nominal, draws: &draws };
+        let found = Found { curve, others: self.other_models(slopes.iter().copied().fold(0.0, f64::max))?, nominal: &nominal, draws: &draws };
         let limit_of = |draw: &Draw| draw.limit.as_ref().map_or(0.0, |(slope, _)| *slope);
         Ok(self.rows(slopes, samples, &found, go_on).map(|rows| Card {
             rows,

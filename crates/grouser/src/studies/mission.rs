@@ -5,11 +5,13 @@ use rayon::prelude::*;
 use super::ensemble::Probability;
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::mobility::{advised_place, slope_and_course};
+use super::verdict::{Advice, SlopeStudy};
 use crate::elementary::wide::{asin, sin_cos, tan};
+use crate::error::ParameterError;
 use crate::mission::{
     Heading, Leg, LegReport, Manoeuvre, Mission, MissionError, MissionReport, MissionRun,
 };
-use crate::simulation::{Approach, Numerics, Scenario};
+use crate::simulation::{Approach, Integrator, Numerics, Scenario};
 use crate::units::Vec2;
 use crate::vehicle::RoverState;
 
@@ -101,6 +103,25 @@ impl DrivenMission {
             Some(leg.place(scenario, from, way))
         };
         self.legs.iter().map(place).collect()
+    }
+
+    /// What to do on each leg that was begun, if it leads somewhere; `None` if `go_on` was false
+    /// before the end.
+    ///
+    /// # Errors
+    /// The same as [`SlopeStudy::advice`].
+    pub fn advice(
+        &self,
+        study: &SlopeStudy,
+        scenario: &Scenario,
+        samples: &[Sample],
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Vec<Option<Advice>>>, ParameterError> {
+        let places = self.places(scenario);
+        let known: Vec<_> = places.iter().copied().flatten().collect();
+        let Some(found) = study.advice_at(&known, samples, go_on)? else { return Ok(None) };
+        let mut found = found.into_iter();
+        Ok(Some(places.iter().map(|place| place.and_then(|_| found.next())).collect()))
     }
 
     /// Those of its legs that lead somewhere.
@@ -208,6 +229,10 @@ impl MissionRisk {
     }
 }
 
+/// Relative tolerance of runs on samples where they are no steady motions: samples differ from each
+/// other by hundreds of times as much.
+const ROUGHLY: f64 = 1e-3;
+
 /// In which leg a mission ends on a sample, counted from 1, and how; nothing if it is completed.
 fn end_of(
     mission: &Mission,
@@ -216,7 +241,8 @@ fn end_of(
     let mut scenario = mission.scenario.clone();
     scenario.ground.soil = sample.soil;
     scenario.model = sample.model.clone();
-    scenario.numerics = Numerics { approach: Approach::QuasiSteady, ..scenario.numerics };
+    let (approach, integrator) = (Approach::QuasiSteady, Integrator::Adaptive { tolerance: ROUGHLY });
+    scenario.numerics = Numerics { approach, integrator, ..scenario.numerics };
     let mission = Mission { scenario, ..mission.clone() };
     let mut run = MissionRun::new(&mission)?;
     while run.next_leg_watched(&mut |_| true)?.is_some() {}

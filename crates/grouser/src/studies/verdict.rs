@@ -20,7 +20,7 @@ pub use self::rule::{BELOW_FRICTION_ANGLE, Rule, SLIDES_ON_NO_GO, STUCK_ON_GO};
 pub use self::slip_check::{MOST_CHECKED_SLIP, SOIL_LENGTH, STUCK_WITH_CHECKS, SlipCheck};
 use super::ensemble::models::{Question, answers};
 use super::ensemble::samples::{Sample, outputs_of_samples};
-use super::ensemble::{Band, Probability};
+use super::ensemble::{Band, Probability, outputs};
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, NoHeading, STUCK};
 use crate::contact::Model;
 use crate::error::{ParameterError, positive};
@@ -246,18 +246,23 @@ impl SlopeStudy {
         Ok(places.iter().map(of).collect())
     }
 
-    /// Contour traverses on the soil as written, by the models that it is not computed with.
+    /// Contour traverses on the soil as written up to a slope [rad], by the models that it is not
+    /// computed with.
     ///
     /// # Errors
     /// The same as [`HeadingStudy::curve`].
-    pub fn other_models(&self) -> Result<Vec<(Model, HeadingCurve)>, ParameterError> {
+    pub fn other_models(
+        &self,
+        steepest: f64,
+    ) -> Result<Vec<(Model, HeadingCurve)>, ParameterError> {
         let is_other =
             |model: &Model| answers(model, Question::Across) && *model != self.heading.model;
         let curve = |model: Model| {
             let study = HeadingStudy { model: model.clone(), ..self.heading.clone() };
-            Ok((model, study.curve()?))
+            Ok((model, study.curve_to_slope(0.0, steepest)?))
         };
-        Model::ALL.into_iter().filter(is_other).map(curve).collect()
+        let others: Vec<Model> = Model::ALL.into_iter().filter(is_other).collect();
+        outputs(others, curve).into_iter().collect()
     }
 
     /// Soil and model without uncertainty.

@@ -9,6 +9,7 @@ use grouser::document::{
 };
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::heading::Steering;
+use grouser::studies::verdict::Rule;
 
 const SAMPLING: Sampling = Sampling { count: 3, seed: 1 };
 
@@ -23,6 +24,7 @@ fn headings() -> HeadingQuestion {
         steering: Steering::None,
         most_speed_ratio: None,
         sampling: None,
+        rule: Rule::DEFAULT,
     }
 }
 

@@ -7,7 +7,7 @@ use grouser::simulation::{
     Approach, Motion, Numerics, Outcome, PrescribedYaw, Run, Scenario, Start,
 };
 use grouser::soil::{Shear, ShearBound, SlopeStability, Soil};
-use grouser::studies::card::{CardStudy, Rule, Verdict};
+use grouser::studies::verdict::{Rule, SlopeStudy, Verdict};
 use grouser::studies::comparison::{Levelness, MeasuredTraverse};
 use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::heading::{HeadingStudy, LimitedBy, NoHeading};
@@ -116,11 +116,11 @@ fn a_card_says_no_go_where_the_ground_slides() {
     // Of the samples, all hold the contour; the soil as written does not stand.
     let soil = Soil { friction_angle: deg(45.0), ..soil };
     let samples = [Sample { soil, model: Model::Ishigami }];
-    let study = CardStudy { heading, rim_speed: 0.06, rule, is_uncertainty_stated: true };
+    let study = SlopeStudy { heading, rim_speed: 0.06, rule, is_uncertainty_stated: true };
     let card = study.card(&samples, &slopes, &|| true).expect("a card").expect("not stopped");
-    assert_eq!(card.rows[1].verdict, Verdict::NoGo);
+    assert_eq!(card.rows[1].advice.judgement.verdict, Verdict::NoGo);
     assert!(card.rows[1].refusal.as_ref().is_some_and(|text| text.starts_with("ground-strength")));
-    assert_ne!(card.rows[0].verdict, Verdict::NoGo);
+    assert_ne!(card.rows[0].advice.judgement.verdict, Verdict::NoGo);
 }
 
 // ---- what the ground resists ----

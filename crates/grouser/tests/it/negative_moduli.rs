@@ -2,7 +2,7 @@
 
 use grouser::document::{self, Kind, LoadedScenario, Overrides, Source};
 use grouser::soil::{PressureSinkage, SinkageExponent, Soil, Span};
-use grouser::studies::card::{CardStudy, Side};
+use grouser::studies::verdict::SlopeStudy;
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::wheel_test::WheelTest;
 use grouser::units::{MARS_GRAVITY, deg};
@@ -86,7 +86,7 @@ fn a_wheel_without_stiffness_under_it_is_refused_wherever_it_meets_the_soil() {
     let mut heading = HeadingStudy::of(&narrow.value);
     heading.soil = wide.value.ground.soil;
     check_refusal(heading.curve().map_err(|error| error.to_string()), refused);
-    let card = CardStudy { heading, ..CardStudy::of(&narrow, Side::Left) };
+    let card = SlopeStudy { heading, ..SlopeStudy::of(&narrow) };
     let card = card.card(&[], &[deg(5.0)], &|| true).map_err(|error| error.to_string());
     check_refusal(card, refused);
     let mut run = narrow.value.clone();

@@ -9,7 +9,7 @@ use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::ensemble::{
     Band, Contradiction, Correlation, Distribution, Marginal, Probability,
 };
-use grouser::studies::heading::HeadingStudy;
+use grouser::studies::heading::{HeadingCurve, HeadingStudy};
 use grouser::studies::heading_band::HeadingBand;
 use grouser::units::deg;
 use statrs::distribution::{ContinuousCDF, Normal};
@@ -304,7 +304,9 @@ fn soils_that_do_not_differ_give_the_nominal_curve_exactly() {
     for on_slope in &band.slopes {
         match curve.at(on_slope.slope) {
             Err(_) => {
-                assert_eq!((on_slope.level.successes, on_slope.yaw), (0, None));
+                let above_all = f64::INFINITY;
+                let none = Band { low: above_all, median: above_all, high: above_all };
+                assert_eq!((on_slope.level.successes, on_slope.yaw), (0, Some(none)));
                 let stuck = Band { low: 1.0, median: 1.0, high: 1.0 };
                 assert_eq!(on_slope.slip_ratio, Some(stuck));
             }
@@ -333,9 +335,12 @@ fn the_band_is_that_of_the_curves_one_by_one() {
         |soil: &Soil| HeadingStudy { soil: *soil, ..study.clone() }.curve().expect("it is a soil");
     let curves: Vec<_> = soils.iter().map(curve).collect();
     for on_slope in &band.slopes {
-        let yaws: Vec<f64> =
-            curves.iter().filter_map(|curve| Some(curve.at(on_slope.slope).ok()?.yaw)).collect();
-        assert_eq!(on_slope.level, Probability { successes: yaws.len(), trials: 12 });
+        let yaw = |curve: &HeadingCurve| {
+            curve.at(on_slope.slope).map_or(f64::INFINITY, |heading| heading.yaw)
+        };
+        let yaws: Vec<f64> = curves.iter().map(yaw).collect();
+        let successes = yaws.iter().filter(|yaw| yaw.is_finite()).count();
+        assert_eq!(on_slope.level, Probability { successes, trials: 12 });
         assert_eq!(on_slope.yaw, Band::of(yaws));
         let slips = curves.iter().map(|curve| curve.at(on_slope.slope));
         let slips = slips.map(|found| found.map_or(1.0, |heading| heading.slip_ratio));

@@ -5,7 +5,7 @@ use grouser::document::LoadedMission;
 use grouser::document::columns::{SLOPE, YAW};
 use grouser::document::reading::{capitalised, four_digits};
 use grouser::mission::Mission;
-use grouser::studies::ensemble::samples::{BandInputs, Sample};
+use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::mission::{DrivenMission, MissionRisk};
 use grouser::studies::verdict::{Advice, Rule, SlopeStudy};
 use serde_json::Value;
@@ -19,6 +19,8 @@ use crate::inputs;
 pub(super) struct Believed {
     pub(super) sampling: Sampling,
     pub(super) rule: Rule,
+    /// Whether nobody said how many samples there are to be.
+    pub(super) is_draft: bool,
     /// Name, samples and models, as JSON has them.
     pub(super) belief: Value,
     ways: Vec<(MissionRisk, Vec<Option<Advice>>)>,
@@ -38,12 +40,15 @@ impl Believed {
         let study = SlopeStudy { rule, ..SlopeStudy::of(&scenario) };
         let pairs = missions.iter().zip(ways);
         let all = pairs.map(|((_, mission), way)| {
+            let study = SlopeStudy { rim_speed: mission.rim_speed(), ..study.clone() };
             let count = samples.len().max(1);
             let risk = with_bar(count, |go_on| MissionRisk::of(mission, &samples, go_on));
-            Ok((whole(risk), advice(&study, mission, way, &samples)?))
+            let advice = way.advice(&study, &mission.scenario, &samples, &|| true)?;
+            Ok((whole(risk), whole(advice)))
         });
         let ways = all.collect::<Result<_, Failure>>()?;
-        Ok(Self { sampling, rule, belief: sampling.belief(&scenario), ways })
+        let is_draft = args.belief.samples.is_none();
+        Ok(Self { sampling, rule, is_draft, belief: sampling.belief(&scenario), ways })
     }
 
     /// What one of the missions risks.
@@ -71,20 +76,6 @@ impl Believed {
         }
         all
     }
-}
-
-/// Advice for the legs of a mission, by the speed of its scenario.
-fn advice(
-    study: &SlopeStudy,
-    mission: &Mission,
-    way: &DrivenMission,
-    samples: &[Sample],
-) -> Result<Vec<Option<Advice>>, Failure> {
-    let places = way.places(&mission.scenario);
-    let known: Vec<_> = places.iter().copied().flatten().collect();
-    let found = study.advice_at(&known, samples, &|| true)?;
-    let mut found = whole(found).into_iter();
-    Ok(places.iter().map(|place| place.and_then(|_| found.next())).collect())
 }
 
 /// How probable it is that a mission is completed, and how it ends otherwise.

@@ -55,7 +55,7 @@ impl Bands {
         let band = HeadingBand::of(heading, over, &all, options.go_on)?;
         let band = band.ok_or(AnswerError::Stopped)?;
         let (asked, along) = band.slopes.split_at(slopes.len());
-        let mut curves = study.other_models()?;
+        let mut curves = study.other_models(slopes.iter().copied().fold(0.0, f64::max))?;
         curves.insert(0, (heading.model.clone(), nominal.clone()));
         let yaw = |slope: f64, (model, curve): &(Model, HeadingCurve)| {
             (model.clone(), curve.at(slope).ok().map(|it| it.yaw))

@@ -10,6 +10,7 @@ use crate::studies::heading_band::HeadingBand;
 use crate::studies::learn::Drive;
 use crate::studies::learn::advice::{Advice, AdviceSettings};
 use crate::studies::slip_from_current::{MotorLog, SlipEstimate};
+use crate::studies::verdict::Advice as SlopeAdvice;
 
 /// The question.
 #[derive(Clone, Debug)]
@@ -39,6 +40,8 @@ pub struct LearntDrive {
     pub before: HeadingBand,
     /// The same after it.
     pub after: HeadingBand,
+    /// Heading and verdict for the same slopes after it.
+    pub verdicts: Vec<SlopeAdvice>,
     /// What to do tomorrow, if that is asked for.
     pub advice: Option<Advice>,
     /// What is left of the uncertainty of each of the soil's keys [-].

@@ -200,12 +200,6 @@ pub fn table(card: &Card) -> Table {
     table.and(driven, &all).and(&held(), &all)
 }
 
-/// The advice of [`table`] alone.
-#[must_use]
-pub fn advice(card: &Card) -> Table {
-    Table::default().and(&ADVICE, &card.rows.iter().map(|row| Some(&row.advice)).collect::<Vec<_>>())
-}
-
 /// The columns of [`table`] for reading.
 #[must_use]
 pub fn brief() -> Vec<String> {

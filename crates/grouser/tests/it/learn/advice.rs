@@ -219,14 +219,15 @@ fn truth_seed(truth: &grouser::studies::ensemble::samples::Sample) -> u64 {
     truth.soil.friction_angle.to_bits()
 }
 
-/// Mean of what is left of the width of the heading's band after a leg on hidden soils, over that
-/// before.
+/// Mean of what is left of the lower half of the heading's band after a leg on hidden soils, over
+/// that before.
 fn narrowed(prior: &LoadedScenario, drive: &TestDrive, count: u32) -> f64 {
     let width = |learner: &Learner| {
         let samples = learner.samples(5, 40).unwrap();
         let found = learner.predict(&samples, &[deg(8.0)], &|| true).unwrap().unwrap();
-        let yaw = found.slopes[0].yaw.expect("some hold the contour");
-        yaw.high - yaw.low
+        let yaw = found.slopes[0].yaw.expect("samples");
+        // The upper end may be above every number: what is wide below the median is so above it.
+        yaw.median - yaw.low
     };
     let before = width(&learner(prior));
     let after: Vec<f64> = (0..count)
