@@ -180,7 +180,7 @@ fn style_of(column: &Column, cell: &[String]) -> Style {
     match words {
         "go" => GOOD,
         "caution" => CAUTION,
-        "no-go" => BAD,
+        "no_go" | "cannot_tell" => BAD,
         "-" | "ok" => Style::new(),
         _ if column.name == STATUS => BAD,
         _ if column.name == FLAGS => CAUTION,

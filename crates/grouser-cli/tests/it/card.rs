@@ -62,22 +62,19 @@ fn numbers_are_those_of_the_attitude() {
         .json("attitude --soil toyoura-uncertain --slope-deg 5,13,17 --uncertainty --samples 20");
     for expected in rows(&attitude) {
         let row = row(card, number(&expected["slope_deg"]));
-        assert_eq!(row["yaw_deg_as_written"], expected["yaw_deg"]);
+        assert_eq!(row["yaw_deg_as_written"], expected["yaw_deg_as_written"]);
         for suffix in ["", "_p2_5", "_p50", "_p97_5"] {
             let key = format!("slip_ratio{suffix}");
             assert_eq!(row[&key], expected[&key], "{key}");
         }
-        // The band of headings is over all samples here, and there over those that have one.
-        if number(&expected["probability_level"]) == 1.0 {
-            for key in ["yaw_deg_p2_5", "yaw_deg_p50", "yaw_deg_p97_5"] {
-                assert_eq!(row[key], expected[key], "{key}");
-            }
+        for key in ["yaw_deg_p2_5", "yaw_deg_p50", "yaw_deg_p97_5", "verdict", "reason"] {
+            assert_eq!(row[key], expected[key], "{key}");
         }
         assert_eq!(row["yaw_deg"], row["yaw_deg_p50"]);
         assert_eq!(row["probability_level"], expected["probability_level"]);
         // Work per metre is power over speed: P = E v (1 - s)/cos γ along the contour.
         let (energy, slip) = (number(&expected["energy_j_per_m"]), number(&row["slip_ratio"]));
-        let way = 0.06 * (1.0 - slip) / number(&expected["yaw_deg"]).to_radians().cos();
+        let way = 0.06 * (1.0 - slip) / number(&expected["yaw_deg_as_written"]).to_radians().cos();
         assert!((number(&row["power_w"]) - energy * way).abs() < 1e-12);
     }
 }
@@ -88,8 +85,8 @@ fn rows_have_what_a_driver_needs() {
     let answer = &CARD.answer;
     for row in rows(answer) {
         let verdict = row["verdict"].as_str().expect("a verdict");
-        assert!(row["flags"].is_array() && ["go", "caution", "no-go"].contains(&verdict));
-        let is_driven = verdict != "no-go";
+        assert!(row["flags"].is_array() && ["go", "caution", "no_go"].contains(&verdict));
+        let is_driven = verdict != "no_go";
         for key in [
             "correct_every_m",
             "heading_fall_deg_per_m_p50",
@@ -111,7 +108,7 @@ fn rows_have_what_a_driver_needs() {
         assert!(number(&row["rim_way_m_per_m_p97_5"]) > 1.0);
         assert_eq!(row["yaw_deg_ishigami"], row["yaw_deg_as_written"]);
     }
-    let heading = Place::new().json("heading --soil toyoura-uncertain --model rft --slope-deg 13");
+    let heading = Place::new().json("heading --soil toyoura-uncertain --model rft --slope-deg 13 --nominal");
     let row = row(answer, 13.0);
     assert_eq!(row["yaw_deg_rft"], rows(&heading)[0]["yaw_deg"]);
     assert!(row["yaw_deg_small_wheel"].is_number() && row["yaw_deg_ishigami"].is_number());
@@ -126,7 +123,12 @@ fn the_moon_is_no_place_to_go_45_degrees_steep() {
     // Nothing states how uncertain that soil is: priors do not count.
     assert!(rows(&answer).iter().all(|row| row["verdict"] != "go"));
     place.write("soil.toml", stated("dry-sand"));
-    let answer = place.json(&line.replace("dry-sand", "soil.toml"));
+    let line = line.replace("dry-sand", "soil.toml");
+    // Bekker's moduli of the Earth do not hold there.
+    let on_moon = place.json(&line);
+    assert_eq!(row(&on_moon, 5.0)["reason"], "outside_domain");
+    assert!(rows(&on_moon).iter().all(|row| row["verdict"] != "go"));
+    let answer = place.json(&line.replace("moon", "earth"));
     let goes = rows(&answer).iter().filter(|row| row["verdict"] == "go");
     let steepest = goes.map(|row| number(&row["slope_deg"])).fold(-1.0, f64::max);
     assert!((0.0..=23.0).contains(&steepest), "{steepest}");
@@ -166,7 +168,7 @@ fn the_page_says_what_it_must() {
         "CAUTION",
         "NO-GO",
         "at least 95 % of 20 samples",
-        "less than 80 %",
+        "in 20 % of them or more",
         "The nose falls: correct, set it again",
         "the nose is too far uphill",
         "to be made anew",
@@ -211,9 +213,9 @@ fn no_letter_of_the_page_is_small() {
 fn without_stated_uncertainty_the_page_says_so_and_has_no_band() {
     let place = Place::new();
     let table = place.results("card --model ishigami --set soil.priors=none --out card.svg");
-    assert!(table.contains("no uncertainty of this soil is stated: no bands; no slope is a go"));
+    assert!(table.contains("no uncertainty of this soil is stated: no bands; nobody can tell a go"));
     let texts = texts(&place.read("card.svg")).join("\n");
-    assert!(texts.contains("NOT STATED: no bands") && texts.contains("on no slope: the soil's"));
+    assert!(texts.contains("NOT STATED: no bands") && texts.contains("CANNOT TELL"));
     assert!(!texts.contains("95 %") && !texts.contains("STOP IF ABOVE"));
     let json = place.json("card --model ishigami --set soil.priors=none");
     assert!(rows(&json).iter().all(|row| row["yaw_deg_p50"].is_null() && row["draws"].is_null()));
@@ -226,13 +228,13 @@ fn models_alone_have_bands_and_no_go() {
     let place = Place::new();
     let line = "card --samples 30 --soil simulant-2007 --set soil.priors=none";
     let table = place.results(&format!("{line} --out card.svg"));
-    assert!(table.contains("bands are of the models alone; no slope is a go"));
+    assert!(table.contains("bands are of the models alone; nobody can tell a go"));
     let texts = texts(&place.read("card.svg")).join("\n");
     assert!(texts.contains("NOT STATED: bands") && texts.contains("rft 18"), "{texts}");
     let card = place.json(line);
     let row = row(&card, 10.0);
     let models = place
-        .json("heading --soil simulant-2007 --set soil.priors=none --slope-deg 10 --model all");
+        .json("heading --soil simulant-2007 --set soil.priors=none --slope-deg 10 --model all --nominal");
     for word in ["yaw_deg", "slip_ratio"] {
         let of_spread = rows(&models).iter().filter(|row| row["model"] != "bekker");
         let values: Vec<f64> = of_spread.map(|row| number(&row[word])).collect();
@@ -299,10 +301,10 @@ fn flags_change_the_verdicts_and_the_rule_on_the_page() {
     let usual = with("");
     assert!(with("--go-slip-ratio 0.15") < usual);
     assert!(with("--go-probability 0.8") > usual);
-    let strict = "--no-go-probability 0.9 --no-go-slip-ratio 0.4";
+    let strict = "--no-go-probability 0.1 --no-go-slip-ratio 0.4";
     place.results(&format!("{OF_ONE_MODEL} {strict} --out card.svg"));
     let texts = texts(&place.read("card.svg")).join("\n");
-    assert!(texts.contains("less than 90 % of them a heading does so with slip up to 40 %"));
+    assert!(texts.contains("10 % of them or more no heading does so with slip up to 40 %"));
 }
 
 /// The file's name says which form; what is there stays there.
@@ -445,16 +447,15 @@ fn the_second_page_leads_out() {
         let of_course: Vec<&Value> = courses.iter().filter(|it| it["course"] == course).collect();
         assert!(!of_course.is_empty(), "{course}");
         for row in of_course {
-            let is_driven = row["verdict"] != "no-go";
+            let is_driven = row["verdict"] != "no_go";
             assert!(!is_driven || row["slip_ratio_p97_5"].is_number(), "{row}");
         }
     }
-    for row in rows(&answer).iter().filter(|row| row["verdict"] != "no-go") {
+    for row in rows(&answer).iter().filter(|row| row["verdict"] != "no_go") {
         let limit = number(&row["slip_limit"]);
-        assert!(limit <= 0.4 && limit <= number(&row["driven_slip_ratio_p97_5"]), "{row}");
+        assert!(limit > 0.0 && limit <= 0.4, "{row}");
         assert!(
-            number(&row["probability_stuck_with_checks"]) <= 0.005
-                || row["slip_check_every_m"].is_null()
+            number(&row["probability_stuck"]) <= 0.005 || row["slip_check_every_m"].is_null()
         );
     }
 }

@@ -115,7 +115,7 @@ fn alternatives_are_compared_in_a_table_and_are_objects_of_their_own() {
     let answer = place.json("mission m.toml");
     let both = answer["alternatives"].as_array().expect("two ways");
     assert!(both.iter().all(|way| (number(&way["final"]["y_m"]) - 0.3).abs() < 1e-6), "{both:?}");
-    assert_eq!(place.line("mission m.toml --out out").code(), 0);
+    assert_eq!(place.line("mission m.toml --nominal --out out").code(), 0);
     for file in ["legs-1.csv", "records-2.csv", "path-2.svg", "report.html", "mission.toml"] {
         assert!(place.file(&format!("out/{file}")).exists(), "{file}");
     }
@@ -140,20 +140,20 @@ fn legs_come_from_files_and_the_folder_repeats_them() {
         "m.toml",
         begins("slope_deg = 3.0\nlegs_from = \"legs.csv\"\n[[leg]]\nwait_s = 1.0\n"),
     );
-    let answer = place.json("mission m.toml");
+    let answer = place.json("mission m.toml --nominal");
     let legs = answer["legs"].as_array().expect("legs");
     let what: Vec<&str> = legs.iter().filter_map(|leg| leg["manoeuvre"].as_str()).collect();
     assert_eq!(what, ["drive 0.3 m", "go to 0.6, 0.05 m", "wait 1 s"]);
-    assert_eq!(place.line("mission m.toml --out out").code(), 0);
+    assert_eq!(place.line("mission m.toml --nominal --out out").code(), 0);
     let written: Value =
         serde_json::from_str(&place.read("out/mission.json")).expect("the folder has the answer");
     assert_eq!(written["legs"], answer["legs"], "whether or not records are kept");
     assert_eq!(written["final"], answer["final"]);
     std::fs::remove_file(place.file("legs.csv")).expect("it is there");
-    let again = place.json("mission out/mission.toml");
+    let again = place.json("mission out/mission.toml --nominal");
     assert_eq!(again["legs"], answer["legs"]);
     place.write("empty.toml", begins("slope_deg = 3.0\n"));
-    let places = place.json("mission empty.toml --legs-from legs.geojson");
+    let places = place.json("mission empty.toml --nominal --legs-from legs.geojson");
     assert_eq!(places["legs"][1]["manoeuvre"], "go to 0.6, 0.05 m");
 }
 

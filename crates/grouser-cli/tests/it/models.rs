@@ -5,7 +5,7 @@ use crate::program::Place;
 /// Commands with a table of one model, but for the soil.
 const TABLES: [&str; 4] = [
     "wheel-test --slip-ratio 0.2",
-    "heading --slope-deg 5",
+    "heading --slope-deg 5 --nominal",
     "heading-map --slope-deg 5 --course-deg 0",
     "traverse --slope-deg 5 --duration-s 0.2",
 ];

@@ -49,7 +49,7 @@ fn a_route_goes_around_and_can_be_driven() {
         "schema = \"mission/1\"\n[terrain]\nfile = \"ridge.xyz\"\nstart_m = [7002.0, -298.0]\n";
     place.write("mission.toml", mission);
     let legs = place.json(
-        "mission mission.toml --legs-from short/route.geojson --set \
+        "mission mission.toml --nominal --legs-from short/route.geojson --set \
          mission.simulation=quasi-steady",
     );
     let rows = legs["legs"].as_array().or(legs["rows"].as_array()).expect("legs");

@@ -56,7 +56,7 @@ fn a_narrow_table_says_what_it_leaves_out() {
 fn colours_stand_where_they_are_asked_for_and_change_no_word() {
     let line = "card --soil toyoura-uncertain --samples 20 --model ishigami";
     let coloured = stdout(&format!("{line} --color always"));
-    for code in ["\u{1b}[32mgo\u{1b}[0m", "\u{1b}[33mcaution\u{1b}[0m", "\u{1b}[31mno-go\u{1b}[0m"]
+    for code in ["\u{1b}[32mgo\u{1b}[0m", "\u{1b}[33mcaution\u{1b}[0m", "\u{1b}[1mverdict\u{1b}[0m"]
     {
         assert!(coloured.contains(code), "{code:?} in {coloured:?}");
     }
@@ -110,11 +110,11 @@ fn in_terminal(place: &Place, columns: u16, line: &str) -> String {
 #[test]
 fn a_terminal_gets_its_width_and_colours() {
     let place = Place::new();
-    let text = in_terminal(&place, 60, "heading --slope-deg 10,25");
+    let text = in_terminal(&place, 60, "heading --slope-deg 10,25 --nominal");
     assert!(text.contains("\u{1b}[31m[1]\u{1b}[0m"), "{text:?}");
     let plain = anstream::adapter::strip_str(&text).to_string();
     assert!(plain.lines().all(|line| line.chars().count() <= 60), "{plain}");
-    assert_eq!(plain, place.results("heading --slope-deg 10,25 --width 60"));
+    assert_eq!(plain, place.results("heading --slope-deg 10,25 --nominal --width 60"));
 }
 
 /// Work of more than a second has a line with its time, and `--quiet` has none.

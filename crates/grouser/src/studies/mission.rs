@@ -94,8 +94,8 @@ impl DrivenMission {
     /// place of the way; `None` for legs that lead nowhere.
     #[must_use]
     pub fn places(&self, scenario: &Scenario) -> Vec<Option<(f64, f64)>> {
-        let start = &self.report.trajectory.records[0].state;
-        let mut before = (start.position, start.yaw);
+        // Places are seen from where the mission starts.
+        let mut before = (Vec2::zeros(), scenario.start.yaw);
         let place = |leg: &DrivenLeg| {
             let (from, yaw) = before;
             before = (leg.report.end.position, leg.report.end.yaw);

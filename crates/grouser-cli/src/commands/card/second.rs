@@ -288,7 +288,7 @@ fn foot(sheet: &mut Sheet, texts: &Texts, top: f64) {
 fn notes(texts: &Texts) -> Vec<(&'static str, String)> {
     let ways = format!("{} m", four_digits(DRIFT_WAY));
     let check = format!(
-        "with these stops {stuck} of ways at most of {ways} along the contour get stuck between \
+        "with these stops at most {stuck} of ways of {ways} along the contour get stuck between \
          two looks. The soil is taken to change on the way: slip at each place is that of one of \
          the samples, places x apart are correlated by e^(−x/{length} m) (assumed). 5 m at most; \
          'all the way': not even stops every half metre suffice. 'Stuck anyway': on how many ways, \
