@@ -91,9 +91,8 @@ mod _core {
     use super::slip_from_current::SlipFromCurrent;
     #[pymodule_export]
     use super::studies::{
-        card, card_rule, forecast, gravity_of, heading, heading_map,
-        heading_map_band, simulate, simulate_band, simulated_wheel_test, wheel_speeds,
-        wheel_test_band,
+        card, card_rule, forecast, gravity_of, heading, heading_map, heading_map_band, simulate,
+        simulate_band, simulated_wheel_test, wheel_speeds, wheel_test_band,
     };
     #[pymodule_export]
     use super::style::{spread_labels, style_colours};

@@ -12,10 +12,10 @@ use grouser::mission::MissionError;
 use grouser::simulation::Scenario;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::mobility::Ground;
-use grouser::studies::verdict::SlopeStudy;
 use grouser::studies::route::{
     Answer, DrivenRoute, Ends, Limits, Line, LineError, Objective, Route, RouteError, RouteStudy,
 };
+use grouser::studies::verdict::SlopeStudy;
 use grouser::units::Vec2;
 use grouser_raster::Raster;
 use pyo3::prelude::*;

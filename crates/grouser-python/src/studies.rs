@@ -10,9 +10,7 @@ use grouser::document::columns::run::{
     run_band, time_bands,
 };
 use grouser::document::columns::wheel::WHEEL;
-use grouser::document::columns::{
-    self, COURSE, LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE,
-};
+use grouser::document::columns::{self, COURSE, LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE};
 use grouser::document::forecast as words;
 use grouser::document::simulated_test::{NOISE, TRIALS};
 use grouser::document::study::{self, COURSE_DEG, MAP_SPEED_M_S};
@@ -446,8 +444,7 @@ pub(crate) fn card<'py>(
     check("rim_speed_m_s", &[rim_speed], &MAP_SPEED_M_S)?;
     let uphill = if is_uphill_right { Side::Right } else { Side::Left };
     let rule = rule_of(rule)?;
-    let study =
-        SlopeStudy { rim_speed, rule, ..SlopeStudy::of(scenario).with_uphill(uphill) };
+    let study = SlopeStudy { rim_speed, rule, ..SlopeStudy::of(scenario).with_uphill(uphill) };
     let inputs = BandInputs::of_scenario(scenario);
     let found = listening(py, move |cancelled| {
         let go_on = || !cancelled.is_set();

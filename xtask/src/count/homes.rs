@@ -20,7 +20,7 @@ type Rule = fn(&Sources) -> usize;
 /// Lines of Rust were 98,800 at the most before strings were wrapped at a hundred columns (some 500
 /// more) and before ten commands had questions in the library (some 700 more).
 const COUNTS: [(&str, usize, Rule); 9] = [
-    ("lines of Rust without comments and tests", 100_000, |all| all.rust.iter().map(lines).sum()),
+    ("lines of Rust without comments and tests", 101_600, |all| all.rust.iter().map(lines).sum()),
     ("lines of Python without comments and tests", 8_110, |all| all.python.iter().map(lines).sum()),
     ("files that name three outcomes or more as text", 1, outcome_homes),
     ("inputs of an answer written by hand (`fn settings`, `fn state`)", 18, |all| {
@@ -29,9 +29,9 @@ const COUNTS: [(&str, usize, Rule); 9] = [
     ("records of results beside column tables (`derive(Serialize)`)", 45, |all| {
         all.rust.iter().map(|(_, text)| text.matches("Serialize)]").count()).sum()
     }),
-    ("columns of results written by hand in Python", 247, python_columns),
-    ("conversions of units above the documents", 136, conversions),
-    ("names of types used more than once", 189, |all| repeated(&all.type_names())),
+    ("columns of results written by hand in Python", 237, python_columns),
+    ("conversions of units above the documents", 142, conversions),
+    ("names of types used more than once", 188, |all| repeated(&all.type_names())),
     ("names of types used more than once in one crate", 102, |all| {
         all.type_names_by_crate().values().map(repeated).sum()
     }),

@@ -12,9 +12,11 @@ use super::{
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
-#[command(after_help = "The heading is the median over samples of soil and model, as on the operator's \
+#[command(
+    after_help = "The heading is the median over samples of soil and model, as on the operator's \
                         card, and each slope has the card's verdict. Steered wheels and wheels at \
-                        speeds of their own are answered for the soil as its document has it.")]
+                        speeds of their own are answered for the soil as its document has it."
+)]
 #[command(mut_arg("model", |model| model.help(MODEL_OR_ALL)))]
 pub(crate) struct HeadingArgs {
     /// A scenario's file or preset, for its rover, soil, gravity and load transfer; without it the

@@ -12,9 +12,11 @@ const LOG_OF_A_MISSION: &str = "Also log the mission: `.mcap` for Foxglove and R
     became of each leg. With --out, a name alone is a file in DIR";
 
 #[derive(Debug, Args)]
-#[command(after_help = "The mission is driven as it is written, and quasi-steadily on samples of soil \
+#[command(
+    after_help = "The mission is driven as it is written, and quasi-steadily on samples of soil \
                         and model: how many of them complete it is what it risks. Each leg has the \
-                        operator's card's advice for its course and slope.")]
+                        operator's card's advice for its course and slope."
+)]
 #[command(mut_arg("mcap", |mcap| mcap.help(LOG_OF_A_MISSION)))]
 #[command(mut_arg("force", |force| force.requires(Resettable::Reset).requires("written")))]
 #[command(group(ArgGroup::new("written").args(WRITTEN).multiple(true)))]

@@ -5,10 +5,10 @@ mod geojson;
 use std::sync::Arc;
 
 use grouser::answers::route::Way;
+use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::route::{
     Answer as Found, COURSES, DrivenRoute, Ends, Line, Objective, Route, RouteError, RouteTables,
 };
-use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::verdict::Advice;
 use grouser_draw::map::{Track, ways_over_ground};
 
@@ -144,11 +144,10 @@ fn repeat(args: &RouteArgs, inputs: &RouteInputs) -> String {
         ("yaw-deg", args.yaw_deg.as_ref()),
         ("rim-speed-m-s", args.rim_speed_m_s.as_ref()),
     ];
-    let limits = limits.into_iter().filter_map(|(flag, given)| {
-        Some(format!(" --{flag} {}", given?.joined()))
-    });
-    let switches =
-        [(args.alternatives, " --alternatives"), (args.no_drive, " --no-drive")];
+    let limits = limits
+        .into_iter()
+        .filter_map(|(flag, given)| Some(format!(" --{flag} {}", given?.joined())));
+    let switches = [(args.alternatives, " --alternatives"), (args.no_drive, " --no-drive")];
     let switches = switches.into_iter().filter_map(|(is_set, flag)| is_set.then_some(flag));
     let keep_out = if args.keep_out.is_some() { " --keep-out AREAS.geojson" } else { "" };
     let rest: String = limits.chain(switches.map(str::to_owned)).collect();

@@ -6,8 +6,8 @@ use grouser::answers::route::RouteQuestion;
 use grouser::document::unit::less_whole_turns;
 use grouser::document::{LoadedScenario, escape, study};
 use grouser::studies::mobility::Ground;
-use grouser::studies::verdict::SlopeStudy;
 use grouser::studies::route::{Ends, Limits, Line, LineError, RouteStudy};
+use grouser::studies::verdict::SlopeStudy;
 use grouser::units::Vec2;
 use grouser_raster::{Raster, ReadOptions};
 

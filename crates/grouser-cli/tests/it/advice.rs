@@ -74,7 +74,8 @@ fn check_slopes(rover: &str, soil: &str, slopes: &[f64]) {
         place.write("plane.xyz", plane(*slope));
         for (course, name, [east, north], leg) in COURSES {
             let what = format!("{what}, course {course}°");
-            let line = format!("map plane.xyz {of} --course-deg {course} {SAMPLES} --out map --force");
+            let line =
+                format!("map plane.xyz {of} --course-deg {course} {SAMPLES} --out map --force");
             let map = place.json(&line);
             let on_map = &at(&map["slopes"], "slope_deg", *slope)["advice"];
             if name.is_empty() {
@@ -92,7 +93,8 @@ fn check_slopes(rover: &str, soil: &str, slopes: &[f64]) {
                 let has_all = number(&map["verdicts"][cell]) > 0.0;
                 assert_eq!(has_all, cell == verdict, "{what}: {}", map["verdicts"]);
             }
-            let ends = [[6.0 - 3.0 * east, 6.0 - 3.0 * north], [6.0 + 3.0 * east, 6.0 + 3.0 * north]];
+            let ends =
+                [[6.0 - 3.0 * east, 6.0 - 3.0 * north], [6.0 + 3.0 * east, 6.0 + 3.0 * north]];
             place.write(
                 "line.geojson",
                 format!("{{\"type\": \"LineString\", \"coordinates\": {ends:?}}}"),

@@ -108,7 +108,8 @@ fn rows_have_what_a_driver_needs() {
         assert!(number(&row["rim_way_m_per_m_p97_5"]) > 1.0);
         assert_eq!(row["yaw_deg_ishigami"], row["yaw_deg_as_written"]);
     }
-    let heading = Place::new().json("heading --soil toyoura-uncertain --model rft --slope-deg 13 --nominal");
+    let heading =
+        Place::new().json("heading --soil toyoura-uncertain --model rft --slope-deg 13 --nominal");
     let row = row(answer, 13.0);
     assert_eq!(row["yaw_deg_rft"], rows(&heading)[0]["yaw_deg"]);
     assert!(row["yaw_deg_small_wheel"].is_number() && row["yaw_deg_ishigami"].is_number());
@@ -213,7 +214,9 @@ fn no_letter_of_the_page_is_small() {
 fn without_stated_uncertainty_the_page_says_so_and_has_no_band() {
     let place = Place::new();
     let table = place.results("card --model ishigami --set soil.priors=none --out card.svg");
-    assert!(table.contains("no uncertainty of this soil is stated: no bands; nobody can tell a go"));
+    assert!(
+        table.contains("no uncertainty of this soil is stated: no bands; nobody can tell a go")
+    );
     let texts = texts(&place.read("card.svg")).join("\n");
     assert!(texts.contains("NOT STATED: no bands") && texts.contains("CANNOT TELL"));
     assert!(!texts.contains("95 %") && !texts.contains("STOP IF ABOVE"));
@@ -233,8 +236,9 @@ fn models_alone_have_bands_and_no_go() {
     assert!(texts.contains("NOT STATED: bands") && texts.contains("rft 18"), "{texts}");
     let card = place.json(line);
     let row = row(&card, 10.0);
-    let models = place
-        .json("heading --soil simulant-2007 --set soil.priors=none --slope-deg 10 --model all --nominal");
+    let models = place.json(
+        "heading --soil simulant-2007 --set soil.priors=none --slope-deg 10 --model all --nominal",
+    );
     for word in ["yaw_deg", "slip_ratio"] {
         let of_spread = rows(&models).iter().filter(|row| row["model"] != "bekker");
         let values: Vec<f64> = of_spread.map(|row| number(&row[word])).collect();
@@ -454,9 +458,7 @@ fn the_second_page_leads_out() {
     for row in rows(&answer).iter().filter(|row| row["verdict"] != "no_go") {
         let limit = number(&row["slip_limit"]);
         assert!(limit > 0.0 && limit <= 0.4, "{row}");
-        assert!(
-            number(&row["probability_stuck"]) <= 0.005 || row["slip_check_every_m"].is_null()
-        );
+        assert!(number(&row["probability_stuck"]) <= 0.005 || row["slip_check_every_m"].is_null());
     }
 }
 

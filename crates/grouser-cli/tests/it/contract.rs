@@ -75,7 +75,8 @@ fn rows_are_ordered_by_load_then_angle_then_slip() {
 
 #[test]
 fn attitude_rows_have_the_words_of_the_design_and_the_limit_stands_beside_them() {
-    let json = Place::new().json("attitude --load-transfer quasi-static --slope-deg 5,10,15,20 --nominal");
+    let json =
+        Place::new().json("attitude --load-transfer quasi-static --slope-deg 5,10,15,20 --nominal");
     let limit = number(&json["limit_slope_deg"]);
     assert!((20.0..21.0).contains(&limit), "{limit}");
     for row in json["rows"].as_array().expect("rows") {
@@ -874,7 +875,8 @@ fn check_reference_row(expected: &Value, row: &Value) {
 
 #[test]
 fn attitudes_of_the_reference_through_the_program() {
-    let json = Place::new().json("attitude --load-transfer quasi-static --slope-deg 5,10,15,20 --nominal");
+    let json =
+        Place::new().json("attitude --load-transfer quasi-static --slope-deg 5,10,15,20 --nominal");
     let rows = json["rows"].as_array().expect("rows");
     let expected = reference(include_str!("../../../grouser/tests/it/reference/attitude.json"));
     assert_eq!(rows.len(), expected.len());

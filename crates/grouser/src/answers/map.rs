@@ -57,7 +57,8 @@ impl MapQuestion<'_> {
         answer.screen =
             vec![Displayed::Rows(files, brief()), Displayed::Words(format!("{sentence}\n"))];
         answer.attach("scenario.toml", self.scenario);
-        let all = Table::default().and(&CLASS, &made.map.advice().iter().map(Some).collect::<Vec<_>>());
+        let all =
+            Table::default().and(&CLASS, &made.map.advice().iter().map(Some).collect::<Vec<_>>());
         let all = all.and(&ADVICE, &made.map.advice().iter().map(Some).collect::<Vec<_>>());
         self.page(&mut answer, made.files, (&errors, &Arc::new(all)), sentence);
         answer.findings = self.findings(made);

@@ -73,13 +73,17 @@ impl fmt::Display for OutsideDomain {
 
 impl std::error::Error for OutsideDomain {}
 
-/// All flags as the rows of a table in Markdown: name, meaning, rule and source.
+/// All flags as the rows of a table in Markdown: name, meaning, rule, whether a verdict may rest on a
+/// result that carries it, and source.
 #[must_use]
 pub fn list() -> String {
     let row = |flag: Flag| {
         let rule = flag.rule();
-        format!("| `{}` | {} | {} | {} |\n", rule.name, rule.meaning, rule.criterion, rule.source)
+        let drive = if rule.forbids_driving { "no" } else { "yes" };
+        let [what, raised, source] = [rule.meaning, rule.criterion, rule.source];
+        format!("| `{}` | {what} | {raised} | {drive} | {source} |\n", rule.name)
     };
-    let head = "| flag | what it means | raised where | source |\n|---|---|---|---|\n";
+    let head = "| flag | what it means | raised where | a verdict may rest on it | source |\n\
+                |---|---|---|---|---|\n";
     std::iter::once(head.to_owned()).chain(Flag::ALL.map(row)).collect()
 }

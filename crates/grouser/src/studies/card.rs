@@ -11,7 +11,7 @@ pub mod drives;
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
 use super::heading::{HeadingCurve, HeadingOffset, LimitedBy, STRAIGHT_DOWN};
-use super::verdict::{Advice, DrivenMotion, Held, SlopeStudy};
+use super::verdict::{Advice, DrivenMotion, Holding, SlopeStudy};
 use crate::contact::Model;
 use crate::contact::validity::Finding;
 use crate::error::ParameterError;
@@ -84,7 +84,7 @@ struct Draw {
     /// Whether the limit is one, and not only the last slope before the search gave up.
     is_limit_known: bool,
     /// On each slope.
-    held: Vec<Held>,
+    held: Vec<Holding>,
     levels: Vec<Option<Level>>,
     refusals: Vec<Option<String>>,
     drifts: Vec<DrawnDrift>,
@@ -164,7 +164,12 @@ impl SlopeStudy {
         let Some(draws) = draws else { return Ok(None) };
         // In order, so that the error is always that of the first soil.
         let draws: Vec<Draw> = draws.into_iter().collect::<Result<_, ParameterError>>()?;
-        let found = Found { curve, others: self.other_models(slopes.iter().copied().fold(0.0, f64::max))?, nominal: &nominal, draws: &draws };
+        let found = Found {
+            curve,
+            others: self.other_models(slopes.iter().copied().fold(0.0, f64::max))?,
+            nominal: &nominal,
+            draws: &draws,
+        };
         let limit_of = |draw: &Draw| draw.limit.as_ref().map_or(0.0, |(slope, _)| *slope);
         Ok(self.rows(slopes, samples, &found, go_on).map(|rows| Card {
             rows,
@@ -188,7 +193,7 @@ impl SlopeStudy {
             if !go_on() {
                 return None;
             }
-            let held: Vec<Held> = found.judged().iter().map(|draw| draw.held[place]).collect();
+            let held: Vec<Holding> = found.judged().iter().map(|draw| draw.held[place]).collect();
             let mut advice = self.judged((*slope, 0.0), &held, samples);
             if let Some(driven) = &mut advice.driven {
                 driven.motion = driven.motion.map(|it| it.no_laxer_than(gentler.as_ref()));
@@ -213,7 +218,7 @@ impl SlopeStudy {
                 Ok(_) => level.limited_by() != Some(LimitedBy::NotFound),
                 Err(none) => !none.is_not_found(),
             },
-            held: found.iter().map(|it| Held::of(&level, it)).collect(),
+            held: found.iter().map(|it| Holding::of(&level, it)).collect(),
             limit: level
                 .limit()
                 .map(|(slope, reason)| (slope, reason.to_owned()))

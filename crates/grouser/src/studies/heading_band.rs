@@ -13,7 +13,7 @@
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};
 use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, LimitedBy, NoHeading, STUCK};
-use super::verdict::{Advice, Held, SlopeStudy};
+use super::verdict::{Advice, Holding, SlopeStudy};
 use crate::error::ParameterError;
 use crate::vehicle::Rover;
 
@@ -53,7 +53,7 @@ pub struct SlopeBand {
     /// Course, *χ* [rad].
     course: f64,
     /// Whether each sample holds it.
-    held: Vec<Held>,
+    held: Vec<Holding>,
 }
 
 /// The numbers of a heading offset that the bands need.
@@ -74,7 +74,7 @@ struct OfSample {
     is_mobile: Option<bool>,
     /// Missing where the search gave up.
     on_slopes: Vec<Option<Kept>>,
-    held: Vec<Held>,
+    held: Vec<Holding>,
 }
 
 impl HeadingBand {
@@ -151,7 +151,7 @@ impl HeadingBand {
         let slopes = slopes.iter().enumerate().map(|(place, slope)| {
             let kept = || samples.iter().filter_map(|sample| sample.on_slopes[place].as_ref());
             let trials = kept().count();
-            let held: Vec<Held> = samples.iter().map(|sample| sample.held[place]).collect();
+            let held: Vec<Holding> = samples.iter().map(|sample| sample.held[place]).collect();
             let successes = held.iter().filter(|it| it.is_held()).count();
             SlopeBand {
                 slope: *slope,
@@ -215,7 +215,7 @@ impl OfSample {
         let is_mobile = curve
             .limit()
             .map_or_else(|none| (!none.is_not_found()).then_some(false), |_| Some(true));
-        let held = found.iter().map(|it| Held::of(curve, it)).collect();
+        let held = found.iter().map(|it| Holding::of(curve, it)).collect();
         Self { limit, is_mobile, on_slopes: found.iter().map(on_slope).collect(), held }
     }
 }

@@ -215,10 +215,7 @@ impl MissionRisk {
         // Of those that are as common the one that comes first on the way.
         let commonest = failed.iter().max_by_key(|end| (count(end), std::cmp::Reverse(end.0)));
         Some(Self {
-            completed: Probability {
-                successes: known.len() - failed.len(),
-                trials: known.len(),
-            },
+            completed: Probability { successes: known.len() - failed.len(), trials: known.len() },
             not_computed: ends.len() - known.len(),
             commonest: commonest.map(|end| CommonEnd {
                 leg: end.0,
@@ -241,7 +238,8 @@ fn end_of(
     let mut scenario = mission.scenario.clone();
     scenario.ground.soil = sample.soil;
     scenario.model = sample.model.clone();
-    let (approach, integrator) = (Approach::QuasiSteady, Integrator::Adaptive { tolerance: ROUGHLY });
+    let (approach, integrator) =
+        (Approach::QuasiSteady, Integrator::Adaptive { tolerance: ROUGHLY });
     scenario.numerics = Numerics { approach, integrator, ..scenario.numerics };
     let mission = Mission { scenario, ..mission.clone() };
     let mut run = MissionRun::new(&mission)?;

@@ -22,6 +22,7 @@
 //! degree above its slope.
 
 mod choice;
+mod classes;
 mod compliance;
 mod detail;
 mod ground;
@@ -30,54 +31,12 @@ mod table;
 mod thresholds;
 
 pub use self::choice::CourseChoice;
+pub use self::classes::{advised_place, class_of, slope_and_course};
 pub use self::compliance::SlipCompliances;
 pub(super) use self::detail::Detail;
 pub use self::ground::Ground;
 pub use self::map::{CellMotion, MobilityMap};
 pub use self::table::{Mobility, MobilityTable, OnSlope};
-use super::heading::STRAIGHT_UP;
-use crate::elementary::wide::atan2;
-use crate::units::STEEPEST_SLOPE;
-use grouser_io::unit::DEG;
-
-/// The steepest slope of each class [rad]: whole degrees.
-fn classes() -> impl Iterator<Item = f64> {
-    (0_u32..).map(|degree| DEG.to_si(f64::from(degree))).take_while(|it| *it <= STEEPEST_SLOPE)
-}
-
-/// The class of a slope [rad]: the whole degree above it, and the steepest for all beyond.
-#[must_use]
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a slope is not negative, and the steepest is small"
-)]
-pub fn class_of(slope: f64) -> usize {
-    /// So much above a whole degree is the rounding of heights [°].
-    const ROUNDING: f64 = 0.01;
-    let steepest = DEG.from_si(STEEPEST_SLOPE);
-    (DEG.from_si(slope) - ROUNDING).ceil().clamp(0.0, steepest) as usize
-}
-
-/// Slope and course [rad] of a way over ground that rises along it, and across it [m/m].
-#[must_use]
-pub fn slope_and_course(along: f64, across: f64) -> (f64, f64) {
-    let rise = (along * along + across * across).sqrt();
-    if rise == 0.0 {
-        return (0.0, 0.0);
-    }
-    // On the slope itself the way up is longer than on the map.
-    let steepness = (1.0 + rise * rise).sqrt();
-    (atan2(rise, 1.0), atan2(along * steepness, across.abs()))
-}
-
-/// Slope and course [rad] for which advice is given to a way on a map: the slope is that of its
-/// class, the course is to a degree.
-#[must_use]
-pub fn advised_place((slope, course): (f64, f64)) -> (f64, f64) {
-    let degrees = DEG.from_si(course).round();
-    (DEG.to_si(class_of(slope) as f64), DEG.to_si(degrees).clamp(-STRAIGHT_UP, STRAIGHT_UP))
-}
 
 #[cfg(test)]
 mod tests {
@@ -88,6 +47,7 @@ mod tests {
     use crate::studies::verdict::{Reason, SlopeStudy, Verdict};
     use crate::units::{Vec2, deg};
     use grouser_io::LoadedScenario;
+    use grouser_io::unit::DEG;
     use grouser_io::{self as document, Overrides, Source};
 
     fn scenario(settings: &[&str]) -> LoadedScenario {
@@ -181,9 +141,8 @@ mod tests {
         let samples = BandInputs::of_scenario(&loaded).samples(3, 20).unwrap();
         let study = SlopeStudy::of(&loaded);
         let slope = deg(16.0);
-        let map = |choice| {
-            MobilityMap::of(&study, choice, slope, &samples, &|| true).unwrap().unwrap()
-        };
+        let map =
+            |choice| MobilityMap::of(&study, choice, slope, &samples, &|| true).unwrap().unwrap();
         let advice = |choice| map(choice).advice()[16].clone();
         let best = advice(CourseChoice::Best);
         let [up, down] = [FRAC_PI_2, -FRAC_PI_2].map(|course| advice(CourseChoice::Fixed(course)));
@@ -197,8 +156,9 @@ mod tests {
     #[test]
     fn headings_turn_with_the_ground() {
         let study = SlopeStudy::of(&scenario(&[]));
-        let map =
-            MobilityMap::of(&study, CourseChoice::Fixed(0.0), deg(10.0), &[], &|| true).unwrap().unwrap();
+        let map = MobilityMap::of(&study, CourseChoice::Fixed(0.0), deg(10.0), &[], &|| true)
+            .unwrap()
+            .unwrap();
         let rise = deg(10.0).tan();
         let contour = map.at(Vec2::new(0.0, rise));
         let yaw = contour.motion.unwrap().crab;
@@ -226,8 +186,9 @@ mod tests {
     #[test]
     fn the_best_course_is_no_worse_than_any_and_the_worst_no_better() {
         let study = SlopeStudy::of(&scenario(&[]));
-        let [best, worst] = [CourseChoice::Best, CourseChoice::Worst]
-            .map(|choice| MobilityMap::of(&study, choice, deg(26.0), &[], &|| true).unwrap().unwrap());
+        let [best, worst] = [CourseChoice::Best, CourseChoice::Worst].map(|choice| {
+            MobilityMap::of(&study, choice, deg(26.0), &[], &|| true).unwrap().unwrap()
+        });
         for degrees in [2.0, 8.0, 14.0, 19.0, 26.0] {
             let gradient = Vec2::new(deg(degrees).tan(), 0.0);
             let (good, bad) = (best.at(gradient), worst.at(gradient));

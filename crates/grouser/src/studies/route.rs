@@ -40,7 +40,7 @@ mod tests {
     use super::search::{Found, Lattice};
     use super::*;
     use crate::studies::mobility::Ground;
-use crate::studies::verdict::SlopeStudy;
+    use crate::studies::verdict::SlopeStudy;
     use crate::terrain::{ElevationGrid, SoilZones, ZonePolygon};
     use crate::units::{Vec2, deg};
     use grouser_io::{self as document, Overrides, Source};

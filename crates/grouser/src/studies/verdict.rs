@@ -9,19 +9,21 @@
 //! [`Reason`] for it.
 
 mod driven;
+mod held;
 mod reason;
 mod rule;
 mod slip_check;
 
 pub use self::driven::{DRIFT_WAY, Driven, DrivenMotion, HEADING_ERROR, SHORTEST_LEG};
 pub(super) use self::driven::{heading_error, largest_current, largest_torque, settings};
+pub(super) use self::held::Holding;
 pub use self::reason::{Judgement, Reason, Verdict};
 pub use self::rule::{BELOW_FRICTION_ANGLE, Rule, SLIDES_ON_NO_GO, STUCK_ON_GO};
 pub use self::slip_check::{MOST_CHECKED_SLIP, SOIL_LENGTH, STUCK_WITH_CHECKS, SlipCheck};
 use super::ensemble::models::{Question, answers};
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability, outputs};
-use super::heading::{HeadingCurve, HeadingOffset, HeadingStudy, NoHeading, STUCK};
+use super::heading::{HeadingCurve, HeadingStudy};
 use crate::contact::Model;
 use crate::error::{ParameterError, positive};
 use crate::soil::SlopeStability;
@@ -69,62 +71,6 @@ pub struct Advice {
     /// Driven by the median of these; `None` where no heading holds the course in half of the
     /// samples. Its motion is computed where nothing before makes the slope a no-go.
     pub driven: Option<Driven>,
-}
-
-/// Whether a sample holds a course on a slope.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Held {
-    /// By a heading.
-    At {
-        /// Yaw, *γ* [rad].
-        yaw: f64,
-        /// Slip ratio, *s* [-].
-        slip_ratio: f64,
-        /// Whether the sample's model or soil is so far outside its domain that nobody is to drive
-        /// by it.
-        is_outside: bool,
-    },
-    /// By none.
-    Not,
-    /// The search gave up.
-    Unknown,
-}
-
-impl Held {
-    pub(super) fn of(curve: &HeadingCurve, found: &Result<HeadingOffset, NoHeading>) -> Self {
-        match found {
-            Ok(heading) => {
-                let findings = curve.findings(heading.slope, found);
-                let is_outside = findings.iter().any(|it| it.flag.rule().forbids_driving);
-                Self::At { yaw: heading.yaw, slip_ratio: heading.slip_ratio, is_outside }
-            }
-            Err(none) if none.is_not_found() => Self::Unknown,
-            Err(_) => Self::Not,
-        }
-    }
-
-    /// Whether a heading holds the course.
-    pub(super) fn is_held(self) -> bool {
-        matches!(self, Self::At { .. })
-    }
-
-    /// What bands have of the yaw: above every number where no heading holds the course.
-    pub(super) fn yaw(self) -> Option<f64> {
-        match self {
-            Self::At { yaw, .. } => Some(yaw),
-            Self::Not => Some(f64::INFINITY),
-            Self::Unknown => None,
-        }
-    }
-
-    /// What bands have of the slip: 1 where no heading holds the course.
-    pub(super) fn slip_ratio(self) -> Option<f64> {
-        match self {
-            Self::At { slip_ratio, .. } => Some(slip_ratio),
-            Self::Not => Some(STUCK),
-            Self::Unknown => None,
-        }
-    }
 }
 
 impl SlopeStudy {
@@ -200,16 +146,16 @@ impl SlopeStudy {
         let steepest = slopes.iter().copied().fold(0.0, f64::max);
         let one = |sample: &Sample| {
             let curve = self.heading.of_sample(sample).curve_to_slope(course, steepest)?;
-            Ok(slopes.iter().map(|it| Held::of(&curve, &curve.at(*it))).collect())
+            Ok(slopes.iter().map(|it| Holding::of(&curve, &curve.at(*it))).collect())
         };
         let Some(found) = outputs_of_samples(all, go_on, one) else { return Ok(None) };
         // In order, so that the error is always that of the first soil.
-        let found = found.into_iter().collect::<Result<Vec<Vec<Held>>, ParameterError>>()?;
+        let found = found.into_iter().collect::<Result<Vec<Vec<Holding>>, ParameterError>>()?;
         let on_slope = |(place, slope): (usize, &f64)| {
             if !go_on() {
                 return None;
             }
-            let held: Vec<Held> = found.iter().map(|held| held[place]).collect();
+            let held: Vec<Holding> = found.iter().map(|held| held[place]).collect();
             Some(self.judged((*slope, course), &held, samples))
         };
         Ok(slopes.iter().enumerate().map(on_slope).collect())
@@ -240,9 +186,8 @@ impl SlopeStudy {
             };
             known.extend(found);
         }
-        let of = |place: &(f64, f64)| {
-            known.iter().find(|it| (it.slope, it.course) == *place).cloned()
-        };
+        let of =
+            |place: &(f64, f64)| known.iter().find(|it| (it.slope, it.course) == *place).cloned();
         Ok(places.iter().map(of).collect())
     }
 
@@ -276,7 +221,7 @@ impl SlopeStudy {
     pub(super) fn judged(
         &self,
         (slope, course): (f64, f64),
-        held: &[Held],
+        held: &[Holding],
         samples: &[Sample],
     ) -> Advice {
         let as_written = [self.nominal()];
@@ -291,7 +236,7 @@ impl SlopeStudy {
             driven.motion = DrivenMotion::of(&self.heading, all, self.rim_speed, place, limit);
             judgement = judgement.or(self.when_driven(driven.motion.as_ref()));
         }
-        let known = held.iter().filter(|it| **it != Held::Unknown).count();
+        let known = held.iter().filter(|it| **it != Holding::Unknown).count();
         let successes = held.iter().filter(|it| it.is_held()).count();
         Advice {
             slope,
@@ -305,12 +250,12 @@ impl SlopeStudy {
     }
 
     /// What can be said of a slope before the rover is driven on it.
-    fn before_driving(&self, slope: f64, held: &[Held], driven: Option<&Driven>) -> Judgement {
+    fn before_driving(&self, slope: f64, held: &[Holding], driven: Option<&Driven>) -> Judgement {
         let mut found = Judgement::GO;
         found.add(driven.is_none(), Verdict::NoGo, Reason::NoHeading);
         found = found.or(self.rule.on_slips(held)).or(self.at_rest(slope, driven));
         let holding = || held.iter().filter(|it| it.is_held());
-        let outside = holding().filter(|it| matches!(it, Held::At { is_outside: true, .. }));
+        let outside = holding().filter(|it| matches!(it, Holding::At { is_outside: true, .. }));
         let is_outside = driven.is_some() && 2 * outside.count() >= holding().count();
         found.add(is_outside, Verdict::CannotTell, Reason::OutsideDomain);
         found

@@ -213,7 +213,9 @@ fn a_mirrored_traverse_has_the_mirrored_heading() {
     let (one, other) = (card(&study, &[], &slopes(19)), card(&mirrored, &[], &slopes(19)));
     for (one, other) in one.rows.iter().zip(&other.rows) {
         let (level, image) = (one.level.expect("not steep"), other.level.expect("not steep"));
-        assert!((level.yaw - image.yaw).abs() < 1e-8 && one.advice.judgement == other.advice.judgement);
+        assert!(
+            (level.yaw - image.yaw).abs() < 1e-8 && one.advice.judgement == other.advice.judgement
+        );
     }
 }
 
@@ -345,9 +347,8 @@ fn without_a_stated_uncertainty_nobody_can_tell() {
     let stated = study();
     let unstated = SlopeStudy { is_uncertainty_stated: false, ..stated.clone() };
     for soils in [Vec::new(), soils(8)] {
-        let verdicts = |study| {
-            card(study, &soils, &slopes(24)).rows.iter().map(verdict).collect::<Vec<_>>()
-        };
+        let verdicts =
+            |study| card(study, &soils, &slopes(24)).rows.iter().map(verdict).collect::<Vec<_>>();
         let (with, without) = (verdicts(&stated), verdicts(&unstated));
         let expected: Vec<Verdict> = with.iter().map(|it| *it.max(&Verdict::CannotTell)).collect();
         assert_eq!(without, expected);

@@ -7,10 +7,10 @@ use grouser::simulation::{
     Approach, Motion, Numerics, Outcome, PrescribedYaw, Run, Scenario, Start,
 };
 use grouser::soil::{Shear, ShearBound, SlopeStability, Soil};
-use grouser::studies::verdict::{Rule, SlopeStudy, Verdict};
 use grouser::studies::comparison::{Levelness, MeasuredTraverse};
 use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::heading::{HeadingStudy, LimitedBy, NoHeading};
+use grouser::studies::verdict::{Rule, SlopeStudy, Verdict};
 use grouser::terrain::Ground;
 use grouser::units::{
     EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, STEEPEST_SLOPE, Vec2, deg, kpa, mm,

@@ -2,8 +2,8 @@
 
 use grouser::document::{self, Kind, LoadedScenario, Overrides, Source};
 use grouser::soil::{PressureSinkage, SinkageExponent, Soil, Span};
-use grouser::studies::verdict::SlopeStudy;
 use grouser::studies::heading::HeadingStudy;
+use grouser::studies::verdict::SlopeStudy;
 use grouser::studies::wheel_test::WheelTest;
 use grouser::units::{MARS_GRAVITY, deg};
 

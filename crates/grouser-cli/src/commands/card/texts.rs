@@ -236,7 +236,8 @@ fn rule(inputs: &CardInputs, card: &Card) -> Vec<(&'static str, String)> {
 
 /// From which slope on a card has a verdict, and why.
 fn first_of(card: &Card, verdict: Verdict) -> Option<String> {
-    let first = card.rows.iter().map(|row| &row.advice).find(|it| it.judgement.verdict == verdict)?;
+    let first =
+        card.rows.iter().map(|row| &row.advice).find(|it| it.judgement.verdict == verdict)?;
     let slope = four_digits(SLOPE.unit.from_si(first.slope));
     Some(format!("from {slope}°: {}", first.judgement.reason.meaning()))
 }

@@ -65,9 +65,9 @@ impl Believed {
             let Some(advice) = advice else { continue };
             let slope = four_digits(SLOPE.unit.from_si(advice.slope));
             let course = four_digits(SLOPE.unit.from_si(advice.course));
-            let nose = advice.heading().map_or_else(String::new, |yaw| {
-                format!("nose at {:.1}°; ", YAW.unit.from_si(yaw))
-            });
+            let nose = advice
+                .heading()
+                .map_or_else(String::new, |yaw| format!("nose at {:.1}°; ", YAW.unit.from_si(yaw)));
             all.push(format!(
                 "Leg {} (slope {slope}°, course {course}°): {nose}{}.",
                 leg.number,

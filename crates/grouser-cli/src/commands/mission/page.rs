@@ -6,8 +6,8 @@ use grouser::document::columns::ENERGY;
 use grouser::document::columns::mission::{
     ELECTRICAL_LEG, ELECTRICAL_MISSION, LEG, MISSION, RISK, legs_brief, missions_brief,
 };
-use grouser::document::columns::verdict::ADVICE;
 use grouser::document::columns::run;
+use grouser::document::columns::verdict::ADVICE;
 use grouser::document::figure::axis;
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
 use grouser_draw::chart::{Bars, Drawable};

@@ -163,13 +163,19 @@ fn advice_line(advice: &Advice, of_models: &[ModelYaw]) -> String {
         let without = advice.level.trials - advice.level.successes;
         let without = four_digits(100.0 * without as f64 / advice.level.trials.max(1) as f64);
         let (low, high) = (degrees(band.low), or_none(band.high));
-        format!(" (95 %: {low} to {high}; no heading in {without} % of {} samples)", advice.level.trials)
+        format!(
+            " (95 %: {low} to {high}; no heading in {without} % of {} samples)",
+            advice.level.trials
+        )
     });
     let models = of_models.iter().map(|(model, yaw)| {
         format!("{} {}", model.name(), yaw.map_or_else(|| "none".to_owned(), degrees))
     });
     let models = models.collect::<Vec<_>>().join(", ");
-    format!("{slope}°: {nose}{band}; as written, by model: {models}; {}", advice.judgement.sentence())
+    format!(
+        "{slope}°: {nose}{band}; as written, by model: {models}; {}",
+        advice.judgement.sentence()
+    )
 }
 
 /// Every degree, and the points of the nominal curve, which crowd where it bends.

@@ -33,8 +33,10 @@ impl MapQuestion<'_> {
             answer.page.push(PageBlock::Picture { file, caption });
         }
         answer.heading("What to do on each slope");
-        answer.words("A place has the verdict of the slope above its own; the operator's card of the \
-                      same rover and soil says the same of it.");
+        answer.words(
+            "A place has the verdict of the slope above its own; the operator's card of the \
+                      same rover and soil says the same of it.",
+        );
         answer.rows("Advice for each class of slopes", advice, advice.names());
         answer.heading("How exact the map is");
         let error = |name: &str| {

@@ -5,8 +5,8 @@ use super::super::table::{Table, Values};
 use super::super::unit::{DEG, DEG_PER_M, M, M_PER_M, ONE};
 use super::flags::{self, FLAGS};
 use super::heading::{DRAWS, DRAWS_LEVEL};
-pub use super::verdict::{PROBABILITY_STUCK, PROBABILITY_STUCK_WITHOUT_CHECKS, REASON, VERDICT};
 use super::verdict::ADVICE;
+pub use super::verdict::{PROBABILITY_STUCK, PROBABILITY_STUCK_WITHOUT_CHECKS, REASON, VERDICT};
 use super::{
     CURRENT, Column, LIMIT_SLOPE, OK, PITCH, POWER, PROBABILITY_LEVEL, Quantity, ROLL, SINKAGE,
     SLIP_RATIO, SLOPE, STATUS, TORQUE, YAW, quantity, text, whole,

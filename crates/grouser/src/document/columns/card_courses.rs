@@ -3,9 +3,7 @@
 use super::super::table::Table;
 use super::super::unit::M;
 use super::card::{DRIVEN_DRIFT, TIPPING_MARGIN};
-use super::verdict::{
-    PROBABILITY_STUCK, PROBABILITY_STUCK_WITHOUT_CHECKS, REASON, VERDICT,
-};
+use super::verdict::{PROBABILITY_STUCK, PROBABILITY_STUCK_WITHOUT_CHECKS, REASON, VERDICT};
 use super::{CURRENT, Column, Quantity, SLIP_RATIO, SLOPE, TORQUE, YAW, quantity, text};
 use crate::studies::card::courses::{Course, CourseMotion, CourseRow};
 

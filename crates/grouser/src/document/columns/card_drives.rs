@@ -44,6 +44,7 @@ pub fn table(rows: &[RowDrives]) -> Table {
 pub fn brief() -> Vec<String> {
     let [_, _, high] = DRIVEN_DRIFT.quantiles();
     let names = [SLOPE.name, VERDICT, LATENESS, DISTANCE.name, STATED_DRIFT.name, &high];
-    let after = [PROBABILITY_WITHIN.name, STATED_STUCK.name, PROBABILITY_STUCK_WITHOUT_CHECKS.name, DRIVES];
+    let after =
+        [PROBABILITY_WITHIN.name, STATED_STUCK.name, PROBABILITY_STUCK_WITHOUT_CHECKS.name, DRIVES];
     names.into_iter().chain(after).map(String::from).collect()
 }

@@ -8,8 +8,8 @@ use super::super::unit::{DEG, M};
 use super::run::{BATTERY_ENERGY, DISTANCE, END, METHOD, STANDING, STATE_OF_CHARGE};
 use super::verdict::{ADVICE, ADVICE_OBJECT};
 use super::{
-    CURRENT, Column, ENERGY, PROBABILITY_COMPLETED, Quantity, SLIP_RATIO, TEMPERATURE, TIME, X, Y, YAW, maybe, quantity,
-    text, whole,
+    CURRENT, Column, ENERGY, PROBABILITY_COMPLETED, Quantity, SLIP_RATIO, TEMPERATURE, TIME, X, Y,
+    YAW, maybe, quantity, text, whole,
 };
 use crate::mission::{
     Cause, FellShort, Heading, Kind, Leg, LegOutcome, Limited, Manoeuvre, Measure, Steering, Stop,

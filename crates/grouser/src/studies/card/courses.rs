@@ -12,7 +12,7 @@ use super::super::ensemble::samples::{Sample, outputs_of_places};
 use super::super::ensemble::{Band, Probability};
 use super::super::heading::{STRAIGHT_DOWN, STRAIGHT_UP, STUCK};
 use super::super::verdict::{
-    Advice, Driven, DrivenMotion, Held, Judgement, Reason, STUCK_ON_GO, SlopeStudy, Verdict,
+    Advice, Driven, DrivenMotion, Holding, Judgement, Reason, STUCK_ON_GO, SlopeStudy, Verdict,
     largest_current, largest_torque,
 };
 use super::CardRow;
@@ -216,10 +216,10 @@ impl SlopeStudy {
 
     fn judgement_of_course(&self, yaw: f64, motions: &[Option<OnCourse>]) -> Judgement {
         let held = |it: &Option<OnCourse>| match it {
-            Some(it) => Held::At { yaw, slip_ratio: it.slip_ratio, is_outside: false },
-            None => Held::Not,
+            Some(it) => Holding::At { yaw, slip_ratio: it.slip_ratio, is_outside: false },
+            None => Holding::Not,
         };
-        let held: Vec<Held> = motions.iter().map(held).collect();
+        let held: Vec<Holding> = motions.iter().map(held).collect();
         let stuck = motions.iter().filter(|it| it.is_none()).count();
         let is_free = stuck as f64 <= STUCK_ON_GO * motions.len() as f64;
         let mut found = self.rule.on_slips(&held);

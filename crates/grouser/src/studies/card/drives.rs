@@ -14,9 +14,7 @@
 use rayon::prelude::*;
 
 use super::super::heading::STRAIGHT_DOWN;
-use super::super::verdict::{
-    HEADING_ERROR, SlopeStudy, Verdict, heading_error, settings,
-};
+use super::super::verdict::{HEADING_ERROR, SlopeStudy, Verdict, heading_error, settings};
 use super::CardRow;
 use crate::error::{ParameterError, positive};
 use crate::simulation::{
@@ -86,8 +84,11 @@ impl CardDrives<'_> {
         let Some((driven, motion)) = row.advice.driven.and_then(|it| Some((it, it.motion?))) else {
             return Ok(None);
         };
-        let course =
-            Course { slope: row.advice.slope, yaw: driven.yaw, leg: motion.correct_every * self.lateness };
+        let course = Course {
+            slope: row.advice.slope,
+            yaw: driven.yaw,
+            leg: motion.correct_every * self.lateness,
+        };
         let drive = |(index, sample): (usize, &Sample)| {
             let drift = self.drive(&course, sample, index as u64);
             done();

@@ -1,6 +1,6 @@
 //! Which course is looked at, slope by slope.
 
-use super::classes;
+use super::classes::classes;
 use super::table::{MobilityTable, OnSlope};
 use crate::studies::heading::STRAIGHT_UP;
 
@@ -47,9 +47,9 @@ impl CourseChoice {
                     };
                     worse(rank(*one), rank(*other))
                 }),
-                Self::Worst => all.max_by(|one, other| {
-                    worse(rank(&on_slope[*one]), rank(&on_slope[*other]))
-                }),
+                Self::Worst => {
+                    all.max_by(|one, other| worse(rank(&on_slope[*one]), rank(&on_slope[*other])))
+                }
             };
             found.unwrap_or(0)
         };

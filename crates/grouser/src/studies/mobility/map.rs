@@ -1,8 +1,8 @@
 //! What a rover does at a place of a map.
 
 use super::choice::CourseChoice;
+use super::classes::{class_of, classes};
 use super::table::{Mobility, MobilityTable, OnSlope};
-use super::{class_of, classes};
 use crate::elementary::wide::{atan2, sin_cos};
 use crate::error::ParameterError;
 use crate::studies::ensemble::samples::Sample;

@@ -3,8 +3,8 @@
 use super::answer::{Arrival, Route};
 use super::costs::{Metre, RouteTables};
 use crate::simulation::NotSteady;
-use crate::studies::verdict::SlopeStudy;
 use crate::studies::mobility::slope_and_course;
+use crate::studies::verdict::SlopeStudy;
 use crate::units::Vec2;
 
 /// Turning on the spot on level ground.
@@ -83,8 +83,7 @@ impl<'a> Measure<'a> {
             probability_no_go: 0.0,
             worst: Vec::new(),
         };
-        let mut measure =
-            Self { tables, turning, route, failed: Vec::new(), worst: (0, 0.0, 0.0) };
+        let mut measure = Self { tables, turning, route, failed: Vec::new(), worst: (0, 0.0, 0.0) };
         measure.arrive(start);
         measure
     }

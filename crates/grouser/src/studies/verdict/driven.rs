@@ -12,10 +12,10 @@ use super::super::ensemble::samples::{Sample, outputs_of_samples};
 use super::super::ensemble::{Band, Probability, outputs};
 use super::super::heading::{HeadingStudy, STRAIGHT_DOWN, STUCK};
 use super::slip_check::SlipCheck;
-use crate::soil::SlopeStability;
 use crate::elementary::wide::sin;
 use crate::simulation::power::electrical;
 use crate::simulation::{MOST_SLIP, SteadyMotion};
+use crate::soil::SlopeStability;
 use crate::studies::random;
 use crate::vehicle::{Rover, roll_and_pitch};
 

@@ -108,9 +108,7 @@ impl Reason {
                 "share_that_holds",
                 "in too few of the samples a heading holds the course at an acceptable slip",
             ),
-            Self::NoHeading => {
-                ("no_heading", "in half of the samples no heading holds the course")
-            }
+            Self::NoHeading => ("no_heading", "in half of the samples no heading holds the course"),
             Self::Stuck => ("stuck", "the rover gets stuck in too many of the samples"),
             Self::Slides => ("slides", "rover or ground slide in too many of the samples"),
             Self::HeadingFalls => {

@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
-use super::{Held, Judgement, Reason, Verdict};
+use super::held::Holding;
+use super::reason::{Judgement, Reason, Verdict};
 use crate::error::{ParameterError, positive};
 
 /// The limits of the verdicts. Source of all numbers: ours; a mission has its own.
@@ -73,11 +74,10 @@ impl Rule {
 
     /// What the slips of all samples say of a slope. A sample of which nothing is known makes it no
     /// go and no no-go.
-    pub(in super::super) fn on_slips(&self, held: &[Held]) -> Judgement {
-        let unknown = held.iter().filter(|it| **it == Held::Unknown).count();
+    pub(in super::super) fn on_slips(&self, held: &[Holding]) -> Judgement {
+        let unknown = held.iter().filter(|it| **it == Holding::Unknown).count();
         let within = |most: f64| {
-            let keeps =
-                |it: &&Held| matches!(it, Held::At { slip_ratio, .. } if slip_ratio.abs() <= most);
+            let keeps = |it: &&Holding| matches!(it, Holding::At { slip_ratio, .. } if slip_ratio.abs() <= most);
             held.iter().filter(keeps).count()
         };
         let [go, holding] = [self.go_slip_ratio, self.no_go_slip_ratio].map(within);

@@ -1,0 +1,62 @@
+//! Whether a sample holds a course.
+
+use super::super::heading::{HeadingCurve, HeadingOffset, NoHeading, STUCK};
+
+/// Whether a sample holds a course on a slope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in super::super) enum Holding {
+    /// By a heading.
+    At {
+        /// Yaw, *γ* [rad].
+        yaw: f64,
+        /// Slip ratio, *s* [-].
+        slip_ratio: f64,
+        /// Whether the sample's model or soil is so far outside its domain that nobody is to drive
+        /// by it.
+        is_outside: bool,
+    },
+    /// By none.
+    Not,
+    /// The search gave up.
+    Unknown,
+}
+
+impl Holding {
+    pub(in super::super) fn of(
+        curve: &HeadingCurve,
+        found: &Result<HeadingOffset, NoHeading>,
+    ) -> Self {
+        match found {
+            Ok(heading) => {
+                let findings = curve.findings(heading.slope, found);
+                let is_outside = findings.iter().any(|it| it.flag.rule().forbids_driving);
+                Self::At { yaw: heading.yaw, slip_ratio: heading.slip_ratio, is_outside }
+            }
+            Err(none) if none.is_not_found() => Self::Unknown,
+            Err(_) => Self::Not,
+        }
+    }
+
+    /// Whether a heading holds the course.
+    pub(in super::super) fn is_held(self) -> bool {
+        matches!(self, Self::At { .. })
+    }
+
+    /// What bands have of the yaw: above every number where no heading holds the course.
+    pub(in super::super) fn yaw(self) -> Option<f64> {
+        match self {
+            Self::At { yaw, .. } => Some(yaw),
+            Self::Not => Some(f64::INFINITY),
+            Self::Unknown => None,
+        }
+    }
+
+    /// What bands have of the slip: 1 where no heading holds the course.
+    pub(in super::super) fn slip_ratio(self) -> Option<f64> {
+        match self {
+            Self::At { slip_ratio, .. } => Some(slip_ratio),
+            Self::Not => Some(STUCK),
+            Self::Unknown => None,
+        }
+    }
+}
