@@ -172,7 +172,7 @@ fn the_page_says_what_it_must() {
         "in 20 % of them or more",
         "The nose falls: correct, set it again",
         "the nose is too far uphill",
-        "to be made anew",
+        "To be made anew",
         "page 1 of 2",
         "STOP IF ABOVE",
         "DATE OF THE SOIL: NOT STATED",

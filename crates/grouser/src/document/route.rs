@@ -74,8 +74,8 @@ impl Serialize for AdvisedLegs {
 
 /// The worst place of a leg.
 const LEG: [Column<Advice>; 2] = [
-    SLOPE.number("Slope at the worst place, up to a whole degree", |it| it.slope),
-    COURSE.number("Course there, from the contour, positive uphill", |it| it.course),
+    SLOPE.given("Slope at the worst place, up to a whole degree", |it| Some(it.slope)),
+    COURSE.given("Course there, from the contour, positive uphill", |it| Some(it.course)),
 ];
 
 /// What a way takes up to a waypoint, before it turns there.

@@ -162,7 +162,10 @@ fn line(sheet: &mut Sheet, row: CardRow<'_>, courses: &table::Table, [top, heigh
     let every = row.number(SLIP_CHECK_EVERY).map_or("all the way".to_owned(), four_digits);
     let limit = row.number(SLIP_LIMIT).map(|limit| upwards(limit * 100.0, 1)).unwrap_or_default();
     let stuck = row.number(PROBABILITY_STUCK);
-    let stuck = stuck.map(|stuck| upwards(stuck * 100.0, 1)).unwrap_or_default();
+    let percent = |stuck: f64| {
+        if stuck > 0.0 { upwards(stuck * 100.0, 1) } else { "0".to_owned() }
+    };
+    let stuck = stuck.map(percent).unwrap_or_default();
     for (place, text) in [every, limit, stuck].into_iter().enumerate() {
         let [left, right] = [CHECK[place], CHECK[place + 1]];
         let size = fitting(&text, small, right - left - 1.0).max(LEAST_SIZE);

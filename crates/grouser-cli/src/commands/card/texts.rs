@@ -62,8 +62,7 @@ pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Texts {
         facts: facts(args, inputs, card),
         holds_for:
             "steady driving along the contour of an even slope of one soil, with all wheels \
-                    turning alike and the nose set again as the card says. Not true any more, and \
-                    to be made anew: once a reading is above its limit on two legs in a row, or \
+                    turning alike and the nose set again as the card says. To be made anew: once a reading is above its limit on two legs in a row, or \
                     rover, load or ground are others than on the day of the soil."
                 .to_owned(),
         leaves_out: "rocks, ripples, layers, slopes that change, starts, stops and turns; what \
@@ -105,8 +104,7 @@ pub(super) fn percent(share: f64) -> String {
 /// What the columns are.
 fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
     let roll = format!(
-        "what instruments show with the nose set: roll reads the slope itself, and uphill side and \
-         nose are higher. Pitch above its range: the nose is too far uphill by more than {error}; \
+        "with the nose set, uphill side and nose higher: roll reads the slope itself. Pitch above its range: the nose is too far uphill by more than {error}; \
          below: too far down. Where the range begins with 0 pitch cannot tell.",
         error = degrees(HEADING_ERROR)
     );
@@ -116,9 +114,8 @@ fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
         if draws.is_some() { " in 97.5 % of the samples" } else { "" },
         degrees(HEADING_ERROR)
     );
-    let readings = "Slip: mean of the wheels, in per cent of the rims' way; drift: downhill, for a \
-                    metre travelled, over 10 m; sinkage: mean of the wheels; torque: of the wheel \
-                    that has most; both of samples that are not stuck.";
+    let readings = "Slip: mean of the wheels, in per cent of the rims' way; drift: downhill, over 10 \
+                    m; sinkage: mean; torque: of the wheel that has most; both where it moves.";
     let others = format!(
         "wheel way: metres of rim for a metre of ground{}. Tips over: how much steeper the slope \
          could be before the rover at rest tips.",
@@ -144,8 +141,8 @@ fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
         (
             "Stop if above",
             format!(
-                "97.5 % of the samples stay below; slip: of those that hold the contour by their \
-             own heading, {most} at most. {readings} '–': in more \
+                "97.5 % of the samples stay below, of the slip each by its own heading, {most} at \
+             most. {readings} '–': in more \
              than 2.5 % of the samples the rover is stuck.",
                 most = percent(MOST_CHECKED_SLIP)
             ),
@@ -213,7 +210,7 @@ fn rule(inputs: &CardInputs, card: &Card) -> Vec<(&'static str, String)> {
     let friction = degrees(value.ground.soil.friction_angle);
     let usual = four_digits(SlopeStability::USUAL.factor_of_safety);
     let go = format!("{held}; the slope stands with a factor of safety of {usual}.");
-    let between = "all between: not without a second look, and with slip measured on the way.";
+    let between = "not without a second look, and with slip measured on the way.";
     let open = "the soil's document states no uncertainty, most of the samples are outside a \
                 domain, or the search for a heading gave up.";
     let no_go = format!(
@@ -226,12 +223,12 @@ fn rule(inputs: &CardInputs, card: &Card) -> Vec<(&'static str, String)> {
         Some(first) => format!("{text} Here {first}."),
         None => text,
     };
-    vec![
-        ("GO", go),
-        ("CAUTION", here(Verdict::Caution, between.to_owned())),
-        ("CANNOT TELL", here(Verdict::CannotTell, open.to_owned())),
-        ("NO-GO", here(Verdict::NoGo, no_go)),
-    ]
+    let mut all = vec![("GO", go), ("CAUTION", here(Verdict::Caution, between.to_owned()))];
+    if first_of(card, Verdict::CannotTell).is_some() {
+        all.push(("CANNOT TELL", here(Verdict::CannotTell, open.to_owned())));
+    }
+    all.push(("NO-GO", here(Verdict::NoGo, no_go)));
+    all
 }
 
 /// From which slope on a card has a verdict, and why.

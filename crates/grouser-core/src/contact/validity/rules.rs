@@ -79,7 +79,7 @@ pub(super) static RULES: [Rule; Flag::ALL.len()] = [
     Rule {
         flag: Flag::SlipOutside,
         name: "slip-outside",
-        forbids_driving: true,
+        forbids_driving: false,
         meaning: "The slip ratio is outside the tests of the model or of the soil's fit, or near \
                   1.",
         quantity: "slip ratio",

@@ -82,7 +82,7 @@ pub struct Rule {
     pub name: &'static str,
     /// Whether nobody is to drive by a result that carries it: the model's law, or the constants,
     /// are known to be wrong there. Where the bands cover what is left out, as grousers that are
-    /// few, or a value that is assumed, it does not.
+    /// few, or a value that is assumed, it does not; nor does a slip, which verdicts limit anyway.
     pub forbids_driving: bool,
     /// What it means: a sentence.
     pub meaning: &'static str,

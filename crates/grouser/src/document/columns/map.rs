@@ -41,8 +41,8 @@ pub const fn bands() -> [Column<CellMotion>; 8] {
 
 /// A class of slopes of a map: those down to the one before.
 pub const CLASS: [Column<Advice>; 2] = [
-    SLOPE.number("The steepest slope of the class", |it| it.slope),
-    COURSE.number("The course there: from the contour, positive uphill", |it| it.course),
+    SLOPE.given("The steepest slope of the class", |it| Some(it.slope)),
+    COURSE.given("The course there: from the contour, positive uphill", |it| Some(it.course)),
 ];
 
 /// What a map has as well where the course is chosen place by place.
