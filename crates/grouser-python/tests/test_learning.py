@@ -48,6 +48,7 @@ def test_the_numbers_are_the_programs(program: Program, log: Path, tmp_path: Pat
     found = learner.predict([6.0, 10.0], samples=12, seed=3)
     for place, row in enumerate(answer["predictions"]):
         assert row.pop("slope_deg") == found["slope_deg"][place]
+        assert row.pop("advice")["yaw_deg"] == row["yaw_deg"]
         for name, value in row.items():
             assert value == found[name].values[place], name
     assert learner.learnt == answer["learnt"]

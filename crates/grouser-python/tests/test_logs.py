@@ -41,14 +41,14 @@ RUNS = {
     "backward": ["traverse", "reverse", "--duration-s", "2"],
     "no time": ["traverse", "--duration-s", "0.001"],
     "sliding": ["traverse", "--slope-deg", "36", "--duration-s", "10"],
-    "mission": ["mission", "there-and-back"],
+    "mission": ["mission", "there-and-back", "--nominal"],
     "mission of six wheels": [
         *("mission", "arc", "--rover", "curiosity", "--soil", "mars-sand", "--gravity-m-s2", "mars"),
-        *("--simulation", "quasi-steady"),
+        *("--simulation", "quasi-steady", "--nominal"),
     ],
-    "stopped mission": ["mission", "slip-check", "--slope-deg", "14"],
-    "mission that backs out": ["mission", "back-out"],
-    "mission that slides": ["mission", "there-and-back", "--slope-deg", "36"],
+    "stopped mission": ["mission", "slip-check", "--slope-deg", "14", "--nominal"],
+    "mission that backs out": ["mission", "back-out", "--nominal"],
+    "mission that slides": ["mission", "there-and-back", "--slope-deg", "36", "--nominal"],
 }
 MISSIONS = [name for name, (command, *_) in RUNS.items() if command == "mission"]
 #: Levels of events.
