@@ -100,8 +100,12 @@ fn given(
     Ok(Way::along(line, found, &study.limits, driven, &legs))
 }
 
-/// What to do on each leg of a way.
-fn advice(inputs: &RouteInputs, route: &Route, samples: &[Sample]) -> Result<Vec<Advice>, Failure> {
+/// What to do on each leg of a way, if its ground is known.
+fn advice(
+    inputs: &RouteInputs,
+    route: &Route,
+    samples: &[Sample],
+) -> Result<Vec<Option<Advice>>, Failure> {
     let bar = output::progress_bar(0);
     bar.set_message("advice for each leg");
     let found = route.advice(&inputs.study.mobility, samples, &|| true);

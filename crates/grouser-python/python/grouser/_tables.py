@@ -65,7 +65,8 @@ def described(
     """
     found = {}
     for name, doc in docs.items():
-        values = np.array(columns[name], dtype=np.str_ if name in _WORDS else np.float64)
+        cells = [it or "" for it in columns[name]] if name in _WORDS else columns[name]
+        values = np.array(cells, dtype=np.str_ if name in _WORDS else np.float64)
         notes = {"units": _core.unit_of(name) or "-", "long_name": doc}
         found[prefix + name] = ((dim,), values, notes)
     return found

@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
-use super::columns::verdict::{ADVICE_OBJECT, advice};
+use super::columns::verdict::{ADVICE, ADVICE_OBJECT};
 use super::columns::{COURSE, Column, SLOPE, YAW};
 use super::table::{Table, WithObject};
 use crate::studies::route::{
@@ -58,10 +58,12 @@ pub struct AdvisedLegs {
 }
 
 impl AdvisedLegs {
-    /// * `all`: for each leg
+    /// * `all`: for each leg, if its ground is known
     #[must_use]
-    pub fn of(all: &[Advice]) -> Self {
-        Self { rows: Table::of(&LEG, all), advice: advice(all) }
+    pub fn of(all: &[Option<Advice>]) -> Self {
+        let all: Vec<Option<&Advice>> = all.iter().map(Option::as_ref).collect();
+        let [rows, advice] = [Table::default(), Table::default()];
+        Self { rows: rows.and(&LEG, &all), advice: advice.and(&ADVICE, &all) }
     }
 }
 
@@ -145,7 +147,7 @@ impl RouteRecord {
         objective: Objective,
         answer: &Answer,
         driven: Option<&DrivenRoute>,
-        legs: &[Advice],
+        legs: &[Option<Advice>],
     ) -> Self {
         let minimise = objective.name();
         match answer {
@@ -172,7 +174,7 @@ impl RouteRecord {
         found: &CheckedLine,
         limits: &Limits,
         driven: Option<&DrivenRoute>,
-        legs: &[Advice],
+        legs: &[Option<Advice>],
     ) -> Self {
         let record =
             found.route.as_ref().map_or_else(Self::default, |it| Self::of_route(it, driven));
@@ -264,7 +266,7 @@ impl HazardRecord {
                 limits.most_slip_ratio
             ),
             Danger::NoGo => format!(
-                "it is a no-go in up to {:.0} % of the samples, and at most {:.0} % are allowed",
+                "it is a no-go in up to {:.0} % of the samples, and less than {:.0} % are allowed",
                 100.0 * number(self.most_no_go),
                 100.0 * limits.most_no_go
             ),

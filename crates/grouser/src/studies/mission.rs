@@ -91,7 +91,8 @@ impl DrivenMission {
 
     /// For each leg that was begun the place that advice is about, as slope and course [rad]: on a
     /// plane its slope and the course that the leg asks for, over ground with heights the steepest
-    /// place of the way; `None` for legs that lead nowhere.
+    /// place of the way. `None` for legs that lead nowhere, that are driven backward or with wheels
+    /// that crab, and over zones of soil: advice is about a nose in front on one soil.
     #[must_use]
     pub fn places(&self, scenario: &Scenario) -> Vec<Option<(f64, f64)>> {
         // Places are seen from where the mission starts.
@@ -99,6 +100,9 @@ impl DrivenMission {
         let place = |leg: &DrivenLeg| {
             let (from, yaw) = before;
             before = (leg.report.end.position, leg.report.end.yaw);
+            if scenario.ground.zones.is_some() || !leg.is_nose_first() {
+                return None;
+            }
             let way = leg.way(from, yaw)?;
             Some(leg.place(scenario, from, way))
         };
@@ -117,11 +121,7 @@ impl DrivenMission {
         samples: &[Sample],
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Vec<Option<Advice>>>, ParameterError> {
-        let places = self.places(scenario);
-        let known: Vec<_> = places.iter().copied().flatten().collect();
-        let Some(found) = study.advice_at(&known, samples, go_on)? else { return Ok(None) };
-        let mut found = found.into_iter();
-        Ok(Some(places.iter().map(|place| place.and_then(|_| found.next())).collect()))
+        study.advice_where_known(&self.places(scenario), samples, go_on)
     }
 
     /// Those of its legs that lead somewhere.
@@ -131,6 +131,12 @@ impl DrivenMission {
 }
 
 impl DrivenLeg {
+    /// Whether it is driven forward, with wheels that point ahead.
+    fn is_nose_first(&self) -> bool {
+        let is_crab = matches!(self.leg.heading, Heading::Crab { .. });
+        self.leg.manoeuvre.direction() > 0.0 && !is_crab
+    }
+
     /// The way that it asks for, from where it begins [m]; `None` for one that leads nowhere.
     fn way(&self, from: Vec2, yaw: f64) -> Option<Vec2> {
         let way = match self.leg.manoeuvre {

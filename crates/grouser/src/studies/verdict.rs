@@ -191,6 +191,22 @@ impl SlopeStudy {
         Ok(places.iter().map(of).collect())
     }
 
+    /// The same for places some of which are not known, and have no advice.
+    ///
+    /// # Errors
+    /// The same as [`advice`](Self::advice).
+    pub fn advice_where_known(
+        &self,
+        places: &[Option<(f64, f64)>],
+        samples: &[Sample],
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Vec<Option<Advice>>>, ParameterError> {
+        let known: Vec<_> = places.iter().copied().flatten().collect();
+        let Some(found) = self.advice_at(&known, samples, go_on)? else { return Ok(None) };
+        let mut found = found.into_iter();
+        Ok(Some(places.iter().map(|place| place.and_then(|_| found.next())).collect()))
+    }
+
     /// Contour traverses on the soil as written up to a slope [rad], by the models that it is not
     /// computed with.
     ///
@@ -252,7 +268,9 @@ impl SlopeStudy {
     /// What can be said of a slope before the rover is driven on it.
     fn before_driving(&self, slope: f64, held: &[Holding], driven: Option<&Driven>) -> Judgement {
         let mut found = Judgement::GO;
-        found.add(driven.is_none(), Verdict::NoGo, Reason::NoHeading);
+        let without = held.iter().filter(|it| **it == Holding::Not).count();
+        let is_without = driven.is_none() && 2 * without >= held.len();
+        found.add(is_without, Verdict::NoGo, Reason::NoHeading);
         found = found.or(self.rule.on_slips(held)).or(self.at_rest(slope, driven));
         let holding = || held.iter().filter(|it| it.is_held());
         let outside = holding().filter(|it| matches!(it, Holding::At { is_outside: true, .. }));
@@ -285,13 +303,12 @@ impl SlopeStudy {
             found.add(true, Verdict::NoGo, Reason::HeadingFalls);
             return found;
         };
-        let stuck = motion.slip_check.stuck;
-        let most = self.rule.no_go_probability;
-        found.add(stuck >= most, Verdict::NoGo, Reason::Stuck);
+        // Who turns back at every look does not get stuck, and does not get anywhere.
+        let stuck = motion.stuck.estimate().max(motion.slip_check.stuck);
+        found.add(stuck >= self.rule.no_go_probability, Verdict::NoGo, Reason::Stuck);
         let slides = motion.slides.estimate() >= SLIDES_ON_NO_GO;
         found.add(slides, Verdict::NoGo, Reason::Slides);
-        let is_free = motion.stuck.estimate().max(stuck) <= STUCK_ON_GO;
-        found.add(!is_free, Verdict::Caution, Reason::Stuck);
+        found.add(stuck > STUCK_ON_GO, Verdict::Caution, Reason::Stuck);
         let drift = motion.drift.is_none_or(|drift| drift.high > self.rule.go_drift_m_per_m);
         found.add(drift, Verdict::Caution, Reason::Drift);
         found

@@ -283,10 +283,8 @@ fn verdicts_are_the_rules() {
         let share = |count: usize| count as f64 / 40.0;
         let failing = share(40 - within(rule.no_go_slip_ratio));
         let motion = row.advice.driven.and_then(|driven| driven.motion);
-        let stuck = |least: f64| motion.is_some_and(|it| it.slip_check.stuck >= least);
-        let is_free = motion.is_none_or(|it| {
-            it.stuck.estimate() <= STUCK_ON_GO && it.slip_check.stuck <= STUCK_ON_GO
-        });
+        let stuck = motion.map_or(0.0, |it| it.stuck.estimate().max(it.slip_check.stuck));
+        let is_free = stuck <= STUCK_ON_GO;
         let drift = motion.and_then(|it| it.drift).map_or(1.0, |drift| drift.high);
         let slides = motion.is_some_and(|it| it.slides.estimate() >= SLIDES_ON_NO_GO);
         let judgement = |verdict, reason| Judgement { verdict, reason };
@@ -295,7 +293,7 @@ fn verdicts_are_the_rules() {
                 judgement(Verdict::NoGo, Reason::ShareThatHolds)
             }
             () if motion.is_none() => judgement(Verdict::NoGo, Reason::HeadingFalls),
-            () if stuck(rule.no_go_probability) => judgement(Verdict::NoGo, Reason::Stuck),
+            () if stuck >= rule.no_go_probability => judgement(Verdict::NoGo, Reason::Stuck),
             () if slides => judgement(Verdict::NoGo, Reason::Slides),
             () if share(within(rule.go_slip_ratio)) < rule.go_probability => {
                 judgement(Verdict::Caution, Reason::ShareThatHolds)

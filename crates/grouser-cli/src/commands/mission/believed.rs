@@ -57,7 +57,7 @@ impl Believed {
         (risk, advice)
     }
 
-    /// The same in sentences: the whole first, then the legs that are no go.
+    /// The same in sentences: the whole first, then each leg that has advice.
     pub(super) fn sentences(&self, place: usize, way: &DrivenMission) -> Vec<String> {
         let (risk, advice) = self.way(place);
         let mut all = vec![in_words(risk)];

@@ -33,7 +33,7 @@ impl Way {
         objective: Objective,
         found: Found,
         driven: Option<DrivenRoute>,
-        legs: &[Advice],
+        legs: &[Option<Advice>],
     ) -> Self {
         let record = RouteRecord::of(objective, &found, driven.as_ref(), legs);
         let route = match found {
@@ -54,7 +54,7 @@ impl Way {
         found: CheckedLine,
         limits: &Limits,
         driven: Option<DrivenRoute>,
-        legs: &[Advice],
+        legs: &[Option<Advice>],
     ) -> Self {
         let record = RouteRecord::of_line(line, &found, limits, driven.as_ref(), legs);
         Self { record, places: line.places().to_vec(), route: found.route, driven }

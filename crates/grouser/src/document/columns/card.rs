@@ -87,8 +87,8 @@ const fn driven<'a>() -> [Column<OnCard<'a>>; 20] {
             it.driven().map(|it| it.pitch_range[1])
         }),
         CORRECT_EVERY.maybe(
-            "Way after which the heading is to be set again; missing on no-go slopes, as all that \
-             is driven",
+            "Way after which the heading is to be set again; missing on slopes that are a no-go \
+             without driving, as all that is driven",
             |it| it.motion().map(|it| it.correct_every),
         ),
         HEADING_FALL

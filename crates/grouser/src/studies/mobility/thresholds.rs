@@ -71,7 +71,7 @@ fn is_known(curve: &HeadingCurve, most_slip: f64) -> bool {
         Err(none) => !none.is_not_found(),
         Ok(_) => {
             curve.limited_by() != Some(LimitedBy::NotFound)
-                || curve.points().any(|[_, slip, _]| slip > most_slip)
+                || curve.points().any(|[_, slip, _]| slip.abs() > most_slip)
         }
     }
 }
@@ -82,7 +82,7 @@ fn steepest(curve: &HeadingCurve, most_slip: f64, detail: Detail) -> f64 {
     const TOLERANCE: f64 = 1e-6;
     let Ok((limit, _)) = curve.limit() else { return NOWHERE };
     let points: Vec<[f64; 3]> = curve.points().collect();
-    let Some(above) = points.iter().position(|[_, slip, _]| *slip > most_slip) else {
+    let Some(above) = points.iter().position(|[_, slip, _]| slip.abs() > most_slip) else {
         return limit;
     };
     if above == 0 {
@@ -93,9 +93,13 @@ fn steepest(curve: &HeadingCurve, most_slip: f64, detail: Detail) -> f64 {
     match detail {
         // The slope below the root of what the slip is too large by.
         Detail::Full => {
-            let excess = |slope: f64| curve.at(slope).map_or(1.0, |it| it.slip_ratio - most_slip);
+            let excess =
+                |slope: f64| curve.at(slope).map_or(1.0, |it| it.slip_ratio.abs() - most_slip);
             root::between(excess, low, high, TOLERANCE)
         }
-        Detail::Rough => low + (high - low) * (most_slip - slip_low) / (slip_high - slip_low),
+        Detail::Rough => {
+            let [slip_low, slip_high] = [slip_low, slip_high].map(f64::abs);
+            low + (high - low) * (most_slip - slip_low) / (slip_high - slip_low)
+        }
     }
 }

@@ -178,11 +178,13 @@ impl<'a> Look<'a> {
         let Step { from, to, rises } = *step;
         let length = (to - from).norm();
         if self.areas.is_some_and(|areas| meets(areas, from, to)) {
+            self.measure.is_lost();
             self.note(from, length, Danger::KeptOut, None);
         }
         match rises {
             None => {
                 self.is_priced = false;
+                self.measure.is_lost();
                 self.note(from, length, Danger::UnknownGround, None);
             }
             Some((along, across)) => self.drive(from, Piece { length, along, across }),

@@ -44,12 +44,13 @@ pub struct Route {
     /// In which share of the samples some place of the way is a no-go [-].
     pub probability_no_go: f64,
     /// The worst place of each leg from waypoint to waypoint, as slope and course [rad]: where most
-    /// of the samples fail, and of several the steepest.
-    pub worst: Vec<(f64, f64)>,
+    /// of the samples fail, and of several the steepest; `None` of a leg that leads over ground that
+    /// nobody knows, or that nobody may go to.
+    pub worst: Vec<Option<(f64, f64)>>,
 }
 
 impl Route {
-    /// What to do on each leg; `None` if `go_on` was false before the end.
+    /// What to do on each leg, if its ground is known; `None` if `go_on` was false before the end.
     ///
     /// # Errors
     /// The same as [`SlopeStudy::advice`].
@@ -58,9 +59,9 @@ impl Route {
         study: &SlopeStudy,
         samples: &[Sample],
         go_on: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Option<Vec<Advice>>, ParameterError> {
-        let places: Vec<_> = self.worst.iter().map(|place| advised_place(*place)).collect();
-        study.advice_at(&places, samples, go_on)
+    ) -> Result<Option<Vec<Option<Advice>>>, ParameterError> {
+        let places: Vec<_> = self.worst.iter().map(|place| place.map(advised_place)).collect();
+        study.advice_where_known(&places, samples, go_on)
     }
 }
 

@@ -64,6 +64,8 @@ pub(super) struct Measure<'a> {
     failed: Vec<bool>,
     /// How many of them fail at the worst place of the leg, with its slope and course [rad].
     worst: (usize, f64, f64),
+    /// Whether the ground of the leg is known all the way.
+    is_known: bool,
 }
 
 impl<'a> Measure<'a> {
@@ -83,7 +85,14 @@ impl<'a> Measure<'a> {
             probability_no_go: 0.0,
             worst: Vec::new(),
         };
-        let mut measure = Self { tables, turning, route, failed: Vec::new(), worst: (0, 0.0, 0.0) };
+        let mut measure = Self {
+            tables,
+            turning,
+            route,
+            failed: Vec::new(),
+            worst: (0, 0.0, 0.0),
+            is_known: true,
+        };
         measure.arrive(start);
         measure
     }
@@ -93,7 +102,8 @@ impl<'a> Measure<'a> {
         let Self { route, turning, .. } = self;
         if !route.waypoints.is_empty() {
             let (_, slope, course) = std::mem::take(&mut self.worst);
-            route.worst.push((slope, course));
+            route.worst.push(self.is_known.then_some((slope, course)));
+            self.is_known = true;
         }
         route.waypoints.push(place);
         route.arrivals.push(Arrival {
@@ -106,6 +116,11 @@ impl<'a> Measure<'a> {
     /// * `angle`: [rad], not negative
     pub(super) fn turn(&mut self, angle: f64) {
         self.route.turned += angle;
+    }
+
+    /// Goes on over ground that nobody knows, or that nobody may go to.
+    pub(super) fn is_lost(&mut self) {
+        self.is_known = false;
     }
 
     /// Goes on by a piece.

@@ -119,7 +119,8 @@ impl DrivenMotion {
         (slope, course, yaw): (f64, f64, f64),
         slip_limit: f64,
     ) -> Option<Self> {
-        let moves = |motion: SteadyMotion| (motion.slip_ratio() <= MOST_SLIP).then_some(motion);
+        let moves =
+            |motion: SteadyMotion| (motion.slip_ratio().abs() <= MOST_SLIP).then_some(motion);
         let motions = outputs_of_samples(samples, &|| true, |sample| {
             moves(study.of_sample(sample).steady_motion(slope, yaw, rim_speed).ok()?)
         });

@@ -15,7 +15,7 @@ pub struct Rule {
     pub go_slip_ratio: f64,
     /// … in at least this share of the samples [-] …
     pub go_probability: f64,
-    /// … and in 97.5 % of them the rover drifts at most this much off its course [m/m].
+    /// … and in 97.5 % of them the rover drifts at most this much downhill of its course [m/m].
     pub go_drift_m_per_m: f64,
     /// No-go: no heading holds the course, or it slips more than this [-] …
     pub no_go_slip_ratio: f64,
@@ -34,6 +34,9 @@ pub const STUCK_ON_GO: f64 = 0.005;
 /// No slope is to be driven on which rover or ground slide in this share of the samples [-]: 1 of
 /// 100. Source: ours; a rover that slides is not got back.
 pub const SLIDES_ON_NO_GO: f64 = 0.01;
+
+/// Shares as 19 of 20 are no rounder than this [-].
+const ROUND_OFF: f64 = 1e-12;
 
 impl Rule {
     /// Slip 0.3: rims go 1.4 times the way, and thrust still grows with slip. 0.95: the share of a
@@ -65,7 +68,7 @@ impl Rule {
         positive("the go drift [m/m]", self.go_drift_m_per_m)?;
         let no_go = self.no_go_probability;
         within("the no-go probability", no_go, 1.0, "0 to 1")?;
-        if no_go < 1.0 - share || no_go == 0.0 {
+        if no_go < 1.0 - share - ROUND_OFF || no_go == 0.0 {
             let expected = "above 0, and 1 less the go probability at least";
             return Err(ParameterError::new("the no-go probability", no_go, expected));
         }
@@ -87,8 +90,6 @@ impl Rule {
     /// The same by how many samples keep to the slip of a go, and to that of a no-go, and of how
     /// many of all nothing is known.
     fn on_counts(&self, [go, holding, unknown]: [usize; 3], all: usize) -> Judgement {
-        /// Shares as 19 of 20 are no rounder than this [-].
-        const ROUND_OFF: f64 = 1e-12;
         let share = |count: usize| count as f64 / all as f64;
         let failing = share(all - holding - unknown);
         let (most, least) = (self.no_go_probability - ROUND_OFF, self.go_probability - ROUND_OFF);
