@@ -108,5 +108,5 @@ fn summaries_count_every_place_once() {
     let text = style(Look::of("slope_deg"), &of[0], "slope [°]");
     assert!(text.contains("singlebandpseudocolor") && text.matches("<item").count() == 9, "{text}");
     let text = style(Look::of("verdict"), &of[6], "verdict");
-    assert!(text.contains("paletted") && text.matches("<paletteEntry").count() == 3, "{text}");
+    assert!(text.contains("paletted") && text.matches("<paletteEntry").count() == 4, "{text}");
 }

@@ -38,24 +38,24 @@ pub(crate) fn drive_mission<'py>(
     let names = wheel_names(&plan.scenario);
     let missions = plan.missions();
     let found = listening(py, move |cancelled| {
-        let ways = DrivenMission::all(&missions).map_err(Failure::Drive)?;
+        let ways = DrivenMission::all(&missions).map_err(NoMission::Drive)?;
         let Some((count, seed)) = sampling else {
             return Ok(ways.into_iter().map(|way| (way, None)).collect::<Vec<_>>());
         };
         let go_on = || !cancelled.is_set();
         let sampling = Sampling { count, seed };
         let samples = sampling.draw_if_uncertain(&BandInputs::of_scenario(&scenario));
-        let samples = samples.map_err(|error| Failure::Study(Problem::Sampling(error)))?;
+        let samples = samples.map_err(|error| NoMission::Study(Problem::Sampling(error)))?;
         let study = SlopeStudy::of(&scenario);
         let pairs = missions.iter().zip(ways);
         let believed = pairs.map(|((_, mission), way)| {
             let risk = MissionRisk::of(mission, &samples, &go_on);
             let study = SlopeStudy { rim_speed: mission.rim_speed(), ..study.clone() };
             let advice = way.advice(&study, &mission.scenario, &samples, &go_on);
-            let advice = advice.map_err(|error| Failure::Study(Problem::Parameter(error)))?;
+            let advice = advice.map_err(|error| NoMission::Study(Problem::Parameter(error)))?;
             Ok((way, risk.zip(advice)))
         });
-        believed.collect::<Result<Vec<_>, Failure>>()
+        believed.collect::<Result<Vec<_>, NoMission>>()
     })?;
     let ways = found.map_err(|failure| failure.raised())?;
     let to_python = |(way, believed): &(DrivenMission, Believed)| {
@@ -84,12 +84,12 @@ pub(crate) fn drive_mission<'py>(
 type Believed = Option<(MissionRisk, Vec<Option<Advice>>)>;
 
 /// Why there is no mission.
-enum Failure {
+enum NoMission {
     Drive(MissionError),
     Study(Problem),
 }
 
-impl Failure {
+impl NoMission {
     fn raised(&self) -> PyErr {
         match self {
             Self::Drive(error) => errors::of_mission(error),

@@ -243,7 +243,7 @@ const LINES: [(&str, &str, &[&str]); 42] = [
         &["zones.toml", "zones.geojson", "soil.toml"],
     ),
     ("check, zones", "check zones.toml", &["zones.toml", "zones.geojson", "soil.toml"]),
-    ("mission, map", "mission mission.toml --format json", &["mission.toml", "map.xyz"]),
+    ("mission, map", "mission mission.toml --nominal --format json", &["mission.toml", "map.xyz"]),
     ("import-urdf", "import-urdf robot.urdf --differential", &["robot.urdf"]),
     ("presets", "presets toyoura --kind soil", &[]),
     ("schema", "schema soil", &[]),

@@ -67,7 +67,7 @@ class Learner:
     >>> taught = [lesson for lesson in learner.stream(records)]
     >>> len(taught) == learner.learnt["stretches"], learner.warnings
     (True, [])
-    >>> found = learner.predict([10.0], samples=10)
+    >>> found = learner.predict([5.0], samples=10)
     >>> bool(found["yaw_deg_p2_5"][0] < found["yaw_deg_p97_5"][0])
     True
     """

@@ -6,14 +6,15 @@ use super::super::unit::{DEG, DEG_PER_M, M, M_PER_M, ONE};
 use super::flags::{self, FLAGS};
 use super::heading::{DRAWS, DRAWS_LEVEL};
 use super::verdict::ADVICE;
-pub use super::verdict::{PROBABILITY_STUCK, PROBABILITY_STUCK_WITHOUT_CHECKS, REASON, VERDICT};
+pub use super::verdict::{
+    PROBABILITY_STUCK, PROBABILITY_STUCK_WITHOUT_CHECKS, REASON, VERDICT, YAW_AS_WRITTEN,
+    YAWS_OF_MODELS,
+};
 use super::{
     CURRENT, Column, LIMIT_SLOPE, OK, PITCH, POWER, PROBABILITY_LEVEL, Quantity, ROLL, SINKAGE,
     SLIP_RATIO, SLOPE, STATUS, TORQUE, YAW, quantity, text, whole,
 };
-use crate::contact::Model;
 use crate::studies::card::{Card, CardRow};
-use crate::studies::ensemble::models::ACROSS;
 use crate::studies::verdict::{Advice, Driven, DrivenMotion};
 
 /// Drift at yaw 0.
@@ -37,14 +38,6 @@ pub const TIPPING_MARGIN: Quantity = quantity("tipping_margin_deg", DEG);
 pub const SLIP_LIMIT: Quantity = quantity("slip_limit", ONE);
 /// Way between two looks at the slip.
 pub const SLIP_CHECK_EVERY: Quantity = quantity("slip_check_every_m", M);
-/// The heading on the soil as written.
-pub const YAW_AS_WRITTEN: Quantity = quantity("yaw_deg_as_written", DEG);
-/// The headings of the models that know forces across a wheel, on the soil as written.
-pub const YAWS_OF_MODELS: [(Model, Quantity); ACROSS] = [
-    (Model::Ishigami, quantity("yaw_deg_ishigami", DEG)),
-    (Model::SmallWheel, quantity("yaw_deg_small_wheel", DEG)),
-    (Model::Rft, quantity("yaw_deg_rft", DEG)),
-];
 struct OnCard<'a> {
     row: &'a CardRow,
     card: &'a Card,

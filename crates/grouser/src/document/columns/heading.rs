@@ -3,9 +3,8 @@
 
 use super::super::table::Table;
 use super::super::unit::NM;
-use super::card::{YAW_AS_WRITTEN, YAWS_OF_MODELS};
 use super::flags::{self, FLAGS};
-use super::verdict::{ADVICE, PROBABILITY_STUCK, REASON, VERDICT};
+use super::verdict::{ADVICE, PROBABILITY_STUCK, REASON, VERDICT, YAW_AS_WRITTEN, YAWS_OF_MODELS};
 use super::{
     COURSE, Column, ENERGY_PER_METRE, LIMIT_SLOPE, OK, POWER, PROBABILITY_LEVEL, Quantity, SINKAGE,
     SLIP_RATIO, SLOPE, STATUS, STEERING, TORQUE, YAW, quantity, text, whole,

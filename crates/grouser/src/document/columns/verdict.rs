@@ -2,8 +2,10 @@
 //! gets stuck by it.
 
 use super::super::table::Table;
-use super::super::unit::ONE;
+use super::super::unit::{DEG, ONE};
 use super::{Column, Quantity, YAW, quantity, text};
+use crate::contact::Model;
+use crate::studies::ensemble::models::ACROSS;
 use crate::studies::verdict::Advice;
 
 /// The verdict on a slope.
@@ -15,6 +17,14 @@ pub const PROBABILITY_STUCK: Quantity = quantity("probability_stuck", ONE);
 /// The share of the samples that are stuck, whoever looks.
 pub const PROBABILITY_STUCK_WITHOUT_CHECKS: Quantity =
     quantity("probability_stuck_without_checks", ONE);
+/// The heading on the soil as written.
+pub const YAW_AS_WRITTEN: Quantity = quantity("yaw_deg_as_written", DEG);
+/// The headings of the models that know forces across a wheel, on the soil as written.
+pub const YAWS_OF_MODELS: [(Model, Quantity); ACROSS] = [
+    (Model::Ishigami, quantity("yaw_deg_ishigami", DEG)),
+    (Model::SmallWheel, quantity("yaw_deg_small_wheel", DEG)),
+    (Model::Rft, quantity("yaw_deg_rft", DEG)),
+];
 /// The object of JSON that has these columns.
 pub const ADVICE_OBJECT: &str = "advice";
 
