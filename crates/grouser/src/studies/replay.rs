@@ -31,7 +31,7 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use self::attribution::Sums;
-pub use self::attribution::{Finding, Verdict};
+pub use self::attribution::{Attribution, Finding};
 pub use self::channel::{Channel, ChannelSummary, ChannelValue, Prediction};
 use self::differences::Differences;
 use self::faults::Faults;

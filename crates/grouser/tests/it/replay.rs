@@ -7,7 +7,7 @@ use grouser::document::columns::replay::sentences;
 use grouser::simulation::Run;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::learn::TelemetryRecord;
-use grouser::studies::replay::{Cause, Channel, Finding, Parameter, Replay, Replayer, Verdict};
+use grouser::studies::replay::{Attribution, Cause, Channel, Finding, Parameter, Replay, Replayer};
 use grouser::studies::simulated_telemetry::{SensorModels, truth};
 use grouser::units::deg;
 use grouser::vehicle::{roll_and_pitch, slope_and_yaw};
@@ -89,8 +89,9 @@ fn misread(
 
 /// The causes that are pointed to, alone or with others.
 fn pointed(replay: &Replay) -> Vec<Cause> {
-    let points =
-        |it: &&Finding| matches!(it.verdict, Verdict::PointsTo | Verdict::Underdetermined(_));
+    let points = |it: &&Finding| {
+        matches!(it.verdict, Attribution::PointsTo | Attribution::Underdetermined(_))
+    };
     let mut causes: Vec<Cause> =
         replay.findings.iter().filter(points).map(|it| it.parameter.cause()).collect();
     causes.dedup();
@@ -105,7 +106,7 @@ fn finding(replay: &Replay, parameter: Parameter) -> &Finding {
 fn check_named(replay: &Replay, parameter: Parameter, size: f64) {
     assert_eq!(pointed(replay), [parameter.cause()], "{:#?}", replay.findings);
     let found = finding(replay, parameter);
-    assert_eq!(found.verdict, Verdict::PointsTo);
+    assert_eq!(found.verdict, Attribution::PointsTo);
     assert!((found.estimate - size).abs() < 3.0 * found.deviation, "{found:?}");
     assert!(found.deviation < 0.4 * size, "{found:?}");
 }
@@ -143,7 +144,7 @@ fn what_nothing_was_read_of_cannot_be_told() {
     let blind = without(false);
     assert!(blind.explained_stretches > 0 && !blind.findings.is_empty());
     for finding in &blind.findings {
-        assert_eq!(finding.verdict, Verdict::CannotTell, "{finding:?}");
+        assert_eq!(finding.verdict, Attribution::CannotTell, "{finding:?}");
     }
     assert_eq!(
         sentences(&blind),
@@ -153,9 +154,9 @@ fn what_nothing_was_read_of_cannot_be_told() {
     );
     let by_torques = without(true);
     let verdict = |parameter| &finding(&by_torques, parameter).verdict;
-    assert_eq!(*verdict(Parameter::Odometry), Verdict::CannotTell);
-    assert_eq!(*verdict(Parameter::YawRate), Verdict::CannotTell);
-    assert_eq!(*verdict(Parameter::Torque), Verdict::Nothing, "{:#?}", by_torques.findings);
+    assert_eq!(*verdict(Parameter::Odometry), Attribution::CannotTell);
+    assert_eq!(*verdict(Parameter::YawRate), Attribution::CannotTell);
+    assert_eq!(*verdict(Parameter::Torque), Attribution::Nothing, "{:#?}", by_torques.findings);
     let said = sentences(&by_torques);
     assert!(said[0].contains("point to nothing"), "{said:?}");
     assert!(
@@ -225,7 +226,7 @@ fn what_a_drive_does_not_tell_apart_is_said() {
     let causes = pointed(&found);
     assert!(causes.contains(&Cause::Slope) && causes.contains(&Cause::RollMounting), "{causes:?}");
     let verdict = &finding(&found, Parameter::Slope).verdict;
-    let Verdict::Underdetermined(rivals) = verdict else { panic!("{verdict:?}") };
+    let Attribution::Underdetermined(rivals) = verdict else { panic!("{verdict:?}") };
     assert!(rivals.contains(&Cause::RollMounting), "{rivals:?}");
 }
 

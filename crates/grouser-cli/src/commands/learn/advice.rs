@@ -2,7 +2,7 @@
 
 use grouser::answers::learn::{AdviceQuestion, LearnQuestion};
 use grouser::studies::heading_band::HeadingBand;
-use grouser::studies::learn::advice::Advice;
+use grouser::studies::learn::advice::DriveAdvice;
 use grouser::studies::learn::{Drive, LearntSample};
 
 use crate::commands::sampling;
@@ -15,7 +15,7 @@ pub(super) fn of(
     question: &LearnQuestion,
     drive: &Drive,
     (samples, band): (&[LearntSample], &HeadingBand),
-) -> Result<Option<Advice>, Failure> {
+) -> Result<Option<DriveAdvice>, Failure> {
     let Some(settings) = question.advice_settings(drive) else { return Ok(None) };
     let learner = drive.learner();
     let found =

@@ -11,7 +11,7 @@ use crate::document::reading::{four_digits, sentence};
 use crate::document::table::Table;
 use crate::studies::learn::Drive;
 use crate::studies::learn::advice::{
-    Advice, AdviceSettings, CheckSettings, Instruments, Limits, TestCost, TestSettings,
+    AdviceSettings, CheckSettings, DriveAdvice, Instruments, Limits, TestCost, TestSettings,
 };
 use crate::vehicle::Rover;
 
@@ -84,7 +84,7 @@ pub(super) struct AdviceTables {
 }
 
 impl AdviceTables {
-    pub(super) fn of(advice: &Advice) -> Self {
+    pub(super) fn of(advice: &DriveAdvice) -> Self {
         Self {
             slopes: columns::slopes(advice).into(),
             test_drives: columns::test_drives(&advice.tests.chosen).into(),

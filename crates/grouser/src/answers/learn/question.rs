@@ -8,9 +8,9 @@ use crate::document::LoadedScenario;
 use crate::document::columns::SLOPE;
 use crate::studies::heading_band::HeadingBand;
 use crate::studies::learn::Drive;
-use crate::studies::learn::advice::{Advice, AdviceSettings};
+use crate::studies::learn::advice::{AdviceSettings, DriveAdvice};
 use crate::studies::slip_from_current::{MotorLog, SlipEstimate};
-use crate::studies::verdict::Advice as SlopeAdvice;
+use crate::studies::verdict::Advice;
 
 /// The question.
 #[derive(Clone, Debug)]
@@ -41,9 +41,9 @@ pub struct LearntDrive {
     /// The same after it.
     pub after: HeadingBand,
     /// Heading and verdict for the same slopes after it.
-    pub verdicts: Vec<SlopeAdvice>,
+    pub verdicts: Vec<Advice>,
     /// What to do tomorrow, if that is asked for.
-    pub advice: Option<Advice>,
+    pub advice: Option<DriveAdvice>,
     /// What is left of the uncertainty of each of the soil's keys [-].
     pub narrowed: BTreeMap<String, f64>,
     /// What the motors' currents say; nothing without currents, of a rover whose motors are not

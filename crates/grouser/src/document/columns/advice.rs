@@ -6,7 +6,7 @@ use super::card::{DRIFT, SLIP_CHECK_EVERY, SLIP_LIMIT};
 use super::learn::{INFORMATION, WAY};
 use super::verdict::{PROBABILITY_STUCK, PROBABILITY_STUCK_WITHOUT_CHECKS};
 use super::{Column, ENERGY, POWER, Quantity, SLIP_RATIO, SLOPE, YAW, quantity, text};
-use crate::studies::learn::advice::{Advice, AdvisedHeading, SlopeAdvice, TestDrive};
+use crate::studies::learn::advice::{AdvisedHeading, DriveAdvice, SlopeAdvice, TestDrive};
 
 /// The heading that holds the contour.
 pub const CONTOUR_YAW: Quantity = quantity("contour_yaw_deg", DEG);
@@ -116,7 +116,7 @@ pub const SLOPE_COLUMNS: [Column<SlopeAdvice>; 20] = [
 
 /// A row for each slope.
 #[must_use]
-pub fn slopes(advice: &Advice) -> Table {
+pub fn slopes(advice: &DriveAdvice) -> Table {
     Table::of(&SLOPE_COLUMNS, &advice.slopes)
 }
 

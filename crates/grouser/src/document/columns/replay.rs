@@ -11,8 +11,8 @@ use super::{
 };
 use crate::studies::ensemble::Probability;
 use crate::studies::replay::{
-    Cause, Channel, ChannelSummary, ChannelValue, Ended, Finding, Parameter, Replay,
-    ReplayedStretch, Verdict,
+    Attribution, Cause, Channel, ChannelSummary, ChannelValue, Ended, Finding, Parameter, Replay,
+    ReplayedStretch,
 };
 use crate::vehicle::Rover;
 
@@ -247,7 +247,7 @@ pub const FINDINGS: [Column<Finding>; 9] = [
         |it| it.evidence,
     ),
     words(RIVALS, "Causes that explain the differences as well", |it| match &it.verdict {
-        Verdict::Underdetermined(rivals) => rivals.iter().map(|it| it.name()).collect(),
+        Attribution::Underdetermined(rivals) => rivals.iter().map(|it| it.name()).collect(),
         _ => Vec::new(),
     }),
     text("meaning", "What the cause means", |it| Some(it.parameter.cause().meaning().to_owned())),
@@ -259,12 +259,12 @@ pub fn brief_findings() -> [&'static str; 7] {
     [CAUSE, FINDING, PARAMETER, ESTIMATE, DEVIATION, SHARE, RIVALS]
 }
 
-const fn verdict_name(verdict: &Verdict) -> &'static str {
+const fn verdict_name(verdict: &Attribution) -> &'static str {
     match verdict {
-        Verdict::PointsTo => "points-to",
-        Verdict::Underdetermined(_) => "underdetermined",
-        Verdict::Nothing => "nothing",
-        Verdict::CannotTell => "cannot-tell",
+        Attribution::PointsTo => "points-to",
+        Attribution::Underdetermined(_) => "underdetermined",
+        Attribution::Nothing => "nothing",
+        Attribution::CannotTell => "cannot-tell",
     }
 }
 
@@ -280,13 +280,14 @@ pub fn sentences(replay: &Replay) -> Vec<String> {
     if replay.explained_stretches == 0 {
         return vec!["cannot tell: no stretch could be predicted".to_owned()];
     }
-    let is_pointed_to =
-        |it: &Finding| matches!(it.verdict, Verdict::PointsTo | Verdict::Underdetermined(_));
+    let is_pointed_to = |it: &Finding| {
+        matches!(it.verdict, Attribution::PointsTo | Attribution::Underdetermined(_))
+    };
     let mut causes = causes(replay, is_pointed_to);
     causes.sort_by(|(_, one), (_, other)| other.total_cmp(one));
     let mut sentences: Vec<String> =
         causes.iter().map(|(cause, _)| sentence(replay, *cause)).collect();
-    let hidden = self::causes(replay, |it| it.verdict == Verdict::CannotTell);
+    let hidden = self::causes(replay, |it| it.verdict == Attribution::CannotTell);
     let hidden: Vec<&str> = hidden.iter().map(|(cause, _)| cause.name()).collect();
     const UNCERTAIN: &str = "what was read on this drive leaves them as uncertain as before";
     if hidden.len() == Cause::ALL.len() {
@@ -339,7 +340,7 @@ fn sentence(replay: &Replay, cause: Cause) -> String {
     let numbers: Vec<String> = of_cause.iter().map(|it| estimate_of(it)).collect();
     let share = of_cause.first().map_or(0.0, |it| it.share);
     let rivals = match of_cause.first().map(|it| &it.verdict) {
-        Some(Verdict::Underdetermined(rivals)) => {
+        Some(Attribution::Underdetermined(rivals)) => {
             let names: Vec<&str> = rivals.iter().map(|it| it.name()).collect();
             format!("; on this drive that cannot be told apart from {}", names.join(", "))
         }

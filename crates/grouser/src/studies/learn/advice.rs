@@ -47,7 +47,7 @@ pub struct AdviceSettings {
 
 /// What to do tomorrow.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Advice {
+pub struct DriveAdvice {
     /// On each slope that was asked for, in that order.
     pub slopes: Vec<SlopeAdvice>,
     /// Which test drives tell most of these slopes for their cost.
@@ -139,7 +139,7 @@ impl Learner {
         band: &HeadingBand,
         settings: &AdviceSettings,
         go_on: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Option<Advice>, NoAdvice> {
+    ) -> Result<Option<DriveAdvice>, NoAdvice> {
         settings.check()?;
         let samples: Vec<Sample> = samples.iter().map(|it| it.sample.clone()).collect();
         let mut slopes = Vec::new();
@@ -161,7 +161,7 @@ impl Learner {
         };
         let ahead: Vec<f64> = band.slopes.iter().map(|it| it.slope).collect();
         let tests = planner.plan(&samples, &ahead, go_on);
-        Ok(tests.map(|tests| Advice { slopes, tests, cost: settings.tests.cost }))
+        Ok(tests.map(|tests| DriveAdvice { slopes, tests, cost: settings.tests.cost }))
     }
 
     fn slope_advice(

@@ -54,7 +54,7 @@ pub(super) struct Sums {
 
 /// What differences say of a cause.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
+pub enum Attribution {
     /// They point to it.
     PointsTo,
     /// They point to it or to others, which cannot be told apart.
@@ -80,7 +80,7 @@ pub struct Finding {
     /// The evidence for its cause, ln of the Bayes factor [-].
     pub evidence: f64,
     /// What the differences say of its cause.
-    pub verdict: Verdict,
+    pub verdict: Attribution,
 }
 
 /// A fit of the parameters of some causes.
@@ -142,14 +142,16 @@ impl Sums {
             let share = (with.explained - without.explained) / self.square.max(f64::MIN_POSITIVE);
             let rival = taken.iter().find(|(_, rivals)| rivals.contains(&cause));
             let verdict = match (found.map(|place| &taken[place].1), rival) {
-                (Some(rivals), _) if rivals.is_empty() => Verdict::PointsTo,
-                (Some(rivals), _) => Verdict::Underdetermined(rivals.clone()),
+                (Some(rivals), _) if rivals.is_empty() => Attribution::PointsTo,
+                (Some(rivals), _) => Attribution::Underdetermined(rivals.clone()),
                 (None, Some((best, rivals))) => {
                     let others = rivals.iter().filter(|it| **it != cause);
-                    Verdict::Underdetermined([*best].into_iter().chain(others.copied()).collect())
+                    Attribution::Underdetermined(
+                        [*best].into_iter().chain(others.copied()).collect(),
+                    )
                 }
-                (None, None) if with.has_learnt(cause) => Verdict::Nothing,
-                (None, None) => Verdict::CannotTell,
+                (None, None) if with.has_learnt(cause) => Attribution::Nothing,
+                (None, None) => Attribution::CannotTell,
             };
             let fit = if found.is_some() { &whole } else { &with };
             let evidence = with.evidence - without.evidence;

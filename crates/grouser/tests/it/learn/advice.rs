@@ -8,8 +8,8 @@ use grouser::simulation::{Approach, Numerics};
 use grouser::studies::ensemble::Probability;
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::learn::advice::{
-    Advice, AdviceSettings, Check, CheckSettings, SoilAhead, TestCost, TestDrive, TestSettings,
-    WAY_AHEAD,
+    AdviceSettings, Check, CheckSettings, DriveAdvice, SoilAhead, TestCost, TestDrive,
+    TestSettings, WAY_AHEAD,
 };
 use grouser::studies::learn::{LearnSettings, Learner};
 use grouser::studies::simulated_telemetry::SensorModels;
@@ -48,7 +48,7 @@ fn settings() -> AdviceSettings {
     AdviceSettings { checks: CheckSettings { ways: 250, ..usual.checks }, ..usual }
 }
 
-fn advice(learner: &Learner, slopes_deg: &[f64], settings: &AdviceSettings) -> Advice {
+fn advice(learner: &Learner, slopes_deg: &[f64], settings: &AdviceSettings) -> DriveAdvice {
     let slopes: Vec<f64> = slopes_deg.iter().map(|slope| deg(*slope)).collect();
     let samples = learner.samples(settings.seed, 40).unwrap();
     let band = learner.predict(&samples, &slopes, &|| true).unwrap().unwrap();
