@@ -102,6 +102,7 @@ pub use read::{
     kind_of_source, place_of, read_mission, read_motor, read_priors, read_rover, read_scenario,
     read_soil, read_wheel, written,
 };
+pub use samples::{MODEL as SAMPLES_MODEL, RowsOfModel, WEIGHT as SAMPLES_WEIGHT};
 pub use schema::{range, schema};
 pub use source::{LARGEST_FILE, Source};
 pub use telemetry_mapping::read_telemetry_mapping;

@@ -87,13 +87,14 @@ impl SoilCoordinates {
         self.values_at(coordinates, None)
     }
 
-    /// Sample number `index` with its place: the same soil as [`UncertainSoil::draw`] gives.
+    /// Sample number `index` with its place: the same soil as [`UncertainSoil::draw`] gives, or of one model
+    /// [`UncertainSoil::draw_under`].
     ///
     /// # Errors
     /// [`NothingAccepted`] if no soil can be drawn.
     pub fn draw(&self, seed: u64, index: u64) -> Result<SoilDraw, NothingAccepted> {
         let accept = |values: &[f64]| self.soils.soil(values);
-        let (point, soil) = self.soils.distribution().draw_with_point(seed, index, accept)?;
+        let (point, soil) = self.soils.draw_with_point(seed, index, accept)?;
         let mut coordinates: Vec<f64> =
             point[..self.scores()].iter().map(|share| normal_score(*share)).collect();
         let row = self.rows.as_ref().map(|rows| {

@@ -1,6 +1,9 @@
 //! Samples soils from the `[uncertainty]` of a document, and from its priors.
 //!
 //! A sample replaces numbers of the document and passes the same checks as the document itself.
+//!
+//! Rows of samples may name the wheel–soil model that each is believed under: then the soil differs
+//! from model to model, and so does how much is believed of each.
 
 use super::describe::uncertainty::UNCERTAINTY;
 use super::document::Document;
@@ -8,6 +11,7 @@ use super::error::{DocumentError, Problem};
 use super::field::Inner as _;
 use super::kind::Kind;
 use super::priors::{stated_by_priors, without_priors_of};
+use super::samples::{MODEL, RowsOfModel};
 use super::stated::{Samples, Stated};
 use super::tree::Companion;
 use super::tree::Node;
@@ -15,6 +19,7 @@ use super::uncertainty::{Inputs, Statement};
 use super::values::Described;
 use super::varied::{Key, Varied};
 use crate::statistics::{Distribution, NothingAccepted};
+use grouser_core::contact::Model;
 use grouser_core::soil::Soil;
 
 /// A soil with uncertain numbers.
@@ -41,8 +46,22 @@ pub struct UncertainSoil {
     /// How many are of distributions.
     parameters: usize,
     distribution: Distribution,
+    /// Whether sample *i* has row *i* of the samples.
+    is_in_order: bool,
     /// Whether the document itself says how well its numbers are known.
     is_stated: bool,
+    /// The soils under each model that rows of samples name.
+    of_models: Vec<OfModel>,
+}
+
+/// What is believed under a wheel–soil model.
+#[derive(Clone, Debug, PartialEq)]
+struct OfModel {
+    model: Model,
+    /// How much is believed of it [-].
+    share: f64,
+    /// Its soils, in the order of their rows.
+    soils: UncertainSoil,
 }
 
 /// The name of the samples' file beside a resolved document.
@@ -50,12 +69,57 @@ pub const SAMPLES_FILE: &str = "soil-samples.csv";
 
 impl UncertainSoil {
     /// Soil number `index`, which depends on the seed and that number alone. Samples outside the
-    /// range of a key, or that are no valid soil together, are drawn again.
+    /// range of a key, or that are no valid soil together, are drawn again. Where rows of samples
+    /// name models it is under any of them, by their shares.
     ///
     /// # Errors
     /// [`NothingAccepted`] if that does not end.
     pub fn draw(&self, seed: u64, index: u64) -> Result<Soil, NothingAccepted> {
         self.distribution.draw(seed, index, |values| self.soil(values))
+    }
+
+    /// Soil number `index` under a model: that of row `index` where rows of samples name the model,
+    /// from the last on again the first, whatever the seed; otherwise as [`draw`](Self::draw) has
+    /// it.
+    ///
+    /// # Errors
+    /// The same as [`draw`](Self::draw).
+    pub fn draw_under(
+        &self,
+        model: &Model,
+        seed: u64,
+        index: u64,
+    ) -> Result<Soil, NothingAccepted> {
+        let soils = self.under(model);
+        soils.draw_with_point(seed, index, |values| soils.soil(values)).map(|(_, soil)| soil)
+    }
+
+    /// The same with the point of the unit cube at which its values are.
+    pub(super) fn draw_with_point<T>(
+        &self,
+        seed: u64,
+        index: u64,
+        accept: impl FnMut(&[f64]) -> Option<T>,
+    ) -> Result<(Vec<f64>, T), NothingAccepted> {
+        if self.is_in_order {
+            return self.distribution.draw_in_order(seed, index, accept);
+        }
+        self.distribution.draw_with_point(seed, index, accept)
+    }
+
+    /// The models that rows of samples name, with how much is believed of each [-]; none where
+    /// they name none.
+    pub fn models(&self) -> impl Iterator<Item = (&Model, f64)> {
+        self.of_models.iter().map(|it| (&it.model, it.share))
+    }
+
+    /// The soils under a model: those of its rows of samples, or, where rows name other models
+    /// alone, of the one that most is believed of; all of them where they name none.
+    #[must_use]
+    pub fn under(&self, model: &Model) -> &Self {
+        let most = || self.of_models.iter().max_by(|one, other| one.share.total_cmp(&other.share));
+        let own = self.of_models.iter().find(|it| it.model == *model).or_else(most);
+        own.map_or(self, |it| &it.soils)
     }
 
     /// The first soils.
@@ -66,7 +130,8 @@ impl UncertainSoil {
         (0..count).map(|index| self.draw(seed, index.into())).collect()
     }
 
-    /// The same soil as a document of its own, whose numbers are exact.
+    /// The same soil as a document of its own, whose numbers are exact; with the model that it is
+    /// under, where rows of samples name models.
     ///
     /// # Errors
     /// The same as [`draw`](Self::draw).
@@ -74,8 +139,19 @@ impl UncertainSoil {
         let accept = |values: &[f64]| self.soil(values).map(|_| values.to_vec());
         let values = self.distribution.draw(seed, index, accept)?;
         let keys: Vec<&str> = self.keys().collect();
-        let document = self.base.document.with(keys.iter().copied().zip(values));
-        Ok(without_priors_of(&document, &keys))
+        let document = self.base.document.with(keys.iter().copied().zip(values.iter().copied()));
+        let exact = without_priors_of(&document, &keys);
+        let Some(model) = self.model_of(&values) else { return Ok(exact) };
+        Ok(exact.changed(|keys| drop(keys.insert(MODEL.to_owned(), model.name().into()))))
+    }
+
+    /// The model under which these values are a row of samples.
+    fn model_of(&self, values: &[f64]) -> Option<&Model> {
+        let row = &values[self.parameters..];
+        let has_row = |soils: &Self| {
+            soils.distribution.sample_rows().is_some_and(|rows| rows.iter().any(|it| it == row))
+        };
+        self.of_models.iter().find(|it| has_row(&it.soils)).map(|it| &it.model)
     }
 
     /// Whether the document itself says how well its numbers are known. Otherwise all that is known
@@ -151,8 +227,29 @@ pub(crate) fn read(
         Statement { stated: &believed, tree, table: "priors.", prefix: "", yields: true },
     ];
     let Inputs { keys, parameters, samples, distribution, .. } = Inputs::read(&base, &statements)?;
-    let soils = UncertainSoil { base, keys, parameters, distribution, is_stated };
+    let mut soils = UncertainSoil {
+        base,
+        keys,
+        parameters,
+        distribution,
+        is_in_order: false,
+        is_stated,
+        of_models: Vec::new(),
+    };
     soils.check_first_draw(tree)?;
+    if let Some((table, _)) = &samples {
+        let of_model = |RowsOfModel { model, share, rows }| {
+            let rows = Distribution::of_samples(rows);
+            let distribution = soils.distribution.clone().without_samples().and(rows);
+            OfModel {
+                model,
+                share,
+                soils: UncertainSoil { distribution, is_in_order: true, ..soils.clone() },
+            }
+        };
+        let of_models = table.by_model().into_iter().map(of_model).collect();
+        soils.of_models = of_models;
+    }
     if let (Some((table, _)), Some(Samples::File(_))) = (samples, own.samples) {
         let name = SAMPLES_FILE.to_owned();
         *document = document.changed(|keys| {

@@ -66,7 +66,7 @@ impl Inputs {
         let mut distribution = Distribution::of_marginals(rows.marginals, &correlations)
             .map_err(|error| contradiction(statements, error))?;
         if let Some((table, _)) = &sampled.table {
-            distribution = distribution.and(Distribution::of_samples(table.rows().to_vec()));
+            distribution = distribution.and(table.distribution());
         }
         Ok(Self {
             parameters: rows.keys.len(),

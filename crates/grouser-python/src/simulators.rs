@@ -56,7 +56,7 @@ impl Stepped {
         let mut scenario = self.nominal.clone();
         if let (Some(seed), Some(soils)) = (fresh.seed, &self.soils) {
             // Reading the document has checked that samples can be drawn.
-            if let Ok(soil) = soils.draw(seed, 0) {
+            if let Ok(soil) = soils.under(&scenario.model).draw(seed, 0) {
                 scenario.ground.soil = soil;
             }
         }

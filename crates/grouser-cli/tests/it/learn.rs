@@ -48,6 +48,55 @@ fn a_drive_narrows_the_next_slopes() {
     }
 }
 
+/// What was learnt is one belief: with as many samples and the same seed, `heading` of the soil that
+/// `learn` wrote has the models, the bands and the advice of `learn`, and another day that teaches
+/// nothing leaves them as they are.
+#[test]
+fn other_commands_believe_what_was_learnt() {
+    let place = driven();
+    let learn = "learn log.csv --prior toyoura-uncertain --rover hakuto --slope-deg 8 \
+                 --predict-slope-deg 5,10 --samples 60 --out today";
+    let learnt = place.json(learn);
+    let heading = "heading --rover hakuto --soil today/soil.toml --slope-deg 5,10 --samples 60";
+    let found = place.json(heading);
+    for (model, share) in learnt["models"].as_object().expect("models") {
+        let weight = number(&found["belief"]["model_weights"][model]);
+        assert!((number(share) - weight).abs() < 1e-9, "{model}: {share} {weight}");
+    }
+    let pairs = learnt["predictions"].as_array().unwrap().iter();
+    for (one, other) in pairs.zip(found["rows"].as_array().unwrap()) {
+        for key in ["yaw_deg_p2_5", "yaw_deg_p97_5", "probability_level"] {
+            let [one, other] = [one, other].map(|it| number(&it[key]));
+            assert!((one - other).abs() < 1e-6, "{key}: {one} {other}");
+        }
+        for key in ["verdict", "reason"] {
+            assert_eq!(one["advice"][key], other["advice"][key]);
+        }
+    }
+    place.write("idle.csv", "time_s,roll_deg,pitch_deg,vo_dx_m\n0,8,0,\n1,8,0,0\n");
+    let again = place.json(
+        "learn idle.csv --prior today/soil.toml --rover hakuto --slope-deg 8 --predict-slope-deg \
+         5,10 --samples 60 --out tomorrow",
+    );
+    let found = place.json(&heading.replace("today", "tomorrow"));
+    let pairs = again["predictions"].as_array().unwrap().iter();
+    for (one, other) in pairs.zip(learnt["predictions"].as_array().unwrap()) {
+        for key in ["yaw_deg_p2_5", "yaw_deg_p97_5"] {
+            assert!((number(&one[key]) - number(&other[key])).abs() < 1e-6, "{key} {one} {other}");
+        }
+    }
+    assert_eq!(found["rows"][1]["advice"]["verdict"], again["predictions"][1]["advice"]["verdict"]);
+    // One model by its name has the samples of that model.
+    let one = place.json(&format!("{heading} --model rft"));
+    assert_eq!(one["belief"]["model_weights"]["rft"], 1.0);
+    let campaign = "schema = \"campaign/1\"\nname = \"belief\"\nstudy = \"heading\"\nruns = 60\n\
+                    seed = 1\nsampling = \"random\"\nsoil_uncertainty = true\n\
+                    model_uncertainty = true\n[scenario]\nrover = \"hakuto\"\n\
+                    slope_deg = 10.0\nsoil = \"today/soil.toml\"\n";
+    place.write("campaign.toml", campaign);
+    place.results("campaign run campaign.toml --out runs --format csv");
+}
+
 /// What the instruments of a simulated mission say: the same again from the same seed, other noise
 /// from another, and enough to learn from. Without a fault it is the run itself.
 #[test]

@@ -21,8 +21,9 @@ pub(crate) static UNCERTAINTY: Table<Stated> = Table {
 
 pub(crate) const SAMPLES_DOC: &str =
     "Rows of numbers that belong together, such as a posterior's: each run takes one of them.";
-pub(crate) const FILE_DOC: &str =
-    "A CSV file, from the folder of this document: columns are keys, rows are samples.";
+pub(crate) const FILE_DOC: &str = "A CSV file, from the folder of this document: columns are keys, rows are samples. A column \
+     `model` names the wheel–soil model that a row is believed under, and `weight` how much the row \
+     counts: rows of a model weigh the same and stand in a random order.";
 
 pub(crate) fn put_file(all: &mut Stated, name: &str) {
     all.samples = Some(Samples::File(name.to_owned()));

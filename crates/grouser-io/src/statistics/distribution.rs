@@ -204,8 +204,13 @@ pub struct Distribution {
 enum Part {
     /// Values with normal scores L z, where L Lᵀ is their matrix of correlations.
     Scores { marginals: Vec<Cut>, factor: DMatrix<f64> },
-    /// One of several rows of values, each as likely as the others.
-    Samples(Vec<Vec<f64>>),
+    /// One of several rows of values.
+    Samples {
+        rows: Vec<Vec<f64>>,
+        /// The share of the rows up to each of them [-]; empty where each is as likely as the
+        /// others.
+        ends: Vec<f64>,
+    },
 }
 
 /// No sample was accepted.
@@ -282,7 +287,34 @@ impl Distribution {
     #[must_use]
     pub fn of_samples(rows: Vec<Vec<f64>>) -> Self {
         assert!(!rows.is_empty(), "a distribution needs samples");
-        Self { parts: vec![Part::Samples(rows)] }
+        Self { parts: vec![Part::Samples { rows, ends: Vec::new() }] }
+    }
+
+    /// The same of rows that count by weights, of which only the ratios count.
+    ///
+    /// * `rows`: each with its weight, which is 0 or more
+    ///
+    /// # Panics
+    /// If there are none.
+    #[must_use]
+    pub fn of_weighted_samples(rows: Vec<(Vec<f64>, f64)>) -> Self {
+        assert!(!rows.is_empty(), "a distribution needs samples");
+        let sum: f64 = rows.iter().map(|(_, weight)| weight).sum();
+        let mut end = 0.0;
+        let ends = rows.iter().map(|(_, weight)| {
+            end += weight / sum;
+            end
+        });
+        let ends = ends.collect();
+        let rows = rows.into_iter().map(|(row, _)| row).collect();
+        Self { parts: vec![Part::Samples { rows, ends }] }
+    }
+
+    /// The values of this distribution without its rows of samples.
+    #[must_use]
+    pub fn without_samples(mut self) -> Self {
+        self.parts.retain(|part| !matches!(part, Part::Samples { .. }));
+        self
     }
 
     /// Sample number `index`: the result of `accept` for the first values that it accepts. Refused
@@ -307,12 +339,46 @@ impl Distribution {
         &self,
         seed: u64,
         index: u64,
+        accept: impl FnMut(&[f64]) -> Option<T>,
+    ) -> Result<(Vec<f64>, T), NothingAccepted> {
+        self.draw_near(seed, index, |point| point, accept)
+    }
+
+    /// The same with samples in the order of their rows: sample *i* has row *i*, and from the last
+    /// on again the first. Refused values keep their row.
+    ///
+    /// # Errors
+    /// The same as [`draw`](Self::draw).
+    pub(crate) fn draw_in_order<T>(
+        &self,
+        seed: u64,
+        index: u64,
+        accept: impl FnMut(&[f64]) -> Option<T>,
+    ) -> Result<(Vec<f64>, T), NothingAccepted> {
+        let count = self.sample_rows().map_or(1, <[_]>::len);
+        let place = ((index % count as u64) as f64 + 0.5) / count as f64;
+        let in_order = |mut point: Vec<f64>| {
+            // Rows of samples come last.
+            if let (Some(last), Some(_)) = (point.last_mut(), self.sample_rows()) {
+                *last = place;
+            }
+            point
+        };
+        self.draw_near(seed, index, in_order, accept)
+    }
+
+    /// Draws at points that are moved.
+    fn draw_near<T>(
+        &self,
+        seed: u64,
+        index: u64,
+        moved: impl Fn(Vec<f64>) -> Vec<f64>,
         mut accept: impl FnMut(&[f64]) -> Option<T>,
     ) -> Result<(Vec<f64>, T), NothingAccepted> {
         let mut random = random::generator(seed, index);
         let mut draw = || {
-            let point: Vec<f64> =
-                (0..self.dimensions()).map(|_| random::uniform(&mut random)).collect();
+            let point = (0..self.dimensions()).map(|_| random::uniform(&mut random)).collect();
+            let point = moved(point);
             accept(&self.at(&point)).map(|accepted| (point, accepted))
         };
         let drawn = (0..MOST_TRIES).find_map(|_| draw());
@@ -322,7 +388,7 @@ impl Distribution {
     /// The rows of samples among its parts, which come last; none if it has no such part.
     pub(crate) fn sample_rows(&self) -> Option<&[Vec<f64>]> {
         match self.parts.last() {
-            Some(Part::Samples(rows)) => Some(rows),
+            Some(Part::Samples { rows, .. }) => Some(rows),
             _ => None,
         }
     }
@@ -353,7 +419,7 @@ impl Part {
     fn dimensions(&self) -> usize {
         match self {
             Self::Scores { marginals, .. } => marginals.len(),
-            Self::Samples(_) => 1,
+            Self::Samples { .. } => 1,
         }
     }
 
@@ -361,15 +427,20 @@ impl Part {
     fn width(&self) -> usize {
         match self {
             Self::Scores { marginals, .. } => marginals.len(),
-            Self::Samples(rows) => rows[0].len(),
+            Self::Samples { rows, .. } => rows[0].len(),
         }
     }
 
     /// Adds its values at a point.
     fn add(&self, point: &[f64], values: &mut Vec<f64>) {
         match self {
-            Self::Samples(rows) => {
+            Self::Samples { rows, ends } if ends.is_empty() => {
                 values.extend(&rows[place_below(point[0] * rows.len() as f64, rows.len())]);
+            }
+            Self::Samples { rows, ends } => {
+                // Round-off may leave the last end just below 1.
+                let row = ends.partition_point(|end| *end <= point[0]).min(rows.len() - 1);
+                values.extend(&rows[row]);
             }
             Self::Scores { marginals, factor } => {
                 let independent: Vec<f64> = point.iter().map(|u| normal_score(*u)).collect();

@@ -1,5 +1,5 @@
-//! The soil that was learnt from a drive, as a document with samples; and the state of learning, to
-//! go on from.
+//! What is believed of a soil after a drive, as a document with samples of each model; and the
+//! state of learning, to go on from.
 
 mod state;
 
@@ -16,6 +16,7 @@ use crate::soil::Discrepancy;
 use crate::soil::discrepancy::{SIDE_VALUES, VALUES};
 use crate::studies::learn::{Learner, LearntSample};
 use grouser_io::statistics::{NothingAccepted, quantile};
+use grouser_io::{SAMPLES_MODEL, SAMPLES_WEIGHT};
 
 /// A soil's document, and the file of samples that it names.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,9 +41,10 @@ const LISTS: [List; 4] = [
 const PRIOR_SAMPLES_FILE: &str = "prior-samples.csv";
 
 impl LearntSoil {
-    /// What a learner knows now, under the model with the greatest share; `None` of a scenario
-    /// without an uncertain soil.
+    /// What a learner knows now, under each of its models; `None` of a scenario without an uncertain
+    /// soil. The numbers of the document itself are those under the model with the greatest share.
     ///
+    /// * `seed`, `count`: of the samples of each model
     /// * `log`: what the drive is called
     ///
     /// # Errors
@@ -55,13 +57,18 @@ impl LearntSoil {
     ) -> Result<Option<Self>, NothingAccepted> {
         let prior = scenario.document.part(Kind::Soil, "soil").zip(scenario.uncertain.as_ref());
         let Some((document, uncertain)) = prior else { return Ok(None) };
-        let (model, samples) = learner.samples_of_best(seed, count)?;
+        let models = learner.models();
+        let of_model = |(model, share): &(Model, f64)| {
+            let samples = learner.samples_of(model, seed, count)?;
+            Ok(Believed { model: model.clone(), share: *share, samples })
+        };
+        let believed: Vec<_> = models.shares().iter().map(of_model).collect::<Result<_, _>>()?;
         let source = format!(
             "learnt by Grouser {} from {:.1} m of the drive {log}",
             env!("CARGO_PKG_VERSION"),
             learner.learnt().way,
         );
-        Ok(Some(Self::of((&document, uncertain), &model, &samples, &source)))
+        Ok(Some(Self::of((&document, uncertain), &believed, &source)))
     }
 
     /// The file of samples that the document names.
@@ -85,20 +92,17 @@ impl LearntSoil {
     }
 
     /// * `prior`: the soil's document before the drive, and its uncertain keys
-    /// * `model`: the model that the samples belong to
+    /// * `believed`: under each model; at least one
     /// * `source`: of the drive, in words
-    #[must_use]
-    pub fn of(
-        prior: (&Document, &UncertainSoil),
-        model: &Model,
-        samples: &[LearntSample],
-        source: &str,
-    ) -> Self {
+    fn of(prior: (&Document, &UncertainSoil), believed: &[Believed], source: &str) -> Self {
+        let most = believed.iter().max_by(|one, other| one.share.total_cmp(&other.share));
+        let Believed { model, samples, .. } = most.unwrap_or(&believed[0]);
         let (document, uncertain) = prior;
         let keys: Vec<String> = uncertain.keys().map(str::to_owned).collect();
         let brings_own = keys.iter().any(|key| key.starts_with(DISCREPANCY));
-        let discrepancies = samples.iter().filter_map(|it| it.sample.soil.discrepancy);
-        let lists: &[List] = if brings_own || discrepancies.count() == 0 { &[] } else { &LISTS };
+        let mut all = believed.iter().flat_map(|it| &it.samples);
+        let has_discrepancies = all.any(|it| it.sample.soil.discrepancy.is_some());
+        let lists: &[List] = if has_discrepancies && !brings_own { &LISTS } else { &[] };
         let medians = keys.iter().enumerate().map(|(place, key)| {
             let mut values: Vec<f64> = samples.iter().map(|it| it.values[place]).collect();
             values.sort_by(f64::total_cmp);
@@ -120,8 +124,16 @@ impl LearntSoil {
                 keys.insert(DISCREPANCY.to_owned(), none(lists));
             }
         });
-        Self { soil: with_priors_held(&soil), samples: csv(&keys, lists, samples) }
+        Self { soil: with_priors_held(&soil), samples: csv(&keys, lists, believed) }
     }
+}
+
+/// What a learner believes under one model.
+struct Believed {
+    model: Model,
+    /// How much it believes of the model [-].
+    share: f64,
+    samples: Vec<LearntSample>,
 }
 
 /// A scenario as files beside those of what was learnt: its document, and the files that it names
@@ -155,18 +167,28 @@ fn none(lists: &[List]) -> Json {
     Json::Object(zeros.collect::<Map<_, _>>())
 }
 
-fn csv(keys: &[String], lists: &[List], samples: &[LearntSample]) -> String {
+/// Samples as rows: each with its model and weight, unless there is one model alone, which the
+/// document then names.
+fn csv(keys: &[String], lists: &[List], believed: &[Believed]) -> String {
     let of_lists = lists.iter().flat_map(|(key, count, _)| {
         (0..*count).map(move |place| format!("{DISCREPANCY}.{key}.{place}"))
     });
-    let names: Vec<String> = keys.iter().cloned().chain(of_lists).collect();
+    let of_model: &[&str] = if believed.len() > 1 { &[SAMPLES_MODEL, SAMPLES_WEIGHT] } else { &[] };
+    let of_model = of_model.iter().map(|name| (*name).to_owned());
+    let names: Vec<String> = of_model.chain(keys.iter().cloned()).chain(of_lists).collect();
     let mut text = names.join(",") + "\n";
-    for LearntSample { sample, values } in samples {
-        let wrong = sample.soil.discrepancy.unwrap_or(Discrepancy::NONE);
-        let wrong = lists.iter().flat_map(|(_, _, of)| of(&wrong));
-        let cells: Vec<String> =
-            values.iter().chain(wrong).map(|value| json!(value).to_string()).collect();
-        text += &(cells.join(",") + "\n");
+    for Believed { model, share, samples } in believed {
+        let weight = json!(share / samples.len() as f64).to_string();
+        for LearntSample { sample, values } in samples {
+            let wrong = sample.soil.discrepancy.unwrap_or(Discrepancy::NONE);
+            let wrong = lists.iter().flat_map(|(_, _, of)| of(&wrong));
+            let mut cells: Vec<String> =
+                values.iter().chain(wrong).map(|value| json!(value).to_string()).collect();
+            if believed.len() > 1 {
+                cells.splice(0..0, [model.name().to_owned(), weight.clone()]);
+            }
+            text += &(cells.join(",") + "\n");
+        }
     }
     text
 }

@@ -306,9 +306,21 @@ impl Learner {
         count: u32,
     ) -> Result<(Model, Vec<LearntSample>), NothingAccepted> {
         let model = self.bank.best(&self.settings).unknowns.model().clone();
-        let all = (0..count).map(|index| self.bank.sample_of(&model, seed, index.into()));
-        let all = all.collect::<Result<_, _>>()?;
+        let all = self.samples_of(&model, seed, count)?;
         Ok((model, all))
+    }
+
+    /// Samples of what is believed now under one of its models.
+    ///
+    /// # Errors
+    /// The same as [`samples`](Self::samples).
+    pub fn samples_of(
+        &self,
+        model: &Model,
+        seed: u64,
+        count: u32,
+    ) -> Result<Vec<LearntSample>, NothingAccepted> {
+        (0..count).map(|index| self.bank.sample_of(model, seed, index.into())).collect()
     }
 
     /// The keys of the soil that are uncertain, as samples have their values.

@@ -11,6 +11,7 @@ use crate::contact::Model;
 use crate::studies::ensemble::design::SOBOL_DIMENSIONS;
 use crate::studies::ensemble::models::{ModelSpread, Question};
 use crate::studies::ensemble::{Distribution, Ensemble, Marginal, Matrix};
+use grouser_io::RowsOfModel;
 use grouser_io::campaign::{Sampling, Settings, Study};
 
 /// The uncertain inputs, resolved.
@@ -92,8 +93,19 @@ pub(super) fn prepare(
     }
     let numbers = StudyNumbers { study: settings.study, base: base.numbers() };
     let mut inputs = Inputs::read(&numbers, &statements)?.cut();
-    let models = models(document, settings, place, tree)?;
-    if models.is_some() {
+    let mut models = models(document, settings, place, tree)?;
+    let believed = inputs.samples.as_ref().map(|(table, _)| table.by_model());
+    let believed = believed.filter(|it| !it.is_empty());
+    if let Some(believed) = &believed {
+        let rows = if models.is_some() {
+            let (spread, rows) = rows_with_models(believed);
+            models = Some(spread);
+            rows
+        } else {
+            rows_of(document, place, believed, tree)?
+        };
+        inputs.distribution = inputs.distribution.without_samples().and(rows);
+    } else if models.is_some() {
         let place = Marginal::Uniform { low: 0.0, high: 1.0 };
         let place = Distribution::of_marginals(vec![place], &[]).unwrap_or_default();
         inputs.distribution = inputs.distribution.and(place);
@@ -108,7 +120,7 @@ pub(super) fn prepare(
     let mut factors: Vec<String> =
         inputs.keys[..inputs.parameters].iter().map(|key| key.path.clone()).collect();
     factors.extend(inputs.samples.as_ref().map(|_| SAMPLES.to_owned()));
-    factors.extend(models.as_ref().map(|_| MODEL.to_owned()));
+    factors.extend(models.as_ref().filter(|_| believed.is_none()).map(|_| MODEL.to_owned()));
     let resolved = resolved(document, place, &statements, &inputs);
     let Settings { sampling, runs, seed, sensitivity, .. } = *settings;
     let ensemble = Ensemble::new(sampling, runs, seed, inputs.distribution, sensitivity);
@@ -167,6 +179,42 @@ fn models(
     }
     let made_for = document.model_at(&format!("{place}.soil.model"));
     Ok(Some(ModelSpread::all(made_for.as_ref(), Question::Across)))
+}
+
+/// The models of rows of samples, and the rows, each with the place of its model behind it.
+fn rows_with_models(believed: &[RowsOfModel]) -> (ModelSpread, Distribution) {
+    let shares = believed.iter().map(|it| (it.model.clone(), it.share)).collect();
+    let spread = ModelSpread::of_shares(shares);
+    let rows = believed.iter().flat_map(|RowsOfModel { model, share, rows }| {
+        let place = spread.place_of(model);
+        let weight = share / rows.len() as f64;
+        rows.iter().map(move |row| ([&row[..], &[place]].concat(), weight))
+    });
+    let rows = rows.collect();
+    (spread, Distribution::of_weighted_samples(rows))
+}
+
+/// The rows of samples of the base's model.
+fn rows_of(
+    document: &Document,
+    place: &str,
+    believed: &[RowsOfModel],
+    tree: &Node,
+) -> Result<Distribution, DocumentError> {
+    let named = document.model_at(&format!("{place}.model"));
+    let model = named.unwrap_or_else(|| document.usual_model(&format!("{place}.soil")));
+    let own = believed.iter().find(|it| it.model == model);
+    let own = own.map(|it| Distribution::of_samples(it.rows.clone()));
+    own.ok_or_else(|| {
+        let problem = Problem::Conflict("no row of the samples is of the base's model");
+        let names: Vec<_> = believed.iter().map(|it| it.model.name()).collect();
+        DocumentError::at(&tree.origin, problem).with_hint(format!(
+            "the base has {}, the rows {}: name one of those, or set model_uncertainty = true \
+             without a model of the base",
+            model.name(),
+            names.join(", ")
+        ))
+    })
 }
 
 /// What keys of the base's soil begin with.

@@ -136,9 +136,23 @@ impl ModelSpread {
         Self { shares: own.into_iter().chain(others).filter(|(_, share)| *share > 0.0).collect() }
     }
 
+    /// The models that are believed in and can answer a question, by how much is believed of each;
+    /// `None` if there are none.
+    pub(in crate::studies) fn believed(
+        mut shares: Vec<(Model, f64)>,
+        question: Question,
+    ) -> Option<Self> {
+        shares.retain(|(model, _)| answers(model, question));
+        let sum: f64 = shares.iter().map(|(_, share)| share).sum();
+        for (_, share) in &mut shares {
+            *share /= sum;
+        }
+        (!shares.is_empty()).then_some(Self { shares })
+    }
+
     /// Some models with their shares [-], above 0 and with the sum 1.
     #[must_use]
-    pub(in crate::studies) fn of_shares(shares: Vec<(Model, f64)>) -> Self {
+    pub(crate) fn of_shares(shares: Vec<(Model, f64)>) -> Self {
         Self { shares }
     }
 
@@ -164,6 +178,14 @@ impl ModelSpread {
     pub fn model(&self, seed: u64, index: u64) -> Model {
         let mut random = random::generator(seed, STREAM);
         self.at((random::uniform(&mut random) + golden_steps(index)).fract())
+    }
+
+    /// The middle of a model's arc on the circle of the shares: a place at which [`at`](Self::at)
+    /// finds it.
+    pub(crate) fn place_of(&self, model: &Model) -> f64 {
+        let before = self.shares.iter().take_while(|it| it.0 != *model);
+        let own = self.shares.iter().find(|it| it.0 == *model).map_or(0.0, |it| it.1);
+        before.map(|it| it.1).sum::<f64>() + 0.5 * own
     }
 
     /// The model at a place on the circle of the shares.

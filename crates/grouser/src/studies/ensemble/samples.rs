@@ -61,14 +61,20 @@ impl BandInputs {
         made_for: Option<Model>,
         chosen: Option<Model>,
     ) -> Self {
-        let models = spread(chosen.clone(), made_for.as_ref(), Question::Across);
-        Self { soil, soils, made_for, chosen, models }
+        let models = ModelSpread::one(Model::default());
+        Self { soil, soils, made_for, chosen, models }.asked(Question::Across)
     }
 
     /// The same for a question, whose forces not every model has.
     #[must_use]
     pub fn asked(self, question: Question) -> Self {
-        let models = spread(self.chosen.clone(), self.made_for.as_ref(), question);
+        let believed = self.soils.iter().flat_map(UncertainSoil::models);
+        let believed = believed.map(|(model, share)| (model.clone(), share)).collect();
+        let models = match &self.chosen {
+            Some(model) => ModelSpread::one(model.clone()),
+            None => ModelSpread::believed(believed, question)
+                .unwrap_or_else(|| ModelSpread::all(self.made_for.as_ref(), question)),
+        };
         Self { models, ..self }
     }
 
@@ -110,7 +116,7 @@ impl BandInputs {
         let [number, discrepancy] = numbers;
         let soil = match &self.soils {
             Some(soils) => {
-                let drawn = self.as_known_to(&model, soils.draw(seed, number)?);
+                let drawn = self.as_known_to(&model, soils.draw_under(&model, seed, number)?);
                 with_discrepancy(drawn, seed, discrepancy)
             }
             None => self.soil,
@@ -124,11 +130,6 @@ impl BandInputs {
         self.as_known_to(model, self.soil)
     }
 
-    /// The soils that it may be, if its document leaves any of that open.
-    pub(in crate::studies) fn soils(&self) -> Option<&UncertainSoil> {
-        self.soils.as_ref()
-    }
-
     /// Whether soils differ from sample to sample; if not, no model gets anything wrong in them
     /// either.
     #[must_use]
@@ -136,10 +137,16 @@ impl BandInputs {
         self.soils.is_some()
     }
 
+    /// The soils that it may be under a model, if its document leaves any of that open.
+    pub(in crate::studies) fn soils_under(&self, model: &Model) -> Option<&UncertainSoil> {
+        self.soils.as_ref().map(|soils| soils.under(model))
+    }
+
     /// A soil without what a calibration found wrong with another model than this.
     pub(in crate::studies) fn as_known_to(&self, model: &Model, soil: Soil) -> Soil {
+        let has_own = || self.soils.iter().flat_map(UncertainSoil::models).any(|it| it.0 == model);
         match &self.made_for {
-            Some(own) if own != model => Soil { discrepancy: None, ..soil },
+            Some(own) if own != model && !has_own() => Soil { discrepancy: None, ..soil },
             _ => soil,
         }
     }
@@ -153,10 +160,6 @@ impl BandInputs {
             (0..count).into_par_iter().map(|it| self.sample(seed, it.into())).collect();
         all.into_iter().collect()
     }
-}
-
-fn spread(chosen: Option<Model>, made_for: Option<&Model>, question: Question) -> ModelSpread {
-    chosen.map_or_else(|| ModelSpread::all(made_for, question), ModelSpread::one)
 }
 
 /// Computes samples in their order, those that are alike once; nothing if `go_on` was false before

@@ -39,7 +39,7 @@ pub struct LearntSample {
 impl Unknowns {
     /// `None` of a soil that is known exactly.
     pub(super) fn of(model: Model, inputs: &BandInputs) -> Option<Self> {
-        let soil = SoilCoordinates::of(inputs.soils()?);
+        let soil = SoilCoordinates::of(inputs.soils_under(&model)?);
         let brings_own = inputs.nominal(&model).discrepancy.is_some();
         let discrepancy = (!brings_own).then(DiscrepancyCoordinates::new);
         Some(Self { model, inputs: inputs.clone(), soil, discrepancy })
