@@ -421,10 +421,13 @@ fn a_run_with_the_nose_set_again_drifts_as_the_card_says() {
 }
 
 /// Drives other soils by rows of a card, in time; for each lateness and approach, by the same card.
-fn drives<const N: usize>(
+///
+/// * `otherwise`: what a soil really is
+pub(crate) fn drives<const N: usize>(
     soils: u32,
     slopes_deg: &[f64],
     ways: [(f64, Approach); N],
+    otherwise: impl Fn(Sample) -> Sample,
 ) -> [Vec<RowDrives>; N] {
     let inputs = BandInputs::of_scenario(&scenario());
     let samples = |seed, count| inputs.samples(seed, count).expect("the soils can be drawn");
@@ -432,7 +435,7 @@ fn drives<const N: usize>(
     let study = study();
     let card = study.card(&samples(1, 200), &slopes, &|| true);
     let card = card.expect("all in order").expect("not stopped");
-    let others = samples(2, soils);
+    let others: Vec<Sample> = samples(2, soils).into_iter().map(otherwise).collect();
     ways.map(|(lateness, approach)| {
         let drives = CardDrives { study: &study, lateness, approach, seed: 3 };
         let on = |row| {
@@ -466,7 +469,7 @@ fn check_drives(all: &[RowDrives]) {
 /// the heading to 2°.
 #[test]
 fn soils_that_are_driven_by_the_card_stay_within_its_drift() {
-    let [all] = drives(60, &[1.0, 4.0, 8.0, 12.0, 15.0], [(1.0, Approach::QuasiSteady)]);
+    let [all] = drives(60, &[1.0, 4.0, 8.0, 12.0, 15.0], [(1.0, Approach::QuasiSteady)], |it| it);
     check_drives(&all);
 }
 
@@ -475,7 +478,7 @@ fn soils_that_are_driven_by_the_card_stay_within_its_drift() {
 #[ignore = "minutes"]
 fn a_thousand_soils_that_are_driven_by_the_card_stay_within_its_drift() {
     let slopes: Vec<f64> = (1..20).map(f64::from).collect();
-    let [all] = drives(1000, &slopes, [(1.0, Approach::QuasiSteady)]);
+    let [all] = drives(1000, &slopes, [(1.0, Approach::QuasiSteady)], |it| it);
     check_drives(&all);
 }
 
@@ -483,7 +486,7 @@ fn a_thousand_soils_that_are_driven_by_the_card_stay_within_its_drift() {
 #[test]
 fn quasi_steady_drives_drift_as_dynamic_ones() {
     let ways = [(1.0, Approach::QuasiSteady), (1.0, Approach::Dynamic)];
-    let [steady, dynamic] = drives(6, &[4.0, 12.0], ways);
+    let [steady, dynamic] = drives(6, &[4.0, 12.0], ways, |it| it);
     for (one, other) in steady.iter().zip(&dynamic) {
         let ends = |drives: &RowDrives| drives.drift.map(|it| [it.low, it.median, it.high]);
         let (one, other) = (ends(one).expect("drives"), ends(other).expect("drives"));
@@ -496,7 +499,8 @@ fn quasi_steady_drives_drift_as_dynamic_ones() {
 /// Twice the way between corrections, twice the fall of the nose: the drift goes up.
 #[test]
 fn a_driver_who_corrects_late_drifts_more() {
-    let [on_time, late] = drives(30, &[2.0, 8.0], [1.0, 3.0].map(|it| (it, Approach::QuasiSteady)));
+    let [on_time, late] =
+        drives(30, &[2.0, 8.0], [1.0, 3.0].map(|it| (it, Approach::QuasiSteady)), |it| it);
     for (on_time, late) in on_time.iter().zip(&late) {
         let high = |drives: &RowDrives| drives.drift.expect("drives").high;
         assert!(high(late) > high(on_time) + 1e-3, "{late:?}");

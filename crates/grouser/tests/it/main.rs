@@ -43,6 +43,7 @@ mod motor_presets;
 mod motors;
 mod mounts;
 mod negative_moduli;
+mod other_law;
 mod outcomes;
 mod own_model;
 mod paper;
