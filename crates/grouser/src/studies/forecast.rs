@@ -23,14 +23,14 @@ mod case;
 mod choices;
 mod error;
 mod factor;
-mod on_ground;
+mod ground_study;
 mod support;
 
 use self::case::known;
 pub use self::choices::{Choices, Ground, RoverMass, SiteSoil};
 pub use self::error::ForecastError;
 pub use self::factor::{Factor, FactorKind, Level, REMEDY_OF_INTERACTIONS};
-use self::on_ground::OnGround;
+use self::ground_study::GroundStudy;
 pub use self::support::Support;
 use super::ensemble::factorial::{Factorial, VarianceBudget};
 use super::ensemble::samples::{BandInputs, Sample};
@@ -209,7 +209,7 @@ impl ForecastStudy {
     /// How often [`run`](Self::run) asks whether to go on.
     #[must_use]
     pub fn steps(&self, band: &BandInputs) -> usize {
-        let groups: usize = self.grounds(band).iter().map(OnGround::groups).sum();
+        let groups: usize = self.grounds(band).iter().map(GroundStudy::groups).sum();
         groups + self.test_masses().len() * design_of(&self.sampled(band, None)).cases()
     }
 
@@ -220,7 +220,7 @@ impl ForecastStudy {
     }
 
     /// Each ground with the scalings that something supports, then with the others.
-    fn grounds<'s>(&'s self, band: &'s BandInputs) -> Vec<OnGround<'s>> {
+    fn grounds<'s>(&'s self, band: &'s BandInputs) -> Vec<GroundStudy<'s>> {
         let Choices { grounds, scalings, .. } = &self.choices;
         let is_away = self.heading.gravity != self.measured_under;
         let has_none = |it: &GravityScaling| is_away && *it == GravityScaling::Bekker;
@@ -229,7 +229,7 @@ impl ForecastStudy {
         let on = |ground: &'s Ground, scalings: &[GravityScaling], has_no_law: bool| {
             let strength = Support::of(ground, self.measured_under, self.heading.gravity);
             let support = if has_no_law { Support::None } else { strength };
-            OnGround { study: self, band, ground, scalings: scalings.to_vec(), support }
+            GroundStudy { study: self, band, ground, scalings: scalings.to_vec(), support }
         };
         let on_all = |(scalings, has_no_law): (Vec<GravityScaling>, bool)| {
             grounds.iter().map(move |ground| on(ground, &scalings, has_no_law))

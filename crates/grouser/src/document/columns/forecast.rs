@@ -31,12 +31,12 @@ pub const SCALING: &str = "scaling";
 pub const SUPPORT: &str = "support";
 
 /// A row of one ground.
-trait Row {
+trait OfGround {
     fn ground(&self) -> &GroundForecast;
 }
 
 /// A row with the shares of a variance.
-trait WithShares: Row {
+trait WithShares: OfGround {
     /// The parts of the variance.
     fn budget(&self) -> &VarianceBudget;
 
@@ -48,7 +48,7 @@ trait WithShares: Row {
     }
 }
 
-const fn which<R: Row>() -> [Column<R>; 3] {
+const fn which<R: OfGround>() -> [Column<R>; 3] {
     [
         text(GROUND, "Whose cohesion, friction angle and density the ground has", |it: &R| {
             Some(it.ground().ground.clone())
@@ -101,24 +101,24 @@ pub fn name(it: &GroundForecast) -> String {
 }
 
 /// A slope of a ground.
-struct OnSlope<'f> {
+struct SlopeOfGround<'f> {
     ground: &'f GroundForecast,
     slope: &'f SlopeForecast,
 }
 
-impl Row for OnSlope<'_> {
+impl OfGround for SlopeOfGround<'_> {
     fn ground(&self) -> &GroundForecast {
         self.ground
     }
 }
 
-impl WithShares for OnSlope<'_> {
+impl WithShares for SlopeOfGround<'_> {
     fn budget(&self) -> &VarianceBudget {
         &self.slope.slip_budget
     }
 }
 
-const fn slopes<'f>() -> [Column<OnSlope<'f>>; 9] {
+const fn slopes<'f>() -> [Column<SlopeOfGround<'f>>; 9] {
     [
         SLOPE.given("Slopes", |it| Some(it.slope.slope)),
         SLIP_RATIO.band(
@@ -158,7 +158,7 @@ const fn slopes<'f>() -> [Column<OnSlope<'f>>; 9] {
     ]
 }
 
-const fn flags_of<'f>() -> [Column<OnSlope<'f>>; 1] {
+const fn flags_of<'f>() -> [Column<SlopeOfGround<'f>>; 1] {
     [flags::flags(|it| flags::names(&it.slope.findings))]
 }
 
@@ -169,7 +169,7 @@ fn ends(Estimate { value, low, high }: Estimate) -> [f64; 3] {
 /// A row for each ground and slope.
 #[must_use]
 pub fn table(forecast: &Forecast) -> Table {
-    let rows = on_slopes(forecast, |ground, slope| vec![OnSlope { ground, slope }]);
+    let rows = on_slopes(forecast, |ground, slope| vec![SlopeOfGround { ground, slope }]);
     let all: Vec<_> = rows.iter().map(Some).collect();
     Table::of(&which(), &rows).and(&slopes(), &all).and(&shares(), &all).and(&flags_of(), &all)
 }
@@ -186,7 +186,11 @@ fn on_slopes<'f, R>(
 /// What the columns of all tables are, those of slopes first.
 #[must_use]
 pub fn all_meanings() -> Vec<ColumnMeaning> {
-    let rows = [meanings(&which::<OnSlope>()), meanings(&slopes()), meanings(&shares::<OnSlope>())];
+    let rows = [
+        meanings(&which::<SlopeOfGround>()),
+        meanings(&slopes()),
+        meanings(&shares::<SlopeOfGround>()),
+    ];
     let more = [meanings(&flags_of()), meanings(&LIMIT), meanings(&parts_of())];
     let rest = [meanings(&levels()), meanings(&of_tests())];
     let mut known = Vec::new();
@@ -226,7 +230,7 @@ pub fn shares_brief(forecast: &Forecast, before: &[String]) -> Vec<String> {
     [GROUND, SCALING].map(String::from).into_iter().chain(before.to_vec()).chain(shares).collect()
 }
 
-impl Row for GroundForecast {
+impl OfGround for GroundForecast {
     fn ground(&self) -> &GroundForecast {
         self
     }
@@ -288,7 +292,7 @@ struct Part<'f> {
     remedy: &'static str,
 }
 
-impl Row for Part<'_> {
+impl OfGround for Part<'_> {
     fn ground(&self) -> &GroundForecast {
         self.ground
     }
@@ -390,7 +394,7 @@ struct OfLevel<'a> {
     slope: &'a SlopeForecast,
 }
 
-impl Row for OfLevel<'_> {
+impl OfGround for OfLevel<'_> {
     fn ground(&self) -> &GroundForecast {
         self.ground
     }

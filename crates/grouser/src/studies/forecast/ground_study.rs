@@ -14,7 +14,7 @@ use crate::studies::ensemble::{Band, outputs_while};
 use crate::studies::heading::HeadingStudy;
 
 /// One ground, and the scalings of its cases.
-pub(super) struct OnGround<'s> {
+pub(super) struct GroundStudy<'s> {
     pub(super) study: &'s ForecastStudy,
     pub(super) band: &'s BandInputs,
     pub(super) ground: &'s Ground,
@@ -25,7 +25,7 @@ pub(super) struct OnGround<'s> {
 /// Places of the sampled factors: soil, and what a model gets wrong.
 const SAMPLED: [usize; 2] = [2, 3];
 
-impl OnGround<'_> {
+impl GroundStudy<'_> {
     /// All factors with their levels, as in [`FactorKind::ALL`].
     fn factors(&self) -> Vec<Factor> {
         let [model, soils, discrepancies] = self.study.sampled(self.band, Some(self.ground));
