@@ -61,6 +61,8 @@ enum Value<R> {
     Band(fn(&R) -> Option<Band>),
     /// Three columns: a probability and its 95 % confidence interval.
     Probability(fn(&R) -> Option<Probability>),
+    /// Three columns: an estimate and its 95 % confidence interval.
+    Estimate(fn(&R) -> [f64; 3]),
     /// Two columns: measured and predicted.
     Measured(fn(&R) -> [Option<f64>; 2]),
     /// Three columns: measured, its standard deviation, and predicted.
@@ -262,6 +264,11 @@ impl Quantity {
     ) -> Column<R> {
         self.column(doc, Value::Probability(of))
     }
+
+    /// Three columns: an estimate and the ends of its 95 % confidence interval.
+    pub const fn estimate<R>(self, doc: &'static str, of: fn(&R) -> [f64; 3]) -> Column<R> {
+        self.column(doc, Value::Estimate(of))
+    }
 }
 
 /// A column of numbers.
@@ -318,7 +325,7 @@ impl<R> Column<R> {
         let quantity = quantity(self.name, self.unit);
         match self.value {
             Value::Band(_) => quantity.quantiles().into(),
-            Value::Probability(_) => quantity.interval().into(),
+            Value::Probability(_) | Value::Estimate(_) => quantity.interval().into(),
             Value::Measured(_) => vec![quantity.measurement(), self.name.into()],
             Value::Compared(_) => {
                 vec![quantity.measurement(), quantity.deviation(), self.name.into()]
@@ -333,7 +340,11 @@ impl<R> Column<R> {
     /// How many names it has.
     fn ends(&self) -> usize {
         match self.value {
-            Value::Band(_) | Value::Probability(_) | Value::Compared(_) | Value::Replayed(_) => 3,
+            Value::Band(_)
+            | Value::Probability(_)
+            | Value::Estimate(_)
+            | Value::Compared(_)
+            | Value::Replayed(_) => 3,
             Value::Measured(_) => 2,
             _ => 1,
         }
@@ -381,6 +392,7 @@ impl<R> Column<R> {
                 let (low, high) = it.interval();
                 [it.estimate(), low, high][end]
             })),
+            Value::Estimate(of) => float(Some(of(row)[end])),
             Value::Measured(of) => float(of(row)[end]),
             Value::Compared(of) | Value::Replayed(of) => float(of(row)[end]),
             Value::Whole(of) => Cell::Whole(of(row).map(|count| count as u64)),

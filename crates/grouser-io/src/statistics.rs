@@ -6,5 +6,5 @@ mod distribution;
 pub mod normal;
 pub mod random;
 
-pub use band::{Band, Probability, interval_score, quantile, weighted_quantile};
+pub use band::{Band, Probability, interval_score, quantile, share_interval, weighted_quantile};
 pub use distribution::{Contradiction, Correlation, Distribution, Marginal, NothingAccepted};

@@ -13,7 +13,7 @@ use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{self, COURSE, LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE};
 use grouser::document::forecast as words;
 use grouser::document::simulated_test::{NOISE, TRIALS};
-use grouser::document::study::{self, COURSE_DEG, MAP_SPEED_M_S};
+use grouser::document::study::{self, COURSE_DEG, MAP_SPEED_M_S, SHARE};
 use grouser::document::table::{BETWEEN_NAMES, Table};
 use grouser::document::{self, Kind};
 use grouser::error::ParameterError;
@@ -496,6 +496,7 @@ pub(crate) fn forecast<'py>(
     measured_gravity_m_s2: Option<f64>,
     choices: ChoiceNames<'py>,
     rim_speed_m_s: Option<f64>,
+    no_go_slip_ratio: f64,
     counts: [u32; 2],
     seed: u64,
 ) -> PyResult<Bound<'py, PyDict>> {
@@ -526,8 +527,10 @@ pub(crate) fn forecast<'py>(
     let masses = masses.iter().map(mass).collect::<PyResult<Vec<_>>>()?;
     let rim_speed = rim_speed_m_s.unwrap_or(usual.rim_speed);
     check("rim_speed_m_s", &[rim_speed], &MAP_SPEED_M_S)?;
+    check("no_go_slip_ratio", &[no_go_slip_ratio], &SHARE)?;
     let choices = Choices { scalings, grounds, masses };
-    let study = ForecastStudy { rim_speed, choices, samples: counts, seed, ..usual };
+    let samples = counts;
+    let study = ForecastStudy { rim_speed, no_go_slip_ratio, choices, samples, seed, ..usual };
     let band = BandInputs::of_scenario(scenario);
     let notes = words::notes(&study, scenario, measured_gravity_m_s2.is_some());
     let found = listening(py, move |cancelled| {
@@ -541,7 +544,7 @@ pub(crate) fn forecast<'py>(
     let Some(found) = found.map_err(|problem| problem.raised())? else { return Ok(dict) };
     use columns::forecast as tables;
     dict.set_item("rows", table_to_python(py, tables::table(&found))?)?;
-    dict.set_item("steepest", record_to_python(py, &tables::steepest(&found).row(0))?)?;
+    dict.set_item("steepest", table_to_python(py, tables::steepest(&found))?)?;
     dict.set_item("budget", table_to_python(py, tables::budget(&found))?)?;
     dict.set_item("choices", table_to_python(py, tables::choices(&found))?)?;
     dict.set_item("tests", table_to_python(py, tables::tests(&found))?)?;

@@ -209,8 +209,8 @@ def test_a_forecast_is_the_programs(program: Program) -> None:
         site="moon", slope_deg=[5, 15], samples=2, discrepancies=2, soil="toyoura", model="ishigami",
         mass=["equal-mass", "flight=0.65"], scaling=["reece", "bekker"],
     )  # fmt: skip
-    for table, theirs in [(found.columns, answer["rows"]), (found.budget, answer["budget"]),
-                          (found.choices, answer["choices"]), (found.tests, answer["tests"])]:
+    for table, theirs in [(found.columns, answer["rows"]), (found.steepest, answer["steepest"]),
+                          (found.budget, answer["budget"]), (found.choices, answer["choices"]), (found.tests, answer["tests"])]:
         assert len(theirs) > 0
         for place, row in enumerate(theirs):
             for name, value in row.items():
@@ -220,8 +220,11 @@ def test_a_forecast_is_the_programs(program: Program) -> None:
                 else:
                     assert ours == value or value is None and (ours is None or np.isnan(ours)), name
     assert list(found.notes) == answer["notes"]
-    assert all(answer[name] == value for name, value in found.steepest.items())
-    assert len(found.to_pandas()) == 2 and found.plot().get_xlabel() == "slope [°]"
+    axes, bands = found.plot(), ["as-measured", "lunar-nominal", "lunar-0-15-cm"]
+    assert len(found.to_pandas()) == 2 * 2 * len(bands) and axes.get_xlabel() == "slope [°]"
+    labels = axes.get_legend_handles_labels()[1]
+    assert [f"95 %, {name}" in labels for name in bands] == [True] * len(bands)
+    assert "lunar-nominal (bekker)" in labels
     named = gr.forecast(
         site=gr.MOON_GRAVITY, slope_deg=[5, 15], samples=2, discrepancies=2, soil="toyoura",
         model="ishigami", mass={"equal": 1.0}, scaling="reece", ground=[gr.Soil("lunar-nominal")],
@@ -242,6 +245,7 @@ def test_a_forecast_is_the_programs(program: Program) -> None:
         ({"site": "moon", "discrepancies": 5000}, "discrepancies"),
         ({"site": "moon", "measured_gravity_m_s2": 0.0}, "measured_gravity_m_s2"),
         ({"site": "moon", "rim_speed_m_s": -1.0}, "rim_speed_m_s"),
+        ({"site": "moon", "no_go_slip_ratio": 1.5}, "no_go_slip_ratio"),
         ({"site": "moon", "ground": ["as-measured", "as-measured"]}, "ground"),
     ],
 )

@@ -8,11 +8,13 @@ use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Every choice meets every other, every wheel-soil model, every sample of the soil \
-                        and every sample of what a model gets wrong. Choices of one kind count \
-                        alike; name one alone to leave the others out. The error budget says which \
-                        of them the spread is due to. docs/guide/forecast.md explains the choices \
-                        and the budget."
+    after_help = "Each ground has rows of its own, the same as if it alone were asked for, and \
+                        nothing is averaged over grounds. Within a ground every choice meets every \
+                        other, every wheel-soil model, every sample of the soil and every sample of \
+                        what a model gets wrong; choices of one kind count alike. The error budget \
+                        says which of them the spread is due to. Moduli that are kept (`bekker`) \
+                        under another gravity have rows apart: no measurement supports them. \
+                        docs/guide/forecast.md explains the choices and the budget."
 )]
 pub(crate) struct ForecastArgs {
     /// A scenario's file or preset, for its rover, soil, load transfer and rim speed; without it
@@ -52,6 +54,9 @@ pub(crate) struct ForecastArgs {
     /// Rim speed [m/s], for the power; without it the scenario's.
     #[arg(long, value_name = "V", value_parser = list::parse, allow_hyphen_values = true)]
     pub(crate) rim_speed_m_s: Option<Numbers>,
+    /// Slip ratio of which to say how probably it is exceeded.
+    #[arg(long, value_name = "S", value_parser = list::parse, default_value = "0.6", allow_hyphen_values = true)]
+    pub(crate) no_go_slip_ratio: Numbers,
     /// Number of samples of the soil, 2 to 10000.
     #[arg(long, value_name = "N", default_value_t = 12)]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=10_000), allow_negative_numbers = true)]

@@ -1,8 +1,9 @@
-//! `grouser forecast`: a rover under another gravity than the one its soil was measured under, with
-//! one error budget.
+//! `grouser forecast`: a rover under another gravity than the one its soil was measured under, on
+//! each ground that the site may have.
 
 use grouser::answers::forecast::{ForecastQuestion, file_of_ground};
 use grouser::document::columns::SLOPE;
+use grouser::document::columns::forecast::{GROUND, SCALING};
 use grouser::document::{Kind, preset};
 use grouser::studies::forecast::{ForecastError, ForecastStudy, Ground};
 
@@ -42,8 +43,9 @@ pub(crate) fn run(args: &ForecastArgs) -> Result<(), Failure> {
         is_measured_under_stated: inputs.is_measured_under_stated,
     };
     let answer = question.answer("forecast", &forecast);
-    let flags = forecast.slopes.iter().map(|slope| &*slope.findings);
-    strict::check(&args.strict, flags, &answer.tables[0].1, &[SLOPE.name])?;
+    let slopes = forecast.grounds.iter().flat_map(|ground| &ground.slopes);
+    let flags = slopes.map(|slope| &*slope.findings);
+    strict::check(&args.strict, flags, &answer.tables[0].1, &[GROUND, SCALING, SLOPE.name])?;
     give(&answer, &repeat(args, &inputs), folder, args.output.format)
 }
 
@@ -56,11 +58,11 @@ fn repeat(args: &ForecastArgs, inputs: &ForecastInputs) -> String {
     let measured = args.measured_gravity.as_ref();
     let measured = measured.map_or(String::new(), |it| format!(" --measured-gravity-m-s2 {it}"));
     let (speed, scalings, masses) = (study.rim_speed, args.scaling.join(","), args.mass.join(","));
-    let grounds = grounds(study).join(",");
+    let (grounds, limit) = (grounds(study).join(","), study.no_go_slip_ratio);
     let model = args.model.as_ref().map_or(String::new(), |model| format!(" --model {model}"));
     format!(
         "grouser forecast scenario.toml --site {site}{measured} \
-         --slope-deg {slopes} --rim-speed-m-s {speed} --ground {grounds} --scaling {scalings} \
+         --slope-deg {slopes} --rim-speed-m-s {speed} --no-go-slip-ratio {limit} --ground {grounds} --scaling {scalings} \
          --mass {masses}{model} --samples {samples}"
     )
 }

@@ -59,10 +59,17 @@ pub(crate) fn forecast(args: &ForecastArgs) -> Result<ForecastInputs, Failure> {
         None => usual.rim_speed,
     };
     let samples = [args.samples, args.discrepancies];
-    let study = ForecastStudy { rim_speed, choices, samples, seed: args.seed, ..usual };
+    let limit = single("--no-go-slip-ratio", &args.no_go_slip_ratio, &document::study::SHARE)?;
+    let study = ForecastStudy {
+        rim_speed,
+        no_go_slip_ratio: limit,
+        choices,
+        samples,
+        seed: args.seed,
+        ..usual
+    };
     let band = BandInputs::of_scenario(&scenario);
-    let cases: usize = study.factors(&band).iter().map(|factor| factor.levels.len()).product();
-    check_rows(cases as f64 * args.slope_deg.0.len() as f64)?;
+    check_rows(study.cases(&band) as f64 * args.slope_deg.0.len() as f64)?;
     Ok(ForecastInputs {
         study,
         band,

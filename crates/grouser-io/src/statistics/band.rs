@@ -90,22 +90,31 @@ impl Probability {
         self.successes as f64 / self.trials as f64
     }
 
-    /// The 95 % confidence interval of the probability (Wilson 1927), both ends [-].
-    ///
-    /// ```text
-    /// [p + z²/2n ± z √(p(1 − p)/n + z²/4n²)] / (1 + z²/n)
-    /// ```
-    ///
-    /// It stays within 0 and 1, and says something after no success or nothing but successes.
+    /// The 95 % [confidence interval](share_interval) of the probability, both ends [-].
     #[must_use]
     pub fn interval(&self) -> (f64, f64) {
-        let (p, n) = (self.estimate(), self.trials as f64);
-        let centre = p + Z * Z / (2.0 * n);
-        let half = Z * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
-        let end = |sum: f64| (sum / (1.0 + Z * Z / n)).clamp(0.0, 1.0);
-        // Where p is 0 or 1 the interval ends there; round-off would leave it just beside.
-        let low = if self.successes == 0 { 0.0 } else { end(centre - half) };
-        let high = if self.successes == self.trials { 1.0 } else { end(centre + half) };
-        (low, high)
+        share_interval(self.estimate(), self.trials as f64)
     }
+}
+
+/// The 95 % confidence interval of a probability (Wilson 1927), both ends [-].
+///
+/// ```text
+/// [p + z²/2n ± z √(p(1 − p)/n + z²/4n²)] / (1 + z²/n)
+/// ```
+///
+/// It stays within 0 and 1, and says something after no success or nothing but successes.
+///
+/// * `share`: p, of the trials in which it happened [-]
+/// * `trials`: n, independent ones; infinite where the share is exact
+#[must_use]
+pub fn share_interval(share: f64, trials: f64) -> (f64, f64) {
+    let (p, n) = (share, trials);
+    let centre = p + Z * Z / (2.0 * n);
+    let half = Z * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
+    let end = |sum: f64| (sum / (1.0 + Z * Z / n)).clamp(0.0, 1.0);
+    // Where p is 0 or 1 the interval ends there; round-off would leave it just beside.
+    let low = if p == 0.0 { 0.0 } else { end(centre - half) };
+    let high = if p == 1.0 { 1.0 } else { end(centre + half) };
+    (low, high)
 }

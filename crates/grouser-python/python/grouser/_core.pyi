@@ -418,6 +418,7 @@ def forecast(
     measured_gravity_m_s2: float | None,
     choices: tuple[Sequence[tuple[str, Document | None]] | None, Sequence[str], Sequence[str]],
     rim_speed_m_s: float | None,
+    no_go_slip_ratio: float,
     counts: Sequence[int],
     seed: int,
 ) -> dict[str, Any]: ...

@@ -27,24 +27,26 @@ _SCALINGS = ("reece", "bekker", "granular-scaling")
 @dataclass(frozen=True, eq=False)
 class Forecast(_tables.Tabular):
     """Slip, drift, heading, power and the steepest slope under the gravity of a site, and the error
-    budget: arrays of shape (slopes,), quantiles over all cases as ``…_p2_5``, ``…_p50`` and
-    ``…_p97_5``.
+    budget, on each ground: arrays with a row for each ground and slope, quantiles over the cases of
+    the ground as ``…_p2_5``, ``…_p50`` and ``…_p97_5``. Nothing is averaged over grounds.
 
     Made by `forecast`, which has an example.
     """
 
     slope_deg: Floats
-    """Slopes [°]."""
+    """Slope of each row [°]."""
     columns: Mapping[str, NDArray[Any]]
-    """All columns over slopes, by the names of the program's table: ``slip_ratio_p50``,
-    ``downhill_m_per_m_p50``, ``yaw_deg_p50`` …"""
-    steepest: Mapping[str, Any]
-    """The steepest slope on which a heading holds the contour, with its band."""
+    """All columns, by the names of the program's table: ``ground``, ``scaling``, ``support`` (what
+    the row rests on), ``slip_ratio_p50``, ``yaw_deg_p50``, ``probability_slip_above_limit``,
+    ``probability_no_heading``, ``share_model`` …"""
+    steepest: Mapping[str, NDArray[Any]]
+    """The steepest slope on which a heading holds the contour, with its band, as columns: a row for
+    each ground."""
     budget: Mapping[str, NDArray[Any]]
-    """The error budget, as columns: for each quantity and slope the part of the variance that each
-    factor has."""
+    """The error budget, as columns: for each ground, quantity and slope the part of the variance
+    that each factor has."""
     choices: Mapping[str, NDArray[Any]]
-    """The means at each level of each factor, as columns."""
+    """The means at each level of each factor on each ground, as columns."""
     tests: Mapping[str, NDArray[Any]]
     """What a test of a rover would show where the soil was measured, as columns."""
     notes: tuple[str, ...]
@@ -54,12 +56,13 @@ class Forecast(_tables.Tabular):
         return self.columns
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each slope. `budget`, `choices` and `tests` are tables too:
+        """A table with a row for each ground and slope. `budget`, `choices` and `tests` are tables too:
         ``pandas.DataFrame(forecast.budget)``."""
         return _tables.frame(self.columns)
 
     def plot(self, axes: Axes | None = None, *, name: str = "slip_ratio", **style: Any) -> Axes:
-        """Plots the median of a quantity over the slope, and the band of 95 % of the cases.
+        """Plots the median of a quantity over the slope and the band of 95 % of the cases, for each
+        ground; of rows that no measurement supports the median alone, dashed.
 
         Parameters
         ----------
@@ -72,15 +75,24 @@ class Forecast(_tables.Tabular):
         """
         axes = _tables.axes_or_new(axes)
         low, median, high = (self.columns[f"{name}_{end}"] for end in ("p2_5", "p50", "p97_5"))
-        axes.fill_between(self.slope_deg, low, high, alpha=0.25, label="95 % of the cases")
-        axes.plot(self.slope_deg, median, **style)
+        grounds, scalings, support = (self.columns[it] for it in ("ground", "scaling", "support"))
+        for ground, scaling in dict.fromkeys(zip(grounds.tolist(), scalings.tolist())):
+            rows = (grounds == ground) & (scalings == scaling)
+            is_supported = support[rows][0] != "none"
+            label = ground if is_supported else f"{ground} ({scaling})"
+            own = {"linestyle": "-" if is_supported else "--", "label": label, **style}
+            (curve,) = axes.plot(self.slope_deg[rows], median[rows], **own)
+            if is_supported:
+                band = {"alpha": 0.25, "color": curve.get_color(), "label": f"95 %, {label}"}
+                axes.fill_between(self.slope_deg[rows], low[rows], high[rows], **band)
         axes.set_xlabel(_tables.label("slope_deg"))
         axes.set_ylabel(_tables.label(name))
         return axes
 
     def __repr__(self) -> str:
-        limit = self.steepest["limit_slope_deg_p50"]
-        return f"<Forecast on {len(self.slope_deg)} slopes, the steepest is {limit:.2f}° (median)>"
+        limits = zip(self.steepest["ground"], self.steepest["limit_slope_deg_p50"])
+        steepest = ", ".join(f"{limit:.2f}° on {ground}" for ground, limit in limits)
+        return f"<Forecast of {len(self.slope_deg)} rows, steepest slopes (median) {steepest}>"
 
 
 def forecast(
@@ -94,17 +106,19 @@ def forecast(
     mass: str | Sequence[str] | Mapping[str, float] = "equal-mass",
     measured_gravity_m_s2: str | float | None = None,
     rim_speed_m_s: float | None = None,
+    no_go_slip_ratio: float = 0.6,
     samples: int = 12,
     discrepancies: int = 4,
     seed: int = 1,
     **changes: Any,
 ) -> Forecast:
     """Slip, drift, heading, steepest slope and mechanical power under another gravity than the one
-    the soil was measured under, with one error budget. The numbers are those of the program's
-    ``grouser forecast``, bit for bit.
+    the soil was measured under, on each ground by itself, with an error budget for each. The numbers
+    are those of the program's ``grouser forecast``, bit for bit.
 
-    Every choice meets every other, every wheel–soil model, every sample of the soil and every
-    sample of the model's error; ``docs/guide/forecast.md`` explains them.
+    Within a ground every choice meets every other, every wheel–soil model, every sample of the soil
+    and every sample of the model's error; ``docs/guide/forecast.md`` explains them. Moduli that are
+    kept under another gravity (``bekker``) have rows of their own.
 
     Parameters
     ----------
@@ -127,6 +141,8 @@ def forecast(
         Earth's.
     rim_speed_m_s : float, optional
         Rim speed [m/s], for the power; without it the scenario's.
+    no_go_slip_ratio : float
+        Slip ratio of which to say how probably it is exceeded, 0 to 1.
     samples, discrepancies : int
         Number of samples of the soil, 2 to 10000, and of the model's error, 2 to 1000.
     seed : int
@@ -147,7 +163,9 @@ def forecast(
     --------
     >>> import grouser as gr
     >>> moon = gr.forecast(site="moon", slope_deg=[10.0], samples=2, discrepancies=2, model="ishigami")
-    >>> bool(moon.columns["slip_ratio_p2_5"][0] < moon.columns["slip_ratio_p97_5"][0])
+    >>> moon.columns["ground"].tolist()[:3]
+    ['as-measured', 'lunar-nominal', 'lunar-0-15-cm']
+    >>> bool(moon.columns["slip_ratio_p50"][0] > moon.columns["slip_ratio_p50"][2])
     True
     >>> sorted(set(moon.budget["quantity"].tolist()))
     ['downhill_m_per_m', 'limit_slope_deg', 'slip_ratio']
@@ -171,18 +189,19 @@ def forecast(
         None if measured is None else _gravity("measured_gravity_m_s2", measured),
         choices,
         None if rim_speed_m_s is None else number("rim_speed_m_s", rim_speed_m_s),
+        number("no_go_slip_ratio", no_go_slip_ratio),
         [
             whole_number("samples", samples, most=2**32 - 1),
             whole_number("discrepancies", discrepancies, most=2**32 - 1),
         ],
         whole_number("seed", seed),
     )
-    tables = {name: _tables.arrays_of(found[name]) for name in ("rows", "budget", "choices", "tests")}
+    names = ("rows", "steepest", "budget", "choices", "tests")
+    tables = {name: _tables.arrays_of(found[name]) for name in names}
     rows = tables.pop("rows")
     return Forecast(
         slope_deg=rows["slope_deg"],
         columns=rows,
-        steepest=found["steepest"],
         notes=tuple(found["notes"]),
         **tables,
     )

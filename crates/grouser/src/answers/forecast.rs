@@ -46,11 +46,11 @@ impl ForecastQuestion<'_> {
         self.state(&mut answer);
         let all = [
             ("rows", name, &tables.rows),
+            ("steepest", "steepest", &tables.steepest),
             ("budget", "budget", &tables.budget),
             ("choices", "choices", &tables.choices),
             ("tests", "tests", &tables.tests),
         ];
-        answer.results.push(Member::Row(None, tables.limit.clone()));
         for (key, file, table) in all {
             answer.results.push(Member::rows(key, Arc::clone(table)));
             answer.tables.push((file.to_owned(), Arc::clone(table)));
@@ -82,6 +82,7 @@ impl ForecastQuestion<'_> {
         answer.input("mass", masses.collect::<Map<_, _>>());
         answer.input("slope_deg", self.slopes_deg.to_vec());
         answer.input("rim_speed_m_s", study.rim_speed);
+        answer.input("no_go_slip_ratio", study.no_go_slip_ratio);
         answer.inputs_of(document, ["load_transfer", "wheel_moments"]);
         let [samples, discrepancies] = study.samples;
         answer.input("samples", samples);

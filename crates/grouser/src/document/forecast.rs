@@ -7,6 +7,7 @@ use super::{GRAVITIES, LoadedScenario, gravity};
 use crate::soil::{GravityScaling, Soil};
 use crate::studies::forecast::{Choices, ForecastStudy, RoverMass};
 use crate::studies::heading::HeadingStudy;
+use crate::studies::verdict::Rule;
 use crate::units::EARTH_GRAVITY;
 
 /// Mass factors that a rover may have [-].
@@ -59,6 +60,7 @@ pub fn study_of(scenario: &LoadedScenario, measured_under: Option<f64>) -> Forec
         measured_under: stated.unwrap_or(EARTH_GRAVITY),
         heading,
         rim_speed: scenario.value.drive.nominal_rim_speed(),
+        no_go_slip_ratio: Rule::DEFAULT.no_go_slip_ratio,
         choices: Choices::of_scalings(GravityScaling::ALL),
         samples: [12, 4],
         seed: 1,
@@ -92,6 +94,9 @@ pub fn notes(
     let mut notes = vec![format!(
         "the soil was measured under {measured} m/s²{source}; the site has {gravity} m/s²"
     )];
+    if study.choices.grounds.len() > 1 {
+        notes.push(NOT_AVERAGED.to_owned());
+    }
     if gravity != measured && study.choices.scalings.contains(&GravityScaling::Bekker) {
         notes.push(BEKKER_IS_CARRIED.to_owned());
     }
@@ -177,8 +182,12 @@ pub fn mass_of(text: &str, q: f64) -> Result<RoverMass, String> {
 
 /// What is to be said where constants that do not know gravity are carried to another one.
 pub const BEKKER_IS_CARRIED: &str = "`bekker` keeps moduli that were measured under another \
-     gravity: no measurement supports it and it obeys no scaling law; under a smaller gravity a \
-     rover sinks too little, and may slip less or more";
+     gravity: no measurement supports it and it obeys no scaling law, so that its rows stand apart; \
+     under a smaller gravity a rover sinks too little, and may slip less or more";
+
+/// What is to be said where the site may have several grounds.
+const NOT_AVERAGED: &str = "each ground has rows of its own and nothing is averaged over grounds: \
+     only cohesion, friction angle and density measured at the site tell which one it is";
 
 #[cfg(test)]
 mod tests {

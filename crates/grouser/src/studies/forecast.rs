@@ -1,35 +1,44 @@
 //! A rover's slip, drift, heading, steepest slope and power under another gravity than the one its
-//! soil was measured under, and one error budget.
+//! soil was measured under, on each ground that the site may have, and an error budget for each.
 //!
 //! Nobody has measured a wheel on the ground of the site, so that a forecast rests on choices that
-//! no sample of the soil decides. Each of them is a [factor](FactorKind) with named levels: how
-//! moduli scale with gravity, what the ground of the site is, what the rover weighs. Every level
-//! meets every level of the others, every wheel–soil model, every sample of the soil and every
-//! sample of what a model gets wrong: a full [`factorial`](super::ensemble::factorial) design, on
-//! which the parts of a variance add up.
+//! no sample of the soil decides. Two of them are not averaged over: which [`Ground`] the site has,
+//! and whether moduli are carried by a law that something [supports](Support). Each ground has a
+//! forecast of its own, and another one with the laws that no measurement supports. It is the same,
+//! bit for bit, as if that ground alone were asked for.
+//!
+//! All else is a [factor](FactorKind) within a ground: what the rover weighs, the wheel–soil model,
+//! the samples of the soil, what a model gets wrong, and how moduli scale. Every level meets every
+//! level of the others: a full [`factorial`](super::ensemble::factorial) design, on which the parts
+//! of a variance add up.
 //!
 //! Levels of one factor count alike, models by their [shares](super::ensemble::models). A budget is
 //! of quantities that every case has: the slip ratio of a contour traverse (1 where no heading
 //! holds the contour), the drift with the nose on the contour (1, straight downhill, where the
 //! rover slides), and the steepest slope (0 where it cannot drive on level ground). Bands are over
-//! all cases: a case without a heading needs more of it, and more power, than any number.
+//! all cases of the ground: a case without a heading needs more of it, and more power, than any
+//! number.
 
 mod case;
 mod choices;
 mod error;
 mod factor;
+mod ground_study;
+mod support;
 
-use self::case::{OfCase, known};
-use self::choices::with_strength_of;
+use self::case::known;
 pub use self::choices::{Choices, Ground, RoverMass, SiteSoil};
 pub use self::error::ForecastError;
 pub use self::factor::{Factor, FactorKind, Level, REMEDY_OF_INTERACTIONS};
+use self::ground_study::GroundStudy;
+pub use self::support::Support;
 use super::ensemble::factorial::{Factorial, VarianceBudget};
 use super::ensemble::samples::{BandInputs, Sample};
+use super::ensemble::statistics::Estimate;
 use super::ensemble::{Band, NothingAccepted, outputs_while};
 use super::heading::{HeadingStudy, STUCK};
-use crate::contact::validity::{Finding, Flag};
-use crate::error::positive;
+use crate::contact::validity::Finding;
+use crate::error::{ParameterError, positive};
 use crate::soil::GravityScaling;
 
 /// What a forecast is made for.
@@ -41,6 +50,8 @@ pub struct ForecastStudy {
     pub measured_under: f64,
     /// Rim speed ω r_s [m/s], for the power.
     pub rim_speed: f64,
+    /// Slip ratio of which a forecast says how probably it is exceeded [-].
+    pub no_go_slip_ratio: f64,
     /// What no sample decides.
     pub choices: Choices,
     /// How many samples there are of the soil and, each with each, of what a model gets wrong.
@@ -52,6 +63,22 @@ pub struct ForecastStudy {
 /// A forecast.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Forecast {
+    /// Each ground in its order, by the scalings that something supports; then each by those that
+    /// no measurement supports.
+    pub grounds: Vec<GroundForecast>,
+    /// What tests where the soil was measured would show.
+    pub tests: Vec<TestForecast>,
+}
+
+/// A forecast on one ground.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroundForecast {
+    /// The ground's name.
+    pub ground: String,
+    /// How moduli scale in its cases.
+    pub scalings: Vec<GravityScaling>,
+    /// What it rests on.
+    pub support: Support,
     /// The factors with their levels, those of one level too.
     pub factors: Vec<Factor>,
     /// On each slope that was asked for, in that order.
@@ -65,17 +92,18 @@ pub struct Forecast {
     pub limit_means: Vec<Vec<f64>>,
     /// How many cases there are.
     pub cases: usize,
-    /// What tests where the soil was measured would show.
-    pub tests: Vec<TestForecast>,
 }
 
-/// A forecast on one slope.
+/// A forecast on one slope of a ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlopeForecast {
     /// Slope, *α* [rad].
     pub slope: f64,
-    /// Share of the cases in which a heading holds the contour [-].
-    pub level: f64,
+    /// Probability that a rover on a contour traverse slips more than the limit, or that no heading
+    /// holds the contour [-].
+    pub slip_above_limit: Estimate,
+    /// Probability that no heading holds the contour [-].
+    pub no_heading: Estimate,
     /// Yaw, *γ* [rad], positive uphill; above every number where no heading holds the contour.
     pub yaw: Option<Band>,
     /// Slip ratio of every wheel on a contour traverse, *s* [-]; 1 where no heading holds the
@@ -99,7 +127,7 @@ pub struct SlopeForecast {
     pub drift_means: Vec<Vec<f64>>,
     /// The share with a heading at each level of each factor.
     pub level_means: Vec<Vec<f64>>,
-    /// The flags of the soil as written, with the first level of every choice.
+    /// The flags of the ground as written, with the first level of every choice.
     pub findings: Vec<Finding>,
 }
 
@@ -134,15 +162,18 @@ impl ForecastStudy {
     ///     heading: HeadingStudy::of(&scenario.value),
     ///     measured_under: EARTH_GRAVITY,
     ///     rim_speed: 0.06,
+    ///     no_go_slip_ratio: 0.6,
     ///     choices: Choices::of_scalings(GravityScaling::ALL),
     ///     samples: [4, 2],
     ///     seed: 1,
     /// };
     /// let band = BandInputs::of_scenario(&scenario);
     /// let forecast = study.run(&band, &[deg(10.0)], &|| true)?.expect("not stopped");
-    /// let means = &forecast.slopes[0].slip_means[5];
-    /// assert_eq!(means[0], means[2], "without cohesion unit weight and granular scaling are one");
-    /// assert!(means[1] > means[0], "stiffer ground has shorter contacts, which mobilise less shear");
+    /// let [supported, kept] = &forecast.grounds[..] else { panic!("Bekker's moduli stand apart") };
+    /// let means = &supported.slopes[0].slip_means[4];
+    /// assert_eq!(means[0], means[1], "without cohesion unit weight and granular scaling are one");
+    /// let stiff = kept.slopes[0].slip_means[4][0];
+    /// assert!(stiff > means[0], "stiffer ground has shorter contacts, which mobilise less shear");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
@@ -161,83 +192,65 @@ impl ForecastStudy {
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Forecast>, ForecastError> {
         positive("rim speed [m/s]", self.rim_speed)?;
+        let limit = self.no_go_slip_ratio;
+        if !(0.0..=1.0).contains(&limit) {
+            return Err(ParameterError::new("the no-go slip ratio", limit, "0 to 1").into());
+        }
         self.choices.check()?;
-        let factors = self.factors(band);
-        let counts = |factor: &Factor| factor.levels.iter().map(|level| level.count).collect();
-        let design = Factorial::new(factors.iter().map(counts).collect());
-        let scalings = self.choices.scalings.len();
-        let groups = 0..design.cases() / scalings;
-        // The scaling varies fastest: the cases of a group differ in it alone.
-        let one = |group: usize| self.group(band, &design.levels(group * scalings), slopes);
-        let Some(found) = outputs_while(groups, go_on, one) else { return Ok(None) };
-        // In order, so that the error is always that of the first case.
-        let found = found.into_iter().collect::<Result<Vec<Vec<OfCase>>, _>>()?;
-        let cases: Vec<OfCase> = found.into_iter().flatten().collect();
-        let Some(tests) = self.tests(band, slopes, go_on)? else { return Ok(None) };
-        let findings = self.findings(slopes)?;
-        Ok(Some(Forecast::over(factors, &design, &cases, tests, (slopes, findings))))
+        let mut grounds = Vec::new();
+        for ground in self.grounds(band) {
+            let Some(found) = ground.forecast(slopes, go_on)? else { return Ok(None) };
+            grounds.push(found);
+        }
+        let tests = self.tests(band, slopes, go_on)?;
+        Ok(tests.map(|tests| Forecast { grounds, tests }))
     }
 
     /// How often [`run`](Self::run) asks whether to go on.
     #[must_use]
     pub fn steps(&self, band: &BandInputs) -> usize {
-        let levels = self.factors(band).into_iter();
-        let cases: usize = levels.map(|factor| factor.levels.len()).product();
-        let [soils, discrepancies] = self.sample_counts(band);
-        let samples = band.models().shares().len() * (soils * discrepancies) as usize;
-        cases / self.choices.scalings.len() + self.test_masses().len() * samples
+        let groups: usize = self.grounds(band).iter().map(GroundStudy::groups).sum();
+        groups + self.test_masses().len() * design_of(&self.sampled(band, None)).cases()
     }
 
-    /// All factors with their levels; the scaling last.
+    /// How many cases there are on all grounds.
     #[must_use]
-    pub fn factors(&self, band: &BandInputs) -> Vec<Factor> {
-        let [soils, discrepancies] = self.sample_counts(band);
-        let Choices { grounds, masses, scalings } = &self.choices;
-        vec![
-            Factor::named(FactorKind::Ground, grounds.iter().map(Ground::name)),
-            Factor::named(FactorKind::RoverMass, masses.iter().map(|mass| mass.name.as_str())),
+    pub fn cases(&self, band: &BandInputs) -> usize {
+        self.grounds(band).iter().map(|it| it.groups() * it.scalings.len()).sum()
+    }
+
+    /// Each ground with the scalings that something supports, then with the others.
+    fn grounds<'s>(&'s self, band: &'s BandInputs) -> Vec<GroundStudy<'s>> {
+        let Choices { grounds, scalings, .. } = &self.choices;
+        let is_away = self.heading.gravity != self.measured_under;
+        let has_none = |it: &GravityScaling| is_away && *it == GravityScaling::Bekker;
+        let (none, some): (Vec<_>, Vec<_>) = scalings.iter().copied().partition(has_none);
+        let apart = [(some, false), (none, true)].into_iter().filter(|(it, _)| !it.is_empty());
+        let on = |ground: &'s Ground, scalings: &[GravityScaling], has_no_law: bool| {
+            let strength = Support::of(ground, self.measured_under, self.heading.gravity);
+            let support = if has_no_law { Support::None } else { strength };
+            GroundStudy { study: self, band, ground, scalings: scalings.to_vec(), support }
+        };
+        let on_all = |(scalings, has_no_law): (Vec<GravityScaling>, bool)| {
+            grounds.iter().map(move |ground| on(ground, &scalings, has_no_law))
+        };
+        apart.flat_map(on_all).collect()
+    }
+
+    /// Models, samples of the soil and of what a model gets wrong: one sample where there is
+    /// nothing to draw.
+    ///
+    /// * `ground`: `None` where the soil was measured
+    fn sampled(&self, band: &BandInputs, ground: Option<&Ground>) -> [Factor; 3] {
+        let [soils, discrepancies] = self.samples;
+        let is_open = band.has_soils() || ground.is_some_and(Ground::is_uncertain);
+        let soils = if is_open { soils } else { 1 };
+        let discrepancies = if band.has_soils() { discrepancies } else { 1 };
+        [
             Factor::of_models(band.models()),
             Factor::numbered(FactorKind::SoilParameters, soils),
             Factor::numbered(FactorKind::ModelDiscrepancy, discrepancies),
-            Factor::named(FactorKind::GravityScaling, scalings.iter().map(|it| it.name())),
         ]
-    }
-
-    /// How many samples there are of soils and of discrepancies: one where there is nothing to
-    /// draw.
-    fn sample_counts(&self, band: &BandInputs) -> [u32; 2] {
-        let [soils, discrepancies] = self.samples;
-        let is_open = self.choices.grounds.iter().any(Ground::is_uncertain);
-        let soils = if band.has_soils() || is_open { soils } else { 1 };
-        [soils, if band.has_soils() { discrepancies } else { 1 }]
-    }
-
-    /// The cases of all scalings, at levels of the other factors. Soils that come out alike are
-    /// computed once.
-    fn group(
-        &self,
-        band: &BandInputs,
-        levels: &[usize],
-        slopes: &[f64],
-    ) -> Result<Vec<OfCase>, ForecastError> {
-        let Choices { grounds, masses, scalings } = &self.choices;
-        let sample = self.sample(band, &levels[2..5])?;
-        let ground = grounds[levels[0]].drawn(self.seed, levels[3] as u64)?;
-        let rover = self.heading.rover.with_mass_factor(masses[levels[1]].factor)?;
-        let study = HeadingStudy { rover, ..self.heading.of_sample(&sample) };
-        let mut found: Vec<(HeadingStudy, OfCase)> = Vec::new();
-        for scaling in scalings {
-            // The strength of the site's ground is known there: nothing of it is scaled.
-            let scaled = study.soil.under(study.gravity, self.measured_under, *scaling)?;
-            let study = HeadingStudy { soil: with_strength_of(scaled, ground), ..study.clone() };
-            let same = found.iter().find(|(other, _)| *other == study);
-            let case = match same {
-                Some((_, case)) => case.clone(),
-                None => OfCase::of(&study, self.rim_speed, slopes)?,
-            };
-            found.push((study, case));
-        }
-        Ok(found.into_iter().map(|(_, case)| case).collect())
     }
 
     /// Model and soil at levels of model, soil and discrepancy, as under the gravity of the
@@ -267,9 +280,7 @@ impl ForecastStudy {
         slopes: &[f64],
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Vec<TestForecast>>, ForecastError> {
-        let factors = self.factors(band);
-        let counts = |factor: &Factor| factor.levels.iter().map(|level| level.count).collect();
-        let design = Factorial::new(factors[2..5].iter().map(counts).collect());
+        let design = design_of(&self.sampled(band, None));
         let mut tests = Vec::new();
         for mass in self.test_masses() {
             let rover = self.heading.rover.with_mass_factor(mass.factor)?;
@@ -294,95 +305,26 @@ impl ForecastStudy {
         }
         Ok(Some(tests))
     }
+}
 
-    /// The flags on each slope of the soil as written, with the first level of every choice.
-    fn findings(&self, slopes: &[f64]) -> Result<Vec<Vec<Finding>>, ForecastError> {
-        let Choices { grounds, masses, scalings } = &self.choices;
-        let (HeadingStudy { soil, gravity, .. }, measured) = (&self.heading, self.measured_under);
-        let scaling = scalings.first().copied().unwrap_or(GravityScaling::Reece);
-        let scaled = soil.under(*gravity, measured, scaling)?;
-        let soil = with_strength_of(scaled, grounds.first().and_then(Ground::as_written));
-        let factor = masses.first().map_or(1.0, |mass| mass.factor);
-        let rover = self.heading.rover.with_mass_factor(factor)?;
-        let curve = HeadingStudy { rover, soil, ..self.heading.clone() }.curve()?;
-        // Bekker's moduli that were scaled are no more under another gravity than they were made
-        // for.
-        let is_kept = scalings.contains(&GravityScaling::Bekker);
-        let holds = |finding: &Finding| is_kept || finding.flag != Flag::BekkerGravity;
-        let on_slope = |slope: &f64| {
-            let findings = curve.findings(*slope, &curve.at(*slope));
-            findings.into_iter().filter(holds).collect()
-        };
-        Ok(slopes.iter().map(on_slope).collect())
-    }
+/// Every level of each factor with every level of the others.
+fn design_of(factors: &[Factor]) -> Factorial {
+    Factorial::new(factors.iter().map(Factor::counts).collect())
 }
 
 impl Forecast {
-    fn over(
-        factors: Vec<Factor>,
-        design: &Factorial,
-        cases: &[OfCase],
-        tests: Vec<TestForecast>,
-        (slopes, findings): (&[f64], Vec<Vec<Finding>>),
-    ) -> Self {
-        let limits: Vec<f64> = cases.iter().map(|case| case.limit).collect();
-        let on_slope = |((place, slope), findings): ((usize, &f64), Vec<Finding>)| {
-            SlopeForecast::over(design, cases, place, (*slope, findings))
-        };
-        Self {
-            slopes: slopes.iter().enumerate().zip(findings).map(on_slope).collect(),
-            limit: Band::of(design.repeated(&limits)),
-            limit_budget: design.budget(&limits),
-            limit_means: means(design, &factors, &limits),
-            cases: cases.len(),
-            factors,
-            tests,
-        }
+    /// Whether a ground is among those that are answered first: with the scalings that something
+    /// supports, if there are any.
+    #[must_use]
+    pub fn is_first(&self, ground: &GroundForecast) -> bool {
+        self.grounds.first().is_some_and(|it| it.scalings == ground.scalings)
     }
+}
 
+impl GroundForecast {
     /// The place of a factor.
     #[must_use]
     pub fn place(&self, kind: FactorKind) -> Option<usize> {
         self.factors.iter().position(|factor| factor.kind == kind)
     }
-}
-
-impl SlopeForecast {
-    fn over(
-        design: &Factorial,
-        cases: &[OfCase],
-        place: usize,
-        (slope, findings): (f64, Vec<Finding>),
-    ) -> Self {
-        let of = |of: &dyn Fn(&case::OnSlope) -> f64| -> Vec<f64> {
-            cases.iter().map(|case| of(&case.slopes[place])).collect()
-        };
-        let band = |values: &[f64]| Band::of(design.repeated(values));
-        let (slips, drifts) = (of(&|it| it.slip_ratio), of(&|it| it.drift));
-        let held = of(&|it| f64::from(u8::from(it.yaw.is_finite())));
-        let all = |outputs: &[f64]| -> Vec<Vec<f64>> {
-            (0..design.levels(0).len()).map(|factor| design.means(factor, outputs)).collect()
-        };
-        Self {
-            slope,
-            level: design.mean(&held),
-            yaw: band(&of(&|it| it.yaw)),
-            slip_ratio: band(&slips),
-            sinkage: band(&of(&|it| it.sinkage)),
-            drift: band(&drifts),
-            power: band(&of(&|it| it.power)),
-            energy_per_metre: band(&of(&|it| it.energy_per_metre)),
-            slip_budget: design.budget(&slips),
-            drift_budget: design.budget(&drifts),
-            slip_means: all(&slips),
-            drift_means: all(&drifts),
-            level_means: all(&held),
-            findings,
-        }
-    }
-}
-
-/// The mean output at each level of each factor.
-fn means(design: &Factorial, factors: &[Factor], outputs: &[f64]) -> Vec<Vec<f64>> {
-    (0..factors.len()).map(|factor| design.means(factor, outputs)).collect()
 }

@@ -1,5 +1,5 @@
-//! Forecasts under another gravity: the error budget adds up, a choice that is made takes its part
-//! away, and what is known to be so comes out so.
+//! Forecasts under another gravity: each ground stands by itself, its error budget adds up, a choice
+//! that is made takes its part away, and what is known to be so comes out so.
 
 use std::sync::LazyLock;
 
@@ -10,7 +10,8 @@ use grouser::soil::GravityScaling;
 use grouser::studies::ensemble::factorial::VarianceBudget;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::forecast::{
-    Choices, FactorKind, Forecast, ForecastStudy, Ground, RoverMass, SlopeForecast,
+    Choices, FactorKind, Forecast, ForecastStudy, Ground, GroundForecast, RoverMass, SlopeForecast,
+    Support,
 };
 use grouser::studies::heading::HeadingStudy;
 use grouser::units::{EARTH_GRAVITY, deg};
@@ -33,7 +34,7 @@ fn mass(name: &str, factor: f64) -> RoverMass {
     RoverMass { name: name.to_owned(), factor }
 }
 
-/// Every kind of choice open.
+/// Every kind of choice open, on two grounds.
 fn all_choices() -> Choices {
     Choices {
         scalings: GravityScaling::ALL.into(),
@@ -47,6 +48,7 @@ fn study(scenario: &LoadedScenario, choices: Choices) -> ForecastStudy {
         heading: HeadingStudy::of(&scenario.value),
         measured_under: EARTH_GRAVITY,
         rim_speed: 0.06,
+        no_go_slip_ratio: 0.6,
         choices,
         samples: [2, 2],
         seed: 5,
@@ -66,19 +68,107 @@ fn forecast(scenario: &LoadedScenario, choices: Choices, slopes: &[f64]) -> Fore
 
 const UNCERTAIN: &str = "scenario.soil=toyoura-uncertain";
 
-fn slip(forecast: &Forecast) -> &SlopeForecast {
-    &forecast.slopes[0]
+/// The first ground, by the scalings that something supports.
+fn first(forecast: &Forecast) -> &GroundForecast {
+    &forecast.grounds[0]
 }
 
-fn budgets(forecast: &Forecast) -> [&VarianceBudget; 3] {
-    let slope = slip(forecast);
-    [&slope.slip_budget, &slope.drift_budget, &forecast.limit_budget]
+fn slip(ground: &GroundForecast) -> &SlopeForecast {
+    &ground.slopes[0]
+}
+
+fn budgets(ground: &GroundForecast) -> [&VarianceBudget; 3] {
+    let slope = slip(ground);
+    [&slope.slip_budget, &slope.drift_budget, &ground.limit_budget]
+}
+
+/// The mean slip at each level of a factor.
+fn slip_means(ground: &GroundForecast, kind: FactorKind) -> &[f64] {
+    &slip(ground).slip_means[ground.place(kind).expect("a factor")]
+}
+
+/// Sand of the laboratory and the firm ground between craters have little in common: neither band
+/// has anything of the other, and each is that of a forecast of the ground alone.
+#[test]
+fn each_ground_is_as_if_it_were_asked_for_alone() {
+    let all = all_choices();
+    let supports = [Support::OtherGravity, Support::SiteGravity, Support::None, Support::None];
+    assert_eq!(WHOLE.grounds.iter().map(|it| it.support).collect::<Vec<_>>(), supports);
+    for (place, ground) in all.grounds.iter().enumerate() {
+        let alone = at(Choices { grounds: vec![ground.clone()], ..all.clone() });
+        let [supported, kept] = &alone.grounds[..] else { panic!("two rows") };
+        assert_eq!((supported, kept), (&WHOLE.grounds[place], &WHOLE.grounds[place + 2]));
+    }
+    let [loose, firm] = [0, 1].map(|place| slip(&WHOLE.grounds[place]).slip_ratio.expect("cases"));
+    assert!(loose.median > firm.high, "{loose:?} and {firm:?}");
+    assert!(
+        WHOLE.grounds[0].limit.expect("cases").median
+            < WHOLE.grounds[1].limit.expect("cases").median
+    );
+}
+
+/// The sampling of the site's ground is that ground's alone: with a soil that is exact the other
+/// one has one sample.
+#[test]
+fn an_uncertain_ground_gives_no_samples_to_an_exact_one() {
+    let scenario = scenario(&["scenario.soil=toyoura", "soil.priors=none"]);
+    let choices = Choices {
+        grounds: vec![Ground::AsMeasured, site("lunar-0-15-cm")],
+        ..Choices::of_scalings([GravityScaling::Reece])
+    };
+    let forecast = forecast(&scenario, choices, &[12.0]);
+    assert_eq!([3, 3 * 2], [0, 1].map(|place| forecast.grounds[place].cases));
+    let exact = slip(first(&forecast)).no_heading;
+    assert_eq!((exact.low, exact.high), (exact.value, exact.value), "nothing is sampled");
+}
+
+/// Bekker's moduli under another gravity than their own are in no band of the other laws.
+#[test]
+fn what_no_measurement_supports_stands_apart() {
+    let scenario = scenario(&[UNCERTAIN]);
+    let of = |scalings: &[GravityScaling]| {
+        forecast(&scenario, Choices::of_scalings(scalings.iter().copied()), &[12.0]).grounds
+    };
+    let [reece, bekker] = [GravityScaling::Reece, GravityScaling::Bekker];
+    let both = of(&[reece, bekker]);
+    assert_eq!(both, [of(&[reece]), of(&[bekker])].concat());
+    assert_eq!(
+        both.iter().map(|it| it.support.name()).collect::<Vec<_>>(),
+        ["other-gravity", "none"]
+    );
+}
+
+/// Probabilities are shares of the cases, and their intervals have them inside; a greater limit is
+/// exceeded no more often, and a rover without a heading exceeds all.
+#[test]
+fn the_probability_of_too_much_slip_is_that_of_its_cases() {
+    let scenario = scenario(&[UNCERTAIN]);
+    let choices = Choices::of_scalings([GravityScaling::Reece]);
+    let of = |limit: f64| {
+        let study = ForecastStudy { no_go_slip_ratio: limit, ..study(&scenario, choices.clone()) };
+        let found = study.run(&BandInputs::of_scenario(&scenario), &[deg(27.0)], &|| true);
+        slip(first(&found.expect("soils").expect("not stopped"))).clone()
+    };
+    let [any, usual, all] = [0.0, 0.6, 1.0].map(of);
+    for slope in [&any, &usual, &all] {
+        for it in [slope.slip_above_limit, slope.no_heading] {
+            assert!(it.low <= it.value && it.value <= it.high && it.low < it.high, "{it:?}");
+        }
+        assert_eq!(slope.no_heading, usual.no_heading);
+    }
+    let [any, usual, all] =
+        [any, usual, all].map(|it| (it.slip_above_limit.value, it.no_heading.value));
+    assert!(any.0 >= usual.0 && usual.0 >= all.0, "{any:?}, {usual:?}, {all:?}");
+    assert_eq!(all.0, all.1);
+    assert!(usual.1 > 0.0 && usual.1 < 1.0);
+    let unreal = ForecastStudy { no_go_slip_ratio: 1.5, ..study(&scenario, choices) };
+    assert!(unreal.run(&BandInputs::of_scenario(&scenario), &[0.1], &|| true).is_err());
 }
 
 #[test]
 fn the_parts_of_a_budget_add_up_to_the_whole() {
-    assert_eq!(WHOLE.cases, 3 * 2 * 2 * 2 * 3 * 2);
-    for budget in budgets(&WHOLE) {
+    assert_eq!(WHOLE.grounds.iter().map(|it| it.cases).collect::<Vec<_>>(), [48, 48, 24, 24]);
+    for budget in budgets(first(&WHOLE)) {
         let parts: f64 = budget.parts.iter().map(|part| part.first).sum();
         let whole = budget.variance;
         assert!(
@@ -86,17 +176,33 @@ fn the_parts_of_a_budget_add_up_to_the_whole() {
         );
         for part in &budget.parts {
             assert!(0.0 <= part.first && part.first <= part.total + WITHIN && part.total <= whole);
-            assert!(part.total > 0.0, "every factor matters here: {budget:?}");
+            assert!(part.total >= 0.0, "{budget:?}");
         }
         let shared: f64 = budget.parts.iter().map(|part| part.shared).sum();
         assert!((shared - whole).abs() < WITHIN * whole.max(1.0));
+    }
+    // Rows have the shares with their interactions, which add up within each ground.
+    for table in [columns::table(&WHOLE), columns::steepest(&WHOLE)] {
+        let names = table.names();
+        let shares = names.iter().filter(|name| name.starts_with("share_"));
+        let shares: Vec<&[Option<f64>]> = shares.map(|name| table.numbers(name)).collect();
+        assert_eq!((shares.len(), table.rows()), (5, 4));
+        for row in 0..table.rows() {
+            let sum: f64 = shares.iter().map(|share| share[row].expect("a variance")).sum();
+            assert!((sum - 1.0).abs() < WITHIN, "{sum}");
+        }
     }
     // The table has the same numbers: shares of the parts, and their sum.
     let table = columns::budget(&WHOLE);
     let (factors, shares) = (table.texts("factor"), table.numbers("variance_share"));
     let quantities = table.texts("quantity");
+    let of_first = |row: &usize| {
+        table.texts("ground")[*row].as_deref() == Some("as-measured")
+            && table.texts("support")[*row].as_deref() != Some("none")
+    };
     for name in ["slip_ratio", "downhill_m_per_m", "limit_slope_deg"] {
-        let of = (0..table.rows()).filter(|row| quantities[*row].as_deref() == Some(name));
+        let of = (0..table.rows()).filter(of_first);
+        let of = of.filter(|row| quantities[*row].as_deref() == Some(name));
         let own: Vec<(usize, f64)> = of.filter_map(|row| Some((row, shares[row]?))).collect();
         let (last, parts) = own.split_last().expect("rows");
         assert_eq!(factors[last.0].as_deref(), Some("whole"));
@@ -107,12 +213,13 @@ fn the_parts_of_a_budget_add_up_to_the_whole() {
 
 /// Mean variance that is left if a factor is known, and what the budget says of it.
 fn check_part(kind: FactorKind, whole: &Forecast, known: &[Forecast]) {
+    let (whole, known) = (first(whole), known.iter().map(first));
     let place = whole.place(kind).expect("a factor");
     assert_eq!(whole.factors[place].levels.len(), known.len());
     for (quantity, budget) in budgets(whole).into_iter().enumerate() {
         let factor = &whole.factors[place];
         let shares = factor.levels.iter().map(|level| factor.share(level));
-        let left = known.iter().zip(shares).map(|(it, w)| w * budgets(it)[quantity].variance);
+        let left = known.clone().zip(shares).map(|(it, w)| w * budgets(it)[quantity].variance);
         let shrunk = budget.variance - left.sum::<f64>();
         let said = budget.parts[place].first;
         assert!((shrunk - said).abs() < WITHIN, "{kind:?}: {shrunk} and {said}");
@@ -125,22 +232,21 @@ fn at(choices: Choices) -> Forecast {
 }
 
 #[test]
-fn a_choice_that_is_made_shrinks_the_variance_by_its_part() {
-    let all = all_choices();
-    let grounds =
-        all.grounds.iter().map(|it| at(Choices { grounds: vec![it.clone()], ..all.clone() }));
-    check_part(FactorKind::Ground, &WHOLE, &grounds.collect::<Vec<_>>());
-}
-
-#[test]
-#[ignore = "half a minute"]
 fn every_choice_that_is_made_shrinks_the_variance_by_its_part() {
-    let all = all_choices();
-    let scalings = all.scalings.iter().map(|it| at(Choices { scalings: vec![*it], ..all.clone() }));
-    check_part(FactorKind::GravityScaling, &WHOLE, &scalings.collect::<Vec<_>>());
+    let all = Choices { grounds: vec![Ground::AsMeasured], ..all_choices() };
+    // Of a soil with cohesion, which laws of scaling differ about.
+    let scenario = scenario(&["scenario.soil=simulant-2007"]);
+    let at = |choices| forecast(&scenario, choices, &[12.0]);
+    let whole = at(all.clone());
+    let scalings = [GravityScaling::Reece, GravityScaling::Granular];
+    let scalings = scalings.map(|it| at(Choices { scalings: vec![it], ..all.clone() }));
+    check_part(FactorKind::GravityScaling, &whole, &scalings);
+    assert!(
+        slip_means(first(&whole), FactorKind::GravityScaling).windows(2).all(|it| it[0] != it[1])
+    );
     let masses =
         all.masses.iter().map(|it| at(Choices { masses: vec![it.clone()], ..all.clone() }));
-    check_part(FactorKind::RoverMass, &WHOLE, &masses.collect::<Vec<_>>());
+    check_part(FactorKind::RoverMass, &whole, &masses.collect::<Vec<_>>());
 }
 
 #[test]
@@ -158,15 +264,15 @@ fn models_count_by_their_shares() {
     let settings = ["scenario.soil=toyoura", "soil.priors=none", "soil.model=small-wheel"];
     let forecast =
         forecast(&scenario(&settings), Choices::of_scalings([GravityScaling::Reece]), &[5.0]);
-    let place = forecast.place(FactorKind::Model).expect("a factor");
-    let factor = &forecast.factors[place];
+    let ground = first(&forecast);
+    let factor = &ground.factors[ground.place(FactorKind::Model).expect("a factor")];
     let shares: Vec<(&str, f64)> =
         factor.levels.iter().map(|level| (level.name.as_str(), factor.share(level))).collect();
     let own = shares.iter().find(|(name, _)| *name == "small-wheel").expect("the soil's model");
     assert!((own.1 - 0.8).abs() < 1e-12, "{shares:?}");
     let mean: f64 =
-        shares.iter().zip(&slip(&forecast).slip_means[place]).map(|((_, w), m)| w * m).sum();
-    assert!((mean - slip(&forecast).slip_budget.mean).abs() < WITHIN);
+        shares.iter().zip(slip_means(ground, FactorKind::Model)).map(|((_, w), m)| w * m).sum();
+    assert!((mean - slip(ground).slip_budget.mean).abs() < WITHIN);
 }
 
 /// Case i depends on the study and i alone, whatever the threads.
@@ -188,18 +294,19 @@ fn slopes_do_not_depend_on_each_other() {
     let choices = || Choices::of_scalings([GravityScaling::Bekker]);
     let (one, two) =
         (forecast(&scenario, choices(), &[10.0]), forecast(&scenario, choices(), &[10.0, 15.0]));
-    assert_eq!(one.slopes[0], two.slopes[0]);
-    assert_eq!(one.limit, two.limit);
+    assert_eq!(slip(first(&one)), slip(first(&two)));
+    assert_eq!(first(&one).limit, first(&two).limit);
 }
 
 #[test]
 fn a_soil_that_is_exact_has_no_part_in_the_budget() {
     let exact = scenario(&["scenario.soil=toyoura", "soil.priors=none"]);
     let forecast = forecast(&exact, Choices::of_scalings(GravityScaling::ALL), &[10.0]);
-    let levels = |kind| forecast.factors[forecast.place(kind).expect("a factor")].levels.len();
+    let ground = first(&forecast);
+    let levels = |kind| ground.factors[ground.place(kind).expect("a factor")].levels.len();
     assert_eq!(levels(FactorKind::SoilParameters), 1);
     assert_eq!(levels(FactorKind::ModelDiscrepancy), 1);
-    assert_eq!(forecast.cases, 9);
+    assert_eq!((ground.cases, forecast.grounds[1].cases), (6, 3));
     let factors = columns::budget(&forecast);
     let has = |name: &str| factors.texts("factor").iter().any(|it| it.as_deref() == Some(name));
     assert!(has("gravity-scaling") && has("model") && !has("soil-parameters") && !has("ground"));
@@ -212,16 +319,17 @@ fn a_soil_that_is_exact_has_no_part_in_the_budget() {
 fn a_test_of_the_same_rover_on_sand_without_cohesion_is_the_forecast() {
     let scenario = scenario(&[UNCERTAIN]);
     let forecast = forecast(&scenario, Choices::of_scalings(GravityScaling::ALL), &[12.0]);
-    let place = forecast.place(FactorKind::GravityScaling).expect("a factor");
-    let means = &slip(&forecast).slip_means[place];
-    assert_eq!(means[0], means[2], "reece and granular-scaling");
-    assert!((means[1] - means[0]).abs() > 1e-3, "bekker: {means:?}");
+    let means = slip_means(first(&forecast), FactorKind::GravityScaling);
+    assert_eq!(means[0], means[1], "reece and granular-scaling");
+    let kept = slip(&forecast.grounds[1]).slip_budget.mean;
+    assert!((kept - means[0]).abs() > 1e-3, "bekker: {kept}, {means:?}");
     let [same_mass, same_weight] = &forecast.tests[..] else { panic!("two tests") };
     assert_eq!((same_mass.mass.name.as_str(), same_mass.mass.factor), ("equal-mass", 1.0));
     assert!((same_weight.mass.factor - 1.62 / EARTH_GRAVITY).abs() < 1e-15);
     let alone = |scaling| {
         let choices = Choices::of_scalings([scaling]);
-        super::forecast::forecast(&scenario, choices, &[12.0]).slopes[0].slip_ratio.expect("cases")
+        let alone = super::forecast::forecast(&scenario, choices, &[12.0]);
+        slip(first(&alone)).slip_ratio.expect("cases")
     };
     let granular = alone(GravityScaling::Granular);
     let tested = same_mass.slopes[0].0.expect("cases");
@@ -243,8 +351,7 @@ fn the_strength_of_the_site_is_not_scaled() {
         ..Choices::of_scalings([GravityScaling::Reece, GravityScaling::Granular])
     };
     let forecast = forecast(&scenario, choices, &[12.0]);
-    let place = forecast.place(FactorKind::GravityScaling).expect("a factor");
-    let means = &slip(&forecast).slip_means[place];
+    let means = slip_means(first(&forecast), FactorKind::GravityScaling);
     assert_eq!(means[0], means[1], "the sand itself has no cohesion");
 }
 
@@ -258,8 +365,10 @@ fn at_home_scalings_agree() {
     };
     let found = study.run(&BandInputs::of_scenario(&scenario), &[deg(10.0)], &|| true);
     let forecast = found.expect("soils").expect("not stopped");
-    let place = forecast.place(FactorKind::GravityScaling).expect("a factor");
-    for budget in budgets(&forecast) {
+    let [ground] = &forecast.grounds[..] else { panic!("no law is needed: nothing stands apart") };
+    assert_eq!(ground.support, Support::SiteGravity);
+    let place = ground.place(FactorKind::GravityScaling).expect("a factor");
+    for budget in budgets(ground) {
         assert!(budget.parts[place].total < 1e-30 && budget.variance > 0.0, "{budget:?}");
     }
     assert!(forecast.tests.is_empty());
@@ -270,13 +379,13 @@ fn at_home_scalings_agree() {
 fn cases_without_a_heading_are_counted() {
     let forecast = forecast(
         &scenario(&[UNCERTAIN]),
-        Choices::of_scalings(GravityScaling::ALL),
+        Choices::of_scalings([GravityScaling::Reece]),
         &[5.0, 27.0, 45.0],
     );
-    let [easy, steep, beyond] = &forecast.slopes[..] else { panic!("three slopes") };
-    assert_eq!(easy.level, 1.0);
-    assert!(steep.level > 0.0 && steep.level < 1.0, "{}", steep.level);
-    assert_eq!(beyond.level, 0.0);
+    let [easy, steep, beyond] = &first(&forecast).slopes[..] else { panic!("three slopes") };
+    let [none, some, all] = [easy, steep, beyond].map(|it| it.no_heading);
+    assert_eq!((none.value, none.low, all.value, all.high), (0.0, 0.0, 1.0, 1.0));
+    assert!(some.value > 0.0 && some.value < 1.0 && none.high < 1.0 && all.low > 0.0, "{some:?}");
     let band = |band: Option<grouser::studies::ensemble::Band>| band.expect("cases");
     assert_eq!(band(steep.slip_ratio).high, 1.0);
     assert!(band(steep.yaw).high.is_infinite() && band(steep.power).high.is_infinite());
@@ -284,7 +393,8 @@ fn cases_without_a_heading_are_counted() {
     assert_eq!(beyond.slip_budget.variance, 0.0);
     let table = columns::table(&forecast);
     assert_eq!(table.numbers("yaw_deg_p97_5")[1], None);
-    assert_eq!(table.numbers("share_level")[2], Some(0.0));
+    assert_eq!(table.numbers("probability_no_heading")[2], Some(1.0));
+    assert_eq!(table.numbers("share_model")[2], None);
     // Shares of nothing are missing.
     let budget: Table = columns::budget(&forecast);
     let (slopes, shares) = (budget.numbers("slope_deg"), budget.numbers("variance_share"));
@@ -307,12 +417,11 @@ fn a_stronger_ground_is_steeper_and_slips_less() {
         ..Choices::of_scalings([GravityScaling::Reece])
     };
     let forecast = forecast(&scenario, choices, &[12.0]);
-    let place = forecast.place(FactorKind::Ground).expect("a factor");
-    let (slips, limits) = (&slip(&forecast).slip_means[place], &forecast.limit_means[place]);
+    let means = |it: &GroundForecast| (slip(it).slip_budget.mean, it.limit_budget.mean);
+    let (slips, limits): (Vec<f64>, Vec<f64>) = forecast.grounds.iter().map(means).unzip();
     assert!(slips.is_sorted_by(|one, other| one >= other), "{slips:?}");
     assert!(limits.is_sorted(), "{limits:?}");
-    let levels = &forecast.factors[place].levels;
-    assert_eq!(levels[2].name, "lunar-0-15-cm");
+    assert_eq!(forecast.grounds[2].ground, "lunar-0-15-cm");
 }
 
 /// Moduli of Bekker's law that are scaled are flagged no more; kept ones are.
@@ -321,7 +430,8 @@ fn only_kept_moduli_are_flagged() {
     let scenario = scenario(&["scenario.soil=grc-1", "scenario.model=ishigami"]);
     for scaling in GravityScaling::ALL {
         let forecast = forecast(&scenario, Choices::of_scalings([scaling]), &[5.0]);
-        let names: Vec<&str> = slip(&forecast).findings.iter().map(|it| it.flag.name()).collect();
+        let names: Vec<&str> =
+            slip(first(&forecast)).findings.iter().map(|it| it.flag.name()).collect();
         assert!(names.contains(&"gravity-outside"), "{names:?}");
         assert_eq!(
             names.contains(&"bekker-gravity"),

@@ -1,14 +1,15 @@
-//! The page of a forecast: the answer, the budget, what would shrink it, and every choice.
+//! The page of a forecast: each ground's answer, its budget, what would shrink it, every choice.
 
 use super::super::Answer;
 use super::tables::Tables;
 use super::{ForecastQuestion, figures};
-use crate::document::columns::forecast::{
-    self as columns, FACTOR, INTERACTIONS, SHARED_SHARE, VARIANCE_SHARE,
-};
-use crate::document::columns::{SLIP_RATIO, SLOPE};
+use crate::document::columns::SLOPE;
+use crate::document::columns::forecast as columns;
 use crate::document::reading::four_digits;
-use crate::studies::forecast::{Factor, FactorKind, Forecast, REMEDY_OF_INTERACTIONS};
+use crate::studies::ensemble::Band;
+use crate::studies::forecast::{
+    Factor, FactorKind, Forecast, GroundForecast, REMEDY_OF_INTERACTIONS, SlopeForecast,
+};
 
 impl ForecastQuestion<'_> {
     /// The page, but for what all pages end with.
@@ -18,31 +19,32 @@ impl ForecastQuestion<'_> {
         forecast: &Forecast,
         (tables, notes): (&Tables, &[String]),
     ) {
-        answer.verdict(verdict(tables));
+        answer.verdict(verdict(forecast));
         answer.list(self.what_was_computed(forecast));
         answer.list(notes.to_vec());
-        answer.heading("Forecast");
+        answer.heading("Forecast on each ground");
         answer.words(
-            "Each number has a band over all cases: the 2.5 %, 50 % and 97.5 % quantiles. A case \
-             in which no heading holds the contour is not left out: it slips by 1, sinks to its \
-             axles, and needs more yaw, power and work than any number, so that an end of these \
-             bands may be missing.",
+            "Each number has a band over all cases of its ground: the 2.5 %, 50 % and 97.5 % \
+             quantiles. Nothing is averaged over grounds. A case in which no heading holds the \
+             contour is not left out: it slips by 1, sinks to its axles, and needs more yaw, power \
+             and work than any number, so that an end of these bands may be missing. support: what \
+             a row rests on; none, where no measurement supports how moduli scale.",
         );
-        answer.rows("On each slope", &tables.rows, columns::brief());
-        answer.words(tables.limit_line().trim_end());
+        figures::bands_to(answer, forecast, tables);
+        answer.rows("On each ground and slope", &tables.rows, columns::brief());
+        let caption =
+            "Steepest slope on which a heading holds the contour, and shares of its variance";
+        answer.rows(caption, &tables.steepest, tables.steepest_brief.clone());
         answer.heading("Error budget");
         answer.words(
-            "The variance of the slip ratio, of the drift and of the steepest slope, in parts. \
-             variance_share: what a factor has alone; by so much the variance shrinks, on average \
-             over its levels, if the factor becomes known. total_share: the same with its \
-             interactions; so much would be left if all others were known. Parts and interactions \
-             add up to the whole. shared_share: with an equal share of each of its interactions; \
-             these add up to the whole by themselves. standard_deviation: the square root of the \
-             part, in the unit of the quantity. A part that comes of n samples is itself known to \
-             about a share of √(2/(n − 1)) only.",
+            "Shares of the variance of the slip ratio and of the steepest slope within one ground, \
+             each with an equal share of its interactions: the shares of a row add up to 1. \
+             budget.csv has the same in more detail, and of the drift. A share that comes of n \
+             samples is itself known to about a share of √(2/(n − 1)) only.",
         );
-        figures::budget_to(answer, tables);
-        answer.rows("Parts, largest first", &tables.budget, columns::budget_brief());
+        figures::budget_to(answer, forecast, tables);
+        let caption = "Shares of the variance of the slip ratio";
+        answer.rows(caption, &tables.rows, tables.shares_brief.clone());
         answer.heading("What would shrink it");
         answer.list(remedies(forecast));
         answer.heading("What each choice would mean");
@@ -60,9 +62,7 @@ impl ForecastQuestion<'_> {
             let names = tables.tests.names();
             answer.rows("Tests where the soil was measured", &tables.tests, names);
         }
-        answer.heading("Figures");
-        figures::bands_to(answer, forecast, tables);
-        let slopes = forecast.slopes.iter();
+        let slopes = forecast.grounds.iter().flat_map(|ground| &ground.slopes);
         let findings = slopes.flat_map(|slope| slope.findings.iter().copied());
         answer.findings = Some(findings.collect());
         answer.columns = columns::all_meanings();
@@ -72,39 +72,48 @@ impl ForecastQuestion<'_> {
         let name = |key: &str| self.scenario.document.text(key).unwrap_or_default().to_owned();
         let rover = format!("rover: {}", name("rover.name"));
         let mut lines = vec![rover, format!("soil: {}", name("soil.name"))];
-        lines.extend(forecast.factors.iter().map(levels));
-        let cases = forecast.cases;
-        lines.push(format!("{cases} cases: every level of each with every level of the others"));
+        let first = forecast.grounds.first().into_iter().flat_map(|it| &it.factors);
+        lines.extend(first.map(levels));
+        lines.extend(forecast.grounds.iter().map(|it| {
+            format!("on {}: {} cases, support {}", columns::name(it), it.cases, it.support.name())
+        }));
         lines
     }
 }
 
-/// The slip where it is least known, and the factor that has most of that, in two sentences.
-fn verdict(tables: &Tables) -> String {
-    let Some(slope) = tables.widest_slip() else { return "No slope was asked for.".into() };
-    let slip = tables.budget_of(&[SLIP_RATIO.name]);
-    let (factors, shares) = (slip.texts(FACTOR), slip.numbers(VARIANCE_SHARE.name));
-    let slopes = tables.rows.numbers(SLOPE.name);
-    let place = slopes.iter().position(|it| *it == Some(slope)).unwrap_or_default();
-    let [low, median, high] =
-        SLIP_RATIO.quantiles().map(|name| short(tables.rows.numbers(&name)[place]));
-    let shared = slip.numbers(SHARED_SHARE.name);
-    let here = (0..slip.rows()).filter(|row| slip.numbers(SLOPE.name)[*row] == Some(slope));
-    let parts = here.filter_map(|row| Some((row, shared[row]?)));
-    let largest = parts.max_by(|one, other| one.1.total_cmp(&other.1));
-    let due = largest.map_or(String::new(), |(row, share)| {
-        let factor = factors[row].as_deref().unwrap_or_default();
-        let [alone, all] = [shares[row].unwrap_or_default(), share].map(|share| 100.0 * share);
+/// The slip of each ground on the slope where it is least known on one of them, and the factor that
+/// has most of that, in two sentences.
+fn verdict(forecast: &Forecast) -> String {
+    let first: Vec<&GroundForecast> =
+        forecast.grounds.iter().filter(|it| forecast.is_first(it)).collect();
+    let places = first.iter().flat_map(|it| it.slopes.iter().enumerate().map(move |at| (*it, at)));
+    let variance = |slope: &SlopeForecast| slope.slip_budget.variance;
+    let widest =
+        places.max_by(|(_, one), (_, other)| variance(one.1).total_cmp(&variance(other.1)));
+    let Some((ground, (place, slope))) = widest else { return "No slope was asked for.".into() };
+    let of_ground = |it: &&GroundForecast| {
+        let [low, median, high] = it.slopes[place].slip_ratio.map_or([None; 3], ends).map(short);
+        format!("{median} ({low} to {high}) on {}", it.ground)
+    };
+    let on_all: Vec<String> = first.iter().map(of_ground).collect();
+    let slips = on_all.join(", ");
+    let parts = ground.factors.iter().zip(&slope.slip_budget.parts);
+    let largest = parts.max_by(|(_, one), (_, other)| one.shared.total_cmp(&other.shared));
+    let due = largest.filter(|_| variance(slope) > 0.0).map_or(String::new(), |(factor, part)| {
+        let [alone, all] = [part.first, part.shared].map(|it| 100.0 * it / variance(slope));
         format!(
-            " Of its variance {factor} has most: {alone:.0} % alone, {all:.0} % with its share of \
-             interactions."
+            " It is least known on {}, where {} has most of its variance: {alone:.0} % alone, \
+             {all:.0} % with its share of interactions.",
+            ground.ground,
+            factor.kind.name()
         )
     });
-    format!(
-        "The slip is least known on {}°: {low} to {high} (95 % of the cases), median \
-         {median}.{due}",
-        four_digits(slope)
-    )
+    let degrees = four_digits(SLOPE.unit.as_given(slope.slope));
+    format!("On {degrees}° the slip ratio is {slips}: median, and 95 % of the ground's cases.{due}")
+}
+
+fn ends(band: Band) -> [Option<f64>; 3] {
+    [band.low, band.median, band.high].map(Some)
 }
 
 fn short(number: Option<f64>) -> String {
@@ -130,11 +139,12 @@ fn levels(factor: &Factor) -> String {
 }
 
 fn remedies(forecast: &Forecast) -> Vec<String> {
-    let open = forecast.factors.iter().filter(|factor| factor.levels.len() > 1);
-    let of_factors = open.map(|factor| line(factor.kind));
-    of_factors.chain([format!("{INTERACTIONS}: {REMEDY_OF_INTERACTIONS}")]).collect()
+    let line = |kind: FactorKind| format!("{}: {}", kind.name(), kind.remedy());
+    let of_factors = columns::open_shares(forecast).into_iter().map(|(kind, _)| line(kind));
+    let rest = format!("interactions: {REMEDY_OF_INTERACTIONS}");
+    of_factors.chain([format!("which ground it is: {REMEDY_OF_GROUND}"), rest]).collect()
 }
 
-fn line(kind: FactorKind) -> String {
-    format!("{}: {}", kind.name(), kind.remedy())
-}
+/// What would tell grounds apart.
+const REMEDY_OF_GROUND: &str = "cohesion, friction angle and density measured at the site: a cone \
+                                penetrometer, a trench, the tracks of a rover that was there";

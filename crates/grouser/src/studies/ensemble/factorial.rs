@@ -17,6 +17,10 @@
 
 use std::iter::repeat_n;
 
+use grouser_io::statistics::share_interval;
+
+use super::statistics::Estimate;
+
 /// Factors with their levels, of which each counts a number of times.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Factorial {
@@ -117,6 +121,35 @@ impl Factorial {
             sums[self.levels(case)[factor]].add(self.count(case), *output);
         }
         sums.iter().map(Sum::mean).collect()
+    }
+
+    /// The share of the cases in which something holds, with its 95 % confidence interval: that of
+    /// independent trials (Wilson), as many as tell as much as these samples, of which each of one
+    /// factor meets each of the other and repeats what they have in common:
+    ///
+    /// ```text
+    /// n = n_1 n_2/(1 + (n_2 − 1) V_1/V + (n_1 − 1) V_2/V)          (Kish's effective number)
+    /// ```
+    ///
+    /// Levels of the other factors are all there, and nothing of them is sampled. Where it holds in
+    /// all cases or none, n is n_1. Without samples the share is exact.
+    ///
+    /// * `holds`: in each case
+    /// * `sampled`: the two factors whose levels are samples
+    #[must_use]
+    pub fn share_of(&self, holds: &[bool], sampled: [usize; 2]) -> Estimate {
+        let outputs: Vec<f64> = holds.iter().map(|it| f64::from(u8::from(*it))).collect();
+        let value = self.mean(&outputs);
+        let variance = value * (1.0 - value);
+        let [n_1, n_2] = sampled.map(|factor| self.counts[factor].len() as f64);
+        let [v_1, v_2] = sampled.map(|factor| self.first(factor, value, &outputs));
+        let trials = match variance {
+            _ if n_1 * n_2 == 1.0 => f64::INFINITY,
+            0.0 => n_1,
+            v => n_1 * n_2 / (1.0 + ((n_2 - 1.0) * v_1 + (n_1 - 1.0) * v_2) / v),
+        };
+        let (low, high) = share_interval(value, trials);
+        Estimate { value, low, high }
     }
 
     /// The variance of the outputs, and the parts of the factors.

@@ -67,6 +67,11 @@ pub(super) fn known<T>(found: Result<T, NoHeading>) -> Result<Option<T>, Forecas
 }
 
 impl OnSlope {
+    /// Whether no heading holds the contour.
+    pub(super) fn is_stuck(&self) -> bool {
+        self.yaw.is_infinite()
+    }
+
     fn held(heading: &HeadingOffset, rover: &Rover, rim_speed: f64, drift: f64) -> Self {
         Self {
             yaw: heading.yaw,

@@ -3,13 +3,11 @@
 
 use crate::studies::ensemble::models::ModelSpread;
 
-/// What a forecast does not know.
+/// What a forecast does not know of one ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FactorKind {
     /// How moduli scale with gravity.
     GravityScaling,
-    /// Strength and density of the ground at the site.
-    Ground,
     /// The rover's mass.
     RoverMass,
     /// The wheel–soil model.
@@ -21,12 +19,20 @@ pub enum FactorKind {
 }
 
 impl FactorKind {
+    /// All of them, in the order of their levels in a case: the last varies fastest.
+    pub const ALL: [Self; 5] = [
+        Self::RoverMass,
+        Self::Model,
+        Self::SoilParameters,
+        Self::ModelDiscrepancy,
+        Self::GravityScaling,
+    ];
+
     /// The name: `gravity-scaling`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::GravityScaling => "gravity-scaling",
-            Self::Ground => "ground",
             Self::RoverMass => "rover-mass",
             Self::Model => "model",
             Self::SoilParameters => "soil-parameters",
@@ -41,10 +47,6 @@ impl FactorKind {
             Self::GravityScaling => {
                 "plate and wheel tests of one soil under several gravities, in partial-gravity \
                  flights, a drop tower or at the site, tell which moduli grow with gravity"
-            }
-            Self::Ground => {
-                "cohesion, friction angle and density measured at the site: a cone penetrometer, a \
-                 trench, the tracks of a rover that was there"
             }
             Self::RoverMass => "the mass of the rover that flies, in place of the variants",
             Self::Model => {
@@ -116,6 +118,11 @@ impl Factor {
     #[must_use]
     pub fn is_named(&self) -> bool {
         !matches!(self.kind, FactorKind::SoilParameters | FactorKind::ModelDiscrepancy)
+    }
+
+    /// How often each of its levels counts.
+    pub(super) fn counts(&self) -> Vec<u32> {
+        self.levels.iter().map(|level| level.count).collect()
     }
 
     /// The share of a level [-].
