@@ -61,6 +61,9 @@ pub struct Answer {
     pub columns: Vec<ColumnMeaning>,
     /// The documents that it was computed from.
     pub documents: Vec<Attached>,
+    /// Commands to go on with, typed in the folder of its page. A front end writes them: it alone
+    /// knows its options.
+    pub next: Vec<String>,
 }
 
 /// A part of the results.

@@ -13,7 +13,7 @@ use serde::ser::SerializeMap;
 
 use super::cell::{Cell, ColumnKind};
 use super::unit::{
-    A, DEG, DEG_C, J, J_PER_M, M, M_S, MM, N, NM, ONE, QUANTILES, RAD_S, S, UNITS, Unit, W,
+    A, DEG, DEG_C, J, J_PER_M, M, M_PER_M, M_S, MM, N, NM, ONE, QUANTILES, RAD_S, S, UNITS, Unit, W,
 };
 use crate::statistics::{Band, Probability};
 
@@ -115,6 +115,8 @@ pub const SLIP_ANGLE: Quantity = quantity("slip_angle_deg", DEG);
 pub const WHEEL_SPEED: Quantity = quantity("wheel_speed_rad_s", RAD_S);
 /// Sinkage.
 pub const SINKAGE: Quantity = quantity("sinkage_mm", MM);
+/// Drift per metre travelled.
+pub const DRIFT: Quantity = quantity("drift_m_per_m", M_PER_M);
 /// Force along a wheel.
 pub const DRAWBAR_PULL: Quantity = quantity("drawbar_pull_n", N);
 /// Force across a wheel.

@@ -88,6 +88,8 @@ pub(crate) enum Shape<T: 'static> {
     List(&'static dyn Inner<T>, u64),
     /// Another document, or its name.
     Part(Kind, &'static dyn Inner<T>),
+    /// A table, or a number that stands for the table with this key alone.
+    NumberOr(&'static str, &'static dyn Inner<T>),
     /// A text that is what the sentence says and goes somewhere, or a table.
     TextOr(&'static str, fn(&mut T, &str), &'static dyn Inner<T>),
 }
@@ -500,8 +502,14 @@ impl<T> Field<T> {
             (Shape::List(each, _), Json::Array(all)) => {
                 all.iter().map(|given| each.complete(given)).collect()
             }
+            (Shape::NumberOr(key, inner), Json::Number(_)) => {
+                inner.complete(&Json::from_iter([((*key).to_owned(), given.clone())]))
+            }
             (
-                Shape::Inner(inner) | Shape::Part(_, inner) | Shape::TextOr(_, _, inner),
+                Shape::Inner(inner)
+                | Shape::Part(_, inner)
+                | Shape::NumberOr(_, inner)
+                | Shape::TextOr(_, _, inner),
                 Json::Object(_),
             ) => inner.complete(given),
             _ => given.clone(),

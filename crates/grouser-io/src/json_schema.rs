@@ -239,6 +239,10 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
                 },
             ]})
         }
+        Shape::NumberOr(key, inner) => {
+            let table = inner.schema(defs);
+            json!({ "anyOf": [table["properties"][*key], table] })
+        }
         Shape::TextOr(doc, _, inner) => {
             json!({ "anyOf": [{ "type": "string", "description": doc }, inner.schema(defs)] })
         }

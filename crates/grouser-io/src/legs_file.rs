@@ -37,7 +37,10 @@ pub(crate) fn put_in(mission: &mut Node) -> Result<(), DocumentError> {
     Ok(())
 }
 
-fn read(name: &str, origin: &Origin) -> Result<Vec<Node>, DocumentError> {
+/// The text of a file that a mission names.
+///
+/// * `origin`: where it is named
+pub(crate) fn text_of(name: &str, origin: &Origin) -> Result<Arc<Text>, DocumentError> {
     let beside = origin.text.beside.files.iter().find(|beside| beside.name == name);
     let path = origin.text.folder.join(name);
     let label = beside.map_or_else(|| path.display().to_string(), |_| name.to_owned());
@@ -46,7 +49,11 @@ fn read(name: &str, origin: &Origin) -> Result<Vec<Node>, DocumentError> {
         None => read_file(&path, LARGEST_FILE)
             .map_err(|problem| DocumentError::whole(&label, problem))?,
     };
-    let text = Arc::new(Text { label, content, ..Text::default() });
+    Ok(Arc::new(Text { label, content, ..Text::default() }))
+}
+
+fn read(name: &str, origin: &Origin) -> Result<Vec<Node>, DocumentError> {
+    let text = text_of(name, origin)?;
     let ends_in =
         |end: &str| Path::new(name).extension().is_some_and(|it| it.eq_ignore_ascii_case(end));
     if ends_in("csv") {

@@ -70,6 +70,7 @@ pub mod soil_coordinates;
 mod source;
 mod stated;
 pub mod statistics;
+mod stop_file;
 pub mod table;
 pub mod telemetry_mapping;
 mod terrain_file;

@@ -1,7 +1,8 @@
 //! Missions as documents say them: legs with keys, each of which becomes a leg with a manoeuvre.
 
 use super::columns::{
-    CURRENT, ENERGY, PITCH, Quantity, ROLL, SLIP_RATIO, TEMPERATURE, TIME, TORQUE, quantity,
+    CURRENT, DRIFT, ENERGY, PITCH, Quantity, ROLL, SINKAGE, SLIP_RATIO, TEMPERATURE, TIME, TORQUE,
+    quantity,
 };
 use super::unit::{DEG, M, ONE};
 use grouser_core::mission::{
@@ -36,6 +37,8 @@ pub const fn limited_quantity(limited: Limited) -> Quantity {
     match limited {
         Limited::SlipRatio => SLIP_RATIO,
         Limited::Drift => quantity("drift_m", M),
+        Limited::DriftPerMetre => DRIFT,
+        Limited::SinkageDepth => SINKAGE,
         Limited::Sinkage => quantity("sinkage_over_radius", ONE),
         Limited::Roll => ROLL,
         Limited::Pitch => PITCH,
@@ -52,6 +55,8 @@ pub const fn limited_quantity(limited: Limited) -> Quantity {
 
 /// The key under which the file of legs stands.
 pub(crate) const LEGS_FROM: &str = "legs_from";
+/// The key under which the file of limits stands.
+pub(crate) const STOP_FROM: &str = "stop_from";
 
 /// The keys of a leg that are given.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -151,7 +156,7 @@ impl LegKeys {
     /// The manoeuvres that are given, with their keys: one, of a leg that is one.
     ///
     /// * `origin`: where the mission starts, in the coordinates of its places [m]
-    fn manoeuvres(&self, origin: Vec2) -> Vec<(&'static str, Manoeuvre)> {
+    pub(crate) fn manoeuvres(&self, origin: Vec2) -> Vec<(&'static str, Manoeuvre)> {
         let reverse = self.reverse;
         let drive = self.drive.map(|distance| {
             ("drive_m", Manoeuvre::Drive { distance, by: self.by.unwrap_or_default() })

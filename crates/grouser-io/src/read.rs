@@ -20,6 +20,7 @@ use super::overrides::Overrides;
 use super::presets::Preset;
 use super::priors;
 use super::source::Source;
+use super::stop_file;
 use super::terrain_file;
 use super::text;
 use super::tree::{Entry, Node, Origin, Value};
@@ -241,6 +242,7 @@ fn complete(
     }
     if kind == Kind::Mission {
         legs_file::put_in(tree)?;
+        stop_file::put_in(tree)?;
     }
     if matches!(kind, Kind::Scenario | Kind::Mission) {
         terrain_file::locate(tree);

@@ -48,6 +48,7 @@ impl<T> Field<T> {
                 Shape::Inner(inner)
                 | Shape::List(inner, _)
                 | Shape::Part(_, inner)
+                | Shape::NumberOr(_, inner)
                 | Shape::TextOr(_, _, inner),
                 given,
             ) => inner.put(value, given),
@@ -97,9 +98,10 @@ impl<T> Field<T> {
                 let value = reach(value, place.parse().ok()?)?.into_iter().nth(which)?;
                 Some(Reached { value, number: *numbers.get(which)? })
             }
-            Shape::Inner(inner) | Shape::List(inner, _) | Shape::Part(_, inner) => {
-                inner.reach(value, path)
-            }
+            Shape::Inner(inner)
+            | Shape::List(inner, _)
+            | Shape::Part(_, inner)
+            | Shape::NumberOr(_, inner) => inner.reach(value, path),
             _ => None,
         }
     }

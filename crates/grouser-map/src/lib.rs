@@ -1,6 +1,6 @@
 //! Mobility maps as files for other programs: for each number a cloud-optimised GeoTIFF in the
 //! coordinates of the elevation model that it was made from, the style with which QGIS shows it,
-//! and the slip that Gazebo reads.
+//! the slip that Gazebo reads, and the areas that a route is to keep out of.
 //!
 //! A map is a [`Ground`](grouser::studies::mobility::Ground), whose places have gradients, and a
 //! [`MobilityMap`](grouser::studies::mobility::MobilityMap), which says what a rover does on them.
@@ -11,12 +11,14 @@
 mod error;
 mod gazebo;
 mod geotiff;
+mod keep_out;
 mod style;
 mod summary;
 
 pub use error::MapError;
 pub use gazebo::SlipTexture;
 pub use geotiff::{elevation_model, write_band};
+pub use keep_out::keep_out;
 pub use style::{Look, style};
 pub use summary::{BandSummary, summaries};
 

@@ -74,7 +74,12 @@ class Kind:
         """Whether it is a list, and what it, or an entry, is."""
         value = self.followed(value)
         array = value.get("type") == "array"
-        return array, self.followed(value["items"]) if array else value
+        inner = self.followed(value["items"]) if array else value
+        # A number may stand for a table with one of its keys: the table says what all are.
+        forms = inner.get("anyOf", [])
+        tables = [one for one in forms if "properties" in one]
+        has_number = any(one.get("type") == "number" for one in forms)
+        return array, tables[0] if tables and has_number else inner
 
     def followed(self, value: dict[str, Any]) -> dict[str, Any]:
         name = value.get("$ref", "").removeprefix("#/$defs/")

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::builder::NonEmptyStringValueParser;
-use clap::{Args, Command, FromArgMatches as _, ValueEnum};
+use clap::{ArgGroup, Args, Command, FromArgMatches as _, ValueEnum};
 
 use super::measurements::ReadArgs;
 use super::{BalanceArgs, PartArgs, SettingArgs, StrictArgs};
@@ -17,6 +17,7 @@ use crate::output::Format;
                         for, it is sampled in the other alone; without the soil's, nobody can tell \
                         whether a slope is a go. docs/guide/card.md shows a card and explains how to read it."
 )]
+#[command(group(ArgGroup::new("written").args(["stops", "out"]).multiple(true)))]
 pub(crate) struct CardArgs {
     /// A scenario's file or preset, for its rover, soil, gravity, load transfer and rim speed;
     /// without it the default scenario.
@@ -65,8 +66,12 @@ pub(crate) struct CardArgs {
     /// resolved documents.
     #[arg(long, value_name = "FILE|DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Replace that file, or files of the same names in that folder.
-    #[arg(long, requires = "out")]
+    /// Also write the limits at which to turn back, for all slopes that are a go or a caution, as
+    /// the table [stop] of a mission: `mission --stop-from` reads it.
+    #[arg(long, value_name = "FILE.toml")]
+    pub(crate) stops: Option<PathBuf>,
+    /// Replace these files, or files of the same names in that folder.
+    #[arg(long, requires = "written")]
     pub(crate) force: bool,
 }
 

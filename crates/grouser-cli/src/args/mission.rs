@@ -29,6 +29,10 @@ pub(crate) struct MissionArgs {
     /// A file with legs, which come before those of the mission: CSV or GeoJSON.
     #[arg(long, value_name = "FILE")]
     pub(crate) legs_from: Option<String>,
+    /// A file with a table [stop], as `card --stops` writes it: limits for every leg, in place of
+    /// which the mission's own stand for the same numbers.
+    #[arg(long, value_name = "FILE.toml")]
+    pub(crate) stop_from: Option<String>,
     #[command(flatten)]
     pub(crate) run: RunArgs,
     #[command(flatten)]

@@ -6,6 +6,7 @@ mod measured;
 mod picture;
 mod row;
 mod second;
+mod stops;
 mod texts;
 
 use std::path::{Path, PathBuf};
@@ -34,6 +35,7 @@ use crate::output::rows::Rows;
 use crate::output::text::Text;
 use crate::output::{self, Format, file};
 use crate::report::REPORT;
+use crate::report::answer::add_next;
 use crate::report::page::Page;
 use picture::Picture;
 use row::CardRow;
@@ -43,6 +45,9 @@ const STEEPEST_DEG: u8 = 60;
 
 pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
     let target = args.out.as_deref().map(|out| Target::of(out, args.force)).transpose()?;
+    if let Some(stops) = &args.stops {
+        file::check_new(stops, args.force)?;
+    }
     let inputs = inputs::card(args)?;
     let measured = match &args.measured {
         Some(file) => measured::read(file, args.read.limits())?,
@@ -69,14 +74,20 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
     let is_whole = target.is_some() || args.format == Format::Json;
     let courses = is_whole.then(|| study.courses(&card.rows, &samples, &|| true)).transpose()?;
     let courses = card_courses::table(&courses.map(sampling::whole).unwrap_or_default());
+    let texts = texts::of(args, &inputs, &card);
+    let stops = stops::text(&inputs, &card, &texts);
+    if let Some(file) = &args.stops {
+        let stops = stops.as_ref().ok_or_else(stops::missing)?;
+        file::write_result(file, stops.as_bytes())?;
+    }
     if let Some(target) = target {
-        let (uphill, texts) = (args.uphill, texts::of(args, &inputs, &card));
+        let uphill = args.uphill;
         let picture = Picture::of(&inputs.scenario.value.rover, uphill);
         let sheets = [
             layout::draw(&texts, &picture, &answers.rows),
             second::draw(&texts, &answers.rows, &courses),
         ];
-        target.write(&answers, &courses, &sheets)?;
+        target.write(&answers, &courses, &sheets, stops)?;
     }
     match args.format {
         Format::Table => output::show(answers.table()),
@@ -363,6 +374,7 @@ impl<'a> Target<'a> {
         answers: &Answers<'_>,
         courses: &Table,
         sheets: &[Sheet; 2],
+        stops: Option<String>,
     ) -> Result<(), Failure> {
         let mut folder = match self {
             Self::File(out, form) => {
@@ -378,18 +390,21 @@ impl<'a> Target<'a> {
                 folder.add(format!("card{end}.{ending}"), bytes);
             }
         }
-        folder.add(REPORT, report(answers, courses, sheets));
+        folder.add(REPORT, report(answers, courses, sheets, stops.is_some()));
         let steepest = card::steepest(answers.card);
         folder.add("card.json", answers.json(&steepest, courses).to_text());
         folder.add("card.csv", Rows::of_table(&answers.rows).to_csv()?);
         folder.add("courses.csv", Rows::of_table(courses).to_csv()?);
+        if let Some(stops) = stops {
+            folder.add("stops.toml", stops);
+        }
         folder.add_document("scenario.toml", &answers.inputs.scenario);
         folder.finish()
     }
 }
 
 /// The page: both sides of the card, and the numbers behind them.
-fn report(answers: &Answers<'_>, courses: &Table, sheets: &[Sheet; 2]) -> String {
+fn report(answers: &Answers<'_>, courses: &Table, sheets: &[Sheet; 2], has_stops: bool) -> String {
     let mut page = Page::new("The operator's card");
     for sheet in sheets {
         page.drawing(&sheet.to_svg(), sheet.title());
@@ -403,6 +418,12 @@ fn report(answers: &Answers<'_>, courses: &Table, sheets: &[Sheet; 2]) -> String
     let scenario = &answers.inputs.scenario;
     page.heading("Assumptions in force");
     page.list(&scenario.assumptions);
+    let stops = if has_stops { " --stop-from stops.toml" } else { "" };
+    let next = [
+        format!("grouser mission MISSION.toml{stops} --out DRIVE"),
+        "grouser map DEM scenario.toml --course-deg best --out MAP".to_owned(),
+    ];
+    add_next(&mut page, &next);
     page.document("scenario.toml", &scenario.to_toml());
     page.to_html()
 }

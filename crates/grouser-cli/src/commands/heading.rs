@@ -22,6 +22,11 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     if question.sampling.is_some() && args.belief.samples.is_none() {
         answer.screen.push(Displayed::Words(sampling::DRAFT_LINE.to_owned()));
     }
+    let file = question.file(0);
+    answer.next = vec![
+        format!("grouser card {file} --out CARD --stops STOPS.toml"),
+        format!("grouser map DEM {file} --course-deg best --out MAP"),
+    ];
     give(&answer, &repeat(command, args, &question), folder, args.output.format)
 }
 

@@ -7,7 +7,7 @@ mod picture;
 use grouser::answers::Answer;
 use grouser::answers::map::{MadeMap, MapFile, VerdictCounts};
 use grouser::studies::mobility::{Ground, MobilityMap};
-use grouser_map::{BandSummary, Look, MapColumn, style, summaries, write_band};
+use grouser_map::{BandSummary, Look, MapColumn, keep_out, style, summaries, write_band};
 use rayon::prelude::*;
 
 use self::folder::MapFolder;
@@ -21,6 +21,8 @@ use crate::output::{self, json};
 
 /// The name of the page.
 const PAGE: &str = "map.html";
+/// The name of the areas where nobody may go.
+const KEEP_OUT: &str = "keep-out.geojson";
 
 /// A band, and its numbers in all.
 type Summed<'b> = (&'b MapColumn, &'b BandSummary);
@@ -42,14 +44,19 @@ pub(crate) fn run(args: &MapArgs) -> Result<(), Failure> {
     write(&folder, ground, &map, &bands)?;
     let summed: Vec<Summed<'_>> = bands.iter().zip(&sums).collect();
     let files: Vec<MapFile> = summed.iter().map(|band| file(&folder, *band)).collect();
+    let areas = keep_out(ground, &map);
     let made = MadeMap {
         map: &map,
         files: &files,
         verdicts: VerdictCounts { go, caution, cannot_tell, no_go, unknown },
+        keep_out: areas.as_ref().map(|_| folder.path(KEEP_OUT)).map_err(|why| *why),
         page: folder.path(PAGE),
     };
-    let answer = question.answer("map", &made);
-    finish(args, &inputs, &folder, &answer, (ground, &map), &summed)?;
+    let mut answer = question.answer("map", &made);
+    let keep_out = if areas.is_ok() { " --keep-out keep-out.geojson" } else { "" };
+    answer.next =
+        vec![format!("grouser route DEM scenario.toml --from X,Y --to X,Y{keep_out} --out WAY")];
+    finish(args, &inputs, &folder, &answer, (ground, &map), &summed, areas.ok())?;
     print(&answer, args.format)
 }
 
@@ -61,6 +68,7 @@ fn finish(
     answer: &Answer,
     (ground, map): (Ground<'_>, &MobilityMap),
     bands: &[Summed<'_>],
+    areas: Option<String>,
 ) -> Result<(), Failure> {
     let mut pictures = Vec::new();
     for &(band, of) in bands {
@@ -75,6 +83,9 @@ fn finish(
     }
     if let Some(texture) = gazebo::texture(args, inputs, ground)? {
         gazebo::add(&mut output, inputs, texture);
+    }
+    if let Some(areas) = areas {
+        output.add(KEEP_OUT, areas);
     }
     output.add_document("scenario.toml", &inputs.scenario);
     output.finish()?;

@@ -1,6 +1,7 @@
 //! `grouser replay`: a drive that was measured beside the one that is predicted.
 
-use grouser::answers::replay::ReplayQuestion;
+use grouser::answers::Answer;
+use grouser::answers::replay::{ROVER, ReplayQuestion};
 use grouser::studies::replay::{Replay, Replayer};
 
 use super::{log, sampling};
@@ -20,11 +21,23 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     if let Some(target) = target {
         target.write_replay(&question.scenario, &replay, folder.as_mut())?;
     }
-    let answer = question.answer("replay", &replay, notes);
+    let mut answer = question.answer("replay", &replay, notes);
     let slope = args.slope_deg.as_ref().map_or(String::new(), |it| format!(" --slope-deg={it}"));
     let samples = sampling::flags(question.sampling);
     let repeat = format!("grouser replay log.csv --scenario scenario.toml{slope}{samples}");
+    answer.next = next(&answer);
     give(&answer, &repeat, folder, args.output.format)
+}
+
+/// The commands to go on with.
+fn next(answer: &Answer) -> Vec<String> {
+    let has_rover = answer.documents.iter().any(|it| it.file == ROVER);
+    let with_rover = [
+        format!("grouser check {ROVER}"),
+        format!("grouser replay log.csv --scenario scenario.toml --rover {ROVER} --out OTHER"),
+    ];
+    let learn = "grouser learn log.csv --scenario scenario.toml --prior SOIL --out LEARNT";
+    with_rover.into_iter().filter(|_| has_rover).chain([learn.to_owned()]).collect()
 }
 
 /// The log, replayed, and notes on what of it was left out.

@@ -12,10 +12,15 @@ pub(crate) fn read(args: &MissionArgs) -> Result<LoadedMission, Failure> {
     let balance = BalanceArgs { load_transfer: None, wheel_moments: None };
     scenario_settings(&mut overrides, Kind::Mission, &args.setting, &balance)?;
     run_settings(&mut overrides, Kind::Mission, &args.slope, &args.run)?;
-    if let Some(file) = &args.legs_from {
+    let files = [
+        ("--legs-from", "mission.legs_from", &args.legs_from),
+        ("--stop-from", "mission.stop_from", &args.stop_from),
+    ];
+    for (flag, key, file) in files {
+        let Some(file) = file else { continue };
         // What a flag names is looked for from here, not from the document's folder.
         let file = std::path::absolute(file).map_or(file.clone(), |it| it.display().to_string());
-        overrides.flag_text("--legs-from", "mission.legs_from", &file)?;
+        overrides.flag_text(flag, key, &file)?;
     }
     overrides.check_kinds(&[Kind::Mission, Kind::Rover, Kind::Soil, Kind::Wheel])?;
     Ok(document::read_mission(&source, &overrides)?)

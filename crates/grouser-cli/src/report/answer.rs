@@ -24,11 +24,13 @@ pub(crate) struct Basis {
     assumptions: Vec<String>,
     /// The command that gives the answer again, typed in the folder of the page.
     repeat: String,
+    /// Commands to go on with, typed there, too.
+    next: Vec<String>,
 }
 
 impl Basis {
     pub(crate) fn new(repeat: String) -> Self {
-        Self { documents: Vec::new(), assumptions: Vec::new(), repeat }
+        Self { documents: Vec::new(), assumptions: Vec::new(), repeat, next: Vec::new() }
     }
 
     /// The basis of an answer.
@@ -38,7 +40,14 @@ impl Basis {
             documents: texts.collect(),
             assumptions: answer.assumptions().into_iter().map(str::to_owned).collect(),
             repeat: repeat.to_owned(),
+            next: answer.next.clone(),
         }
+    }
+
+    /// The same with commands to go on with.
+    pub(crate) fn followed_by(mut self, next: &[&str]) -> Self {
+        self.next = next.iter().map(|it| (*it).to_owned()).collect();
+        self
     }
 
     /// The same with a document that lies beside the page.
@@ -84,11 +93,21 @@ pub(crate) fn close<'f>(
              same numbers to the last digit.",
         );
     }
+    add_next(&mut page, &basis.next);
     for (name, text) in &basis.documents {
         page.document(name, text);
     }
     page.paragraph(&format!("Made by grouser {}.", env!("CARGO_PKG_VERSION")));
     page.to_html()
+}
+
+/// The commands to go on with, typed in the folder of the page.
+pub(crate) fn add_next(page: &mut Page, next: &[String]) {
+    if !next.is_empty() {
+        page.heading("What to do next");
+        page.paragraph("In the folder of this page, with names of your own in capitals:");
+        page.code(&next.join("\n"));
+    }
 }
 
 /// What the channels of a run are.

@@ -53,6 +53,45 @@ fn texts(svg: &str) -> Vec<String> {
     parts.map(|part| part.split_once('<').expect("the element ends").0.to_owned()).collect()
 }
 
+/// The limits of a card are a mission's: the lowest slip limit of the slopes that are a go or a
+/// caution, and the steepest of these.
+#[test]
+fn a_mission_reads_the_limits_of_a_card() {
+    let place = Place::new();
+    let card = place.json(&format!("{UNCERTAIN} --stops stops.toml"));
+    let stops = place.read("stops.toml");
+    assert_eq!(stops, CARD.text("stops.toml"));
+    let is_driven = |row: &&Value| ["go", "caution"].contains(&row["verdict"].as_str().unwrap());
+    let driven: Vec<&Value> = rows(&card).iter().take_while(is_driven).collect();
+    let slips = driven.iter().map(|row| number(&row["slip_limit"]));
+    place.write(
+        "m.toml",
+        "schema = \"mission/1\"\nname = \"m\"\nslope_deg = 5.0\nstop_from = \"stops.toml\"\n\
+         [[leg]]\ndrive_m = 1.0\nyaw_deg = 2.0\n",
+    );
+    place.results("check m.toml");
+    let mission = place.json("mission m.toml --nominal");
+    let limits = &mission["inputs"]["mission"]["stop"];
+    let above = |key: &str| number(&limits[key]["above"]);
+    let lowest = slips.fold(f64::INFINITY, f64::min);
+    assert!(above("slip_ratio") <= lowest && lowest < above("slip_ratio") + 1e-4, "{limits}");
+    let steepest = number(&driven.last().expect("a go")["slope_deg"]);
+    assert_eq!((above("roll_deg"), above("pitch_deg")), (steepest, steepest));
+    assert_eq!(above("drift_m_per_m"), 0.1);
+    assert_eq!(mission["outcome"], "completed");
+    let over = "mission m.toml --nominal --slope-deg 25 --set mission.leg.0.yaw_deg=0";
+    assert_eq!(place.json(over)["outcome"], "stopped");
+    let answer = place.line(&format!("{UNCERTAIN} --stops stops.toml"));
+    assert_eq!(answer.code(), 2, "it is not replaced: {}", answer.stderr);
+    let unknown = place.line("card --samples 2 --stops none.toml");
+    assert!(
+        unknown.code() == 1 && unknown.stderr.contains("--stops: no slope"),
+        "{}",
+        unknown.stderr
+    );
+    assert!(!place.file("none.toml").exists());
+}
+
 /// The paper's word for heading is attitude: its command knows nothing of cards.
 #[test]
 fn numbers_are_those_of_the_attitude() {

@@ -124,6 +124,42 @@ fn a_map_has_its_bands_styles_and_page() {
     assert!(!place.names().iter().any(|name| name.contains("in-the-making")));
 }
 
+/// The areas of a map, where it is a no-go, are those that a route goes around: over a ridge that
+/// ends before the edge of the map.
+#[test]
+fn a_route_keeps_out_of_the_no_go_of_a_map() {
+    let place = Place::new();
+    let ridge =
+        |x: f64, y: f64| 3.0 * (1.0 - ((x - 7.0) / 1.5).abs()).max(0.0) * (5.5 - y).clamp(0.0, 1.0);
+    place.write("ridge.xyz", heights(ridge));
+    let map = place
+        .json("map ridge.xyz --course-deg best --soil toyoura-uncertain --samples 8 --out map");
+    assert_eq!(map["keep_out"], "map/keep-out.geojson");
+    let areas: Value = serde_json::from_str(&place.read("map/keep-out.geojson")).expect("JSON");
+    let areas = areas["features"].as_array().expect("areas");
+    let no_go = areas.iter().find(|it| it["properties"]["verdict"] == "no_go").expect("a no-go");
+    let polygons = no_go["geometry"]["coordinates"].as_array().expect("polygons");
+    let cells = number(&map["verdicts"]["no_go"]);
+    assert!(!polygons.is_empty() && (polygons.len() as f64) < 0.5 * cells, "{cells}: {no_go}");
+    // Level ground all around it: limits that let a route over the ridge do not let it in.
+    let route = "route ridge.xyz --from 7002,-298 --to 7012,-298 --soil toyoura-uncertain \
+                 --samples 8 --no-drive --keep-out map/keep-out.geojson";
+    let route = place.json(route);
+    assert_eq!(route["status"], "found", "{route}");
+    let north = route["waypoints"].as_array().expect("places").iter().map(|at| number(&at[1]));
+    assert!(north.fold(f64::NEG_INFINITY, f64::max) > -295.0, "{route}");
+    let inside = place.json(
+        "route ridge.xyz --from 7006.5,-298 --to 7012,-298 --samples 2 --no-drive --keep-out \
+         map/keep-out.geojson",
+    );
+    assert!(inside["reason"].as_str().expect("why").contains("where nobody may go"), "{inside}");
+    place.write("flat.xyz", heights(|_, _| 2.0));
+    let flat = place.json("map flat.xyz --soil toyoura-uncertain --samples 4 --out flat");
+    assert_eq!(flat["keep_out"], Value::Null);
+    let unknown = place.results("map flat.xyz --samples 4 --out unknown");
+    assert!(unknown.contains("nothing would be left to drive on"), "{unknown}");
+}
+
 /// What was there when a map was stopped stays, and the rest is the same to the byte as of a map
 /// that was not.
 #[test]

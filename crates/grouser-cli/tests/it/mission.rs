@@ -175,6 +175,12 @@ fn bad_missions_are_refused_with_the_leg_that_is_wrong() {
         "[[leg]]\ngoto = { x_m = 1.0 }\n",
         "[stop]\nslip_ratio = { above = 0.4, then = \"back-out\" }\n[[leg]]\ndrive_m = 1.0\n",
         "[stop]\nslip = { above = 0.4 }\n[[leg]]\ndrive_m = 1.0\n",
+        "[stop]\nslip_ratio = 1.4\n[[leg]]\ndrive_m = 1.0\n",
+        "[stop]\ndrift_m_per_m = \"much\"\n[[leg]]\ndrive_m = 1.0\n",
+        "[[leg]]\nturn_deg = 20.0\nstop = { drift_m_per_m = 0.1 }\n",
+        "[[leg]]\ndrive_m = 1.0\nstop = { shortfall_deg = 3.0 }\n",
+        "stop_from = \"nowhere.toml\"\n[[leg]]\ndrive_m = 1.0\n",
+        "stop_from = \"flat.toml\"\n[[leg]]\ndrive_m = 1.0\n",
         "[[leg]]\ndrive_m = 1.0\n[[alternative]]\nname = \"a\"\n[[alternative.leg]]\ndrive_m = 1.0\n",
         "legs_from = \"nowhere.csv\"\n",
         "legs_from = \"words.csv\"\n",
@@ -185,12 +191,41 @@ fn bad_missions_are_refused_with_the_leg_that_is_wrong() {
         "[[leg]]\ndrive_m = 1.0\nspeed_m_s = [0.06, 0.06, 0.05, 0.05]\n[[leg]]\ndrive_m = 1.0\ndrive = { law = \"eq18-as-printed\" }\n",
     ];
     place.write("words.csv", "drive_m,turn_deg\nfar,\n");
+    place.write("flat.toml", "slip_ratio = 0.4\n");
     place.write("points.geojson", "{\"type\": \"Polygon\", \"coordinates\": []}");
     let refused = bad.map(|legs| {
         place.write("m.toml", begins(legs));
         check_is_refusal(&place.line("mission m.toml"), 2)
     });
     assert_snapshot!("missions", refused.join("\n"));
+}
+
+/// A number alone is what a limit is above; limits of a file stand behind the mission's own, and
+/// the folder has them all.
+#[test]
+fn limits_are_numbers_and_come_from_files() {
+    let place = Place::new();
+    place.write("stops.toml", "[stop]\nsinkage_mm = 3\ndrift_m_per_m = 0.5\nroll_deg = 20.0\n");
+    let leg = "[[leg]]\ndrive_m = 3.0\nyaw_deg = 0.0\n";
+    let head = "slope_deg = 10.0\nstop_from = \"stops.toml\"\n";
+    let limits = "[stop]\nsinkage_mm = 90\ndrift_m_per_m = { above = 0.04, over_m = 0.5 }\n";
+    place.write("m.toml", begins(&format!("{head}{limits}{leg}")));
+    let answer = place.json("mission m.toml --nominal --out out");
+    let stop = &answer["inputs"]["mission"]["stop"];
+    assert_eq!(number(&stop["sinkage_mm"]["above"]), 90.0, "{stop}");
+    assert_eq!(number(&stop["roll_deg"]["above"]), 20.0, "{stop}");
+    assert_eq!(answer["legs"][0]["stopped_by"], "drift_m_per_m");
+    let reason = answer["legs"][0]["reason"].as_str().expect("a reason");
+    assert!(reason.contains("m/m over 0.5 m after"), "{reason}");
+    let again = place.json("mission out/mission.toml --nominal");
+    assert_eq!(again["legs"], answer["legs"]);
+    // What a flag names stands behind the mission's own, too.
+    place.write("plain.toml", begins(&format!("slope_deg = 10.0\n{leg}")));
+    let sunk = place.json("mission plain.toml --nominal --stop-from stops.toml");
+    assert_eq!(sunk["legs"][0]["stopped_by"], "sinkage_mm");
+    let set = "--set mission.stop.sinkage_mm=80 --set mission.stop.drift_m_per_m=0.9";
+    let gone = place.json(&format!("mission plain.toml --nominal --stop-from stops.toml {set}"));
+    assert_eq!(gone["legs"][0]["outcome"], "completed");
 }
 
 #[test]

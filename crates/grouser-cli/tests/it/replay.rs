@@ -41,6 +41,7 @@ fn a_drive_beside_its_prediction() {
     {
         assert!(place.file(&format!("replayed/{name}")).exists(), "{name}");
     }
+    assert!(!place.file("replayed/rover.toml").exists(), "nothing points to a rover");
 }
 
 /// Without odometry, torques and sinkages nothing was compared, and the answer says so; whether a
@@ -79,6 +80,22 @@ fn a_wrong_radius_is_named() {
     let speed = findings.iter().find(|it| it["cause"] == "speed").expect("speed");
     assert_ne!(speed["finding"], "nothing", "{speed}");
     assert!((number(&speed["estimate"]) - 0.048).abs() < 0.02, "{speed}");
+    // The rover that it points to is the one that was driven, of 0.1 m.
+    place.json(&format!("{COMMAND} --set wheel.radius_m=0.095 --out replayed"));
+    let checked = place.results("check replayed/rover.toml");
+    assert!(checked.contains("a valid rover document"), "{checked}");
+    let rover = place.read("replayed/rover.toml");
+    let radius = rover.lines().find_map(|line| line.strip_prefix("radius_m = ")).expect("a radius");
+    let radius: f64 = radius.parse().expect("a number");
+    assert!((radius - 0.1).abs() < 2e-3, "{radius}");
+    assert!(
+        rover.contains("by a replay of drive.csv") && rover.contains("it was 0.095"),
+        "{rover}"
+    );
+    let again = "replay drive.csv --scenario replayed/scenario.toml --rover replayed/rover.toml";
+    let findings = place.json(again)["findings"].clone();
+    let speed = findings.as_array().expect("findings").iter().find(|it| it["cause"] == "speed");
+    assert!(number(&speed.expect("speed")["estimate"]).abs() < 0.02, "{speed:?}");
     let banded = "replay drive.csv --rover hakuto --soil toyoura-uncertain --model ishigami \
                   --uncertainty --samples 8 --seed 2";
     let answer = place.json(banded);

@@ -117,14 +117,16 @@ impl Limits {
 
     /// The same by what a rover knows of itself.
     pub(super) fn passed_as(&self, run: &Run, known: Known<'_>) -> Option<Stopped> {
-        let [sinkage, torque, current] = self.of_wheels(run);
+        let [sinkage_ratio, sinkage, torque, current] = self.of_wheels(run);
         let state = run.state();
         let roll_and_pitch = || roll_and_pitch_of(run, known.seen.yaw);
         let value = |stop: &Stop| match stop.limited {
             Limited::SlipRatio => Some(self.odometer.over(stop.over)?.slip_ratio),
             Limited::Drift => Some(self.odometer.over(stop.over)?.drift),
             Limited::OffPath => Some(known.off_path),
-            Limited::Sinkage => Some(sinkage),
+            Limited::DriftPerMetre => self.odometer.over(stop.over)?.drift_per_metre(stop.over),
+            Limited::Sinkage => Some(sinkage_ratio),
+            Limited::SinkageDepth => Some(sinkage),
             Limited::Roll => Some(roll_and_pitch()[0].abs()),
             Limited::Pitch => Some(roll_and_pitch()[1].abs()),
             Limited::Torque => Some(torque),
@@ -162,18 +164,19 @@ impl Limits {
         self.odometer.lay_anew(since);
     }
 
-    /// Largest sinkage over the shearing radius [-], largest torque [N·m] and largest current [A]
-    /// of a wheel, if some limit needs them.
-    fn of_wheels(&self, run: &Run) -> [f64; 3] {
+    /// Largest sinkage of a wheel over its shearing radius [-], largest sinkage [m], largest torque
+    /// [N·m] and largest current [A], if some limit needs them.
+    fn of_wheels(&self, run: &Run) -> [f64; 4] {
         if !self.stops.iter().any(|stop| stop.limited.row().needs_wheels) {
-            return [0.0; 3];
+            return [0.0; 4];
         }
         let radii = run.scenario().rover.mounts().iter().map(Mount::shearing_radius);
         let each = run.wheels().into_iter().zip(radii).map(|((wheel, taken), radius)| {
             let current = taken.map_or(0.0, |taken| taken.current.abs());
-            [wheel.settled.sinkage / radius, wheel.settled.forces.torque.abs(), current]
+            let sinkage = wheel.settled.sinkage;
+            [sinkage / radius, sinkage, wheel.settled.forces.torque.abs(), current]
         });
-        each.fold([0.0; 3], |most, one| [0, 1, 2].map(|i| f64::max(most[i], one[i])))
+        each.fold([0.0; 4], |most, one| [0, 1, 2, 3].map(|i| f64::max(most[i], one[i])))
     }
 }
 

@@ -43,6 +43,16 @@ pub(super) struct Seen {
     pub(super) drift: f64,
 }
 
+impl Seen {
+    /// Way straight down the ground for a metre travelled [m/m]; nothing of a rover that stands.
+    ///
+    /// * `over`: the way of the rims over which it was seen [m]
+    pub(super) fn drift_per_metre(self, over: f64) -> Option<f64> {
+        let travelled = (1.0 - self.slip_ratio) * over;
+        (travelled > 0.0).then(|| self.drift / travelled)
+    }
+}
+
 impl Odometer {
     /// * `down`: how far straight downhill the rover is [m], as for [`look`](Self::look)
     /// * `remembered`: the longest way of the rims that will be asked for [m]
@@ -147,6 +157,8 @@ mod tests {
                 let way = f64::hypot(0.5, 0.1);
                 assert!((seen.slip_ratio - (1.0 - way)).abs() < 1e-12, "{seen:?}");
                 assert!((seen.drift - 0.1).abs() < 1e-12, "{seen:?}");
+                let per_metre = seen.drift_per_metre(1.0).expect("it moves");
+                assert!((per_metre - 0.1 / way).abs() < 1e-12, "{per_metre}");
             }
         }
         assert!(odometer.marks.len() < 30, "what is too old is forgotten");

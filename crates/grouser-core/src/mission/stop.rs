@@ -29,8 +29,13 @@ pub enum Limited {
     SlipRatio,
     /// Way straight down the ground over a way [m]; none on level ground.
     Drift,
+    /// Drift over a way: way straight down the ground for a metre travelled [m/m]; none on level
+    /// ground.
+    DriftPerMetre,
     /// Largest sinkage of a wheel over its shearing radius [-].
     Sinkage,
+    /// Largest sinkage of a wheel [m].
+    SinkageDepth,
     /// Roll to either side [rad].
     Roll,
     /// Pitch, nose up or down [rad].
@@ -167,10 +172,15 @@ rows! {
         "Slip ratio over a way: 1 less what the ground saw of the rims' way."
     }
     Drift { Reactive, Ways, needs_wheels: false, "Way down the ground under the rover over a way." }
+    DriftPerMetre {
+        Reactive, Ways, needs_wheels: false,
+        "Drift over a way: way down the ground under the rover for a metre travelled."
+    }
     Sinkage {
         Reactive, Everywhere, needs_wheels: true,
         "Largest sinkage of a wheel over its shearing radius."
     }
+    SinkageDepth { Reactive, Everywhere, needs_wheels: true, "Largest sinkage of a wheel." }
     Roll { Reactive, Everywhere, needs_wheels: false, "Roll to either side." }
     Pitch { Reactive, Everywhere, needs_wheels: false, "Pitch, nose up or down." }
     Torque { Reactive, Everywhere, needs_wheels: true, "Largest torque of a wheel's motor." }

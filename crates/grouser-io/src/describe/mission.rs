@@ -1,11 +1,11 @@
 //! `mission/1`: legs that a rover drives one after the other, and limits at which it stops.
 
 use super::super::field::{
-    At, DEG, Each, Field, Fill, Form, Law, Laws, M, M_S, ONE, S, Table, direction, flag, list,
-    note, number, numbers, positive, table, text, whole, word, words,
+    At, DEG, Each, Field, Fill, Form, Law, Laws, M, M_S, ONE, S, Shape, Table, direction, field,
+    flag, list, note, number, numbers, positive, table, text, whole, word, words,
 };
 use super::super::mission::{
-    Alternative, Arc, Held, LEGS_FROM, LegKeys, LegLaw, Plan, Waypoint, limited_quantity,
+    Alternative, Arc, Held, LEGS_FROM, LegKeys, LegLaw, Plan, STOP_FROM, Waypoint, limited_quantity,
 };
 use super::about::{assumed, notes, purpose, schema, source};
 use super::differences::{LARGEST_SEED, room};
@@ -16,6 +16,8 @@ use grouser_core::mission::{Limited, Measure, Sensors, Steering, Stop, Then};
 use grouser_core::simulation::Scenario;
 use grouser_core::simulation::scenario::LONGEST_DURATION;
 
+/// The most that a sinkage may be limited to [mm]. Source: ours; no wheel is as high.
+const DEEPEST_MM: f64 = 2000.0;
 /// The longest way [m]. Source: ours; no rover has driven further in its life.
 const LONGEST_WAY: f64 = 1e5;
 /// The most that a turn may be [°]: ten turns.
@@ -64,6 +66,12 @@ pub(crate) static MISSION: Table<Plan> = Table {
             &At { inner: &STOPS, at: |plan: &mut Plan| &mut plan.stops },
         )
         .otherwise(Fill::Keys(&[])),
+        note(
+            STOP_FROM,
+            "A file with a table [stop], whose limits hold in every leg: those of the document \
+             stand in place of the file's for the same numbers.",
+        )
+        .optional(),
         table(
             "sensors",
             "What the rover knows of where it is; without the table it knows all.",
@@ -458,11 +466,14 @@ const fn place(
 
 /// The limits, one under the name of each number.
 static STOPS: Table<Vec<Stop>> = Table {
-    doc: "Limits, each under the name of its number: `slip_ratio = { above = 0.4, over_m = 1.0 }`.",
+    doc: "Limits, each under the name of its number: `slip_ratio = { above = 0.4, over_m = 1.0 }`, \
+          or `slip_ratio = 0.4` for what it is above alone.",
     fields: &[
         limit(Limited::SlipRatio, &SLIP_RATIO),
         limit(Limited::Drift, &DRIFT),
+        limit(Limited::DriftPerMetre, &DRIFT_PER_METRE),
         limit(Limited::Sinkage, &SINKAGE),
+        limit(Limited::SinkageDepth, &SINKAGE_DEPTH),
         limit(Limited::Roll, &ROLL),
         limit(Limited::Pitch, &PITCH),
         limit(Limited::Torque, &TORQUE),
@@ -478,7 +489,8 @@ static STOPS: Table<Vec<Stop>> = Table {
 
 /// A limit, in the list of all: a new one where the list has no limit of this quantity yet.
 const fn limit(limited: Limited, inner: &'static At<Vec<Stop>, Stop>) -> Field<Vec<Stop>> {
-    table(limited_quantity(limited).name, limited.row().meaning, inner).optional()
+    let (name, meaning) = (limited_quantity(limited).name, limited.row().meaning);
+    field(name, meaning, Shape::NumberOr("above", inner)).optional()
 }
 
 fn of(stops: &mut Vec<Stop>, limited: Limited) -> &mut Stop {
@@ -503,9 +515,23 @@ static DRIFT: At<Vec<Stop>, Stop> = At {
     },
     at: |stops| of(stops, Limited::Drift),
 };
+static DRIFT_PER_METRE: At<Vec<Stop>, Stop> = At {
+    inner: &Table {
+        doc: LIMIT_OVER,
+        fields: &[above(Limited::DriftPerMetre, 1.0), OVER, THEN, BACK_OUT],
+    },
+    at: |stops| of(stops, Limited::DriftPerMetre),
+};
 static SINKAGE: At<Vec<Stop>, Stop> = At {
     inner: &Table { doc: LIMIT, fields: &[above(Limited::Sinkage, 2.0), THEN, BACK_OUT] },
     at: |stops| of(stops, Limited::Sinkage),
+};
+static SINKAGE_DEPTH: At<Vec<Stop>, Stop> = At {
+    inner: &Table {
+        doc: LIMIT,
+        fields: &[above(Limited::SinkageDepth, DEEPEST_MM), THEN, BACK_OUT],
+    },
+    at: |stops| of(stops, Limited::SinkageDepth),
 };
 static ROLL: At<Vec<Stop>, Stop> = At {
     inner: &Table { doc: LIMIT, fields: &[above(Limited::Roll, 90.0), THEN, BACK_OUT] },

@@ -8,7 +8,8 @@ use super::super::mission::{LegKeys, Plan, limited_quantity};
 use super::super::tree::Node;
 use super::super::unit::DEG;
 use super::{Described, Misfit};
-use grouser_core::mission::{Limited, Mission, PlanError, Stop, Then};
+use grouser_core::mission::{Limited, Mission, PlanError, Stop, Then, Where};
+use grouser_core::units::Vec2;
 use grouser_core::vehicle::{Mount, Rover};
 
 /// Checks that alternatives have names of their own, and stand in place of legs.
@@ -68,6 +69,19 @@ fn check_known(stops: &[Stop], within: &str, rover: &Rover) -> Result<(), Misfit
     Err(Misfit::new(path, Problem::Conflict(what)).with_hint(hint))
 }
 
+/// What is wrong with limits of a leg's own: one on a number that its manoeuvre never has.
+fn unknown_in(leg: &LegKeys) -> Option<(Limited, String)> {
+    let (manoeuvre, _) = *leg.manoeuvres(Vec2::zeros()).first()?;
+    let is_unknown = |limited: &Limited| match limited.row().known {
+        Where::Everywhere => false,
+        Where::Drives | Where::Ways => matches!(manoeuvre, "turn_deg" | "wait_s"),
+        Where::Ends => !matches!(manoeuvre, "turn_deg" | "arc"),
+    };
+    let limited = leg.stops.iter().map(|stop| stop.limited).find(is_unknown)?;
+    let name = limited_quantity(limited).name;
+    Some((limited, format!("limits `{name}`, which has no value in a leg of `{manoeuvre}`")))
+}
+
 /// Checks that legs can be driven.
 ///
 /// * `within`: the key under which they stand
@@ -81,6 +95,11 @@ fn check_legs(legs: &[LegKeys], within: &str, rover: &Rover) -> Result<(), Misfi
             return Err(Misfit::new(format!("{within}.{place}.{key}"), problem).with_hint(hint));
         }
         let of_leg = format!("{within}.{place}.");
+        if let Some((limited, what)) = unknown_in(leg) {
+            let path = format!("{of_leg}stop.{}", limited_quantity(limited).name);
+            let problem = Problem::Leg { number: place + 1, what };
+            return Err(Misfit::new(path, problem).with_hint("leave the limit out"));
+        }
         check_stops(&leg.stops, &of_leg)?;
         check_known(&leg.stops, &of_leg, rover)?;
         let angle = leg.crab.unwrap_or(0.0);

@@ -485,8 +485,9 @@ class Mission(_OnGround, _keys.MissionKeys):
     ``Mission("there-and-back")`` is a preset, ``Mission("my-mission.toml")`` a file, and
     ``Mission(leg=[…], stop={…}, …)`` gives its keys. A leg is a mapping with one of ``drive_m`` [m],
     ``turn_deg`` [°], ``arc``, ``goto`` and ``wait_s`` [s]; ``stop`` has limits under the names of their
-    numbers: ``slip_ratio``, ``drift_m`` [m], ``off_path_m`` [m] and more. ``alternative`` is a list of
-    ways from the same start, each with a ``name`` and legs, and ``legs_from`` a file with legs.
+    numbers, a mapping or what the number may not be above: ``slip_ratio``, ``drift_m`` [m],
+    ``off_path_m`` [m] and more. ``alternative`` is a list of ways from the same start, each with a
+    ``name`` and legs, ``legs_from`` a file with legs, and ``stop_from`` one with limits.
     ``schema/mission.json`` has all keys, with their ranges. A ``site=Site(…)`` gives ``soil``,
     ``slope_deg`` and ``gravity_m_s2`` together. `mission` drives it.
 
@@ -499,7 +500,7 @@ class Mission(_OnGround, _keys.MissionKeys):
     >>> import grouser as gr
     >>> along = gr.Mission(
     ...     slope_deg=10.0,
-    ...     stop={"slip_ratio": {"above": 0.4}, "drift_m": {"above": 0.1}},
+    ...     stop={"slip_ratio": 0.4, "drift_m": {"above": 0.1}},
     ...     leg=[{"drive_m": 2.0, "heading": "contour"}],
     ... )
     >>> along.leg[0]["drive_m"], along.stop["drift_m"]["over_m"], along.soil.name

@@ -26,7 +26,7 @@ impl MapQuestion<'_> {
         let files = Arc::new(Table::of(&FILES, made.files));
         let limit = limit(self.course, made.map);
         let errors = errors(made.map);
-        let sentence = sentence(made.verdicts, limit);
+        let sentence = sentence(made.verdicts, limit) + &kept_out(made);
         let mut answer = Answer::new(name, "Where the rover can go");
         self.state(&mut answer);
         let VerdictCounts { go, caution, cannot_tell, no_go, unknown } = made.verdicts;
@@ -50,6 +50,7 @@ impl MapQuestion<'_> {
             Member::Value("slope_length_m", json!(self.ground.slope_length())),
             Member::Value(LIMIT_SLOPE.name, json!(limit)),
             Member::Value("interpolation_error", errors.clone()),
+            Member::Value("keep_out", json!(made.keep_out.as_ref().ok())),
             Member::Value("page", json!(made.page)),
         ];
         answer.tables.push((name.to_owned(), Arc::clone(&files)));
@@ -87,6 +88,17 @@ fn errors(map: &MobilityMap) -> Value {
         (POWER.name): errors.power,
         (SINKAGE.name): SINKAGE.unit.from_si(errors.sinkage),
     })
+}
+
+/// Where the areas are that nobody may go into, or why there is no such file.
+fn kept_out(made: &MadeMap<'_>) -> String {
+    match &made.keep_out {
+        Ok(file) => format!(
+            " Areas for a route to keep out of, where the verdict is no-go or nobody can tell: \
+             {file}."
+        ),
+        Err(why) => format!(" No file of areas to keep out of: {why}."),
+    }
 }
 
 /// How much of the map is what, and up to where a heading holds the course.

@@ -1,10 +1,12 @@
 //! A drive that was measured beside the one that is predicted.
 
+mod rover;
+
 use std::sync::Arc;
 
 use serde_json::json;
 
-use super::{Answer, Displayed, Member, Sampling, meanings, samples};
+use super::{Answer, Attached, Displayed, Member, Sampling, meanings, samples};
 use crate::document::LoadedScenario;
 use crate::document::columns::replay::{
     self as columns, FINDINGS, STRETCH, WORK, brief_channels, brief_findings, columns_of,
@@ -17,6 +19,12 @@ use crate::document::table::Table;
 use crate::studies::ensemble::samples::BandInputs;
 use crate::studies::replay::{Channel, Prediction, Replay};
 use crate::vehicle::Rover;
+
+/// The file of a rover whose wheels have the radius that a drive points to.
+pub const ROVER: &str = "rover.toml";
+const CHANGED_ROVER: &str = "rover.toml has wheels of the radius with which the rims would move as \
+    they did. Take it where the radius is what was wrong: the scale of an encoder, or of the \
+    odometry, makes the same differences, and is no number of a rover.";
 
 /// What was replayed, from what.
 #[derive(Clone, Debug)]
@@ -78,6 +86,16 @@ impl ReplayQuestion {
         ];
         answer.attach("scenario.toml", &self.scenario);
         self.page(&mut answer, &found);
+        if let Some(changed) = self.changed_rover(replay) {
+            answer.heading("The rover that the drive points to");
+            answer.words(CHANGED_ROVER);
+            answer.documents.push(Attached {
+                file: ROVER.to_owned(),
+                toml: changed.to_toml(),
+                companions: Vec::new(),
+                assumptions: Vec::new(),
+            });
+        }
         answer
     }
 

@@ -7,6 +7,9 @@
 
 pub mod courses;
 pub mod drives;
+mod stops;
+
+pub use stops::CardStops;
 
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability};

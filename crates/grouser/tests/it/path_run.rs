@@ -41,11 +41,13 @@ fn a_straight_drive_stops_where_a_mission_does() {
     let over = |limited, above, over| Stop { over, ..Stop::above(limited, above) };
     for (slope, yaw, stop) in [
         (10.0, 0.0, over(Limited::Drift, 0.02, 0.3)),
+        (10.0, 0.0, over(Limited::DriftPerMetre, 0.07, 0.3)),
         (13.0, 60.0, over(Limited::SlipRatio, 0.3, 0.5)),
         (12.0, 0.0, Stop::above(Limited::OffPath, 0.05)),
         (15.0, 45.0, Stop::above(Limited::Energy, 3.0)),
         (10.0, 20.0, Stop::above(Limited::Time, 7.25)),
         (17.0, 90.0, Stop::above(Limited::Sinkage, 0.05)),
+        (17.0, 90.0, Stop::above(Limited::SinkageDepth, 0.005)),
         (15.0, 0.0, Stop::above(Limited::Roll, deg(14.5))),
         (15.0, 90.0, Stop::above(Limited::Torque, 0.5)),
     ] {

@@ -65,7 +65,10 @@ pub(super) fn html(answered: &Answered) -> String {
         columns.extend(meanings(&RISK));
         columns.extend(meanings(&ADVICE));
     }
-    let basis = Basis::new(format!("grouser mission mission.toml{flags}"));
+    let basis = Basis::new(format!("grouser mission mission.toml{flags}")).followed_by(&[
+        "grouser mission mission.toml --stop-from STOPS.toml --out WITH-STOPS",
+        "grouser mission mission.toml --animate drive.html",
+    ]);
     let basis = basis.with("mission.toml", &answered.document);
     answer::close(page, Some(&findings), &columns, &basis)
 }

@@ -13,6 +13,8 @@ pub struct MadeMap<'m> {
     pub files: &'m [MapFile],
     /// How many places have which verdict.
     pub verdicts: VerdictCounts,
+    /// Where the areas are that nobody may go into, or why there is no such file.
+    pub keep_out: Result<String, &'static str>,
     /// Where its page is.
     pub page: String,
 }

@@ -27,7 +27,7 @@ pub const CORRECT_EVERY: Quantity = quantity("correct_every_m", M);
 /// By how much the nose falls over the way.
 pub const HEADING_FALL: Quantity = quantity("heading_fall_deg_per_m", DEG_PER_M);
 /// Drift by the card's heading.
-pub use super::run::DRIFT as DRIVEN_DRIFT;
+pub use super::DRIFT as DRIVEN_DRIFT;
 /// Slip by the card's heading.
 pub const DRIVEN_SLIP: Quantity = quantity("driven_slip_ratio", ONE);
 /// Way of the rims for a metre of ground.

@@ -1,7 +1,6 @@
 //! The bands of a mobility map.
 
-use super::{COURSE, Column, POWER, Quantity, SINKAGE, SLIP_RATIO, SLOPE, quantity, whole};
-use crate::document::columns::run::DRIFT;
+use super::{COURSE, Column, DRIFT, POWER, Quantity, SINKAGE, SLIP_RATIO, SLOPE, quantity, whole};
 use crate::document::unit::{DEG, ONE};
 use crate::studies::mobility::CellMotion;
 use crate::studies::verdict::{Advice, Verdict};

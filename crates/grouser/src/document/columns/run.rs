@@ -4,15 +4,15 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::super::table::ColumnKind;
 use super::super::table::Table;
-use super::super::unit::{A, DEG, DEG_S, J, M, M_PER_M, M_S, ONE, V, W};
+use super::super::unit::{A, DEG, DEG_S, J, M, M_S, ONE, V, W};
 use super::ended::draws_ended;
 use super::flags;
 use super::heading::DRAWS;
 use super::wheel::{MAX_NORMAL_STRESS, WHEEL};
 use super::{
-    CURRENT, Column, ENERGY, ENERGY_PER_METRE, LOAD, PITCH, POWER, PROBABILITY_COMPLETED, Quantity,
-    ROLL, SINKAGE, SLIP_ANGLE, SLIP_RATIO, STEERING, TEMPERATURE, TIME, WHEEL_SPEED, X, Y, YAW, Z,
-    number, quantity, text, whole,
+    CURRENT, Column, DRIFT, ENERGY, ENERGY_PER_METRE, LOAD, PITCH, POWER, PROBABILITY_COMPLETED,
+    Quantity, ROLL, SINKAGE, SLIP_ANGLE, SLIP_RATIO, STEERING, TEMPERATURE, TIME, WHEEL_SPEED, X,
+    Y, YAW, Z, number, quantity, text, whole,
 };
 use crate::contact::Settled;
 use crate::contact::validity::Finding;
@@ -151,9 +151,6 @@ const RUN: [Column<Trajectory>; 6] = [
 
 /// How a run was computed.
 pub(super) const METHOD: &[Column<Trajectory>] = RUN.split_at(4).0.split_at(2).1;
-
-/// Drift over the way.
-pub const DRIFT: Quantity = quantity("drift_m_per_m", M_PER_M);
 
 /// A run in a few numbers, means over wheels and records: what a campaign keeps beside the end.
 pub(in super::super) const DRIVE: [Column<Drive>; 7] = [

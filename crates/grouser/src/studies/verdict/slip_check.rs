@@ -58,6 +58,12 @@ impl SlipCheck {
         Band::of(slips).map_or(MOST_CHECKED_SLIP, |band| band.high).min(MOST_CHECKED_SLIP)
     }
 
+    /// Way between two looks [m]: the shortest that is tried where none is short enough.
+    pub(in crate::studies) fn interval(&self) -> f64 {
+        let [.., (shortest, _)] = INTERVALS;
+        self.every.unwrap_or(shortest)
+    }
+
     /// The check for a slope.
     ///
     /// * `slips`: of all samples [-], 1 where stuck; one at least

@@ -1,0 +1,65 @@
+//! The card's limits as the table `[stop]` of a mission.
+
+use std::fmt::Write as _;
+
+use grouser::document::columns::SLOPE;
+use grouser::document::limited_quantity;
+use grouser::document::reading::four_digits;
+use grouser::mission::Stop;
+use grouser::studies::card::Card;
+
+use super::texts::Texts;
+use crate::failure::Failure;
+use crate::inputs::CardInputs;
+
+/// The file: a table that `mission --stop-from` reads, and that can be copied into a mission.
+pub(super) fn text(inputs: &CardInputs, card: &Card, texts: &Texts) -> Option<String> {
+    let found = card.stops(&inputs.rule)?;
+    let shown = |slope: f64| four_digits(SLOPE.unit.as_given(slope));
+    let [first, last] = [found.slopes.first()?, found.slopes.last()?].map(|it| shown(it.0));
+    let mut text = format!(
+        "# Limits at which to turn back, by the operator's card: {title}.\n\
+         # grouser mission MISSION.toml --stop-from THIS-FILE reads them; the table may stand in a \
+         mission, too.\n\
+         # They are for slopes that are a go or a caution on the card, {first} to {last}°, and a \
+         leg may have limits\n# of its own.\n#\n\
+         # slip_ratio: the lowest of the card's limits on these slopes, so that it holds on each of \
+         them:\n",
+        title = texts.title.replace(char::is_control, " "),
+    );
+    for (slope, limit) in &found.slopes {
+        let _ = writeln!(text, "#     {}° {}", shown(*slope), downwards(*limit));
+    }
+    text += "# On one slope alone its own limit may stand.\n\
+             # drift_m_per_m: the card's limit of a go; for legs along the contour. A leg that leads \
+             downhill\n# has drift_m_per_m = 1.0 among its own limits.\n\
+             # roll_deg, pitch_deg: the steepest of these slopes.\n[stop]\n";
+    found.stops.iter().for_each(|stop| text += &line(stop));
+    Some(text)
+}
+
+/// A limit as a line of TOML.
+fn line(stop: &Stop) -> String {
+    let quantity = limited_quantity(stop.limited);
+    let above = downwards(quantity.unit.as_given(stop.above));
+    if !stop.limited.is_of_a_way() {
+        return format!("{} = {above}\n", quantity.name);
+    }
+    format!("{} = {{ above = {above}, over_m = {} }}\n", quantity.name, stop.over)
+}
+
+/// A limit with four decimals at most, rounded down: what is rounded up is beyond it.
+fn downwards(limit: f64) -> f64 {
+    // What is below a step by rounding alone stays on it.
+    (limit * 1e4 + 1e-6).floor() / 1e4
+}
+
+/// A card from which there are no limits.
+pub(super) fn missing() -> Failure {
+    Failure::Run(
+        "--stops: no slope of this card is a go or a caution, so that it has no limits to turn \
+         back at\nhint: where nobody can tell, a soil that states how well its numbers are known \
+         gives verdicts"
+            .to_owned(),
+    )
+}
