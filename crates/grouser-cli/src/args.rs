@@ -6,6 +6,7 @@ mod card;
 mod documents;
 mod draw;
 mod forecast;
+mod groups;
 mod heading;
 mod import_telemetry;
 mod import_urdf;
@@ -42,6 +43,7 @@ pub(crate) use card::{CardArgs, RuleArgs, SideChoice};
 pub(crate) use documents::{CheckArgs, CompletionsArgs, PresetsArgs, SchemaArgs};
 pub(crate) use draw::DrawArgs;
 pub(crate) use forecast::ForecastArgs;
+pub(crate) use groups::grouped;
 pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
 pub(crate) use import_telemetry::ImportTelemetryArgs;
 pub(crate) use import_urdf::ImportUrdfArgs;
@@ -65,7 +67,7 @@ pub(crate) use wheel_test::{StandArgs, WheelTestArgs};
 /// Predicts how a wheeled rover moves on loose soil: sinkage, slip, drift, the heading that holds
 /// the contour of a slope, energy.
 #[derive(Debug, Parser)]
-#[command(name = "grouser", version, max_term_width = 100, arg_required_else_help = true)]
+#[command(name = "grouser", version, max_term_width = groups::WIDEST, arg_required_else_help = true)]
 #[command(after_help = "Start with `grouser reproduce`: the source paper's study, as a page to \
                         open in a browser. Exit codes: 0 done, 1 the run or the disk failed, 2 \
                         wrong use or a bad document, 3 some runs of a campaign failed, 130 \

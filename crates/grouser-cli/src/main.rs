@@ -24,7 +24,7 @@ use output::terminal::Settings;
 fn main() -> ExitCode {
     interrupt::exit_on_ctrl_c();
     interrupt::fail_at_file_size_limit();
-    let done = match Cli::command().try_get_matches() {
+    let done = match args::grouped(Cli::command()).try_get_matches() {
         Ok(matches) => parsed(&matches),
         Err(answer) => {
             output::terminal::set_colours(args::colours_of(std::env::args_os()));

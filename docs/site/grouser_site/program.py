@@ -22,7 +22,8 @@ def write_pages(app) -> None:
 
 def pages(program: str, *above: str) -> Iterator[tuple[str, str]]:
     """Names and texts of the pages of a command's own commands."""
-    listed = help_of(program, *above).partition("\nCommands:\n")[2].partition("\n\n")[0]
+    # Groups of commands stand before the options; arguments are written in brackets.
+    listed = help_of(program, *above).partition("\nOptions:\n")[0]
     for name in re.findall(r"^  ([a-z-]+)", listed, flags=re.M):
         if name != "help":
             command = (*above, name)
