@@ -23,7 +23,7 @@ use serde::Serialize;
 use crate::failure::Failure;
 use crate::hints;
 
-pub(crate) use activity::{progress_bar, rate_bar};
+pub(crate) use activity::{progress_bar, rate_bar, waiting_line};
 use text::Text;
 
 /// Writes text to the standard output. Names and cells may hold what steers a terminal: it is

@@ -74,8 +74,7 @@ fn sought(
     ends: &Ends,
     objective: Objective,
 ) -> Result<Way, Failure> {
-    let bar = output::progress_bar(0);
-    bar.set_message(format!("least {}", objective.name()));
+    let bar = output::waiting_line(format!("the way of least {}", objective.name()));
     let found = inputs.study.route(tables, inputs.ground(), ends, objective)?;
     bar.finish_and_clear();
     let route = match &found {
@@ -106,8 +105,7 @@ fn advice(
     route: &Route,
     samples: &[Sample],
 ) -> Result<Vec<Option<Advice>>, Failure> {
-    let bar = output::progress_bar(0);
-    bar.set_message("advice for each leg");
+    let bar = output::waiting_line("advice for each leg");
     let found = route.advice(&inputs.study.mobility, samples, &|| true);
     bar.finish_and_clear();
     Ok(sampling::whole(found?))
@@ -123,8 +121,7 @@ fn drive(
     let scenario = &inputs.scenario.value;
     let model = inputs.raster.clone().model();
     let model = model.map_err(|error| Failure::Run(error.to_string()))?;
-    let bar = output::progress_bar(0);
-    bar.set_message("driving the way");
+    let bar = output::waiting_line("driving the way");
     let driven = route.drive(scenario, &Arc::new(model), inputs.study.mobility.rim_speed);
     bar.finish_and_clear();
     driven.map(Some).map_err(|error| Failure::Run(format!("the way cannot be driven: {error}")))

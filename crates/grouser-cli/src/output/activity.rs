@@ -97,23 +97,31 @@ pub(crate) fn rate_bar(length: u64) -> ProgressBar {
         let _ = write!(text, "{}/s", in_two_digits(state.per_sec()));
     };
     let template = "{bar:30} {human_pos}/{human_len} runs  {rate}  {msg}{elapsed} gone, {eta} left";
-    shown(length, style(template).with_key("rate", rate))
+    shown(ProgressBar::new(length), style(template).with_key("rate", rate))
 }
 
 /// A bar on the standard error, drawn only where that is a terminal.
 pub(crate) fn progress_bar(length: u64) -> ProgressBar {
-    shown(length, style("{bar:30} {pos}/{len} {msg} {elapsed}"))
+    let template = "{bar:30} {pos}/{len} {msg}  {elapsed} gone, {eta} left";
+    shown(ProgressBar::new(length), style(template))
+}
+
+/// A line with its time for work that nobody can count, likewise.
+///
+/// * `what`: is done
+pub(crate) fn waiting_line(what: impl Into<String>) -> ProgressBar {
+    shown(ProgressBar::new_spinner(), style("{spinner} {msg}  {elapsed}")).with_message(what.into())
 }
 
 fn style(template: &str) -> ProgressStyle {
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
-fn shown(length: u64, style: ProgressStyle) -> ProgressBar {
+fn shown(bar: ProgressBar, style: ProgressStyle) -> ProgressBar {
     if terminal::is_quiet() {
         return ProgressBar::hidden();
     }
-    let bar = ProgressBar::new(length).with_style(style);
+    let bar = bar.with_style(style);
     if let Some(activity) = &mut *activity() {
         activity.clear();
         activity.bar = Some(bar.clone());

@@ -40,15 +40,14 @@ impl<'a> Progress<'a> {
 
 impl Observer for Progress<'_> {
     fn begins(&self, work: Work) {
-        let (length, done, what) = match work {
-            Work::Searches(starts) => (starts as u64, 0, "least squares from several starts"),
-            Work::Blocks { done, all } => (all, done, "blocks of the posterior"),
-            Work::LeavingOut => (0, 0, "fits without one slip angle"),
-        };
-        let bar = output::progress_bar(length);
-        bar.set_message(what);
-        bar.set_position(done);
-        *self.bar() = Some(bar);
+        let counted = |length, what: &'static str| output::progress_bar(length).with_message(what);
+        *self.bar() = Some(match work {
+            Work::Searches(starts) => counted(starts as u64, "least squares from several starts"),
+            Work::Blocks { done, all } => {
+                counted(all, "blocks of the posterior").with_position(done)
+            }
+            Work::LeavingOut => output::waiting_line("fits without one slip angle"),
+        });
     }
 
     fn searched(&self) -> ControlFlow<()> {

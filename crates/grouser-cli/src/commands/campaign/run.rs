@@ -12,6 +12,7 @@ use grouser::document::Campaign;
 use grouser::document::campaign::FAILED;
 use grouser::document::table::Values;
 use grouser_store::{Folder, Results, ShardSet, StoreError, Study, shard_bytes};
+use indicatif::ProgressBar;
 use serde::Serialize;
 
 use super::digest::DigestRecord;
@@ -67,13 +68,13 @@ pub(super) fn run(args: &CampaignRunArgs) -> Result<(), Failure> {
 /// Opens the folder, and checks all files in it, with a progress bar.
 fn open(args: &CampaignRunArgs, study: &Study) -> Result<Folder, Failure> {
     let _deferred = interrupt::defer_ctrl_c();
-    let bar = output::progress_bar(0);
-    bar.set_message("shards checked");
+    let mut bar = None;
     let folder = Folder::open_watched(&args.out, study, args.shard, &mut |done, all| {
-        bar.set_length(all);
+        let bar =
+            bar.get_or_insert_with(|| output::progress_bar(all).with_message("shards checked"));
         bar.set_position(done);
     });
-    bar.finish_and_clear();
+    bar.inspect(ProgressBar::finish_and_clear);
     Ok(folder?)
 }
 

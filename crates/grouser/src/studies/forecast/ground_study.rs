@@ -1,11 +1,12 @@
 //! The forecast on one ground: its cases, their bands and their error budget.
 
 use super::case::{self, OfCase};
-use super::choices::with_strength_of;
-use super::{
-    Choices, Factor, FactorKind, ForecastError, ForecastStudy, Ground, GroundForecast,
-    SlopeForecast, Support, design_of,
-};
+use super::choices::{Choices, Ground, with_strength_of};
+use super::error::ForecastError;
+use super::factor::{Factor, FactorKind};
+use super::result::{GroundForecast, SlopeForecast};
+use super::study::{ForecastStudy, design_of};
+use super::support::Support;
 use crate::contact::validity::{Finding, Flag};
 use crate::soil::GravityScaling;
 use crate::studies::ensemble::factorial::Factorial;
