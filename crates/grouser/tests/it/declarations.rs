@@ -131,9 +131,7 @@ fn is_a_key_too(name: &str) -> bool {
 }
 
 /// Where a name that only results have stands once more, and why.
-const OTHER_PLACES: [(&str, &str); 11] = [
-    // Plates sink, too, in results of their own.
-    ("sinkage_mm", "document/calibration/bevameter.rs"),
+const OTHER_PLACES: [(&str, &str); 9] = [
     // Options of the program and arguments of Python's functions, which results repeat.
     ("course_deg", "src/args/heading.rs"),
     ("course_deg", "src/args/slip_from_current.rs"),
@@ -143,7 +141,6 @@ const OTHER_PLACES: [(&str, &str); 11] = [
     // A direction on a path that is asked for.
     ("heading_deg", "grouser-python/src/paths.rs"),
     ("course_deg", "grouser-python/src/studies.rs"),
-    ("sinkage_mm", "grouser-python/src/wheels.rs"),
     // A way as a record, which has lists beside the numbers of its row.
     ("turned_deg", "document/route.rs"),
     ("most_slope_deg", "document/route.rs"),
