@@ -83,8 +83,11 @@ pub(crate) fn check_regular(path: &Path) -> Result<(), FileProblem> {
     open(path).map(drop)
 }
 
-/// Opens a file without waiting.
-fn open(path: &Path) -> Result<File, FileProblem> {
+/// Opens a file without waiting, for callers that read it bit by bit.
+///
+/// # Errors
+/// The same as [`read`], but for the size.
+pub fn open(path: &Path) -> Result<File, FileProblem> {
     let failed = |error: io::Error| failed(path, &error);
     if let Some(input) = standard_input(path) {
         let file = input.map_err(failed)?;

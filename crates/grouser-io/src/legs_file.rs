@@ -3,6 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use grouser_core::terrain::Extent;
+use grouser_core::units::Vec2;
 use serde_json::Value as Json;
 
 use super::error::{DocumentError, Problem};
@@ -126,7 +128,7 @@ fn of_geojson(text: &Arc<Text>) -> Result<Vec<Node>, DocumentError> {
     let fault = |what: String| DocumentError::whole(&text.label, Problem::NoLegs(what));
     let json: Json =
         serde_json::from_str(&text.content).map_err(|error| fault(format!("no JSON: {error}")))?;
-    let mut legs = Vec::new();
+    let (mut legs, mut all) = (Vec::new(), Vec::new());
     for (geometry, properties) in features(&json) {
         let places: Vec<&Json> = match geometry["type"].as_str() {
             Some("Point") => vec![&geometry["coordinates"]],
@@ -144,11 +146,28 @@ fn of_geojson(text: &Arc<Text>) -> Result<Vec<Node>, DocumentError> {
             let [Some(x), Some(y)] = [place[0].as_f64(), place[1].as_f64()] else {
                 return Err(fault(format!("{place} is no place: two numbers are, x and y")));
             };
+            all.push(Vec2::new(x, y));
             legs.push(waypoint(text, [x, y], properties));
         }
     }
     if legs.is_empty() {
         return Err(fault("it has no features".to_owned()));
+    }
+    let least = |of: fn(&Vec2) -> f64| all.iter().map(of).fold(f64::INFINITY, f64::min);
+    let most = |of: fn(&Vec2) -> f64| all.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+    let extent = Extent {
+        south_west: Vec2::new(least(|it| it.x), least(|it| it.y)),
+        north_east: Vec2::new(most(|it| it.x), most(|it| it.y)),
+    };
+    // A file that names its coordinate system says what its numbers are.
+    if json["crs"].is_null() && grouser_raster::are_degrees(&extent) {
+        let what = "its places look like degrees of longitude and latitude, and those of a mission \
+                    are metres from its start";
+        return Err(fault(what.to_owned()).with_hint(
+            "ogr2ogr -t_srs SYSTEM OUT.geojson IN.geojson writes metres; with a member `crs` that \
+             names their system places are taken as metres"
+                .to_owned(),
+        ));
     }
     Ok(legs)
 }

@@ -48,6 +48,7 @@ mod field;
 pub mod figure;
 pub mod file;
 mod gravity;
+pub mod guard;
 mod json_schema;
 mod kind;
 mod legs_file;

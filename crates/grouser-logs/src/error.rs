@@ -2,10 +2,12 @@
 
 use std::fmt;
 use std::io;
-use std::path::Path;
 
+use grouser_io::file::FileProblem;
 use grouser_io::measurements::MeasurementError;
 use grouser_io::{DocumentError, escape};
+
+pub use crate::mcap::read::OverBudget;
 
 /// Why telemetry could not be read: the file, and what is wrong with it.
 #[derive(Debug)]
@@ -19,12 +21,9 @@ pub struct TelemetryError {
 /// What is wrong.
 #[derive(Debug, thiserror::Error)]
 pub enum Problem {
-    /// A path that leads nowhere.
-    #[error("there is no such file")]
-    NoSuchFile,
-    /// A folder where a file should be.
-    #[error("this is a folder, not a file")]
-    Folder,
+    /// What is no file, is not there, or may not be read.
+    #[error("{0}")]
+    File(FileProblem),
     /// The disk, or permission for it, failed.
     #[error("cannot be read: {0}")]
     Unreadable(io::Error),
@@ -69,6 +68,9 @@ pub enum Problem {
     /// A file of Parquet that is damaged, or written in a way that is not read.
     #[error("{0}")]
     Parquet(String),
+    /// A log that unpacks to more than a log of its size may.
+    #[error("{0}")]
+    OverBudget(OverBudget),
     /// A log of another kind.
     #[error("this is {0}, which is not read here")]
     OtherKind(&'static str),
@@ -87,19 +89,13 @@ impl TelemetryError {
                 "Python converts it: python -m grouser import-telemetry LOG --out drive.csv"
                     .to_owned(),
             ),
+            Problem::OverBudget(_) => Some(
+                "`mcap decompress LOG -o UNPACKED` writes it unpacked, if it is meant so"
+                    .to_owned(),
+            ),
             _ => None,
         };
         Self { label: label.to_owned(), problem: Box::new(problem), hint }
-    }
-
-    /// A failure while a file is opened.
-    pub(crate) fn open(path: &Path, error: io::Error) -> Self {
-        let problem = match error.kind() {
-            io::ErrorKind::NotFound => Problem::NoSuchFile,
-            _ if path.is_dir() => Problem::Folder,
-            _ => Problem::Unreadable(error),
-        };
-        Self::new(&escape::path(path), problem)
     }
 
     /// What messages call the file.
@@ -118,7 +114,7 @@ impl TelemetryError {
     #[must_use]
     pub fn is_environment(&self) -> bool {
         match &*self.problem {
-            Problem::Unreadable(_) => true,
+            Problem::Unreadable(_) | Problem::File(FileProblem::Unreadable { .. }) => true,
             Problem::Table(error) => error.is_environment(),
             Problem::Document(error) => error.is_environment(),
             _ => false,
@@ -129,6 +125,12 @@ impl TelemetryError {
 /// Topics as a sentence bears them.
 fn listed(topics: &[String]) -> String {
     if topics.is_empty() { "none".to_owned() } else { topics.join(", ") }
+}
+
+impl From<FileProblem> for Problem {
+    fn from(problem: FileProblem) -> Self {
+        Self::File(problem)
+    }
 }
 
 impl From<MeasurementError> for TelemetryError {

@@ -75,7 +75,7 @@ mod replay_log;
 mod run_log;
 mod telemetry;
 
-pub use error::{Problem, TelemetryError};
+pub use error::{OverBudget, Problem, TelemetryError};
 pub use foxglove::Level;
 pub use mapping::Mapping;
 pub use mapping::messages::MessageRows;

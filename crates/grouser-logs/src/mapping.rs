@@ -1,6 +1,7 @@
 //! The mapping by which a log of messages is read: one that is named, or the built-in one that
 //! fits.
 
+pub(crate) mod clock;
 pub(crate) mod merge;
 pub(crate) mod messages;
 pub(crate) mod plan;

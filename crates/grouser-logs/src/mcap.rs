@@ -2,6 +2,7 @@
 //! Format Specification", version 0, mcap.dev/spec.
 
 pub(crate) mod format;
+pub(crate) mod order;
 pub(crate) mod read;
 pub(crate) mod write;
 

@@ -10,9 +10,10 @@ use std::io::{self, BufReader, Read, Seek as _};
 use std::path::Path;
 use std::rc::Rc;
 
+use flate2::read::MultiGzDecoder;
 use grouser_core::vehicle::Rover;
-use grouser_io::escape;
 use grouser_io::measurements::telemetry::{Lost, TelemetryReader, TelemetryRecord, TelemetryRows};
+use grouser_io::{escape, file};
 
 use self::mcap::McapLog;
 use self::parquet::ParquetLog;
@@ -20,6 +21,9 @@ use crate::error::{Problem, TelemetryError};
 use crate::mapping::Mapping;
 use crate::mapping::plan::TopicChoices;
 use crate::mcap::format::MAGIC;
+
+/// How a file that is packed by gzip begins.
+const GZIP: &[u8] = &[0x1f, 0x8b];
 
 /// Telemetry of a drive, opened.
 pub struct TelemetryLog {
@@ -50,14 +54,16 @@ impl TelemetryLog {
         mapping: Option<&Mapping>,
         choices: &TopicChoices,
     ) -> Result<Self, TelemetryError> {
-        let failed = |error| TelemetryError::open(path, error);
-        let mut file = File::open(path).map_err(failed)?;
-        if file.metadata().map_err(failed)?.is_dir() {
-            return Err(TelemetryError::new(&escape::path(path), Problem::Folder));
-        }
-        let start = first_bytes(&mut file).map_err(failed)?;
-        file.rewind().map_err(failed)?;
         let label = escape::path(path);
+        let of_disk = |error| TelemetryError::new(&label, Problem::Unreadable(error));
+        let mut file =
+            file::open(path).map_err(|problem| TelemetryError::new(&label, problem.into()))?;
+        let start = first_bytes(&mut file).map_err(of_disk)?;
+        // What is a pipe cannot be sought in.
+        if file.rewind().is_err() {
+            let source = Box::new(io::Cursor::new(start).chain(file));
+            return Self::of_csv(&label, Box::new(BufReader::new(source)), rover);
+        }
         let bags: [(&[u8], &str); 2] =
             [(b"#ROSBAG V", "a bag of ROS 1"), (b"SQLite format 3", "a bag of ROS 2 in SQLite")];
         if let Some((_, kind)) = bags.iter().find(|(magic, _)| start.starts_with(magic)) {
@@ -74,7 +80,12 @@ impl TelemetryLog {
             let log = ParquetLog::new(&label, file, rover)?;
             return Ok(Self { label, source: Source::Parquet(log) });
         }
-        Self::of_csv(&label, Box::new(BufReader::new(file)), rover)
+        let source: Box<dyn Read> = if start.starts_with(GZIP) {
+            Box::new(MultiGzDecoder::new(BufReader::new(file)))
+        } else {
+            Box::new(BufReader::new(file))
+        };
+        Self::of_csv(&label, source, rover)
     }
 
     /// Reads CSV as it comes, such as from standard input.
@@ -148,7 +159,8 @@ impl TelemetryLog {
             Source::Parquet(log) => log.notes(),
             Source::Mcap(log) => log.notes(),
         };
-        of_kind.into_iter().chain(self.table().sentence_of_unused()).collect()
+        let of_table = [self.table().sentence_of_time(), self.table().sentence_of_unused()];
+        of_kind.into_iter().chain(of_table.into_iter().flatten()).collect()
     }
 
     fn table(&self) -> &TelemetryRows {

@@ -146,10 +146,10 @@ pub(crate) fn of_telemetry(error: &TelemetryError) -> PyErr {
     match error.problem() {
         TelemetryProblem::Table(error) => of_measurements(error, &file),
         TelemetryProblem::Document(error) => of_document(error, &[]),
-        TelemetryProblem::NoSuchFile => {
+        TelemetryProblem::File(FileProblem::NoSuchFile | FileProblem::BrokenLink { .. }) => {
             classes::DocumentNotFoundError::new_err((message, file, None::<String>))
         }
-        TelemetryProblem::Folder | TelemetryProblem::Unreadable(_) => {
+        TelemetryProblem::File(_) | TelemetryProblem::Unreadable(_) => {
             classes::DocumentUnreadableError::new_err((message, file))
         }
         _ => {

@@ -32,6 +32,9 @@ pub enum Fault {
     /// The disk or its permissions.
     #[error("cannot be read: {0}")]
     Disk(#[from] io::Error),
+    /// A device, or a pipe, which has no end.
+    #[error("is no file, but a device or a pipe\nhint: write what comes from it to a file first")]
+    NoFile,
     /// Nothing is in it.
     #[error("is empty\nhint: copy or download it again")]
     Empty,
@@ -47,7 +50,7 @@ pub enum Fault {
     UnknownFormat,
     /// More cells than are read.
     #[error(
-        "has {columns} × {rows} cells, and at most {limit} are read\nhint: cut out the area of the drive: gdal_translate -projwin WEST NORTH EAST SOUTH IN OUT.tif"
+        "has {columns} × {rows} cells, and at most {limit} are read of it\nhint: cut out the area of the drive: gdal_translate -projwin WEST NORTH EAST SOUTH IN OUT.tif; --max-cells of map and route reads more"
     )]
     TooLarge {
         /// Cells in a row.
@@ -268,7 +271,7 @@ pub enum Fault {
     },
     /// Numbers that are longitude and latitude.
     #[error(
-        "has coordinates that look like degrees of longitude and latitude: none is on the ground, and all are within ±360 and ±90\nhint: ogr2ogr -t_srs SYSTEM_OF_THE_MAP OUT.geojson IN.geojson"
+        "has coordinates that look like degrees of longitude and latitude: all are within ±360 and ±90, and none is where the rover drives\nhint: ogr2ogr -t_srs SYSTEM_OF_THE_MAP OUT.geojson IN.geojson"
     )]
     ZonesInDegrees,
     /// Zones of another place.

@@ -80,7 +80,9 @@ fn limits(length: u64, options: &ReadOptions) -> OpenOptions {
     let mut limits = OpenOptions {
         // Rows of blocks are read once each.
         block_cache_bytes: 0,
-        decode_output_bytes: bytes(options.cells.saturating_mul(CELL).saturating_add(BLOCK)),
+        decode_output_bytes: bytes(
+            options.most_cells(length).saturating_mul(CELL).saturating_add(BLOCK),
+        ),
         ..OpenOptions::default()
     };
     // A tag's values are in the file: no more of them than it is long.
@@ -93,7 +95,7 @@ fn limits(length: u64, options: &ReadOptions) -> OpenOptions {
 fn raster_of(tiff: &TiffFile, length: u64, options: &ReadOptions) -> Result<Raster, Fault> {
     let ifd = image(tiff)?;
     let (columns, rows) = (u64::from(ifd.width()), u64::from(ifd.height()));
-    let cells = checked_cells(columns, rows, options.cells)?;
+    let cells = checked_cells(columns, rows, options.most_cells(length))?;
     check_samples(ifd, options.content)?;
     check_order(tiff, ifd)?;
     let layout = ifd.raster_layout()?;

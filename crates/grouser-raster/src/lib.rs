@@ -56,4 +56,4 @@ pub use options::{CELLS, Content, Placement, ReadOptions, RowOrder};
 pub use raster::Raster;
 pub use read::read;
 pub use zones::geojson::read_line_string;
-pub use zones::{ZoneKey, ZoneMap, read_areas, read_zones, zone_names};
+pub use zones::{ZoneKey, ZoneMap, are_degrees, read_areas, read_zones, zone_names};

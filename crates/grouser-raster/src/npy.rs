@@ -44,7 +44,7 @@ pub fn decode(mut bytes: &[u8], options: &ReadOptions) -> Result<Raster, Fault> 
 fn raster_of(file: &mut impl Read, length: u64, options: &ReadOptions) -> Result<Raster, Fault> {
     let Header { kind, little_endian, by_columns, rows, columns, bytes: start } =
         Header::read(file, length)?;
-    let cells = checked_cells(columns, rows, options.cells)?;
+    let cells = checked_cells(columns, rows, options.most_cells(length))?;
     let promised = cells as u64 * kind.bytes() as u64;
     if length < start + promised {
         return Err(Fault::Truncated { promised, found: length });

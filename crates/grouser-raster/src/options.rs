@@ -6,6 +6,11 @@ use grouser_core::units::Vec2;
 /// The most cells that are read if nothing else is asked for: 2²⁸, such as 16 384 × 16 384, which
 /// take 1 GiB.
 pub const CELLS: u64 = 1 << 28;
+/// Cells that are read however small the file is if nothing else is asked for: 64 MiB.
+const CELLS_OF_ANY_FILE: u64 = 1 << 24;
+/// Cells for each byte of a file likewise. Compressed heights take a quarter of a byte and more; a
+/// file of which each byte stands for more is empty ground, or made to fill the memory.
+const CELLS_PER_BYTE: u64 = 32;
 
 /// How a file is to be read.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,8 +21,8 @@ pub struct ReadOptions {
     pub band: Option<usize>,
     /// A height that stands for a missing one, beside those that the file declares [m].
     pub missing: Option<f64>,
-    /// The most cells that are read.
-    pub cells: u64,
+    /// The most cells that are read; `None` for what a file of its size has ([`CELLS`] at most).
+    pub cells: Option<u64>,
     /// What the cells are.
     pub content: Content,
 }
@@ -34,7 +39,17 @@ pub enum Content {
 
 impl Default for ReadOptions {
     fn default() -> Self {
-        Self { placement: None, band: None, missing: None, cells: CELLS, content: Content::Heights }
+        Self { placement: None, band: None, missing: None, cells: None, content: Content::Heights }
+    }
+}
+
+impl ReadOptions {
+    /// The most cells that are read of a file.
+    ///
+    /// * `length`: of the file [bytes]
+    pub(crate) fn most_cells(&self, length: u64) -> u64 {
+        let of_file = length.saturating_mul(CELLS_PER_BYTE).max(CELLS_OF_ANY_FILE);
+        self.cells.unwrap_or(of_file.min(CELLS))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Files of any format.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
 
@@ -29,9 +29,13 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Raster, RasterError> {
     }
 }
 
-/// The first bytes of a file.
+/// The first bytes of a file. A pipe without a writer would be waited for.
 pub(crate) fn start_of(path: &Path) -> Result<Vec<u8>, Fault> {
     const BYTES: u64 = 64;
+    let kind = fs::metadata(path)?.file_type();
+    if !kind.is_file() && !kind.is_dir() {
+        return Err(Fault::NoFile);
+    }
     let mut start = Vec::new();
     File::open(path)?.take(BYTES).read_to_end(&mut start)?;
     if start.is_empty() { Err(Fault::Empty) } else { Ok(start) }

@@ -16,7 +16,7 @@ use grouser_core::units::Vec2;
 
 use crate::error::{Fault, RasterError};
 use crate::heights::{Heights, checked_cells};
-use crate::{CoordinateSystem, Raster, ReadOptions, RowOrder};
+use crate::{CELLS, CoordinateSystem, Raster, ReadOptions, RowOrder};
 use axis::Axis;
 
 /// Bytes of a line, at most.
@@ -56,7 +56,7 @@ pub fn decode(text: impl BufRead, options: &ReadOptions) -> Result<Raster, Fault
     let points = Points::read(text, options)?;
     let columns = Axis::of(&points.x).map_err(|fault| points.fault("x", &fault))?;
     let rows = Axis::of(&points.y).map_err(|fault| points.fault("y", &fault))?;
-    let cells = checked_cells(columns.count, rows.count, options.cells)?;
+    let cells = checked_cells(columns.count, rows.count, options.cells.unwrap_or(CELLS))?;
     if cells as u64 / EMPTY > points.x.len() as u64 {
         let points = points.x.len();
         return Err(Fault::Sparse { points, columns: columns.count, rows: rows.count });
@@ -123,9 +123,9 @@ impl Points {
             if !x.is_finite() || !y.is_finite() {
                 return Err(fault("x and y must be finite".into()));
             }
-            if points.x.len() as u64 == options.cells {
-                let (columns, rows) = (options.cells + 1, 1);
-                return Err(Fault::TooLarge { columns, rows, limit: options.cells });
+            let limit = options.cells.unwrap_or(CELLS);
+            if points.x.len() as u64 == limit {
+                return Err(Fault::TooLarge { columns: limit + 1, rows: 1, limit });
             }
             points.push([x, y, z], number);
         }

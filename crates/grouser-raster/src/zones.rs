@@ -27,7 +27,7 @@ pub(crate) mod key;
 mod map;
 
 pub use key::ZoneKey;
-pub use map::ZoneMap;
+pub use map::{ZoneMap, are_degrees};
 
 use std::path::Path;
 

@@ -20,6 +20,10 @@ pub(crate) struct MapArgs {
     /// A map of heights: a GeoTIFF in metres, or text with x, y and z in each line.
     #[arg(value_name = "DEM")]
     pub(crate) dem: PathBuf,
+    /// The most cells that are read of DEM; without it as many as a file of its size has, 32 for
+    /// each byte and 2^24 at least, 2^28 at most.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(4..))]
+    pub(crate) max_cells: Option<u64>,
     /// A scenario's file or preset, for its rover, soil, gravity, load transfer and rim speed;
     /// without it the default scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]

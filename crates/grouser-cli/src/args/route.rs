@@ -26,6 +26,10 @@ pub(crate) struct RouteArgs {
     /// without it the default scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) scenario: Option<String>,
+    /// The most cells that are read of DEM; without it as many as a file of its size has, 32 for
+    /// each byte and 2^24 at least, 2^28 at most.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(4..))]
+    pub(crate) max_cells: Option<u64>,
     #[command(flatten)]
     pub(crate) parts: PartArgs,
     /// Where the way begins, in the map's coordinates [m].

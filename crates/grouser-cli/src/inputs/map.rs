@@ -47,7 +47,8 @@ pub(crate) fn map(args: &MapArgs) -> Result<MapInputs, Failure> {
         rule: rule(&args.rule)?,
         ..SlopeStudy::of(&scenario)
     };
-    let raster = grouser_raster::read(&args.dem, &ReadOptions::default())?;
+    let options = ReadOptions { cells: args.max_cells, ..ReadOptions::default() };
+    let raster = grouser_raster::read(&args.dem, &options)?;
     Ok(MapInputs { scenario, study, course, raster })
 }
 

@@ -58,7 +58,8 @@ pub(crate) fn route(args: &RouteArgs) -> Result<RouteInputs, Failure> {
         ..SlopeStudy::of(&scenario)
     };
     let limits = limits(args, &mobility)?;
-    let raster = grouser_raster::read(&args.dem, &ReadOptions::default())?;
+    let options = ReadOptions { cells: args.max_cells, ..ReadOptions::default() };
+    let raster = grouser_raster::read(&args.dem, &options)?;
     let mut study = RouteStudy { mobility, limits, keep_out: None };
     if let Some(file) = &args.keep_out {
         study = study.keeping_out_of(file, &raster.grid.extent())?;

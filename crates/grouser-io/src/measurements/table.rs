@@ -83,6 +83,114 @@ impl<'a, R: Read> Table<'a, R> {
     }
 }
 
+/// How the fields of a table are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dialect {
+    /// What parts fields.
+    pub delimiter: u8,
+    /// Whether decimals may be written with a comma, which then parts no fields.
+    pub has_decimal_commas: bool,
+}
+
+/// A source whose first lines were looked at.
+pub type LookedAt<R> = io::Chain<io::Cursor<Vec<u8>>, R>;
+
+impl<'a, R: Read> Table<'a, LookedAt<R>> {
+    /// A table of which nobody says how it is written: its header does. Lines that begin with `#`
+    /// are comments; where all lines of words do, the last of them is the header.
+    ///
+    /// * `label`: what messages call the source
+    ///
+    /// # Errors
+    /// [`MeasurementError`] where reading fails.
+    pub fn of_any_dialect(
+        label: impl Into<Cow<'a, str>>,
+        mut source: R,
+        limits: Limits,
+    ) -> Result<(Self, Dialect), MeasurementError> {
+        let label = label.into();
+        let start = first_lines(&mut source);
+        let mut start = start.map_err(|error| MeasurementError::io(&label, &error, 1))?;
+        let dialect = dialect_of(&mut start);
+        let mut builder = csv::ReaderBuilder::new();
+        builder.delimiter(dialect.delimiter).trim(csv::Trim::All).comment(Some(b'#'));
+        let source = io::Cursor::new(start).chain(source);
+        let source = LineEnds { longest_row: Limits::LONGEST_ROW, ..LineEnds::of(source, limits) };
+        Ok((Self { label, reader: builder.from_reader(source), limits, rows: 0 }, dialect))
+    }
+}
+
+/// The start of a source, up to the end of the first line that is no comment.
+fn first_lines(source: &mut impl Read) -> io::Result<Vec<u8>> {
+    /// So much of a source is looked at, at most [bytes].
+    const MOST: usize = 1 << 16;
+    let mut start = Vec::new();
+    let has_line = |start: &[u8]| {
+        let ended = start.iter().rposition(|byte| is_line_end(*byte)).unwrap_or(0);
+        lines_of(&start[..ended]).any(|line| !is_comment(line))
+    };
+    while start.len() < MOST && !has_line(&start) {
+        let before = start.len();
+        start.resize(before + 4096, 0);
+        let read = source.read(&mut start[before..])?;
+        start.truncate(before + read);
+        if read == 0 {
+            break;
+        }
+    }
+    Ok(start)
+}
+
+/// How a table is written that begins so; a header behind a `#` becomes one without.
+fn dialect_of(start: &mut [u8]) -> Dialect {
+    let mut comment = None;
+    let mut header: &[u8] = &[];
+    for line in lines_of(start) {
+        if !is_comment(line) {
+            header = line;
+            break;
+        }
+        if line.contains(&b'#') {
+            comment = Some(line);
+        }
+    }
+    let delimiter = delimiter_of(header);
+    let cells = |line: &[u8]| line.split(|byte| *byte == delimiter).count();
+    let is_numbers = !header
+        .iter()
+        .any(|byte| byte.is_ascii_alphabetic() && *byte != b'T' && *byte != b'Z' && *byte != b'e');
+    let behind = comment.filter(|line| is_numbers && cells(line) == cells(header));
+    let mark = behind.and_then(|line| {
+        let offset = line.as_ptr() as usize - start.as_ptr() as usize;
+        Some(offset + line.iter().position(|byte| *byte == b'#')?)
+    });
+    if let Some(mark) = mark {
+        start[mark] = b' ';
+    }
+    Dialect { delimiter, has_decimal_commas: delimiter != b',' }
+}
+
+/// What parts the fields of a header.
+fn delimiter_of(header: &[u8]) -> u8 {
+    let count = |delimiter: u8| header.split(|byte| *byte == delimiter).count();
+    let others = [b';', b'\t'].into_iter().max_by_key(|it| count(*it)).unwrap_or(b';');
+    if count(others) > count(b',') { others } else { b',' }
+}
+
+fn is_line_end(byte: u8) -> bool {
+    matches!(byte, b'\n' | b'\r')
+}
+
+fn lines_of(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    text.split(|byte| is_line_end(*byte))
+}
+
+/// Whether a line has nothing, or begins with `#`.
+fn is_comment(line: &[u8]) -> bool {
+    let line = line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line).trim_ascii_start();
+    line.first().is_none_or(|byte| *byte == b'#')
+}
+
 /// A text with every line end, the last one too, as a line feed, and of limited length.
 pub struct LineEnds<R> {
     source: R,
@@ -203,6 +311,30 @@ mod tests {
                 };
                 LineEnds::of(source, Limits::default()).read_to_string(&mut found).unwrap();
                 assert_eq!(found, expected, "{text:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_header_says_how_a_table_is_written() {
+        for (text, delimiter, names) in [
+            ("a,b\n1,2\n", b',', ["a", "b"]),
+            ("a;b\r\n1,5;2\r\n", b';', ["a", "b"]),
+            ("# of a drive, in sand\n\na\tb\n1\t2\n", b'\t', ["a", "b"]),
+            ("# a,b\n1,2\n", b',', ["a", "b"]),
+            ("# of a drive\n# a;b\n1,5;2e-3\n", b';', ["a", "b"]),
+            ("\u{feff}a;b", b';', ["\u{feff}a", "b"]),
+        ] {
+            for slow in [false, true] {
+                let source: Box<dyn Read> =
+                    if slow { Box::new(Slowly(text.as_bytes())) } else { Box::new(text.as_bytes()) };
+                let opened = Table::of_any_dialect("a.csv", source, Limits::default());
+                let (mut table, dialect) = opened.unwrap();
+                assert_eq!(dialect.delimiter, delimiter, "{text:?}");
+                let header = table.header().unwrap();
+                assert_eq!(header.iter().collect::<Vec<_>>(), names, "{text:?}");
+                let mut row = StringRecord::new();
+                assert_eq!(table.next_row(&mut row).unwrap(), text.contains('1'), "{text:?}");
             }
         }
     }

@@ -10,6 +10,7 @@
 //! row without a time of its own is left out. [`Lost`] counts all of that. Memory does not grow
 //! with the length of the log.
 
+mod clock;
 mod reader;
 mod rows;
 
@@ -25,6 +26,7 @@ use super::super::columns::{
 };
 use super::super::unit::{A, DEG, M, NM};
 use super::log_column::{LogColumn, column};
+pub use clock::TimeUnit;
 pub use reader::TelemetryReader;
 pub use rows::{Cell, TelemetryRows, is_same_wheel};
 
@@ -80,6 +82,9 @@ pub struct TelemetryRecord {
     pub displacement: [Option<f64>; 2],
     /// Rotation since the last record that has one [rad].
     pub rotation: Option<f64>,
+    /// Whether ways and rotation may lack some since the last record: a row between could not be
+    /// read. They tell no velocity.
+    pub is_way_incomplete: bool,
     /// Position along the contour and uphill [m].
     pub position: [Option<f64>; 2],
     /// Telemetry of each wheel, in the order of the rover's mounts.

@@ -81,6 +81,8 @@ pub(crate) struct Merge {
     passed: Option<i64>,
     row: Option<(i64, Readings)>,
     has_ended: bool,
+    /// Whether ways, or rotations, were among the readings that were left out lately.
+    has_lost_ways: bool,
     /// Readings that came after their window.
     pub(crate) late: u64,
     /// Readings whose time leapt ahead.
@@ -99,6 +101,7 @@ impl Merge {
             passed: None,
             row: None,
             has_ended: false,
+            has_lost_ways: false,
             late: 0,
             leaps: 0,
         }
@@ -113,16 +116,28 @@ impl Merge {
             self.leapt = Some(time);
             if !is_confirmed {
                 self.leaps += 1;
+                self.leave_out(&readings);
                 return;
             }
         }
         if self.passed.is_some_and(|passed| time <= passed) {
             self.late += 1;
+            self.leave_out(&readings);
             return;
         }
         self.leapt = None;
         self.newest = self.newest.max(Some(time));
         self.waiting.entry(time).or_default().join(readings);
+    }
+
+    fn leave_out(&mut self, readings: &Readings) {
+        let is_way = |(column, _): &(usize, Cell)| self.ways.get(*column) == Some(&true);
+        self.has_lost_ways |= readings.cells.iter().any(is_way);
+    }
+
+    /// Whether ways, or rotations, were left out since this was last asked.
+    pub(crate) fn take_lost_ways(&mut self) -> bool {
+        std::mem::take(&mut self.has_lost_ways)
     }
 
     /// No more comes: all that waits is passed on.

@@ -11,6 +11,7 @@ use serde_json::Value;
 
 use crate::error::{Problem, TelemetryError};
 use crate::mapping::Mapping;
+use crate::mapping::clock::{Clock, When};
 use crate::mapping::merge::{Merge, Readings};
 use crate::mapping::plan::{Plan, Planned, PlannedReading, TopicChoices};
 use crate::mapping::pose::{Frames, Pose, Rotation};
@@ -22,6 +23,7 @@ pub struct MessageRows {
     mapping: String,
     /// The readings of each topic.
     by_topic: HashMap<String, Vec<usize>>,
+    clock: Clock,
     merge: Merge,
     table: TelemetryRows,
     frames: Frames,
@@ -91,8 +93,8 @@ impl MessageRows {
         let merge = Merge::new(plan.window, plan.rows.clone(), ways);
         let last = vec![None; plan.poses];
         let mapping = mapping.rules.name.clone();
-        let (frames, counts) = (Frames::default(), Counts::default());
-        Ok(Self { plan, mapping, by_topic, merge, table, frames, last, counts })
+        let (clock, frames, counts) = (Clock::default(), Frames::default(), Counts::default());
+        Ok(Self { plan, mapping, by_topic, clock, merge, table, frames, last, counts })
     }
 
     /// Whether messages of a topic are read.
@@ -110,7 +112,8 @@ impl MessageRows {
         let Some(places) = self.by_topic.get(topic) else { return };
         let ends_row = matches!(&self.plan.rows, RowRule::Topic(it) if it == topic);
         if places.is_empty() && ends_row {
-            return self.merge.add(log_time, Readings { ends_row, ..Readings::default() });
+            let readings = Readings { ends_row, ..Readings::default() };
+            return self.place(log_time, When::Recorded, readings);
         }
         let is_transform = |it: &PlannedReading| {
             matches!(&it.what, Planned::Pose { of: PoseOf::Transform { .. }, .. })
@@ -118,20 +121,26 @@ impl MessageRows {
         let readings = places.iter().map(|place| &self.plan.readings[*place]);
         let moved =
             if readings.clone().any(is_transform) { self.frames.take(message) } else { Vec::new() };
-        let mut by_time: Vec<(i64, Readings)> = Vec::new();
-        let context = Context { topic, message, moved: &moved, frames: &self.frames, log_time };
+        let mut by_time: Vec<(When, Readings)> = Vec::new();
+        let context = Context { topic, message, moved: &moved, frames: &self.frames };
         for reading in readings {
-            let Some((time, readings)) = context.read(reading, &mut self.counts) else { continue };
-            match by_time.iter_mut().find(|(known, _)| *known == time) {
+            let Some((when, readings)) = context.read(reading, &mut self.counts) else { continue };
+            match by_time.iter_mut().find(|(known, _)| *known == when) {
                 Some((_, known)) => {
                     known.cells.extend(readings.cells);
                     known.poses.extend(readings.poses);
                 }
-                None => by_time.push((time, readings)),
+                None => by_time.push((when, readings)),
             }
         }
-        for (time, mut readings) in by_time {
+        for (when, mut readings) in by_time {
             readings.ends_row = ends_row;
+            self.place(log_time, when, readings);
+        }
+    }
+
+    fn place(&mut self, log_time: i64, when: When, readings: Readings) {
+        for (time, readings) in self.clock.place(log_time, (when, readings)) {
             self.merge.add(time, readings);
         }
     }
@@ -143,6 +152,9 @@ impl MessageRows {
 
     /// No more messages come: what waited for earlier ones becomes records.
     pub fn end(&mut self) {
+        for (time, readings) in self.clock.end() {
+            self.merge.add(time, readings);
+        }
         self.merge.end();
     }
 
@@ -150,6 +162,9 @@ impl MessageRows {
     pub fn next_record(&mut self) -> Option<TelemetryRecord> {
         loop {
             let (time, readings) = self.merge.next_row()?;
+            if self.merge.take_lost_ways() {
+                self.table.lose_way();
+            }
             let cells = self.cells(time, &readings);
             if let Some(record) = self.table.record(cells.into_iter()) {
                 return Some(record);
@@ -191,8 +206,8 @@ impl MessageRows {
         let Counts { without_stamp, with_stamp, outside, damaged, .. } = self.counts;
         if without_stamp > 0 && with_stamp > 0 {
             notes.push(format!(
-                "{without_stamp} messages have no time of their own, and count at \
-                                the time at which they were recorded"
+                "{without_stamp} messages have no time of their own, and take their place among \
+                 those that have one"
             ));
         }
         let window = self.plan.window as f64 / 1e9;
@@ -257,12 +272,11 @@ struct Context<'m> {
     /// Frames that it moved, each with its transform.
     moved: &'m [(&'m str, &'m Value)],
     frames: &'m Frames,
-    log_time: i64,
 }
 
 impl Context<'_> {
     /// What a reading reads of it, with its time.
-    fn read(&self, reading: &PlannedReading, counts: &mut Counts) -> Option<(i64, Readings)> {
+    fn read(&self, reading: &PlannedReading, counts: &mut Counts) -> Option<(When, Readings)> {
         let mut readings = Readings::default();
         match &reading.what {
             Planned::Number { field, column, factor, offset } => {
@@ -290,28 +304,9 @@ impl Context<'_> {
                 Found::One(value) => stamp(value),
                 _ => None,
             },
-            None => return Some((self.log_time, readings)),
+            None => return Some((When::Recorded, readings)),
         };
-        Some((self.stamped(time, counts)?, readings))
-    }
-
-    /// The time of a message that should have one.
-    fn stamped(&self, time: Option<f64>, counts: &mut Counts) -> Option<i64> {
-        let Some(time) = time else {
-            // At the log's very start no time is the time.
-            counts.without_stamp += u64::from(self.log_time != 0);
-            return Some(self.log_time);
-        };
-        /// Times of logs are below [ns]: 64 bits hold them.
-        const LAST: f64 = 9.2e18;
-        if time.abs() > LAST {
-            counts.outside += 1;
-            return None;
-        }
-        counts.with_stamp += 1;
-        // Within the range that was just asked for.
-        #[expect(clippy::cast_possible_truncation)]
-        Some(time as i64)
+        Some((stamped(time, counts)?, readings))
     }
 
     /// Counts an invalid reading.
@@ -363,7 +358,7 @@ impl Context<'_> {
         child: &str,
         slot: usize,
         counts: &mut Counts,
-    ) -> Option<(i64, Readings)> {
+    ) -> Option<(When, Readings)> {
         let is_between =
             |(frame, _): &&(&str, &Value)| self.frames.is_between(frame, child, parent);
         let (_, moved) = self.moved.iter().rev().find(is_between)?;
@@ -371,8 +366,27 @@ impl Context<'_> {
         let own = moved.get("timestamp").or_else(|| moved.get("header")?.get("stamp"));
         let time = own.and_then(stamp);
         let readings = Readings { poses: vec![(slot, pose)], ..Readings::default() };
-        Some((self.stamped(time, counts)?, readings))
+        Some((stamped(time, counts)?, readings))
     }
+}
+
+/// When a message was sent that should have a time of its own [ns]; nothing for a time that no log
+/// has.
+fn stamped(time: Option<f64>, counts: &mut Counts) -> Option<When> {
+    let Some(time) = time else {
+        counts.without_stamp += 1;
+        return Some(When::Recorded);
+    };
+    /// Times of logs are below [ns]: 64 bits hold them.
+    const LAST: f64 = 9.2e18;
+    if time.abs() > LAST {
+        counts.outside += 1;
+        return None;
+    }
+    counts.with_stamp += 1;
+    // Within the range that was just asked for.
+    #[expect(clippy::cast_possible_truncation)]
+    Some(When::Stamped(time as i64))
 }
 
 /// A number, also one that is written as a text or a truth.

@@ -3,14 +3,15 @@
 //!
 //! Nothing is sought in the index at the end, so that a log whose recorder lost its power is read
 //! as far as it was written. What is damaged is passed over and counted. Sizes that a file states
-//! are believed only within limits, and no more memory is taken than bytes are there.
+//! are believed only within limits, no more memory is taken than bytes are there, and no more work
+//! is done than a log of its size needs.
 
 use std::collections::HashMap;
 use std::io::{self, Cursor, Read};
 
 use crate::mcap::format::{
-    Channel, Chunk, DataEnd, Footer, Head, MAGIC, Message, Part as _, Record as _, Schema,
-    compression,
+    Channel, Chunk, ChunkIndex, DataEnd, Footer, Head, MAGIC, Message, Part as _, Record as _,
+    Schema, compression,
 };
 
 /// The largest chunk that is read, as it is stored [bytes].
@@ -21,6 +22,43 @@ const MOST_UNPACKED: u64 = 1 << 30;
 const MOST_RECORD: u64 = 16 << 20;
 /// So much of all schemas and channels is kept [bytes].
 const MOST_KNOWN: usize = 64 << 20;
+
+/// Records that are unpacked of any log, and for each of its bytes: a message takes five bytes of a
+/// log that is packed well.
+const RECORDS: u64 = 4_000_000;
+const RECORDS_PER_BYTE: u64 = 1;
+/// Bytes that are unpacked of any log, and for each of its bytes.
+const UNPACKED: u64 = 256 << 20;
+const UNPACKED_PER_BYTE: u64 = 64;
+
+/// A log that unpacks to more than a log of its size may.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "its {length} bytes unpack to more than {} MiB or {} records, the most that are read of a log \
+     of that size",
+    self.most_unpacked() >> 20, self.most_records()
+)]
+pub struct OverBudget {
+    /// Size of the log [bytes].
+    length: u64,
+}
+
+impl OverBudget {
+    fn most_unpacked(self) -> u64 {
+        UNPACKED.saturating_add(self.length.saturating_mul(UNPACKED_PER_BYTE))
+    }
+
+    fn most_records(self) -> u64 {
+        RECORDS.saturating_add(self.length.saturating_mul(RECORDS_PER_BYTE))
+    }
+}
+
+/// What a log may still take.
+#[derive(Clone, Copy, Debug)]
+struct Budget {
+    unpacked: u64,
+    records: u64,
+}
 
 /// Schemas and channels that were met.
 #[derive(Clone, Debug, Default)]
@@ -94,6 +132,10 @@ impl Damage {
 pub(crate) struct Messages<R> {
     source: Counting<R>,
     chunk: Option<OpenChunk>,
+    /// Chunks that were begun.
+    chunks: usize,
+    budget: Budget,
+    of_length: OverBudget,
     pub(crate) known: Known,
     pub(crate) damage: Damage,
     data: Vec<u8>,
@@ -102,7 +144,9 @@ pub(crate) struct Messages<R> {
 
 impl<R: Read> Messages<R> {
     /// Reads how the file begins; nothing if it is no MCAP.
-    pub(crate) fn new(mut source: R) -> io::Result<Option<Self>> {
+    ///
+    /// * `length`: of the file [bytes]
+    pub(crate) fn new(mut source: R, length: u64) -> io::Result<Option<Self>> {
         let mut magic = Vec::new();
         (&mut source).take(MAGIC.len() as u64).read_to_end(&mut magic)?;
         if magic != MAGIC {
@@ -110,7 +154,30 @@ impl<R: Read> Messages<R> {
         }
         let source = Counting { source, count: magic.len() as u64 };
         let (known, damage) = (Known::default(), Damage::default());
-        Ok(Some(Self { source, chunk: None, known, damage, data: Vec::new(), has_ended: false }))
+        let of_length = OverBudget { length };
+        let budget =
+            Budget { unpacked: of_length.most_unpacked(), records: of_length.most_records() };
+        Ok(Some(Self {
+            source,
+            chunk: None,
+            chunks: 0,
+            budget,
+            of_length,
+            known,
+            damage,
+            data: Vec::new(),
+            has_ended: false,
+        }))
+    }
+
+    /// How many chunks were begun.
+    pub(crate) fn chunks(&self) -> usize {
+        self.chunks
+    }
+
+    /// Whether the last message was in a chunk.
+    pub(crate) fn is_in_chunk(&self) -> bool {
+        self.chunk.is_some()
     }
 
     /// The content of the last message.
@@ -121,7 +188,7 @@ impl<R: Read> Messages<R> {
     /// The next message on a channel that is wanted.
     ///
     /// # Errors
-    /// Only where the disk fails; all else is damage, and counted.
+    /// Where the disk fails, and [`OverBudget`]; all else is damage, and counted.
     pub(crate) fn next_message(
         &mut self,
         mut is_wanted: impl FnMut(&Known, u16) -> bool,
@@ -134,9 +201,14 @@ impl<R: Read> Messages<R> {
                 }
                 continue;
             };
-            match chunk.next(&mut self.known, &mut self.data, &mut is_wanted, &mut self.damage) {
+            let met = (&mut self.known, &mut self.damage);
+            match chunk.next(met, &mut self.data, &mut is_wanted, &mut self.budget) {
                 Inside::Message(message) => return Ok(Some(message)),
                 Inside::End => self.chunk = None,
+                Inside::OverBudget => {
+                    self.has_ended = true;
+                    return Err(io::Error::other(self.of_length));
+                }
             }
         }
         Ok(None)
@@ -186,7 +258,10 @@ impl<R: Read> Messages<R> {
         if head.opcode == Chunk::OPCODE {
             // Of a chunk that is cut off, all records that are there are read.
             match OpenChunk::of(content) {
-                Ok(chunk) => self.chunk = Some(chunk),
+                Ok(chunk) => {
+                    self.chunks += 1;
+                    self.chunk = Some(chunk);
+                }
                 Err(Refused::TooLarge) => self.damage.too_large += 1,
                 Err(Refused::Damaged) => self.damage.chunks += u64::from(read == head.length),
             }
@@ -220,9 +295,9 @@ impl<R: Read> Messages<R> {
     }
 }
 
-/// Schemas and channels of an index; nothing if it is damaged.
-pub(crate) fn known_of(mut source: impl Read) -> io::Result<Option<Known>> {
-    let mut known = Known::default();
+/// Schemas and channels of an index, and where chunks are; nothing if it is damaged.
+pub(crate) fn known_of(mut source: impl Read) -> io::Result<Option<(Known, Vec<ChunkIndex>)>> {
+    let (mut known, mut chunks) = (Known::default(), Vec::new());
     let mut content = Vec::new();
     while let Some(head) = Head::read(&mut source)? {
         content.clear();
@@ -231,8 +306,12 @@ pub(crate) fn known_of(mut source: impl Read) -> io::Result<Option<Known>> {
         if read < head.length || (is_known && !known.take(head.opcode, &content)) {
             return Ok(None);
         }
+        if head.opcode == ChunkIndex::OPCODE {
+            let Some(chunk) = ChunkIndex::take(&mut &content[..]) else { return Ok(None) };
+            chunks.push(chunk);
+        }
     }
-    Ok(Some(known))
+    Ok(Some((known, chunks)))
 }
 
 /// A chunk on its way.
@@ -252,6 +331,7 @@ enum Refused {
 enum Inside {
     Message(Message),
     End,
+    OverBudget,
 }
 
 impl OpenChunk {
@@ -284,14 +364,20 @@ impl OpenChunk {
     /// The next message that is wanted.
     fn next(
         &mut self,
-        known: &mut Known,
+        (known, damage): (&mut Known, &mut Damage),
         data: &mut Vec<u8>,
         is_wanted: &mut impl FnMut(&Known, u16) -> bool,
-        damage: &mut Damage,
+        budget: &mut Budget,
     ) -> Inside {
         loop {
+            if budget.records == 0 || budget.unpacked == 0 {
+                return Inside::OverBudget;
+            }
             let Ok(head) = Head::read(&mut self.records) else { return self.damaged(damage) };
             let Some(Head { opcode, length }) = head else { return self.end(damage) };
+            budget.records -= 1;
+            budget.unpacked =
+                budget.unpacked.saturating_sub(length.saturating_add(Head::SIZE as u64));
             data.clear();
             let is_kept = matches!(opcode, Schema::OPCODE | Channel::OPCODE | Message::OPCODE);
             let mut record = (&mut self.records).take(length);

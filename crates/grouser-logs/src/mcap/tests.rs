@@ -51,7 +51,9 @@ fn written(sent: &[Sent]) -> io::Result<Vec<u8>> {
 
 /// All messages of a file, as far as it can be read.
 fn read(file: &[u8]) -> io::Result<(Vec<Sent>, Damage)> {
-    let Some(mut messages) = Messages::new(file)? else { return Ok((vec![], Damage::default())) };
+    let Some(mut messages) = Messages::new(file, 1 << 20)? else {
+        return Ok((vec![], Damage::default()));
+    };
     let mut all = Vec::new();
     while let Some(Message { channel, log_time, .. }) = messages.next_message(|_, _| true)? {
         let topic = messages.known.channels.get(&channel).map(|it| it.topic.clone());

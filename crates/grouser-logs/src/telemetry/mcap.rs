@@ -14,14 +14,15 @@ use crate::mapping::Mapping;
 use crate::mapping::messages::MessageRows;
 use crate::mapping::plan::TopicChoices;
 use crate::mapping::topic::Topic;
-use crate::mcap::format::{Footer, Head, MAGIC, Message, Part as _, Record as _};
-use crate::mcap::read::{Known, Messages, known_of};
+use crate::mcap::format::{ChunkIndex, Footer, Head, MAGIC, Message, Part as _, Record as _};
+use crate::mcap::order::InOrder;
+use crate::mcap::read::{Known, Messages, OverBudget, known_of};
 use crate::protobuf::decode::Description;
 
 /// An MCAP log, record by record.
 pub(crate) struct McapLog {
     label: String,
-    messages: Messages<BufReader<File>>,
+    messages: InOrder,
     rows: MessageRows,
     /// How messages of a channel are decoded; nothing for channels that are not read.
     decoders: HashMap<u16, Option<Decoder>>,
@@ -48,11 +49,10 @@ impl McapLog {
         rover: &Rover,
         choices: &TopicChoices,
     ) -> Result<Self, TelemetryError> {
-        let failed = |error| TelemetryError::new(label, Problem::Unreadable(error));
-        let topics = topics(&mut file).map_err(failed)?;
-        let rows = MessageRows::new(label, mapping, &topics, rover, choices)?;
-        file.rewind().map_err(failed)?;
-        let messages = Messages::new(BufReader::new(file)).map_err(failed)?;
+        let failed = |error| failure(label, error);
+        let (known, chunks) = contents(&mut file).map_err(failed)?;
+        let rows = MessageRows::new(label, mapping, &topics(&known), rover, choices)?;
+        let messages = InOrder::new(file, chunks).map_err(failed)?;
         let messages = messages
             .ok_or_else(|| failed(io::Error::other("the file changed while it was read")))?;
         let (decoders, descriptions) = (HashMap::new(), HashMap::new());
@@ -76,11 +76,9 @@ impl McapLog {
             if self.is_read {
                 return Ok(None);
             }
-            let message = self
-                .next_message()
-                .map_err(|error| TelemetryError::new(&self.label, Problem::Unreadable(error)))?;
-            if let Some(message) = message {
-                self.add(&message);
+            let message = self.next_message().map_err(|error| failure(&self.label, error))?;
+            if let Some((message, data)) = message {
+                self.add(&message, &data);
             } else {
                 self.is_read = true;
                 self.rows.end();
@@ -88,7 +86,7 @@ impl McapLog {
         }
     }
 
-    fn next_message(&mut self) -> io::Result<Option<Message>> {
+    fn next_message(&mut self) -> io::Result<Option<(Message, Vec<u8>)>> {
         let Self { messages, rows, decoders, descriptions, without_channel, .. } = self;
         messages.next_message(|known, channel| {
             if !known.channels.contains_key(&channel) {
@@ -102,10 +100,9 @@ impl McapLog {
         })
     }
 
-    fn add(&mut self, message: &Message) {
+    fn add(&mut self, message: &Message, data: &[u8]) {
         let decoder = self.decoders.get(&message.channel).and_then(Option::as_ref);
         let Some(decoder) = decoder else { return };
-        let data = self.messages.data();
         let (topic, tree) = match decoder {
             Decoder::Json(topic) => (topic, serde_json::from_slice::<Value>(data).ok()),
             Decoder::Protobuf(topic, description) => (topic, description.decode(data)),
@@ -126,7 +123,7 @@ impl McapLog {
         let lost = (count > 0).then(|| {
             format!("{count} messages are of channels that the log does not describe, and left out")
         });
-        let damage = self.messages.damage.sentences().into_iter();
+        let damage = self.messages.messages().damage.sentences().into_iter();
         damage.chain(lost).chain(self.rows.notes()).collect()
     }
 }
@@ -158,12 +155,23 @@ fn decoder(
     }
 }
 
-/// The topics of a log: from the index at its end, or, without one, from all that it has.
-fn topics(file: &mut File) -> io::Result<Vec<Topic>> {
-    let known = match indexed(file)? {
-        Some(known) => known,
-        None => scanned(file)?,
-    };
+/// Why a log cannot be read on.
+fn failure(label: &str, error: io::Error) -> TelemetryError {
+    let over = error.get_ref().and_then(|it| it.downcast_ref::<OverBudget>()).copied();
+    TelemetryError::new(label, over.map_or(Problem::Unreadable(error), Problem::OverBudget))
+}
+
+/// What a log has, and where its chunks are: from the index at its end, or, without one, from all
+/// that is there.
+fn contents(file: &mut File) -> io::Result<(Known, Vec<ChunkIndex>)> {
+    match indexed(file)? {
+        Some(found) => Ok(found),
+        None => Ok((scanned(file)?, Vec::new())),
+    }
+}
+
+/// The topics of a log.
+fn topics(known: &Known) -> Vec<Topic> {
     let mut topics = Vec::new();
     for channel in known.channels.values() {
         let schema = known.schemas.get(&channel.schema);
@@ -177,11 +185,11 @@ fn topics(file: &mut File) -> io::Result<Vec<Topic>> {
         }
     }
     topics.sort_by(|one, other| one.name.cmp(&other.name));
-    Ok(topics)
+    topics
 }
 
-/// Channels and schemas of the index; nothing without a whole one.
-fn indexed(file: &mut File) -> io::Result<Option<Known>> {
+/// Channels, schemas and chunks of the index; nothing without a whole one.
+fn indexed(file: &mut File) -> io::Result<Option<(Known, Vec<ChunkIndex>)>> {
     /// The footer's record with the magic behind it [bytes].
     const END: u64 = (Head::SIZE + Footer::SIZE + MAGIC.len()) as u64;
     /// The largest index that is read.
@@ -201,13 +209,17 @@ fn indexed(file: &mut File) -> io::Result<Option<Known>> {
     }
     file.seek(SeekFrom::Start(summary))?;
     let known = known_of(BufReader::new(&*file).take(start - summary))?;
-    Ok(known.filter(|known| !known.channels.is_empty()))
+    let is_within = |chunk: &ChunkIndex| {
+        chunk.start.checked_add(chunk.length).is_some_and(|end| end <= summary)
+    };
+    Ok(known.filter(|(known, chunks)| !known.channels.is_empty() && chunks.iter().all(is_within)))
 }
 
 /// Channels and schemas of all chunks.
 fn scanned(file: &mut File) -> io::Result<Known> {
     file.rewind()?;
-    let Some(mut messages) = Messages::new(BufReader::new(&*file))? else {
+    let length = file.metadata()?.len();
+    let Some(mut messages) = Messages::new(BufReader::new(&*file), length)? else {
         return Ok(Known::default());
     };
     while messages.next_message(|_, _| false)?.is_some() {}

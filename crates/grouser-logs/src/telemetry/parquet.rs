@@ -9,6 +9,7 @@ use std::fs::File;
 use std::sync::Arc;
 
 use grouser_core::vehicle::Rover;
+use grouser_io::guard::guarded;
 use grouser_io::measurements::telemetry::{Cell, TelemetryRecord, TelemetryRows};
 use parquet::basic::{LogicalType, TimeUnit, Type as PhysicalType};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
@@ -45,6 +46,13 @@ pub(crate) struct ParquetLog {
     why_unread: Option<String>,
 }
 
+/// Calls the library, which panics on some damaged files.
+fn checked<T>(call: impl FnOnce() -> ParquetResult<T>) -> ParquetResult<T> {
+    guarded(call).unwrap_or_else(|why| {
+        Err(ParquetError::General(format!("the reader of Parquet gave up: {why}")))
+    })
+}
+
 /// A group of rows on its way.
 struct Group {
     columns: Vec<(usize, ColumnReader, Scale)>,
@@ -63,7 +71,8 @@ impl ParquetLog {
     pub(crate) fn new(label: &str, file: File, rover: &Rover) -> Result<Self, TelemetryError> {
         let failed = |error: ParquetError| of_parquet(label, &error);
         let file = Bounded::new(file).map_err(failed)?;
-        let about = ParquetMetaDataReader::new().parse_and_finish(&file).map_err(failed)?;
+        let about = checked(|| ParquetMetaDataReader::new().parse_and_finish(&file));
+        let about = about.map_err(failed)?;
         let columns = about.file_metadata().schema_descr().columns();
         // A column inside another is not a column of the table.
         let name = |it: &Arc<ColumnDescriptor>| it.path().string();
@@ -125,7 +134,7 @@ impl ParquetLog {
                 };
             };
             let rows = group.rows_left.min(BATCH);
-            match group.read(rows, &mut self.batch) {
+            match checked(|| group.read(rows, &mut self.batch)) {
                 Ok(()) => {
                     group.rows_left -= rows;
                     (self.at, self.in_batch) = (0, rows);
@@ -143,7 +152,7 @@ impl ParquetLog {
             let place = self.next_group;
             self.next_group += 1;
             let rows = usize::try_from(self.about.row_group(place).num_rows()).unwrap_or(0);
-            match self.open(place, rows) {
+            match checked(|| self.open(place, rows)) {
                 Ok(group) => return Some(group),
                 Err(error) => self.lose(rows, &error),
             }
@@ -166,6 +175,7 @@ impl ParquetLog {
 
     fn lose(&mut self, rows: usize, error: &ParquetError) {
         self.unread += rows as u64;
+        self.table.lose_way();
         self.why_unread.get_or_insert_with(|| error.to_string());
     }
 

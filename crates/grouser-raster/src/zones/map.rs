@@ -110,7 +110,11 @@ impl ZoneMap {
 
     /// Checks that some of the zones lie on the ground that they are for.
     pub(super) fn check_place(&self, ground: Option<&Extent>) -> Result<(), Fault> {
-        let (Some(ground), Some(zones)) = (ground, self.extent()) else { return Ok(()) };
+        let Some(zones) = self.extent() else { return Ok(()) };
+        let Some(ground) = ground else {
+            // Ground by a formula has no end.
+            return if are_degrees(&zones) { Err(Fault::ZonesInDegrees) } else { Ok(()) };
+        };
         let apart = zones.south_west.x > ground.north_east.x
             || zones.south_west.y > ground.north_east.y
             || zones.north_east.x < ground.south_west.x
@@ -118,16 +122,31 @@ impl ZoneMap {
         if !apart {
             return Ok(());
         }
-        let are_degrees = zones.south_west.x >= -360.0
-            && zones.north_east.x <= 360.0
-            && zones.south_west.y >= -90.0
-            && zones.north_east.y <= 90.0;
-        Err(if are_degrees {
+        Err(if may_be_degrees(&zones) {
             Fault::ZonesInDegrees
         } else {
             Fault::Elsewhere { zones, ground: *ground }
         })
     }
+}
+
+/// Whether places could be degrees of longitude and latitude.
+fn may_be_degrees(places: &Extent) -> bool {
+    places.south_west.x >= -360.0
+        && places.north_east.x <= 360.0
+        && places.south_west.y >= -90.0
+        && places.north_east.y <= 90.0
+}
+
+/// Whether places are degrees of longitude and latitude rather than metres from a start: less than
+/// a metre across, and a hundred times as far away. Source: ours.
+#[must_use]
+pub fn are_degrees(places: &Extent) -> bool {
+    let size = places.north_east - places.south_west;
+    let across = size.x.max(size.y);
+    let middle = places.south_west + 0.5 * size;
+    let is_small_and_far = across > 0.0 && across < 1.0 && middle.norm() > 100.0 * across;
+    may_be_degrees(places) && is_small_and_far
 }
 
 /// Checks that there are no more zones than can be distinguished.

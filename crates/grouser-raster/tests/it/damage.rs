@@ -52,7 +52,7 @@ fn files() -> Vec<(String, Vec<u8>, Decode)> {
 
 fn options() -> ReadOptions {
     let placement = Placement::north_first(Vec2::zeros(), 1.0);
-    ReadOptions { placement: Some(placement), cells: CELLS, ..ReadOptions::default() }
+    ReadOptions { placement: Some(placement), cells: Some(CELLS), ..ReadOptions::default() }
 }
 
 fn check(name: &str, case: &str, result: Result<Raster, Fault>) {

@@ -177,7 +177,7 @@ fn a_header_that_promises_too_much_is_refused() {
     assert!(huge.to_string().contains("gdal_translate -projwin"), "{huge}");
     let long = decode(16_000, 16_000);
     assert!(matches!(long, Fault::Truncated { promised: 1_024_000_000, .. }), "{long}");
-    let options = ReadOptions { cells: 5, ..ReadOptions::default() };
+    let options = ReadOptions { cells: Some(5), ..ReadOptions::default() };
     let few = geotiff::decode(tiff(3, 2, &heights), &options).expect_err("refused");
     assert!(matches!(few, Fault::TooLarge { limit: 5, .. }), "{few}");
     let nothing = geotiff::decode(tiff(0, 2, &heights), &ReadOptions::default());

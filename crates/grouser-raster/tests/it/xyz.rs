@@ -59,7 +59,7 @@ fn what_is_no_grid_is_refused() {
     let few = decode("0 0 1\n1 1 2\n2 2 1\n999 999 3\n");
     assert!(matches!(few, Err(Fault::Sparse { points: 4, .. })), "{few:?}");
     assert!(decode("0 0 nan\n1 1 nan\n").expect_err("nothing").to_string().contains("is known"));
-    let options = ReadOptions { cells: 3, ..ReadOptions::default() };
+    let options = ReadOptions { cells: Some(3), ..ReadOptions::default() };
     let many = xyz::decode(&b"0 0 1\n1 0 1\n0 1 1\n1 1 1\n"[..], &options);
     assert!(matches!(many, Err(Fault::TooLarge { limit: 3, .. })), "{many:?}");
 }

@@ -191,8 +191,8 @@ impl Drive {
             yaw: Some(yaw),
             displacement: [Some(here.velocity.x * STEP), Some(here.velocity.y * STEP)],
             rotation: Some(here.yaw_rate * STEP),
-            position: [None; 2],
             wheels: wheels.collect(),
+            ..TelemetryRecord::default()
         }
     }
 

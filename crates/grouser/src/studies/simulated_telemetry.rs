@@ -171,8 +171,8 @@ fn truth_at(
         yaw: slope.map(|_| yaw),
         displacement: [0, 1].map(|place| moved.map(|(way, _)| way[place])),
         rotation: moved.map(|(_, turned)| turned),
-        position: [None; 2],
         wheels: wheels.collect(),
+        ..TelemetryRecord::default()
     }
 }
 

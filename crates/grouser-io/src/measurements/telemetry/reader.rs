@@ -1,4 +1,4 @@
-//! A log of CSV, row by row.
+//! A log of CSV, row by row, whatever parts its fields.
 
 use std::borrow::Cow;
 use std::io::Read;
@@ -9,13 +9,14 @@ use grouser_core::vehicle::Rover;
 use super::super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::super::limits::Limits;
 use super::super::row::name_of;
-use super::super::table::Table;
+use super::super::table::{Dialect, LookedAt, Table};
 use super::TelemetryRecord;
 use super::rows::{Cell, TelemetryRows};
 
 /// Reads a log of CSV row by row.
 pub struct TelemetryReader<'a, R> {
-    table: Table<'a, R>,
+    table: Table<'a, LookedAt<R>>,
+    dialect: Dialect,
     row: StringRecord,
     rows: TelemetryRows,
 }
@@ -35,10 +36,11 @@ impl<'a, R: Read> TelemetryReader<'a, R> {
         rover: &Rover,
     ) -> Result<Self, MeasurementError> {
         let label = label.into();
-        let mut table = Table::new(label.clone(), source, b',', Limits { rows: usize::MAX });
+        let limits = Limits { rows: usize::MAX };
+        let (mut table, dialect) = Table::of_any_dialect(label.clone(), source, limits)?;
         let names: Vec<String> = table.header()?.iter().map(name_of).collect();
         let rows = TelemetryRows::new(&label, names, rover)?;
-        Ok(Self { table, row: StringRecord::new(), rows })
+        Ok(Self { table, dialect, row: StringRecord::new(), rows })
     }
 
     /// The next record, if there is one.
@@ -56,7 +58,15 @@ impl<'a, R: Read> TelemetryReader<'a, R> {
                 }
                 Err(error) => return Err(error),
             }
-            if let Some(record) = self.rows.record(self.row.iter().map(Cell::of_text)) {
+            let has_commas = self.dialect.has_decimal_commas;
+            let cell = |text: &str| {
+                if has_commas && text.contains(',') {
+                    Cell::of_text(&text.replacen(',', ".", 1))
+                } else {
+                    Cell::of_text(text)
+                }
+            };
+            if let Some(record) = self.rows.record(self.row.iter().map(cell)) {
                 return Ok(Some(record));
             }
         }

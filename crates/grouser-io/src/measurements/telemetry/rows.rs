@@ -1,5 +1,8 @@
 //! Rows of telemetry from a source of any kind: names of columns become a header, cells become
 //! records in SI, and what is damaged is counted.
+//!
+//! Ways and rotations are since the row before. A row that is left out hands its own on to the next
+//! record, or marks that one's as incomplete: as no way at all they would be slip.
 
 use grouser_core::vehicle::Rover;
 
@@ -8,7 +11,11 @@ use super::super::super::columns::TIME;
 use super::super::super::escape;
 use super::super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::super::log_column::LogColumn;
-use super::{COLUMNS, Lost, OF_ROVER, OF_WHEEL, OTHER_NAMES, TelemetryRecord, WheelTelemetry};
+use super::clock::{OTHER_TIMES, TimeUnit, seconds_of_date};
+use super::{
+    COLUMNS, FORWARD, LEFTWARD, Lost, OF_ROVER, OF_WHEEL, OTHER_NAMES, ROTATION, TelemetryRecord,
+    WheelTelemetry,
+};
 
 /// A cell of a row, whatever its source.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,14 +29,16 @@ pub enum Cell {
 }
 
 impl Cell {
-    /// A cell of a table of texts; NaN stands for a gap in many logs.
+    /// A cell of a table of texts; NaN stands for a gap in many logs, and a date with its time of
+    /// day is one in seconds since 1970.
     #[must_use]
     pub fn of_text(text: &str) -> Self {
         let text = escape::plain(text);
         if text.is_empty() {
             return Self::Gap;
         }
-        text.parse().map_or(Self::Damaged, Self::of_number)
+        let number = text.parse().ok().or_else(|| seconds_of_date(text));
+        number.map_or(Self::Damaged, Self::of_number)
     }
 
     /// A cell of a table of numbers, where NaN is a gap.
@@ -43,9 +52,46 @@ impl Cell {
 #[derive(Clone, Debug)]
 pub struct TelemetryRows {
     header: Header,
-    last_time: Option<f64>,
+    last: Option<TelemetryRecord>,
+    /// What rows moved that were left out since the last record.
+    carried: Moved,
+    /// The unit of times, once one was read.
+    time_unit: Option<TimeUnit>,
     rows: u64,
     lost: Lost,
+}
+
+/// How far a rover moved over some rows.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Moved {
+    /// Forward, leftward [m] and by rotation [rad], where something was read.
+    by: [Option<f64>; 3],
+    /// Whether some of it is not known.
+    is_incomplete: bool,
+}
+
+impl Moved {
+    fn of(record: &TelemetryRecord) -> Self {
+        let [forward, leftward] = record.displacement;
+        Self { by: [forward, leftward, record.rotation], is_incomplete: record.is_way_incomplete }
+    }
+
+    /// Over two rows, one after the other.
+    fn and(self, other: Self) -> Self {
+        let sum = |one: Option<f64>, other: Option<f64>| match (one, other) {
+            (Some(one), Some(other)) => Some(one + other),
+            (one, other) => one.or(other),
+        };
+        let by = [0, 1, 2].map(|place| sum(self.by[place], other.by[place]));
+        Self { by, is_incomplete: self.is_incomplete || other.is_incomplete }
+    }
+
+    fn give_to(self, record: &mut TelemetryRecord) {
+        let [forward, leftward, rotation] = self.by;
+        record.displacement = [forward, leftward];
+        record.rotation = rotation;
+        record.is_way_incomplete = self.is_incomplete;
+    }
 }
 
 impl TelemetryRows {
@@ -59,14 +105,17 @@ impl TelemetryRows {
     /// of a wheel that the rover does not have.
     pub fn new(label: &str, names: Vec<String>, rover: &Rover) -> Result<Self, MeasurementError> {
         let header = Header::new(label, names, rover)?;
-        Ok(Self { header, last_time: None, rows: 0, lost: Lost::default() })
+        let (carried, lost) = (Moved::default(), Lost::default());
+        let time_unit = header.time_unit;
+        Ok(Self { header, last: None, carried, time_unit, rows: 0, lost })
     }
 
     /// The same, gone on with after the record of a time: rows that do not come after it are out of
     /// order.
     #[must_use]
     pub fn after(self, last_time: Option<f64>) -> Self {
-        Self { last_time, ..self }
+        let last = last_time.map(|time| TelemetryRecord { time, ..TelemetryRecord::default() });
+        Self { last, ..self }
     }
 
     /// Whether the column at a place is known, and so is read.
@@ -92,6 +141,16 @@ impl TelemetryRows {
         (!names.is_empty()).then(|| format!("columns not used: {first}{more}"))
     }
 
+    /// A sentence with the unit of times, where that is not what the column's name says.
+    #[must_use]
+    pub fn sentence_of_time(&self) -> Option<String> {
+        let unit = self.time_unit.filter(|it| Some(*it) != self.header.time_unit)?;
+        let name = &self.header.time_name;
+        let is_seconds = unit == TimeUnit::Seconds;
+        (!is_seconds || *name != TIME.name)
+            .then(|| format!("times of `{name}` are read as {}", unit.name()))
+    }
+
     /// How many rows were read so far.
     #[must_use]
     pub fn rows(&self) -> u64 {
@@ -107,6 +166,12 @@ impl TelemetryRows {
     /// Counts a row that cannot be read.
     pub fn damaged_row(&mut self) {
         self.lost.damaged_rows += 1;
+        self.lose_way();
+    }
+
+    /// Ways that belong to the next record are not known.
+    pub fn lose_way(&mut self) {
+        self.carried.is_incomplete = true;
     }
 
     /// The record of a row; nothing if it has no time of its own, which is counted.
@@ -114,15 +179,29 @@ impl TelemetryRows {
     /// * `cells`: in the order of the columns
     pub fn record(&mut self, cells: impl Iterator<Item = Cell>) -> Option<TelemetryRecord> {
         self.rows += 1;
-        let Some(record) = self.header.record(cells, &mut self.lost) else {
+        let (time, mut record) = self.header.record(cells, &mut self.lost, &mut self.time_unit);
+        let moved = self.carried.and(Moved::of(&record));
+        let Some(time) = time else {
             self.lost.rows_without_time += 1;
+            self.carried = moved;
             return None;
         };
-        if self.last_time.is_some_and(|last| record.time <= last) {
+        record.time = time;
+        if let Some(last) = self.last.as_ref().filter(|last| time <= last.time) {
             self.lost.rows_out_of_order += 1;
+            // A row of the same time as the last belongs to the way after it, where times were
+            // rounded; one that comes too late, or twice, belongs nobody knows where.
+            let is_next = time == last.time && record != *last;
+            self.carried =
+                if is_next { moved } else { Moved { is_incomplete: true, ..self.carried } };
             return None;
         }
-        self.last_time = Some(record.time);
+        self.last = Some(record.clone());
+        moved.give_to(&mut record);
+        // What is incomplete stays so until a way is read.
+        let has_way = moved.by.iter().any(Option::is_some);
+        let is_incomplete = moved.is_incomplete && !has_way;
+        self.carried = Moved { is_incomplete, ..Moved::default() };
         Some(record)
     }
 }
@@ -168,6 +247,9 @@ struct Header {
     columns: Vec<Option<KnownColumn>>,
     unused: Vec<String>,
     wheels: usize,
+    /// What the source calls the time, and its unit, where the name says it.
+    time_name: String,
+    time_unit: Option<TimeUnit>,
 }
 
 impl Header {
@@ -176,7 +258,14 @@ impl Header {
             return Err(MeasurementError::whole(label, Problem::NoHeader));
         }
         let wheels: Vec<&str> = rover.mounts().iter().map(|mount| mount.name.as_str()).collect();
-        let mut header = Self { columns: Vec::new(), unused: Vec::new(), wheels: wheels.len() };
+        let (time_name, time_unit) = time_of(&names);
+        let mut header = Self {
+            columns: Vec::new(),
+            unused: Vec::new(),
+            wheels: wheels.len(),
+            time_name,
+            time_unit,
+        };
         for name in names {
             header.add(label, name, &wheels)?;
         }
@@ -193,7 +282,9 @@ impl Header {
 
     fn add(&mut self, label: &str, name: String, wheels: &[&str]) -> Result<(), MeasurementError> {
         let failed = |problem| MeasurementError::at(label, 1, problem);
-        let known = known(&name, wheels).map_err(|wheel| {
+        let is_time = name == self.time_name;
+        let known = if is_time { Ok(Some((TIME.name, None))) } else { known(&name, wheels) };
+        let known = known.map_err(|wheel| {
             let all = wheels.iter().map(|it| (*it).to_owned()).collect();
             let hint = nearest(&wheel, wheels.iter().copied());
             failed(Problem::UnknownWheel { name: wheel, wheels: all })
@@ -220,12 +311,13 @@ impl Header {
         Ok(())
     }
 
-    /// A row in SI; nothing without a time.
+    /// A row in SI with its time, if it has one; the record's own is not set.
     fn record(
         &self,
         cells: impl Iterator<Item = Cell>,
         lost: &mut Lost,
-    ) -> Option<TelemetryRecord> {
+        time_unit: &mut Option<TimeUnit>,
+    ) -> (Option<f64>, TelemetryRecord) {
         let mut time = None;
         let mut record = TelemetryRecord {
             wheels: vec![WheelTelemetry::default(); self.wheels],
@@ -233,10 +325,13 @@ impl Header {
         };
         for (known, cell) in self.columns.iter().zip(cells) {
             let (Some(known), false) = (known, cell == Cell::Gap) else { continue };
+            let is_time = matches!(known.place, Place::Time);
+            let cell = if is_time { in_seconds(cell, self.time_unit, time_unit) } else { cell };
             let number = match cell {
                 Cell::Number(number) if known.column.range.contains(&number) => number,
                 _ => {
                     lost.cell(&known.name);
+                    record.is_way_incomplete |= is_of_way(known.column);
                     continue;
                 }
             };
@@ -247,9 +342,34 @@ impl Header {
                 Place::Wheel(wheel, field) => *field(&mut record.wheels[wheel]) = value,
             }
         }
-        record.time = time?;
-        Some(record)
+        (time, record)
     }
+}
+
+/// A time in seconds. Without a unit in the column's name each number says it, so that a damaged one
+/// changes no other.
+///
+/// * `unit`: of the last time
+fn in_seconds(cell: Cell, of_name: Option<TimeUnit>, unit: &mut Option<TimeUnit>) -> Cell {
+    let Cell::Number(time) = cell else { return cell };
+    let found = of_name.unwrap_or_else(|| TimeUnit::of(time));
+    *unit = Some(found);
+    Cell::Number(time / found.per_second())
+}
+
+/// The column of the time among all, and its unit, where the name says it: `time_s` may be in
+/// another than it says.
+fn time_of(names: &[String]) -> (String, Option<TimeUnit>) {
+    let own = (TIME.name, None);
+    let all = std::iter::once(own).chain(OTHER_TIMES);
+    let found = all.into_iter().find(|(name, _)| names.iter().any(|it| it == name));
+    let (name, unit) = found.unwrap_or(own);
+    (name.to_owned(), unit)
+}
+
+/// Whether a column has a way, or a rotation, since the row before.
+fn is_of_way(column: &LogColumn) -> bool {
+    [FORWARD, LEFTWARD, ROTATION].iter().any(|it| it.name == column.name)
 }
 
 /// The column and the wheel of a name; nothing for one that is not known.

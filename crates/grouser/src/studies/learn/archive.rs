@@ -97,8 +97,18 @@ pub(super) fn matrix(archive: &mut dyn Archive, name: &str, matrix: &mut DMatrix
 
 /// A record of telemetry.
 pub(super) fn record(record: &mut TelemetryRecord, archive: &mut dyn Archive) {
-    let TelemetryRecord { time, roll, pitch, yaw, displacement, rotation, position, wheels } =
-        record;
+    let TelemetryRecord {
+        time,
+        roll,
+        pitch,
+        yaw,
+        displacement,
+        rotation,
+        position,
+        wheels,
+        // It matters before a record is kept.
+        is_way_incomplete: _,
+    } = record;
     archive.number("time", time);
     let [forward, leftward] = displacement;
     let [x, y] = position;

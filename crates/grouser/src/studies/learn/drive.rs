@@ -29,8 +29,18 @@ impl RecordDigest {
     /// With one more record.
     #[must_use]
     pub fn and(self, record: &TelemetryRecord) -> Self {
-        let TelemetryRecord { time, roll, pitch, yaw, displacement, rotation, position, wheels } =
-            record;
+        let TelemetryRecord {
+            time,
+            roll,
+            pitch,
+            yaw,
+            displacement,
+            rotation,
+            position,
+            wheels,
+            // What it tells is in the stretches.
+            is_way_incomplete: _,
+        } = record;
         let [forward, leftward] = *displacement;
         let [x, y] = *position;
         let of_rover =

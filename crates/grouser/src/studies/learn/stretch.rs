@@ -152,6 +152,9 @@ impl Gatherer {
     /// Takes the velocities that a record tells: ways since the last one, or without them two
     /// fixes.
     fn read_motion(&mut self, record: &TelemetryRecord) {
+        if record.is_way_incomplete {
+            self.last = [None; 3];
+        }
         let [forward, leftward] = record.displacement;
         for (place, way) in [forward, leftward, record.rotation].into_iter().enumerate() {
             let Some(way) = way else { continue };

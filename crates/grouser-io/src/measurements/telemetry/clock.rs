@@ -1,0 +1,104 @@
+//! Times of a log, however they are written: seconds, thousandths, millionths, billionths since
+//! whenever, and dates.
+
+use chrono::{DateTime, NaiveDateTime};
+
+/// How times of a column are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TimeUnit {
+    /// Seconds, or dates.
+    Seconds,
+    /// Thousandths of a second.
+    Milliseconds,
+    /// Millionths.
+    Microseconds,
+    /// Billionths.
+    Nanoseconds,
+}
+
+/// Columns of the time beside `time_s`, in the order in which they are taken, with their units; none
+/// of those whose name does not say it.
+pub(super) const OTHER_TIMES: [(&str, Option<TimeUnit>); 8] = [
+    ("time_ms", Some(TimeUnit::Milliseconds)),
+    ("time_us", Some(TimeUnit::Microseconds)),
+    ("time_ns", Some(TimeUnit::Nanoseconds)),
+    // Of `rostopic echo -p`, in nanoseconds.
+    ("%time", Some(TimeUnit::Nanoseconds)),
+    ("timestamp", None),
+    ("Timestamp", None),
+    ("time", None),
+    ("Time", None),
+];
+
+impl TimeUnit {
+    /// The unit in which a number is a time between 1973 and 2286; seconds for any other number.
+    /// None of these is a time in seconds that a log has.
+    pub(super) fn of(time: f64) -> Self {
+        let is_time = |unit: &Self| (1e8..1e10).contains(&(time.abs() / unit.per_second()));
+        let all = [Self::Milliseconds, Self::Microseconds, Self::Nanoseconds];
+        all.into_iter().find(is_time).unwrap_or(Self::Seconds)
+    }
+
+    /// How many make a second.
+    pub(super) fn per_second(self) -> f64 {
+        match self {
+            Self::Seconds => 1.0,
+            Self::Milliseconds => 1e3,
+            Self::Microseconds => 1e6,
+            Self::Nanoseconds => 1e9,
+        }
+    }
+
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Seconds => "seconds",
+            Self::Milliseconds => "milliseconds",
+            Self::Microseconds => "microseconds",
+            Self::Nanoseconds => "nanoseconds",
+        }
+    }
+}
+
+/// A date with its time of day, in seconds since 1970; without an offset it is that of Greenwich.
+pub(super) fn seconds_of_date(text: &str) -> Option<f64> {
+    // Dates begin with a year of four digits: no other cell is looked at.
+    if text.as_bytes().get(4) != Some(&b'-') {
+        return None;
+    }
+    let with_offset = DateTime::parse_from_rfc3339(text).map(|it| it.naive_utc());
+    let formats = ["%Y-%m-%dT%H:%M:%S%.f", "%Y-%m-%d %H:%M:%S%.f"].into_iter();
+    let plain = || formats.map(|it| NaiveDateTime::parse_from_str(text, it)).find_map(Result::ok);
+    let date = with_offset.ok().or_else(plain)?.and_utc();
+    Some(date.timestamp() as f64 + f64::from(date.timestamp_subsec_nanos()) / 1e9)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dates_are_seconds_since_1970() {
+        for (text, expected) in [
+            ("1970-01-01T00:00:10Z", 10.0),
+            ("1970-01-01T01:00:10.25+01:00", 10.25),
+            ("1970-01-01 00:00:10.5", 10.5),
+            ("1970-01-02T00:00:00", 86_400.0),
+        ] {
+            assert_eq!(seconds_of_date(text), Some(expected), "{text}");
+        }
+        for text in ["", "10", "1970", "1970-13-01T00:00:00Z", "yesterday", "2026-11-26"] {
+            assert_eq!(seconds_of_date(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_time_of_this_century_says_its_unit() {
+        let now = 1.7e9;
+        assert_eq!(TimeUnit::of(now), TimeUnit::Seconds);
+        assert_eq!(TimeUnit::of(12.5), TimeUnit::Seconds);
+        assert_eq!(TimeUnit::of(now * 1e3), TimeUnit::Milliseconds);
+        assert_eq!(TimeUnit::of(now * 1e6), TimeUnit::Microseconds);
+        assert_eq!(TimeUnit::of(now * 1e9), TimeUnit::Nanoseconds);
+        assert_eq!(TimeUnit::of(1e300), TimeUnit::Seconds, "damage");
+    }
+}
