@@ -145,6 +145,16 @@ impl TelemetryLog {
         self.table().lost()
     }
 
+    /// The share of its rows, or readings, that was used so far [-].
+    #[must_use]
+    pub fn share_used(&self) -> f64 {
+        match &self.source {
+            Source::Csv { reader, .. } => reader.rows().share_used(),
+            Source::Parquet(log) => log.share_used(),
+            Source::Mcap(log) => log.share_used(),
+        }
+    }
+
     /// What was left out so far, and what is not used: a sentence each.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {

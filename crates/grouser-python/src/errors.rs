@@ -146,7 +146,10 @@ pub(crate) fn of_telemetry(error: &TelemetryError) -> PyErr {
     match error.problem() {
         TelemetryProblem::Table(error) => of_measurements(error, &file),
         TelemetryProblem::Document(error) => of_document(error, &[]),
-        TelemetryProblem::File(FileProblem::NoSuchFile | FileProblem::BrokenLink { .. }) => {
+        TelemetryProblem::File(
+            grouser::document::file::FileProblem::NoSuchFile
+            | grouser::document::file::FileProblem::BrokenLink { .. },
+        ) => {
             classes::DocumentNotFoundError::new_err((message, file, None::<String>))
         }
         TelemetryProblem::File(_) | TelemetryProblem::Unreadable(_) => {

@@ -15,6 +15,10 @@ pub(crate) struct TelemetryArgs {
     /// repeated.
     #[arg(long = "topic", value_name = "TYPE=TOPIC", value_parser = choice)]
     pub(crate) topics: Vec<(String, String)>,
+    /// End with exit code 0 even where less than half of the log could be used, which is 3
+    /// otherwise.
+    #[arg(long)]
+    pub(crate) accept_loss: bool,
 }
 
 fn choice(text: &str) -> Result<(String, String), String> {

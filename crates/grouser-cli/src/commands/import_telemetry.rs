@@ -5,6 +5,7 @@ mod dialogue;
 use std::io::{BufReader, IsTerminal as _, Write, stderr, stdin};
 use std::path::Path;
 
+use grouser::document::measurements::telemetry::numbers;
 use grouser::document::{self, Kind, escape};
 use grouser::vehicle::Rover;
 use grouser_logs::{Problem, TelemetryLog, TelemetryWriter, TopicChoices};
@@ -23,17 +24,18 @@ pub(crate) fn run(args: &ImportTelemetryArgs) -> Result<(), Failure> {
         file::check_new(out, args.force)?;
     }
     let rover = inputs::driven_rover(args.rover.as_deref())?;
-    let log = opened(args, path, &rover)?;
+    let mut log = opened(args, path, &rover)?;
     match &args.out {
         Some(out) => file::write_by(out, |writer| {
             let failed = |error| Failure::at("cannot write", out)(error);
-            convert(log, (out, writer), &rover, failed)
+            convert(&mut log, (out, writer), &rover, failed)
         })
         .inspect(|()| file::say_written(out)),
         None => output::print_by(|writer| {
-            convert(log, (Path::new("-"), writer), &rover, output::failed_to_print)
+            convert(&mut log, (Path::new("-"), writer), &rover, output::failed_to_print)
         }),
-    }
+    }?;
+    inputs::check_share_used(log.label(), log.share_used(), &args.telemetry)
 }
 
 fn print_mapping(name: &str) -> Result<(), Failure> {
@@ -73,19 +75,23 @@ fn opened(args: &ImportTelemetryArgs, path: &Path, rover: &Rover) -> Result<Tele
 
 /// Writes all records, and says what was noticed.
 fn convert(
-    mut log: TelemetryLog,
+    log: &mut TelemetryLog,
     (name, out): (&Path, &mut dyn Write),
     rover: &Rover,
     failed: impl Fn(std::io::Error) -> Failure,
 ) -> Result<(), Failure> {
     let mut writer = TelemetryWriter::begin(name, out, rover).map_err(&failed)?;
-    let mut records: u64 = 0;
+    let (mut records, mut has_readings): (u64, bool) = (0, false);
     while let Some(record) = log.next_record()? {
         writer.write(&record).map_err(&failed)?;
         records += 1;
+        has_readings |= numbers(&record).flatten().nth(1).is_some();
     }
-    if records == 0 {
-        return Err(Failure::Usage(format!("{}: has no rows of telemetry", log.label())));
+    if !has_readings {
+        let notes = log.notes().join("\nnote: ");
+        let what =
+            if records == 0 { "no rows of telemetry" } else { "times, and no other reading" };
+        return Err(Failure::Usage(format!("{}: has {what}\nnote: {notes}", log.label())));
     }
     writer.finish().map_err(&failed)?;
     output::notes(log.notes().iter().map(|note| escape::line(note)));

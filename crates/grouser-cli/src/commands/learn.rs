@@ -17,7 +17,9 @@ use grouser::document::learn::LearntSoil;
 use grouser::document::{LoadedScenario, SAMPLES_FILE, escape};
 use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::heading_band::HeadingBand;
-use grouser::studies::learn::{Drive, LearnSettings, Learner, LearntSample, TelemetryRecord};
+use grouser::studies::learn::{
+    Drive, LearnSettings, Learner, LearntSample, NotUsed, TelemetryRecord,
+};
 use grouser::studies::verdict::SlopeStudy;
 
 use self::cards::Cards;
@@ -43,21 +45,43 @@ pub(crate) fn run(args: &LearnArgs) -> Result<(), Failure> {
     }
     let mut folder = state_file::open_folder(args)?;
     let question = inputs::learn(args)?;
-    let mut found = learn(args, &question)?;
+    let (mut found, share_used) = learn(args, &question)?;
+    let taught = check_taught(args, found.drive.learner());
     if folder.is_some() {
         found.slips = slips::of(&question, &found.drive)?;
     }
     let mut answer = question.answer("learn", &found);
-    if let Some(folder) = &mut folder {
+    if let Some(folder) = folder.as_mut().filter(|_| taught.is_ok()) {
         add_soil(folder, args, (&question, found.drive.learner()), &mut answer)?;
     }
     let repeat = repeat(args, &question);
     if args.follow && args.output.format == Format::Json {
         // The answer is the last line.
         write(&answer, &repeat, &[], folder)?;
-        return live::print_line("answer", &answer);
+        live::print_line("answer", &answer)?;
+    } else {
+        give(&answer, &repeat, folder, args.output.format)?;
     }
-    give(&answer, &repeat, folder, args.output.format)
+    taught?;
+    let label = inputs::telemetry_label(&args.log);
+    inputs::check_share_used(&label, share_used, &args.telemetry)
+}
+
+/// Checks that the log taught something: predictions of a log that did not are those of before, and
+/// no soil was learnt.
+fn check_taught(args: &LearnArgs, learner: &Learner) -> Result<(), Failure> {
+    if learner.learnt().stretches > 0 {
+        return Ok(());
+    }
+    let label = inputs::telemetry_label(&args.log);
+    let notes = learner.notes();
+    let why = notes.first().map_or("no rows make up a stretch of the way", String::as_str);
+    // Wheels of one side may be mounted the other way round.
+    let mirrored = learner.learnt().not_used.contains_key(&NotUsed::Manoeuvre);
+    let hint = "\nhint: where one side's speeds have the other sign throughout, `sign = -1` in a \
+                mapping turns them";
+    let hint = if mirrored { hint } else { "" };
+    Err(Failure::Run(format!("{label}: nothing was learnt: {why}; no soil is written{hint}")))
 }
 
 /// Adds the soil that was learnt to the folder; and, if they are asked for, the cards of before and
@@ -93,8 +117,8 @@ fn repeat(args: &LearnArgs, question: &LearnQuestion) -> String {
     )
 }
 
-/// Learns from the log; slips from currents are left out.
-fn learn(args: &LearnArgs, question: &LearnQuestion) -> Result<LearntDrive, Failure> {
+/// Learns from the log, and says what share of it was used; slips from currents are left out.
+fn learn(args: &LearnArgs, question: &LearnQuestion) -> Result<(LearntDrive, f64), Failure> {
     let scenario = &question.scenario;
     let learner = Learner::new(scenario, question.has_slope, LearnSettings::USUAL);
     let learner = learner.map_err(|error| {
@@ -129,7 +153,9 @@ fn learn(args: &LearnArgs, question: &LearnQuestion) -> Result<LearntDrive, Fail
     let narrowed = narrowed.map_err(|error| reaches_too_far(&error))?;
     let lost = drive.lost().sentences();
     let notes = lost.into_iter().chain(ending.notes).chain(learner.notes()).collect();
-    Ok(LearntDrive { drive, before, after, verdicts, advice, narrowed, slips: None, notes })
+    let found =
+        LearntDrive { drive, before, after, verdicts, advice, narrowed, slips: None, notes };
+    Ok((found, ending.share_used))
 }
 
 /// How a log ended.
@@ -138,6 +164,8 @@ struct Ended {
     notes: Vec<String>,
     /// The record of a last row that may not be whole: it counts, but what is kept ends before it.
     last: Option<TelemetryRecord>,
+    /// The share of the log that was used [-].
+    share_used: f64,
 }
 
 /// Learns from all records of the log that are new, and keeps and prints what was learnt on the
@@ -192,7 +220,7 @@ fn drive_on(
                 if let Some(live) = &mut live {
                     live.finish()?;
                 }
-                return Ok(Ended { notes: ending.notes, last });
+                return Ok(Ended { notes: ending.notes, last, share_used: ending.share_used });
             }
             Event::Failed(failure) => return Err(failure),
         }

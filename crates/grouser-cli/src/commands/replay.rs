@@ -17,7 +17,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     let target = args.mcap.as_deref().map(|it| log::Target::of(it, has_folder, may_replace));
     let target = target.transpose()?;
     let question = inputs::replay(args)?;
-    let (replay, notes) = replay(args, &question)?;
+    let (replay, notes, share_used) = replay(args, &question)?;
     if let Some(target) = target {
         target.write_replay(&question.scenario, &replay, folder.as_mut())?;
     }
@@ -26,7 +26,9 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     let samples = sampling::flags(question.sampling);
     let repeat = format!("grouser replay log.csv --scenario scenario.toml{slope}{samples}");
     answer.next = next(&answer);
-    give(&answer, &repeat, folder, args.output.format)
+    give(&answer, &repeat, folder, args.output.format)?;
+    let label = inputs::telemetry_label(&args.log);
+    inputs::check_share_used(&label, share_used, &args.telemetry)
 }
 
 /// The commands to go on with.
@@ -40,8 +42,11 @@ fn next(answer: &Answer) -> Vec<String> {
     with_rover.into_iter().filter(|_| has_rover).chain([learn.to_owned()]).collect()
 }
 
-/// The log, replayed, and notes on what of it was left out.
-fn replay(args: &ReplayArgs, question: &ReplayQuestion) -> Result<(Replay, Vec<String>), Failure> {
+/// The log, replayed, notes on what of it was left out, and the share of it that was used.
+fn replay(
+    args: &ReplayArgs,
+    question: &ReplayQuestion,
+) -> Result<(Replay, Vec<String>, f64), Failure> {
     let scenario = &question.scenario.value;
     let samples = match question.sampling {
         Some(it) => sampling::draw_of(&question.scenario, it)?,
@@ -55,5 +60,5 @@ fn replay(args: &ReplayArgs, question: &ReplayQuestion) -> Result<(Replay, Vec<S
     }
     let replay = sampling::with_bar(samples.len(), |go_on| replayer.finish(&samples, go_on));
     let replay = replay.map_err(|error| Failure::Usage(format!("{}: {error}", log.label())))?;
-    Ok((sampling::whole(replay), log.notes()))
+    Ok((sampling::whole(replay), log.notes(), log.share_used()))
 }

@@ -49,6 +49,27 @@ pub(crate) fn telemetry(
     Ok(TelemetryLog::open(path, rover, mapping.as_ref(), &choices)?)
 }
 
+/// Less of a log than this is too little to rely on without a word [-]. Source: ours.
+const LEAST_USED: f64 = 0.5;
+
+/// Checks that enough of a log could be used; all else is done then.
+///
+/// * `share`: of its rows or readings [-]
+pub(crate) fn check_share_used(
+    label: &str,
+    share: f64,
+    args: &TelemetryArgs,
+) -> Result<(), Failure> {
+    if share >= LEAST_USED || args.accept_loss {
+        return Ok(());
+    }
+    let percent = (100.0 * share).floor();
+    Err(Failure::Partly(format!(
+        "{label}: only {percent} % of the log could be used, and the notes say why\nhint: \
+         --accept-loss takes it as it is"
+    )))
+}
+
 /// What messages call a log.
 pub(crate) fn telemetry_label(path: &Path) -> String {
     if is_standard_input(path) { "standard input".to_owned() } else { escape::path(path) }

@@ -111,6 +111,17 @@ pub enum MeasurementProblem {
         /// The names it may have.
         expected: String,
     },
+    /// A log of which nothing but the time is known.
+    #[error(
+        "has a time and no other column of telemetry: its columns are {}; telemetry has {}",
+        there.join(", "), sought.join(", ")
+    )]
+    NoKnownColumn {
+        /// The names of its columns.
+        there: Vec<String>,
+        /// The names of columns of telemetry; of a wheel's without the wheel's.
+        sought: Vec<&'static str>,
+    },
     /// A file for import of which nothing is known.
     #[error("none of its columns is called as ours, and no mapping names one")]
     NothingToImport,

@@ -326,8 +326,11 @@ mod tests {
             ("\u{feff}a;b", b';', ["\u{feff}a", "b"]),
         ] {
             for slow in [false, true] {
-                let source: Box<dyn Read> =
-                    if slow { Box::new(Slowly(text.as_bytes())) } else { Box::new(text.as_bytes()) };
+                let source: Box<dyn Read> = if slow {
+                    Box::new(Slowly(text.as_bytes()))
+                } else {
+                    Box::new(text.as_bytes())
+                };
                 let opened = Table::of_any_dialect("a.csv", source, Limits::default());
                 let (mut table, dialect) = opened.unwrap();
                 assert_eq!(dialect.delimiter, delimiter, "{text:?}");

@@ -83,6 +83,8 @@ pub(crate) struct Merge {
     has_ended: bool,
     /// Whether ways, or rotations, were among the readings that were left out lately.
     has_lost_ways: bool,
+    /// Readings that came in all.
+    all: u64,
     /// Readings that came after their window.
     pub(crate) late: u64,
     /// Readings whose time leapt ahead.
@@ -102,6 +104,7 @@ impl Merge {
             row: None,
             has_ended: false,
             has_lost_ways: false,
+            all: 0,
             late: 0,
             leaps: 0,
         }
@@ -109,6 +112,7 @@ impl Merge {
 
     /// Adds what was read at a time [ns].
     pub(crate) fn add(&mut self, time: i64, readings: Readings) {
+        self.all += 1;
         let near = |other: i64| time.saturating_sub(other) <= LEAP;
         if self.newest.is_some_and(|newest| !near(newest)) {
             let is_confirmed =
@@ -133,6 +137,12 @@ impl Merge {
     fn leave_out(&mut self, readings: &Readings) {
         let is_way = |(column, _): &(usize, Cell)| self.ways.get(*column) == Some(&true);
         self.has_lost_ways |= readings.cells.iter().any(is_way);
+    }
+
+    /// The share of the readings that were not left out; 1 before the first.
+    pub(crate) fn share_used(&self) -> f64 {
+        let left_out = self.late + self.leaps;
+        if self.all == 0 { 1.0 } else { 1.0 - left_out as f64 / self.all as f64 }
     }
 
     /// Whether ways, or rotations, were left out since this was last asked.

@@ -46,6 +46,8 @@ struct Counts {
     several: HashMap<String, u64>,
     /// Readings that are no numbers or no rotations, by topic.
     damaged_fields: HashMap<String, u64>,
+    /// Orientations that are exactly none, by topic.
+    unmeasured: HashMap<String, u64>,
 }
 
 impl MessageRows {
@@ -198,6 +200,12 @@ impl MessageRows {
         &self.table
     }
 
+    /// The share of all readings, and of all rows, that was used so far: the less of both.
+    #[must_use]
+    pub fn share_used(&self) -> f64 {
+        self.merge.share_used().min(self.table.share_used())
+    }
+
     /// What was noticed so far, beside what was lost of rows: a sentence each.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
@@ -233,6 +241,10 @@ impl MessageRows {
         for (counts, what) in [
             (&self.counts.damaged_fields, "are no numbers or no rotations, and count as gaps"),
             (&self.counts.without_field, "without a field that the mapping reads there"),
+            (
+                &self.counts.unmeasured,
+                "are exactly the identity, which no sensor measures, and count as gaps",
+            ),
             (
                 &self.counts.several,
                 "in which several elements fit a name of the mapping, and none is read",
@@ -333,13 +345,16 @@ impl Context<'_> {
         if value.is_null() || self.is_unknown(field) {
             return None;
         }
-        let pose = match of {
-            PoseOf::Attitude(_) => {
-                Rotation::read(value).map(|rotation| Pose { position: None, rotation })
-            }
-            _ => Pose::read(value),
+        let PoseOf::Attitude(_) = of else {
+            return Pose::read(value).or_else(|| self.damaged(counts));
         };
-        pose.or_else(|| self.damaged(counts))
+        let Some(rotation) = Rotation::read(value) else { return self.damaged(counts) };
+        // What a sensor without a filter leaves in the field.
+        if rotation == Rotation::NONE {
+            *counts.unmeasured.entry(self.topic.to_owned()).or_default() += 1;
+            return None;
+        }
+        Some(Pose { position: None, rotation })
     }
 
     /// Whether a covariance beside the field says that it is not measured, as `sensor_msgs/Imu`

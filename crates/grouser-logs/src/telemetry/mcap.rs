@@ -118,6 +118,10 @@ impl McapLog {
         self.rows.rows()
     }
 
+    pub(crate) fn share_used(&self) -> f64 {
+        self.rows.share_used()
+    }
+
     pub(crate) fn notes(&self) -> Vec<String> {
         let count = self.without_channel;
         let lost = (count > 0).then(|| {

@@ -183,6 +183,13 @@ impl ParquetLog {
         &self.table
     }
 
+    /// The share of its rows that was used so far; damaged ones are not.
+    pub(crate) fn share_used(&self) -> f64 {
+        let read = self.table.rows() as f64;
+        let of_read = self.table.share_used();
+        if read == 0.0 { of_read } else { of_read * read / (read + self.unread as f64) }
+    }
+
     pub(crate) fn notes(&self) -> Vec<String> {
         let why = self.why_unread.iter();
         why.map(|why| format!("{} rows are damaged and left out: {why}", self.unread)).collect()

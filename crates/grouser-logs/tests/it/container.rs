@@ -2,7 +2,8 @@
 //! end.
 
 use super::format::{
-    Channel, Chunk, DataEnd, Footer, Header, MAGIC, Message, Record as _, Schema, compression,
+    Channel, Chunk, ChunkIndex, DataEnd, Footer, Header, MAGIC, Message, Record as _, Schema,
+    compression,
 };
 
 /// How a chunk is stored.
@@ -25,11 +26,24 @@ pub(crate) struct Container {
     chunk: Vec<u8>,
     packed: Packed,
     channels: u16,
+    /// Schemas and channels again, as an index has them, and where chunks are.
+    described: Vec<u8>,
+    places: Vec<ChunkIndex>,
+    /// Times of the messages of the chunk [ns].
+    times: Vec<u64>,
 }
 
 impl Container {
     pub(crate) fn begin(packed: Packed) -> Self {
-        Self { bytes: header(), chunk: Vec::new(), packed, channels: 0 }
+        Self {
+            bytes: header(),
+            chunk: Vec::new(),
+            packed,
+            channels: 0,
+            described: Vec::new(),
+            places: Vec::new(),
+            times: Vec::new(),
+        }
     }
 
     /// A channel of messages in JSON, by its number.
@@ -44,13 +58,21 @@ impl Container {
         let described = Schema { id, name, encoding: "jsonschema".to_owned(), data };
         let (topic, encoding, metadata) = (topic.to_owned(), encoding.to_owned(), Vec::new());
         let channel = Channel { id, schema, topic, encoding, metadata };
-        self.chunk.extend([described.to_bytes(), channel.to_bytes()].concat());
+        let described = [described.to_bytes(), channel.to_bytes()].concat();
+        self.chunk.extend_from_slice(&described);
+        self.described.extend(described);
         id
+    }
+
+    /// Zeros, which are empty records of no kind.
+    pub(crate) fn stuff(&mut self, bytes: usize) {
+        self.chunk.resize(self.chunk.len() + bytes, 0);
     }
 
     /// * `time`: [ns]
     pub(crate) fn message(&mut self, channel: u16, time: u64, data: &[u8]) {
         let message = Message { channel, sequence: 0, log_time: time, publish_time: time };
+        self.times.push(time);
         self.chunk.extend(message.to_bytes_with(data));
     }
 
@@ -75,12 +97,30 @@ impl Container {
             stored: stored.len() as u64,
             ..Chunk::default()
         };
-        self.bytes.extend(head.to_bytes_with(&stored));
+        let (start, record) = (self.bytes.len() as u64, head.to_bytes_with(&stored));
+        let times = std::mem::take(&mut self.times);
+        let of = |time: Option<&u64>| time.copied().unwrap_or(0);
+        let (first, last) = (of(times.iter().min()), of(times.iter().max()));
+        let length = record.len() as u64;
+        self.places.push(ChunkIndex { first, last, start, length, ..ChunkIndex::default() });
+        self.bytes.extend(record);
     }
 
     /// The log as it is before its recorder ends it.
     pub(crate) fn cut(mut self) -> Vec<u8> {
         self.end_chunk();
+        self.bytes
+    }
+
+    /// The log with its end, and an index of schemas, channels and chunks.
+    pub(crate) fn finish_with_index(mut self) -> Vec<u8> {
+        self.end_chunk();
+        self.bytes.extend(DataEnd::default().to_bytes());
+        let summary = self.bytes.len() as u64;
+        self.bytes.extend(self.described);
+        self.bytes.extend(self.places.iter().flat_map(ChunkIndex::to_bytes));
+        self.bytes.extend(Footer { summary, ..Footer::default() }.to_bytes());
+        self.bytes.extend(MAGIC);
         self.bytes
     }
 

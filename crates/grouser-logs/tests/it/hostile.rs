@@ -120,3 +120,20 @@ fn damaged_parquet_is_refused_or_counted() {
         Err(error) => assert!(error.to_string().contains("log: "), "{error}"),
     }
 }
+
+/// A chunk of nothing but empty records unpacks to ten thousand times its size.
+#[test]
+fn a_log_that_unpacks_to_more_than_any_of_its_size_is_refused() {
+    let mut log = Container::begin(Packed::Zstd);
+    let channel = log.channel("/roll", "roll");
+    log.message(channel, 1, b"{\"roll\": 1.0}");
+    let whole = log.cut();
+    let mut log = Container::begin(Packed::Zstd);
+    log.channel("/roll", "roll");
+    log.stuff(60_000_000);
+    let bomb = log.finish();
+    assert!(bomb.len() < 1 << 20, "{}", bomb.len());
+    assert_eq!(read(&whole, Some(MAPPING)).unwrap().0.len(), 1);
+    let error = read(&bomb, Some(MAPPING)).unwrap_err().to_string();
+    assert!(error.contains("unpack to more than") && error.contains("hint"), "{error}");
+}

@@ -125,15 +125,19 @@ fn a_mapping_says_units_signs_and_axes() {
     );
 }
 
-/// Times before the window has passed are put in order, those after it counted.
+const ROLL: &str = "schema = \"telemetry-mapping/1\"\nname = \"ours\"\n[[reading]]\ntopic = \"/roll\"\nfield = \"roll\"\ncolumn = \"roll_deg\"\n";
+
+/// Times before the window has passed are put in order, those after it counted, where no index says
+/// what comes later.
 #[test]
 fn messages_out_of_order_are_put_in_order() {
     let mut log = Container::begin(Packed::Not);
     let channel = log.channel("/roll", "roll");
     for time in [10, 12, 11, 30, 5, 31] {
+        log.end_chunk();
         log.message(channel, time * SECOND / 10, &bytes(&json!({"roll": 1.0})));
     }
-    let mapping = "schema = \"telemetry-mapping/1\"\nname = \"ours\"\n[[reading]]\ntopic = \"/roll\"\nfield = \"roll\"\ncolumn = \"roll_deg\"\n";
+    let mapping = ROLL;
     let (records, notes) = read(&log.finish(), Some(mapping)).unwrap();
     let times: Vec<f64> = records.iter().map(|it| it.time).collect();
     assert_eq!(times, [1.0, 1.1, 1.2, 3.0, 3.1]);
@@ -184,4 +188,77 @@ fn what_cannot_be_meant_is_an_error_that_names_the_choices() {
         let error = read(start, None).unwrap_err().to_string();
         assert!(error.contains(part) && error.contains("python -m grouser"), "{error}");
     }
+}
+
+/// Topic after topic, each in chunks of its own, or all in one: the index, and a chunk, have the
+/// order of time.
+#[test]
+fn topics_may_be_written_one_after_another() {
+    let log = |chunk: usize, is_indexed: bool| {
+        let mut log = Container::begin(Packed::Zstd);
+        let topics = ["/pitch", "/roll"].map(|topic| log.channel(topic, "angle"));
+        for channel in topics {
+            for (place, second) in (1..60).enumerate() {
+                if place % chunk == chunk - 1 {
+                    log.end_chunk();
+                }
+                log.message(channel, second * SECOND, &bytes(&json!({"angle": second})));
+            }
+        }
+        if is_indexed { log.finish_with_index() } else { log.finish() }
+    };
+    let mapping = "schema = \"telemetry-mapping/1\"\nname = \"ours\"\n[[reading]]\ntopic = \"/roll\"\nfield = \"angle\"\ncolumn = \"roll_deg\"\n[[reading]]\ntopic = \"/pitch\"\nfield = \"angle\"\ncolumn = \"pitch_deg\"\n";
+    for (chunk, is_indexed) in [(7, true), (1000, true), (1000, false)] {
+        let (records, notes) = read(&log(chunk, is_indexed), Some(mapping)).unwrap();
+        let times: Vec<f64> = records.iter().map(|it| it.time).collect();
+        assert_eq!(times, (1..60).map(f64::from).collect::<Vec<_>>(), "{chunk}, {notes:?}");
+        assert!(records.iter().all(|it| it.roll.is_some() && it.roll == it.pitch), "{records:?}");
+    }
+    // Without an index nobody knows what comes later.
+    let (_, notes) = read(&log(7, false), Some(mapping)).unwrap();
+    assert!(notes.iter().any(|it| it.contains("too late")), "{notes:?}");
+}
+
+/// A simulation whose clock begins at 0, recorded by a clock of today: messages without a stamp, and
+/// the one of 0 s, take their place among the others.
+#[test]
+fn a_log_has_one_clock() {
+    let mut log = Container::begin(Packed::Not);
+    let imu = log.channel("/imu", "sensor_msgs/msg/Imu");
+    let odometry = log.channel("/odom", "nav_msgs/msg/Odometry");
+    let today = 1_700_000_000 * SECOND;
+    for step in 0..40 {
+        let seconds = 0.1 * f64::from(step);
+        let recorded = today + u64::from(step.unsigned_abs()) * SECOND / 10;
+        let leans = json!({"header": header(seconds), "orientation": about("x", 5.0)});
+        log.message(imu, recorded, &bytes(&leans));
+        let pose = json!({"position": {"x": seconds, "y": 0.0, "z": 0.0}, "orientation": about("z", 0.0)});
+        log.message(odometry, recorded + SECOND / 20, &bytes(&json!({"pose": {"pose": pose}})));
+    }
+    let (records, notes) = read(&log.finish(), None).unwrap();
+    let places = |read: &dyn Fn(&TelemetryRecord) -> bool| -> Vec<f64> {
+        records.iter().filter(|it| read(it)).map(|it| it.time).collect()
+    };
+    let leans = places(&|it| it.roll.is_some());
+    assert_eq!(leans.len(), 40, "{notes:?}");
+    assert!(leans.iter().zip(0..).all(|(time, step)| (time - 0.1 * f64::from(step)).abs() < 1e-6));
+    let ways: Vec<f64> = records.iter().filter_map(|it| it.displacement[0]).collect();
+    assert!(ways.len() == 39 && ways.iter().all(|way| (way - 0.1).abs() < 1e-9), "{ways:?}");
+    let moved = places(&|it| it.displacement[0].is_some());
+    assert!((moved[0] - 0.15).abs() < 1e-6 && !notes.iter().any(|it| it.contains("late")));
+}
+
+/// An orientation that nobody measured is none.
+#[test]
+fn an_identity_is_no_orientation() {
+    let mut log = Container::begin(Packed::Not);
+    let imu = log.channel("/imu", "sensor_msgs/msg/Imu");
+    for (time, degrees) in [(1.0, 0.0), (2.0, 3.0), (3.0, 0.0)] {
+        let message = json!({"header": header(time), "orientation": about("x", degrees)});
+        log.message(imu, 5 * SECOND, &bytes(&message));
+    }
+    let (records, notes) = read(&log.finish(), None).unwrap();
+    assert!(records.len() == 1 && records[0].time == 2.0, "{records:?}");
+    let note = "2 readings of /imu are exactly the identity";
+    assert!(notes.iter().any(|it| it.starts_with(note)), "{notes:?}");
 }

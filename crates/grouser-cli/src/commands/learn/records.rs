@@ -35,12 +35,20 @@ pub(super) enum Event {
 }
 
 /// What is known of a log at its end.
-#[derive(Default)]
 pub(super) struct Ending {
     pub(super) lost: Lost,
     /// What else there is to say of it.
     pub(super) notes: Vec<String>,
     pub(super) rows: u64,
+    /// The share of the log that was used [-].
+    pub(super) share_used: f64,
+}
+
+impl Ending {
+    /// Where nothing is known of it.
+    fn of_nothing() -> Self {
+        Self { lost: Lost::default(), notes: Vec::new(), rows: 0, share_used: 1.0 }
+    }
 }
 
 /// Reads records ahead.
@@ -70,10 +78,10 @@ impl Records {
         match self.events.recv_timeout(PATIENCE) {
             Ok(event) => event,
             Err(RecvTimeoutError::Timeout) if self.is_followed && interrupt::is_asked_to_stop() => {
-                Event::End(Ending::default())
+                Event::End(Ending::of_nothing())
             }
             Err(RecvTimeoutError::Timeout) => Event::Nothing,
-            Err(RecvTimeoutError::Disconnected) => Event::End(Ending::default()),
+            Err(RecvTimeoutError::Disconnected) => Event::End(Ending::of_nothing()),
         }
     }
 }
@@ -87,5 +95,5 @@ fn read(mut log: TelemetryLog, sender: &SyncSender<Event>) -> Result<Event, Fail
         }
     }
     let (lost, notes) = (log.lost().clone(), log.notes_of_source());
-    Ok(Event::End(Ending { lost, notes, rows: log.rows() }))
+    Ok(Event::End(Ending { lost, notes, rows: log.rows(), share_used: log.share_used() }))
 }

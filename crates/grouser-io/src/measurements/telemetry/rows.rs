@@ -157,6 +157,15 @@ impl TelemetryRows {
         self.rows
     }
 
+    /// The share of all rows that became records so far; 1 before the first row.
+    #[must_use]
+    pub fn share_used(&self) -> f64 {
+        let Lost { damaged_rows, rows_without_time, rows_out_of_order, .. } = self.lost;
+        let all = self.rows + damaged_rows;
+        let used = self.rows - rows_without_time - rows_out_of_order;
+        if all == 0 { 1.0 } else { used as f64 / all as f64 }
+    }
+
     /// What was lost so far.
     #[must_use]
     pub fn lost(&self) -> &Lost {
@@ -269,15 +278,23 @@ impl Header {
         for name in names {
             header.add(label, name, &wheels)?;
         }
-        let mut known = header.columns.iter().flatten();
-        if known.any(|known| known.column.name == TIME.name) {
-            return Ok(header);
+        let known = || header.columns.iter().flatten();
+        if known().any(|known| known.column.name == TIME.name) {
+            return match known().nth(1) {
+                Some(_) => Ok(header),
+                None => Err(MeasurementError::at(label, 1, header.nothing_known())),
+            };
         }
         let near = header.unused.iter().find(|name| nearest(name, [TIME.name]).is_some());
         let hint = near.map(|name| format!("is `{name}` meant as `{}`?", TIME.name));
         let expected = format!("`{}`", TIME.name);
         let problem = Problem::MissingColumn { what: "the time", expected };
         Err(MeasurementError::at(label, 1, problem).with_hint(hint))
+    }
+
+    fn nothing_known(&self) -> Problem {
+        let sought = COLUMNS.iter().map(|it| it.name).filter(|name| *name != TIME.name);
+        Problem::NoKnownColumn { there: self.unused.clone(), sought: sought.collect() }
     }
 
     fn add(&mut self, label: &str, name: String, wheels: &[&str]) -> Result<(), MeasurementError> {
