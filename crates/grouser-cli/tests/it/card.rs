@@ -391,6 +391,7 @@ fn a_folder_has_all_forms_and_its_documents_make_the_same_card() {
         "courses.csv",
         "report.html",
         "scenario.toml",
+        "stops.toml",
     ];
     assert_eq!(names, expected);
     let place = Place::new();

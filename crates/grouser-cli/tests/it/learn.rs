@@ -90,11 +90,12 @@ fn other_commands_believe_what_was_learnt() {
     let one = place.json(&format!("{heading} --model rft"));
     assert_eq!(one["belief"]["model_weights"]["rft"], 1.0);
     let campaign = "schema = \"campaign/1\"\nname = \"belief\"\nstudy = \"heading\"\nruns = 60\n\
-                    seed = 1\nsampling = \"random\"\nsoil_uncertainty = true\n\
+                    seed = 1\nsampling = \"monte-carlo\"\nsoil_uncertainty = true\n\
                     model_uncertainty = true\n[scenario]\nrover = \"hakuto\"\n\
                     slope_deg = 10.0\nsoil = \"today/soil.toml\"\n";
     place.write("campaign.toml", campaign);
-    place.results("campaign run campaign.toml --out runs --format csv");
+    let run = place.line("campaign run campaign.toml --out runs");
+    assert_eq!(run.code(), 0, "{}", run.stderr);
 }
 
 /// What the instruments of a simulated mission say: the same again from the same seed, other noise
