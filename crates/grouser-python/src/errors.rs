@@ -149,9 +149,7 @@ pub(crate) fn of_telemetry(error: &TelemetryError) -> PyErr {
         TelemetryProblem::File(
             grouser::document::file::FileProblem::NoSuchFile
             | grouser::document::file::FileProblem::BrokenLink { .. },
-        ) => {
-            classes::DocumentNotFoundError::new_err((message, file, None::<String>))
-        }
+        ) => classes::DocumentNotFoundError::new_err((message, file, None::<String>)),
         TelemetryProblem::File(_) | TelemetryProblem::Unreadable(_) => {
             classes::DocumentUnreadableError::new_err((message, file))
         }

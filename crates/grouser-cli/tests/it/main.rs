@@ -21,6 +21,7 @@ mod mission;
 mod models;
 mod motors;
 mod new;
+mod odd_logs;
 mod program;
 mod replay;
 mod reports;

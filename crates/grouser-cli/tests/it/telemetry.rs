@@ -2,10 +2,10 @@
 
 use crate::program::{Place, number};
 
-const RUN: &str = "traverse --rover hakuto --soil toyoura --set soil.shear.lateral_m=0.022 \
+pub(crate) const RUN: &str = "traverse --rover hakuto --soil toyoura --set soil.shear.lateral_m=0.022 \
                    --slope-deg 8 --set soil.shear.longitudinal_m=0.05 --set \
                    scenario.start.yaw_deg=4 --simulation quasi-steady --duration-s 30";
-const LEARN: &str =
+pub(crate) const LEARN: &str =
     "--prior toyoura-uncertain --rover hakuto --model ishigami --predict-slope-deg 10 --samples 20";
 
 /// What `learn` predicts after a log.

@@ -227,12 +227,13 @@ fn a_log_has_one_clock() {
     let imu = log.channel("/imu", "sensor_msgs/msg/Imu");
     let odometry = log.channel("/odom", "nav_msgs/msg/Odometry");
     let today = 1_700_000_000 * SECOND;
-    for step in 0..40 {
+    for step in 0..40_i32 {
         let seconds = 0.1 * f64::from(step);
         let recorded = today + u64::from(step.unsigned_abs()) * SECOND / 10;
         let leans = json!({"header": header(seconds), "orientation": about("x", 5.0)});
         log.message(imu, recorded, &bytes(&leans));
-        let pose = json!({"position": {"x": seconds, "y": 0.0, "z": 0.0}, "orientation": about("z", 0.0)});
+        let pose =
+            json!({"position": {"x": seconds, "y": 0.0, "z": 0.0}, "orientation": about("z", 0.0)});
         log.message(odometry, recorded + SECOND / 20, &bytes(&json!({"pose": {"pose": pose}})));
     }
     let (records, notes) = read(&log.finish(), None).unwrap();

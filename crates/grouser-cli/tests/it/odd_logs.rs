@@ -1,0 +1,204 @@
+//! Logs and maps as people have them: read as they are, or refused in words that help.
+
+use crate::program::{Place, number};
+use crate::telemetry::{LEARN, RUN};
+
+/// A drive as a table, in a place.
+fn drive() -> (Place, String) {
+    let place = Place::new();
+    place.results(&format!("{RUN} --telemetry drive.csv"));
+    let text = place.read("drive.csv");
+    (place, text)
+}
+
+/// The slip that `learn` predicts after a log.
+fn slip_after(place: &Place, log: &str) -> f64 {
+    let answer = place.line(&format!("learn {log} {LEARN} --format json"));
+    assert_eq!(answer.code(), 0, "{log}: {}", answer.stderr);
+    let answer: serde_json::Value = serde_json::from_str(&answer.stdout).expect("JSON");
+    number(&answer["predictions"][0]["slip_ratio"])
+}
+
+/// The table with another cell for the time in each row.
+fn with_times(text: &str, time: impl Fn(f64) -> String) -> String {
+    let (header, rows) = text.split_once('\n').expect("a header");
+    let row = |line: &str| {
+        let (first, rest) = line.split_once(',').expect("cells");
+        format!("{},{rest}\n", time(first.parse().expect("a time")))
+    };
+    format!("{header}\n{}", rows.lines().map(row).collect::<String>())
+}
+
+#[test]
+fn a_table_is_read_however_it_is_written() {
+    let (place, text) = drive();
+    let expected = slip_after(&place, "drive.csv");
+    let epoch = 1_700_000_000.0;
+    let date = |time: f64| {
+        let [minutes, seconds] = [(time / 60.0).floor(), time % 60.0];
+        format!("2026-11-26T10:{minutes:02}:{seconds:06.3}Z")
+    };
+    for (name, table) in [
+        ("semicolons", text.replace('.', "|").replace(',', ";").replace('|', ",")),
+        ("tabs", text.replace(',', "\t")),
+        ("comments", format!("# a drive in sand, by hand\n#\n{text}# the end\n")),
+        ("behind", format!("# {text}")),
+        ("dates", with_times(&text, date)),
+        ("nanoseconds", with_times(&text, |time| format!("{:.0}", (epoch + time) * 1e9))),
+        ("milliseconds", with_times(&text, |time| format!("{:.0}", (epoch + time) * 1e3))),
+        (
+            "named",
+            with_times(&text, |time| format!("{:.0}", time * 1e3)).replacen("time_s", "time_ms", 1),
+        ),
+    ] {
+        let log = format!("{name}.csv");
+        place.write(&log, table);
+        let found = slip_after(&place, &log);
+        assert!((found - expected).abs() < 1e-3, "{name}: {found} for {expected}");
+    }
+}
+
+/// Times that were rounded to a fifth of a second leave every second row without one of its own: its
+/// way is not lost.
+#[test]
+fn ways_of_rows_that_share_a_time_are_kept() {
+    let (place, text) = drive();
+    let expected = slip_after(&place, "drive.csv");
+    place.write(
+        "rounded.csv",
+        with_times(&text, |time| format!("{:.1}", (5.0 * time).floor() / 5.0)),
+    );
+    let found = slip_after(&place, "rounded.csv");
+    assert!((found - expected).abs() < 0.03, "{found} for {expected}");
+    // Rows without a time are handed on, too; a row that nobody can read breaks the way.
+    for (name, every, cell) in [("holes", 7, ""), ("broken", 5, "x,y,z,")] {
+        let (header, rows) = text.split_once('\n').expect("a header");
+        let row = |(place, line): (usize, &str)| match line.split_once(',') {
+            Some((_, rest)) if place % every == 3 => format!("{cell},{rest}\n"),
+            _ => format!("{line}\n"),
+        };
+        let table: String = rows.lines().enumerate().map(row).collect();
+        place.write(&format!("{name}.csv"), format!("{header}\n{table}"));
+        let found = slip_after(&place, &format!("{name}.csv"));
+        assert!((found - expected).abs() < 0.03, "{name}: {found} for {expected}");
+    }
+}
+
+/// What taught nothing, has nothing or lost most ends so.
+#[test]
+fn an_outcome_has_its_exit_code() {
+    let (place, text) = drive();
+    place.write("nothing.csv", with_times(&text, |_| "soon".to_owned()));
+    let answer = place.line(&format!("learn nothing.csv {LEARN} --out out"));
+    assert!(
+        answer.code() == 1 && answer.stderr.contains("nothing was learnt"),
+        "{}",
+        answer.stderr
+    );
+    assert!(!place.file("out/soil.toml").exists());
+    place.write("other.csv", "time_s,voltage,mood\n0,1,2\n1,2,3\n");
+    for command in [
+        "learn other.csv --prior toyoura-uncertain",
+        "import-telemetry other.csv",
+        "replay other.csv",
+    ] {
+        let answer = place.line(command);
+        let says = |part: &str| answer.stderr.contains(part);
+        assert!(
+            answer.code() == 2 && says("voltage, mood") && says("wheel_torque_nm"),
+            "{command}: {}",
+            answer.stderr
+        );
+    }
+    // Two rows of three are damaged.
+    let (header, rows) = text.split_once('\n').expect("a header");
+    let damaged = |(place, line): (usize, &str)| match place % 3 {
+        0 => format!("{line}\n"),
+        _ => format!("{line},1,2,3\n"),
+    };
+    let table: String = rows.lines().enumerate().map(damaged).collect();
+    place.write("most.csv", format!("{header}\n{table}"));
+    let learn = format!("learn most.csv {LEARN}");
+    for command in [learn.as_str(), "import-telemetry most.csv", "replay most.csv"] {
+        let answer = place.line(command);
+        assert!(
+            answer.code() == 3 && answer.stderr.contains("--accept-loss"),
+            "{command}: {}",
+            answer.stderr
+        );
+        assert_eq!(place.line(&format!("{command} --accept-loss")).code(), 0, "{command}");
+    }
+}
+
+/// A pipe without a writer would be waited for.
+#[cfg(unix)]
+#[test]
+fn no_input_is_waited_for() {
+    let place = Place::new();
+    assert_eq!(place.shell("mkfifo f.tif").code(), 0);
+    for command in [
+        "map f.tif --out o",
+        "route f.tif --from 0,0 --to 1,1",
+        "traverse --terrain f.tif",
+        "import-telemetry f.tif",
+        "learn f.tif --prior toyoura-uncertain",
+        "replay f.tif",
+    ] {
+        let answer = place.line(command);
+        assert!(
+            answer.code() == 2 && answer.stderr.contains("pipe"),
+            "{command}: {}",
+            answer.stderr
+        );
+    }
+}
+
+/// Degrees of longitude and latitude are no metres, on ground without an end and from the start of a
+/// mission, too.
+#[test]
+fn degrees_are_not_taken_for_metres() {
+    let place = Place::new();
+    let polygon = |corners: &str| {
+        format!(
+            "{{\"type\":\"FeatureCollection\",\"features\":[{{\"type\":\"Feature\",\
+             \"properties\":{{\"soil\":\"clay\"}},\"geometry\":{{\"type\":\"Polygon\",\
+             \"coordinates\":[[{corners}]]}}}}]}}"
+        )
+    };
+    place.write("z.geojson", polygon("[138.1,35.2],[138.2,35.2],[138.2,35.3],[138.1,35.2]"));
+    place.write("near.geojson", polygon("[1,-2],[3,-2],[3,2],[1,-2]"));
+    let scenario = |zones: &str| {
+        format!(
+            "schema = \"scenario/1\"\nname = \"z\"\nsoil = \"toyoura\"\n\
+             simulation = \"quasi-steady\"\nduration_s = 5.0\n[terrain]\nsurface = \"incline\"\nslope_deg = 5.0\ndirection_deg = 90.0\n\
+             soil_file = \"{zones}\"\n"
+        )
+    };
+    place.write("z.toml", scenario("z.geojson"));
+    let answer = place.line("traverse z.toml");
+    assert!(answer.code() == 2 && answer.stderr.contains("degrees"), "{}", answer.stderr);
+    place.write("near.toml", scenario("near.geojson"));
+    assert_eq!(
+        place.line("traverse near.toml").code(),
+        0,
+        "{}",
+        place.line("traverse near.toml").stderr
+    );
+
+    let way = |crs: &str| {
+        format!(
+            "{{\"type\":\"FeatureCollection\",{crs}\"features\":[{{\"type\":\"Feature\",\
+             \"geometry\":{{\"type\":\"LineString\",\"coordinates\":\
+             [[8.4,49.0],[8.40001,49.0]]}},\"properties\":{{}}}}]}}"
+        )
+    };
+    place.write("m.toml", "schema = \"mission/1\"\nname = \"m\"\nslope_deg = 5.0\n");
+    place.write("way.geojson", way(""));
+    let mission = "mission m.toml --nominal --simulation quasi-steady --legs-from way.geojson";
+    let answer = place.line(mission);
+    assert!(answer.code() == 2 && answer.stderr.contains("degrees"), "{}", answer.stderr);
+    assert!(answer.stderr.contains("hint: ogr2ogr"), "{}", answer.stderr);
+    let metres = "\"crs\":{\"type\":\"name\",\"properties\":{\"name\":\"EPSG:32632\"}},";
+    place.write("way.geojson", way(metres));
+    assert_eq!(place.line(mission).code(), 0, "{}", place.line(mission).stderr);
+}
