@@ -30,6 +30,8 @@ _ARRIVALS = {
     "time_s": "Time from the start, before the turn at the waypoint",
     "energy_j": "Work of the wheels from the start, before the turn at the waypoint",
 }
+#: Numbers of each piece of a way, and what they are.
+_PROFILE = {name: doc for name, _, doc in _core.result_columns()["profile"]}
 #: Of each stretch that is not safe: what it is, and where.
 _HAZARDS = {
     "danger": "What is not safe",
@@ -157,7 +159,11 @@ def route(
         waypoints is over ``leg``. It is the advice for the worst place of the leg, to a whole
         degree, with the slope and course ``leg_slope_deg`` and ``leg_course_deg``: whether to drive
         there and why (``leg_verdict``, ``leg_reason``), ``leg_probability_stuck``, and the heading
-        to set, ``leg_yaw_deg``, from the contour, with its band (``…_p2_5``, ``…_p97_5``). With
+        to set, ``leg_yaw_deg``, from the contour, with its band (``…_p2_5``, ``…_p97_5``). What is
+        met along the way is over ``piece``: ``piece_leg``, ``piece_along_m`` from the start on the
+        map to its middle, its place and height ``piece_x_m``, ``piece_y_m``, ``piece_z_m``,
+        ``piece_slope_deg``, ``piece_course_deg``, ``piece_slip_ratio`` in the median of the samples,
+        and ``piece_probability_no_go``; NaN where the ground is not known. With
         ``alternatives`` a dataset for each objective, the chosen one first. Of a way given by
         ``along`` the status is
         ``"safe"`` or ``"not-safe"``, and each stretch that is not safe is a ``hazard``: what it is
@@ -274,7 +280,8 @@ def _dataset(way: Mapping[str, Any], notes: Mapping[str, int]) -> xarray.Dataset
     legs = [{**leg, **leg["advice"]} for leg in way["legs"]]
     variables = _variables("waypoint", _ARRIVALS, arrivals)
     variables |= _variables("leg", ADVICE, legs, "leg_")
-    apart = ("waypoints", "arrivals", "hazards", "legs")
+    variables |= _variables("piece", _PROFILE, way["profile"], "piece_")
+    apart = ("waypoints", "arrivals", "hazards", "legs", "profile")
     whole = {name: it for name, it in way.items() if name not in apart}
     simulated = whole.pop("simulated") or {}
     attributes = {**whole, **{f"simulated_{name}": it for name, it in simulated.items()}, **notes}

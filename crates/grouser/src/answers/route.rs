@@ -2,6 +2,7 @@
 
 mod columns;
 mod page;
+mod profile;
 mod question;
 mod way;
 
@@ -38,6 +39,7 @@ impl RouteQuestion<'_> {
             Member::Value("alternatives", json!(others)),
         ];
         answer.tables.push((name.to_owned(), Arc::clone(&rows)));
+        answer.tables.extend(ways.iter().enumerate().filter_map(profile_file));
         let lines: String = ways.iter().map(Way::lines).collect();
         answer.screen = vec![Displayed::Rows(Arc::clone(&rows), brief()), Displayed::Words(lines)];
         answer.attach("scenario.toml", self.scenario);
@@ -82,6 +84,14 @@ impl RouteQuestion<'_> {
         }
         answer.belief = Some(self.sampling.belief(self.scenario));
     }
+}
+
+/// The profile of a way by the name of its file: that of the way that is asked for is `profile`,
+/// that of an alternative has what it has least of at its end.
+fn profile_file((place, way): (usize, &Way)) -> Option<(String, Arc<Table>)> {
+    let RouteRecord { profile, minimise, .. } = &way.record;
+    let least = minimise.filter(|_| place > 0).map_or_else(String::new, |it| format!("-{it}"));
+    (profile.rows() > 0).then(|| (format!("profile{least}"), Arc::new(profile.clone())))
 }
 
 /// What a way takes, as the entries of an object of JSON.

@@ -14,6 +14,7 @@ pub mod map;
 pub mod mission;
 pub mod replay;
 pub mod roughness;
+pub mod route;
 pub mod run;
 pub mod slip_from_current;
 pub mod slope;

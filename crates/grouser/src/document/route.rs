@@ -2,6 +2,7 @@
 
 use serde::{Serialize, Serializer};
 
+use super::columns::route::PROFILE;
 use super::columns::verdict::{ADVICE, ADVICE_OBJECT};
 use super::columns::{COURSE, Column, SLOPE, YAW};
 use super::table::{Table, WithObject};
@@ -41,6 +42,8 @@ pub struct RouteRecord {
     pub arrivals: Vec<ArrivalRecord>,
     /// What to do on each leg between them.
     pub legs: AdvisedLegs,
+    /// What is met along it, piece by piece.
+    pub profile: Table,
     /// Where a line that was given is not safe.
     pub hazards: Vec<HazardRecord>,
     /// What simulation makes of it, if it was driven.
@@ -191,6 +194,7 @@ impl RouteRecord {
             waypoints: line.places().iter().map(|it| [it.x, it.y]).collect(),
             hazards,
             legs: AdvisedLegs::of(legs),
+            profile: Table::of(&PROFILE, &found.seen.profile),
             ..record
         }
     }
@@ -208,6 +212,7 @@ impl RouteRecord {
             probability_no_go: Some(route.probability_no_go),
             waypoints: route.waypoints.iter().map(|it| [it.x, it.y]).collect(),
             arrivals: route.arrivals.iter().map(ArrivalRecord::of).collect(),
+            profile: Table::of(&PROFILE, &route.profile),
             simulated: driven.map(|driven| SimulatedRecord::of(route, driven)),
             ..Self::default()
         }

@@ -27,6 +27,7 @@ mod compliance;
 mod detail;
 mod ground;
 mod map;
+mod median_slip;
 mod table;
 mod thresholds;
 

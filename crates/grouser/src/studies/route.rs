@@ -20,6 +20,7 @@ mod drive;
 mod hazard;
 mod measure;
 mod moves;
+mod profile;
 mod search;
 mod seek;
 mod study;
@@ -29,6 +30,7 @@ pub use self::answer::{Answer, Arrival, Ends, LineError, MOST_CELLS, NoRoute, Ro
 pub use self::costs::{COURSES, RouteTables};
 pub use self::drive::DrivenRoute;
 pub use self::hazard::{Danger, Hazard};
+pub use self::profile::{GroundOfPiece, ProfilePiece};
 pub use self::study::{Limits, Objective, RouteStudy, STUCK_WAY, WORST_SHARE};
 
 #[cfg(test)]

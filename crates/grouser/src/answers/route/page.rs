@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use super::super::{Answer, PageBlock, meanings};
 use super::columns::{WAY, brief};
+use super::profile::charts;
 use super::question::RouteQuestion;
 use super::way::Way;
+use crate::document::columns::route::PROFILE;
 use crate::document::columns::verdict::ADVICE;
 use crate::document::reading::four_digits;
 use crate::document::route::{AdvisedLegs, RouteRecord};
@@ -44,6 +46,10 @@ impl RouteQuestion<'_> {
             answer.words(format!("What to do on each leg of {}, at its worst place:", way.name()));
             answer.rows("Advice for each leg", &Arc::new(legs), names);
         }
+        for way in ways.iter().filter(|way| way.record.profile.rows() > 0) {
+            answer.heading(format!("Along {}", way.called()));
+            answer.charts(charts(&way.record.profile));
+        }
         answer.words(if self.has_line() { OF_A_LINE } else { OF_THE_LATTICE });
         answer.words(
             "What the way cannot know: steps and stones between the points of the map, and soil \
@@ -52,6 +58,7 @@ impl RouteQuestion<'_> {
         );
         answer.columns = meanings(&WAY);
         answer.columns.extend(meanings(&ADVICE));
+        answer.columns.extend(meanings(&PROFILE));
     }
 }
 

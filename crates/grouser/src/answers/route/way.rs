@@ -66,6 +66,12 @@ impl Way {
         self.record.minimise.map_or_else(|| "the given way".to_owned(), |it| format!("least {it}"))
     }
 
+    /// The same within a sentence.
+    pub(super) fn called(&self) -> String {
+        let least = |it| format!("the way with the least {it}");
+        self.record.minimise.map_or_else(|| "the given way".to_owned(), least)
+    }
+
     /// A number of the way, if it is known.
     pub(super) fn by_tables(&self, number: fn(&Route) -> f64) -> Option<f64> {
         self.route.as_ref().map(number)

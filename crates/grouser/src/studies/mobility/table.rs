@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::detail::Detail;
+use super::median_slip::MedianSlip;
 use super::thresholds::Thresholds;
 use crate::elementary::wide::sin;
 use crate::error::ParameterError;
@@ -267,8 +268,17 @@ impl MobilityTable {
         &self.thresholds.of_samples
     }
 
-    /// Takes for the steepest slope of each sample the mean of those on two other courses.
-    pub(in crate::studies) fn set_steepest_between(&mut self, one: &Self, other: &Self) {
+    /// The median over the samples of the slip ratio with which each holds the course on a slope
+    /// [rad] by its own heading [-]: 1 in those in which none does, or that slip more than a no-go;
+    /// NaN where none is known.
+    pub(in crate::studies) fn median_slip(&self, slope: f64) -> f64 {
+        self.thresholds.median_slip.at(slope)
+    }
+
+    /// Takes for what the samples say the mean of what they say on two other courses.
+    pub(in crate::studies) fn set_samples_between(&mut self, one: &Self, other: &Self) {
+        let slips = [one, other].map(|it| &it.thresholds.median_slip);
+        self.thresholds.median_slip = MedianSlip::between(slips[0], slips[1]);
         let pairs = one.steepest_of_samples().iter().zip(other.steepest_of_samples());
         self.thresholds.of_samples =
             pairs.map(|(one, other)| f64::midpoint(*one, *other)).collect();

@@ -1,6 +1,7 @@
 //! The steepest slopes that the samples allow.
 
 use super::detail::Detail;
+use super::median_slip::{MedianSlip, slips};
 use crate::error::ParameterError;
 use crate::root;
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
@@ -18,6 +19,19 @@ pub(super) struct Thresholds {
     known_to: Vec<f64>,
     /// The same in the order of the samples.
     pub(super) of_samples: Vec<f64>,
+    /// The slip in the middle of them.
+    pub(super) median_slip: MedianSlip,
+}
+
+/// What the curve of one sample says.
+#[derive(Clone)]
+struct OfSample {
+    /// The steepest slope that is no no-go [rad].
+    steepest: f64,
+    /// Whether it is known what lies beyond.
+    is_known: bool,
+    /// Slip ratios by slope.
+    slips: Vec<f64>,
 }
 
 /// The slope of a sample that cannot drive at all [rad]: below level ground.
@@ -37,19 +51,25 @@ impl Thresholds {
         let most = study.rule.no_go_slip_ratio;
         let one = |sample: &Sample| {
             let curve = study.heading.of_sample(sample).curve_up_to(course, most)?;
-            Ok((steepest(&curve, most, detail), is_known(&curve, most)))
+            Ok(OfSample {
+                steepest: steepest(&curve, most, detail),
+                is_known: is_known(&curve, most),
+                slips: slips(&curve, most),
+            })
         };
         let Some(found) = outputs_of_samples(samples, go_on, one) else { return Ok(None) };
         // In order, so that the error is always that of the first soil.
-        let found = found.into_iter().collect::<Result<Vec<(f64, bool)>, ParameterError>>()?;
+        let found = found.into_iter().collect::<Result<Vec<OfSample>, ParameterError>>()?;
         let of = |known: bool| {
-            let all = found.iter().filter(|it| it.1 == known).map(|it| it.0);
+            let all = found.iter().filter(|it| it.is_known == known).map(|it| it.steepest);
             let mut slopes: Vec<f64> = all.collect();
             slopes.sort_by(f64::total_cmp);
             slopes
         };
-        let of_samples = found.iter().map(|it| it.0).collect();
-        Ok(Some(Self { steepest: of(true), known_to: of(false), of_samples }))
+        let of_samples = found.iter().map(|it| it.steepest).collect();
+        let slips: Vec<&[f64]> = found.iter().map(|it| &*it.slips).collect();
+        let median_slip = MedianSlip::of(&slips);
+        Ok(Some(Self { steepest: of(true), known_to: of(false), of_samples, median_slip }))
     }
 
     /// Over the samples for which it is known; NaN where there is none.

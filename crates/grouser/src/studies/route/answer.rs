@@ -1,5 +1,6 @@
 //! Ways, and why there are none.
 
+use super::profile::ProfilePiece;
 use crate::error::ParameterError;
 use crate::studies::ensemble::samples::Sample;
 use crate::studies::mobility::advised_place;
@@ -47,6 +48,9 @@ pub struct Route {
     /// of the samples fail, and of several the steepest; `None` of a leg that leads over ground that
     /// nobody knows, or that nobody may go to.
     pub worst: Vec<Option<(f64, f64)>>,
+    /// All of it, piece by piece: of a way that was sought a move of the lattice, of a given line as
+    /// long as the map's points are apart.
+    pub profile: Vec<ProfilePiece>,
 }
 
 impl Route {

@@ -84,7 +84,7 @@ impl RouteStudy {
         for number in (1..COURSES - 1).step_by(2) {
             let (before, rest) = tables.split_at_mut(number);
             let (between, after) = rest.split_at_mut(1);
-            between[0].set_steepest_between(&before[number - 1], &after[0]);
+            between[0].set_samples_between(&before[number - 1], &after[0]);
         }
         let mut risk = None;
         if with_risk {
@@ -263,7 +263,19 @@ impl RouteTables {
         pairs.map(move |(one, other)| slope > one + share * (other - one))
     }
 
-    fn probability_no_go(&self, slope: f64, course: f64) -> f64 {
+    /// The median over the samples of the slip ratio with which each holds a course by its own
+    /// heading [-]; NaN where none is known.
+    pub(super) fn median_slip(&self, slope: f64, course: f64) -> f64 {
+        let (below, share) = self.between(course);
+        let one = self.tables[below].median_slip(slope);
+        if share == 0.0 {
+            return one;
+        }
+        one + share * (self.tables[below + 1].median_slip(slope) - one)
+    }
+
+    /// In which share of the samples a slope and course are a no-go [-].
+    pub(super) fn probability_no_go(&self, slope: f64, course: f64) -> f64 {
         let failed = self.fails_on(slope, course).filter(|fails| *fails).count();
         failed as f64 / self.tables[0].steepest_of_samples().len() as f64
     }

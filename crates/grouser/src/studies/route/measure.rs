@@ -2,6 +2,7 @@
 
 use super::answer::{Arrival, Route};
 use super::costs::{Metre, RouteTables};
+use super::profile::{GroundOfPiece, ProfilePiece};
 use crate::simulation::NotSteady;
 use crate::studies::mobility::slope_and_course;
 use crate::studies::verdict::SlopeStudy;
@@ -46,11 +47,16 @@ impl Turning {
     }
 }
 
-/// A piece of a way: how long it is on the map [m], and how steeply the ground rises along it and
-/// across it [m/m].
+/// A piece of a way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Piece {
+    /// Its middle [m].
+    pub(super) place: Vec2,
+    /// The height there [m].
+    pub(super) height: f64,
+    /// How long it is on the map [m].
     pub(super) length: f64,
+    /// How steeply the ground rises along it and across it [m/m].
     pub(super) along: f64,
     pub(super) across: f64,
 }
@@ -66,6 +72,8 @@ pub(super) struct Measure<'a> {
     worst: (usize, f64, f64),
     /// Whether the ground of the leg is known all the way.
     is_known: bool,
+    /// Length on the map, over ground that is not known, too [m].
+    so_far: f64,
 }
 
 impl<'a> Measure<'a> {
@@ -84,6 +92,7 @@ impl<'a> Measure<'a> {
             most_slope: 0.0,
             probability_no_go: 0.0,
             worst: Vec::new(),
+            profile: Vec::new(),
         };
         let mut measure = Self {
             tables,
@@ -92,6 +101,7 @@ impl<'a> Measure<'a> {
             failed: Vec::new(),
             worst: (0, 0.0, 0.0),
             is_known: true,
+            so_far: 0.0,
         };
         measure.arrive(start);
         measure
@@ -118,16 +128,39 @@ impl<'a> Measure<'a> {
         self.route.turned += angle;
     }
 
-    /// Goes on over ground that nobody knows, or that nobody may go to.
+    /// Length on the map from the start [m].
+    pub(super) fn so_far(&self) -> f64 {
+        self.so_far
+    }
+
+    /// The leg leads where nobody may go.
     pub(super) fn is_lost(&mut self) {
         self.is_known = false;
+    }
+
+    /// Goes on by a piece over ground that nobody knows.
+    ///
+    /// * `place`: its middle [m]
+    /// * `length`: on the map [m]
+    pub(super) fn drive_unknown(&mut self, place: Vec2, length: f64) {
+        self.is_known = false;
+        self.note(place, length, None);
+    }
+
+    /// Adds a piece to the profile.
+    fn note(&mut self, place: Vec2, length: f64, ground: Option<GroundOfPiece>) {
+        let leg = self.route.waypoints.len();
+        let along = self.so_far + 0.5 * length;
+        self.route.profile.push(ProfilePiece { leg, along, place, ground });
+        self.so_far += length;
     }
 
     /// Goes on by a piece.
     ///
     /// * `metre`: what a metre of it costs, if it can be driven
     pub(super) fn drive(&mut self, piece: Piece, metre: Option<Metre>) {
-        let Piece { length, along, across } = piece;
+        let Piece { place, length, along, across, .. } = piece;
+        self.note(place, length, Some(GroundOfPiece::of(self.tables, &piece)));
         let route = &mut self.route;
         route.map_length += length;
         if let Some(metre) = metre {

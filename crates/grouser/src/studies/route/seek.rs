@@ -133,9 +133,12 @@ fn measured(
             measure.turn(lattice.moves.turn(before, *direction));
         }
         before = Some(*direction);
-        let Some((_, along, across)) = lattice.rises(*cell, *direction) else { continue };
-        let length = lattice.moves.lengths[*direction];
-        measure.drive(Piece { length, along, across }, tables.metre(along, across));
+        let Some((to, along, across)) = lattice.rises(*cell, *direction) else { continue };
+        let (length, ends) = (lattice.moves.lengths[*direction], [*cell, to]);
+        let place = 0.5 * (lattice.place(ends[0]) + lattice.place(ends[1]));
+        let height = lattice.mean_height(ends);
+        let piece = Piece { place, height, length, along, across };
+        measure.drive(piece, tables.metre(along, across));
     }
     measure.finish(ends.to)
 }
@@ -144,5 +147,11 @@ impl Lattice<'_> {
     /// How far apart its points are, to the east and to the north [m].
     fn spacing(&self) -> Vec2 {
         self.raster().grid.spacing
+    }
+
+    /// The mean height of two cells [m].
+    fn mean_height(&self, [one, other]: [usize; 2]) -> f64 {
+        let raster = self.raster();
+        raster.base + f64::midpoint(raster.heights[one].into(), raster.heights[other].into())
     }
 }
