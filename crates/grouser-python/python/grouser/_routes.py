@@ -123,8 +123,9 @@ def route(
         of GeoJSON with a LineString in metres of the map, such as a ``route.geojson``. The result
         is one dataset then, whatever ``minimise`` is.
     minimise : "time", "energy" or "risk"
-        What the way has least of: time, work of the wheels, or time in the worst tenth of the
-        samples of soil and model.
+        What the way has least of: time, energy, or time in the worst tenth of the samples of soil
+        and model. Energy is what the motors draw, ``battery_energy_j``; where none is known, the
+        work of the wheels, ``energy_j``.
     yaw_deg : float, optional
         Yaw at the start [°], from the map's x axis to the left; by default the first turn is free.
     keep_out : path, optional
@@ -153,7 +154,8 @@ def route(
         The places where the way turns, with the first and the last, as coordinates ``x`` and ``y``
         over ``waypoint`` [m], and the length, time and work up to each of them. Its ``attrs`` have
         the ``status``, ``"found"`` or ``"no-safe-route"``, and of the whole way what
-        ``grouser route`` writes: ``length_m``, ``time_s``, ``energy_j``, ``turned_deg``, slip, slope
+        ``grouser route`` writes: ``sentence``, ``probability_completed`` with its interval, the
+        commonest end of the other samples, the worst ``verdict`` of the legs, ``length_m``, ``time_s``, ``energy_j``, ``turned_deg``, slip, slope
         and ``probability_no_go``, and ``simulated_…`` of the simulation. If no way is safe there
         are no waypoints, and a ``reason`` instead of the numbers. What to do on each leg between
         waypoints is over ``leg``. It is the advice for the worst place of the leg, to a whole

@@ -16,9 +16,11 @@ pub use self::question::{Asked, RouteQuestion};
 pub use self::way::Way;
 use super::{Answer, Displayed, Member, findings_up_to};
 use crate::contact::validity::Finding;
+use crate::document::columns::completion::RISK;
 use crate::document::columns::{SLOPE, YAW};
 use crate::document::route::RouteRecord;
 use crate::document::table::Table;
+use crate::studies::completion::Completion;
 use crate::studies::heading::STRAIGHT_UP;
 
 impl RouteQuestion<'_> {
@@ -27,7 +29,7 @@ impl RouteQuestion<'_> {
     /// * `ways`: at least one: first that which is asked for, then its alternatives
     #[must_use]
     pub fn answer(&self, name: &str, ways: &[Way]) -> Answer {
-        let rows = Arc::new(Table::of(&WAY, ways));
+        let rows = Arc::new(rows_of(ways));
         let title = if self.has_line() { "What a way takes" } else { "The cheapest way" };
         let mut answer = Answer::new(name, title);
         self.state(&mut answer);
@@ -41,7 +43,11 @@ impl RouteQuestion<'_> {
         answer.tables.push((name.to_owned(), Arc::clone(&rows)));
         answer.tables.extend(ways.iter().enumerate().filter_map(profile_file));
         let lines: String = ways.iter().map(Way::lines).collect();
-        answer.screen = vec![Displayed::Rows(Arc::clone(&rows), brief()), Displayed::Words(lines)];
+        answer.screen = vec![
+            Displayed::Words(format!("{}\n", ways[0].record.sentence)),
+            Displayed::Rows(Arc::clone(&rows), brief(ways)),
+            Displayed::Words(lines),
+        ];
         answer.attach("scenario.toml", self.scenario);
         self.page(&mut answer, ways, &rows);
         answer.findings = self.findings(ways);
@@ -55,6 +61,12 @@ impl RouteQuestion<'_> {
         let steepest = slopes.reduce(f64::max)?;
         let courses = [-STRAIGHT_UP, 0.0, STRAIGHT_UP];
         findings_up_to(&self.study.mobility.heading, courses, steepest)
+    }
+
+    /// Which energy a way has least of: what the motors draw, or where none is known what the
+    /// wheels do.
+    fn energy(&self) -> &'static str {
+        if self.study.mobility.heading.rover.has_motors() { "electrical" } else { "mechanical" }
     }
 
     /// The inputs of the answer.
@@ -78,12 +90,19 @@ impl RouteQuestion<'_> {
         answer.input("most_slip_ratio", limits.most_slip_ratio);
         answer.input("most_no_go", limits.most_no_go);
         answer.input("rim_speed_m_s", self.study.mobility.rim_speed);
+        answer.input("energy", self.energy());
         self.sampling.state(answer);
         if let Value::Object(rule) = json!(self.study.mobility.rule) {
             answer.inputs.extend(rule);
         }
         answer.belief = Some(self.sampling.belief(self.scenario));
     }
+}
+
+/// A row for each way.
+fn rows_of(ways: &[Way]) -> Table {
+    let risks: Vec<Option<&Completion>> = ways.iter().map(Way::completion).collect();
+    Table::of(&WAY, ways).and(&RISK, &risks)
 }
 
 /// The profile of a way by the name of its file: that of the way that is asked for is `profile`,

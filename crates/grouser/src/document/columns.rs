@@ -5,6 +5,7 @@ pub mod card;
 pub mod card_courses;
 pub mod card_days;
 pub mod card_drives;
+pub mod completion;
 mod ended;
 pub mod fit;
 pub mod forecast;

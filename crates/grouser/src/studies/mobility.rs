@@ -38,6 +38,7 @@ pub(super) use self::detail::Detail;
 pub use self::ground::Ground;
 pub use self::map::{CellMotion, MobilityMap};
 pub use self::table::{Mobility, MobilityTable, OnSlope};
+pub(super) use self::thresholds::Beyond;
 
 #[cfg(test)]
 mod tests {

@@ -131,7 +131,7 @@ fn is_a_key_too(name: &str) -> bool {
 }
 
 /// Where a name that only results have stands once more, and why.
-const OTHER_PLACES: [(&str, &str); 11] = [
+const OTHER_PLACES: [(&str, &str); 12] = [
     // Plates sink, too, in results of their own.
     ("sinkage_mm", "document/calibration/bevameter.rs"),
     // Options of the program and arguments of Python's functions, which results repeat.
@@ -146,6 +146,7 @@ const OTHER_PLACES: [(&str, &str); 11] = [
     ("sinkage_mm", "grouser-python/src/wheels.rs"),
     // A way as a record, which has lists beside the numbers of its row.
     ("turned_deg", "document/route.rs"),
+    ("battery_energy_j", "document/route.rs"),
     ("most_slope_deg", "document/route.rs"),
 ];
 

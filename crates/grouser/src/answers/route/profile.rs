@@ -3,7 +3,7 @@
 use crate::document::columns::map::PROBABILITY_NO_GO;
 use crate::document::columns::route::ALONG;
 use crate::document::columns::{Quantity, SLIP_RATIO, SLOPE, Z};
-use crate::document::figure::{Chart, Series, Style, axis};
+use crate::document::figure::{Chart, Series, Style};
 use crate::document::table::Table;
 use crate::document::unit::ONE;
 
@@ -15,6 +15,9 @@ const DRAWN: [(&str, Quantity); 4] = [
     ("Probability of a no-go", PROBABILITY_NO_GO),
 ];
 
+/// What is across.
+const ALONG_THE_WAY: &str = "along the way [m]";
+
 /// A chart for each, over the way; lines break where the ground is not known.
 pub(super) fn charts(profile: &Table) -> Vec<Chart> {
     let number = |value: &Option<f64>| value.unwrap_or(f64::NAN);
@@ -24,7 +27,7 @@ pub(super) fn charts(profile: &Table) -> Vec<Chart> {
         let unit = quantity.unit.symbol;
         let unit = if unit == ONE.symbol { String::new() } else { format!("[{unit}]") };
         let series = vec![Series::new("", Style::Line, 1, points)];
-        Chart::new(title, (axis(ALONG), unit), series)
+        Chart::new(title, (ALONG_THE_WAY, unit), series)
     };
     DRAWN.into_iter().map(chart).collect()
 }

@@ -1,9 +1,9 @@
-//! The profile of a way: what is met along it.
+//! The profile of a way, and where it ends if it is not completed.
 
 use super::super::unit::M;
 use super::map::PROBABILITY_NO_GO;
-use super::{COURSE, Column, Quantity, SLIP_RATIO, SLOPE, X, Y, Z, quantity, whole};
-use crate::studies::route::{GroundOfPiece, ProfilePiece};
+use super::{COURSE, Column, Quantity, SLIP_RATIO, SLOPE, X, Y, Z, maybe, quantity, whole};
+use crate::studies::route::{GroundOfPiece, ProfilePiece, RouteRisk};
 
 /// Length on the map from the start of a way.
 pub const ALONG: Quantity = quantity("along_m", M);
@@ -34,3 +34,16 @@ pub const PROFILE: [Column<ProfilePiece>; 9] = [
 fn ground(piece: &ProfilePiece, number: fn(&GroundOfPiece) -> f64) -> Option<f64> {
     piece.ground.as_ref().map(number)
 }
+
+/// Where the commonest end of a way is: beside what it
+/// [risks](super::completion::RISK).
+pub const COMMONEST_END: [Column<RouteRisk>; 3] = [
+    maybe(
+        "commonest_end_along_m",
+        M,
+        "Length on the map from the start to where half of the samples that end so have ended",
+        |it| Some(it.end?.along),
+    ),
+    maybe("commonest_end_x_m", M, "x there", |it| Some(it.end?.place.x)),
+    maybe("commonest_end_y_m", M, "y there", |it| Some(it.end?.place.y)),
+];

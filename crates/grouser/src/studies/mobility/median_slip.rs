@@ -77,12 +77,8 @@ mod tests {
         let of = |samples: &[Vec<f64>]| {
             MedianSlip::of(&samples.iter().map(Vec::as_slice).collect::<Vec<_>>())
         };
-        let found = of(&[
-            sample(0.1, 0.2),
-            sample(0.3, 0.5),
-            sample(0.2, 0.3),
-            sample(f64::NAN, f64::NAN),
-        ]);
+        let found =
+            of(&[sample(0.1, 0.2), sample(0.3, 0.5), sample(0.2, 0.3), sample(f64::NAN, f64::NAN)]);
         assert_eq!(found.at(0.0), 0.2);
         assert!((found.at(0.5 * SLOPE_STEP) - 0.25).abs() < 1e-12);
         assert_eq!(found.at(2.0), 1.0);

@@ -166,6 +166,7 @@ impl<'a> Look<'a> {
         self.measure.turn(angle);
         if !self.can_turn {
             self.is_priced = false;
+            self.measure.cannot_turn();
             self.note(place, 0.0, Danger::NoTurn, None);
         }
     }
@@ -173,7 +174,7 @@ impl<'a> Look<'a> {
     /// Goes on by a step.
     fn go(&mut self, step: &Step) {
         let Step { from, to, ground } = *step;
-        let (length, place) = ((to - from).norm(), 0.5 * (from + to));
+        let length = (to - from).norm();
         if self.areas.is_some_and(|areas| meets(areas, from, to)) {
             self.measure.is_lost();
             self.note(from, length, Danger::KeptOut, None);
@@ -182,10 +183,10 @@ impl<'a> Look<'a> {
             None => {
                 self.is_priced = false;
                 self.note(from, length, Danger::UnknownGround, None);
-                self.measure.drive_unknown(place, length);
+                self.measure.drive_unknown(0.5 * (from + to), length);
             }
             Some(Rise { along, across, height }) => {
-                let piece = Piece { place, height, length, along, across };
+                let piece = Piece { ends: [from, to], height, length, along, across };
                 let metre = self.tables.steady_metre(along, across);
                 self.look_at(from, &piece, metre);
                 self.measure.drive(piece, metre);

@@ -1,8 +1,5 @@
 //! A way piece by piece, for its profile.
 
-use super::costs::RouteTables;
-use super::measure::Piece;
-use crate::studies::mobility::slope_and_course;
 use crate::units::Vec2;
 
 /// A piece of a way.
@@ -32,18 +29,4 @@ pub struct GroundOfPiece {
     pub slip_ratio: Option<f64>,
     /// Share of the samples in which it is a no-go [-].
     pub probability_no_go: f64,
-}
-
-impl GroundOfPiece {
-    pub(super) fn of(tables: &RouteTables, piece: &Piece) -> Self {
-        let (slope, course) = slope_and_course(piece.along, piece.across);
-        let slip = tables.median_slip(slope, course);
-        Self {
-            height: piece.height,
-            slope,
-            course,
-            slip_ratio: (!slip.is_nan()).then_some(slip),
-            probability_no_go: tables.probability_no_go(slope, course),
-        }
-    }
 }
