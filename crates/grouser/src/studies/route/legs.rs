@@ -44,10 +44,10 @@ pub struct JudgedLeg {
 }
 
 impl LegPlaces {
-    /// Adds a place: of those of one course and class of slopes the one stays that is most often a
-    /// no-go.
+    /// Adds a place: of each course the one of the steepest class of slopes stays, of several the one
+    /// that is most often a no-go, and of those the first.
     pub(super) fn add(&mut self, place: LegPlace) {
-        let rank = |it: &LegPlace| (class_of(it.slope), it.probability_no_go, it.slope);
+        let rank = |it: &LegPlace| (class_of(it.slope), it.probability_no_go);
         let known = &mut self.0[nearest_course(place.course)];
         if known.as_ref().is_none_or(|known| rank(&place) > rank(known)) {
             *known = Some(place);
