@@ -465,11 +465,18 @@ mod tests {
 
     /// A study on an uncertain sand, with its samples and tables.
     fn uncertain() -> (RouteStudy, Vec<Sample>, RouteTables) {
+        uncertain_within(|limits| limits)
+    }
+
+    /// The same with other limits than those of its rule.
+    fn uncertain_within(
+        change: impl FnOnce(Limits) -> Limits,
+    ) -> (RouteStudy, Vec<Sample>, RouteTables) {
         let overrides = Overrides::parse(["scenario.soil=toyoura-uncertain"]).unwrap();
         let loaded = document::read_scenario(&Source::default_scenario(), &overrides).unwrap();
         let samples = BandInputs::of_scenario(&loaded).samples(1, 16).unwrap();
         let mobility = SlopeStudy::of(&loaded);
-        let limits = Limits::of(&mobility);
+        let limits = change(Limits::of(&mobility));
         let study = RouteStudy { mobility, limits, keep_out: None };
         let tables = study.tables(&samples, false, &|| true).unwrap().unwrap();
         (study, samples, tables)
@@ -500,13 +507,14 @@ mod tests {
     }
 
     /// What is kept off is what legs are judged by: the way has no leg with the verdict no-go, where
-    /// the cheapest by its slip alone has one.
+    /// the cheapest within limits that allow everything has one.
     #[test]
     fn a_way_that_is_judged_has_no_leg_with_the_verdict_no_go() {
-        let (study, samples, tables) = uncertain();
-        // Over a saddle of 19°, or around it.
+        let (study, samples, tables) =
+            uncertain_within(|it| Limits { most_slip_ratio: 1.0, most_no_go: 1.0, ..it });
+        // Over a ridge of 17.5°, or around it.
         let raster = ground_of(80, 80, 0.5, |at| {
-            let height = deg(19.0).tan() * (4.0 - (at.x - 20.0).abs()).max(0.0);
+            let height = deg(17.5).tan() * (4.0 - (at.x - 20.0).abs()).max(0.0);
             height * ((30.0 - at.y) / 6.0).clamp(0.0, 1.0)
         });
         let ground = Ground::under(&study.mobility.heading.rover, &raster);
