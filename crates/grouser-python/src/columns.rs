@@ -4,6 +4,7 @@ use grouser::contact::Settled;
 use grouser::document::columns::Column;
 use grouser::document::columns::heading::{BAND, BAND_LIMIT, held};
 use grouser::document::columns::mission::{LEG, MISSION};
+use grouser::document::columns::route::PROFILE;
 use grouser::document::columns::run::{
     RECORD, RUN_BAND, STANDING, STANDING_BAND, TIME_BAND, WHEEL_RECORD,
 };
@@ -60,6 +61,7 @@ pub(crate) fn result_columns(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     dict.set_item("traverse_band_standing", declared(&STANDING_BAND))?;
     dict.set_item("mission", declared(&MISSION))?;
     dict.set_item("leg", declared(&LEG))?;
+    dict.set_item("profile", declared(&PROFILE))?;
     dict.set_item("stand", declared(&TRIALS))?;
     Ok(dict)
 }

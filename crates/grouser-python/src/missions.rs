@@ -1,12 +1,14 @@
 //! Missions: legs that a rover drives one after the other.
 
 use grouser::answers::Sampling;
-use grouser::document::columns::mission::{MissionObject, RISK};
+use grouser::document::columns::completion::RISK;
+use grouser::document::columns::mission::MissionObject;
 use grouser::document::columns::verdict::{ADVICE, ADVICE_OBJECT};
 use grouser::document::table::Table;
 use grouser::mission::MissionError;
+use grouser::studies::completion::Completion;
 use grouser::studies::ensemble::samples::BandInputs;
-use grouser::studies::mission::{DrivenMission, MissionRisk};
+use grouser::studies::mission::DrivenMission;
 use grouser::studies::verdict::{Advice, SlopeStudy};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -49,7 +51,7 @@ pub(crate) fn drive_mission<'py>(
         let study = SlopeStudy::of(&scenario);
         let pairs = missions.iter().zip(ways);
         let believed = pairs.map(|((_, mission), way)| {
-            let risk = MissionRisk::of(mission, &samples, &go_on);
+            let risk = Completion::of_mission(mission, &samples, &go_on);
             let study = SlopeStudy { rim_speed: mission.rim_speed(), ..study.clone() };
             let advice = way.advice(&study, &mission.scenario, &samples, &go_on);
             let advice = advice.map_err(|error| NoMission::Study(Problem::Parameter(error)))?;
@@ -81,7 +83,7 @@ pub(crate) fn drive_mission<'py>(
 }
 
 /// What a mission risks, and the advice for each of its legs.
-type Believed = Option<(MissionRisk, Vec<Option<Advice>>)>;
+type Believed = Option<(Completion, Vec<Option<Advice>>)>;
 
 /// Why there is no mission.
 enum NoMission {

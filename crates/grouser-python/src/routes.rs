@@ -131,12 +131,14 @@ impl Sought<'_> {
             return Ok(vec![RouteRecord::of_line(line, &found, limits, driven.as_ref(), &legs)]);
         }
         let record = |objective: &Objective| {
-            let answer = self.study.route(&tables, ground, &ends, *objective)?;
+            let asked = (ground, &ends);
+            let found = self.study.judged_route(&tables, asked, *objective, &samples, go_on)?;
+            // Who stopped it gets the signal.
+            let Some((answer, legs)) = found else { return Ok(RouteRecord::default()) };
             let route = match &answer {
                 Answer::Route(route) => Some(route),
                 Answer::NoSafeRoute(_) => None,
             };
-            let legs = route.map(advice).transpose()?.unwrap_or_default();
             Ok(RouteRecord::of(*objective, &answer, self.driven(route)?.as_ref(), &legs))
         };
         objectives.iter().map(record).collect()

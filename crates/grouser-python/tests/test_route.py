@@ -27,7 +27,12 @@ def wall(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 def test_over_level_ground_the_way_is_straight() -> None:
     way = gr.route(ground(), from_m=(302.0, -36.0), to_m=(310.0, -36.0), drive=False, samples=2)
-    assert isinstance(way, xarray.Dataset) and way.sizes == {"waypoint": 2, "leg": 1}
+    assert isinstance(way, xarray.Dataset)
+    assert way.sizes == {"waypoint": 2, "leg": 1, "piece": 16}
+    assert way.attrs["sentence"].startswith("Completed on ")
+    assert way.attrs["probability_completed"] == 1.0 and "battery_energy_j" not in way.attrs
+    np.testing.assert_allclose(way.piece_along_m, 0.25 + 0.5 * np.arange(16), atol=1e-12)
+    assert (way.piece_z_m == 0.0).all() and way.piece_z_m.attrs["units"] == "m"
     assert way.x.values.tolist() == [302.0, 310.0] and way.y.values.tolist() == [-36.0, -36.0]
     assert way.x.attrs["units"] == "m" and way.energy_j.attrs["units"] == "J"
     assert way.attrs["status"] == "found" and "reason" not in way.attrs

@@ -32,6 +32,7 @@
 pub mod calibration;
 pub mod card;
 pub mod comparison;
+pub mod completion;
 pub mod drive;
 pub mod ensemble;
 pub mod evidence;

@@ -45,8 +45,8 @@ pub(crate) struct RouteArgs {
     #[arg(long, value_name = "FILE.geojson")]
     #[arg(conflicts_with_all = ["from", "to", "minimise", "alternatives"])]
     pub(crate) along: Option<PathBuf>,
-    /// What the way has least of: time, work of the wheels, or time in the worst tenth of the
-    /// samples.
+    /// What the way has least of: time, energy, or time in the worst tenth of the samples. Energy is
+    /// what the motors draw; where none is known, the work of the wheels.
     #[arg(long, value_name = "WHAT", default_value = "time")]
     #[arg(value_parser = list::one_of(Objective::ALL, Objective::name))]
     pub(crate) minimise: Objective,

@@ -7,9 +7,9 @@ use std::sync::Arc;
 use grouser::answers::route::Way;
 use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::route::{
-    Answer as Found, COURSES, DrivenRoute, Ends, Line, Objective, Route, RouteError, RouteTables,
+    Answer as Found, COURSES, DrivenRoute, Ends, JudgedLeg, Line, Objective, Route, RouteError,
+    RouteTables,
 };
-use grouser::studies::verdict::Advice;
 use grouser_draw::map::{Track, ways_over_ground};
 
 use super::sampling;
@@ -75,15 +75,16 @@ fn sought(
     objective: Objective,
 ) -> Result<Way, Failure> {
     let bar = output::waiting_line(format!("the way of least {}", objective.name()));
-    let found = inputs.study.route(tables, inputs.ground(), ends, objective)?;
+    let asked = (inputs.ground(), ends);
+    let found = inputs.study.judged_route(tables, asked, objective, samples, &|| true);
     bar.finish_and_clear();
+    let (found, legs) = sampling::whole(found?);
     let route = match &found {
         Found::Route(route) => Some(route),
         Found::NoSafeRoute(_) => None,
     };
     let driven = drive(args, route, inputs)?;
-    let legs = route.map(|route| advice(inputs, route, samples)).transpose()?;
-    Ok(Way::sought(objective, found, driven, &legs.unwrap_or_default()))
+    Ok(Way::sought(objective, found, driven, &legs))
 }
 
 fn given(
@@ -104,7 +105,7 @@ fn advice(
     inputs: &RouteInputs,
     route: &Route,
     samples: &[Sample],
-) -> Result<Vec<Option<Advice>>, Failure> {
+) -> Result<Vec<Option<JudgedLeg>>, Failure> {
     let bar = output::waiting_line("advice for each leg");
     let found = route.advice(&inputs.study.mobility, samples, &|| true);
     bar.finish_and_clear();

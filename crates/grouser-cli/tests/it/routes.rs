@@ -11,6 +11,11 @@ fn ridge(x: f64, y: f64) -> f64 {
     height * (-((x - 7.0) / 1.2).powi(2)).exp()
 }
 
+/// Length to the middle of a piece.
+fn along(piece: &Value) -> f64 {
+    number(&piece["along_m"])
+}
+
 fn places(route: &Value) -> Vec<[f64; 2]> {
     let list = route["waypoints"].as_array().expect("waypoints").iter();
     list.map(|place| [number(&place[0]), number(&place[1])]).collect()
@@ -32,7 +37,29 @@ fn a_route_goes_around_and_can_be_driven() {
     let named: Vec<&Value> = route["alternatives"].as_array().unwrap().iter().collect();
     assert_eq!(named.iter().map(|it| &it["minimise"]).collect::<Vec<_>>(), ["energy", "risk"]);
     assert!(named.iter().all(|it| number(&it["time_s"]) >= 0.999 * number(&route["time_s"])));
+    // First how probably it is completed, and the worst verdict.
+    let sentence = route["sentence"].as_str().expect("a sentence");
+    assert!(sentence.starts_with("Completed on "), "{sentence}");
+    assert!((0.0..=1.0).contains(&number(&route["probability_completed"])), "{route}");
+    assert_ne!(route["verdict"], "no_go");
     let page = place.read("out/report.html");
+    let first = page.find(sentence).expect("the sentence");
+    assert!(first < page.find("the way with the least time").expect("what it takes"));
+    // Its profile leads from the start to the target.
+    let profile = route["profile"].as_array().expect("a profile");
+    let step: f64 = profile.windows(2).map(|it| along(&it[1]) - along(&it[0])).fold(0.0, f64::max);
+    assert!(along(&profile[0]) < 2.0 * step && step < 1.2);
+    assert!(number(&route["length_m"]) >= along(&profile[profile.len() - 1]));
+    assert!(profile.iter().all(|it| it["z_m"].is_f64() && it["slip_ratio"].is_f64()));
+    let rows = place.read("out/profile.csv");
+    assert!(rows.starts_with("leg,along_m,x_m,y_m,z_m,slope_deg,course_deg,slip_ratio,"));
+    assert_eq!(rows.lines().count(), profile.len() + 1);
+    let other = named[0]["profile"].as_array().expect("a profile").len();
+    assert_eq!(place.read("out/profile-energy.csv").lines().count(), other + 1);
+    assert!(
+        page.contains("Height of the map") && page.contains("Probability of a no-go"),
+        "its charts"
+    );
     assert!(
         page.contains("Ways over the ground") && page.contains(">least risk<"),
         "their picture"
@@ -88,6 +115,13 @@ fn a_line_over_a_ridge_is_not_safe_and_is_told_where() {
         .collect();
     assert!(dangers.contains(&"no-heading"), "{dangers:?}");
     assert!(answer["energy_j"].is_null() && answer["simulated"].is_null());
+    // All samples end on the ridge, and it is said how and where.
+    assert_eq!(number(&answer["probability_completed"]), 0.0, "{answer}");
+    assert!(answer["commonest_end"] == "no-heading" || answer["commonest_end"] == "too-much-slip");
+    assert!((number(&answer["commonest_end_along_m"]) - 3.5).abs() < 1.5, "{answer}");
+    assert_eq!((&answer["verdict"], &answer["verdict_leg"]), (&json!("no_go"), &json!(1)));
+    let sentence = answer["sentence"].as_str().expect("a sentence");
+    assert!(sentence.contains("it ends most often in leg 1, ") && sentence.contains(" No-go"));
     assert!(place.read("out/report.html").contains("no heading holds the course"));
     assert_eq!(place.read("out/route.geojson").matches("LineString").count(), 0);
     // There and back, a metre beside it: two stretches, and what lies between them is safe.
@@ -99,6 +133,25 @@ fn a_line_over_a_ridge_is_not_safe_and_is_told_where() {
     let answer = place.json("route ridge.xyz --along line.geojson --samples 2 --out twice");
     let reason = answer["reason"].as_str().expect("a reason");
     assert!(reason.contains("another stretch is not safe"), "{reason}");
+}
+
+/// On a plane whose slope is below every limit of slip, but too near to the friction angle, a line
+/// is not safe, and the verdict is why.
+#[test]
+fn a_line_with_a_leg_of_no_go_is_not_safe() {
+    let place = Place::new();
+    place.write("plane.xyz", heights(|_, y| 0.3 * y));
+    let line = json!({"type": "LineString", "coordinates": [[7004, -298], [7004, -294]]});
+    place.write("line.geojson", line.to_string());
+    let asked = "route plane.xyz --along line.geojson --samples 8 --no-drive --soil \
+                 toyoura-uncertain --most-no-go 1 --most-slip-ratio 1";
+    let answer = place.json(asked);
+    assert_eq!(answer["legs"][0]["advice"]["verdict"], "no_go", "{answer}");
+    assert_eq!(answer["status"], "not-safe");
+    let [hazard] = &answer["hazards"].as_array().expect("hazards")[..] else { panic!("{answer}") };
+    assert_eq!(hazard["danger"], "no-go-verdict");
+    let words = answer["reason"].as_str().expect("a reason");
+    assert!(words.contains("the verdict is no-go: "), "{words}");
 }
 
 /// A square of GeoJSON, as a start and a size [m].

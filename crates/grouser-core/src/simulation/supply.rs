@@ -160,7 +160,9 @@ impl Supply {
                 *at = winding.after(*at, mean(last.heats[wheel], now.heats[wheel]), span);
             }
         }
-        self.charge = (self.charge - span * mean(last.discharge, now.discharge)).max(0.0);
+        // A full battery takes no more.
+        let charge = self.charge - span * mean(last.discharge, now.discharge);
+        self.charge = charge.clamp(0.0, 1.0);
         self.beside += span * mean(last.beside, now.beside);
     }
 
@@ -171,8 +173,7 @@ impl Supply {
             let Some(motor) = mount.unit.motor else { return Warm::default() };
             let at = temperature.map_or(motor, |temperature| motor.at_temperature(temperature));
             let voltage = cold.voltage + (at.resistance - motor.resistance) * cold.current;
-            let power = (voltage * cold.current).max(0.0);
-            let taken = Electrical { current: cold.current, voltage, power };
+            let taken = motor.taking(cold.current, voltage);
             Warm { taken, resistance: at.resistance }
         })
         .collect()

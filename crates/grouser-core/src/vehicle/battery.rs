@@ -6,7 +6,8 @@
 //! E q' = −U_0 I                                   what it gives, with what is lost in it
 //! ```
 //!
-//! The smaller of the two currents that give a power flows. No current gives a power above
+//! Power below 0 is fed back and charges it, until it is full. The smaller of the two currents that
+//! give a power flows. No current gives a power above
 //! U_0²/(4 R_b): then, and where the voltage falls below that at which the electronics switch off,
 //! the rover is without power.
 

@@ -68,10 +68,9 @@ impl Motor {
         } else {
             0.0
         };
-        let power = (voltage * current).max(0.0);
         Driven {
             torque: self.torque_of(current, speed),
-            electrical: Electrical { current, voltage, power },
+            electrical: self.taking(current, voltage),
             integral_rate: corrected,
         }
     }

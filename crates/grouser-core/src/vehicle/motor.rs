@@ -5,12 +5,13 @@
 //! τ   = k i − τ_f sgn ω                         torque of the motor's shaft
 //! T   = N η τ       where the motor drives      (T ω > 0)
 //! T   = N τ / η     where the wheel drives it   (T ω < 0), η > 0
-//! P   = max(V i, 0)                             power that it takes
+//! P   = V i                                     power that it takes
+//! P   = max(V i, 0)                             of one that feeds nothing back
 //! ```
 //!
 //! The torque constant *k* [N·m/A] is the constant of the voltage that turning induces, too
 //! [V·s/rad]. A self-locking gear lets no torque of the wheel through to the motor. Power that a
-//! driven motor gives is not taken back.
+//! driven motor gives is taken back where the motor feeds back, and is lost otherwise.
 
 use super::speed_control::SpeedControl;
 use super::winding::Winding;
@@ -30,6 +31,7 @@ use crate::error::{ParameterError, not_negative, positive};
 ///     efficiency: 0.6,
 ///     friction: 1e-3,
 ///     is_self_locking: false,
+///     feeds_back: false,
 ///     control: None,
 ///     winding: None,
 /// };
@@ -51,6 +53,8 @@ pub struct Motor {
     pub friction: f64,
     /// Whether the wheel cannot turn the gear.
     pub is_self_locking: bool,
+    /// Whether braking power is taken back.
+    pub feeds_back: bool,
     /// How it keeps its speed under load; without it, always.
     pub control: Option<SpeedControl>,
     /// How warm it becomes, where that is known.
@@ -64,7 +68,7 @@ pub struct Electrical {
     pub current: f64,
     /// Voltage, *V* [V], of the sign of the speed where it drives.
     pub voltage: f64,
-    /// Power [W], not below 0.
+    /// Power [W]; below 0 where it is taken back.
     pub power: f64,
 }
 
@@ -101,7 +105,13 @@ impl Motor {
         let current = self.shaft_torque(torque, wheel_speed) / self.torque_constant;
         let induced = self.torque_constant * self.gear_ratio * wheel_speed;
         let voltage = self.resistance * current + induced;
-        Electrical { current, voltage, power: (voltage * current).max(0.0) }
+        self.taking(current, voltage)
+    }
+
+    /// What it takes by a current [A] under a voltage [V].
+    pub(crate) fn taking(&self, current: f64, voltage: f64) -> Electrical {
+        let power = voltage * current;
+        Electrical { current, voltage, power: if self.feeds_back { power } else { power.max(0.0) } }
     }
 
     /// Torque on the wheel, *T* [N·m], from the current: the inverse of [`at`](Self::at).
@@ -193,6 +203,7 @@ mod tests {
         efficiency: 0.6,
         friction: 1e-3,
         is_self_locking: false,
+        feeds_back: false,
         control: None,
         winding: None,
     };
@@ -238,6 +249,24 @@ mod tests {
             "it stands on a slope for nothing"
         );
         assert!(MOTOR.at(-0.6, 0.5).power.abs() < 1e-15, "what it gives is not taken back");
+    }
+
+    /// What comes back is what the wheel gives, less what the gear takes of it, friction and heat;
+    /// a motor that drives takes the same either way.
+    #[test]
+    fn a_motor_that_feeds_back_gives_what_is_left_of_the_wheels_power() {
+        let feeding = Motor { feeds_back: true, ..MOTOR };
+        for (torque, speed) in [(-2.0, 3.0), (2.0, -3.0)] {
+            let taken = feeding.at(torque, speed);
+            let heat = MOTOR.resistance * taken.current * taken.current;
+            let friction = MOTOR.friction * MOTOR.gear_ratio * f64::abs(speed);
+            let expected = torque * speed * MOTOR.efficiency + friction + heat;
+            assert!((taken.power - expected).abs() < 1e-12 && expected < -1.0, "{taken:?}");
+            assert_eq!(MOTOR.at(torque, speed), Electrical { power: 0.0, ..taken });
+        }
+        // Slowly, heat takes all of it.
+        assert!(feeding.at(-2.0, 0.05).power > 0.0);
+        assert_eq!(feeding.at(0.4, 0.55), MOTOR.at(0.4, 0.55));
     }
 
     /// The current that a torque takes gives the torque back, forward and backward, driving, driven

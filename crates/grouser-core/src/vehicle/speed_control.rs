@@ -32,6 +32,7 @@ use crate::error::{ParameterError, not_negative, positive};
 ///     efficiency: 0.6,
 ///     friction: 1e-3,
 ///     is_self_locking: false,
+///     feeds_back: false,
 ///     control: Some(open),
 ///     winding: None,
 /// };

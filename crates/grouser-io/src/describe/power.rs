@@ -15,6 +15,7 @@ pub(crate) const NO_MOTOR: Motor = Motor {
     efficiency: 0.0,
     friction: 0.0,
     is_self_locking: false,
+    feeds_back: false,
     control: None,
     winding: None,
 };
@@ -95,6 +96,13 @@ pub(crate) static MOTOR: Table<Motor> = Table {
             "Whether the wheel cannot turn the gear: then the motor holds a slope without current, \
              and brakes with none.",
             |motor: &mut Motor, yes| motor.is_self_locking = yes,
+        )
+        .optional(),
+        flag(
+            "feeds_back",
+            "Whether its braking power is taken back into the battery: then its power is below 0 \
+             where it brakes. Left out, it is not, and that power is lost.",
+            |motor: &mut Motor, yes| motor.feeds_back = yes,
         )
         .optional(),
         table(

@@ -196,6 +196,7 @@ const MOTOR: Motor = Motor {
     efficiency: 0.6,
     friction: 1e-3,
     is_self_locking: false,
+    feeds_back: false,
     control: None,
     winding: None,
 };

@@ -653,6 +653,9 @@ class RoverMotor(TypedDict, total=False):
     self_locking: bool
     """Whether the wheel cannot turn the gear: then the motor holds a slope without current, and
     brakes with none."""
+    feeds_back: bool
+    """Whether its braking power is taken back into the battery: then its power is below 0 where it
+    brakes. Left out, it is not, and that power is lost."""
     control: RoverMotorControl
     """Its speed controller: with one, the wheel turns slower under load. Left out, it turns as
     fast as it is set to, whatever that takes."""
@@ -766,6 +769,9 @@ class RoverMountMotor(TypedDict, total=False):
     self_locking: bool
     """Whether the wheel cannot turn the gear: then the motor holds a slope without current, and
     brakes with none."""
+    feeds_back: bool
+    """Whether its braking power is taken back into the battery: then its power is below 0 where it
+    brakes. Left out, it is not, and that power is lost."""
     control: RoverMotorControl
     """Its speed controller: with one, the wheel turns slower under load. Left out, it turns as
     fast as it is set to, whatever that takes."""
@@ -1225,11 +1231,36 @@ class MissionStopDriftM(TypedDict, total=False):
     """How far it backs out, where `then` says so [m]."""
 
 
+class MissionStopDriftMPerM(TypedDict, total=False):
+    """Drift over a way: way down the ground under the rover for a metre travelled."""
+
+    above: float
+    """The rover stops above this [m/m]."""
+    over_m: float
+    """Way of the rims over which it is taken; before they have gone so far, nothing is limited
+    [m]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
 class MissionStopSinkageOverRadius(TypedDict, total=False):
     """Largest sinkage of a wheel over its shearing radius."""
 
     above: float
     """The rover stops above this [-]."""
+    then: str
+    """What the rover does once it has stopped."""
+    back_out_m: float
+    """How far it backs out, where `then` says so [m]."""
+
+
+class MissionStopSinkageMm(TypedDict, total=False):
+    """Largest sinkage of a wheel."""
+
+    above: float
+    """The rover stops above this [mm]."""
     then: str
     """What the rover does once it has stopped."""
     back_out_m: float
@@ -1355,8 +1386,12 @@ class MissionStop(TypedDict, total=False):
     """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
     drift_m: MissionStopDriftM
     """Way down the ground under the rover over a way."""
+    drift_m_per_m: MissionStopDriftMPerM
+    """Drift over a way: way down the ground under the rover for a metre travelled."""
     sinkage_over_radius: MissionStopSinkageOverRadius
     """Largest sinkage of a wheel over its shearing radius."""
+    sinkage_mm: MissionStopSinkageMm
+    """Largest sinkage of a wheel."""
     roll_deg: MissionStopRollDeg
     """Roll to either side."""
     pitch_deg: MissionStopPitchDeg
@@ -1448,8 +1483,12 @@ class MissionLegStop(TypedDict, total=False):
     """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
     drift_m: MissionStopDriftM
     """Way down the ground under the rover over a way."""
+    drift_m_per_m: MissionStopDriftMPerM
+    """Drift over a way: way down the ground under the rover for a metre travelled."""
     sinkage_over_radius: MissionStopSinkageOverRadius
     """Largest sinkage of a wheel over its shearing radius."""
+    sinkage_mm: MissionStopSinkageMm
+    """Largest sinkage of a wheel."""
     roll_deg: MissionStopRollDeg
     """Roll to either side."""
     pitch_deg: MissionStopPitchDeg
@@ -1624,6 +1663,12 @@ class MissionKeys:
         def stop(self) -> MissionStop:
             """Limits at which the rover stops in every leg that has none of its own for the same
             number."""
+            ...
+
+        @property
+        def stop_from(self) -> str:
+            """A file with a table [stop], whose limits hold in every leg: those of the document
+            stand in place of the file's for the same numbers."""
             ...
 
         @property

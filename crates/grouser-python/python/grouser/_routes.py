@@ -30,6 +30,8 @@ _ARRIVALS = {
     "time_s": "Time from the start, before the turn at the waypoint",
     "energy_j": "Work of the wheels from the start, before the turn at the waypoint",
 }
+#: Numbers of each piece of a way, and what they are.
+_PROFILE = {name: doc for name, _, doc in _core.result_columns()["profile"]}
 #: Of each stretch that is not safe: what it is, and where.
 _HAZARDS = {
     "danger": "What is not safe",
@@ -121,8 +123,9 @@ def route(
         of GeoJSON with a LineString in metres of the map, such as a ``route.geojson``. The result
         is one dataset then, whatever ``minimise`` is.
     minimise : "time", "energy" or "risk"
-        What the way has least of: time, work of the wheels, or time in the worst tenth of the
-        samples of soil and model.
+        What the way has least of: time, energy, or time in the worst tenth of the samples of soil
+        and model. Energy is what the motors draw, ``battery_energy_j``; where none is known, the
+        work of the wheels, ``energy_j``.
     yaw_deg : float, optional
         Yaw at the start [°], from the map's x axis to the left; by default the first turn is free.
     keep_out : path, optional
@@ -151,13 +154,18 @@ def route(
         The places where the way turns, with the first and the last, as coordinates ``x`` and ``y``
         over ``waypoint`` [m], and the length, time and work up to each of them. Its ``attrs`` have
         the ``status``, ``"found"`` or ``"no-safe-route"``, and of the whole way what
-        ``grouser route`` writes: ``length_m``, ``time_s``, ``energy_j``, ``turned_deg``, slip, slope
+        ``grouser route`` writes: ``sentence``, ``probability_completed`` with its interval, the
+        commonest end of the other samples, the worst ``verdict`` of the legs, ``length_m``, ``time_s``, ``energy_j``, ``turned_deg``, slip, slope
         and ``probability_no_go``, and ``simulated_…`` of the simulation. If no way is safe there
         are no waypoints, and a ``reason`` instead of the numbers. What to do on each leg between
         waypoints is over ``leg``. It is the advice for the worst place of the leg, to a whole
         degree, with the slope and course ``leg_slope_deg`` and ``leg_course_deg``: whether to drive
         there and why (``leg_verdict``, ``leg_reason``), ``leg_probability_stuck``, and the heading
-        to set, ``leg_yaw_deg``, from the contour, with its band (``…_p2_5``, ``…_p97_5``). With
+        to set, ``leg_yaw_deg``, from the contour, with its band (``…_p2_5``, ``…_p97_5``). What is
+        met along the way is over ``piece``: ``piece_leg``, ``piece_along_m`` from the start on the
+        map to its middle, its place and height ``piece_x_m``, ``piece_y_m``, ``piece_z_m``,
+        ``piece_slope_deg``, ``piece_course_deg``, ``piece_slip_ratio`` in the median of the samples,
+        and ``piece_probability_no_go``; NaN where the ground is not known. With
         ``alternatives`` a dataset for each objective, the chosen one first. Of a way given by
         ``along`` the status is
         ``"safe"`` or ``"not-safe"``, and each stretch that is not safe is a ``hazard``: what it is
@@ -274,7 +282,8 @@ def _dataset(way: Mapping[str, Any], notes: Mapping[str, int]) -> xarray.Dataset
     legs = [{**leg, **leg["advice"]} for leg in way["legs"]]
     variables = _variables("waypoint", _ARRIVALS, arrivals)
     variables |= _variables("leg", ADVICE, legs, "leg_")
-    apart = ("waypoints", "arrivals", "hazards", "legs")
+    variables |= _variables("piece", _PROFILE, way["profile"], "piece_")
+    apart = ("waypoints", "arrivals", "hazards", "legs", "profile")
     whole = {name: it for name, it in way.items() if name not in apart}
     simulated = whole.pop("simulated") or {}
     attributes = {**whole, **{f"simulated_{name}": it for name, it in simulated.items()}, **notes}

@@ -2,6 +2,7 @@
 
 mod columns;
 mod page;
+mod profile;
 mod question;
 mod way;
 
@@ -15,9 +16,11 @@ pub use self::question::{Asked, RouteQuestion};
 pub use self::way::Way;
 use super::{Answer, Displayed, Member, findings_up_to};
 use crate::contact::validity::Finding;
+use crate::document::columns::completion::RISK;
 use crate::document::columns::{SLOPE, YAW};
 use crate::document::route::RouteRecord;
 use crate::document::table::Table;
+use crate::studies::completion::Completion;
 use crate::studies::heading::STRAIGHT_UP;
 
 impl RouteQuestion<'_> {
@@ -26,7 +29,7 @@ impl RouteQuestion<'_> {
     /// * `ways`: at least one: first that which is asked for, then its alternatives
     #[must_use]
     pub fn answer(&self, name: &str, ways: &[Way]) -> Answer {
-        let rows = Arc::new(Table::of(&WAY, ways));
+        let rows = Arc::new(rows_of(ways));
         let title = if self.has_line() { "What a way takes" } else { "The cheapest way" };
         let mut answer = Answer::new(name, title);
         self.state(&mut answer);
@@ -38,8 +41,13 @@ impl RouteQuestion<'_> {
             Member::Value("alternatives", json!(others)),
         ];
         answer.tables.push((name.to_owned(), Arc::clone(&rows)));
+        answer.tables.extend(ways.iter().enumerate().filter_map(profile_file));
         let lines: String = ways.iter().map(Way::lines).collect();
-        answer.screen = vec![Displayed::Rows(Arc::clone(&rows), brief()), Displayed::Words(lines)];
+        answer.screen = vec![
+            Displayed::Words(format!("{}\n", ways[0].record.sentence)),
+            Displayed::Rows(Arc::clone(&rows), brief(ways)),
+            Displayed::Words(lines),
+        ];
         answer.attach("scenario.toml", self.scenario);
         self.page(&mut answer, ways, &rows);
         answer.findings = self.findings(ways);
@@ -53,6 +61,12 @@ impl RouteQuestion<'_> {
         let steepest = slopes.reduce(f64::max)?;
         let courses = [-STRAIGHT_UP, 0.0, STRAIGHT_UP];
         findings_up_to(&self.study.mobility.heading, courses, steepest)
+    }
+
+    /// Which energy a way has least of: what the motors draw, or where none is known what the
+    /// wheels do.
+    fn energy(&self) -> &'static str {
+        if self.study.mobility.heading.rover.has_motors() { "electrical" } else { "mechanical" }
     }
 
     /// The inputs of the answer.
@@ -76,12 +90,27 @@ impl RouteQuestion<'_> {
         answer.input("most_slip_ratio", limits.most_slip_ratio);
         answer.input("most_no_go", limits.most_no_go);
         answer.input("rim_speed_m_s", self.study.mobility.rim_speed);
+        answer.input("energy", self.energy());
         self.sampling.state(answer);
         if let Value::Object(rule) = json!(self.study.mobility.rule) {
             answer.inputs.extend(rule);
         }
         answer.belief = Some(self.sampling.belief(self.scenario));
     }
+}
+
+/// A row for each way.
+fn rows_of(ways: &[Way]) -> Table {
+    let risks: Vec<Option<&Completion>> = ways.iter().map(Way::completion).collect();
+    Table::of(&WAY, ways).and(&RISK, &risks)
+}
+
+/// The profile of a way by the name of its file: that of the way that is asked for is `profile`,
+/// that of an alternative has what it has least of at its end.
+fn profile_file((place, way): (usize, &Way)) -> Option<(String, Arc<Table>)> {
+    let RouteRecord { profile, minimise, .. } = &way.record;
+    let least = minimise.filter(|_| place > 0).map_or_else(String::new, |it| format!("-{it}"));
+    (profile.rows() > 0).then(|| (format!("profile{least}"), Arc::new(profile.clone())))
 }
 
 /// What a way takes, as the entries of an object of JSON.

@@ -1,22 +1,40 @@
 //! Results of [routes](crate::studies::route) as they leave the library, with units in their names.
 
+mod opening;
+
 use serde::{Serialize, Serializer};
 
+use self::opening::{opening, worst_of};
+use super::columns::completion::RISK;
+use super::columns::map::PROBABILITY_NO_GO;
+use super::columns::route::{ALONG, COMMONEST_END, PROFILE};
 use super::columns::verdict::{ADVICE, ADVICE_OBJECT};
-use super::columns::{COURSE, Column, SLOPE, YAW};
+use super::columns::{COURSE, Column, SLOPE, X, Y, YAW};
 use super::table::{Table, WithObject};
 use crate::studies::route::{
-    Answer, Arrival, CheckedLine, Danger, DrivenRoute, Hazard, Limits, Line, Objective, Route,
+    Answer, Arrival, CheckedLine, Danger, DrivenRoute, Hazard, JudgedLeg, Limits, Line, Objective,
+    Route, RouteRisk,
 };
 use crate::studies::verdict::Advice;
 
 /// A way, as it leaves; without a way there is a reason instead of numbers.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct RouteRecord {
+    /// How probably it is completed, where it ends otherwise, and the worst verdict of its legs, in
+    /// sentences.
+    pub sentence: String,
     /// What it has least of; none of a line that was given.
     pub minimise: Option<&'static str>,
-    /// `found` or `no-safe-route`; of a line that was given `safe` or `not-safe`.
+    /// `found` or `no-safe-route`; of a line that was given `safe` or `not-safe`, and of a way that
+    /// has a leg with the verdict no-go all the same.
     pub status: &'static str,
+    /// How probably it is completed, and how it ends otherwise.
+    #[serde(flatten)]
+    pub risk: RiskOfWay,
+    /// The worst verdict of its legs.
+    pub verdict: Option<&'static str>,
+    /// The leg that has it, from 1.
+    pub verdict_leg: Option<usize>,
     /// Why there is none, or why it is not safe.
     pub reason: Option<String>,
     /// Length over the ground.
@@ -25,6 +43,8 @@ pub struct RouteRecord {
     pub time_s: Option<f64>,
     /// Work of the wheels, with turns.
     pub energy_j: Option<f64>,
+    /// What motors and electronics draw, with turns; none where no motor is known.
+    pub battery_energy_j: Option<f64>,
     /// Angle of all turns together.
     pub turned_deg: Option<f64>,
     /// Mean slip ratio over the way.
@@ -41,10 +61,35 @@ pub struct RouteRecord {
     pub arrivals: Vec<ArrivalRecord>,
     /// What to do on each leg between them.
     pub legs: AdvisedLegs,
+    /// What is met along it, piece by piece.
+    pub profile: Table,
     /// Where a line that was given is not safe.
     pub hazards: Vec<HazardRecord>,
     /// What simulation makes of it, if it was driven.
     pub simulated: Option<SimulatedRecord>,
+}
+
+/// How probably a way is completed, and how it ends otherwise, as entries of an object of JSON.
+#[derive(Clone, Debug)]
+pub struct RiskOfWay(Table);
+
+impl RiskOfWay {
+    fn of(risk: Option<&RouteRisk>) -> Self {
+        let completion = [risk.map(|it| &it.completion)];
+        Self(Table::default().and(&RISK, &completion).and(&COMMONEST_END, &[risk]))
+    }
+}
+
+impl Default for RiskOfWay {
+    fn default() -> Self {
+        Self::of(None)
+    }
+}
+
+impl Serialize for RiskOfWay {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.0.row(0).serialize(serializer)
+    }
 }
 
 /// The legs of a way, with advice for the worst place of each. As JSON they are rows, each with an
@@ -60,10 +105,12 @@ pub struct AdvisedLegs {
 impl AdvisedLegs {
     /// * `all`: for each leg, if its ground is known
     #[must_use]
-    pub fn of(all: &[Option<Advice>]) -> Self {
-        let all: Vec<Option<&Advice>> = all.iter().map(Option::as_ref).collect();
-        let [rows, advice] = [Table::default(), Table::default()];
-        Self { rows: rows.and(&LEG, &all), advice: advice.and(&ADVICE, &all) }
+    pub fn of(all: &[Option<JudgedLeg>]) -> Self {
+        let legs: Vec<Option<&JudgedLeg>> = all.iter().map(Option::as_ref).collect();
+        let advice: Vec<Option<&Advice>> =
+            all.iter().map(|leg| leg.as_ref().map(|leg| &leg.advice)).collect();
+        let rows = Table::default().and(&LEG, &legs);
+        Self { rows, advice: Table::default().and(&ADVICE, &advice) }
     }
 }
 
@@ -75,9 +122,17 @@ impl Serialize for AdvisedLegs {
 }
 
 /// The worst place of a leg.
-const LEG: [Column<Advice>; 2] = [
-    SLOPE.given("Slope at the worst place, up to a whole degree", |it| Some(it.slope)),
-    COURSE.given("Course there, from the contour, positive uphill", |it| Some(it.course)),
+const LEG: [Column<JudgedLeg>; 6] = [
+    SLOPE.given("Slope at the worst place, up to a whole degree", |it| Some(it.advice.slope)),
+    COURSE.given("Course there, from the contour, positive uphill", |it| Some(it.advice.course)),
+    ALONG.number("Length on the map from the start of the way to that place", |it| {
+        it.place.along[0]
+    }),
+    X.number("x of that place", |it| it.place.place.x),
+    Y.number("y of that place", |it| it.place.place.y),
+    PROBABILITY_NO_GO.number("Share of the samples in which that place is a no-go", |it| {
+        it.place.probability_no_go
+    }),
 ];
 
 /// What a way takes up to a waypoint, before it turns there.
@@ -127,6 +182,8 @@ pub struct SimulatedRecord {
     pub time_s: f64,
     /// Work of the wheels, with turns.
     pub energy_j: f64,
+    /// What motors and electronics took, with turns; none where no motor is known.
+    pub battery_energy_j: Option<f64>,
     /// Slip ratio over all legs.
     pub slip_ratio: Option<f64>,
     /// How far from the target it ended.
@@ -147,15 +204,23 @@ impl RouteRecord {
         objective: Objective,
         answer: &Answer,
         driven: Option<&DrivenRoute>,
-        legs: &[Option<Advice>],
+        legs: &[Option<JudgedLeg>],
     ) -> Self {
         let minimise = objective.name();
         match answer {
             Answer::Route(route) => {
-                let legs = AdvisedLegs::of(legs);
-                Self { minimise: Some(minimise), legs, ..Self::of_route(route, driven) }
+                let hazards: Vec<HazardRecord> =
+                    legs.iter().flatten().filter_map(HazardRecord::of_leg).collect();
+                Self {
+                    minimise: Some(minimise),
+                    status: if hazards.is_empty() { "found" } else { NOT_SAFE },
+                    reason: reason_of(&hazards),
+                    hazards,
+                    ..Self::of_route(route, driven).judged(route, legs)
+                }
             }
             Answer::NoSafeRoute(reason) => Self {
+                sentence: format!("No safe route: {reason}."),
                 minimise: Some(minimise),
                 status: "no-safe-route",
                 reason: Some(reason.to_string()),
@@ -174,24 +239,40 @@ impl RouteRecord {
         found: &CheckedLine,
         limits: &Limits,
         driven: Option<&DrivenRoute>,
-        legs: &[Option<Advice>],
+        legs: &[Option<JudgedLeg>],
     ) -> Self {
         let record =
             found.route.as_ref().map_or_else(Self::default, |it| Self::of_route(it, driven));
-        let hazards: Vec<HazardRecord> =
+        // A verdict on a place that is not safe anyway says nothing new.
+        let is_named = |leg: &JudgedLeg| {
+            let begin = leg.place.along[0];
+            found.hazards.iter().any(|it| (it.along[0]..it.along[1]).contains(&begin))
+        };
+        let of_legs = legs.iter().flatten().filter(|leg| !is_named(leg));
+        let mut hazards: Vec<HazardRecord> =
             found.hazards.iter().map(|hazard| HazardRecord::of(hazard, limits)).collect();
-        let reason = hazards.first().map(|first| match hazards.len() {
-            1 => first.sentence.clone(),
-            2 => format!("{}; another stretch is not safe", first.sentence),
-            count => format!("{}; {} more stretches are not safe", first.sentence, count - 1),
-        });
+        hazards.extend(of_legs.filter_map(HazardRecord::of_leg));
+        hazards.sort_by(|one, other| one.from_m.total_cmp(&other.from_m));
         Self {
-            status: if hazards.is_empty() { "safe" } else { "not-safe" },
-            reason,
+            status: if hazards.is_empty() { "safe" } else { NOT_SAFE },
+            reason: reason_of(&hazards),
             waypoints: line.places().iter().map(|it| [it.x, it.y]).collect(),
             hazards,
+            ..record.judged(&found.seen, legs)
+        }
+    }
+
+    /// The same with what is known of all ground that was looked at, and the verdicts on its legs.
+    fn judged(self, seen: &Route, legs: &[Option<JudgedLeg>]) -> Self {
+        let worst = worst_of(legs);
+        Self {
+            sentence: opening(seen, legs),
+            risk: RiskOfWay::of(seen.risk.as_ref()),
+            verdict: worst.map(|(_, leg)| leg.verdict().name()),
+            verdict_leg: worst.map(|(number, _)| number),
             legs: AdvisedLegs::of(legs),
-            ..record
+            profile: Table::of(&PROFILE, &seen.profile),
+            ..self
         }
     }
 
@@ -201,6 +282,7 @@ impl RouteRecord {
             length_m: Some(route.length),
             time_s: Some(route.time),
             energy_j: Some(route.energy),
+            battery_energy_j: route.drawn,
             turned_deg: Some(YAW.unit.from_si(route.turned)),
             mean_slip_ratio: Some(route.mean_slip_ratio),
             most_slip_ratio: Some(route.most_slip_ratio),
@@ -220,7 +302,26 @@ impl ArrivalRecord {
     }
 }
 
+/// The status of a way that is not safe.
+const NOT_SAFE: &str = "not-safe";
+
+/// Why a way is not safe.
+fn reason_of(hazards: &[HazardRecord]) -> Option<String> {
+    hazards.first().map(|first| match hazards.len() {
+        1 => first.sentence.clone(),
+        2 => format!("{}; another stretch is not safe", first.sentence),
+        count => format!("{}; {} more stretches are not safe", first.sentence, count - 1),
+    })
+}
+
 impl HazardRecord {
+    /// What is not safe about a leg.
+    fn of_leg(leg: &JudgedLeg) -> Option<Self> {
+        // Its verdict has limits of its own.
+        let limits = Limits { most_slope: 0.0, most_slip_ratio: 0.0, most_no_go: 0.0 };
+        leg.hazard().map(|hazard| Self::of(&hazard, &limits))
+    }
+
     fn of(hazard: &Hazard, limits: &Limits) -> Self {
         let Hazard { danger, along: [from, to], place, worst } = *hazard;
         let only = |of: Danger| worst.filter(|_| danger == of);
@@ -270,6 +371,7 @@ impl HazardRecord {
                 100.0 * number(self.most_no_go),
                 100.0 * limits.most_no_go
             ),
+            Danger::Verdict(reason) => format!("the verdict is no-go: {}", reason.meaning()),
             Danger::NoTurn => "the line turns, and the rover cannot turn on the spot".to_owned(),
         }
     }
@@ -286,6 +388,7 @@ impl SimulatedRecord {
             length_m: driven.distance,
             time_s: driven.time,
             energy_j: driven.energy,
+            battery_energy_j: driven.drawn,
             slip_ratio: driven.slip_ratio,
             miss_m: driven.miss,
             time_error: error(route.time, driven.time),

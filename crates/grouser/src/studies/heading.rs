@@ -49,6 +49,7 @@ use crate::elementary::wide;
 use crate::error::{ParameterError, finite, positive};
 use crate::root;
 use crate::simulation::Scenario;
+use crate::simulation::power::electrical;
 use crate::simulation::scenario::neglected_moments;
 use crate::units::STEEPEST_SLOPE;
 use crate::vehicle::on_ground::forces_of;
@@ -139,6 +140,17 @@ impl HeadingOffset {
             each.map(|(mount, torque)| torque * rim_speed / mount.shearing_radius()).sum()
         };
         rover.common_radius().map_or_else(of_each, |radius| self.torque() * rim_speed / radius)
+    }
+
+    /// Power that the motors that are known draw at one rim speed of all wheels [m/s], with cold
+    /// windings, and with a battery the electronics [W]; `None` where no motor is known.
+    #[must_use]
+    pub fn drawn_power(&self, rover: &Rover, rim_speed: f64) -> Option<f64> {
+        let of_motors = self.each_torque(rover).filter_map(|(mount, torque)| {
+            Some(electrical(mount, torque, rim_speed / mount.shearing_radius())?.power)
+        });
+        let electronics = rover.battery().map_or(0.0, |battery| battery.electronics);
+        rover.has_motors().then(|| of_motors.sum::<f64>() + electronics)
     }
 
     /// The torque of each wheel [N·m].

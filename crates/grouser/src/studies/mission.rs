@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::ensemble::Probability;
+use super::completion::{Completion, SampleEnd};
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::mobility::{advised_place, slope_and_course};
 use super::verdict::{Advice, SlopeStudy};
@@ -178,35 +178,13 @@ impl DrivenLeg {
     }
 }
 
-/// What a mission risks: how it ends on other soils and models.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MissionRisk {
-    /// Samples that complete all legs, of those that can be computed.
-    pub completed: Probability,
-    /// Samples that cannot be computed.
-    pub not_computed: usize,
-    /// The commonest end of the others.
-    pub commonest: Option<CommonEnd>,
-}
-
-/// How a mission ends that is not completed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CommonEnd {
-    /// In this leg, counted from 1.
-    pub leg: usize,
-    /// The outcome, by its name.
-    pub outcome: &'static str,
-    /// So many samples end so.
-    pub count: usize,
-}
-
-impl MissionRisk {
+impl Completion {
     /// Drives a mission on each sample, quasi-steadily; `None` if `go_on` was false before the end.
     /// Soils of zones, and what scatters, are the mission's own in all of them.
     ///
     /// * `samples`: of soil and model; with none there is the mission as it is written alone
     /// * `go_on`: asked before each sample, from any thread
-    pub fn of(
+    pub fn of_mission(
         mission: &Mission,
         samples: &[Sample],
         go_on: &(dyn Fn() -> bool + Sync),
@@ -214,21 +192,9 @@ impl MissionRisk {
         let scenario = &mission.scenario;
         let as_written = [Sample { soil: scenario.ground.soil, model: scenario.model.clone() }];
         let samples = if samples.is_empty() { &as_written } else { samples };
-        let ends = outputs_of_samples(samples, go_on, |sample| end_of(mission, sample).ok())?;
-        let known: Vec<Option<(usize, &'static str)>> = ends.iter().copied().flatten().collect();
-        let failed: Vec<(usize, &'static str)> = known.iter().copied().flatten().collect();
-        let count = |end: &(usize, &'static str)| failed.iter().filter(|it| *it == end).count();
-        // Of those that are as common the one that comes first on the way.
-        let commonest = failed.iter().max_by_key(|end| (count(end), std::cmp::Reverse(end.0)));
-        Some(Self {
-            completed: Probability { successes: known.len() - failed.len(), trials: known.len() },
-            not_computed: ends.len() - known.len(),
-            commonest: commonest.map(|end| CommonEnd {
-                leg: end.0,
-                outcome: end.1,
-                count: count(end),
-            }),
-        })
+        let end = |sample: &Sample| end_of(mission, sample).unwrap_or(SampleEnd::NotComputed);
+        let ends = outputs_of_samples(samples, go_on, end)?;
+        Some(Self::of(&ends))
     }
 }
 
@@ -236,11 +202,8 @@ impl MissionRisk {
 /// other by hundreds of times as much.
 const ROUGHLY: f64 = 1e-3;
 
-/// In which leg a mission ends on a sample, counted from 1, and how; nothing if it is completed.
-fn end_of(
-    mission: &Mission,
-    sample: &Sample,
-) -> Result<Option<(usize, &'static str)>, MissionError> {
+/// How a mission ends on a sample.
+fn end_of(mission: &Mission, sample: &Sample) -> Result<SampleEnd, MissionError> {
     let mut scenario = mission.scenario.clone();
     scenario.ground.soil = sample.soil;
     scenario.model = sample.model.clone();
@@ -253,5 +216,9 @@ fn end_of(
     let report = run.finish();
     let is_whole = report.legs.len() == mission.legs.len()
         && report.legs.last().is_some_and(|leg| leg.outcome.is_completed());
-    Ok((!is_whole).then(|| (report.legs.len(), report.outcome())))
+    Ok(if is_whole {
+        SampleEnd::Completed
+    } else {
+        SampleEnd::In(report.legs.len(), report.outcome())
+    })
 }

@@ -27,6 +27,7 @@ mod compliance;
 mod detail;
 mod ground;
 mod map;
+mod median_slip;
 mod table;
 mod thresholds;
 
@@ -37,6 +38,7 @@ pub(super) use self::detail::Detail;
 pub use self::ground::Ground;
 pub use self::map::{CellMotion, MobilityMap};
 pub use self::table::{Mobility, MobilityTable, OnSlope};
+pub(super) use self::thresholds::Beyond;
 
 #[cfg(test)]
 mod tests {

@@ -1,4 +1,5 @@
-//! The cheapest way for a rover over ground with heights: in time, in work, or in what it risks.
+//! The cheapest way for a rover over ground with heights: in time, in energy, or in what it risks.
+//! Energy is what the motors draw where they are known, else the work of the wheels.
 //!
 //! Ways lead over a lattice of the ground's points, in sixteen directions; a way over level ground
 //! is at most 2.8 % longer than the straight line. What a metre costs comes from the
@@ -17,18 +18,26 @@ mod answer;
 mod corridor;
 mod costs;
 mod drive;
+mod end;
 mod hazard;
+mod legs;
 mod measure;
 mod moves;
+mod profile;
 mod search;
 mod seek;
 mod study;
 
 pub use self::along::{CheckedLine, Line};
-pub use self::answer::{Answer, Arrival, Ends, LineError, MOST_CELLS, NoRoute, Route, RouteError};
+pub use self::answer::{
+    Answer, Arrival, Ends, JudgedAnswer, LineError, MOST_CELLS, NoRoute, Route, RouteError,
+};
 pub use self::costs::{COURSES, RouteTables};
 pub use self::drive::DrivenRoute;
+pub use self::end::{EndPlace, RouteRisk};
 pub use self::hazard::{Danger, Hazard};
+pub use self::legs::{JudgedLeg, LegPlace, LegPlaces};
+pub use self::profile::{GroundOfPiece, ProfilePiece};
 pub use self::study::{Limits, Objective, RouteStudy, STUCK_WAY, WORST_SHARE};
 
 #[cfg(test)]
@@ -39,8 +48,9 @@ mod tests {
     use super::moves::DIRECTIONS;
     use super::search::{Found, Lattice};
     use super::*;
+    use crate::studies::ensemble::samples::{BandInputs, Sample};
     use crate::studies::mobility::Ground;
-    use crate::studies::verdict::SlopeStudy;
+    use crate::studies::verdict::{SlopeStudy, Verdict};
     use crate::terrain::{ElevationGrid, SoilZones, ZonePolygon};
     use crate::units::{Vec2, deg};
     use grouser_io::{self as document, Overrides, Source};
@@ -410,6 +420,165 @@ mod tests {
         let [hazard] = steep.hazards[..] else { panic!("{steep:?}") };
         assert_eq!((hazard.danger, hazard.along), (Danger::TooSteep, [0.0, 10.0]));
         assert!((hazard.worst.unwrap() - 0.1_f64.atan()).abs() < 1e-6 && steep.route.is_some());
+    }
+
+    /// Of a rover whose motors are known the least energy is what they draw, which a steady drive on
+    /// level ground takes by its motors' formula, and the simulation of a way within a tenth.
+    #[test]
+    fn the_least_energy_is_what_the_motors_draw() {
+        let overrides = Overrides::parse(["rover.motor=maxon-a-max-22"]).unwrap();
+        let loaded = document::read_scenario(&Source::default_scenario(), &overrides).unwrap();
+        let mobility = SlopeStudy::of(&loaded);
+        let limits = Limits::of(&mobility);
+        let with_motors = RouteStudy { mobility, limits, keep_out: None };
+        let level = ground_of(40, 40, 0.5, |_| 0.0);
+        let far = ends([2.0, 2.0], [12.0, 2.0]);
+        let found = route(&with_motors, &level, &far, Objective::Energy);
+        let heading = with_motors.mobility.heading.curve().unwrap().at(0.0).unwrap();
+        let rover = &with_motors.mobility.heading.rover;
+        let speed = with_motors.mobility.rim_speed;
+        let motors: f64 = rover
+            .mounts()
+            .iter()
+            .zip(&heading.wheels)
+            .map(|(mount, wheel)| {
+                let motor = mount.unit.motor.expect("a motor");
+                motor.at(wheel.settled.forces.torque, speed / mount.shearing_radius()).power
+            })
+            .sum();
+        let expected = motors * found.time;
+        let drawn = found.drawn.expect("motors are known");
+        assert!((drawn / expected - 1.0).abs() < 1e-3, "{drawn} J, {expected} J");
+        assert!(drawn > found.energy);
+        // The same rover without: work is sought, and nothing is drawn that anybody knows.
+        assert_eq!(route(&study(), &level, &far, Objective::Energy).drawn, None);
+        let raster = ground_of(60, 60, 0.8, |at| 0.6 * hills(at));
+        let far = ends([4.0, 4.0], [14.0, 14.0]);
+        let [fast, frugal, _] =
+            Objective::ALL.map(|objective| route(&with_motors, &raster, &far, objective));
+        assert!(frugal.drawn.unwrap() <= 1.001 * fast.drawn.unwrap(), "{fast:?} {frugal:?}");
+        let model = std::sync::Arc::new(raster.model().unwrap());
+        let driven = frugal.drive(&loaded.value, &model, speed).unwrap();
+        let ratio = driven.drawn.expect("motors are known") / frugal.drawn.unwrap();
+        assert!((ratio - 1.0).abs() < 0.1, "{driven:?} {frugal:?}");
+    }
+
+    /// A study on an uncertain sand, with its samples and tables.
+    fn uncertain() -> (RouteStudy, Vec<Sample>, RouteTables) {
+        uncertain_within(|limits| limits)
+    }
+
+    /// The same with other limits than those of its rule.
+    fn uncertain_within(
+        change: impl FnOnce(Limits) -> Limits,
+    ) -> (RouteStudy, Vec<Sample>, RouteTables) {
+        let overrides = Overrides::parse(["scenario.soil=toyoura-uncertain"]).unwrap();
+        let loaded = document::read_scenario(&Source::default_scenario(), &overrides).unwrap();
+        let samples = BandInputs::of_scenario(&loaded).samples(1, 16).unwrap();
+        let mobility = SlopeStudy::of(&loaded);
+        let limits = change(Limits::of(&mobility));
+        let study = RouteStudy { mobility, limits, keep_out: None };
+        let tables = study.tables(&samples, false, &|| true).unwrap().unwrap();
+        (study, samples, tables)
+    }
+
+    /// Along a slope, and where it bends up a gentler one: the leg has the worse of both verdicts,
+    /// although the way up is less steep.
+    #[test]
+    fn a_gentler_place_on_a_worse_course_is_not_hidden() {
+        let (study, samples, tables) = uncertain();
+        let [across, up] = [deg(11.0), deg(10.0)];
+        let raster = ground_of(30, 60, 0.5, |at| {
+            let rise = (at.y - 14.0).max(0.0) * up.tan();
+            rise + if at.y < 14.0 { (at.x - 7.0) * across.tan() } else { 0.0 }
+        });
+        let ground = Ground::under(&study.mobility.heading.rover, &raster);
+        let found = study.along(&tables, ground, &line(&[[7.0, 3.0], [7.0, 27.0]])).unwrap();
+        let legs = found.seen.advice(&study.mobility, &samples, &|| true).unwrap().unwrap();
+        let [Some(leg)] = &legs[..] else { panic!("{legs:?}") };
+        let verdict = |slope: f64, course: f64| {
+            let all = study.mobility.advice(course, &[slope], &samples, &|| true);
+            all.unwrap().unwrap()[0].judgement.verdict
+        };
+        let [on_contour, uphill] = [verdict(across, 0.0), verdict(up, deg(90.0))];
+        assert!(uphill > on_contour, "{uphill:?} {on_contour:?}");
+        assert!(leg.verdict() >= uphill, "{leg:?}");
+        assert!(leg.place.course > deg(45.0) && leg.place.along[0] > 9.0, "{leg:?}");
+    }
+
+    /// What is kept off is what legs are judged by: the way has no leg with the verdict no-go, where
+    /// the cheapest within limits that allow everything has one.
+    #[test]
+    fn a_way_that_is_judged_has_no_leg_with_the_verdict_no_go() {
+        let (study, samples, tables) =
+            uncertain_within(|it| Limits { most_slip_ratio: 1.0, most_no_go: 1.0, ..it });
+        // Over a ridge of 17.5°, or around it.
+        let raster = ground_of(80, 80, 0.5, |at| {
+            let height = deg(17.5).tan() * (4.0 - (at.x - 20.0).abs()).max(0.0);
+            height * ((30.0 - at.y) / 6.0).clamp(0.0, 1.0)
+        });
+        let ground = Ground::under(&study.mobility.heading.rover, &raster);
+        let ends = ends([8.0, 10.0], [32.0, 10.0]);
+        let Answer::Route(cheapest) = study.route(&tables, ground, &ends, Objective::Time).unwrap()
+        else {
+            panic!("there is a way");
+        };
+        let judged = cheapest.advice(&study.mobility, &samples, &|| true).unwrap().unwrap();
+        let is_no_go = |legs: &[Option<JudgedLeg>]| {
+            legs.iter().flatten().any(|leg| leg.verdict() == Verdict::NoGo)
+        };
+        assert!(is_no_go(&judged), "{judged:?}");
+        let asked = (ground, &ends);
+        let (found, legs) = study
+            .judged_route(&tables, asked, Objective::Time, &samples, &|| true)
+            .unwrap()
+            .unwrap();
+        let Answer::Route(around) = found else { panic!("{found:?}") };
+        assert!(!is_no_go(&legs), "{legs:?}");
+        assert!(around.time > cheapest.time && around.length > cheapest.length);
+        let risks = [&cheapest, &around].map(|it| it.risk.as_ref().expect("known ground"));
+        let [over, past] = risks.map(|it| it.completion.completed.estimate());
+        assert!(past >= over, "{risks:?}");
+    }
+
+    /// The profile is the way: its pieces follow each other, rise to its target and have the slopes
+    /// of the plane; where a sample ends is where it first is a no-go.
+    #[test]
+    fn a_profile_has_the_way_piece_by_piece() {
+        let (study, samples, tables) = uncertain();
+        let rise = deg(17.0).tan();
+        let raster = ground_of(40, 60, 0.5, |at| 3.0 + rise * (at.y - 10.0).clamp(0.0, 8.0));
+        let ground = Ground::under(&study.mobility.heading.rover, &raster);
+        let line = line(&[[10.0, 4.0], [10.0, 25.0]]);
+        let found = study.along(&tables, ground, &line).unwrap();
+        let profile = &found.seen.profile;
+        assert_eq!(profile.len(), 42);
+        for (place, piece) in profile.iter().enumerate() {
+            assert!((piece.along - (0.25 + 0.5 * place as f64)).abs() < 1e-9, "{piece:?}");
+            let there = piece.ground.expect("it is known");
+            let height = 3.0 + rise * (piece.place.y - 10.0).clamp(0.0, 8.0);
+            assert!((there.height - height).abs() < 1e-4, "{piece:?}");
+        }
+        let on_slope = profile[20].ground.expect("it is known");
+        assert!((on_slope.slope - deg(17.0)).abs() < 1e-5 && on_slope.course > deg(89.0));
+        let level = profile[0].ground.expect("it is known");
+        assert_eq!((level.slope, level.probability_no_go), (0.0, 0.0));
+        assert!(on_slope.slip_ratio > level.slip_ratio);
+        // The median of the samples' own slips, counted one by one.
+        let slips = samples.iter().map(|sample| {
+            let curve = study.mobility.heading.of_sample(sample).curve_on(deg(90.0)).unwrap();
+            let found = curve.at(deg(17.0)).map_or(1.0, |it| it.slip_ratio);
+            if found > study.mobility.rule.no_go_slip_ratio { 1.0 } else { found }
+        });
+        let median = crate::studies::ensemble::Band::of(slips).unwrap().median;
+        assert!((on_slope.slip_ratio.unwrap() - median).abs() < 0.01, "{on_slope:?} {median}");
+        // Samples end at the foot of the slope, all of them there.
+        let risk = found.seen.risk.expect("known ground");
+        let completed = risk.completion.completed;
+        assert!((completed.estimate() - (1.0 - on_slope.probability_no_go)).abs() < 1e-12);
+        assert!(completed.successes < completed.trials, "{risk:?}");
+        let end = risk.end.expect("some end");
+        assert!((end.along - 6.0).abs() < 1.0 && (end.place.y - 4.0 - end.along).abs() < 1e-9);
     }
 
     #[test]

@@ -253,6 +253,7 @@ pub enum NoEstimator {
 ///     efficiency: 0.6,
 ///     friction: 1e-3,
 ///     is_self_locking: false,
+///     feeds_back: false,
 ///     control: None,
 ///     winding: None,
 /// });

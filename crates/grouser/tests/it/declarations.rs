@@ -131,7 +131,7 @@ fn is_a_key_too(name: &str) -> bool {
 }
 
 /// Where a name that only results have stands once more, and why.
-const OTHER_PLACES: [(&str, &str); 9] = [
+const OTHER_PLACES: [(&str, &str); 10] = [
     // Options of the program and arguments of Python's functions, which results repeat.
     ("course_deg", "src/args/heading.rs"),
     ("course_deg", "src/args/slip_from_current.rs"),
@@ -143,6 +143,7 @@ const OTHER_PLACES: [(&str, &str); 9] = [
     ("course_deg", "grouser-python/src/studies.rs"),
     // A way as a record, which has lists beside the numbers of its row.
     ("turned_deg", "document/route.rs"),
+    ("battery_energy_j", "document/route.rs"),
     ("most_slope_deg", "document/route.rs"),
 ];
 

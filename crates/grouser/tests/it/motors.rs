@@ -19,6 +19,7 @@ pub(crate) const MOTOR: Motor = Motor {
     efficiency: 0.6,
     friction: 1e-3,
     is_self_locking: false,
+    feeds_back: false,
     control: None,
     winding: None,
 };
@@ -291,6 +292,42 @@ fn a_controller_comes_back_from_its_limit_without_winding_up() {
     run.step(&[slow; 4], 0.5).expect("within it");
     for rim in run.state().rim_speeds() {
         assert!((rim / slow - 1.0).abs() < 0.02, "{rim} m/s");
+    }
+}
+
+/// Straight down a slope wheels brake: motors that feed back take less, by the integral of what a
+/// braking motor gives, V i below 0, and nothing else of the run changes.
+#[test]
+fn motors_that_feed_back_take_less_by_what_they_give_on_a_descent() {
+    // Of a motor that loses little, fast enough that heat does not take all.
+    let losing = Motor { resistance: 1.0, efficiency: 0.9, friction: 1e-4, ..MOTOR };
+    for approach in [Approach::Dynamic, Approach::QuasiSteady] {
+        let driven = |motor: Motor| {
+            let mut scenario = with(motor, across(18.0));
+            scenario.start.yaw = deg(-90.0);
+            let numerics = Numerics { approach, sample_interval: 0.02, ..scenario.numerics };
+            scenario.numerics = numerics;
+            run(&scenario)
+        };
+        let (lost, fed) = (driven(losing), driven(Motor { feeds_back: true, ..losing }));
+        let given = |record: &Record| -> f64 {
+            let motors = record.wheels.iter().filter_map(|wheel| wheel.electrical);
+            motors.map(|it| (it.voltage * it.current).min(0.0)).sum()
+        };
+        let spans = lost.records.windows(2);
+        let back: f64 = spans
+            .map(|pair| {
+                let span = pair[1].time - pair[0].time;
+                0.5 * span * (given(&pair[0]) + given(&pair[1]))
+            })
+            .sum();
+        let [lost_end, fed_end] = [&lost, &fed].map(|it| it.last().energy);
+        let less = lost_end.electrical - fed_end.electrical;
+        assert!(back < -0.5, "{approach:?}: {back} J");
+        // Between records 0.02 s apart lie straight lines.
+        assert!((less / -back - 1.0).abs() < 2e-3, "{approach:?}: {less} J, {back} J");
+        assert!(fed_end.electrical > fed_end.motors, "what is lost is lost all the same");
+        assert_eq!((lost_end.motors, lost.last().state), (fed_end.motors, fed.last().state));
     }
 }
 

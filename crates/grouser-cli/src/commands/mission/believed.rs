@@ -2,11 +2,13 @@
 
 use grouser::answers::Sampling;
 use grouser::document::LoadedMission;
+use grouser::document::columns::completion::in_words;
 use grouser::document::columns::{SLOPE, YAW};
-use grouser::document::reading::{capitalised, four_digits};
+use grouser::document::reading::four_digits;
 use grouser::mission::Mission;
+use grouser::studies::completion::Completion;
 use grouser::studies::ensemble::samples::BandInputs;
-use grouser::studies::mission::{DrivenMission, MissionRisk};
+use grouser::studies::mission::DrivenMission;
 use grouser::studies::verdict::{Advice, Rule, SlopeStudy};
 use serde_json::Value;
 
@@ -23,7 +25,7 @@ pub(super) struct Believed {
     pub(super) is_draft: bool,
     /// Name, samples and models, as JSON has them.
     pub(super) belief: Value,
-    ways: Vec<(MissionRisk, Vec<Option<Advice>>)>,
+    ways: Vec<(Completion, Vec<Option<Advice>>)>,
 }
 
 impl Believed {
@@ -42,7 +44,7 @@ impl Believed {
         let all = pairs.map(|((_, mission), way)| {
             let study = SlopeStudy { rim_speed: mission.rim_speed(), ..study.clone() };
             let count = samples.len().max(1);
-            let risk = with_bar(count, |go_on| MissionRisk::of(mission, &samples, go_on));
+            let risk = with_bar(count, |go_on| Completion::of_mission(mission, &samples, go_on));
             let advice = way.advice(&study, &mission.scenario, &samples, &|| true)?;
             Ok((whole(risk), whole(advice)))
         });
@@ -52,7 +54,7 @@ impl Believed {
     }
 
     /// What one of the missions risks.
-    pub(super) fn way(&self, place: usize) -> (&MissionRisk, &[Option<Advice>]) {
+    pub(super) fn way(&self, place: usize) -> (&Completion, &[Option<Advice>]) {
         let (risk, advice) = &self.ways[place];
         (risk, advice)
     }
@@ -60,7 +62,7 @@ impl Believed {
     /// The same in sentences: the whole first, then each leg that has advice.
     pub(super) fn sentences(&self, place: usize, way: &DrivenMission) -> Vec<String> {
         let (risk, advice) = self.way(place);
-        let mut all = vec![in_words(risk)];
+        let mut all = vec![in_words(risk, "")];
         for (leg, advice) in way.legs.iter().zip(advice) {
             let Some(advice) = advice else { continue };
             let slope = four_digits(SLOPE.unit.from_si(advice.slope));
@@ -76,31 +78,4 @@ impl Believed {
         }
         all
     }
-}
-
-/// How probable it is that a mission is completed, and how it ends otherwise.
-fn in_words(risk: &MissionRisk) -> String {
-    let percent = |share: f64| format!("{} %", four_digits((1000.0 * share).round() / 10.0));
-    let completed = risk.completed;
-    let (low, high) = completed.interval();
-    let end = risk.commonest.as_ref().map_or_else(String::new, |end| {
-        format!(
-            "; it ends most often in leg {}: {}, in {} of {}",
-            end.leg,
-            end.outcome.replace(['-', '_'], " "),
-            end.count,
-            completed.trials
-        )
-    });
-    let lost = match risk.not_computed {
-        0 => String::new(),
-        some => format!("; {some} more could not be computed"),
-    };
-    capitalised(&format!(
-        "completed on {} of {} samples of soil and model (95 %: {} to {}){end}{lost}.",
-        percent(completed.estimate()),
-        completed.trials,
-        percent(low),
-        percent(high)
-    ))
 }

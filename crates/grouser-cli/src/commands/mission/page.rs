@@ -3,8 +3,9 @@
 
 use grouser::answers::meanings;
 use grouser::document::columns::ENERGY;
+use grouser::document::columns::completion::RISK;
 use grouser::document::columns::mission::{
-    ELECTRICAL_LEG, ELECTRICAL_MISSION, LEG, MISSION, RISK, legs_brief, missions_brief,
+    ELECTRICAL_LEG, ELECTRICAL_MISSION, LEG, MISSION, legs_brief, missions_brief,
 };
 use grouser::document::columns::run;
 use grouser::document::columns::verdict::ADVICE;

@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 
 use crate::document::reading::four_digits;
 use crate::document::route::RouteRecord;
+use crate::studies::completion::Completion;
 use crate::studies::route::{
-    Answer as Found, CheckedLine, DrivenRoute, Limits, Line, Objective, Route,
+    Answer as Found, CheckedLine, DrivenRoute, JudgedLeg, Limits, Line, Objective, Route, RouteRisk,
 };
-use crate::studies::verdict::Advice;
 use crate::units::Vec2;
 
 /// A way that was found or given, or why there is none.
@@ -19,6 +19,8 @@ pub struct Way {
     pub places: Vec<Vec2>,
     /// What it takes by the tables, if that is known.
     pub(super) route: Option<Route>,
+    /// How probably it is completed, if that is known.
+    risk: Option<RouteRisk>,
     /// What simulation makes of it, if it was driven.
     pub(super) driven: Option<DrivenRoute>,
 }
@@ -33,7 +35,7 @@ impl Way {
         objective: Objective,
         found: Found,
         driven: Option<DrivenRoute>,
-        legs: &[Option<Advice>],
+        legs: &[Option<JudgedLeg>],
     ) -> Self {
         let record = RouteRecord::of(objective, &found, driven.as_ref(), legs);
         let route = match found {
@@ -41,7 +43,8 @@ impl Way {
             Found::NoSafeRoute(_) => None,
         };
         let places = route.as_ref().map(|it| it.waypoints.clone()).unwrap_or_default();
-        Self { record, places, route, driven }
+        let risk = route.as_ref().and_then(|it| it.risk.clone());
+        Self { record, places, route, risk, driven }
     }
 
     /// What came of looking along a line.
@@ -54,10 +57,11 @@ impl Way {
         found: CheckedLine,
         limits: &Limits,
         driven: Option<DrivenRoute>,
-        legs: &[Option<Advice>],
+        legs: &[Option<JudgedLeg>],
     ) -> Self {
         let record = RouteRecord::of_line(line, &found, limits, driven.as_ref(), legs);
-        Self { record, places: line.places().to_vec(), route: found.route, driven }
+        let (places, risk) = (line.places().to_vec(), found.seen.risk);
+        Self { record, places, route: found.route, risk, driven }
     }
 
     /// What it is called.
@@ -66,9 +70,20 @@ impl Way {
         self.record.minimise.map_or_else(|| "the given way".to_owned(), |it| format!("least {it}"))
     }
 
+    /// The same within a sentence.
+    pub(super) fn called(&self) -> String {
+        let least = |it| format!("the way with the least {it}");
+        self.record.minimise.map_or_else(|| "the given way".to_owned(), least)
+    }
+
     /// A number of the way, if it is known.
     pub(super) fn by_tables(&self, number: fn(&Route) -> f64) -> Option<f64> {
         self.route.as_ref().map(number)
+    }
+
+    /// How probably it is completed, if that is known.
+    pub(super) fn completion(&self) -> Option<&Completion> {
+        self.risk.as_ref().map(|risk| &risk.completion)
     }
 
     /// A number of the simulation, if there was one.

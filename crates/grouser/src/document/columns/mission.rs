@@ -5,17 +5,19 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 use super::super::limited_quantity;
 use super::super::table::{Table, WithObject};
 use super::super::unit::{DEG, M};
+use super::completion::RISK;
 use super::run::{BATTERY_ENERGY, DISTANCE, END, METHOD, STANDING, STATE_OF_CHARGE};
 use super::verdict::{ADVICE, ADVICE_OBJECT};
 use super::{
-    CURRENT, Column, ENERGY, PROBABILITY_COMPLETED, Quantity, SLIP_RATIO, TEMPERATURE, TIME, X, Y,
-    YAW, maybe, quantity, text, whole,
+    CURRENT, Column, ENERGY, Quantity, SLIP_RATIO, TEMPERATURE, TIME, X, Y, YAW, maybe, quantity,
+    text, whole,
 };
 use crate::mission::{
     Cause, FellShort, Heading, Kind, Leg, LegOutcome, Limited, Manoeuvre, Measure, Steering, Stop,
     Stopped, Taken,
 };
-use crate::studies::mission::{DrivenLeg, DrivenMission, MissionRisk};
+use crate::studies::completion::Completion;
+use crate::studies::mission::{DrivenLeg, DrivenMission};
 use crate::studies::verdict::Advice;
 use crate::units::Vec2;
 
@@ -47,24 +49,6 @@ impl DrivenLeg {
         }
     }
 }
-
-/// What a mission risks.
-pub const RISK: [Column<MissionRisk>; 5] = [
-    PROBABILITY_COMPLETED
-        .probability("Share of the samples that complete all legs", |it| Some(it.completed)),
-    text("commonest_end", "The commonest end of the others, by its name", |it| {
-        it.commonest.as_ref().map(|end| end.outcome.to_owned())
-    }),
-    whole("commonest_end_leg", "The leg in which they end so, from 1", |it| {
-        it.commonest.as_ref().map(|end| end.leg)
-    }),
-    whole("commonest_end_draws", "How many samples end so", |it| {
-        it.commonest.as_ref().map(|end| end.count)
-    }),
-    whole("draws_not_computed", "Samples that cannot be computed, and count as nothing", |it| {
-        Some(it.not_computed)
-    }),
-];
 
 /// A mission among its alternatives.
 pub const MISSION: [Column<DrivenMission>; 10] = [
@@ -267,7 +251,7 @@ pub struct MissionObject<'a> {
     /// The mission.
     pub mission: &'a DrivenMission,
     /// What it risks, and what to do on each leg that was begun, if that was asked for.
-    pub believed: Option<(&'a MissionRisk, &'a [Option<Advice>])>,
+    pub believed: Option<(&'a Completion, &'a [Option<Advice>])>,
 }
 
 impl Serialize for MissionObject<'_> {

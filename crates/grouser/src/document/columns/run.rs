@@ -103,7 +103,7 @@ pub const ELECTRICAL: [Column<WheelRecord>; 4] = [
         .maybe("Current of its motor, negative where it brakes", |it| Some(it.electrical?.current)),
     quantity("voltage_v", V)
         .maybe("Voltage of its motor, negative backward", |it| Some(it.electrical?.voltage)),
-    ELECTRICAL_POWER.maybe("Electrical power of its motor; none is taken back", |it| {
+    ELECTRICAL_POWER.maybe("Electrical power of its motor, negative where it feeds back", |it| {
         Some(it.electrical?.power)
     }),
     TEMPERATURE.maybe("Temperature of its motor's winding", |it| it.temperature),

@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use super::detail::Detail;
-use super::thresholds::Thresholds;
+use super::median_slip::MedianSlip;
+use super::thresholds::{Beyond, Thresholds};
 use crate::elementary::wide::sin;
 use crate::error::ParameterError;
 use crate::studies::ensemble::samples::Sample;
@@ -21,6 +22,8 @@ pub struct Mobility {
     pub sinkage: f64,
     /// Power of the wheels [W].
     pub power: f64,
+    /// Power that motors, and with a battery the electronics, draw [W]; NaN where no motor is known.
+    pub drawn_power: f64,
     /// Speed along the course [m/s].
     pub speed: f64,
     /// Drift downhill per metre of way, if the nose pointed along the course instead [m/m]; NaN
@@ -157,11 +160,13 @@ impl Nodes<'_> {
         let study = self.study;
         let drifting = self.drift.and_then(|curve| curve.at(slope).ok());
         let drift = drifting.map_or(f64::NAN, |it| sin(it.crab()));
+        let drawn = heading.drawn_power(&study.heading.rover, study.rim_speed);
         Mobility {
             crab: heading.crab(),
             slip_ratio: heading.slip_ratio,
             sinkage: heading.mean_sinkage(),
             power: heading.power(&study.heading.rover, study.rim_speed),
+            drawn_power: drawn.unwrap_or(f64::NAN),
             speed: study.rim_speed / heading.speed_ratio(),
             drift,
         }
@@ -194,6 +199,7 @@ impl Mobility {
             slip_ratio: of(self.slip_ratio, other.slip_ratio),
             sinkage: of(self.sinkage, other.sinkage),
             power: of(self.power, other.power),
+            drawn_power: of(self.drawn_power, other.drawn_power),
             speed: of(self.speed, other.speed),
             drift: of(self.drift, other.drift),
         }
@@ -267,8 +273,24 @@ impl MobilityTable {
         &self.thresholds.of_samples
     }
 
-    /// Takes for the steepest slope of each sample the mean of those on two other courses.
-    pub(in crate::studies) fn set_steepest_between(&mut self, one: &Self, other: &Self) {
+    /// What is beyond the steepest slope of each sample, in the order of the samples.
+    pub(in crate::studies) fn beyond(&self) -> &[Beyond] {
+        &self.thresholds.beyond
+    }
+
+    /// The median over the samples of the slip ratio with which each holds the course on a slope
+    /// [rad] by its own heading [-]: 1 in those in which none does, or that slip more than a no-go;
+    /// NaN where none is known.
+    pub(in crate::studies) fn median_slip(&self, slope: f64) -> f64 {
+        self.thresholds.median_slip.at(slope)
+    }
+
+    /// Takes for what the samples say the mean of what they say on two other courses.
+    pub(in crate::studies) fn set_samples_between(&mut self, one: &Self, other: &Self) {
+        let slips = [one, other].map(|it| &it.thresholds.median_slip);
+        self.thresholds.median_slip = MedianSlip::between(slips[0], slips[1]);
+        let beyond = one.beyond().iter().zip(other.beyond());
+        self.thresholds.beyond = beyond.map(|(one, other)| one.and(*other)).collect();
         let pairs = one.steepest_of_samples().iter().zip(other.steepest_of_samples());
         self.thresholds.of_samples =
             pairs.map(|(one, other)| f64::midpoint(*one, *other)).collect();

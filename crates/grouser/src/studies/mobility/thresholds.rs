@@ -1,6 +1,7 @@
 //! The steepest slopes that the samples allow.
 
 use super::detail::Detail;
+use super::median_slip::{MedianSlip, slips};
 use crate::error::ParameterError;
 use crate::root;
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
@@ -18,6 +19,39 @@ pub(super) struct Thresholds {
     known_to: Vec<f64>,
     /// The same in the order of the samples.
     pub(super) of_samples: Vec<f64>,
+    /// What is beyond it, likewise.
+    pub(super) beyond: Vec<Beyond>,
+    /// The slip in the middle of them.
+    pub(super) median_slip: MedianSlip,
+}
+
+/// What is beyond the steepest slope of a sample that is no no-go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::studies) enum Beyond {
+    /// No heading holds the course.
+    NoHeading,
+    /// It slips more than a no-go.
+    TooMuchSlip,
+    /// The search for a heading gave up.
+    NotFound,
+}
+
+impl Beyond {
+    /// This one, where another course near by is known, too.
+    pub(in crate::studies) fn and(self, other: Self) -> Self {
+        if other == Self::NotFound { other } else { self }
+    }
+}
+
+/// What the curve of one sample says.
+#[derive(Clone)]
+struct OfSample {
+    /// The steepest slope that is no no-go [rad].
+    steepest: f64,
+    /// What is beyond it.
+    beyond: Beyond,
+    /// Slip ratios by slope.
+    slips: Vec<f64>,
 }
 
 /// The slope of a sample that cannot drive at all [rad]: below level ground.
@@ -37,19 +71,28 @@ impl Thresholds {
         let most = study.rule.no_go_slip_ratio;
         let one = |sample: &Sample| {
             let curve = study.heading.of_sample(sample).curve_up_to(course, most)?;
-            Ok((steepest(&curve, most, detail), is_known(&curve, most)))
+            Ok(OfSample {
+                steepest: steepest(&curve, most, detail),
+                beyond: beyond(&curve, most),
+                slips: slips(&curve, most),
+            })
         };
         let Some(found) = outputs_of_samples(samples, go_on, one) else { return Ok(None) };
         // In order, so that the error is always that of the first soil.
-        let found = found.into_iter().collect::<Result<Vec<(f64, bool)>, ParameterError>>()?;
+        let found = found.into_iter().collect::<Result<Vec<OfSample>, ParameterError>>()?;
         let of = |known: bool| {
-            let all = found.iter().filter(|it| it.1 == known).map(|it| it.0);
+            let is_so = |it: &&OfSample| (it.beyond != Beyond::NotFound) == known;
+            let all = found.iter().filter(is_so).map(|it| it.steepest);
             let mut slopes: Vec<f64> = all.collect();
             slopes.sort_by(f64::total_cmp);
             slopes
         };
-        let of_samples = found.iter().map(|it| it.0).collect();
-        Ok(Some(Self { steepest: of(true), known_to: of(false), of_samples }))
+        let of_samples = found.iter().map(|it| it.steepest).collect();
+        let slips: Vec<&[f64]> = found.iter().map(|it| &*it.slips).collect();
+        let median_slip = MedianSlip::of(&slips);
+        let beyond = found.iter().map(|it| it.beyond).collect();
+        let (steepest, known_to) = (of(true), of(false));
+        Ok(Some(Self { steepest, known_to, of_samples, beyond, median_slip }))
     }
 
     /// Over the samples for which it is known; NaN where there is none.
@@ -65,14 +108,14 @@ impl Thresholds {
     }
 }
 
-/// Whether a curve was followed to a slip, or to its true end.
-fn is_known(curve: &HeadingCurve, most_slip: f64) -> bool {
+/// What is beyond the steepest slope of a curve up to which it slips at most so much.
+fn beyond(curve: &HeadingCurve, most_slip: f64) -> Beyond {
+    let slips = || curve.points().any(|[_, slip, _]| slip.abs() > most_slip);
     match curve.limit() {
-        Err(none) => !none.is_not_found(),
-        Ok(_) => {
-            curve.limited_by() != Some(LimitedBy::NotFound)
-                || curve.points().any(|[_, slip, _]| slip.abs() > most_slip)
-        }
+        Err(none) if none.is_not_found() => Beyond::NotFound,
+        Ok(_) if slips() => Beyond::TooMuchSlip,
+        Ok(_) if curve.limited_by() == Some(LimitedBy::NotFound) => Beyond::NotFound,
+        Ok(_) | Err(_) => Beyond::NoHeading,
     }
 }
 

@@ -7,8 +7,8 @@
 //! same when it is read back.
 
 use super::answer::{LineError, Route, RouteError};
-use super::corridor::{Corridor, Step};
-use super::costs::RouteTables;
+use super::corridor::{Corridor, Rise, Step};
+use super::costs::{Metre, RouteTables};
 use super::hazard::{Danger, Hazard, Hazards};
 use super::measure::{Measure, Piece, Turning};
 use super::study::RouteStudy;
@@ -140,8 +140,6 @@ struct Look<'a> {
     can_turn: bool,
     measure: Measure<'a>,
     hazards: Hazards,
-    /// Length on the map [m].
-    so_far: f64,
     /// Whether the cost of all of it is known.
     is_priced: bool,
 }
@@ -155,7 +153,6 @@ impl<'a> Look<'a> {
             can_turn: turning.is_ok(),
             measure: Measure::from(tables, turning.unwrap_or_default(), start),
             hazards: Hazards::default(),
-            so_far: 0.0,
             is_priced: true,
         }
     }
@@ -169,33 +166,37 @@ impl<'a> Look<'a> {
         self.measure.turn(angle);
         if !self.can_turn {
             self.is_priced = false;
+            self.measure.cannot_turn();
             self.note(place, 0.0, Danger::NoTurn, None);
         }
     }
 
     /// Goes on by a step.
     fn go(&mut self, step: &Step) {
-        let Step { from, to, rises } = *step;
+        let Step { from, to, ground } = *step;
         let length = (to - from).norm();
         if self.areas.is_some_and(|areas| meets(areas, from, to)) {
             self.measure.is_lost();
             self.note(from, length, Danger::KeptOut, None);
         }
-        match rises {
+        match ground {
             None => {
                 self.is_priced = false;
-                self.measure.is_lost();
                 self.note(from, length, Danger::UnknownGround, None);
+                self.measure.drive_unknown(0.5 * (from + to), length);
             }
-            Some((along, across)) => self.drive(from, Piece { length, along, across }),
+            Some(Rise { along, across, height }) => {
+                let piece = Piece { ends: [from, to], height, length, along, across };
+                let metre = self.tables.steady_metre(along, across);
+                self.look_at(from, &piece, metre);
+                self.measure.drive(piece, metre);
+            }
         }
-        self.so_far += length;
     }
 
-    fn drive(&mut self, from: Vec2, piece: Piece) {
-        let Piece { length, along, across } = piece;
-        let metre = self.tables.steady_metre(along, across);
-        self.measure.drive(piece, metre);
+    /// Notes what is wrong with a piece before it is driven over.
+    fn look_at(&mut self, from: Vec2, piece: &Piece, metre: Option<Metre>) {
+        let Piece { length, along, across, .. } = *piece;
         let Some(metre) = metre else {
             self.is_priced = false;
             return self.note(from, length, Danger::NoHeading, None);
@@ -207,7 +208,8 @@ impl<'a> Look<'a> {
     }
 
     fn note(&mut self, place: Vec2, length: f64, danger: Danger, worst: Option<f64>) {
-        let along = [self.so_far, self.so_far + length];
+        let so_far = self.measure.so_far();
+        let along = [so_far, so_far + length];
         self.hazards.add(Hazard { danger, along, place, worst });
     }
 

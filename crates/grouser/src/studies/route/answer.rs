@@ -1,9 +1,11 @@
 //! Ways, and why there are none.
 
+use super::end::RouteRisk;
+use super::legs::{JudgedLeg, LegPlaces, judged};
+use super::profile::ProfilePiece;
 use crate::error::ParameterError;
 use crate::studies::ensemble::samples::Sample;
-use crate::studies::mobility::advised_place;
-use crate::studies::verdict::{Advice, SlopeStudy};
+use crate::studies::verdict::SlopeStudy;
 use crate::units::Vec2;
 
 /// From where to where.
@@ -33,6 +35,9 @@ pub struct Route {
     pub time: f64,
     /// Work of the wheels, with turns [J].
     pub energy: f64,
+    /// What motors, with cold windings, and with a battery the electronics draw, with turns [J];
+    /// `None` where no motor is known.
+    pub drawn: Option<f64>,
     /// Angle of all turns together [rad].
     pub turned: f64,
     /// Mean slip ratio over the way [-].
@@ -43,14 +48,20 @@ pub struct Route {
     pub most_slope: f64,
     /// In which share of the samples some place of the way is a no-go [-].
     pub probability_no_go: f64,
-    /// The worst place of each leg from waypoint to waypoint, as slope and course [rad]: where most
-    /// of the samples fail, and of several the steepest; `None` of a leg that leads over ground that
-    /// nobody knows, or that nobody may go to.
-    pub worst: Vec<Option<(f64, f64)>>,
+    /// How probably it is completed, and how it ends otherwise; `None` over ground that nobody
+    /// knows, and where the rover cannot turn.
+    pub risk: Option<RouteRisk>,
+    /// The places of each leg from waypoint to waypoint where it is judged; `None` of a leg that
+    /// leads over ground that nobody knows, or that nobody may go to.
+    pub legs: Vec<Option<LegPlaces>>,
+    /// All of it, piece by piece: of a way that was sought a move of the lattice, of a given line as
+    /// long as the map's points are apart.
+    pub profile: Vec<ProfilePiece>,
 }
 
 impl Route {
-    /// What to do on each leg, if its ground is known; `None` if `go_on` was false before the end.
+    /// What to do on each leg, at its worst place; `None` of a leg some of whose ground is not
+    /// known, and of one without length. `None` altogether if `go_on` was false before the end.
     ///
     /// # Errors
     /// The same as [`SlopeStudy::advice`].
@@ -59,11 +70,14 @@ impl Route {
         study: &SlopeStudy,
         samples: &[Sample],
         go_on: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Option<Vec<Option<Advice>>>, ParameterError> {
-        let places: Vec<_> = self.worst.iter().map(|place| place.map(advised_place)).collect();
-        study.advice_where_known(&places, samples, go_on)
+    ) -> Result<Option<Vec<Option<JudgedLeg>>>, ParameterError> {
+        judged(&self.legs, study, samples, go_on)
     }
 }
+
+/// What came of seeking a way, and for each of its legs what to do at its worst place, if that is
+/// known.
+pub type JudgedAnswer = (Answer, Vec<Option<JudgedLeg>>);
 
 /// What a way takes from its start to one of its waypoints, before it turns there.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -78,6 +92,7 @@ pub struct Arrival {
 
 /// What came of seeking a way.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "there are as many as ways are asked for")]
 pub enum Answer {
     /// The cheapest way.
     Route(Route),

@@ -24,9 +24,18 @@ pub(super) struct Step {
     /// Its ends [m].
     pub(super) from: Vec2,
     pub(super) to: Vec2,
-    /// How steeply the ground rises along it and across it [m/m]; none where it is not known all
-    /// around.
-    pub(super) rises: Option<(f64, f64)>,
+    /// The ground under it; none where it is not known all around.
+    pub(super) ground: Option<Rise>,
+}
+
+/// How the ground of a piece rises.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Rise {
+    /// Along it and across it [m/m].
+    pub(super) along: f64,
+    pub(super) across: f64,
+    /// Height in the middle between its ends [m].
+    pub(super) height: f64,
 }
 
 /// The ground at a place.
@@ -69,18 +78,20 @@ impl Corridor<'_> {
         let between = move |share: f64| ends[0] + share * (ends[1] - ends[0]);
         let place = move |number: usize| from + share(number) * (to - from);
         let way = (to - from).normalize();
+        let base = self.ground.raster().base;
         let mut here = self.spot(ends[0]);
         (0..count).map(move |number| {
             let there = self.spot(between(share(number + 1)));
             let middle = self.spot(between(0.5 * (share(number) + share(number + 1))));
             let (from, to) = (place(number), place(number + 1));
-            let rises = middle.and(here).zip(there).map(|(here, there)| {
+            let ground = middle.and(here).zip(there).map(|(here, there)| {
                 let gradient = 0.5 * (here.gradient + there.gradient);
                 let along = (there.height - here.height) / (to - from).norm();
-                (along, gradient.y * way.x - gradient.x * way.y)
+                let across = gradient.y * way.x - gradient.x * way.y;
+                Rise { along, across, height: base + 0.5 * (here.height + there.height) }
             });
             here = there;
-            Step { from, to, rises }
+            Step { from, to, ground }
         })
     }
 

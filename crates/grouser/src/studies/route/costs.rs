@@ -8,12 +8,17 @@ use crate::elementary::wide::cos;
 use crate::error::ParameterError;
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
 use crate::studies::heading::{HeadingCurve, LimitedBy, STRAIGHT_UP};
-use crate::studies::mobility::{Detail, Mobility, MobilityTable, slope_and_course};
+use crate::studies::mobility::{
+    Beyond, Detail, Mobility, MobilityTable, advised_place, slope_and_course,
+};
+use crate::studies::verdict::Reason;
 
 /// Courses from straight down to straight up are so far apart [rad]: 7.5°.
 const COURSE_STEP: f64 = std::f64::consts::PI / 24.0;
 /// How many courses have a table: straight down, …, straight up.
 pub const COURSES: usize = 25;
+/// On so many of them, every other one, the samples are followed.
+pub(super) const SAMPLED_COURSES: usize = COURSES / 2 + 1;
 /// Points along the axes of the table: from the steepest way down to the steepest way up, and from
 /// level to the steepest across.
 const ALONG: usize = 401;
@@ -28,6 +33,8 @@ pub(super) struct Metre {
     pub(super) time: f64,
     /// Work of the wheels [J].
     pub(super) energy: f64,
+    /// What motors and electronics draw [J]; NaN where no motor is known.
+    pub(super) drawn: f64,
     /// Slip ratio [-].
     pub(super) slip_ratio: f64,
 }
@@ -39,6 +46,9 @@ pub struct RouteTables {
     limits: Limits,
     risk: Option<Risk>,
     step: f64,
+    /// The least slope of each sampled course that has the verdict no-go [rad], where that has been
+    /// looked for, with the reason.
+    no_go_from: [Option<(f64, Reason)>; SAMPLED_COURSES],
 }
 
 /// What a metre costs that has the least of one thing.
@@ -46,8 +56,8 @@ pub(super) struct Costs<'a> {
     pub(super) of: &'a RouteTables,
     /// What is sought, for a metre: infinite where nobody may go.
     table: Vec<f32>,
-    /// What a metre costs at least. Downhill wheels may do less work than none: what they take out
-    /// of the height is not lost before it is gained, so that all that is above the bound is
+    /// What a metre costs at least. Downhill wheels may do less work than none, and motors that feed
+    /// back draw less: what they take out of the height is not lost before it is gained, so that all that is above the bound is
     /// positive.
     pub(super) bound: Bound,
 }
@@ -84,7 +94,7 @@ impl RouteStudy {
         for number in (1..COURSES - 1).step_by(2) {
             let (before, rest) = tables.split_at_mut(number);
             let (between, after) = rest.split_at_mut(1);
-            between[0].set_steepest_between(&before[number - 1], &after[0]);
+            between[0].set_samples_between(&before[number - 1], &after[0]);
         }
         let mut risk = None;
         if with_risk {
@@ -93,7 +103,8 @@ impl RouteStudy {
         }
         let steepest = tables.iter().filter_map(MobilityTable::limit).fold(0.05, f64::max);
         let step = crate::elementary::wide::tan(steepest) / (ACROSS - 1) as f64;
-        Ok(Some(RouteTables { tables, limits: self.limits, risk, step }))
+        let no_go_from = [None; SAMPLED_COURSES];
+        Ok(Some(RouteTables { tables, limits: self.limits, risk, step, no_go_from }))
     }
 }
 
@@ -104,7 +115,7 @@ impl<'a> Costs<'a> {
             let metre = of.metre(along, across)?;
             Some(match objective {
                 Objective::Time => metre.time,
-                Objective::Energy => metre.energy,
+                Objective::Energy => drawn_or_work(metre.drawn, metre.energy),
                 Objective::Risk => metre.length * of.risk.as_ref()?.at(along, across),
             })
         };
@@ -201,6 +212,7 @@ impl RouteTables {
             length,
             time: length / motion.speed,
             energy: length * motion.energy_per_metre(),
+            drawn: length * motion.drawn_power / motion.speed,
             slip_ratio: motion.slip_ratio,
         })
     }
@@ -223,8 +235,28 @@ impl RouteTables {
             let is_too_often = probability > 0.0 && probability >= most_no_go;
             is_too_often.then_some((Danger::NoGo, probability))
         };
+        let verdict = self.verdict_of_no_go(slope, course).map(|it| (Danger::Verdict(it), slope));
         // The last one takes long, and is not asked for if one before it is enough.
-        steep.into_iter().chain(slips).chain(std::iter::once_with(no_go).flatten())
+        let first = steep.into_iter().chain(slips).chain(verdict);
+        first.chain(std::iter::once_with(no_go).flatten())
+    }
+
+    /// Keeps ways off slopes of a course that have the verdict no-go; returns whether that is new.
+    ///
+    /// * `from`: the least of them [rad], a class of slopes
+    pub(super) fn keep_off(&mut self, course: f64, from: f64, reason: Reason) -> bool {
+        let known = &mut self.no_go_from[nearest_course(course)];
+        let is_new = known.is_none_or(|(known, _)| from < known);
+        if is_new {
+            *known = Some((from, reason));
+        }
+        is_new
+    }
+
+    /// Why a slope and course have the verdict no-go, if that has been found.
+    fn verdict_of_no_go(&self, slope: f64, course: f64) -> Option<Reason> {
+        let (from, reason) = self.no_go_from[nearest_course(course)]?;
+        (advised_place((slope, course)).0 >= from).then_some(reason)
     }
 
     fn motion(&self, slope: f64, course: f64) -> Option<Mobility> {
@@ -248,13 +280,22 @@ impl RouteTables {
         (below, (place - below as f64).clamp(0.0, 1.0))
     }
 
-    /// Whether each sample may go no farther on a slope and course.
-    pub(super) fn fails(&self, along: f64, across: f64) -> impl Iterator<Item = bool> + Clone {
+    /// Why each sample may go no farther over ground that rises along the way and across it; nothing
+    /// of one that may.
+    pub(super) fn fates(&self, along: f64, across: f64) -> impl Iterator<Item = Option<Beyond>> {
         let (slope, course) = slope_and_course(along, across);
-        self.fails_on(slope, course)
+        let (below, share) = self.between(course);
+        let [one, other] = [below, below + 1].map(|it| self.tables[it].beyond());
+        let beyond = one.iter().zip(other).map(move |(one, other)| match share {
+            0.0 => *one,
+            share if share > 0.5 => other.and(*one),
+            _ => one.and(*other),
+        });
+        self.fails_on(slope, course).zip(beyond).map(|(fails, beyond)| fails.then_some(beyond))
     }
 
-    fn fails_on(&self, slope: f64, course: f64) -> impl Iterator<Item = bool> + Clone {
+    /// Whether each sample may go no farther on a slope and course.
+    fn fails_on(&self, slope: f64, course: f64) -> impl Iterator<Item = bool> {
         let (below, share) = self.between(course);
         let pairs = self.tables[below]
             .steepest_of_samples()
@@ -263,10 +304,34 @@ impl RouteTables {
         pairs.map(move |(one, other)| slope > one + share * (other - one))
     }
 
-    fn probability_no_go(&self, slope: f64, course: f64) -> f64 {
+    /// The median over the samples of the slip ratio with which each holds a course by its own
+    /// heading [-]; NaN where none is known.
+    pub(super) fn median_slip(&self, slope: f64, course: f64) -> f64 {
+        let (below, share) = self.between(course);
+        let one = self.tables[below].median_slip(slope);
+        if share == 0.0 {
+            return one;
+        }
+        one + share * (self.tables[below + 1].median_slip(slope) - one)
+    }
+
+    /// In which share of the samples a slope and course are a no-go [-].
+    pub(super) fn probability_no_go(&self, slope: f64, course: f64) -> f64 {
         let failed = self.fails_on(slope, course).filter(|fails| *fails).count();
         failed as f64 / self.tables[0].steepest_of_samples().len() as f64
     }
+}
+
+/// The energy that a way is to have least of: what is drawn, or work where no motor is known.
+pub(super) fn drawn_or_work(drawn: f64, work: f64) -> f64 {
+    if drawn.is_nan() { work } else { drawn }
+}
+
+/// Which of the sampled courses is nearest, by its number.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place in a list")]
+pub(super) fn nearest_course(course: f64) -> usize {
+    let place = ((course + STRAIGHT_UP) / (2.0 * COURSE_STEP)).round();
+    place.clamp(0.0, (SAMPLED_COURSES - 1) as f64) as usize
 }
 
 /// The courses of the tables [rad].

@@ -23,6 +23,9 @@ pub struct DrivenRoute {
     pub time: f64,
     /// Work of the wheels, with turns [J].
     pub energy: f64,
+    /// What motors, and with a battery the electronics, took, with turns [J]; `None` where no motor
+    /// is known.
+    pub drawn: Option<f64>,
     /// Slip ratio over all legs, 1 less the way over the ground by that of the rims [-].
     pub slip_ratio: Option<f64>,
     /// How far from the target it ended [m].
@@ -99,6 +102,7 @@ impl Route {
             distance,
             time: sum(|leg| leg.time),
             energy: sum(|leg| leg.energy),
+            drawn: report.taken().map(|taken| taken.energy),
             slip_ratio: (rims > 0.0).then(|| 1.0 - distance / rims),
             miss: (target - end).norm(),
         })
@@ -114,6 +118,7 @@ impl DrivenRoute {
             distance: 0.0,
             time: 0.0,
             energy: 0.0,
+            drawn: None,
             slip_ratio: None,
             miss: 0.0,
         }

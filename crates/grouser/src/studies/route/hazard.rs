@@ -1,5 +1,6 @@
 //! Why a line is not safe to drive along, and where.
 
+use crate::studies::verdict::Reason;
 use crate::units::Vec2;
 
 /// What makes a piece of a line unsafe.
@@ -17,6 +18,8 @@ pub enum Danger {
     TooMuchSlip,
     /// It is a no-go in as many of the samples as the limit, or more; the worst is their share [-].
     NoGo,
+    /// It has the verdict no-go, for this reason.
+    Verdict(Reason),
     /// The line turns there, and the rover cannot turn on the spot on level ground.
     NoTurn,
 }
@@ -45,6 +48,7 @@ impl Danger {
             Self::TooSteep => "too-steep",
             Self::TooMuchSlip => "too-much-slip",
             Self::NoGo => "no_go",
+            Self::Verdict(_) => "no-go-verdict",
             Self::NoTurn => "no-turn",
         }
     }

@@ -2,7 +2,11 @@
 
 use super::answer::{Arrival, Route};
 use super::costs::{Metre, RouteTables};
+use super::end::{End, RouteRisk};
+use super::legs::{LegPlace, LegPlaces};
+use super::profile::{GroundOfPiece, ProfilePiece};
 use crate::simulation::NotSteady;
+use crate::simulation::power::electrical;
 use crate::studies::mobility::slope_and_course;
 use crate::studies::verdict::SlopeStudy;
 use crate::units::Vec2;
@@ -14,6 +18,8 @@ pub(super) struct Turning {
     pub(super) time: f64,
     /// Work of the wheels for a radian [J].
     pub(super) energy: f64,
+    /// What motors and electronics draw for a radian [J]; NaN where no motor is known.
+    pub(super) drawn: f64,
 }
 
 impl Turning {
@@ -29,30 +35,59 @@ impl Turning {
         let motion = heading
             .steady_motion_of(0.0, 0.0, &rims)
             .map_err(|error: NotSteady| error.to_string())?;
-        let power: f64 = motion
-            .wheels
-            .iter()
-            .zip(heading.rover.mounts())
-            .zip(&rims)
-            .map(|((wheel, mount), rim)| {
-                wheel.settled.forces.torque * rim / mount.shearing_radius()
-            })
-            .sum();
+        let each = motion.wheels.iter().zip(heading.rover.mounts()).zip(&rims);
+        let each = each.map(|((wheel, mount), rim)| {
+            (mount, wheel.settled.forces.torque, rim / mount.shearing_radius())
+        });
+        let power: f64 = each.clone().map(|(_, torque, speed)| torque * speed).sum();
+        let of_motors =
+            each.filter_map(|(mount, torque, speed)| Some(electrical(mount, torque, speed)?.power));
+        let electronics = heading.rover.battery().map_or(0.0, |battery| battery.electronics);
+        let drawn = if heading.rover.has_motors() {
+            of_motors.sum::<f64>() + electronics
+        } else {
+            f64::NAN
+        };
         let rate = motion.yaw_rate.abs();
         if rate <= 0.0 {
             return Err("its wheels turn and it does not".to_owned());
         }
-        Ok(Self { time: 1.0 / rate, energy: power / rate })
+        Ok(Self { time: 1.0 / rate, energy: power / rate, drawn: drawn / rate })
     }
 }
 
-/// A piece of a way: how long it is on the map [m], and how steeply the ground rises along it and
-/// across it [m/m].
+/// A piece of a way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Piece {
+    /// Its ends [m].
+    pub(super) ends: [Vec2; 2],
+    /// The height in its middle [m].
+    pub(super) height: f64,
+    /// How long it is on the map [m].
     pub(super) length: f64,
+    /// How steeply the ground rises along it and across it [m/m].
     pub(super) along: f64,
     pub(super) across: f64,
+}
+
+impl Piece {
+    /// Its middle [m].
+    fn middle(&self) -> Vec2 {
+        0.5 * (self.ends[0] + self.ends[1])
+    }
+
+    /// Its ground, and how the samples drive over it.
+    fn ground(&self, tables: &RouteTables) -> GroundOfPiece {
+        let (slope, course) = slope_and_course(self.along, self.across);
+        let slip = tables.median_slip(slope, course);
+        GroundOfPiece {
+            height: self.height,
+            slope,
+            course,
+            slip_ratio: (!slip.is_nan()).then_some(slip),
+            probability_no_go: tables.probability_no_go(slope, course),
+        }
+    }
 }
 
 /// A way that is being measured.
@@ -60,12 +95,18 @@ pub(super) struct Measure<'a> {
     tables: &'a RouteTables,
     turning: Turning,
     route: Route,
-    /// Whether each sample has met a no-go.
-    failed: Vec<bool>,
-    /// How many of them fail at the worst place of the leg, with its slope and course [rad].
-    worst: (usize, f64, f64),
+    /// Where each sample has ended.
+    ends: Vec<Option<End>>,
+    /// Whether it is known of all of the way whether it can be driven.
+    is_certain: bool,
+    /// Where the leg is judged.
+    places: LegPlaces,
     /// Whether the ground of the leg is known all the way.
     is_known: bool,
+    /// Length on the map, over ground that is not known, too [m].
+    so_far: f64,
+    /// What motors and electronics draw, without turns [J]; NaN where no motor is known.
+    drawn: f64,
 }
 
 impl<'a> Measure<'a> {
@@ -78,20 +119,26 @@ impl<'a> Measure<'a> {
             map_length: 0.0,
             time: 0.0,
             energy: 0.0,
+            drawn: None,
             turned: 0.0,
             mean_slip_ratio: 0.0,
             most_slip_ratio: 0.0,
             most_slope: 0.0,
             probability_no_go: 0.0,
-            worst: Vec::new(),
+            risk: None,
+            legs: Vec::new(),
+            profile: Vec::new(),
         };
         let mut measure = Self {
             tables,
             turning,
             route,
-            failed: Vec::new(),
-            worst: (0, 0.0, 0.0),
+            ends: Vec::new(),
+            is_certain: true,
+            places: LegPlaces::default(),
             is_known: true,
+            so_far: 0.0,
+            drawn: 0.0,
         };
         measure.arrive(start);
         measure
@@ -101,8 +148,8 @@ impl<'a> Measure<'a> {
     pub(super) fn arrive(&mut self, place: Vec2) {
         let Self { route, turning, .. } = self;
         if !route.waypoints.is_empty() {
-            let (_, slope, course) = std::mem::take(&mut self.worst);
-            route.worst.push(self.is_known.then_some((slope, course)));
+            let places = std::mem::take(&mut self.places);
+            route.legs.push(self.is_known.then_some(places));
             self.is_known = true;
         }
         route.waypoints.push(place);
@@ -118,50 +165,90 @@ impl<'a> Measure<'a> {
         self.route.turned += angle;
     }
 
-    /// Goes on over ground that nobody knows, or that nobody may go to.
+    /// Length on the map from the start [m].
+    pub(super) fn so_far(&self) -> f64 {
+        self.so_far
+    }
+
+    /// The leg leads where nobody may go.
     pub(super) fn is_lost(&mut self) {
         self.is_known = false;
+    }
+
+    /// It cannot turn where it has to.
+    pub(super) fn cannot_turn(&mut self) {
+        self.is_certain = false;
+    }
+
+    /// Goes on by a piece over ground that nobody knows.
+    ///
+    /// * `place`: its middle [m]
+    /// * `length`: on the map [m]
+    pub(super) fn drive_unknown(&mut self, place: Vec2, length: f64) {
+        self.is_known = false;
+        self.is_certain = false;
+        self.note(place, length, None);
+    }
+
+    /// Adds a piece to the profile.
+    fn note(&mut self, place: Vec2, length: f64, ground: Option<GroundOfPiece>) {
+        let leg = self.route.waypoints.len();
+        let along = self.so_far + 0.5 * length;
+        self.route.profile.push(ProfilePiece { leg, along, place, ground });
+        self.so_far += length;
     }
 
     /// Goes on by a piece.
     ///
     /// * `metre`: what a metre of it costs, if it can be driven
     pub(super) fn drive(&mut self, piece: Piece, metre: Option<Metre>) {
-        let Piece { length, along, across } = piece;
-        let route = &mut self.route;
+        let ground = piece.ground(self.tables);
+        let GroundOfPiece { slope, course, probability_no_go, .. } = ground;
+        let along = [self.so_far, self.so_far + piece.length];
+        let place = piece.ends[0];
+        self.places.add(LegPlace { slope, course, along, place, probability_no_go });
+        self.meet(&piece);
+        self.note(piece.middle(), piece.length, Some(ground));
+        let (route, length) = (&mut self.route, piece.length);
         route.map_length += length;
         if let Some(metre) = metre {
             route.length += length * metre.length;
             route.time += length * metre.time;
             route.energy += length * metre.energy;
+            self.drawn += length * metre.drawn;
             route.mean_slip_ratio += length * metre.length * metre.slip_ratio;
             route.most_slip_ratio = route.most_slip_ratio.max(metre.slip_ratio);
         }
-        let (slope, course) = slope_and_course(along, across);
         route.most_slope = route.most_slope.max(slope);
-        let fails = self.tables.fails(along, across);
-        let here = (fails.clone().filter(|fails| *fails).count(), slope, course);
-        if (here.0, slope) > (self.worst.0, self.worst.1) {
-            self.worst = here;
-        }
-        if self.failed.is_empty() {
-            self.failed.extend(fails);
+    }
+
+    /// Sees which of the samples end at a piece.
+    fn meet(&mut self, piece: &Piece) {
+        let (leg, middle) = (self.route.waypoints.len(), piece.middle());
+        let along = self.so_far + 0.5 * piece.length;
+        let fates = self.tables.fates(piece.along, piece.across);
+        let ends = fates.map(|fate| fate.map(|beyond| End { leg, along, place: middle, beyond }));
+        if self.ends.is_empty() {
+            self.ends.extend(ends);
         } else {
-            self.failed.iter_mut().zip(fails).for_each(|(failed, fails)| *failed |= fails);
+            self.ends.iter_mut().zip(ends).for_each(|(known, end)| *known = known.or(end));
         }
     }
 
     /// Arrives at the end.
     pub(super) fn finish(mut self, end: Vec2) -> Route {
         self.arrive(end);
-        let Self { turning, mut route, failed, .. } = self;
+        let Self { turning, mut route, ends, is_certain, drawn, .. } = self;
         route.time += route.turned * turning.time;
         route.energy += route.turned * turning.energy;
+        let drawn = if route.turned > 0.0 { drawn + route.turned * turning.drawn } else { drawn };
+        route.drawn = (!drawn.is_nan() && route.length > 0.0).then_some(drawn);
         if route.length > 0.0 {
             route.mean_slip_ratio /= route.length;
         }
-        let count = failed.iter().filter(|failed| **failed).count();
-        route.probability_no_go = count as f64 / failed.len().max(1) as f64;
+        let count = ends.iter().flatten().count();
+        route.probability_no_go = count as f64 / ends.len().max(1) as f64;
+        route.risk = (is_certain && !ends.is_empty()).then(|| RouteRisk::of(&ends));
         route
     }
 }

@@ -1,13 +1,21 @@
 //! Seeks a way, and says what it takes.
 
-use super::answer::{Answer, Ends, MOST_CELLS, NoRoute, Route, RouteError};
-use super::costs::{Costs, RouteTables};
+use super::answer::{Answer, Ends, JudgedAnswer, MOST_CELLS, NoRoute, Route, RouteError};
+use super::costs::{Costs, RouteTables, drawn_or_work};
+use super::legs::JudgedLeg;
 use super::measure::{Measure, Piece, Turning};
 use super::search::{Found, Lattice, cell_at};
 use super::study::{Objective, RouteStudy};
-use crate::studies::mobility::Ground;
+use crate::error::ParameterError;
+use crate::studies::ensemble::samples::Sample;
+use crate::studies::mobility::{Ground, class_of};
+use crate::studies::verdict::{Judgement, Verdict};
 use crate::terrain::Footprint;
 use crate::units::Vec2;
+use grouser_io::unit::DEG;
+
+/// Where a slope is a no-go, so many classes of slopes below it are looked at, too.
+const LOOKED_BELOW: usize = 4;
 
 impl RouteStudy {
     /// Seeks the cheapest way.
@@ -31,7 +39,7 @@ impl RouteStudy {
             Err(reason) => return Ok(Answer::NoSafeRoute(NoRoute::NoTurn(reason))),
         };
         let turn = match objective {
-            Objective::Energy => turning.energy,
+            Objective::Energy => drawn_or_work(turning.drawn, turning.energy),
             Objective::Time | Objective::Risk => turning.time,
         };
         let spacing = ground.raster().grid.spacing;
@@ -49,6 +57,60 @@ impl RouteStudy {
             }
             Found::None { reached } => Answer::NoSafeRoute(NoRoute::Cut { reached, cells }),
         })
+    }
+
+    /// Seeks the cheapest way that has no leg with the verdict no-go, and judges its legs; `None` if
+    /// `go_on` was false before the end. Where a way has such a leg, the slopes of its course from
+    /// there on are kept off, and a way is sought again.
+    ///
+    /// * `tables`: of this study; with the risk, if that is the objective
+    /// * `samples`: those of the tables
+    ///
+    /// # Errors
+    /// The same as [`route`](Self::route), and [`ParameterError`] for an invalid soil.
+    pub fn judged_route(
+        &self,
+        tables: &RouteTables,
+        (ground, ends): (Ground<'_>, &Ends),
+        objective: Objective,
+        samples: &[Sample],
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<JudgedAnswer>, RouteError> {
+        let mut tables = tables.clone();
+        loop {
+            let found = self.route(&tables, ground, ends, objective)?;
+            let Answer::Route(route) = &found else { return Ok(Some((found, Vec::new()))) };
+            let legs = route.advice(&self.mobility, samples, go_on)?;
+            let Some(legs) = legs else { return Ok(None) };
+            let mut is_new = false;
+            for leg in legs.iter().flatten().filter(|leg| leg.verdict() == Verdict::NoGo) {
+                let Some(from) = self.no_go_from(leg, samples, go_on)? else { return Ok(None) };
+                let Judgement { reason, .. } = leg.advice.judgement;
+                is_new |= tables.keep_off(leg.advice.course, from, reason);
+            }
+            if !is_new {
+                return Ok(Some((found, legs)));
+            }
+        }
+    }
+
+    /// The least slope of a leg's course that has the verdict no-go as the leg has [rad], of those
+    /// that are up to [`LOOKED_BELOW`] less steep.
+    fn no_go_from(
+        &self,
+        leg: &JudgedLeg,
+        samples: &[Sample],
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<f64>, ParameterError> {
+        let (slope, course) = (leg.advice.slope, leg.advice.course);
+        let class = class_of(slope);
+        let gentler = (class.saturating_sub(LOOKED_BELOW)..class).map(|it| DEG.to_si(it as f64));
+        let gentler: Vec<f64> = gentler.collect();
+        let Some(found) = self.mobility.advice(course, &gentler, samples, go_on)? else {
+            return Ok(None);
+        };
+        let first = found.iter().find(|it| it.judgement.verdict == Verdict::NoGo);
+        Ok(Some(first.map_or(slope, |it| it.slope)))
     }
 
     /// Whether an area where nobody may go reaches into the cell around a place, however narrow it
@@ -133,9 +195,11 @@ fn measured(
             measure.turn(lattice.moves.turn(before, *direction));
         }
         before = Some(*direction);
-        let Some((_, along, across)) = lattice.rises(*cell, *direction) else { continue };
-        let length = lattice.moves.lengths[*direction];
-        measure.drive(Piece { length, along, across }, tables.metre(along, across));
+        let Some((to, along, across)) = lattice.rises(*cell, *direction) else { continue };
+        let (length, cells) = (lattice.moves.lengths[*direction], [*cell, to]);
+        let (ends, height) = (cells.map(|it| lattice.place(it)), lattice.mean_height(cells));
+        let piece = Piece { ends, height, length, along, across };
+        measure.drive(piece, tables.steady_metre(along, across));
     }
     measure.finish(ends.to)
 }
@@ -144,5 +208,11 @@ impl Lattice<'_> {
     /// How far apart its points are, to the east and to the north [m].
     fn spacing(&self) -> Vec2 {
         self.raster().grid.spacing
+    }
+
+    /// The mean height of two cells [m].
+    fn mean_height(&self, [one, other]: [usize; 2]) -> f64 {
+        let raster = self.raster();
+        raster.base + f64::midpoint(raster.heights[one].into(), raster.heights[other].into())
     }
 }

@@ -22,7 +22,7 @@ pub enum Objective {
     /// Time.
     #[default]
     Time,
-    /// Work of the wheels.
+    /// What motors and electronics draw; where no motor is known, work of the wheels.
     Energy,
     /// Time in the worst of the samples.
     Risk,
