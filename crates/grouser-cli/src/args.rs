@@ -178,6 +178,15 @@ pub(crate) struct OutputArgs {
     pub(crate) force: bool,
 }
 
+/// The answer as a slide.
+#[derive(Debug, Default, Args)]
+pub(crate) struct SlideArgs {
+    /// Also write the answer as a slide of 16 to 9, one sentence and one picture: `.svg`, `.png` or
+    /// `.pdf`.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) slide: Option<PathBuf>,
+}
+
 /// Whether extrapolations are accepted.
 #[derive(Debug, Args)]
 pub(crate) struct StrictArgs {
@@ -265,7 +274,7 @@ pub(crate) struct TerrainArgs {
 }
 
 /// The options of a run that name what is written, any of which `--force` may replace.
-const WRITTEN: [&str; 4] = ["out", "animate", "mcap", "telemetry"];
+const WRITTEN: [&str; 5] = ["out", "animate", "mcap", "telemetry", "slide"];
 
 /// How a run is computed, and what else is made of it.
 #[derive(Debug, Args)]

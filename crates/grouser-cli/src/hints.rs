@@ -26,6 +26,9 @@ const WORDS: [(&str, &str); 13] = [
     ("another speed or a rolling start", "another --rim-speed-m-s or a rolling start"),
 ];
 
+/// The option of some commands alone that others are asked for, too.
+const SLIDE: &str = "slide";
+
 /// A message of the library with the flags of the program.
 pub(crate) fn with_flags(message: &str) -> String {
     let words = WORDS.map(|(library, program)| (library.to_owned(), program.to_owned()));
@@ -59,6 +62,13 @@ pub(crate) fn with_present_option(
         present.filter(|option| has(option)).map(|option| format!("--{option}")).collect();
     if answer.kind() == ErrorKind::UnknownArgument && !present.is_empty() {
         answer.insert(ContextKind::SuggestedArg, ContextValue::Strings(present));
+    }
+    if answer.kind() == ErrorKind::UnknownArgument && name == SLIDE {
+        let has = |of: &&clap::Command| of.get_arguments().any(|one| one.get_long() == Some(SLIDE));
+        let able = command.get_subcommands().filter(|of| !of.is_hide_set()).filter(has);
+        let able: Vec<&str> = able.map(clap::Command::get_name).collect();
+        let tip = format!("a slide has the answer of {}", able.join(", "));
+        answer.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
     }
     answer
 }

@@ -8,6 +8,7 @@ pub(crate) mod folder;
 pub(crate) mod json;
 pub(crate) mod rows;
 mod screen;
+pub(crate) mod slide;
 pub(crate) mod terminal;
 pub(crate) mod text;
 

@@ -15,6 +15,7 @@
 mod axis;
 mod bars;
 mod colour_bar;
+mod envelope;
 mod frame;
 mod grid;
 mod heat_map;

@@ -45,6 +45,7 @@ mod scale;
 mod scene;
 mod sheet;
 mod shown;
+mod slide;
 mod step;
 pub mod style;
 mod svg;
@@ -64,5 +65,6 @@ pub use sheet::{
     wrap,
 };
 pub use shown::Shown;
+pub use slide::Slide;
 pub use step::round_step;
 pub use title::title_of;

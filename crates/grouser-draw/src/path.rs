@@ -8,7 +8,7 @@ use grouser_core::vehicle::{Rover, RoverState};
 
 use crate::outline::{draw_nose, draw_outline, reach};
 use crate::step::round_step;
-use crate::style::{Ground, Role, on_both_grounds, series};
+use crate::style::{Ground, Role, series};
 
 /// Width of the drawing, and the most that it is high [mm].
 const WIDTH: f64 = 180.0;
@@ -25,7 +25,7 @@ const LINES: f64 = 6.0;
 
 /// What a mission drove, seen from above the slope, uphill at the top.
 #[must_use]
-pub fn path_of(title: &str, rover: &Rover, report: &MissionReport) -> String {
+pub fn path_of(title: &str, rover: &Rover, report: &MissionReport) -> Sheet {
     let map = Map::around(report, rover);
     let mut sheet = Sheet::new(title, WIDTH, map.height()).on(Role::Paper.on(Ground::Light));
     map.grid(&mut sheet);
@@ -46,7 +46,7 @@ pub fn path_of(title: &str, rover: &Rover, report: &MissionReport) -> String {
     }
     let ends: Vec<Vec2> = report.legs.iter().map(|leg| leg.end.position).collect();
     numbers(&mut sheet, &map, &ends);
-    on_both_grounds(&sheet)
+    sheet
 }
 
 /// The rover with its wheels as a record has them steered.

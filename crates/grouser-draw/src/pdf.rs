@@ -7,6 +7,7 @@ use pdf_writer::types::{LineCapStyle, LineJoinStyle, UnicodeCmap};
 use pdf_writer::writers::ExtGraphicsState;
 use pdf_writer::{Content, Filter, Finish as _, Name, Pdf, Rect, Ref, Str, TextStr};
 
+use crate::png::channels_of;
 use crate::sheet::{
     Cells, Colour, FACES, Face, Item, Outline, Place, Shape, Sheet, Step, Text, WHITE,
 };
@@ -76,13 +77,57 @@ fn write_page(pdf: &mut Pdf, sheet: &Sheet, [pages, page]: [Ref; 2], id: &mut im
             state.non_stroking_alpha(share).stroking_alpha(share);
         }
     }
+    let pictures: Vec<(&Cells, [Ref; 2])> =
+        pictures(sheet).map(|cells| (cells, [id(), id()])).collect();
+    if !pictures.is_empty() {
+        let mut named = resources.x_objects();
+        for (place, (_, [picture, _])) in pictures.iter().enumerate() {
+            named.pair(Name(picture_name(place).as_bytes()), *picture);
+        }
+    }
     resources.finish();
     writer.finish();
+    for (cells, ids) in pictures {
+        write_picture(pdf, cells, ids);
+    }
     let drawn = compress_to_vec_zlib(&drawing(sheet, &codes), EFFORT);
     pdf.stream(content, &drawn).filter(Filter::FlateDecode);
     for (face, font) in fonts {
         write_font(pdf, face, font, &codes[&face], id);
     }
+}
+
+/// Grids of so many cells that they are pictures.
+fn pictures(sheet: &Sheet) -> impl Iterator<Item = &Cells> {
+    sheet.items.iter().filter_map(|item| match item {
+        Item::Cells(cells) if cells.is_picture() => Some(cells),
+        _ => None,
+    })
+}
+
+fn picture_name(place: usize) -> String {
+    format!("P{place}")
+}
+
+/// A picture of cells, with what each hides of the page.
+fn write_picture(pdf: &mut Pdf, cells: &Cells, [picture, mask]: [Ref; 2]) {
+    let size = [cells.columns, cells.rows()].map(|it| i32::try_from(it).unwrap_or(i32::MAX));
+    let channels = || cells.colours.iter().map(Option::as_ref).map(channels_of);
+    let colours: Vec<u8> =
+        channels().flat_map(|[red, green, blue, _]| [red, green, blue]).collect();
+    let hides: Vec<u8> = channels().map(|[.., hides]| hides).collect();
+    let [colours, hides] = [colours, hides].map(|it| compress_to_vec_zlib(&it, EFFORT));
+    let mut image = pdf.image_xobject(picture, &colours);
+    image.filter(Filter::FlateDecode);
+    image.width(size[0]).height(size[1]).bits_per_component(8);
+    image.color_space().device_rgb();
+    image.s_mask(mask);
+    image.finish();
+    let mut image = pdf.image_xobject(mask, &hides);
+    image.filter(Filter::FlateDecode);
+    image.width(size[0]).height(size[1]).bits_per_component(8);
+    image.color_space().device_gray();
+    image.finish();
 }
 
 fn codes(sheet: &Sheet, face: Face) -> Codes {
@@ -188,9 +233,14 @@ fn drawing(sheet: &Sheet, codes: &BTreeMap<Face, Codes>) -> Vec<u8> {
         let ground = Shape::rectangle([0.0, 0.0], [sheet.width, sheet.height], sheet.ground);
         draw_shape(&mut content, &ground, &place);
     }
+    let mut pictures = 0;
     for item in &sheet.items {
         match item {
             Item::Shape(shape) => draw_shape(&mut content, shape, &place),
+            Item::Cells(cells) if cells.is_picture() => {
+                draw_picture(&mut content, cells, &picture_name(pictures), &place);
+                pictures += 1;
+            }
             Item::Cells(cells) => draw_cells(&mut content, cells, &place),
             Item::Text { text, at } => {
                 draw_text(&mut content, text, *at, &codes[&text.face], &place);
@@ -276,6 +326,22 @@ fn draw_cells(content: &mut Content, cells: &Cells, place: &impl Fn(Place) -> [f
         let [width, height] = size.map(|length| single(length * POINTS));
         content.rect(x, y, width, height).fill_nonzero();
     }
+    content.restore_state();
+}
+
+/// A picture where its cells are: as a unit square that is made as large.
+fn draw_picture(
+    content: &mut Content,
+    cells: &Cells,
+    name: &str,
+    place: &impl Fn(Place) -> [f32; 2],
+) {
+    let ([left, top], [width, height]) = (cells.place, cells.size);
+    let [x, y] = place([left, top + height]);
+    let [width, height] = [width, height].map(|length| single(length * POINTS));
+    content.save_state();
+    content.transform([width, 0.0, 0.0, height, x, y]);
+    content.x_object(Name(name.as_bytes()));
     content.restore_state();
 }
 

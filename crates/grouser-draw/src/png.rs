@@ -1,5 +1,7 @@
 //! A page as a picture of pixels.
 
+use std::collections::BTreeSet;
+
 use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PremultipliedColorU8,
     Rect, Stroke as Pen, StrokeDash, Transform,
@@ -95,6 +97,44 @@ fn encoded(picture: &Picture, pixels_per_mm: f64, is_grey: bool) -> Vec<u8> {
     writer.write_image_data(&data).expect("there are all channels of each pixel");
     writer.finish().expect("memory takes what is written");
     bytes
+}
+
+/// Cells as a PNG picture, a pixel each; empty ones are transparent. Few colours are a palette.
+pub(crate) fn png_of(cells: &Cells) -> Vec<u8> {
+    let known: BTreeSet<[u8; 4]> =
+        cells.colours.iter().map(Option::as_ref).map(channels_of).collect();
+    let palette: Vec<[u8; 4]> = known.into_iter().collect();
+    let [width, height] =
+        [cells.columns, cells.rows()].map(|it| u32::try_from(it).expect("a page has fewer cells"));
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Balanced);
+    let channels = cells.colours.iter().map(Option::as_ref).map(channels_of);
+    let data: Vec<u8> = if palette.len() <= 256 {
+        encoder.set_color(png::ColorType::Indexed);
+        encoder.set_palette(palette.iter().flat_map(|it| &it[..3]).copied().collect::<Vec<_>>());
+        encoder.set_trns(palette.iter().map(|it| it[3]).collect::<Vec<_>>());
+        let place = |it: [u8; 4]| palette.binary_search(&it).unwrap_or_default();
+        #[expect(clippy::cast_possible_truncation, reason = "at most 256 colours")]
+        channels.map(|it| place(it) as u8).collect()
+    } else {
+        encoder.set_color(png::ColorType::Rgba);
+        channels.flatten().collect()
+    };
+    let mut writer = encoder.write_header().expect("memory takes what is written");
+    writer.write_image_data(&data).expect("there are all channels of each pixel");
+    writer.finish().expect("memory takes what is written");
+    bytes
+}
+
+/// Red, green, blue and what it hides of a cell's colour.
+pub(crate) fn channels_of(colour: Option<&Colour>) -> [u8; 4] {
+    let Some(colour) = colour else { return [0; 4] };
+    let [red, green, blue] = colour.bytes();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+    let hides = (255.0 * colour.hides()).round() as u8;
+    [red, green, blue, hides]
 }
 
 fn draw_shape(canvas: &mut Pixmap, shape: &Shape, pixels_per_mm: f64) {

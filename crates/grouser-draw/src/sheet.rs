@@ -129,6 +129,25 @@ impl Shape {
         Self::area([[left, top], [right, top], [right, bottom], [left, bottom]], fill)
     }
 
+    /// The same elsewhere and in another size.
+    fn placed(&self, at: &impl Fn(Place) -> Place, scale: f64) -> Self {
+        let outline = match &self.outline {
+            Outline::Points { points, closed } => Outline::Points {
+                points: points.iter().map(|it| at(*it)).collect(),
+                closed: *closed,
+            },
+            Outline::Circle { centre, radius } => {
+                Outline::Circle { centre: at(*centre), radius: scale * radius }
+            }
+        };
+        let stroke = self.stroke.map(|stroke| Stroke {
+            width: scale * stroke.width,
+            dash: stroke.dash.map(|lengths| lengths.map(|length| scale * length)),
+            ..stroke
+        });
+        Self { outline, fill: self.fill, stroke }
+    }
+
     /// Only the line around it.
     #[must_use]
     pub fn unfilled(self) -> Self {
@@ -273,6 +292,24 @@ impl Sheet {
     /// Writes a line of text with its base line at a place.
     pub fn text(&mut self, text: Text, at: Place) {
         self.items.push(Item::Text { text, at });
+    }
+
+    /// Draws all that is on another page, larger or smaller, with its upper left corner at a place.
+    pub fn place(&mut self, page: &Self, corner: Place, scale: f64) {
+        let at = |[x, y]: Place| [corner[0] + scale * x, corner[1] + scale * y];
+        let item = |item: &Item| match item {
+            Item::Shape(shape) => Item::Shape(shape.placed(&at, scale)),
+            Item::Cells(cells) => Item::Cells(Cells {
+                place: at(cells.place),
+                size: cells.size.map(|side| scale * side),
+                ..cells.clone()
+            }),
+            Item::Text { text, at: place } => Item::Text {
+                text: Text { size: scale * text.size, ..text.clone() },
+                at: at(*place),
+            },
+        };
+        self.items.extend(page.items.iter().map(item));
     }
 
     /// Fills a rectangle with parallel lines that rise to the right at 45°.

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
+use crate::png::png_of;
 use crate::sheet::{Cells, Colour, Face, Item, Outline, Place, Shape, Sheet, Step, Text, markup};
 
 impl Sheet {
@@ -84,8 +85,12 @@ fn path(points: &[Place], closed: bool) -> String {
     path
 }
 
-/// A path for each colour, of lines through the middles of cells, as wide as a row.
+/// A path for each colour, of lines through the middles of cells, as wide as a row; many cells are
+/// one picture.
 fn write_cells(svg: &mut String, cells: &Cells) {
+    if cells.is_picture() {
+        return write_picture(svg, cells);
+    }
     let mut paths: BTreeMap<String, String> = BTreeMap::new();
     for run in cells.runs() {
         let path = paths.entry(ink("stroke", run.colour)).or_default();
@@ -102,6 +107,36 @@ fn write_cells(svg: &mut String, cells: &Cells) {
         let _ = writeln!(svg, "<path{ink} d=\"{path}\"/>");
     }
     svg.push_str("</g>\n");
+}
+
+/// Cells as a picture that the document holds.
+fn write_picture(svg: &mut String, cells: &Cells) {
+    let ([left, top], [width, height]) = (cells.place.map(short), cells.size.map(short));
+    let _ = writeln!(
+        svg,
+        "<image x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" \
+         preserveAspectRatio=\"none\" style=\"image-rendering:pixelated\" \
+         href=\"data:image/png;base64,{}\"/>",
+        base64(&png_of(cells))
+    );
+}
+
+/// Bytes as text.
+///
+/// Source: RFC 4648, section 4.
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for chunk in bytes.chunks(3) {
+        let byte = |place: usize| u32::from(chunk.get(place).copied().unwrap_or(0));
+        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for digit in 0..4 {
+            let is_there = digit <= chunk.len();
+            let sextet = (bits >> (18 - 6 * digit)) & 63;
+            text.push(if is_there { char::from(DIGITS[sextet as usize]) } else { '=' });
+        }
+    }
+    text
 }
 
 fn write_text(svg: &mut String, text: &Text, at: Place) {
@@ -169,4 +204,28 @@ fn ink(of: &str, colour: Colour) -> String {
 fn short(length: f64) -> String {
     let text = format!("{length:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Source: RFC 4648, section 10.
+    #[test]
+    fn base64_has_the_test_vectors() {
+        let found =
+            ["", "f", "fo", "foo", "foob", "fooba", "foobar"].map(|it| base64(it.as_bytes()));
+        assert_eq!(found, ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"]);
+    }
+
+    /// A hundred by a hundred cells: fewer are shapes.
+    #[test]
+    fn many_cells_are_one_picture() {
+        let mut sheet = Sheet::new("many", 20.0, 20.0);
+        let colour = |cell: u32| (!cell.is_multiple_of(7)).then(|| Colour::hex(cell % 251));
+        sheet.cells(Cells::new([0.0; 2], [20.0; 2], 100, (0..10_000).map(colour)));
+        let svg = sheet.to_svg();
+        assert!(svg.contains("<image") && !svg.contains("stroke-width=\"1.02\""), "{svg}");
+        assert!(!sheet.to_pdf().is_empty());
+    }
 }

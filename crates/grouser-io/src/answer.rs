@@ -159,6 +159,13 @@ pub enum PageBlock {
     },
     /// Small charts side by side.
     Charts(Vec<Chart>),
+    /// What stands after all else, shown when a reader asks for it.
+    Folded {
+        /// What it is.
+        title: String,
+        /// In their order; none is folded once more.
+        blocks: Vec<PageBlock>,
+    },
     /// A picture of what no figure has, which the front end draws.
     Picture {
         /// The name of its file.
@@ -260,6 +267,24 @@ impl Answer {
     /// Adds small charts side by side to the page.
     pub fn charts(&mut self, charts: Vec<Chart>) {
         self.page.push(PageBlock::Charts(charts));
+    }
+
+    /// Adds what stands after all else on the page, shown when a reader asks for it.
+    ///
+    /// * `add`: adds its blocks
+    pub fn folded(&mut self, title: impl Into<String>, add: impl FnOnce(&mut Self)) {
+        let before = std::mem::take(&mut self.page);
+        add(self);
+        let blocks = std::mem::replace(&mut self.page, before);
+        self.page.push(PageBlock::Folded { title: title.into(), blocks });
+    }
+
+    /// All blocks of the page, those that are folded too.
+    pub fn blocks(&self) -> impl Iterator<Item = &PageBlock> {
+        self.page.iter().flat_map(|block| match block {
+            PageBlock::Folded { blocks, .. } => blocks.iter(),
+            one => std::slice::from_ref(one).iter(),
+        })
     }
 
     /// Adds a paragraph to the page.

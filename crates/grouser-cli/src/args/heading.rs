@@ -1,13 +1,13 @@
 //! Arguments of `heading` and `heading-map`.
 
-use clap::Args;
-use clap::builder::NonEmptyStringValueParser;
+use clap::builder::{NonEmptyStringValueParser, Resettable};
+use clap::{ArgGroup, Args};
 use grouser::studies::heading::Steering;
 use grouser::studies::wheel_speeds::USUAL_RATIO;
 
 use super::{
-    BalanceArgs, BeliefArgs, MODEL_OR_ALL, OutputArgs, PartArgs, RuleArgs, SettingArgs, StrictArgs,
-    UncertaintyArgs,
+    BalanceArgs, BeliefArgs, MODEL_OR_ALL, OutputArgs, PartArgs, RuleArgs, SettingArgs, SlideArgs,
+    StrictArgs, UncertaintyArgs,
 };
 use crate::list::{self, Numbers};
 
@@ -18,6 +18,8 @@ use crate::list::{self, Numbers};
                         speeds of their own are answered for the soil as its document has it."
 )]
 #[command(mut_arg("model", |model| model.help(MODEL_OR_ALL)))]
+#[command(mut_arg("force", |force| force.requires(Resettable::Reset).requires("written")))]
+#[command(group(ArgGroup::new("written").args(["out", "slide"]).multiple(true)))]
 pub(crate) struct HeadingArgs {
     /// A scenario's file or preset, for its rover, soil, gravity and load transfer; without it the
     /// default scenario.
@@ -52,6 +54,8 @@ pub(crate) struct HeadingArgs {
     pub(crate) strict: StrictArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) slide: SlideArgs,
 }
 
 #[derive(Debug, Args)]

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
-use clap::builder::NonEmptyStringValueParser;
+use clap::builder::{NonEmptyStringValueParser, Resettable};
+use clap::{ArgGroup, Args};
 
-use super::{AdviceArgs, BalanceArgs, OutputArgs, SettingArgs, TelemetryArgs};
+use super::{AdviceArgs, BalanceArgs, OutputArgs, SettingArgs, SlideArgs, TelemetryArgs};
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
@@ -19,6 +19,8 @@ use crate::list::{self, Numbers};
                         grouser learn drive.csv --follow --follow-s 60 --format json --out today\n\
                         docs/guide/learn.md explains the telemetry, what is learnt, and how far it is to be trusted."
 )]
+#[command(mut_arg("force", |force| force.requires(Resettable::Reset).requires("written")))]
+#[command(group(ArgGroup::new("written").args(["out", "slide"]).multiple(true)))]
 pub(crate) struct LearnArgs {
     /// Telemetry of the drive: MCAP, or a table (`telemetry/1`) of CSV or Parquet, `-` for CSV from
     /// standard input. Its columns are `time_s`, and any of `roll_deg`, `pitch_deg`, `yaw_deg`,
@@ -76,6 +78,8 @@ pub(crate) struct LearnArgs {
     pub(crate) setting: SettingArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) slide: SlideArgs,
 }
 
 /// A time of waiting.

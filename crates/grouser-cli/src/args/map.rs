@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
-use super::{BalanceArgs, PartArgs, RuleArgs, SettingArgs};
+use super::{BalanceArgs, PartArgs, RuleArgs, SettingArgs, SlideArgs};
 use crate::list::{self, Numbers};
 use crate::output::Format;
 
@@ -64,4 +64,6 @@ pub(crate) struct MapArgs {
     /// Replace files of the same names in DIR, and those of another map that was stopped there.
     #[arg(long)]
     pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) slide: SlideArgs,
 }

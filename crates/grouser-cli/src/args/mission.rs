@@ -4,7 +4,8 @@ use clap::builder::{NonEmptyStringValueParser, Resettable};
 use clap::{ArgGroup, Args};
 
 use super::{
-    BeliefArgs, OutputArgs, RuleArgs, RunArgs, SettingArgs, SlopeArgs, StrictArgs, WRITTEN,
+    BeliefArgs, OutputArgs, RuleArgs, RunArgs, SettingArgs, SlideArgs, SlopeArgs, StrictArgs,
+    WRITTEN,
 };
 
 /// The help of `--mcap`.
@@ -45,4 +46,6 @@ pub(crate) struct MissionArgs {
     pub(crate) strict: StrictArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) slide: SlideArgs,
 }

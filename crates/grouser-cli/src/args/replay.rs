@@ -2,10 +2,12 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
-use clap::builder::NonEmptyStringValueParser;
+use clap::builder::{NonEmptyStringValueParser, Resettable};
+use clap::{ArgGroup, Args};
 
-use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs, TelemetryArgs, UncertaintyArgs};
+use super::{
+    BalanceArgs, OutputArgs, PartArgs, SettingArgs, SlideArgs, TelemetryArgs, UncertaintyArgs,
+};
 
 #[derive(Debug, Args)]
 #[command(
@@ -18,6 +20,8 @@ use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs, TelemetryArgs, Uncer
                   docs/guide/replay.md explains the channels, the findings, and how far they are \
                   to be trusted."
 )]
+#[command(mut_arg("force", |force| force.requires(Resettable::Reset).requires("written")))]
+#[command(group(ArgGroup::new("written").args(["out", "slide"]).multiple(true)))]
 pub(crate) struct ReplayArgs {
     /// Telemetry of the drive (`telemetry/1` as CSV or Parquet, or MCAP), or `-` to read CSV from
     /// standard input: `time_s`, `wheel_speed_rad_s_WHEEL`, and any of the other columns that
@@ -48,4 +52,6 @@ pub(crate) struct ReplayArgs {
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) slide: SlideArgs,
 }

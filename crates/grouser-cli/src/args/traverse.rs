@@ -4,7 +4,7 @@ use clap::builder::{NonEmptyStringValueParser, Resettable};
 use clap::{ArgGroup, Args};
 
 use super::{
-    BalanceArgs, MODEL_OR_ALL, OutputArgs, RunArgs, SettingArgs, SlopeArgs, StrictArgs,
+    BalanceArgs, MODEL_OR_ALL, OutputArgs, RunArgs, SettingArgs, SlideArgs, SlopeArgs, StrictArgs,
     UncertaintyArgs, WRITTEN,
 };
 
@@ -56,4 +56,6 @@ pub(crate) struct TraverseArgs {
     pub(crate) strict: StrictArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) slide: SlideArgs,
 }

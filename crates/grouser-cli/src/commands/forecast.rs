@@ -42,7 +42,12 @@ pub(crate) fn run(args: &ForecastArgs) -> Result<(), Failure> {
         slopes_deg: &args.slope_deg.0,
         is_measured_under_stated: inputs.is_measured_under_stated,
     };
-    let answer = question.answer("forecast", &forecast);
+    let mut answer = question.answer("forecast", &forecast);
+    answer.next = vec![
+        "grouser card scenario.toml --gravity-m-s2 SITE --out CARD".to_owned(),
+        "grouser map DEM scenario.toml --gravity-m-s2 SITE --course-deg best --out MAP".to_owned(),
+        "grouser calibrate --data TESTS.csv --wheel WHEEL --soil SOIL --out FIT".to_owned(),
+    ];
     let slopes = forecast.grounds.iter().flat_map(|ground| &ground.slopes);
     let flags = slopes.map(|slope| &*slope.findings);
     strict::check(&args.strict, flags, &answer.tables[0].1, &[GROUND, SCALING, SLOPE.name])?;

@@ -3,6 +3,7 @@
 use grouser::answers::heading::HeadingQuestion;
 use grouser::answers::{AnswerOptions, Displayed};
 use grouser::studies::heading::Steering;
+use grouser_draw::title_of;
 
 use super::sampling;
 use crate::args::HeadingArgs;
@@ -10,13 +11,15 @@ use crate::failure::Failure;
 use crate::inputs;
 use crate::output::answer::give;
 use crate::output::folder::OutputFolder;
+use crate::output::slide::SlideFile;
 
 /// * `command`: the name by which it was asked for, which its results and files have
 pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
+    let slide = SlideFile::of(&args.slide, args.output.force)?;
     let question = inputs::heading(args)?;
     let mut answer = sampling::with_bar(question.samples(), |go_on| {
-        let (has_page, is_strict) = (folder.is_some(), args.strict.strict);
+        let (has_page, is_strict) = (folder.is_some() || slide.is_some(), args.strict.strict);
         question.answer(command, &AnswerOptions { has_page, is_strict, go_on })
     })?;
     if question.sampling.is_some() && args.belief.samples.is_none() {
@@ -27,6 +30,9 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
         format!("grouser card {file} --out CARD --stops STOPS.toml"),
         format!("grouser map DEM {file} --course-deg best --out MAP"),
     ];
+    if let Some(slide) = slide {
+        slide.write_answer(&answer, &title_of(&question.scenarios[0]))?;
+    }
     give(&answer, &repeat(command, args, &question), folder, args.output.format)
 }
 

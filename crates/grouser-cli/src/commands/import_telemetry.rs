@@ -30,7 +30,14 @@ pub(crate) fn run(args: &ImportTelemetryArgs) -> Result<(), Failure> {
             let failed = |error| Failure::at("cannot write", out)(error);
             convert(&mut log, (out, writer), &rover, failed)
         })
-        .inspect(|()| file::say_written(out)),
+        .inspect(|()| {
+            file::say_written(out);
+            let out = escape::path(out);
+            output::message(&format!(
+                "next: grouser replay {out} --rover ROVER --soil SOIL --out REPLAYED, then grouser \
+                 learn {out} --rover ROVER --soil SOIL --out LEARNT"
+            ));
+        }),
         None => output::print_by(|writer| {
             convert(&mut log, (Path::new("-"), writer), &rover, output::failed_to_print)
         }),

@@ -21,6 +21,7 @@ use grouser::studies::learn::{
     Drive, LearnSettings, Learner, LearntSample, NotUsed, TelemetryRecord,
 };
 use grouser::studies::verdict::SlopeStudy;
+use grouser_draw::title_of;
 
 use self::cards::Cards;
 use self::live::Live;
@@ -36,6 +37,7 @@ use crate::interrupt;
 use crate::output::Format;
 use crate::output::answer::{give, write};
 use crate::output::folder::OutputFolder;
+use crate::output::slide::SlideFile;
 
 pub(crate) fn run(args: &LearnArgs) -> Result<(), Failure> {
     if args.follow && args.output.format == Format::Csv {
@@ -44,6 +46,7 @@ pub(crate) fn run(args: &LearnArgs) -> Result<(), Failure> {
         return Err(Failure::Usage(why.to_owned()));
     }
     let mut folder = state_file::open_folder(args)?;
+    let slide = SlideFile::of(&args.slide, args.output.force)?;
     let question = inputs::learn(args)?;
     let (mut found, share_used) = learn(args, &question)?;
     let taught = check_taught(args, found.drive.learner());
@@ -53,6 +56,10 @@ pub(crate) fn run(args: &LearnArgs) -> Result<(), Failure> {
     let mut answer = question.answer("learn", &found);
     if let Some(folder) = folder.as_mut().filter(|_| taught.is_ok()) {
         add_soil(folder, args, (&question, found.drive.learner()), &mut answer)?;
+    }
+    answer.next.push("grouser replay LOG --rover ROVER --soil SOIL --out REPLAYED".to_owned());
+    if let Some(slide) = slide {
+        slide.write_answer(&answer, &title_of(&question.scenario))?;
     }
     let repeat = repeat(args, &question);
     if args.follow && args.output.format == Format::Json {
@@ -99,6 +106,10 @@ fn add_soil(
     if args.cards {
         Cards::of(args, scenario, &learnt)?.add_to(folder, answer);
     }
+    answer.next = vec![
+        format!("grouser card --rover ROVER --soil {SOIL_FILE} --out CARD --stops STOPS.toml"),
+        format!("grouser heading --rover ROVER --soil {SOIL_FILE} --slope-deg LIST --out HEADINGS"),
+    ];
     folder.add(SOIL_FILE, learnt.soil.to_toml());
     folder.add(SAMPLES_FILE, learnt.samples);
     Ok(())

@@ -4,19 +4,23 @@ mod folder;
 mod gazebo;
 mod picture;
 
-use grouser::answers::Answer;
 use grouser::answers::map::{MadeMap, MapFile, VerdictCounts};
+use grouser::answers::{Answer, PageBlock};
+use grouser::document::columns::map::VERDICT;
 use grouser::studies::mobility::{Ground, MobilityMap};
+use grouser_draw::style::on_both_grounds;
+use grouser_draw::title_of;
 use grouser_map::{BandSummary, Look, MapColumn, keep_out, style, summaries, write_band};
 use rayon::prelude::*;
 
 use self::folder::MapFolder;
-use self::picture::label;
+use self::picture::{Pictures, label};
 use super::sampling;
 use crate::args::MapArgs;
 use crate::failure::Failure;
 use crate::inputs::{self, MapInputs};
 use crate::output::answer::{add_pictures, html, print};
+use crate::output::slide::SlideFile;
 use crate::output::{self, json};
 
 /// The name of the page.
@@ -34,6 +38,7 @@ impl From<grouser_map::MapError> for Failure {
 }
 
 pub(crate) fn run(args: &MapArgs) -> Result<(), Failure> {
+    let slide = SlideFile::of(&args.slide, args.force)?;
     let inputs = inputs::map(args)?;
     let question = inputs.question(args);
     let ground = question.ground;
@@ -56,7 +61,7 @@ pub(crate) fn run(args: &MapArgs) -> Result<(), Failure> {
     let keep_out = if areas.is_ok() { " --keep-out keep-out.geojson" } else { "" };
     answer.next =
         vec![format!("grouser route DEM scenario.toml --from X,Y --to X,Y{keep_out} --out WAY")];
-    finish(args, &inputs, &folder, &answer, (ground, &map), &summed, areas.ok())?;
+    finish(args, &inputs, &folder, &answer, (ground, &map), &summed, (areas.ok(), slide))?;
     print(&answer, args.format)
 }
 
@@ -68,11 +73,22 @@ fn finish(
     answer: &Answer,
     (ground, map): (Ground<'_>, &MobilityMap),
     bands: &[Summed<'_>],
-    areas: Option<String>,
+    (areas, slide): (Option<String>, Option<SlideFile<'_>>),
 ) -> Result<(), Failure> {
+    let says = answer.blocks().find_map(|block| match block {
+        PageBlock::Verdict(text) => Some(text.as_str()),
+        _ => None,
+    });
+    let says = says.unwrap_or(&answer.title);
+
+    let drawn = Pictures::of(inputs, &args.course_deg, (ground, map));
     let mut pictures = Vec::new();
     for &(band, of) in bands {
-        pictures.push((format!("{}.svg", band.name), picture::of((ground, map), band, of)));
+        let picture = drawn.band(band, of);
+        if let Some(slide) = slide.as_ref().filter(|_| band.name == VERDICT) {
+            slide.write(says, &picture, &title_of(&inputs.scenario))?;
+        }
+        pictures.push((format!("{}.svg", band.name), on_both_grounds(&picture)));
     }
     let mut output = folder.output()?;
     output.add(PAGE, html(answer, &repeat(args, inputs), &pictures));

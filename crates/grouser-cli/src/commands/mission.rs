@@ -8,6 +8,7 @@ use grouser::document::columns::TIME;
 use grouser::document::columns::mission::{MissionObject, legs_brief, missions_brief};
 use grouser::document::columns::run;
 use grouser::studies::mission::DrivenMission;
+use grouser_draw::style::on_both_grounds;
 use grouser_draw::{Shown, title_of};
 use serde::Serialize;
 use serde_json::json;
@@ -21,6 +22,7 @@ use crate::failure::Failure;
 use crate::inputs;
 use crate::output::folder::OutputFolder;
 use crate::output::rows::Rows;
+use crate::output::slide::SlideFile;
 use crate::output::text::Text;
 use crate::output::{self, Format};
 use crate::report::REPORT;
@@ -28,6 +30,7 @@ use crate::report::answer::drawing_of_ground;
 
 pub(crate) fn run(args: &MissionArgs) -> Result<(), Failure> {
     let destinations = Destinations::of(&args.run, &args.output)?;
+    let slide = SlideFile::of(&args.slide, args.output.force)?;
     let document = inputs::mission::read(args)?;
     let Destinations { mut folder, animation, log, telemetry } = destinations;
     let missions = document.value.missions();
@@ -42,6 +45,7 @@ pub(crate) fn run(args: &MissionArgs) -> Result<(), Failure> {
         || animation.is_some()
         || log.is_some()
         || telemetry.is_some()
+        || slide.is_some()
         || args.strict.strict;
     let drive = if has_records { DrivenMission::all } else { DrivenMission::all_ends };
     let ways = drive(&missions)?;
@@ -60,6 +64,12 @@ pub(crate) fn run(args: &MissionArgs) -> Result<(), Failure> {
     if let (Some(telemetry), [one]) = (telemetry, &answered.ways[..]) {
         let scenario = &answered.document.value.scenario;
         telemetry.write(scenario, &one.report.trajectory, folder.as_mut())?;
+    }
+    if let (Some(slide), Some(first)) = (slide, answered.ways.first()) {
+        let risk =
+            answered.believed.as_ref().and_then(|it| it.sentences(0, first).into_iter().next());
+        let says = risk.unwrap_or_else(|| sentence(first));
+        slide.write(&says, &answered.path(first), &title_of(&answered.document))?;
     }
     answered.output(args, folder)
 }
@@ -127,7 +137,7 @@ impl Answered {
                 folder.add(format!("legs{end}.csv"), legs);
                 let records = Rows::of_table(&self.records(way)).to_csv()?;
                 folder.add(format!("records{end}.csv"), records);
-                folder.add(format!("path{end}.svg"), self.path(way));
+                folder.add(format!("path{end}.svg"), on_both_grounds(&self.path(way)));
                 let (scenario, run) = (&self.document.value.scenario, &way.report.trajectory);
                 if let Some(drawing) = drawing_of_ground(scenario, &run.records) {
                     folder.add(format!("ground{end}.svg"), drawing);

@@ -3,6 +3,7 @@
 use grouser::answers::Answer;
 use grouser::answers::replay::{ROVER, ReplayQuestion};
 use grouser::studies::replay::{Replay, Replayer};
+use grouser_draw::title_of;
 
 use super::{log, sampling};
 use crate::args::ReplayArgs;
@@ -10,12 +11,14 @@ use crate::failure::Failure;
 use crate::inputs;
 use crate::output::answer::give;
 use crate::output::folder::OutputFolder;
+use crate::output::slide::SlideFile;
 
 pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     let mut folder = OutputFolder::for_args(&args.output)?;
     let (has_folder, may_replace) = (folder.is_some(), args.output.force);
     let target = args.mcap.as_deref().map(|it| log::Target::of(it, has_folder, may_replace));
     let target = target.transpose()?;
+    let slide = SlideFile::of(&args.slide, args.output.force)?;
     let question = inputs::replay(args)?;
     let (replay, notes, share_used) = replay(args, &question)?;
     if let Some(target) = target {
@@ -26,6 +29,9 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     let samples = sampling::flags(question.sampling);
     let repeat = format!("grouser replay log.csv --scenario scenario.toml{slope}{samples}");
     answer.next = next(&answer);
+    if let Some(slide) = slide {
+        slide.write_answer(&answer, &title_of(&question.scenario))?;
+    }
     give(&answer, &repeat, folder, args.output.format)?;
     let label = inputs::telemetry_label(&args.log);
     inputs::check_share_used(&label, share_used, &args.telemetry)

@@ -28,6 +28,7 @@ use crate::failure::Failure;
 use crate::inputs;
 use crate::output::folder::OutputFolder;
 use crate::output::rows::Rows;
+use crate::output::slide::SlideFile;
 use crate::output::text::Text;
 use crate::output::{self, Format};
 use crate::report::REPORT;
@@ -38,6 +39,7 @@ const LINES: usize = 10;
 
 pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
     let destinations = Destinations::of(&args.run, &args.output)?;
+    let slide = SlideFile::of(&args.slide, args.output.force)?;
     let of_one =
         [("--mcap", destinations.log.is_some()), ("--telemetry", destinations.telemetry.is_some())];
     for (flag, is_given) in of_one {
@@ -59,6 +61,10 @@ pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
     }
     if let Some(telemetry) = telemetry {
         telemetry.write(&all[0].scenario.value, &all[0].run, folder.as_mut())?;
+    }
+    if let Some(slide) = slide {
+        let says = page::sentence(&all[0]);
+        slide.write(&says, &chart(&all).sheet(), &title_of(&all[0].scenario))?;
     }
     match &all[..] {
         [one] => one.output(args, folder),

@@ -78,7 +78,7 @@ fn add_to(
     for (name, table) in &answer.tables {
         folder.add(format!("{name}.csv"), Rows::of_table(table).to_csv()?);
     }
-    for block in &answer.page {
+    for block in answer.blocks() {
         if let PageBlock::Figure { figure, file: Some(file), .. } = block {
             folder.add(format!("{file}.svg"), figure.to_svg());
         }
@@ -134,18 +134,27 @@ fn excerpt(table: &Table, columns: &[String], most: usize, what: &str) -> Text {
 pub(crate) fn html(answer: &Answer, repeat: &str, pictures: &Pictures) -> String {
     let mut page = Page::new(&answer.title);
     for block in &answer.page {
-        match block {
-            PageBlock::Verdict(text) => page.answer(text),
-            PageBlock::Heading(text) => page.heading(text),
-            PageBlock::Words(text) => page.paragraph(text),
-            PageBlock::List(items) => page.list(items),
-            PageBlock::Rows { caption, table, columns } => page.rows(caption, table, columns),
-            PageBlock::Figure { figure, caption, .. } => page.drawing(&figure.to_svg(), caption),
-            PageBlock::Charts(charts) => page.charts(charts),
-            PageBlock::Picture { file, caption } => page.drawing(drawn(pictures, file), caption),
-        }
+        add_block(&mut page, block, pictures);
     }
     close(page, answer.findings.as_ref(), &answer.columns, &Basis::of(answer, repeat))
+}
+
+fn add_block(page: &mut Page, block: &PageBlock, pictures: &Pictures) {
+    match block {
+        PageBlock::Verdict(text) => page.answer(text),
+        PageBlock::Heading(text) => page.heading(text),
+        PageBlock::Words(text) => page.paragraph(text),
+        PageBlock::List(items) => page.list(items),
+        PageBlock::Rows { caption, table, columns } => page.rows(caption, table, columns),
+        PageBlock::Figure { figure, caption, .. } => page.drawing(&figure.to_svg(), caption),
+        PageBlock::Charts(charts) => page.charts(charts),
+        PageBlock::Picture { file, caption } => page.drawing(drawn(pictures, file), caption),
+        PageBlock::Folded { title, blocks } => page.folded(title, |page| {
+            for block in blocks {
+                add_block(page, block, pictures);
+            }
+        }),
+    }
 }
 
 /// The SVG of a picture. A command draws every one that the page of its answer names.

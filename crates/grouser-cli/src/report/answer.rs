@@ -9,7 +9,7 @@ use grouser::document::columns::run::{
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{SLOPE, TIME, X, Y};
 use grouser::document::figure::{by_part, by_unit};
-use grouser::document::reading::four_digits;
+use grouser::document::reading::{capitalised, four_digits};
 use grouser::document::table::Table;
 use grouser::document::{Document, Loaded};
 use grouser::simulation::{Record, Scenario};
@@ -62,8 +62,8 @@ impl Basis {
     }
 }
 
-/// Ends a page: what is an extrapolation, what was assumed, what the columns are, and how to have
-/// the answer again.
+/// Ends a page: what is an extrapolation and what to do next; then, for those who unfold it, what
+/// was assumed, what the columns are, and how to have the answer again.
 pub(crate) fn close<'f>(
     mut page: Page,
     findings: Option<impl IntoIterator<Item = &'f Finding>>,
@@ -72,32 +72,35 @@ pub(crate) fn close<'f>(
 ) -> String {
     let has_documents = !basis.documents.is_empty();
     page.flags(findings);
-    if has_documents {
-        page.heading("Assumptions in force");
-        if basis.assumptions.is_empty() {
-            page.paragraph("No number of the inputs is marked as assumed.");
-        } else {
-            page.list(&basis.assumptions);
-        }
-    }
-    page.heading("What the columns are");
-    let header = ["column", "unit", "what it is"].map(str::to_owned);
-    let cells = meanings.iter().map(|it| [&*it.name, it.unit, it.doc].map(str::to_owned).into());
-    page.grid("Columns of the tables and files", &header, &cells.collect::<Vec<_>>());
-    page.heading("To have it again");
-    page.paragraph("In the folder of this page:");
-    page.code(&basis.repeat);
-    if has_documents {
-        page.paragraph(
-            "The inputs are complete in the files beside this page. The same version gives the \
-             same numbers to the last digit.",
-        );
-    }
     add_next(&mut page, &basis.next);
+    if has_documents {
+        page.folded("Assumptions in force", |page| {
+            if basis.assumptions.is_empty() {
+                page.paragraph("No number of the inputs is marked as assumed.");
+            } else {
+                page.list(&basis.assumptions);
+            }
+        });
+    }
+    page.folded("What the columns are", |page| {
+        let header = ["column", "unit", "what it is"].map(str::to_owned);
+        let cells =
+            meanings.iter().map(|it| [&*it.name, it.unit, it.doc].map(str::to_owned).into());
+        page.grid("Columns of the tables and files", &header, &cells.collect::<Vec<_>>());
+    });
+    page.folded("To have it again", |page| {
+        page.paragraph("In the folder of this page:");
+        page.code(&basis.repeat);
+        if has_documents {
+            page.paragraph(
+                "The inputs are complete in the files beside this page. The same version gives \
+                 the same numbers to the last digit.",
+            );
+        }
+    });
     for (name, text) in &basis.documents {
         page.document(name, text);
     }
-    page.paragraph(&format!("Made by grouser {}.", env!("CARGO_PKG_VERSION")));
     page.to_html()
 }
 
@@ -158,11 +161,37 @@ pub(crate) fn over_ground(page: &mut Page, scenario: &Scenario, records: &[Recor
     }
 }
 
-/// Every channel of a run over time.
+/// Every channel of a run over time, folded.
 ///
+/// * `name`: of the run among several; empty where it is alone
 /// * `table`: a row for each record
-pub(crate) fn over_time(page: &mut Page, table: &Table, scenario: &Scenario) {
-    page.heading("The rover over time");
+pub(crate) fn over_time(page: &mut Page, name: &str, table: &Table, scenario: &Scenario) {
+    const ENVELOPE: &str = "Where a number changes faster than can be drawn, the shade is between \
+        its least and its largest, and the line is its mean.";
+    page.folded(&title_of_part(name, "the rover over time"), |page| {
+        page.paragraph(ENVELOPE);
+        rover_over_time(page, table, scenario);
+    });
+    page.folded(&title_of_part(name, "each wheel over time"), |page| {
+        page.paragraph(ENVELOPE);
+        let mounts = scenario.rover.mounts().iter();
+        let wheels: Vec<(String, String)> =
+            mounts.map(|mount| (format!("{}.", mount.name), mount.name.clone())).collect();
+        page.charts(&by_part(table, TIME, &wheels, &WHEEL_RECORD));
+        page.charts(&by_part(table, TIME, &wheels, &WHEEL));
+        page.charts(&by_part(table, TIME, &wheels, &ELECTRICAL));
+        page.charts(&by_part(table, TIME, &wheels, &STEERING_RECORD));
+    });
+}
+
+/// The title of a part of a page about a run.
+///
+/// * `name`: of the run among several; empty where it is alone
+pub(crate) fn title_of_part(name: &str, part: &str) -> String {
+    if name.is_empty() { capitalised(part) } else { format!("{name}: {part}") }
+}
+
+fn rover_over_time(page: &mut Page, table: &Table, scenario: &Scenario) {
     if scenario.ground.is_plane() {
         page.charts(&by_unit(table, TIME, &RECORD));
     } else {
@@ -179,12 +208,4 @@ pub(crate) fn over_time(page: &mut Page, table: &Table, scenario: &Scenario) {
         page.charts(&by_unit(table, TIME, &others.collect::<Vec<_>>()));
     }
     page.charts(&by_unit(table, TIME, &ELECTRICAL_RECORD));
-    page.heading("Each wheel over time");
-    let mounts = scenario.rover.mounts().iter();
-    let wheels: Vec<(String, String)> =
-        mounts.map(|mount| (format!("{}.", mount.name), mount.name.clone())).collect();
-    page.charts(&by_part(table, TIME, &wheels, &WHEEL_RECORD));
-    page.charts(&by_part(table, TIME, &wheels, &WHEEL));
-    page.charts(&by_part(table, TIME, &wheels, &ELECTRICAL));
-    page.charts(&by_part(table, TIME, &wheels, &STEERING_RECORD));
 }

@@ -23,11 +23,29 @@ pub(crate) const GENERATOR: &str = "<meta name=\"generator\" content=\"Grouser";
 pub(crate) struct Page {
     title: String,
     body: String,
+    /// What stands after all else.
+    rest: String,
 }
 
 impl Page {
     pub(crate) fn new(title: &str) -> Self {
-        Self { title: title.to_owned(), body: format!("<h1>{}</h1>\n", escaped(title)) }
+        let body = format!("<h1>{}</h1>\n", escaped(title));
+        Self { title: title.to_owned(), body, rest: String::new() }
+    }
+
+    /// A section after all else, which a reader unfolds, and which is printed only then.
+    ///
+    /// * `add`: what it has
+    pub(crate) fn folded(&mut self, title: &str, add: impl FnOnce(&mut Self)) {
+        let before = std::mem::take(&mut self.body);
+        add(self);
+        let section = std::mem::replace(&mut self.body, before);
+        let title = escaped(title);
+        // Writing to a string does not fail.
+        let _ = write!(
+            self.rest,
+            "<details class=\"rest\"><summary>{title}</summary>\n{section}</details>\n"
+        );
     }
 
     /// A section's heading.
@@ -59,17 +77,21 @@ impl Page {
         self.heading("Validity");
         let Some(findings) = findings else {
             return self.paragraph(
-                "This answer does not check whether results are outside the stated domain of the \
-                 model or the soil.",
+                "Not checked: whether results are outside the stated domain of the model or the \
+                 soil.",
             );
         };
         let mut flags: Vec<Flag> = findings.into_iter().map(|finding| finding.flag).collect();
         flags.sort();
         flags.dedup();
         if flags.is_empty() {
-            self.paragraph("No result on the soil as written is outside the stated domains.");
+            self.paragraph(
+                "Checked on the soil as written: no result is outside the stated domains.",
+            );
         } else {
-            self.paragraph("Some results on the soil as written are extrapolations. Their flags:");
+            self.paragraph(
+                "Checked on the soil as written: some results are extrapolations. Their flags:",
+            );
             self.list(flags.iter().map(|flag| format!("{}: {}", flag.name(), flag.rule().meaning)));
         }
     }
@@ -79,12 +101,9 @@ impl Page {
         self.push(&format!("<pre tabindex=\"0\">{}</pre>\n", escaped(text)));
     }
 
-    /// A document that is shown when a reader asks for it.
+    /// A document after all else, which a reader unfolds.
     pub(crate) fn document(&mut self, name: &str, text: &str) {
-        let (name, text) = (escaped(name), escaped(text));
-        self.push(&format!(
-            "<details><summary>{name}</summary><pre tabindex=\"0\">{text}</pre></details>\n"
-        ));
+        self.folded(name, |page| page.code(text));
     }
 
     /// Some columns of a table of results, for reading.
@@ -199,11 +218,13 @@ impl Page {
             "<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              {GENERATOR} {}\">\n\
-             <title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n{}</main>\n</body>\n</html>\n",
+             <title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n{}{}<p class=\"made\">Made by grouser {}.</p>\n</main>\n</body>\n</html>\n",
             env!("CARGO_PKG_VERSION"),
             escaped(&self.title),
             include_str!("report.css"),
-            self.body
+            self.body,
+            self.rest,
+            env!("CARGO_PKG_VERSION")
         );
         html
     }

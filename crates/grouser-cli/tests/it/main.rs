@@ -29,6 +29,7 @@ mod routes;
 mod routes_hostile;
 mod scrambled;
 mod simulated;
+mod slides;
 mod slip_from_current;
 mod soil_zones;
 mod telemetry;

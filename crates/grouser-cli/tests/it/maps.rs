@@ -121,6 +121,22 @@ fn a_map_has_its_bands_styles_and_page() {
     }
     let page = place.read("map/map.html");
     assert_eq!(page.matches("<svg").count(), 9, "a picture of each band");
+    assert_eq!(page.matches("<image ").count(), 9, "each is one picture of pixels");
+    // The verdict, then why, then what to do; the rest is folded.
+    let (seen, folded) = page.split_once("<details").expect("folded parts");
+    assert_eq!((seen.matches("<svg").count(), folded.matches("<svg").count()), (2, 7));
+    let order = ["Whether to drive there", "Slope of the ground", "What to do next"];
+    let places = order.map(|words| seen.find(words).unwrap_or_else(|| panic!("{words}")));
+    assert!(places.is_sorted(), "{places:?}");
+    let verdict = place.read("map/verdict.svg");
+    for words in ["HAKUTO", "the best course of each place", ">N</text>", ">2 m</text>"] {
+        assert!(verdict.contains(words), "{words}: {verdict}");
+    }
+    assert!(place.read("map/slope_deg.svg").contains(">15 to 20°</text>"));
+    for directions in ["heading_deg", "course_deg"] {
+        let arrows = place.read(&format!("map/{directions}.svg"));
+        assert!(arrows.contains("an arrow: the cell in the middle of"), "{directions}");
+    }
     assert!(!place.names().iter().any(|name| name.contains("in-the-making")));
 }
 

@@ -45,6 +45,31 @@ fn every_folder_has_one_page_that_needs_nothing_from_outside() {
     }
 }
 
+/// The verdict first, then why and what to do; every channel over time is folded, and on paper what
+/// is folded is left out.
+#[test]
+fn a_page_folds_what_nobody_asked_for() {
+    let place = Place::new();
+    let line = "mission there-and-back --simulation quasi-steady --samples 4";
+    place.results(&format!("{line} --out out"));
+    let html = place.read("out/report.html");
+    let (seen, folded) = html.split_once("<details").expect("folded parts");
+    let order = [
+        "samples of soil and model",
+        "The worst: Leg",
+        "The path from above",
+        "Validity",
+        "What to do next",
+    ];
+    let places = order.map(|words| seen.find(words).unwrap_or_else(|| panic!("{words}")));
+    assert!(places.is_sorted(), "{places:?}");
+    assert_eq!(seen.matches("<svg").count(), 1, "the path");
+    for title in ["The rover over time", "Each wheel over time", "To have it again"] {
+        assert!(folded.contains(&format!("<summary>{title}</summary>")), "{title}");
+    }
+    assert!(html.contains(".rest:not([open]) { display: none; }"));
+}
+
 /// A document's path is the caller's own affair: a page that goes to others does not name it.
 #[test]
 fn no_page_names_a_place_of_the_machine() {

@@ -1,6 +1,7 @@
 //! Series within their axes.
 
 use super::axis::{Axis, is_drawn, range};
+use super::envelope::{Part, parts};
 use super::frame::{Frame, colour, text};
 use super::{Chart, Series, Style};
 use crate::sheet::{Anchor, Colour, Place, Shape, Sheet, Stroke};
@@ -104,7 +105,16 @@ impl Panel<'_> {
             if let [only] = piece[..] {
                 sheet.draw(Shape::circle(only, stroke.width, ink(series)));
             }
-            sheet.draw(Shape::line(piece, stroke));
+            for part in parts(&piece) {
+                match part {
+                    Part::Line(places) => sheet.draw(Shape::line(places, stroke)),
+                    Part::Envelope { low, high, mean } => {
+                        let around = low.into_iter().chain(high.into_iter().rev());
+                        sheet.draw(Shape::area(around, ink(series).opacity(BAND)));
+                        sheet.draw(Shape::line(mean, stroke));
+                    }
+                }
+            }
         }
     }
 

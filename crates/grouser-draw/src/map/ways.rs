@@ -4,6 +4,7 @@ use grouser_core::terrain::ElevationGrid;
 use grouser_core::units::Vec2;
 use grouser_io::escape;
 
+use super::light::{light, lit};
 use super::{CORNER, LETTERS, Window, text};
 use crate::sheet::{Cells, Colour, Face, Shape, Sheet, Stroke, Text, wrap};
 use crate::style::{Ground, Role, on_both_grounds, series};
@@ -19,10 +20,8 @@ pub struct Track<'a> {
 
 /// Cells along the longer side, at most.
 const CELLS: usize = 240;
-/// Shades of grey, from ground in its own shadow to ground that faces the light.
-const SHADES: f64 = 24.0;
-/// Where the light comes from: a unit vector to the north-west, 30° above the horizon.
-const LIGHT: [f64; 3] = [-0.612_372_435_695_794_5, 0.612_372_435_695_794_5, 0.5];
+/// Ground that is level.
+const GROUND: Colour = Colour::grey(0.62);
 
 /// The part of a map about some ways in the light of a low Sun, and the ways, as a stand-alone SVG
 /// document.
@@ -36,8 +35,9 @@ pub fn ways_over_ground(
     tracks: &[Track<'_>],
 ) -> String {
     let window = about(grid, tracks);
-    let mut sheet = window.sheet(title, [window.south_west, window.north_east]);
-    let shades = window.places().map(|[column, row]| gradient(column, row).map(shade));
+    let mut sheet = window.sheet(title, "", [window.south_west, window.north_east]);
+    let shades =
+        window.places().map(|[column, row]| gradient(column, row).map(|it| lit(GROUND, light(it))));
     sheet.cells(Cells::new(CORNER, window.size(), window.cells()[0], shades));
     for (place, track) in tracks.iter().enumerate().rev() {
         draw_track(&mut sheet, &window, track, colour_of(place));
@@ -118,13 +118,4 @@ fn names(sheet: &mut Sheet, window: &Window, tracks: &[Track<'_>]) {
         }
         y += 1.2;
     }
-}
-
-/// The grey of ground with a gradient: how much of the light meets it.
-fn shade(gradient: Vec2) -> Colour {
-    let [east, north, up] = LIGHT;
-    let across = (1.0 + gradient.norm_squared()).sqrt();
-    let light = (up - east * gradient.x - north * gradient.y) / across;
-    let place = (light.max(0.0) * SHADES).floor().min(SHADES - 1.0);
-    Colour::grey((30.0 + (place * 220.0 / SHADES).floor()) / 255.0)
 }

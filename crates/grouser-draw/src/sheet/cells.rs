@@ -39,6 +39,14 @@ impl Cells {
         self.colours.len() / self.columns
     }
 
+    /// Whether documents have it as one picture of pixels, and not as shapes: shapes in such a number are
+    /// slow to draw, and viewers leave seams between them.
+    pub(crate) fn is_picture(&self) -> bool {
+        /// Shapes, at most.
+        const SHAPES: usize = 4096;
+        self.colours.len() > SHAPES
+    }
+
     /// Width and height of a cell [mm].
     pub(crate) fn cell(&self) -> [f64; 2] {
         [self.size[0] / self.columns as f64, self.size[1] / self.rows().max(1) as f64]

@@ -141,10 +141,11 @@ impl HeadingQuestion {
         ]);
         self.figures(answer, all);
         answer.rows("On each slope", rows, columns);
-        answer.heading("Everything over the slope");
-        answer.charts(match all {
-            [one] => by_unit(&one.dense(), SLOPE, &held()),
-            several => figures::of_models(several),
+        answer.folded("Everything over the slope", |answer| {
+            answer.charts(match all {
+                [one] => by_unit(&one.dense(), SLOPE, &held()),
+                several => figures::of_models(several),
+            });
         });
         let slopes = self.slopes();
         let findings = all.iter().flat_map(|it| heading::findings(&it.curve, &slopes));

@@ -134,8 +134,7 @@ impl ReplayQuestion {
             ("At the attitude and wheel speeds that were read", Prediction::Prescribed),
             ("Run freely from the first pose", Prediction::FreeRun),
         ] {
-            answer.heading(title);
-            answer.charts(found.charts(prediction));
+            answer.folded(title, |answer| answer.charts(found.charts(prediction)));
         }
         let first = |it: &Channel| *it == it.of_first_wheel();
         let channels = Channel::all(found.rover.wheel_count()).into_iter().filter(first);

@@ -21,6 +21,7 @@ use crate::inputs;
 use crate::output;
 use crate::output::folder::OutputFolder;
 use crate::output::text::Text;
+use crate::report::answer::add_next;
 use crate::report::page::Page;
 
 pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
@@ -134,6 +135,7 @@ fn add_page(folder: &mut OutputFolder, problem: &BevameterProblem, found: &Bevam
         folder.add("figures/shear.svg", chart);
     }
     report::add_posterior(folder, &mut page, solved);
+    add_next(&mut page, &report::next()[..2]);
     folder.add("report.html", page.to_html());
 }
 

@@ -22,6 +22,7 @@ use crate::output::folder::OutputFolder;
 use crate::output::rows::{Rows, aligned};
 use crate::output::text::Text;
 use crate::output::{self, Format};
+use crate::report::answer::add_next;
 use crate::report::page::Page;
 
 /// Points of all scatters in a corner plot together, and of one.
@@ -230,9 +231,28 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
         folder.add(format!("figures/{}.svg", figure.file), svg);
     }
     add_posterior(folder, &mut page, &found.solved);
-    page.heading("Correlations");
-    page.text(&(Text::from("of each pair of fitted keys") + correlations(&found.solved)));
-    page.heading("How it was made");
+    add_next(&mut page, &next());
+    page.folded("Correlations", |page| {
+        page.text(&(Text::from("of each pair of fitted keys") + correlations(&found.solved)));
+    });
+    page.folded("How it was made", |page| how_it_was_made(page, problem));
+    page.folded("Assumptions in force", |page| {
+        page.list(problem.stand.soil.assumptions.iter().chain(&problem.stand.wheel.assumptions));
+    });
+    folder.add("report.html", page.to_html());
+}
+
+/// The commands to go on with.
+pub(super) fn next() -> [String; 3] {
+    [
+        "grouser heading --rover ROVER --soil soil.toml --slope-deg LIST --out HEADINGS",
+        "grouser card --rover ROVER --soil soil.toml --out CARD",
+        "grouser validate --data OTHER-TESTS.csv --wheel WHEEL --soil soil.toml --out VALIDATED",
+    ]
+    .map(str::to_owned)
+}
+
+fn how_it_was_made(page: &mut Page, problem: &Problem) {
     page.paragraph(
         "Bounded least squares from several starts; then an affine-invariant ensemble sampler with \
          priors uniform within the bounds (by the logarithm where a number spans decades). An \
@@ -249,9 +269,6 @@ pub(super) fn add(folder: &mut OutputFolder, problem: &Problem, found: &WheelFou
         "All inputs are in calibration.json, the documents of the start in start-soil.toml and \
          wheel.toml.",
     );
-    page.heading("Assumptions in force");
-    page.list(problem.stand.soil.assumptions.iter().chain(&problem.stand.wheel.assumptions));
-    folder.add("report.html", page.to_html());
 }
 
 /// The fitted values in a sentence, each with the interval that holds 95 % of its posterior.

@@ -6,7 +6,7 @@ use grouser::document::reading::{capitalised, four_digits, metres};
 use grouser::document::table::Table;
 use grouser::document::{LoadedMission, escape};
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
-use grouser_draw::path_of;
+use grouser_draw::{Sheet, path_of};
 
 use super::believed::Believed;
 
@@ -33,7 +33,7 @@ impl Answered {
     }
 
     /// The path from above.
-    pub(super) fn path(&self, way: &DrivenMission) -> String {
+    pub(super) fn path(&self, way: &DrivenMission) -> Sheet {
         let title = if self.document.value.scenario.ground.is_plane() {
             "Path on the slope"
         } else {

@@ -8,7 +8,7 @@ use grouser::document::reading::four_digits;
 use grouser::mission::Mission;
 use grouser::studies::completion::Completion;
 use grouser::studies::ensemble::samples::BandInputs;
-use grouser::studies::mission::DrivenMission;
+use grouser::studies::mission::{DrivenLeg, DrivenMission};
 use grouser::studies::verdict::{Advice, Rule, SlopeStudy};
 use serde_json::Value;
 
@@ -62,20 +62,37 @@ impl Believed {
     /// The same in sentences: the whole first, then each leg that has advice.
     pub(super) fn sentences(&self, place: usize, way: &DrivenMission) -> Vec<String> {
         let (risk, advice) = self.way(place);
-        let mut all = vec![in_words(risk, "")];
-        for (leg, advice) in way.legs.iter().zip(advice) {
-            let Some(advice) = advice else { continue };
-            let slope = four_digits(SLOPE.unit.from_si(advice.slope));
-            let course = four_digits(SLOPE.unit.from_si(advice.course));
-            let nose = advice
-                .heading()
-                .map_or_else(String::new, |yaw| format!("nose at {:.1}°; ", YAW.unit.from_si(yaw)));
-            all.push(format!(
-                "Leg {} (slope {slope}°, course {course}°): {nose}{}.",
-                leg.number,
-                advice.judgement.sentence()
-            ));
-        }
-        all
+        let legs = way.legs.iter().zip(advice);
+        let legs = legs.filter_map(|(leg, advice)| Some(of_leg(leg, advice.as_ref()?)));
+        [in_words(risk, "")].into_iter().chain(legs).collect()
     }
+
+    /// The leg with the worst verdict, and of several the one on which the rover most often gets
+    /// stuck: nothing where there is one leg, or none with advice.
+    pub(super) fn worst(&self, place: usize, way: &DrivenMission) -> Option<String> {
+        let (_, advice) = self.way(place);
+        let legs = way.legs.iter().zip(advice).filter_map(|(leg, it)| Some((leg, it.as_ref()?)));
+        // Of two that are as bad it is the first.
+        let (leg, advice) = legs.reduce(|worst, leg| {
+            let of = |(_, advice): &(&DrivenLeg, &Advice)| {
+                (advice.judgement.verdict, advice.probability_stuck().unwrap_or(0.0))
+            };
+            if of(&leg) > of(&worst) { leg } else { worst }
+        })?;
+        (way.legs.len() > 1).then(|| format!("The worst: {}", of_leg(leg, advice)))
+    }
+}
+
+/// What to do on a leg.
+fn of_leg(leg: &DrivenLeg, advice: &Advice) -> String {
+    let slope = four_digits(SLOPE.unit.from_si(advice.slope));
+    let course = four_digits(SLOPE.unit.from_si(advice.course));
+    let nose = advice
+        .heading()
+        .map_or_else(String::new, |yaw| format!("nose at {:.1}°; ", YAW.unit.from_si(yaw)));
+    format!(
+        "Leg {} (slope {slope}°, course {course}°): {nose}{}.",
+        leg.number,
+        advice.judgement.sentence()
+    )
 }

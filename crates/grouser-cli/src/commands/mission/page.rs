@@ -1,5 +1,5 @@
-//! The page of a mission: where the rover ended up, its path, the verdict on each leg, and every
-//! channel over time.
+//! The page of a mission: what it risks, its worst leg and the verdict on each, its path and what
+//! became of its legs; folded, every channel over time.
 
 use grouser::answers::meanings;
 use grouser::document::columns::ENERGY;
@@ -12,6 +12,7 @@ use grouser::document::columns::verdict::ADVICE;
 use grouser::document::figure::axis;
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
 use grouser_draw::chart::{Bars, Drawable};
+use grouser_draw::style::on_both_grounds;
 
 use super::answered::{Answered, reasons, sentence};
 use crate::commands::sampling;
@@ -26,6 +27,9 @@ pub(super) fn html(answered: &Answered) -> String {
         let mut believed = believed.into_iter().flatten();
         if let Some(risk) = believed.next() {
             page.answer(&format!("{name}{risk}"));
+            if let Some(worst) = answered.believed.as_ref().and_then(|it| it.worst(place, way)) {
+                page.answer(&format!("{name}{worst}"));
+            }
             let legs: Vec<String> = believed.collect();
             page.list(&legs);
         }
@@ -80,9 +84,8 @@ fn of_way(page: &mut Page, answered: &Answered, way: &DrivenMission) {
         page.heading(&way.name);
     }
     let scenario = &answered.document.value.scenario;
-    over_ground(page, scenario, &way.report.trajectory.records);
     page.drawing(
-        &answered.path(way),
+        &on_both_grounds(&answered.path(way)),
         "The path from above, to scale, uphill or north at the top, a colour for each leg. The \
          rover is drawn at the start, in grey, and where each leg ended, with its number; a cross \
          marks a leg that did not end as it says.",
@@ -93,8 +96,15 @@ fn of_way(page: &mut Page, answered: &Answered, way: &DrivenMission) {
     if !reasons.is_empty() {
         page.list(reasons.lines());
     }
-    page.drawing(&energy(way), "Work of the motors in each leg, with the turn before it.");
-    over_time(page, &answered.records(way), &answered.document.value.scenario);
+    if !scenario.ground.is_plane() {
+        page.folded(&answer::title_of_part(&way.name, "the ground and the way over it"), |page| {
+            over_ground(page, scenario, &way.report.trajectory.records);
+        });
+    }
+    page.folded(&answer::title_of_part(&way.name, "the work of each leg"), |page| {
+        page.drawing(&energy(way), "Work of the motors in each leg, with the turn before it.");
+    });
+    over_time(page, &way.name, &answered.records(way), scenario);
 }
 
 fn what_was_driven(answered: &Answered) -> Vec<String> {

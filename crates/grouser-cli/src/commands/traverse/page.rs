@@ -49,7 +49,7 @@ pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {
 }
 
 /// Where a rover ended up, and what that took.
-fn sentence(of: &OfModel) -> String {
+pub(super) fn sentence(of: &OfModel) -> String {
     let run = &of.run;
     let (end, drive) = (run.last(), Drive::of(run, &of.scenario.value));
     let yaw = four_digits(YAW.unit.from_si(end.state.yaw));
@@ -105,7 +105,7 @@ fn channels(page: &mut Page, of: &OfModel) {
         let columns = TIME_BAND[1..].iter().chain(&STANDING_BAND);
         page.charts(&columns.filter_map(|column| band(&table, column)).collect::<Vec<_>>());
     }
-    over_time(page, &table, &of.scenario.value);
+    over_time(page, "", &table, &of.scenario.value);
 }
 
 /// What becomes of the samples that ended early, and when bands are over fewer samples from then
@@ -141,7 +141,6 @@ fn of_models(page: &mut Page, all: &[OfModel]) {
     let mut names = vec![MODEL.to_owned()];
     names.extend(run::summary_brief());
     page.rows("The end and the means, by model", &summaries, &names);
-    page.heading("Over time, by model");
     let tables: Vec<(&str, Table)> = all
         .iter()
         .map(|it| (it.name(), run::brief(&it.run, &it.scenario.value, it.run.records.len() - 1)))
@@ -154,12 +153,23 @@ fn of_models(page: &mut Page, all: &[OfModel]) {
         let axes = (axis(TIME), axis(quantity));
         Chart::new(capitalised(&quantity.label()), axes, series.collect())
     };
-    page.charts(&[X, Y, YAW, SLIP_RATIO, SINKAGE].map(of));
+    page.folded("Over time, by model", |page| {
+        page.charts(&[X, Y, YAW, SLIP_RATIO, SINKAGE].map(of));
+    });
 }
 
 fn basis(args: &TraverseArgs, all: &[OfModel]) -> Basis {
     let model = if all.len() > 1 { format!(" --model {EVERY_MODEL}") } else { String::new() };
     let samples = sampling::flags(args.uncertainty.sampling());
     let repeat = format!("grouser traverse scenario.toml{model}{samples}");
-    Basis::new(repeat).with("scenario.toml", &all[0].scenario)
+    let next = [
+        "grouser heading scenario.toml --slope-deg LIST --out HEADINGS",
+        "grouser traverse scenario.toml --uncertainty --out WITH-BANDS",
+        "grouser traverse scenario.toml --animate drive.html",
+    ];
+    // Bands that are there need not be asked for.
+    let next =
+        next.into_iter().filter(|line| samples.is_empty() || !line.contains("--uncertainty"));
+    let next: Vec<&str> = next.collect();
+    Basis::new(repeat).followed_by(&next).with("scenario.toml", &all[0].scenario)
 }

@@ -47,20 +47,22 @@ impl ForecastQuestion<'_> {
         answer.rows(caption, &tables.rows, tables.shares_brief.clone());
         answer.heading("What would shrink it");
         answer.list(remedies(forecast));
-        answer.heading("What each choice would mean");
-        let caption = "Means of the cases of each choice";
-        answer.rows(caption, &tables.choices, columns::choices_brief());
+        answer.folded("What each choice would mean", |answer| {
+            let caption = "Means of the cases of each choice";
+            answer.rows(caption, &tables.choices, columns::choices_brief());
+        });
         if tables.tests.rows() > 0 {
-            answer.heading("What tests would show");
-            answer.words(
-                "The same rover on the soil, and under the gravity, that was measured: as heavy as \
-                 it is (equal-mass), and lightened until it weighs there what it weighs at the \
-                 site (equal-weight). By granular scaling the first is the forecast. The second is \
-                 a test of another machine: compare its slip with the forecast's before trusting \
-                 one.",
-            );
-            let names = tables.tests.names();
-            answer.rows("Tests where the soil was measured", &tables.tests, names);
+            answer.folded("What tests would show", |answer| {
+                answer.words(
+                    "The same rover on the soil, and under the gravity, that was measured: as \
+                     heavy as it is (equal-mass), and lightened until it weighs there what it \
+                     weighs at the site (equal-weight). By granular scaling the first is the \
+                     forecast. The second is a test of another machine: compare its slip with the \
+                     forecast's before trusting one.",
+                );
+                let names = tables.tests.names();
+                answer.rows("Tests where the soil was measured", &tables.tests, names);
+            });
         }
         let slopes = forecast.grounds.iter().flat_map(|ground| &ground.slopes);
         let findings = slopes.flat_map(|slope| slope.findings.iter().copied());

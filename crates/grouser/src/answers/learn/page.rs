@@ -28,14 +28,16 @@ impl LearnQuestion {
         if let Some(advice) = &tables.advice {
             advice.add_to(answer);
         }
-        answer.heading("What each stretch taught");
-        let lessons = &tables.lessons;
-        answer.charts(vec![figures::over_way(lessons), figures::information(lessons)]);
+        answer.folded("What each stretch taught", |answer| {
+            let lessons = &tables.lessons;
+            answer.charts(vec![figures::over_way(lessons), figures::information(lessons)]);
+        });
         if let Some(slips) = &tables.slips {
-            answer.heading("Slip from currents beside slip that was seen");
-            let caption = "Slip from currents, wheel by wheel, beside that seen";
-            answer.rows(caption, &slips.wheels, slips.wheels.names());
-            answer.charts(figures::slips(&self.scenario.value.rover, &slips.rows));
+            answer.folded("Slip from currents beside slip that was seen", |answer| {
+                let caption = "Slip from currents, wheel by wheel, beside that seen";
+                answer.rows(caption, &slips.wheels, slips.wheels.names());
+                answer.charts(figures::slips(&self.scenario.value.rover, &slips.rows));
+            });
         }
         answer.columns = meanings(&PREDICTION_COLUMNS);
         answer.columns.extend(meanings(&LESSON_COLUMNS));

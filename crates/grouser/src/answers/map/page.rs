@@ -7,8 +7,8 @@ use serde_json::Value;
 use super::super::{Answer, PageBlock, meanings};
 use super::files::MapFile;
 use super::question::MapQuestion;
-use crate::document::columns::map::{HEADING, bands};
-use crate::document::columns::{POWER, SINKAGE, SLIP_RATIO};
+use crate::document::columns::map::{HEADING, VERDICT, bands};
+use crate::document::columns::{POWER, SINKAGE, SLIP_RATIO, SLOPE};
 use crate::document::reading::four_digits;
 use crate::document::table::Table;
 use crate::studies::mobility::CourseChoice;
@@ -27,23 +27,35 @@ impl MapQuestion<'_> {
         verdict: String,
     ) {
         answer.verdict(verdict);
-        answer.words(self.of_course());
-        for MapFile { name, about, .. } in files {
-            let (file, caption) = (format!("{name}.svg"), format!("{about}. Empty: no number."));
-            answer.page.push(PageBlock::Picture { file, caption });
-        }
+        let document = &self.scenario.document;
+        answer.list([
+            format!("rover: {}", document.name_of("rover")),
+            format!("soil: {}", document.name_of("soil")),
+            self.of_course(),
+        ]);
+        let of = |name: &str| files.iter().find(|file| file.name == name);
+        [VERDICT, SLOPE.name].into_iter().filter_map(of).for_each(|file| picture(answer, file));
         answer.heading("What to do on each slope");
         answer.words(
             "A place has the verdict of the slope above its own; the operator's card of the \
                       same rover and soil says the same of it.",
         );
         answer.rows("Advice for each class of slopes", advice, advice.names());
-        answer.heading("How exact the map is");
+        answer.folded("The other numbers of each place", |answer| {
+            let others = files.iter().filter(|file| ![VERDICT, SLOPE.name].contains(&file.name));
+            others.for_each(|file| picture(answer, file));
+        });
+        answer.folded("How exact the map is", |answer| answer.words(self.exactness(errors)));
+        answer.columns = meanings(&bands());
+    }
+
+    /// How far numbers of the map may be from those of the heading on the same slope.
+    fn exactness(&self, errors: &Value) -> String {
         let error = |name: &str| {
             errors.get(name).and_then(Value::as_f64).map_or_else(String::new, four_digits)
         };
         let [east, north] = self.ground.slope_length();
-        answer.words(format!(
+        format!(
             "Slopes are taken over {} m to the east and {} m to the north. Numbers are read from a \
              table over slope, which is within {}° of the heading, {} of the slip ratio, {} W and \
              {} mm of what the search for the heading finds on the same slope. What a map cannot \
@@ -54,8 +66,7 @@ impl MapQuestion<'_> {
             error(SLIP_RATIO.name),
             error(POWER.name),
             error(SINKAGE.name),
-        ));
-        answer.columns = meanings(&bands());
+        )
     }
 
     /// Which course each place has.
@@ -79,4 +90,10 @@ impl MapQuestion<'_> {
             ),
         }
     }
+}
+
+/// The picture of a band.
+fn picture(answer: &mut Answer, MapFile { name, about, .. }: &MapFile) {
+    let caption = format!("{about}. Grey: no number; empty: no height.");
+    answer.page.push(PageBlock::Picture { file: format!("{name}.svg"), caption });
 }

@@ -112,6 +112,20 @@ impl MobilityMap {
     }
 }
 
+impl CellMotion {
+    /// Where the rover goes [rad]: from the map's x axis to the left, of the horizontal projection;
+    /// none on level ground, which has no contour, and where no heading holds the course.
+    ///
+    /// * `gradient`: of the place [m/m]
+    #[must_use]
+    pub fn travel(&self, gradient: Vec2) -> Option<f64> {
+        self.motion.filter(|_| is_inclined(gradient)).map(|_| {
+            let along = atan2(-gradient.x, gradient.y);
+            projected(along, self.slope, self.course)
+        })
+    }
+}
+
 /// Whether there is a contour.
 pub(super) fn is_inclined(gradient: Vec2) -> bool {
     /// Slope that rounding may leave on level ground [m/m].

@@ -41,10 +41,12 @@ pub(super) fn html(
     for figure in figures {
         page.drawing(&figure.chart.to_svg(), &figure.caption);
     }
-    page.heading("Assumptions in force");
-    page.list(campaign.assumptions());
-    page.heading("The study");
-    page.code(results.study());
+    // Typed where the campaign's folder is: a summary knows no way to it.
+    page.heading("What to do next");
+    page.paragraph("With the campaign's folder, and a run's number, in place of the capitals:");
+    page.code("grouser campaign rerun CAMPAIGN RUN\ngrouser campaign cost STUDY.toml");
+    page.folded("Assumptions in force", |page| page.list(campaign.assumptions()));
+    page.folded("The study", |page| page.code(results.study()));
     page.to_html()
 }
 

@@ -1,0 +1,124 @@
+//! An answer as a slide: the file of `--slide`.
+
+use std::ffi::OsString;
+use std::path::Path;
+
+use grouser::answers::{Answer, PageBlock};
+use grouser::document::escape;
+use grouser::document::reading::sentence;
+use grouser_draw::chart::Drawable as _;
+use grouser_draw::{Sheet, Slide};
+
+use super::file;
+use crate::args::SlideArgs;
+use crate::failure::Failure;
+
+/// Forms of a slide, by what the file's name ends in.
+const FORMS: [(&str, fn(&Sheet) -> Vec<u8>); 3] =
+    [("svg", |sheet| sheet.to_svg().into_bytes()), ("png", Sheet::to_png), ("pdf", Sheet::to_pdf)];
+
+/// A file that a slide is to be written to.
+pub(crate) struct SlideFile<'a> {
+    file: &'a Path,
+    write: fn(&Sheet) -> Vec<u8>,
+}
+
+impl<'a> SlideFile<'a> {
+    /// The file that is asked for, if one is: checked before anything is computed.
+    ///
+    /// * `may_replace`: whether a file that is there is replaced
+    pub(crate) fn of(args: &'a SlideArgs, may_replace: bool) -> Result<Option<Self>, Failure> {
+        let Some(file) = args.slide.as_deref() else { return Ok(None) };
+        let ending = file.extension().map(|it| it.to_string_lossy().to_lowercase());
+        let form = FORMS.iter().find(|(known, _)| ending.as_deref() == Some(*known));
+        let Some((_, write)) = form else {
+            return Err(Failure::Usage(format!(
+                "--slide {}: a slide ends in .svg, .png or .pdf",
+                escape::path(file)
+            )));
+        };
+        file::check_new(file, may_replace)?;
+        Ok(Some(Self { file, write: *write }))
+    }
+
+    /// Writes a slide.
+    ///
+    /// * `says`: its sentence
+    /// * `whose`: rover and soil
+    pub(crate) fn write(&self, says: &str, picture: &Sheet, whose: &str) -> Result<(), Failure> {
+        let version = env!("CARGO_PKG_VERSION");
+        let small_print =
+            [format!("{whose}; grouser {version}"), command(std::env::args_os().skip(1))];
+        let says = sentence(first_sentence(says));
+        let slide = Slide { sentence: &says, picture, small_print: &small_print };
+        file::write_result(self.file, &(self.write)(&slide.sheet()))
+    }
+
+    /// Writes the first sentence and the first figure of an answer that has a page.
+    pub(crate) fn write_answer(&self, answer: &Answer, whose: &str) -> Result<(), Failure> {
+        let says = answer.blocks().find_map(|block| match block {
+            PageBlock::Verdict(text) => Some(text.as_str()),
+            _ => None,
+        });
+        let picture = answer.blocks().find_map(|block| match block {
+            PageBlock::Figure { figure, .. } => Some(figure.sheet()),
+            PageBlock::Charts(charts) => charts.first().map(|chart| chart.sheet()),
+            _ => None,
+        });
+        let Some(picture) = picture else {
+            return Err(Failure::Run("this answer has no picture for a slide".to_owned()));
+        };
+        self.write(says.unwrap_or(&answer.title), &picture, whose)
+    }
+}
+
+/// The first of several sentences: a full stop before a space and a capital ends it.
+fn first_sentence(text: &str) -> &str {
+    let begins = |rest: &str| rest.chars().next().is_some_and(char::is_uppercase);
+    let end = text.match_indices(". ").find(|(at, stop)| begins(&text[at + stop.len()..]));
+    end.map_or(text, |(at, _)| &text[..at])
+}
+
+/// The command that was typed, without the slide's file: it gives the answer again.
+///
+/// * `arguments`: those after the program's name
+fn command(arguments: impl Iterator<Item = OsString>) -> String {
+    let mut words = vec!["grouser".to_owned()];
+    let mut arguments = arguments.map(|it| it.to_string_lossy().into_owned());
+    while let Some(word) = arguments.next() {
+        match word.as_str() {
+            "--slide" => drop(arguments.next()),
+            "--force" => {}
+            other if other.starts_with("--slide=") => {}
+            other => words.push(quoted(other)),
+        }
+    }
+    words.join(" ")
+}
+
+/// A word as a shell takes it.
+fn quoted(word: &str) -> String {
+    let is_plain = |letter: char| letter.is_alphanumeric() || "-_./,:=+%@".contains(letter);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_sentence_ends_before_a_capital() {
+        assert_eq!(first_sentence("go 4.2 % of 9 cells. A heading holds."), "go 4.2 % of 9 cells");
+        assert_eq!(first_sentence("at x 2. m after 3 s."), "at x 2. m after 3 s.");
+    }
+
+    #[test]
+    fn the_command_is_that_which_was_typed_but_for_the_slide() {
+        let typed = ["heading", "my rover.toml", "--slide", "a.svg", "--slope-deg=5,10", "--force"];
+        let found = command(typed.into_iter().map(OsString::from));
+        assert_eq!(found, "grouser heading 'my rover.toml' --slope-deg=5,10");
+    }
+}
