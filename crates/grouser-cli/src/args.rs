@@ -279,7 +279,8 @@ const WRITTEN: [&str; 5] = ["out", "animate", "mcap", "telemetry", "slide"];
 /// How a run is computed, and what else is made of it.
 #[derive(Debug, Args)]
 pub(crate) struct RunArgs {
-    /// `dynamic`, or `quasi-steady`: a steady state at every instant, many times faster.
+    /// `dynamic`, or `quasi-steady`: a steady state at every instant, many times faster. Where
+    /// neither is asked for it is quasi-steady over ground with heights.
     #[arg(long, value_name = "WORD")]
     pub(crate) simulation: Option<String>,
     /// Also draw what is driven: `.gif`, `.mp4` (needs ffmpeg), `.html` (with a player) or `.glb`

@@ -18,6 +18,7 @@ pub(crate) mod learn;
 mod log;
 pub(crate) mod make_terrain;
 pub(crate) mod map;
+mod method;
 pub(crate) mod mission;
 pub(crate) mod new;
 mod place;

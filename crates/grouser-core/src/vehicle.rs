@@ -52,6 +52,7 @@ pub use parts::{
 pub use posture::{Attitude, NoPosture, Posture};
 pub use rover::Rover;
 pub use ruts::Ruts;
+pub use settling::KnownWheels;
 pub use speed_control::{MotorLimits, SpeedControl};
 pub use standing::Standing;
 pub use state::{Acceleration, RoverState, roll_and_pitch, slope_and_yaw};

@@ -54,6 +54,8 @@ pub(crate) enum Presence {
     Otherwise(Fill),
     /// The keyword that goes with the one of another key of the table.
     Follows(&'static str, &'static [(&'static str, &'static str)]),
+    /// The first keyword in a table that has this key, the second in one that has not.
+    WithKey(&'static str, [&'static str; 2]),
     /// What the soil's priors say; without one this value, or else that something is missing.
     Prior(Option<f64>),
 }
@@ -464,6 +466,17 @@ impl<T> Field<T> {
         self
     }
 
+    /// The same, with a keyword for documents that leave it out and have another key, and one for
+    /// those that do not have that either.
+    pub(crate) const fn with_key(
+        mut self,
+        key: &'static str,
+        [with, without]: [&'static str; 2],
+    ) -> Self {
+        self.presence = Presence::WithKey(key, [with, without]);
+        self
+    }
+
     /// The same, which the soil's priors have a value for.
     pub(crate) const fn or_prior(mut self) -> Self {
         self.presence = Presence::Prior(None);
@@ -542,6 +555,7 @@ impl<T> Table<T> {
             | Presence::AnyOf(_)
             | Presence::OneOf(_)
             | Presence::Follows(..)
+            | Presence::WithKey(..)
             | Presence::Prior(None) => None,
         }
     }

@@ -110,7 +110,13 @@ impl<T> Field<T> {
 impl<T> Table<T> {
     /// What a table that does not have a key means by another key.
     fn followed(&self, field: &Field<T>, given: &Json) -> Option<Json> {
-        let Presence::Follows(key, words) = field.presence else { return None };
+        let (key, words) = match field.presence {
+            Presence::Follows(key, words) => (key, words),
+            Presence::WithKey(key, [with, without]) => {
+                return Some(Json::from(if given.get(key).is_some() { with } else { without }));
+            }
+            _ => return None,
+        };
         let leader = self.field(key)?;
         let word = given.get(key).cloned().or_else(|| Self::implied(leader))?;
         words.iter().find(|(of_leader, _)| word == *of_leader).map(|(_, word)| Json::from(*word))

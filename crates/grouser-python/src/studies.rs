@@ -433,18 +433,20 @@ pub(crate) fn card<'py>(
     slope_deg: PyReadonlyArray1<'py, f64>,
     seed_and_samples: (u64, u32),
     rim_speed_m_s: Option<f64>,
-    is_uphill_right: bool,
+    is_uphill_right_and_holds_heading: (bool, bool),
     rule: [f64; 5],
 ) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>, Bound<'py, PyAny>)> {
     let slopes = slopes(&slope_deg)?;
     let (seed, samples) = seed_and_samples;
+    let (is_uphill_right, holds_heading) = is_uphill_right_and_holds_heading;
     check("samples", &[f64::from(samples)], &SAMPLES)?;
     let scenario = scenario.scenario()?;
     let rim_speed = rim_speed_m_s.unwrap_or_else(|| scenario.value.drive.nominal_rim_speed());
     check("rim_speed_m_s", &[rim_speed], &MAP_SPEED_M_S)?;
     let uphill = if is_uphill_right { Side::Right } else { Side::Left };
     let rule = rule_of(rule)?;
-    let study = SlopeStudy { rim_speed, rule, ..SlopeStudy::of(scenario).with_uphill(uphill) };
+    let study = SlopeStudy::of(scenario).with_uphill(uphill);
+    let study = SlopeStudy { rim_speed, rule, holds_heading, ..study };
     let inputs = BandInputs::of_scenario(scenario);
     let found = listening(py, move |cancelled| {
         let go_on = || !cancelled.is_set();

@@ -39,6 +39,9 @@ pub(crate) struct CardArgs {
     /// Seed of the samples: the same seed gives the same soils and models.
     #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true)]
     pub(crate) seed: u64,
+    /// The rover holds its heading by itself: its nose does not fall, and nobody sets it again.
+    #[arg(long)]
+    pub(crate) holds_heading: bool,
     #[command(flatten)]
     pub(crate) rule: RuleArgs,
     /// Drive this many other soils by the card, in time and with the complete loads, 1 to 100000:

@@ -123,7 +123,8 @@ impl Pages {
 fn study(args: &CardArgs, inputs: &CardInputs) -> SlopeStudy {
     let uphill = if args.uphill == SideChoice::Right { Side::Right } else { Side::Left };
     let (rim_speed, rule) = (inputs.rim_speed, inputs.rule);
-    SlopeStudy { rim_speed, rule, ..SlopeStudy::of(&inputs.scenario).with_uphill(uphill) }
+    let study = SlopeStudy::of(&inputs.scenario).with_uphill(uphill);
+    SlopeStudy { rim_speed, rule, holds_heading: args.holds_heading, ..study }
 }
 
 fn compute(
@@ -227,6 +228,7 @@ fn settings(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Value {
         "wheel_moments": document.get("wheel_moments"),
         "uphill": if args.uphill == SideChoice::Left { "left" } else { "right" },
         "rim_speed_m_s": inputs.rim_speed,
+        "holds_heading": args.holds_heading,
         "rule": inputs.rule,
     });
     if card.draws.is_some() {

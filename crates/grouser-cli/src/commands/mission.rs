@@ -16,7 +16,7 @@ use serde_json::json;
 use self::answered::{Answered, reasons, sentence};
 use self::believed::Believed;
 use super::destinations::Destinations;
-use super::{Answer, sampling, strict};
+use super::{Answer, method, sampling, strict};
 use crate::args::{MissionArgs, StrictArgs};
 use crate::failure::Failure;
 use crate::inputs;
@@ -164,7 +164,9 @@ impl Answered {
             let name = if way.name.is_empty() { String::new() } else { format!("{}\n", way.name) };
             let legs = way.table();
             let legs = Rows::of_table(&legs).to_table(&legs_brief(&legs));
-            let sentences = reasons(way) + &sentence(way) + "\n";
+            let run = &way.report.trajectory;
+            let simulation = method::line(run, &self.document.value.scenario);
+            let sentences = reasons(way) + &sentence(way) + "\n" + &simulation;
             let risk = self.believed.as_ref().map_or_else(Vec::new, |it| it.sentences(place, way));
             let risk: String = risk.into_iter().map(|line| line + "\n").collect();
             Text::from(name + &risk) + legs + Text::from(sentences)

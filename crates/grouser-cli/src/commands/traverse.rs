@@ -22,7 +22,7 @@ use serde_json::{Value, json};
 use self::of_model::{OfModel, RECORDS, chart, reason};
 use super::animation::Target;
 use super::destinations::Destinations;
-use super::{Answer, sampling};
+use super::{Answer, method, sampling};
 use crate::args::{TraverseArgs, UncertaintyArgs};
 use crate::failure::Failure;
 use crate::inputs;
@@ -256,11 +256,7 @@ fn table(run: &Trajectory, scenario: &LoadedScenario) -> Text {
     let samples = run::brief(run, &scenario.value, LINES);
     let names: Vec<&str> = samples.columns.iter().map(|(name, _)| name.as_str()).collect();
     let end = run.last();
-    let simulation = match (run.method.name(), run.method.reason()) {
-        (_, Some(reason)) => format!("\nsimulation: {reason}"),
-        ("dynamic", None) => String::new(),
-        (word, None) => format!("\nsimulation: {word}"),
-    };
+    let simulation = method::line(run, &scenario.value);
     let reason = reason(run);
     let last = |quantity: Quantity| {
         samples.numbers(quantity.name).last().copied().flatten().unwrap_or(f64::NAN)
@@ -277,7 +273,7 @@ fn table(run: &Trajectory, scenario: &LoadedScenario) -> Text {
         String::new()
     };
     let outcome = format!(
-        "{} after {} s{reason}; {place}, yaw {yaw}°, {} J{battery}{simulation}\n",
+        "{} after {} s{reason}; {place}, yaw {yaw}°, {} J{battery}\n{simulation}",
         run.outcome.name(),
         four_digits(end.time),
         four_digits(end.energy.motors),

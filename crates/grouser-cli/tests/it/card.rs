@@ -463,6 +463,28 @@ fn a_rover_that_cannot_move_has_a_card_that_forbids_it() {
     assert!(texts.contains("NO-GO   on any slope"), "{texts}");
 }
 
+/// Nobody sets a nose again that the rover holds; the card says so.
+#[test]
+fn a_rover_that_holds_its_heading_is_not_corrected() {
+    let place = Place::new();
+    let line = "card --soil toyoura-uncertain --samples 12 --format json --out held.svg";
+    let (free, held) = (place.json(line), place.json(&format!("{line} --holds-heading --force")));
+    let said = [&free, &held].map(|answer| answer["inputs"]["holds_heading"].as_bool());
+    assert_eq!(said, [Some(false), Some(true)]);
+    for slope_deg in [5.0, 10.0] {
+        let (free, held) = (row(&free, slope_deg), row(&held, slope_deg));
+        assert!(held["correct_every_m"].is_null() && held["heading_fall_deg_per_m_p50"].is_null());
+        assert!(free["correct_every_m"].is_number());
+        // The heading does not depend on who holds it, and the nose does not fall.
+        assert_eq!(free["yaw_deg"], held["yaw_deg"]);
+        let drift = |row: &Value| number(&row["drift_m_per_m_p50"]);
+        assert!(drift(held) < drift(free), "{} and {}", drift(held), drift(free));
+    }
+    let texts = texts(&place.read("held.svg"));
+    assert!(texts.iter().any(|text| text == "itself"));
+    assert!(texts.join(" ").contains("The rover holds the heading by itself."));
+}
+
 /// The second page: where to look at the slip, and a verdict for every course on each of the first
 /// page's slopes.
 #[test]

@@ -122,6 +122,24 @@ fn a_drive_over_a_crest_ends_on_the_belly() {
     assert!(refused.contains("where the rover starts its underside touches"), "{refused}");
 }
 
+/// Over heights a run is quasi-steady where nobody asks for another, and says how to.
+#[test]
+fn over_heights_a_run_is_quasi_steady_unless_dynamic_is_asked_for() {
+    let place = Place::new();
+    place.write("map.xyz", map(|x, _| 0.1 * x));
+    let usual = drive(&place, [2.0, 2.0], "--duration-s 2");
+    let dynamic = drive(&place, [2.0, 2.0], "--duration-s 2 --simulation dynamic");
+    let ways = [&usual, &dynamic].map(|run| run["simulation"].as_str());
+    assert_eq!(ways, [Some("quasi-steady"), Some("dynamic")]);
+    let [one, other] = [&usual, &dynamic].map(|run| numbers(&run["final"], ["x_m", "y_m"]));
+    // What slip takes to settle at the start.
+    assert!((0..2).all(|axis| (one[axis] - other[axis]).abs() < 2e-3), "{one:?} and {other:?}");
+    let said = place.line("traverse --terrain map.xyz --duration-s 1").stdout;
+    assert!(said.contains("quasi-steady; --simulation dynamic"), "{said}");
+    let plane = place.line("traverse --duration-s 1").stdout;
+    assert!(!plane.contains("simulation:"), "{plane}");
+}
+
 /// What a folder keeps repeats the run from anywhere, and its table and page know the heights.
 #[test]
 fn a_folder_repeats_a_drive_over_a_map() {

@@ -37,40 +37,66 @@ pub fn sense_of_rolling(slip: &Slip) -> f64 {
     u * (3.0 - u * u) / 2.0
 }
 
-/// The forces with the soil's discrepancy, under the load F_z.
-pub(super) fn corrected(contact: &Contact, forces: WheelForces) -> WheelForces {
-    let Some(discrepancy) = &contact.soil.discrepancy else { return forces };
-    let (slip, load) = (&contact.slip, forces.normal_force);
-    let blend = Blend::at(slip.total(), slip.angle);
-    let along = sense_of_rolling(slip) * load;
-    // Without a slip angle there is no side force, so its sign there does not matter.
-    let across = load * f64::copysign(1.0, slip.angle);
-    WheelForces {
-        drawbar_pull: forces.drawbar_pull + along * blend.of(&discrepancy.drawbar_pull),
-        side_force: forces.side_force + across * blend.of_side_force(&discrepancy.side_force),
-        torque: forces.torque
-            + along * contact.wheel.shearing_radius() * blend.of(&discrepancy.torque),
-        ..forces
+/// What a soil's discrepancy comes to on a wheel in one motion.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Correction {
+    /// Sense of rolling [-].
+    along: f64,
+    /// Sign of the side force [-].
+    across: f64,
+    /// Shares of the load [-], the torque's times the shearing radius.
+    drawbar_pull: f64,
+    side_force: f64,
+    torque: f64,
+    /// r_s [m].
+    radius: f64,
+    /// e^(δ_h) [-].
+    sinkage: f64,
+}
+
+impl Correction {
+    /// The correction of a contact; none on a soil without a discrepancy.
+    pub(crate) fn of(contact: &Contact) -> Option<Self> {
+        let discrepancy = contact.soil.discrepancy.as_ref()?;
+        let slip = &contact.slip;
+        let blend = Blend::at(slip.total(), slip.angle);
+        Some(Self {
+            along: sense_of_rolling(slip),
+            // Without a slip angle there is no side force, so its sign there does not matter.
+            across: f64::copysign(1.0, slip.angle),
+            drawbar_pull: blend.of(&discrepancy.drawbar_pull),
+            side_force: blend.of_side_force(&discrepancy.side_force),
+            torque: blend.of(&discrepancy.torque),
+            radius: contact.wheel.shearing_radius(),
+            sinkage: exp(blend.of(&discrepancy.sinkage)),
+        })
+    }
+
+    /// The forces with it, under the load F_z.
+    pub(crate) fn forces(&self, forces: WheelForces) -> WheelForces {
+        let load = forces.normal_force;
+        let (along, across) = (self.along * load, self.across * load);
+        WheelForces {
+            drawbar_pull: forces.drawbar_pull + along * self.drawbar_pull,
+            side_force: forces.side_force + across * self.side_force,
+            torque: forces.torque + along * self.radius * self.torque,
+            ..forces
+        }
+    }
+
+    /// The sinkage [m] with it, never beyond the axle.
+    pub(crate) fn sinkage(&self, own: f64) -> f64 {
+        (own * self.sinkage).min(self.radius)
     }
 }
 
-/// The sinkage [m] with the soil's discrepancy, never beyond the axle.
-pub(super) fn corrected_sinkage(contact: &Contact, sinkage: f64) -> f64 {
-    match sinkage_factor(contact) {
-        Some(factor) => (sinkage * factor).min(contact.wheel.shearing_radius()),
-        None => sinkage,
-    }
+/// The forces with the soil's discrepancy, under the load F_z.
+pub(super) fn corrected(contact: &Contact, forces: WheelForces) -> WheelForces {
+    Correction::of(contact).map_or(forces, |correction| correction.forces(forces))
 }
 
 /// The model's own sinkage [m] where it is this one with the soil's discrepancy; at the axle it may
 /// be any that is deeper.
-pub(super) fn own_sinkage(contact: &Contact, corrected: f64) -> f64 {
-    sinkage_factor(contact).map_or(corrected, |factor| corrected / factor)
-}
-
-/// e^(δ_h) [-]; none on a soil without a discrepancy.
-fn sinkage_factor(contact: &Contact) -> Option<f64> {
-    let discrepancy = contact.soil.discrepancy.as_ref()?;
-    let slip = &contact.slip;
-    Some(exp(Blend::at(slip.total(), slip.angle).of(&discrepancy.sinkage)))
+pub(crate) fn own_sinkage(contact: &Contact, corrected: f64) -> f64 {
+    Correction::of(contact).map_or(corrected, |correction| corrected / correction.sinkage)
 }

@@ -153,6 +153,11 @@ impl<'a> Equations<'a> {
         Self { held_yaw_rate: yaw_rate, ..self }
     }
 
+    /// Whether something holds its yaw rate.
+    pub(super) fn is_held(&self) -> bool {
+        self.held_yaw_rate.is_some()
+    }
+
     /// The same for motors that may take less than their own limits allow.
     ///
     /// * `limits`: of each motor; nothing where there are no others

@@ -179,19 +179,20 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         if self.equations.droops() {
             return self.find_turning(yaw, guess).ok_or(NotSteady::NoSteadyState);
         }
+        let close = self.find_close(yaw, guess);
+        close.or_else(|| self.settle(yaw, guess)).ok_or(NotSteady::NoSteadyState)
+    }
+
+    /// The same of wheels that turn as they are set to, by Newton's steps alone.
+    pub(super) fn find_close(&mut self, yaw: f64, guess: &Vector3<f64>) -> Option<SteadyState> {
         if let Some(inverse) = self.memory.inverse
             && let Some(steady) = self.correct(yaw, guess, inverse)
         {
-            return Ok(steady);
+            return Some(steady);
         }
-        let fresh =
-            self.evaluate(yaw, guess).and_then(|here| self.jacobian(yaw, guess, &here, None));
-        if let Some(inverse) = fresh.and_then(Matrix3::try_inverse)
-            && let Some(steady) = self.correct(yaw, guess, inverse)
-        {
-            return Ok(steady);
-        }
-        self.settle(yaw, guess).ok_or(NotSteady::NoSteadyState)
+        let here = self.evaluate(yaw, guess)?;
+        let inverse = self.jacobian(yaw, guess, &here, None)?.try_inverse()?;
+        self.correct(yaw, guess, inverse)
     }
 
     /// The steady state nearest to the guess.

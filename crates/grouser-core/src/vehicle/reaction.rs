@@ -6,7 +6,7 @@ use super::by_wheel::Differences;
 use super::load;
 use super::on_ground::{OnGround, ReactionError, Stance, WheelReaction, forces_of};
 use super::ruts::Ruts;
-use super::settling::{Known, Nearby};
+use super::settling::{Known, KnownWheels, Nearby};
 use crate::contact::{Contact, Slip, WheelForces, settle_from, settle_many};
 use crate::newton;
 use crate::soil::Soil;
@@ -55,6 +55,36 @@ impl<'a> OnGround<'a> {
             return Ok(wheels);
         }
         self.settle_in_turns(stance, &contacts, near)
+    }
+
+    /// Does what [`reactions_near`](Self::reactions_near) does, by what is known of a motion nearby,
+    /// forces' slopes too, which spares a search one look at every wheel in two or three; this motion
+    /// is known afterwards.
+    ///
+    /// # Errors
+    /// The same as [`reactions`](Self::reactions).
+    pub fn reactions_by(
+        &self,
+        stance: &Stance,
+        slips: &[Slip],
+        near: &mut KnownWheels,
+    ) -> Result<Vec<WheelReaction>, ReactionError> {
+        let wheels = if self.rover.suspension().is_none() && self.is_coupled() {
+            let mut contacts = Vec::with_capacity(slips.len());
+            self.meet(stance, slips, &mut contacts);
+            match self.settle_together(stance, &contacts, &mut near.known) {
+                Some(wheels) => wheels,
+                None => {
+                    let wheels = self.settle_in_turns(stance, &contacts, &near.wheels)?;
+                    near.known = Known::of_all(self, &wheels).unwrap_or_default();
+                    wheels
+                }
+            }
+        } else {
+            self.reactions_near(stance, slips, &near.wheels)?
+        };
+        near.wheels.clone_from(&wheels);
+        Ok(wheels)
     }
 
     /// The reaction on every wheel, loads and wheels in turn.
@@ -188,7 +218,7 @@ impl<'a> OnGround<'a> {
     }
 
     /// * `before`: the wheels in the round before, near which they settle now, or none
-    fn settle_under(
+    pub(super) fn settle_under(
         &self,
         stance: &Stance,
         moments: Vec2,

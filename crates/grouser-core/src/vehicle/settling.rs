@@ -24,10 +24,12 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 use super::load::{self, LoadSharing};
 use super::on_ground::{OnGround, ReactionError, Stance, WheelReaction};
 use super::parts::Mount;
+use crate::contact::discrepancy::{self, Correction};
 use crate::contact::equilibrium::{grows_as_usual, is_usual_step};
 use crate::contact::load_sinkage::LoadSinkage;
 use crate::contact::{Contact, Settled, Slip, WheelForces, WheelSoilModel};
 use crate::soil::Soil;
+use crate::terrain::Ground;
 use crate::units::Vec2;
 use crate::{elementary, lagrange};
 
@@ -40,6 +42,24 @@ pub(crate) struct Nearby<'a> {
     /// from wheel to wheel, of none.
     pub(super) contacts: Vec<Contact>,
     pub(super) soil: Option<(&'a Soil, f64)>,
+}
+
+/// What is known of all wheels from a motion nearby; nothing as yet by default.
+#[derive(Clone, Debug, Default)]
+pub struct KnownWheels {
+    /// The wheels; empty where nothing is known.
+    pub(super) wheels: Vec<WheelReaction>,
+    /// What they met; of wheels that cannot be settled together, nothing.
+    pub(super) known: Vec<Known>,
+}
+
+impl KnownWheels {
+    /// Those of a motion whose wheels were settled in any way.
+    #[must_use]
+    pub fn of(ground: &OnGround<'_>, wheels: &[WheelReaction]) -> Self {
+        let known = Known::of_all(ground, wheels).unwrap_or_default();
+        Self { wheels: wheels.to_vec(), known }
+    }
 }
 
 /// What is known of a wheel from a motion nearby.
@@ -97,20 +117,21 @@ impl OnGround<'_> {
         contacts: &[Contact],
         near: &mut Vec<Known>,
     ) -> Option<Vec<WheelReaction>> {
-        if contacts.iter().any(|contact| contact.soil.discrepancy.is_some()) {
-            return None;
-        }
         let sharing = Sharing::of(self, stance)?;
         if near.len() != contacts.len() {
             near.clear();
+        }
+        if near.is_empty() && contacts.iter().any(|it| self.model.load_sinkage(it).is_none()) {
+            // Who does not know how a shallow wheel sinks has them settle under the weight first.
+            let Self { rover, sharing: kind, own_moments, .. } = *self;
+            let of_weight = load::moments(rover, stance.pull, kind, own_moments, &[]);
+            let wheels = self.settle_under(stance, of_weight, contacts, &[]).ok()?;
+            *near = Known::of_all(self, &wheels)?;
         }
         let mut curves = Vec::with_capacity(contacts.len());
         for (wheel, (contact, mount)) in contacts.iter().zip(self.rover.mounts()).enumerate() {
             let relation = self.model.load_sinkage(contact);
             let known = near.get(wheel);
-            if relation.is_none() && known.is_none() {
-                return None;
-            }
             curves.push(Curve::new(contact, relation, mount, known));
         }
         let mut loads = vec![0.0; curves.len()];
@@ -155,10 +176,11 @@ fn forces_at(model: &dyn WheelSoilModel, curves: &[Curve<'_>], depths: &[f64]) -
     let each = curves.iter().zip(depths);
     let forces = |(curve, depth): (&Curve<'_>, &f64)| {
         let sinkage = elementary::exp(*depth);
-        match &curve.relation {
+        let own = match &curve.relation {
             Some(relation) => relation.forces(curve.contact, sinkage),
             None => model.forces(curve.contact, sinkage),
-        }
+        };
+        curve.correction.map_or(own, |correction| correction.forces(own))
     };
     each.map(forces).collect()
 }
@@ -243,6 +265,8 @@ impl Sharing {
 struct Curve<'a> {
     contact: &'a Contact,
     relation: Option<LoadSinkage>,
+    /// What the soil's discrepancy adds; sinkages in here are the model's own.
+    correction: Option<Correction>,
     mount: &'a Mount,
     /// With which F_z grows for shallow sinkage.
     exponent: f64,
@@ -276,6 +300,7 @@ impl<'a> Curve<'a> {
         Self {
             contact,
             relation,
+            correction: Correction::of(contact),
             mount,
             exponent,
             axle,
@@ -290,7 +315,8 @@ impl<'a> Curve<'a> {
     /// The reaction under a load [N], which is known for a motion nearby from then on.
     fn reaction(&self, load: f64, known: &mut Vec<Known>) -> WheelReaction {
         let place = self.at(elementary::ln(load));
-        let (sinkage, slip) = (elementary::exp(place.depth), self.contact.slip);
+        let (own, slip) = (elementary::exp(place.depth), self.contact.slip);
+        let sinkage = self.correction.map_or(own, |correction| correction.sinkage(own));
         let settled = Settled { sinkage, forces: place.forces, evaluations: self.evaluations };
         known.push(Known { slip, place, slope: self.slope });
         WheelReaction { slip, load, settled }
@@ -491,7 +517,7 @@ impl Nearby<'_> {
 
 impl Known {
     /// Returns what is known of wheels that were settled; none where one is not carried.
-    pub(super) fn of_all(ground: &OnGround<'_>, wheels: &[WheelReaction]) -> Option<Vec<Self>> {
+    pub(crate) fn of_all(ground: &OnGround<'_>, wheels: &[WheelReaction]) -> Option<Vec<Self>> {
         let each = wheels.iter().zip(ground.rover.mounts());
         each.map(|(wheel, mount)| Self::of(ground, mount, wheel)).collect()
     }
@@ -499,7 +525,10 @@ impl Known {
     /// Returns what is known of a wheel; as yet its forces change with the load as those of a
     /// shallow one.
     fn of(ground: &OnGround<'_>, mount: &Mount, wheel: &WheelReaction) -> Option<Self> {
-        let (sinkage, forces) = (wheel.settled.sinkage, wheel.settled.forces);
+        let forces = wheel.settled.forces;
+        let OnGround { ground: Ground { soil, .. }, gravity, .. } = *ground;
+        let contact = Contact { wheel: mount.unit.wheel, soil: *soil, slip: wheel.slip, gravity };
+        let sinkage = discrepancy::own_sinkage(&contact, wheel.settled.sinkage);
         if sinkage <= 0.0 || forces.normal_force < f64::MIN_POSITIVE {
             return None;
         }

@@ -143,7 +143,8 @@ impl<T: OfScenario> Run<T> {
     );
     pub(super) const SIMULATION: Field<T> = words(
         "simulation",
-        "Whether velocities are integrated, or those of a steady state at every instant.",
+        "Whether velocities are integrated, or those of a steady state at every instant; without \
+             it `quasi-steady` over a `terrain`, and `dynamic` on a plane.",
         &[
             word("dynamic", "They are integrated with the pose.", |all: &mut T| {
                 all.scenario().numerics.approach = Approach::Dynamic;
@@ -156,7 +157,7 @@ impl<T: OfScenario> Run<T> {
             ),
         ],
     )
-    .otherwise(Fill::Keyword("dynamic"));
+    .with_key(TERRAIN, ["quasi-steady", "dynamic"]);
     pub(super) const BY_WHEEL: Field<T> = table(
         "by_wheel",
         "How the soil below each wheel, and its speed, differ from what is said of all.",

@@ -79,7 +79,8 @@ class Card(_tables.Tabular):
     pitch_deg: Floats
     """Pitch that they show [°]."""
     correct_every_m: Floats
-    """Way after which the heading is to be set again [m]; NaN on no-go slopes."""
+    """Way after which the heading is to be set again [m]; NaN on no-go slopes, and where the rover
+    holds it by itself."""
     slip_limit: Floats
     """Slip ratio above which to turn back [-]."""
     slip_check_every_m: Floats
@@ -124,6 +125,7 @@ def card(
     rim_speed_m_s: float | None = None,
     uphill: Literal["left", "right"] = "left",
     rule: Mapping[str, float] | None = None,
+    holds_heading: bool = False,
     **changes: Any,
 ) -> Card:
     """The operator's card: on each slope whether to go, which heading to set, how often to set it
@@ -155,6 +157,9 @@ def card(
         in 97.5 % of them the rover drifts at most ``go_drift_m_per_m`` (0.1). No-go: no heading
         holds the contour, or it slips more than ``no_go_slip_ratio`` (0.6), in the share
         ``no_go_probability`` (0.2) of the samples or more, or the rover gets stuck as often.
+    holds_heading : bool
+        Whether the rover holds its heading by itself. Then its nose does not fall, and nobody sets
+        it again.
     **changes
         Keys of the scenario with other values.
 
@@ -186,7 +191,7 @@ def card(
     speed = None if rim_speed_m_s is None else number("rim_speed_m_s", rim_speed_m_s)
     draws = (whole_number("seed", seed), whole_number("samples", samples, most=2**32 - 1))
     rows, courses, steepest = _core.card(
-        run._document, slopes, draws, speed, uphill == "right", limits_of(rule)
+        run._document, slopes, draws, speed, (uphill == "right", holds_heading), limits_of(rule)
     )
     rows, courses = _tables.arrays_of(rows), _tables.arrays_of(courses)
     of_course = ("slope_deg", "course", "verdict")

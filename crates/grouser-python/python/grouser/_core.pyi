@@ -407,7 +407,7 @@ def card(
     slope_deg: _Floats,
     seed_and_samples: tuple[int, int],
     rim_speed_m_s: float | None,
-    is_uphill_right: bool,
+    is_uphill_right_and_holds_heading: tuple[bool, bool],
     rule: Sequence[float],
 ) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]: ...
 def card_rule() -> dict[str, float]: ...

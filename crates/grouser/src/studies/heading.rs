@@ -523,7 +523,9 @@ impl HeadingCurve {
         } else {
             let above = self.points.partition_point(|point| point.place.z < slope).max(1);
             let high = &self.points[above.min(self.points.len() - 1)];
-            Self::settle_on(&path, slope, &self.points[above - 1], high)
+            let low = &self.points[above - 1];
+            path.begin_at(if slope - low.place.z < high.place.z - slope { low } else { high });
+            Self::settle_on(&path, slope, low, high)
         };
         Ok(self.heading(&point, path.settled_wheels()))
     }

@@ -41,6 +41,9 @@ pub struct SlopeStudy {
     /// Whether the soil's document states its uncertainty; priors do not count. If not, nobody can
     /// tell whether a slope is a go.
     pub is_uncertainty_stated: bool,
+    /// Whether the rover holds its heading by itself. Then nobody sets it again on the way, and its
+    /// nose does not fall.
+    pub holds_heading: bool,
 }
 
 /// A side of the rover.
@@ -82,6 +85,7 @@ impl SlopeStudy {
             rim_speed: scenario.value.drive.nominal_rim_speed(),
             rule: Rule::DEFAULT,
             is_uncertainty_stated: scenario.stated_uncertainty().is_some(),
+            holds_heading: false,
         }
     }
 
@@ -249,7 +253,7 @@ impl SlopeStudy {
         if let Some(driven) = driven.as_mut().filter(|_| judgement.verdict != Verdict::NoGo) {
             let limit = SlipCheck::limit(held.iter().filter_map(|it| it.slip_ratio()));
             let place = (slope, course, driven.yaw);
-            driven.motion = DrivenMotion::of(&self.heading, all, self.rim_speed, place, limit);
+            driven.motion = DrivenMotion::of(self, (all, held), place, limit);
             judgement = judgement.or(self.when_driven(driven.motion.as_ref()));
         }
         let known = held.iter().filter(|it| **it != Holding::Unknown).count();

@@ -251,7 +251,7 @@ fn a_steeper_slope_is_never_better() {
         let asked: Vec<[f64; 3]> = motions
             .map(|motion| {
                 let check = motion.slip_check;
-                [-motion.correct_every, -check.every.unwrap_or(0.0), check.limit]
+                [-motion.correct_every.unwrap_or(0.0), -check.every.unwrap_or(0.0), check.limit]
             })
             .collect();
         assert!(asked.len() > 5, "{asked:?}");
@@ -404,7 +404,7 @@ fn a_run_with_the_nose_set_again_drifts_as_the_card_says() {
     for row in card(&study, &[], &[6.0, 13.0, 18.0].map(deg)).rows {
         let driven = row.advice.driven.expect("not steep");
         let motion = driven.motion.expect("it moves");
-        let duration = motion.correct_every / given::RIM_SPEED;
+        let duration = motion.correct_every.expect("a driver corrects") / given::RIM_SPEED;
         let ground = Ground::plane(study.heading.soil, row.advice.slope);
         let gravity = study.heading.gravity;
         let start = Start { yaw: driven.yaw, motion: Motion::Rolling };

@@ -17,7 +17,7 @@ use crate::given::{hakuto_wheel, toyoura};
 const LOAD: f64 = 17.0;
 
 /// Values that differ from place to place.
-fn uneven() -> Discrepancy {
+pub(crate) fn uneven() -> Discrepancy {
     Discrepancy {
         drawbar_pull: std::array::from_fn(|place| 0.05 - 0.004 * place as f64),
         side_force: std::array::from_fn(|place| 0.02 + 0.003 * place as f64),

@@ -1,15 +1,15 @@
 //! All wheels of a rover settle under loads that depend on their forces: loads, sinkages and forces
 //! are those of each other, wherever the search began.
 
-use grouser::contact::{Contact, Model, Slip};
+use grouser::contact::{Contact, Model, Slip, settle_from};
 use grouser::simulation::Scenario;
 use grouser::units::deg;
 use grouser::vehicle::load;
 use grouser::vehicle::on_ground::{OnGround, WheelReaction, forces_of};
-use grouser::vehicle::{LoadSharing, OwnMoments, RoverState};
+use grouser::vehicle::{KnownWheels, LoadSharing, OwnMoments, RoverState, Stance};
 use proptest::prelude::*;
 
-use super::given;
+use super::{discrepancy, given};
 
 /// How far what settles may be from what it should be, over the weight [-]: what a kink of the
 /// forces leaves.
@@ -41,6 +41,24 @@ fn check(ground: &OnGround<'_>, state: &RoverState, wheels: &[WheelReaction]) {
     }
 }
 
+/// Each wheel has the sinkage and the forces that it has by itself under its load.
+fn check_alone(ground: &OnGround<'_>, stance: &Stance, wheels: &[WheelReaction]) {
+    let soil = ground.ground.soil.on_slope(stance.steepness);
+    for (wheel, mount) in wheels.iter().zip(ground.rover.mounts()) {
+        let (slip, gravity) = (wheel.slip, ground.gravity);
+        let contact = Contact { wheel: mount.unit.wheel, soil, slip, gravity };
+        let found = &wheel.settled;
+        let alone = settle_from(ground.model, &contact, wheel.load, found.sinkage);
+        let alone = alone.expect("it is carried");
+        let is_near = |one: f64, other: f64| (one - other).abs() < TOLERANCE * stance.weight;
+        assert!((found.sinkage / alone.sinkage - 1.0).abs() < 1e-8, "{found:?} and {alone:?}");
+        let (one, other) = (&found.forces, &alone.forces);
+        assert!(is_near(one.drawbar_pull, other.drawbar_pull), "{found:?} and {alone:?}");
+        assert!(is_near(one.side_force, other.side_force), "{found:?} and {alone:?}");
+        assert!(is_near(one.torque, other.torque), "{found:?} and {alone:?}");
+    }
+}
+
 proptest! {
     #![proptest_config(given::cases(60))]
 
@@ -66,6 +84,31 @@ proptest! {
                 if let Ok(near) = ground.reactions_near(&stance, &all(shift), &wheels) {
                     check(&ground, &state, &near);
                 }
+            }
+        }
+    }
+
+    /// What is known of a motion nearby changes no answer, nor does what a soil's discrepancy adds,
+    /// nor a model that does not say how a shallow wheel sinks.
+    #[test]
+    fn wheels_that_settle_together_have_what_each_has_alone(
+        slope in 0.0..deg(20.0),
+        yaw in -1.0..1.0,
+        slips in prop::array::uniform4((-0.2..0.7, -0.5..0.5)),
+        model in prop::sample::select(Model::ALL.to_vec()),
+        is_off in any::<bool>(),
+    ) {
+        let (sharing, own_moments) = (LoadSharing::Complete, OwnMoments::Included);
+        let mut scenario =
+            Scenario { model, sharing, own_moments, ..given::traverse(slope, 0.0) };
+        scenario.ground.soil.discrepancy = is_off.then(discrepancy::uneven);
+        let ground = scenario.on_ground();
+        let stance = ground.stance(&RoverState { yaw, ..RoverState::default() });
+        let mut known = KnownWheels::default();
+        for shift in [0.0, 1e-8, 1e-3, 0.05] {
+            let all = slips.map(|(ratio, angle)| Slip::on_test_stand(ratio + shift, angle + shift));
+            if let Ok(wheels) = ground.reactions_by(&stance, &all, &mut known) {
+                check_alone(&ground, &stance, &wheels);
             }
         }
     }

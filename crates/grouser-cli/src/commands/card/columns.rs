@@ -66,7 +66,10 @@ const SMALL: [Small; 9] = [
     Small {
         head: ["correct", "every", "m"],
         right: STOP[0],
-        text: |row| row.number(CORRECT_EVERY).map(four_digits),
+        text: |row| {
+            let itself = || row.number(SLIP_LIMIT).map(|_| "itself".to_owned());
+            row.number(CORRECT_EVERY).map(four_digits).or_else(itself)
+        },
     },
     Small {
         head: ["", "slip", "%"],

@@ -57,20 +57,29 @@ pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Texts {
             .map_or(Date::NotStated, |date| Date::Stated(date.to_owned())),
         setting: setting(inputs),
         has_bands: card.draws.is_some(),
-        legend: legend(card.draws),
+        legend: legend(card.draws, args.holds_heading),
         rule: rule(inputs, card),
         facts: facts(args, inputs, card),
-        holds_for:
-            "steady driving along the contour of an even slope of one soil, with all wheels \
-                    turning alike and the nose set again as the card says. To be made anew: once a reading is above its limit on two legs in a row, or \
-                    rover, load or ground are others than on the day of the soil."
-                .to_owned(),
+        holds_for: holds_for(args.holds_heading),
         leaves_out: "rocks, ripples, layers, slopes that change, starts, stops and turns; what \
                      no model of the bands knows comes on top: a real rover scatters by more."
             .to_owned(),
         outside: extrapolations(card),
         assumed: assumed(inputs),
     }
+}
+
+fn holds_for(holds_heading: bool) -> String {
+    let heading = if holds_heading {
+        "a heading that the rover holds by itself"
+    } else {
+        "the nose set again as the card says"
+    };
+    format!(
+        "steady driving along the contour of an even slope of one soil, with all wheels turning \
+         alike and {heading}. To be made anew: once a reading is above its limit on two legs in a \
+         row, or rover, load or ground are others than on the day of the soil."
+    )
 }
 
 fn steps(args: &CardArgs, inputs: &CardInputs) -> Vec<String> {
@@ -83,7 +92,11 @@ fn steps(args: &CardArgs, inputs: &CardInputs) -> Vec<String> {
     [
         "1  Find the slope on the left; between two rows take the steeper one.",
         "2  Turn the nose uphill by the large number (page 2: how); check roll and pitch.",
-        "3  Drive on. The nose falls: correct, set it again every so many metres.",
+        if args.holds_heading {
+            "3  Drive on. The rover holds the heading by itself."
+        } else {
+            "3  Drive on. The nose falls: correct, set it again every so many metres."
+        },
         "4  Stop if a reading is above the limit in the row.",
         side,
     ]
@@ -102,7 +115,7 @@ pub(super) fn percent(share: f64) -> String {
 }
 
 /// What the columns are.
-fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
+fn legend(draws: Option<usize>, holds_heading: bool) -> Vec<(&'static str, String)> {
     let roll = format!(
         "with the nose set, uphill side and nose higher: roll reads the slope itself. Pitch above its range: the nose is too far uphill by more than {error}; \
          below: too far down. Where the range begins with 0 pitch cannot tell.",
@@ -114,6 +127,14 @@ fn legend(draws: Option<usize>) -> Vec<(&'static str, String)> {
         if draws.is_some() { " in 97.5 % of the samples" } else { "" },
         degrees(HEADING_ERROR)
     );
+    let every = if holds_heading {
+        format!(
+            "by itself: the rover holds its heading; set it once, to within {} of the large number.",
+            degrees(HEADING_ERROR)
+        )
+    } else {
+        every
+    };
     let readings = "Slip: mean of the wheels, in per cent of the rims' way; drift: downhill, over 10 \
                     m; sinkage: mean; torque: of the wheel that has most; both where it moves.";
     let others = format!(

@@ -1,6 +1,6 @@
 //! A wheel under its load, and what becomes of it.
 
-use crate::contact::discrepancy;
+use crate::contact::discrepancy::{self, Correction};
 use crate::contact::forces::WheelForces;
 use crate::contact::inputs::Contact;
 use crate::contact::model::WheelSoilModel;
@@ -66,10 +66,11 @@ impl Settled {
         forces: WheelForces,
         evaluations: u32,
     ) -> Self {
-        Self {
-            sinkage: discrepancy::corrected_sinkage(contact, sinkage),
-            forces: discrepancy::corrected(contact, forces),
-            evaluations,
+        match Correction::of(contact) {
+            Some(it) => {
+                Self { sinkage: it.sinkage(sinkage), forces: it.forces(forces), evaluations }
+            }
+            None => Self { sinkage, forces, evaluations },
         }
     }
 }

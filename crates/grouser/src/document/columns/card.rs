@@ -80,14 +80,15 @@ const fn driven<'a>() -> [Column<OnCard<'a>>; 20] {
             it.driven().map(|it| it.pitch_range[1])
         }),
         CORRECT_EVERY.maybe(
-            "Way after which the heading is to be set again; missing on slopes that are a no-go \
-             without driving, as all that is driven",
-            |it| it.motion().map(|it| it.correct_every),
+            "Way after which the heading is to be set again; missing where the rover holds it by \
+             itself, and on slopes that are a no-go without driving, as all that is driven",
+            |it| it.motion()?.correct_every,
         ),
-        HEADING_FALL
-            .band("By how much the nose falls over the way, over the samples that move", |it| {
-                it.motion()?.heading_fall
-            }),
+        HEADING_FALL.band(
+            "By how much the nose falls over the way, over the samples that move; missing \
+                 where the rover holds it",
+            |it| it.motion()?.heading_fall,
+        ),
         DRIVEN_DRIFT.band(
             "Drift per metre travelled over 10 m when driven so by a driver who sets the heading \
              to 2°, positive downhill; 1 where the rover is stuck",

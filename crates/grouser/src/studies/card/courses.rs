@@ -18,7 +18,7 @@ use super::super::verdict::{
 use super::CardRow;
 use crate::elementary::wide::sin;
 use crate::error::ParameterError;
-use crate::simulation::{MOST_SLIP, SteadyMotion};
+use crate::simulation::{MOST_SLIP, Seeking, SteadyMotion};
 use crate::vehicle::Rover;
 
 /// A way to drive on a slope, other than along the contour with the nose in front.
@@ -197,7 +197,7 @@ impl SlopeStudy {
             worst = worst.or(self.at_rest(slope, Some(&at_rest)));
             let mut motion = None;
             if worst.verdict != Verdict::NoGo {
-                let steady = self.motions((slope, yaw, &rim_speeds), samples, &before);
+                let steady = self.motions(course, (slope, yaw, &rim_speeds), samples, &before);
                 let rover = &self.heading.rover;
                 let on_course = |it: &Option<SteadyMotion>| {
                     OnCourse::of(course, rover, it.as_ref()?, &rim_speeds)
@@ -232,15 +232,17 @@ impl SlopeStudy {
     /// * `before`: those on the slope before, from which they are sought
     fn motions(
         &self,
+        course: Course,
         (slope, yaw, rim_speeds): (f64, f64, &[f64]),
         samples: &[Sample],
         before: &[Option<SteadyMotion>],
     ) -> Vec<Option<SteadyMotion>> {
+        let seeking = Seeking { near: None, is_held: self.holds_heading && !course.turns() };
         let motion = |place: usize| {
             let study = self.heading.of_sample(&samples[place]);
             match &before[place] {
                 Some(near) => study.steady_motion_of_near(near, slope, yaw, rim_speeds),
-                None => study.steady_motion_of(slope, yaw, rim_speeds),
+                None => study.motion_sought(slope, yaw, rim_speeds, seeking),
             }
         };
         outputs_of_places(samples, &|| true, |place| motion(place).ok()).unwrap_or_default()

@@ -14,11 +14,14 @@
 use rayon::prelude::*;
 
 use super::super::heading::STRAIGHT_DOWN;
-use super::super::verdict::{HEADING_ERROR, SlopeStudy, Verdict, heading_error, settings};
+use super::super::verdict::{
+    DRIFT_WAY, HEADING_ERROR, SlopeStudy, Verdict, heading_error, settings,
+};
 use super::CardRow;
 use crate::error::{ParameterError, positive};
 use crate::simulation::{
-    Approach, LEAST_STEP, MOST_SLIP, Motion, Numerics, Run, RunError, Scatter, Scenario, Start,
+    Approach, LEAST_STEP, MOST_SLIP, Motion, Numerics, PrescribedYaw, Run, RunError, Scatter,
+    Scenario, Start,
 };
 use crate::studies::ensemble::samples::Sample;
 use crate::studies::ensemble::{Band, Probability};
@@ -87,7 +90,8 @@ impl CardDrives<'_> {
         let course = Course {
             slope: row.advice.slope,
             yaw: driven.yaw,
-            leg: motion.correct_every * self.lateness,
+            leg: motion.correct_every.unwrap_or(DRIFT_WAY) * self.lateness,
+            is_held: self.study.holds_heading,
         };
         let drive = |(index, sample): (usize, &Sample)| {
             let drift = self.drive(&course, sample, index as u64);
@@ -160,6 +164,8 @@ struct Course {
     yaw: f64,
     /// Way between two corrections [m].
     leg: f64,
+    /// Whether the rover holds its heading by itself.
+    is_held: bool,
 }
 
 impl Course {
@@ -185,7 +191,8 @@ impl Legs {
             let share = 2.0 * place as f64 / (HEADINGS - 1) as f64 - 1.0;
             let yaw = course.yaw + share * HEADING_ERROR;
             let start = Start { yaw, motion: Motion::Rolling };
-            *way = leg(&Scenario { start, ..scenario.clone() }, course.leg)?;
+            let held = course.is_held.then(|| PrescribedYaw { points: vec![(0.0, yaw)] });
+            *way = leg(&Scenario { start, yaw: held, ..scenario.clone() }, course.leg)?;
         }
         Ok(Self(ways))
     }
@@ -244,11 +251,17 @@ mod tests {
         let heading = HeadingStudy::of(&scenario.expect("a preset").value);
         let sample = Sample { soil: heading.soil, model: heading.model.clone() };
         let (rim_speed, rule) = (0.06, Rule::DEFAULT);
-        let study = SlopeStudy { heading, rim_speed, rule, is_uncertainty_stated: true };
+        let study = SlopeStudy {
+            heading,
+            rim_speed,
+            rule,
+            is_uncertainty_stated: true,
+            holds_heading: false,
+        };
         let drives =
             CardDrives { study: &study, lateness: 1.0, approach: Approach::QuasiSteady, seed: 1 };
         for (slope, yaw, way) in [(3.0, 1.3, 2.0), (12.0, 6.3, 0.3), (17.0, 12.0, 0.2)] {
-            let course = Course { slope: deg(slope), yaw: deg(yaw), leg: way };
+            let course = Course { slope: deg(slope), yaw: deg(yaw), leg: way, is_held: false };
             let scenario = drives.scenario(&course, &sample);
             let legs = Legs::run(&scenario, &course).expect("runs");
             for error in [-1.3, 0.4, 1.7].map(deg) {

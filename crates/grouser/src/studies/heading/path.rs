@@ -14,7 +14,7 @@ use crate::newton;
 use crate::root;
 use crate::units::{STEEPEST_SLOPE, Vec2};
 use crate::vehicle::on_ground::{OnGround, forces_of};
-use crate::vehicle::{ReactionError, Rover, RoverState, WheelReaction, dynamics};
+use crate::vehicle::{KnownWheels, ReactionError, Rover, RoverState, WheelReaction, dynamics};
 
 /// (s, c, α): slip ratio, crab angle c = γ + δ − χ, slope.
 pub(super) type Place = Vector3<f64>;
@@ -87,8 +87,8 @@ pub(super) struct Path<'a> {
     rover: Cow<'a, Rover>,
     most_steering: f64,
     settled_wheels: Cell<u64>,
-    /// The place looked at last, and the wheels there.
-    last: RefCell<Option<(Place, Vec<WheelReaction>)>>,
+    /// The place looked at last, and what is known of the wheels there.
+    last: RefCell<Option<(Place, KnownWheels)>>,
 }
 
 /// How far a curve is followed: to its first point that is beyond one of these, or to its end.
@@ -218,6 +218,15 @@ impl<'a> Path<'a> {
         self.settled_wheels.get()
     }
 
+    /// Begins with the wheels of a known point.
+    pub(super) fn begin_at(&self, point: &Point) {
+        let plane = self.study.plane(point.place.z);
+        let rover = self.rover(point.place.y);
+        let ground = OnGround { rover: &rover, ..self.study.on_ground(&plane) };
+        let known = KnownWheels::of(&ground, &point.wheels);
+        self.last.replace(Some((point.place, known)));
+    }
+
     /// The rover at a crab angle [rad]; how fast it goes does not count.
     fn state(&self, crab: f64) -> RoverState {
         RoverState { yaw: self.held.yaw(crab), ..RoverState::default() }
@@ -232,13 +241,21 @@ impl<'a> Path<'a> {
         let rover = self.rover(crab);
         let ground = OnGround { rover: &rover, ..self.study.on_ground(&plane) };
         let stance = ground.stance(&self.state(crab));
-        let wheels = match &*self.last.borrow() {
-            Some((last, wheels)) if (place - last).norm() < NEARBY => {
-                ground.reactions_near(&stance, &slips, wheels)?
+        let mut last = self.last.borrow_mut();
+        let near = last.as_mut().filter(|(last, _)| (*place - *last).norm() < NEARBY);
+        let wheels = match near {
+            Some((last, known)) => {
+                let wheels = ground.reactions_by(&stance, &slips, known)?;
+                *last = *place;
+                wheels
             }
-            _ => ground.reactions(&stance, &slips)?,
+            None => {
+                let mut known = KnownWheels::default();
+                let wheels = ground.reactions_by(&stance, &slips, &mut known)?;
+                *last = Some((*place, known));
+                wheels
+            }
         };
-        self.last.replace(Some((*place, wheels.clone())));
         Ok((wheels, stance.pull))
     }
 

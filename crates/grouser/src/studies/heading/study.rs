@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use crate::contact::Model;
 use crate::elementary::wide::{cos, sin, tan};
 use crate::root;
-use crate::simulation::{NotSteady, SteadyMotion};
+use crate::simulation::{NotSteady, Seeking, SteadyMotion};
 use crate::soil::{SlopeStability, Soil};
 use crate::terrain::Ground;
 use crate::units::Vec2;
@@ -87,6 +87,20 @@ impl HeadingStudy {
         rim_speeds: &[f64],
     ) -> Result<SteadyMotion, NotSteady> {
         SteadyMotion::of(self.on_ground(&self.plane(slope)), rim_speeds, yaw)
+    }
+
+    /// The same, sought in a way of its own: held, where the rover holds its yaw by itself.
+    ///
+    /// # Errors
+    /// The same as [`steady_motion`](Self::steady_motion).
+    pub fn motion_sought(
+        &self,
+        slope: f64,
+        yaw: f64,
+        rim_speeds: &[f64],
+        seeking: Seeking,
+    ) -> Result<SteadyMotion, NotSteady> {
+        SteadyMotion::sought(self.on_ground(&self.plane(slope)), rim_speeds, yaw, seeking)
     }
 
     /// The same at another yaw *γ* [rad], sought from a motion on that slope.

@@ -5,16 +5,21 @@
 //! motion at the heading γ it turns by κ over the way, so that over a leg of length L the heading
 //! is γ + ε + κ L/2 on average, with the error ε of the driver who set it, and the drift is that of
 //! the steady motion there.
+//!
+//! A rover that holds its heading by itself has its forces balanced, and a yaw moment that it makes
+//! itself: κ = 0. The driver sets the nose once, and it stays at γ + ε.
 
 use rand_chacha::ChaCha8Rng;
 
-use super::super::ensemble::samples::{Sample, outputs_of_samples};
+use super::super::ensemble::samples::{Sample, outputs_of_places};
 use super::super::ensemble::{Band, Probability, outputs};
-use super::super::heading::{HeadingStudy, STRAIGHT_DOWN, STUCK};
+use super::super::heading::{HeadingStudy, STRAIGHT_DOWN, STUCK, Steering};
+use super::SlopeStudy;
+use super::held::Holding;
 use super::slip_check::SlipCheck;
 use crate::elementary::wide::sin;
 use crate::simulation::power::electrical;
-use crate::simulation::{MOST_SLIP, SteadyMotion};
+use crate::simulation::{MOST_SLIP, Seeking, SteadyMotion};
 use crate::soil::SlopeStability;
 use crate::studies::random;
 use crate::vehicle::{Rover, roll_and_pitch};
@@ -54,10 +59,11 @@ pub struct Driven {
 /// The motion by the card's heading, over the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrivenMotion {
-    /// After how much way the heading is to be set again [m].
-    pub correct_every: f64,
+    /// After how much way the heading is to be set again [m]; `None` for a rover that holds it by
+    /// itself.
+    pub correct_every: Option<f64>,
     /// By how much the nose falls over the way [rad/m], positive downhill, over the samples that
-    /// move.
+    /// move; `None` where the rover holds it.
     pub heading_fall: Option<Band>,
     /// Drift, way off the course and downhill for a metre travelled [-], over all samples: 1 where
     /// the rover is stuck.
@@ -100,7 +106,8 @@ impl DrivenMotion {
     /// where samples get stuck, those that are left may seem to need fewer.
     pub(in super::super) fn no_laxer_than(mut self, gentler: Option<&Self>) -> Self {
         if let Some(gentler) = gentler {
-            self.correct_every = self.correct_every.min(gentler.correct_every);
+            let corrections = self.correct_every.zip(gentler.correct_every);
+            self.correct_every = corrections.map(|(one, other)| one.min(other));
             let looks = self.slip_check.every.zip(gentler.slip_check.every);
             self.slip_check.every = looks.map(|(one, other)| one.min(other));
         }
@@ -110,19 +117,27 @@ impl DrivenMotion {
     /// Drives all samples on a slope by a heading; `None` if the rover is stuck in each of them, or
     /// its nose falls too fast to be held.
     ///
-    /// * `samples`: of soil and model, one at least
+    /// * `samples`: of soil and model, one at least, and whether each holds the course
     /// * `slip_limit`: above which the driver turns back at a look [-]
     pub(super) fn of(
-        study: &HeadingStudy,
-        samples: &[Sample],
-        rim_speed: f64,
+        study: &SlopeStudy,
+        (samples, held): (&[Sample], &[Holding]),
         (slope, course, yaw): (f64, f64, f64),
         slip_limit: f64,
     ) -> Option<Self> {
+        let SlopeStudy { heading: study, rim_speed, holds_heading, .. } = study;
+        let rim_speed = *rim_speed;
+        let rims = vec![rim_speed; study.rover.wheel_count()];
         let moves =
             |motion: SteadyMotion| (motion.slip_ratio().abs() <= MOST_SLIP).then_some(motion);
-        let motions = outputs_of_samples(samples, &|| true, |sample| {
-            moves(study.of_sample(sample).steady_motion(slope, yaw, rim_speed).ok()?)
+        // The forces on a rover change little with its nose a few degrees off: it goes at about the
+        // velocity at which the sample's own heading holds the course.
+        let knows_crab = study.steering == Steering::None;
+        let motions = outputs_of_places(samples, &|| true, |place| {
+            let study = study.of_sample(&samples[place]);
+            let near = held[place].velocity(course, rim_speed).filter(|_| knows_crab);
+            let seeking = Seeking { near, is_held: *holds_heading };
+            moves(study.motion_sought(slope, yaw, &rims, seeking).ok()?)
         });
         let motions: Vec<Option<SteadyMotion>> = motions.unwrap_or_default();
         let moving = || motions.iter().flatten();
@@ -147,10 +162,10 @@ impl DrivenMotion {
         let slip = |it: &Option<SteadyMotion>| it.as_ref().map_or(STUCK, SteadyMotion::slip_ratio);
         let slips: Vec<f64> = motions.iter().map(slip).collect();
         let stuck = motions.iter().filter(|it| it.is_none()).count();
-        let rims = vec![rim_speed; study.rover.wheel_count()];
+        let falls = moving().map(|it| -it.turning());
         Some(Self {
-            correct_every,
-            heading_fall: Band::of(moving().map(|it| -it.turning())),
+            correct_every: (!holds_heading).then_some(correct_every),
+            heading_fall: if *holds_heading { None } else { Band::of(falls) },
             drift: Band::of(drift.into_iter().map(|it| it.unwrap_or(STRAIGHT_DOWN))),
             slip_check: SlipCheck::of(&slips, slip_limit),
             slip_ratio: Band::of(slips),

@@ -1,6 +1,8 @@
 //! Whether a sample holds a course.
 
 use super::super::heading::{HeadingCurve, HeadingOffset, NoHeading, STUCK};
+use crate::elementary::wide;
+use crate::units::Vec2;
 
 /// Whether a sample holds a course on a slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +42,14 @@ impl Holding {
     /// Whether a heading holds the course.
     pub(in super::super) fn is_held(self) -> bool {
         matches!(self, Self::At { .. })
+    }
+
+    /// Velocity of the body in its own frame [m/s], in a contour traverse along a course [rad] by
+    /// the sample's own heading.
+    pub(super) fn velocity(self, course: f64, rim_speed: f64) -> Option<Vec2> {
+        let Self::At { yaw, slip_ratio: s, .. } = self else { return None };
+        let along = rim_speed * if s >= 0.0 { 1.0 - s } else { 1.0 / (1.0 + s) };
+        Some(Vec2::new(along, along * wide::tan(course - yaw)))
     }
 
     /// What bands have of the yaw: above every number where no heading holds the course.
