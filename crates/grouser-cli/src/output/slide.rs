@@ -6,21 +6,24 @@ use std::path::Path;
 use grouser::answers::{Answer, PageBlock};
 use grouser::document::escape;
 use grouser::document::reading::sentence;
-use grouser_draw::chart::Drawable as _;
+use grouser_draw::chart::Drawable;
 use grouser_draw::{Sheet, Slide};
 
 use super::file;
 use crate::args::SlideArgs;
 use crate::failure::Failure;
 
+/// Makes a file of a sheet.
+type Writer = fn(&Sheet) -> Vec<u8>;
+
 /// Forms of a slide, by what the file's name ends in.
-const FORMS: [(&str, fn(&Sheet) -> Vec<u8>); 3] =
+const FORMS: [(&str, Writer); 3] =
     [("svg", |sheet| sheet.to_svg().into_bytes()), ("png", Sheet::to_png), ("pdf", Sheet::to_pdf)];
 
 /// A file that a slide is to be written to.
 pub(crate) struct SlideFile<'a> {
     file: &'a Path,
-    write: fn(&Sheet) -> Vec<u8>,
+    write: Writer,
 }
 
 impl<'a> SlideFile<'a> {
@@ -62,7 +65,7 @@ impl<'a> SlideFile<'a> {
         });
         let picture = answer.blocks().find_map(|block| match block {
             PageBlock::Figure { figure, .. } => Some(figure.sheet()),
-            PageBlock::Charts(charts) => charts.first().map(|chart| chart.sheet()),
+            PageBlock::Charts(charts) => charts.first().map(Drawable::sheet),
             _ => None,
         });
         let Some(picture) = picture else {

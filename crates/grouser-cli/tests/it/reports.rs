@@ -50,7 +50,7 @@ fn every_folder_has_one_page_that_needs_nothing_from_outside() {
 #[test]
 fn a_page_folds_what_nobody_asked_for() {
     let place = Place::new();
-    let line = "mission there-and-back --simulation quasi-steady --samples 4";
+    let line = "mission switchbacks-15-deg --simulation quasi-steady --samples 4";
     place.results(&format!("{line} --out out"));
     let html = place.read("out/report.html");
     let (seen, folded) = html.split_once("<details").expect("folded parts");

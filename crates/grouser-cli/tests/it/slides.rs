@@ -33,7 +33,9 @@ fn slides_that_cannot_be_made_say_why() {
     let place = Place::new();
     let refused = |line: &str, words: &[&str]| {
         let answer = check_is_refusal(&place.line(line), 2);
-        words.iter().for_each(|word| assert!(answer.contains(word), "{line}: {answer}"));
+        for word in words {
+            assert!(answer.contains(word), "{line}: {answer}");
+        }
     };
     refused("heading --slide a.gif", &["--slide a.gif", ".svg, .png or .pdf"]);
     place.write("mine.svg", "mine");

@@ -137,7 +137,11 @@ mod tests {
     fn a_curve_that_switches_fast_is_its_envelope_with_the_mean() {
         let places = curve(|x| if (x / 0.1).round() % 3.0 == 0.0 { 30.0 } else { 20.0 });
         let parts = parts(&places);
-        let [Part::Envelope { low, high, mean }] = &parts[..] else { panic!("{parts:?}") };
+        // What comes after the last turn is a line.
+        let [Part::Envelope { low, high, mean }, Part::Line(end)] = &parts[..] else {
+            panic!("{parts:?}")
+        };
+        assert!(end.len() == 2 && end[0][0] == low[low.len() - 1][0], "{end:?}");
         assert!(low.iter().all(|at| at[1] == 30.0) && high.iter().all(|at| at[1] == 20.0));
         assert!(mean.iter().all(|at| (at[1] - 23.3).abs() < 0.6), "{mean:?}");
         assert!(low.len() < 80 && low[0][0] == 0.0 && low[low.len() - 1][0] > 99.0, "{low:?}");

@@ -68,10 +68,11 @@ impl Believed {
     }
 
     /// The leg with the worst verdict, and of several the one on which the rover most often gets
-    /// stuck: nothing where there is one leg, or none with advice.
+    /// stuck: nothing where fewer than two have advice.
     pub(super) fn worst(&self, place: usize, way: &DrivenMission) -> Option<String> {
         let (_, advice) = self.way(place);
         let legs = way.legs.iter().zip(advice).filter_map(|(leg, it)| Some((leg, it.as_ref()?)));
+        let count = advice.iter().flatten().count();
         // Of two that are as bad it is the first.
         let (leg, advice) = legs.reduce(|worst, leg| {
             let of = |(_, advice): &(&DrivenLeg, &Advice)| {
@@ -79,7 +80,7 @@ impl Believed {
             };
             if of(&leg) > of(&worst) { leg } else { worst }
         })?;
-        (way.legs.len() > 1).then(|| format!("The worst: {}", of_leg(leg, advice)))
+        (count > 1).then(|| format!("The worst: {}", of_leg(leg, advice)))
     }
 }
 
