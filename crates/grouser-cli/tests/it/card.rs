@@ -474,11 +474,12 @@ fn a_rover_that_holds_its_heading_is_not_corrected() {
         let (free, held) = (row(&free, slope_deg), row(&held, slope_deg));
         assert!(held["correct_every_m"].is_null() && held["heading_fall_deg_per_m_p50"].is_null());
         assert!(free["correct_every_m"].is_number());
-        // The heading does not depend on who holds it, and the nose does not fall.
+        // The heading does not depend on who holds it.
         assert_eq!(free["yaw_deg"], held["yaw_deg"]);
-        let drift = |row: &Value| number(&row["drift_m_per_m_p97_5"]);
-        assert!(drift(held) < drift(free), "{} and {}", drift(held), drift(free));
     }
+    // Where the nose falls fast, a rover that holds it drifts less.
+    let drift = |answer: &Value| number(&row(answer, 10.0)["drift_m_per_m_p97_5"]);
+    assert!(drift(&held) < drift(&free), "{} and {}", drift(&held), drift(&free));
     let texts = texts(&place.read("held.svg"));
     assert!(texts.iter().any(|text| text == "itself"));
     assert!(texts.join(" ").contains("The rover holds the heading by itself."));
