@@ -467,7 +467,7 @@ fn a_rover_that_cannot_move_has_a_card_that_forbids_it() {
 #[test]
 fn a_rover_that_holds_its_heading_is_not_corrected() {
     let place = Place::new();
-    let line = "card --soil toyoura-uncertain --samples 12 --format json --out held.svg";
+    let line = "card --soil toyoura-uncertain --samples 12 --out held.svg";
     let (free, held) = (place.json(line), place.json(&format!("{line} --holds-heading --force")));
     let said = [&free, &held].map(|answer| answer["inputs"]["holds_heading"].as_bool());
     assert_eq!(said, [Some(false), Some(true)]);
@@ -475,11 +475,12 @@ fn a_rover_that_holds_its_heading_is_not_corrected() {
         let (free, held) = (row(&free, slope_deg), row(&held, slope_deg));
         assert!(held["correct_every_m"].is_null() && held["heading_fall_deg_per_m_p50"].is_null());
         assert!(free["correct_every_m"].is_number());
-        // The heading does not depend on who holds it, and the nose does not fall.
+        // The heading does not depend on who holds it.
         assert_eq!(free["yaw_deg"], held["yaw_deg"]);
-        let drift = |row: &Value| number(&row["drift_m_per_m_p50"]);
-        assert!(drift(held) < drift(free), "{} and {}", drift(held), drift(free));
     }
+    // Where the nose falls fast, a rover that holds it drifts less.
+    let drift = |answer: &Value| number(&row(answer, 10.0)["drift_m_per_m_p97_5"]);
+    assert!(drift(&held) < drift(&free), "{} and {}", drift(&held), drift(&free));
     let texts = texts(&place.read("held.svg"));
     assert!(texts.iter().any(|text| text == "itself"));
     assert!(texts.join(" ").contains("The rover holds the heading by itself."));

@@ -72,13 +72,12 @@ impl<'a> OnGround<'a> {
         let wheels = if self.rover.suspension().is_none() && self.is_coupled() {
             let mut contacts = Vec::with_capacity(slips.len());
             self.meet(stance, slips, &mut contacts);
-            match self.settle_together(stance, &contacts, &mut near.known) {
-                Some(wheels) => wheels,
-                None => {
-                    let wheels = self.settle_in_turns(stance, &contacts, &near.wheels)?;
-                    near.known = Known::of_all(self, &wheels).unwrap_or_default();
-                    wheels
-                }
+            if let Some(wheels) = self.settle_together(stance, &contacts, &mut near.known) {
+                wheels
+            } else {
+                let wheels = self.settle_in_turns(stance, &contacts, &near.wheels)?;
+                near.known = Known::of_all(self, &wheels).unwrap_or_default();
+                wheels
             }
         } else {
             self.reactions_near(stance, slips, &near.wheels)?

@@ -243,18 +243,15 @@ impl<'a> Path<'a> {
         let stance = ground.stance(&self.state(crab));
         let mut last = self.last.borrow_mut();
         let near = last.as_mut().filter(|(last, _)| (*place - *last).norm() < NEARBY);
-        let wheels = match near {
-            Some((last, known)) => {
-                let wheels = ground.reactions_by(&stance, &slips, known)?;
-                *last = *place;
-                wheels
-            }
-            None => {
-                let mut known = KnownWheels::default();
-                let wheels = ground.reactions_by(&stance, &slips, &mut known)?;
-                *last = Some((*place, known));
-                wheels
-            }
+        let wheels = if let Some((last, known)) = near {
+            let wheels = ground.reactions_by(&stance, &slips, known)?;
+            *last = *place;
+            wheels
+        } else {
+            let mut known = KnownWheels::default();
+            let wheels = ground.reactions_by(&stance, &slips, &mut known)?;
+            *last = Some((*place, known));
+            wheels
         };
         Ok((wheels, stance.pull))
     }
