@@ -30,7 +30,7 @@ fn scenario() -> LoadedScenario {
 fn study() -> SlopeStudy {
     let heading = HeadingStudy::of(&scenario().value);
     let (rim_speed, rule) = (given::RIM_SPEED, Rule::DEFAULT);
-    SlopeStudy { heading, rim_speed, rule, is_uncertainty_stated: true }
+    SlopeStudy { heading, rim_speed, rule, is_uncertainty_stated: true, holds_heading: false }
 }
 
 fn soils(count: u64) -> Vec<Soil> {

@@ -116,7 +116,13 @@ fn a_card_says_no_go_where_the_ground_slides() {
     // Of the samples, all hold the contour; the soil as written does not stand.
     let soil = Soil { friction_angle: deg(45.0), ..soil };
     let samples = [Sample { soil, model: Model::Ishigami }];
-    let study = SlopeStudy { heading, rim_speed: 0.06, rule, is_uncertainty_stated: true };
+    let study = SlopeStudy {
+        heading,
+        rim_speed: 0.06,
+        rule,
+        is_uncertainty_stated: true,
+        holds_heading: false,
+    };
     let card = study.card(&samples, &slopes, &|| true).expect("a card").expect("not stopped");
     assert_eq!(card.rows[1].advice.judgement.verdict, Verdict::NoGo);
     assert!(card.rows[1].refusal.as_ref().is_some_and(|text| text.starts_with("ground-strength")));
