@@ -6,7 +6,7 @@ mod picture;
 mod pixels;
 mod ways;
 
-pub use self::picture::{MapPictures, OfPlace, OfSeveral};
+pub use self::picture::{MapPictures, OfSeveral};
 pub use self::ways::{Track, ways_over_ground};
 
 use grouser_core::terrain::ElevationGrid;
@@ -16,6 +16,9 @@ use grouser_io::escape;
 use crate::sheet::{Anchor, Place, Shape, Sheet, Stroke, Text};
 use crate::step::round_step;
 use crate::style::{Ground, Role};
+
+/// A number of each place of a map, by column and row of its grid.
+pub type OfPlace<'m> = dyn Fn(usize, usize) -> Option<f64> + Sync + 'm;
 
 /// Length of the longer side of the ground [mm].
 const LENGTH: f64 = 140.0;

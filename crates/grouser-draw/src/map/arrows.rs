@@ -3,8 +3,7 @@
 use grouser_core::elementary::wide;
 use grouser_core::terrain::ElevationGrid;
 
-use super::Window;
-use super::picture::OfPlace;
+use super::{OfPlace, Window};
 use crate::sheet::{Colour, Place, Shape, Sheet, Stroke};
 use crate::style::{Ground, Role};
 

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::arrows::Arrows;
 use super::light::{lit, relief};
 use super::pixels::Pixels;
-use super::{CORNER, LETTERS, Window, text};
+use super::{CORNER, LETTERS, OfPlace, Window, text};
 use crate::chart::colour_bar;
 use crate::scale::Scale;
 use crate::sheet::{Cells, Colour, Shape, Sheet, Stroke};
@@ -17,9 +17,6 @@ use crate::style::{Ground, Role};
 const SHADES: usize = 24;
 /// Ground without a colour of its own.
 const PLAIN: Colour = Colour::grey(0.8);
-
-/// A number of each place of a map, by column and row of its grid.
-pub type OfPlace<'m> = dyn Fn(usize, usize) -> Option<f64> + Sync + 'm;
 
 /// What a pixel shows that has several cells.
 #[derive(Clone, Copy, Debug)]

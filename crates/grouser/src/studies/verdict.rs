@@ -253,7 +253,8 @@ impl SlopeStudy {
         if let Some(driven) = driven.as_mut().filter(|_| judgement.verdict != Verdict::NoGo) {
             let limit = SlipCheck::limit(held.iter().filter_map(|it| it.slip_ratio()));
             let place = (slope, course, driven.yaw);
-            driven.motion = DrivenMotion::of(self, (all, held), place, limit);
+            let own = (self.rim_speed, self.holds_heading);
+            driven.motion = DrivenMotion::of(&self.heading, own, (all, held), place, limit);
             judgement = judgement.or(self.when_driven(driven.motion.as_ref()));
         }
         let known = held.iter().filter(|it| **it != Holding::Unknown).count();

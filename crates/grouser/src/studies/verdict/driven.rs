@@ -14,7 +14,6 @@ use rand_chacha::ChaCha8Rng;
 use super::super::ensemble::samples::{Sample, outputs_of_places};
 use super::super::ensemble::{Band, Probability, outputs};
 use super::super::heading::{HeadingStudy, STRAIGHT_DOWN, STUCK, Steering};
-use super::SlopeStudy;
 use super::held::Holding;
 use super::slip_check::SlipCheck;
 use crate::elementary::wide::sin;
@@ -117,16 +116,16 @@ impl DrivenMotion {
     /// Drives all samples on a slope by a heading; `None` if the rover is stuck in each of them, or
     /// its nose falls too fast to be held.
     ///
+    /// * `holds_heading`: whether the rover keeps its nose by itself
     /// * `samples`: of soil and model, one at least, and whether each holds the course
     /// * `slip_limit`: above which the driver turns back at a look [-]
     pub(super) fn of(
-        study: &SlopeStudy,
+        study: &HeadingStudy,
+        (rim_speed, holds_heading): (f64, bool),
         (samples, held): (&[Sample], &[Holding]),
         (slope, course, yaw): (f64, f64, f64),
         slip_limit: f64,
     ) -> Option<Self> {
-        let SlopeStudy { heading: study, rim_speed, holds_heading, .. } = study;
-        let rim_speed = *rim_speed;
         let rims = vec![rim_speed; study.rover.wheel_count()];
         let moves =
             |motion: SteadyMotion| (motion.slip_ratio().abs() <= MOST_SLIP).then_some(motion);
@@ -136,7 +135,7 @@ impl DrivenMotion {
         let motions = outputs_of_places(samples, &|| true, |place| {
             let study = study.of_sample(&samples[place]);
             let near = held[place].velocity(course, rim_speed).filter(|_| knows_crab);
-            let seeking = Seeking { near, is_held: *holds_heading };
+            let seeking = Seeking { near, is_held: holds_heading };
             moves(study.motion_sought(slope, yaw, &rims, seeking).ok()?)
         });
         let motions: Vec<Option<SteadyMotion>> = motions.unwrap_or_default();
@@ -165,7 +164,7 @@ impl DrivenMotion {
         let falls = moving().map(|it| -it.turning());
         Some(Self {
             correct_every: (!holds_heading).then_some(correct_every),
-            heading_fall: if *holds_heading { None } else { Band::of(falls) },
+            heading_fall: if holds_heading { None } else { Band::of(falls) },
             drift: Band::of(drift.into_iter().map(|it| it.unwrap_or(STRAIGHT_DOWN))),
             slip_check: SlipCheck::of(&slips, slip_limit),
             slip_ratio: Band::of(slips),
