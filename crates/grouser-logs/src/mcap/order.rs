@@ -16,7 +16,7 @@ use crate::mcap::read::{Known, Messages};
 const MOST_WAITING: usize = 64 << 20;
 
 /// Messages in the order of time.
-pub(crate) struct InOrder {
+pub(crate) struct Chronological {
     messages: Messages<Box<dyn Read>>,
     /// When each chunk begins, in the order in which they are read [ns]; empty without an index.
     begins: Vec<u64>,
@@ -29,7 +29,7 @@ pub(crate) struct InOrder {
     has_ended: bool,
 }
 
-impl InOrder {
+impl Chronological {
     /// Begins at the start of a file; nothing if it is no MCAP.
     ///
     /// * `index`: of its chunks, if it is whole

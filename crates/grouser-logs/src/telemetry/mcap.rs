@@ -15,14 +15,14 @@ use crate::mapping::messages::MessageRows;
 use crate::mapping::plan::TopicChoices;
 use crate::mapping::topic::Topic;
 use crate::mcap::format::{ChunkIndex, Footer, Head, MAGIC, Message, Part as _, Record as _};
-use crate::mcap::order::InOrder;
+use crate::mcap::order::Chronological;
 use crate::mcap::read::{Known, Messages, OverBudget, known_of};
 use crate::protobuf::decode::Description;
 
 /// An MCAP log, record by record.
 pub(crate) struct McapLog {
     label: String,
-    messages: InOrder,
+    messages: Chronological,
     rows: MessageRows,
     /// How messages of a channel are decoded; nothing for channels that are not read.
     decoders: HashMap<u16, Option<Decoder>>,
@@ -52,7 +52,7 @@ impl McapLog {
         let failed = |error| failure(label, error);
         let (known, chunks) = contents(&mut file).map_err(failed)?;
         let rows = MessageRows::new(label, mapping, &topics(&known), rover, choices)?;
-        let messages = InOrder::new(file, chunks).map_err(failed)?;
+        let messages = Chronological::new(file, chunks).map_err(failed)?;
         let messages = messages
             .ok_or_else(|| failed(io::Error::other("the file changed while it was read")))?;
         let (decoders, descriptions) = (HashMap::new(), HashMap::new());
