@@ -74,18 +74,20 @@ fn other_commands_believe_what_was_learnt() {
         }
     }
     place.write("idle.csv", "time_s,roll_deg,pitch_deg,vo_dx_m\n0,8,0,\n1,8,0,0\n");
-    let again = place.json(
+    let idle = place.line(
         "learn idle.csv --prior today/soil.toml --rover hakuto --slope-deg 8 --predict-slope-deg \
-         5,10 --samples 60 --out tomorrow",
+         5,10 --samples 60 --out tomorrow --format json",
     );
-    let found = place.json(&heading.replace("today", "tomorrow"));
+    assert!(idle.code() == 1 && idle.stderr.contains("nothing was learnt"), "{}", idle.stderr);
+    assert!(!place.file("tomorrow/soil.toml").exists(), "what was believed is in today/soil.toml");
+    let again: Value = serde_json::from_str(&idle.stdout).expect("JSON");
     let pairs = again["predictions"].as_array().unwrap().iter();
     for (one, other) in pairs.zip(learnt["predictions"].as_array().unwrap()) {
         for key in ["yaw_deg_p2_5", "yaw_deg_p97_5"] {
             assert!((number(&one[key]) - number(&other[key])).abs() < 1e-6, "{key} {one} {other}");
         }
+        assert_eq!(one["advice"]["verdict"], other["advice"]["verdict"]);
     }
-    assert_eq!(found["rows"][1]["advice"]["verdict"], again["predictions"][1]["advice"]["verdict"]);
     // One model by its name has the samples of that model.
     let one = place.json(&format!("{heading} --model rft"));
     assert_eq!(one["belief"]["model_weights"]["rft"], 1.0);
@@ -147,7 +149,13 @@ fn a_run_has_telemetry() {
 #[test]
 fn what_taught_nothing_is_said() {
     let place = driven();
-    let text = place.results(&COMMAND.replace("--slope-deg 8", ""));
+    let answer = place.line(&COMMAND.replace("--slope-deg 8", ""));
+    assert!(
+        answer.code() == 1 && answer.stderr.contains("no soil is written"),
+        "{}",
+        answer.stderr
+    );
+    let text = answer.stdout;
     for part in ["taught nothing: roll and pitch are not known", "columns not used: forward_speed"]
     {
         assert!(text.contains(part), "{part} in\n{text}");

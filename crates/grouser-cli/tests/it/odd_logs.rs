@@ -110,11 +110,11 @@ fn an_outcome_has_its_exit_code() {
             answer.stderr
         );
     }
-    // Two rows of three are damaged.
+    // Of three rows the first two are damaged.
     let (header, rows) = text.split_once('\n').expect("a header");
-    let damaged = |(place, line): (usize, &str)| match place % 3 {
-        0 => format!("{line}\n"),
-        _ => format!("{line},1,2,3\n"),
+    let count = rows.lines().count();
+    let damaged = |(place, line): (usize, &str)| {
+        if 3 * place < 2 * count { format!("{line},1,2,3\n") } else { format!("{line}\n") }
     };
     let table: String = rows.lines().enumerate().map(damaged).collect();
     place.write("most.csv", format!("{header}\n{table}"));
