@@ -80,7 +80,7 @@ fn other_commands_believe_what_was_learnt() {
     );
     assert!(idle.code() == 1 && idle.stderr.contains("nothing was learnt"), "{}", idle.stderr);
     assert!(!place.file("tomorrow/soil.toml").exists(), "what was believed is in today/soil.toml");
-    let again: Value = serde_json::from_str(&idle.stdout).expect("JSON");
+    let again: serde_json::Value = serde_json::from_str(&idle.stdout).expect("JSON");
     let pairs = again["predictions"].as_array().unwrap().iter();
     for (one, other) in pairs.zip(learnt["predictions"].as_array().unwrap()) {
         for key in ["yaw_deg_p2_5", "yaw_deg_p97_5"] {
