@@ -267,7 +267,7 @@ def test_paths_are_waypoints_arcs_and_contours() -> None:
         ({"path": {"arc": {"radius_m": 1.0, "angle_deg": 90.0, "yaw": 0}}}, "no key 'yaw'"),
         ({"stop": {"slip": {"above": 0.4}}}, "unknown key `stop.slip`"),
         ({"stop": {"slip_ratio": {"above": 4.0}}}, "`stop.slip_ratio.above` is 4, it must be 0 to"),
-        ({"stop": {"slip_ratio": 0.4}}, "`stop.slip_ratio`"),
+        ({"stop": {"slip_ratio": "much"}}, "`stop.slip_ratio`"),
         ({"stop": {"time_s": {"above": np.nan}}}, "`stop.time_s.above`"),
         ({"stop": {"time_s": {"above": 4.0, "then": "next-leg"}}}, "time_s.then must be left out"),
         ({"stop": 3.0}, "stop is of type float"),

@@ -138,7 +138,7 @@ def test_a_given_way_is_not_safe_where_it_says(tmp_path: Path) -> None:
 
 def test_without_a_safe_route_there_is_a_reason(tmp_path: Path) -> None:
     way = gr.route(ground(wall), from_m=(302.0, -36.0), to_m=(311.0, -36.0), samples=2)
-    assert way.attrs["status"] == "no-safe-route" and way.sizes == {"waypoint": 0, "leg": 0}
+    assert way.attrs["status"] == "no-safe-route" and way.sizes == {"waypoint": 0, "leg": 0, "piece": 0}
     assert "cannot be crossed within the limits" in way.attrs["reason"]
     assert "length_m" not in way.attrs and way.time_s.attrs["units"] == "s"
     gentle = {"from_m": (302.0, -36.0), "to_m": (304.0, -36.0), "drive": False, "samples": 2}

@@ -154,12 +154,15 @@ fn dialect_of(start: &mut [u8]) -> Dialect {
             comment = Some(line);
         }
     }
-    let delimiter = delimiter_of(header);
+    let is_word = |byte: &u8| byte.is_ascii_alphabetic() && !b"TZe".contains(byte);
+    let is_numbers = !header.iter().any(is_word);
+    // Of numbers with decimal commas only words tell what parts them.
+    let words = comment.filter(|_| is_numbers);
+    let parted = |delimiter: u8| header.contains(&delimiter);
+    let by_words = words.map(delimiter_of).filter(|delimiter| parted(*delimiter));
+    let delimiter = by_words.unwrap_or_else(|| delimiter_of(header));
     let cells = |line: &[u8]| line.split(|byte| *byte == delimiter).count();
-    let is_numbers = !header
-        .iter()
-        .any(|byte| byte.is_ascii_alphabetic() && *byte != b'T' && *byte != b'Z' && *byte != b'e');
-    let behind = comment.filter(|line| is_numbers && cells(line) == cells(header));
+    let behind = words.filter(|line| cells(line) == cells(header));
     let mark = behind.and_then(|line| {
         let offset = line.as_ptr() as usize - start.as_ptr() as usize;
         Some(offset + line.iter().position(|byte| *byte == b'#')?)

@@ -124,7 +124,7 @@ impl MessageRows {
         let moved =
             if readings.clone().any(is_transform) { self.frames.take(message) } else { Vec::new() };
         let mut by_time: Vec<(When, Readings)> = Vec::new();
-        let context = Context { topic, message, moved: &moved, frames: &self.frames };
+        let context = Context { topic, message, moved: &moved, frames: &self.frames, log_time };
         for reading in readings {
             let Some((when, readings)) = context.read(reading, &mut self.counts) else { continue };
             match by_time.iter_mut().find(|(known, _)| *known == when) {
@@ -284,6 +284,7 @@ struct Context<'m> {
     /// Frames that it moved, each with its transform.
     moved: &'m [(&'m str, &'m Value)],
     frames: &'m Frames,
+    log_time: i64,
 }
 
 impl Context<'_> {
@@ -318,7 +319,30 @@ impl Context<'_> {
             },
             None => return Some((When::Recorded, readings)),
         };
-        Some((stamped(time, counts)?, readings))
+        Some((self.stamped(time, counts)?, readings))
+    }
+
+    /// When a message was sent that should have a time of its own [ns]; nothing for a time that no log
+    /// has.
+    fn stamped(&self, time: Option<f64>, counts: &mut Counts) -> Option<When> {
+        let Some(time) = time else {
+            // At the log's very start no time is the time.
+            if self.log_time == 0 {
+                return Some(When::Stamped(0));
+            }
+            counts.without_stamp += 1;
+            return Some(When::Recorded);
+        };
+        /// Times of logs are below [ns]: 64 bits hold them.
+        const LAST: f64 = 9.2e18;
+        if time.abs() > LAST {
+            counts.outside += 1;
+            return None;
+        }
+        counts.with_stamp += 1;
+        // Within the range that was just asked for.
+        #[expect(clippy::cast_possible_truncation)]
+        Some(When::Stamped(time as i64))
     }
 
     /// Counts an invalid reading.
@@ -381,27 +405,8 @@ impl Context<'_> {
         let own = moved.get("timestamp").or_else(|| moved.get("header")?.get("stamp"));
         let time = own.and_then(stamp);
         let readings = Readings { poses: vec![(slot, pose)], ..Readings::default() };
-        Some((stamped(time, counts)?, readings))
+        Some((self.stamped(time, counts)?, readings))
     }
-}
-
-/// When a message was sent that should have a time of its own [ns]; nothing for a time that no log
-/// has.
-fn stamped(time: Option<f64>, counts: &mut Counts) -> Option<When> {
-    let Some(time) = time else {
-        counts.without_stamp += 1;
-        return Some(When::Recorded);
-    };
-    /// Times of logs are below [ns]: 64 bits hold them.
-    const LAST: f64 = 9.2e18;
-    if time.abs() > LAST {
-        counts.outside += 1;
-        return None;
-    }
-    counts.with_stamp += 1;
-    // Within the range that was just asked for.
-    #[expect(clippy::cast_possible_truncation)]
-    Some(When::Stamped(time as i64))
 }
 
 /// A number, also one that is written as a text or a truth.

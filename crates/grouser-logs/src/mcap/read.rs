@@ -376,8 +376,6 @@ impl OpenChunk {
             let Ok(head) = Head::read(&mut self.records) else { return self.damaged(damage) };
             let Some(Head { opcode, length }) = head else { return self.end(damage) };
             budget.records -= 1;
-            budget.unpacked =
-                budget.unpacked.saturating_sub(length.saturating_add(Head::SIZE as u64));
             data.clear();
             let is_kept = matches!(opcode, Schema::OPCODE | Channel::OPCODE | Message::OPCODE);
             let mut record = (&mut self.records).take(length);
@@ -389,6 +387,9 @@ impl OpenChunk {
             } else {
                 io::copy(&mut record, &mut io::sink())
             };
+            // What a record claims is not yet unpacked.
+            let unpacked = read.as_ref().map_or(0, |count| *count) + Head::SIZE as u64;
+            budget.unpacked = budget.unpacked.saturating_sub(unpacked);
             if read.ok() != Some(length) {
                 return self.damaged(damage);
             }

@@ -1168,7 +1168,8 @@ class ScenarioKeys:
 
         @property
         def simulation(self) -> str:
-            """Whether velocities are integrated, or those of a steady state at every instant."""
+            """Whether velocities are integrated, or those of a steady state at every instant;
+            without it `quasi-steady` over a `terrain`, and `dynamic` on a plane."""
             ...
 
         @property
@@ -1636,7 +1637,8 @@ class MissionKeys:
 
         @property
         def simulation(self) -> str:
-            """Whether velocities are integrated, or those of a steady state at every instant."""
+            """Whether velocities are integrated, or those of a steady state at every instant;
+            without it `quasi-steady` over a `terrain`, and `dynamic` on a plane."""
             ...
 
         @property

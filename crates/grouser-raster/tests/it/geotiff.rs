@@ -168,14 +168,17 @@ fn a_header_that_promises_too_much_is_refused() {
     let good = geotiff::decode(tiff(3, 2, &heights), &ReadOptions::default()).expect("a grid");
     assert_eq!(good.grid.south_west, Vec2::new(100.5, 198.5));
     assert_eq!(good.height(0, 1), Some(0.0));
-    let decode = |width, height| {
-        geotiff::decode(tiff(width, height, &heights), &ReadOptions::default())
-            .expect_err("refused")
+    let decode = |width, height, cells| {
+        let options = ReadOptions { cells, ..ReadOptions::default() };
+        geotiff::decode(tiff(width, height, &heights), &options).expect_err("refused")
     };
-    let huge = decode(1_000_000, 1_000_000);
+    let small = decode(16_000, 16_000, None);
+    assert!(matches!(small, Fault::TooLarge { limit: 0x100_0000, .. }), "{small}");
+    assert!(small.to_string().contains("--max-cells"), "{small}");
+    let huge = decode(1_000_000, 1_000_000, None);
     assert!(matches!(huge, Fault::TooLarge { .. }), "{huge}");
     assert!(huge.to_string().contains("gdal_translate -projwin"), "{huge}");
-    let long = decode(16_000, 16_000);
+    let long = decode(16_000, 16_000, Some(1 << 28));
     assert!(matches!(long, Fault::Truncated { promised: 1_024_000_000, .. }), "{long}");
     let options = ReadOptions { cells: Some(5), ..ReadOptions::default() };
     let few = geotiff::decode(tiff(3, 2, &heights), &options).expect_err("refused");
