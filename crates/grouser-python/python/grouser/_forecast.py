@@ -83,8 +83,11 @@ class Forecast(_tables.Tabular):
             own = {"linestyle": "-" if is_supported else "--", "label": label, **style}
             (curve,) = axes.plot(self.slope_deg[rows], median[rows], **own)
             if is_supported:
-                band = {"alpha": 0.25, "color": curve.get_color(), "label": f"95 %, {label}"}
-                axes.fill_between(self.slope_deg[rows], low[rows], high[rows], **band)
+                colour = curve.get_color()
+                axes.fill_between(
+                    self.slope_deg[rows], low[rows], high[rows],
+                    alpha=0.25, color=colour, label=f"95 %, {label}",
+                )
         axes.set_xlabel(_tables.label("slope_deg"))
         axes.set_ylabel(_tables.label(name))
         return axes
