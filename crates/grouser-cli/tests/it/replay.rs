@@ -71,6 +71,31 @@ fn nothing_that_was_compared_is_no_agreement() {
     assert!(page.contains("Not checked: ") && !page.contains("No result on the soil"));
 }
 
+/// A turn on the spot goes to and fro within a stretch: the free run turns as the rover did, and is
+/// not stuck.
+#[test]
+fn a_free_run_turns_on_the_spot() {
+    let place = Place::new();
+    let leg = "drive_m = 0.3\nspeed_m_s = 0.06";
+    place.write(
+        "turn.toml",
+        format!(
+            "schema = \"mission/1\"\nname = \"a turn\"\nrover = \"hakuto\"\n\
+             soil = \"toyoura-uncertain\"\nslope_deg = 8\n[[leg]]\n{leg}\nheading = \"contour\"\n\
+             [[leg]]\nturn_deg = 60\nspeed_m_s = 0.05\n[[leg]]\n{leg}\n"
+        ),
+    );
+    place.results("mission turn.toml --nominal --telemetry log.csv --format csv");
+    let answer = place.line("replay log.csv --rover hakuto --soil toyoura-uncertain --format json");
+    assert!(!answer.stdout.contains("the free run ends"), "{}", answer.stdout);
+    let answer: serde_json::Value = serde_json::from_str(&answer.stdout).expect("JSON");
+    let channels = answer["channels"].as_array().expect("channels");
+    for (channel, most) in [("x_m", 0.05), ("y_m", 0.05), ("yaw_deg", 2.0)] {
+        let found = channels.iter().find(|it| it["channel"] == channel).expect(channel);
+        assert!(number(&found["rms"]) < most, "{found}");
+    }
+}
+
 /// Wheels that are assumed a twentieth too small, and bands over samples of the soil.
 #[test]
 fn a_wrong_radius_is_named() {

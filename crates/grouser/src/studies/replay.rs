@@ -45,7 +45,7 @@ use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::heading::HeadingStudy;
 use super::learn::{GAP, Gatherer, NotUsed, Stretch};
 use crate::simulation::{Scenario, SteadyMotion};
-use crate::vehicle::roll_and_pitch;
+use crate::vehicle::{Rover, roll_and_pitch};
 use grouser_io::measurements::telemetry::TelemetryRecord;
 use grouser_io::statistics::quantile;
 
@@ -174,10 +174,17 @@ impl Replayer {
         self.taken.records += 1;
         let time = record.time;
         self.track.push(&record);
+        let rims = rim_speeds(&self.study.rover, &record);
         let complete = self.gatherer.push(record);
         let is_behind = complete.as_ref().is_some_and(|it| it.time[1] < time);
+        if !is_behind {
+            self.commands.read(time, &rims);
+        }
         if let Some(stretch) = complete {
             self.take(stretch);
+        }
+        if is_behind {
+            self.commands.read(time, &rims);
         }
         let begins = self.opened.is_none_or(|it| time - it.time > GAP && is_behind);
         if begins {
@@ -388,6 +395,12 @@ fn of_pose(channel: Channel, pose: &Pose, slope: Option<f64>) -> Option<f64> {
         Channel::Pitch => slope.map(|slope| roll_and_pitch(slope, pose.yaw)[1]),
         _ => None,
     }
+}
+
+/// The rim speed of each wheel [m/s], where it was read.
+fn rim_speeds(rover: &Rover, record: &TelemetryRecord) -> Vec<Option<f64>> {
+    let wheels = rover.mounts().iter().zip(&record.wheels);
+    wheels.map(|(mount, wheel)| Some(wheel.speed? * mount.shearing_radius())).collect()
 }
 
 /// Adds the bands over what samples predict.

@@ -9,6 +9,7 @@ use crate::studies::ensemble::samples::Sample;
 use crate::studies::learn::{GAP, Stretch};
 use crate::terrain::Ground;
 use crate::vehicle::ByWheel;
+use grouser_io::statistics::quantile;
 
 /// How the wheels turn until a time.
 #[derive(Clone, Debug)]
@@ -31,10 +32,27 @@ struct Piece {
 /// How the wheels were seen to turn over a drive. Its size does not grow with the drive: of a long
 /// one, neighbouring commands become one.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Commands(Vec<Piece>);
+pub(super) struct Commands {
+    pieces: Vec<Piece>,
+    /// The ways in which the wheels turned since the last stretch, one after another.
+    turns: Vec<Turn>,
+}
+
+/// Records in which no wheel changes its direction.
+#[derive(Clone, Debug)]
+struct Turn {
+    /// The last record [s].
+    until: f64,
+    /// Which way each wheel turns, where it was read: 1, −1, or 0 where it stands.
+    directions: Vec<Option<f64>>,
+    /// Rim speeds of each wheel as they were read [m/s].
+    rim_speeds: Vec<Vec<f64>>,
+}
 
 /// Commands at most. Source: ours, a kilometre or two of stretches.
 const MOST: usize = 20_000;
+/// A rim that is slower stands [m/s]. Source: ours, noise of encoders.
+const STANDS: f64 = 1e-3;
 
 /// A free run.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,27 +78,42 @@ pub enum Ended {
 }
 
 impl Commands {
-    /// Takes the wheels' motion over a stretch.
+    /// Takes the wheels' motion at a time [s].
+    ///
+    /// * `rim_speeds`: of each wheel [m/s], where it was read
+    pub(super) fn read(&mut self, time: f64, rim_speeds: &[Option<f64>]) {
+        match self.turns.last_mut().filter(|turn| turn.goes_on(rim_speeds)) {
+            Some(turn) => turn.push(time, rim_speeds),
+            None => self.turns.push(Turn::new(time, rim_speeds)),
+        }
+    }
+
+    /// Takes the wheels' motion over a stretch: as it is on the mean, or where wheels change their
+    /// direction under way, turn by turn.
     ///
     /// * `start`: the measured pose where it began
     pub(super) fn push(&mut self, stretch: &Stretch, start: Pose) {
-        let [from, until] = stretch.time;
-        let (rim_speeds, steering) = (stretch.rim_speeds.clone(), stretch.steering.clone());
-        let command = Command { from, until, rim_speeds, steering };
-        let open = self
-            .0
-            .last_mut()
-            .filter(|piece| piece.commands.last().is_some_and(|last| from - last.until <= GAP));
+        let mut turns = std::mem::take(&mut self.turns);
+        turns.retain(|turn| turn.until >= stretch.time[0]);
+        for command in Command::of_stretch(stretch, &turns) {
+            self.push_command(command, start);
+        }
+        if self.pieces.iter().map(|it| it.commands.len()).sum::<usize>() > MOST {
+            self.pieces.iter_mut().for_each(Piece::thin_out);
+        }
+    }
+
+    fn push_command(&mut self, command: Command, start: Pose) {
+        let open = self.pieces.last_mut().filter(|piece| {
+            piece.commands.last().is_some_and(|last| command.from - last.until <= GAP)
+        });
         match open {
             // What the wheels did between two records is what they do next.
             Some(piece) => {
-                let from = piece.commands.last().map_or(from, |last| last.until);
+                let from = piece.commands.last().map_or(command.from, |last| last.until);
                 piece.commands.push(Command { from, ..command });
             }
-            None => self.0.push(Piece { start, commands: vec![command] }),
-        }
-        if self.0.iter().map(|it| it.commands.len()).sum::<usize>() > MOST {
-            self.0.iter_mut().for_each(Piece::thin_out);
+            None => self.pieces.push(Piece { start, commands: vec![command] }),
         }
     }
 
@@ -88,9 +121,9 @@ impl Commands {
     ///
     /// * `slope`: of the plane [rad]
     pub(super) fn run(&self, scenario: &Scenario, slope: f64, sample: &Sample) -> FreeRun {
-        let starts = self.0.iter().map(|piece| piece.start.time).collect();
+        let starts = self.pieces.iter().map(|piece| piece.start.time).collect();
         let mut run = FreeRun { slope, starts, ended: None, poses: Vec::new() };
-        for piece in &self.0 {
+        for piece in &self.pieces {
             let scenario = piece.scenario(scenario, slope, sample);
             if let Err(error) = piece.run(&scenario, &mut run) {
                 let time = run.poses.last().map_or(piece.start.time, |it| it.time);
@@ -99,6 +132,48 @@ impl Commands {
         }
         run
     }
+}
+
+impl Turn {
+    fn new(time: f64, speeds: &[Option<f64>]) -> Self {
+        let wheels = speeds.len();
+        let (directions, rim_speeds) = (vec![None; wheels], vec![Vec::new(); wheels]);
+        let mut turn = Self { until: time, directions, rim_speeds };
+        turn.push(time, speeds);
+        turn
+    }
+
+    /// Whether no wheel turns another way.
+    fn goes_on(&self, speeds: &[Option<f64>]) -> bool {
+        let pairs = self.directions.iter().zip(speeds);
+        pairs.into_iter().all(|(own, speed)| match (own, speed.map(direction)) {
+            (Some(own), Some(other)) => *own == other,
+            _ => true,
+        })
+    }
+
+    fn push(&mut self, time: f64, speeds: &[Option<f64>]) {
+        self.until = time;
+        for ((own, read), speed) in self.directions.iter_mut().zip(&mut self.rim_speeds).zip(speeds)
+        {
+            *own = own.or(speed.map(direction));
+            read.extend(speed);
+        }
+    }
+
+    /// The middle of what each wheel did [m/s], or what it did on the mean over the stretch.
+    fn middles(&self, means: &[f64]) -> Vec<f64> {
+        let middle = |(read, mean): (&Vec<f64>, &f64)| {
+            let mut read = read.clone();
+            read.sort_by(f64::total_cmp);
+            quantile(&read, 0.5).unwrap_or(*mean)
+        };
+        self.rim_speeds.iter().zip(means).map(middle).collect()
+    }
+}
+
+fn direction(rim_speed: f64) -> f64 {
+    if rim_speed.abs() < STANDS { 0.0 } else { rim_speed.signum() }
 }
 
 impl Piece {
@@ -160,6 +235,22 @@ impl Piece {
 }
 
 impl Command {
+    fn of_stretch(stretch: &Stretch, turns: &[Turn]) -> Vec<Self> {
+        let ([mut from, end], means) = (stretch.time, &stretch.rim_speeds);
+        let steering = &stretch.steering;
+        if turns.len() < 2 {
+            let (rim_speeds, steering) = (means.clone(), steering.clone());
+            return vec![Self { from, until: end, rim_speeds, steering }];
+        }
+        let command = |turn: &Turn| {
+            let (rim_speeds, steering) = (turn.middles(means), steering.clone());
+            let command = Self { from, until: turn.until, rim_speeds, steering };
+            from = turn.until;
+            command
+        };
+        turns.iter().map(command).collect()
+    }
+
     /// This one and the next as one.
     fn and(&self, next: &Self) -> Self {
         let spans = [self.until - self.from, next.until - next.from];
