@@ -99,6 +99,10 @@ def test_a_kept_learner_goes_on_with_the_same_bits(log: Path, tmp_path: Path) ->
     (tmp_path / "state.json").write_text(text[: len(text) // 2])
     with pytest.raises(gr.ParameterError, match="damaged"):
         gr.Learner.load_state(tmp_path / "state.json")
+    for damaged in [text.encode().replace(b"mass_kg = ", b"mass_kg = 1", 1), b"\xff" + text.encode()]:
+        (tmp_path / "state.json").write_bytes(damaged)
+        with pytest.raises(gr.ParameterError, match="damaged"):
+            gr.Learner.load_state(tmp_path / "state.json")
     (tmp_path / "state.json").write_text(text)
     with pytest.raises(gr.ParameterError, match="another rover"):
         other_rover = gr.Learner(**{**PRIOR, "rover": "hakuto-flight"}).scenario

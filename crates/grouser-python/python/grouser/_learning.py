@@ -344,7 +344,8 @@ class Learner:
         ParameterError
             For a state that is damaged, of another version, or of another scenario.
         """
-        text = Path(path).read_text(encoding="utf-8")
+        # What is no text is damaged, as its check sum tells.
+        text = Path(path).read_text(encoding="utf-8", errors="replace")
         document = None if scenario is None else scenario._document
         return cls._of(_core.Learner.from_state(text, document))
 

@@ -2,7 +2,7 @@
 //!
 //! It is JSON of its own schema: the version of Grouser and the resolved scenario that it belongs
 //! to, and the state, field by field, in SI units. Numbers are written in the shortest form that
-//! reads back as the same bits. A check sum finds damage.
+//! reads back as the same bits. A check sum over all else finds damage.
 
 use serde_json::{Map, Value as Json, json};
 
@@ -12,6 +12,7 @@ use crate::studies::learn::{Archive, Drive, LearnSettings, Learner};
 /// What the document is.
 const SCHEMA: &str = "grouser.learn-state.v1";
 const VERSION: &str = env!("CARGO_PKG_VERSION");
+const CHECK_SUM: &str = "check_sum";
 
 /// The largest state that is read [bytes]: that of the longest drive has some ten million.
 pub const LARGEST_STATE: u64 = 256 << 20;
@@ -63,20 +64,21 @@ pub fn state_text(drive: &Drive, scenario: &LoadedScenario, slope_is_known: bool
     let files = scenario.companions.iter();
     let files: Map<String, Json> =
         files.map(|it| (it.name.clone(), it.content.clone().into())).collect();
-    let document = json!({
+    let mut document = json!({
         "schema": SCHEMA,
         "version": VERSION,
-        "check_sum": check_sum(&state),
         "slope_is_known": slope_is_known,
         "scenario": scenario.to_toml(),
         "files": files,
         "state": state,
     });
+    document[CHECK_SUM] = check_sum(&document).into();
     document.to_string() + "\n"
 }
 
-fn check_sum(state: &Json) -> String {
-    format!("{:016x}", fnv_1a(state.to_string().bytes()))
+/// The check sum of all that a document has beside it.
+fn check_sum(document: &Json) -> String {
+    format!("{:016x}", fnv_1a(document.to_string().bytes()))
 }
 
 /// A state that was read.
@@ -92,8 +94,9 @@ impl KeptDrive {
     /// [`StateError`] for a text that is damaged, or of another version.
     pub fn read(text: &str) -> Result<Self, StateError> {
         let damaged = |what: &str| StateError::Damaged(what.to_owned());
-        let document: Json =
+        let mut document: Json =
             serde_json::from_str(text).map_err(|error| StateError::Damaged(error.to_string()))?;
+        let stated = document.as_object_mut().and_then(|it| it.remove(CHECK_SUM));
         if document["schema"] != SCHEMA {
             return Err(damaged(&format!("its `schema` is not `{SCHEMA}`")));
         }
@@ -101,7 +104,7 @@ impl KeptDrive {
         if version != VERSION {
             return Err(StateError::OtherVersion(version.to_owned()));
         }
-        if document["check_sum"] != check_sum(&document["state"]) {
+        if stated != Some(check_sum(&document).into()) {
             return Err(damaged("its check sum is not that of its content"));
         }
         Ok(Self { document })
