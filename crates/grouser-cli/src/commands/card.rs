@@ -1,6 +1,7 @@
 //! `grouser card`: the operator's card, on two pages.
 
 mod columns;
+mod draft;
 mod layout;
 mod measured;
 mod picture;
@@ -33,12 +34,15 @@ use crate::inputs::{self, CardInputs};
 use crate::output::folder::{OldFiles, OutputFolder};
 use crate::output::rows::Rows;
 use crate::output::text::Text;
-use crate::output::{self, Format, file};
+use crate::output::{self, Format, file, terminal};
 use crate::report::REPORT;
 use crate::report::answer::add_next;
 use crate::report::page::Page;
 use picture::Picture;
 use row::CardRow;
+
+/// Samples of what somebody at a terminal reads while the card is computed. Source: ours, a second.
+const DRAFT: usize = 20;
 
 /// Steepest slope that is looked at [°].
 const STEEPEST_DEG: u8 = 60;
@@ -137,6 +141,10 @@ fn compute(
     let mut slopes: Vec<f64> = degrees.chain(asked).map(|slope| SLOPE.unit.to_si(slope)).collect();
     slopes.sort_by(f64::total_cmp);
     slopes.dedup();
+    if samples.len() > 2 * DRAFT && terminal::has_progress() {
+        let drafted = sampling::whole(study.card(&samples[..DRAFT], &slopes, &|| true)?);
+        output::message(&draft::line(&drafted, samples.len()));
+    }
     let card = sampling::with_bar(samples.len(), |go_on| study.card(samples, &slopes, go_on));
     Ok(sampling::whole(card?))
 }

@@ -58,7 +58,7 @@ pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Texts {
         setting: setting(inputs),
         has_bands: card.draws.is_some(),
         legend: legend(card.draws, args.holds_heading),
-        rule: rule(inputs, card),
+        rule: rule(args, inputs, card),
         facts: facts(args, inputs, card),
         holds_for: holds_for(args.holds_heading),
         leaves_out: "rocks, ripples, layers, slopes that change, starts, stops and turns; what \
@@ -202,7 +202,7 @@ fn assumed(inputs: &CardInputs) -> Vec<String> {
     inputs.scenario.assumptions.iter().map(short).collect()
 }
 
-fn rule(inputs: &CardInputs, card: &Card) -> Vec<(&'static str, String)> {
+fn rule(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Vec<(&'static str, String)> {
     let rule: &Rule = &inputs.rule;
     let (go_slip, stop_slip) = (percent(rule.go_slip_ratio), percent(rule.no_go_slip_ratio));
     let (share, least) = (percent(rule.go_probability), percent(rule.no_go_probability));
@@ -234,11 +234,17 @@ fn rule(inputs: &CardInputs, card: &Card) -> Vec<(&'static str, String)> {
     let between = "not without a second look, and with slip measured on the way.";
     let open = "the soil's document states no uncertainty, most of the samples are outside a \
                 domain, or the search for a heading gave up.";
+    // A nose that is held falls nowhere.
+    let end = if args.holds_heading {
+        "the ground slides, or the rover tips over.".to_owned()
+    } else {
+        let (fall, way) = (degrees(HEADING_ERROR), four_digits(SHORTEST_LEG));
+        format!(
+            "the ground slides, the rover tips over, or the nose falls by {fall} within {way} m."
+        )
+    };
     let no_go = format!(
-        "{not_held}; the slope is within {below} of the friction angle of {friction}, the ground \
-         slides, the rover tips over, or the nose falls by {fall} within {way} m.",
-        fall = degrees(HEADING_ERROR),
-        way = four_digits(SHORTEST_LEG)
+        "{not_held}; the slope is within {below} of the friction angle of {friction}, {end}"
     );
     let here = |verdict: Verdict, text: String| match first_of(card, verdict) {
         Some(first) => format!("{text} Here {first}."),
