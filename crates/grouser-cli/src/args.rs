@@ -40,7 +40,7 @@ pub(crate) use campaign::{
     CampaignRerunArgs, CampaignRunArgs, CampaignSummariseArgs, ExecutorChoice,
 };
 pub(crate) use card::{CardArgs, RuleArgs, SideChoice};
-pub(crate) use documents::{CheckArgs, CompletionsArgs, PresetsArgs, SchemaArgs};
+pub(crate) use documents::{CheckArgs, CompletionsArgs, ManArgs, PresetsArgs, SchemaArgs};
 pub(crate) use draw::DrawArgs;
 pub(crate) use forecast::ForecastArgs;
 pub(crate) use groups::grouped;
@@ -148,6 +148,8 @@ pub(crate) enum Command {
     Schema(SchemaArgs),
     /// Print a completion script for a shell.
     Completions(CompletionsArgs),
+    /// Print a manual page: `grouser man heading | man -l -`.
+    Man(ManArgs),
 }
 
 #[derive(Debug, Args)]

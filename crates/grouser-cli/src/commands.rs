@@ -17,6 +17,7 @@ pub(crate) mod import_urdf;
 pub(crate) mod learn;
 mod log;
 pub(crate) mod make_terrain;
+pub(crate) mod man;
 pub(crate) mod map;
 mod method;
 pub(crate) mod mission;

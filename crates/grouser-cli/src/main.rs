@@ -82,5 +82,6 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::Presets(args) => commands::presets::run(args),
         Command::Schema(args) => commands::schema::run(args),
         Command::Completions(args) => commands::completions::run(args),
+        Command::Man(args) => commands::man::run(args),
     }
 }

@@ -227,6 +227,18 @@ fn completions_know_every_command() {
 }
 
 #[test]
+fn every_command_has_a_manual_page() {
+    let place = Place::new();
+    let program = place.results("man");
+    assert!(program.contains(".TH grouser") && program.contains("heading"), "{program}");
+    for (command, option) in [("heading", "slope\\-deg"), ("campaign run", "seed")] {
+        let page = place.results(&format!("man {command}"));
+        assert!(page.contains(".SH OPTIONS") && page.contains(option), "{command}: {page}");
+    }
+    check_conversation("man-misspelt", "man headin");
+}
+
+#[test]
 fn reproduce_says_what_it_found_and_where_it_is() {
     let place = Place::new();
     assert_snapshot!("reproduce", place.line("reproduce --samples 2 --out study").conversation());
