@@ -8,8 +8,7 @@ mod records;
 mod samples;
 mod slips;
 mod state_file;
-
-use std::time::Duration;
+mod watch;
 
 use grouser::answers::Answer;
 use grouser::answers::learn::{LearnQuestion, LearntDrive, SOIL_FILE};
@@ -29,10 +28,11 @@ use self::position::Position;
 use self::records::{Event, Records};
 use self::samples::{reaches_too_far, samples};
 use self::state_file::StateFile;
+use self::watch::Watch;
 use super::sampling;
 use crate::args::LearnArgs;
 use crate::failure::Failure;
-use crate::inputs::{self, Following};
+use crate::inputs;
 use crate::interrupt;
 use crate::output::Format;
 use crate::output::answer::{give, write};
@@ -188,8 +188,8 @@ fn drive_on(
     (state, mut live): (&mut StateFile<'_>, Option<Live<'_>>),
     slopes: &[f64],
 ) -> Result<Ended, Failure> {
-    let quiet = args.follow_s.map(Duration::from_secs_f64);
-    let following = args.follow.then_some(Following { quiet });
+    let mut watch = Watch::of(args);
+    let following = watch.following();
     if args.follow {
         interrupt::handle_ctrl_c();
     }
@@ -204,6 +204,7 @@ fn drive_on(
     loop {
         match records.next() {
             Event::Record { record, is_whole, lost } => {
+                watch.record(record.time);
                 if !position.is_new(&record, &lost)? {
                     continue;
                 }
@@ -219,7 +220,7 @@ fn drive_on(
                 }
                 state.keep_now_and_then(drive)?;
             }
-            Event::Nothing => {}
+            Event::Nothing => watch.look(),
             Event::End(ending) => {
                 position.check_end()?;
                 if ending.rows == 0 && drive.records() == 0 && !interrupt::is_asked_to_stop() {

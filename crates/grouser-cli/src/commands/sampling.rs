@@ -50,7 +50,8 @@ pub(crate) fn with_bar<T>(
     let bar = output::progress_bar(samples as u64);
     bar.set_message("samples");
     let found = compute(&|| {
-        bar.inc(1);
+        // What comes after the samples is asked for, too, and is little.
+        bar.set_position((bar.position() + 1).min(samples as u64));
         true
     });
     bar.finish_and_clear();

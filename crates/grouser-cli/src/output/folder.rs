@@ -1,8 +1,11 @@
 //! An output folder: written beside and renamed; old files are replaced only on request.
 
+mod claim;
+
 use std::fs;
 use std::io::Write as _;
 use std::path::{Component, Path, PathBuf};
+use std::time::Duration;
 
 use grouser::document::{Loaded, escape, file};
 use tempfile::TempDir;
@@ -12,9 +15,13 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::output::terminal;
 use crate::report::REPORT;
+pub(crate) use claim::make_folder;
 
 /// Start of the names of temporary folders. A killed program may leave one behind.
 const TEMPORARY: &str = ".grouser-";
+/// A temporary folder of this age was left by a program that was killed: files are written to it
+/// when all are there. Source: ours.
+const LEFT_BEHIND: Duration = Duration::from_secs(3600);
 
 /// Files that appear in a folder together, or not at all.
 ///
@@ -75,6 +82,10 @@ impl OutputFolder {
             )));
         }
         let (base, missing) = split_at_existing(target)?;
+        if target.is_dir() {
+            claim::take(target)?;
+        }
+        clear_leftovers(&base);
         check_writable(&base)?;
         Ok(Self { target: target.to_owned(), base, missing, files: Vec::new() })
     }
@@ -125,12 +136,27 @@ impl OutputFolder {
         }
         // A long run may have made its folder meanwhile, to keep there how far it is.
         let Some(first) = self.missing.iter().next().filter(|_| !self.target.is_dir()) else {
+            self.check_ours()?;
             self.check_room()?;
             return move_entries(&staged, &self.target);
         };
         let place = self.base.join(first);
         fs::rename(staging.path().join(first), &place)
             .map_err(Failure::at("cannot make the folder", &place))
+    }
+
+    /// Checks that a folder that was made meanwhile was made by this program.
+    fn check_ours(&self) -> Result<(), Failure> {
+        let is_new = !self.missing.as_os_str().is_empty();
+        let was_ours = claim::take(&self.target)?;
+        if was_ours || !is_new || !has_entries(&self.target)? {
+            return Ok(());
+        }
+        let shown = escape::path(&self.target);
+        Err(Failure::Run(format!(
+            "{shown} was written meanwhile by another program: nothing of this one is in it\nhint: \
+             choose another folder"
+        )))
     }
 
     /// Checks that no folder stands where a file has to go, and no file where a folder has to.
@@ -196,6 +222,19 @@ fn temporary_folder(base: &Path) -> Result<TempDir, Failure> {
         .prefix(TEMPORARY)
         .tempdir_in(base)
         .map_err(Failure::at("cannot write to the folder", base))
+}
+
+/// Removes what programs that were killed left in a folder. One that cannot be removed stays.
+fn clear_leftovers(base: &Path) {
+    let is_old = |entry: &fs::DirEntry| {
+        let changed = entry.metadata().and_then(|it| it.modified());
+        changed.is_ok_and(|at| at.elapsed().is_ok_and(|age| age > LEFT_BEHIND))
+    };
+    let entries = fs::read_dir(base).into_iter().flatten().flatten();
+    let ours = entries.filter(|entry| entry.file_name().to_string_lossy().starts_with(TEMPORARY));
+    for entry in ours.filter(is_old) {
+        drop(fs::remove_dir_all(entry.path()));
+    }
 }
 
 /// A folder that cannot be written to is found before anything is computed.

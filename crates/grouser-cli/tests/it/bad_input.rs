@@ -484,6 +484,7 @@ fn a_full_disk_behind_the_standard_output() {
         "presets toyoura",
         "schema soil",
         "completions bash",
+        "man card",
         "reproduce --samples 2 --out study",
         "--help",
         "--version",
@@ -642,6 +643,48 @@ mod signals {
             }
             check_is_whole(&place);
         }
+    }
+
+    /// A folder has one writer at a time, and one that was killed holds none back.
+    #[test]
+    fn two_runs_do_not_write_to_one_folder() {
+        let place = Place::new();
+        std::fs::create_dir(place.file("out")).expect("a folder");
+        let mut first = start(&place, "traverse --duration-s 86400 --simulation dynamic --out out");
+        std::thread::sleep(Duration::from_secs(1));
+        let second = place.line("traverse --out out");
+        assert_eq!(second.code(), 1, "{}", second.stderr);
+        assert!(second.stderr.contains("another program"), "{}", second.stderr);
+        first.kill().expect("it can be killed");
+        first.wait().expect("it ends");
+        place.results("traverse --out out");
+    }
+
+    /// A folder that appears while a run computes belongs to another run.
+    #[test]
+    fn a_folder_that_was_made_meanwhile_is_not_written_to() {
+        let place = Place::new();
+        let slow = start(&place, "reproduce --samples 2 --out out");
+        std::thread::sleep(Duration::from_millis(200));
+        place.results("heading --out out");
+        let slow = Answer::new("reproduce", &slow.wait_with_output().expect("it ends"));
+        assert!(slow.code() == 1 && slow.stderr.contains("meanwhile"), "{}", slow.stderr);
+        assert!(place.file("out/heading.json").exists() && !place.file("out/data").exists());
+        assert_eq!(place.names(), ["out"]);
+    }
+
+    /// What a killed run left an hour ago is cleared; what may still be written to is not.
+    #[test]
+    fn leftovers_of_killed_runs_are_cleared() {
+        let place = Place::new();
+        for (name, minutes) in [(".grouser-old", 90), (".grouser-new", 1), (".other", 90)] {
+            std::fs::create_dir(place.file(name)).expect("a folder");
+            let folder = std::fs::File::open(place.file(name)).expect("it opens");
+            let then = std::time::SystemTime::now() - Duration::from_secs(60 * minutes);
+            folder.set_modified(then).expect("it can be made older");
+        }
+        place.results("heading --out out");
+        assert_eq!(place.names(), [".grouser-new", ".other", "out"]);
     }
 
     /// Checks that the folder, if there is one, holds all of the report.

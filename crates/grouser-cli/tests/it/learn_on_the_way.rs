@@ -10,7 +10,7 @@ use std::time::Duration;
 use serde_json::Value;
 
 use crate::bad_input::check_is_refusal;
-use crate::program::{Place, number};
+use crate::program::{Answer, Place, number};
 
 /// A place with the telemetry of a drive along 8° of a sand that is softer than the prior says.
 fn driven() -> Place {
@@ -107,6 +107,7 @@ fn states_that_do_not_fit_are_refused() {
     for (damaged, words) in [
         (state[..state.len() / 2].to_owned(), "damaged"),
         (state.replacen("\"outliers\":", "\"outliers\":1", 1), "check sum"),
+        (state.replacen("mass_kg = ", "mass_kg = 1", 1), "check sum"),
         (state.replacen(env!("CARGO_PKG_VERSION"), "0.0.1", 1), "Grouser 0.0.1 wrote it"),
         (String::new(), "damaged"),
     ] {
@@ -163,6 +164,79 @@ fn a_growing_log_is_learnt_from_line_by_line() {
     assert!(number(&row["yaw_deg_p2_5"]) < number(&row["yaw_deg_p97_5"]), "{row}");
     let said = check_is_refusal(&place.line(&format!("{LEARN} --follow --format csv")), 2);
     assert!(said.contains("--format json"), "{said}");
+}
+
+/// Follows a log, of which something becomes meanwhile; the lines of JSON that were printed.
+fn followed(place: &Place, meanwhile: impl FnOnce()) -> Vec<Value> {
+    let command = format!("{LEARN} --follow --follow-s 3 --format json");
+    let words: Vec<&str> = command.split_whitespace().collect();
+    let child = place.command(&words).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+    let child = child.expect("the program starts");
+    // It reads what there is, and waits.
+    thread::sleep(Duration::from_millis(1500));
+    meanwhile();
+    let answer = Answer::new(&command, &child.wait_with_output().expect("it ends"));
+    assert_eq!(answer.code(), 0, "{}", answer.stderr);
+    answer.stdout.lines().map(|line| serde_json::from_str(line).expect("a line of JSON")).collect()
+}
+
+/// The messages on what became of the log.
+fn warnings_of_log(printed: &[Value]) -> String {
+    let messages = printed.iter().filter(|it| it["kind"] == "log_warning");
+    messages.map(|it| it["message"].as_str().expect("words").to_owned() + "\n").collect()
+}
+
+/// A log that is rotated, or copied and cut, is gone on with: what is learnt is what the whole of
+/// it tells.
+#[test]
+fn a_log_that_is_rotated_is_gone_on_with() {
+    let place = driven();
+    let whole = place.read("log.csv");
+    let at_once: Value = place.json(LEARN);
+    let lines = lines_of(&whole);
+    let many = lines.len() * 7 / 10;
+    let (first, rest) = (lines[..many].concat(), lines[0].clone() + &lines[many..].concat());
+    let log = place.file("log.csv");
+    let rotate = || {
+        fs::rename(&log, place.file("log.1")).unwrap();
+        thread::sleep(Duration::from_millis(500));
+        fs::write(&log, &rest).unwrap();
+    };
+    let cut = || fs::write(&log, &rest).unwrap();
+    let accidents: [(&dyn Fn(), &[&str]); 2] = [
+        (&rotate, &["removed or moved", "another file took its place"]),
+        (&cut, &["it became shorter"]),
+    ];
+    for (accident, words) in accidents {
+        place.write("log.csv", &first);
+        let printed = followed(&place, accident);
+        let warnings = warnings_of_log(&printed);
+        assert!(words.iter().all(|word| warnings.contains(word)), "{words:?} in {warnings}");
+        let answer = printed.last().expect("an answer");
+        assert_eq!(answer["predictions"], at_once["predictions"]);
+        assert_eq!(answer["learnt"], at_once["learnt"]);
+    }
+}
+
+/// Rows that nobody can learn from, and silence, are said while they last.
+#[test]
+fn a_clock_that_is_set_back_is_said_at_once() {
+    let place = driven();
+    let lines = lines_of(&place.read("log.csv"));
+    let log = place.file("log.csv");
+    let printed = followed(&place, || {
+        let mut file = OpenOptions::new().append(true).open(&log).unwrap();
+        file.write_all(lines[1..40].concat().as_bytes()).unwrap();
+    });
+    let warnings = warnings_of_log(&printed);
+    assert!(warnings.contains("rows cannot be used") && warnings.contains("clock"), "{warnings}");
+}
+
+#[test]
+fn a_log_without_data_is_said_to_be_silent() {
+    let place = driven();
+    let answer = place.line(&format!("{LEARN} --follow --follow-s 12"));
+    assert!(answer.stdout.contains("no data for 10 s"), "{}", answer.stdout);
 }
 
 /// A soil learnt yesterday is a prior: today goes on from it, and knows more.

@@ -10,7 +10,7 @@ use grouser::studies::calibration::PosteriorState;
 
 use crate::args::CalibrateArgs;
 use crate::failure::Failure;
-use crate::output::folder::{OldFiles, OutputFolder};
+use crate::output::folder::{OldFiles, OutputFolder, make_folder};
 use crate::output::{self, file};
 
 /// The file by which an unfinished calibration is known.
@@ -75,7 +75,7 @@ impl Checkpoint {
     /// Keeps a state: the earlier one stays until this one is whole.
     pub(super) fn write(&self, state: &PosteriorState) -> Result<(), Failure> {
         let folder = self.file.parent().unwrap_or(Path::new("."));
-        fs::create_dir_all(folder).map_err(Failure::at("cannot make the folder", folder))?;
+        make_folder(folder)?;
         file::write(&self.file, &to_bytes(state, &self.identity))
     }
 

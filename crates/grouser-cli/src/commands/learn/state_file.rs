@@ -1,6 +1,5 @@
 //! The state of learning in the output folder, from which the same command goes on.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -11,7 +10,7 @@ use grouser::studies::learn::Drive;
 
 use crate::args::LearnArgs;
 use crate::failure::Failure;
-use crate::output::folder::{OldFiles, OutputFolder};
+use crate::output::folder::{OldFiles, OutputFolder, make_folder};
 use crate::output::{self, file};
 
 /// The file of the state.
@@ -79,7 +78,7 @@ impl<'a> StateFile<'a> {
     pub(super) fn keep(&mut self, drive: &Drive) -> Result<(), Failure> {
         let Some(file) = &self.file else { return Ok(()) };
         let folder = file.parent().unwrap_or(Path::new("."));
-        fs::create_dir_all(folder).map_err(Failure::at("cannot make the folder", folder))?;
+        make_folder(folder)?;
         let text = state_text(drive, self.scenario, self.slope_is_known);
         file::write(file, text.as_bytes())?;
         self.kept = Some(Instant::now());

@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 
 use crate::failure::Failure;
 use crate::interrupt;
-use crate::output::folder::{OldFiles, OutputFolder};
+use crate::output::folder::{OldFiles, OutputFolder, make_folder};
 
 /// The file that says of what a map in the making is.
 const IN_THE_MAKING: &str = "map-in-the-making.json";
@@ -36,7 +36,10 @@ impl MapFolder {
         let identity = identity(settings, raster);
         let mark = target.join(IN_THE_MAKING);
         match fs::read_to_string(&mark) {
-            Ok(found) if found == identity => return Ok(folder),
+            Ok(found) if found == identity => {
+                make_folder(target)?;
+                return Ok(folder);
+            }
             Ok(_) if !force => {
                 let shown = escape::path(target);
                 return Err(Failure::Usage(format!(
@@ -50,7 +53,7 @@ impl MapFolder {
         // The usual checks of a folder.
         drop(OutputFolder::open(target, old_files)?);
         let _deferred = interrupt::defer_ctrl_c();
-        fs::create_dir_all(target).map_err(Failure::at("cannot make the folder", target))?;
+        make_folder(target)?;
         for entry in fs::read_dir(target).map_err(Failure::at("cannot look into", target))? {
             let path = entry.map_err(Failure::at("cannot look into", target))?.path();
             if path.extension().is_some_and(|end| end == "tif") {
