@@ -1,22 +1,29 @@
 //! Rovers from URDF, the format in which robots are described to ROS.
 //!
-//! Links that roll become wheels, and all other links the body. Joints about an axis across the
-//! rover between the two are rockers and bogies, joints about an upright axis steer; what slides is
-//! taken as it stands at zero. Lengths are metres, the root link's x axis points forward, y to the
-//! left, z up (REP 103).
+//! Links that roll, reach the ground and come in pairs become wheels, and all other links the body.
+//! Joints about an axis across the rover between the two are rockers and bogies, joints about an
+//! upright axis steer; what slides is taken as it stands at zero. Lengths are metres, the root
+//! link's x axis points forward unless a caller says otherwise, y to the left, z up (REP 103).
 //!
 //! Source of the format: "URDF XML Specification", wiki.ros.org/urdf/XML.
 
 mod error;
+mod inertia;
 mod links;
+mod mesh;
 mod options;
 mod rover;
+mod shapes;
+mod suspension;
 #[cfg(test)]
 mod tests;
 mod tree;
 
+use std::borrow::Cow;
+
 pub use error::UrdfError;
-pub use options::UrdfOptions;
+pub use options::{Forward, UrdfOptions};
+pub use shapes::Meshes;
 
 use self::rover::Found;
 use self::tree::Robot;
@@ -28,6 +35,27 @@ pub struct UrdfRover {
     pub toml: String,
     /// What was taken for granted on the way, a sentence each.
     pub notes: Vec<String>,
+    /// The wheels that were found.
+    pub wheels: Vec<FoundWheel>,
+}
+
+/// A wheel that was found in URDF.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundWheel {
+    /// Its link.
+    pub link: String,
+    /// The joint that turns it.
+    pub joint: String,
+    /// [m]
+    pub radius: f64,
+    /// [m]
+    pub width: f64,
+    /// Its middle, from the body's centre of mass, forward, left and up [m].
+    pub position: [f64; 3],
+    /// The joint that steers it, if one does.
+    pub steered_by: Option<String>,
+    /// The joints of rocker and bogie that it hangs on, from the body out.
+    pub hangs_on: Vec<String>,
 }
 
 /// Makes a rover's document of URDF.
@@ -51,17 +79,37 @@ pub struct UrdfRover {
 ///     r#"<robot name="cart"><link name="body"><inertial><mass value="5"/>
 ///          <inertia ixx="0.1" iyy="0.1" izz="0.2" ixy="0" ixz="0" iyz="0"/></inertial></link>{wheels}</robot>"#
 /// );
-/// let found = import(&robot, &UrdfOptions::default())?;
+/// let no_meshes = |_: &str| None;
+/// let found = import(&robot, &UrdfOptions::default(), &no_meshes)?;
 /// let rover = read_rover(&Source::text("cart", found.toml), &Overrides::none())?.value;
 /// assert_eq!(rover.body().mass, 5.0);
 /// assert_eq!(rover.mounts()[2].name, "rear");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
+/// * `meshes`: looks up a mesh by its name in URDF, for the size of wheels
+///
 /// # Errors
 /// [`UrdfError`], which names the link or the joint.
-pub fn import(text: &str, options: &UrdfOptions) -> Result<UrdfRover, UrdfError> {
-    let robot = Robot::read(text)?;
-    let found = Found::of(&robot, options)?;
-    Ok(UrdfRover { toml: found.to_toml(&robot.name), notes: found.notes })
+pub fn import(
+    text: impl AsRef<[u8]>,
+    options: &UrdfOptions,
+    meshes: &Meshes<'_>,
+) -> Result<UrdfRover, UrdfError> {
+    let text = decoded(text.as_ref())?;
+    let robot = Robot::read(&text, options.forward)?;
+    let found = Found::of(&robot, options, meshes)?;
+    let toml = found.to_toml(&robot.name);
+    Ok(UrdfRover { toml, notes: found.notes, wheels: found.wheels })
+}
+
+/// UTF-8, or else Latin-1, whose letters stand in comments and names of authors.
+fn decoded(bytes: &[u8]) -> Result<Cow<'_, str>, UrdfError> {
+    if bytes.contains(&0) || bytes.starts_with(&[0xff, 0xfe]) {
+        return Err(UrdfError::NoText);
+    }
+    Ok(match std::str::from_utf8(bytes) {
+        Ok(text) => Cow::Borrowed(text),
+        Err(_) => bytes.iter().map(|byte| char::from(*byte)).collect::<String>().into(),
+    })
 }

@@ -1,14 +1,21 @@
 //! `grouser import-urdf`: a rover's document of the robot that ROS knows.
 
-use grouser::document::urdf::{self, UrdfError, UrdfOptions};
+use std::path::{Path, PathBuf};
+
+use grouser::document::reading::four_digits;
+use grouser::document::urdf::{self, FoundWheel, UrdfError, UrdfOptions};
 use grouser::document::{self, Overrides, Source, escape};
 
 use crate::args::ImportUrdfArgs;
 use crate::failure::Failure;
+use crate::output::rows::aligned;
+use crate::output::text::Text;
 use crate::output::{self, file};
 
 /// The largest file [bytes]: meshes stand in files of their own.
 const LARGEST: u64 = 16 << 20;
+/// The largest mesh [bytes].
+const LARGEST_MESH: u64 = 64 << 20;
 
 pub(crate) fn run(args: &ImportUrdfArgs) -> Result<(), Failure> {
     if let Some(out) = &args.out {
@@ -17,12 +24,15 @@ pub(crate) fn run(args: &ImportUrdfArgs) -> Result<(), Failure> {
     let name = escape::path(&args.file);
     let refused = |what: String| Failure::Usage(format!("{name}: {what}"));
     let bytes = document::file::read(&args.file, LARGEST).map_err(|it| refused(it.to_string()))?;
-    let text = String::from_utf8(bytes).map_err(|_| refused("is not a text".to_owned()))?;
-    let options = UrdfOptions { wheels: args.wheels.clone(), has_differential: args.differential };
-    let found = urdf::import(&text, &options)
+    let mesh = |mesh: &str| {
+        let places = places_of_mesh(&args.file, mesh);
+        places.iter().find_map(|place| document::file::read(place, LARGEST_MESH).ok())
+    };
+    let found = urdf::import(bytes, &options(args), &mesh)
         .map_err(|error| refused(escape::visible(&with_flags(&error)).into_owned()))?;
     let source = Source::text(format!("the rover of {name}"), found.toml.clone());
     document::read_rover(&source, &Overrides::none())?;
+    output::message(table(&found.wheels).to_string().trim_end());
     output::notes(found.notes.iter().map(|note| escape::line(note)));
     match &args.out {
         Some(out) => file::write_result(out, found.toml.as_bytes()),
@@ -30,13 +40,70 @@ pub(crate) fn run(args: &ImportUrdfArgs) -> Result<(), Failure> {
     }
 }
 
+fn options(args: &ImportUrdfArgs) -> UrdfOptions {
+    UrdfOptions {
+        wheels: args.wheels.clone(),
+        passive: args.passive.clone(),
+        wheel_radius: args.wheel_radius_m,
+        wheel_width: args.wheel_width_m,
+        forward: args.forward.into(),
+        has_differential: args.differential,
+        is_rigid: args.rigid,
+    }
+}
+
+/// The wheels that were found.
+fn table(wheels: &[FoundWheel]) -> Text {
+    let header =
+        ["wheel", "joint", "radius_m", "width_m", "x_m", "y_m", "z_m", "hangs_on", "steered_by"];
+    let or_none = |name: String| if name.is_empty() { "-".to_owned() } else { name };
+    let row = |wheel: &FoundWheel| {
+        let [x, y, z] = wheel.position;
+        let numbers = [wheel.radius, wheel.width, x, y, z].map(four_digits);
+        let names = [wheel.link.clone(), wheel.joint.clone()].into_iter().chain(numbers);
+        let steered = wheel.steered_by.clone().unwrap_or_default();
+        names.chain([or_none(wheel.hangs_on.join(", ")), or_none(steered)]).collect()
+    };
+    let rows: Vec<Vec<String>> = wheels.iter().map(row).collect();
+    aligned(&header.map(str::to_owned), &rows)
+}
+
+/// Where a mesh may be: as ROS finds it by its package, and beside the URDF and in folders above it.
+fn places_of_mesh(urdf: &Path, mesh: &str) -> Vec<PathBuf> {
+    /// How far above.
+    const ABOVE: usize = 4;
+    if let Some(path) = mesh.strip_prefix("file://") {
+        return vec![PathBuf::from(path)];
+    }
+    let in_package = ["package://", "model://"].iter().find_map(|it| mesh.strip_prefix(it));
+    let whole = in_package.unwrap_or(mesh);
+    let within = in_package.and_then(|it| it.split_once('/')).map(|(_, within)| within);
+    let folder = urdf.parent().unwrap_or(Path::new(""));
+    let above = folder.ancestors().take(ABOVE);
+    let names = move |folder: &Path| {
+        [Some(whole), within].into_iter().flatten().map(|it| folder.join(it)).collect::<Vec<_>>()
+    };
+    above.flat_map(names).collect()
+}
+
 /// An error with the flags that help.
 fn with_flags(error: &UrdfError) -> String {
     let hint = match error {
-        UrdfError::NoWheels(_) | UrdfError::TooManyWheels { .. } => {
-            "\nhint: --wheels '*wheel*' names those that are wheels"
+        UrdfError::NoWheels { along: 2.., .. } => "\nhint: --forward y, or --forward -y",
+        UrdfError::NoWheels { .. } => {
+            "\nhint: --wheels '*wheel*' names those that are wheels, --wheel-radius-m and \
+             --wheel-width-m give what their shapes do not tell"
         }
-        UrdfError::Differential(_) => "\nhint: --differential says that there is one",
+        UrdfError::TooManyWheels { .. } => "\nhint: --wheels '*wheel*' names those that are wheels",
+        UrdfError::NoRim { .. } => "\nhint: --wheel-radius-m R --wheel-width-m B",
+        UrdfError::Differential(_) => {
+            "\nhint: --differential says that there is one, --rigid takes rockers as they stand"
+        }
+        UrdfError::TurnTogether(..)
+        | UrdfError::Askew(_)
+        | UrdfError::TooManyJoints(_)
+        | UrdfError::Sides(..)
+        | UrdfError::OtherSuspension => "\nhint: --rigid takes these joints as they stand",
         _ => "",
     };
     format!("{error}{hint}")

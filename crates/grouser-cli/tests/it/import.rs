@@ -186,10 +186,49 @@ fn urdf_that_is_no_rover_is_refused() {
         ("import-urdf none.urdf", "no such file"),
         ("import-urdf bytes.urdf", "not a text"),
         ("import-urdf arm.urdf", "--wheels '*wheel*'"),
+        ("import-urdf arm.urdf --wheel-radius-m 0", "above 0"),
+        ("import-urdf arm.urdf --rigid --differential", "cannot be used with"),
         ("import-urdf arm.urdf --wheels tyre", "no link is called tyre"),
         ("import-urdf arm.urdf --force", "--out"),
     ] {
         let refused = check_is_refusal(&place.line(line), 2);
         assert!(refused.contains(expected), "{line}: {refused}");
     }
+}
+
+/// A rover whose wheels are meshes: the file is found by its package, beside the URDF or above it;
+/// without it the hint names the flags. The guess is a table.
+#[test]
+fn wheels_of_meshes_are_found_by_their_package() {
+    let place = Place::new();
+    let inertial = "<inertial><mass value=\"0.5\"/><inertia ixx=\"0.002\" iyy=\"0.002\" izz=\"0.002\"/></inertial>";
+    let shape = "<collision><geometry><mesh filename=\"package://cart/meshes/wheel.stl\"/></geometry></collision>";
+    let mut urdf =
+        format!("<robot name=\"cart\"><link name=\"body\">{}</link>", inertial.replace("0.5", "6"));
+    for (name, x, y) in [("fl", 1, 1), ("fr", 1, -1), ("rl", -1, 1), ("rr", -1, -1)] {
+        urdf += &format!(
+            "<link name=\"{name}\">{inertial}{shape}</link><joint name=\"{name}_joint\" type=\"continuous\">\
+             <parent link=\"body\"/><child link=\"{name}\"/><origin xyz=\"0.{}2 0.{}2 -0.1\"/><axis xyz=\"0 -1 0\"/></joint>",
+            x, y
+        )
+        .replace("0.-12", "-0.2")
+        .replace("0.12", "0.2");
+    }
+    std::fs::create_dir_all(place.file("cart/urdf")).expect("a folder");
+    place.write("cart/urdf/cart.urdf", urdf + "</robot>");
+    let line = "import-urdf cart/urdf/cart.urdf --out cart.toml";
+    let refused = check_is_refusal(&place.line(line), 2);
+    assert!(refused.contains("--wheel-radius-m") && refused.contains("link fl"), "{refused}");
+    let given = place.line(&format!("{line} --wheel-radius-m 0.1 --wheel-width-m 0.05"));
+    assert_eq!(given.code(), 0, "{}", given.stderr);
+    assert!(place.read("cart.toml").contains("radius_m = 0.1, width_m = 0.05"));
+    std::fs::create_dir_all(place.file("cart/meshes")).expect("a folder");
+    place
+        .write("cart/meshes/wheel.stl", "solid\nvertex -0.09 -0.03 -0.09\nvertex 0.09 0.03 0.09\n");
+    let found = place.line(&format!("{line} --force"));
+    assert_eq!(found.code(), 0, "{}", found.stderr);
+    let row = found.stderr.lines().find(|line| line.starts_with("fl ")).expect("a row");
+    assert!(row.contains("fl_joint") && row.contains("0.09") && row.contains("0.06"), "{row}");
+    assert!(found.stderr.starts_with("wheel  joint     radius_m"), "{}", found.stderr);
+    assert!(place.read("cart.toml").contains("radius_m = 0.09, width_m = 0.06"));
 }

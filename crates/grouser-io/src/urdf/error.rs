@@ -4,6 +4,9 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum UrdfError {
+    /// Bytes that are no text.
+    #[error("is not a text")]
+    NoText,
     /// No XML.
     #[error("is no XML: {0}")]
     Xml(String),
@@ -58,10 +61,29 @@ pub enum UrdfError {
     TwoRoots(String, String),
     /// No wheels.
     #[error(
-        "no wheels were found: no cylinder rolls without end (type continuous) about an axis \
-         across the rover; the links are {0}"
+        "no wheels were found: nothing with a shape rolls without end (type continuous) about an \
+         axis across the rover, with a partner on the other side; the links are {links}{}",
+        forward(*along)
     )]
-    NoWheels(String),
+    NoWheels {
+        /// The links there are.
+        links: String,
+        /// How many roll about axes along the rover.
+        along: usize,
+    },
+    /// Fewer wheels than a rover stands on.
+    #[error(
+        "has {count} wheels ({wheels}){beside}: a rover stands on three wheels at least, casters \
+         and skids not counted"
+    )]
+    TooFewWheels {
+        /// The wheels.
+        wheels: String,
+        /// How many they are.
+        count: usize,
+        /// What else is there that may touch the ground, each after an "and".
+        beside: String,
+    },
     /// More wheels than a rover has.
     #[error("has {count} wheels, and a rover has at most {most}: name those that are wheels")]
     TooManyWheels {
@@ -80,7 +102,7 @@ pub enum UrdfError {
     },
     /// A wheel without radius and width.
     #[error(
-        "link {link} is a wheel, but {found}\nhint: give it a <collision> with <cylinder radius=\"…\" length=\"…\"/>, radius and width of its rim"
+        "link {link} is a wheel, but {found}\nhint: its <collision> needs a <cylinder radius=\"…\" length=\"…\"/>, radius and width of its rim, whose axis (z) an origin with rpy=\"1.5708 0 0\" lays across; or the wheels' radius and width are given beside the URDF"
     )]
     NoRim {
         /// The link.
@@ -88,11 +110,6 @@ pub enum UrdfError {
         /// What it has instead.
         found: &'static str,
     },
-    /// A rim that lies or faces forward.
-    #[error(
-        "link {0} is a wheel, but the axis of its cylinder is not across the rover\nhint: a cylinder's axis is its z axis: an origin with rpy=\"1.5708 0 0\" lays it across"
-    )]
-    RimAcross(String),
     /// Two links of one wheel.
     #[error(
         "links {0} and {1} turn about the same axle and are one wheel\nhint: name the one that has the rim"
@@ -124,6 +141,12 @@ pub enum UrdfError {
         "joint {0} is a rocker, and URDF cannot say what holds the body between the rockers of both sides\nhint: a differential has to be asked for; other mechanisms are not known here, and a rigid rover has fixed joints (type=\"fixed\")"
     )]
     Differential(String),
+    /// Rockers that turn the same way.
+    #[error(
+        "joints {0} and {1} turn the same way, by their <mimic>: that is no differential, and holds \
+         no body between them\nhint: a differential's <mimic> has the other sign"
+    )]
+    TurnTogether(String, String),
     /// Sides that differ.
     #[error(
         "{0} are not alike on both sides: joints {1} and {2} turn about axes at different places"
@@ -140,4 +163,12 @@ pub enum UrdfError {
         "all links are wheels, or none of the others has a mass\nhint: give the body's link an <inertial>"
     )]
     NoBody,
+}
+
+/// What helps where wheels roll along x.
+fn forward(along: usize) -> String {
+    if along < 2 {
+        return String::new();
+    }
+    format!("\nhint: {along} links roll about axes along x: is y the rover's way forward?")
 }

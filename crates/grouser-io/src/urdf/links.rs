@@ -1,13 +1,14 @@
-//! Which links are wheels, what they hang on, and what links weigh together.
+//! Which links are wheels, and what they hang on.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use super::error::UrdfError;
 use super::options::UrdfOptions;
-use super::tree::{Rim, Robot};
+use super::shapes::{self, Meshes, Rim};
+use super::tree::Robot;
 
 /// Cosine of the angle by which an axis may be off its direction: 10°.
-const ALONG: f64 = 0.985;
+pub(super) const ALONG: f64 = 0.985;
 
 /// The most wheels of a rover.
 const MOST: usize = 64;
@@ -34,18 +35,24 @@ impl Wheel {
     pub(super) fn all(
         robot: &Robot,
         options: &UrdfOptions,
+        meshes: &Meshes<'_>,
         notes: &mut Vec<String>,
     ) -> Result<Vec<Self>, UrdfError> {
         let links = if options.wheels.is_empty() {
-            guessed(robot, notes)?
+            guessed(robot, options, meshes, notes)?
         } else {
             named(robot, &options.wheels)?
         };
         if links.len() > MOST {
             return Err(UrdfError::TooManyWheels { count: links.len(), most: MOST });
         }
-        let wheels: Vec<Self> =
-            links.into_iter().map(|link| Self::of(robot, link, notes)).collect::<Result<_, _>>()?;
+        let of = |link: usize| {
+            let wheel = Self::of(robot, link, options, meshes)?;
+            notes.extend(wheel.1.map(|note| format!("link {}: {note}", robot.links[link].name)));
+            note_sliding(robot, &wheel.0, notes);
+            Ok(wheel.0)
+        };
+        let wheels: Vec<Self> = links.into_iter().map(of).collect::<Result<_, _>>()?;
         for (number, wheel) in wheels.iter().enumerate() {
             if let Some(other) = wheels[..number].iter().find(|it| it.turned == wheel.turned) {
                 let [one, two] =
@@ -53,21 +60,22 @@ impl Wheel {
                 return Err(UrdfError::OneWheelTwice(one, two));
             }
         }
+        check_count(robot, &wheels)?;
         Ok(wheels)
     }
 
-    fn of(robot: &Robot, link: usize, notes: &mut Vec<String>) -> Result<Self, UrdfError> {
+    /// A wheel, and what is to be said of its rim.
+    fn of(
+        robot: &Robot,
+        link: usize,
+        options: &UrdfOptions,
+        meshes: &Meshes<'_>,
+    ) -> Result<(Self, Option<String>), UrdfError> {
         let name = &robot.links[link].name;
-        let no_rim = |found| UrdfError::NoRim { link: name.clone(), found };
-        let Rim::Cylinder { radius, length, origin } = robot.links[link].rim else {
-            let Rim::Other(found) = robot.links[link].rim else { return Err(no_rim("")) };
-            return Err(no_rim(found));
+        let rim = rim(robot, link, options, meshes)?;
+        let (Some(radius), Some(width)) = (rim.radius, rim.width) else {
+            return Err(UrdfError::NoRim { link: name.clone(), found: rim.lacks });
         };
-        let placed = robot.links[link].frame * origin;
-        let centre = placed.translation.vector;
-        if (placed.rotation * Vector3::z()).y.abs() <= ALONG {
-            return Err(UrdfError::RimAcross(name.clone()));
-        }
         let mut moving = robot.up_from(link).filter(|it| is_turned(robot, *it));
         let turned = moving.next().filter(|it| is_across(robot, *it));
         let turned = turned.ok_or_else(|| UrdfError::DoesNotRoll(name.clone()))?;
@@ -77,37 +85,165 @@ impl Wheel {
                 hinges.insert(0, above);
             } else if is_upright(robot, above) && steered.is_none() && hinges.is_empty() {
                 steered = Some(above);
-            } else {
+            } else if !options.is_rigid {
                 return Err(UrdfError::Askew(joint_name(robot, above)));
             }
+        }
+        if options.is_rigid {
+            hinges.clear();
         }
         if hinges.len() > 2 {
             return Err(UrdfError::TooManyJoints(name.clone()));
         }
-        for sliding in robot.up_from(turned).filter(|it| kind(robot, *it) == "prismatic") {
-            let joint = joint_name(robot, sliding);
-            notes.push(format!("joint {joint} slides: it is taken as it stands at zero"));
-        }
-        Ok(Self { link, turned, steered, hinges, radius, width: length, centre })
+        Ok((Self { link, turned, steered, hinges, radius, width, centre: rim.centre }, rim.note))
     }
 }
 
-/// Cylinders that roll without end about an axis across the rover.
-fn guessed(robot: &Robot, notes: &mut Vec<String>) -> Result<Vec<usize>, UrdfError> {
-    let rolls = |link: &usize| {
-        let is_round = matches!(robot.links[*link].rim, Rim::Cylinder { .. });
-        is_round && kind(robot, *link) == "continuous" && is_across(robot, *link)
-    };
-    let wheels: Vec<usize> = (0..robot.links.len()).filter(rolls).collect();
-    if wheels.is_empty() {
-        return Err(UrdfError::NoWheels(link_names(robot)));
+fn rim(
+    robot: &Robot,
+    link: usize,
+    options: &UrdfOptions,
+    meshes: &Meshes<'_>,
+) -> Result<Rim, UrdfError> {
+    let link = &robot.links[link];
+    shapes::rim(&link.shapes, &link.frame, options, meshes)
+}
+
+/// Says that what slides between a wheel and the body is taken as it stands.
+fn note_sliding(robot: &Robot, wheel: &Wheel, notes: &mut Vec<String>) {
+    for sliding in robot.up_from(wheel.turned).filter(|it| kind(robot, *it) == "prismatic") {
+        let joint = joint_name(robot, sliding);
+        notes.push(format!(
+            "joint {joint} slides, as springs do: the rover is taken as rigid, and this joint as it \
+             stands at zero"
+        ));
     }
-    let names: Vec<&str> = wheels.iter().map(|link| &*robot.links[*link].name).collect();
+}
+
+/// Checks that there are as many wheels as a rover stands on.
+fn check_count(robot: &Robot, wheels: &[Wheel]) -> Result<(), UrdfError> {
+    const LEAST: usize = 3;
+    if wheels.len() >= LEAST {
+        return Ok(());
+    }
+    let names = wheels.iter().map(|wheel| robot.links[wheel.link].name.clone());
+    let is_wheel = |link: usize| wheels.iter().any(|wheel| wheel.link == link);
+    let beside = (0..robot.links.len())
+        .filter(|link| !is_wheel(*link) && robot.links[*link].parent.is_some());
+    let beside = beside.filter_map(|link| {
+        Some(format!(
+            "{} of link {}",
+            shapes::kinds(&robot.links[link].shapes)?,
+            robot.links[link].name
+        ))
+    });
+    Err(UrdfError::TooFewWheels {
+        wheels: names.collect::<Vec<_>>().join(", "),
+        count: wheels.len(),
+        beside: beside.map(|it| format!(" and {it}")).collect(),
+    })
+}
+
+/// What rolls about an axis across the rover, reaches the ground, and comes in pairs.
+fn guessed(
+    robot: &Robot,
+    options: &UrdfOptions,
+    meshes: &Meshes<'_>,
+    notes: &mut Vec<String>,
+) -> Result<Vec<usize>, UrdfError> {
+    let is_passive =
+        |link: usize| options.passive.iter().any(|it| fits(it, &robot.links[link].name));
+    let rolling = |axis: fn(&Robot, usize) -> bool| {
+        let links = 0..robot.links.len();
+        links
+            .filter(|link| rolls(robot, *link) && axis(robot, *link) && !is_passive(*link))
+            .collect::<Vec<_>>()
+    };
+    let mut found = Vec::new();
+    for link in rolling(is_across) {
+        found.push(Rolling { link, rim: rim(robot, link, options, meshes)? });
+    }
+    found.retain(|it| !robot.links[it.link].shapes.is_empty() || options.wheel_radius.is_some());
+    let on_ground = on_ground(&found);
+    let in_pairs = in_pairs(&on_ground);
+    if in_pairs.is_empty() {
+        return Err(UrdfError::NoWheels {
+            links: link_names(robot),
+            along: rolling(is_along).len(),
+        });
+    }
+    let name = |link: usize| &*robot.links[link].name;
+    let names: Vec<&str> = in_pairs.iter().map(|it| name(it.link)).collect();
     notes.push(format!(
-        "wheels: {}, the cylinders that roll without end about axes across the rover",
+        "wheels: {}, which roll about axes across the rover, reach the ground and come in pairs",
         names.join(", ")
     ));
-    Ok(wheels)
+    let others: Vec<&str> =
+        found.iter().map(|it| name(it.link)).filter(|it| !names.contains(it)).collect();
+    if !others.is_empty() {
+        notes.push(format!("no wheels: {}, which roll as well", others.join(", ")));
+    }
+    Ok(in_pairs.iter().map(|it| it.link).collect())
+}
+
+/// A link that rolls about an axis across the rover.
+#[derive(Clone, Debug)]
+struct Rolling {
+    link: usize,
+    rim: Rim,
+}
+
+impl Rolling {
+    /// How low it reaches, as far as its radius is known [m].
+    fn bottom(&self) -> f64 {
+        self.rim.centre.z - self.rim.radius.unwrap_or(0.0)
+    }
+}
+
+/// Those that reach about as low as the lowest does: wheels of which no radius is known are compared
+/// by their middles.
+fn on_ground(found: &[Rolling]) -> Vec<Rolling> {
+    /// Over a radius [-]. Source: ours; a rover's wheels at zero stand on one plane.
+    const ABOUT: f64 = 0.5;
+    let knows_all = found.iter().all(|it| it.rim.radius.is_some());
+    let low = |it: &Rolling| if knows_all { it.bottom() } else { it.rim.centre.z };
+    let lowest = found.iter().map(low).fold(f64::INFINITY, f64::min);
+    let usual = found.iter().filter_map(|it| it.rim.radius).fold(0.0, f64::max).max(0.02);
+    found.iter().filter(|it| low(it) - lowest <= ABOUT * usual).cloned().collect()
+}
+
+/// Those that have a partner on the other side; and those in the middle, where two pairs are not
+/// there.
+fn in_pairs(found: &[Rolling]) -> Vec<Rolling> {
+    /// Over the distance between the sides [-]. Source: ours.
+    const ALIKE: f64 = 0.1;
+    let middle = {
+        let sides = found.iter().map(|it| it.rim.centre.y);
+        let (low, high) = sides.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), it| {
+            (low.min(it), high.max(it))
+        });
+        0.5 * (low + high)
+    };
+    let is_partner = |one: &Rolling, other: &Rolling| {
+        let (a, b) = (one.rim.centre, other.rim.centre);
+        let across = (a.y - b.y).abs();
+        let is_opposite = (a.y - middle) * (b.y - middle) < 0.0;
+        let is_level = (a.x - b.x).abs().max((a.z - b.z).abs()) <= ALIKE * across;
+        is_opposite && is_level && (a.y + b.y - 2.0 * middle).abs() <= ALIKE * across
+    };
+    let has_partner = |it: &&Rolling| found.iter().any(|other| is_partner(it, other));
+    let paired: Vec<Rolling> = found.iter().filter(has_partner).cloned().collect();
+    if paired.len() == 2 { found.to_vec() } else { paired }
+}
+
+/// Whether a link rolls: without end, or with limits of some turns.
+fn rolls(robot: &Robot, link: usize) -> bool {
+    let limits = robot.links[link].joint.as_ref().and_then(|joint| joint.limits);
+    match kind(robot, link) {
+        "continuous" => true,
+        "revolute" => limits.is_some_and(|[low, high]| high - low > 4.0 * std::f64::consts::PI),
+        _ => false,
+    }
 }
 
 fn named(robot: &Robot, patterns: &[String]) -> Result<Vec<usize>, UrdfError> {
@@ -160,49 +296,12 @@ fn is_across(robot: &Robot, link: usize) -> bool {
     robot.links[link].axis().is_some_and(|axis| axis.y.abs() > ALONG)
 }
 
+fn is_along(robot: &Robot, link: usize) -> bool {
+    robot.links[link].axis().is_some_and(|axis| axis.x.abs() > ALONG)
+}
+
 fn is_upright(robot: &Robot, link: usize) -> bool {
     robot.links[link].axis().is_some_and(|axis| axis.z.abs() > ALONG)
-}
-
-/// Mass [kg], centre of mass in the root's frame [m], and inertia about that along the root's axes
-/// [kg m²].
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Together {
-    pub(super) mass: f64,
-    pub(super) centre: Vector3<f64>,
-    pub(super) inertia: Matrix3<f64>,
-}
-
-impl Together {
-    /// Links as one body.
-    pub(super) fn of(robot: &Robot, links: impl Iterator<Item = usize> + Clone) -> Self {
-        let parts = links.filter_map(|link| {
-            let inertial = robot.links[link].inertial?;
-            let placed = robot.links[link].frame * inertial.origin;
-            let turn = placed.rotation.to_rotation_matrix();
-            let inertia = turn.matrix() * inertial.inertia * turn.matrix().transpose();
-            Some((inertial.mass, placed.translation.vector, inertia))
-        });
-        let mass: f64 = parts.clone().map(|(mass, ..)| mass).sum();
-        let moment: Vector3<f64> = parts.clone().map(|(mass, at, _)| mass * at).sum();
-        let centre = if mass > 0.0 { moment / mass } else { Vector3::zeros() };
-        let about = |(mass, at, inertia): (f64, Vector3<f64>, Matrix3<f64>)| {
-            inertia + parallel_axis(mass, at - centre)
-        };
-        Self { mass, centre, inertia: parts.map(about).sum() }
-    }
-
-    /// The inertia about another point.
-    ///
-    /// * `point`: in the root's frame [m]
-    pub(super) fn inertia_about(&self, point: Vector3<f64>) -> Matrix3<f64> {
-        self.inertia + parallel_axis(self.mass, point - self.centre)
-    }
-}
-
-/// What a mass away from a point adds to the inertia about it (Huygens and Steiner).
-fn parallel_axis(mass: f64, away: Vector3<f64>) -> Matrix3<f64> {
-    mass * (Matrix3::identity() * away.norm_squared() - away * away.transpose())
 }
 
 #[cfg(test)]

@@ -5,13 +5,14 @@ use std::fmt::Write as _;
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::FoundWheel;
 use super::error::UrdfError;
-use super::links::{Together, Wheel, joint_name};
+use super::inertia::{Together, placeholders};
+use super::links::{Wheel, joint_name};
 use super::options::UrdfOptions;
+use super::shapes::Meshes;
+use super::suspension::Suspension;
 use super::tree::Robot;
-
-/// How far apart two places are that should be one [m].
-const SAME: f64 = 1e-3;
 
 /// A rover that was found.
 #[derive(Debug)]
@@ -20,6 +21,7 @@ pub(super) struct Found {
     mounts: Vec<Mount>,
     suspension: Option<Suspension>,
     pub(super) notes: Vec<String>,
+    pub(super) wheels: Vec<FoundWheel>,
 }
 
 #[derive(Debug)]
@@ -41,17 +43,14 @@ struct Unit {
     width: f64,
 }
 
-#[derive(Debug)]
-struct Suspension {
-    /// (x, z) from the body's centre of mass [m].
-    pivot: [f64; 2],
-    bogie: Option<([f64; 2], &'static str)>,
-}
-
 impl Found {
-    pub(super) fn of(robot: &Robot, options: &UrdfOptions) -> Result<Self, UrdfError> {
+    pub(super) fn of(
+        robot: &Robot,
+        options: &UrdfOptions,
+        meshes: &Meshes<'_>,
+    ) -> Result<Self, UrdfError> {
         let mut notes = Vec::new();
-        let wheels = Wheel::all(robot, options, &mut notes)?;
+        let wheels = Wheel::all(robot, options, meshes, &mut notes)?;
         let turned: Vec<usize> = wheels.iter().map(|wheel| wheel.turned).collect();
         let is_of_wheel = robot.hanging_on(&turned);
         let others = (0..robot.links.len()).filter(|link| !is_of_wheel[*link]);
@@ -66,13 +65,18 @@ impl Found {
                     .to_owned(),
             );
         }
-        let suspension = suspension(robot, &wheels, &body, options)?;
+        let suspension = Suspension::of(robot, &wheels, &body, options)?;
         let mounts = wheels
             .iter()
             .map(|wheel| mount(robot, wheel, &body, &mut notes))
             .collect::<Result<_, _>>()?;
+        notes.extend(doubts(robot, &wheels, &body));
+        if options.is_rigid {
+            notes.push("rockers and bogies are taken as they stand: the rover is rigid".to_owned());
+        }
         notes.push("wheels are smooth: URDF has no grousers".to_owned());
-        Ok(Self { body, mounts, suspension, notes })
+        let wheels = wheels.iter().map(|wheel| found_wheel(robot, wheel, &body)).collect();
+        Ok(Self { body, mounts, suspension, notes, wheels })
     }
 
     /// * `name`: of the robot
@@ -130,6 +134,31 @@ impl Unit {
     }
 }
 
+/// What is to be doubted of the inertias.
+fn doubts(robot: &Robot, wheels: &[Wheel], body: &Together) -> Vec<String> {
+    let reach = wheels.iter().map(|it| (it.centre - body.centre).norm() + it.radius);
+    let reach = reach.fold(0.0, f64::max);
+    let of_wheels = wheels.iter().map(|wheel| {
+        let is_part = robot.hanging_on(&[wheel.turned]);
+        let parts = (0..robot.links.len()).filter(|link| is_part[*link]);
+        (&*robot.links[wheel.link].name, Together::of(robot, parts), wheel.radius)
+    });
+    placeholders((body, reach), of_wheels)
+}
+
+fn found_wheel(robot: &Robot, wheel: &Wheel, body: &Together) -> FoundWheel {
+    let name = |link: usize| joint_name(robot, link);
+    FoundWheel {
+        link: robot.links[wheel.link].name.clone(),
+        joint: name(wheel.turned),
+        radius: wheel.radius,
+        width: wheel.width,
+        position: (wheel.centre - body.centre).into(),
+        steered_by: wheel.steered.map(name),
+        hangs_on: wheel.hinges.iter().copied().map(name).collect(),
+    }
+}
+
 fn mount(
     robot: &Robot,
     wheel: &Wheel,
@@ -169,75 +198,6 @@ fn mount(
         width: wheel.width,
     };
     Ok(Mount { name: name.clone(), position: wheel.centre - body.centre, steering, unit })
-}
-
-/// The rockers, and bogies, that wheels hang on; none where they hang on the body.
-fn suspension(
-    robot: &Robot,
-    wheels: &[Wheel],
-    body: &Together,
-    options: &UrdfOptions,
-) -> Result<Option<Suspension>, UrdfError> {
-    if wheels.iter().all(|wheel| wheel.hinges.is_empty()) {
-        return Ok(None);
-    }
-    let middle = body.centre.y;
-    let side = |is_left: bool| {
-        let of_side = wheels.iter().filter(|it| (it.centre.y > middle) == is_left);
-        Side::of(of_side.collect())
-    };
-    let (left, right) = (side(true)?, side(false)?);
-    let alike = |what, one: usize, other: usize| {
-        let away = robot.links[one].pivot() - robot.links[other].pivot();
-        if away.x.abs().max(away.z.abs()) <= SAME {
-            return Ok(());
-        }
-        Err(UrdfError::Sides(what, joint_name(robot, one), joint_name(robot, other)))
-    };
-    alike("rockers", left.rocker, right.rocker)?;
-    let place = |link: usize| {
-        let pivot = robot.links[link].pivot() - body.centre;
-        [pivot.x, pivot.z]
-    };
-    let bogie = match (left.bogie, right.bogie) {
-        (Some((one, end)), Some((other, other_end))) if end == other_end => {
-            alike("bogies", one, other)?;
-            Some((place(one), end))
-        }
-        (None, None) => None,
-        _ => return Err(UrdfError::OtherSuspension),
-    };
-    if !options.has_differential {
-        return Err(UrdfError::Differential(joint_name(robot, left.rocker)));
-    }
-    Ok(Some(Suspension { pivot: place(left.rocker), bogie }))
-}
-
-/// The links that turn on a side.
-struct Side {
-    rocker: usize,
-    bogie: Option<(usize, &'static str)>,
-}
-
-impl Side {
-    fn of(wheels: Vec<&Wheel>) -> Result<Self, UrdfError> {
-        let mut rockers = wheels.iter().map(|wheel| wheel.hinges.first());
-        let Some(Some(rocker)) = rockers.next() else { return Err(UrdfError::OtherSuspension) };
-        if !rockers.all(|it| it == Some(rocker)) {
-            return Err(UrdfError::OtherSuspension);
-        }
-        let (on_bogie, on_rocker): (Vec<&Wheel>, Vec<&Wheel>) =
-            wheels.into_iter().partition(|wheel| wheel.hinges.len() > 1);
-        match (&on_bogie[..], &on_rocker[..]) {
-            ([], [_, _]) => Ok(Self { rocker: *rocker, bogie: None }),
-            ([one, other], [alone]) if one.hinges == other.hinges => {
-                let is_front = one.centre.x + other.centre.x > 2.0 * alone.centre.x;
-                let end = if is_front { "front" } else { "rear" };
-                Ok(Self { rocker: *rocker, bogie: Some((one.hinges[1], end)) })
-            }
-            _ => Err(UrdfError::OtherSuspension),
-        }
-    }
 }
 
 // ---- Numbers ----

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{UrdfError, UrdfOptions, import};
+use super::{Forward, UrdfError, UrdfOptions, UrdfRover};
 use crate::{LoadedRover, Overrides, Source, read_rover};
 
 /// A link with mass and, where it is a wheel, a rim.
@@ -59,6 +59,10 @@ fn six(right_pivot: f64) -> String {
         }
     }
     robot(&inner)
+}
+
+fn import(text: &str, options: &UrdfOptions) -> Result<UrdfRover, UrdfError> {
+    super::import(text, options, &|_| None)
 }
 
 fn read(text: &str, options: &UrdfOptions) -> Result<LoadedRover, UrdfError> {
@@ -124,15 +128,15 @@ fn steering_is_found_and_patterns_name_wheels() {
     }
     let wheels = vec!["wheel_*".to_owned(), "b4".to_owned()];
     let text = robot(&inner);
-    let rover = read(&text, &UrdfOptions { wheels, has_differential: false }).expect("it").value;
+    let rover = read(&text, &UrdfOptions { wheels, ..UrdfOptions::default() }).expect("it").value;
     let axis = rover.mounts()[0].steering_axis.expect("it is steered");
     assert!((axis.limit - 0.5).abs() < 1e-6);
     let options =
-        UrdfOptions { wheels: vec!["wheel_*".into(), "b4".into()], has_differential: false };
+        UrdfOptions { wheels: vec!["wheel_*".into(), "b4".into()], ..UrdfOptions::default() };
     let notes = import(&text, &options).expect("it is a rover").notes;
     assert!(notes.iter().any(|it| it.contains("wheel_a1_steering steers from -28.")), "{notes:?}");
     let refused =
-        import(&text, &UrdfOptions { wheels: vec!["c*".to_owned()], has_differential: false });
+        import(&text, &UrdfOptions { wheels: vec!["c*".to_owned()], ..UrdfOptions::default() });
     assert!(
         refused
             .expect_err("no such link")
@@ -168,7 +172,7 @@ fn robots_that_are_no_rovers_are_refused() {
         ),
         (
             six.replace("<cylinder radius=\"0.15\" length=\"0.1\"/>", "<mesh filename=\"x\"/>"),
-            UrdfOptions { wheels: vec!["left_front".into()], has_differential: true },
+            UrdfOptions { wheels: vec!["left_front".into()], ..with_differential() },
             "link left_front is a wheel, but its geometry is a mesh",
         ),
         (
@@ -209,7 +213,7 @@ fn robots_that_are_no_rovers_are_refused() {
                 + "</robot>",
             UrdfOptions {
                 wheels: vec!["*front*".into(), "*middle".into(), "*rear".into()],
-                has_differential: true,
+                ..with_differential()
             },
             "links left_front and left_front_tyre turn about the same axle",
         ),
@@ -245,12 +249,261 @@ fn large_robots_are_bounded() {
         inner +=
             &joint(&format!("j{place}"), "continuous", [&ends[0], &ends[1]], [0.0; 3], "0 1 0");
     }
-    let refused = import(&robot(&inner), &UrdfOptions::default()).expect_err("too many");
-    assert!(matches!(refused, UrdfError::TooManyWheels { count: 3999, .. }), "{refused}");
+    let all = UrdfOptions { wheels: vec!["l*".to_owned()], ..UrdfOptions::default() };
+    let refused = import(&robot(&inner), &all).expect_err("too many");
+    assert!(matches!(refused, UrdfError::TooManyWheels { count: 4000, .. }), "{refused}");
+    let refused = import(&robot(&inner), &UrdfOptions::default()).expect_err("no pairs");
+    assert!(matches!(refused, UrdfError::NoWheels { .. }), "{refused}");
     let mut links = String::new();
     for place in 0..20_000 {
         let _ = write!(links, "<link name=\"l{place}\"/>");
     }
     let refused = import(&robot(&links), &UrdfOptions::default()).expect_err("too many");
     assert!(matches!(refused, UrdfError::TooMany(_)), "{refused}");
+}
+
+// ---- Robots as they are ----
+
+const CYLINDER: &str = "<collision><origin rpy=\"1.5707963 0 0\"/><geometry>\
+                        <cylinder radius=\"0.1\" length=\"0.08\"/></geometry></collision>";
+const MESH: &str = "<collision><geometry><mesh filename=\"package://cart/wheel.stl\" \
+                    scale=\"0.001 0.001 0.001\"/></geometry></collision>";
+
+/// A body with four wheels of a shape, and what else there is.
+fn cart(wheel: &str, rest: &str) -> String {
+    let mut inner = link("body", 6.0, "");
+    for (name, x, y) in [("fl", 0.2, 0.2), ("fr", 0.2, -0.2), ("rl", -0.2, 0.2), ("rr", -0.2, -0.2)]
+    {
+        inner += &link(name, 0.5, wheel);
+        inner +=
+            &joint(&format!("{name}_joint"), "continuous", ["body", name], [x, y, -0.1], "0 1 0");
+    }
+    robot(&(inner + rest))
+}
+
+fn found(text: &str, options: &UrdfOptions) -> UrdfRover {
+    import(text, options).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn what_does_not_count_is_not_read() {
+    let mast = link("mast", 0.1, "")
+        .replace("<inertial>", "<visual><geometry><cylinder/></geometry></visual><inertial>")
+        + &joint("mast_joint", "fixed", ["body", "mast"], [0.1, 0.0, 0.3], "0 0 0")
+        + "<gazebo><sensor:camera name=\"c\"/><plugin lib:file=\"x\"/></gazebo>";
+    let rover = found(&cart(CYLINDER, &mast), &UrdfOptions::default());
+    assert_eq!(rover.wheels.len(), 4);
+    assert!(rover.wheels.iter().all(|it| it.radius == 0.1 && it.width == 0.08));
+    // Latin-1: a name in a comment.
+    let latin = cart(CYLINDER, "<!-- J~rg -->").replace('~', "\u{f6}");
+    let latin: Vec<u8> =
+        latin.chars().map(|letter| u8::try_from(letter).expect("Latin-1")).collect();
+    assert!(std::str::from_utf8(&latin).is_err());
+    super::import(latin, &UrdfOptions::default(), &|_| None).expect("Latin-1");
+    let utf16: Vec<u8> = "<robot/>".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let refused = super::import(utf16, &UrdfOptions::default(), &|_| None).expect_err("UTF-16");
+    assert_eq!(refused, UrdfError::NoText);
+}
+
+#[test]
+fn the_largest_of_several_shapes_is_the_rim() {
+    let hub = CYLINDER.replace("0.1\"", "0.09\"");
+    let rover = found(&cart(&(hub + CYLINDER), ""), &UrdfOptions::default());
+    assert!(rover.wheels.iter().all(|it| it.radius == 0.1), "{:?}", rover.wheels);
+    assert!(
+        rover.notes.iter().any(|it| it.contains("the largest of 0.09, 0.1 m")),
+        "{:?}",
+        rover.notes
+    );
+    // What is seen counts where nothing collides, and not beside it.
+    let seen = CYLINDER.replace("collision", "visual").replace("0.1\"", "0.3\"");
+    assert_eq!(
+        found(&cart(&(seen.clone() + CYLINDER), ""), &UrdfOptions::default()).wheels[0].radius,
+        0.1
+    );
+    assert_eq!(found(&cart(&seen, ""), &UrdfOptions::default()).wheels[0].radius, 0.3);
+}
+
+/// A cube of STL that reaches so far along each axis.
+fn box_of_stl([x, y, z]: [f64; 3]) -> Vec<u8> {
+    format!("solid\nvertex {} {} {}\nvertex {x} {y} {z}\n", -x, -y, -z).into_bytes()
+}
+
+#[test]
+fn meshes_tell_radius_and_width_where_they_are_there() {
+    let text = cart(MESH, "");
+    let refused = import(&text, &UrdfOptions::default()).expect_err("no mesh").to_string();
+    assert!(refused.contains("link fl is a wheel, but its geometry is a mesh"), "{refused}");
+    let sized =
+        UrdfOptions { wheel_radius: Some(0.11), wheel_width: Some(0.05), ..UrdfOptions::default() };
+    assert!(found(&text, &sized).wheels.iter().all(|it| it.radius == 0.11 && it.width == 0.05));
+    let mesh = |name: &str| {
+        assert_eq!(name, "package://cart/wheel.stl");
+        Some(box_of_stl([90.0, 30.0, 90.0]))
+    };
+    let rover = super::import(&text, &UrdfOptions::default(), &mesh).expect("by its mesh");
+    let wheel = &rover.wheels[0];
+    assert!((wheel.radius - 0.09).abs() < 1e-9 && (wheel.width - 0.06).abs() < 1e-9, "{wheel:?}");
+    assert!(rover.notes.iter().any(|it| it.contains("by the extent of package://")));
+    let flat = |_: &str| Some(box_of_stl([90.0, 30.0, 20.0]));
+    assert!(super::import(&text, &UrdfOptions::default(), &flat).is_err());
+}
+
+/// Drums roll as wheels do, and have no partner on the other side; a caster beside two wheels
+/// carries no rover of ours; what reaches higher than the wheels is none.
+#[test]
+fn wheels_reach_the_ground_and_come_in_pairs() {
+    let drum = CYLINDER.replace("0.1\"", "0.12\"").replace("0.08", "0.5");
+    let drums: String = [("drum_front", 0.4), ("drum_back", -0.4)]
+        .iter()
+        .map(|(name, x)| {
+            link(name, 0.8, &drum)
+                + &joint(
+                    &format!("{name}_j"),
+                    "continuous",
+                    ["body", name],
+                    [*x, 0.0, -0.05],
+                    "0 1 0",
+                )
+        })
+        .collect();
+    let rover = found(&cart(CYLINDER, &drums), &UrdfOptions::default());
+    let names: Vec<&str> = rover.wheels.iter().map(|it| &*it.link).collect();
+    assert_eq!(names, ["fl", "fr", "rl", "rr"]);
+    assert!(
+        rover.notes.iter().any(|it| it == "no wheels: drum_front, drum_back, which roll as well")
+    );
+    let arms: String = [("reel_left", 0.3), ("reel_right", -0.3)]
+        .iter()
+        .map(|(name, y)| {
+            link(name, 0.1, CYLINDER)
+                + &joint(
+                    &format!("{name}_j"),
+                    "continuous",
+                    ["body", name],
+                    [0.0, *y, 0.3],
+                    "0 1 0",
+                )
+        })
+        .collect();
+    assert_eq!(found(&cart(CYLINDER, &arms), &UrdfOptions::default()).wheels.len(), 4);
+
+    let mut two = link("body", 6.0, "")
+        + &link(
+            "caster",
+            0.1,
+            "<collision><geometry><sphere radius=\"0.05\"/></geometry></collision>",
+        );
+    two += &joint("cj", "fixed", ["body", "caster"], [-0.2, 0.0, -0.15], "0 0 1");
+    for (name, y) in [("left", 0.2), ("right", -0.2)] {
+        two += &link(name, 0.5, CYLINDER);
+        two += &joint(&format!("{name}_j"), "continuous", ["body", name], [0.0, y, -0.1], "0 1 0");
+    }
+    let refused = import(&robot(&two), &UrdfOptions::default()).expect_err("two").to_string();
+    assert!(refused.contains("2 wheels (left, right) and a sphere of link caster"), "{refused}");
+    // Three: a pair, and one in the middle.
+    two += &link("rear", 0.5, CYLINDER);
+    two += &joint("rear_j", "continuous", ["body", "rear"], [-0.3, 0.0, -0.1], "0 1 0");
+    assert_eq!(found(&robot(&two), &UrdfOptions::default()).wheels.len(), 3);
+    let passive = UrdfOptions { passive: vec!["rear".to_owned()], ..UrdfOptions::default() };
+    let refused = import(&robot(&two), &passive).expect_err("two").to_string();
+    assert!(refused.contains("2 wheels"), "{refused}");
+}
+
+#[test]
+fn rovers_may_face_along_y() {
+    let text = cart(CYLINDER, "")
+        .replace("xyz=\"0 1 0\"", "xyz=\"1 0 0\"")
+        .replace("rpy=\"1.5707963 0 0\"", "rpy=\"0 1.5707963 0\"");
+    let refused = import(&text, &UrdfOptions::default()).expect_err("none across").to_string();
+    assert!(refused.contains("4 links roll about axes along x"), "{refused}");
+    for (forward, [x, y]) in [(Forward::Y, [0.2, -0.2]), (Forward::MinusY, [-0.2, 0.2])] {
+        let rover = found(&text, &UrdfOptions { forward, ..UrdfOptions::default() });
+        let [fl_x, fl_y, _] = rover.wheels[0].position;
+        assert!((fl_x - x).abs() < 1e-9 && (fl_y - y).abs() < 1e-9, "{forward:?} {fl_x} {fl_y}");
+    }
+    let back = UrdfOptions { forward: Forward::MinusX, ..UrdfOptions::default() };
+    let rover = found(&cart(CYLINDER, ""), &back);
+    assert!((rover.wheels[0].position[0] + 0.2).abs() < 1e-9, "{:?}", rover.wheels[0]);
+}
+
+/// Four wheels on rockers that turn with or against each other.
+fn rockers(multiplier: &str, right_axis: &str) -> String {
+    let mut inner = link("body", 6.0, "");
+    for (side, y) in [("left", 0.2), ("right", -0.2)] {
+        let rocker = format!("{side}_rocker");
+        inner += &link(&rocker, 0.4, "");
+        let is_right = side == "right";
+        let axis = if is_right { right_axis } else { "0 1 0" };
+        let hinge =
+            joint(&format!("{rocker}_joint"), "revolute", ["body", &rocker], [0.0, y, 0.0], axis);
+        let mimic = format!("<mimic joint=\"left_rocker_joint\"{multiplier}/></joint>");
+        inner += &if is_right { hinge.replace("</joint>", &mimic) } else { hinge };
+        for (end, x) in [("front", 0.2), ("rear", -0.2)] {
+            let wheel = format!("{side}_{end}");
+            inner += &link(&wheel, 0.5, CYLINDER);
+            inner += &joint(
+                &format!("{wheel}_joint"),
+                "continuous",
+                [&rocker, &wheel],
+                [x, 0.0, -0.1],
+                "0 1 0",
+            );
+        }
+    }
+    robot(&inner)
+}
+
+#[test]
+fn a_mimic_between_rockers_is_a_differential() {
+    for (multiplier, axis) in [(" multiplier=\"-1\"", "0 1 0"), ("", "0 -1 0")] {
+        let rover =
+            read(&rockers(multiplier, axis), &UrdfOptions::default()).expect("a differential");
+        assert!(rover.value.suspension().is_some());
+    }
+    // The same way is none, whatever a caller says.
+    for options in [UrdfOptions::default(), with_differential()] {
+        let refused = import(&rockers("", "0 1 0"), &options).expect_err("no differential");
+        assert!(
+            refused
+                .to_string()
+                .contains("left_rocker_joint and right_rocker_joint turn the same way"),
+            "{refused}"
+        );
+    }
+    let rigid = UrdfOptions { is_rigid: true, ..UrdfOptions::default() };
+    let rover = read(&rockers("", "0 1 0"), &rigid).expect("rigid").value;
+    assert!(rover.suspension().is_none() && rover.mounts().len() == 4);
+}
+
+#[test]
+fn springs_and_placeholders_are_said() {
+    let sprung =
+        cart(CYLINDER, "").replace("<parent link=\"body\"/>", "<parent link=\"strut\"/>").replace(
+            "</robot>",
+            &(link("strut", 0.1, "")
+                + &joint("spring", "prismatic", ["body", "strut"], [0.0; 3], "0 0 1")
+                + "</robot>"),
+        );
+    let rover = found(&sprung, &UrdfOptions::default());
+    assert!(
+        rover.notes.iter().any(|it| it.contains("joint spring slides") && it.contains("rigid"))
+    );
+    let heavy = cart(CYLINDER, "")
+        .replace("ixx=\"0.1\" iyy=\"0.2\" izz=\"0.3\"", "ixx=\"1\" iyy=\"1\" izz=\"1\"");
+    let notes = found(&heavy, &UrdfOptions::default()).notes;
+    let doubts: Vec<_> = notes.iter().filter(|it| it.contains("placeholder")).collect();
+    assert!(
+        doubts.len() == 2
+            && doubts[0].contains("the body")
+            && doubts[1].contains("fl and 3 others"),
+        "{notes:?}"
+    );
+    let light = cart(CYLINDER, "").replace(
+        "ixx=\"0.1\" iyy=\"0.2\" izz=\"0.3\"",
+        "ixx=\"0.002\" iyy=\"0.003\" izz=\"0.002\"",
+    );
+    assert!(
+        !found(&light, &UrdfOptions::default()).notes.iter().any(|it| it.contains("placeholder"))
+    );
 }

@@ -1,9 +1,13 @@
 //! The links and joints of URDF as a tree.
 
+use std::borrow::Cow;
+
+use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
 use roxmltree::{Document, Node, ParsingOptions};
 
 use super::error::UrdfError;
-use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
+use super::options::Forward;
+use super::shapes::Shape;
 
 /// The most links and joints.
 const MOST: usize = 10_000;
@@ -25,7 +29,7 @@ pub(super) struct Link {
     pub(super) parent: Option<usize>,
     pub(super) joint: Option<Joint>,
     pub(super) inertial: Option<Inertial>,
-    pub(super) rim: Rim,
+    pub(super) shapes: Vec<Result<Shape, UrdfError>>,
     /// Its frame in the root's, where all joints are at zero.
     pub(super) frame: Isometry3<f64>,
 }
@@ -41,6 +45,8 @@ pub(super) struct Joint {
     axis: Vector3<f64>,
     /// How far it turns, down to and up to [rad].
     pub(super) limits: Option<[f64; 2]>,
+    /// The joint that it turns with, and how far it turns for a turn of that.
+    pub(super) mimic: Option<(String, f64)>,
 }
 
 /// Mass, centre and inertia of a link, in its frame.
@@ -52,18 +58,11 @@ pub(super) struct Inertial {
     pub(super) inertia: Matrix3<f64>,
 }
 
-/// What a link has of a wheel's rim.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Rim {
-    Cylinder { radius: f64, length: f64, origin: Isometry3<f64> },
-    Other(&'static str),
-}
-
 impl Robot {
-    pub(super) fn read(text: &str) -> Result<Self, UrdfError> {
-        let options = ParsingOptions { nodes_limit: NODES, ..ParsingOptions::default() };
-        let document = Document::parse_with_options(text, options)
-            .map_err(|error| UrdfError::Xml(error.to_string()))?;
+    /// * `forward`: which way of the root link is forward
+    pub(super) fn read(text: &str, forward: Forward) -> Result<Self, UrdfError> {
+        let text = with_prefixes(text)?;
+        let document = parse(&text).map_err(|error| UrdfError::Xml(error.to_string()))?;
         let robot = document.root_element();
         if robot.tag_name().name() != "robot" {
             return Err(UrdfError::NoRobot(robot.tag_name().name().to_owned()));
@@ -80,7 +79,7 @@ impl Robot {
         check_names("link", links.iter().map(|link| &link.name))?;
         check_names("joint", joints.iter().map(|joint| &joint.name))?;
         let name = robot.attribute("name").unwrap_or("rover").to_owned();
-        Ok(Self { name, links: ordered(&links, joints)? })
+        Ok(Self { name, links: ordered(&links, joints, forward)? })
     }
 
     /// Whether each link is one of some links, or hangs on one of them.
@@ -96,6 +95,30 @@ impl Robot {
     pub(super) fn up_from(&self, link: usize) -> impl Iterator<Item = usize> + '_ {
         std::iter::successors(Some(link), |link| self.links[*link].parent)
     }
+}
+
+fn parse(text: &str) -> Result<Document<'_>, roxmltree::Error> {
+    let options = ParsingOptions { nodes_limit: NODES, ..ParsingOptions::default() };
+    Document::parse_with_options(text, options)
+}
+
+/// A text whose prefixes are declared: what stands in `<gazebo>` and the like often has others, and
+/// does not matter.
+fn with_prefixes(text: &str) -> Result<Cow<'_, str>, UrdfError> {
+    /// The most prefixes that are declared.
+    const PREFIXES: usize = 20;
+    let mut text = Cow::Borrowed(text);
+    for _ in 0..PREFIXES {
+        let Err(roxmltree::Error::UnknownNamespace(prefix, _)) = parse(&text) else { break };
+        if is_xacro(&prefix) {
+            return Err(UrdfError::Xacro);
+        }
+        let Some(at) = text.find("<robot") else { break };
+        let at = at + "<robot".len();
+        let declared = format!(" xmlns:{prefix}=\"urn:undeclared:{prefix}\"");
+        text = Cow::Owned(format!("{}{declared}{}", &text[..at], &text[at..]));
+    }
+    Ok(text)
 }
 
 impl Link {
@@ -124,7 +147,7 @@ fn check_names<'a>(what: &str, names: impl Iterator<Item = &'a String>) -> Resul
 }
 
 /// Links in an order in which parents come first, with their frames.
-fn ordered(links: &[Link], joints: Vec<Joint>) -> Result<Vec<Link>, UrdfError> {
+fn ordered(links: &[Link], joints: Vec<Joint>, forward: Forward) -> Result<Vec<Link>, UrdfError> {
     let place = |joint: &Joint, name: &String| {
         links
             .iter()
@@ -173,6 +196,8 @@ fn ordered(links: &[Link], joints: Vec<Joint>) -> Result<Vec<Link>, UrdfError> {
             link.frame = sorted[parent].frame * joint.origin;
             link.parent = Some(parent);
             link.joint = Some(joint);
+        } else {
+            link.frame = forward.turned();
         }
         sorted.push(link);
     }
@@ -183,9 +208,9 @@ fn link(node: Node<'_, '_>) -> Result<Link, UrdfError> {
     let name = attribute(node, "a link", "name")?.to_owned();
     let what = format!("link {name}");
     let inertial = child(node, "inertial").map(|node| inertial(node, &what)).transpose()?;
-    let rim = rim(node, &what)?;
+    let shapes = Shape::all(node, &what);
     let frame = Isometry3::identity();
-    Ok(Link { name, parent: None, joint: None, inertial, rim, frame })
+    Ok(Link { name, parent: None, joint: None, inertial, shapes, frame })
 }
 
 fn inertial(node: Node<'_, '_>, what: &str) -> Result<Inertial, UrdfError> {
@@ -201,33 +226,6 @@ fn inertial(node: Node<'_, '_>, what: &str) -> Result<Inertial, UrdfError> {
     Ok(Inertial { mass, origin: origin(node, what)?, inertia })
 }
 
-/// The first cylinder of what collides, or else of what is seen.
-fn rim(node: Node<'_, '_>, what: &str) -> Result<Rim, UrdfError> {
-    let mut found = Rim::Other("it has no geometry");
-    for tag in ["collision", "visual"] {
-        for part in node.children().filter(|node| node.has_tag_name(tag)) {
-            let Some(geometry) = child(part, "geometry") else { continue };
-            if let Some(cylinder) = child(geometry, "cylinder") {
-                let size = |name| {
-                    number(cylinder, what, name, |size| size > 0.0, "a length in m, above 0")
-                };
-                let (radius, length) = (size("radius")?, size("length")?);
-                return Ok(Rim::Cylinder { radius, length, origin: origin(part, what)? });
-            }
-            let shapes = [
-                ("mesh", "its geometry is a mesh, which does not tell radius and width"),
-                ("sphere", "its geometry is a sphere, which has no width"),
-                ("box", "its geometry is a box"),
-            ];
-            let shape = shapes.into_iter().find(|(shape, _)| child(geometry, shape).is_some());
-            if let Some((_, shape)) = shape {
-                found = Rim::Other(shape);
-            }
-        }
-    }
-    Ok(found)
-}
-
 fn joint(node: Node<'_, '_>) -> Result<Joint, UrdfError> {
     let name = attribute(node, "a joint", "name")?.to_owned();
     let what = format!("joint {name}");
@@ -236,11 +234,12 @@ fn joint(node: Node<'_, '_>) -> Result<Joint, UrdfError> {
         let end = child(node, tag).ok_or_else(lacks)?;
         Ok(attribute(end, &what, "link")?.to_owned())
     };
-    let axis = match child(node, "axis") {
-        Some(axis) => triple(axis, &what, "xyz")?,
-        None => Vector3::x(),
-    };
     let kind = attribute(node, &what, "type")?.to_owned();
+    let axis = match child(node, "axis") {
+        // What does not move has no axis, whatever stands there.
+        Some(axis) if kind != "fixed" => triple(axis, &what, "xyz")?,
+        _ => Vector3::x(),
+    };
     let axis = axis.try_normalize(1e-9).ok_or_else(|| UrdfError::Number {
         what: what.clone(),
         attribute: "xyz",
@@ -263,21 +262,34 @@ fn joint(node: Node<'_, '_>) -> Result<Joint, UrdfError> {
         }
         _ => None,
     };
+    let mimic = child(node, "mimic").map(|mimic| {
+        let with = attribute(mimic, &what, "joint")?.to_owned();
+        let is_stated = mimic.has_attribute("multiplier");
+        let turn = |_| true;
+        let factor =
+            if is_stated { number(mimic, &what, "multiplier", turn, "a number")? } else { 1.0 };
+        Ok((with, factor))
+    });
+    let mimic = mimic.transpose()?;
     let (parent, child) = (end("parent")?, end("child")?);
-    Ok(Joint { name, kind, parent, child, origin: origin(node, &what)?, axis, limits })
+    Ok(Joint { name, kind, parent, child, origin: origin(node, &what)?, axis, limits, mimic })
 }
 
 // ---- Attributes ----
 
-fn child<'a, 'input>(node: Node<'a, 'input>, tag: &str) -> Option<Node<'a, 'input>> {
+pub(super) fn child<'a, 'input>(node: Node<'a, 'input>, tag: &str) -> Option<Node<'a, 'input>> {
     node.children().find(|node| node.has_tag_name(tag))
 }
 
-fn attribute<'a>(node: Node<'a, '_>, what: &str, name: &'static str) -> Result<&'a str, UrdfError> {
+pub(super) fn attribute<'a>(
+    node: Node<'a, '_>,
+    what: &str,
+    name: &'static str,
+) -> Result<&'a str, UrdfError> {
     node.attribute(name).ok_or_else(|| UrdfError::Lacks { what: what.to_owned(), lacks: name })
 }
 
-fn number(
+pub(super) fn number(
     node: Node<'_, '_>,
     what: &str,
     name: &'static str,
@@ -294,7 +306,11 @@ fn number(
     })
 }
 
-fn triple(node: Node<'_, '_>, what: &str, name: &'static str) -> Result<Vector3<f64>, UrdfError> {
+pub(super) fn triple(
+    node: Node<'_, '_>,
+    what: &str,
+    name: &'static str,
+) -> Result<Vector3<f64>, UrdfError> {
     let Some(written) = node.attribute(name) else { return Ok(Vector3::zeros()) };
     let parts: Vec<f64> = written
         .split_whitespace()
@@ -314,7 +330,7 @@ fn triple(node: Node<'_, '_>, what: &str, name: &'static str) -> Result<Vector3<
 }
 
 /// The `<origin>` in an element: a place, and roll, pitch and yaw about fixed axes.
-fn origin(node: Node<'_, '_>, what: &str) -> Result<Isometry3<f64>, UrdfError> {
+pub(super) fn origin(node: Node<'_, '_>, what: &str) -> Result<Isometry3<f64>, UrdfError> {
     let Some(origin) = child(node, "origin") else { return Ok(Isometry3::identity()) };
     let (place, turned) = (triple(origin, what, "xyz")?, triple(origin, what, "rpy")?);
     let rotation = UnitQuaternion::from_euler_angles(turned.x, turned.y, turned.z);

@@ -1,0 +1,161 @@
+//! The shapes of links, and the rims of wheels among them.
+
+use nalgebra::{Isometry3, Vector3};
+use roxmltree::Node;
+
+use super::error::UrdfError;
+use super::links::ALONG;
+use super::mesh;
+use super::options::UrdfOptions;
+use super::tree::{attribute, child, number, origin, triple};
+
+/// The bytes of a mesh by its name in URDF, such as `package://rover/meshes/wheel.stl`; none where
+/// it is not there.
+pub type Meshes<'a> = dyn Fn(&str) -> Option<Vec<u8>> + 'a;
+
+/// A shape of a link, in the link's frame.
+#[derive(Clone, Debug)]
+pub(super) struct Shape {
+    kind: Kind,
+    origin: Isometry3<f64>,
+    is_collision: bool,
+}
+
+#[derive(Clone, Debug)]
+enum Kind {
+    Cylinder { radius: f64, length: f64 },
+    Sphere { radius: f64 },
+    Box,
+    Mesh { file: String, scale: Vector3<f64> },
+}
+
+/// What is known of a wheel's rim.
+#[derive(Clone, Debug)]
+pub(super) struct Rim {
+    /// [m]
+    pub(super) radius: Option<f64>,
+    pub(super) width: Option<f64>,
+    /// Its middle, in the root's frame [m].
+    pub(super) centre: Vector3<f64>,
+    /// Where radius and width are from, in words; none for one cylinder.
+    pub(super) note: Option<String>,
+    /// What its shapes are where they do not tell radius and width.
+    pub(super) lacks: &'static str,
+}
+
+impl Shape {
+    /// The shapes of a link's element; a number that is none is told when a wheel has it.
+    pub(super) fn all(link: Node<'_, '_>, what: &str) -> Vec<Result<Self, UrdfError>> {
+        let parts = link.children().filter_map(|part| match part.tag_name().name() {
+            "collision" => Some((part, true)),
+            "visual" => Some((part, false)),
+            _ => None,
+        });
+        parts.filter_map(|(part, is_collision)| Self::of(part, is_collision, what)).collect()
+    }
+
+    fn of(part: Node<'_, '_>, is_collision: bool, what: &str) -> Option<Result<Self, UrdfError>> {
+        let geometry = child(part, "geometry")?;
+        let shape = geometry.children().find(Node::is_element)?;
+        let size = |name| number(shape, what, name, |size| size > 0.0, "a length in m, above 0");
+        let kind = match shape.tag_name().name() {
+            "cylinder" => size("radius")
+                .and_then(|radius| size("length").map(|length| Kind::Cylinder { radius, length })),
+            "sphere" => size("radius").map(|radius| Kind::Sphere { radius }),
+            "box" => Ok(Kind::Box),
+            "mesh" => attribute(shape, what, "filename").and_then(|file| {
+                let is_scaled = shape.has_attribute("scale");
+                let scale =
+                    if is_scaled { triple(shape, what, "scale")? } else { Vector3::repeat(1.0) };
+                Ok(Kind::Mesh { file: file.to_owned(), scale })
+            }),
+            _ => return None,
+        };
+        let placed = |kind| Ok(Self { kind, origin: origin(part, what)?, is_collision });
+        Some(kind.and_then(placed))
+    }
+
+    /// Radius and width about an axis of the root's frame, and the middle; none of a shape that is
+    /// no body of revolution about it.
+    fn rim(&self, frame: &Isometry3<f64>, meshes: &Meshes<'_>) -> Option<(f64, f64, Vector3<f64>)> {
+        let placed = frame * self.origin;
+        match &self.kind {
+            Kind::Cylinder { radius, length } => {
+                let lies = (placed.rotation * Vector3::z()).y.abs() > ALONG;
+                lies.then_some((*radius, *length, placed.translation.vector))
+            }
+            Kind::Sphere { .. } | Kind::Box => None,
+            Kind::Mesh { file, scale } => {
+                let [low, high] = mesh::extent(file, &meshes(file)?)?;
+                let (low, high) = (low.component_mul(scale), high.component_mul(scale));
+                let size = placed.rotation * (high - low);
+                let middle = placed * nalgebra::Point3::from(0.5 * (low + high));
+                let (one, other) = (size.x.abs(), size.z.abs());
+                let is_round = (one - other).abs() <= 0.1 * one.max(other);
+                is_round.then_some((0.25 * (one + other), size.y.abs(), middle.coords))
+            }
+        }
+    }
+}
+
+/// The rim of a link's shapes: the largest radius of what collides, or else of what is seen.
+///
+/// * `frame`: of the link in the root's
+pub(super) fn rim(
+    shapes: &[Result<Shape, UrdfError>],
+    frame: &Isometry3<f64>,
+    options: &UrdfOptions,
+    meshes: &Meshes<'_>,
+) -> Result<Rim, UrdfError> {
+    let shapes: Vec<&Shape> =
+        shapes.iter().map(|it| it.as_ref().map_err(Clone::clone)).collect::<Result<_, _>>()?;
+    let of = |is_collision: bool| -> Vec<_> {
+        let those = shapes.iter().filter(|it| it.is_collision == is_collision);
+        those.filter_map(|it| Some((it.rim(frame, meshes)?, *it))).collect()
+    };
+    let collides = of(true);
+    let found = if collides.is_empty() { of(false) } else { collides };
+    let largest = found.iter().max_by(|one, other| one.0.0.total_cmp(&other.0.0));
+    let radii: Vec<f64> = found.iter().map(|it| it.0.0).collect();
+    let differ = radii.iter().any(|it| (it - radii[0]).abs() > 1e-6);
+    let note = largest.and_then(|(_, shape)| match &shape.kind {
+        Kind::Mesh { file, .. } => Some(format!("radius and width by the extent of {file}")),
+        _ if differ => {
+            let radii: Vec<String> = radii.iter().map(f64::to_string).collect();
+            Some(format!("radius the largest of {} m", radii.join(", ")))
+        }
+        _ => None,
+    });
+    let place = |shape: &&Shape| (frame * shape.origin).translation.vector;
+    let somewhere = || shapes.first().map_or(frame.translation.vector, place);
+    let sphere = shapes.iter().find_map(|it| match it.kind {
+        Kind::Sphere { radius } => Some(radius),
+        _ => None,
+    });
+    Ok(Rim {
+        radius: options.wheel_radius.or(largest.map(|it| it.0.0)).or(sphere),
+        width: options.wheel_width.or(largest.map(|it| it.0.1)),
+        centre: largest.map_or_else(somewhere, |it| it.0.2),
+        note: note.filter(|_| options.wheel_radius.is_none()),
+        lacks: lacks(&shapes),
+    })
+}
+
+fn lacks(shapes: &[&Shape]) -> &'static str {
+    match shapes.first().map(|it| &it.kind) {
+        None => "it has no geometry",
+        Some(Kind::Cylinder { .. }) => "the axis of its cylinder is not across the rover",
+        Some(Kind::Sphere { .. }) => "its geometry is a sphere, which has no width",
+        Some(Kind::Box) => "its geometry is a box",
+        Some(Kind::Mesh { .. }) => "its geometry is a mesh that is not there, or not round",
+    }
+}
+
+/// Whether a shape is a sphere or a cylinder, as casters and skids are.
+pub(super) fn kinds(shapes: &[Result<Shape, UrdfError>]) -> Option<&'static str> {
+    match shapes.first()?.as_ref().ok()?.kind {
+        Kind::Sphere { .. } => Some("a sphere"),
+        Kind::Cylinder { .. } => Some("a cylinder"),
+        Kind::Box | Kind::Mesh { .. } => None,
+    }
+}
