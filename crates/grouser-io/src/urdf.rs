@@ -8,6 +8,7 @@
 //! Source of the format: "URDF XML Specification", wiki.ros.org/urdf/XML.
 
 mod error;
+mod found;
 mod inertia;
 mod links;
 mod mesh;
@@ -18,10 +19,12 @@ mod suspension;
 #[cfg(test)]
 mod tests;
 mod tree;
+mod xml;
 
 use std::borrow::Cow;
 
 pub use error::UrdfError;
+pub use found::FoundWheel;
 pub use options::{Forward, UrdfOptions};
 pub use shapes::Meshes;
 
@@ -37,25 +40,6 @@ pub struct UrdfRover {
     pub notes: Vec<String>,
     /// The wheels that were found.
     pub wheels: Vec<FoundWheel>,
-}
-
-/// A wheel that was found in URDF.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FoundWheel {
-    /// Its link.
-    pub link: String,
-    /// The joint that turns it.
-    pub joint: String,
-    /// [m]
-    pub radius: f64,
-    /// [m]
-    pub width: f64,
-    /// Its middle, from the body's centre of mass, forward, left and up [m].
-    pub position: [f64; 3],
-    /// The joint that steers it, if one does.
-    pub steered_by: Option<String>,
-    /// The joints of rocker and bogie that it hangs on, from the body out.
-    pub hangs_on: Vec<String>,
 }
 
 /// Makes a rover's document of URDF.

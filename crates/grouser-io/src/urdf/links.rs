@@ -4,11 +4,8 @@ use nalgebra::Vector3;
 
 use super::error::UrdfError;
 use super::options::UrdfOptions;
-use super::shapes::{self, Meshes, Rim};
+use super::shapes::{self, ALONG, Meshes, Rim};
 use super::tree::Robot;
-
-/// Cosine of the angle by which an axis may be off its direction: 10°.
-pub(super) const ALONG: f64 = 0.985;
 
 /// The most wheels of a rover.
 const MOST: usize = 64;

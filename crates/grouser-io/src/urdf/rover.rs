@@ -5,14 +5,15 @@ use std::fmt::Write as _;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::FoundWheel;
 use super::error::UrdfError;
+use super::found::FoundWheel;
 use super::inertia::{Together, placeholders};
 use super::links::{Wheel, joint_name};
 use super::options::UrdfOptions;
 use super::shapes::Meshes;
 use super::suspension::Suspension;
 use super::tree::Robot;
+use crate::reading::four_digits;
 
 /// A rover that was found.
 #[derive(Debug)]
@@ -65,11 +66,20 @@ impl Found {
                     .to_owned(),
             );
         }
+        let mut wheels = wheels;
         let suspension = Suspension::of(robot, &wheels, &body, options)?;
+        if suspension.is_none() {
+            notes.extend(level(&mut wheels));
+        }
         let mounts = wheels
             .iter()
             .map(|wheel| mount(robot, wheel, &body, &mut notes))
-            .collect::<Result<_, _>>()?;
+            .collect::<Result<Vec<_>, _>>()?;
+        let mut body = body;
+        if diagonal(&body.inertia).into_iter().any(|it| it <= 0.0) {
+            body.inertia = of_box(&body, &wheels);
+            notes.push("the body's inertia is not stated: it is that of a uniform box".to_owned());
+        }
         notes.extend(doubts(robot, &wheels, &body));
         if options.is_rigid {
             notes.push("rockers and bogies are taken as they stand: the rover is rigid".to_owned());
@@ -134,6 +144,49 @@ impl Unit {
     }
 }
 
+/// The inertia of a uniform cylinder [kg m²].
+fn of_cylinder(mass: f64, wheel: &Wheel) -> [f64; 3] {
+    let (square, width) = (wheel.radius * wheel.radius, wheel.width);
+    let across = mass * (3.0 * square + width * width) / 12.0;
+    [across, 0.5 * mass * square, across]
+}
+
+/// Puts the wheels of a rigid rover on one plane, and says so.
+fn level(wheels: &mut [Wheel]) -> Option<String> {
+    let bottom = |wheel: &Wheel| wheel.centre.z - wheel.radius;
+    let ground = wheels.iter().map(bottom).sum::<f64>() / wheels.len() as f64;
+    let most = wheels.iter().map(|it| (bottom(it) - ground).abs()).fold(0.0, f64::max);
+    for wheel in wheels {
+        wheel.centre.z = ground + wheel.radius;
+    }
+    (most > 1e-6).then(|| {
+        format!(
+            "wheels stand {} m higher or lower where all joints are at zero: they are put on \
+                 one plane",
+            four_digits(most)
+        )
+    })
+}
+
+/// The inertia of a uniform box between the wheels, as high as half a wheel base [kg m²].
+fn of_box(body: &Together, wheels: &[Wheel]) -> Matrix3<f64> {
+    let over = |axis: usize| {
+        let places = wheels.iter().map(|it| it.centre[axis]);
+        let ends = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], it| {
+            [low.min(it), high.max(it)]
+        });
+        ends[1] - ends[0]
+    };
+    let (length, width) = (over(0), over(1));
+    let height = 0.5 * length;
+    let about = |one: f64, other: f64| body.mass * (one * one + other * other) / 12.0;
+    Matrix3::from_diagonal(&Vector3::new(
+        about(width, height),
+        about(length, height),
+        about(length, width),
+    ))
+}
+
 /// What is to be doubted of the inertias.
 fn doubts(robot: &Robot, wheels: &[Wheel], body: &Together) -> Vec<String> {
     let reach = wheels.iter().map(|it| (it.centre - body.centre).norm() + it.radius);
@@ -191,12 +244,14 @@ fn mount(
         });
         (limit, [axis.x, axis.y])
     });
-    let unit = Unit {
-        mass: together.mass,
-        inertia: diagonal(&together.inertia_about(wheel.centre)),
-        radius: wheel.radius,
-        width: wheel.width,
-    };
+    let mut inertia = diagonal(&together.inertia_about(wheel.centre));
+    if together.inertia.norm() == 0.0 {
+        inertia = of_cylinder(together.mass, wheel);
+        notes.push(format!(
+            "link {name}: its inertia is not stated: it is that of a uniform cylinder"
+        ));
+    }
+    let unit = Unit { mass: together.mass, inertia, radius: wheel.radius, width: wheel.width };
     Ok(Mount { name: name.clone(), position: wheel.centre - body.centre, steering, unit })
 }
 

@@ -4,10 +4,13 @@ use nalgebra::{Isometry3, Vector3};
 use roxmltree::Node;
 
 use super::error::UrdfError;
-use super::links::ALONG;
 use super::mesh;
 use super::options::UrdfOptions;
-use super::tree::{attribute, child, number, origin, triple};
+use super::xml::{attribute, child, number, origin, triple};
+use crate::reading::four_digits;
+
+/// Cosine of the angle by which an axis may be off its direction: 10°.
+pub(super) const ALONG: f64 = 0.985;
 
 /// The bytes of a mesh by its name in URDF, such as `package://rover/meshes/wheel.stl`; none where
 /// it is not there.
@@ -121,7 +124,7 @@ pub(super) fn rim(
     let note = largest.and_then(|(_, shape)| match &shape.kind {
         Kind::Mesh { file, .. } => Some(format!("radius and width by the extent of {file}")),
         _ if differ => {
-            let radii: Vec<String> = radii.iter().map(f64::to_string).collect();
+            let radii: Vec<String> = radii.iter().map(|it| four_digits(*it)).collect();
             Some(format!("radius the largest of {} m", radii.join(", ")))
         }
         _ => None,

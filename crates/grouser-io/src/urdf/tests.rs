@@ -507,3 +507,24 @@ fn springs_and_placeholders_are_said() {
         !found(&light, &UrdfOptions::default()).notes.iter().any(|it| it.contains("placeholder"))
     );
 }
+
+/// Masses without an inertia are uniform bodies, and rigid rovers stand on one plane.
+#[test]
+fn what_robots_leave_out_is_estimated_and_said() {
+    let bare = cart(CYLINDER, "").replace("<inertia ixx=\"0.1\" iyy=\"0.2\" izz=\"0.3\"/>", "");
+    let rover = read(&bare, &UrdfOptions::default()).expect("a rover").value;
+    let wheel = &rover.mounts()[0].unit;
+    assert!((wheel.inertia.yy - 0.5 * 0.5 * 0.01).abs() < 1e-9, "{:?}", wheel.inertia);
+    // 0.4 m long and wide, 0.2 m high.
+    assert!((rover.body().inertia.zz - 6.0 * 0.32 / 12.0).abs() < 1e-9);
+    let notes = found(&bare, &UrdfOptions::default()).notes;
+    assert_eq!(notes.iter().filter(|it| it.contains("not stated")).count(), 5, "{notes:?}");
+    let askew = cart(CYLINDER, "").replacen("-0.1\"/>", "-0.12\"/>", 1);
+    let rover = found(&askew, &UrdfOptions::default());
+    assert!(
+        rover.notes.iter().any(|it| it.contains("0.015 m higher or lower")),
+        "{:?}",
+        rover.notes
+    );
+    read(&askew, &UrdfOptions::default()).expect("all wheels on one plane");
+}

@@ -2,12 +2,13 @@
 
 use std::borrow::Cow;
 
-use nalgebra::{Isometry3, Matrix3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Vector3};
 use roxmltree::{Document, Node, ParsingOptions};
 
 use super::error::UrdfError;
 use super::options::Forward;
 use super::shapes::Shape;
+use super::xml::{attribute, child, number, origin, triple};
 
 /// The most links and joints.
 const MOST: usize = 10_000;
@@ -54,7 +55,7 @@ pub(super) struct Joint {
 pub(super) struct Inertial {
     pub(super) mass: f64,
     pub(super) origin: Isometry3<f64>,
-    /// About its centre, in the frame of `origin`.
+    /// About its centre, in the frame of `origin`; zero where it is not stated.
     pub(super) inertia: Matrix3<f64>,
 }
 
@@ -217,13 +218,16 @@ fn inertial(node: Node<'_, '_>, what: &str) -> Result<Inertial, UrdfError> {
     let lacks = |lacks| UrdfError::Lacks { what: what.to_owned(), lacks };
     let mass = child(node, "mass").ok_or_else(|| lacks("mass in its <inertial>"))?;
     let mass = number(mass, what, "value", |mass| mass >= 0.0, "a mass in kg, not below 0")?;
-    let tensor = child(node, "inertia").ok_or_else(|| lacks("inertia in its <inertial>"))?;
+    let origin = origin(node, what)?;
+    let Some(tensor) = child(node, "inertia") else {
+        return Ok(Inertial { mass, origin, inertia: Matrix3::zeros() });
+    };
     let part = |name| number(tensor, what, name, |_| true, "a moment of inertia in kg m²");
     let or_zero = |name| if tensor.has_attribute(name) { part(name) } else { Ok(0.0) };
     let (xx, yy, zz) = (part("ixx")?, part("iyy")?, part("izz")?);
     let (xy, xz, yz) = (or_zero("ixy")?, or_zero("ixz")?, or_zero("iyz")?);
     let inertia = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-    Ok(Inertial { mass, origin: origin(node, what)?, inertia })
+    Ok(Inertial { mass, origin, inertia })
 }
 
 fn joint(node: Node<'_, '_>) -> Result<Joint, UrdfError> {
@@ -273,66 +277,4 @@ fn joint(node: Node<'_, '_>) -> Result<Joint, UrdfError> {
     let mimic = mimic.transpose()?;
     let (parent, child) = (end("parent")?, end("child")?);
     Ok(Joint { name, kind, parent, child, origin: origin(node, &what)?, axis, limits, mimic })
-}
-
-// ---- Attributes ----
-
-pub(super) fn child<'a, 'input>(node: Node<'a, 'input>, tag: &str) -> Option<Node<'a, 'input>> {
-    node.children().find(|node| node.has_tag_name(tag))
-}
-
-pub(super) fn attribute<'a>(
-    node: Node<'a, '_>,
-    what: &str,
-    name: &'static str,
-) -> Result<&'a str, UrdfError> {
-    node.attribute(name).ok_or_else(|| UrdfError::Lacks { what: what.to_owned(), lacks: name })
-}
-
-pub(super) fn number(
-    node: Node<'_, '_>,
-    what: &str,
-    name: &'static str,
-    may_be: impl Fn(f64) -> bool,
-    expected: &'static str,
-) -> Result<f64, UrdfError> {
-    /// What is larger is no rover's, in any unit of URDF.
-    const LARGEST: f64 = 1e9;
-    let written = attribute(node, what, name)?;
-    let number = written.trim().parse().ok();
-    number.filter(|it: &f64| it.abs() <= LARGEST && may_be(*it)).ok_or_else(|| {
-        let (what, written) = (what.to_owned(), written.chars().take(40).collect());
-        UrdfError::Number { what, attribute: name, written, expected }
-    })
-}
-
-pub(super) fn triple(
-    node: Node<'_, '_>,
-    what: &str,
-    name: &'static str,
-) -> Result<Vector3<f64>, UrdfError> {
-    let Some(written) = node.attribute(name) else { return Ok(Vector3::zeros()) };
-    let parts: Vec<f64> = written
-        .split_whitespace()
-        .filter_map(|part| part.parse().ok())
-        .filter(|part: &f64| part.is_finite() && part.abs() <= 1e9)
-        .collect();
-    let is_whole = written.split_whitespace().count() == 3;
-    match parts[..] {
-        [x, y, z] if is_whole => Ok(Vector3::new(x, y, z)),
-        _ => Err(UrdfError::Number {
-            what: what.to_owned(),
-            attribute: name,
-            written: written.chars().take(40).collect(),
-            expected: "three numbers",
-        }),
-    }
-}
-
-/// The `<origin>` in an element: a place, and roll, pitch and yaw about fixed axes.
-pub(super) fn origin(node: Node<'_, '_>, what: &str) -> Result<Isometry3<f64>, UrdfError> {
-    let Some(origin) = child(node, "origin") else { return Ok(Isometry3::identity()) };
-    let (place, turned) = (triple(origin, what, "xyz")?, triple(origin, what, "rpy")?);
-    let rotation = UnitQuaternion::from_euler_angles(turned.x, turned.y, turned.z);
-    Ok(Isometry3::from_parts(Translation3::from(place), rotation))
 }
