@@ -249,7 +249,7 @@ impl Draft {
         }
         let hint = check::nearest(key, keys.iter().copied()).map_or_else(
             || format!("the questions are {}", keys.join(", ")),
-            |meant| format!("did you mean `{meant}`?"),
+            |meant| format!("did you mean `{meant}`? the questions are {}", keys.join(", ")),
         );
         let problem = Problem::Malformed("there is no such question");
         Err(DocumentError::whole(super::escape::line(key).into_owned(), problem).with_hint(hint))

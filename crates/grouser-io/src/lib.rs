@@ -107,6 +107,7 @@ pub use read::{
 pub use samples::{MODEL as SAMPLES_MODEL, RowsOfModel, WEIGHT as SAMPLES_WEIGHT};
 pub use schema::{range, schema};
 pub use source::{LARGEST_FILE, Source};
+pub use stop_file::{Overruled, overruled};
 pub use telemetry_mapping::read_telemetry_mapping;
 pub use terrain_file::{map_of, read_map};
 pub use tree::{Beside, Companion, Entry, HeldMap, Node, Origin};

@@ -1,6 +1,8 @@
 //! Limits of a mission that stand in a file of their own: a table `[stop]`, as `grouser card
 //! --stops` writes it.
 
+use serde_json::Value as Json;
+
 use super::error::{DocumentError, Problem};
 use super::legs_file;
 use super::mission::STOP_FROM;
@@ -45,4 +47,48 @@ fn read(name: &str, named: &Node) -> Result<Entry, DocumentError> {
         DocumentError::at(&tree.origin, problem)
             .with_hint("a file of limits has one table, [stop]".to_owned())
     })
+}
+
+/// A limit of a file that a mission has itself, with another number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Overruled {
+    /// Its name, as `slip_ratio`.
+    pub name: String,
+    /// The file's number, in the unit of its name.
+    pub file: f64,
+    /// The mission's, which stands.
+    pub mission: f64,
+}
+
+/// The limits of a file that do not count, because the mission has its own.
+///
+/// * `text`: of the file
+/// * `stop`: the mission's table `[stop]`
+#[must_use]
+pub fn overruled(text: &str, stop: &Json) -> Vec<Overruled> {
+    let table: Json = toml::from_str(text).unwrap_or_default();
+    let above = |limit: &Json| limit.as_f64().or_else(|| limit["above"].as_f64());
+    let limits = table[STOP].as_object().into_iter().flatten();
+    let both = limits.filter_map(|(name, limit)| {
+        let (file, mission) = (above(limit)?, above(&stop[name.as_str()])?);
+        Some(Overruled { name: name.clone(), file, mission })
+    });
+    both.filter(|it| it.file != it.mission).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn limits_of_the_mission_overrule_those_of_a_file() {
+        let file = "[stop]\nslip_ratio = { above = 0.18, over_m = 1.0 }\nroll_deg = 17.0\n\
+                    sinkage_mm = 20\n";
+        let stop = json!({ "slip_ratio": 0.4, "roll_deg": { "above": 17.0 } });
+        let found = overruled(file, &stop);
+        let expected = Overruled { name: "slip_ratio".to_owned(), file: 0.18, mission: 0.4 };
+        assert_eq!(found, [expected]);
+        assert_eq!(overruled("no TOML", &stop), []);
+    }
 }

@@ -33,7 +33,7 @@ pub(crate) struct CardArgs {
     #[arg(long, value_name = "V", value_parser = list::parse, allow_hyphen_values = true)]
     pub(crate) rim_speed_m_s: Option<Numbers>,
     /// Number of samples, 2 to 100000.
-    #[arg(long, value_name = "N", default_value_t = 200)]
+    #[arg(long, value_name = "N", default_value_t = Self::SAMPLES)]
     #[arg(value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
     pub(crate) samples: u32,
     /// Seed of the samples: the same seed gives the same soils and models.
@@ -79,6 +79,9 @@ pub(crate) struct CardArgs {
 }
 
 impl CardArgs {
+    /// The samples of a card, and of what is shown to others.
+    pub(crate) const SAMPLES: u32 = 200;
+
     /// Those of a command line without flags.
     pub(crate) fn usual() -> Self {
         let command = Self::augment_args(Command::new("card"));

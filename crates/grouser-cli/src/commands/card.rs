@@ -80,10 +80,11 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
     let courses = card_courses::table(&courses.map(sampling::whole).unwrap_or_default());
     let texts = texts::of(args, &inputs, &card);
     let stops = stops::text(&inputs, &card, &texts);
-    if let Some(file) = &args.stops {
-        let stops = stops.as_ref().ok_or_else(stops::missing)?;
-        file::write_result(file, stops.as_bytes())?;
-    }
+    let limits = match (&args.stops, &stops) {
+        (Some(file), Some(stops)) => file::write_result(file, stops.as_bytes()),
+        (Some(_), None) => Err(stops::missing(&card)),
+        (None, _) => Ok(()),
+    };
     if let Some(target) = target {
         let uphill = args.uphill;
         let picture = Picture::of(&inputs.scenario.value.rover, uphill);
@@ -97,7 +98,9 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
         Format::Table => output::show(answers.table()),
         Format::Csv => output::print(&Rows::of_table(&answers.rows).to_csv()?),
         Format::Json => output::print_json(&answers.json(&card::steepest(&card), &courses)),
-    }
+    }?;
+    // A card without limits is one nevertheless.
+    limits
 }
 
 /// A card with its pages, of the usual side, speed and rule.

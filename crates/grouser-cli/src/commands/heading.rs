@@ -6,7 +6,7 @@ use grouser::studies::heading::Steering;
 use grouser_draw::title_of;
 
 use super::sampling;
-use crate::args::HeadingArgs;
+use crate::args::{CardArgs, HeadingArgs};
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output::answer::give;
@@ -17,12 +17,17 @@ use crate::output::slide::SlideFile;
 pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let slide = SlideFile::of(&args.slide, args.output.force)?;
-    let question = inputs::heading(args)?;
+    let mut question = inputs::heading(args)?;
+    let is_draft = question.sampling.is_some() && args.belief.samples.is_none();
+    if let Some(sampling) = question.sampling.as_mut().filter(|_| is_draft && slide.is_some()) {
+        // Nobody shows a draft to others.
+        sampling.count = CardArgs::SAMPLES;
+    }
     let mut answer = sampling::with_bar(question.samples(), |go_on| {
         let (has_page, is_strict) = (folder.is_some() || slide.is_some(), args.strict.strict);
         question.answer(command, &AnswerOptions { has_page, is_strict, go_on })
     })?;
-    if question.sampling.is_some() && args.belief.samples.is_none() {
+    if is_draft && slide.is_none() {
         answer.screen.push(Displayed::Words(sampling::DRAFT_LINE.to_owned()));
     }
     let file = question.file(0);

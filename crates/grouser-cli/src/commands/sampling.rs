@@ -29,8 +29,7 @@ pub(crate) fn draw_if_uncertain(
 }
 
 /// What is said of a draft.
-pub(crate) const DRAFT_LINE: &str =
-    "a draft: --samples 200 has the samples of the operator's card\n";
+pub(crate) const DRAFT_LINE: &str = "a draft of few samples, whose verdicts may move: --samples 200 has those of the operator's card\n";
 
 /// The key of what is believed of the soil.
 pub(super) const BELIEF: &str = "belief";

@@ -1,10 +1,13 @@
 //! The inputs of a mission.
 
-use grouser::document::{self, Kind, LoadedMission, Overrides};
+use std::path::Path;
+
+use grouser::document::{self, Kind, LoadedMission, Overrides, Overruled, escape};
 
 use super::{flag_source, run_settings, scenario_settings};
 use crate::args::{BalanceArgs, MissionArgs};
 use crate::failure::Failure;
+use crate::output;
 
 pub(crate) fn read(args: &MissionArgs) -> Result<LoadedMission, Failure> {
     let source = flag_source("mission", Kind::Mission, &args.mission)?;
@@ -23,5 +26,22 @@ pub(crate) fn read(args: &MissionArgs) -> Result<LoadedMission, Failure> {
         overrides.flag_text(flag, key, &file)?;
     }
     overrides.check_kinds(&[Kind::Mission, Kind::Rover, Kind::Soil, Kind::Wheel])?;
-    Ok(document::read_mission(&source, &overrides)?)
+    let mission = document::read_mission(&source, &overrides)?;
+    if let Some(file) = &args.stop_from {
+        note_overruled(Path::new(file), &mission);
+    }
+    Ok(mission)
+}
+
+/// Says which limits of a file do not count, because the mission has its own.
+fn note_overruled(file: &Path, mission: &LoadedMission) {
+    let text = std::fs::read_to_string(file).unwrap_or_default();
+    let own = mission.document.get("stop").cloned().unwrap_or_default();
+    for Overruled { name, file: limit, mission } in document::overruled(&text, &own) {
+        let file = escape::path(file);
+        output::notes([format!(
+            "the mission's own limit {name} {mission} stands, not {limit} of {file}: --set \
+             mission.stop.{name}={limit} takes that"
+        )]);
+    }
 }

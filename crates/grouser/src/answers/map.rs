@@ -110,7 +110,10 @@ fn sentence(verdicts: VerdictCounts, limit: Option<f64>) -> String {
     };
     let limit = limit.map_or_else(
         || "The rover cannot move on this soil.".to_owned(),
-        |limit| format!("A heading holds the course up to {}°.", rounded_down(limit)),
+        |limit| {
+            let limit = rounded_down(limit);
+            format!("On the soil as written a heading holds the course up to {limit}°, no limit to drive by.")
+        },
     );
     let unknown = match unknown {
         0 => String::new(),

@@ -90,7 +90,7 @@ impl DrivenMission {
     }
 
     /// For each leg that was begun the place that advice is about, as slope and course [rad]: on a
-    /// plane its slope and the course that the leg asks for, over ground with heights the steepest
+    /// plane its slope and the course that the leg asks for or has gone, over ground with heights the steepest
     /// place of the way. `None` for legs that lead nowhere, that are driven backward or with wheels
     /// that crab, and over zones of soil: advice is about a nose in front on one soil.
     #[must_use]
@@ -137,12 +137,20 @@ impl DrivenLeg {
         self.leg.manoeuvre.direction() > 0.0 && !is_crab
     }
 
-    /// The way that it asks for, from where it begins [m]; `None` for one that leads nowhere.
+    /// The way that it asks for, or that was gone where it asks for none, from where it begins [m];
+    /// `None` for one that leads nowhere.
     fn way(&self, from: Vec2, yaw: f64) -> Option<Vec2> {
+        let gone = self.report.end.position - from;
         let way = match self.leg.manoeuvre {
             Manoeuvre::Turn { .. } | Manoeuvre::Wait { .. } => return None,
             Manoeuvre::Goto { place, .. } => place - from,
-            Manoeuvre::Arc { .. } => self.report.end.position - from,
+            Manoeuvre::Arc { .. } => gone,
+            // A yaw says where the nose points, not where the rover goes.
+            Manoeuvre::Drive { distance, .. }
+                if self.leg.heading != Heading::Contour && gone.norm() > 0.1 * distance.abs() =>
+            {
+                gone
+            }
             Manoeuvre::Drive { distance, .. } => {
                 let (sin, cos) = sin_cos(self.leg.yaw.unwrap_or(yaw));
                 Vec2::new(cos, sin) * distance

@@ -152,6 +152,12 @@ mod tests {
         assert!(best.course.abs() < deg(89.0) && best.judgement.verdict < Verdict::NoGo);
         let back = study.advice(-best.course, &[slope], &samples, &|| true).unwrap().unwrap();
         assert!(best.judgement.verdict >= back[0].judgement.verdict);
+        // Nobody leaves a contour that is a go.
+        for gentle in [6, 8] {
+            let [best, contour] = [CourseChoice::Best, CourseChoice::Fixed(0.0)]
+                .map(|choice| map(choice).advice()[gentle].judgement.verdict);
+            assert!(best <= contour, "{gentle}°: {best:?} {contour:?}");
+        }
     }
 
     /// Turning the ground turns the heading by as much, and nothing else.
@@ -195,21 +201,23 @@ mod tests {
             let gradient = Vec2::new(deg(degrees).tan(), 0.0);
             let (good, bad) = (best.at(gradient), worst.at(gradient));
             assert!(good.probability_no_go <= bad.probability_no_go, "{degrees}");
-            // Of the courses that are as seldom a no-go, there and back, it slips least.
-            let both_ways = |place: usize| {
-                let back = best.tables().len() - 1 - place;
-                let fails = |place: usize| best.tables()[place].probability_no_go(good.slope);
-                fails(place).max(fails(back))
+            // Of the courses that are as seldom a no-go, it slips least: both there and back.
+            let both_ways = |place: usize, of: &dyn Fn(usize) -> f64| {
+                of(place).max(of(best.tables().len() - 1 - place))
+            };
+            let fails = |place: usize| best.tables()[place].probability_no_go(good.slope);
+            let slips = |place: usize| {
+                let motion = best.tables()[place].motion(good.slope);
+                motion.map_or(f64::INFINITY, |motion| motion.slip_ratio.abs())
             };
             let all = 0..best.tables().len();
-            let least = all.clone().map(both_ways).fold(f64::INFINITY, f64::min);
-            for place in all.filter(|place| both_ways(*place) == least) {
-                let table = &best.tables()[place];
-                let (Some(motion), Some(found)) = (table.motion(good.slope), good.motion) else {
-                    continue;
-                };
+            let least = all.clone().map(|it| both_ways(it, &fails)).fold(f64::INFINITY, f64::min);
+            let is_chosen = |place: &usize| best.tables()[*place].course() == good.course;
+            let chosen = all.clone().find(is_chosen).expect("one of them");
+            assert_eq!(both_ways(chosen, &fails), least, "{degrees}");
+            for place in all.filter(|place| both_ways(*place, &fails) == least) {
                 let slack = 2e-3;
-                assert!(found.slip_ratio.abs() <= motion.slip_ratio.abs() + slack, "{degrees}");
+                assert!(both_ways(chosen, &slips) <= both_ways(place, &slips) + slack, "{degrees}");
             }
         }
     }

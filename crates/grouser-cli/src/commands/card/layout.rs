@@ -35,6 +35,12 @@ const HIGHEST_ROW: f64 = 7.2;
 const MOST_ROWS: usize = 16;
 /// Where the blanks to fill in stand [mm].
 pub(super) const BLANKS: f64 = BOTTOM;
+/// From the bar to the first line below it [mm].
+const BELOW_BAR: f64 = 4.0;
+/// Sizes of what stands below the table that are tried [mm].
+const FOOT_SIZES: [f64; 6] = [3.2, 3.0, 2.8, 2.7, 2.6, 2.5];
+/// Where that ends at the latest [mm].
+const FOOT_END: f64 = BLANKS - 3.5;
 
 /// Draws the card.
 pub(super) fn draw(texts: &Texts, picture: &Picture, card: &table::Table) -> Sheet {
@@ -43,7 +49,8 @@ pub(super) fn draw(texts: &Texts, picture: &Picture, card: &table::Table) -> She
     head(&mut sheet, texts);
     picture.draw(&mut sheet, [167.0, 48.0]);
     let rows = shown_rows(card);
-    let room = TABLE_BOTTOM - TABLE_TOP - columns::HEAD - BAR;
+    let bottom = TABLE_BOTTOM.min(FOOT_END - least_foot(texts) - BELOW_BAR);
+    let room = bottom - TABLE_TOP - columns::HEAD - BAR;
     let height = (room / rows.len().max(1) as f64).min(HIGHEST_ROW);
     let table = Table { top: TABLE_TOP + columns::HEAD, height, rows: &rows };
     columns::draw(&mut sheet, texts, &table);
@@ -52,7 +59,7 @@ pub(super) fn draw(texts: &Texts, picture: &Picture, card: &table::Table) -> She
     if let Some(first) = first {
         bar(&mut sheet, end, first.slope());
     }
-    foot(&mut sheet, texts, end + BAR + 4.0);
+    foot(&mut sheet, texts, end + BAR + BELOW_BAR);
     blanks(&mut sheet);
     sheet
 }
@@ -170,15 +177,19 @@ pub(super) fn bar(sheet: &mut Sheet, top: f64, from_deg: f64) {
 
 /// Rule, facts and assumptions, as large as they fit.
 fn foot(sheet: &mut Sheet, texts: &Texts, top: f64) {
-    /// Sizes that are tried [mm].
-    const SIZES: [f64; 6] = [3.2, 3.0, 2.8, 2.7, 2.6, 2.5];
-    /// Where it ends at the latest [mm].
-    const END: f64 = BLANKS - 3.5;
     let nowhere = || Sheet::new("", PAGE[0], PAGE[1]);
-    let fits = |size: &f64, most: usize| below(&mut nowhere(), texts, *size, most, top) <= END;
-    let size = SIZES.into_iter().find(|size| fits(size, usize::MAX)).unwrap_or(SIZES[5]);
+    let fits = |size: &f64, most: usize| below(&mut nowhere(), texts, *size, most, top) <= FOOT_END;
+    let all = FOOT_SIZES.into_iter().find(|size| fits(size, usize::MAX));
+    let size = all.unwrap_or(FOOT_SIZES[5]);
     let most = (0..=texts.assumed.len()).rev().find(|most| fits(&size, *most));
     below(sheet, texts, size, most.unwrap_or(0), top);
+}
+
+/// The least height of what stands below the table: in the smallest letters, with a few of the
+/// assumptions [mm].
+fn least_foot(texts: &Texts) -> f64 {
+    const FEW: usize = 3;
+    below(&mut Sheet::new("", PAGE[0], PAGE[1]), texts, FOOT_SIZES[5], FEW, 0.0)
 }
 
 /// What stands below the table; where it ends [mm].

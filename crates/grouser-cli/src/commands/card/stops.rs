@@ -7,6 +7,7 @@ use grouser::document::limited_quantity;
 use grouser::document::reading::four_digits;
 use grouser::mission::Stop;
 use grouser::studies::card::Card;
+use grouser::studies::verdict::{Reason, Verdict};
 
 use super::texts::Texts;
 use crate::failure::Failure;
@@ -54,12 +55,19 @@ fn downwards(limit: f64) -> f64 {
     (limit * 1e4 + 1e-6).floor() / 1e4
 }
 
-/// A card from which there are no limits.
-pub(super) fn missing() -> Failure {
-    Failure::Run(
+/// A card from which there are no limits, and why.
+pub(super) fn missing(card: &Card) -> Failure {
+    let judgements = card.rows.iter().map(|row| row.advice.judgement);
+    let doubt = judgements.clone().find(|it| it.verdict == Verdict::CannotTell);
+    let why = doubt.or_else(|| judgements.clone().next()).map_or("", |it| it.reason.meaning());
+    let hint = match doubt.map(|it| it.reason) {
+        Some(Reason::NoStatedUncertainty) => {
+            "\nhint: a soil that states how well its numbers are known gives verdicts"
+        }
+        _ => "",
+    };
+    Failure::Run(format!(
         "--stops: no slope of this card is a go or a caution, so that it has no limits to turn \
-         back at\nhint: where nobody can tell, a soil that states how well its numbers are known \
-         gives verdicts"
-            .to_owned(),
-    )
+         back at: {why}{hint}"
+    ))
 }

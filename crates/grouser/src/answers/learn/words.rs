@@ -8,6 +8,7 @@ use crate::document::columns::{SLIP_RATIO, SLOPE, YAW};
 use crate::document::reading::four_digits;
 use crate::document::table::Table;
 use crate::studies::learn::{Learner, Warning};
+use crate::studies::verdict::{Advice, Judgement, Verdict};
 
 /// The wheel–soil models with their shares [-], by their names.
 #[must_use]
@@ -75,5 +76,19 @@ pub(super) fn lines(found: &LearntDrive) -> Vec<String> {
     let narrowed = format!("what is left of the uncertainty: {}", narrowed.join(", "));
     let notes = found.notes.iter().map(|note| format!("note: {note}"));
     let warnings = found.drive.warnings().iter().map(warning_in_words);
-    [whole, narrowed].into_iter().chain(warnings).chain(notes).collect()
+    [verdicts(&found.verdicts), whole, narrowed].into_iter().chain(warnings).chain(notes).collect()
+}
+
+/// What to do on each slope, and why.
+fn verdicts(all: &[Advice]) -> String {
+    let words = all.iter().map(|advice| {
+        let slope = four_digits(SLOPE.unit.from_si(advice.slope));
+        let Judgement { verdict, reason } = advice.judgement;
+        let why = match verdict {
+            Verdict::Go => String::new(),
+            _ => format!(" ({})", reason.meaning()),
+        };
+        format!("{slope}° {}{why}", verdict.name().replace('_', " "))
+    });
+    words.collect::<Vec<_>>().join("; ")
 }

@@ -9,8 +9,8 @@ use crate::studies::heading::STRAIGHT_UP;
 pub enum CourseChoice {
     /// This one, *χ* [rad], counted from the contour, positive uphill.
     Fixed(f64),
-    /// On each slope the one that is least often a no-go, there or on the way back, and of several
-    /// the one with the least slip.
+    /// On each slope the one that is least often a no-go, and of several the one with the least
+    /// slip, both there and on the way back.
     Best,
     /// The one that is most often a no-go, and of several the one with the most slip.
     Worst,
@@ -39,13 +39,16 @@ impl CourseChoice {
             let found = match self {
                 Self::Fixed(_) => None,
                 Self::Best => all.min_by(|one, other| {
+                    let middle = on_slope.len() / 2;
                     let rank = |place: usize| {
                         // The way back of a course is the one as far down as it is up.
-                        let back = on_slope[on_slope.len() - 1 - place].probability_no_go;
-                        let [there, slip] = rank(&on_slope[place]);
-                        [there.max(back), slip]
+                        let back = rank(&on_slope[on_slope.len() - 1 - place]);
+                        let there = rank(&on_slope[place]);
+                        [there[0].max(back[0]), there[1].max(back[1])]
                     };
+                    // Where all are alike, along the contour.
                     worse(rank(*one), rank(*other))
+                        .then(one.abs_diff(middle).cmp(&other.abs_diff(middle)))
                 }),
                 Self::Worst => {
                     all.max_by(|one, other| worse(rank(&on_slope[*one]), rank(&on_slope[*other])))
