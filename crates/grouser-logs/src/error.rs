@@ -54,7 +54,8 @@ pub enum Problem {
     },
     /// Messages that are not decoded here.
     #[error(
-        "messages of {topic} are encoded as {encoding}; JSON and Protocol Buffers are read here"
+        "messages of {topic} are encoded as {encoding}; JSON, Protocol Buffers, and those of ROS \
+         with a schema in ros1msg or ros2msg are read here"
     )]
     Encoding {
         /// The topic.

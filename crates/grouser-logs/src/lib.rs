@@ -72,6 +72,7 @@ mod mapping;
 mod mcap;
 mod protobuf;
 mod replay_log;
+mod ros;
 mod run_log;
 mod telemetry;
 

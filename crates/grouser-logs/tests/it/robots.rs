@@ -125,6 +125,39 @@ fn a_mapping_says_units_signs_and_axes() {
     );
 }
 
+/// Messages of ROS 2 and ROS 1 as their recorders write them, of a robot that lost its power: all
+/// that was written is read.
+#[test]
+fn messages_of_ros_are_read_to_the_end_of_a_log_that_is_cut() {
+    let (types, separator) = ("builtin_interfaces/Time stamp\nfloat64 roll\n", "=".repeat(80));
+    let types =
+        format!("{types}{separator}\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n");
+    for (messages, described) in [("cdr", "ros2msg"), ("ros1", "ros1msg")] {
+        let mut log = Container::begin(Packed::Lz4);
+        let channel = log.channel_of("/roll", "ours/msg/Roll", messages, (described, &types));
+        for second in 1..61_u32 {
+            let header: &[u8] = if messages == "cdr" { &[0, 1, 0, 0] } else { &[] };
+            let stamp = [second.to_le_bytes(), [0; 4]].concat();
+            let roll = f64::from(second).to_le_bytes();
+            log.message(channel, SECOND, &[header, &stamp, &roll].concat());
+            if second % 10 == 0 {
+                log.end_chunk();
+            }
+        }
+        log.message(channel, SECOND, &[0, 1, 0, 0, 1]);
+        let mapping = ROLL.replacen("[[reading]]", "time = \"stamp\"\n[[reading]]", 1);
+        let whole = log.finish_with_index();
+        let (records, notes) = read(&whole, Some(&mapping)).unwrap();
+        assert_eq!(records.len(), 60, "{notes:?}");
+        let rolls = records.iter().map(|it| it.roll.unwrap().to_degrees() - it.time);
+        assert!(rolls.into_iter().all(|away| away.abs() < 1e-9), "{records:?}");
+        assert!(notes.iter().any(|it| it.starts_with("1 messages cannot be decoded")), "{notes:?}");
+        let (records, notes) = read(&whole[..2 * whole.len() / 3], Some(&mapping)).unwrap();
+        assert!((30..60).contains(&records.len()), "{}", records.len());
+        assert!(notes.iter().any(|it| it.contains("without its end")), "{notes:?}");
+    }
+}
+
 const ROLL: &str = "schema = \"telemetry-mapping/1\"\nname = \"ours\"\n[[reading]]\ntopic = \"/roll\"\nfield = \"roll\"\ncolumn = \"roll_deg\"\n";
 
 /// Times before the window has passed are put in order, those after it counted: stamps are not what
@@ -168,19 +201,22 @@ fn what_cannot_be_meant_is_an_error_that_names_the_choices() {
     let (records, _) = read_file(&path, None, &[("sensor_msgs/Imu", "/imu/right")]).unwrap();
     assert!((records[0].roll.unwrap() - 4_f64.to_radians()).abs() < 1e-12);
 
-    let check = |topic: &str, message: &str, encoding: &str, part: &str| {
+    let check = |topic: &str, message: &str, (encoding, schema), part: &str| {
         let mut log = Container::begin(Packed::Not);
-        log.channel_of(topic, message, encoding);
+        log.channel_of(topic, message, encoding, (schema, "module ours {};"));
         let error = read(&log.finish(), None).unwrap_err().to_string();
         assert!(error.contains(part), "{error}");
     };
     check(
         "/lidar",
         "sensor_msgs/PointCloud2",
-        "json",
+        ("json", "jsonschema"),
         "none of its topics, which are /lidar (sensor_msgs/PointCloud2)",
     );
-    check("/imu", "sensor_msgs/msg/Imu", "cdr", "python -m grouser import-telemetry");
+    for part in ["/imu are encoded as cdr with a schema in ros2idl", "python -m grouser"] {
+        check("/imu", "sensor_msgs/msg/Imu", ("cdr", "ros2idl"), part);
+    }
+    check("/imu", "sensor_msgs/Imu", ("cbor", ""), "/imu are encoded as cbor; JSON, Protocol");
     for (start, part) in
         [(&b"#ROSBAG V2.0\n"[..], "a bag of ROS 1"), (b"SQLite format 3\0", "a bag of ROS 2")]
     {
