@@ -8,6 +8,7 @@ mod format;
 mod hostile;
 mod robots;
 mod runs;
+mod tables;
 #[expect(dead_code, reason = "the crate uses all of it")]
 #[path = "../../src/protobuf/wire.rs"]
 mod wire;
