@@ -51,6 +51,7 @@ pub fn hakuto() -> Result<Rover, ParameterError> {
     let unit = WheelUnit { mass: 0.422, inertia, wheel: hakuto_wheel(), motor: None };
     let mount = |(name, x, y): (&str, f64, f64)| Mount {
         name: name.to_owned(),
+        joint: None,
         position: Vec3::new(x, y, -0.06),
         unit,
         steering: 0.0,

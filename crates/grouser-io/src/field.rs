@@ -13,7 +13,7 @@ use super::kind::Kind;
 use super::tree::Node;
 pub(crate) use super::unit::{
     A, DEG, DEG_C, DEG_S, J_K, K_W, KG, KG_M2, KG_M3, KPA, M, M_PER_RAD, M_PER_RAD2, M_S, M_S2, N,
-    NM, NM_A, OF_KEY, OHM, ONE, S, Unit, V, V_RAD, V_S_RAD, W, WH,
+    NM, NM_A, OF_KEY, OHM, ONE, RAD, S, Unit, V, V_RAD, V_S_RAD, W, WH,
 };
 use super::unit::{DIRECTION_DEG, less_whole_turns};
 

@@ -7,8 +7,10 @@
 mod field_path;
 pub(crate) mod given;
 
+use std::f64::consts::TAU;
+
 use super::check::{did_you_mean, nearest};
-use super::columns::{PITCH, ROLL, STEERING, TIME, YAW};
+use super::columns::{PITCH, ROLL, STEERING, TIME, WHEEL_SPEED, YAW};
 use super::describe::telemetry_mapping::TELEMETRY_MAPPING;
 use super::error::{DocumentError, Problem};
 use super::field::Inner as _;
@@ -94,6 +96,9 @@ pub enum What {
         factor: f64,
         /// What is added at last.
         offset: f64,
+        /// Where it is the angle of a wheel, whose speed the column is: what it begins again after
+        /// [rad], infinite if it does not.
+        wrap: Option<f64>,
     },
     /// A pose, for several columns.
     Pose {
@@ -113,6 +118,13 @@ pub enum PoseOf {
     Attitude(FieldPath),
     /// In a position and an orientation.
     Pose(FieldPath),
+    /// In a position and an orientation that are apart.
+    Parts {
+        /// The field with the position.
+        position: FieldPath,
+        /// The field with the quaternion.
+        orientation: FieldPath,
+    },
     /// A frame in another, by the transforms that lead there.
     Transform {
         /// The frame in which the other is.
@@ -233,6 +245,9 @@ impl GivenReading {
         let [parent, child] = &self.transform;
         Ok(if !self.attitude.is_empty() {
             Some(PoseOf::Attitude(path("attitude", &self.attitude)?))
+        } else if !self.orientation.is_empty() {
+            let position = path("pose", &self.pose)?;
+            Some(PoseOf::Parts { position, orientation: path("orientation", &self.orientation)? })
         } else if !self.pose.is_empty() {
             Some(PoseOf::Pose(path("pose", &self.pose)?))
         } else if self.field.is_empty() {
@@ -251,7 +266,9 @@ impl GivenReading {
             let (key, value, range) = (at.key("sign").path, self.sign, "1 or -1".to_owned());
             return Err(at.key("sign").fault(Problem::OutOfRange { key, value, range }));
         }
-        let size = if self.unit.is_empty() {
+        let size = if self.is_position {
+            self.size_of_angle(known, at)?
+        } else if self.unit.is_empty() {
             1.0
         } else {
             size_of(&self.unit, known, &at.key("unit"))? / known.unit.to_si(1.0)
@@ -265,12 +282,42 @@ impl GivenReading {
         let axes = self.axes.unwrap_or(Axes::Grouser);
         let factor = self.scale * self.sign * axes_sign(axes, known) * size;
         let (field, column) = (self.field.clone(), self.column.clone());
-        Ok(What::Number { field, column, factor, offset: self.offset })
+        let wrap = [self.wrap, self.wrap_ticks * size].into_iter().find(|wrap| *wrap > 0.0);
+        let wrap = wrap.map_or(f64::INFINITY, |wrap| wrap * self.scale.abs());
+        let wrap = self.is_position.then_some(wrap);
+        Ok(What::Number { field, column, factor, offset: self.offset, wrap })
+    }
+
+    /// What a position of one is as an angle [rad].
+    fn size_of_angle(&self, column: &LogColumn, at: &At<'_>) -> Result<f64, DocumentError> {
+        if column.name != WHEEL_SPEED.name {
+            let why = "a `position` is an angle, whose column is the speed of a wheel";
+            return Err(at.key("column").fault(Problem::Conflict(why)));
+        }
+        if self.offset != 0.0 {
+            let why = "a `position` is read by its differences, which have no `offset`";
+            return Err(at.key("offset").fault(Problem::Conflict(why)));
+        }
+        if self.ticks_per_turn > 0.0 {
+            let [unit, wrap] = [!self.unit.is_empty(), self.wrap > 0.0];
+            let key = if unit { "unit" } else { "wrap_rad" };
+            let why = "a `position` in ticks has `wrap_ticks`, and no `unit` or `wrap_rad`";
+            let fault = || at.key(key).fault(Problem::Conflict(why));
+            return if unit || wrap { Err(fault()) } else { Ok(TAU / self.ticks_per_turn) };
+        }
+        if self.unit.is_empty() {
+            return Ok(1.0);
+        }
+        let of_angle = |known: Vec<&str>| format!("a unit of an angle: {}", known.join(", "));
+        let size = Dimension::Angle.size_of(&self.unit);
+        size.map_err(|known| at.key("unit").not_allowed(&self.unit, of_angle(known)))
     }
 
     fn pose(&self, of: PoseOf, at: &At<'_>) -> Result<What, DocumentError> {
         let usual = match of {
-            PoseOf::Pose(_) => [FORWARD, LEFTWARD, ROTATION].map(|it| it.name).to_vec(),
+            PoseOf::Pose(_) | PoseOf::Parts { .. } => {
+                [FORWARD, LEFTWARD, ROTATION].map(|it| it.name).to_vec()
+            }
             PoseOf::Attitude(_) | PoseOf::Transform { .. } => vec![ROLL.name, PITCH.name],
         };
         let columns = if self.columns.is_empty() {
@@ -386,6 +433,9 @@ mod tests {
     #[test]
     fn what_is_no_mapping_says_where_and_why() {
         let reading = |rest: &str| format!("[[reading]]\ntopic = \"/a\"\n{rest}");
+        let speed = |rest: &str| {
+            reading(&format!("field = \"x\"\ncolumn = \"wheel_speed_rad_s_a\"\n{rest}"))
+        };
         for (text, place, part) in [
             ("", "", "`reading` is missing"),
             ("reading = []", ":3:11", "`reading` has 0 entries, it must have 1 or more"),
@@ -438,6 +488,27 @@ mod tests {
                 ":3:1",
                 "has `field` and `pose`, which exclude each other",
             ),
+            (&reading("pose = \"y\"\nposition = true"), ":6:1", "goes with `field`"),
+            (
+                &reading("field = \"x\"\ncolumn = \"roll_deg\"\nposition = true"),
+                ":6:10",
+                "whose column is the speed of a wheel",
+            ),
+            (&speed("wrap_rad = 6.3"), ":7:1", "`reading.0.wrap_rad` goes with `position`"),
+            (&speed("position = true\nwrap_ticks = 9"), ":8:1", "goes with `ticks_per_turn`"),
+            (
+                &speed("position = true\nticks_per_turn = 9\nwrap_rad = 6.3"),
+                ":9:12",
+                "has `wrap_ticks`",
+            ),
+            (
+                &speed("position = true\nticks_per_turn = 9\nunit = \"deg\""),
+                ":9:8",
+                "has `wrap_ticks`",
+            ),
+            (&speed("position = true\nunit = \"rad/s\""), ":8:8", "a unit of an angle: deg, rad"),
+            (&speed("position = true\noffset = 1"), ":8:10", "no `offset`"),
+            (&reading("attitude = \"q\"\norientation = \"o\""), ":6:1", "goes with `pose`"),
             (&reading(""), ":3:1", "`reading.0` needs `field`, `attitude`, `pose` or `transform`"),
             (&reading("pose = \"y\"\nunit = \"m\""), ":6:1", "`reading.0.unit` goes with `field`"),
             (&reading("attitude = \"q\"\ncolumns = [\"x_m\"]"), ":6:12", "has no position"),

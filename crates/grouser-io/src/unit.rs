@@ -168,6 +168,8 @@ pub const J: Unit = Unit::si("J");
 pub const WH: Unit = Unit::scaled("W·h", Scale::Hours);
 /// Joules per metre.
 pub const J_PER_M: Unit = Unit::si("J/m");
+/// Radian.
+pub const RAD: Unit = Unit::si("rad");
 /// The unit of a dimensionless number.
 pub const ONE: Unit = Unit::si("-");
 /// The unit of another key.
@@ -175,7 +177,7 @@ pub const OF_KEY: Unit = Unit::si("");
 
 /// Ends of keys and columns, and the units that they stand for, longer ends first: `_m_per_m` is no
 /// `_m`. The Python package asks this table; a test compares it with that of `docs/conventions.md`.
-pub const UNITS: [(&str, Unit); 36] = [
+pub const UNITS: [(&str, Unit); 37] = [
     ("_m_per_m", M_PER_M),
     ("_deg_per_m", DEG_PER_M),
     ("_j_per_m", J_PER_M),
@@ -200,6 +202,7 @@ pub const UNITS: [(&str, Unit); 36] = [
     ("_m_s", M_S),
     ("_s_m", S_M),
     ("_deg", DEG),
+    ("_rad", RAD),
     ("_kpa", KPA),
     ("_kg", KG),
     ("_mm", MM),

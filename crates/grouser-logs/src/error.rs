@@ -54,7 +54,8 @@ pub enum Problem {
     },
     /// Messages that are not decoded here.
     #[error(
-        "messages of {topic} are encoded as {encoding}; JSON and Protocol Buffers are read here"
+        "messages of {topic} are encoded as {encoding}; JSON, Protocol Buffers, and those of ROS \
+         with a schema in ros1msg or ros2msg are read here"
     )]
     Encoding {
         /// The topic.
@@ -62,8 +63,28 @@ pub enum Problem {
         /// Their encoding, as the log calls it.
         encoding: String,
     },
-    /// A mapping, or a choice of topics, for a file without topics.
-    #[error("this is a table, which has columns and no topics: a mapping is for logs of messages")]
+    /// A mapping that reads none of a table's columns.
+    #[error(
+        "the mapping '{mapping}' reads none of its columns, which are {}; it looks for {}",
+        listed(columns),
+        listed(sought)
+    )]
+    NoColumnMapped {
+        /// The mapping's name.
+        mapping: String,
+        /// Fields that it looks for, each with its topic or type of messages.
+        sought: Vec<String>,
+        /// The columns.
+        columns: Vec<String>,
+    },
+    /// A table that is read by a mapping, of whose columns none has the time.
+    #[error("none of its columns is known as the time, and the mapping names none: {}", listed(.0))]
+    NoTime(Vec<String>),
+    /// A choice of topics without a mapping, or a mapping for Parquet.
+    #[error(
+        "this is a table, which is read by the names of its columns; a mapping is for tables in CSV \
+         and for logs of messages, and chooses topics"
+    )]
     NoMessages,
     /// A file of Parquet that is damaged, or written in a way that is not read.
     #[error("{0}")]
@@ -82,6 +103,15 @@ impl TelemetryError {
             Problem::NothingMapped { .. } => Some(
                 "--mapping FILE.toml says which topics and fields are which columns".to_owned(),
             ),
+            Problem::NoColumnMapped { .. } => Some(
+                "a reading with `topic = \"/odom\"` and `field = \"pose.x\"` reads the column \
+                 /odom/pose/x, one with `topic = \"/\"` and `field = \"x\"` the column x; --mapping \
+                 FILE.toml has such readings"
+                    .to_owned(),
+            ),
+            Problem::NoTime(_) => {
+                Some("`time = \"t\"` in the mapping says that it is the column t".to_owned())
+            }
             Problem::Ambiguous { what, topics } => topics
                 .first()
                 .map(|topic| format!("say which is meant, such as by --topic {what}={topic}")),

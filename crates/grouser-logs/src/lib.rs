@@ -62,8 +62,8 @@
 //! # Logs that are read
 //!
 //! [`TelemetryLog`] gives records in SI units and Grouser's signs in the order of time; a
-//! [`Mapping`] says which topics and fields of a log of messages are which columns. What was
-//! damaged, late or not used is counted, and [notes](TelemetryLog::notes) say so. Memory does not
+//! [`Mapping`] says which topics and fields of a log of messages, or columns of a table, are which
+//! columns of telemetry. What was damaged, late or not used is counted, and [notes](TelemetryLog::notes) say so. Memory does not
 //! grow with the log.
 
 mod error;
@@ -72,6 +72,7 @@ mod mapping;
 mod mcap;
 mod protobuf;
 mod replay_log;
+mod ros;
 mod run_log;
 mod telemetry;
 

@@ -7,6 +7,7 @@ pub(crate) mod messages;
 pub(crate) mod plan;
 pub(crate) mod pose;
 pub(crate) mod topic;
+pub(crate) mod turning;
 
 use std::path::Path;
 

@@ -1,5 +1,6 @@
 //! A log of any kind, record by record.
 
+mod mapped;
 mod mcap;
 mod parquet;
 pub(crate) mod writer;
@@ -15,6 +16,7 @@ use grouser_core::vehicle::Rover;
 use grouser_io::measurements::telemetry::{Lost, TelemetryReader, TelemetryRecord, TelemetryRows};
 use grouser_io::{escape, file};
 
+use self::mapped::MappedTable;
 use self::mcap::McapLog;
 use self::parquet::ParquetLog;
 use crate::error::{Problem, TelemetryError};
@@ -33,6 +35,7 @@ pub struct TelemetryLog {
 
 enum Source {
     Csv { reader: TelemetryReader<'static, LastByte>, ended_in_row: Rc<Cell<bool>> },
+    Mapped { table: Box<MappedTable<LastByte>>, ended_in_row: Rc<Cell<bool>> },
     Parquet(ParquetLog),
     Mcap(Box<McapLog>),
 }
@@ -41,9 +44,9 @@ impl TelemetryLog {
     /// Opens a file; its first bytes say what it is.
     ///
     /// * `rover`: the rover that was driven, for the names of its wheels
-    /// * `mapping`: of a log of messages, which fields are which columns; without it the built-in
-    ///   one that fits
-    /// * `choices`: of such a log, the topic that is meant where several fit
+    /// * `mapping`: which fields of messages, or columns of CSV, are which columns of telemetry;
+    ///   without it the built-in one that fits messages, and the names of a table's columns
+    /// * `choices`: the topic that is meant where several fit a mapping
     ///
     /// # Errors
     /// [`TelemetryError`] for a file that cannot be opened, or is no telemetry of this rover; with
@@ -61,8 +64,8 @@ impl TelemetryLog {
         let start = first_bytes(&mut file).map_err(of_disk)?;
         // What is a pipe cannot be sought in.
         if file.rewind().is_err() {
-            let source = Box::new(io::Cursor::new(start).chain(file));
-            return Self::of_csv(&label, Box::new(BufReader::new(source)), rover);
+            let source = Box::new(BufReader::new(io::Cursor::new(start).chain(file)));
+            return Self::of_table(&label, source, rover, mapping, choices);
         }
         let bags: [(&[u8], &str); 2] =
             [(b"#ROSBAG V", "a bag of ROS 1"), (b"SQLite format 3", "a bag of ROS 2 in SQLite")];
@@ -73,10 +76,10 @@ impl TelemetryLog {
             let log = McapLog::new(&label, file, mapping, rover, choices)?;
             return Ok(Self { label, source: Source::Mcap(Box::new(log)) });
         }
-        if mapping.is_some() || !choices.is_empty() {
-            return Err(TelemetryError::new(&label, Problem::NoMessages));
-        }
         if start.starts_with(parquet::MAGIC) {
+            if mapping.is_some() || !choices.is_empty() {
+                return Err(TelemetryError::new(&label, Problem::NoMessages));
+            }
             let log = ParquetLog::new(&label, file, rover)?;
             return Ok(Self { label, source: Source::Parquet(log) });
         }
@@ -85,7 +88,35 @@ impl TelemetryLog {
         } else {
             Box::new(BufReader::new(file))
         };
-        Self::of_csv(&label, source, rover)
+        Self::of_table(&label, source, rover, mapping, choices)
+    }
+
+    /// Reads CSV as it comes, whose columns are fields of messages by a mapping, or else those of
+    /// telemetry.
+    ///
+    /// * `label`: what messages call the source
+    /// * `mapping`, `choices`: as [`open`](Self::open) has them
+    ///
+    /// # Errors
+    /// [`TelemetryError`] for a header of which the mapping reads nothing, or that is no telemetry
+    /// of this rover.
+    pub fn of_table(
+        label: &str,
+        source: Box<dyn Read>,
+        rover: &Rover,
+        mapping: Option<&Mapping>,
+        choices: &TopicChoices,
+    ) -> Result<Self, TelemetryError> {
+        let Some(mapping) = mapping else {
+            return if choices.is_empty() {
+                Self::of_csv(label, source, rover)
+            } else {
+                Err(TelemetryError::new(label, Problem::NoMessages))
+            };
+        };
+        let (source, ended_in_row) = LastByte::of(source);
+        let table = Box::new(MappedTable::new(label, source, mapping, rover, choices)?);
+        Ok(Self { label: label.to_owned(), source: Source::Mapped { table, ended_in_row } })
     }
 
     /// Reads CSV as it comes, such as from standard input.
@@ -99,8 +130,7 @@ impl TelemetryLog {
         source: Box<dyn Read>,
         rover: &Rover,
     ) -> Result<Self, TelemetryError> {
-        let ended_in_row = Rc::new(Cell::new(false));
-        let source = LastByte { source, last: b'\n', ended_in_row: ended_in_row.clone() };
+        let (source, ended_in_row) = LastByte::of(source);
         let reader = TelemetryReader::new(label.to_owned(), source, rover)?;
         Ok(Self { label: label.to_owned(), source: Source::Csv { reader, ended_in_row } })
     }
@@ -118,6 +148,7 @@ impl TelemetryLog {
     pub fn next_record(&mut self) -> Result<Option<TelemetryRecord>, TelemetryError> {
         match &mut self.source {
             Source::Csv { reader, .. } => Ok(reader.next_record()?),
+            Source::Mapped { table, .. } => table.next_record(),
             Source::Parquet(log) => log.next_record(),
             Source::Mcap(log) => log.next_record(),
         }
@@ -134,7 +165,9 @@ impl TelemetryLog {
     #[must_use]
     pub fn is_whole(&self) -> bool {
         match &self.source {
-            Source::Csv { ended_in_row, .. } => !ended_in_row.get(),
+            Source::Csv { ended_in_row, .. } | Source::Mapped { ended_in_row, .. } => {
+                !ended_in_row.get()
+            }
             Source::Parquet(_) | Source::Mcap(_) => true,
         }
     }
@@ -150,6 +183,7 @@ impl TelemetryLog {
     pub fn share_used(&self) -> f64 {
         match &self.source {
             Source::Csv { reader, .. } => reader.rows().share_used(),
+            Source::Mapped { table, .. } => table.share_used(),
             Source::Parquet(log) => log.share_used(),
             Source::Mcap(log) => log.share_used(),
         }
@@ -166,6 +200,7 @@ impl TelemetryLog {
     pub fn notes_of_source(&self) -> Vec<String> {
         let of_kind = match &self.source {
             Source::Csv { .. } => Vec::new(),
+            Source::Mapped { table, .. } => table.notes(),
             Source::Parquet(log) => log.notes(),
             Source::Mcap(log) => log.notes(),
         };
@@ -176,6 +211,7 @@ impl TelemetryLog {
     fn table(&self) -> &TelemetryRows {
         match &self.source {
             Source::Csv { reader, .. } => reader.rows(),
+            Source::Mapped { table, .. } => table.rows(),
             Source::Parquet(log) => log.rows(),
             Source::Mcap(log) => log.rows(),
         }
@@ -195,6 +231,14 @@ struct LastByte {
     source: Box<dyn Read>,
     last: u8,
     ended_in_row: Rc<Cell<bool>>,
+}
+
+impl LastByte {
+    /// The source, and whether it ended within a row.
+    fn of(source: Box<dyn Read>) -> (Self, Rc<Cell<bool>>) {
+        let ended_in_row = Rc::new(Cell::new(false));
+        (Self { source, last: b'\n', ended_in_row: ended_in_row.clone() }, ended_in_row)
+    }
 }
 
 impl Read for LastByte {

@@ -47,6 +47,7 @@ pub(crate) fn six_wheels(steering: f64) -> Result<Rover, ParameterError> {
     };
     let mount = |(name, x, y, steering): (&str, f64, f64, f64)| Mount {
         name: name.to_owned(),
+        joint: None,
         position: Vec3::new(x, y, -0.15),
         unit,
         steering,

@@ -10,8 +10,8 @@ use super::TelemetryArgs;
 #[derive(Debug, Args)]
 #[command(
     after_help = "MCAP logs are read by a mapping: which topics and fields are which columns, with units, signs and \
-                  axes. Those of Grouser, ROS and Foxglove are built in. Bags of ROS, and MCAP logs with its messages \
-                  in CDR, are converted by the Python package: python -m grouser import-telemetry BAG.\n\
+                  axes. Those of Grouser, ROS and Foxglove are built in. Bags of ROS 1, and of ROS 2 in SQLite, are \
+                  converted by the Python package: python -m grouser import-telemetry BAG.\n\
                   Example:\n  grouser import-telemetry drive.mcap --rover hakuto --mapping ours.toml --out drive.csv\n\
                   docs/guide/telemetry.md has the reference of mappings."
 )]

@@ -7,12 +7,12 @@ use clap::Args;
 /// How a log of messages is read.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct TelemetryArgs {
-    /// For a log of messages (MCAP): which of its topics and fields are which columns, a file or
-    /// one of `grouser`, `ros`, `foxglove`; without it the one of these that fits.
+    /// Which topics and fields of a log of messages (MCAP), or columns of a table (CSV), are which
+    /// columns of telemetry: a file or one of `grouser`, `ros`, `foxglove`; without it the one of
+    /// these that fits, for messages, and the names of a table's columns.
     #[arg(long, value_name = "FILE|NAME")]
     pub(crate) mapping: Option<PathBuf>,
-    /// For such a log: the topic that is meant where several have messages of a type; can be
-    /// repeated.
+    /// The topic that is meant where several have what a mapping reads; can be repeated.
     #[arg(long = "topic", value_name = "TYPE=TOPIC", value_parser = choice)]
     pub(crate) topics: Vec<(String, String)>,
     /// End with exit code 0 even where less than half of the log could be used, which is 3

@@ -37,16 +37,17 @@ pub(crate) fn telemetry(
     following: Option<Following>,
 ) -> Result<TelemetryLog, Failure> {
     let label = telemetry_label(path);
+    let mapping = mapping(args)?;
+    let (mapping, choices) = (mapping.as_ref(), args.topics.iter().cloned().collect());
     if is_standard_input(path) {
-        return Ok(TelemetryLog::of_csv(&label, Box::new(io::stdin().lock()), rover)?);
+        let source = Box::new(io::stdin().lock());
+        return Ok(TelemetryLog::of_table(&label, source, rover, mapping, &choices)?);
     }
     if let Some(following) = following {
-        let source = following.open(path)?;
-        return Ok(TelemetryLog::of_csv(&label, Box::new(source), rover)?);
+        let source = Box::new(following.open(path)?);
+        return Ok(TelemetryLog::of_table(&label, source, rover, mapping, &choices)?);
     }
-    let mapping = mapping(args)?;
-    let choices = args.topics.iter().cloned().collect();
-    Ok(TelemetryLog::open(path, rover, mapping.as_ref(), &choices)?)
+    Ok(TelemetryLog::open(path, rover, mapping, &choices)?)
 }
 
 /// Less of a log than this is too little to rely on without a word [-]. Source: ours.

@@ -51,7 +51,11 @@ fn what_cannot_be_imported_says_what_to_do() {
     for (line, part) in [
         ("import-telemetry bag.db3", "python -m grouser import-telemetry"),
         ("import-telemetry nowhere.mcap", "there is no such file"),
-        ("import-telemetry drive.csv --mapping ros", "which has columns and no topics"),
+        (
+            "import-telemetry drive.csv --mapping ros",
+            "reads none of its columns, which are time_s, roll_deg; it looks for",
+        ),
+        ("import-telemetry drive.csv --topic a=b", "which is read by the names of its columns"),
         (
             "import-telemetry drive.csv --mapping wrong.toml",
             "wrong.toml:3:11: `reading` has 0 entries, it must have 1 or more",
@@ -70,5 +74,5 @@ fn what_cannot_be_imported_says_what_to_do() {
     let mapping = place.results("import-telemetry --print-mapping ros");
     place.write("ours.toml", mapping);
     let answer = place.line("import-telemetry drive.csv --mapping ours.toml");
-    assert!(answer.stderr.contains("which has columns and no topics"), "{}", answer.stderr);
+    assert!(answer.stderr.contains("reads none of its columns"), "{}", answer.stderr);
 }

@@ -131,6 +131,8 @@ impl SteeringAxis {
 pub struct Mount {
     /// The wheel's name, such as `front-left`.
     pub name: String,
+    /// What the robot's logs call the joint that turns it, if that is another name.
+    pub joint: Option<String>,
     /// Its hub, in the body frame [m], with the wheel steered as it is.
     pub position: Vec3,
     /// The wheel with its motor.
@@ -230,6 +232,8 @@ pub struct SteeringParts {
 pub struct MountParts {
     /// The wheel's name, such as `front-left`.
     pub name: String,
+    /// What the robot's logs call the joint that turns it, if that is another name.
+    pub joint: Option<String>,
     /// Its hub at a steering angle of zero, in the body frame [m].
     pub position: Vec3,
     /// Steering angle, *δ* [rad], positive to the left.
@@ -259,6 +263,7 @@ impl RoverParts {
             let shift = steering_axis.map_or(Vec2::zeros(), |axis| axis.hub_shift(mount.steering));
             Mount {
                 name: mount.name.clone(),
+                joint: mount.joint.clone(),
                 position: mount.position + Vec3::new(shift.x, shift.y, 0.0),
                 unit: WheelUnit {
                     mass: mount.mass.unwrap_or(common.mass),

@@ -28,6 +28,7 @@ use crate::units::{Vec2, Vec3};
 /// let unit = WheelUnit { mass: 0.422, inertia, wheel: paper::hakuto_wheel(), motor: None };
 /// let mount = |(name, x, y): (&str, f64, f64)| Mount {
 ///     name: name.to_owned(),
+///     joint: None,
 ///     position: Vec3::new(x, y, -0.06),
 ///     unit,
 ///     steering: 0.0,
@@ -81,10 +82,11 @@ impl Rover {
         };
         let wheel_unit = first.unit;
         let parts = |mount: Mount| {
-            let Mount { name, position, unit, steering, steering_axis } = mount;
+            let Mount { name, joint, position, unit, steering, steering_axis } = mount;
             let shift = steering_axis.map_or(Vec2::zeros(), |axis| axis.hub_shift(steering));
             MountParts {
                 name,
+                joint,
                 position: position - Vec3::new(shift.x, shift.y, 0.0),
                 steering,
                 steered: SteeringParts {
@@ -551,7 +553,7 @@ mod tests {
         let unit = WheelUnit { mass: 0.422, inertia: wheel_inertia, wheel, motor: None };
         let mounts = [(0.19, 0.24), (-0.17, 0.24), (-0.17, -0.24), (0.19, -0.24)].map(|(x, y)| {
             let (name, position) = (format!("{x},{y}"), Vec3::new(x, y, -0.06));
-            Mount { name, position, unit, steering: 0.0, steering_axis: None }
+            Mount { name, joint: None, position, unit, steering: 0.0, steering_axis: None }
         });
         let rover =
             Rover::new(Body { mass: 5.24, inertia }, mounts.to_vec()).expect("a rover that stands");

@@ -18,6 +18,7 @@ use crate::units::Vec2;
 /// let unit = paper::hakuto()?.mounts()[0].unit;
 /// let mount = |(name, x): (&str, f64)| Mount {
 ///     name: name.to_owned(),
+///     joint: None,
 ///     position: Vec3::new(x, 0.3, -0.1),
 ///     unit,
 ///     steering: 0.0,

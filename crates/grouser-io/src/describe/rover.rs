@@ -105,6 +105,7 @@ pub(crate) static ROVER: Table<RoverParts> = Table {
                 list: |rover: &mut RoverParts| &mut rover.mounts,
                 blank: || MountParts {
                     name: String::new(),
+                    joint: None,
                     position: Vec3::zeros(),
                     steering: 0.0,
                     steered: NO_STEERING,
@@ -233,6 +234,14 @@ static MOUNT: Table<MountParts> = Table {
         text("name", 1, "The wheel's name, such as `front-left`; no two alike.", |mount, name| {
             name.clone_into(&mut mount.name);
         }),
+        text(
+            "joint",
+            1,
+            "What logs of the robot call the joint that turns it, as URDF does, if that is another \
+             name.",
+            |mount: &mut MountParts, joint| mount.joint = Some(joint.to_owned()),
+        )
+        .optional(),
         numbers(
             "position_m",
             M,

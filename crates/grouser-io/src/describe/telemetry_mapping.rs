@@ -1,8 +1,10 @@
 //! `telemetry-mapping/1`: which topics and fields of a log of messages are which columns of
 //! telemetry.
 
+use std::ops::RangeInclusive;
+
 use super::super::field::{
-    Allowed, Each, Field, OF_KEY, ONE, S, Shape, Table, Text, Texts, field, flag, list, note,
+    Allowed, Each, Field, OF_KEY, ONE, RAD, S, Shape, Table, Text, Texts, field, flag, list, note,
     number, text, word, words,
 };
 use super::super::telemetry_mapping::given::{
@@ -17,6 +19,10 @@ const LONGEST: f64 = 3600.0;
 const USUAL_WINDOW: f64 = 1.0;
 /// The largest factor and offset. Source: ours, beyond any two units of one quantity.
 const LARGEST: f64 = 1e15;
+
+/// Ticks of a turn, and how far angles and ticks go before they begin again. Source: ours, from a
+/// fraction of a turn to beyond what counters of 48 bits hold.
+const WRAPS: RangeInclusive<f64> = 1e-3..=LARGEST;
 
 /// One of which, or both, says whose messages are read.
 const MESSAGES: &[&str] = &["topic", "message"];
@@ -119,6 +125,12 @@ static READING: Table<GivenReading> = Table {
              or those of `columns`."
         )
         .one_of(WHAT),
+        stated!(
+            GivenReading.orientation,
+            "The field with the quaternion of a `pose` that is a position alone."
+        )
+        .optional()
+        .only_with("pose"),
         TRANSFORM,
         COLUMN,
         COLUMNS,
@@ -150,6 +162,40 @@ static READING: Table<GivenReading> = Table {
         )
         .or(0.0)
         .only_with("field"),
+        flag(
+            "position",
+            "Whether a `field` is the angle of a wheel, in radians or its `unit`: the speed of the \
+             `column` is how far it turned over time.",
+            |it: &mut GivenReading, yes| it.is_position = yes,
+        )
+        .only_with("field"),
+        number(
+            "wrap_rad",
+            RAD,
+            WRAPS,
+            "After how much a `position` begins again [], such as 6.2832",
+            |it: &mut GivenReading| Some(&mut it.wrap),
+        )
+        .optional()
+        .only_with("position"),
+        number(
+            "ticks_per_turn",
+            ONE,
+            WRAPS,
+            "Ticks of an encoder over one turn of the wheel, where a `position` counts them",
+            |it: &mut GivenReading| Some(&mut it.ticks_per_turn),
+        )
+        .optional()
+        .only_with("position"),
+        number(
+            "wrap_ticks",
+            ONE,
+            WRAPS,
+            "After how many ticks they begin again, such as 65536",
+            |it: &mut GivenReading| Some(&mut it.wrap_ticks),
+        )
+        .optional()
+        .only_with("ticks_per_turn"),
         AXES,
         flag(
             "optional",

@@ -27,8 +27,8 @@ use super::super::columns::{
 use super::super::unit::{A, DEG, M, NM};
 use super::log_column::{LogColumn, column};
 pub use clock::TimeUnit;
-pub use reader::TelemetryReader;
-pub use rows::{Cell, TelemetryRows, is_same_wheel};
+pub use reader::{CellReader, NextRow, TelemetryReader};
+pub use rows::{Cell, TelemetryRows, TimeColumn, is_same_wheel};
 
 /// Way along the body's x since the last one, by visual odometry.
 pub const FORWARD: Quantity = quantity("vo_dx_m", M);

@@ -4,6 +4,9 @@
 //! place, and `[name=PATTERN]` by a name, either that of the element itself
 //! (`joints[name=…].velocity`) or that at the same place of the list beside it (`velocity[name=…]`,
 //! as in `sensor_msgs/JointState`).
+//!
+//! A tree made of the columns of a table has no lists: there `[2]` is what is called 2, and
+//! `velocity[name=PATTERN]` the velocity of what has that name, `front_left/velocity`.
 
 use serde_json::Value;
 
@@ -68,7 +71,7 @@ impl FieldPath {
         for step in &self.0 {
             let next = match step {
                 Step::Name(name) => here.get(name),
-                Step::Place(place) => here.get(place),
+                Step::Place(place) => here.get(place).or_else(|| here.get(place.to_string())),
                 Step::Named { list, key, patterns } => match named(here, list, key, patterns) {
                     Found::One(value) => Some(value),
                     other => return other,
@@ -108,24 +111,38 @@ fn add_element(steps: &mut Vec<Step>, element: &str) -> Option<()> {
 
 /// The element with a name: that of the first pattern that fits one alone.
 fn named<'v>(parent: &'v Value, list: &str, key: &str, patterns: &[String]) -> Found<'v> {
-    let Some(Value::Array(elements)) = parent.get(list) else { return Found::Nothing };
-    let beside = parent.get(key).and_then(Value::as_array);
-    let name_of = |place: usize| -> Option<String> {
-        let own = elements.get(place).and_then(|element| element.get(key));
-        own.or_else(|| beside?.get(place)).and_then(Value::as_str).map(plain)
-    };
-    let names: Vec<Option<String>> = (0..elements.len()).map(name_of).collect();
+    let elements = elements(parent, list, key);
     let mut several = false;
     for pattern in patterns {
-        let fits = |name: &Option<String>| name.as_ref().is_some_and(|name| matches(pattern, name));
-        let mut places = names.iter().enumerate().filter(|(_, name)| fits(name));
-        match (places.next(), places.next()) {
-            (Some((place, _)), None) => return Found::One(&elements[place]),
+        let mut fitting = elements.iter().filter(|(name, _)| matches(pattern, name));
+        match (fitting.next(), fitting.next()) {
+            (Some((_, element)), None) => return Found::One(element),
             (Some(_), Some(_)) => several = true,
             (None, _) => {}
         }
     }
     if several { Found::Several } else { Found::Nothing }
+}
+
+/// What has a name of a list, each with it.
+fn elements<'v>(parent: &'v Value, list: &str, key: &str) -> Vec<(String, &'v Value)> {
+    let named = |(name, value): (&String, &'v Value)| (plain(name), value);
+    match parent.get(list) {
+        Some(Value::Array(elements)) => {
+            let beside = parent.get(key).and_then(Value::as_array);
+            let named = |(place, element): (usize, &'v Value)| {
+                let name = element.get(key).or_else(|| beside?.get(place))?.as_str()?;
+                Some((plain(name), element))
+            };
+            elements.iter().enumerate().filter_map(named).collect()
+        }
+        Some(Value::Object(elements)) => elements.iter().map(named).collect(),
+        Some(_) => Vec::new(),
+        None => {
+            let all = parent.as_object().into_iter().flatten();
+            all.filter_map(|(name, element)| Some((plain(name), element.get(list)?))).collect()
+        }
+    }
 }
 
 /// A name in small letters, with one mark for all that parts words.
@@ -178,6 +195,15 @@ mod tests {
         assert_eq!(number("velocity[name=Front-Left*]", &tree), Some(0.5));
         assert_eq!(number("velocity[name=none|fl_*]", &tree), Some(0.25));
         assert_eq!(number("joints[name=b].velocity", &tree), Some(2.0));
+        let columns = json!({
+            "front-left": {"velocity": 0.5, "position": 1.0},
+            "joints": {"a": {"velocity": 1.5}},
+            "samples": {"2": 2.5},
+        });
+        assert_eq!(number("velocity[name=front_*]", &columns), Some(0.5));
+        assert_eq!(number("joints[name=a].velocity", &columns), Some(1.5));
+        assert_eq!(number("samples[2]", &columns), Some(2.5));
+        assert_eq!(number("velocity[name=samples]", &columns), None);
         let several = FieldPath::parse("velocity[name=*]").unwrap();
         assert_eq!(several.find(&tree), Found::Several);
         assert_eq!(number("velocity[name=rear]", &tree), None);

@@ -31,6 +31,8 @@ pub(crate) struct GivenReading {
     pub(crate) field: String,
     pub(crate) attitude: String,
     pub(crate) pose: String,
+    /// Where a pose has its quaternion, if `pose` is its position.
+    pub(crate) orientation: String,
     /// The two frames of a transform, parent and child.
     pub(crate) transform: [String; 2],
     pub(crate) column: String,
@@ -39,6 +41,13 @@ pub(crate) struct GivenReading {
     pub(crate) scale: f64,
     pub(crate) sign: f64,
     pub(crate) offset: f64,
+    /// Whether the field is the angle of a wheel, and its column the speed.
+    pub(crate) is_position: bool,
+    /// Where angles and ticks begin again [rad, ticks], and the ticks of a turn; 0 where they are
+    /// left out.
+    pub(crate) wrap: f64,
+    pub(crate) wrap_ticks: f64,
+    pub(crate) ticks_per_turn: f64,
     pub(crate) axes: Option<Axes>,
     pub(crate) is_optional: bool,
 }

@@ -28,6 +28,8 @@ pub(super) struct Found {
 #[derive(Debug)]
 struct Mount {
     name: String,
+    /// The name of the joint that turns it, if that is another.
+    joint: Option<String>,
     /// From the body's centre of mass [m].
     position: Vector3<f64>,
     /// How far it is steered to either side [rad], and from its centre to the axis [m].
@@ -119,6 +121,9 @@ impl Found {
             let place = list(mount.position.as_slice());
             let _ =
                 writeln!(text, "\n[[mount]]\nname = {}\nposition_m = {place}", quoted(&mount.name));
+            if let Some(joint) = &mount.joint {
+                let _ = writeln!(text, "joint = {}", quoted(joint));
+            }
             if let Some((limit, kingpin)) = mount.steering {
                 let _ =
                     writeln!(text, "steering_limit_deg = {}", shown(limit.to_degrees().min(90.0)));
@@ -252,7 +257,9 @@ fn mount(
         ));
     }
     let unit = Unit { mass: together.mass, inertia, radius: wheel.radius, width: wheel.width };
-    Ok(Mount { name: name.clone(), position: wheel.centre - body.centre, steering, unit })
+    let joint = Some(joint_name(robot, wheel.turned)).filter(|it| it != name);
+    let position = wheel.centre - body.centre;
+    Ok(Mount { name: name.clone(), joint, position, steering, unit })
 }
 
 // ---- Numbers ----

@@ -129,6 +129,9 @@ fn steering_is_found_and_patterns_name_wheels() {
     let wheels = vec!["wheel_*".to_owned(), "b4".to_owned()];
     let text = robot(&inner);
     let rover = read(&text, &UrdfOptions { wheels, ..UrdfOptions::default() }).expect("it").value;
+    // Logs have the names of joints, which are kept where those of the links differ.
+    let joints: Vec<_> = rover.mounts().iter().map(|it| it.joint.as_deref()).collect();
+    assert_eq!(joints, ["wheel_a1_axle", "wheel_a2_axle", "wheel_a3_axle", "b4_axle"].map(Some));
     let axis = rover.mounts()[0].steering_axis.expect("it is steered");
     assert!((axis.limit - 0.5).abs() < 1e-6);
     let options =

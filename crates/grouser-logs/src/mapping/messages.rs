@@ -13,9 +13,10 @@ use crate::error::{Problem, TelemetryError};
 use crate::mapping::Mapping;
 use crate::mapping::clock::{Clock, When};
 use crate::mapping::merge::{Merge, Readings};
-use crate::mapping::plan::{Plan, Planned, PlannedReading, TopicChoices};
+use crate::mapping::plan::{NumberField, Plan, Planned, PlannedReading, TopicChoices};
 use crate::mapping::pose::{Frames, Pose, Rotation};
 use crate::mapping::topic::Topic;
+use crate::mapping::turning::{Angle, Turning};
 
 /// Records of messages, which are added as they come.
 pub struct MessageRows {
@@ -29,6 +30,8 @@ pub struct MessageRows {
     frames: Frames,
     /// The last pose of each slot that was in a row.
     last: Vec<Option<Pose>>,
+    /// The last angle of each slot that was.
+    last_angles: Vec<Option<Angle>>,
     counts: Counts,
 }
 
@@ -92,11 +95,12 @@ impl MessageRows {
         }
         let is_way = |name: &String| [FORWARD, LEFTWARD, ROTATION].iter().any(|it| it.name == name);
         let ways = plan.columns.iter().map(is_way).collect();
-        let merge = Merge::new(plan.window, plan.rows.clone(), ways);
-        let last = vec![None; plan.poses];
+        let turning = Turning::new(plan.angles.iter().map(|(_, wrap)| *wrap).collect());
+        let merge = Merge::new(plan.window, plan.rows.clone(), ways, turning);
+        let (last, last_angles) = (vec![None; plan.poses], vec![None; plan.angles.len()]);
         let mapping = mapping.rules.name.clone();
         let (clock, frames, counts) = (Clock::default(), Frames::default(), Counts::default());
-        Ok(Self { plan, mapping, by_topic, clock, merge, table, frames, last, counts })
+        Ok(Self { plan, mapping, by_topic, clock, merge, table, frames, last, last_angles, counts })
     }
 
     /// Whether messages of a topic are read.
@@ -131,6 +135,7 @@ impl MessageRows {
                 Some((_, known)) => {
                     known.cells.extend(readings.cells);
                     known.poses.extend(readings.poses);
+                    known.angles.extend(readings.angles);
                 }
                 None => by_time.push((when, readings)),
             }
@@ -150,6 +155,16 @@ impl MessageRows {
     /// Counts a message that cannot be decoded.
     pub fn damaged_message(&mut self) {
         self.counts.damaged += 1;
+    }
+
+    /// Counts a row of a table that cannot be read.
+    pub(crate) fn damaged_row(&mut self) {
+        self.table.damaged_row();
+    }
+
+    /// Counts a row of a table that has no time.
+    pub(crate) fn row_without_time(&mut self) {
+        self.table.row_without_time();
     }
 
     /// No more messages come: what waited for earlier ones becomes records.
@@ -189,6 +204,14 @@ impl MessageRows {
             let numbers = numbers_of(pose, last.as_ref(), *axes);
             for (what, column) in columns {
                 cells[*column] = numbers(*what).map_or(Cell::Gap, Cell::of_number);
+            }
+        }
+        for (slot, angle) in &readings.angles {
+            let last = self.last_angles[*slot].replace(*angle);
+            let speed = last.and_then(|last| angle.speed_since(last));
+            let cell = &mut cells[self.plan.angles[*slot].0];
+            if *cell == Cell::Gap {
+                *cell = speed.map_or(Cell::Gap, Cell::of_number);
             }
         }
         cells
@@ -292,20 +315,24 @@ impl Context<'_> {
     fn read(&self, reading: &PlannedReading, counts: &mut Counts) -> Option<(When, Readings)> {
         let mut readings = Readings::default();
         match &reading.what {
-            Planned::Number { field, column, factor, offset } => {
-                let value = self.field(field, reading.is_optional, counts)?;
-                if value.is_null() {
-                    return None;
-                }
-                let number = number(value).map(|it| it * factor + offset);
+            Planned::Number { fields, column } => {
+                let (field, value) = self.first(fields, reading.is_optional, counts)?;
+                let number = number(value).map(|it| it * field.factor + field.offset);
                 let Some(number) = number.filter(|it| !it.is_nan()) else {
                     return self.damaged(counts);
                 };
-                let cell = Cell::Number(number);
-                readings.cells.push((*column, cell));
+                match field.angle {
+                    // It has its time where readings are in order.
+                    Some(slot) => readings.angles.push((slot, Angle { at: number, time: 0 })),
+                    None => readings.cells.push((*column, Cell::Number(number))),
+                }
             }
             Planned::Pose { of: PoseOf::Transform { parent, child }, slot, .. } => {
                 return self.transform(parent, child, *slot, counts);
+            }
+            Planned::Pose { of: PoseOf::Parts { position, orientation }, slot, .. } => {
+                let pose = self.parts((position, orientation), reading.is_optional, counts)?;
+                readings.poses.push((*slot, pose));
             }
             Planned::Pose { of, slot, .. } => {
                 let pose = self.pose(of, reading.is_optional, counts)?;
@@ -351,8 +378,38 @@ impl Context<'_> {
         None
     }
 
+    /// The first of some fields that has a value, and it.
+    fn first<'f>(
+        &self,
+        fields: &'f [NumberField],
+        is_optional: bool,
+        counts: &mut Counts,
+    ) -> Option<(&'f NumberField, &Value)> {
+        let mut missing = Found::Nothing;
+        for field in fields {
+            match field.field.find(self.message) {
+                Found::One(value) if !value.is_null() => return Some((field, value)),
+                Found::Nothing => {}
+                other => missing = other,
+            }
+        }
+        // What is empty is no reading, and nothing to count.
+        self.one(missing, is_optional, counts)?;
+        None
+    }
+
     fn field(&self, field: &FieldPath, is_optional: bool, counts: &mut Counts) -> Option<&Value> {
-        let count = match field.find(self.message) {
+        self.one(field.find(self.message), is_optional, counts)
+    }
+
+    /// The value that was found; what was not is counted.
+    fn one<'v>(
+        &self,
+        found: Found<'v>,
+        is_optional: bool,
+        counts: &mut Counts,
+    ) -> Option<&'v Value> {
+        let count = match found {
             Found::One(value) => return Some(value),
             Found::Nothing if is_optional => return None,
             Found::Nothing => &mut counts.without_field,
@@ -366,7 +423,7 @@ impl Context<'_> {
     fn pose(&self, of: &PoseOf, is_optional: bool, counts: &mut Counts) -> Option<Pose> {
         let (PoseOf::Attitude(field) | PoseOf::Pose(field)) = of else { return None };
         let value = self.field(field, is_optional, counts)?;
-        if value.is_null() || self.is_unknown(field) {
+        if is_gap(value) || self.is_unknown(field) {
             return None;
         }
         let PoseOf::Attitude(_) = of else {
@@ -379,6 +436,21 @@ impl Context<'_> {
             return None;
         }
         Some(Pose { position: None, rotation })
+    }
+
+    /// The pose of a position and a quaternion; one that is damaged is counted.
+    fn parts(
+        &self,
+        (position, orientation): (&FieldPath, &FieldPath),
+        is_optional: bool,
+        counts: &mut Counts,
+    ) -> Option<Pose> {
+        let position = self.field(position, is_optional, counts)?;
+        let orientation = self.field(orientation, is_optional, counts)?;
+        if is_gap(position) || is_gap(orientation) {
+            return None;
+        }
+        Pose::of_parts(position, orientation).or_else(|| self.damaged(counts))
     }
 
     /// Whether a covariance beside the field says that it is not measured, as `sensor_msgs/Imu`
@@ -409,6 +481,12 @@ impl Context<'_> {
     }
 }
 
+/// Whether there is nothing, or all below are gaps, as of a table's empty cells.
+fn is_gap(value: &Value) -> bool {
+    let is_empty = |it: &serde_json::Map<String, Value>| !it.is_empty() && it.values().all(is_gap);
+    value.is_null() || value.as_object().is_some_and(is_empty)
+}
+
 /// A number, also one that is written as a text or a truth.
 fn number(value: &Value) -> Option<f64> {
     match value {
@@ -420,7 +498,7 @@ fn number(value: &Value) -> Option<f64> {
 }
 
 /// A time [ns]: seconds with nanoseconds, or seconds; nothing for one that was not set.
-fn stamp(value: &Value) -> Option<f64> {
+pub(crate) fn stamp(value: &Value) -> Option<f64> {
     let part = |names: [&str; 4]| names.into_iter().find_map(|name| value.get(name)?.as_f64());
     let time = if let Some(seconds) = value.as_f64() {
         (seconds * 1e9).round()

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use grouser_core::vehicle::Rover;
+use grouser_core::vehicle::{Mount, Rover};
 use grouser_io::columns::TIME;
 use grouser_io::telemetry_mapping::{
     Axes, FieldPath, PoseColumn, PoseOf, Reading, RowRule, TelemetryMapping, WHEEL, What,
@@ -25,6 +25,8 @@ pub(crate) struct Plan {
     pub(crate) rows: RowRule,
     /// Poses that are kept from row to row.
     pub(crate) poses: usize,
+    /// Angles of wheels that are, each with its column and what it begins again after [rad].
+    pub(crate) angles: Vec<(usize, f64)>,
 }
 
 #[derive(Clone, Debug)]
@@ -38,8 +40,27 @@ pub(crate) struct PlannedReading {
 
 #[derive(Clone, Debug)]
 pub(crate) enum Planned {
-    Number { field: FieldPath, column: usize, factor: f64, offset: f64 },
-    Pose { of: PoseOf, columns: Vec<(PoseColumn, usize)>, axes: Axes, slot: usize },
+    /// A number, by the first of its fields that is there.
+    Number {
+        fields: Vec<NumberField>,
+        column: usize,
+    },
+    Pose {
+        of: PoseOf,
+        columns: Vec<(PoseColumn, usize)>,
+        axes: Axes,
+        slot: usize,
+    },
+}
+
+/// A field with a number.
+#[derive(Clone, Debug)]
+pub(crate) struct NumberField {
+    pub(crate) field: FieldPath,
+    pub(crate) factor: f64,
+    pub(crate) offset: f64,
+    /// The slot of the angle that it is.
+    pub(crate) angle: Option<usize>,
 }
 
 impl Plan {
@@ -58,13 +79,14 @@ impl Plan {
             window: mapping.window,
             rows: mapping.rows.clone(),
             poses: 0,
+            angles: Vec::new(),
         };
-        let wheels: Vec<&str> = rover.mounts().iter().map(|mount| mount.name.as_str()).collect();
+        let wheels: Vec<WheelNames> = rover.mounts().iter().map(WheelNames::of).collect();
         for reading in &mapping.readings {
             if reading.is_of_wheels() {
                 wheels.iter().try_for_each(|it| plan.add(mapping, reading, topics, it, choices))?;
             } else {
-                plan.add(mapping, reading, topics, "*", choices)?;
+                plan.add(mapping, reading, topics, &WheelNames::any(), choices)?;
             }
         }
         if plan.readings.is_empty() {
@@ -94,19 +116,20 @@ impl Plan {
         mapping: &TelemetryMapping,
         reading: &Reading,
         topics: &[Topic],
-        wheel: &str,
+        wheel: &WheelNames,
         choices: &TopicChoices,
     ) -> Result<(), Problem> {
         let written = match &reading.what {
-            What::Number { column, .. } => vec![column.replace(WHEEL, wheel)],
+            What::Number { column, .. } => vec![column.replace(WHEEL, &wheel.own)],
             What::Pose { columns, .. } => columns.clone(),
         };
+        let reads = |it: &&Topic| wheel.is_read(reading, &it.name, &it.message);
+        let mut found: Vec<&Topic> = topics.iter().filter(reads).collect();
+        let time = reading.time.clone().or_else(|| mapping.time.clone());
         let free: Vec<String> =
-            written.into_iter().filter(|name| !self.columns.contains(name)).collect();
-        let mut found: Vec<&Topic> =
-            topics.iter().filter(|it| reading.reads(&it.name, &it.message, wheel)).collect();
+            written.iter().filter(|name| !self.columns.contains(name)).cloned().collect();
         if free.is_empty() || found.is_empty() {
-            return Ok(());
+            return self.add_beside((reading, time), &found, &written, wheel);
         }
         let is_transform = matches!(&reading.what, What::Pose { of: PoseOf::Transform { .. }, .. });
         if is_transform {
@@ -118,13 +141,8 @@ impl Plan {
         }
         let place = self.columns.len();
         let what = match &reading.what {
-            What::Number { field, factor, offset, .. } => {
-                // A name that would end the brackets is written without what does.
-                let wheel = wheel.replace([']', '|', '*'], "_");
-                let path = field.replace(WHEEL, &wheel);
-                let field = FieldPath::parse(&path)
-                    .ok_or_else(|| Problem::Mapping(format!("`{path}` is no path to a field")))?;
-                Planned::Number { field, column: place, factor: *factor, offset: *offset }
+            What::Number { .. } => {
+                Planned::Number { fields: self.fields(reading, wheel, place)?, column: place }
             }
             What::Pose { of, axes, .. } => {
                 let columns = free.iter().filter_map(|name| PoseColumn::named(name));
@@ -135,10 +153,97 @@ impl Plan {
         };
         self.columns.extend(free);
         let topics = found.iter().map(|topic| topic.name.clone()).collect();
-        let time = reading.time.clone().or_else(|| mapping.time.clone());
         let is_optional = reading.is_optional;
         self.readings.push(PlannedReading { topics, time, is_optional, what });
         Ok(())
+    }
+
+    /// Adds the field of a reading behind those that give its column already of the same topic: it
+    /// is read of messages that lack the others.
+    fn add_beside(
+        &mut self,
+        (reading, time): (&Reading, Option<FieldPath>),
+        found: &[&Topic],
+        written: &[String],
+        wheel: &WheelNames,
+    ) -> Result<(), Problem> {
+        let place = self.columns.iter().position(|known| written == std::slice::from_ref(known));
+        let gives = |it: &PlannedReading| {
+            let is_it =
+                matches!(&it.what, Planned::Number { column, .. } if Some(*column) == place);
+            is_it && it.time == time && found.iter().any(|topic| it.topics == [topic.name.as_str()])
+        };
+        let before = self.readings.iter().position(gives);
+        let (Some(place), Some(before)) = (place, before) else { return Ok(()) };
+        let more = self.fields(reading, wheel, place)?;
+        if let Some(PlannedReading { what: Planned::Number { fields, .. }, .. }) =
+            self.readings.get_mut(before)
+        {
+            fields.extend(more);
+        }
+        Ok(())
+    }
+
+    /// The fields that a reading of a number means, one for each name of the wheel.
+    fn fields(
+        &mut self,
+        reading: &Reading,
+        wheel: &WheelNames,
+        column: usize,
+    ) -> Result<Vec<NumberField>, Problem> {
+        let What::Number { field, factor, offset, wrap, .. } = &reading.what else {
+            return Ok(Vec::new());
+        };
+        let angle = wrap.map(|wrap| {
+            self.angles.push((column, wrap));
+            self.angles.len() - 1
+        });
+        let read = |path: String| {
+            let field = FieldPath::parse(&path)
+                .ok_or_else(|| Problem::Mapping(format!("`{path}` is no path to a field")))?;
+            Ok(NumberField { field, factor: *factor, offset: *offset, angle })
+        };
+        wheel.paths(field).into_iter().map(read).collect()
+    }
+}
+
+/// What a wheel is called.
+pub(crate) struct WheelNames {
+    /// By the rover, and by columns.
+    own: String,
+    /// By logs: those that are tried first come first.
+    in_logs: Vec<String>,
+}
+
+impl WheelNames {
+    /// Robots' logs have the names of joints; where the rover has that of a link, what URDF puts
+    /// behind those may be missing.
+    pub(crate) fn of(mount: &Mount) -> Self {
+        let own = mount.name.clone();
+        let bare = own.strip_suffix("_link").map(str::to_owned);
+        let in_logs = mount.joint.iter().cloned().chain([own.clone()]).chain(bare).collect();
+        Self { own, in_logs }
+    }
+
+    /// Any name, for what is no wheel's.
+    pub(crate) fn any() -> Self {
+        Self { own: "*".to_owned(), in_logs: vec!["*".to_owned()] }
+    }
+
+    /// Whether a reading reads the messages of a topic, of the wheel by any of its names.
+    ///
+    /// * `message`: the type of the messages
+    pub(crate) fn is_read(&self, reading: &Reading, topic: &str, message: &str) -> bool {
+        self.in_logs.iter().any(|name| reading.reads(topic, message, name))
+    }
+
+    /// The paths that a field of a mapping means, one for each name.
+    pub(crate) fn paths(&self, field: &str) -> Vec<String> {
+        // A name that would end the brackets is written without what does.
+        let path = |name: &String| field.replace(WHEEL, &name.replace([']', '|', '*'], "_"));
+        let mut paths: Vec<String> = self.in_logs.iter().map(path).collect();
+        paths.dedup();
+        paths
     }
 }
 

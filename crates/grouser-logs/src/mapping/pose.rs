@@ -68,9 +68,13 @@ impl Pose {
     /// Reads a pose (`position`, `orientation`) or a transform (`translation`, `rotation`).
     pub(crate) fn read(value: &Value) -> Option<Self> {
         let any = |names: [&str; 2]| names.into_iter().find_map(|name| value.get(name));
-        let position = any(["position", "translation"]).and_then(vector);
-        let rotation = Rotation::read(any(["orientation", "rotation"])?)?;
-        Some(Self { position: Some(position?), rotation })
+        Self::of_parts(any(["position", "translation"])?, any(["orientation", "rotation"])?)
+    }
+
+    /// Reads a position and a quaternion.
+    pub(crate) fn of_parts(position: &Value, orientation: &Value) -> Option<Self> {
+        let (position, rotation) = (vector(position)?, Rotation::read(orientation)?);
+        Some(Self { position: Some(position), rotation })
     }
 
     /// A pose in a frame that is itself in another.

@@ -58,7 +58,7 @@ fn number(kind: i32, encoded: Encoded<'_>) -> Option<Value> {
 }
 
 /// A number as a value: NaN is nothing, what is infinite is a word.
-fn float(number: f64) -> Value {
+pub(crate) fn float(number: f64) -> Value {
     if number.is_nan() {
         return Value::Null;
     }

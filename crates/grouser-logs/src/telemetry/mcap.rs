@@ -1,4 +1,4 @@
-//! Telemetry of MCAP logs, whose messages are JSON or Protocol Buffers.
+//! Telemetry of MCAP logs, whose messages are JSON, Protocol Buffers or those of ROS.
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -14,10 +14,13 @@ use crate::mapping::Mapping;
 use crate::mapping::messages::MessageRows;
 use crate::mapping::plan::TopicChoices;
 use crate::mapping::topic::Topic;
-use crate::mcap::format::{ChunkIndex, Footer, Head, MAGIC, Message, Part as _, Record as _};
+use crate::mcap::format::{
+    Channel, ChunkIndex, Footer, Head, MAGIC, Message, Part as _, Record as _, Schema,
+};
 use crate::mcap::order::Chronological;
 use crate::mcap::read::{Known, Messages, OverBudget, known_of};
 use crate::protobuf::decode::Description;
+use crate::ros::decode::{Description as RosDescription, Wire};
 
 /// An MCAP log, record by record.
 pub(crate) struct McapLog {
@@ -27,7 +30,7 @@ pub(crate) struct McapLog {
     /// How messages of a channel are decoded; nothing for channels that are not read.
     decoders: HashMap<u16, Option<Decoder>>,
     /// Types that were read already, by their schemas' numbers.
-    descriptions: HashMap<u16, Option<Rc<Description>>>,
+    descriptions: HashMap<u16, Option<Rc<Described>>>,
     /// Messages whose channel the log does not describe.
     without_channel: u64,
     is_read: bool,
@@ -36,9 +39,35 @@ pub(crate) struct McapLog {
 #[derive(Clone, Debug)]
 enum Decoder {
     Json(String),
-    Protobuf(String, Rc<Description>),
+    Described(String, Rc<Described>),
     /// A topic that is read, but whose messages the log does not describe.
     Unknown,
+}
+
+/// A type of messages as the log describes it.
+#[derive(Clone, Debug)]
+enum Described {
+    Protobuf(Description),
+    Ros(RosDescription),
+}
+
+impl Described {
+    /// Reads a schema; nothing if it does not describe messages of that encoding.
+    fn read(encoding: &str, schema: &Schema) -> Option<Self> {
+        let Schema { name, data, .. } = schema;
+        if encoding == "protobuf" {
+            return Description::read(data, name).map(Self::Protobuf);
+        }
+        let wire = Wire::of(encoding, &schema.encoding)?;
+        RosDescription::read(data, name, wire).map(Self::Ros)
+    }
+
+    fn decode(&self, message: &[u8]) -> Option<Value> {
+        match self {
+            Self::Protobuf(description) => description.decode(message),
+            Self::Ros(description) => description.decode(message),
+        }
+    }
 }
 
 impl McapLog {
@@ -105,7 +134,7 @@ impl McapLog {
         let Some(decoder) = decoder else { return };
         let (topic, tree) = match decoder {
             Decoder::Json(topic) => (topic, serde_json::from_slice::<Value>(data).ok()),
-            Decoder::Protobuf(topic, description) => (topic, description.decode(data)),
+            Decoder::Described(topic, description) => (topic, description.decode(data)),
             Decoder::Unknown => return self.rows.damaged_message(),
         };
         match (tree, i64::try_from(message.log_time)) {
@@ -137,26 +166,19 @@ fn decoder(
     known: &Known,
     channel: u16,
     rows: &MessageRows,
-    descriptions: &mut HashMap<u16, Option<Rc<Description>>>,
+    descriptions: &mut HashMap<u16, Option<Rc<Described>>>,
 ) -> Option<Decoder> {
     let channel = known.channels.get(&channel)?;
     if !rows.wants(&channel.topic) {
         return None;
     }
-    match channel.encoding.as_str() {
-        "json" => Some(Decoder::Json(channel.topic.clone())),
-        "protobuf" => {
-            let read = || {
-                let schema = known.schemas.get(&channel.schema)?;
-                Description::read(&schema.data, &schema.name).map(Rc::new)
-            };
-            let description = descriptions.entry(channel.schema).or_insert_with(read).clone();
-            Some(description.map_or(Decoder::Unknown, |description| {
-                Decoder::Protobuf(channel.topic.clone(), description)
-            }))
-        }
-        _ => Some(Decoder::Unknown),
+    if channel.encoding == "json" {
+        return Some(Decoder::Json(channel.topic.clone()));
     }
+    let schema = known.schemas.get(&channel.schema);
+    let read = || Described::read(&channel.encoding, schema?).map(Rc::new);
+    let described = descriptions.entry(channel.schema).or_insert_with(read).clone();
+    Some(described.map_or(Decoder::Unknown, |it| Decoder::Described(channel.topic.clone(), it)))
 }
 
 /// Why a log cannot be read on.
@@ -182,7 +204,7 @@ fn topics(known: &Known) -> Vec<Topic> {
         let topic = Topic {
             name: channel.topic.clone(),
             message: schema.map(|it| it.name.clone()).unwrap_or_default(),
-            encoding: Some(channel.encoding.clone()),
+            encoding: Some(encoding(channel, schema)),
         };
         if !topics.contains(&topic) {
             topics.push(topic);
@@ -190,6 +212,18 @@ fn topics(known: &Known) -> Vec<Topic> {
     }
     topics.sort_by(|one, other| one.name.cmp(&other.name));
     topics
+}
+
+/// How messages of a channel are encoded, and how described where that is not read here.
+fn encoding(channel: &Channel, schema: Option<&Schema>) -> String {
+    let messages = &channel.encoding;
+    let by = schema.filter(|it| !it.data.is_empty()).map_or("", |it| &it.encoding);
+    let is_of_ros = matches!(messages.as_str(), "cdr" | "ros1");
+    match (is_of_ros && Wire::of(messages, by).is_none(), by) {
+        (false, _) => messages.clone(),
+        (true, "") => format!("{messages} without a schema"),
+        (true, _) => format!("{messages} with a schema in {by}"),
+    }
 }
 
 /// Channels, schemas and chunks of the index; nothing without a whole one.

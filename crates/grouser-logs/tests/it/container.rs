@@ -48,14 +48,22 @@ impl Container {
 
     /// A channel of messages in JSON, by its number.
     pub(crate) fn channel(&mut self, topic: &str, message: &str) -> u16 {
-        self.channel_of(topic, message, "json")
+        self.channel_of(topic, message, "json", ("jsonschema", ""))
     }
 
-    pub(crate) fn channel_of(&mut self, topic: &str, message: &str, encoding: &str) -> u16 {
+    /// * `encoding`: of the messages
+    /// * `described`: the encoding of their schema, and its text
+    pub(crate) fn channel_of(
+        &mut self,
+        topic: &str,
+        message: &str,
+        encoding: &str,
+        (described, text): (&str, &str),
+    ) -> u16 {
         self.channels += 1;
         let (id, schema) = (self.channels, self.channels);
-        let (name, data) = (message.to_owned(), Vec::new());
-        let described = Schema { id, name, encoding: "jsonschema".to_owned(), data };
+        let (name, data) = (message.to_owned(), text.into());
+        let described = Schema { id, name, encoding: described.to_owned(), data };
         let (topic, encoding, metadata) = (topic.to_owned(), encoding.to_owned(), Vec::new());
         let channel = Channel { id, schema, topic, encoding, metadata };
         let described = [described.to_bytes(), channel.to_bytes()].concat();

@@ -8,6 +8,7 @@ mod format;
 mod hostile;
 mod robots;
 mod runs;
+mod tables;
 #[expect(dead_code, reason = "the crate uses all of it")]
 #[path = "../../src/protobuf/wire.rs"]
 mod wire;
@@ -30,15 +31,28 @@ fn rover() -> Rover {
 }
 
 fn read_file(path: &Path, mapping: Option<&str>, choices: &[(&str, &str)]) -> Read {
+    read_of(&rover(), path, mapping, choices)
+}
+
+fn read_of(rover: &Rover, path: &Path, mapping: Option<&str>, choices: &[(&str, &str)]) -> Read {
     let mapping = mapping.map(|text| Mapping::parse("mapping.toml", text)).transpose()?;
     let own = |(what, topic): &(&str, &str)| ((*what).to_owned(), (*topic).to_owned());
     let choices: TopicChoices = choices.iter().map(own).collect();
-    let mut log = TelemetryLog::open(path, &rover(), mapping.as_ref(), &choices)?;
+    let mut log = TelemetryLog::open(path, rover, mapping.as_ref(), &choices)?;
     let mut records = Vec::new();
     while let Some(record) = log.next_record()? {
         records.push(record);
     }
     Ok((records, log.notes()))
+}
+
+/// A mapping with these readings.
+fn mapping(readings: &str) -> String {
+    format!("schema = \"telemetry-mapping/1\"\nname = \"ours\"\n{readings}")
+}
+
+fn place(wheel: &str) -> usize {
+    rover().mounts().iter().position(|mount| mount.name == wheel).unwrap()
 }
 
 fn read(bytes: &[u8], mapping: Option<&str>) -> Read {

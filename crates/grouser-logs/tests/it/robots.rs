@@ -56,10 +56,6 @@ fn robot(packed: Packed) -> Container {
     log
 }
 
-fn place(wheel: &str) -> usize {
-    rover().mounts().iter().position(|mount| mount.name == wheel).unwrap()
-}
-
 #[test]
 fn signs_of_ros_become_ours_whatever_the_compression() {
     for packed in [Packed::Not, Packed::Zstd, Packed::Lz4] {
@@ -125,6 +121,43 @@ fn a_mapping_says_units_signs_and_axes() {
     );
 }
 
+/// Messages of ROS 2 and ROS 1 as their recorders write them, of a robot that lost its power: all
+/// that was written is read.
+#[test]
+fn messages_of_ros_are_read_to_the_end_of_a_log_that_is_cut() {
+    let (types, separator) = ("builtin_interfaces/Time stamp\nfloat64 roll\n", "=".repeat(80));
+    let types =
+        format!("{types}{separator}\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n");
+    let log = |messages: &str, described: &str| {
+        let mut log = Container::begin(Packed::Lz4);
+        let channel = log.channel_of("/roll", "ours/msg/Roll", messages, (described, &types));
+        for second in 1..61_u32 {
+            let header: &[u8] = if messages == "cdr" { &[0, 1, 0, 0] } else { &[] };
+            let stamp = [second.to_le_bytes(), [0; 4]].concat();
+            let roll = f64::from(second).to_le_bytes();
+            log.message(channel, SECOND, &[header, &stamp, &roll].concat());
+            if second % 10 == 0 {
+                log.end_chunk();
+            }
+        }
+        log.message(channel, SECOND, &[0, 1, 0, 0, 1]);
+        log
+    };
+    let mapping = ROLL.replacen("[[reading]]", "time = \"stamp\"\n[[reading]]", 1);
+    for (messages, described) in [("cdr", "ros2msg"), ("ros1", "ros1msg")] {
+        let whole = log(messages, described).finish_with_index();
+        let (records, notes) = read(&whole, Some(&mapping)).unwrap();
+        assert_eq!(records.len(), 60, "{notes:?}");
+        let rolls = records.iter().map(|it| it.roll.unwrap().to_degrees() - it.time);
+        assert!(rolls.into_iter().all(|away| away.abs() < 1e-9), "{records:?}");
+        assert!(notes.iter().any(|it| it.starts_with("1 messages cannot be decoded")), "{notes:?}");
+        let cut = log(messages, described).cut();
+        let (records, notes) = read(&cut[..3 * cut.len() / 4], Some(&mapping)).unwrap();
+        assert!((20..60).contains(&records.len()), "{}", records.len());
+        assert!(notes.iter().any(|it| it.contains("without its end")), "{notes:?}");
+    }
+}
+
 const ROLL: &str = "schema = \"telemetry-mapping/1\"\nname = \"ours\"\n[[reading]]\ntopic = \"/roll\"\nfield = \"roll\"\ncolumn = \"roll_deg\"\n";
 
 /// Times before the window has passed are put in order, those after it counted: stamps are not what
@@ -168,19 +201,22 @@ fn what_cannot_be_meant_is_an_error_that_names_the_choices() {
     let (records, _) = read_file(&path, None, &[("sensor_msgs/Imu", "/imu/right")]).unwrap();
     assert!((records[0].roll.unwrap() - 4_f64.to_radians()).abs() < 1e-12);
 
-    let check = |topic: &str, message: &str, encoding: &str, part: &str| {
+    let check = |topic: &str, message: &str, (encoding, schema), part: &str| {
         let mut log = Container::begin(Packed::Not);
-        log.channel_of(topic, message, encoding);
+        log.channel_of(topic, message, encoding, (schema, "module ours {};"));
         let error = read(&log.finish(), None).unwrap_err().to_string();
         assert!(error.contains(part), "{error}");
     };
     check(
         "/lidar",
         "sensor_msgs/PointCloud2",
-        "json",
+        ("json", "jsonschema"),
         "none of its topics, which are /lidar (sensor_msgs/PointCloud2)",
     );
-    check("/imu", "sensor_msgs/msg/Imu", "cdr", "python -m grouser import-telemetry");
+    for part in ["/imu are encoded as cdr with a schema in ros2idl", "python -m grouser"] {
+        check("/imu", "sensor_msgs/msg/Imu", ("cdr", "ros2idl"), part);
+    }
+    check("/imu", "sensor_msgs/Imu", ("cbor", ""), "/imu are encoded as cbor; JSON, Protocol");
     for (start, part) in
         [(&b"#ROSBAG V2.0\n"[..], "a bag of ROS 1"), (b"SQLite format 3\0", "a bag of ROS 2")]
     {
@@ -245,6 +281,104 @@ fn a_log_has_one_clock() {
     assert!(ways.len() == 39 && ways.iter().all(|way| (way - 0.1).abs() < 1e-9), "{ways:?}");
     let moved = places(&|it| it.displacement[0].is_some());
     assert!((moved[0] - 0.15).abs() < 1e-6 && !notes.iter().any(|it| it.contains("late")));
+}
+
+/// Speeds of a wheel, row by row.
+fn speeds(records: &[TelemetryRecord], wheel: usize) -> Vec<Option<f64>> {
+    records.iter().map(|it| it.wheels[wheel].speed).collect()
+}
+
+fn check_speeds(found: &[Option<f64>], expected: &[Option<f64>]) {
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for (found_one, expected) in found.iter().zip(expected) {
+        let away = found_one.zip(*expected).map_or(0.0, |(one, other)| (one - other).abs());
+        let is_it = found_one.is_some() == expected.is_some() && away < 1e-9;
+        assert!(is_it, "{found:?}");
+    }
+}
+
+/// Joints with angles and no velocities: how far each turned since the row before, over the time
+/// between the two, by the messages' own times.
+#[test]
+fn wheels_without_speeds_are_read_by_their_angles() {
+    let mut log = Container::begin(Packed::Not);
+    let joints = log.channel("/joint_states", "sensor_msgs/msg/JointState");
+    let imu = log.channel("/imu", "sensor_msgs/msg/Imu");
+    for (time, angle) in [(1.0, 6.0), (1.25, 6.5), (1.5, 6.25), (2.0, 6.25)] {
+        let message = json!({"header": header(time), "name": ["front_left_wheel"],
+            "position": [angle], "velocity": [], "effort": []});
+        log.message(joints, SECOND, &bytes(&message));
+        let leans = json!({"header": header(time + 0.03), "orientation": about("x", 5.0)});
+        log.message(imu, SECOND, &bytes(&leans));
+    }
+    let (records, notes) = read(&log.finish(), None).unwrap();
+    let found = speeds(&records, place("front-left"));
+    check_speeds(&found, &[None, Some(2.0), Some(-1.0), Some(0.0)]);
+    let of_front = |it: &String| it.starts_with("4 readings of /joint_states without a field");
+    assert!(!notes.iter().any(of_front), "{notes:?}");
+}
+
+/// Ticks of an encoder that counts to 1000 and begins again, between a motor and a gear of 2, and
+/// angles that begin again at a turn.
+#[test]
+fn ticks_and_turns_that_begin_again_go_on() {
+    let mut log = Container::begin(Packed::Not);
+    let wheels = log.channel("/wheels", "wheels");
+    for (time, ticks, degrees) in [(0, 900, 350.0), (1, 50, 10.0), (2, 950, 340.0), (4, 0, 340.0)] {
+        let message = json!({"ticks": ticks, "degrees": degrees});
+        log.message(wheels, time * SECOND, &bytes(&message));
+    }
+    let mapping = mapping(
+        "[[reading]]\ntopic = \"/wheels\"\nfield = \"ticks\"\nposition = true\nticks_per_turn = 100\nwrap_ticks = 1000\nscale = 0.5\nsign = -1\ncolumn = \"wheel_speed_rad_s_front-left\"\n\
+         [[reading]]\ntopic = \"/wheels\"\nfield = \"degrees\"\nposition = true\nunit = \"deg\"\nwrap_rad = 6.283185307179586\ncolumn = \"wheel_speed_rad_s_rear-left\"\n",
+    );
+    let (records, _) = read(&log.finish(), Some(&mapping)).unwrap();
+    let turn = std::f64::consts::TAU;
+    let front = speeds(&records, place("front-left"));
+    check_speeds(&front, &[None, Some(-0.75 * turn), Some(0.5 * turn), Some(-0.125 * turn)]);
+    let rear = speeds(&records, place("rear-left"));
+    check_speeds(&rear, &[None, Some(turn / 18.0), Some(-turn / 12.0), Some(0.0)]);
+}
+
+/// A velocity stands before an angle, message by message.
+#[test]
+fn an_angle_stands_in_where_there_is_no_velocity() {
+    let mut log = Container::begin(Packed::Not);
+    let joints = log.channel("/joint_states", "sensor_msgs/msg/JointState");
+    for (time, velocity) in [(1.0, json!([7.0])), (2.0, json!([null])), (3.0, json!([]))] {
+        let message = json!({"header": header(time), "name": ["front_left_wheel"],
+            "position": [2.0 * time], "velocity": velocity});
+        log.message(joints, SECOND, &bytes(&message));
+    }
+    let (records, _) = read(&log.finish(), None).unwrap();
+    let found = speeds(&records, place("front-left"));
+    check_speeds(&found, &[Some(7.0), None, Some(2.0)]);
+}
+
+/// A log has the names of joints; the rover keeps them beside its own, or has those of links.
+#[test]
+fn wheels_are_found_by_the_names_of_their_joints() {
+    let of_joints = ["axle_7", "fl_roll", "front_left_wheel", "x"];
+    let own = ["first", "second", "front_left_wheel_link", "x"];
+    let joints = [Some("axle_7"), Some("fl_roll"), None, None];
+    let mounts = rover().mounts().to_vec().into_iter().zip(own).zip(joints);
+    let mounts = mounts.map(|((mount, name), joint)| grouser::vehicle::Mount {
+        name: name.to_owned(),
+        joint: joint.map(str::to_owned),
+        ..mount
+    });
+    let rover = Rover::new(*rover().body(), mounts.collect()).unwrap();
+    let mut log = Container::begin(Packed::Not);
+    let channel = log.channel("/joint_states", "sensor_msgs/msg/JointState");
+    let message =
+        json!({"header": header(1.0), "name": of_joints, "velocity": [1.0, 2.0, 3.0, 4.0]});
+    log.message(channel, SECOND, &bytes(&message));
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("log");
+    fs::write(&path, log.finish()).unwrap();
+    let (records, notes) = read_of(&rover, &path, None, &[]).unwrap();
+    let found = records[0].wheels.iter().map(|it| it.speed.unwrap()).collect::<Vec<_>>();
+    assert_eq!(found, [1.0, 2.0, 3.0, 4.0], "{notes:?}");
 }
 
 /// An orientation that nobody measured is none.

@@ -180,6 +180,7 @@ fn six() -> Rover {
         let steering = side * deg(10.0) * (1.0 - row as f64);
         Mount {
             name: (*name).into(),
+            joint: None,
             position: Vec3::new(x, 0.24 * side, -0.06),
             unit,
             steering,

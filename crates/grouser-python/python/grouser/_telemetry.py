@@ -49,9 +49,9 @@ def import_telemetry(
 ) -> ImportedTelemetry:
     """Converts a log of a drive to the telemetry that ``grouser learn`` reads.
 
-    Bags of ROS 1 and ROS 2, and MCAP logs whose messages are in CDR, are decoded by the package
-    ``rosbags`` (``pip install 'grouser[ros]'``); all other logs are read as the program's
-    ``import-telemetry`` reads them. Memory does not grow with the log.
+    Bags of ROS 1, and of ROS 2 in SQLite or as a folder, are decoded by the package ``rosbags``
+    (``pip install 'grouser[ros]'``); all other logs, those of MCAP with messages of ROS too, are
+    read as the program's ``import-telemetry`` reads them. Memory does not grow with the log.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ def _converted(
         try:
             return _core.import_telemetry(log, out, rover, mapping, choices)
         except DocumentError as error:
-            # Messages of ROS in an MCAP log are in an encoding that the library does not know.
+            # Messages of ROS whose types are described in IDL, or nowhere, in an MCAP log.
             if error.key != "encoding":
                 raise
     return _converted_bag(log, out, rover, mapping, choices)

@@ -76,6 +76,7 @@ pub(crate) fn rover_on(wheel: Wheel, hubs: &[(f64, f64)]) -> Rover {
         unit,
         steering: 0.0,
         steering_axis: None,
+        joint: None,
     });
     Rover::new(body, mounts.collect()).expect("a rover that stands")
 }

@@ -26,6 +26,7 @@ fn lopsided() -> Rover {
         unit,
         steering: 0.0,
         steering_axis: None,
+        joint: None,
     });
     Rover::new(Body { mass: 1.0, inertia }, mounts.collect()).expect("it stands")
 }
@@ -213,6 +214,7 @@ fn any_rover() -> impl Strategy<Value = Rover> {
                 unit,
                 steering: 0.0,
                 steering_axis: None,
+                joint: None,
             });
             let body = Body { mass: body_mass, inertia };
             Rover::new(body, mounts.collect()).ok()
@@ -534,6 +536,7 @@ fn no_rover_stands_on_two_wheels_or_on_a_line() {
             unit,
             steering: 0.0,
             steering_axis: None,
+            joint: None,
         });
         Rover::new(*parts.body(), mounts.collect())
     };

@@ -18,7 +18,7 @@ pub enum TimeUnit {
 
 /// Columns of the time beside `time_s`, in the order in which they are taken, with their units; none
 /// of those whose name does not say it.
-pub(super) const OTHER_TIMES: [(&str, Option<TimeUnit>); 8] = [
+pub(super) const OTHER_TIMES: [(&str, Option<TimeUnit>); 9] = [
     ("time_ms", Some(TimeUnit::Milliseconds)),
     ("time_us", Some(TimeUnit::Microseconds)),
     ("time_ns", Some(TimeUnit::Nanoseconds)),
@@ -28,6 +28,8 @@ pub(super) const OTHER_TIMES: [(&str, Option<TimeUnit>); 8] = [
     ("Timestamp", None),
     ("time", None),
     ("Time", None),
+    // Of PlotJuggler.
+    ("__time", None),
 ];
 
 impl TimeUnit {

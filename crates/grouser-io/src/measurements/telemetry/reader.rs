@@ -13,11 +13,76 @@ use super::super::table::{Dialect, LookedAt, Table};
 use super::TelemetryRecord;
 use super::rows::{Cell, TelemetryRows};
 
-/// Reads a log of CSV row by row.
-pub struct TelemetryReader<'a, R> {
+/// Rows of a table in CSV, whatever they mean.
+pub struct CellReader<'a, R> {
     table: Table<'a, LookedAt<R>>,
     dialect: Dialect,
+    names: Vec<String>,
     row: StringRecord,
+    cells: Vec<Cell>,
+}
+
+/// What comes next of a table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NextRow<'r> {
+    /// A row, in the order of the columns.
+    Cells(&'r [Cell]),
+    /// What is no row of the table.
+    Damaged,
+    /// No row any more.
+    End,
+}
+
+impl<'a, R: Read> CellReader<'a, R> {
+    /// Reads the header.
+    ///
+    /// * `label`: what messages call the source
+    ///
+    /// # Errors
+    /// [`MeasurementError`] where reading fails, or what comes is no text.
+    pub fn new(label: impl Into<Cow<'a, str>>, source: R) -> Result<Self, MeasurementError> {
+        let limits = Limits { rows: usize::MAX };
+        let (mut table, dialect) = Table::of_any_dialect(label, source, limits)?;
+        let names = table.header()?.iter().map(name_of).collect();
+        Ok(Self { table, dialect, names, row: StringRecord::new(), cells: Vec::new() })
+    }
+
+    /// The names of the columns.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The next row.
+    ///
+    /// # Errors
+    /// [`MeasurementError`] where reading fails, or a row is too long to be one.
+    pub fn next_row(&mut self) -> Result<NextRow<'_>, MeasurementError> {
+        match self.table.next_row(&mut self.row) {
+            Ok(true) => {}
+            Ok(false) => return Ok(NextRow::End),
+            Err(error) if matches!(error.problem(), Problem::NotCsv(_)) => {
+                return Ok(NextRow::Damaged);
+            }
+            Err(error) => return Err(error),
+        }
+        let has_commas = self.dialect.has_decimal_commas;
+        let cell = |text: &str| {
+            if has_commas && text.contains(',') {
+                Cell::of_text(&text.replacen(',', ".", 1))
+            } else {
+                Cell::of_text(text)
+            }
+        };
+        self.cells.clear();
+        self.cells.extend(self.row.iter().map(cell));
+        Ok(NextRow::Cells(&self.cells))
+    }
+}
+
+/// Reads a log of CSV row by row.
+pub struct TelemetryReader<'a, R> {
+    cells: CellReader<'a, R>,
     rows: TelemetryRows,
 }
 
@@ -36,11 +101,9 @@ impl<'a, R: Read> TelemetryReader<'a, R> {
         rover: &Rover,
     ) -> Result<Self, MeasurementError> {
         let label = label.into();
-        let limits = Limits { rows: usize::MAX };
-        let (mut table, dialect) = Table::of_any_dialect(label.clone(), source, limits)?;
-        let names: Vec<String> = table.header()?.iter().map(name_of).collect();
-        let rows = TelemetryRows::new(&label, names, rover)?;
-        Ok(Self { table, dialect, row: StringRecord::new(), rows })
+        let cells = CellReader::new(label.clone(), source)?;
+        let rows = TelemetryRows::new(&label, cells.names().to_vec(), rover)?;
+        Ok(Self { cells, rows })
     }
 
     /// The next record, if there is one.
@@ -49,25 +112,14 @@ impl<'a, R: Read> TelemetryReader<'a, R> {
     /// [`MeasurementError`] where reading fails, or a row is too long to be one.
     pub fn next_record(&mut self) -> Result<Option<TelemetryRecord>, MeasurementError> {
         loop {
-            match self.table.next_row(&mut self.row) {
-                Ok(true) => {}
-                Ok(false) => return Ok(None),
-                Err(error) if matches!(error.problem(), Problem::NotCsv(_)) => {
-                    self.rows.damaged_row();
-                    continue;
+            match self.cells.next_row()? {
+                NextRow::Cells(cells) => {
+                    if let Some(record) = self.rows.record(cells.iter().copied()) {
+                        return Ok(Some(record));
+                    }
                 }
-                Err(error) => return Err(error),
-            }
-            let has_commas = self.dialect.has_decimal_commas;
-            let cell = |text: &str| {
-                if has_commas && text.contains(',') {
-                    Cell::of_text(&text.replacen(',', ".", 1))
-                } else {
-                    Cell::of_text(text)
-                }
-            };
-            if let Some(record) = self.rows.record(self.row.iter().map(cell)) {
-                return Ok(Some(record));
+                NextRow::Damaged => self.rows.damaged_row(),
+                NextRow::End => return Ok(None),
             }
         }
     }

@@ -178,6 +178,13 @@ impl TelemetryRows {
         self.lose_way();
     }
 
+    /// Counts a row that has no time.
+    pub fn row_without_time(&mut self) {
+        self.rows += 1;
+        self.lost.rows_without_time += 1;
+        self.lose_way();
+    }
+
     /// Ways that belong to the next record are not known.
     pub fn lose_way(&mut self) {
         self.carried.is_incomplete = true;
@@ -360,6 +367,32 @@ impl Header {
             }
         }
         (time, record)
+    }
+}
+
+/// The column of a table that has the time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TimeColumn {
+    place: usize,
+    unit: Option<TimeUnit>,
+}
+
+impl TimeColumn {
+    /// The column by its name among all, if there is one.
+    #[must_use]
+    pub fn of(names: &[String]) -> Option<Self> {
+        let (name, unit) = time_of(names);
+        let place = names.iter().position(|it| *it == name)?;
+        Some(Self { place, unit })
+    }
+
+    /// The time of a row [s]; nothing where there is none.
+    #[must_use]
+    pub fn seconds(&self, cells: &[Cell]) -> Option<f64> {
+        match in_seconds(*cells.get(self.place)?, self.unit, &mut None) {
+            Cell::Number(time) => Some(time),
+            Cell::Gap | Cell::Damaged => None,
+        }
     }
 }
 

@@ -1,0 +1,14 @@
+//! Messages of ROS: their types as logs describe them, `ros1msg` and `ros2msg`, and their bytes,
+//! `ros1` and `cdr`. Sources: "ROS 2 Interface definition", docs.ros.org; "MCAP Format
+//! Specification: well-known encodings", mcap.dev/spec; "DDS Interoperability Wire Protocol" 2.5,
+//! section 10 (the header before a message) with "CORBA" 3.0, section 15.3 (Common Data
+//! Representation).
+//!
+//! Written here, for the one that is published (`re_ros_msg`) brings the logging of its program
+//! along and refuses no count that is longer than its message.
+
+pub(crate) mod decode;
+mod types;
+
+#[cfg(test)]
+mod tests;

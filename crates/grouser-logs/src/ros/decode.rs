@@ -1,0 +1,183 @@
+//! Messages as trees of values.
+
+use serde_json::{Map, Value};
+
+use crate::protobuf::decode::float;
+use crate::ros::types::{self, Count, Field, Fields, Holds, Number};
+
+/// Messages in messages, at most.
+const DEEPEST: usize = 32;
+/// Values of one message, at most; those that have no bytes count, too.
+const MOST_VALUES: usize = 1 << 20;
+/// Values without bytes that any message may have.
+const EMPTY_VALUES: usize = 1000;
+/// What may follow the last field of CDR: up to the largest alignment [bytes].
+const PADDING: usize = 7;
+
+/// How messages are encoded, and their types with it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Wire {
+    /// ROS 1: least bytes first, one value after the other.
+    First,
+    /// ROS 2: CDR, whose numbers stand at multiples of their sizes.
+    Cdr,
+}
+
+impl Wire {
+    /// The encoding of a channel's messages, if its schema describes them as that wants it.
+    pub(crate) fn of(messages: &str, schema: &str) -> Option<Self> {
+        match (messages, schema) {
+            ("ros1", "ros1msg") => Some(Self::First),
+            ("cdr", "ros2msg") => Some(Self::Cdr),
+            _ => None,
+        }
+    }
+}
+
+/// A type of messages with all that it needs.
+#[derive(Clone, Debug)]
+pub(crate) struct Description {
+    /// The messages' own type first.
+    types: Vec<Fields>,
+    wire: Wire,
+}
+
+impl Description {
+    /// Reads the text of a schema; nothing if it is none.
+    ///
+    /// * `name`: of the messages, with its package
+    pub(crate) fn read(schema: &[u8], name: &str, wire: Wire) -> Option<Self> {
+        Some(Self { types: types::read(str::from_utf8(schema).ok()?, name)?, wire })
+    }
+
+    /// Decodes a message as a tree; `None` if it is invalid.
+    pub(crate) fn decode(&self, message: &[u8]) -> Option<Value> {
+        let mut bytes = Bytes::of(message, self.wire)?;
+        let tree = self.tree(0, &mut bytes, DEEPEST)?;
+        let padding = if self.wire == Wire::Cdr { PADDING } else { 0 };
+        (bytes.rest() <= padding).then_some(tree)
+    }
+
+    fn tree(&self, kind: usize, bytes: &mut Bytes<'_>, depth: usize) -> Option<Value> {
+        let depth = depth.checked_sub(1)?;
+        bytes.count_value()?;
+        let fields = self.types.get(kind)?;
+        if fields.is_empty() && self.wire == Wire::Cdr {
+            // CDR knows no message without a member, and ROS 2 adds one.
+            bytes.take::<1>()?;
+        }
+        let mut tree = Map::new();
+        for field in fields {
+            tree.insert(field.name.clone(), self.field(field, bytes, depth)?);
+        }
+        Some(Value::Object(tree))
+    }
+
+    fn field(&self, field: &Field, bytes: &mut Bytes<'_>, depth: usize) -> Option<Value> {
+        let count = match field.count {
+            Count::One => return self.value(field.holds, bytes, depth),
+            Count::Fixed(count) => count,
+            Count::Stated => bytes.count()?,
+        };
+        if field.holds == Holds::Number(Number::U8) {
+            // No telemetry is in bytes: pictures are.
+            return bytes.skip(count).map(|()| Value::Null);
+        }
+        // No memory is taken by a count that the message has no bytes for.
+        let mut all = Vec::new();
+        for _ in 0..count {
+            all.push(self.value(field.holds, bytes, depth)?);
+        }
+        Some(Value::Array(all))
+    }
+
+    fn value(&self, holds: Holds, bytes: &mut Bytes<'_>, depth: usize) -> Option<Value> {
+        match holds {
+            Holds::Message(kind) => self.tree(kind, bytes, depth),
+            Holds::Number(number) => bytes.number(number),
+            Holds::Text => bytes.text(),
+        }
+    }
+}
+
+/// Bytes of a message on their way.
+struct Bytes<'m> {
+    /// Those behind the header.
+    all: &'m [u8],
+    at: usize,
+    wire: Wire,
+    is_big_endian: bool,
+    /// Values that may follow.
+    values: usize,
+}
+
+impl<'m> Bytes<'m> {
+    fn of(message: &'m [u8], wire: Wire) -> Option<Self> {
+        let (all, is_big_endian) = match (wire, message) {
+            (Wire::First, all) => (all, false),
+            // The other kinds of CDR, with parameters or of the second version, lay out otherwise.
+            (Wire::Cdr, [0, order @ (0 | 1), _, _, all @ ..]) => (all, *order == 0),
+            (Wire::Cdr, _) => return None,
+        };
+        let values = MOST_VALUES.min(EMPTY_VALUES + DEEPEST * all.len());
+        Some(Self { all, at: 0, wire, is_big_endian, values })
+    }
+
+    fn rest(&self) -> usize {
+        self.all.len().saturating_sub(self.at)
+    }
+
+    fn count_value(&mut self) -> Option<()> {
+        self.values = self.values.checked_sub(1)?;
+        Some(())
+    }
+
+    /// The bytes of a number, the least first.
+    fn take<const N: usize>(&mut self) -> Option<[u8; N]> {
+        let at = if self.wire == Wire::Cdr { self.at.next_multiple_of(N) } else { self.at };
+        let mut bytes = *self.all.get(at..)?.first_chunk::<N>()?;
+        self.at = at + N;
+        if self.is_big_endian {
+            bytes.reverse();
+        }
+        Some(bytes)
+    }
+
+    fn skip(&mut self, count: usize) -> Option<()> {
+        self.at = self.at.checked_add(count).filter(|at| *at <= self.all.len())?;
+        Some(())
+    }
+
+    fn count(&mut self) -> Option<usize> {
+        usize::try_from(u32::from_le_bytes(self.take()?)).ok()
+    }
+
+    fn number(&mut self, number: Number) -> Option<Value> {
+        self.count_value()?;
+        Some(match number {
+            Number::Bool => (self.take::<1>()? != [0]).into(),
+            Number::I8 => i8::from_le_bytes(self.take()?).into(),
+            Number::U8 => u8::from_le_bytes(self.take()?).into(),
+            Number::I16 => i16::from_le_bytes(self.take()?).into(),
+            Number::U16 => u16::from_le_bytes(self.take()?).into(),
+            Number::I32 => i32::from_le_bytes(self.take()?).into(),
+            Number::U32 => u32::from_le_bytes(self.take()?).into(),
+            Number::I64 => i64::from_le_bytes(self.take()?).into(),
+            Number::U64 => u64::from_le_bytes(self.take()?).into(),
+            Number::F32 => float(f64::from(f32::from_le_bytes(self.take()?))),
+            Number::F64 => float(f64::from_le_bytes(self.take()?)),
+        })
+    }
+
+    /// A text; that of CDR ends with a zero byte, which is counted.
+    fn text(&mut self) -> Option<Value> {
+        self.count_value()?;
+        let count = self.count()?;
+        let start = self.at;
+        self.skip(count)?;
+        let bytes = self.all.get(start..self.at)?;
+        let is_ended = self.wire == Wire::Cdr;
+        let bytes = bytes.strip_suffix(&[0]).filter(|_| is_ended).unwrap_or(bytes);
+        Some(String::from_utf8_lossy(bytes).into_owned().into())
+    }
+}
