@@ -186,7 +186,7 @@ impl Merge {
             || newest.saturating_sub(first) > self.window
             || self.waiting.len() > MOST_WAITING;
         let (time, mut readings) = is_due.then(|| self.waiting.pop_first()).flatten()?;
-        self.turning.go_on(time, &mut readings);
+        self.turning.go_on(time, &mut readings.angles);
         Some((time, readings))
     }
 

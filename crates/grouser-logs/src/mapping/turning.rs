@@ -1,7 +1,5 @@
 //! Speeds of wheels whose logs have their angles: how far each turned over how long.
 
-use crate::mapping::merge::Readings;
-
 /// How far a wheel has turned, and when that was read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Angle {
@@ -36,8 +34,8 @@ impl Turning {
 
     /// Makes angles that were read at a time such that go on, each by the shorter way; readings
     /// come in the order of their times.
-    pub(crate) fn go_on(&mut self, time: i64, readings: &mut Readings) {
-        for (slot, angle) in &mut readings.angles {
+    pub(crate) fn go_on(&mut self, time: i64, angles: &mut [(usize, Angle)]) {
+        for (slot, angle) in angles {
             let (read, wrap) = (angle.at, self.wraps[*slot]);
             let at = self.last[*slot].map_or(read, |[last_read, last]| {
                 let way = read - last_read;
@@ -60,11 +58,10 @@ mod tests {
     fn angles_go_on_over_the_end_of_a_turn_either_way() {
         let mut turning = Turning::new(vec![TAU, f64::INFINITY]);
         let mut at = |angle: f64, slot: usize| {
-            let angles = vec![(slot, Angle { at: angle, time: 0 })];
-            let mut readings = Readings { angles, ..Readings::default() };
-            turning.go_on(7, &mut readings);
-            assert_eq!(readings.angles[0].1.time, 7);
-            readings.angles[0].1.at
+            let mut angles = [(slot, Angle { at: angle, time: 0 })];
+            turning.go_on(7, &mut angles);
+            assert_eq!(angles[0].1.time, 7);
+            angles[0].1.at
         };
         for (read, expected) in [(6.0, 6.0), (0.1, TAU + 0.1), (3.0, TAU + 3.0), (6.0, TAU + 6.0)] {
             assert!((at(read, 0) - expected).abs() < 1e-12, "{read}");
