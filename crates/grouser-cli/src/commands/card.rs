@@ -146,7 +146,7 @@ fn compute(
     slopes.dedup();
     if samples.len() > 2 * DRAFT && terminal::has_progress() {
         let drafted = sampling::whole(study.card(&samples[..DRAFT], &slopes, &|| true)?);
-        output::message(&draft::line(&drafted, samples.len()));
+        output::message(&draft::line(&card::table(&drafted), DRAFT, samples.len()));
     }
     let card = sampling::with_bar(samples.len(), |go_on| study.card(samples, &slopes, go_on));
     Ok(sampling::whole(card?))

@@ -28,7 +28,7 @@ use self::position::Position;
 use self::records::{Event, Records};
 use self::samples::{reaches_too_far, samples};
 use self::state_file::StateFile;
-use self::watch::Watch;
+use self::watch::LogWatch;
 use super::sampling;
 use crate::args::LearnArgs;
 use crate::failure::Failure;
@@ -188,7 +188,7 @@ fn drive_on(
     (state, mut live): (&mut StateFile<'_>, Option<Live<'_>>),
     slopes: &[f64],
 ) -> Result<Ended, Failure> {
-    let mut watch = Watch::of(args);
+    let mut watch = LogWatch::of(args);
     let following = watch.following();
     if args.follow {
         interrupt::handle_ctrl_c();

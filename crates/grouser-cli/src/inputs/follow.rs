@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 use grouser::document::escape;
 
-use self::head::Head;
+use self::head::TableHead;
 use crate::failure::Failure;
 use crate::interrupt;
 
@@ -53,7 +53,7 @@ impl Following {
             path: path.to_owned(),
             file,
             following: self,
-            head: Head::default(),
+            head: TableHead::default(),
             given: Vec::new(),
             read: 0,
             ends_line: true,
@@ -71,7 +71,7 @@ pub(crate) struct FollowedFile {
     file: File,
     following: Following,
     /// The lines up to that of the columns, which a file that takes its place has, too.
-    head: Head,
+    head: TableHead,
     /// Bytes that were read, and are to be given first.
     given: Vec<u8>,
     /// Bytes of the file that were read.

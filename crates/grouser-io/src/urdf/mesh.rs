@@ -114,18 +114,22 @@ mod tests {
         let mut binary = [b' '; 80].to_vec();
         binary.extend(1_u32.to_le_bytes());
         binary.extend([0; 12]);
-        let mut ascii = "solid wheel\n facet normal 0 0 1\n".to_owned();
-        let mut wavefront = String::new();
         for corner in corners {
             binary.extend(corner.iter().flat_map(|it| it.to_le_bytes()));
-            let [x, y, z] = corner;
-            ascii += &format!("   vertex {x} {y} {z}\n");
-            wavefront += &format!("v {x} {y} {z}\nvn 9 9 9\n");
         }
         binary.extend([0; 2]);
+        let lines =
+            |line: fn([f32; 3]) -> String| corners.into_iter().map(line).collect::<String>();
+        let ascii = lines(|[x, y, z]| format!("   vertex {x} {y} {z}\n"));
+        let wavefront = lines(|[x, y, z]| format!("v {x} {y} {z}\nvn 9 9 9\n"));
         let (low, high) = ([-4.0, -2.0, 0.25], [1.0, 3.0, 0.5]);
         check("a.STL", &binary, low, high);
-        check("a.stl", (ascii + "endsolid").as_bytes(), low, high);
+        check(
+            "a.stl",
+            format!("solid wheel\n facet normal 0 0 1\n{ascii}endsolid").as_bytes(),
+            low,
+            high,
+        );
         check("a.obj", wavefront.as_bytes(), low, high);
         assert_eq!(extent("a.stl", &binary[..90]), None);
         assert_eq!(extent("a.step", &binary), None);

@@ -18,14 +18,14 @@ pub type Meshes<'a> = dyn Fn(&str) -> Option<Vec<u8>> + 'a;
 
 /// A shape of a link, in the link's frame.
 #[derive(Clone, Debug)]
-pub(super) struct Shape {
-    kind: Kind,
+pub(super) struct LinkShape {
+    kind: Solid,
     origin: Isometry3<f64>,
     is_collision: bool,
 }
 
 #[derive(Clone, Debug)]
-enum Kind {
+enum Solid {
     Cylinder { radius: f64, length: f64 },
     Sphere { radius: f64 },
     Box,
@@ -46,7 +46,7 @@ pub(super) struct Rim {
     pub(super) lacks: &'static str,
 }
 
-impl Shape {
+impl LinkShape {
     /// The shapes of a link's element; a number that is none is told when a wheel has it.
     pub(super) fn all(link: Node<'_, '_>, what: &str) -> Vec<Result<Self, UrdfError>> {
         let parts = link.children().filter_map(|part| match part.tag_name().name() {
@@ -63,14 +63,14 @@ impl Shape {
         let size = |name| number(shape, what, name, |size| size > 0.0, "a length in m, above 0");
         let kind = match shape.tag_name().name() {
             "cylinder" => size("radius")
-                .and_then(|radius| size("length").map(|length| Kind::Cylinder { radius, length })),
-            "sphere" => size("radius").map(|radius| Kind::Sphere { radius }),
-            "box" => Ok(Kind::Box),
+                .and_then(|radius| size("length").map(|length| Solid::Cylinder { radius, length })),
+            "sphere" => size("radius").map(|radius| Solid::Sphere { radius }),
+            "box" => Ok(Solid::Box),
             "mesh" => attribute(shape, what, "filename").and_then(|file| {
                 let is_scaled = shape.has_attribute("scale");
                 let scale =
                     if is_scaled { triple(shape, what, "scale")? } else { Vector3::repeat(1.0) };
-                Ok(Kind::Mesh { file: file.to_owned(), scale })
+                Ok(Solid::Mesh { file: file.to_owned(), scale })
             }),
             _ => return None,
         };
@@ -83,12 +83,12 @@ impl Shape {
     fn rim(&self, frame: &Isometry3<f64>, meshes: &Meshes<'_>) -> Option<(f64, f64, Vector3<f64>)> {
         let placed = frame * self.origin;
         match &self.kind {
-            Kind::Cylinder { radius, length } => {
+            Solid::Cylinder { radius, length } => {
                 let lies = (placed.rotation * Vector3::z()).y.abs() > ALONG;
                 lies.then_some((*radius, *length, placed.translation.vector))
             }
-            Kind::Sphere { .. } | Kind::Box => None,
-            Kind::Mesh { file, scale } => {
+            Solid::Sphere { .. } | Solid::Box => None,
+            Solid::Mesh { file, scale } => {
                 let [low, high] = mesh::extent(file, &meshes(file)?)?;
                 let (low, high) = (low.component_mul(scale), high.component_mul(scale));
                 let size = placed.rotation * (high - low);
@@ -105,12 +105,12 @@ impl Shape {
 ///
 /// * `frame`: of the link in the root's
 pub(super) fn rim(
-    shapes: &[Result<Shape, UrdfError>],
+    shapes: &[Result<LinkShape, UrdfError>],
     frame: &Isometry3<f64>,
     options: &UrdfOptions,
     meshes: &Meshes<'_>,
 ) -> Result<Rim, UrdfError> {
-    let shapes: Vec<&Shape> =
+    let shapes: Vec<&LinkShape> =
         shapes.iter().map(|it| it.as_ref().map_err(Clone::clone)).collect::<Result<_, _>>()?;
     let of = |is_collision: bool| -> Vec<_> {
         let those = shapes.iter().filter(|it| it.is_collision == is_collision);
@@ -122,17 +122,17 @@ pub(super) fn rim(
     let radii: Vec<f64> = found.iter().map(|it| it.0.0).collect();
     let differ = radii.iter().any(|it| (it - radii[0]).abs() > 1e-6);
     let note = largest.and_then(|(_, shape)| match &shape.kind {
-        Kind::Mesh { file, .. } => Some(format!("radius and width by the extent of {file}")),
+        Solid::Mesh { file, .. } => Some(format!("radius and width by the extent of {file}")),
         _ if differ => {
             let radii: Vec<String> = radii.iter().map(|it| four_digits(*it)).collect();
             Some(format!("radius the largest of {} m", radii.join(", ")))
         }
         _ => None,
     });
-    let place = |shape: &&Shape| (frame * shape.origin).translation.vector;
+    let place = |shape: &&LinkShape| (frame * shape.origin).translation.vector;
     let somewhere = || shapes.first().map_or(frame.translation.vector, place);
     let sphere = shapes.iter().find_map(|it| match it.kind {
-        Kind::Sphere { radius } => Some(radius),
+        Solid::Sphere { radius } => Some(radius),
         _ => None,
     });
     Ok(Rim {
@@ -144,21 +144,21 @@ pub(super) fn rim(
     })
 }
 
-fn lacks(shapes: &[&Shape]) -> &'static str {
+fn lacks(shapes: &[&LinkShape]) -> &'static str {
     match shapes.first().map(|it| &it.kind) {
         None => "it has no geometry",
-        Some(Kind::Cylinder { .. }) => "the axis of its cylinder is not across the rover",
-        Some(Kind::Sphere { .. }) => "its geometry is a sphere, which has no width",
-        Some(Kind::Box) => "its geometry is a box",
-        Some(Kind::Mesh { .. }) => "its geometry is a mesh that is not there, or not round",
+        Some(Solid::Cylinder { .. }) => "the axis of its cylinder is not across the rover",
+        Some(Solid::Sphere { .. }) => "its geometry is a sphere, which has no width",
+        Some(Solid::Box) => "its geometry is a box",
+        Some(Solid::Mesh { .. }) => "its geometry is a mesh that is not there, or not round",
     }
 }
 
 /// Whether a shape is a sphere or a cylinder, as casters and skids are.
-pub(super) fn kinds(shapes: &[Result<Shape, UrdfError>]) -> Option<&'static str> {
+pub(super) fn kinds(shapes: &[Result<LinkShape, UrdfError>]) -> Option<&'static str> {
     match shapes.first()?.as_ref().ok()?.kind {
-        Kind::Sphere { .. } => Some("a sphere"),
-        Kind::Cylinder { .. } => Some("a cylinder"),
-        Kind::Box | Kind::Mesh { .. } => None,
+        Solid::Sphere { .. } => Some("a sphere"),
+        Solid::Cylinder { .. } => Some("a cylinder"),
+        Solid::Box | Solid::Mesh { .. } => None,
     }
 }

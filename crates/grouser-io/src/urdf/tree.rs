@@ -7,7 +7,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 
 use super::error::UrdfError;
 use super::options::Forward;
-use super::shapes::Shape;
+use super::shapes::LinkShape;
 use super::xml::{attribute, child, number, origin, triple};
 
 /// The most links and joints.
@@ -30,7 +30,7 @@ pub(super) struct Link {
     pub(super) parent: Option<usize>,
     pub(super) joint: Option<Joint>,
     pub(super) inertial: Option<Inertial>,
-    pub(super) shapes: Vec<Result<Shape, UrdfError>>,
+    pub(super) shapes: Vec<Result<LinkShape, UrdfError>>,
     /// Its frame in the root's, where all joints are at zero.
     pub(super) frame: Isometry3<f64>,
 }
@@ -209,7 +209,7 @@ fn link(node: Node<'_, '_>) -> Result<Link, UrdfError> {
     let name = attribute(node, "a link", "name")?.to_owned();
     let what = format!("link {name}");
     let inertial = child(node, "inertial").map(|node| inertial(node, &what)).transpose()?;
-    let shapes = Shape::all(node, &what);
+    let shapes = LinkShape::all(node, &what);
     let frame = Isometry3::identity();
     Ok(Link { name, parent: None, joint: None, inertial, shapes, frame })
 }

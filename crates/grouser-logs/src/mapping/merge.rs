@@ -10,7 +10,7 @@ use grouser_io::measurements::telemetry::Cell;
 use grouser_io::telemetry_mapping::RowRule;
 
 use crate::mapping::pose::Pose;
-use crate::mapping::turning::{Angle, Turning};
+use crate::mapping::turning::{Angle, Turned};
 
 /// A leap ahead that a single reading is not believed [ns]: ten minutes.
 const LEAP: i64 = 600 * 1_000_000_000;
@@ -82,7 +82,7 @@ pub(crate) struct Merge {
     rule: RowRule,
     /// Whether each column is one of ways, or rotations, since the last.
     ways: Vec<bool>,
-    turning: Turning,
+    turning: Turned,
     waiting: BTreeMap<i64, Readings>,
     newest: Option<i64>,
     /// The time of the last reading, if it leapt ahead and is not believed.
@@ -102,7 +102,7 @@ pub(crate) struct Merge {
 }
 
 impl Merge {
-    pub(crate) fn new(window: i64, rule: RowRule, ways: Vec<bool>, turning: Turning) -> Self {
+    pub(crate) fn new(window: i64, rule: RowRule, ways: Vec<bool>, turning: Turned) -> Self {
         Self {
             window,
             rule,
@@ -236,7 +236,7 @@ mod tests {
 
     #[test]
     fn readings_out_of_order_come_in_order_and_what_is_too_late_is_counted() {
-        let mut merge = Merge::new(SECOND, RowRule::EachTime, vec![], Turning::default());
+        let mut merge = Merge::new(SECOND, RowRule::EachTime, vec![], Turned::default());
         let mut found = Vec::new();
         for (time, column) in [(10, 1), (12, 1), (11, 2), (11, 1), (20, 1), (15, 2), (12, 2)] {
             merge.add(time * SECOND / 10, reading(column, 1.0));
@@ -258,7 +258,7 @@ mod tests {
     /// One message of a clock that leapt would make all others late.
     #[test]
     fn a_leap_is_believed_when_it_is_repeated() {
-        let mut merge = Merge::new(SECOND, RowRule::EachTime, vec![], Turning::default());
+        let mut merge = Merge::new(SECOND, RowRule::EachTime, vec![], Turned::default());
         for time in [1, 2, 9_000_000, 3, 4, 5000, 5001, 5002] {
             merge.add(time * SECOND, reading(1, 1.0));
         }
@@ -271,7 +271,7 @@ mod tests {
     #[test]
     fn an_interval_has_the_newest_of_each_column_and_the_sum_of_ways() {
         let mut merge =
-            Merge::new(0, RowRule::Interval(SECOND), vec![false, false, true], Turning::default());
+            Merge::new(0, RowRule::Interval(SECOND), vec![false, false, true], Turned::default());
         for (time, column, value) in
             [(1, 1, 5.0), (2, 2, 0.1), (8, 1, 6.0), (9, 2, 0.25), (11, 1, 7.0)]
         {
@@ -285,7 +285,7 @@ mod tests {
 
     #[test]
     fn a_topic_ends_rows() {
-        let mut merge = Merge::new(0, RowRule::Topic("/clock".into()), vec![], Turning::default());
+        let mut merge = Merge::new(0, RowRule::Topic("/clock".into()), vec![], Turned::default());
         let end = || Readings { ends_row: true, ..reading(2, 0.0) };
         for (time, readings) in [
             (1, reading(1, 1.0)),
@@ -304,7 +304,7 @@ mod tests {
 
     #[test]
     fn memory_does_not_grow_with_what_waits() {
-        let mut merge = Merge::new(i64::MAX, RowRule::EachTime, vec![], Turning::default());
+        let mut merge = Merge::new(i64::MAX, RowRule::EachTime, vec![], Turned::default());
         let mut found = 0;
         for time in 0..i64::try_from(MOST_WAITING).unwrap() + 50 {
             merge.add(time, reading(1, 1.0));

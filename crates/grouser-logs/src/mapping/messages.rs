@@ -16,7 +16,7 @@ use crate::mapping::merge::{Merge, Readings};
 use crate::mapping::plan::{NumberField, Plan, Planned, PlannedReading, TopicChoices};
 use crate::mapping::pose::{Frames, Pose, Rotation};
 use crate::mapping::topic::Topic;
-use crate::mapping::turning::{Angle, Turning};
+use crate::mapping::turning::{Angle, Turned};
 
 /// Records of messages, which are added as they come.
 pub struct MessageRows {
@@ -95,7 +95,7 @@ impl MessageRows {
         }
         let is_way = |name: &String| [FORWARD, LEFTWARD, ROTATION].iter().any(|it| it.name == name);
         let ways = plan.columns.iter().map(is_way).collect();
-        let turning = Turning::new(plan.angles.iter().map(|(_, wrap)| *wrap).collect());
+        let turning = Turned::new(plan.angles.iter().map(|(_, wrap)| *wrap).collect());
         let merge = Merge::new(plan.window, plan.rows.clone(), ways, turning);
         let (last, last_angles) = (vec![None; plan.poses], vec![None; plan.angles.len()]);
         let mapping = mapping.rules.name.clone();

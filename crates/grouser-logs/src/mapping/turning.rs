@@ -19,14 +19,14 @@ impl Angle {
 
 /// Angles that go on where what was read begins again.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Turning {
+pub(crate) struct Turned {
     /// After how much each begins again [rad], infinite where it does not.
     wraps: Vec<f64>,
     /// What was read of each last, and how far it had turned [rad].
     last: Vec<Option<[f64; 2]>>,
 }
 
-impl Turning {
+impl Turned {
     pub(crate) fn new(wraps: Vec<f64>) -> Self {
         let last = vec![None; wraps.len()];
         Self { wraps, last }
@@ -56,7 +56,7 @@ mod tests {
 
     #[test]
     fn angles_go_on_over_the_end_of_a_turn_either_way() {
-        let mut turning = Turning::new(vec![TAU, f64::INFINITY]);
+        let mut turning = Turned::new(vec![TAU, f64::INFINITY]);
         let mut at = |angle: f64, slot: usize| {
             let mut angles = [(slot, Angle { at: angle, time: 0 })];
             turning.go_on(7, &mut angles);

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value};
 
 use crate::protobuf::decode::float;
-use crate::ros::types::{self, Count, Field, Fields, Holds, Number};
+use crate::ros::types::{self, Count, Fields, Holds, Primitive, RosField};
 
 /// Messages in messages, at most.
 const DEEPEST: usize = 32;
@@ -36,13 +36,13 @@ impl Wire {
 
 /// A type of messages with all that it needs.
 #[derive(Clone, Debug)]
-pub(crate) struct Description {
+pub(crate) struct RosDescription {
     /// The messages' own type first.
     types: Vec<Fields>,
     wire: Wire,
 }
 
-impl Description {
+impl RosDescription {
     /// Reads the text of a schema; nothing if it is none.
     ///
     /// * `name`: of the messages, with its package
@@ -73,13 +73,13 @@ impl Description {
         Some(Value::Object(tree))
     }
 
-    fn field(&self, field: &Field, bytes: &mut Bytes<'_>, depth: usize) -> Option<Value> {
+    fn field(&self, field: &RosField, bytes: &mut Bytes<'_>, depth: usize) -> Option<Value> {
         let count = match field.count {
             Count::One => return self.value(field.holds, bytes, depth),
             Count::Fixed(count) => count,
             Count::Stated => bytes.count()?,
         };
-        if field.holds == Holds::Number(Number::U8) {
+        if field.holds == Holds::Primitive(Primitive::U8) {
             // No telemetry is in bytes: pictures are.
             return bytes.skip(count).map(|()| Value::Null);
         }
@@ -94,7 +94,7 @@ impl Description {
     fn value(&self, holds: Holds, bytes: &mut Bytes<'_>, depth: usize) -> Option<Value> {
         match holds {
             Holds::Message(kind) => self.tree(kind, bytes, depth),
-            Holds::Number(number) => bytes.number(number),
+            Holds::Primitive(number) => bytes.number(number),
             Holds::Text => bytes.text(),
         }
     }
@@ -152,20 +152,20 @@ impl<'m> Bytes<'m> {
         usize::try_from(u32::from_le_bytes(self.take()?)).ok()
     }
 
-    fn number(&mut self, number: Number) -> Option<Value> {
+    fn number(&mut self, number: Primitive) -> Option<Value> {
         self.count_value()?;
         Some(match number {
-            Number::Bool => (self.take::<1>()? != [0]).into(),
-            Number::I8 => i8::from_le_bytes(self.take()?).into(),
-            Number::U8 => u8::from_le_bytes(self.take()?).into(),
-            Number::I16 => i16::from_le_bytes(self.take()?).into(),
-            Number::U16 => u16::from_le_bytes(self.take()?).into(),
-            Number::I32 => i32::from_le_bytes(self.take()?).into(),
-            Number::U32 => u32::from_le_bytes(self.take()?).into(),
-            Number::I64 => i64::from_le_bytes(self.take()?).into(),
-            Number::U64 => u64::from_le_bytes(self.take()?).into(),
-            Number::F32 => float(f64::from(f32::from_le_bytes(self.take()?))),
-            Number::F64 => float(f64::from_le_bytes(self.take()?)),
+            Primitive::Bool => (self.take::<1>()? != [0]).into(),
+            Primitive::I8 => i8::from_le_bytes(self.take()?).into(),
+            Primitive::U8 => u8::from_le_bytes(self.take()?).into(),
+            Primitive::I16 => i16::from_le_bytes(self.take()?).into(),
+            Primitive::U16 => u16::from_le_bytes(self.take()?).into(),
+            Primitive::I32 => i32::from_le_bytes(self.take()?).into(),
+            Primitive::U32 => u32::from_le_bytes(self.take()?).into(),
+            Primitive::I64 => i64::from_le_bytes(self.take()?).into(),
+            Primitive::U64 => u64::from_le_bytes(self.take()?).into(),
+            Primitive::F32 => float(f64::from(f32::from_le_bytes(self.take()?))),
+            Primitive::F64 => float(f64::from_le_bytes(self.take()?)),
         })
     }
 

@@ -4,7 +4,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
-use super::decode::{Description, Wire};
+use super::decode::{RosDescription, Wire};
 
 /// A state of joints as ROS 2 describes it, with what else a type may have.
 const SCHEMA: &str = "\
@@ -111,8 +111,8 @@ fn tree() -> Value {
     })
 }
 
-fn described(schema: &str, wire: Wire) -> Option<Description> {
-    Description::read(schema.as_bytes(), "ours/msg/State", wire)
+fn described(schema: &str, wire: Wire) -> Option<RosDescription> {
+    RosDescription::read(schema.as_bytes(), "ours/msg/State", wire)
 }
 
 #[test]
@@ -162,7 +162,7 @@ fn what_is_no_schema_is_refused() {
     ] {
         assert!(described(lines, Wire::Cdr).is_none(), "{lines}");
     }
-    assert!(Description::read(b"float64 \xff", "ours/State", Wire::Cdr).is_none());
+    assert!(RosDescription::read(b"float64 \xff", "ours/State", Wire::Cdr).is_none());
     assert_eq!(Wire::of("cdr", "ros2idl"), None);
 }
 

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 /// A number, or a truth, by its size and what its bits mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Number {
+pub(super) enum Primitive {
     Bool,
     I8,
     U8,
@@ -22,20 +22,20 @@ pub(super) enum Number {
 }
 
 /// What types of messages call them.
-const NUMBERS: [(&str, Number); 13] = [
-    ("bool", Number::Bool),
-    ("byte", Number::U8),
-    ("char", Number::U8),
-    ("int8", Number::I8),
-    ("uint8", Number::U8),
-    ("int16", Number::I16),
-    ("uint16", Number::U16),
-    ("int32", Number::I32),
-    ("uint32", Number::U32),
-    ("int64", Number::I64),
-    ("uint64", Number::U64),
-    ("float32", Number::F32),
-    ("float64", Number::F64),
+const NUMBERS: [(&str, Primitive); 13] = [
+    ("bool", Primitive::Bool),
+    ("byte", Primitive::U8),
+    ("char", Primitive::U8),
+    ("int8", Primitive::I8),
+    ("uint8", Primitive::U8),
+    ("int16", Primitive::I16),
+    ("uint16", Primitive::U16),
+    ("int32", Primitive::I32),
+    ("uint32", Primitive::U32),
+    ("int64", Primitive::I64),
+    ("uint64", Primitive::U64),
+    ("float32", Primitive::F32),
+    ("float64", Primitive::F64),
 ];
 
 /// Types that no schema needs to describe: those of ROS 1 without a package.
@@ -49,7 +49,7 @@ const BUILT_IN: [(&str, &str); 4] = [
 /// What a field holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Holds {
-    Number(Number),
+    Primitive(Primitive),
     Text,
     /// A message, by the place of its type.
     Message(usize),
@@ -66,14 +66,14 @@ pub(super) enum Count {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Field {
+pub(super) struct RosField {
     pub(super) name: String,
     pub(super) holds: Holds,
     pub(super) count: Count,
 }
 
 /// Fields of a type, in the order of their bytes.
-pub(super) type Fields = Vec<Field>;
+pub(super) type Fields = Vec<RosField>;
 
 /// The fields of all types of a schema, the messages' own first; nothing for a text that is no
 /// schema or has a type that is not known.
@@ -134,7 +134,7 @@ fn declaration(line: &str) -> Option<(&str, &str)> {
 ///
 /// * `kind`: such as `float64[<=3]`, `string<=10` or `geometry_msgs/Point[4]`
 /// * `place`: that of a type of messages
-fn field(kind: &str, name: &str, place: impl Fn(&str) -> Option<usize>) -> Option<Field> {
+fn field(kind: &str, name: &str, place: impl Fn(&str) -> Option<usize>) -> Option<RosField> {
     if name.is_empty() || !name.chars().all(|it| it.is_ascii_alphanumeric() || it == '_') {
         return None;
     }
@@ -149,11 +149,11 @@ fn field(kind: &str, name: &str, place: impl Fn(&str) -> Option<usize>) -> Optio
     };
     let number = NUMBERS.iter().find(|(name, _)| *name == kind);
     let holds = if let Some((_, number)) = number {
-        Holds::Number(*number)
+        Holds::Primitive(*number)
     } else if kind == "string" || kind.starts_with("string<=") {
         Holds::Text
     } else {
         Holds::Message(place(kind)?)
     };
-    Some(Field { name: name.to_owned(), holds, count })
+    Some(RosField { name: name.to_owned(), holds, count })
 }

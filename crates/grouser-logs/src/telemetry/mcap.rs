@@ -20,7 +20,7 @@ use crate::mcap::format::{
 use crate::mcap::order::Chronological;
 use crate::mcap::read::{Known, Messages, OverBudget, known_of};
 use crate::protobuf::decode::Description;
-use crate::ros::decode::{Description as RosDescription, Wire};
+use crate::ros::decode::{RosDescription, Wire};
 
 /// An MCAP log, record by record.
 pub(crate) struct McapLog {
@@ -30,7 +30,7 @@ pub(crate) struct McapLog {
     /// How messages of a channel are decoded; nothing for channels that are not read.
     decoders: HashMap<u16, Option<Decoder>>,
     /// Types that were read already, by their schemas' numbers.
-    descriptions: HashMap<u16, Option<Rc<Described>>>,
+    descriptions: HashMap<u16, Option<Rc<OfSchema>>>,
     /// Messages whose channel the log does not describe.
     without_channel: u64,
     is_read: bool,
@@ -39,19 +39,19 @@ pub(crate) struct McapLog {
 #[derive(Clone, Debug)]
 enum Decoder {
     Json(String),
-    Described(String, Rc<Described>),
+    OfSchema(String, Rc<OfSchema>),
     /// A topic that is read, but whose messages the log does not describe.
     Unknown,
 }
 
 /// A type of messages as the log describes it.
 #[derive(Clone, Debug)]
-enum Described {
+enum OfSchema {
     Protobuf(Description),
     Ros(RosDescription),
 }
 
-impl Described {
+impl OfSchema {
     /// Reads a schema; nothing if it does not describe messages of that encoding.
     fn read(encoding: &str, schema: &Schema) -> Option<Self> {
         let Schema { name, data, .. } = schema;
@@ -134,7 +134,7 @@ impl McapLog {
         let Some(decoder) = decoder else { return };
         let (topic, tree) = match decoder {
             Decoder::Json(topic) => (topic, serde_json::from_slice::<Value>(data).ok()),
-            Decoder::Described(topic, description) => (topic, description.decode(data)),
+            Decoder::OfSchema(topic, description) => (topic, description.decode(data)),
             Decoder::Unknown => return self.rows.damaged_message(),
         };
         match (tree, i64::try_from(message.log_time)) {
@@ -166,7 +166,7 @@ fn decoder(
     known: &Known,
     channel: u16,
     rows: &MessageRows,
-    descriptions: &mut HashMap<u16, Option<Rc<Described>>>,
+    descriptions: &mut HashMap<u16, Option<Rc<OfSchema>>>,
 ) -> Option<Decoder> {
     let channel = known.channels.get(&channel)?;
     if !rows.wants(&channel.topic) {
@@ -176,9 +176,9 @@ fn decoder(
         return Some(Decoder::Json(channel.topic.clone()));
     }
     let schema = known.schemas.get(&channel.schema);
-    let read = || Described::read(&channel.encoding, schema?).map(Rc::new);
+    let read = || OfSchema::read(&channel.encoding, schema?).map(Rc::new);
     let described = descriptions.entry(channel.schema).or_insert_with(read).clone();
-    Some(described.map_or(Decoder::Unknown, |it| Decoder::Described(channel.topic.clone(), it)))
+    Some(described.map_or(Decoder::Unknown, |it| Decoder::OfSchema(channel.topic.clone(), it)))
 }
 
 /// Why a log cannot be read on.

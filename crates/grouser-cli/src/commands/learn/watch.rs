@@ -15,7 +15,7 @@ use crate::output::{self, Format};
 /// So many lines after another without a record to learn from are an accident. Source: ours.
 const UNUSED: u64 = 20;
 
-pub(super) struct Watch {
+pub(super) struct LogWatch {
     following: Option<Following>,
     lines: Arc<AtomicU64>,
     /// Lines that were read up to the last record.
@@ -25,7 +25,7 @@ pub(super) struct Watch {
     is_told: bool,
 }
 
-impl Watch {
+impl LogWatch {
     pub(super) fn of(args: &LearnArgs) -> Self {
         let lines = Arc::new(AtomicU64::new(0));
         let is_json = args.output.format == Format::Json;

@@ -2,7 +2,7 @@
 
 /// Comments and the line of the columns, of a file and of those that take its place.
 #[derive(Debug, Default)]
-pub(super) struct Head {
+pub(super) struct TableHead {
     /// Of the first file, as far as it was read.
     first: Vec<u8>,
     /// Of another, as far as it was read.
@@ -12,7 +12,7 @@ pub(super) struct Head {
 /// A head has no more bytes. Source: ours.
 const LONGEST: usize = 1 << 16;
 
-impl Head {
+impl TableHead {
     /// Another file begins, which has the same head.
     pub(super) fn begin_another(&mut self) {
         self.other = Some(Vec::new());
@@ -67,7 +67,7 @@ mod tests {
     fn heads_of_other_files_are_left_out() {
         let (first, other) = (b"# day 1\na,b\n1,2\n", b"# day 2\n\na,b\n3,4\n");
         for size in 1..20 {
-            let mut head = Head::default();
+            let mut head = TableHead::default();
             let mut read = Vec::new();
             for part in first.chunks(size) {
                 read.extend(head.take(part).unwrap());
@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn other_columns_are_refused() {
-        let mut head = Head::default();
+        let mut head = TableHead::default();
         head.take(b"a,b\n1,2\n").unwrap();
         head.begin_another();
         assert!(head.take(b"a,c\n").is_err());

@@ -82,7 +82,7 @@ pub(super) fn lines(found: &LearntDrive) -> Vec<String> {
 /// What to do on each slope, and why.
 fn verdicts(all: &[Advice]) -> String {
     let words = all.iter().map(|advice| {
-        let slope = four_digits(SLOPE.unit.from_si(advice.slope));
+        let slope = four_digits(SLOPE.unit.as_given(advice.slope));
         let Judgement { verdict, reason } = advice.judgement;
         let why = match verdict {
             Verdict::Go => String::new(),

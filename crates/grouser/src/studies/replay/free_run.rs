@@ -35,12 +35,12 @@ struct Piece {
 pub(super) struct Commands {
     pieces: Vec<Piece>,
     /// The ways in which the wheels turned since the last stretch, one after another.
-    turns: Vec<Turn>,
+    turns: Vec<OneWay>,
 }
 
 /// Records in which no wheel changes its direction.
 #[derive(Clone, Debug)]
-struct Turn {
+struct OneWay {
     /// The last record [s].
     until: f64,
     /// Which way each wheel turns, where it was read: 1, −1, or 0 where it stands.
@@ -84,7 +84,7 @@ impl Commands {
     pub(super) fn read(&mut self, time: f64, rim_speeds: &[Option<f64>]) {
         match self.turns.last_mut().filter(|turn| turn.goes_on(rim_speeds)) {
             Some(turn) => turn.push(time, rim_speeds),
-            None => self.turns.push(Turn::new(time, rim_speeds)),
+            None => self.turns.push(OneWay::new(time, rim_speeds)),
         }
     }
 
@@ -134,7 +134,7 @@ impl Commands {
     }
 }
 
-impl Turn {
+impl OneWay {
     fn new(time: f64, speeds: &[Option<f64>]) -> Self {
         let wheels = speeds.len();
         let (directions, rim_speeds) = (vec![None; wheels], vec![Vec::new(); wheels]);
@@ -235,14 +235,14 @@ impl Piece {
 }
 
 impl Command {
-    fn of_stretch(stretch: &Stretch, turns: &[Turn]) -> Vec<Self> {
+    fn of_stretch(stretch: &Stretch, turns: &[OneWay]) -> Vec<Self> {
         let ([mut from, end], means) = (stretch.time, &stretch.rim_speeds);
         let steering = &stretch.steering;
         if turns.len() < 2 {
             let (rim_speeds, steering) = (means.clone(), steering.clone());
             return vec![Self { from, until: end, rim_speeds, steering }];
         }
-        let command = |turn: &Turn| {
+        let command = |turn: &OneWay| {
             let (rim_speeds, steering) = (turn.middles(means), steering.clone());
             let command = Self { from, until: turn.until, rim_speeds, steering };
             from = turn.until;
