@@ -203,17 +203,17 @@ fn wheels_of_meshes_are_found_by_their_package() {
     let place = Place::new();
     let inertial = "<inertial><mass value=\"0.5\"/><inertia ixx=\"0.002\" iyy=\"0.002\" izz=\"0.002\"/></inertial>";
     let shape = "<collision><geometry><mesh filename=\"package://cart/meshes/wheel.stl\"/></geometry></collision>";
-    let mut urdf =
-        format!("<robot name=\"cart\"><link name=\"body\">{}</link>", inertial.replace("0.5", "6"));
-    for (name, x, y) in [("fl", 1, 1), ("fr", 1, -1), ("rl", -1, 1), ("rr", -1, -1)] {
-        urdf += &format!(
-            "<link name=\"{name}\">{inertial}{shape}</link><joint name=\"{name}_joint\" type=\"continuous\">\
-             <parent link=\"body\"/><child link=\"{name}\"/><origin xyz=\"0.{}2 0.{}2 -0.1\"/><axis xyz=\"0 -1 0\"/></joint>",
-            x, y
+    let body = inertial.replace("0.5", "6");
+    let wheel = |(name, x, y): (&str, f64, f64)| {
+        format!(
+            "<link name=\"{name}\">{inertial}{shape}</link><joint name=\"{name}_joint\" \
+             type=\"continuous\"><parent link=\"body\"/><child link=\"{name}\"/>\
+             <origin xyz=\"{x} {y} -0.1\"/><axis xyz=\"0 1 0\"/></joint>"
         )
-        .replace("0.-12", "-0.2")
-        .replace("0.12", "0.2");
-    }
+    };
+    let places = [("fl", 0.2, 0.2), ("fr", 0.2, -0.2), ("rl", -0.2, 0.2), ("rr", -0.2, -0.2)];
+    let wheels: String = places.into_iter().map(wheel).collect();
+    let urdf = format!("<robot name=\"cart\"><link name=\"body\">{body}</link>{wheels}");
     std::fs::create_dir_all(place.file("cart/urdf")).expect("a folder");
     place.write("cart/urdf/cart.urdf", urdf + "</robot>");
     let line = "import-urdf cart/urdf/cart.urdf --out cart.toml";
