@@ -130,6 +130,14 @@ def test_bags_of_ros_are_telemetry(kind: str, tmp_path: Path) -> None:
     check_drive(rows_of(out))
     assert found.records == 3
     assert any("1 messages cannot be decoded" in note for note in found.notes)
+    if kind != "mcap file":
+        return
+    # A recorder that lost its power leaves no end: what was written is read.
+    cut = tmp_path / "cut.mcap"
+    whole = bag.read_bytes()
+    cut.write_bytes(whole[: whole.index(b"left_wheel") + 40])
+    found = gr.import_telemetry(cut, tmp_path / "cut.csv", rover="hakuto")
+    assert any("without its end" in note for note in found.notes)
 
 
 def write_mcap(path: Path, compression: Any) -> None:
@@ -273,7 +281,7 @@ def test_what_cannot_be_imported_is_an_error_of_ours(tmp_path: Path) -> None:
     log.write_text("time_s,roll_deg\n1,2\n")
     with pytest.raises(gr.DocumentNotFoundError, match="no such file"):
         gr.import_telemetry(tmp_path / "none.mcap", out)
-    with pytest.raises(gr.DocumentError, match="columns and no topics"):
+    with pytest.raises(gr.DocumentError, match="reads none of its columns, which are time_s, roll_deg"):
         gr.import_telemetry(log, out, "ros")
     assert not out.exists()
     gr.import_telemetry(log, out)
