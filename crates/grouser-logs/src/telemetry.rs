@@ -1,6 +1,7 @@
 //! A log of any kind, record by record.
 
 mod mcap;
+pub(crate) mod options;
 mod parquet;
 pub(crate) mod writer;
 
@@ -12,14 +13,15 @@ use std::rc::Rc;
 
 use flate2::read::MultiGzDecoder;
 use grouser_core::vehicle::Rover;
-use grouser_io::measurements::telemetry::{Lost, TelemetryReader, TelemetryRecord, TelemetryRows};
+use grouser_io::measurements::telemetry::{
+    Lost, Odometry, TelemetryReader, TelemetryRecord, TelemetryRows,
+};
 use grouser_io::{escape, file};
 
 use self::mcap::McapLog;
+use self::options::LogOptions;
 use self::parquet::ParquetLog;
 use crate::error::{Problem, TelemetryError};
-use crate::mapping::Mapping;
-use crate::mapping::plan::TopicChoices;
 use crate::mcap::format::MAGIC;
 
 /// How a file that is packed by gzip begins.
@@ -41,19 +43,12 @@ impl TelemetryLog {
     /// Opens a file; its first bytes say what it is.
     ///
     /// * `rover`: the rover that was driven, for the names of its wheels
-    /// * `mapping`: of a log of messages, which fields are which columns; without it the built-in
-    ///   one that fits
-    /// * `choices`: of such a log, the topic that is meant where several fit
+    /// * `options`: how it is read
     ///
     /// # Errors
     /// [`TelemetryError`] for a file that cannot be opened, or is no telemetry of this rover; with
     /// [`Problem::Ambiguous`] another call can make the choice.
-    pub fn open(
-        path: &Path,
-        rover: &Rover,
-        mapping: Option<&Mapping>,
-        choices: &TopicChoices,
-    ) -> Result<Self, TelemetryError> {
+    pub fn open(path: &Path, rover: &Rover, options: &LogOptions) -> Result<Self, TelemetryError> {
         let label = escape::path(path);
         let of_disk = |error| TelemetryError::new(&label, Problem::Unreadable(error));
         let mut file =
@@ -62,7 +57,7 @@ impl TelemetryLog {
         // What is a pipe cannot be sought in.
         if file.rewind().is_err() {
             let source = Box::new(io::Cursor::new(start).chain(file));
-            return Self::of_csv(&label, Box::new(BufReader::new(source)), rover);
+            return Self::of_csv(&label, Box::new(BufReader::new(source)), rover, options);
         }
         let bags: [(&[u8], &str); 2] =
             [(b"#ROSBAG V", "a bag of ROS 1"), (b"SQLite format 3", "a bag of ROS 2 in SQLite")];
@@ -70,14 +65,14 @@ impl TelemetryLog {
             return Err(TelemetryError::new(&label, Problem::OtherKind(kind)));
         }
         if start.starts_with(&MAGIC) {
-            let log = McapLog::new(&label, file, mapping, rover, choices)?;
+            let log = McapLog::new(&label, file, rover, options)?;
             return Ok(Self { label, source: Source::Mcap(Box::new(log)) });
         }
-        if mapping.is_some() || !choices.is_empty() {
+        if options.is_of_messages() {
             return Err(TelemetryError::new(&label, Problem::NoMessages));
         }
         if start.starts_with(parquet::MAGIC) {
-            let log = ParquetLog::new(&label, file, rover)?;
+            let log = ParquetLog::new(&label, file, rover, options.odometry)?;
             return Ok(Self { label, source: Source::Parquet(log) });
         }
         let source: Box<dyn Read> = if start.starts_with(GZIP) {
@@ -85,12 +80,13 @@ impl TelemetryLog {
         } else {
             Box::new(BufReader::new(file))
         };
-        Self::of_csv(&label, source, rover)
+        Self::of_csv(&label, source, rover, options)
     }
 
     /// Reads CSV as it comes, such as from standard input.
     ///
     /// * `label`: what messages call the source
+    /// * `options`: a mapping and choices of topics have no meaning here
     ///
     /// # Errors
     /// [`TelemetryError`] for a header that is no telemetry of this rover.
@@ -98,10 +94,12 @@ impl TelemetryLog {
         label: &str,
         source: Box<dyn Read>,
         rover: &Rover,
+        options: &LogOptions,
     ) -> Result<Self, TelemetryError> {
         let ended_in_row = Rc::new(Cell::new(false));
         let source = LastByte { source, last: b'\n', ended_in_row: ended_in_row.clone() };
         let reader = TelemetryReader::new(label.to_owned(), source, rover)?;
+        let reader = reader.measured_by(options.odometry.unwrap_or(Odometry::Visual));
         Ok(Self { label: label.to_owned(), source: Source::Csv { reader, ended_in_row } })
     }
 
@@ -169,7 +167,9 @@ impl TelemetryLog {
             Source::Parquet(log) => log.notes(),
             Source::Mcap(log) => log.notes(),
         };
-        let of_table = [self.table().sentence_of_time(), self.table().sentence_of_unused()];
+        let table = self.table();
+        let of_table =
+            [table.sentence_of_odometry(), table.sentence_of_time(), table.sentence_of_unused()];
         of_kind.into_iter().chain(of_table.into_iter().flatten()).collect()
     }
 

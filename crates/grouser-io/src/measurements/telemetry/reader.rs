@@ -10,8 +10,8 @@ use super::super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::super::limits::Limits;
 use super::super::row::name_of;
 use super::super::table::{Dialect, LookedAt, Table};
-use super::TelemetryRecord;
 use super::rows::{Cell, TelemetryRows};
+use super::{Odometry, TelemetryRecord};
 
 /// Reads a log of CSV row by row.
 pub struct TelemetryReader<'a, R> {
@@ -41,6 +41,12 @@ impl<'a, R: Read> TelemetryReader<'a, R> {
         let names: Vec<String> = table.header()?.iter().map(name_of).collect();
         let rows = TelemetryRows::new(&label, names, rover)?;
         Ok(Self { table, dialect, row: StringRecord::new(), rows })
+    }
+
+    /// The same with ways that were measured in some way; see [`TelemetryRows::measured_by`].
+    #[must_use]
+    pub fn measured_by(self, odometry: Odometry) -> Self {
+        Self { rows: self.rows.measured_by(odometry), ..self }
     }
 
     /// The next record, if there is one.
