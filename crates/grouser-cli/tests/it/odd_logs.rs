@@ -321,3 +321,33 @@ fn gross_faults_are_named_by_their_factors() {
         assert!(warnings.contains(named), "{log}: {warnings}");
     }
 }
+
+/// What contradicts itself is in the soil's document, and no card is made of it unless it is asked
+/// for by name.
+#[test]
+fn a_soil_that_contradicts_itself_makes_no_card_unasked() {
+    let (place, text) = drive();
+    place.write("large.csv", times(&text, "wheel_torque_nm", 1e3));
+    // Across a slope a rover that hardly drifts: on no soil of the prior does it.
+    place.write("straight.csv", times(&text, "vo_dy_m", 0.05));
+    for (log, named) in
+        [("drive", None), ("large", Some("torque:")), ("straight", Some("its prior"))]
+    {
+        place.line(&format!("learn {log}.csv {LEARN} --out {log}"));
+        let soil = place.read(&format!("{log}/soil.toml"));
+        let card = format!("card --rover hakuto --soil {log}/soil.toml --samples 2");
+        let Some(named) = named else {
+            assert!(!soil.contains("contradictions"), "{soil}");
+            continue;
+        };
+        assert!(soil.contains("contradictions") && soil.contains(named), "{log}: {soil}");
+        let answer = place.line(&card);
+        let says = |part: &str| answer.stderr.contains(part);
+        assert!(
+            answer.code() == 2 && says(named) && says("--accept-contradiction"),
+            "{log}: {}",
+            answer.stderr
+        );
+        assert_eq!(place.line(&format!("{card} --accept-contradiction")).code(), 0, "{log}");
+    }
+}
