@@ -58,7 +58,7 @@ pub(crate) use new::NewArgs;
 pub(crate) use replay::ReplayArgs;
 pub(crate) use route::RouteArgs;
 pub(crate) use slip_from_current::SlipFromCurrentArgs;
-pub(crate) use telemetry::TelemetryArgs;
+pub(crate) use telemetry::{LogArgs, TelemetryArgs};
 pub(crate) use terminal::{TerminalArgs, colours_of};
 pub(crate) use traverse::TraverseArgs;
 pub(crate) use uncertainty::{BeliefArgs, SamplingArgs, UncertaintyArgs};

@@ -35,7 +35,8 @@ pub(crate) use self::route::{Asked, RouteInputs, route};
 pub(crate) use self::slip_from_current::{SlipInputs, slip_from_current};
 pub(crate) use self::stand::{StandInputs, soil, stand, wheel_test};
 pub(crate) use self::telemetry::{
-    check_share_used, driven_rover, is_standard_input, mapping, telemetry, telemetry_label,
+    check_share_used, driven_rover, is_standard_input, log_options, telemetry, telemetry_label,
+    telemetry_without_way,
 };
 pub(crate) use self::traverse::traverse;
 pub(crate) use self::validate::{ranked_data_set, slope_validation, validation};

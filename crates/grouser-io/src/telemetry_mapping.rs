@@ -18,7 +18,7 @@ use super::kind::Kind;
 use super::loaded::Loaded;
 use super::measurements::Dimension;
 use super::measurements::log_column::LogColumn;
-use super::measurements::telemetry::{COLUMNS, FORWARD, LEFTWARD, ROTATION};
+use super::measurements::telemetry::{COLUMNS, FORWARD, LEFTWARD, Odometry, ROTATION};
 use super::overrides::Overrides;
 use super::read::{Written, written};
 use super::source::Source;
@@ -53,6 +53,8 @@ pub struct TelemetryMapping {
     pub rows: RowRule,
     /// Where messages have their time; without it that of the log counts.
     pub time: Option<FieldPath>,
+    /// What measured ways and rotations, if it says so.
+    pub odometry: Option<Odometry>,
     /// What is read, each of the messages of a topic.
     pub readings: Vec<Reading>,
 }
@@ -180,6 +182,7 @@ impl TelemetryMapping {
             window: nanoseconds(given.window),
             rows,
             time: at("time").optional_path(&given.time)?,
+            odometry: given.odometry,
             readings: readings.collect::<Result<_, _>>()?,
         })
     }

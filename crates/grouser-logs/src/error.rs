@@ -5,6 +5,7 @@ use std::io;
 
 use grouser_io::file::FileProblem;
 use grouser_io::measurements::MeasurementError;
+use grouser_io::measurements::telemetry::Odometry;
 use grouser_io::{DocumentError, escape};
 
 pub use crate::mcap::read::OverBudget;
@@ -51,6 +52,17 @@ pub enum Problem {
         what: String,
         /// The topics that fit.
         topics: Vec<String>,
+    },
+    /// Ways of which nothing says how they were measured.
+    #[error(
+        "{topic} has the way of the rover, and neither {mapping} nor an option says what measured \
+         it: odometry of wheels shows no slip, and would be taken for a soil on which there is none"
+    )]
+    OdometryNotStated {
+        /// The topic.
+        topic: String,
+        /// What messages call the mapping.
+        mapping: String,
     },
     /// Messages that are not decoded here.
     #[error(
@@ -115,6 +127,13 @@ impl TelemetryError {
             Problem::Ambiguous { what, topics } => topics
                 .first()
                 .map(|topic| format!("say which is meant, such as by --topic {what}={topic}")),
+            Problem::OdometryNotStated { .. } => {
+                let names = Odometry::ALL.map(|(name, ..)| name).join(", ");
+                Some(format!(
+                    "--odometry KIND, `odometry = \"KIND\"` in a mapping, or odometry=KIND in \
+                     Python says it; KIND is one of {names}"
+                ))
+            }
             Problem::Encoding { .. } | Problem::OtherKind(_) => Some(
                 "Python converts it: python -m grouser import-telemetry LOG --out drive.csv"
                     .to_owned(),

@@ -86,4 +86,5 @@ pub use replay_log::write_replay;
 pub use run_log::Log;
 pub use run_log::error::LogError;
 pub use telemetry::TelemetryLog;
+pub use telemetry::options::LogOptions;
 pub use telemetry::writer::TelemetryWriter;

@@ -2,6 +2,7 @@
 
 mod mapped;
 mod mcap;
+pub(crate) mod options;
 mod parquet;
 pub(crate) mod writer;
 
@@ -13,15 +14,16 @@ use std::rc::Rc;
 
 use flate2::read::MultiGzDecoder;
 use grouser_core::vehicle::Rover;
-use grouser_io::measurements::telemetry::{Lost, TelemetryReader, TelemetryRecord, TelemetryRows};
+use grouser_io::measurements::telemetry::{
+    Lost, Odometry, TelemetryReader, TelemetryRecord, TelemetryRows,
+};
 use grouser_io::{escape, file};
 
 use self::mapped::MappedTable;
 use self::mcap::McapLog;
+use self::options::LogOptions;
 use self::parquet::ParquetLog;
 use crate::error::{Problem, TelemetryError};
-use crate::mapping::Mapping;
-use crate::mapping::plan::TopicChoices;
 use crate::mcap::format::MAGIC;
 
 /// How a file that is packed by gzip begins.
@@ -44,19 +46,13 @@ impl TelemetryLog {
     /// Opens a file; its first bytes say what it is.
     ///
     /// * `rover`: the rover that was driven, for the names of its wheels
-    /// * `mapping`: which fields of messages, or columns of CSV, are which columns of telemetry;
-    ///   without it the built-in one that fits messages, and the names of a table's columns
-    /// * `choices`: the topic that is meant where several fit a mapping
+    /// * `options`: how it is read; of CSV a mapping says which columns are which, as it says of
+    ///   the fields of messages
     ///
     /// # Errors
     /// [`TelemetryError`] for a file that cannot be opened, or is no telemetry of this rover; with
     /// [`Problem::Ambiguous`] another call can make the choice.
-    pub fn open(
-        path: &Path,
-        rover: &Rover,
-        mapping: Option<&Mapping>,
-        choices: &TopicChoices,
-    ) -> Result<Self, TelemetryError> {
+    pub fn open(path: &Path, rover: &Rover, options: &LogOptions) -> Result<Self, TelemetryError> {
         let label = escape::path(path);
         let of_disk = |error| TelemetryError::new(&label, Problem::Unreadable(error));
         let mut file =
@@ -65,7 +61,7 @@ impl TelemetryLog {
         // What is a pipe cannot be sought in.
         if file.rewind().is_err() {
             let source = Box::new(BufReader::new(io::Cursor::new(start).chain(file)));
-            return Self::of_table(&label, source, rover, mapping, choices);
+            return Self::of_table(&label, source, rover, options);
         }
         let bags: [(&[u8], &str); 2] =
             [(b"#ROSBAG V", "a bag of ROS 1"), (b"SQLite format 3", "a bag of ROS 2 in SQLite")];
@@ -73,14 +69,14 @@ impl TelemetryLog {
             return Err(TelemetryError::new(&label, Problem::OtherKind(kind)));
         }
         if start.starts_with(&MAGIC) {
-            let log = McapLog::new(&label, file, mapping, rover, choices)?;
+            let log = McapLog::new(&label, file, rover, options)?;
             return Ok(Self { label, source: Source::Mcap(Box::new(log)) });
         }
         if start.starts_with(parquet::MAGIC) {
-            if mapping.is_some() || !choices.is_empty() {
+            if options.is_of_messages() {
                 return Err(TelemetryError::new(&label, Problem::NoMessages));
             }
-            let log = ParquetLog::new(&label, file, rover)?;
+            let log = ParquetLog::new(&label, file, rover, options.odometry)?;
             return Ok(Self { label, source: Source::Parquet(log) });
         }
         let source: Box<dyn Read> = if start.starts_with(GZIP) {
@@ -88,14 +84,14 @@ impl TelemetryLog {
         } else {
             Box::new(BufReader::new(file))
         };
-        Self::of_table(&label, source, rover, mapping, choices)
+        Self::of_table(&label, source, rover, options)
     }
 
     /// Reads CSV as it comes, whose columns are fields of messages by a mapping, or else those of
     /// telemetry.
     ///
     /// * `label`: what messages call the source
-    /// * `mapping`, `choices`: as [`open`](Self::open) has them
+    /// * `options`: as [`open`](Self::open) has them
     ///
     /// # Errors
     /// [`TelemetryError`] for a header of which the mapping reads nothing, or that is no telemetry
@@ -104,34 +100,36 @@ impl TelemetryLog {
         label: &str,
         source: Box<dyn Read>,
         rover: &Rover,
-        mapping: Option<&Mapping>,
-        choices: &TopicChoices,
+        options: &LogOptions,
     ) -> Result<Self, TelemetryError> {
-        let Some(mapping) = mapping else {
-            return if choices.is_empty() {
-                Self::of_csv(label, source, rover)
+        let Some(mapping) = &options.mapping else {
+            return if options.topics.is_empty() {
+                Self::of_csv(label, source, rover, options)
             } else {
                 Err(TelemetryError::new(label, Problem::NoMessages))
             };
         };
         let (source, ended_in_row) = LastByte::of(source);
-        let table = Box::new(MappedTable::new(label, source, mapping, rover, choices)?);
+        let table = Box::new(MappedTable::new(label, source, mapping, rover, options)?);
         Ok(Self { label: label.to_owned(), source: Source::Mapped { table, ended_in_row } })
     }
 
     /// Reads CSV as it comes, such as from standard input.
     ///
     /// * `label`: what messages call the source
+    /// * `options`: a mapping and choices of topics have no meaning here
     ///
     /// # Errors
     /// [`TelemetryError`] for a header that is no telemetry of this rover.
-    pub fn of_csv(
+    fn of_csv(
         label: &str,
         source: Box<dyn Read>,
         rover: &Rover,
+        options: &LogOptions,
     ) -> Result<Self, TelemetryError> {
         let (source, ended_in_row) = LastByte::of(source);
         let reader = TelemetryReader::new(label.to_owned(), source, rover)?;
+        let reader = reader.measured_by(options.odometry.unwrap_or(Odometry::Visual));
         Ok(Self { label: label.to_owned(), source: Source::Csv { reader, ended_in_row } })
     }
 
@@ -204,7 +202,9 @@ impl TelemetryLog {
             Source::Parquet(log) => log.notes(),
             Source::Mcap(log) => log.notes(),
         };
-        let of_table = [self.table().sentence_of_time(), self.table().sentence_of_unused()];
+        let table = self.table();
+        let of_table =
+            [table.sentence_of_odometry(), table.sentence_of_time(), table.sentence_of_unused()];
         of_kind.into_iter().chain(of_table.into_iter().flatten()).collect()
     }
 

@@ -8,9 +8,9 @@ use grouser::document::LoadedScenario;
 use grouser::document::columns::Quantity;
 use grouser::document::columns::learn as columns;
 use grouser::document::learn::{KeptDrive, LearntSoil, StateError, state_text};
-use grouser::document::measurements::telemetry::{Cell, TelemetryRows};
+use grouser::document::measurements::telemetry::{Cell, Odometry, TelemetryRows};
 use grouser::studies::learn::{Drive, LearnSettings, Learner as Learning, LearntSample, Lesson};
-use grouser_logs::{TelemetryError, TelemetryLog, TopicChoices};
+use grouser_logs::{LogOptions, TelemetryError, TelemetryLog};
 use numpy::{PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -19,6 +19,7 @@ use crate::columns::table_to_python;
 use crate::descriptions::Document;
 use crate::interrupt::listening;
 use crate::studies::{Problem, SAMPLES, slopes, wheel_names};
+use crate::telemetry::odometry_named;
 use crate::wheels::check;
 use crate::{errors, threads};
 
@@ -89,19 +90,22 @@ impl Learner {
     /// Takes records; what they taught.
     ///
     /// * `names`, `values`: the columns of telemetry, as many numbers in each; NaN is a gap
+    /// * `odometry`: what measured ways and rotations, if that is stated
     #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
     fn update<'py>(
         &self,
         py: Python<'py>,
         names: Vec<String>,
         values: Vec<PyReadonlyArray1<'py, f64>>,
+        odometry: Option<&str>,
     ) -> PyResult<Taught<'py>> {
+        let odometry = odometry_named(odometry)?.unwrap_or(Odometry::Visual);
         let last_time = self.drive().last_time();
         let rover = &self.scenario.value.rover;
         let rows = TelemetryRows::new("the telemetry", names, rover).map_err(|error| {
             errors::parameter(error.to_string(), "telemetry", None, "columns of telemetry")
         })?;
-        let mut rows = rows.after(last_time);
+        let mut rows = rows.after(last_time).measured_by(odometry);
         let arrays: Vec<_> = values.iter().map(|it| it.as_array()).collect();
         let count = values.first().map_or(0, |it| it.as_array().len());
         let mut records = Vec::with_capacity(count);
@@ -116,16 +120,23 @@ impl Learner {
             drive.note_lost(lost);
             lessons
         })?;
-        self.note(rows.sentence_of_unused().into_iter().collect());
+        let sentences = [rows.sentence_of_odometry(), rows.sentence_of_unused()];
+        self.note(sentences.into_iter().flatten().collect());
         taught(py, &lessons)
     }
 
     /// Takes all records of a log that come after those that were taken; what they taught.
     #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
-    fn update_log<'py>(&self, py: Python<'py>, log: PathBuf) -> PyResult<Taught<'py>> {
+    fn update_log<'py>(
+        &self,
+        py: Python<'py>,
+        log: PathBuf,
+        odometry: Option<&str>,
+    ) -> PyResult<Taught<'py>> {
+        let options = LogOptions::default().with_odometry(odometry_named(odometry)?);
         let lessons = threads::detached(py, || {
             let rover = &self.scenario.value.rover;
-            let mut source = TelemetryLog::open(&log, rover, None, &TopicChoices::new())?;
+            let mut source = TelemetryLog::open(&log, rover, &options)?;
             let mut drive = self.drive();
             let (last_time, before) = (drive.last_time(), drive.lost().clone());
             let mut lessons = Vec::new();

@@ -12,6 +12,7 @@ use grouser::document::columns::run::{
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{self, COURSE, LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE};
 use grouser::document::forecast as words;
+use grouser::document::learn::contradiction;
 use grouser::document::simulated_test::{NOISE, TRIALS};
 use grouser::document::study::{self, COURSE_DEG, MAP_SPEED_M_S, SHARE};
 use grouser::document::table::{BETWEEN_NAMES, Table};
@@ -433,14 +434,19 @@ pub(crate) fn card<'py>(
     slope_deg: PyReadonlyArray1<'py, f64>,
     seed_and_samples: (u64, u32),
     rim_speed_m_s: Option<f64>,
-    is_uphill_right_and_holds_heading: (bool, bool),
+    is_uphill_right_holds_heading_accepts_contradiction: (bool, bool, bool),
     rule: [f64; 5],
 ) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>, Bound<'py, PyAny>)> {
     let slopes = slopes(&slope_deg)?;
     let (seed, samples) = seed_and_samples;
-    let (is_uphill_right, holds_heading) = is_uphill_right_and_holds_heading;
+    let (is_uphill_right, holds_heading, accepts_contradiction) =
+        is_uphill_right_holds_heading_accepts_contradiction;
     check("samples", &[f64::from(samples)], &SAMPLES)?;
     let scenario = scenario.scenario()?;
+    if let Some(why) = contradiction(&scenario.document).filter(|_| !accepts_contradiction) {
+        let message = format!("{why}; accept_contradiction=True takes it as it is");
+        return Err(errors::parameter(message, "soil", None, "a soil without contradictions"));
+    }
     let rim_speed = rim_speed_m_s.unwrap_or_else(|| scenario.value.drive.nominal_rim_speed());
     check("rim_speed_m_s", &[rim_speed], &MAP_SPEED_M_S)?;
     let uphill = if is_uphill_right { Side::Right } else { Side::Left };

@@ -5,10 +5,10 @@ use std::io::BufWriter;
 use std::path::PathBuf;
 
 use grouser::document::escape;
-use grouser::document::measurements::telemetry::TelemetryRecord;
+use grouser::document::measurements::telemetry::{Odometry, TelemetryRecord};
 use grouser::vehicle::Rover;
 use grouser_logs::{
-    Mapping, MessageRows, TelemetryError, TelemetryLog, TelemetryWriter, Topic, TopicChoices,
+    LogOptions, Mapping, MessageRows, TelemetryError, TelemetryLog, TelemetryWriter, Topic,
 };
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
@@ -33,12 +33,13 @@ pub(crate) fn import_telemetry(
     rover: &Document,
     mapping: Option<PathBuf>,
     choices: Choices,
+    odometry: Option<&str>,
 ) -> PyResult<(u64, Vec<String>)> {
     let rover = rover.scenario()?.value.rover.clone();
+    let odometry = odometry_named(odometry)?;
     let convert = move || -> Result<(u64, Vec<String>), Failed> {
-        let mapping = mapping.as_deref().map(Mapping::find).transpose()?;
-        let choices: TopicChoices = choices.into_iter().collect();
-        let mut log = TelemetryLog::open(&log, &rover, mapping.as_ref(), &choices)?;
+        let options = log_options(mapping, choices, odometry)?;
+        let mut log = TelemetryLog::open(&log, &rover, &options)?;
         let mut table = Table::create(out, &rover)?;
         while let Some(record) = log.next_record()? {
             table.write(&record)?;
@@ -46,6 +47,28 @@ pub(crate) fn import_telemetry(
         Ok((table.finish()?, log.notes()))
     };
     listening(py, move |_| convert())?.map_err(Failed::raised)
+}
+
+/// What measured ways and rotations, by its name.
+pub(crate) fn odometry_named(name: Option<&str>) -> PyResult<Option<Odometry>> {
+    let Some(name) = name else { return Ok(None) };
+    let found = Odometry::named(name).ok_or_else(|| {
+        let expected = Odometry::ALL.map(|(name, ..)| name).join(", ");
+        let name = escape::line(name);
+        let message = format!("odometry is '{name}', it must be one of {expected}");
+        errors::parameter(message, "odometry", None, expected)
+    });
+    found.map(Some)
+}
+
+fn log_options(
+    mapping: Option<PathBuf>,
+    choices: Choices,
+    odometry: Option<Odometry>,
+) -> Result<LogOptions, TelemetryError> {
+    let mapping = mapping.as_deref().map(Mapping::find).transpose()?;
+    let options = LogOptions::default().with_mapping(mapping).with_odometry(odometry);
+    Ok(options.with_topics(choices.into_iter().collect()))
 }
 
 /// What converting failed at.
@@ -119,14 +142,15 @@ impl TelemetryMessages {
         mapping: Option<PathBuf>,
         topics: Vec<(String, String)>,
         choices: Choices,
+        odometry: Option<&str>,
     ) -> PyResult<Self> {
+        let odometry = odometry_named(odometry)?;
         let rover = &rover.scenario()?.value.rover;
         let begin = || -> Result<Self, Failed> {
-            let mapping = mapping.as_deref().map(Mapping::find).transpose()?;
+            let options = log_options(mapping, choices, odometry)?;
             let topic = |(name, message)| Topic { name, message, encoding: None };
             let topics: Vec<Topic> = topics.into_iter().map(topic).collect();
-            let choices = choices.into_iter().collect();
-            let rows = MessageRows::new(label, mapping.as_ref(), &topics, rover, &choices)?;
+            let rows = MessageRows::new(label, &topics, rover, &options)?;
             Ok(Self { rows, table: Some(Table::create(out, rover)?) })
         };
         begin().map_err(Failed::raised)
@@ -162,7 +186,8 @@ impl TelemetryMessages {
             None => 0,
         };
         let lost = self.rows.rows().lost().sentences();
-        Ok((records, self.rows.notes().into_iter().chain(lost).collect()))
+        let odometry = self.rows.rows().sentence_of_odometry();
+        Ok((records, self.rows.notes().into_iter().chain(odometry).chain(lost).collect()))
     }
 }
 

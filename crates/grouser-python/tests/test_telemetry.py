@@ -126,7 +126,9 @@ def test_bags_of_ros_are_telemetry(kind: str, tmp_path: Path) -> None:
         if kind == "mcap file":
             (bag,) = bag.glob("*.mcap")
     out = tmp_path / "drive.csv"
-    found = gr.import_telemetry(bag, out, rover="hakuto")
+    with pytest.raises(gr.DocumentError, match="odometry=KIND in Python"):
+        gr.import_telemetry(bag, out, rover="hakuto")
+    found = gr.import_telemetry(bag, out, rover="hakuto", odometry="visual")
     check_drive(rows_of(out))
     assert found.records == 3
     assert any("1 messages cannot be decoded" in note for note in found.notes)
@@ -194,6 +196,7 @@ MAPPING = """
 schema = "telemetry-mapping/1"
 name = "a test"
 time = "timestamp"
+odometry = "visual"
 [[reading]]
 topic = "/attitude"
 attitude = "q"

@@ -42,6 +42,10 @@ pub(crate) struct CardArgs {
     /// The rover holds its heading by itself: its nose does not fall, and nobody sets it again.
     #[arg(long)]
     pub(crate) holds_heading: bool,
+    /// Take a soil whose document says that what was learnt contradicts itself, which is refused
+    /// otherwise.
+    #[arg(long)]
+    pub(crate) accept_contradiction: bool,
     #[command(flatten)]
     pub(crate) rule: RuleArgs,
     /// Drive this many other soils by the card, in time and with the complete loads, 1 to 100000:

@@ -6,7 +6,7 @@ use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
 use super::measurements::ReadArgs;
-use super::{BalanceArgs, OutputArgs, PartArgs, SettingArgs, UncertaintyArgs};
+use super::{BalanceArgs, LogArgs, OutputArgs, PartArgs, SettingArgs, UncertaintyArgs};
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
@@ -20,12 +20,15 @@ use crate::list::{self, Numbers};
                         docs/guide/slip-from-current.md explains the columns, the equation and its limits."
 )]
 pub(crate) struct SlipFromCurrentArgs {
-    /// The log (CSV): `time_s`, and `current_a` and `wheel_speed_rad_s` of each wheel, as
+    /// The log: CSV with `time_s`, and `current_a` and `wheel_speed_rad_s` of each wheel, as
     /// `front-left.current_a` or in rows with the name in `wheel`. It may have `load_n`,
     /// `slip_angle_deg`, `steering_deg`, `slope_deg`, `yaw_deg`, `course_deg`, and `slip_ratio`
-    /// measured by other means.
-    #[arg(value_name = "LOG.csv")]
+    /// measured by other means. Or telemetry as `learn` reads it (CSV, Parquet, MCAP), with
+    /// `motor_current_a_WHEEL`.
+    #[arg(value_name = "LOG")]
     pub(crate) log: PathBuf,
+    #[command(flatten)]
+    pub(crate) log_args: LogArgs,
     /// A scenario's file or preset, for its rover, soil, load transfer and slope; without it the
     /// default scenario on level ground.
     #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]

@@ -3,10 +3,23 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::builder::PossibleValuesParser;
+use grouser::document::measurements::telemetry::Odometry;
+
+/// How telemetry is read, with the way of the rover.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct TelemetryArgs {
+    #[command(flatten)]
+    pub(crate) log: LogArgs,
+    /// What measured ways and rotations of the log, in place of what its mapping says: `visual`,
+    /// `wheels` (which shows no slip, and is left out), `fused` with wheels, or `motion-capture`.
+    #[arg(long, value_name = "KIND", value_parser = odometry_names())]
+    pub(crate) odometry: Option<String>,
+}
 
 /// How a log of messages is read.
 #[derive(Clone, Debug, Args)]
-pub(crate) struct TelemetryArgs {
+pub(crate) struct LogArgs {
     /// Which topics and fields of a log of messages (MCAP), or columns of a table (CSV), are which
     /// columns of telemetry: a file or one of `grouser`, `ros`, `foxglove`; without it the one of
     /// these that fits, for messages, and the names of a table's columns.
@@ -19,6 +32,22 @@ pub(crate) struct TelemetryArgs {
     /// otherwise.
     #[arg(long)]
     pub(crate) accept_loss: bool,
+}
+
+impl TelemetryArgs {
+    /// What measured ways and rotations, if that is stated.
+    pub(crate) fn odometry(&self) -> Option<Odometry> {
+        self.odometry.as_deref().and_then(Odometry::named)
+    }
+
+    /// The option as it was given, for a command that repeats this one.
+    pub(crate) fn odometry_option(&self) -> String {
+        self.odometry.as_ref().map_or_else(String::new, |kind| format!(" --odometry {kind}"))
+    }
+}
+
+fn odometry_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(Odometry::ALL.map(|(name, ..)| name))
 }
 
 fn choice(text: &str) -> Result<(String, String), String> {

@@ -8,7 +8,7 @@ use std::path::Path;
 use grouser::document::measurements::telemetry::numbers;
 use grouser::document::{self, Kind, escape};
 use grouser::vehicle::Rover;
-use grouser_logs::{Problem, TelemetryLog, TelemetryWriter, TopicChoices};
+use grouser_logs::{Problem, TelemetryLog, TelemetryWriter};
 
 use crate::args::ImportTelemetryArgs;
 use crate::failure::Failure;
@@ -42,7 +42,7 @@ pub(crate) fn run(args: &ImportTelemetryArgs) -> Result<(), Failure> {
             convert(&mut log, (Path::new("-"), writer), &rover, output::failed_to_print)
         }),
     }?;
-    inputs::check_share_used(log.label(), log.share_used(), &args.telemetry)
+    inputs::check_share_used(log.label(), log.share_used(), &args.telemetry.log)
 }
 
 fn print_mapping(name: &str) -> Result<(), Failure> {
@@ -62,21 +62,23 @@ fn opened(args: &ImportTelemetryArgs, path: &Path, rover: &Rover) -> Result<Tele
     if !stdin().is_terminal() {
         return inputs::telemetry(path, &args.telemetry, rover, None);
     }
-    let mapping = inputs::mapping(&args.telemetry)?;
-    let mut choices: TopicChoices = args.telemetry.topics.iter().cloned().collect();
+    let mut options =
+        inputs::log_options(&args.telemetry.log)?.with_odometry(args.telemetry.odometry());
     loop {
-        let error = match TelemetryLog::open(path, rover, mapping.as_ref(), &choices) {
+        let error = match TelemetryLog::open(path, rover, &options) {
             Ok(log) => return Ok(log),
             Err(error) => error,
         };
         let (what, topics) = match error.problem() {
             // A choice that was made already and is asked for again is not one of the topics.
-            Problem::Ambiguous { what, topics } if !choices.contains_key(what) => (what, topics),
+            Problem::Ambiguous { what, topics } if !options.topics.contains_key(what) => {
+                (what, topics)
+            }
             _ => return Err(error.into()),
         };
         activity::end();
         let topic = dialogue::ask(what, topics, &mut BufReader::new(stdin()), &mut stderr())?;
-        choices.insert(what.clone(), topic);
+        options.topics.insert(what.clone(), topic);
     }
 }
 

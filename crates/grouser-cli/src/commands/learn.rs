@@ -12,6 +12,7 @@ mod watch;
 
 use grouser::answers::Answer;
 use grouser::answers::learn::{LearnQuestion, LearntDrive, SOIL_FILE};
+use grouser::document::columns::learn::gross_in_words;
 use grouser::document::learn::LearntSoil;
 use grouser::document::{LoadedScenario, SAMPLES_FILE, escape};
 use grouser::studies::ensemble::samples::Sample;
@@ -34,6 +35,7 @@ use crate::args::LearnArgs;
 use crate::failure::Failure;
 use crate::inputs;
 use crate::interrupt;
+use crate::output;
 use crate::output::Format;
 use crate::output::answer::{give, write};
 use crate::output::folder::OutputFolder;
@@ -71,20 +73,23 @@ pub(crate) fn run(args: &LearnArgs) -> Result<(), Failure> {
     }
     taught?;
     let label = inputs::telemetry_label(&args.log);
-    inputs::check_share_used(&label, share_used, &args.telemetry)
+    inputs::check_share_used(&label, share_used, &args.telemetry.log)
 }
 
 /// Checks that the log taught something: predictions of a log that did not are those of before, and
 /// no soil was learnt.
 fn check_taught(args: &LearnArgs, learner: &Learner) -> Result<(), Failure> {
-    if learner.learnt().stretches > 0 {
+    let learnt = learner.learnt();
+    if learnt.stretches > learnt.forgotten {
         return Ok(());
     }
     let label = inputs::telemetry_label(&args.log);
     let notes = learner.notes();
-    let why = notes.first().map_or("no rows make up a stretch of the way", String::as_str);
+    let gross = learner.gross_faults().first().map(gross_in_words);
+    let why = gross.as_ref().or(notes.first());
+    let why = why.map_or("no rows make up a stretch of the way", String::as_str);
     // Wheels of one side may be mounted the other way round.
-    let mirrored = learner.learnt().not_used.contains_key(&NotUsed::Manoeuvre);
+    let mirrored = learnt.not_used.contains_key(&NotUsed::Manoeuvre);
     let hint = "\nhint: where one side's speeds have the other sign throughout, `sign = -1` in a \
                 mapping turns them";
     let hint = if mirrored { hint } else { "" };
@@ -103,7 +108,9 @@ fn add_soil(
     let learnt = LearntSoil::now(scenario, learner, (args.seed, args.samples), &log);
     let learnt = learnt.map_err(|error| reaches_too_far(&error))?;
     let Some(learnt) = learnt else { return Ok(()) };
-    if args.cards {
+    if args.cards && learnt.soil.get("contradictions").is_some() {
+        output::notes(["no cards are made of a soil that contradicts itself"]);
+    } else if args.cards {
         Cards::of(args, scenario, &learnt)?.add_to(folder, answer);
     }
     answer.next = vec![
@@ -121,10 +128,11 @@ fn repeat(args: &LearnArgs, question: &LearnQuestion) -> String {
     let (slopes, advice) = (args.predict_slope_deg.joined(), question.advice.as_ref());
     format!(
         "grouser learn log.csv --scenario scenario.toml{slope} --predict-slope-deg {slopes} \
-         --samples {} --seed {}{}",
+         --samples {} --seed {}{}{}",
         args.samples,
         args.seed,
-        advice::flags(advice)
+        advice::flags(advice),
+        args.telemetry.odometry_option()
     )
 }
 

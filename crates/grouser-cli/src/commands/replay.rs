@@ -27,14 +27,16 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     let mut answer = question.answer("replay", &replay, notes);
     let slope = args.slope_deg.as_ref().map_or(String::new(), |it| format!(" --slope-deg={it}"));
     let samples = sampling::flags(question.sampling);
-    let repeat = format!("grouser replay log.csv --scenario scenario.toml{slope}{samples}");
+    let odometry = args.telemetry.odometry_option();
+    let repeat =
+        format!("grouser replay log.csv --scenario scenario.toml{slope}{samples}{odometry}");
     answer.next = next(&answer);
     if let Some(slide) = slide {
         slide.write_answer(&answer, &title_of(&question.scenario))?;
     }
     give(&answer, &repeat, folder, args.output.format)?;
     let label = inputs::telemetry_label(&args.log);
-    inputs::check_share_used(&label, share_used, &args.telemetry)
+    inputs::check_share_used(&label, share_used, &args.telemetry.log)
 }
 
 /// The commands to go on with.

@@ -1,21 +1,24 @@
 //! `grouser slip-from-current`: the slip of each wheel from a log of its motor's current and speed.
 
 use grouser::answers::slip_from_current::SlipQuestion;
+use grouser::document::escape;
 
 use super::sampling;
 use crate::args::SlipFromCurrentArgs;
 use crate::failure::Failure;
 use crate::inputs::{self, SlipInputs};
 use crate::list::Numbers;
+use crate::output;
 use crate::output::answer::give;
 use crate::output::folder::OutputFolder;
 
 pub(crate) fn run(args: &SlipFromCurrentArgs) -> Result<(), Failure> {
     let mut folder = OutputFolder::for_args(&args.output)?;
-    let SlipInputs { question, estimator, log, bytes } = inputs::slip_from_current(args)?;
+    let SlipInputs { question, estimator, log, notes, bytes } = inputs::slip_from_current(args)?;
     let found =
         sampling::with_bar(estimator.log_steps(&log), |go_on| estimator.of_log(&log, go_on));
     let answer = question.answer("slip-from-current", &log, &sampling::whole(found));
+    output::notes(notes.iter().map(|note| escape::line(note)));
     if let Some(folder) = &mut folder {
         folder.add("log.csv", bytes);
     }

@@ -1,5 +1,6 @@
 //! The inputs of a card.
 
+use grouser::document::learn::contradiction;
 use grouser::document::{self, LoadedScenario};
 use grouser::studies::verdict::Rule;
 
@@ -22,6 +23,12 @@ pub(crate) fn card(args: &CardArgs) -> Result<CardInputs, Failure> {
     let (setting, balance) = (&args.setting, &args.balance);
     let scenario = balanced("card", args.scenario.as_deref(), rover, soil, setting, balance)?;
     refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
+    if let Some(why) = contradiction(&scenario.document).filter(|_| !args.accept_contradiction) {
+        return Err(Failure::Usage(format!(
+            "{why}\nhint: learn anew with another prior or mended telemetry, or take it as it is by \
+             --accept-contradiction"
+        )));
+    }
     let rim_speed = rim_speed(args.rim_speed_m_s.as_ref(), &scenario)?;
     Ok(CardInputs { scenario, rim_speed, rule })
 }

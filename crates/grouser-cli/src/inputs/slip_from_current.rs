@@ -3,13 +3,19 @@
 use std::ops::RangeInclusive;
 
 use grouser::answers::slip_from_current::SlipQuestion;
-use grouser::document::measurements::motor_log::{LogChoice, MotorLog, read_motor_log};
+use grouser::document::measurements::motor_log::{
+    LogChoice, MotorLog, MotorLogOfTelemetry, is_telemetry, read_motor_log,
+};
 use grouser::document::measurements::read_bytes;
 use grouser::document::unit::{DEG, DIRECTION_DEG, less_whole_turns};
 use grouser::document::{self, escape};
 use grouser::studies::slip_from_current::{NoEstimator, SlipEstimator, SlipSettings, TorqueNoise};
+use grouser::vehicle::Rover;
 
-use super::{balanced_overrides, check_numbers, refuse_sampled_keys, scenario_source, single};
+use super::{
+    balanced_overrides, check_numbers, check_share_used, refuse_sampled_keys, scenario_source,
+    single, telemetry_without_way,
+};
 use crate::args::SlipFromCurrentArgs;
 use crate::commands::sampling;
 use crate::failure::Failure;
@@ -20,6 +26,8 @@ pub(crate) struct SlipInputs {
     pub(crate) question: SlipQuestion,
     pub(crate) estimator: SlipEstimator,
     pub(crate) log: MotorLog,
+    /// What was left out of telemetry.
+    pub(crate) notes: Vec<String>,
     /// The log as it was read.
     pub(crate) bytes: Vec<u8>,
 }
@@ -63,7 +71,11 @@ pub(crate) fn slip_from_current(args: &SlipFromCurrentArgs) -> Result<SlipInputs
     let choice = choice(args)?;
     let bytes = read_bytes(&args.log, choice.limits)?;
     let label = escape::path(&args.log);
-    let log = read_motor_log(&label, &bytes, &choice, &scenario.value.rover)?;
+    let (log, notes) = if is_telemetry(&bytes) {
+        of_telemetry(args, &choice, &scenario.value.rover)?
+    } else {
+        (read_motor_log(&label, &bytes, &choice, &scenario.value.rover)?, Vec::new())
+    };
     let one = |numbers: &Option<Numbers>| numbers.as_ref().map(|it| it.0[0]);
     let question = SlipQuestion {
         log: args.log.display().to_string(),
@@ -74,7 +86,28 @@ pub(crate) fn slip_from_current(args: &SlipFromCurrentArgs) -> Result<SlipInputs
         settings,
         sampling,
     };
-    Ok(SlipInputs { question, estimator, log, bytes })
+    Ok(SlipInputs { question, estimator, log, notes, bytes })
+}
+
+/// Telemetry, by the reader of `learn`; and what of it was left out.
+fn of_telemetry(
+    args: &SlipFromCurrentArgs,
+    choice: &LogChoice,
+    rover: &Rover,
+) -> Result<(MotorLog, Vec<String>), Failure> {
+    let mut telemetry = telemetry_without_way(&args.log, &args.log_args, rover)?;
+    let mut log = MotorLogOfTelemetry::default();
+    let most = choice.limits.rows;
+    while let Some(record) = telemetry.next_record()? {
+        if log.count() == most {
+            let label = telemetry.label();
+            let why = format!("{label}: has more than {most} rows\nhint: --max-rows reads more");
+            return Err(Failure::Usage(why));
+        }
+        log.add(&record, choice, rover);
+    }
+    check_share_used(telemetry.label(), telemetry.share_used(), &args.log_args)?;
+    Ok((log.finish(telemetry.label())?, telemetry.notes()))
 }
 
 fn settings(args: &SlipFromCurrentArgs) -> Result<SlipSettings, Failure> {

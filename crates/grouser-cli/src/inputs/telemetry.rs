@@ -3,13 +3,14 @@
 use std::io;
 use std::path::Path;
 
+use grouser::document::measurements::telemetry::Odometry;
 use grouser::document::{self, Kind, Overrides, Source, escape};
 use grouser::vehicle::Rover;
-use grouser_logs::{Mapping, TelemetryError, TelemetryLog};
+use grouser_logs::{LogOptions, Mapping, TelemetryError, TelemetryLog};
 
 use super::flag_source;
 use super::follow::Following;
-use crate::args::TelemetryArgs;
+use crate::args::{LogArgs, TelemetryArgs};
 use crate::failure::Failure;
 
 /// The name of standard input among files.
@@ -37,17 +38,35 @@ pub(crate) fn telemetry(
     following: Option<Following>,
 ) -> Result<TelemetryLog, Failure> {
     let label = telemetry_label(path);
-    let mapping = mapping(args)?;
-    let (mapping, choices) = (mapping.as_ref(), args.topics.iter().cloned().collect());
+    let options = log_options(&args.log)?.with_odometry(args.odometry());
+    read(path, &label, &options, rover, following)
+}
+
+/// A log whose ways nobody looks at, whatever measured them.
+pub(crate) fn telemetry_without_way(
+    path: &Path,
+    args: &LogArgs,
+    rover: &Rover,
+) -> Result<TelemetryLog, Failure> {
+    let options = log_options(args)?.with_odometry(Some(Odometry::Visual));
+    read(path, &telemetry_label(path), &options, rover, None)
+}
+
+fn read(
+    path: &Path,
+    label: &str,
+    options: &LogOptions,
+    rover: &Rover,
+    following: Option<Following>,
+) -> Result<TelemetryLog, Failure> {
     if is_standard_input(path) {
-        let source = Box::new(io::stdin().lock());
-        return Ok(TelemetryLog::of_table(&label, source, rover, mapping, &choices)?);
+        return Ok(TelemetryLog::of_table(label, Box::new(io::stdin().lock()), rover, options)?);
     }
     if let Some(following) = following {
         let source = Box::new(following.open(path)?);
-        return Ok(TelemetryLog::of_table(&label, source, rover, mapping, &choices)?);
+        return Ok(TelemetryLog::of_table(label, source, rover, options)?);
     }
-    Ok(TelemetryLog::open(path, rover, mapping, &choices)?)
+    Ok(TelemetryLog::open(path, rover, options)?)
 }
 
 /// Less of a log than this is too little to rely on without a word [-]. Source: ours.
@@ -56,11 +75,7 @@ const LEAST_USED: f64 = 0.5;
 /// Checks that enough of a log could be used; all else is done then.
 ///
 /// * `share`: of its rows or readings [-]
-pub(crate) fn check_share_used(
-    label: &str,
-    share: f64,
-    args: &TelemetryArgs,
-) -> Result<(), Failure> {
+pub(crate) fn check_share_used(label: &str, share: f64, args: &LogArgs) -> Result<(), Failure> {
     if share >= LEAST_USED || args.accept_loss {
         return Ok(());
     }
@@ -81,9 +96,11 @@ pub(crate) fn is_standard_input(path: &Path) -> bool {
     path == Path::new(STANDARD_INPUT)
 }
 
-/// The mapping that is named.
-pub(crate) fn mapping(args: &TelemetryArgs) -> Result<Option<Mapping>, Failure> {
-    Ok(args.mapping.as_deref().map(Mapping::find).transpose()?)
+/// How a log is read.
+pub(crate) fn log_options(args: &LogArgs) -> Result<LogOptions, Failure> {
+    let mapping = args.mapping.as_deref().map(Mapping::find).transpose()?;
+    let topics = args.topics.iter().cloned().collect();
+    Ok(LogOptions::default().with_mapping(mapping).with_topics(topics))
 }
 
 /// The rover that was driven.

@@ -4,7 +4,7 @@ use crate::program::{Place, number};
 use crate::telemetry::{LEARN, RUN};
 
 /// A drive as a table, in a place.
-fn drive() -> (Place, String) {
+pub(crate) fn drive() -> (Place, String) {
     let place = Place::new();
     place.results(&format!("{RUN} --telemetry drive.csv"));
     let text = place.read("drive.csv");
@@ -201,4 +201,153 @@ fn degrees_are_not_taken_for_metres() {
     let metres = "\"crs\":{\"type\":\"name\",\"properties\":{\"name\":\"EPSG:32632\"}},";
     place.write("way.geojson", way(metres));
     assert_eq!(place.line(mission).code(), 0, "{}", place.line(mission).stderr);
+}
+
+/// A table whose cells are others.
+///
+/// * `cell`: of each row, by the name of a column, what it becomes; nothing to leave it
+pub(crate) fn with_cells(
+    text: &str,
+    cell: impl Fn(&str, &dyn Fn(&str) -> f64) -> Option<f64>,
+) -> String {
+    let (header, rows) = text.split_once('\n').expect("a header");
+    let names: Vec<&str> = header.split(',').collect();
+    let row = |line: &str| {
+        let cells: Vec<&str> = line.split(',').collect();
+        let number = |name: &str| {
+            let place = names.iter().position(|it| *it == name).expect("a column");
+            cells[place].parse().unwrap_or(f64::NAN)
+        };
+        let new = names.iter().zip(&cells).map(|(name, old)| {
+            cell(name, &number).map_or_else(
+                || (*old).to_owned(),
+                |it| {
+                    if it.is_nan() { String::new() } else { it.to_string() }
+                },
+            )
+        });
+        new.collect::<Vec<_>>().join(",") + "\n"
+    };
+    format!("{header}\n{}", rows.lines().map(row).collect::<String>())
+}
+
+/// The same with each column of a name that begins so multiplied.
+pub(crate) fn times(text: &str, column: &str, factor: f64) -> String {
+    with_cells(text, |name, number| name.starts_with(column).then(|| factor * number(name)))
+}
+
+/// The drive with odometry that is the turning of its wheels.
+pub(crate) fn by_wheels(text: &str) -> String {
+    /// Rims of the preset at the tips of their grousers [m].
+    const RADIUS: f64 = 0.11;
+    let wheels = ["front-left", "front-right", "rear-left", "rear-right"];
+    let times: Vec<f64> =
+        text.lines().skip(1).filter_map(|it| it.split(',').next()?.parse().ok()).collect();
+    let step = times[1] - times[0];
+    with_cells(text, |name, number| match name {
+        "vo_dx_m" => {
+            let read = wheels.map(|wheel| number(&format!("wheel_speed_rad_s_{wheel}")));
+            let read: Vec<f64> = read.into_iter().filter(|it| it.is_finite()).collect();
+            Some(RADIUS * step * read.iter().sum::<f64>() / read.len() as f64)
+        }
+        "vo_dy_m" | "vo_dyaw_deg" => Some(0.0),
+        _ => None,
+    })
+}
+
+/// What `learn` answers, whatever its exit code is.
+fn learnt(place: &Place, log: &str) -> serde_json::Value {
+    let answer = place.line(&format!("learn {log} {LEARN} --format json"));
+    serde_json::from_str(&answer.stdout).unwrap_or_else(|_| panic!("{}", answer.stderr))
+}
+
+/// Odometry of wheels makes every sand a road: it is named, and nothing of it is learnt.
+#[test]
+fn wheel_odometry_is_named_and_tells_no_slip() {
+    let (place, text) = drive();
+    let expected = slip_after(&place, "drive.csv");
+    place.write("wheels.csv", by_wheels(&text));
+    let check_band = |answer: &serde_json::Value| {
+        let of = |name: &str| number(&answer["predictions"][0][name]);
+        let (low, high) = (of("slip_ratio_p2_5"), of("slip_ratio_p97_5"));
+        assert!(low < expected && expected < high, "{low} to {high} for {expected}");
+    };
+    let answer = learnt(&place, "wheels.csv");
+    let warnings = answer["warnings"].to_string();
+    assert!(warnings.contains("wheel odometry"), "{warnings}");
+    check_band(&answer);
+    // Who says so is not warned.
+    let answer = learnt(&place, "wheels.csv --odometry wheels");
+    assert!(answer["notes"].to_string().contains("odometry is that of wheels"), "{answer}");
+    assert_eq!(answer["warnings"].to_string(), "[]");
+    check_band(&answer);
+    // What cameras see is not taken for it.
+    let answer = learnt(&place, "drive.csv");
+    assert_eq!(answer["warnings"].to_string(), "[]");
+    let replayed = place.json("replay wheels.csv --rover hakuto --soil toyoura --model ishigami");
+    let first = replayed["points_to"][0].as_str().expect("a sentence");
+    assert!(first.starts_with("wheel odometry"), "{first}");
+}
+
+/// A unit that is taken for another is named by its factor, by `learn` and `replay` alike, the
+/// larger it is the more.
+#[test]
+fn gross_faults_are_named_by_their_factors() {
+    let (place, text) = drive();
+    let replay = |log: &str| {
+        let line = format!("replay {log} --rover hakuto --soil toyoura --model ishigami");
+        place.json(&line)["points_to"].to_string()
+    };
+    place.write("drive.csv", &text);
+    assert!(!replay("drive.csv").contains("left out"), "a healthy drive");
+    for (column, factor, named) in [
+        ("wheel_torque_nm", 1e3, "N·mm, or mA, taken for N·m, or A are: a factor of 1000"),
+        ("wheel_torque_nm", 1e-3, "a factor of 1/1000"),
+        ("wheel_torque_nm", -1.0, "torque: torques, or currents, have another sign"),
+        (
+            "wheel_speed_rad_s",
+            30.0 / std::f64::consts::PI,
+            "rpm taken for rad/s are: a factor of 1/9.55",
+        ),
+        ("wheel_speed_rad_s", std::f64::consts::PI / 30.0, "taken for rpm are: a factor of 9.55"),
+        ("vo_d", 1e3, "ways in mm taken for m are: a factor of 1000"),
+        ("sinkage_mm", 1e3, "µm taken for mm are: a factor of 1000"),
+    ] {
+        let log = format!("{column}-{factor}.csv");
+        place.write(&log, times(&text, column, factor));
+        let found = replay(&log);
+        assert!(found.contains(named), "{log}: {found}");
+        let warnings = learnt(&place, &log)["warnings"].to_string();
+        assert!(warnings.contains(named), "{log}: {warnings}");
+    }
+}
+
+/// What contradicts itself is in the soil's document, and no card is made of it unless it is asked
+/// for by name.
+#[test]
+fn a_soil_that_contradicts_itself_makes_no_card_unasked() {
+    let (place, text) = drive();
+    place.write("large.csv", times(&text, "wheel_torque_nm", 1e3));
+    // Across a slope a rover that hardly drifts: on no soil of the prior does it.
+    place.write("straight.csv", times(&text, "vo_dy_m", 0.05));
+    for (log, named) in
+        [("drive", None), ("large", Some("torque:")), ("straight", Some("its prior"))]
+    {
+        place.line(&format!("learn {log}.csv {LEARN} --out {log}"));
+        let soil = place.read(&format!("{log}/soil.toml"));
+        let card = format!("card --rover hakuto --soil {log}/soil.toml --samples 2");
+        let Some(named) = named else {
+            assert!(!soil.contains("contradictions"), "{soil}");
+            continue;
+        };
+        assert!(soil.contains("contradictions") && soil.contains(named), "{log}: {soil}");
+        let answer = place.line(&card);
+        let says = |part: &str| answer.stderr.contains(part);
+        assert!(
+            answer.code() == 2 && says(named) && says("--accept-contradiction"),
+            "{log}: {}",
+            answer.stderr
+        );
+        assert_eq!(place.line(&format!("{card} --accept-contradiction")).code(), 0, "{log}");
+    }
 }

@@ -105,3 +105,31 @@ fn what_cannot_be_used_is_refused_with_what_would_help() {
         assert!(refused.contains(message), "{rest}: {refused}");
     }
 }
+
+/// Telemetry is read as `learn` reads it, whatever it is written as: its currents give the slip that
+/// the run's own table gives.
+#[test]
+fn telemetry_of_any_kind_gives_the_same_slip() {
+    let place = driven();
+    let run = "traverse --rover r.toml --slope-deg 8 --set scenario.start.yaw_deg=90 --simulation \
+               quasi-steady --duration-s 2 --telemetry tele.csv --sensor perfect";
+    place.results(run);
+    assert_eq!(place.line("import-telemetry tele.csv --rover r.toml --out tele.parquet").code(), 0);
+    let medians = |log: &str| -> Vec<f64> {
+        let line = COMMAND.replacen("log.csv", log, 1) + " --ignore load_n,slip_angle_deg";
+        let rows = place.json(&line)["rows"].as_array().expect("rows").clone();
+        rows.iter().map(|row| number(&row["slip_ratio_p50"])).collect()
+    };
+    let expected = medians("log.csv");
+    for log in ["tele.csv", "tele.parquet"] {
+        let found = medians(log);
+        assert_eq!(found.len(), expected.len(), "{log}");
+        for (found, expected) in found.iter().zip(&expected) {
+            assert!((found - expected).abs() < 0.005, "{log}: {found} for {expected}");
+        }
+    }
+    // What has no currents says so.
+    place.results(&run.replace("r.toml", "hakuto").replace("tele.csv", "bare.csv"));
+    let answer = place.line(&COMMAND.replacen("log.csv", "bare.csv", 1));
+    assert!(answer.code() == 2 && answer.stderr.contains("current"), "{}", answer.stderr);
+}

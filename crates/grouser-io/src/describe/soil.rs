@@ -8,7 +8,8 @@ mod shear;
 mod small_wheel;
 
 use super::super::field::{
-    At, Beside, DEG, KG_M3, KPA, Keyword, ONE, Table, nothing, number, part, table, word, words,
+    At, Beside, DEG, KG_M3, KPA, Keyword, ONE, Table, nothing, number, part, table, texts, word,
+    words,
 };
 use super::super::kind::Kind;
 use super::about::{assumed, date, model, name, notes, schema, source};
@@ -54,6 +55,11 @@ pub(crate) static SOIL: Table<Soil> = Table {
         date(),
         notes(),
         assumed(),
+        texts(
+            "contradictions",
+            "What contradicts itself in how a soil was learnt, a sentence each: `card` refuses such a \
+             soil without `--accept-contradiction`.",
+        ),
         model("The wheel–soil model that the values were made for; without it, `ishigami`."),
         words(
             "consistency",

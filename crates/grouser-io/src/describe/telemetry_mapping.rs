@@ -7,6 +7,7 @@ use super::super::field::{
     Allowed, Each, Field, OF_KEY, ONE, RAD, S, Shape, Table, Text, Texts, field, flag, list, note,
     number, text, word, words,
 };
+use super::super::measurements::telemetry::Odometry;
 use super::super::telemetry_mapping::given::{
     Axes, Given, GivenReading, PoseColumn, column_pattern, units,
 };
@@ -74,6 +75,7 @@ pub(crate) static TELEMETRY_MAPPING: Table<Given> = Table {
              counts."
         )
         .optional(),
+        ODOMETRY,
         list(
             "reading",
             "What is read of the messages of a topic.",
@@ -86,6 +88,27 @@ pub(crate) static TELEMETRY_MAPPING: Table<Given> = Table {
         ),
     ],
 };
+
+const ODOMETRY: Field<Given> = words(
+    "odometry",
+    "What measured the ways and rotations that the document reads; without it the option \
+     `--odometry` of commands, or `odometry` in Python, has to say it.",
+    &[
+        word(Odometry::ALL[0].0, Odometry::ALL[0].2, |it: &mut Given| {
+            it.odometry = Some(Odometry::Visual)
+        }),
+        word(Odometry::ALL[1].0, Odometry::ALL[1].2, |it: &mut Given| {
+            it.odometry = Some(Odometry::Wheels)
+        }),
+        word(Odometry::ALL[2].0, Odometry::ALL[2].2, |it: &mut Given| {
+            it.odometry = Some(Odometry::Fused)
+        }),
+        word(Odometry::ALL[3].0, Odometry::ALL[3].2, |it: &mut Given| {
+            it.odometry = Some(Odometry::MotionCapture);
+        }),
+    ],
+)
+.optional();
 
 static READING: Table<GivenReading> = Table {
     doc: "What is read of the messages of a topic.",

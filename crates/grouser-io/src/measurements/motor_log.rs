@@ -4,11 +4,13 @@
 //! (`front-left.current_a`), as runs are written; or a row for each wheel and time, with the name
 //! in the column `wheel`. Rows of one time that follow each other are one record. [`COLUMNS`] lists
 //! the columns; others are left aside.
+//!
+//! Telemetry, as `learn` reads it, becomes such a log by [`MotorLogOfTelemetry`].
 
 use std::ops::RangeInclusive;
 
 use csv::StringRecord;
-use grouser_core::vehicle::Rover;
+use grouser_core::vehicle::{Mount, Rover, slope_and_yaw};
 
 use super::super::check::nearest;
 use super::super::columns::{
@@ -21,6 +23,7 @@ use super::limits::Limits;
 use super::log_column::{LogColumn, column};
 use super::row::{name_of, number_of};
 use super::table;
+use super::telemetry::{MOTOR_CURRENT, TelemetryRecord, WheelTelemetry};
 
 /// Name of the wheel, in files with a row for each wheel.
 pub const WHEEL: &str = "wheel";
@@ -135,6 +138,64 @@ pub fn read_motor_log(
         }
         header.add(&mut log, &record, line)?;
     }
+    checked(label, log)
+}
+
+/// Telemetry as a log of motors: attitude, currents, speeds and steering angles, record by record.
+#[derive(Clone, Debug, Default)]
+pub struct MotorLogOfTelemetry {
+    log: MotorLog,
+    /// Slope and yaw as they were last read [rad].
+    attitude: Option<[f64; 2]>,
+}
+
+impl MotorLogOfTelemetry {
+    /// Adds a record; how the body leans holds until it is read again.
+    ///
+    /// * `rover`: the rover that was driven: wheels without a motor have no readings
+    pub fn add(&mut self, record: &TelemetryRecord, choice: &LogChoice, rover: &Rover) {
+        let is_read = |column: Quantity| choice.ignored.iter().all(|name| name != column.name);
+        if let (Some(roll), Some(pitch)) = (record.roll, record.pitch) {
+            self.attitude = Some(slope_and_yaw(roll, pitch));
+        }
+        let [slope, leaning] = self.attitude.map_or([None; 2], |it| it.map(Some));
+        let reading = |(wheel, mount): (&WheelTelemetry, &Mount)| {
+            mount.unit.motor.as_ref()?;
+            Some(MotorReading {
+                current: wheel.current?,
+                wheel_speed: wheel.speed?,
+                steering: wheel.steering.filter(|_| is_read(STEERING)),
+                ..MotorReading::default()
+            })
+        };
+        self.log.records.push(MotorRecord {
+            time: record.time,
+            slope: slope.filter(|_| is_read(SLOPE)),
+            yaw: record.yaw.or(leaning).filter(|_| is_read(YAW)).or(choice.yaw),
+            course: choice.course,
+            wheels: record.wheels.iter().zip(rover.mounts()).map(reading).collect(),
+        });
+    }
+
+    /// How many records it has.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.log.records.len()
+    }
+
+    /// The log.
+    ///
+    /// * `label`: what messages call the source
+    ///
+    /// # Errors
+    /// [`MeasurementError`] of a log without a row, or without a current beside a speed.
+    pub fn finish(self, label: &str) -> Result<MotorLog, MeasurementError> {
+        checked(label, self.log)
+    }
+}
+
+/// A log that has readings.
+fn checked(label: &str, log: MotorLog) -> Result<MotorLog, MeasurementError> {
     if log.records.is_empty() {
         return Err(MeasurementError::whole(label, Problem::NoRows));
     }
@@ -142,6 +203,20 @@ pub fn read_motor_log(
         return Err(MeasurementError::whole(label, Problem::NoMotorReadings));
     }
     Ok(log)
+}
+
+/// Whether a file is telemetry, as `learn` reads it: it is no table of CSV, or its header has
+/// currents by the names of telemetry.
+///
+/// * `bytes`: of the file, all or the first
+#[must_use]
+pub fn is_telemetry(bytes: &[u8]) -> bool {
+    /// As far as a header reaches, with comments before it [bytes].
+    const START: usize = 1 << 14;
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(START)]);
+    // What is packed or encoded has characters that no table has.
+    let is_encoded = |it: char| it.is_control() && !it.is_whitespace();
+    start.contains(MOTOR_CURRENT.name) || start.contains(is_encoded)
 }
 
 /// The header, understood.

@@ -11,6 +11,8 @@
 //! with the length of the log.
 
 mod clock;
+mod frozen;
+mod odometry;
 mod reader;
 mod rows;
 
@@ -27,6 +29,7 @@ use super::super::columns::{
 use super::super::unit::{A, DEG, M, NM};
 use super::log_column::{LogColumn, column};
 pub use clock::TimeUnit;
+pub use odometry::Odometry;
 pub use reader::{CellReader, NextRow, TelemetryReader};
 pub use rows::{Cell, TelemetryRows, TimeColumn, is_same_wheel};
 
@@ -115,6 +118,10 @@ pub struct Lost {
     pub rows_without_time: u64,
     /// Rows whose time does not come after that of the row before.
     pub rows_out_of_order: u64,
+    /// Rows in which the torques, or the currents, of all wheels are exactly 0 while they turn.
+    pub rows_without_torque: u64,
+    /// Cells that stay exactly the same while others of their kind change, by column.
+    pub frozen: BTreeMap<String, u64>,
     /// Cells that are no numbers, or out of their ranges, by column.
     pub cells: BTreeMap<String, u64>,
 }
@@ -148,14 +155,20 @@ impl Lost {
     }
 
     fn combined(&self, other: &Self, both: fn(u64, u64) -> u64) -> Self {
-        let columns = self.cells.keys().chain(other.cells.keys());
-        let of = |it: &Self, column: &str| it.cells.get(column).copied().unwrap_or(0);
-        let cells = columns.map(|it| (it.clone(), both(of(self, it), of(other, it))));
+        let by_column = |one: &BTreeMap<String, u64>, other: &BTreeMap<String, u64>| {
+            let of =
+                |it: &BTreeMap<String, u64>, column: &str| it.get(column).copied().unwrap_or(0);
+            let columns = one.keys().chain(other.keys());
+            let all = columns.map(|it| (it.clone(), both(of(one, it), of(other, it))));
+            all.filter(|(_, count)| *count > 0).collect()
+        };
         Self {
             damaged_rows: both(self.damaged_rows, other.damaged_rows),
             rows_without_time: both(self.rows_without_time, other.rows_without_time),
             rows_out_of_order: both(self.rows_out_of_order, other.rows_out_of_order),
-            cells: cells.filter(|(_, count)| *count > 0).collect(),
+            rows_without_torque: both(self.rows_without_torque, other.rows_without_torque),
+            frozen: by_column(&self.frozen, &other.frozen),
+            cells: by_column(&self.cells, &other.cells),
         }
     }
 
@@ -174,7 +187,20 @@ impl Lost {
                 "{count} cells of `{column}` are no numbers within its range, and count as gaps"
             )
         });
-        rows.chain(cells).collect()
+        let frozen = self.frozen.iter().map(|(column, count)| {
+            format!(
+                "{count} cells of `{column}` stay exactly the same while others of their kind \
+                 change, as those of a frozen channel, and count as gaps"
+            )
+        });
+        let torques = (self.rows_without_torque > 0).then(|| {
+            format!(
+                "{} rows have torques, or currents, of exactly 0 on all wheels while they turn, \
+                 which no sensor measures, and which count as gaps",
+                self.rows_without_torque
+            )
+        });
+        rows.chain(cells).chain(frozen).chain(torques).collect()
     }
 }
 
@@ -247,6 +273,29 @@ const OF_WHEEL: [OfWheel; 5] = [
 ];
 
 impl TelemetryRecord {
+    /// Leaves out what tells how the rover moved.
+    fn leave_out_motion(&mut self) {
+        (self.displacement, self.rotation) = ([None; 2], None);
+        (self.position, self.is_way_incomplete) = ([None; 2], false);
+    }
+
+    /// Leaves out torques and currents that are exactly 0 on all wheels while they turn; whether
+    /// there were some.
+    fn leave_out_zero_torques(&mut self) -> bool {
+        let turns = self.wheels.iter().any(|it| it.speed.is_some_and(|speed| speed != 0.0));
+        let mut were_some = false;
+        for (_, field) in OF_WHEEL.iter().filter(|(it, _)| {
+            [WHEEL_TORQUE, MOTOR_CURRENT].iter().any(|torque| torque.name == it.name)
+        }) {
+            let read: Vec<f64> = self.wheels.iter_mut().filter_map(|it| *field(it)).collect();
+            if turns && read.len() > 1 && read.iter().all(|it| *it == 0.0) {
+                self.wheels.iter_mut().for_each(|it| *field(it) = None);
+                were_some = true;
+            }
+        }
+        were_some
+    }
+
     fn of_rover(&self, column: &str) -> Option<f64> {
         if column == TIME.name {
             return Some(self.time);
@@ -329,6 +378,29 @@ mod tests {
         assert_eq!(lost.cells[ROLL.name], 2);
         assert_eq!((lost.damaged_rows, lost.rows_without_time, lost.rows_out_of_order), (2, 1, 1));
         assert_eq!(lost.sentences().len(), 4);
+    }
+
+    /// A roll that stays as it is while the pitch changes, and torques of 0 on all wheels that turn,
+    /// are no readings; what is rounded, and what stands, is one.
+    #[test]
+    fn constants_are_no_readings() {
+        let rows = |line: &dyn Fn(u32) -> String| -> String {
+            let head = "time_s,roll_deg,pitch_deg,wheel_speed_rad_s_front-left,wheel_speed_rad_s_front-right,wheel_torque_nm_front-left,wheel_torque_nm_front-right\n";
+            head.to_owned()
+                + &(0..300).map(|row| format!("{row},{}\n", line(row))).collect::<String>()
+        };
+        let changing = |row: u32| f64::from(row * 37 % 101) / 50.0;
+        let frozen = rows(&|row| format!("3.25,{},0,{},0,0", changing(row), changing(row) + 0.5));
+        let (found, lost) = all(frozen.as_bytes()).unwrap();
+        assert_eq!(found.iter().filter(|it| it.roll.is_some()).count(), 100);
+        assert!(found.iter().all(|it| it.pitch.is_some()));
+        let place = rover().mounts().iter().position(|it| it.name == "front-left").unwrap();
+        assert!(found.iter().all(|it| it.wheels[place].speed == Some(0.0)), "a wheel that stands");
+        assert!(found.iter().all(|it| it.wheels.iter().all(|it| it.torque.is_none())));
+        assert_eq!((lost.frozen[ROLL.name], lost.frozen.len()), (200, 1));
+        assert_eq!(lost.sentences().len(), 2, "{:?}", lost.sentences());
+        let rounded = rows(&|row| format!("3.25,{},0.5,0.5,0.1,0.1", changing(row).round()));
+        assert!(all(rounded.as_bytes()).unwrap().1.is_nothing());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::super::columns::{PITCH, ROLL, X, Y, YAW};
 use super::super::measurements::Dimension;
-use super::super::measurements::telemetry::{COLUMNS, FORWARD, LEFTWARD, ROTATION};
+use super::super::measurements::telemetry::{COLUMNS, FORWARD, LEFTWARD, Odometry, ROTATION};
 
 /// What stands for the name of a wheel, in topics, fields and columns.
 pub const WHEEL: &str = "{wheel}";
@@ -19,6 +19,8 @@ pub(crate) struct Given {
     pub(crate) row_topic: String,
     /// The field with the time of a message.
     pub(crate) time: String,
+    /// What measured ways and rotations.
+    pub(crate) odometry: Option<Odometry>,
     pub(crate) readings: Vec<GivenReading>,
 }
 

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use grouser_core::vehicle::Rover;
 use grouser_io::measurements::telemetry::{
-    Cell, FORWARD, LEFTWARD, ROTATION, TelemetryRecord, TelemetryRows,
+    Cell, FORWARD, LEFTWARD, Odometry, ROTATION, TelemetryRecord, TelemetryRows,
 };
 use grouser_io::telemetry_mapping::{Axes, FieldPath, Found, PoseColumn, PoseOf, RowRule};
 use serde_json::Value;
@@ -13,10 +13,11 @@ use crate::error::{Problem, TelemetryError};
 use crate::mapping::Mapping;
 use crate::mapping::clock::{Clock, When};
 use crate::mapping::merge::{Merge, Readings};
-use crate::mapping::plan::{NumberField, Plan, Planned, PlannedReading, TopicChoices};
+use crate::mapping::plan::{NumberField, Plan, Planned, PlannedReading};
 use crate::mapping::pose::{Frames, Pose, Rotation};
 use crate::mapping::topic::Topic;
 use crate::mapping::turning::{Angle, Turned};
+use crate::telemetry::options::LogOptions;
 
 /// Records of messages, which are added as they come.
 pub struct MessageRows {
@@ -51,26 +52,25 @@ struct Counts {
     damaged_fields: HashMap<String, u64>,
     /// Orientations that are exactly none, by topic.
     unmeasured: HashMap<String, u64>,
+    /// Poses that turn about the vertical alone, and so have no roll and no pitch, by topic.
+    flat: HashMap<String, u64>,
 }
 
 impl MessageRows {
     /// * `label`: what messages call the log
-    /// * `mapping`: which topics and fields are which columns; without it the built-in one that
-    ///   fits
-    /// * `choices`: the topic that is meant where several fit
+    /// * `options`: how it is read
     ///
     /// # Errors
-    /// [`TelemetryError`] where the mapping reads none of the topics or is ambiguous, or names a
-    /// wheel that the rover does not have.
+    /// [`TelemetryError`] where the mapping reads none of the topics or is ambiguous, names a wheel
+    /// that the rover does not have, or reads ways of which nothing says how they were measured.
     pub fn new(
         label: &str,
-        mapping: Option<&Mapping>,
         topics: &[Topic],
         rover: &Rover,
-        choices: &TopicChoices,
+        options: &LogOptions,
     ) -> Result<Self, TelemetryError> {
         let built_in;
-        let mapping = if let Some(mapping) = mapping {
+        let mapping = if let Some(mapping) = &options.mapping {
             mapping
         } else {
             built_in = Mapping::for_topics(topics).ok_or_else(|| {
@@ -81,9 +81,16 @@ impl MessageRows {
             })?;
             &built_in
         };
-        let plan = Plan::new(&mapping.rules, topics, rover, choices)
+        let plan = Plan::new(&mapping.rules, topics, rover, &options.topics)
             .map_err(|problem| TelemetryError::new(label, problem))?;
-        let table = TelemetryRows::new(&mapping.label, plan.columns.clone(), rover)?;
+        let stated = options.odometry.or(mapping.rules.odometry);
+        if let (None, Some(topic)) = (stated, plan.way_of()) {
+            let (topic, mapping) = (topic.to_owned(), mapping.label.clone());
+            let problem = Problem::OdometryNotStated { topic, mapping };
+            return Err(TelemetryError::new(label, problem));
+        }
+        let table = TelemetryRows::new(&mapping.label, plan.columns.clone(), rover)?
+            .measured_by(stated.unwrap_or(Odometry::Visual));
         let mut by_topic: HashMap<String, Vec<usize>> = HashMap::new();
         for (place, reading) in plan.readings.iter().enumerate() {
             for topic in &reading.topics {
@@ -196,14 +203,23 @@ impl MessageRows {
             cells[*column] = *cell;
         }
         for reading in &self.plan.readings {
-            let Planned::Pose { columns, axes, slot, .. } = &reading.what else { continue };
+            let Planned::Pose { of, columns, axes, slot } = &reading.what else { continue };
             let Some((_, pose)) = readings.poses.iter().find(|(known, _)| known == slot) else {
                 continue;
             };
-            let last = self.last[*slot].replace(*pose);
+            let (last, mut flat) = (self.last[*slot].replace(*pose), 0);
             let numbers = numbers_of(pose, last.as_ref(), *axes);
+            // What goes on a plane has no roll and no pitch, which is no reading of them.
+            let is_flat = matches!(of, PoseOf::Pose(_)) && pose.rotation.is_about_vertical();
             for (what, column) in columns {
+                if is_flat && matches!(what, PoseColumn::Roll | PoseColumn::Pitch) {
+                    flat += 1;
+                    continue;
+                }
                 cells[*column] = numbers(*what).map_or(Cell::Gap, Cell::of_number);
+            }
+            if flat > 0 {
+                *self.counts.flat.entry(reading.topics.join(", ")).or_default() += 1;
             }
         }
         for (slot, angle) in &readings.angles {
@@ -267,6 +283,11 @@ impl MessageRows {
             (
                 &self.counts.unmeasured,
                 "are exactly the identity, which no sensor measures, and count as gaps",
+            ),
+            (
+                &self.counts.flat,
+                "turn about the vertical alone, as what moves on a plane does, and have no roll and \
+                 no pitch",
             ),
             (
                 &self.counts.several,

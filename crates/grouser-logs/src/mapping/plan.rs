@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use grouser_core::vehicle::{Mount, Rover};
 use grouser_io::columns::TIME;
+use grouser_io::measurements::telemetry::{FORWARD, LEFTWARD, ROTATION};
 use grouser_io::telemetry_mapping::{
     Axes, FieldPath, PoseColumn, PoseOf, Reading, RowRule, TelemetryMapping, WHEEL, What,
 };
@@ -108,6 +109,21 @@ impl Plan {
             return Err(Problem::Encoding { topic: name, encoding });
         }
         Ok(plan)
+    }
+
+    /// The topic that ways, rotations or a pose's position are read of, if any is.
+    pub(crate) fn way_of(&self) -> Option<&str> {
+        let is_way = |name: &str| [FORWARD, LEFTWARD, ROTATION].iter().any(|it| it.name == name);
+        let has_way = |reading: &&PlannedReading| match &reading.what {
+            Planned::Number { column, .. } => is_way(&self.columns[*column]),
+            Planned::Pose { columns, .. } => {
+                let of_motion = |column: PoseColumn, place: usize| {
+                    matches!(column, PoseColumn::X | PoseColumn::Y) || is_way(&self.columns[place])
+                };
+                columns.iter().any(|(column, place)| of_motion(*column, *place))
+            }
+        };
+        self.readings.iter().find(has_way)?.topics.first().map(String::as_str)
     }
 
     /// Adds a reading, if its topic is there, for the columns that no reading before it gives.

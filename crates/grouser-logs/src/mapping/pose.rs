@@ -31,6 +31,11 @@ impl Rotation {
         ((size - 1.0).abs() <= ROUNDING).then(|| Self { w: w / size, v: v / size })
     }
 
+    /// Whether it is one about z alone, exactly.
+    pub(crate) fn is_about_vertical(self) -> bool {
+        self.v.x == 0.0 && self.v.y == 0.0
+    }
+
     pub(crate) fn inverse(self) -> Self {
         Self { w: self.w, v: -self.v }
     }

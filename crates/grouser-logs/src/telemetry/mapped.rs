@@ -17,8 +17,9 @@ use serde_json::{Map, Value};
 use crate::error::{Problem, TelemetryError};
 use crate::mapping::Mapping;
 use crate::mapping::messages::{MessageRows, stamp};
-use crate::mapping::plan::{TopicChoices, WheelNames};
+use crate::mapping::plan::WheelNames;
 use crate::mapping::topic::Topic;
+use crate::telemetry::options::LogOptions;
 
 /// Parts of a column's name, at most; no message is deeper.
 const DEEPEST: usize = 32;
@@ -44,7 +45,7 @@ impl<R: Read> MappedTable<R> {
         source: R,
         mapping: &Mapping,
         rover: &Rover,
-        choices: &TopicChoices,
+        options: &LogOptions,
     ) -> Result<Self, TelemetryError> {
         let reader = CellReader::new(label.to_owned(), source)?;
         let columns = Columns::of(reader.names());
@@ -63,7 +64,7 @@ impl<R: Read> MappedTable<R> {
             let [sought, names] = [&sought, &names].map(|all| some_of(all));
             format!("the mapping looks for {sought}, which no column has; there are {names}")
         });
-        let rows = MessageRows::new(label, Some(mapping), &found.topics, rover, choices)?;
+        let rows = MessageRows::new(label, &found.topics, rover, options)?;
         let topics = found.topics.into_iter().map(|it| (parts(&it.name), it.name));
         let topics = topics.map(|(parts, name)| (name, parts)).collect();
         let is_read = false;

@@ -10,9 +10,7 @@ use grouser_io::measurements::telemetry::{TelemetryRecord, TelemetryRows};
 use serde_json::Value;
 
 use crate::error::{Problem, TelemetryError};
-use crate::mapping::Mapping;
 use crate::mapping::messages::MessageRows;
-use crate::mapping::plan::TopicChoices;
 use crate::mapping::topic::Topic;
 use crate::mcap::format::{
     Channel, ChunkIndex, Footer, Head, MAGIC, Message, Part as _, Record as _, Schema,
@@ -21,6 +19,7 @@ use crate::mcap::order::Chronological;
 use crate::mcap::read::{Known, Messages, OverBudget, known_of};
 use crate::protobuf::decode::Description;
 use crate::ros::decode::{RosDescription, Wire};
+use crate::telemetry::options::LogOptions;
 
 /// An MCAP log, record by record.
 pub(crate) struct McapLog {
@@ -74,13 +73,12 @@ impl McapLog {
     pub(crate) fn new(
         label: &str,
         mut file: File,
-        mapping: Option<&Mapping>,
         rover: &Rover,
-        choices: &TopicChoices,
+        options: &LogOptions,
     ) -> Result<Self, TelemetryError> {
         let failed = |error| failure(label, error);
         let (known, chunks) = contents(&mut file).map_err(failed)?;
-        let rows = MessageRows::new(label, mapping, &topics(&known), rover, choices)?;
+        let rows = MessageRows::new(label, &topics(&known), rover, options)?;
         let messages = Chronological::new(file, chunks).map_err(failed)?;
         let messages = messages
             .ok_or_else(|| failed(io::Error::other("the file changed while it was read")))?;

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use grouser_core::vehicle::Rover;
 use grouser_io::guard::guarded;
-use grouser_io::measurements::telemetry::{Cell, TelemetryRecord, TelemetryRows};
+use grouser_io::measurements::telemetry::{Cell, Odometry, TelemetryRecord, TelemetryRows};
 use parquet::basic::{LogicalType, TimeUnit, Type as PhysicalType};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::{ByteArray, DataType};
@@ -68,7 +68,12 @@ enum Scale {
 }
 
 impl ParquetLog {
-    pub(crate) fn new(label: &str, file: File, rover: &Rover) -> Result<Self, TelemetryError> {
+    pub(crate) fn new(
+        label: &str,
+        file: File,
+        rover: &Rover,
+        odometry: Option<Odometry>,
+    ) -> Result<Self, TelemetryError> {
         let failed = |error: ParquetError| of_parquet(label, &error);
         let file = Bounded::new(file).map_err(failed)?;
         let about = checked(|| ParquetMetaDataReader::new().parse_and_finish(&file));
@@ -77,7 +82,8 @@ impl ParquetLog {
         // A column inside another is not a column of the table.
         let name = |it: &Arc<ColumnDescriptor>| it.path().string();
         let names: Vec<String> = columns.iter().map(name).collect();
-        let table = TelemetryRows::new(label, names.clone(), rover)?;
+        let table = TelemetryRows::new(label, names.clone(), rover)?
+            .measured_by(odometry.unwrap_or(Odometry::Visual));
         let read: Vec<usize> = (0..names.len()).filter(|place| table.is_used(*place)).collect();
         for place in &read {
             check_column(&columns[*place])

@@ -17,10 +17,10 @@ mod written;
 use std::fs;
 use std::path::Path;
 
-use grouser::document::measurements::telemetry::{TelemetryRecord, WheelTelemetry};
+use grouser::document::measurements::telemetry::{Odometry, TelemetryRecord, WheelTelemetry};
 use grouser::vehicle::Rover;
 use grouser_core::paper;
-use grouser_logs::{Mapping, TelemetryError, TelemetryLog, TopicChoices};
+use grouser_logs::{LogOptions, Mapping, TelemetryError, TelemetryLog, TopicChoices};
 use tempfile::TempDir;
 
 /// All records of a log, and its notes.
@@ -31,14 +31,30 @@ fn rover() -> Rover {
 }
 
 fn read_file(path: &Path, mapping: Option<&str>, choices: &[(&str, &str)]) -> Read {
-    read_of(&rover(), path, mapping, choices)
+    read_of(&rover(), path, mapping, choices, Some(Odometry::Visual))
 }
 
-fn read_of(rover: &Rover, path: &Path, mapping: Option<&str>, choices: &[(&str, &str)]) -> Read {
+fn read_measured(
+    path: &Path,
+    mapping: Option<&str>,
+    choices: &[(&str, &str)],
+    odometry: Option<Odometry>,
+) -> Read {
+    read_of(&rover(), path, mapping, choices, odometry)
+}
+
+fn read_of(
+    rover: &Rover,
+    path: &Path,
+    mapping: Option<&str>,
+    choices: &[(&str, &str)],
+    odometry: Option<Odometry>,
+) -> Read {
     let mapping = mapping.map(|text| Mapping::parse("mapping.toml", text)).transpose()?;
     let own = |(what, topic): &(&str, &str)| ((*what).to_owned(), (*topic).to_owned());
     let choices: TopicChoices = choices.iter().map(own).collect();
-    let mut log = TelemetryLog::open(path, rover, mapping.as_ref(), &choices)?;
+    let options = LogOptions::default().with_mapping(mapping).with_topics(choices);
+    let mut log = TelemetryLog::open(path, rover, &options.with_odometry(odometry))?;
     let mut records = Vec::new();
     while let Some(record) = log.next_record()? {
         records.push(record);

@@ -376,7 +376,7 @@ fn wheels_are_found_by_the_names_of_their_joints() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("log");
     fs::write(&path, log.finish()).unwrap();
-    let (records, notes) = read_of(&rover, &path, None, &[]).unwrap();
+    let (records, notes) = read_of(&rover, &path, None, &[], Some(Odometry::Visual)).unwrap();
     let found = records[0].wheels.iter().map(|it| it.speed.unwrap()).collect::<Vec<_>>();
     assert_eq!(found, [1.0, 2.0, 3.0, 4.0], "{notes:?}");
 }
@@ -394,4 +394,57 @@ fn an_identity_is_no_orientation() {
     assert!(records.len() == 1 && records[0].time == 2.0, "{records:?}");
     let note = "2 readings of /imu are exactly the identity";
     assert!(notes.iter().any(|it| it.starts_with(note)), "{notes:?}");
+}
+
+/// What measured the way of a rover is stated, or the log is refused: the name of a topic says
+/// nothing of it.
+#[test]
+fn odometry_is_stated_or_refused() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("log.mcap");
+    fs::write(&path, robot(Packed::Not).finish()).unwrap();
+    let error = read_measured(&path, None, &[], None).unwrap_err().to_string();
+    for part in ["/odom", "mapping ros", "--odometry KIND", "`odometry = \"KIND\"`", "fused"] {
+        assert!(error.contains(part), "{error}");
+    }
+    let moves = |records: &[TelemetryRecord]| {
+        records.iter().any(|it| it.displacement[0].is_some() || it.rotation.is_some())
+    };
+    let leans = |records: &[TelemetryRecord]| records.iter().any(|it| it.roll.is_some());
+    for (name, odometry, _) in Odometry::ALL {
+        let (records, notes) = read_measured(&path, None, &[], Some(odometry)).unwrap();
+        assert_eq!(moves(&records), odometry != Odometry::Wheels, "{name}");
+        assert!(leans(&records), "{name}");
+        let is_noted = notes.iter().any(|it| it.contains("wheels"));
+        assert_eq!(is_noted, matches!(odometry, Odometry::Wheels | Odometry::Fused), "{notes:?}");
+    }
+    // What the mapping states counts, and the option before it.
+    let ours = "schema = \"telemetry-mapping/1\"\nname = \"ours\"\ntime = \"header.stamp\"\n\
+        odometry = \"wheels\"\nrow_interval_s = 0.1\n\
+        [[reading]]\nmessage = \"nav_msgs/Odometry\"\npose = \"pose.pose\"\n\
+        [[reading]]\nmessage = \"sensor_msgs/Imu\"\nattitude = \"orientation\"\n";
+    let (records, _) = read_measured(&path, Some(ours), &[], None).unwrap();
+    assert!(!moves(&records) && leans(&records));
+    let (records, _) = read_measured(&path, Some(ours), &[], Some(Odometry::Visual)).unwrap();
+    assert!(moves(&records));
+}
+
+/// A pose on a plane says nothing of how the ground leans.
+#[test]
+fn a_pose_on_a_plane_has_no_roll_and_no_pitch() {
+    for (axis, expected) in [("z", None), ("x", Some(30_f64.to_radians()))] {
+        let mut log = Container::begin(Packed::Not);
+        let odometry = log.channel("/odom", "nav_msgs/msg/Odometry");
+        let pose =
+            json!({"position": {"x": 7.0, "y": 0.0, "z": 0.0}, "orientation": about(axis, 30.0)});
+        let message = json!({"header": header(1.0), "pose": {"pose": pose}});
+        log.message(odometry, 5 * SECOND, &bytes(&message));
+        let read = read(&log.finish(), None);
+        let Some(expected) = expected else {
+            assert!(read.unwrap().1.iter().any(|it| it.contains("about the vertical alone")));
+            continue;
+        };
+        let (records, _) = read.unwrap();
+        assert!((records[0].roll.unwrap() - expected).abs() < 1e-12, "{records:?}");
+    }
 }

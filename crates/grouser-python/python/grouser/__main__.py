@@ -49,6 +49,11 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
         help="the topic that is meant where several have messages of a type; can be repeated",
     )
     command.add_argument(
+        "--odometry",
+        choices=["visual", "wheels", "fused", "motion-capture"],
+        help="what measured ways and rotations, in place of what the mapping says",
+    )
+    command.add_argument(
         "--force", action="store_true", help="replace the file if it is there"
     )
     return parser.parse_args(arguments)
@@ -64,6 +69,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             asked.mapping,
             rover=asked.rover,
             topics=dict(asked.topics),
+            odometry=asked.odometry,
             force=asked.force,
         )
     except (GrouserError, ImportError, OSError) as error:

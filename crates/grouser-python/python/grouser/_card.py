@@ -126,6 +126,7 @@ def card(
     uphill: Literal["left", "right"] = "left",
     rule: Mapping[str, float] | None = None,
     holds_heading: bool = False,
+    accept_contradiction: bool = False,
     **changes: Any,
 ) -> Card:
     """The operator's card: on each slope whether to go, which heading to set, how often to set it
@@ -160,6 +161,8 @@ def card(
     holds_heading : bool
         Whether the rover holds its heading by itself. Then its nose does not fall, and nobody sets
         it again.
+    accept_contradiction : bool
+        Whether a soil is taken whose document says that what was learnt contradicts itself.
     **changes
         Keys of the scenario with other values.
 
@@ -171,7 +174,7 @@ def card(
     ------
     ParameterError, DocumentError, DocumentNotFoundError
         As `Scenario`; and for slopes that do not rise, or a rule in which a go asks for less than
-        a no-go.
+        a no-go, or a soil that contradicts itself.
 
     Examples
     --------
@@ -191,7 +194,7 @@ def card(
     speed = None if rim_speed_m_s is None else number("rim_speed_m_s", rim_speed_m_s)
     draws = (whole_number("seed", seed), whole_number("samples", samples, most=2**32 - 1))
     rows, courses, steepest = _core.card(
-        run._document, slopes, draws, speed, (uphill == "right", holds_heading), limits_of(rule)
+        run._document, slopes, draws, speed, (uphill == "right", holds_heading, accept_contradiction), limits_of(rule)
     )
     rows, courses = _tables.arrays_of(rows), _tables.arrays_of(courses)
     of_course = ("slope_deg", "course", "verdict")

@@ -368,6 +368,12 @@ class SoilKeys:
             ...
 
         @property
+        def contradictions(self) -> tuple[str, ...]:
+            """What contradicts itself in how a soil was learnt, a sentence each: `card` refuses
+            such a soil without `--accept-contradiction`."""
+            ...
+
+        @property
         def model(self) -> str:
             """The wheel–soil model that the values were made for; without it, `ishigami`."""
             ...
@@ -914,6 +920,9 @@ class ScenarioTerrainZoneSoil(TypedDict, total=False):
     """Anything else worth knowing."""
     assumed: tuple[str, ...]
     """Values that the source does not give, each as `key: why this value`."""
+    contradictions: tuple[str, ...]
+    """What contradicts itself in how a soil was learnt, a sentence each: `card` refuses such a
+    soil without `--accept-contradiction`."""
     model: str
     """The wheel–soil model that the values were made for; without it, `ishigami`."""
     consistency: str

@@ -111,7 +111,9 @@ class Learner:
         """The wheels, by whose names telemetry has its columns."""
         return tuple(self._native.wheel_names)
 
-    def update(self, telemetry: Telemetry) -> list[dict[str, Any]]:
+    def update(
+        self, telemetry: Telemetry, *, odometry: str | None = None
+    ) -> list[dict[str, Any]]:
         """Takes telemetry that comes after what it has, and learns from it.
 
         Parameters
@@ -121,6 +123,10 @@ class Learner:
             ``roll_deg``, ``vo_dx_m``, ``wheel_torque_nm_front-left``, …; a mapping of single
             numbers is one record. NaN is a gap. A dataset may have its wheels over a dimension
             ``wheel``. Records that do not come after the last one are left out.
+        odometry : str, optional
+            What measured ways and rotations, in place of what the names of the columns say:
+            ``"visual"``, ``"wheels"`` (which show no slip, and are left out), ``"fused"`` with
+            wheels, or ``"motion-capture"``.
 
         Returns
         -------
@@ -129,17 +135,23 @@ class Learner:
             ``lessons.csv``, and ``warnings``, of which each has the columns of ``warnings.csv``.
         """
         columns = _columns(telemetry)
-        return _lessons(self._native.update(list(columns), list(columns.values())))
+        return _lessons(self._native.update(list(columns), list(columns.values()), odometry))
 
-    def update_log(self, log: str | os.PathLike[str]) -> list[dict[str, Any]]:
+    def update_log(
+        self, log: str | os.PathLike[str], *, odometry: str | None = None
+    ) -> list[dict[str, Any]]:
         """Takes the records of a log that come after what it has; returns as `update`.
 
         Parameters
         ----------
         log : str or path
             The log, a CSV file.
+        odometry : str, optional
+            What measured ways and rotations, in place of what a mapping says: ``"visual"``,
+            ``"wheels"`` (which show no slip, and are left out), ``"fused"`` with wheels, or
+            ``"motion-capture"``.
         """
-        return _lessons(self._native.update_log(os.fspath(log)))
+        return _lessons(self._native.update_log(os.fspath(log), odometry))
 
     def stream(self, records: Iterable[Telemetry]) -> Iterator[dict[str, Any]]:
         """Takes record after record, and gives each lesson as soon as it is learnt.
@@ -362,6 +374,7 @@ def learn(
     prior: Soil | Source | None = None,
     rover: Rover | Source | None = None,
     slope_deg: float | None = None,
+    odometry: str | None = None,
     **changes: Any,
 ) -> Learner:
     """Learns from a whole drive, as the program's ``grouser learn`` does.
@@ -372,6 +385,10 @@ def learn(
         The drive.
     scenario, prior, rover, slope_deg, **changes
         As of `Learner`.
+    odometry : str, optional
+        What measured ways and rotations, in place of what a mapping says: ``"visual"``,
+        ``"wheels"`` (which show no slip, and are left out), ``"fused"`` with wheels, or
+        ``"motion-capture"``.
 
     Returns
     -------
@@ -390,9 +407,9 @@ def learn(
     """
     learner = Learner(scenario, prior=prior, rover=rover, slope_deg=slope_deg, **changes)
     if isinstance(log, (str, os.PathLike)):
-        learner.update_log(log)
+        learner.update_log(log, odometry=odometry)
     else:
-        learner.update(log)
+        learner.update(log, odometry=odometry)
     return learner.finished()
 
 

@@ -34,6 +34,7 @@ def replay(
     /,
     *,
     slope_deg: float | None = None,
+    odometry: str | None = None,
     uncertainty: bool = False,
     samples: int = 200,
     seed: int = 1,
@@ -53,6 +54,10 @@ def replay(
     slope_deg : float, optional
         Slope of the plane of the free run, and of the ground where the telemetry has neither roll
         nor pitch [°]; without it the median of the slopes that roll and pitch give.
+    odometry : str, optional
+        What measured ways and rotations, in place of what a mapping says: ``"visual"``,
+        ``"wheels"`` (which show no slip, and are left out), ``"fused"`` with wheels, or
+        ``"motion-capture"``.
     uncertainty : bool
         Whether bands are added over samples of the soil, as its document says, and of the
         wheel–soil model, where none is asked for by ``model``.
@@ -104,7 +109,7 @@ def replay(
     known = slope_deg is not None
     drawn = count if uncertainty else 0
     tables, points_to, notes, wheels = _core.replay(
-        run._document, path, text, known, drawn, whole_number("seed", seed)
+        run._document, path, text, known, drawn, whole_number("seed", seed), odometry
     )
     over_time, channels, findings = tables
     attrs = {

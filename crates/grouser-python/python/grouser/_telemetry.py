@@ -45,6 +45,7 @@ def import_telemetry(
     *,
     rover: Any = None,
     topics: Mapping[str, str] | None = None,
+    odometry: str | None = None,
     force: bool = False,
 ) -> ImportedTelemetry:
     """Converts a log of a drive to the telemetry that ``grouser learn`` reads.
@@ -70,6 +71,10 @@ def import_telemetry(
     topics : mapping of str to str, optional
         For a type of messages the topic that is meant, where several have it:
         ``{"sensor_msgs/Imu": "/imu/front"}``.
+    odometry : str, optional
+        What measured ways and rotations, in place of what a mapping says: ``"visual"``,
+        ``"wheels"`` (which show no slip, and are left out), ``"fused"`` with wheels, or
+        ``"motion-capture"``.
     force : bool
         Whether a file that is there is replaced.
 
@@ -81,7 +86,7 @@ def import_telemetry(
     ------
     DocumentError, DocumentNotFoundError
         For a log or a mapping that cannot be used; the message names the choices where several
-        topics fit.
+        topics fit, and what to say where nothing says how the way of the rover was measured.
     ParameterError
         For a file that is there already.
     ImportError
@@ -105,7 +110,8 @@ def import_telemetry(
         raise ParameterError(f"{out} exists already: force=True replaces it", "out")
     scenario = scenario_of(None, {} if rover is None else {"rover": rover})
     choices = [(str(what), str(topic)) for what, topic in (topics or {}).items()]
-    settings = (scenario._document, None if mapping is None else os.fspath(mapping), choices)
+    path = None if mapping is None else os.fspath(mapping)
+    settings = (scenario._document, path, choices, odometry)
     with _beside(out) as new:
         records, notes = _converted(log, new, *settings)
     return ImportedTelemetry(out, records, tuple(notes))
@@ -121,18 +127,23 @@ def _beside(out: Path) -> Iterator[Path]:
 
 
 def _converted(
-    log: Path, out: Path, rover: _core.Document, mapping: str | None, choices: list[tuple[str, str]]
+    log: Path,
+    out: Path,
+    rover: _core.Document,
+    mapping: str | None,
+    choices: list[tuple[str, str]],
+    odometry: str | None,
 ) -> tuple[int, list[str]]:
     if not log.exists():
         raise DocumentNotFoundError(f"{log}: there is no such file", str(log))
     if not _is_bag(log):
         try:
-            return _core.import_telemetry(log, out, rover, mapping, choices)
+            return _core.import_telemetry(log, out, rover, mapping, choices, odometry)
         except DocumentError as error:
             # Messages of ROS whose types are described in IDL, or nowhere, in an MCAP log.
             if error.key != "encoding":
                 raise
-    return _converted_bag(log, out, rover, mapping, choices)
+    return _converted_bag(log, out, rover, mapping, choices, odometry)
 
 
 def _is_bag(log: Path) -> bool:
@@ -143,7 +154,12 @@ def _is_bag(log: Path) -> bool:
 
 
 def _converted_bag(
-    log: Path, out: Path, rover: _core.Document, mapping: str | None, choices: list[tuple[str, str]]
+    log: Path,
+    out: Path,
+    rover: _core.Document,
+    mapping: str | None,
+    choices: list[tuple[str, str]],
+    odometry: str | None,
 ) -> tuple[int, list[str]]:
     try:
         from rosbags.highlevel import AnyReader, AnyReaderError
@@ -157,7 +173,9 @@ def _converted_bag(
     try:
         with AnyReader([log], default_typestore=usual) as reader:
             topics = sorted({(it.topic, it.msgtype) for it in reader.connections})
-            rows = _core.TelemetryMessages(str(log), out, rover, mapping, topics, choices)
+            rows = _core.TelemetryMessages(
+                str(log), out, rover, mapping, topics, choices, odometry
+            )
             wanted = [it for it in reader.connections if rows.wants(it.topic)]
             _add_all(reader, wanted, rows)
             return rows.finish()

@@ -20,7 +20,7 @@ use super::{Answer, Attached, Member};
 use crate::document::LoadedScenario;
 use crate::document::columns::SLOPE;
 use crate::document::columns::heading::findings;
-use crate::document::columns::learn::WAY;
+use crate::document::columns::learn::{WAY, contradictions};
 use crate::document::columns::verdict::{self, ADVICE_OBJECT};
 use crate::document::learn::files_of_prior;
 use crate::studies::heading::HeadingStudy;
@@ -78,6 +78,7 @@ impl LearnQuestion {
             Member::Value("learnt", learnt(learner)),
             Member::Value("models", json!(shares(learner))),
             Member::Value("narrowed", json!(found.narrowed)),
+            Member::Value("contradictions", json!(contradictions(learner))),
         ];
         let soil = self.soil_file.as_ref().map(|file| Member::Value("soil", json!(file)));
         let advice = tables.advice.as_ref().map(|it| Member::Value("advice", it.to_json()));

@@ -6,10 +6,11 @@ mod state;
 use serde_json::{Map, Value as Json, json};
 
 pub use self::state::{KeptDrive, LARGEST_STATE, StateError, state_text};
+use super::columns::learn::contradictions;
 use super::soil_family::DISCREPANCY;
 use super::{
     Companion, Document, DocumentError, Kind, Loaded, LoadedScenario, Overrides, SAMPLES_FILE,
-    Source, UncertainSoil, read_scenario, with_priors_held, without_uncertainty,
+    Source, UncertainSoil, escape, read_scenario, with_priors_held, without_uncertainty,
 };
 use crate::contact::Model;
 use crate::soil::Discrepancy;
@@ -68,7 +69,21 @@ impl LearntSoil {
             env!("CARGO_PKG_VERSION"),
             learner.learnt().way,
         );
-        Ok(Some(Self::of((&document, uncertain), &believed, &source)))
+        let learnt = Self::of((&document, uncertain), &believed, &source);
+        Ok(Some(learnt.contradicted_by(contradictions(learner))))
+    }
+
+    /// The same with what contradicts itself in it.
+    fn contradicted_by(self, new: Vec<String>) -> Self {
+        if new.is_empty() {
+            return self;
+        }
+        let soil = self.soil.changed(|keys| {
+            let mut all = contradictions_of(keys.get(CONTRADICTIONS));
+            all.extend(new.into_iter().filter(|it| !all.contains(it)).collect::<Vec<_>>());
+            keys.insert(CONTRADICTIONS.to_owned(), json!(all));
+        });
+        Self { soil, ..self }
     }
 
     /// The file of samples that the document names.
@@ -126,6 +141,31 @@ impl LearntSoil {
         });
         Self { soil: with_priors_held(&soil), samples: csv(&keys, lists, believed) }
     }
+}
+
+/// The key of what contradicts itself in a soil that was learnt.
+const CONTRADICTIONS: &str = "contradictions";
+
+fn contradictions_of(given: Option<&Json>) -> Vec<String> {
+    let all = given.and_then(Json::as_array).into_iter().flatten();
+    all.filter_map(Json::as_str).map(str::to_owned).collect()
+}
+
+/// What contradicts itself in how the soil of a scenario was learnt: a sentence each.
+#[must_use]
+pub fn contradictions_of_soil(scenario: &Document) -> Vec<String> {
+    contradictions_of(scenario.get(&format!("soil.{CONTRADICTIONS}")))
+}
+
+/// Why the soil of a scenario is not to be relied on, if it was learnt with a contradiction.
+#[must_use]
+pub fn contradiction(scenario: &Document) -> Option<String> {
+    let all = contradictions_of_soil(scenario);
+    let name = escape::line(scenario.text("soil.name").unwrap_or("unnamed"));
+    (!all.is_empty()).then(|| {
+        let all = all.join("; ");
+        format!("soil {name}: what was learnt contradicts itself: {}", escape::line(&all))
+    })
 }
 
 /// What a learner believes under one model.

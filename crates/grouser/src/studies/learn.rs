@@ -23,11 +23,13 @@ pub mod advice;
 mod archive;
 mod bank;
 mod change;
+mod contradiction;
 mod currents;
 mod drive;
 mod filter;
 mod fitted;
 mod gaussian;
+mod gross;
 mod information;
 mod middle;
 mod motion;
@@ -47,10 +49,13 @@ use std::collections::BTreeMap;
 pub use self::archive::Archive;
 use self::bank::{Bank, Taught};
 use self::change::SoilChange;
+pub use self::contradiction::Contradiction;
 pub use self::currents::motor_log;
 pub use self::drive::{Drive, RecordDigest};
 pub use self::filter::Wandering;
 use self::filter::{Filter, Taken, last_before};
+pub(super) use self::gross::GrossFaults;
+pub use self::gross::{GrossFault, Suspect};
 pub use self::information::InformationByKind;
 pub use self::motion::NotUsed;
 use self::motion::{Expected, SeenMotion};
@@ -82,6 +87,9 @@ pub struct Learner {
     study: HeadingStudy,
     settings: LearnSettings,
     gatherer: Gatherer,
+    gross: GrossFaults,
+    /// Warnings of stretches that taught nothing, for the next one that does.
+    pending: Vec<Warning>,
     bank: Bank,
     change: SoilChange,
     watch: Watch,
@@ -103,6 +111,8 @@ pub struct Learnt {
     pub outliers: u64,
     /// Stretches that taught something.
     pub stretches: u64,
+    /// Those of them whose lessons were forgotten: a gross fault was in their readings.
+    pub forgotten: u64,
     /// The rims' way over all stretches [m].
     pub way: f64,
     /// Stretches that taught nothing, by why.
@@ -116,8 +126,8 @@ pub struct Lesson {
     pub stretch: Stretch,
     /// The rims' way until its end, of all stretches that taught something [m].
     pub way: f64,
-    /// Mean slip ratio of the wheels as it was seen [-].
-    pub slip_ratio: f64,
+    /// Mean slip ratio of the wheels as it was seen [-]; nothing where no way was read.
+    pub slip_ratio: Option<f64>,
     /// The same as it was expected before [-].
     pub expected_slip: f64,
     /// How much it narrowed what is believed of the soil [nat], under the model with the greatest
@@ -154,13 +164,14 @@ impl Learner {
         let slope = scenario.value.ground.plane_slope().filter(|_| slope_is_known);
         let bank = Bank::new(&BandInputs::of_scenario(scenario)).ok_or(NothingToLearn)?;
         let gatherer = Gatherer::new(&study.rover, slope);
-        let (change, watch, learnt) = Default::default();
-        Ok(Self { study, settings, gatherer, bank, change, watch, learnt })
+        let (gross, pending, change, watch, learnt) = Default::default();
+        Ok(Self { study, settings, gatherer, gross, pending, bank, change, watch, learnt })
     }
 
     /// Takes a record; what was learnt, where it completes a stretch that teaches something.
     pub fn update(&mut self, record: TelemetryRecord) -> Option<Lesson> {
         self.learnt.records += 1;
+        self.gross.read(&record);
         let stretch = self.gatherer.push(record)?;
         self.learn(stretch)
     }
@@ -171,8 +182,9 @@ impl Learner {
         self.learn(stretch)
     }
 
-    fn learn(&mut self, stretch: Stretch) -> Option<Lesson> {
+    fn learn(&mut self, mut stretch: Stretch) -> Option<Lesson> {
         self.learnt.outliers += stretch.outliers as u64;
+        self.look_for_gross_faults(&mut stretch);
         let motion = SeenMotion::of(&stretch, &self.study.rover);
         let taught = motion.and_then(|motion| {
             let before = self.bank.best(&self.settings).clone();
@@ -188,11 +200,13 @@ impl Learner {
         };
         self.learnt.stretches += 1;
         self.learnt.way += stretch.way;
-        let (expected_slip, warnings) = self.look(&stretch, &motion, &before, &taught);
+        let (expected_slip, of_soil) = self.look(&stretch, &motion, &before, &taught);
+        let mut warnings = std::mem::take(&mut self.pending);
+        warnings.extend(of_soil);
         let Taught { taken, information, .. } = taught;
         Some(Lesson {
             way: self.learnt.way,
-            slip_ratio: motion.slip_and_drift()[0],
+            slip_ratio: motion.is_way_known().then(|| motion.slip_and_drift()[0]),
             expected_slip,
             information,
             by_kind: InformationByKind::of(&stretch, &taken.by_number),
@@ -200,6 +214,45 @@ impl Learner {
             warnings,
             stretch,
         })
+    }
+
+    /// Warns of gross faults, forgets what they taught, and leaves out what they are of.
+    fn look_for_gross_faults(&mut self, stretch: &mut Stretch) {
+        let new = self.gross.look(stretch, &self.study.rover, self.study.gravity);
+        if !new.is_empty() {
+            self.bank.forget();
+            self.change = SoilChange::default();
+            self.watch.believed(None);
+            self.learnt.forgotten = self.learnt.stretches;
+        }
+        let warning = |fault| Warning {
+            kind: WarningKind::LyingSensor,
+            time: stretch.time[1],
+            way: self.learnt.way + stretch.way,
+            lead_time: None,
+            lead_way: None,
+            evidence: Evidence::Gross(fault),
+        };
+        self.pending.extend(new.into_iter().map(warning));
+        self.gross.leave_out(stretch);
+    }
+
+    /// Gross faults of the telemetry: what they are of was left out.
+    #[must_use]
+    pub fn gross_faults(&self) -> &[GrossFault] {
+        self.gross.found()
+    }
+
+    /// What was learnt that contradicts what was believed beforehand, under the model with the
+    /// greatest share.
+    #[must_use]
+    pub fn contradictions(&self) -> Vec<Contradiction> {
+        self.bank.best(&self.settings).contradictions()
+    }
+
+    /// Warnings that no lesson has.
+    fn take_pending(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.pending)
     }
 
     /// The slip ratio that was expected, and what there is to warn of. Where the soil is another,
@@ -216,10 +269,11 @@ impl Learner {
         let (study, patch) = (&self.study, self.settings.noise.way);
         let Taken { passed, push, .. } = &taught.taken;
         let filter = taught.filter as u64;
-        let [slip_ratio, drift] = motion.slip_and_drift();
         let expected = before.expected(study, motion);
         let slip_and_drift = expected.as_ref().map(|it| motion.expected_slip_and_drift(it));
         let [expected_slip, expected_drift] = slip_and_drift.unwrap_or([1.0, 0.0]);
+        let seen = motion.is_way_known().then(|| motion.slip_and_drift());
+        let [slip_ratio, drift] = seen.unwrap_or([expected_slip, expected_drift]);
         let expected_torques: Vec<f64> = expected.iter().flat_map(Expected::torques).collect();
         let thrust_of = |(mount, torque): (&Mount, &f64)| torque / mount.shearing_radius();
         let thrust: f64 = study.rover.mounts().iter().zip(&expected_torques).map(thrust_of).sum();
@@ -227,6 +281,7 @@ impl Learner {
             stretch,
             slip_ratio,
             drift,
+            is_slip_known: motion.is_way_known(),
             expected_slip,
             expected_drift,
             expected_torques: &expected_torques,

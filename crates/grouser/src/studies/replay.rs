@@ -43,7 +43,7 @@ pub use self::track::Pose;
 use self::track::Track;
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::heading::HeadingStudy;
-use super::learn::{GAP, Gatherer, NotUsed, Stretch};
+use super::learn::{GAP, Gatherer, GrossFault, GrossFaults, NotUsed, Stretch, Suspect};
 use crate::simulation::{Scenario, SteadyMotion};
 use crate::vehicle::{Rover, roll_and_pitch};
 use grouser_io::measurements::telemetry::TelemetryRecord;
@@ -64,6 +64,7 @@ pub struct Replayer {
     /// Every n-th stretch is kept.
     every: usize,
     taken: Taken,
+    gross: GrossFaults,
 }
 
 /// A stretch with the measured pose at its end.
@@ -94,6 +95,8 @@ pub struct Replay {
     pub stretches: Vec<ReplayedStretch>,
     /// How far measured and predicted are apart, in channels that have both.
     pub channels: Vec<ChannelSummary>,
+    /// Gross faults of the telemetry: what they are of is left out of the findings.
+    pub gross_faults: Vec<GrossFault>,
     /// What the differences say of each parameter, those of a cause together.
     pub findings: Vec<Finding>,
     /// Stretches that the findings rest on.
@@ -166,6 +169,7 @@ impl Replayer {
             kept: Vec::new(),
             every: 1,
             taken: Taken::default(),
+            gross: GrossFaults::default(),
         }
     }
 
@@ -173,6 +177,7 @@ impl Replayer {
     pub fn update(&mut self, record: TelemetryRecord) {
         self.taken.records += 1;
         let time = record.time;
+        self.gross.read(&record);
         self.track.push(&record);
         let rims = rim_speeds(&self.study.rover, &record);
         let complete = self.gatherer.push(record);
@@ -263,7 +268,9 @@ impl Replayer {
             let Some(sampled) = sampled else { return Ok(None) };
             add_bands(&mut stretches, &channels, &sampled);
         }
-        let (findings, explained_stretches) = self.findings(&motions);
+        let gross = self.gross_faults();
+        let (findings, explained_stretches) = self.findings(&motions, &gross);
+        let gross_faults = gross.found().to_vec();
         let mut not_predicted = BTreeMap::new();
         for why in motions.iter().filter_map(|it| it.as_ref().err()) {
             *not_predicted.entry(*why).or_default() += 1;
@@ -277,6 +284,7 @@ impl Replayer {
         Ok(Some(Replay {
             stretches,
             channels,
+            gross_faults,
             findings,
             explained_stretches,
             free_run,
@@ -356,13 +364,32 @@ impl Replayer {
         self.kept.iter().zip(motions).map(one).collect()
     }
 
+    /// What of the telemetry no rover can have.
+    fn gross_faults(&self) -> GrossFaults {
+        let mut gross = self.gross.clone();
+        for kept in &self.kept {
+            gross.look(&kept.stretch, &self.study.rover, self.study.gravity);
+        }
+        gross
+    }
+
     /// What the differences point to, and from how many stretches.
-    fn findings(&self, motions: &[Motion]) -> (Vec<Finding>, usize) {
-        let pairs: Vec<(&Kept, &Motion)> = self.kept.iter().zip(motions).collect();
+    ///
+    /// * `gross`: what is left out
+    fn findings(&self, motions: &[Motion], gross: &GrossFaults) -> (Vec<Finding>, usize) {
+        let has_attitude = gross.found().iter().all(|it| it.suspect != Suspect::Attitude);
+        let stretch = |kept: &Kept| {
+            let mut stretch = kept.stretch.clone();
+            gross.leave_out(&mut stretch);
+            stretch
+        };
+        let pairs = self.kept.iter().zip(motions).filter(|_| has_attitude);
+        let pairs: Vec<(Stretch, &Motion)> =
+            pairs.map(|(it, motion)| (stretch(it), motion)).collect();
         let sums = |base: &Faults| {
-            let one = |(kept, motion): &(&Kept, &Motion)| {
+            let one = |(stretch, motion): &(Stretch, &Motion)| {
                 let (situation, motion) = motion.as_ref().ok()?;
-                Differences::of(situation, &kept.stretch, base, motion)
+                Differences::of(situation, stretch, base, motion)
             };
             let all: Vec<Option<Differences>> = pairs.par_iter().map(one).collect();
             // Added up in order: the same bits whatever the threads.

@@ -19,7 +19,7 @@ mod heading;
 
 use grouser::document::LoadedScenario;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
-use grouser::studies::learn::WarningKind;
+use grouser::studies::learn::{Suspect, WarningKind};
 
 use grouser_io::measurements::telemetry::{TelemetryReader, csv_header, csv_line};
 
@@ -216,5 +216,38 @@ fn idle_wheels_and_lying_sensors_are_named() {
         warnings(&trial(&prior, &prior, 77), &drive, 3).iter().map(|it| it.kind).collect();
     for kind in [WarningKind::WheelNotPulling, WarningKind::LyingSensor] {
         assert_eq!(kinds.iter().filter(|it| **it == kind).count(), 1, "{kinds:?}");
+    }
+}
+
+/// Radians that were taken for degrees, and a pitch with the other sign, are seen by the pull over
+/// several slopes; a healthy drive has no gross fault.
+#[test]
+fn angles_are_checked_against_the_pull() {
+    let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
+    for (truth, seed) in truths(&prior, 81, 2).iter().zip(0..) {
+        let mut drive = Drive::uneven(&prior, truth, seed);
+        for leg in [(2.0, 60.0, 0.8), (9.0, 60.0, 0.8), (4.0, 75.0, 0.8), (11.0, 80.0, 0.8)] {
+            drive.leg(leg).unwrap();
+        }
+        let found = |[of_roll, of_pitch]: [f64; 2]| {
+            let mut learner = learner(&prior);
+            for mut record in drive.seen(INSTRUMENTS, seed) {
+                record.roll = record.roll.map(|it| of_roll * it);
+                record.pitch = record.pitch.map(|it| of_pitch * it);
+                learner.update(record);
+            }
+            learner.gross_faults().to_vec()
+        };
+        assert_eq!(found([1.0; 2]), []);
+        let radians = found([1_f64.to_radians(); 2]);
+        let [fault] = radians[..] else { panic!("{radians:?}") };
+        assert_eq!(fault.suspect, Suspect::Attitude);
+        let (factor, _) = fault.unit().expect("a unit");
+        assert!((factor - 1_f64.to_radians()).abs() < 1e-12, "{fault:?}");
+        let turned = found([1.0, -1.0]);
+        assert!(
+            turned.iter().any(|it| it.suspect == Suspect::Attitude && it.factor < 0.0),
+            "{turned:?}"
+        );
     }
 }

@@ -3,6 +3,7 @@
 use grouser::contact::Model;
 use grouser::contact::validity::Flag;
 use grouser::document::columns::SLOPE;
+use grouser::document::learn::contradictions_of_soil;
 use grouser::document::reading::{four_digits, rounded_down};
 use grouser::soil::SlopeStability;
 use grouser::studies::card::{Card, CardRow};
@@ -199,7 +200,8 @@ fn assumed(inputs: &CardInputs) -> Vec<String> {
             format!("{kind}{}", &assumption[name.len()..])
         })
     };
-    inputs.scenario.assumptions.iter().map(short).collect()
+    let contradictions = contradictions_of_soil(document);
+    contradictions.into_iter().chain(inputs.scenario.assumptions.iter().map(short)).collect()
 }
 
 fn rule(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Vec<(&'static str, String)> {

@@ -10,8 +10,8 @@ use super::super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::super::limits::Limits;
 use super::super::row::name_of;
 use super::super::table::{Dialect, LookedAt, Table};
-use super::TelemetryRecord;
 use super::rows::{Cell, TelemetryRows};
+use super::{Odometry, TelemetryRecord};
 
 /// Rows of a table in CSV, whatever they mean.
 pub struct CellReader<'a, R> {
@@ -104,6 +104,12 @@ impl<'a, R: Read> TelemetryReader<'a, R> {
         let cells = CellReader::new(label.clone(), source)?;
         let rows = TelemetryRows::new(&label, cells.names().to_vec(), rover)?;
         Ok(Self { cells, rows })
+    }
+
+    /// The same with ways that were measured in some way; see [`TelemetryRows::measured_by`].
+    #[must_use]
+    pub fn measured_by(self, odometry: Odometry) -> Self {
+        Self { rows: self.rows.measured_by(odometry), ..self }
     }
 
     /// The next record, if there is one.

@@ -7,14 +7,15 @@
 use grouser_core::vehicle::Rover;
 
 use super::super::super::check::nearest;
-use super::super::super::columns::TIME;
+use super::super::super::columns::{TIME, X, Y};
 use super::super::super::escape;
 use super::super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::super::log_column::LogColumn;
 use super::clock::{OTHER_TIMES, TimeUnit, seconds_of_date};
+use super::frozen::Frozen;
 use super::{
-    COLUMNS, FORWARD, LEFTWARD, Lost, OF_ROVER, OF_WHEEL, OTHER_NAMES, ROTATION, TelemetryRecord,
-    WheelTelemetry,
+    COLUMNS, FORWARD, LEFTWARD, Lost, OF_ROVER, OF_WHEEL, OTHER_NAMES, Odometry, ROTATION,
+    TelemetryRecord, WheelTelemetry,
 };
 
 /// A cell of a row, whatever its source.
@@ -52,6 +53,8 @@ impl Cell {
 #[derive(Clone, Debug)]
 pub struct TelemetryRows {
     header: Header,
+    odometry: Odometry,
+    frozen: Frozen,
     last: Option<TelemetryRecord>,
     /// What rows moved that were left out since the last record.
     carried: Moved,
@@ -107,7 +110,10 @@ impl TelemetryRows {
         let header = Header::new(label, names, rover)?;
         let (carried, lost) = (Moved::default(), Lost::default());
         let time_unit = header.time_unit;
-        Ok(Self { header, last: None, carried, time_unit, rows: 0, lost })
+        let odometry = Odometry::Visual;
+        let columns = header.columns.iter().map(|it| it.as_ref().map(|it| it.column));
+        let frozen = Frozen::of(columns);
+        Ok(Self { header, odometry, frozen, last: None, carried, time_unit, rows: 0, lost })
     }
 
     /// The same, gone on with after the record of a time: rows that do not come after it are out of
@@ -116,6 +122,22 @@ impl TelemetryRows {
     pub fn after(self, last_time: Option<f64>) -> Self {
         let last = last_time.map(|time| TelemetryRecord { time, ..TelemetryRecord::default() });
         Self { last, ..self }
+    }
+
+    /// The same with ways and rotations that were measured in some way; without it by cameras, as
+    /// the names of the columns say. What wheels measure is left out.
+    #[must_use]
+    pub fn measured_by(self, odometry: Odometry) -> Self {
+        Self { odometry, ..self }
+    }
+
+    /// A sentence on how ways were measured, where they may not be the rover's.
+    #[must_use]
+    pub fn sentence_of_odometry(&self) -> Option<String> {
+        let is_of_motion =
+            |it: &LogColumn| is_of_way(it) || [X, Y].iter().any(|xy| xy.name == it.name);
+        let has_way = self.header.columns.iter().flatten().any(|it| is_of_motion(it.column));
+        self.odometry.sentence().filter(|_| has_way).map(str::to_owned)
     }
 
     /// Whether the column at a place is known, and so is read.
@@ -195,7 +217,12 @@ impl TelemetryRows {
     /// * `cells`: in the order of the columns
     pub fn record(&mut self, cells: impl Iterator<Item = Cell>) -> Option<TelemetryRecord> {
         self.rows += 1;
-        let (time, mut record) = self.header.record(cells, &mut self.lost, &mut self.time_unit);
+        let seen = (&mut self.lost, &mut self.frozen, &mut self.time_unit);
+        let (time, mut record) = self.header.record(cells, seen);
+        self.lost.rows_without_torque += u64::from(record.leave_out_zero_torques());
+        if self.odometry == Odometry::Wheels {
+            record.leave_out_motion();
+        }
         let moved = self.carried.and(Moved::of(&record));
         let Some(time) = time else {
             self.lost.rows_without_time += 1;
@@ -339,15 +366,14 @@ impl Header {
     fn record(
         &self,
         cells: impl Iterator<Item = Cell>,
-        lost: &mut Lost,
-        time_unit: &mut Option<TimeUnit>,
+        (lost, frozen, time_unit): (&mut Lost, &mut Frozen, &mut Option<TimeUnit>),
     ) -> (Option<f64>, TelemetryRecord) {
         let mut time = None;
         let mut record = TelemetryRecord {
             wheels: vec![WheelTelemetry::default(); self.wheels],
             ..TelemetryRecord::default()
         };
-        for (known, cell) in self.columns.iter().zip(cells) {
+        for (place, (known, cell)) in self.columns.iter().zip(cells).enumerate() {
             let (Some(known), false) = (known, cell == Cell::Gap) else { continue };
             let is_time = matches!(known.place, Place::Time);
             let cell = if is_time { in_seconds(cell, self.time_unit, time_unit) } else { cell };
@@ -359,6 +385,11 @@ impl Header {
                     continue;
                 }
             };
+            if frozen.is_frozen_with(place, number) {
+                *lost.frozen.entry(known.name.clone()).or_default() += 1;
+                record.is_way_incomplete |= is_of_way(known.column);
+                continue;
+            }
             let value = Some(known.column.unit.to_si(number));
             match known.place {
                 Place::Time => time = value,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::question::LearntDrive;
-use crate::document::columns::learn::sentence;
+use crate::document::columns::learn::{contradiction_in_words, sentence};
 use crate::document::columns::{SLIP_RATIO, SLOPE, YAW};
 use crate::document::reading::four_digits;
 use crate::document::table::Table;
@@ -76,7 +76,16 @@ pub(super) fn lines(found: &LearntDrive) -> Vec<String> {
     let narrowed = format!("what is left of the uncertainty: {}", narrowed.join(", "));
     let notes = found.notes.iter().map(|note| format!("note: {note}"));
     let warnings = found.drive.warnings().iter().map(warning_in_words);
-    [verdicts(&found.verdicts), whole, narrowed].into_iter().chain(warnings).chain(notes).collect()
+    // Gross faults are among the warnings.
+    let contradictions = learner.contradictions();
+    let contradictions =
+        contradictions.iter().map(|it| format!("warning: {}", contradiction_in_words(it)));
+    [verdicts(&found.verdicts), whole, narrowed]
+        .into_iter()
+        .chain(warnings)
+        .chain(contradictions)
+        .chain(notes)
+        .collect()
 }
 
 /// What to do on each slope, and why.

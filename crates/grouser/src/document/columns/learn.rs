@@ -7,7 +7,9 @@ use super::{
     Column, PROBABILITY_LEVEL, Quantity, SLIP_RATIO, SLOPE, TIME, YAW, quantity, text, whole,
 };
 use crate::studies::heading_band::SlopeBand;
-use crate::studies::learn::{Evidence, Lesson, Warning};
+use crate::studies::learn::{
+    Contradiction, Evidence, GrossFault, Learner, Lesson, Suspect, Warning,
+};
 
 /// The yaw as it was predicted before the drive.
 pub const BEFORE_YAW: Quantity = quantity("before_yaw_deg", super::super::unit::DEG);
@@ -103,7 +105,7 @@ pub const LESSON_COLUMNS: [Column<Lesson>; 12] = [
     WAY.number("Way of the rims since the start", |it| it.way),
     SLOPE.maybe("Slope of the ground", |it| it.stretch.attitude.map(|it| it[0])),
     YAW.maybe("Yaw from the contour, positive uphill", |it| it.stretch.attitude.map(|it| it[1])),
-    SLIP_RATIO.number("Mean slip ratio of the wheels", |it| it.slip_ratio),
+    SLIP_RATIO.maybe("Mean slip ratio of the wheels, where a way was read", |it| it.slip_ratio),
     EXPECTED_SLIP.number("The same as it was expected before", |it| it.expected_slip),
     INFORMATION.number("How much it narrowed what is believed of the soil", |it| it.information),
     BY_ALONG.number("The part of it from the force along the body", |it| it.by_kind.along),
@@ -168,6 +170,7 @@ pub fn sentence(evidence: &Evidence) -> String {
             degrees(*reported),
             degrees(*by_attitude)
         ),
+        Evidence::Gross(fault) => gross_in_words(fault),
         Evidence::Outrun { slip_ratio } => format!(
             "odometry has the rover faster than its wheels turn, by a slip ratio of \
              {slip_ratio:.2}: its scale, or a wheel speed, is wrong"
@@ -177,4 +180,73 @@ pub fn sentence(evidence: &Evidence) -> String {
             100.0 * share
         ),
     }
+}
+
+/// What contradicts itself in what was learnt, a sentence each: gross faults of the telemetry, and
+/// numbers of the soil that are far off their priors.
+#[must_use]
+pub fn contradictions(learner: &Learner) -> Vec<String> {
+    let of_soil = learner.contradictions();
+    let gross = learner.gross_faults().iter().map(gross_in_words);
+    gross.chain(of_soil.iter().map(contradiction_in_words)).collect()
+}
+
+/// A number that is far off its prior, in words.
+pub(crate) fn contradiction_in_words(it: &Contradiction) -> String {
+    let side = if it.deviations > 0.0 { "above" } else { "below" };
+    let size = it.deviations.abs();
+    format!(
+        "`{}` was learnt {size:.1} standard deviations {side} its prior: the prior, the rover's \
+         document or the telemetry is wrong",
+        it.key
+    )
+}
+
+/// A gross fault in words.
+#[must_use]
+pub fn gross_in_words(fault: &GrossFault) -> String {
+    let (what, beside) = match fault.suspect {
+        Suspect::WheelOdometry => {
+            return "wheel odometry: the way by odometry is that of the wheels, with no slip along \
+                    and none across, whatever slope and torques are; it holds no information on \
+                    slip, and is left out"
+                .to_owned();
+        }
+        Suspect::Drift => {
+            return "drift: the ways to the side go uphill across the slope, where wheels that are \
+                    not steered drift downhill: they, or the roll, have another sign; ways are \
+                    left out"
+                .to_owned();
+        }
+        Suspect::LostWays => {
+            return "lost-ways: ways do not grow with the time since the last one: rows or readings \
+                    are lost with their ways, which would pass for slip; ways are left out"
+                .to_owned();
+        }
+        Suspect::Torque => ("torques, or currents,", "what the rover's weight and slope need"),
+        Suspect::Speed => ("ways by odometry", "those of the wheels"),
+        Suspect::Attitude => ("roll and pitch", "what the wheels' torques and the ground allow"),
+        Suspect::Turning => ("rotations by odometry", "the changes of yaw"),
+        Suspect::Sinkage => ("sinkages", "what wheels of this radius have"),
+    };
+    let name = fault.suspect.name();
+    if fault.factor < 0.0 {
+        return format!("{name}: {what} have another sign than {beside}; they are left out");
+    }
+    let times = number_of_times(fault.factor);
+    let unit = fault.unit().map_or_else(String::new, |(factor, unit)| {
+        format!(", as {unit} are: a factor of {}", number_of_times(factor))
+    });
+    format!("{name}: {what} are {times} times {beside}{unit}; they are left out")
+}
+
+/// A factor, in three digits or as a share of one.
+fn number_of_times(factor: f64) -> String {
+    let digits = |it: f64| {
+        let text = if it < 100.0 { format!("{it:.2}") } else { format!("{it:.0}") };
+        let has_point = text.contains('.');
+        let trimmed = text.trim_end_matches('0').trim_end_matches('.').to_owned();
+        if has_point { trimmed } else { text }
+    };
+    if factor < 1.0 { format!("1/{}", digits(1.0 / factor)) } else { digits(factor) }
 }

@@ -3,6 +3,7 @@
 
 use super::super::table::Table;
 use super::super::unit::{DEG, ONE, Unit};
+use super::learn::gross_in_words;
 use super::run::{FORWARD_SPEED, LATERAL_SPEED, YAW_RATE};
 use super::slip_from_current::WHEEL;
 use super::{
@@ -277,6 +278,21 @@ pub fn findings(replay: &Replay) -> Table {
 /// What the differences point to: a sentence for each cause, that which explains most first.
 #[must_use]
 pub fn sentences(replay: &Replay) -> Vec<String> {
+    // Gross faults first: beside one of them the others are of no account.
+    let gross: Vec<String> = replay.gross_faults.iter().map(gross_in_words).collect();
+    let of_differences = differences_in_words(replay);
+    let has_gross = !gross.is_empty();
+    gross
+        .into_iter()
+        .chain(of_differences.into_iter().filter(|it| !has_gross || it != NOTHING))
+        .collect()
+}
+
+/// What differences point to that are within the noise.
+const NOTHING: &str =
+    "the differences are within the noise of instruments and model, and point to nothing";
+
+fn differences_in_words(replay: &Replay) -> Vec<String> {
     if replay.explained_stretches == 0 {
         return vec!["cannot tell: no stretch could be predicted".to_owned()];
     }
@@ -295,9 +311,7 @@ pub fn sentences(replay: &Replay) -> Vec<String> {
         return vec![format!("cannot tell: {why}")];
     }
     if sentences.is_empty() {
-        let none =
-            "the differences are within the noise of instruments and model, and point to nothing";
-        sentences.push(none.to_owned());
+        sentences.push(NOTHING.to_owned());
     }
     if !hidden.is_empty() {
         sentences.push(format!("cannot tell of {}: {UNCERTAIN}", hidden.join(", ")));

@@ -107,6 +107,7 @@ impl Drive {
         if let Some(lesson) = finished.learner.finish() {
             finished.keep(lesson);
         }
+        finished.warnings.extend(finished.learner.take_pending());
         finished
     }
 
@@ -202,17 +203,27 @@ fn make_room<T>(kept: &mut Vec<T>, count: u64, most: u64) {
 }
 
 fn walk_lost(lost: &mut Lost, archive: &mut dyn Archive) {
-    let Lost { damaged_rows, rows_without_time, rows_out_of_order, cells } = lost;
+    let Lost {
+        damaged_rows,
+        rows_without_time,
+        rows_out_of_order,
+        rows_without_torque,
+        frozen,
+        cells,
+    } = lost;
     archive.count("damaged_rows", damaged_rows);
     archive.count("rows_without_time", rows_without_time);
     archive.count("rows_out_of_order", rows_out_of_order);
-    let mut of_cells: Vec<(String, u64)> = std::mem::take(cells).into_iter().collect();
-    let blank = || (String::new(), 0);
-    items(archive, "cells", &mut of_cells, blank, |(column, count), archive| {
-        archive.word("column", column);
-        archive.count("count", count);
-    });
-    *cells = of_cells.into_iter().collect();
+    archive.count("rows_without_torque", rows_without_torque);
+    for (name, counts) in [("cells", cells), ("frozen", frozen)] {
+        let mut of_columns: Vec<(String, u64)> = std::mem::take(counts).into_iter().collect();
+        let blank = || (String::new(), 0);
+        items(archive, name, &mut of_columns, blank, |(column, count), archive| {
+            archive.word("column", column);
+            archive.count("count", count);
+        });
+        *counts = of_columns.into_iter().collect();
+    }
 }
 
 #[cfg(test)]

@@ -42,6 +42,8 @@ pub(super) struct SeenMotion {
     torques: Vec<Option<Reading>>,
     sinkages: Vec<Option<Reading>>,
     way: f64,
+    /// Whether the way along the body was read.
+    is_way_known: bool,
 }
 
 /// Why nothing is learnt from a stretch.
@@ -49,7 +51,7 @@ pub(super) struct SeenMotion {
 pub enum NotUsed {
     /// Neither roll nor pitch, and no slope.
     NoAttitude,
-    /// No way along the body.
+    /// No way along the body, nor torques or sinkages.
     NoMotion,
     /// The wheels stand.
     Standing,
@@ -80,7 +82,7 @@ impl NotUsed {
     pub const fn meaning(self) -> &'static str {
         match self {
             Self::NoAttitude => "roll and pitch are not known",
-            Self::NoMotion => "there is no way by odometry or fixes",
+            Self::NoMotion => "there is no way by odometry or fixes, nor a torque or a sinkage",
             Self::Standing => "the wheels stand",
             Self::Manoeuvre => "the wheels turn in different directions, or change their speeds",
             Self::NotCarried => {
@@ -95,6 +97,8 @@ impl NotUsed {
 const STANDS: f64 = 1e-3;
 /// Rims whose speeds scatter more than this over their size change them [-].
 const STEADY: f64 = 0.25;
+/// How far a way that was not read is unknown, over the rims' speed [-]: more than any slip.
+const UNKNOWN_WAY: f64 = 100.0;
 /// How far a way to the side that was not read is unknown, over the rims' speed [-].
 const UNKNOWN_SIDE: f64 = 0.15;
 /// How far a yaw rate that was not read is unknown, its speed at the farthest wheel over the rims'
@@ -127,10 +131,18 @@ impl SeenMotion {
         let rims = &stretch.rim_speeds;
         let fastest = rims.iter().map(|it| it.abs()).fold(0.0, f64::max);
         let [forward, leftward] = stretch.velocity;
-        let forward = forward.ok_or(NotUsed::NoMotion)?;
         let reach = rover.load_arms().iter().map(Vec2::norm).fold(f64::MIN_POSITIVE, f64::max);
         let unknown = |share: f64| Reading { value: 0.0, deviation: share * fastest };
-        let leftward = leftward.unwrap_or(unknown(UNKNOWN_SIDE));
+        let has_other = stretch.torques.iter().chain(&stretch.sinkages).any(Option::is_some);
+        if forward.is_none() && !has_other {
+            return Err(NotUsed::NoMotion);
+        }
+        // Without a way nothing is known of the slip, in either direction.
+        let side = if forward.is_some() { UNKNOWN_SIDE } else { UNKNOWN_WAY };
+        let leftward = leftward.unwrap_or(unknown(side));
+        let mean = rims.iter().sum::<f64>() / rims.len() as f64;
+        let is_way_known = forward.is_some();
+        let forward = forward.unwrap_or(Reading { value: mean, ..unknown(UNKNOWN_WAY) });
         let turning = stretch.yaw_rate.unwrap_or(unknown(UNKNOWN_TURN / reach));
         let floor = ODOMETRY * fastest;
         let with_floor = |reading: Reading, floor: f64| {
@@ -152,6 +164,7 @@ impl SeenMotion {
             torques: stretch.torques.clone(),
             sinkages: stretch.sinkages.clone(),
             way: stretch.way,
+            is_way_known,
         })
     }
 
@@ -159,6 +172,11 @@ impl SeenMotion {
     /// were seen [-].
     pub(super) fn slip_and_drift(&self) -> [f64; 2] {
         self.slip_and_drift_of(&self.read())
+    }
+
+    /// Whether the way along the body was read, and with it the slip.
+    pub(super) fn is_way_known(&self) -> bool {
+        self.is_way_known
     }
 
     /// The same as a soil expects them [-].

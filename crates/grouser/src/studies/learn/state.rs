@@ -6,6 +6,7 @@
 //! each walk leaves no field out.
 
 use super::archive::{Archive, items, maybes, numbers};
+use super::gross::{GrossFault, Suspect};
 use super::information::InformationByKind;
 use super::motion::NotUsed;
 use super::stretch::{Reading, Stretch};
@@ -28,10 +29,15 @@ impl Learner {
     }
 
     fn walk(&mut self, archive: &mut dyn Archive) {
-        let Self { study: _, settings: _, gatherer, bank, change, watch, learnt } = self;
+        let Self { study: _, settings: _, gatherer, gross, pending, bank, change, watch, learnt } =
+            self;
         archive.group("gatherer");
         gatherer.walk(archive);
         archive.end();
+        archive.group("gross");
+        gross.walk(archive);
+        archive.end();
+        items(archive, "pending", pending, Warning::blank, Warning::walk);
         archive.group("bank");
         bank.walk(archive);
         archive.end();
@@ -49,10 +55,11 @@ impl Learner {
 
 impl Learnt {
     fn walk(&mut self, archive: &mut dyn Archive) {
-        let Self { records, outliers, stretches, way, not_used } = self;
+        let Self { records, outliers, stretches, forgotten, way, not_used } = self;
         archive.count("records", records);
         archive.count("outliers", outliers);
         archive.count("stretches", stretches);
+        archive.count("forgotten", forgotten);
         archive.number("way", way);
         archive.group("not_used");
         for why in NotUsed::ALL {
@@ -79,7 +86,7 @@ impl Lesson {
             warnings,
         } = self;
         archive.number("way", way);
-        archive.number("slip_ratio", slip_ratio);
+        archive.maybe("slip_ratio", slip_ratio);
         archive.number("expected_slip", expected_slip);
         archive.number("information", information);
         let InformationByKind { along, across, turning, torque, sinkage } = by_kind;
@@ -173,7 +180,7 @@ impl Warning {
 
 impl Evidence {
     /// One of each, to read into.
-    fn all() -> [Self; 8] {
+    fn all() -> [Self; 9] {
         let zero = 0.0;
         [
             Self::Strange { slip_ratio: zero, expected: zero, drift: zero, expected_drift: zero },
@@ -184,6 +191,7 @@ impl Evidence {
             Self::Contradiction { reported: zero, by_attitude: zero },
             Self::Outrun { slip_ratio: zero },
             Self::Idle { wheel: String::new(), share: zero },
+            Self::Gross(GrossFault { suspect: Suspect::Torque, factor: zero }),
         ]
     }
 
@@ -197,6 +205,7 @@ impl Evidence {
             Self::Contradiction { .. } => "contradiction",
             Self::Outrun { .. } => "outrun",
             Self::Idle { .. } => "idle",
+            Self::Gross(_) => "gross",
         }
     }
 
@@ -233,6 +242,7 @@ impl Evidence {
                 archive.number("reported", reported);
                 archive.number("by_attitude", by_attitude);
             }
+            Self::Gross(fault) => fault.walk(archive),
             Self::Idle { wheel, share } => {
                 archive.word("wheel", wheel);
                 archive.number("share", share);

@@ -2,6 +2,7 @@
 //! that lies.
 
 use super::archive::Archive;
+use super::gross::GrossFault;
 
 /// Something that an operator should know.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,6 +70,8 @@ pub enum Evidence {
         /// The yaw by roll and pitch [rad].
         by_attitude: f64,
     },
+    /// A gross fault.
+    Gross(GrossFault),
     /// Odometry that is faster than the wheels.
     Outrun {
         /// The slip ratio that it makes [-].

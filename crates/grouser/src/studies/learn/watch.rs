@@ -19,6 +19,8 @@ use crate::vehicle::Rover;
 pub(super) struct Seen<'a> {
     pub(super) stretch: &'a Stretch,
     pub(super) slip_ratio: f64,
+    /// Whether they were seen; else they are those that were expected.
+    pub(super) is_slip_known: bool,
     /// Slip ratio that was expected [-].
     pub(super) expected_slip: f64,
     /// Way to the left over that of the wheels, and the same as it was expected [-].
@@ -170,6 +172,9 @@ impl Watch {
 
     /// Whether the slip goes to 1, or the ground gets too steep for what was learnt.
     fn entrapment(&mut self, seen: &Seen<'_>) -> Option<Warning> {
+        if !seen.is_slip_known {
+            return None;
+        }
         let slip_ratio = seen.slip_ratio;
         // Two in a row: one may be outliers that got through.
         let before = self.trail.back(1).map_or(0.0, |it| it.slip_ratio);

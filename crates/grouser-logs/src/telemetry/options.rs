@@ -1,0 +1,45 @@
+//! What there is to say of a log besides what is in it.
+
+use grouser_io::measurements::telemetry::Odometry;
+
+use crate::mapping::Mapping;
+use crate::mapping::plan::TopicChoices;
+
+/// How a log is read; as it is without any of it.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct LogOptions {
+    /// Which fields of messages, or columns of CSV, are which columns of telemetry; without it the
+    /// built-in one that fits messages, and the names of a table's columns.
+    pub mapping: Option<Mapping>,
+    /// Of such a log, the topic that is meant where several fit.
+    pub topics: TopicChoices,
+    /// What measured ways and rotations, in place of what the mapping says; of a table without it
+    /// cameras, as the names of its columns say.
+    pub odometry: Option<Odometry>,
+}
+
+impl LogOptions {
+    /// The same with a mapping, if there is one.
+    #[must_use]
+    pub fn with_mapping(self, mapping: Option<Mapping>) -> Self {
+        Self { mapping, ..self }
+    }
+
+    /// The same with choices of topics.
+    #[must_use]
+    pub fn with_topics(self, topics: TopicChoices) -> Self {
+        Self { topics, ..self }
+    }
+
+    /// The same with what measured ways and rotations, if that is stated.
+    #[must_use]
+    pub fn with_odometry(self, odometry: Option<Odometry>) -> Self {
+        Self { odometry, ..self }
+    }
+
+    /// Whether it says anything that only a log of messages has.
+    pub(crate) fn is_of_messages(&self) -> bool {
+        self.mapping.is_some() || !self.topics.is_empty()
+    }
+}
