@@ -19,13 +19,13 @@ pub type Meshes<'a> = dyn Fn(&str) -> Option<Vec<u8>> + 'a;
 /// A shape of a link, in the link's frame.
 #[derive(Clone, Debug)]
 pub(super) struct LinkShape {
-    kind: Solid,
+    kind: RimForm,
     origin: Isometry3<f64>,
     is_collision: bool,
 }
 
 #[derive(Clone, Debug)]
-enum Solid {
+enum RimForm {
     Cylinder { radius: f64, length: f64 },
     Sphere { radius: f64 },
     Box,
@@ -62,15 +62,16 @@ impl LinkShape {
         let shape = geometry.children().find(Node::is_element)?;
         let size = |name| number(shape, what, name, |size| size > 0.0, "a length in m, above 0");
         let kind = match shape.tag_name().name() {
-            "cylinder" => size("radius")
-                .and_then(|radius| size("length").map(|length| Solid::Cylinder { radius, length })),
-            "sphere" => size("radius").map(|radius| Solid::Sphere { radius }),
-            "box" => Ok(Solid::Box),
+            "cylinder" => size("radius").and_then(|radius| {
+                size("length").map(|length| RimForm::Cylinder { radius, length })
+            }),
+            "sphere" => size("radius").map(|radius| RimForm::Sphere { radius }),
+            "box" => Ok(RimForm::Box),
             "mesh" => attribute(shape, what, "filename").and_then(|file| {
                 let is_scaled = shape.has_attribute("scale");
                 let scale =
                     if is_scaled { triple(shape, what, "scale")? } else { Vector3::repeat(1.0) };
-                Ok(Solid::Mesh { file: file.to_owned(), scale })
+                Ok(RimForm::Mesh { file: file.to_owned(), scale })
             }),
             _ => return None,
         };
@@ -83,12 +84,12 @@ impl LinkShape {
     fn rim(&self, frame: &Isometry3<f64>, meshes: &Meshes<'_>) -> Option<(f64, f64, Vector3<f64>)> {
         let placed = frame * self.origin;
         match &self.kind {
-            Solid::Cylinder { radius, length } => {
+            RimForm::Cylinder { radius, length } => {
                 let lies = (placed.rotation * Vector3::z()).y.abs() > ALONG;
                 lies.then_some((*radius, *length, placed.translation.vector))
             }
-            Solid::Sphere { .. } | Solid::Box => None,
-            Solid::Mesh { file, scale } => {
+            RimForm::Sphere { .. } | RimForm::Box => None,
+            RimForm::Mesh { file, scale } => {
                 let [low, high] = mesh::extent(file, &meshes(file)?)?;
                 let (low, high) = (low.component_mul(scale), high.component_mul(scale));
                 let size = placed.rotation * (high - low);
@@ -122,7 +123,7 @@ pub(super) fn rim(
     let radii: Vec<f64> = found.iter().map(|it| it.0.0).collect();
     let differ = radii.iter().any(|it| (it - radii[0]).abs() > 1e-6);
     let note = largest.and_then(|(_, shape)| match &shape.kind {
-        Solid::Mesh { file, .. } => Some(format!("radius and width by the extent of {file}")),
+        RimForm::Mesh { file, .. } => Some(format!("radius and width by the extent of {file}")),
         _ if differ => {
             let radii: Vec<String> = radii.iter().map(|it| four_digits(*it)).collect();
             Some(format!("radius the largest of {} m", radii.join(", ")))
@@ -132,7 +133,7 @@ pub(super) fn rim(
     let place = |shape: &&LinkShape| (frame * shape.origin).translation.vector;
     let somewhere = || shapes.first().map_or(frame.translation.vector, place);
     let sphere = shapes.iter().find_map(|it| match it.kind {
-        Solid::Sphere { radius } => Some(radius),
+        RimForm::Sphere { radius } => Some(radius),
         _ => None,
     });
     Ok(Rim {
@@ -147,18 +148,18 @@ pub(super) fn rim(
 fn lacks(shapes: &[&LinkShape]) -> &'static str {
     match shapes.first().map(|it| &it.kind) {
         None => "it has no geometry",
-        Some(Solid::Cylinder { .. }) => "the axis of its cylinder is not across the rover",
-        Some(Solid::Sphere { .. }) => "its geometry is a sphere, which has no width",
-        Some(Solid::Box) => "its geometry is a box",
-        Some(Solid::Mesh { .. }) => "its geometry is a mesh that is not there, or not round",
+        Some(RimForm::Cylinder { .. }) => "the axis of its cylinder is not across the rover",
+        Some(RimForm::Sphere { .. }) => "its geometry is a sphere, which has no width",
+        Some(RimForm::Box) => "its geometry is a box",
+        Some(RimForm::Mesh { .. }) => "its geometry is a mesh that is not there, or not round",
     }
 }
 
 /// Whether a shape is a sphere or a cylinder, as casters and skids are.
 pub(super) fn kinds(shapes: &[Result<LinkShape, UrdfError>]) -> Option<&'static str> {
     match shapes.first()?.as_ref().ok()?.kind {
-        Solid::Sphere { .. } => Some("a sphere"),
-        Solid::Cylinder { .. } => Some("a cylinder"),
-        Solid::Box | Solid::Mesh { .. } => None,
+        RimForm::Sphere { .. } => Some("a sphere"),
+        RimForm::Cylinder { .. } => Some("a cylinder"),
+        RimForm::Box | RimForm::Mesh { .. } => None,
     }
 }

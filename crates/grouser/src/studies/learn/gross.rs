@@ -132,12 +132,12 @@ impl GrossFault {
 pub(in crate::studies) struct GrossFaults {
     found: Vec<GrossFault>,
     /// Thrust over the weight over the sine of the slope along the way, by stretches.
-    pull: Line,
+    pull: StraightLine,
     /// The change of yaw over the rotation by odometry between stretches [rad].
-    turn: Line,
+    turn: StraightLine,
     /// Way forward over the time since the last one [m, s].
-    ways: Line,
-    sums: Sums,
+    ways: StraightLine,
+    sums: SumsOfPairs,
     /// Middle of the last stretch [s], its yaw and yaw rate [rad, rad/s].
     last: Option<[f64; 3]>,
     /// The first times between ways, in their order by size [s].
@@ -146,45 +146,45 @@ pub(in crate::studies) struct GrossFaults {
     last_way: Option<f64>,
 }
 
-/// Sums over the rims' way of what was read, in multiples of weight, radius and rim speed.
+/// SumsOfPairs over the rims' way of what was read, in multiples of weight, radius and rim speed.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sums {
+struct SumsOfPairs {
     /// Sine of the slope, of all that has an attitude.
-    slope: Mean,
+    slope: RunningMean,
     /// Size of the thrust, and of the sine of the slope along the way, of all that has torques.
-    thrust: Mean,
-    along: Mean,
+    thrust: RunningMean,
+    along: RunningMean,
     /// The same where it does not go downhill: with its sign, and its size.
-    driving: Mean,
-    driving_size: Mean,
+    driving: RunningMean,
+    driving_size: RunningMean,
     /// Work of the wheels, and that against the slope, where it goes uphill.
-    work: Mean,
-    lift: Mean,
+    work: RunningMean,
+    lift: RunningMean,
     /// Way by odometry over that of the rims, with the sign of the way forward, and its square; to
     /// the left, its size.
-    forward: Mean,
-    forward_squared: Mean,
-    leftward: Mean,
+    forward: RunningMean,
+    forward_squared: RunningMean,
+    leftward: RunningMean,
     /// The slope along the way there, its square, and that across it, its size.
-    along_there: Mean,
-    along_squared: Mean,
-    across: Mean,
+    along_there: RunningMean,
+    along_squared: RunningMean,
+    across: RunningMean,
     /// Where it does not go downhill there.
-    loaded: Mean,
+    loaded: RunningMean,
     /// The way uphill across the slope over that of the rims, of wheels that are not steered.
-    uphill: Mean,
+    uphill: RunningMean,
     /// Sinkage over the radius of the wheel.
-    sinkage: Mean,
+    sinkage: RunningMean,
 }
 
 /// A mean over the way.
 #[derive(Clone, Copy, Debug, Default)]
-struct Mean {
+struct RunningMean {
     way: f64,
     sum: f64,
 }
 
-impl Mean {
+impl RunningMean {
     fn add(&mut self, way: f64, value: f64) {
         self.way += way;
         self.sum += way * value;
@@ -196,9 +196,9 @@ impl Mean {
     }
 }
 
-/// Sums of a straight line.
+/// SumsOfPairs of a straight line.
 #[derive(Clone, Copy, Debug, Default)]
-struct Line {
+struct StraightLine {
     count: f64,
     x: f64,
     y: f64,
@@ -207,7 +207,7 @@ struct Line {
     yy: f64,
 }
 
-impl Line {
+impl StraightLine {
     fn add(&mut self, x: f64, y: f64) {
         self.count += 1.0;
         self.x += x;
@@ -407,7 +407,7 @@ impl GrossFaults {
 
     fn torque(&self) -> Option<GrossFault> {
         let fault = |factor| Some(GrossFault { suspect: Suspect::Torque, factor });
-        let Sums { thrust, along, driving, driving_size, work, lift, .. } = self.sums;
+        let SumsOfPairs { thrust, along, driving, driving_size, work, lift, .. } = self.sums;
         let needed = ROLLING + along.over(0.0).unwrap_or(0.0).abs();
         let size = thrust.over(WAY)?;
         if size > THRUST[1] {
@@ -440,7 +440,7 @@ impl GrossFaults {
         const STANDS: f64 = 0.02;
         const SHORTER: f64 = 1.0;
         const SAME: f64 = 0.15;
-        let Sums { forward, forward_squared, along_there, .. } = self.sums;
+        let SumsOfPairs { forward, forward_squared, along_there, .. } = self.sums;
         // Rims that are read too slow have less way than the ground.
         let least = if forward.sum >= WAY { 0.0 } else { WAY };
         let (mean, along) = (forward.over(least)?, along_there.over(least)?);
@@ -519,7 +519,7 @@ impl GrossFaults {
         const SCATTERS: f64 = 0.2;
         /// Ways grow in proportion to the time: by more than this of it [-].
         const GROWS: f64 = 0.4;
-        let Line { count, x, y, xx, xy, .. } = self.ways;
+        let StraightLine { count, x, y, xx, xy, .. } = self.ways;
         if count < FEW || y <= 0.0 {
             return None;
         }
@@ -549,7 +549,7 @@ impl GrossFaults {
         items(archive, "found", found, blank, GrossFault::walk);
         for (name, line) in [("pull", pull), ("turn", turn), ("ways", ways)] {
             archive.group(name);
-            let Line { count, x, y, xx, xy, yy } = line;
+            let StraightLine { count, x, y, xx, xy, yy } = line;
             let names = ["count", "x", "y", "xx", "xy", "yy"];
             names.into_iter().zip([count, x, y, xx, xy, yy]).for_each(|(name, value)| {
                 archive.number(name, value);
@@ -570,7 +570,7 @@ impl GrossFaults {
     }
 }
 
-impl Sums {
+impl SumsOfPairs {
     /// * `thrust`: with its sign and its size, over the weight [-]
     /// * `along`: sine of the slope along the way
     /// * `forward`: way by odometry over that of the rims
@@ -604,7 +604,7 @@ impl Sums {
         }
     }
 
-    fn all(&mut self) -> [(&'static str, &mut Mean); 16] {
+    fn all(&mut self) -> [(&'static str, &mut RunningMean); 16] {
         let Self {
             slope,
             thrust,
