@@ -210,7 +210,8 @@ impl MessageRows {
             let (last, mut flat) = (self.last[*slot].replace(*pose), 0);
             let numbers = numbers_of(pose, last.as_ref(), *axes);
             // What goes on a plane has no roll and no pitch, which is no reading of them.
-            let is_flat = matches!(of, PoseOf::Pose(_)) && pose.rotation.is_about_vertical();
+            let is_flat = matches!(of, PoseOf::Pose(_) | PoseOf::Parts { .. })
+                && pose.rotation.is_about_vertical();
             for (what, column) in columns {
                 if is_flat && matches!(what, PoseColumn::Roll | PoseColumn::Pitch) {
                     flat += 1;
