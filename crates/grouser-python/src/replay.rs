@@ -35,24 +35,23 @@ type Replayed<'py> = (
 /// * `path`: of the telemetry, or what messages call its text
 /// * `text`: CSV, in place of the file's
 /// * `slope_is_known`: whether the scenario's slope is that of the drive
-/// * `samples`: of soil and model; 0 to take both as known
+/// * `sampling`: how many samples of soil and model, 0 to take both as known, and their seed
 /// * `odometry`: what measured ways and rotations, if that is stated
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
-#[pyo3(signature = (scenario, path, text, slope_is_known, samples, seed, odometry=None))]
+#[pyo3(signature = (scenario, path, text, slope_is_known, sampling, odometry=None))]
 pub(crate) fn replay<'py>(
     py: Python<'py>,
     scenario: &Document,
     path: PathBuf,
     text: Option<String>,
     slope_is_known: bool,
-    samples: u32,
-    seed: u64,
+    (count, seed): (u32, u64),
     odometry: Option<&str>,
 ) -> PyResult<Replayed<'py>> {
     let loaded = scenario.scenario()?;
     let inputs = BandInputs::of_scenario(loaded);
-    let samples = threads::detached(py, || inputs.samples(seed, samples))?;
+    let samples = threads::detached(py, || inputs.samples(seed, count))?;
     let samples = samples.map_err(|error| Problem::Sampling(error).raised())?;
     let slope = loaded.value.ground.plane_slope().filter(|_| slope_is_known);
     let options = LogOptions::default().with_odometry(odometry_named(odometry)?);

@@ -134,7 +134,8 @@ impl FollowedFile {
         if let Some(last) = rows.last() {
             self.ends_line = *last == b'\n';
         }
-        let lines = rows.iter().filter(|byte| **byte == b'\n').count();
+        let lines =
+            rows.split_inclusive(|byte| *byte == b'\n').filter(|it| it.ends_with(b"\n")).count();
         self.following.lines.fetch_add(lines as u64, Ordering::Relaxed);
         self.given.extend(rows);
         Ok(())

@@ -457,8 +457,7 @@ def replay(
     path: str | os.PathLike[str],
     text: str | None,
     slope_is_known: bool,
-    samples: int,
-    seed: int,
+    sampling: tuple[int, int],
     odometry: str | None = None,
 ) -> tuple[
     tuple[dict[str, Any], dict[str, Any], dict[str, Any]], list[str], list[str], list[str]

@@ -109,7 +109,7 @@ def replay(
     known = slope_deg is not None
     drawn = count if uncertainty else 0
     tables, points_to, notes, wheels = _core.replay(
-        run._document, path, text, known, drawn, whole_number("seed", seed), odometry
+        run._document, path, text, known, (drawn, whole_number("seed", seed)), odometry
     )
     over_time, channels, findings = tables
     attrs = {
