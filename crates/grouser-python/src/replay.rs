@@ -46,10 +46,10 @@ pub(crate) fn replay<'py>(
     path: PathBuf,
     text: Option<String>,
     slope_is_known: bool,
-    (count, seed): (u32, u64),
+    sampling: (u32, u64),
     odometry: Option<&str>,
 ) -> PyResult<Replayed<'py>> {
-    let loaded = scenario.scenario()?;
+    let (loaded, (count, seed)) = (scenario.scenario()?, sampling);
     let inputs = BandInputs::of_scenario(loaded);
     let samples = threads::detached(py, || inputs.samples(seed, count))?;
     let samples = samples.map_err(|error| Problem::Sampling(error).raised())?;
