@@ -28,16 +28,18 @@ pub(crate) fn read(args: &MissionArgs) -> Result<LoadedMission, Failure> {
     overrides.check_kinds(&[Kind::Mission, Kind::Rover, Kind::Soil, Kind::Wheel])?;
     let mission = document::read_mission(&source, &overrides)?;
     if let Some(file) = &args.stop_from {
-        note_overruled(Path::new(file), &mission);
+        note_overruled(Path::new(file), &mission, &args.setting.settings);
     }
     Ok(mission)
 }
 
-/// Says which limits of a file do not count, because the mission has its own.
-fn note_overruled(file: &Path, mission: &LoadedMission) {
+/// Says which limits of a file do not count, because the mission has its own, and not by `--set`.
+fn note_overruled(file: &Path, mission: &LoadedMission, settings: &[String]) {
     let text = std::fs::read_to_string(file).unwrap_or_default();
     let own = mission.document.get("stop").cloned().unwrap_or_default();
-    for Overruled { name, file: limit, mission } in document::overruled(&text, &own) {
+    let is_set = |name: &str| settings.iter().any(|it| it.contains(&format!("stop.{name}")));
+    let overruled = document::overruled(&text, &own).into_iter().filter(|it| !is_set(&it.name));
+    for Overruled { name, file: limit, mission } in overruled {
         let file = escape::path(file);
         output::notes([format!(
             "the mission's own limit {name} {mission} stands, not {limit} of {file}: --set \

@@ -231,7 +231,7 @@ fn every_command_has_a_manual_page() {
     let place = Place::new();
     let program = place.results("man");
     assert!(program.contains(".TH grouser") && program.contains("heading"), "{program}");
-    for (command, option) in [("heading", "slope\\-deg"), ("campaign run", "seed")] {
+    for (command, option) in [("heading", "slope\\-deg"), ("campaign run", "threads")] {
         let page = place.results(&format!("man {command}"));
         assert!(page.contains(".SH OPTIONS") && page.contains(option), "{command}: {page}");
     }
