@@ -39,6 +39,7 @@ type Replayed<'py> = (
 /// * `odometry`: what measured ways and rotations, if that is stated
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
+#[allow(clippy::too_many_arguments, reason = "arguments, as they come from Python")]
 #[pyo3(signature = (scenario, path, text, slope_is_known, samples, seed, odometry=None))]
 pub(crate) fn replay<'py>(
     py: Python<'py>,

@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::BufWriter;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use grouser::document::escape;
 use grouser::document::measurements::telemetry::{Odometry, TelemetryRecord};
@@ -38,7 +38,7 @@ pub(crate) fn import_telemetry(
     let rover = rover.scenario()?.value.rover.clone();
     let odometry = odometry_named(odometry)?;
     let convert = move || -> Result<(u64, Vec<String>), Failed> {
-        let options = log_options(mapping, choices, odometry)?;
+        let options = log_options(mapping.as_deref(), choices, odometry)?;
         let mut log = TelemetryLog::open(&log, &rover, &options)?;
         let mut table = Table::create(out, &rover)?;
         while let Some(record) = log.next_record()? {
@@ -62,11 +62,11 @@ pub(crate) fn odometry_named(name: Option<&str>) -> PyResult<Option<Odometry>> {
 }
 
 fn log_options(
-    mapping: Option<PathBuf>,
+    mapping: Option<&Path>,
     choices: Choices,
     odometry: Option<Odometry>,
 ) -> Result<LogOptions, TelemetryError> {
-    let mapping = mapping.as_deref().map(Mapping::find).transpose()?;
+    let mapping = mapping.map(Mapping::find).transpose()?;
     let options = LogOptions::default().with_mapping(mapping).with_odometry(odometry);
     Ok(options.with_topics(choices.into_iter().collect()))
 }
@@ -147,7 +147,7 @@ impl TelemetryMessages {
         let odometry = odometry_named(odometry)?;
         let rover = &rover.scenario()?.value.rover;
         let begin = || -> Result<Self, Failed> {
-            let options = log_options(mapping, choices, odometry)?;
+            let options = log_options(mapping.as_deref(), choices, odometry)?;
             let topic = |(name, message)| Topic { name, message, encoding: None };
             let topics: Vec<Topic> = topics.into_iter().map(topic).collect();
             let rows = MessageRows::new(label, &topics, rover, &options)?;

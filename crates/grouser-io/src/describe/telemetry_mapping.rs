@@ -89,13 +89,13 @@ const ODOMETRY: Field<Given> = words(
      `--odometry` of commands, or `odometry` in Python, has to say it.",
     &[
         word(Odometry::ALL[0].0, Odometry::ALL[0].2, |it: &mut Given| {
-            it.odometry = Some(Odometry::Visual)
+            it.odometry = Some(Odometry::Visual);
         }),
         word(Odometry::ALL[1].0, Odometry::ALL[1].2, |it: &mut Given| {
-            it.odometry = Some(Odometry::Wheels)
+            it.odometry = Some(Odometry::Wheels);
         }),
         word(Odometry::ALL[2].0, Odometry::ALL[2].2, |it: &mut Given| {
-            it.odometry = Some(Odometry::Fused)
+            it.odometry = Some(Odometry::Fused);
         }),
         word(Odometry::ALL[3].0, Odometry::ALL[3].2, |it: &mut Given| {
             it.odometry = Some(Odometry::MotionCapture);
