@@ -13,10 +13,10 @@ const OTHERS: usize = 8;
 
 /// Looks for frozen channels.
 #[derive(Clone, Debug)]
-pub(super) struct Frozen(Vec<Channel>);
+pub(super) struct Frozen(Vec<FrozenChannel>);
 
 #[derive(Clone, Debug, Default)]
-struct Channel {
+struct FrozenChannel {
     kind: Option<u8>,
     is_judged: bool,
     number: f64,
@@ -29,11 +29,11 @@ struct Channel {
 impl Frozen {
     /// * `columns`: those of a table; nothing for one that is not known
     pub(super) fn of(columns: impl Iterator<Item = Option<&'static LogColumn>>) -> Self {
-        let channel = |it: Option<&LogColumn>| Channel {
+        let channel = |it: Option<&LogColumn>| FrozenChannel {
             kind: it.and_then(|it| kind_of(it.name)),
             is_judged: it.is_some_and(|it| ![LEFTWARD.name, ROTATION.name].contains(&it.name)),
             number: f64::NAN,
-            ..Channel::default()
+            ..FrozenChannel::default()
         };
         Self(columns.map(channel).collect())
     }
