@@ -55,7 +55,7 @@ fn options(args: &ImportUrdfArgs) -> UrdfOptions {
 /// The wheels that were found.
 fn table(wheels: &[FoundWheel]) -> Text {
     let header =
-        ["wheel", "joint", "radius_m", "width_m", "x_m", "y_m", "z_m", "hangs_on", "steered_by"];
+        ["wheel", "joint", "radius [m]", "width [m]", "x [m]", "y [m]", "z [m]", "hangs on", "steered by"];
     let or_none = |name: String| if name.is_empty() { "-".to_owned() } else { name };
     let row = |wheel: &FoundWheel| {
         let [x, y, z] = wheel.position;

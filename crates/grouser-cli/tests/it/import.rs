@@ -229,6 +229,6 @@ fn wheels_of_meshes_are_found_by_their_package() {
     assert_eq!(found.code(), 0, "{}", found.stderr);
     let row = found.stderr.lines().find(|line| line.starts_with("fl ")).expect("a row");
     assert!(row.contains("fl_joint") && row.contains("0.09") && row.contains("0.06"), "{row}");
-    assert!(found.stderr.starts_with("wheel  joint     radius_m"), "{}", found.stderr);
+    assert!(found.stderr.starts_with("wheel  joint     radius [m]"), "{}", found.stderr);
     assert!(place.read("cart.toml").contains("radius_m = 0.09, width_m = 0.06"));
 }

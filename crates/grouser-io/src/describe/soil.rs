@@ -57,8 +57,8 @@ pub(crate) static SOIL: Table<Soil> = Table {
         assumed(),
         texts(
             "contradictions",
-            "What contradicts itself in how a soil was learnt, a sentence each: `card` refuses such a \
-             soil without `--accept-contradiction`.",
+            "What contradicts itself in how a soil was learnt, a sentence each: no operator's card is \
+             made of such a soil unless that is accepted.",
         ),
         model("The wheel–soil model that the values were made for; without it, `ishigami`."),
         words(

@@ -91,8 +91,8 @@ pub(crate) static TELEMETRY_MAPPING: Table<Given> = Table {
 
 const ODOMETRY: Field<Given> = words(
     "odometry",
-    "What measured the ways and rotations that the document reads; without it the option \
-     `--odometry` of commands, or `odometry` in Python, has to say it.",
+    "What measured the ways and rotations that the document reads; without it whoever reads a log \
+     has to say it.",
     &[
         word(Odometry::ALL[0].0, Odometry::ALL[0].2, |it: &mut Given| {
             it.odometry = Some(Odometry::Visual);
