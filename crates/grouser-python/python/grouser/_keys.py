@@ -369,8 +369,8 @@ class SoilKeys:
 
         @property
         def contradictions(self) -> tuple[str, ...]:
-            """What contradicts itself in how a soil was learnt, a sentence each: `card` refuses
-            such a soil without `--accept-contradiction`."""
+            """What contradicts itself in how a soil was learnt, a sentence each: no operator's
+            card is made of such a soil unless that is accepted."""
             ...
 
         @property
@@ -921,8 +921,8 @@ class ScenarioTerrainZoneSoil(TypedDict, total=False):
     assumed: tuple[str, ...]
     """Values that the source does not give, each as `key: why this value`."""
     contradictions: tuple[str, ...]
-    """What contradicts itself in how a soil was learnt, a sentence each: `card` refuses such a
-    soil without `--accept-contradiction`."""
+    """What contradicts itself in how a soil was learnt, a sentence each: no operator's card is
+    made of such a soil unless that is accepted."""
     model: str
     """The wheel–soil model that the values were made for; without it, `ishigami`."""
     consistency: str
