@@ -82,10 +82,16 @@ fn message(is_big_endian: bool) -> Vec<u8> {
     out.put_text("odom");
     out.put(vec![1]);
     out.put_count(2);
-    ["left", "right"].iter().for_each(|it| out.put_text(it));
+    for text in ["left", "right"] {
+        out.put_text(text);
+    }
     out.put_count(3);
-    [0.5, f64::NAN, -1e300].iter().for_each(|it| out.put_double(*it));
-    [0.25_f32, -2.0].iter().for_each(|it| out.put(it.to_le_bytes().to_vec()));
+    for number in [0.5, f64::NAN, -1e300] {
+        out.put_double(number);
+    }
+    for number in [0.25_f32, -2.0] {
+        out.put(number.to_le_bytes().to_vec());
+    }
     out.put_count(3);
     out.bytes.extend([1, 2, 3]);
     out.put_text("");
