@@ -54,8 +54,17 @@ fn options(args: &ImportUrdfArgs) -> UrdfOptions {
 
 /// The wheels that were found.
 fn table(wheels: &[FoundWheel]) -> Text {
-    let header =
-        ["wheel", "joint", "radius [m]", "width [m]", "x [m]", "y [m]", "z [m]", "hangs on", "steered by"];
+    let header = [
+        "wheel",
+        "joint",
+        "radius [m]",
+        "width [m]",
+        "x [m]",
+        "y [m]",
+        "z [m]",
+        "hangs on",
+        "steered by",
+    ];
     let or_none = |name: String| if name.is_empty() { "-".to_owned() } else { name };
     let row = |wheel: &FoundWheel| {
         let [x, y, z] = wheel.position;
