@@ -150,7 +150,7 @@ impl Described for Plan {
         self.scenario.follow(document);
     }
 
-    fn fetch(&mut self, document: &Document, tree: &Node) -> Result<(), DocumentError> {
+    fn fetch(&mut self, document: &Document, tree: &Node) -> Result<Vec<String>, DocumentError> {
         self.scenario.fetch(document, tree)
     }
 
