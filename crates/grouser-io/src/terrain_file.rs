@@ -156,12 +156,12 @@ fn middle(extent: Extent) -> Vec2 {
     0.5 * (extent.south_west + extent.north_east)
 }
 
-fn contains(extent: Extent, at: Vec2) -> bool {
+pub(crate) fn contains(extent: Extent, at: Vec2) -> bool {
     let Extent { south_west, north_east } = extent;
     (south_west.x..=north_east.x).contains(&at.x) && (south_west.y..=north_east.y).contains(&at.y)
 }
 
-fn spans(extent: Extent) -> String {
+pub(crate) fn spans(extent: Extent) -> String {
     let Extent { south_west: low, north_east: high } = extent;
     format!("x is from {} to {} m, y from {} to {} m", low.x, high.x, low.y, high.y)
 }

@@ -2,8 +2,8 @@
 
 use super::columns::flags::in_words;
 use super::{
-    Loaded,     DEFAULT_SOIL, DocumentError, Kind, Overrides, Source, kind_of_source, read_mission, read_rover,
-    read_scenario, read_soil,
+    DEFAULT_SOIL, DocumentError, Kind, Loaded, Overrides, Source, kind_of_source, read_mission,
+    read_rover, read_scenario, read_soil,
 };
 use crate::contact::validity::{Finding, Flag, Situation};
 use crate::contact::{Contact, Slip, settle};
