@@ -159,7 +159,8 @@ pub fn read_data_set(
     });
     let value = DataSet { file, gravity, cases: cases.collect::<Result<_, DocumentError>>()? };
     let (assumed, companions) = (Vec::new(), Vec::new());
-    Ok(Loaded { document, value, uncertain: None, assumptions, assumed, companions })
+    let notes = Vec::new();
+    Ok(Loaded { document, value, uncertain: None, assumptions, assumed, companions, notes })
 }
 
 impl CaseSection {

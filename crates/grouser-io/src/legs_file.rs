@@ -159,16 +159,12 @@ fn of_geojson(text: &Arc<Text>) -> Result<Vec<Node>, DocumentError> {
         south_west: Vec2::new(least(|it| it.x), least(|it| it.y)),
         north_east: Vec2::new(most(|it| it.x), most(|it| it.y)),
     };
-    // A file that names its coordinate system says what its numbers are.
-    if json["crs"].is_null() && grouser_raster::are_degrees(&extent) {
-        let what = "its places look like degrees of longitude and latitude, and those of a mission \
-                    are metres from its start";
-        return Err(fault(what.to_owned()).with_hint(
-            "ogr2ogr -t_srs SYSTEM OUT.geojson IN.geojson writes metres; with a member `crs` that \
-             names their system places are taken as metres"
-                .to_owned(),
-        ));
-    }
+    let system = json["crs"]["properties"]["name"].as_str();
+    grouser_raster::check_places(system, &extent).map_err(|found| {
+        let found = found.to_string();
+        let (what, hint) = found.split_once("\nhint: ").unwrap_or((&found, ""));
+        fault(what.to_owned()).with_hint(hint.to_owned())
+    })?;
     Ok(legs)
 }
 

@@ -35,6 +35,8 @@ pub struct Loaded<V> {
     pub assumed: Vec<Assumed>,
     /// Files that the resolved document names, to be written beside it.
     pub companions: Vec<Companion>,
+    /// What is odd about files that it names, such as a map of heights.
+    pub notes: Vec<String>,
 }
 
 impl<V> Loaded<V> {
@@ -56,7 +58,7 @@ impl<V> Loaded<V> {
     /// The same document with another meaning: that of a part of its value.
     #[must_use]
     pub fn with_value<W>(&self, value: W) -> Loaded<W> {
-        let Self { document, uncertain, assumptions, assumed, companions, .. } = self;
+        let Self { document, uncertain, assumptions, assumed, companions, notes, .. } = self;
         Loaded {
             document: document.clone(),
             value,
@@ -64,6 +66,7 @@ impl<V> Loaded<V> {
             assumptions: assumptions.clone(),
             assumed: assumed.clone(),
             companions: companions.clone(),
+            notes: notes.clone(),
         }
     }
 

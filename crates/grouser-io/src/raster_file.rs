@@ -51,7 +51,7 @@ pub(crate) fn found(what: &str, fault: &Fault) -> Found {
         let problem = Problem::Unreadable { kind: error.kind(), message: error.to_string() };
         return (problem, None);
     }
-    let text = format!("the {what} {fault}");
+    let text = fault.of(what);
     let (problem, hint) =
         text.split_once("\nhint: ").map_or((&*text, None), |(problem, hint)| (problem, Some(hint)));
     let hint = own_hint.or(hint).map(str::to_owned);

@@ -156,7 +156,7 @@ fn read<V: Described>(
         key => document.part(Kind::Soil, key),
     });
     let assumed = soil.as_ref().map_or_else(Vec::new, priors::assumed);
-    let value = V::read(&document, &tree)?;
+    let (value, notes) = V::read(&document, &tree)?;
     let mut companions = Vec::new();
     let uncertain = match kind.soil_key() {
         Some(key) => {
@@ -165,7 +165,7 @@ fn read<V: Described>(
         }
         None => None,
     };
-    Ok(Loaded { document, value, uncertain, assumptions, assumed, companions })
+    Ok(Loaded { document, value, uncertain, assumptions, assumed, companions, notes })
 }
 
 /// A document that was found, checked and completed, but not yet understood.

@@ -153,7 +153,8 @@ pub fn read_telemetry_mapping(
     TELEMETRY_MAPPING.put(&mut given, document.keys());
     let value = TelemetryMapping::read(given, &tree)?;
     let (assumed, companions) = (Vec::new(), Vec::new());
-    Ok(Loaded { document, value, uncertain: None, assumptions, assumed, companions })
+    let notes = Vec::new();
+    Ok(Loaded { document, value, uncertain: None, assumptions, assumed, companions, notes })
 }
 
 impl TelemetryMapping {

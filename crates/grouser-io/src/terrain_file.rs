@@ -1,5 +1,6 @@
 //! Maps of heights that scenarios and missions name.
 
+use std::mem::take;
 use std::path::{Path, absolute};
 use std::sync::Arc;
 
@@ -15,7 +16,7 @@ use super::zones_file;
 use grouser_core::simulation::Scenario;
 use grouser_core::terrain::{ElevationModel, Extent, Shape};
 use grouser_core::units::Vec2;
-use grouser_raster::ReadOptions;
+use grouser_raster::{ReadOptions, Remark};
 
 /// Gives maps that a document names their whole paths, so that the resolved document finds them
 /// from anywhere, and ground with heights no slope beside them.
@@ -48,10 +49,10 @@ pub(crate) fn read(
     scenario: &mut Scenario,
     document: &Document,
     tree: &Node,
-) -> Result<(), DocumentError> {
+) -> Result<Vec<String>, DocumentError> {
     let ground = &mut scenario.ground;
     if ground.is_plane() {
-        return Ok(());
+        return Ok(Vec::new());
     }
     if document.number(SLOPE).is_some_and(|slope| slope != 0.0) {
         let problem = Problem::Conflict("the terrain says how the ground is inclined");
@@ -59,16 +60,20 @@ pub(crate) fn read(
         return Err(DocumentError::at(tree.origin_of(SLOPE), problem).with_hint(hint));
     }
     let Some(path) = document.text(&key(FILE)) else {
-        return zones_file::read(ground, document, tree);
+        zones_file::read(ground, document, tree)?;
+        return Ok(Vec::new());
     };
     let fault = |key_of: &str, (problem, hint)| {
         DocumentError::at(tree.origin_of(&key(key_of)), problem).with_hint(hint)
     };
-    let model = if let Some(model) = held(path, document, tree)? {
-        model
+    let (model, notes) = if let Some(model) = held(path, document, tree)? {
+        (model, Vec::new())
     } else {
-        let model = model(Path::new(path), &options(document));
-        Arc::new(model.map_err(|found| fault(FILE, found))?)
+        let read = model(Path::new(path), &options(document));
+        let (model, remarks) = read.map_err(|found| fault(FILE, found))?;
+        let name = Path::new(path).file_name().unwrap_or_default().display();
+        let note = |remark: &Remark| format!("{name}: {}", in_keys(&remark.to_string()));
+        (Arc::new(model), remarks.iter().map(note).collect())
     };
     if document.get(&key(START)).is_none() {
         ground.start = middle(model.extent());
@@ -78,7 +83,13 @@ pub(crate) fn read(
         return Err(fault(START, (Problem::NoTerrain(problem), Some(spans(model.extent())))));
     }
     ground.shape = Shape::Map(model);
-    zones_file::read(ground, document, tree)
+    zones_file::read(ground, document, tree)?;
+    Ok(notes)
+}
+
+/// A remark on a map with the keys that stand in a document.
+fn in_keys(remark: &str) -> String {
+    remark.replace("`missing_m`", &format!("`{}`", key(MISSING)))
 }
 
 /// The map in memory that a document names, if it does.
@@ -114,38 +125,43 @@ pub fn map_of(scenario: &Scenario, document: &Document) -> Option<HeldMap> {
     Some(HeldMap { name, model: model.clone(), options })
 }
 
-/// Reads a map from a file, to be shared by documents that name it.
+/// Reads a map from a file, to be shared by documents that name it; and what is odd about it.
 ///
 /// # Errors
 /// [`DocumentError`] if it cannot be read, with what helps.
-pub fn read_map(path: &Path, options: ReadOptions) -> Result<HeldMap, DocumentError> {
+pub fn read_map(
+    path: &Path,
+    options: ReadOptions,
+) -> Result<(HeldMap, Vec<Remark>), DocumentError> {
     let whole = absolute(path).unwrap_or_else(|_| path.to_owned());
     let name = whole.display().to_string();
-    let model = model(&whole, &options).map_err(|(problem, hint)| {
+    let (model, remarks) = model(&whole, &options).map_err(|(problem, hint)| {
         // Options stand in no table.
         let hint = hint.map(|hint| hint.replace("`terrain.", "`"));
         DocumentError::whole(&name, problem).with_hint(hint)
     })?;
-    Ok(HeldMap { name, model: Arc::new(model), options: Some(options) })
+    Ok((HeldMap { name, model: Arc::new(model), options: Some(options) }, remarks))
 }
 
-fn model(path: &Path, options: &ReadOptions) -> Result<ElevationModel, Found> {
+fn model(path: &Path, options: &ReadOptions) -> Result<(ElevationModel, Vec<Remark>), Found> {
     // Neither a device nor a pipe is waited for.
     file::check_regular(path).map_err(|problem| (Problem::from(problem), None))?;
-    let raster = grouser_raster::read(path, options).map_err(|error| found("map", &error.fault))?;
-    raster.model().map_err(|error| found("map", &error.into()))
+    let mut raster =
+        grouser_raster::read(path, options).map_err(|error| found("map", &error.fault))?;
+    let remarks = take(&mut raster.remarks);
+    Ok((raster.model().map_err(|error| found("map", &error.into()))?, remarks))
 }
 
 fn middle(extent: Extent) -> Vec2 {
     0.5 * (extent.south_west + extent.north_east)
 }
 
-fn contains(extent: Extent, at: Vec2) -> bool {
+pub(crate) fn contains(extent: Extent, at: Vec2) -> bool {
     let Extent { south_west, north_east } = extent;
     (south_west.x..=north_east.x).contains(&at.x) && (south_west.y..=north_east.y).contains(&at.y)
 }
 
-fn spans(extent: Extent) -> String {
+pub(crate) fn spans(extent: Extent) -> String {
     let Extent { south_west: low, north_east: high } = extent;
     format!("x is from {} to {} m, y from {} to {} m", low.x, high.x, low.y, high.y)
 }

@@ -94,26 +94,27 @@ pub trait Described: Clone + 'static {
     /// Takes over what follows from several keys of the document.
     fn follow(&mut self, _document: &Document) {}
 
-    /// Takes over what stands in files that the document names.
+    /// Takes over what stands in files that the document names, and gives what is odd about them.
     ///
     /// * `tree`: the document as it was written
     ///
     /// # Errors
     /// [`DocumentError`] for a file that is not what it should be.
-    fn fetch(&mut self, _document: &Document, _tree: &Node) -> Result<(), DocumentError> {
-        Ok(())
+    fn fetch(&mut self, _document: &Document, _tree: &Node) -> Result<Vec<String>, DocumentError> {
+        Ok(Vec::new())
     }
 
-    /// What a document means, with what stands in files that it names, all of it in force.
+    /// What a document means, with what stands in files that it names, all of it in force; and what
+    /// is odd about these files.
     ///
     /// * `tree`: the document as it was written
     ///
     /// # Errors
     /// [`DocumentError`] for files that are wrong, and values that do not go together.
-    fn read(document: &Document, tree: &Node) -> Result<Self, DocumentError> {
+    fn read(document: &Document, tree: &Node) -> Result<(Self, Vec<String>), DocumentError> {
         let mut value = Self::of(document);
-        value.fetch(document, tree)?;
-        value.settled().map_err(|misfit| misfit.of(tree))
+        let notes = value.fetch(document, tree)?;
+        Ok((value.settled().map_err(|misfit| misfit.of(tree))?, notes))
     }
 
     /// The value, all of it in force.
@@ -450,7 +451,7 @@ impl Described for Scenario {
         }
     }
 
-    fn fetch(&mut self, document: &Document, tree: &Node) -> Result<(), DocumentError> {
+    fn fetch(&mut self, document: &Document, tree: &Node) -> Result<Vec<String>, DocumentError> {
         terrain_file::read(self, document, tree)
     }
 

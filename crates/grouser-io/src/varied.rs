@@ -59,7 +59,7 @@ impl<V: Described> Varied<V> {
     /// # Errors
     /// [`DocumentError`] for values that do not go together, with their place.
     pub fn new(document: Document, tree: &Node) -> Result<Self, DocumentError> {
-        let value = V::read(&document, tree)?;
+        let (value, _) = V::read(&document, tree)?;
         Ok(Self { value, document })
     }
 

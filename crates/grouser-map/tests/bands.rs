@@ -22,7 +22,13 @@ fn dome() -> Raster {
     let mut heights: Vec<f32> =
         grid.points().map(|at| -((at - middle).norm_squared() / 1200.0) as f32).collect();
     heights[40 * 700 + 13] = f32::NAN;
-    Raster { grid, base: 1700.0, heights, coordinates: CoordinateSystem::default() }
+    Raster {
+        grid,
+        base: 1700.0,
+        heights,
+        coordinates: CoordinateSystem::default(),
+        remarks: Vec::new(),
+    }
 }
 
 fn map(choice: CourseChoice) -> (SlopeStudy, MobilityMap) {

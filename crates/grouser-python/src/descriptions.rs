@@ -47,6 +47,17 @@ impl Read {
     }
 }
 
+impl Read {
+    /// What is odd about files that it names.
+    fn notes(&self) -> &[String] {
+        match self {
+            Self::Scenario(it) => &it.notes,
+            Self::Mission(it) => &it.notes,
+            Self::Soil(_) | Self::Wheel(_) | Self::Rover(_) | Self::Campaign(_) => &[],
+        }
+    }
+}
+
 impl Document {
     /// The keys and values of the document.
     fn resolved(&self) -> &document::Document {
@@ -343,10 +354,12 @@ fn read_changed(
             .map_err(|error| errors::of_document(&error, &arguments))?;
     }
     let read = changes.py().detach(|| Read::new(kind, source, &overrides));
-    read.map(|read| Document { read }).map_err(|error| {
+    let read = read.map_err(|error| {
         let given = [Some(changes), table].into_iter().flatten();
         errors::of_document(&as_keywords(error, given), &arguments)
-    })
+    })?;
+    errors::warn(changes.py(), read.notes())?;
+    Ok(Document { read })
 }
 
 /// An error whose hint writes the keys that were meant as Python's keywords, where the unknown one

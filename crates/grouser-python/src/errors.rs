@@ -1,5 +1,7 @@
 //! The library's errors as Python's, by the names of `grouser/_errors.py`.
 
+use std::ffi::CString;
+use std::fmt::Display;
 use std::io::ErrorKind;
 use std::ops::RangeInclusive;
 
@@ -13,7 +15,7 @@ use grouser::studies::calibration::CalibrationError;
 use grouser_logs::{Problem as TelemetryProblem, TelemetryError};
 use grouser_raster::{Fault, RasterError};
 use grouser_store::StoreError;
-use pyo3::exceptions::PyTypeError;
+use pyo3::exceptions::{PyTypeError, PyUserWarning};
 use pyo3::prelude::*;
 
 /// The classes, where Python finds them.
@@ -109,6 +111,18 @@ pub(crate) fn of_raster(error: &RasterError) -> PyErr {
         Fault::Disk(_) => classes::DocumentUnreadableError::new_err((message, file)),
         _ => classes::DocumentError::new_err((message, file)),
     }
+}
+
+/// Warns whoever called the package.
+pub(crate) fn warn(py: Python<'_>, about: impl IntoIterator<Item = impl Display>) -> PyResult<()> {
+    /// The frames of the package that such a call goes through.
+    const FRAMES: i32 = 2;
+    for text in about {
+        // Texts of ours have no zero bytes, and names in them are shown without.
+        let text = CString::new(text.to_string()).unwrap_or_default();
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, FRAMES)?;
+    }
+    Ok(())
 }
 
 /// A file of measurements that cannot be used.

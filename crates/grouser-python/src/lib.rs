@@ -99,7 +99,7 @@ mod _core {
     #[pymodule_export]
     use super::telemetry::{TelemetryMessages, import_telemetry};
     #[pymodule_export]
-    use super::terrain::Terrain;
+    use super::terrain::{Terrain, check_system};
     #[pymodule_export]
     use super::time_step::SteppingWheels;
     #[pymodule_export]

@@ -97,6 +97,7 @@ pub(crate) fn raster_of(terrain: &Terrain) -> Raster {
         base: model.base(),
         heights: model.heights_above_base().collect(),
         coordinates: CoordinateSystem::default(),
+        remarks: Vec::new(),
     }
 }
 

@@ -10,6 +10,7 @@ use grouser::terrain::elevation::{above, round_base};
 use grouser::terrain::lunar::{LunarGround, LunarModel, LunarSite};
 use grouser::terrain::{ElevationGrid, ElevationModel, Extent};
 use grouser::units::{Vec2, Vec3};
+use grouser_raster::{Site, remarks};
 use numpy::{
     PyArray1, PyArray2, PyArrayMethods as _, PyReadonlyArray1, PyReadonlyArray2,
     PyUntypedArrayMethods as _,
@@ -18,6 +19,25 @@ use pyo3::prelude::*;
 use toml::{Table, Value};
 
 use crate::errors;
+
+/// Checks the coordinate system of a map that has no file.
+///
+/// * `name`: of the argument with the map
+/// * `text`: the system as well-known text
+/// * `middle`, `cell`: x and y of its middle, and the distance of its rows, in the system's units
+#[pyfunction]
+pub(crate) fn check_system(
+    py: Python<'_>,
+    name: &str,
+    text: &str,
+    middle: [f64; 2],
+    cell: f64,
+) -> PyResult<()> {
+    let found = grouser_raster::check_system(text, Site { middle: middle.into(), cell });
+    let expected = "coordinates and heights in metres";
+    let remark = found.map_err(|fault| errors::parameter(fault.of("map"), name, None, expected))?;
+    errors::warn(py, remark)
+}
 
 /// A map of heights.
 #[pyclass(frozen, module = "grouser._core")]
@@ -64,15 +84,20 @@ impl Terrain {
             let kept = (0..rows).flat_map(row).map(kept).collect();
             ElevationModel::above_base(grid, base, kept)
         });
-        model.map(Self::of_model).map_err(|error| refused(&error.to_string()))
+        let model = model.map_err(|error| refused(&error.to_string()))?;
+        let above: Vec<f32> = model.heights_above_base().collect();
+        errors::warn(py, remarks(model.grid(), model.base(), &above))?;
+        Ok(Self::of_model(model))
     }
 
     /// Reads a file.
     #[staticmethod]
     #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
     fn from_file(py: Python<'_>, path: PathBuf, reading: Reading) -> PyResult<Self> {
-        let map = py.detach(|| read_map(&path, options(reading)));
-        map.map(|map| Self { map }).map_err(|error| errors::of_document(&error, &[]))
+        let read = py.detach(|| read_map(&path, options(reading)));
+        let (map, remarks) = read.map_err(|error| errors::of_document(&error, &[]))?;
+        errors::warn(py, remarks)?;
+        Ok(Self { map })
     }
 
     /// Makes lunar ground.

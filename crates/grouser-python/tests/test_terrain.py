@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import pickle
+import warnings
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -241,11 +242,30 @@ def test_a_map_in_memory_has_its_own_cell_size() -> None:
 # ---- rasterio ----
 
 
+#: The Moon, as well-known text has it.
+GLOBE = (
+    'GEOGCS["Moon",DATUM["Moon",SPHEROID["Moon",1737400,0]],PRIMEM["Reference",0],'
+    'UNIT["degree",0.0174532925199433]]'
+)
+
+
+def system(unit_m: float, *, latitude: float = -90.0, heights: float | None = None) -> str:
+    """A stereographic projection of the Moon about its pole, true to scale at a latitude."""
+    text = (
+        f'PROJCS["site",{GLOBE},PROJECTION["Polar_Stereographic"],'
+        f'PARAMETER["latitude_of_origin",{latitude}],PARAMETER["central_meridian",0],'
+        f'PARAMETER["false_easting",0],PARAMETER["false_northing",0],UNIT["own",{unit_m}]]'
+    )
+    if heights is None:
+        return text
+    return f'COMPD_CS["site",{text},VERT_CS["up",VERT_DATUM["up",2005],UNIT["own",{heights}]]]'
+
+
 def dataset(heights: Any = None, transform: Any = None, **settings: Any) -> Any:
     """What rasterio gives of an open file, as far as it is looked at."""
     heights = np.ma.asarray(grid() if heights is None else heights)
     given = {
-        "crs": SimpleNamespace(is_geographic=False, linear_units_factor=("metre", 1.0)),
+        "crs": SimpleNamespace(to_wkt=lambda: system(1.0)),
         "transform": transform or (2.0, 0.0, 9.0, 0.0, -2.0, 33.0, 0.0, 0.0, 1.0),
         "read": lambda band, masked: heights,
         "scales": (1.0,),
@@ -275,17 +295,38 @@ def test_a_dataset_of_rasterio_is_its_map() -> None:
     [
         ({"transform": (2.0, 0.1, 9.0, 0.0, -2.0, 33.0)}, "gdalwarp"),
         ({"transform": (-2.0, 0.0, 9.0, 0.0, -2.0, 33.0)}, "mirrored"),
-        ({"crs": SimpleNamespace(is_geographic=True)}, "degrees.*gdalwarp"),
-        (
-            {"crs": SimpleNamespace(is_geographic=False, linear_units_factor=("foot", 0.3048))},
-            "foot",
-        ),
+        ({"crs": SimpleNamespace(to_wkt=lambda: GLOBE)}, "degrees(.|\n)*gdalwarp"),
+        ({"crs": SimpleNamespace(to_wkt=lambda: system(0.3048))}, "feet"),
+        ({"crs": SimpleNamespace(to_wkt=lambda: system(1.0, heights=0.3048))}, "heights.*feet"),
+        ({"crs": SimpleNamespace(to_wkt=lambda: system(1.0, latitude=-60.0))}, "has 1.* m in place"),
         ({"units": ("ft",)}, "metres"),
     ],
 )
 def test_a_dataset_that_is_no_map_in_metres_is_refused(settings: Any, message: str) -> None:
     with pytest.raises(gr.ParameterError, match=message):
         gr.Terrain.from_rasterio(dataset(**settings))
+
+
+def test_odd_heights_are_warned_of(tmp_path: Path) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        terrain()
+    void = np.add.outer(0.013 * np.arange(40.0), 0.1 * np.arange(40.0))
+    void[10:14, 10:14] = -9999.0
+    message = "16 cells of -9999 m are .* below all others: missing heights"
+    with pytest.warns(UserWarning, match=message):
+        gr.Terrain(void, cell_size_m=1.0)
+    with pytest.warns(UserWarning, match=message):
+        gr.Terrain.from_rasterio(dataset(void))
+    lines = [f"{x} {y} {void[y, x]}" for y in range(40) for x in range(40)]
+    (tmp_path / "void.xyz").write_text("\n".join(lines))
+    with pytest.warns(UserWarning, match=message):
+        gr.Terrain.from_file(tmp_path / "void.xyz")
+    with pytest.warns(UserWarning, match="missing heights"):
+        gr.Scenario(terrain={"file": str(tmp_path / "void.xyz")})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert gr.Terrain.from_file(tmp_path / "void.xyz", missing_m=-9999.0).missing_count == 16
 
 
 def written(path: Path) -> gr.Terrain:

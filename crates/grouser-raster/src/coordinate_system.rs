@@ -1,9 +1,10 @@
 //! The system of a file's coordinates, carried along.
 
+use std::borrow::Cow;
+
 /// What a file's coordinates refer to: its keys as they are, and a name to show.
 ///
-/// Nothing is computed from them but what unit they are in, so that systems of the Moon and of Mars
-/// that no register has pass through as well.
+/// Systems of the Moon and of Mars that no register has pass through as well.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CoordinateSystem {
     directory: Vec<u16>,
@@ -27,6 +28,9 @@ pub(crate) const DIRECTORY: u16 = 34735;
 pub(crate) const DOUBLES: u16 = 34736;
 pub(crate) const TEXT: u16 = 34737;
 
+/// The metre's code in the EPSG register.
+pub(crate) const METRE: u16 = 9001;
+
 /// Keys of GeoTIFF 1.1 (OGC 19-008r4).
 pub(crate) mod key {
     pub(crate) const MODEL: u16 = 1024;
@@ -45,9 +49,20 @@ pub(crate) mod key {
     pub(crate) const METHOD: u16 = 3075;
     pub(crate) const FALSE_EASTING: u16 = 3082;
     pub(crate) const FALSE_NORTHING: u16 = 3083;
+    pub(crate) const FIRST_PARALLEL: u16 = 3078;
+    pub(crate) const SECOND_PARALLEL: u16 = 3079;
+    pub(crate) const ORIGIN_LONGITUDE: u16 = 3080;
+    pub(crate) const ORIGIN_LATITUDE: u16 = 3081;
+    pub(crate) const FALSE_LONGITUDE: u16 = 3084;
+    pub(crate) const FALSE_LATITUDE: u16 = 3085;
     pub(crate) const CENTRE_LONGITUDE: u16 = 3088;
     pub(crate) const CENTRE_LATITUDE: u16 = 3089;
+    pub(crate) const CENTRE_EASTING: u16 = 3090;
+    pub(crate) const CENTRE_NORTHING: u16 = 3091;
+    pub(crate) const SCALE_AT_ORIGIN: u16 = 3092;
     pub(crate) const SCALE_AT_CENTRE: u16 = 3093;
+    pub(crate) const POLE_LONGITUDE: u16 = 3095;
+    pub(crate) const VERTICAL: u16 = 4096;
     pub(crate) const DATUM: u16 = 2050;
     pub(crate) const ANGULAR_UNIT: u16 = 2054;
     pub(crate) const ELLIPSOID: u16 = 2056;
@@ -73,7 +88,6 @@ impl CoordinateSystem {
         const PROJECTED: u16 = 1;
         const AREAS: u16 = 1;
         const DEGREE: u16 = 9102;
-        const METRE: u16 = 9001;
         const STEREOGRAPHIC: u16 = 14;
         let mut keys = Keys::default();
         keys.whole(key::MODEL, PROJECTED);
@@ -123,10 +137,13 @@ impl CoordinateSystem {
         /// What writers put down where they have no name.
         const NAMELESS: [&str; 4] = ["", "unknown", "unnamed", "user-defined"];
         let own = [key::PROJECTED_CITATION, key::CITATION, key::GEODETIC_CITATION];
-        // Some citations are lists such as `GCS Name = Moon 2000|Datum = …`.
+        // Some citations are lists such as `GCS Name = Moon 2000|Datum = …`, those of ArcGIS texts
+        // such as `ESRI PE String = PROJCS["Moon 2000",…`.
         let of_list = |text: String| {
             let name = text.split('|').next().unwrap_or_default();
-            name.split_once("Name = ").map_or(name, |(_, name)| name).trim().to_owned()
+            let name = name.split_once("Name = ").map_or(name, |(_, name)| name);
+            let quoted = name.split_once("CS[\"").and_then(|(_, rest)| rest.split('"').next());
+            quoted.unwrap_or(name).trim().to_owned()
         };
         let mut own = own.into_iter().filter_map(|id| self.words(id)).map(of_list);
         let own = own.find(|name| !NAMELESS.contains(&name.to_lowercase().as_str()));
@@ -150,16 +167,27 @@ impl CoordinateSystem {
         self.doubles.get(usize::from(entry[3])).copied()
     }
 
+    /// The length of a coordinate in units of its own [m].
+    pub(crate) fn linear_unit(&self) -> Option<f64> {
+        let unit = self.number(key::LINEAR_UNIT)?;
+        if unit == key::USER_DEFINED { self.real(key::LINEAR_UNIT_SIZE) } else { None }
+    }
+
     /// The value of a key that is text, fit to be shown.
     pub(crate) fn words(&self, id: u16) -> Option<String> {
         /// Characters of a name that are shown.
         const LONGEST: usize = 120;
+        let text = self.text_of(id)?;
+        let shown = text.chars().filter(|c| !c.is_control()).take(LONGEST).collect::<String>();
+        Some(shown.trim().to_owned())
+    }
+
+    /// The value of a key that is text, as it is.
+    pub(crate) fn text_of(&self, id: u16) -> Option<Cow<'_, str>> {
         let entry = self.entry(id).filter(|entry| entry[1] == TEXT)?;
         let (count, start) = (usize::from(entry[2]), usize::from(entry[3]));
         let bytes = self.text.as_bytes().get(start..)?;
-        let text = String::from_utf8_lossy(&bytes[..count.min(bytes.len())]).into_owned();
-        let shown = text.chars().filter(|c| !c.is_control()).take(LONGEST).collect::<String>();
-        Some(shown.trim().to_owned())
+        Some(String::from_utf8_lossy(&bytes[..count.min(bytes.len())]))
     }
 
     /// A key's identity, tag, count and value.

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use grouser_core::terrain::zones::MOST_SOILS;
 use grouser_core::terrain::{ElevationError, Extent, ZonesError};
 
+use crate::remark::scale;
 use crate::zones::key::{ZoneKey, listed};
 
 /// A file that cannot be used.
@@ -22,6 +23,21 @@ pub struct RasterError {
 impl RasterError {
     pub(crate) fn new(file: &Path, fault: Fault) -> Self {
         Self { file: file.to_owned(), fault }
+    }
+}
+
+impl Fault {
+    /// What is wrong, in a sentence about a thing that has no file's name.
+    ///
+    /// * `what`: it is, such as `map`
+    #[must_use]
+    pub fn of(&self, what: &str) -> String {
+        let fault = self.to_string();
+        match fault.split_once(' ') {
+            Some(("its", rest)) => format!("the {what}'s {rest}"),
+            Some(("is" | "has" | "cannot", _)) => format!("the {what} {fault}"),
+            _ => format!("the {what}: {fault}"),
+        }
     }
 }
 
@@ -125,6 +141,23 @@ pub enum Fault {
     HeightUnit {
         /// The unit.
         unit: String,
+    },
+    /// Heights that count downwards.
+    #[error(
+        "its heights are depths, which count downwards\nhint: gdal_calc.py -A IN.tif --outfile=OUT.tif --type=Float32 --calc=\"-A\""
+    )]
+    Depths,
+    /// A map far larger or smaller than its ground.
+    #[error(
+        "has {} in place of a metre of the ground at its middle: slopes and ways would be wrong by as much\nhint: {command}",
+        scale(*factors)
+    )]
+    Scale {
+        /// Metres on the map of a metre on the ground, in the direction where it is least and where
+        /// it is most [-].
+        factors: [f64; 2],
+        /// The command that projects it about its own middle.
+        command: String,
     },
     /// No one band was asked for.
     #[error(

@@ -2,13 +2,13 @@
 //!
 //! Formats: TIFF 6.0 and BigTIFF, GeoTIFF 1.1 (OGC 19-008r4), GDAL's tags 42112 (metadata) and
 //! 42113 (nodata). Of several images the first is read that is neither an overview nor a mask. A
-//! height is missing where the cell has the file's nodata value, is NaN, is masked by an internal
-//! mask, or lies in a block that was never written; GDAL's scale and offset are applied to the
-//! others. Cells are areas, whose heights are those of their middles, or points, as the file says
+//! height is missing where the cell has the file's nodata value, is NaN, is masked by a mask in the
+//! file or beside it, or lies in a block that was never written; GDAL's scale and offset are applied
+//! to the others. Cells are areas, whose heights are those of their middles, or points, as the file says
 //! (key 1025).
 
-mod advice;
 mod affine;
+mod beside;
 mod metadata;
 mod reference;
 
@@ -20,6 +20,7 @@ use crate::coordinate_system::{CoordinateSystem, DIRECTORY, DOUBLES, TEXT};
 use crate::error::{Fault, RasterError};
 use crate::heights::{Heights, checked_cells};
 use crate::{Content, Raster, ReadOptions};
+use beside::Beside;
 use metadata::Scaling;
 use reference::Georeference;
 
@@ -46,7 +47,8 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Raster, RasterError> {
     let raster = || {
         let length = std::fs::metadata(path)?.len();
         let tiff = TiffFile::open_with_options(path, limits(length, options))?;
-        raster_of(&tiff, length, options)
+        let beside = Beside::of(path, options.band.unwrap_or(1), limits(length, options))?;
+        raster_of(&tiff, length, &beside, options)
     };
     raster().map_err(|fault| RasterError::new(path, fault))
 }
@@ -58,7 +60,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Raster, RasterError> {
 pub fn decode(bytes: Vec<u8>, options: &ReadOptions) -> Result<Raster, Fault> {
     let length = bytes.len() as u64;
     let tiff = TiffFile::from_bytes_with_options(bytes, limits(length, options))?;
-    raster_of(&tiff, length, options)
+    raster_of(&tiff, length, &Beside::default(), options)
 }
 
 impl From<TiffError> for Fault {
@@ -92,7 +94,12 @@ fn limits(length: u64, options: &ReadOptions) -> OpenOptions {
     limits
 }
 
-fn raster_of(tiff: &TiffFile, length: u64, options: &ReadOptions) -> Result<Raster, Fault> {
+fn raster_of(
+    tiff: &TiffFile,
+    length: u64,
+    beside: &Beside,
+    options: &ReadOptions,
+) -> Result<Raster, Fault> {
     let ifd = image(tiff)?;
     let (columns, rows) = (u64::from(ifd.width()), u64::from(ifd.height()));
     let cells = checked_cells(columns, rows, options.most_cells(length))?;
@@ -101,25 +108,35 @@ fn raster_of(tiff: &TiffFile, length: u64, options: &ReadOptions) -> Result<Rast
     let layout = ifd.raster_layout()?;
     let band = chosen_band(layout.samples_per_pixel, options)?;
     let coordinates = coordinate_system(ifd);
+    let notes = &beside.notes;
     let georeference = Georeference {
         system: &coordinates,
+        beside,
         scale: reals(ifd, tag::PIXEL_SCALE),
         tiepoint: reals(ifd, tag::TIEPOINT),
         matrix: reals(ifd, tag::TRANSFORMATION),
     };
-    let (grid, order) = georeference.grid(layout.width, layout.height, options.placement)?;
-    let scaling = metadata::scaling(text(ifd, tag::GDAL_METADATA), band)?;
+    let placed = georeference.grid(layout.width, layout.height, options.placement)?;
+    let own = metadata::scaling(text(ifd, tag::GDAL_METADATA), band)?;
+    let scaling = Scaling {
+        scale: notes.scale.unwrap_or(own.scale),
+        offset: notes.offset.unwrap_or(own.offset),
+    };
     check_block(ifd, cells)?;
     let blocks = Blocks::of(ifd, layout.samples_per_pixel, band);
     let promised = cells as u64 * (layout.bytes_per_sample * layout.samples_per_pixel) as u64;
     if blocks.uncompressed && blocks.all_written() && promised > length {
         return Err(Fault::Truncated { promised, found: length });
     }
-    let nodata = text(ifd, tag::GDAL_NODATA).and_then(|text| text.trim().parse().ok());
+    let own = text(ifd, tag::GDAL_NODATA).and_then(|text| text.trim().parse().ok());
+    let nodata = notes.nodata.or(own);
     let reading = Reading {
         tiff,
         ifd,
-        mask: mask(tiff, ifd),
+        mask: match &beside.mask {
+            Some(beside) => Some(Mask::beside(beside, ifd, band)?),
+            None => mask(tiff, ifd).map(|ifd| Mask { tiff, ifd, band: 0 }),
+        },
         band,
         blocks,
         scaling,
@@ -128,7 +145,9 @@ fn raster_of(tiff: &TiffFile, length: u64, options: &ReadOptions) -> Result<Rast
     };
     let mut heights = Heights::new(cells);
     reading.read(&mut heights, (layout.sample_format, layout.bits_per_sample))?;
-    heights.raster(grid, order, coordinates)
+    let mut raster = heights.raster(placed.grid, placed.order, coordinates)?;
+    raster.remarks.extend(placed.remark);
+    Ok(raster)
 }
 
 /// The first image that is neither an overview nor a mask.
@@ -274,11 +293,33 @@ fn check_block(ifd: &Ifd, cells: usize) -> Result<(), Fault> {
     Err(Fault::Tiff { problem })
 }
 
+/// Where the cells are known: where a mask is not zero.
+#[derive(Clone, Copy)]
+struct Mask<'t> {
+    tiff: &'t TiffFile,
+    ifd: &'t Ifd,
+    /// From 0.
+    band: usize,
+}
+
+impl<'t> Mask<'t> {
+    /// The mask of a band in a file of its own: one for all bands, or one each.
+    fn beside(tiff: &'t TiffFile, image: &Ifd, band: usize) -> Result<Self, Fault> {
+        let fits = |ifd: &&Ifd| (ifd.width(), ifd.height()) == (image.width(), image.height());
+        let Some(ifd) = tiff.ifds().iter().find(fits) else {
+            let problem = "the .msk file beside it has no mask of its size".to_owned();
+            return Err(Fault::Tiff { problem });
+        };
+        let bands = ifd.raster_layout()?.samples_per_pixel;
+        Ok(Self { tiff, ifd, band: if bands > band { band } else { 0 } })
+    }
+}
+
 /// All that the heights are read by.
 struct Reading<'t> {
     tiff: &'t TiffFile,
     ifd: &'t Ifd,
-    mask: Option<&'t Ifd>,
+    mask: Option<Mask<'t>>,
     band: usize,
     blocks: Blocks,
     scaling: Scaling,
@@ -366,18 +407,19 @@ impl Reading<'_> {
 
     /// The mask of some rows; none where there is no mask.
     fn masked(&self, start: usize, count: usize, columns: usize) -> Result<Vec<u8>, Fault> {
-        let Some(mask) = self.mask else { return Ok(Vec::new()) };
-        let mask = self.tiff.read_band_window_from_ifd::<u8>(mask, 0, start, 0, count, columns)?;
+        let Some(Mask { tiff, ifd, band }) = self.mask else { return Ok(Vec::new()) };
+        let mask = tiff.read_band_window_from_ifd::<u8>(ifd, band, start, 0, count, columns)?;
         Ok(mask.iter().copied().collect())
     }
 
     fn height<T: Cell>(&self, cell: T) -> f64 {
         let number = cell.number();
-        let is_missing =
-            |value: Option<f64>| value.is_some_and(|value| T::nearest(value) == number);
-        if is_missing(self.nodata) || is_missing(self.missing) {
+        if self.nodata.is_some_and(|value| T::nearest(value) == number) {
             return f64::NAN;
         }
-        number * self.scaling.scale + self.scaling.offset
+        let height = number * self.scaling.scale + self.scaling.offset;
+        // What a height of few digits becomes in single precision, scaled.
+        let is_missing = |missing: f64| (height - missing).abs() <= 1e-6 * missing.abs();
+        if self.missing.is_some_and(is_missing) { f64::NAN } else { height }
     }
 }

@@ -4,7 +4,7 @@ use grouser_core::terrain::elevation::{above, round_base};
 use grouser_core::terrain::{ElevationError, ElevationGrid};
 
 use crate::error::Fault;
-use crate::{CoordinateSystem, Raster, RowOrder};
+use crate::{CoordinateSystem, Raster, RowOrder, remarks};
 
 /// Heights from here on are missing [m]: planetary formats write special values of that size.
 pub const BEYOND: f64 = 1e30;
@@ -75,7 +75,8 @@ impl Heights {
         if order == RowOrder::NorthFirst {
             turn_over(&mut self.above, grid.columns);
         }
-        Ok(Raster { grid, base, heights: self.above, coordinates })
+        let remarks = remarks(&grid, base, &self.above);
+        Ok(Raster { grid, base, heights: self.above, coordinates, remarks })
     }
 }
 

@@ -38,22 +38,30 @@
 //! # Ok::<(), grouser_raster::Fault>(())
 //! ```
 
+mod advice;
 mod coordinate_system;
 mod error;
 pub mod geotiff;
 mod heights;
+mod meaning;
 pub mod npy;
 mod options;
+mod plausibility;
+mod projection;
 mod raster;
 mod read;
+mod remark;
 pub mod xyz;
 pub mod zones;
 
 pub use coordinate_system::{CoordinateSystem, GeoKeys};
 pub use error::{Fault, RasterError};
 pub use heights::BEYOND;
+pub use meaning::{Site, check_system};
 pub use options::{CELLS, Content, Placement, ReadOptions, RowOrder};
+pub use plausibility::remarks;
 pub use raster::Raster;
 pub use read::read;
+pub use remark::Remark;
 pub use zones::geojson::read_line_string;
-pub use zones::{ZoneKey, ZoneMap, are_degrees, read_areas, read_zones, zone_names};
+pub use zones::{ZoneKey, ZoneMap, check_places, read_areas, read_zones, zone_names};

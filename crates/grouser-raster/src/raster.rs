@@ -4,7 +4,7 @@ use grouser_core::terrain::lunar::LunarModel;
 use grouser_core::terrain::{ElevationError, ElevationGrid, ElevationModel};
 use grouser_core::units::Vec2;
 
-use crate::CoordinateSystem;
+use crate::{CoordinateSystem, Remark};
 
 /// Heights at the points of a grid, with the coordinate system of their file.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +18,8 @@ pub struct Raster {
     pub heights: Vec<f32>,
     /// The system of the coordinates, as the file has it.
     pub coordinates: CoordinateSystem,
+    /// What is odd about them.
+    pub remarks: Vec<Remark>,
 }
 
 impl Raster {
@@ -29,7 +31,7 @@ impl Raster {
         let heights = model.heights.iter().map(|height| *height as f32).collect();
         let coordinates =
             CoordinateSystem::of_the_moon([0.0, 0.0], "made lunar ground (no place of the Moon)");
-        Self { grid: model.grid, base: 0.0, heights, coordinates }
+        Self { grid: model.grid, base: 0.0, heights, coordinates, remarks: Vec::new() }
     }
 
     /// The height at a point [m]; none where it is missing, or beyond the grid.
@@ -95,7 +97,8 @@ mod tests {
         #[expect(clippy::cast_possible_truncation, reason = "small whole numbers")]
         let mut heights: Vec<f32> = grid.points().map(|at| height(at) as f32).collect();
         heights[2 * 5 + 2] = f32::NAN;
-        Raster { grid, base: 7.0, heights, coordinates: CoordinateSystem::default() }
+        let coordinates = CoordinateSystem::default();
+        Raster { grid, base: 7.0, heights, coordinates, remarks: Vec::new() }
     }
 
     #[test]

@@ -1,11 +1,13 @@
 //! Heights as text: a point in each line, x, y and z in metres, east, north and up.
 //!
-//! Numbers stand apart by spaces, tabs, commas or semicolons; more of them after z are left alone.
-//! Lines may come in any order. Empty lines, those that start with `#` or `//`, and words in the
-//! first line are passed over. Points lie on a regular grid, of which some may be missing; a z of
-//! NaN is missing, too.
+//! Numbers stand apart by spaces, tabs, commas or semicolons. A first line with a name for each
+//! column says which are x, y and z ([`header`]); without one they are the first three, and those
+//! after them are not used, which is said. Lines may come in any order. Empty lines, those that start
+//! with `#` or `//`, and a title are passed over. Points lie on a regular grid, of which some may be
+//! missing; a z of NaN is missing, too.
 
 mod axis;
+mod header;
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -16,8 +18,9 @@ use grouser_core::units::Vec2;
 
 use crate::error::{Fault, RasterError};
 use crate::heights::{Heights, checked_cells};
-use crate::{CELLS, CoordinateSystem, Raster, ReadOptions, RowOrder};
+use crate::{CELLS, CoordinateSystem, Raster, ReadOptions, Remark, RowOrder};
 use axis::Axis;
+use header::{Columns, words};
 
 /// Bytes of a line, at most.
 const LONGEST: u64 = 1_000;
@@ -83,7 +86,9 @@ pub fn decode(text: impl BufRead, options: &ReadOptions) -> Result<Raster, Fault
         south_west: Vec2::new(columns.first, rows.first),
         spacing: Vec2::new(columns.spacing, rows.spacing),
     };
-    heights.raster(grid, RowOrder::SouthFirst, CoordinateSystem::default())
+    let mut raster = heights.raster(grid, RowOrder::SouthFirst, CoordinateSystem::default())?;
+    raster.remarks.extend(points.remarks);
+    Ok(raster)
 }
 
 /// The points of a file.
@@ -94,12 +99,17 @@ struct Points {
     z: Vec<f64>,
     /// The number of each point's line, from 1.
     lines: Vec<u32>,
+    /// What is odd about the columns.
+    remarks: Vec<Remark>,
 }
 
 impl Points {
     fn read(mut text: impl BufRead, options: &ReadOptions) -> Result<Self, Fault> {
+        let limit = options.cells.unwrap_or(CELLS);
         let mut points = Self::default();
         let mut line = Vec::new();
+        // The first words that are no numbers, and where the columns are once a point was seen.
+        let (mut first, mut columns) = (None, None);
         for number in 1_u32.. {
             line.clear();
             if text.by_ref().take(LONGEST + 1).read_until(b'\n', &mut line)? == 0 {
@@ -109,21 +119,29 @@ impl Points {
             if line.len() as u64 > LONGEST {
                 return Err(fault(format!("it is longer than {LONGEST} bytes")));
             }
-            let words = String::from_utf8_lossy(&line);
-            let words = words.trim_start_matches('\u{feff}').trim();
-            if words.is_empty() || words.starts_with('#') || words.starts_with("//") {
+            let line = String::from_utf8_lossy(&line);
+            let line = line.trim_start_matches('\u{feff}').trim();
+            if line.is_empty() || header::is_comment(line) {
+                first = first.or_else(|| header::of_comment(line));
                 continue;
             }
-            let [x, y, z] = match numbers(words) {
-                Ok(numbers) => numbers,
-                // A heading.
-                Err(_) if points.x.is_empty() && number == 1 => continue,
-                Err(problem) => return Err(fault(problem)),
-            };
+            let words = words(line);
+            if columns.is_none() && number == 1 && words.iter().all(|it| it.parse::<f64>().is_err())
+            {
+                first = Some(words.into_iter().map(str::to_owned).collect());
+                continue;
+            }
+            if columns.is_none() {
+                let found = Columns::of(first.take(), words.len())
+                    .map_err(|problem| Fault::Line { line: 1, problem })?;
+                points.remarks.extend(found.remark());
+                columns = Some(found);
+            }
+            let point = columns.as_ref().map(|columns| columns.numbers(&words));
+            let Some([x, y, z]) = point.transpose().map_err(fault)? else { continue };
             if !x.is_finite() || !y.is_finite() {
                 return Err(fault("x and y must be finite".into()));
             }
-            let limit = options.cells.unwrap_or(CELLS);
             if points.x.len() as u64 == limit {
                 return Err(Fault::TooLarge { columns: limit + 1, rows: 1, limit });
             }
@@ -159,19 +177,4 @@ impl Points {
         };
         Fault::Line { line: self.line(point), problem }
     }
-}
-
-/// The first three numbers of a line.
-fn numbers(words: &str) -> Result<[f64; 3], String> {
-    let apart = |c: char| c.is_whitespace() || matches!(c, ',' | ';');
-    let mut words = words.split(apart).filter(|word| !word.is_empty());
-    let mut next = |name: &str| {
-        let word =
-            words.next().ok_or_else(|| format!("it has no {name}: x, y and z are expected"))?;
-        word.parse::<f64>().map_err(|_| {
-            let shown: String = word.chars().filter(|c| !c.is_control()).take(20).collect();
-            format!("{name} is no number: {shown}")
-        })
-    };
-    Ok([next("x")?, next("y")?, next("z")?])
 }

@@ -27,7 +27,7 @@ pub(crate) mod key;
 mod map;
 
 pub use key::ZoneKey;
-pub use map::{ZoneMap, are_degrees};
+pub use map::{ZoneMap, check_places};
 
 use std::path::Path;
 

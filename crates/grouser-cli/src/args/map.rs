@@ -24,6 +24,9 @@ pub(crate) struct MapArgs {
     /// each byte and 2^24 at least, 2^28 at most.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(4..))]
     pub(crate) max_cells: Option<u64>,
+    /// A height that stands for a missing one in DEM [m], beside those that it declares.
+    #[arg(long, value_name = "Z", allow_negative_numbers = true)]
+    pub(crate) missing_m: Option<f64>,
     /// A scenario's file or preset, for its rover, soil, gravity, load transfer and rim speed;
     /// without it the default scenario.
     #[arg(value_parser = NonEmptyStringValueParser::new())]

@@ -30,6 +30,9 @@ pub(crate) struct RouteArgs {
     /// each byte and 2^24 at least, 2^28 at most.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(4..))]
     pub(crate) max_cells: Option<u64>,
+    /// A height that stands for a missing one in DEM [m], beside those that it declares.
+    #[arg(long, value_name = "Z", allow_negative_numbers = true)]
+    pub(crate) missing_m: Option<f64>,
     #[command(flatten)]
     pub(crate) parts: PartArgs,
     /// Where the way begins, in the map's coordinates [m].

@@ -1,8 +1,10 @@
 //! What a mobility map is made of.
 
+use std::path::Path;
+
 use grouser::answers::Sampling;
 use grouser::answers::map::MapQuestion;
-use grouser::document::{self, LoadedScenario};
+use grouser::document::{self, LoadedScenario, escape};
 use grouser::studies::mobility::{CourseChoice, Ground};
 use grouser::studies::verdict::SlopeStudy;
 use grouser_raster::{Raster, RasterError, ReadOptions};
@@ -12,6 +14,7 @@ use super::{balanced, check_numbers, refuse_sampled_keys};
 use crate::args::MapArgs;
 use crate::failure::Failure;
 use crate::list::{self, Numbers};
+use crate::output;
 
 /// What a mobility map is made of.
 pub(crate) struct MapInputs {
@@ -47,9 +50,31 @@ pub(crate) fn map(args: &MapArgs) -> Result<MapInputs, Failure> {
         rule: rule(&args.rule)?,
         ..SlopeStudy::of(&scenario)
     };
-    let options = ReadOptions { cells: args.max_cells, ..ReadOptions::default() };
-    let raster = grouser_raster::read(&args.dem, &options)?;
+    let raster = dem(&args.dem, args.max_cells, args.missing_m)?;
     Ok(MapInputs { scenario, study, course, raster })
+}
+
+/// Reads a map of heights, and says what is odd about it.
+///
+/// * `cells`: the most that are read
+/// * `missing`: a height that stands for a missing one [m]
+pub(super) fn dem(
+    path: &Path,
+    cells: Option<u64>,
+    missing: Option<f64>,
+) -> Result<Raster, Failure> {
+    let options = ReadOptions { cells, missing, ..ReadOptions::default() };
+    let raster = grouser_raster::read(path, &options)?;
+    output::notes(raster.remarks.iter().map(|remark| {
+        let of_flag = |height: f64| format!("`--missing-m {height}`");
+        let text = remark.to_string();
+        let text = match remark.missing() {
+            Some(height) => text.replace(&format!("`missing_m` = {height}"), &of_flag(height)),
+            None => text,
+        };
+        format!("{}: {}", escape::path(path), escape::line(&text))
+    }));
+    Ok(raster)
 }
 
 impl From<RasterError> for Failure {

@@ -27,6 +27,7 @@ pub(crate) fn read(args: &MissionArgs) -> Result<LoadedMission, Failure> {
     }
     overrides.check_kinds(&[Kind::Mission, Kind::Rover, Kind::Soil, Kind::Wheel])?;
     let mission = document::read_mission(&source, &overrides)?;
+    output::notes(mission.notes.iter().map(|note| escape::line(note)));
     if let Some(file) = &args.stop_from {
         note_overruled(Path::new(file), &mission, &args.setting.settings);
     }

@@ -9,9 +9,10 @@ use grouser::studies::mobility::Ground;
 use grouser::studies::route::{Ends, Limits, Line, LineError, RouteStudy};
 use grouser::studies::verdict::SlopeStudy;
 use grouser::units::Vec2;
-use grouser_raster::{Raster, ReadOptions};
+use grouser_raster::Raster;
 
 use super::card::{rim_speed, rule};
+use super::map::dem;
 use super::{balanced, refuse_sampled_keys, single};
 use crate::args::RouteArgs;
 use crate::failure::Failure;
@@ -58,8 +59,7 @@ pub(crate) fn route(args: &RouteArgs) -> Result<RouteInputs, Failure> {
         ..SlopeStudy::of(&scenario)
     };
     let limits = limits(args, &mobility)?;
-    let options = ReadOptions { cells: args.max_cells, ..ReadOptions::default() };
-    let raster = grouser_raster::read(&args.dem, &options)?;
+    let raster = dem(&args.dem, args.max_cells, args.missing_m)?;
     let mut study = RouteStudy { mobility, limits, keep_out: None };
     if let Some(file) = &args.keep_out {
         study = study.keeping_out_of(file, &raster.grid.extent())?;

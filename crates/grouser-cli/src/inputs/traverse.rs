@@ -1,11 +1,12 @@
 //! The inputs of a traverse.
 
-use grouser::document::{self, Kind, LoadedScenario, Overrides};
+use grouser::document::{self, Kind, LoadedScenario, Overrides, escape};
 
 use super::{run_settings, scenario_settings, scenario_source};
 use crate::args::{SettingArgs, TraverseArgs};
 use crate::failure::Failure;
 use crate::list::{self, Numbers};
+use crate::output;
 
 /// The scenario of a traverse.
 ///
@@ -61,7 +62,9 @@ pub(crate) fn traverse(
         overrides.leave_out(Kind::Scenario, other);
     }
     overrides.check_kinds(&[Kind::Scenario, Kind::Rover, Kind::Soil, Kind::Wheel])?;
-    Ok(document::read_scenario(&source, &overrides)?)
+    let scenario = document::read_scenario(&source, &overrides)?;
+    output::notes(scenario.notes.iter().map(|note| escape::line(note)));
+    Ok(scenario)
 }
 
 /// The key of the yaw at the start, in its table.

@@ -67,6 +67,35 @@ fn a_plane_has_the_numbers_of_the_heading_map() {
     }
 }
 
+/// What is odd about heights is said, and declared with the flag that helps; names of columns count.
+#[test]
+fn what_is_odd_about_heights_is_said_with_the_flag_that_helps() {
+    let place = Place::new();
+    let void = |x: f64, y: f64| if x > 12.9 && y > 8.9 { -9999.0 } else { 100.0 + 0.1 * x };
+    place.write("void.xyz", heights(void));
+    let note = "8 cells of -9999 m are 10099 m below all others: missing heights? ";
+    let found = place.line("map void.xyz --samples 2 --out one");
+    assert!(found.stderr.contains(&format!("{note}`--missing-m -9999`")), "{}", found.stderr);
+    let json: Value = serde_json::from_str(&place.read("one/map.json")).expect("JSON");
+    assert!(json["verdicts"]["no_go"].as_u64() > Some(0));
+    let declared = place.line("map void.xyz --missing-m -9999 --samples 2 --out two");
+    assert!(!declared.stderr.contains("missing heights"), "{}", declared.stderr);
+    let json: Value = serde_json::from_str(&place.read("two/map.json")).expect("JSON");
+    assert_eq!((&json["verdicts"]["no_go"], &json["verdicts"]["unknown"]), (&0.into(), &9.into()));
+    let quick = "--duration-s 1 --simulation quasi-steady";
+    let driven = place.line(&format!("traverse --terrain void.xyz {quick}"));
+    assert!(driven.stderr.contains(&format!("{note}`terrain.missing_m`")), "{}", driven.stderr);
+    let named = heights(|x, _| 0.1 * x).replace(' ', ",").replace(',', ",7,");
+    let named: String =
+        named.lines().map(|line| format!("{}\n", line.replacen(",7,", ",", 1))).collect();
+    place.write("named.csv", format!("x,y,intensity,z\n{named}"));
+    let driven = place.line(&format!("traverse --terrain named.csv {quick} --format csv"));
+    assert!(driven.stderr.contains("columns not used: intensity"), "{}", driven.stderr);
+    place.write("degrees.csv", "lon,lat,z\n15,54,1\n15.1,54,2\n15,54.1,3\n15.1,54.1,4\n");
+    let refused = check_is_refusal(&place.line("map degrees.csv --out three"), 2);
+    assert!(refused.contains("column lon is in degrees"), "{refused}");
+}
+
 /// A map of hills has all its files, in the coordinates of the heights; places without a height
 /// have no number.
 #[test]

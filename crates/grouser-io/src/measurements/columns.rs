@@ -33,6 +33,8 @@ pub enum Meaning {
     LoadSetting,
     /// What was read.
     Reading(Quantity),
+    /// Drawbar pull over the load of the same row.
+    PullOverLoad,
     /// Side force that counts as positive where it opposes the hub's sideways motion.
     OpposingSideForce,
     /// Standard deviation within the trial.
@@ -68,6 +70,7 @@ pub struct Column {
 
 const FORCE: RangeInclusive<f64> = -1e5..=1e5;
 const NOT_NEGATIVE: RangeInclusive<f64> = 0.0..=1e5;
+const PULL_OVER_LOAD: RangeInclusive<f64> = -10.0..=10.0;
 const SLIP: RangeInclusive<f64> = -2.0..=2.0;
 const RIGHT_ANGLE: RangeInclusive<f64> = -90.0..=90.0;
 const SPEED_MM_S: RangeInclusive<f64> = -1e4..=1e4;
@@ -96,7 +99,7 @@ const fn of(quantity: Named, meaning: Meaning, range: RangeInclusive<f64>) -> Co
 /// What stands write. Names of the same meaning differ in unit, or in whose files they
 /// are: `longitudinal_force_n`, `normal_force_n` and `peripheral_speed_…` are those of the open
 /// single-wheel data of Carnegie Mellon University.
-const READ: [Column; 32] = {
+const READ: [Column; 33] = {
     use Meaning::{
         Cell, Load, LoadSetting, Reading, RimSpeed, RimSpeedSetting, Scatter, SlipAngle, SlipRatio,
         Status, TotalSlip, TravelSpeed, Trial, Unused, Wheel,
@@ -122,6 +125,7 @@ const READ: [Column; 32] = {
         column("load_setting_n", LoadSetting, N, NOT_NEGATIVE),
         of(DRAWBAR_PULL, Reading(DrawbarPull), FORCE),
         column("longitudinal_force_n", Reading(DrawbarPull), N, FORCE),
+        column("drawbar_pull_over_load", Meaning::PullOverLoad, ONE, PULL_OVER_LOAD),
         of(SIDE_FORCE, Reading(SideForce), FORCE),
         column("side_force_opposing_n", Meaning::OpposingSideForce, N, FORCE),
         of(TORQUE, Reading(Torque), FORCE),
@@ -158,6 +162,13 @@ pub(super) fn is_of_a_band(name: &str) -> bool {
 /// The column whose presence tells a file of Carnegie Mellon's: there `side_force_n` is positive
 /// where it opposes the hub's sideways motion.
 pub(super) const OF_OPPOSING_SIDE_FORCES: &str = "longitudinal_force_n";
+
+/// Whether a column has the time, so that rows are samples of runs and no trials.
+pub(super) fn is_of_time(name: &str) -> bool {
+    const TIMES: [&str; 8] =
+        ["time", "t", "time_s", "t_s", "time_ms", "timestamp", "timestamp_s", "elapsed_s"];
+    TIMES.contains(&name.to_ascii_lowercase().as_str())
+}
 
 /// The column of a name.
 #[must_use]

@@ -26,7 +26,7 @@ pub enum Dimension {
 }
 
 /// Units by name, with what they measure and their size in SI.
-const UNITS: [(&str, Dimension, f64); 38] = [
+const UNITS: [(&str, Dimension, f64); 42] = [
     ("m", Dimension::Length, 1.0),
     ("cm", Dimension::Length, 1e-2),
     ("mm", Dimension::Length, 1e-3),
@@ -49,6 +49,10 @@ const UNITS: [(&str, Dimension, f64); 38] = [
     ("mNm", Dimension::Moment, 1e-3),
     ("Nmm", Dimension::Moment, 1e-3),
     ("kNm", Dimension::Moment, 1e3),
+    ("kgf.m", Dimension::Moment, 9.806_65),
+    ("kgf.cm", Dimension::Moment, 9.806_65e-2),
+    ("lbf.in", Dimension::Moment, 4.448_221_615_260_5 * 0.0254),
+    ("lbf.ft", Dimension::Moment, 4.448_221_615_260_5 * 0.3048),
     ("deg", Dimension::Angle, DEGREE),
     ("rad", Dimension::Angle, 1.0),
     ("mrad", Dimension::Angle, 1e-3),

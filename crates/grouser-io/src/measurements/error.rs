@@ -65,6 +65,15 @@ pub enum MeasurementProblem {
         /// The first row's status.
         first: String,
     },
+    /// Rows of runs in time.
+    #[error(
+        "`{column}` says that rows are samples of runs in time, and here each row is a trial: \
+         start-up would be in the means, and noise be taken for repeatability"
+    )]
+    TimeSeries {
+        /// The column of the time.
+        column: String,
+    },
     /// Rows, but nothing that was read in them.
     #[error("has no reading: every cell of drawbar pull, side force, sinkage and torque is empty")]
     NoReadings,

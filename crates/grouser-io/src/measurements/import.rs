@@ -96,6 +96,7 @@ fn dimension(column: &Column) -> Dimension {
         | Meaning::OpposingSideForce
         | Meaning::Reading(_)
         | Meaning::Scatter(_) => Dimension::Force,
+        Meaning::PullOverLoad => Dimension::Share,
         Meaning::Wheel | Meaning::Trial | Meaning::Cell | Meaning::Status | Meaning::Unused => {
             Dimension::Text
         }

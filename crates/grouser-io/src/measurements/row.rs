@@ -76,6 +76,12 @@ impl<'a> Header<'a> {
             let hint = self.hint_of_missing(meanings);
             MeasurementError::at(self.label, 1, problem).with_hint(hint)
         };
+        if let Some(column) = self.names.iter().find(|name| columns::is_of_time(name)) {
+            let problem = Problem::TimeSeries { column: column.clone() };
+            let hint = "average each run over its steady part, from where slip and sinkage stay \
+                        within their scatter; one row for each run, without the time";
+            return Err(MeasurementError::at(self.label, 1, problem).with_hint(hint.to_owned()));
+        }
         if !has(Meaning::Load) {
             return Err(missing("the load", &[Meaning::Load]));
         }
@@ -86,7 +92,8 @@ impl<'a> Header<'a> {
             return Err(missing("the slip (or both speeds)", &meanings));
         }
         let read = Quantity::ALL.iter().any(|&quantity| has(Meaning::Reading(quantity)));
-        if !read && !has(Meaning::OpposingSideForce) {
+        let others = [Meaning::OpposingSideForce, Meaning::PullOverLoad];
+        if !read && !others.into_iter().any(has) {
             let meanings = Quantity::ALL.map(Meaning::Reading);
             return Err(missing("every reading", &meanings));
         }
@@ -127,6 +134,7 @@ impl<'a> Header<'a> {
         let empty = |column: &&Column| match column.meaning {
             Meaning::Reading(quantity) => !was_read(quantity),
             Meaning::OpposingSideForce => !was_read(Quantity::SideForce),
+            Meaning::PullOverLoad => !was_read(Quantity::DrawbarPull),
             _ => false,
         };
         let columns = self.columns.iter().flatten().copied().filter(empty);
@@ -270,6 +278,11 @@ impl Cells<'_> {
             let scatter = self.number(Meaning::Scatter(quantity))?.map(|(_, value)| value);
             let reading = self.number(Meaning::Reading(quantity))?;
             readings[quantity] = reading.map(|(_, value)| Reading { value, scatter });
+        }
+        if readings.drawbar_pull.is_none()
+            && let Some((_, share)) = self.number(Meaning::PullOverLoad)?
+        {
+            readings.drawbar_pull = Some(Reading { value: share * load, scatter: None });
         }
         if let Some((_, value)) = self.number(Meaning::OpposingSideForce)? {
             let scatter = self.number(Meaning::Scatter(Quantity::SideForce))?.map(|(_, it)| it);

@@ -5,10 +5,12 @@ use super::super::document::Document;
 use super::super::error::{DocumentError, Problem};
 use super::super::field::Inner;
 use super::super::mission::{LegKeys, Plan, limited_quantity};
+use super::super::terrain_file;
 use super::super::tree::Node;
 use super::super::unit::DEG;
 use super::{Described, Misfit};
-use grouser_core::mission::{Limited, Mission, PlanError, Stop, Then, Where};
+use grouser_core::mission::{Limited, Manoeuvre, Mission, PlanError, Stop, Then, Where};
+use grouser_core::terrain::{Ground, Shape};
 use grouser_core::units::Vec2;
 use grouser_core::vehicle::{Mount, Rover};
 
@@ -119,6 +121,29 @@ fn check_legs(legs: &[LegKeys], within: &str, rover: &Rover) -> Result<(), Misfi
     Ok(())
 }
 
+/// Checks that the places of a mission are on its map.
+///
+/// * `within`: the key under which its legs stand
+fn check_places(mission: &Mission, ground: &Ground, within: &str) -> Result<(), Misfit> {
+    let Shape::Map(map) = &ground.shape else { return Ok(()) };
+    let on_map = |at: Vec2| terrain_file::contains(map.extent(), at);
+    for (number, leg) in mission.legs.iter().enumerate() {
+        let Manoeuvre::Goto { place, .. } = leg.manoeuvre else { continue };
+        let place = place + ground.start;
+        if on_map(place) {
+            continue;
+        }
+        let what = format!("goes to x {} m, y {} m, beyond the map", place.x, place.y);
+        let problem = Problem::Leg { number: number + 1, what };
+        let mut hint = terrain_file::spans(map.extent());
+        if on_map(Vec2::new(place.y, place.x)) {
+            hint += ": x and y are exchanged?";
+        }
+        return Err(Misfit::new(format!("{within}.{number}.goto"), problem).with_hint(hint));
+    }
+    Ok(())
+}
+
 /// Checks that a mission is possible.
 ///
 /// * `within`: the key under which its legs stand
@@ -150,7 +175,7 @@ impl Described for Plan {
         self.scenario.follow(document);
     }
 
-    fn fetch(&mut self, document: &Document, tree: &Node) -> Result<(), DocumentError> {
+    fn fetch(&mut self, document: &Document, tree: &Node) -> Result<Vec<String>, DocumentError> {
         self.scenario.fetch(document, tree)
     }
 
@@ -161,6 +186,7 @@ impl Described for Plan {
         check_alternatives(&plan)?;
         for (within, legs) in plan.all_legs() {
             check_legs(legs, &within, &plan.scenario.rover)?;
+            check_places(&plan.mission_of(legs), &plan.scenario.ground, &within)?;
             if plan.alternatives.is_empty() || within != "leg" {
                 check_mission(&plan.mission_of(legs), &within)?;
             }

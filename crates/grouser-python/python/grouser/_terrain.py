@@ -48,6 +48,11 @@ class Terrain:
     ParameterError
         If the heights are no grid, if all are missing, or for values that are not finite.
 
+    Warns
+    -----
+    UserWarning
+        Of heights that no ground has: voids that nobody declared, steps, spikes.
+
     Examples
     --------
     A hill of 1 m, 20 m wide, and a rover that drives up its western side:
@@ -222,15 +227,14 @@ class Terrain:
         Raises
         ------
         ParameterError
-            For coordinates in degrees or other units, and for a transform that is rotated,
-            sheared or mirrored, with what helps.
+            For coordinates in degrees or other units, a map far larger or smaller than its ground,
+            and a transform that is rotated, sheared or mirrored, with what helps.
 
         Examples
         --------
         Made with rasterio as ``gr.Terrain.from_rasterio(rasterio.open("site.tif"))``.
         """
         place = whole_number("band", band) - 1
-        _check_system("dataset", dataset.crs)
         _check_heights_unit("dataset", (getattr(dataset, "units", None) or {place: None})[place])
         a, b, c, d, e, f = tuple(dataset.transform)[:6]
         if b or d or a <= 0.0 or not e:
@@ -240,10 +244,13 @@ class Terrain:
                 "dataset",
             )
         heights = np.ma.asarray(dataset.read(band, masked=True))
+        rows, columns = heights.shape
+        middle = (c + 0.5 * columns * a, f + 0.5 * rows * e)
+        _check_system("dataset", dataset.crs, middle, abs(e))
         scale = (getattr(dataset, "scales", None) or {place: 1.0})[place]
         offset = (getattr(dataset, "offsets", None) or {place: 0.0})[place]
         # A transform is of the cells' corners, a map of their middles.
-        lowest = f + (heights.shape[0] - 0.5) * e if e < 0.0 else f + 0.5 * e
+        lowest = f + (rows - 0.5) * e if e < 0.0 else f + 0.5 * e
         return cls(
             _scaled(heights, scale, offset),
             cell_size_m=(a, abs(e)),
@@ -266,8 +273,8 @@ class Terrain:
         Raises
         ------
         ParameterError
-            For other dimensions, coordinates that are not evenly spaced, and coordinates in degrees
-            or other units, with what helps.
+            For other dimensions, coordinates that are not evenly spaced, coordinates in degrees or
+            other units, and a map far larger or smaller than its ground, with what helps.
 
         Examples
         --------
@@ -284,12 +291,13 @@ class Terrain:
                 "heights_m",
             )
         array = array.transpose("y", "x")
-        _check_system("heights_m", _system_of(array))
         _check_heights_unit("heights_m", array.attrs.get("units"))
         (west, east), (first, last) = _ends("x", array), _ends("y", array)
         if east < west:
             array, (west, east) = array.isel(x=slice(None, None, -1)), (east, west)
         rows, columns = array.shape
+        middle, cell = (0.5 * (west + east), 0.5 * (first + last)), abs(last - first) / (rows - 1)
+        _check_system("heights_m", _system_of(array), middle, cell)
         heights = np.ma.masked_invalid(np.asarray(array.values, dtype=np.float64))
         nodata = _nodata_of(array)
         if nodata is not None:
@@ -297,7 +305,7 @@ class Terrain:
         scale, offset = (array.attrs.get(it) for it in ("scale_factor", "add_offset"))
         return cls(
             _scaled(heights, scale, offset),
-            cell_size_m=((east - west) / (columns - 1), abs(last - first) / (rows - 1)),
+            cell_size_m=((east - west) / (columns - 1), cell),
             south_west_m=(west, min(first, last)),
             rows="south-first" if last > first else "north-first",
         )
@@ -473,26 +481,11 @@ def _scaled(heights: NDArray[Any], scale: float | None, offset: float | None) ->
     return scaled
 
 
-def _check_system(name: str, system: Any) -> None:
+def _check_system(name: str, system: Any, middle: Sequence[float], cell: float) -> None:
     """Checks that coordinates are in metres, as far as a coordinate system says so."""
-    text = str(system or "")
-    if getattr(system, "is_geographic", text.startswith(("GEOGCS", "GEOGCRS"))):
-        raise ParameterError(
-            "the coordinates are in degrees, and a rover drives in metres: project the map about "
-            'its site first, with `gdalwarp -t_srs "+proj=stere +lat_0=LAT +lon_0=LON +units=m"` '
-            "or rioxarray's `.rio.reproject(…)`",
-            name,
-            None,
-            "coordinates in metres",
-        )
-    unit, factor = getattr(system, "linear_units_factor", None) or ("metre", 1.0)
-    if factor != 1.0:
-        raise ParameterError(
-            f"the coordinates are in {unit} ({factor:g} m): project the map to metres first",
-            name,
-            None,
-            "coordinates in metres",
-        )
+    text = system.to_wkt() if hasattr(system, "to_wkt") else str(system or "")
+    if text:
+        _core.check_system(name, text, middle, cell)
 
 
 def _check_heights_unit(name: str, unit: object) -> None:
@@ -507,7 +500,7 @@ def _ends(dim: str, array: Any) -> tuple[float, float]:
     """The first and the last coordinate along a dimension [m], which are evenly spaced."""
     places = np.asarray(array[dim].values, dtype=np.float64)
     if str(array[dim].attrs.get("units", "")).startswith("degree"):
-        _check_system(dim, "GEOGCS")
+        _core.check_system(dim, "GEOGCS", (0.0, 0.0), 0.0)
     if len(places) < 2:
         raise ParameterError(
             f"there are {len(places)} places along {dim}, two or more are needed", dim

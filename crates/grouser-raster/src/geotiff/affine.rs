@@ -19,6 +19,12 @@ pub(super) struct Affine {
 }
 
 impl Affine {
+    /// Whether it leads to places, each from one place of the raster.
+    pub(super) fn is_regular(&self) -> bool {
+        let Self { x0, y0, a, b, c, d } = *self;
+        [x0, y0, a, b, c, d].into_iter().all(f64::is_finite) && a * d - b * c != 0.0
+    }
+
     /// The place on the map of the middle of a cell.
     pub(super) fn middle(&self, column: f64, row: f64) -> Vec2 {
         let (column, row) = (column + 0.5, row + 0.5);

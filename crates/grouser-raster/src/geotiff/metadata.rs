@@ -45,7 +45,7 @@ pub(super) fn scaling(text: Option<&str>, band: usize) -> Result<Scaling, Fault>
 }
 
 /// Checks that heights are in metres.
-fn check_unit(unit: &str) -> Result<(), Fault> {
+pub(super) fn check_unit(unit: &str) -> Result<(), Fault> {
     const METRES: [&str; 6] = ["", "m", "metre", "meter", "metres", "meters"];
     if METRES.contains(&unit.to_lowercase().as_str()) {
         return Ok(());

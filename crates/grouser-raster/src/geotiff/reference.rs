@@ -3,16 +3,19 @@
 use grouser_core::terrain::ElevationGrid;
 use grouser_core::units::Vec2;
 
-use super::advice;
 use super::affine::Affine;
+use super::beside::Beside;
 use crate::coordinate_system::{CoordinateSystem, key};
 use crate::error::Fault;
+use crate::meaning::{Site, check_keys, check_system};
+use crate::remark::Remark;
 use crate::{Placement, RowOrder};
 
 /// What a file says of its place.
-#[derive(Clone, Debug)]
 pub(super) struct Georeference<'s> {
     pub(super) system: &'s CoordinateSystem,
+    /// What lies beside the file.
+    pub(super) beside: &'s Beside,
     /// Size of a cell: `ModelPixelScaleTag`.
     pub(super) scale: Vec<f64>,
     /// A place in the raster, and on the map: `ModelTiepointTag`.
@@ -21,8 +24,17 @@ pub(super) struct Georeference<'s> {
     pub(super) matrix: Vec<f64>,
 }
 
+/// The points of a grid.
+pub(super) struct Placed {
+    pub(super) grid: ElevationGrid,
+    /// Which row comes first.
+    pub(super) order: RowOrder,
+    /// What is odd about the system of their coordinates.
+    pub(super) remark: Option<Remark>,
+}
+
 impl Georeference<'_> {
-    /// The points of the grid, and which row comes first.
+    /// The points of the grid.
     ///
     /// * `placement`: for files that do not say so themselves
     pub(super) fn grid(
@@ -30,12 +42,19 @@ impl Georeference<'_> {
         columns: usize,
         rows: usize,
         placement: Option<Placement>,
-    ) -> Result<(ElevationGrid, RowOrder), Fault> {
-        let Some(affine) = self.affine() else {
+    ) -> Result<Placed, Fault> {
+        let own = || self.affine().or(self.beside.world);
+        let Some(affine) = self.beside.notes.place.or_else(own).filter(Affine::is_regular) else {
             let placement = placement.ok_or(Fault::NotReferenced)?;
-            return Ok((placement.grid(columns, rows), placement.rows));
+            let (grid, order) = (placement.grid(columns, rows), placement.rows);
+            return Ok(Placed { grid, order, remark: None });
         };
-        self.check_coordinates(&affine, columns, rows)?;
+        let middle = affine.middle(0.5 * (columns as f64 - 1.0), 0.5 * (rows as f64 - 1.0));
+        let site = Site { middle, cell: affine.d.abs() };
+        let remark = match &self.beside.notes.system {
+            Some(text) => check_system(text, site)?,
+            None => check_keys(self.system, site)?,
+        };
         // What the rounding of sines may leave of a rotation by nothing [-].
         const LEVEL: f64 = 1e-9;
         let Affine { a, b, c, d, .. } = affine;
@@ -46,7 +65,8 @@ impl Georeference<'_> {
         let southern = if d < 0.0 { (rows - 1) as f64 } else { 0.0 };
         let south_west = affine.middle(0.0, southern);
         let spacing = Vec2::new(a, d.abs());
-        Ok((ElevationGrid { columns, rows, south_west, spacing }, order))
+        let grid = ElevationGrid { columns, rows, south_west, spacing };
+        Ok(Placed { grid, order, remark })
     }
 
     /// The place of the cells, by tiepoint and scale, else by the matrix, as GDAL takes them.
@@ -54,77 +74,21 @@ impl Georeference<'_> {
         // What is counted from the middle of the first cell is half a cell off the corner.
         let shift =
             if self.system.number(key::POINTS_OR_AREAS) == Some(POINTS) { 0.5 } else { 0.0 };
-        let affine = match (&*self.scale, &*self.tiepoint, &*self.matrix) {
+        match (&*self.scale, &*self.tiepoint, &*self.matrix) {
             ([width, height, ..], [i, j, _, x, y, ..], _) if *width != 0.0 && *height != 0.0 => {
                 let (column, row) = (i + shift, j + shift);
                 let height = height.abs();
                 let (x0, y0) = (x - column * width, y + row * height);
-                Affine { x0, y0, a: *width, b: 0.0, c: 0.0, d: -height }
+                Some(Affine { x0, y0, a: *width, b: 0.0, c: 0.0, d: -height })
             }
             (_, _, [a, b, _, x, c, d, _, y, ..]) => {
                 let (x0, y0) = (x - shift * (a + b), y - shift * (c + d));
-                Affine { x0, y0, a: *a, b: *b, c: *c, d: *d }
+                Some(Affine { x0, y0, a: *a, b: *b, c: *c, d: *d })
             }
-            _ => return None,
-        };
-        let Affine { x0, y0, a, b, c, d } = affine;
-        let finite = [x0, y0, a, b, c, d].into_iter().all(f64::is_finite);
-        (finite && a * d - b * c != 0.0).then_some(affine)
-    }
-
-    /// Checks that coordinates are those of a map, in metres.
-    fn check_coordinates(&self, affine: &Affine, columns: usize, rows: usize) -> Result<(), Fault> {
-        let system = self.system;
-        let is_projected =
-            system.number(key::PROJECTED).or(system.number(key::PROJECTION)).is_some();
-        let model = system.number(key::MODEL);
-        if model == Some(GEOCENTRIC) {
-            return Err(Fault::Geocentric);
-        }
-        let has_degrees = model == Some(GEOGRAPHIC) || system.number(key::GEODETIC).is_some();
-        if model != Some(PROJECTED) && !is_projected && has_degrees {
-            let command = advice::projection(system, affine, columns, rows);
-            return Err(Fault::Degrees { command });
-        }
-        if let Some(unit) = self.foreign_unit() {
-            return Err(Fault::Unit { unit });
-        }
-        match system.number(key::VERTICAL_UNIT) {
-            None | Some(0 | METRE) => Ok(()),
-            Some(code) => Err(Fault::HeightUnit { unit: unit_name(code) }),
-        }
-    }
-
-    /// The unit of the coordinates, if that is not the metre.
-    fn foreign_unit(&self) -> Option<String> {
-        match self.system.number(key::LINEAR_UNIT) {
-            // Registered systems without a unit of their own have that of the register, mostly
-            // metres.
-            None | Some(0 | METRE) => None,
-            Some(key::USER_DEFINED) => {
-                let size = self.system.real(key::LINEAR_UNIT_SIZE).unwrap_or(1.0);
-                (size != 1.0).then(|| format!("units of {size} m"))
-            }
-            Some(code) => Some(unit_name(code)),
+            _ => None,
         }
     }
 }
 
-/// Values of the key `GTModelTypeGeoKey`.
-const PROJECTED: u16 = 1;
-const GEOGRAPHIC: u16 = 2;
-const GEOCENTRIC: u16 = 3;
 /// Value of the key `GTRasterTypeGeoKey`: cells are points.
 const POINTS: u16 = 2;
-/// The metre's code in the EPSG register.
-const METRE: u16 = 9001;
-
-/// A unit by its code in the EPSG register.
-fn unit_name(code: u16) -> String {
-    match code {
-        9002 => "feet".into(),
-        9003 => "US survey feet".into(),
-        9036 => "kilometres".into(),
-        code => format!("a unit with the code EPSG:{code}"),
-    }
-}

@@ -149,7 +149,7 @@ fn features_in(root: Root) -> Result<Vec<Feature>, Fault> {
 }
 
 /// Whether a coordinate system of that name has degrees.
-fn is_in_degrees(name: &str) -> bool {
+pub(super) fn is_in_degrees(name: &str) -> bool {
     // The standard's own, that of GPS, and those of IAU bodies, whose codes of longitude and
     // latitude end in two zeros.
     let name = name.to_uppercase();
@@ -214,7 +214,7 @@ fn ring_of(number: u32, ring: Coordinates) -> Result<Vec<Vec2>, String> {
 }
 
 /// A word of the file, fit to be shown.
-fn shown(word: &str) -> String {
+pub(super) fn shown(word: &str) -> String {
     const LONGEST: usize = 60;
     let shown: String = word.chars().filter(|c| !c.is_control()).take(LONGEST).collect();
     if shown.is_empty() { "nothing".to_owned() } else { shown }

@@ -5,6 +5,7 @@ use grouser_core::terrain::zones::{MOST_SOILS, NO_ZONE};
 use grouser_core::terrain::{ElevationGrid, Extent, SoilZones, ZonePolygon};
 use grouser_core::units::Vec2;
 
+use super::geojson::{is_in_degrees, shown};
 use super::key::ZoneKey;
 use crate::error::Fault;
 
@@ -113,7 +114,7 @@ impl ZoneMap {
         let Some(zones) = self.extent() else { return Ok(()) };
         let Some(ground) = ground else {
             // Ground by a formula has no end.
-            return if are_degrees(&zones) { Err(Fault::ZonesInDegrees) } else { Ok(()) };
+            return check_places(None, &zones);
         };
         let apart = zones.south_west.x > ground.north_east.x
             || zones.south_west.y > ground.north_east.y
@@ -138,10 +139,24 @@ fn may_be_degrees(places: &Extent) -> bool {
         && places.north_east.y <= 90.0
 }
 
+/// Checks that places of a file of GeoJSON are metres, not degrees of longitude and latitude.
+///
+/// * `system`: the name of their coordinate system, which says what the numbers are
+/// * `places`: what they span
+///
+/// # Errors
+/// [`Fault`] for a system of degrees, and for numbers that look like degrees in a file without one.
+pub fn check_places(system: Option<&str>, places: &Extent) -> Result<(), Fault> {
+    match system {
+        Some(name) if is_in_degrees(name) => Err(Fault::SystemInDegrees { name: shown(name) }),
+        None if are_degrees(places) => Err(Fault::ZonesInDegrees),
+        _ => Ok(()),
+    }
+}
+
 /// Whether places are degrees of longitude and latitude rather than metres from a start: less than
 /// a metre across, and a hundred times as far away. Source: ours.
-#[must_use]
-pub fn are_degrees(places: &Extent) -> bool {
+fn are_degrees(places: &Extent) -> bool {
     let size = places.north_east - places.south_west;
     let across = size.x.max(size.y);
     let middle = places.south_west + 0.5 * size;

@@ -3,6 +3,7 @@
 mod damage;
 mod geotiff;
 mod ground;
+mod meaning;
 mod npy;
 mod xyz;
 mod zones;

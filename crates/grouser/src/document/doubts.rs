@@ -2,8 +2,8 @@
 
 use super::columns::flags::in_words;
 use super::{
-    DEFAULT_SOIL, DocumentError, Kind, Overrides, Source, kind_of_source, read_mission, read_rover,
-    read_scenario, read_soil,
+    DEFAULT_SOIL, DocumentError, Kind, Loaded, Overrides, Source, kind_of_source, read_mission,
+    read_rover, read_scenario, read_soil,
 };
 use crate::contact::validity::{Finding, Flag, Situation};
 use crate::contact::{Contact, Slip, settle};
@@ -14,7 +14,8 @@ use crate::vehicle::load::wheel_loads;
 use crate::vehicle::{LoadSharing, WheelReaction};
 
 /// What a document says that is hardly meant, a sentence each: Bekker's moduli that look like kN; a
-/// rover that the soil does not carry, or its flags, as it stands on level ground.
+/// rover that the soil does not carry, or its flags, as it stands on level ground; what is odd about a
+/// map of heights.
 ///
 /// A rover stands on the default soil.
 ///
@@ -49,8 +50,14 @@ pub fn doubts(source: &Source) -> Result<Vec<String>, DocumentError> {
             let on_soil = |doubt: String| format!("on the soil {DEFAULT_SOIL}, {doubt}");
             of_standing(&scenario).into_iter().map(on_soil).collect()
         }
-        Kind::Scenario => of_standing(&read_scenario(source, &none)?.value),
-        Kind::Mission => of_standing(&read_mission(source, &none)?.value.scenario),
+        Kind::Scenario => {
+            let Loaded { value, notes, .. } = read_scenario(source, &none)?;
+            [notes, of_standing(&value)].concat()
+        }
+        Kind::Mission => {
+            let Loaded { value, notes, .. } = read_mission(source, &none)?;
+            [notes, of_standing(&value.scenario)].concat()
+        }
         Kind::Wheel
         | Kind::Motor
         | Kind::DataSet

@@ -66,7 +66,13 @@ mod tests {
         let grid = ElevationGrid { columns, rows, south_west: Vec2::zeros(), spacing };
         #[expect(clippy::cast_possible_truncation, reason = "heights of a test")]
         let heights = grid.points().map(|at| height(at) as f32).collect();
-        Raster { grid, base: 0.0, heights, coordinates: CoordinateSystem::default() }
+        Raster {
+            grid,
+            base: 0.0,
+            heights,
+            coordinates: CoordinateSystem::default(),
+            remarks: Vec::new(),
+        }
     }
 
     /// Hills that nothing repeats.

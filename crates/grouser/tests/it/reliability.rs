@@ -41,7 +41,13 @@ fn ground() -> Raster {
     };
     #[expect(clippy::cast_possible_truncation, reason = "heights of a test")]
     let heights = grid.points().map(|at| height(at) as f32).collect();
-    Raster { grid, base: 0.0, heights, coordinates: CoordinateSystem::default() }
+    Raster {
+        grid,
+        base: 0.0,
+        heights,
+        coordinates: CoordinateSystem::default(),
+        remarks: Vec::new(),
+    }
 }
 
 /// * `samples`: that probabilities are stated by

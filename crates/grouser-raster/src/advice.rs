@@ -1,6 +1,7 @@
-//! The command that projects a grid in degrees.
+//! The command that projects a grid in degrees, or in a projection for another place.
 
-use super::affine::Affine;
+use grouser_core::units::Vec2;
+
 use crate::coordinate_system::{CoordinateSystem, key};
 
 /// Semi-major axis of the Earth [m]. Source: WGS 84.
@@ -8,29 +9,65 @@ const EARTH: f64 = 6_378_137.0;
 /// Ellipsoids whose axis is that near to it are of the Earth [m].
 const NEAR: f64 = 3_000.0;
 
-/// `gdalwarp` with a projection for the middle of the grid, and cells of about the same size: the
-/// zone of UTM on Earth, else a stereographic one of the file's own body.
-pub(super) fn projection(
-    system: &CoordinateSystem,
-    affine: &Affine,
-    columns: usize,
-    rows: usize,
-) -> String {
-    let middle = affine.middle(0.5 * (columns as f64 - 1.0), 0.5 * (rows as f64 - 1.0));
-    let (longitude, latitude) = (middle.x, middle.y.clamp(-90.0, 90.0));
-    let registered =
-        system.number(key::GEODETIC).is_some_and(|code| !matches!(code, 0 | key::USER_DEFINED));
-    let radius = system.real(key::SEMI_MAJOR_AXIS).filter(|radius| radius.is_finite());
-    let (target, radius) = match radius {
-        Some(radius) if (radius - EARTH).abs() > NEAR => {
-            (stereographic(longitude, latitude, &body(system, radius)), Some(radius))
+/// The body that a map is of.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Body {
+    /// The Earth.
+    Earth,
+    /// Another one: its semi-major and its semi-minor axis [m].
+    Other([f64; 2]),
+    /// The file does not say which.
+    Unknown,
+}
+
+impl Body {
+    /// That of semi-major and semi-minor axes [m].
+    pub(crate) fn of_axes(axes: [f64; 2]) -> Self {
+        if (axes[0] - EARTH).abs() > NEAR { Self::Other(axes) } else { Self::Earth }
+    }
+
+    /// That of a system of longitude and latitude.
+    pub(crate) fn of_keys(system: &CoordinateSystem) -> Self {
+        let registered =
+            system.number(key::GEODETIC).is_some_and(|code| !matches!(code, 0 | key::USER_DEFINED));
+        let major = system.real(key::SEMI_MAJOR_AXIS).filter(|radius| radius.is_finite());
+        let Some(major) = major else {
+            return if registered { Self::Earth } else { Self::Unknown };
+        };
+        let flattened = system.real(key::INVERSE_FLATTENING).filter(|inverse| *inverse > 1.0);
+        let by_flattening = flattened.map(|inverse| major * (1.0 - 1.0 / inverse));
+        let minor = by_flattening.or(system.real(key::SEMI_MINOR_AXIS)).unwrap_or(major);
+        Self::of_axes([major, minor])
+    }
+
+    /// The length of a degree of latitude [m].
+    pub(crate) fn degree(&self) -> Option<f64> {
+        match self {
+            Self::Earth => Some(EARTH.to_radians()),
+            Self::Other([major, _]) => Some(major.to_radians()),
+            Self::Unknown => None,
         }
-        None if !registered => (stereographic(longitude, latitude, "+R=RADIUS_IN_METRES"), None),
-        _ => (on_earth(longitude, latitude), Some(EARTH)),
+    }
+}
+
+/// `gdalwarp` with a projection for a place: the zone of UTM on Earth, else a stereographic one of
+/// the body.
+///
+/// * `place`: longitude, positive to the east, and latitude [°]
+/// * `size`: of a cell [m]
+pub(crate) fn projection(place: Vec2, body: &Body, size: Option<f64>) -> String {
+    let (longitude, latitude) = (place.x, place.y.clamp(-90.0, 90.0));
+    let target = match body {
+        Body::Earth => on_earth(longitude, latitude),
+        Body::Other([major, minor]) if major == minor => {
+            stereographic(longitude, latitude, &format!("+R={major}"))
+        }
+        Body::Other([major, minor]) => {
+            stereographic(longitude, latitude, &format!("+a={major} +b={minor}"))
+        }
+        Body::Unknown => stereographic(longitude, latitude, "+R=RADIUS_IN_METRES"),
     };
-    let size = radius.map_or("CELL_SIZE_IN_METRES".to_owned(), |radius| {
-        rounded(affine.d.abs().to_radians() * radius)
-    });
+    let size = size.map_or("CELL_SIZE_IN_METRES".to_owned(), rounded);
     format!("gdalwarp -t_srs \"{target}\" -tr {size} {size} -r cubic IN.tif OUT.tif")
 }
 
@@ -58,16 +95,6 @@ fn stereographic(longitude: f64, latitude: f64, body: &str) -> String {
     )
 }
 
-/// A body's axes for PROJ.
-fn body(system: &CoordinateSystem, radius: f64) -> String {
-    let flattened = system.real(key::INVERSE_FLATTENING).filter(|inverse| *inverse > 1.0);
-    let by_flattening = flattened.map(|inverse| radius * (1.0 - 1.0 / inverse));
-    match by_flattening.or(system.real(key::SEMI_MINOR_AXIS)) {
-        Some(minor) if minor != radius => format!("+a={radius} +b={minor}"),
-        _ => format!("+R={radius}"),
-    }
-}
-
 /// A length with three digits [m].
 fn rounded(length: f64) -> String {
     let digits = (2.0 - length.log10().floor()).clamp(0.0, 9.0);
@@ -87,8 +114,9 @@ mod tests {
 
     fn command(directory: &[u16], doubles: &[f64], middle: (f64, f64), cell: f64) -> String {
         let system = CoordinateSystem::new(directory.to_vec(), doubles.to_vec(), String::new());
-        let (x0, y0) = (middle.0 - 5.0 * cell, middle.1 + 5.0 * cell);
-        projection(&system, &Affine { x0, y0, a: cell, b: 0.0, c: 0.0, d: -cell }, 10, 10)
+        let body = Body::of_keys(&system);
+        let size = body.degree().map(|degree| cell * degree);
+        projection(Vec2::new(middle.0, middle.1), &body, size)
     }
 
     #[test]

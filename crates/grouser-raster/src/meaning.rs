@@ -1,0 +1,204 @@
+//! What a map's coordinates and heights mean: one check for all that maps come from.
+
+use grouser_core::units::Vec2;
+
+use crate::advice::{self, Body};
+use crate::coordinate_system::{CoordinateSystem, METRE, key};
+use crate::error::Fault;
+use crate::projection::Projection;
+use crate::remark::Remark;
+
+/// The middle of a map, and its cells, in units of its coordinates.
+#[derive(Clone, Copy, Debug)]
+pub struct Site {
+    /// Its middle.
+    pub middle: Vec2,
+    /// Distance of neighbours to the north.
+    pub cell: f64,
+}
+
+/// Checks a system of coordinates that a text describes (well-known text of the first or second
+/// edition, as rasterio and xarray have it): projected, in metres, heights too, and about as long as
+/// the ground.
+///
+/// ```
+/// use grouser_core::units::Vec2;
+/// use grouser_raster::{Fault, Site, check_system};
+///
+/// let degrees = r#"GEOGCS["Moon",DATUM["Moon",SPHEROID["Moon",1737400,0]],PRIMEM["0",0],UNIT["degree",0.0174532925199433]]"#;
+/// let site = Site { middle: Vec2::new(120.0, -89.0), cell: 0.001 };
+/// assert!(matches!(check_system(degrees, site), Err(Fault::Degrees { .. })));
+/// ```
+///
+/// # Errors
+/// [`Fault`] for degrees, other units, depths, and a map far larger or smaller than its ground.
+pub fn check_system(text: &str, site: Site) -> Result<Option<Remark>, Fault> {
+    if ["GEOCCS[", "Cartesian"].iter().any(|it| text.contains(it)) && !text.contains("PROJC") {
+        return Err(Fault::Geocentric);
+    }
+    check_heights(text)?;
+    let projection = Projection::of_wkt(text);
+    if projection.is_none() && text.starts_with("GEOG") {
+        let command = advice::projection(site.middle, &Body::Unknown, None);
+        return Err(Fault::Degrees { command });
+    }
+    let name = text.split('"').nth(1).unwrap_or_default();
+    check(projection.as_ref(), name, site)
+}
+
+/// Checks the system of heights that a text describes, if it does.
+fn check_heights(text: &str) -> Result<(), Fault> {
+    const STARTS: [&str; 4] = ["VERT_CS[", "VERTCRS[", "VERTICALCRS[", "VERTCS["];
+    let Some(heights) = STARTS.iter().find_map(|start| Some(text.split_once(start)?.1)) else {
+        return Ok(());
+    };
+    if [",down", ",DOWN", "\"Direction\",-1"].iter().any(|it| heights.contains(it)) {
+        return Err(Fault::Depths);
+    }
+    let Some((_, unit)) = heights.split_once("UNIT[\"") else { return Ok(()) };
+    let (name, rest) = unit.split_once('"').unwrap_or((unit, ""));
+    let size = rest.trim_start_matches(',').split([',', ']']).next().unwrap_or_default();
+    match size.trim().parse::<f64>() {
+        Ok(size) if size != 1.0 => Err(Fault::HeightUnit { unit: unit_of(size, name) }),
+        _ => Ok(()),
+    }
+}
+
+/// Checks the keys of a GeoTIFF likewise.
+pub(crate) fn check_keys(system: &CoordinateSystem, site: Site) -> Result<Option<Remark>, Fault> {
+    let is_projected = system.number(key::PROJECTED).or(system.number(key::PROJECTION)).is_some();
+    let model = system.number(key::MODEL);
+    if model == Some(GEOCENTRIC) {
+        return Err(Fault::Geocentric);
+    }
+    let has_degrees = model == Some(GEOGRAPHIC) || system.number(key::GEODETIC).is_some();
+    if model != Some(PROJECTED) && !is_projected && has_degrees {
+        let body = Body::of_keys(system);
+        let size = body.degree().map(|degree| site.cell * degree);
+        return Err(Fault::Degrees { command: advice::projection(site.middle, &body, size) });
+    }
+    if let Some(unit) = foreign_unit(system) {
+        return Err(Fault::Unit { unit });
+    }
+    match system.number(key::VERTICAL_UNIT) {
+        None | Some(0 | METRE) => check_registered_heights(system)?,
+        Some(code) => return Err(Fault::HeightUnit { unit: unit_name(code) }),
+    }
+    for id in [key::CITATION, key::PROJECTED_CITATION] {
+        system.text_of(id).map_or(Ok(()), |text| check_heights(&text))?;
+    }
+    if !is_projected {
+        return Ok(None);
+    }
+    // What the file says of its unit goes before the register.
+    let projection = Projection::of_keys(system);
+    let stated = system.number(key::LINEAR_UNIT).is_some_and(|unit| unit != 0);
+    match projection.filter(|it| !stated || it.unit() == 1.0) {
+        None if stated && system.epsg().is_some() => Ok(None),
+        projection => check(projection.as_ref(), &system.name(), site),
+    }
+}
+
+/// Checks a system of heights of the EPSG register that has no unit beside it.
+fn check_registered_heights(system: &CoordinateSystem) -> Result<(), Fault> {
+    /// Systems of heights in feet, in US survey feet, and of depths. Source: EPSG register 12.
+    const FEET: [u16; 6] = [5754, 6130, 6131, 6132, 8050, 8228];
+    const SURVEY_FEET: [u16; 3] = [5702, 6360, 8052];
+    const DEPTHS: [u16; 52] = [
+        5336, 5612, 5614, 5706, 5715, 5734, 5739, 5789, 5831, 5861, 5862, 5863, 5864, 5865, 5866,
+        5867, 5873, 6357, 6358, 6359, 7976, 8051, 8053, 8358, 8378, 8897, 9287, 9288, 9672, 10150,
+        10151, 10349, 10364, 10370, 10371, 10372, 10373, 10374, 10375, 10376, 10377, 10378, 10379,
+        10547, 10548, 10549, 10550, 10551, 10552, 10649, 10650, 10678,
+    ];
+    match system.number(key::VERTICAL) {
+        Some(code) if FEET.contains(&code) => Err(Fault::HeightUnit { unit: "feet".into() }),
+        Some(code) if SURVEY_FEET.contains(&code) => {
+            Err(Fault::HeightUnit { unit: "US survey feet".into() })
+        }
+        Some(code) if DEPTHS.contains(&code) => Err(Fault::Depths),
+        _ => Ok(()),
+    }
+}
+
+/// Checks what a projection does to lengths.
+///
+/// * `name`: of the system
+fn check(projection: Option<&Projection>, name: &str, site: Site) -> Result<Option<Remark>, Fault> {
+    /// How far a metre of the ground may be from one of the map before somebody is told, and before
+    /// the map is refused [-]: a slope of 20° is wrong by a tenth of a degree, and by one.
+    const TOLD: f64 = 0.005;
+    const REFUSED: f64 = 0.05;
+    let Some(projection) = projection else {
+        return Ok(Some(Remark::UnknownScale { system: name.to_owned() }));
+    };
+    let body = Body::of_axes(projection.axes());
+    if projection.is_in_degrees() {
+        let size = body.degree().map(|degree| site.cell * degree);
+        return Err(Fault::Degrees { command: advice::projection(site.middle, &body, size) });
+    }
+    if (projection.unit() - 1.0).abs() > 1e-9 {
+        return Err(Fault::Unit { unit: unit_of(projection.unit(), "") });
+    }
+    let (Some(factors), Some(place)) =
+        (projection.scale(site.middle), projection.place(site.middle))
+    else {
+        return Ok(Some(Remark::UnknownScale { system: name.to_owned() }));
+    };
+    let off = factors.map(|factor| (factor - 1.0).abs()).into_iter().fold(0.0, f64::max);
+    if off > REFUSED {
+        let size = Some(site.cell / factors[1]);
+        return Err(Fault::Scale { factors, command: advice::projection(place, &body, size) });
+    }
+    Ok((off > TOLD).then_some(Remark::Scale { factors }))
+}
+
+/// Values of the key `GTModelTypeGeoKey`.
+const PROJECTED: u16 = 1;
+const GEOGRAPHIC: u16 = 2;
+const GEOCENTRIC: u16 = 3;
+
+/// The unit of the coordinates as the file states it, if that is not the metre.
+fn foreign_unit(system: &CoordinateSystem) -> Option<String> {
+    match system.number(key::LINEAR_UNIT) {
+        None | Some(0 | METRE) => None,
+        Some(key::USER_DEFINED) => {
+            let size = system.linear_unit().unwrap_or(1.0);
+            (size != 1.0).then(|| unit_of(size, ""))
+        }
+        Some(code) => Some(unit_name(code)),
+    }
+}
+
+/// A unit by its code in the EPSG register.
+fn unit_name(code: u16) -> String {
+    match code {
+        1025 => "millimetres".into(),
+        1033 => "centimetres".into(),
+        9002 => "feet".into(),
+        9003 => "US survey feet".into(),
+        9036 => "kilometres".into(),
+        code => format!("a unit with the code EPSG:{code}"),
+    }
+}
+
+/// A unit by its length [m].
+///
+/// * `own`: its name, for one that is not known here
+fn unit_of(size: f64, own: &str) -> String {
+    const KNOWN: [(f64, &str); 5] = [
+        (0.001, "millimetres"),
+        (0.01, "centimetres"),
+        (0.3048, "feet"),
+        (1200.0 / 3937.0, "US survey feet"),
+        (1000.0, "kilometres"),
+    ];
+    let known = KNOWN.iter().find(|(length, _)| (size / length - 1.0).abs() < 1e-7);
+    match known {
+        Some((_, name)) => (*name).to_owned(),
+        None if own.is_empty() => format!("units of {size} m"),
+        None => {
+            let own: String = own.chars().filter(|c| !c.is_control()).take(40).collect();
+            format!("{own} ({size} m)")
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! What is odd about heights that can be driven on.
+
+use std::fmt;
+
+use grouser_core::units::Vec2;
+
+/// Something that whoever drives on the heights ought to know.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Remark {
+    /// The map is larger or smaller than the ground.
+    Scale {
+        /// Metres on the map of a metre on the ground at the map's middle, in the direction where it
+        /// is least and where it is most [-].
+        factors: [f64; 2],
+    },
+    /// Nothing says how large the ground is on the map.
+    UnknownScale {
+        /// What the file calls its system.
+        system: String,
+    },
+    /// Cells far below or above all others.
+    Void {
+        /// How many.
+        cells: usize,
+        /// Their height [m].
+        height: f64,
+        /// How far they are from the next one [m].
+        gap: f64,
+    },
+    /// Heights that are whole multiples of a step, which smooth ground goes up and down by.
+    Steps {
+        /// The step [m].
+        step: f64,
+        /// The slope that one makes between neighbours [rad].
+        slope: f64,
+    },
+    /// Single cells that stand out of their neighbours as no ground does.
+    Spikes {
+        /// How many.
+        cells: usize,
+        /// How far the worst is above, or below if negative, the nearest of its neighbours [m].
+        height: f64,
+        /// Where that is.
+        at: Vec2,
+    },
+    /// Columns of a text that no one asked for.
+    UnusedColumns {
+        /// Their names; for text without names their numbers, from 1.
+        columns: Vec<String>,
+    },
+    /// A column of a text that is taken for the heights, whatever its name.
+    TakenForHeight {
+        /// Its name.
+        column: String,
+    },
+}
+
+impl Remark {
+    /// The height that is probably a missing one [m], to be declared when the file is read again.
+    #[must_use]
+    pub fn missing(&self) -> Option<f64> {
+        match self {
+            Self::Void { height, .. } => Some(*height),
+            _ => None,
+        }
+    }
+}
+
+/// Metres on the map of a metre on the ground, in words.
+pub(crate) fn scale(factors: [f64; 2]) -> String {
+    let [least, most] = factors.map(|factor| format!("{factor:.3}"));
+    if least == most {
+        format!("{least} m")
+    } else {
+        format!("{least} to {most} m, by the direction,")
+    }
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let cells = |count: usize| if count == 1 { "cell" } else { "cells" };
+        let stand = |count: usize| if count == 1 { "is" } else { "are" };
+        match self {
+            Self::Scale { factors } => write!(
+                f,
+                "a metre of the ground has {} on the map at its middle: slopes and ways are wrong by \
+                 as much",
+                scale(*factors)
+            ),
+            Self::UnknownScale { system } => write!(
+                f,
+                "the scale of the map's projection was not looked at: nothing is known of {system}"
+            ),
+            Self::Void { cells: count, height, gap } => {
+                let side = if *gap < 0.0 { "below" } else { "above" };
+                write!(
+                    f,
+                    "{count} {} of {height} m {} {:.0} m {side} all others: missing heights? \
+                     `missing_m` = {height} takes them as such",
+                    cells(*count),
+                    stand(*count),
+                    gap.abs()
+                )
+            }
+            Self::Steps { step, slope } => write!(
+                f,
+                "heights go up and down in steps of {} m, and one between neighbours makes {:.0}°: \
+                 smooth the map, or take one with finer heights",
+                short(*step),
+                slope.to_degrees()
+            ),
+            Self::Spikes { cells: count, height, at } => write!(
+                f,
+                "{count} {} {} out of all neighbours more steeply than ground does, the farthest by \
+                 {} m at x {} m, y {} m: spikes and pits of the data?",
+                cells(*count),
+                if *count == 1 { "stands" } else { "stand" },
+                short(*height),
+                at.x,
+                at.y
+            ),
+            Self::UnusedColumns { columns } => {
+                write!(f, "columns not used: {}", columns.join(", "))
+            }
+            Self::TakenForHeight { column } => {
+                write!(f, "column {column} is taken for the height, in metres")
+            }
+        }
+    }
+}
+
+/// A length with three digits.
+fn short(length: f64) -> f64 {
+    let places = 10.0_f64.powf(2.0 - length.abs().max(1e-9).log10().floor());
+    (length * places).round() / places
+}
