@@ -152,7 +152,10 @@ fn out_of(here: f32, across: ([f32; 2], f32), along: ([f32; 2], f32)) -> Option<
         for neighbour in neighbours {
             let out = here - neighbour;
             // Missing neighbours say nothing.
-            if !(out.abs() > steep) || (least.is_finite() && out.signum() != least.signum()) {
+            if out.is_nan()
+                || out.abs() <= steep
+                || (least.is_finite() && out.signum() != least.signum())
+            {
                 return None;
             }
             if out.abs() < least.abs() {

@@ -81,7 +81,7 @@ impl Default for Layout {
 fn dimension(column: &Column) -> Dimension {
     use crate::measurements::wheel_tests::Quantity;
     match column.meaning {
-        Meaning::SlipRatio | Meaning::TotalSlip => Dimension::Share,
+        Meaning::SlipRatio | Meaning::TotalSlip | Meaning::PullOverLoad => Dimension::Share,
         Meaning::SlipAngle => Dimension::Angle,
         Meaning::TravelSpeed | Meaning::RimSpeed | Meaning::RimSpeedSetting => Dimension::Speed,
         Meaning::Reading(Quantity::Sinkage)
@@ -96,7 +96,6 @@ fn dimension(column: &Column) -> Dimension {
         | Meaning::OpposingSideForce
         | Meaning::Reading(_)
         | Meaning::Scatter(_) => Dimension::Force,
-        Meaning::PullOverLoad => Dimension::Share,
         Meaning::Wheel | Meaning::Trial | Meaning::Cell | Meaning::Status | Meaning::Unused => {
             Dimension::Text
         }

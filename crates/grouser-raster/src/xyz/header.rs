@@ -64,13 +64,11 @@ impl Columns {
     /// * `names`: of the first line, if there are any
     /// * `count`: of the words of the first point
     pub(super) fn of(names: Option<Vec<String>>, count: usize) -> Result<Self, String> {
-        match names.filter(|names| names.len() == count) {
-            Some(names) => Self::named(&names),
-            None => {
-                let unused = (4..=count).map(|column| column.to_string()).collect();
-                Ok(Self { of: [0, 1, 2], height: None, unused })
-            }
+        if let Some(names) = names.filter(|names| names.len() == count) {
+            return Self::named(&names);
         }
+        let unused = (4..=count).map(|column| column.to_string()).collect();
+        Ok(Self { of: [0, 1, 2], height: None, unused })
     }
 
     fn named(names: &[String]) -> Result<Self, String> {

@@ -1,5 +1,6 @@
 //! What a map means: systems, units, scales, masks and notes beside it; heights that no ground has.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::PathBuf;
 
@@ -25,7 +26,7 @@ fn text(height: impl Fn(u32, u32, f64) -> f64) -> Raster {
     for row in 0..100 {
         for column in 0..100 {
             let plane = 100.0 + 0.1 * f64::from(column) + 0.013 * f64::from(row);
-            text += &format!("{column} {row} {}\n", height(column, row, plane));
+            let _ = writeln!(text, "{column} {row} {}", height(column, row, plane));
         }
     }
     xyz::decode(text.as_bytes(), &ReadOptions::default()).expect("a grid")

@@ -48,12 +48,12 @@ fn our_own_layout_is_read_as_it_says() {
 /// Pull over load, as terramechanics prints it, is a pull; rows in time are no trials.
 #[test]
 fn a_share_of_the_load_is_a_pull_and_samples_in_time_are_no_trials() {
-    let read = tests("slip_ratio,load_n,drawbar_pull_over_load\n0.3,20,0.25\n0.3,40,-0.1\n");
-    let pulls = [0, 1].map(|trial| value(&read, trial, Quantity::DrawbarPull));
+    let shares = tests("slip_ratio,load_n,drawbar_pull_over_load\n0.3,20,0.25\n0.3,40,-0.1\n");
+    let pulls = [0, 1].map(|trial| value(&shares, trial, Quantity::DrawbarPull));
     assert_eq!(pulls, [5.0, -4.0]);
     for time in ["time_s", "t", "Time", "timestamp"] {
         let text = format!("{time},slip_ratio,load_n,drawbar_pull_n\n0,0.3,20,1\n0.01,0.3,20,2\n");
-        let error = MeasurementsSource::text("run.csv", &text).read().expect_err("refused");
+        let error = read(&text).expect_err("refused");
         let error = error.to_string();
         assert!(error.contains("rows are samples of runs in time"), "{error}");
         assert!(error.contains("steady part"), "{error}");
