@@ -112,17 +112,13 @@ pub(crate) fn drive_validation(
             Ok((drive, of_log, share)) => {
                 rows += drive.records as f64;
                 used += share * drive.records as f64;
-                of_log.into_iter().for_each(|note| notes.add(&name, note));
+                for note in of_log {
+                    notes.add(&name, note);
+                }
                 drives.push(drive);
             }
             Err(error) => {
-                let text = error.to_string();
-                let why = text.lines().next().unwrap_or_default();
-                // The name of the log stands before every note.
-                let after =
-                    why.strip_prefix(&escape::path(path)).and_then(|it| it.split_once(": "));
-                let why = after.map_or(why, |(_, why)| why);
-                notes.add(&name, format!("left out: {why}"));
+                notes.add(&name, left_out(&error, path));
                 first_error = first_error.or(Some(error));
             }
         }
@@ -133,6 +129,14 @@ pub(crate) fn drive_validation(
     let (folder, notes) = (folder.display().to_string(), notes.sentences());
     let share = if rows > 0.0 { used / rows } else { 1.0 };
     Ok((DriveValidationQuestion { folder, scenario, drives, notes }, share))
+}
+
+/// Why a log is left out, without its name, which stands before every note.
+fn left_out(error: &Failure, path: &Path) -> String {
+    let text = error.to_string();
+    let why = text.lines().next().unwrap_or_default();
+    let after = why.strip_prefix(&escape::path(path)).and_then(|it| it.split_once(": "));
+    format!("left out: {}", after.map_or(why, |(_, why)| why))
 }
 
 /// Notes on logs: what is the same of many is one note.

@@ -183,9 +183,9 @@ fn held(count: u32) -> Vec<Held> {
     let before = learner().samples(1, SAMPLES).expect("soils are drawn");
     let held = |key: &str| Held { key: key.to_owned(), drives: 0, width: 0.0 };
     let mut held: Vec<Held> = learner().keys().map(held).collect();
-    for (index, truth) in (0_u64..).zip(&hidden) {
+    for (index, (first, truth)) in (0_u64..).zip(hidden.iter().enumerate()) {
         // Where a soil is too weak for a trial it has the next one.
-        let trials = TRIALS.iter().cycle().skip(index as usize % TRIALS.len()).take(TRIALS.len());
+        let trials = TRIALS.iter().cycle().skip(first % TRIALS.len()).take(TRIALS.len());
         let seeds = TRIALS_OF_DRIVE as u64 * index..;
         let table = |(it, seed): (&Trial, u64)| {
             table(Layout::Mines, &prior.value, &truth.sample, *it, seed)

@@ -92,7 +92,9 @@ impl<'s> DriveRecorder<'s> {
         let last = self.gatherer.take();
         self.take(last);
         let Self { gross, digest, records, mut stretches, .. } = self;
-        stretches.iter_mut().for_each(|it| gross.leave_out(it));
+        for stretch in &mut stretches {
+            gross.leave_out(stretch);
+        }
         let gross_faults = gross.found().to_vec();
         RecordedDrive { name, split: Split::of(digest), records, stretches, gross_faults }
     }
