@@ -39,7 +39,7 @@ pub(crate) use self::telemetry::{
     telemetry_without_way,
 };
 pub(crate) use self::traverse::traverse;
-pub(crate) use self::validate::{ranked_data_set, slope_validation, validation};
+pub(crate) use self::validate::{drive_validation, ranked_data_set, slope_validation, validation};
 use crate::args::{BalanceArgs, DrawArgs, RunArgs, SettingArgs, SlopeArgs, TerrainArgs};
 use crate::failure::Failure;
 use crate::list::{self, Numbers};

@@ -159,4 +159,6 @@ static PRESETS: &[Preset] = &[
     preset!(TelemetryMapping, "mappings", "grouser"),
     preset!(TelemetryMapping, "mappings", "ros"),
     preset!(TelemetryMapping, "mappings", "foxglove"),
+    preset!(TelemetryMapping, "mappings", "mines"),
+    preset!(TelemetryMapping, "mappings", "enav"),
 ];

@@ -15,7 +15,7 @@
 //! | [`forecast`] | slip, drift, heading and steepest slope under another gravity, with one error budget |
 //! | [`simulated_telemetry`] | what instruments with their faults say of a drive |
 //! | [`measurement`], [`simulated_test`] | measured wheel tests, and simulated ones whose soil is known |
-//! | [`validation`], [`slope_validation`] | the errors of a wheel–soil model against measured wheels, and a measured rover on slopes |
+//! | [`validation`], [`slope_validation`], [`drive_validation`] | the errors of wheel–soil models against measured wheels, a measured rover on slopes, and recorded drives |
 //! | [`evidence`] | what the models have achieved, and the weights that follow |
 //! | [`calibration`] | soil parameters, with confidence intervals, from measurements |
 //! | [`ensemble`] | Monte Carlo: samples of uncertain inputs, and statistics of the results |
@@ -34,6 +34,7 @@ pub mod card;
 pub mod comparison;
 pub mod completion;
 pub mod drive;
+pub mod drive_validation;
 pub mod ensemble;
 pub mod evidence;
 pub mod forecast;

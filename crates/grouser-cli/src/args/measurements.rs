@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use clap::builder::NonEmptyStringValueParser;
-use clap::{Args, ValueEnum};
+use clap::{Arg, ArgGroup, Args, ValueEnum};
 use grouser::document::FitKey;
 use grouser::document::calibration::STEPS;
 use grouser::document::measurements::{Condition, Limits, Mapping};
 
-use super::{OutputArgs, SettingArgs};
+use super::{OutputArgs, SettingArgs, TelemetryArgs};
 use crate::list::{self, Numbers};
 
 /// Limit on files of measurements.
@@ -30,33 +30,41 @@ impl ReadArgs {
     override_usage = "grouser validate --data NAME|FILE.csv --wheel NAME|FILE --soil NAME|FILE [OPTIONS]\n       \
                       grouser validate --data NAME|FILE.csv --rover NAME|FILE --soil NAME|FILE [OPTIONS]\n       \
                       grouser validate --data NAME|FILE.toml [OPTIONS]\n       \
-                      grouser validate --all [--data-dir DIR] [OPTIONS]",
+                      grouser validate --all [--data-dir DIR] [OPTIONS]\n       \
+                      grouser validate --drives DIR --rover NAME|FILE --soil NAME|FILE [OPTIONS]",
     after_help = "Errors are of means over the trials of a cell, which are rows that repeat each \
                   other; every cell weighs the same. Beside them stand predictions without \
                   physics: the mean, and interpolation between the other cells. docs/guide/data.md \
                   lists the columns of FILE.csv, docs/validation.md what the numbers mean."
 )]
+#[command(group(ArgGroup::new("measured").args(["data", "drives"])))]
+#[command(mut_args(only_with_drives))]
 pub(crate) struct ValidateArgs {
     /// Measured wheel tests, or a rover's measured slip or yaw over slope: a data set that comes
     /// with the program (`published-wheel-tests`), or a CSV file (docs/guide/data.md lists its
     /// columns). Without a wheel or rover: every model is ranked on the data set.
-    #[arg(long, value_name = "NAME|FILE.csv", required_unless_present = "all")]
+    #[arg(long, value_name = "NAME|FILE.csv", required_unless_present_any = ["all", "drives"])]
     pub(crate) data: Option<PathBuf>,
+    /// Telemetry of drives instead: every log below a folder (CSV, Parquet or MCAP, read as `replay`
+    /// reads one), predicted by every model from its wheel speeds and attitudes alone. A data set
+    /// of slopes by its name stands for its drives.
+    #[arg(long, value_name = "DIR|NAME")]
+    pub(crate) drives: Option<PathBuf>,
     /// The wheel that was tested: a preset or a file.
     #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data", requires = "soil")]
     pub(crate) wheel: Option<String>,
     /// The rover that was driven on slopes: a preset or a file.
-    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data", requires = "soil", conflicts_with = "wheel")]
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "measured", requires = "soil", conflicts_with = "wheel")]
     pub(crate) rover: Option<String>,
     /// The soil of the predictions: a preset or a file.
-    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "data")]
+    #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "measured")]
     pub(crate) soil: Option<String>,
     /// Only rows where a column has one of some values, or none of them:
     /// `slip_angle_deg=0,15`, `wheel!=smooth`; can be repeated.
     #[arg(long = "where", value_name = "COLUMN=VALUES", value_parser = Condition::parse, requires = "data")]
     pub(crate) conditions: Vec<Condition>,
     /// Rank every model, with its own soils, on every data set that comes with the program.
-    #[arg(long, conflicts_with_all = ["data", "wheel", "rover", "soil", "conditions", "settings", "model", "gravity"])]
+    #[arg(long, conflicts_with_all = ["data", "drives", "wheel", "rover", "soil", "conditions", "settings", "model", "gravity"])]
     pub(crate) all: bool,
     /// Rank on the data sets of a folder instead (docs/guide/data.md explains how a document
     /// describes one).
@@ -66,11 +74,20 @@ pub(crate) struct ValidateArgs {
     #[arg(long, requires = "data")]
     pub(crate) strict: bool,
     #[command(flatten)]
+    pub(crate) telemetry: TelemetryArgs,
+    #[command(flatten)]
     pub(crate) read: ReadArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+}
+
+/// How telemetry is read is asked of telemetry alone.
+fn only_with_drives(argument: Arg) -> Arg {
+    let is_of_telemetry =
+        ["mapping", "topics", "accept_loss", "odometry"].contains(&argument.get_id().as_str());
+    if is_of_telemetry { argument.conflicts_with_all(["data", "all"]) } else { argument }
 }
 
 #[derive(Debug, Args)]

@@ -1,5 +1,5 @@
 //! `grouser validate`: errors of a wheel–soil model against measured wheel tests or a rover on
-//! slopes, or a ranking of all models.
+//! slopes, or a ranking of all models on these or on recorded drives.
 
 use std::path::Path;
 
@@ -42,6 +42,9 @@ impl From<RankingError> for Failure {
 
 pub(crate) fn run(args: &ValidateArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
+    if let Some(drives) = &args.drives {
+        return recorded(args, folder, drives);
+    }
     match (&args.data, &args.wheel, &args.rover, &args.soil) {
         (Some(data), Some(wheel), None, Some(soil)) => one(args, folder, data, wheel, soil),
         (Some(data), None, Some(rover), Some(soil)) => slopes(args, folder, data, rover, soil),
@@ -92,15 +95,43 @@ fn slopes(
     output::notes(&question.tests.notes);
     let answer = question.answer(COMMAND, &options(args, folder.is_some()))?;
     add_text(folder.as_mut(), &answer);
-    let (rover, soil) = (quoted(rover), quoted(soil));
+    let read = reading(args, data);
+    let repeat = format!("grouser validate {read}{}", flags_of_scenario(args));
+    give(&answer, &repeat, folder, args.output.format)
+}
+
+/// Every model on recorded drives, or on a data set of slopes, which are drives in few numbers.
+fn recorded(
+    args: &ValidateArgs,
+    mut folder: Option<OutputFolder>,
+    drives: &Path,
+) -> Result<(), Failure> {
+    if drives.to_str().is_some_and(|name| preset(Kind::DataSet, name).is_some()) {
+        let set = inputs::ranked_data_set(args, drives)?;
+        return ranking(args, folder, &rank_one(&set, args.read.limits())?);
+    }
+    let (question, share_used) = inputs::drive_validation(args, drives)?;
+    let answer = question.answer(COMMAND)?;
+    add_text(folder.as_mut(), &answer);
+    let file = drives.file_name().unwrap_or(drives.as_os_str()).to_string_lossy();
+    let mapping = args.telemetry.log.mapping.iter();
+    let mapping: String =
+        mapping.map(|it| format!(" --mapping {}", quoted(&it.to_string_lossy()))).collect();
+    let (odometry, flags) = (args.telemetry.odometry_option(), flags_of_scenario(args));
+    let repeat = format!("grouser validate --drives {}{mapping}{odometry}{flags}", quoted(&file));
+    give(&answer, &repeat, folder, args.output.format)?;
+    inputs::check_share_used(&file, share_used, &args.telemetry.log)
+}
+
+/// The rover, the soil and what is set of them, as flags.
+fn flags_of_scenario(args: &ValidateArgs) -> String {
+    let parts = [("--rover", &args.rover), ("--soil", &args.soil)];
+    let parts = parts.into_iter().filter_map(|(flag, it)| Some((flag, it.as_ref()?)));
     let settings = args.setting.settings.iter().map(|it| ("--set", it));
     let model = args.setting.model.iter().map(|it| ("--model", it));
     let gravity = args.setting.gravity.iter().map(|it| ("--gravity-m-s2", it));
-    let flags = settings.chain(model).chain(gravity);
-    let flags: String = flags.map(|(flag, it)| format!(" {flag} {}", quoted(it))).collect();
-    let read = reading(args, data);
-    let repeat = format!("grouser validate {read} --rover {rover} --soil {soil}{flags}");
-    give(&answer, &repeat, folder, args.output.format)
+    let flags = parts.chain(settings).chain(model).chain(gravity);
+    flags.map(|(flag, it)| format!(" {flag} {}", quoted(it))).collect()
 }
 
 /// Every model on some data sets.
@@ -111,7 +142,7 @@ fn ranking(
 ) -> Result<(), Failure> {
     let answer = ranked(COMMAND, ranking, &options(args, folder.is_some()));
     add_text(folder.as_mut(), &answer);
-    let sets = match (&args.data, &args.data_dir) {
+    let sets = match (args.data.as_ref().or(args.drives.as_ref()), &args.data_dir) {
         (Some(data), _) => reading(args, data),
         (None, Some(folder)) => {
             format!("--all --data-dir {}{}", quoted(&folder.to_string_lossy()), most_rows(args))

@@ -9,6 +9,7 @@ mod campaign_damage;
 mod card;
 mod contract;
 mod conversations;
+mod drives;
 mod forecast;
 mod hostile;
 mod import;

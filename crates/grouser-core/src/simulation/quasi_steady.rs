@@ -21,10 +21,10 @@ use super::turning::Turning;
 use crate::contact::WheelForces;
 use crate::lagrange;
 use crate::units::Vec2;
-use crate::vehicle::kinematics::{rolling_velocity, wheel_slips};
+use crate::vehicle::WheelReaction;
+use crate::vehicle::kinematics::{rolling_motion, wheel_slips};
 use crate::vehicle::settling::add_weighted;
 use crate::vehicle::state::rotation;
-use crate::vehicle::{Mount, WheelReaction};
 
 /// The velocities may lag behind their steady state by this much, over the fastest rim's speed [-]:
 /// the steady state's own motion in one settling time. Source: ours; models err by ten times as
@@ -412,38 +412,6 @@ fn nothing_of(reaction: &WheelReaction) -> WheelReaction {
 
 /// Velocities of a rover that follows its rims as well as a rigid body can, at a light slip.
 pub(super) fn rolling(equations: &Equations<'_>) -> Vector3<f64> {
-    let (mounts, rims) = (equations.rover().mounts(), equations.rim_speeds());
-    let count = rims.len() as f64;
-    let mean = mounts.iter().map(|mount| mount.position.xy()).sum::<Vec2>() / count;
-    if mounts.iter().any(|mount| mount.steering != 0.0) {
-        return rolling_steered(mounts, rims, mean);
-    }
-    let mean_rim = rims.iter().sum::<f64>() / count;
-    let (mut across, mut spread) = (0.0, 0.0);
-    for (mount, rim) in mounts.iter().zip(rims) {
-        let arm = mount.position.y - mean.y;
-        across -= arm * (rim - mean_rim);
-        spread += arm * arm;
-    }
-    let rate = if spread > 0.0 { across / spread } else { 0.0 };
-    super::scenario::ROLLING_SHARE * Vector3::new(mean_rim + rate * mean.y, -rate * mean.x, rate)
-}
-
-/// The same where wheels are steered: the rigid motion whose velocities at the hubs come nearest to
-/// those of wheels that roll without slip, to which side forces hold them as well.
-///
-/// * `mean`: of the hubs [m]
-fn rolling_steered(mounts: &[Mount], rims: &[f64], mean: Vec2) -> Vector3<f64> {
-    let rolled = |mount: &Mount, rim: f64| mount.body_from_wheel(Vec2::new(rim, 0.0));
-    let velocities = mounts.iter().zip(rims).map(|(mount, rim)| rolled(mount, *rim));
-    let mean_velocity = rolling_velocity(mounts, rims);
-    let (mut turning, mut spread) = (0.0, 0.0);
-    for (mount, velocity) in mounts.iter().zip(velocities) {
-        let arm = mount.position.xy() - mean;
-        turning += arm.perp(&velocity);
-        spread += arm.norm_squared();
-    }
-    let rate = turning / spread;
-    let at_body = mean_velocity - rate * Vec2::new(-mean.y, mean.x);
-    super::scenario::ROLLING_SHARE * Vector3::new(at_body.x, at_body.y, rate)
+    let (velocity, rate) = rolling_motion(equations.rover().mounts(), equations.rim_speeds());
+    super::scenario::ROLLING_SHARE * Vector3::new(velocity.x, velocity.y, rate)
 }

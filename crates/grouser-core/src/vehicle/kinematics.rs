@@ -61,6 +61,47 @@ pub fn rolling_velocity(mounts: &[Mount], rim_speeds: &[f64]) -> Vec2 {
     each.map(along).sum::<Vec2>() / mounts.len() as f64
 }
 
+/// Velocity of the body's centre of mass [m/s] and yaw rate [rad/s] of a rover that follows its rims
+/// as well as a rigid body can, in the body frame.
+///
+/// Where wheels are steered it is the rigid motion whose velocities at the hubs come nearest to
+/// those of wheels that roll without slip, to which side forces hold them as well; where none is,
+/// the rims alone count.
+///
+/// * `rim_speeds`: ω r_s of each wheel [m/s]
+#[must_use]
+pub fn rolling_motion(mounts: &[Mount], rim_speeds: &[f64]) -> (Vec2, f64) {
+    let count = rim_speeds.len() as f64;
+    let mean = mounts.iter().map(|mount| mount.position.xy()).sum::<Vec2>() / count;
+    if mounts.iter().any(|mount| mount.steering != 0.0) {
+        return rolling_steered(mounts, rim_speeds, mean);
+    }
+    let mean_rim = rim_speeds.iter().sum::<f64>() / count;
+    let (mut across, mut spread) = (0.0, 0.0);
+    for (mount, rim) in mounts.iter().zip(rim_speeds) {
+        let arm = mount.position.y - mean.y;
+        across -= arm * (rim - mean_rim);
+        spread += arm * arm;
+    }
+    let rate = if spread > 0.0 { across / spread } else { 0.0 };
+    (Vec2::new(mean_rim + rate * mean.y, -rate * mean.x), rate)
+}
+
+/// * `mean`: of the hubs [m]
+fn rolling_steered(mounts: &[Mount], rim_speeds: &[f64], mean: Vec2) -> (Vec2, f64) {
+    let rolled = |mount: &Mount, rim: f64| mount.body_from_wheel(Vec2::new(rim, 0.0));
+    let velocities = mounts.iter().zip(rim_speeds).map(|(mount, rim)| rolled(mount, *rim));
+    let mean_velocity = rolling_velocity(mounts, rim_speeds);
+    let (mut turning, mut spread) = (0.0, 0.0);
+    for (mount, velocity) in mounts.iter().zip(velocities) {
+        let arm = mount.position.xy() - mean;
+        turning += arm.perp(&velocity);
+        spread += arm.norm_squared();
+    }
+    let rate = turning / spread;
+    (mean_velocity - rate * Vec2::new(-mean.y, mean.x), rate)
+}
+
 /// The slip of every wheel.
 ///
 /// * `rim_speeds`: ω r_s of each wheel [m/s]

@@ -1,6 +1,7 @@
 //! Errors of a wheel–soil model against measured wheel tests or a rover on slopes, and the ranking
-//! of all models.
+//! of all models on these or on recorded drives.
 
+mod drives;
 pub mod figures;
 mod flat;
 mod ranking;
@@ -8,6 +9,7 @@ mod shown;
 mod slopes;
 mod wheel;
 
+pub use self::drives::DriveValidationQuestion;
 pub use self::ranking::ranked;
 pub use self::slopes::SlopeValidationQuestion;
 pub use self::wheel::ValidationQuestion;

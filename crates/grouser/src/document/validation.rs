@@ -78,7 +78,9 @@ pub struct ErrorsRecord {
 }
 
 impl ErrorsRecord {
-    fn new(errors: &Errors, unit: Unit) -> Self {
+    /// The errors in a unit.
+    #[must_use]
+    pub fn new(errors: &Errors, unit: Unit) -> Self {
         Self {
             rmse: unit.from_si(errors.rmse),
             bias: unit.from_si(errors.bias),

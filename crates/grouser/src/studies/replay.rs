@@ -38,7 +38,7 @@ use self::faults::Faults;
 pub use self::faults::{Cause, Parameter};
 use self::free_run::Commands;
 pub use self::free_run::{Ended, FreeRun};
-use self::prescribed::{Predicted, Situation};
+pub(super) use self::prescribed::{Predicted, Situation, measured, wheel_speeds};
 pub use self::track::Pose;
 use self::track::Track;
 use super::ensemble::samples::{Sample, outputs_of_samples};

@@ -53,6 +53,12 @@ impl RecordDigest {
         let bits = of_rover.chain(of_wheels).map(|it| it.unwrap_or(f64::NAN).to_bits());
         Self(fnv_1a(self.0.to_le_bytes().into_iter().chain(bits.flat_map(u64::to_le_bytes))))
     }
+
+    /// The number.
+    #[must_use]
+    pub const fn hash(self) -> u64 {
+        self.0
+    }
 }
 
 impl Learner {

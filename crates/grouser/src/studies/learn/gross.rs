@@ -371,11 +371,17 @@ impl GrossFaults {
 
     /// Compares the rotation by odometry with the change of yaw since the last stretch.
     fn turned(&mut self, stretch: &Stretch, attitude: Option<[f64; 2]>) {
-        let yaw = stretch.reported_yaw.or(attitude.map(|it| it[1]));
+        // On level ground roll and pitch are noise, and so is the yaw that follows from them.
+        let slope_tells = attitude.filter(|it| it[0] > LEVEL);
+        let yaw = stretch.reported_yaw.or(slope_tells.map(|it| it[1]));
         let now = yaw
             .zip(stretch.yaw_rate)
             .map(|(yaw, rate)| [0.5 * (stretch.time[0] + stretch.time[1]), yaw, rate.value]);
-        if let (Some([then, from, before]), Some([time, to, rate])) = (self.last, now) {
+        let span = stretch.time[1] - stretch.time[0];
+        if let (Some([then, from, before]), Some([time, to, rate])) = (self.last, now)
+            // Over a gap a rover may have turned unseen.
+            && time - then <= span + GAP
+        {
             // Turns of the whole circle do not count.
             let turned = (to - from + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU);
             let rotation = 0.5 * (before + rate) * (time - then);

@@ -12,19 +12,19 @@ use crate::vehicle::{Rover, RoverState};
 
 /// What a prediction takes from the telemetry.
 #[derive(Clone, Debug)]
-pub(super) struct Situation {
+pub(in crate::studies) struct Situation {
     /// With the rover as it was steered.
-    pub(super) study: HeadingStudy,
+    pub(in crate::studies) study: HeadingStudy,
     /// Slope and yaw [rad].
-    pub(super) slope: f64,
-    pub(super) yaw: f64,
+    pub(in crate::studies) slope: f64,
+    pub(in crate::studies) yaw: f64,
     /// Rim speed of each wheel [m/s].
-    pub(super) rim_speeds: Vec<f64>,
+    pub(in crate::studies) rim_speeds: Vec<f64>,
 }
 
 /// What is predicted, or what instruments read of it.
 #[derive(Clone, Debug)]
-pub(super) struct Predicted {
+pub(in crate::studies) struct Predicted {
     /// Along the body and to its left [m/s].
     pub(super) velocity: Vec2,
     /// Yaw rate [rad/s].
@@ -38,7 +38,7 @@ pub(super) struct Predicted {
 }
 
 impl Situation {
-    pub(super) fn of(study: &HeadingStudy, stretch: &Stretch) -> Result<Self, NotUsed> {
+    pub(in crate::studies) fn of(study: &HeadingStudy, stretch: &Stretch) -> Result<Self, NotUsed> {
         let [slope, yaw] = steady_attitude(stretch)?;
         let rover = steered(&study.rover, &stretch.steering);
         let study = HeadingStudy { rover, ..study.clone() };
@@ -46,13 +46,13 @@ impl Situation {
     }
 
     /// The same with another soil and model.
-    pub(super) fn on(&self, sample: &Sample) -> Self {
+    pub(in crate::studies) fn on(&self, sample: &Sample) -> Self {
         Self { study: self.study.of_sample(sample), ..self.clone() }
     }
 
     /// The steady motion there, sought near another; `None` where no velocities leave no force and
     /// no yaw moment over.
-    pub(super) fn motion(&self, near: Option<&SteadyMotion>) -> Option<SteadyMotion> {
+    pub(in crate::studies) fn motion(&self, near: Option<&SteadyMotion>) -> Option<SteadyMotion> {
         let Self { study, slope, yaw, rim_speeds } = self;
         let found = match near {
             Some(near) => study.steady_motion_of_near(near, *slope, *yaw, rim_speeds),
@@ -83,7 +83,7 @@ fn reach(rover: &Rover) -> f64 {
 }
 
 impl Predicted {
-    pub(super) fn of(motion: &SteadyMotion) -> Self {
+    pub(in crate::studies) fn of(motion: &SteadyMotion) -> Self {
         let each = || motion.wheels.iter().map(|it| &it.settled);
         Self {
             velocity: motion.velocity,
@@ -97,7 +97,7 @@ impl Predicted {
     /// The value of a channel of steady motion.
     ///
     /// * `speeds`: angular speed of each wheel [rad/s]
-    pub(super) fn of_channel(&self, channel: Channel, speeds: &[f64]) -> Option<f64> {
+    pub(in crate::studies) fn of_channel(&self, channel: Channel, speeds: &[f64]) -> Option<f64> {
         match channel {
             Channel::ForwardSpeed => Some(self.velocity.x),
             Channel::LateralSpeed => Some(self.velocity.y),
@@ -116,13 +116,17 @@ fn power(torques: &[f64], speeds: &[f64]) -> f64 {
 }
 
 /// Angular speed of each wheel [rad/s].
-pub(super) fn wheel_speeds(stretch: &Stretch, rover: &Rover) -> Vec<f64> {
+pub(in crate::studies) fn wheel_speeds(stretch: &Stretch, rover: &Rover) -> Vec<f64> {
     let pairs = stretch.rim_speeds.iter().zip(rover.mounts());
     pairs.map(|(speed, mount)| speed / mount.shearing_radius()).collect()
 }
 
 /// What was measured of a channel of steady motion.
-pub(super) fn measured(channel: Channel, stretch: &Stretch, rover: &Rover) -> Option<f64> {
+pub(in crate::studies) fn measured(
+    channel: Channel,
+    stretch: &Stretch,
+    rover: &Rover,
+) -> Option<f64> {
     let value = |it: Option<Reading>| it.map(|it| it.value);
     let [forward, leftward] = stretch.velocity.map(value);
     match channel {

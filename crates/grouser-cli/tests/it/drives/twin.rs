@@ -1,0 +1,147 @@
+//! Simulated trials in the layouts of public data sets, by their README files and sources.
+
+use std::fmt::Write as _;
+
+use grouser::document::statistics::random::{generator, standard_normal};
+use grouser::simulation::{Outcome, Run, Scenario};
+use grouser::studies::ensemble::samples::Sample;
+use grouser::terrain::Ground;
+use grouser::units::deg;
+use grouser::vehicle::drive::DriveLaw;
+
+/// Slope and yaw [°], radius of the turn to the left, none straight on [m], and speed [m/s].
+pub(super) type Trial = (f64, f64, Option<f64>, f64);
+
+/// How far it goes [m].
+const WAY: f64 = 1.5;
+/// Standard deviations of motion capture [m], [rad], and of the wheels' speeds [rad/s].
+const POSITION: f64 = 2e-4;
+const ATTITUDE: f64 = 1e-3;
+const WHEEL_SPEED: f64 = 5e-3;
+/// Front left, front right, back left, back right.
+const WHEELS: [&str; 4] = ["front-left", "front-right", "rear-left", "rear-right"];
+/// `Processed_Data.csv` of the Rover Mobility in a Lunar Analogue Dataset.
+const MINES: &str = "time_s,pos_x,pos_y,pos_z,quat_x,quat_y,quat_z,quat_w,ang_vel_x,ang_vel_y,\
+    ang_vel_z,lin_acc_x,lin_acc_y,lin_acc_z,enc1,enc2,enc3,enc4,enc1_rad,enc2_rad,enc3_rad,\
+    enc4_rad,vel1_rad_s,vel2_rad_s,vel3_rad_s,vel4_rad_s,current1,current2,current3,current4\n";
+
+/// The topics of the Energy-Aware Rover Navigation Dataset, as PlotJuggler names their fields.
+const ENAV: &str = "__time,/global_odometry_utm/pose/pose/position/x,\
+    /global_odometry_utm/pose/pose/position/y,/global_odometry_utm/pose/pose/position/z,\
+    /global_odometry_utm/pose/pose/orientation/x,/global_odometry_utm/pose/pose/orientation/y,\
+    /global_odometry_utm/pose/pose/orientation/z,/global_odometry_utm/pose/pose/orientation/w,\
+    /joint_states/front_left_wheel/velocity,/joint_states/front_right_wheel/velocity,\
+    /joint_states/rear_left_wheel/velocity,/joint_states/rear_right_wheel/velocity\n";
+
+/// Which data set's columns a table has.
+#[derive(Clone, Copy)]
+pub(super) enum Layout {
+    Mines,
+    Enav,
+}
+
+impl Layout {
+    /// The name of its mapping.
+    pub(super) fn mapping(self) -> &'static str {
+        match self {
+            Self::Mines => "mines",
+            Self::Enav => "enav",
+        }
+    }
+
+    fn header(self) -> &'static str {
+        match self {
+            Self::Mines => MINES,
+            Self::Enav => ENAV,
+        }
+    }
+}
+
+/// A quaternion, w first.
+type Turn = [f64; 4];
+
+fn after(one: Turn, other: Turn) -> Turn {
+    let ([a, b, c, d], [w, x, y, z]) = (one, other);
+    [
+        a * w - b * x - c * y - d * z,
+        a * x + b * w + c * z - d * y,
+        a * y - b * z + c * w + d * x,
+        a * z + b * y - c * x + d * w,
+    ]
+}
+
+/// About the axis x, y or z, by an angle [rad].
+fn about(axis: usize, angle: f64) -> Turn {
+    let mut turn = [(0.5 * angle).cos(), 0.0, 0.0, 0.0];
+    turn[1 + axis] = (0.5 * angle).sin();
+    turn
+}
+
+/// A vector, turned.
+fn turned(turn: Turn, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    let [w, i, j, k] = turn;
+    let [_, x, y, z] = after(after(turn, [0.0, x, y, z]), [w, -i, -j, -k]);
+    [x, y, z]
+}
+
+/// The rows of a trial; nothing where the rover does not get along.
+///
+/// * `of`: its rover, gravity and load transfer are taken
+pub(super) fn table(
+    layout: Layout,
+    of: &Scenario,
+    truth: &Sample,
+    trial: Trial,
+    seed: u64,
+) -> Option<String> {
+    let (slope, yaw, radius, speed) = trial;
+    let mut scenario = of.clone();
+    scenario.model = truth.model.clone();
+    scenario.ground = Ground::plane(truth.soil, deg(slope));
+    scenario.start.yaw = deg(yaw);
+    scenario.duration = WAY / speed;
+    scenario.numerics.sample_interval = 0.1;
+    let curvature = radius.map_or(0.0, f64::recip);
+    let rims = scenario.rover.mounts().iter().map(|it| speed * (1.0 - curvature * it.position.y));
+    scenario.drive = DriveLaw::ConstantEach(rims.collect());
+    let run = Run::new(&scenario).ok()?.to_end().ok()?;
+    matches!(run.outcome, Outcome::Completed).then_some(())?;
+
+    // The data set's frame has its x along the first heading, and z up.
+    let [forward, leftward, _] =
+        turned(after(about(0, deg(slope)), about(2, deg(yaw))), [1.0, 0.0, 0.0]);
+    let of_slope = after(about(2, -leftward.atan2(forward)), about(0, deg(slope)));
+    let place = |name: &str| scenario.rover.mounts().iter().position(|it| it.name == name);
+    let wheels = WHEELS.map(|name| place(name).expect("the rover has it"));
+    let mut random = generator(seed, 0xD1 << 56);
+    let mut normal = |deviation: f64| deviation * standard_normal(&mut random);
+    let (mut table, mut angles, mut before) = (layout.header().to_owned(), [0.0; 4], 0.0);
+    for record in &run.records {
+        let state = &record.state;
+        let place = turned(of_slope, [state.position.x, state.position.y, 0.0]);
+        let place = place.map(|it| it + normal(POSITION));
+        let noise = [0, 1, 2].map(|axis| about(axis, normal(ATTITUDE)));
+        let turn = after(of_slope, about(2, state.yaw));
+        let [w, x, y, z] = noise.into_iter().fold(turn, after);
+        let speeds = wheels.map(|wheel| record.wheels[wheel].wheel_speed + normal(WHEEL_SPEED));
+        for (angle, speed) in angles.iter_mut().zip(speeds) {
+            *angle += (record.time - before) * speed;
+        }
+        before = record.time;
+        let currents =
+            wheels.map(|it| 512.0 + 40.0 * record.wheels[it].reaction.settled.forces.torque);
+        let rest = match layout {
+            Layout::Enav => speeds.to_vec(),
+            Layout::Mines => {
+                let (all, unread) = ([angles, angles, speeds, currents], [0.0; 6]);
+                unread.into_iter().chain(all.into_iter().flatten()).collect()
+            }
+        };
+        write!(table, "{}", record.time).expect("a text is written");
+        for number in place.into_iter().chain([x, y, z, w]).chain(rest) {
+            write!(table, ",{number:.6}").expect("a text is written");
+        }
+        table.push('\n');
+    }
+    Some(table)
+}
