@@ -23,7 +23,7 @@ type Rule = fn(&Sources) -> usize;
 /// before messages of ROS, tables by mappings, robots of URDF as people describe them, watched logs
 /// and checks of where a reading is from; lines of Python were 8,150 before those.
 const COUNTS: [(&str, usize, Rule); 9] = [
-    ("lines of Rust without comments and tests", 109_500, |all| all.rust.iter().map(lines).sum()),
+    ("lines of Rust without comments and tests", 112_500, |all| all.rust.iter().map(lines).sum()),
     ("lines of Python without comments and tests", 8_200, |all| all.python.iter().map(lines).sum()),
     ("files that name three outcomes or more as text", 1, outcome_homes),
     ("inputs of an answer written by hand (`fn settings`, `fn state`)", 18, |all| {
