@@ -25,9 +25,11 @@ mod classes;
 pub mod geojson;
 pub(crate) mod key;
 mod map;
+mod places;
 
 pub use key::ZoneKey;
-pub use map::{ZoneMap, check_places};
+pub use map::ZoneMap;
+pub use places::check_places;
 
 use std::path::Path;
 

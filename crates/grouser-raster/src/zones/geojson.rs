@@ -20,6 +20,7 @@ use grouser_core::units::Vec2;
 use self::syntax::{Coordinates, Feature, Geometry, Root};
 use super::key::ZoneKey;
 use super::map::ZoneMap;
+use super::places::{is_in_degrees, shown};
 use crate::error::Fault;
 
 /// The largest file that is read [bytes]; polygons take some times as much memory.
@@ -148,15 +149,6 @@ fn features_in(root: Root) -> Result<Vec<Feature>, Fault> {
     }
 }
 
-/// Whether a coordinate system of that name has degrees.
-pub(super) fn is_in_degrees(name: &str) -> bool {
-    // The standard's own, that of GPS, and those of IAU bodies, whose codes of longitude and
-    // latitude end in two zeros.
-    let name = name.to_uppercase();
-    let of_body = name.contains("IAU") && name.ends_with("00");
-    of_body || ["CRS84", "CRS:84", ":4326", ":4979"].iter().any(|one| name.ends_with(one))
-}
-
 /// What a feature calls its soil.
 fn key_of(feature: &Feature) -> Result<ZoneKey, String> {
     const WANTED: &str = "hint: ogr2ogr -sql \"SELECT *, UNIT AS soil FROM LAYER\" OUT.geojson IN \
@@ -211,11 +203,4 @@ fn ring_of(number: u32, ring: Coordinates) -> Result<Vec<Vec2>, String> {
     }
     corners.pop();
     Ok(corners)
-}
-
-/// A word of the file, fit to be shown.
-pub(super) fn shown(word: &str) -> String {
-    const LONGEST: usize = 60;
-    let shown: String = word.chars().filter(|c| !c.is_control()).take(LONGEST).collect();
-    if shown.is_empty() { "nothing".to_owned() } else { shown }
 }

@@ -5,8 +5,8 @@ use grouser_core::terrain::zones::{MOST_SOILS, NO_ZONE};
 use grouser_core::terrain::{ElevationGrid, Extent, SoilZones, ZonePolygon};
 use grouser_core::units::Vec2;
 
-use super::geojson::{is_in_degrees, shown};
 use super::key::ZoneKey;
+use super::places::{check_places, may_be_degrees};
 use crate::error::Fault;
 
 /// Zones as a file has them.
@@ -129,39 +129,6 @@ impl ZoneMap {
             Fault::Elsewhere { zones, ground: *ground }
         })
     }
-}
-
-/// Whether places could be degrees of longitude and latitude.
-fn may_be_degrees(places: &Extent) -> bool {
-    places.south_west.x >= -360.0
-        && places.north_east.x <= 360.0
-        && places.south_west.y >= -90.0
-        && places.north_east.y <= 90.0
-}
-
-/// Checks that places of a file of GeoJSON are metres, not degrees of longitude and latitude.
-///
-/// * `system`: the name of their coordinate system, which says what the numbers are
-/// * `places`: what they span
-///
-/// # Errors
-/// [`Fault`] for a system of degrees, and for numbers that look like degrees in a file without one.
-pub fn check_places(system: Option<&str>, places: &Extent) -> Result<(), Fault> {
-    match system {
-        Some(name) if is_in_degrees(name) => Err(Fault::SystemInDegrees { name: shown(name) }),
-        None if are_degrees(places) => Err(Fault::ZonesInDegrees),
-        _ => Ok(()),
-    }
-}
-
-/// Whether places are degrees of longitude and latitude rather than metres from a start: less than
-/// a metre across, and a hundred times as far away. Source: ours.
-fn are_degrees(places: &Extent) -> bool {
-    let size = places.north_east - places.south_west;
-    let across = size.x.max(size.y);
-    let middle = places.south_west + 0.5 * size;
-    let is_small_and_far = across > 0.0 && across < 1.0 && middle.norm() > 100.0 * across;
-    may_be_degrees(places) && is_small_and_far
 }
 
 /// Checks that there are no more zones than can be distinguished.

@@ -12,6 +12,7 @@
 
 mod cells;
 mod conditions;
+mod quantity;
 mod recorded;
 
 use std::collections::BTreeMap;
@@ -19,8 +20,9 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 pub use self::cells::{DriveCell, JudgedPrediction, Predictor};
-use self::cells::{cells_of, judged};
+use self::cells::{Reading, cells_of, judged};
 pub use self::conditions::Conditions;
+pub use self::quantity::{DriveQuantity, DriveValues};
 pub use self::recorded::{DriveRecorder, RecordedDrive, Split};
 use super::heading::HeadingStudy;
 use super::learn::{NotUsed, Stretch, steady_attitude};
@@ -28,27 +30,6 @@ use super::replay::{Channel, Predicted, Situation, measured, wheel_speeds};
 use crate::contact::Model;
 use crate::simulation::Scenario;
 use crate::studies::ensemble::samples::Sample;
-
-/// What is compared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DriveQuantity {
-    /// Mean slip ratio of the wheels [-].
-    SlipRatio,
-    /// Way downhill per metre travelled, −sin χ [-]; level ground has none.
-    Drift,
-    /// Yaw rate [rad/s].
-    YawRate,
-    /// Mechanical power of all wheels, ΣTω [W].
-    Power,
-}
-
-impl DriveQuantity {
-    /// All of them, in the order of every array that has one value for each.
-    pub const ALL: [Self; 4] = [Self::SlipRatio, Self::Drift, Self::YawRate, Self::Power];
-}
-
-/// A value of each of [`DriveQuantity::ALL`], in SI units; `None` where there is none.
-pub type DriveValues = [Option<f64>; DriveQuantity::ALL.len()];
 
 /// Recorded drives, and the models to compare with them.
 #[derive(Clone, Copy, Debug)]
@@ -75,16 +56,6 @@ pub struct DriveValidation {
     pub compared: usize,
     /// Stretches that were not, by why.
     pub not_compared: BTreeMap<NotUsed, usize>,
-}
-
-/// A stretch of a drive beside what each model predicts.
-struct Reading {
-    drive: usize,
-    split: Split,
-    conditions: Conditions,
-    measured: DriveValues,
-    /// By model; `None` where it knows no steady motion.
-    predicted: Vec<Option<DriveValues>>,
 }
 
 impl DriveValidationStudy<'_> {

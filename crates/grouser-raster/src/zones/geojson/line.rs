@@ -5,8 +5,9 @@ use std::path::Path;
 use grouser_core::units::Vec2;
 
 use super::syntax::{Coordinates, Feature, Geometry, Root};
-use super::{bytes_of, features_in, root_of, shown, starts_so};
+use super::{bytes_of, features_in, root_of, starts_so};
 use crate::error::{Fault, RasterError};
+use crate::zones::places::shown;
 
 /// Reads the line of a file: the places of its only `LineString`, which may stand by itself or in a
 /// Feature or FeatureCollection. Heights in it are passed over, and so are properties.

@@ -1,9 +1,21 @@
 //! Stretches of like conditions together, and the errors of each prediction over all such cells.
 
-use super::{Conditions, DriveQuantity, DriveValues, Reading, Split};
+use super::conditions::Conditions;
+use super::quantity::{DriveQuantity, DriveValues};
+use super::recorded::Split;
 use crate::contact::Model;
 use crate::studies::slope_tests::Mean;
 use crate::studies::validation::{Comparison, Errors, Placed, Yardstick, mean_score};
+
+/// A stretch of a drive beside what each model predicts.
+pub(super) struct Reading {
+    pub(super) drive: usize,
+    pub(super) split: Split,
+    pub(super) conditions: Conditions,
+    pub(super) measured: DriveValues,
+    /// By model; `None` where it knows no steady motion.
+    pub(super) predicted: Vec<Option<DriveValues>>,
+}
 
 const QUANTITIES: usize = DriveQuantity::ALL.len();
 

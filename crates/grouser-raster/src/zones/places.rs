@@ -1,0 +1,54 @@
+//! Whether places of GeoJSON are metres of a map, or degrees.
+
+use grouser_core::terrain::Extent;
+
+use crate::error::Fault;
+
+/// Whether places could be degrees of longitude and latitude.
+pub(super) fn may_be_degrees(places: &Extent) -> bool {
+    places.south_west.x >= -360.0
+        && places.north_east.x <= 360.0
+        && places.south_west.y >= -90.0
+        && places.north_east.y <= 90.0
+}
+
+/// Checks that places of a file of GeoJSON are metres, not degrees of longitude and latitude.
+///
+/// * `system`: the name of their coordinate system, which says what the numbers are
+/// * `places`: what they span
+///
+/// # Errors
+/// [`Fault`] for a system of degrees, and for numbers that look like degrees in a file without one.
+pub fn check_places(system: Option<&str>, places: &Extent) -> Result<(), Fault> {
+    match system {
+        Some(name) if is_in_degrees(name) => Err(Fault::SystemInDegrees { name: shown(name) }),
+        None if are_degrees(places) => Err(Fault::ZonesInDegrees),
+        _ => Ok(()),
+    }
+}
+
+/// Whether places are degrees of longitude and latitude rather than metres from a start: less than
+/// a metre across, and a hundred times as far away. Source: ours.
+fn are_degrees(places: &Extent) -> bool {
+    let size = places.north_east - places.south_west;
+    let across = size.x.max(size.y);
+    let middle = places.south_west + 0.5 * size;
+    let is_small_and_far = across > 0.0 && across < 1.0 && middle.norm() > 100.0 * across;
+    may_be_degrees(places) && is_small_and_far
+}
+
+/// Whether a coordinate system of that name has degrees.
+pub(super) fn is_in_degrees(name: &str) -> bool {
+    // The standard's own, that of GPS, and those of IAU bodies, whose codes of longitude and
+    // latitude end in two zeros.
+    let name = name.to_uppercase();
+    let of_body = name.contains("IAU") && name.ends_with("00");
+    of_body || ["CRS84", "CRS:84", ":4326", ":4979"].iter().any(|one| name.ends_with(one))
+}
+
+/// A word of the file, fit to be shown.
+pub(super) fn shown(word: &str) -> String {
+    const LONGEST: usize = 60;
+    let shown: String = word.chars().filter(|c| !c.is_control()).take(LONGEST).collect();
+    if shown.is_empty() { "nothing".to_owned() } else { shown }
+}
