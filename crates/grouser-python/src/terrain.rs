@@ -10,7 +10,7 @@ use grouser::terrain::elevation::{above, round_base};
 use grouser::terrain::lunar::{LunarGround, LunarModel, LunarSite};
 use grouser::terrain::{ElevationGrid, ElevationModel, Extent};
 use grouser::units::{Vec2, Vec3};
-use grouser_raster::{Site, remarks};
+use grouser_raster::{MapSite, remarks};
 use numpy::{
     PyArray1, PyArray2, PyArrayMethods as _, PyReadonlyArray1, PyReadonlyArray2,
     PyUntypedArrayMethods as _,
@@ -33,7 +33,7 @@ pub(crate) fn check_system(
     middle: [f64; 2],
     cell: f64,
 ) -> PyResult<()> {
-    let found = grouser_raster::check_system(text, Site { middle: middle.into(), cell });
+    let found = grouser_raster::check_system(text, MapSite { middle: middle.into(), cell });
     let expected = "coordinates and heights in metres";
     let remark = found.map_err(|fault| errors::parameter(fault.of("map"), name, None, expected))?;
     errors::warn(py, remark)

@@ -11,7 +11,7 @@ const NEAR: f64 = 3_000.0;
 
 /// The body that a map is of.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Body {
+pub(crate) enum MappedBody {
     /// The Earth.
     Earth,
     /// Another one: its semi-major and its semi-minor axis [m].
@@ -20,7 +20,7 @@ pub(crate) enum Body {
     Unknown,
 }
 
-impl Body {
+impl MappedBody {
     /// That of semi-major and semi-minor axes [m].
     pub(crate) fn of_axes(axes: [f64; 2]) -> Self {
         if (axes[0] - EARTH).abs() > NEAR { Self::Other(axes) } else { Self::Earth }
@@ -42,11 +42,12 @@ impl Body {
 
     /// The length of a degree of latitude [m].
     pub(crate) fn degree(&self) -> Option<f64> {
-        match self {
-            Self::Earth => Some(EARTH.to_radians()),
-            Self::Other([major, _]) => Some(major.to_radians()),
-            Self::Unknown => None,
-        }
+        let major = match self {
+            Self::Earth => EARTH,
+            Self::Other([major, _]) => *major,
+            Self::Unknown => return None,
+        };
+        Some(major.to_radians())
     }
 }
 
@@ -55,17 +56,17 @@ impl Body {
 ///
 /// * `place`: longitude, positive to the east, and latitude [°]
 /// * `size`: of a cell [m]
-pub(crate) fn projection(place: Vec2, body: &Body, size: Option<f64>) -> String {
+pub(crate) fn projection(place: Vec2, body: &MappedBody, size: Option<f64>) -> String {
     let (longitude, latitude) = (place.x, place.y.clamp(-90.0, 90.0));
     let target = match body {
-        Body::Earth => on_earth(longitude, latitude),
-        Body::Other([major, minor]) if major == minor => {
+        MappedBody::Earth => on_earth(longitude, latitude),
+        MappedBody::Other([major, minor]) if major == minor => {
             stereographic(longitude, latitude, &format!("+R={major}"))
         }
-        Body::Other([major, minor]) => {
+        MappedBody::Other([major, minor]) => {
             stereographic(longitude, latitude, &format!("+a={major} +b={minor}"))
         }
-        Body::Unknown => stereographic(longitude, latitude, "+R=RADIUS_IN_METRES"),
+        MappedBody::Unknown => stereographic(longitude, latitude, "+R=RADIUS_IN_METRES"),
     };
     let size = size.map_or("CELL_SIZE_IN_METRES".to_owned(), rounded);
     format!("gdalwarp -t_srs \"{target}\" -tr {size} {size} -r cubic IN.tif OUT.tif")
@@ -114,7 +115,7 @@ mod tests {
 
     fn command(directory: &[u16], doubles: &[f64], middle: (f64, f64), cell: f64) -> String {
         let system = CoordinateSystem::new(directory.to_vec(), doubles.to_vec(), String::new());
-        let body = Body::of_keys(&system);
+        let body = MappedBody::of_keys(&system);
         let size = body.degree().map(|degree| cell * degree);
         projection(Vec2::new(middle.0, middle.1), &body, size)
     }

@@ -20,7 +20,7 @@ use crate::coordinate_system::{CoordinateSystem, DIRECTORY, DOUBLES, TEXT};
 use crate::error::{Fault, RasterError};
 use crate::heights::{Heights, checked_cells};
 use crate::{Content, Raster, ReadOptions};
-use beside::Beside;
+use beside::Sidecars;
 use metadata::Scaling;
 use reference::Georeference;
 
@@ -47,7 +47,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Raster, RasterError> {
     let raster = || {
         let length = std::fs::metadata(path)?.len();
         let tiff = TiffFile::open_with_options(path, limits(length, options))?;
-        let beside = Beside::of(path, options.band.unwrap_or(1), limits(length, options))?;
+        let beside = Sidecars::of(path, options.band.unwrap_or(1), limits(length, options))?;
         raster_of(&tiff, length, &beside, options)
     };
     raster().map_err(|fault| RasterError::new(path, fault))
@@ -60,7 +60,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Raster, RasterError> {
 pub fn decode(bytes: Vec<u8>, options: &ReadOptions) -> Result<Raster, Fault> {
     let length = bytes.len() as u64;
     let tiff = TiffFile::from_bytes_with_options(bytes, limits(length, options))?;
-    raster_of(&tiff, length, &Beside::default(), options)
+    raster_of(&tiff, length, &Sidecars::default(), options)
 }
 
 impl From<TiffError> for Fault {
@@ -97,7 +97,7 @@ fn limits(length: u64, options: &ReadOptions) -> OpenOptions {
 fn raster_of(
     tiff: &TiffFile,
     length: u64,
-    beside: &Beside,
+    beside: &Sidecars,
     options: &ReadOptions,
 ) -> Result<Raster, Fault> {
     let ifd = image(tiff)?;

@@ -57,7 +57,7 @@ pub mod zones;
 pub use coordinate_system::{CoordinateSystem, GeoKeys};
 pub use error::{Fault, RasterError};
 pub use heights::BEYOND;
-pub use meaning::{Site, check_system};
+pub use meaning::{MapSite, check_system};
 pub use options::{CELLS, Content, Placement, ReadOptions, RowOrder};
 pub use plausibility::remarks;
 pub use raster::Raster;

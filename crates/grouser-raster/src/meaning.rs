@@ -2,7 +2,7 @@
 
 use grouser_core::units::Vec2;
 
-use crate::advice::{self, Body};
+use crate::advice::{self, MappedBody};
 use crate::coordinate_system::{CoordinateSystem, METRE, key};
 use crate::error::Fault;
 use crate::projection::Projection;
@@ -10,7 +10,7 @@ use crate::remark::Remark;
 
 /// The middle of a map, and its cells, in units of its coordinates.
 #[derive(Clone, Copy, Debug)]
-pub struct Site {
+pub struct MapSite {
     /// Its middle.
     pub middle: Vec2,
     /// Distance of neighbours to the north.
@@ -23,23 +23,23 @@ pub struct Site {
 ///
 /// ```
 /// use grouser_core::units::Vec2;
-/// use grouser_raster::{Fault, Site, check_system};
+/// use grouser_raster::{Fault, MapSite, check_system};
 ///
 /// let degrees = r#"GEOGCS["Moon",DATUM["Moon",SPHEROID["Moon",1737400,0]],PRIMEM["0",0],UNIT["degree",0.0174532925199433]]"#;
-/// let site = Site { middle: Vec2::new(120.0, -89.0), cell: 0.001 };
+/// let site = MapSite { middle: Vec2::new(120.0, -89.0), cell: 0.001 };
 /// assert!(matches!(check_system(degrees, site), Err(Fault::Degrees { .. })));
 /// ```
 ///
 /// # Errors
 /// [`Fault`] for degrees, other units, depths, and a map far larger or smaller than its ground.
-pub fn check_system(text: &str, site: Site) -> Result<Option<Remark>, Fault> {
+pub fn check_system(text: &str, site: MapSite) -> Result<Option<Remark>, Fault> {
     if ["GEOCCS[", "Cartesian"].iter().any(|it| text.contains(it)) && !text.contains("PROJC") {
         return Err(Fault::Geocentric);
     }
     check_heights(text)?;
     let projection = Projection::of_wkt(text);
     if projection.is_none() && text.starts_with("GEOG") {
-        let command = advice::projection(site.middle, &Body::Unknown, None);
+        let command = advice::projection(site.middle, &MappedBody::Unknown, None);
         return Err(Fault::Degrees { command });
     }
     let name = text.split('"').nth(1).unwrap_or_default();
@@ -65,7 +65,10 @@ fn check_heights(text: &str) -> Result<(), Fault> {
 }
 
 /// Checks the keys of a GeoTIFF likewise.
-pub(crate) fn check_keys(system: &CoordinateSystem, site: Site) -> Result<Option<Remark>, Fault> {
+pub(crate) fn check_keys(
+    system: &CoordinateSystem,
+    site: MapSite,
+) -> Result<Option<Remark>, Fault> {
     let is_projected = system.number(key::PROJECTED).or(system.number(key::PROJECTION)).is_some();
     let model = system.number(key::MODEL);
     if model == Some(GEOCENTRIC) {
@@ -73,7 +76,7 @@ pub(crate) fn check_keys(system: &CoordinateSystem, site: Site) -> Result<Option
     }
     let has_degrees = model == Some(GEOGRAPHIC) || system.number(key::GEODETIC).is_some();
     if model != Some(PROJECTED) && !is_projected && has_degrees {
-        let body = Body::of_keys(system);
+        let body = MappedBody::of_keys(system);
         let size = body.degree().map(|degree| site.cell * degree);
         return Err(Fault::Degrees { command: advice::projection(site.middle, &body, size) });
     }
@@ -123,7 +126,11 @@ fn check_registered_heights(system: &CoordinateSystem) -> Result<(), Fault> {
 /// Checks what a projection does to lengths.
 ///
 /// * `name`: of the system
-fn check(projection: Option<&Projection>, name: &str, site: Site) -> Result<Option<Remark>, Fault> {
+fn check(
+    projection: Option<&Projection>,
+    name: &str,
+    site: MapSite,
+) -> Result<Option<Remark>, Fault> {
     /// How far a metre of the ground may be from one of the map before somebody is told, and before
     /// the map is refused [-]: a slope of 20° is wrong by a tenth of a degree, and by one.
     const TOLD: f64 = 0.005;
@@ -131,7 +138,7 @@ fn check(projection: Option<&Projection>, name: &str, site: Site) -> Result<Opti
     let Some(projection) = projection else {
         return Ok(Some(Remark::UnknownScale { system: name.to_owned() }));
     };
-    let body = Body::of_axes(projection.axes());
+    let body = MappedBody::of_axes(projection.axes());
     if projection.is_in_degrees() {
         let size = body.degree().map(|degree| site.cell * degree);
         return Err(Fault::Degrees { command: advice::projection(site.middle, &body, size) });
@@ -147,7 +154,8 @@ fn check(projection: Option<&Projection>, name: &str, site: Site) -> Result<Opti
     let off = factors.map(|factor| (factor - 1.0).abs()).into_iter().fold(0.0, f64::max);
     if off > REFUSED {
         let size = Some(site.cell / factors[1]);
-        return Err(Fault::Scale { factors, command: advice::projection(place, &body, size) });
+        let degrees = place.map(f64::to_degrees);
+        return Err(Fault::Scale { factors, command: advice::projection(degrees, &body, size) });
     }
     Ok((off > TOLD).then_some(Remark::Scale { factors }))
 }

@@ -1,4 +1,4 @@
-//! Heights that no ground has: missing ones that no file declares, steps, spikes.
+//! GridHeights that no ground has: missing ones that no file declares, steps, spikes.
 //!
 //! Nothing is changed; what is found is said. The thresholds are ours: they lie where slopes between
 //! neighbouring cells are beyond those of any slope that a rover stands on.
@@ -7,9 +7,9 @@ use grouser_core::terrain::ElevationGrid;
 
 use crate::remark::Remark;
 
-/// Heights to look at.
+/// GridHeights to look at.
 #[derive(Clone, Copy, Debug)]
-struct Heights<'h> {
+struct GridHeights<'h> {
     grid: &'h ElevationGrid,
     /// Above a base [m], in rows from south to north; NaN where they are missing.
     above: &'h [f32],
@@ -21,7 +21,7 @@ struct Heights<'h> {
 /// * `above`: in rows from south to north [m]; NaN where they are missing
 #[must_use]
 pub fn remarks(grid: &ElevationGrid, base: f64, above: &[f32]) -> Vec<Remark> {
-    let heights = Heights { grid, above };
+    let heights = GridHeights { grid, above };
     let voids = heights.voids();
     let of_ground = |height: f32| height.is_finite() && !voids.iter().any(|it| it.value == height);
     let mut found: Vec<Remark> = voids.iter().map(|it| it.remark(base)).collect();
@@ -46,7 +46,7 @@ impl Void {
     }
 }
 
-impl Heights<'_> {
+impl GridHeights<'_> {
     /// Distance of neighbours [m].
     fn spacing(&self) -> f64 {
         self.grid.spacing.x.min(self.grid.spacing.y)
@@ -64,7 +64,7 @@ impl Heights<'_> {
             let known = self.above.iter().copied().filter(|height| {
                 height.is_finite() && !voids.iter().any(|void| void.value == *height)
             });
-            let Some(ends) = Ends::of(known) else { break };
+            let Some(ends) = ExtremeHeights::of(known) else { break };
             let [low, lower, higher, high] = ends.heights.map(f64::from);
             let apart = |gap: f64, range: f64| gap > OF_RANGE * range + OF_SPACING * self.spacing();
             if apart(lower - low, high - lower) {
@@ -172,14 +172,14 @@ fn is_whole(quotient: f64) -> bool {
 }
 
 /// The two least and the two greatest heights.
-struct Ends {
+struct ExtremeHeights {
     /// Ascending.
     heights: [f32; 4],
     /// How many have the least, and how many the greatest.
     cells: [usize; 2],
 }
 
-impl Ends {
+impl ExtremeHeights {
     /// None unless there are two different heights.
     fn of(known: impl Iterator<Item = f32>) -> Option<Self> {
         let (mut low, mut lower, mut higher, mut high) =

@@ -58,13 +58,13 @@ impl Projection {
         [major, minor]
     }
 
-    /// Longitude, positive to the east, and latitude of a place [°].
+    /// Longitude, positive to the east, and latitude of a place [rad].
     pub(crate) fn place(&self, at: Vec2) -> Option<Vec2> {
         let [major, minor] = self.axes();
         let globe = Proj::from_proj_string(&format!("+proj=longlat +a={major} +b={minor}")).ok()?;
         let mut place = (at.x, at.y);
         proj4rs::transform::transform(&self.proj, &globe, &mut place).ok()?;
-        let place = Vec2::new(place.0.to_degrees(), place.1.to_degrees());
+        let place = Vec2::new(place.0, place.1);
         (place.x.is_finite() && place.y.is_finite()).then_some(place)
     }
 
@@ -91,8 +91,8 @@ impl Projection {
     fn on_body(&self, at: Vec2) -> Option<Vec3> {
         let place = self.place(at)?;
         let [major, minor] = self.axes();
-        let (sin_east, cos_east) = sin_cos(place.x.to_radians());
-        let (sin_north, cos_north) = sin_cos(place.y.to_radians());
+        let (sin_east, cos_east) = sin_cos(place.x);
+        let (sin_north, cos_north) = sin_cos(place.y);
         let squared = 1.0 - (minor / major) * (minor / major);
         let normal = major / (1.0 - squared * sin_north * sin_north).sqrt();
         let out = normal * cos_north;

@@ -20,7 +20,7 @@ use crate::error::{Fault, RasterError};
 use crate::heights::{Heights, checked_cells};
 use crate::{CELLS, CoordinateSystem, Raster, ReadOptions, Remark, RowOrder};
 use axis::Axis;
-use header::{Columns, words};
+use header::{TextColumns, words};
 
 /// Bytes of a line, at most.
 const LONGEST: u64 = 1_000;
@@ -132,7 +132,7 @@ impl Points {
                 continue;
             }
             if columns.is_none() {
-                let found = Columns::of(first.take(), words.len())
+                let found = TextColumns::of(first.take(), words.len())
                     .map_err(|problem| Fault::Line { line: 1, problem })?;
                 points.remarks.extend(found.remark());
                 columns = Some(found);

@@ -21,9 +21,10 @@ type Rule = fn(&Sources) -> usize;
 /// more) and before ten commands had questions in the library (some 700 more); they were 101,600
 /// before routes had profiles, pages pictures and slides, and logs readers of any order, and 105,000
 /// before messages of ROS, tables by mappings, robots of URDF as people describe them, watched logs
-/// and checks of where a reading is from; lines of Python were 8,150 before those.
+/// and checks of where a reading is from; lines of Python were 8,150 before those. Recorded drives as
+/// a referee and what maps mean took 2,000 lines and three conversions.
 const COUNTS: [(&str, usize, Rule); 9] = [
-    ("lines of Rust without comments and tests", 112_500, |all| all.rust.iter().map(lines).sum()),
+    ("lines of Rust without comments and tests", 110_500, |all| all.rust.iter().map(lines).sum()),
     ("lines of Python without comments and tests", 8_200, |all| all.python.iter().map(lines).sum()),
     ("files that name three outcomes or more as text", 1, outcome_homes),
     ("inputs of an answer written by hand (`fn settings`, `fn state`)", 18, |all| {
@@ -33,7 +34,7 @@ const COUNTS: [(&str, usize, Rule); 9] = [
         all.rust.iter().map(|(_, text)| text.matches("Serialize)]").count()).sum()
     }),
     ("columns of results written by hand in Python", 237, python_columns),
-    ("conversions of units above the documents", 146, conversions),
+    ("conversions of units above the documents", 149, conversions),
     ("names of types used more than once", 188, |all| repeated(&all.type_names())),
     ("names of types used more than once in one crate", 101, |all| {
         all.type_names_by_crate().values().map(repeated).sum()

@@ -16,15 +16,15 @@ use crate::error::Fault;
 
 /// What lies beside a file, as far as it is there.
 #[derive(Default)]
-pub(super) struct Beside {
+pub(super) struct Sidecars {
     pub(super) mask: Option<TiffFile>,
-    pub(super) notes: Notes,
+    pub(super) notes: PamNotes,
     pub(super) world: Option<Affine>,
 }
 
 /// GDAL's notes.
 #[derive(Default)]
-pub(super) struct Notes {
+pub(super) struct PamNotes {
     pub(super) place: Option<Affine>,
     /// The system of coordinates, as well-known text.
     pub(super) system: Option<String>,
@@ -33,7 +33,7 @@ pub(super) struct Notes {
     pub(super) offset: Option<f64>,
 }
 
-impl Beside {
+impl Sidecars {
     /// * `band`: with the heights, from 1
     /// * `limits`: of the mask
     pub(super) fn of(path: &Path, band: usize, limits: OpenOptions) -> Result<Self, Fault> {
@@ -44,7 +44,7 @@ impl Beside {
         };
         let mask = with(".msk").map(|it| TiffFile::open_with_options(it, limits)).transpose();
         let mask = mask.map_err(|error| of_part(error.into(), ".msk"))?;
-        let notes = with(".aux.xml").map(|it| Notes::of(&text(&it)?, band)).transpose();
+        let notes = with(".aux.xml").map(|it| PamNotes::of(&text(&it)?, band)).transpose();
         let notes = notes.map_err(|fault| of_part(fault, ".aux.xml"))?.unwrap_or_default();
         let worlds = ["tfw", "TFW", "tifw", "wld"].map(|it| path.with_extension(it));
         let world = worlds.iter().find(|it| it.is_file());
@@ -80,7 +80,7 @@ fn damaged(problem: &str) -> Fault {
     Fault::Tiff { problem: problem.to_owned() }
 }
 
-impl Notes {
+impl PamNotes {
     /// Reads a `PAMDataset`.
     fn of(text: &str, band: usize) -> Result<Self, Fault> {
         let document = Document::parse(text).map_err(|error| damaged(&error.to_string()))?;

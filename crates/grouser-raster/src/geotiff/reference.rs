@@ -4,10 +4,10 @@ use grouser_core::terrain::ElevationGrid;
 use grouser_core::units::Vec2;
 
 use super::affine::Affine;
-use super::beside::Beside;
+use super::beside::Sidecars;
 use crate::coordinate_system::{CoordinateSystem, key};
 use crate::error::Fault;
-use crate::meaning::{Site, check_keys, check_system};
+use crate::meaning::{MapSite, check_keys, check_system};
 use crate::remark::Remark;
 use crate::{Placement, RowOrder};
 
@@ -15,7 +15,7 @@ use crate::{Placement, RowOrder};
 pub(super) struct Georeference<'s> {
     pub(super) system: &'s CoordinateSystem,
     /// What lies beside the file.
-    pub(super) beside: &'s Beside,
+    pub(super) beside: &'s Sidecars,
     /// Size of a cell: `ModelPixelScaleTag`.
     pub(super) scale: Vec<f64>,
     /// A place in the raster, and on the map: `ModelTiepointTag`.
@@ -25,7 +25,7 @@ pub(super) struct Georeference<'s> {
 }
 
 /// The points of a grid.
-pub(super) struct Placed {
+pub(super) struct PlacedGrid {
     pub(super) grid: ElevationGrid,
     /// Which row comes first.
     pub(super) order: RowOrder,
@@ -42,15 +42,15 @@ impl Georeference<'_> {
         columns: usize,
         rows: usize,
         placement: Option<Placement>,
-    ) -> Result<Placed, Fault> {
+    ) -> Result<PlacedGrid, Fault> {
         let own = || self.affine().or(self.beside.world);
         let Some(affine) = self.beside.notes.place.or_else(own).filter(Affine::is_regular) else {
             let placement = placement.ok_or(Fault::NotReferenced)?;
             let (grid, order) = (placement.grid(columns, rows), placement.rows);
-            return Ok(Placed { grid, order, remark: None });
+            return Ok(PlacedGrid { grid, order, remark: None });
         };
         let middle = affine.middle(0.5 * (columns as f64 - 1.0), 0.5 * (rows as f64 - 1.0));
-        let site = Site { middle, cell: affine.d.abs() };
+        let site = MapSite { middle, cell: affine.d.abs() };
         let remark = match &self.beside.notes.system {
             Some(text) => check_system(text, site)?,
             None => check_keys(self.system, site)?,
@@ -66,7 +66,7 @@ impl Georeference<'_> {
         let south_west = affine.middle(0.0, southern);
         let spacing = Vec2::new(a, d.abs());
         let grid = ElevationGrid { columns, rows, south_west, spacing };
-        Ok(Placed { grid, order, remark })
+        Ok(PlacedGrid { grid, order, remark })
     }
 
     /// The place of the cells, by tiepoint and scale, else by the matrix, as GDAL takes them.

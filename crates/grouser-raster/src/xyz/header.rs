@@ -13,7 +13,7 @@ const METRES: [&str; 5] = ["m", "metre", "metres", "meter", "meters"];
 
 /// Which columns of a text have x, y and z, from 0.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Columns {
+pub(super) struct TextColumns {
     of: [usize; 3],
     /// What is taken for z, if it is not called so.
     height: Option<String>,
@@ -60,7 +60,7 @@ fn parts(name: &str) -> (String, Option<String>) {
     (name.trim().to_owned(), unit.map(|unit| unit.trim().to_owned()))
 }
 
-impl Columns {
+impl TextColumns {
     /// * `names`: of the first line, if there are any
     /// * `count`: of the words of the first point
     pub(super) fn of(names: Option<Vec<String>>, count: usize) -> Result<Self, String> {

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use grouser_core::units::Vec2;
-use grouser_raster::{Fault, Raster, ReadOptions, Remark, Site, check_system, read, xyz};
+use grouser_raster::{Fault, MapSite, Raster, ReadOptions, Remark, check_system, read, xyz};
 
 use crate::ground;
 
@@ -162,7 +162,7 @@ fn what_lies_beside_a_file_is_read() {
 #[test]
 fn systems_of_texts_are_checked() {
     const UTM: &str = r#"PROJCS["UTM 33",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],PARAMETER["central_meridian",15],PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],PARAMETER["false_northing",0],UNIT["metre",1]]"#;
-    let site = Site { middle: Vec2::new(500_000.0, 6_000_000.0), cell: 2.0 };
+    let site = MapSite { middle: Vec2::new(500_000.0, 6_000_000.0), cell: 2.0 };
     assert_eq!(check_system(UTM, site).unwrap(), None);
     let with = |heights: &str| check_system(&format!("COMPD_CS[\"both\",{UTM},{heights}]"), site);
     let feet = with(
@@ -182,14 +182,14 @@ fn systems_of_texts_are_checked() {
     let feet = UTM.replace(r#"UNIT["metre",1]"#, r#"UNIT["foot",0.3048]"#);
     assert!(matches!(check_system(&feet, site), Err(Fault::Unit { unit }) if unit == "feet"));
     // Far from its meridian the same projection is larger than the ground: 0.9996 cosh(x/R).
-    let east = Site { middle: Vec2::new(1_300_000.0, 6_000_000.0), cell: 2.0 };
+    let east = MapSite { middle: Vec2::new(1_300_000.0, 6_000_000.0), cell: 2.0 };
     let Ok(Some(Remark::Scale { factors })) = check_system(UTM, east) else { panic!("a remark") };
     assert!(
         (factors[0] - 1.0074).abs() < 2e-4 && (factors[1] - factors[0]).abs() < 1e-6,
         "{factors:?}"
     );
     let mercator = UTM.replace("Transverse_Mercator", "Mercator_1SP").replace("15]", "0]");
-    let north = Site { middle: Vec2::new(500_000.0, 8_400_000.0), cell: 2.0 };
+    let north = MapSite { middle: Vec2::new(500_000.0, 8_400_000.0), cell: 2.0 };
     let Err(Fault::Scale { factors, command }) = check_system(&mercator, north) else {
         panic!("refused")
     };

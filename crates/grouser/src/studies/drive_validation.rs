@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 pub use self::cells::{DriveCell, JudgedPrediction, Predictor};
-use self::cells::{Reading, cells_of, judged};
+use self::cells::{JudgedStretch, cells_of, judged};
 pub use self::conditions::Conditions;
 pub use self::quantity::{DriveQuantity, DriveValues};
 pub use self::recorded::{DriveRecorder, RecordedDrive, Split};
@@ -66,13 +66,13 @@ impl DriveValidationStudy<'_> {
         let all = self.drives.iter().enumerate();
         let stretches: Vec<(usize, &Stretch)> =
             all.flat_map(|(drive, it)| it.stretches.iter().map(move |one| (drive, one))).collect();
-        let read: Vec<Result<Reading, NotUsed>> =
+        let read: Vec<Result<JudgedStretch, NotUsed>> =
             stretches.par_iter().map(|(drive, it)| self.reading(&study, *drive, it)).collect();
         let mut not_compared = BTreeMap::new();
         for why in read.iter().filter_map(|it| it.as_ref().err()) {
             *not_compared.entry(*why).or_default() += 1;
         }
-        let readings: Vec<Reading> = read.into_iter().flatten().collect();
+        let readings: Vec<JudgedStretch> = read.into_iter().flatten().collect();
         let compared = readings.len();
         let cells = cells_of(readings, self.models.len());
         let has_test = cells.iter().any(|it| it.split == Split::Test);
@@ -87,7 +87,7 @@ impl DriveValidationStudy<'_> {
         study: &HeadingStudy,
         drive: usize,
         stretch: &Stretch,
-    ) -> Result<Reading, NotUsed> {
+    ) -> Result<JudgedStretch, NotUsed> {
         let situation = Situation::of(study, stretch)?;
         let rover = &situation.study.rover;
         let conditions = Conditions::of(rover, steady_attitude(stretch)?, &stretch.rim_speeds);
@@ -104,7 +104,7 @@ impl DriveValidationStudy<'_> {
         };
         let predicted = self.models.iter().map(predict).collect();
         let split = self.drives[drive].split;
-        Ok(Reading { drive, split, conditions, measured: read, predicted })
+        Ok(JudgedStretch { drive, split, conditions, measured: read, predicted })
     }
 }
 

@@ -45,7 +45,7 @@ pub struct DriveValidationQuestion {
 }
 
 /// What was found, as tables and sentences.
-struct Found {
+struct JudgedDrives {
     validation: DriveValidation,
     /// What was measured of anything.
     quantities: Vec<DriveQuantity>,
@@ -110,7 +110,11 @@ impl DriveValidationQuestion {
         all.filter(|it| !(is_off && *it == Model::SmallWheel)).collect()
     }
 
-    fn found(&self, validation: DriveValidation, models: &[Model]) -> Result<Found, AnswerError> {
+    fn found(
+        &self,
+        validation: DriveValidation,
+        models: &[Model],
+    ) -> Result<JudgedDrives, AnswerError> {
         let Some(best) = validation.predictions.first().filter(|_| validation.compared > 0) else {
             return Err(AnswerError::Empty(
                 "stretches with an attitude, steadily turning wheels and a way or torques",
@@ -125,7 +129,7 @@ impl DriveValidationQuestion {
         let left_out = validation.not_compared.iter();
         let left_out = left_out
             .map(|(why, count)| format!("{count} stretches not compared: {}", why.meaning()));
-        Ok(Found {
+        Ok(JudgedDrives {
             quantities,
             cells: Arc::new(cells(&validation, &names)),
             drives: Arc::new(drives(&self.drives)),
@@ -166,7 +170,7 @@ impl DriveValidationQuestion {
     }
 
     /// The page, but for what all pages end with.
-    fn page(&self, answer: &mut Answer, found: &Found) {
+    fn page(&self, answer: &mut Answer, found: &JudgedDrives) {
         found.sentences.iter().for_each(|it| answer.verdict(sentence(it)));
         answer.list([
             format!("rover: {}", self.scenario.document.name_of("rover")),
@@ -202,7 +206,7 @@ impl DriveValidationQuestion {
     }
 }
 
-impl Found {
+impl JudgedDrives {
     /// A row for each prediction, set and quantity.
     fn rows(&self) -> Vec<Map<String, Value>> {
         let other = Split::Training;

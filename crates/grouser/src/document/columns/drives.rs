@@ -29,12 +29,12 @@ pub const fn quantity_of(quantity: DriveQuantity) -> Quantity {
 }
 
 /// A cell beside a model.
-pub struct OfModel<'a> {
+pub struct DriveScores<'a> {
     cell: &'a DriveCell,
     model: usize,
 }
 
-impl OfModel<'_> {
+impl DriveScores<'_> {
     fn compared(&self, quantity: DriveQuantity) -> [Option<f64>; 3] {
         let place = quantity as usize;
         let measured = self.cell.measured[place];
@@ -45,7 +45,7 @@ impl OfModel<'_> {
 
 /// The columns of a cell beside a model.
 #[must_use]
-pub const fn cell_columns<'a>() -> [Column<OfModel<'a>>; 11] {
+pub const fn cell_columns<'a>() -> [Column<DriveScores<'a>>; 11] {
     [
         text(SPLIT, "The set of the drives: `training` or `test`", |it| {
             Some(it.cell.split.name().to_owned())
@@ -88,8 +88,8 @@ pub const fn cell_columns<'a>() -> [Column<OfModel<'a>>; 11] {
 pub fn cells(validation: &DriveValidation, models: &[&str]) -> Table {
     let mut all = Table::default();
     for (model, name) in models.iter().enumerate() {
-        let rows: Vec<OfModel<'_>> =
-            validation.cells.iter().map(|cell| OfModel { cell, model }).collect();
+        let rows: Vec<DriveScores<'_>> =
+            validation.cells.iter().map(|cell| DriveScores { cell, model }).collect();
         all.append(Table::of(&cell_columns(), &rows).with_word(MODEL, name));
     }
     all

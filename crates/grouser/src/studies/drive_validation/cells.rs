@@ -8,7 +8,7 @@ use crate::studies::slope_tests::Mean;
 use crate::studies::validation::{Comparison, Errors, Placed, Yardstick, mean_score};
 
 /// A stretch of a drive beside what each model predicts.
-pub(super) struct Reading {
+pub(super) struct JudgedStretch {
     pub(super) drive: usize,
     pub(super) split: Split,
     pub(super) conditions: Conditions,
@@ -78,13 +78,13 @@ pub struct JudgedPrediction {
 /// The cells of the training set, then those of the test set, by their conditions.
 ///
 /// * `models`: how many there are
-pub(super) fn cells_of(mut readings: Vec<Reading>, models: usize) -> Vec<DriveCell> {
+pub(super) fn cells_of(mut readings: Vec<JudgedStretch>, models: usize) -> Vec<DriveCell> {
     readings.sort_by(|one, other| {
         let by_set = one.split.cmp(&other.split);
         let by_conditions = one.conditions.compare(&other.conditions);
         by_set.then(by_conditions).then(one.drive.cmp(&other.drive))
     });
-    let is_same = |one: &Reading, other: &Reading| {
+    let is_same = |one: &JudgedStretch, other: &JudgedStretch| {
         one.split == other.split && one.conditions.compare(&other.conditions).is_eq()
     };
     readings.chunk_by(is_same).map(|it| DriveCell::of(it, models)).collect()
@@ -92,8 +92,8 @@ pub(super) fn cells_of(mut readings: Vec<Reading>, models: usize) -> Vec<DriveCe
 
 impl DriveCell {
     /// * `readings`: of one set and like conditions, by drive; at least one
-    fn of(readings: &[Reading], models: usize) -> Self {
-        let trials: Vec<&[Reading]> =
+    fn of(readings: &[JudgedStretch], models: usize) -> Self {
+        let trials: Vec<&[JudgedStretch]> =
             readings.chunk_by(|one, other| one.drive == other.drive).collect();
         let measured: [Option<Mean>; QUANTITIES] = std::array::from_fn(|place| {
             let values =
@@ -109,7 +109,8 @@ impl DriveCell {
             })
         });
         let without = |model: usize| {
-            let is_without = |it: &&&[Reading]| it.iter().all(|it| it.predicted[model].is_none());
+            let is_without =
+                |it: &&&[JudgedStretch]| it.iter().all(|it| it.predicted[model].is_none());
             trials.iter().filter(is_without).count()
         };
         Self {
@@ -123,7 +124,7 @@ impl DriveCell {
     }
 }
 
-impl Reading {
+impl JudgedStretch {
     /// Prediction less measurement.
     fn error(&self, model: usize, quantity: usize) -> Option<f64> {
         Some(self.predicted[model].as_ref()?[quantity]? - self.measured[quantity]?)
@@ -227,9 +228,9 @@ fn over_slopes(cells: &[&DriveCell], place: usize, yardstick: Yardstick) -> Vec<
 mod tests {
     use super::*;
 
-    fn reading(drive: usize, slope: f64, measured: f64, predicted: Option<f64>) -> Reading {
+    fn reading(drive: usize, slope: f64, measured: f64, predicted: Option<f64>) -> JudgedStretch {
         let values = |value: f64| [Some(value), None, None, None];
-        Reading {
+        JudgedStretch {
             drive,
             split: Split::Test,
             conditions: Conditions { slope, yaw: None, speed: 0.05, radius: None },
