@@ -56,7 +56,7 @@ pub fn write(to: &mut impl Write, raster: &Raster) -> std::io::Result<()> {
 /// # Errors
 /// [`Fault`] if it does not have points of a grid, with the number of the line.
 pub fn decode(text: impl BufRead, options: &ReadOptions) -> Result<Raster, Fault> {
-    let points = Points::read(text, options)?;
+    let points = TextPoints::read(text, options)?;
     let columns = Axis::of(&points.x).map_err(|fault| points.fault("x", &fault))?;
     let rows = Axis::of(&points.y).map_err(|fault| points.fault("y", &fault))?;
     let cells = checked_cells(columns.count, rows.count, options.cells.unwrap_or(CELLS))?;
@@ -93,7 +93,7 @@ pub fn decode(text: impl BufRead, options: &ReadOptions) -> Result<Raster, Fault
 
 /// The points of a file.
 #[derive(Debug, Default)]
-struct Points {
+struct TextPoints {
     x: Vec<f64>,
     y: Vec<f64>,
     z: Vec<f64>,
@@ -103,7 +103,7 @@ struct Points {
     remarks: Vec<Remark>,
 }
 
-impl Points {
+impl TextPoints {
     fn read(mut text: impl BufRead, options: &ReadOptions) -> Result<Self, Fault> {
         let limit = options.cells.unwrap_or(CELLS);
         let mut points = Self::default();
