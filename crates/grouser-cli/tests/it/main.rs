@@ -27,6 +27,7 @@ mod odd_logs;
 mod program;
 mod replay;
 mod reports;
+mod robots;
 mod routes;
 mod routes_hostile;
 mod scrambled;
