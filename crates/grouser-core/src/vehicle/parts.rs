@@ -131,7 +131,8 @@ impl SteeringAxis {
 pub struct Mount {
     /// The wheel's name, such as `front-left`.
     pub name: String,
-    /// What the robot's logs call the joint that turns it, if that is another name.
+    /// What the robot's logs call the joint that turns it, if that is another name; with a minus
+    /// before it where positive speeds roll the wheel backward.
     pub joint: Option<String>,
     /// Its hub, in the body frame [m], with the wheel steered as it is.
     pub position: Vec3,

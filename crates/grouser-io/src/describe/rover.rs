@@ -238,7 +238,8 @@ static MOUNT: Table<MountParts> = Table {
             "joint",
             1,
             "What logs of the robot call the joint that turns it, as URDF does, if that is another \
-             name.",
+             name; with a minus before it where the joint's positive speeds roll the wheel backward, \
+             as about an axis that points to the right.",
             |mount: &mut MountParts, joint| mount.joint = Some(joint.to_owned()),
         )
         .optional(),

@@ -257,7 +257,11 @@ fn mount(
         ));
     }
     let unit = Unit { mass: together.mass, inertia, radius: wheel.radius, width: wheel.width };
-    let joint = Some(joint_name(robot, wheel.turned)).filter(|it| it != name);
+    let joint = joint_name(robot, wheel.turned);
+    // About an axis to the right a wheel that rolls forward turns backward.
+    let is_reversed = robot.links[wheel.turned].axis().is_some_and(|axis| axis.y < 0.0);
+    let joint =
+        if is_reversed { Some(format!("-{joint}")) } else { Some(joint).filter(|it| it != name) };
     let position = wheel.centre - body.centre;
     Ok(Mount { name: name.clone(), joint, position, steering, unit })
 }

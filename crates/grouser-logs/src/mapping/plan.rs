@@ -12,6 +12,9 @@ use grouser_io::telemetry_mapping::{
 use crate::error::Problem;
 use crate::mapping::topic::Topic;
 
+/// Columns of what turns with a wheel's joint: they have its sign.
+const TURNING: [&str; 2] = ["wheel_speed_", "wheel_torque_"];
+
 /// Which topic is meant where several have the messages that a mapping asks for: by the type of the
 /// messages, or the pattern of topics, as the mapping has it.
 pub type TopicChoices = BTreeMap<String, String>;
@@ -207,19 +210,22 @@ impl Plan {
         wheel: &WheelNames,
         column: usize,
     ) -> Result<Vec<NumberField>, Problem> {
-        let What::Number { field, factor, offset, wrap, .. } = &reading.what else {
+        let What::Number { field, factor, offset, wrap, column: written } = &reading.what else {
             return Ok(Vec::new());
         };
+        let of_turning = TURNING.iter().any(|it| written.starts_with(it));
         let angle = wrap.map(|wrap| {
             self.angles.push((column, wrap));
             self.angles.len() - 1
         });
-        let read = |path: String| {
+        let read = |(name, path): (usize, String)| {
+            let reversed = wheel.is_reversed && of_turning && name == 0;
+            let sign = if reversed { -1.0 } else { 1.0 };
             let field = FieldPath::parse(&path)
                 .ok_or_else(|| Problem::Mapping(format!("`{path}` is no path to a field")))?;
-            Ok(NumberField { field, factor: *factor, offset: *offset, angle })
+            Ok(NumberField { field, factor: sign * factor, offset: sign * offset, angle })
         };
-        wheel.paths(field).into_iter().map(read).collect()
+        wheel.paths(field).into_iter().enumerate().map(read).collect()
     }
 }
 
@@ -229,6 +235,8 @@ pub(crate) struct WheelNames {
     own: String,
     /// By logs: those that are tried first come first.
     in_logs: Vec<String>,
+    /// Whether positive numbers under the first of these turn it backward.
+    is_reversed: bool,
 }
 
 impl WheelNames {
@@ -237,13 +245,16 @@ impl WheelNames {
     pub(crate) fn of(mount: &Mount) -> Self {
         let own = mount.name.clone();
         let bare = own.strip_suffix("_link").map(str::to_owned);
-        let in_logs = mount.joint.iter().cloned().chain([own.clone()]).chain(bare).collect();
-        Self { own, in_logs }
+        let joint = mount.joint.as_deref();
+        let reversed = joint.and_then(|name| name.strip_prefix('-'));
+        let joint = reversed.or(joint).map(str::to_owned);
+        let in_logs = joint.into_iter().chain([own.clone()]).chain(bare).collect();
+        Self { own, in_logs, is_reversed: reversed.is_some() }
     }
 
     /// Any name, for what is no wheel's.
     pub(crate) fn any() -> Self {
-        Self { own: "*".to_owned(), in_logs: vec!["*".to_owned()] }
+        Self { own: "*".to_owned(), in_logs: vec!["*".to_owned()], is_reversed: false }
     }
 
     /// Whether a reading reads the messages of a topic, of the wheel by any of its names.
