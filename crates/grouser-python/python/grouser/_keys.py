@@ -791,8 +791,9 @@ class RoverMount(TypedDict, total=False):
     name: str
     """The wheel's name, such as `front-left`; no two alike."""
     joint: str
-    """What logs of the robot call the joint that turns it, as URDF does, if that is another
-    name."""
+    """What logs of the robot call the joint that turns it, as URDF does, if that is another name;
+    with a minus before it where the joint's positive speeds roll the wheel backward, as about an
+    axis that points to the right."""
     position_m: tuple[float, ...]
     """The wheel's centre, at a steering angle of zero, from the body's centre of mass: x forward,
     y left, z up [m]."""
