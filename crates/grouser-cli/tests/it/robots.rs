@@ -218,8 +218,12 @@ fn two_wheels() -> Parts {
     parts
 }
 
-/// All twins with the flag that each needs, the radius of its wheels [m] and how many they are.
-fn twins() -> Vec<(&'static str, String, &'static str, f64, usize)> {
+/// A twin: its name, its description, the flag that it needs, the radius of its wheels [m], and how
+/// many they are.
+type Twin = (&'static str, String, &'static str, f64, usize);
+
+/// Robots that steer by skidding.
+fn skid_steered() -> Vec<Twin> {
     const NAMES: [&str; 4] =
         ["front_left_wheel", "front_right_wheel", "rear_left_wheel", "rear_right_wheel"];
     const SHORT: [&str; 4] =
@@ -227,122 +231,52 @@ fn twins() -> Vec<(&'static str, String, &'static str, f64, usize)> {
     const LETTERS: [&str; 4] = ["wheel_FL", "wheel_FR", "wheel_RL", "wheel_RR"];
     const PIONEER: [&str; 4] =
         ["p3at_front_left", "p3at_front_right", "p3at_back_left", "p3at_back_right"];
+    // Masses of body and wheel [kg], base, track, radius, width and height [m].
     let four = |name, masses, sizes, (radius, width), height, names, right| {
-        skid(name, masses, sizes, (&rim(radius, width), height), names, right).robot(name)
+        let parts = skid(name, masses, sizes, (&rim(radius, width), height), names, right);
+        (name, parts.robot(name), "", radius, 4)
     };
-    let hinge = "revolute 0 1 0";
     let left = "0 1 0";
     let given = "--wheel-radius-m 0.111 --wheel-width-m 0.08";
     let pioneer = skid("p3at", (12.0, 1.0), (0.268, 0.4), (MESH, -0.05), PIONEER, left);
+    let scout = (0.16459, 0.1165);
     vec![
-        (
-            "husky",
-            four("husky", (46.0, 2.6), (0.512, 0.571), (0.1651, 0.1143), 0.033, NAMES, left),
-            "",
-            0.1651,
-            4,
-        ),
-        (
-            "jackal",
-            four("jackal", (16.5, 0.48), (0.262, 0.376), (0.098, 0.04), 0.0345, NAMES, left),
-            "",
-            0.098,
-            4,
-        ),
-        (
-            "panther",
-            four("panther", (50.0, 1.5), (0.44, 0.697), (0.1825, 0.1), 0.0, SHORT, left),
-            "",
-            0.1825,
-            4,
-        ),
-        (
-            "rosbot",
-            four("rosbot", (2.0, 0.1), (0.105, 0.186), (0.0425, 0.03), 0.02, SHORT, left),
-            "",
-            0.0425,
-            4,
-        ),
-        (
-            "scout",
-            four(
-                "scout",
-                (40.0, 8.0),
-                (0.498, 0.583),
-                (0.16459, 0.1165),
-                -0.07,
-                NAMES,
-                "over 0 -1 0",
-            ),
-            "",
-            0.16459,
-            4,
-        ),
-        (
-            "leo",
-            four("leo", (6.0, 0.28), (0.305, 0.448), (0.057, 0.07), -0.09, LETTERS, left),
-            "",
-            0.057,
-            4,
-        ),
+        four("husky", (46.0, 2.6), (0.512, 0.571), (0.1651, 0.1143), 0.033, NAMES, left),
+        four("jackal", (16.5, 0.48), (0.262, 0.376), (0.098, 0.04), 0.0345, NAMES, left),
+        four("panther", (50.0, 1.5), (0.44, 0.697), (0.1825, 0.1), 0.0, SHORT, left),
+        four("rosbot", (2.0, 0.1), (0.105, 0.186), (0.0425, 0.03), 0.02, SHORT, left),
+        four("scout", (40.0, 8.0), (0.498, 0.583), scout, -0.07, NAMES, "over 0 -1 0"),
+        four("leo", (6.0, 0.28), (0.305, 0.448), (0.057, 0.07), -0.09, LETTERS, left),
         // Its right joints turn about axes to the right: forward is a negative speed of theirs.
-        (
-            "outward",
-            four("outward", (20.0, 1.0), (0.4, 0.5), (0.12, 0.08), 0.0, SHORT, "0 -1 0"),
-            "",
-            0.12,
-            4,
-        ),
+        four("outward", (20.0, 1.0), (0.4, 0.5), (0.12, 0.08), 0.0, SHORT, "0 -1 0"),
         ("pioneer", pioneer.robot("pioneer"), given, 0.111, 4),
+        ("ez-rassor", drums().robot("ezrassor"), "", 0.18, 4),
+        ("turtlebot", two_wheels().robot("burger"), "", 0.033, 2),
+    ]
+}
+
+/// Robots whose wheels hang on rockers, springs or links that steer them.
+fn suspended() -> Vec<Twin> {
+    let hinge = "revolute 0 1 0";
+    let curiosity = |mass: f64| six(mass, (0.25, 0.4), (1.1, 2.3), hinge);
+    let osr = six(12.0, (0.075, 0.085), (0.28, 0.5), hinge);
+    let sawppy = six(4.0, (0.06, 0.06), (0.25, 0.45), hinge);
+    let exomy = six(2.0, (0.05, 0.05), (0.14, 0.3), "fixed 0 0 0");
+    let perseverance = six(900.0, (0.2625, 0.4), (1.12, 2.4), hinge);
+    let springs = corners(100.0, (0.11, 0.09), [0.25, 0.3, 0.0], "prismatic 0 0 1");
+    let viper = corners(430.0, (0.25, 0.2), [0.75, 0.75, -0.4], "revolute 0 0 1");
+    vec![
         ("leo-rockers", rockers(0.0625, 0.07, true).robot("leo"), "", 0.0625, 4),
         ("leo-alone", rockers(0.0625, 0.07, false).robot("leo"), "--rigid", 0.0625, 4),
         ("warthog", rockers(0.3, 0.25, true).robot("warthog"), "", 0.3, 4),
-        ("osr", six(12.0, (0.075, 0.085), (0.28, 0.5), hinge).robot("osr"), "--rigid", 0.075, 6),
-        (
-            "sawppy",
-            six(4.0, (0.06, 0.06), (0.25, 0.45), hinge).robot("sawppy"),
-            "--differential",
-            0.06,
-            6,
-        ),
-        ("exomy", six(2.0, (0.05, 0.05), (0.14, 0.3), "fixed 0 0 0").robot("exomy"), "", 0.05, 6),
-        (
-            "curiosity",
-            six(800.0, (0.25, 0.4), (1.1, 2.3), hinge).robot("curiosity"),
-            "--differential",
-            0.25,
-            6,
-        ),
-        (
-            "curiosity-demo",
-            six(700.0, (0.25, 0.4), (1.1, 2.3), hinge).robot("demo"),
-            "--rigid",
-            0.25,
-            6,
-        ),
-        (
-            "perseverance",
-            six(900.0, (0.2625, 0.4), (1.12, 2.4), hinge).robot("m2020"),
-            "--rigid",
-            0.2625,
-            6,
-        ),
-        ("ez-rassor", drums().robot("ezrassor"), "", 0.18, 4),
-        (
-            "summit-xl",
-            corners(100.0, (0.11, 0.09), [0.25, 0.3, 0.0], "prismatic 0 0 1").robot("summit"),
-            "",
-            0.11,
-            4,
-        ),
-        (
-            "viper",
-            corners(430.0, (0.25, 0.2), [0.75, 0.75, -0.4], "revolute 0 0 1").robot("viper"),
-            "",
-            0.25,
-            4,
-        ),
-        ("turtlebot", two_wheels().robot("burger"), "", 0.033, 2),
+        ("osr", osr.robot("osr"), "--rigid", 0.075, 6),
+        ("sawppy", sawppy.robot("sawppy"), "--differential", 0.06, 6),
+        ("exomy", exomy.robot("exomy"), "", 0.05, 6),
+        ("curiosity", curiosity(800.0).robot("curiosity"), "--differential", 0.25, 6),
+        ("curiosity-demo", curiosity(700.0).robot("demo"), "--rigid", 0.25, 6),
+        ("perseverance", perseverance.robot("m2020"), "--rigid", 0.2625, 6),
+        ("summit-xl", springs.robot("summit"), "", 0.11, 4),
+        ("viper", viper.robot("viper"), "", 0.25, 4),
     ]
 }
 
@@ -386,7 +320,7 @@ fn log(joints: &[&str], radius: f64) -> String {
 fn twins_of_public_robots_are_rovers_and_their_logs_fit() {
     let place = Place::new();
     let (mut rovers, mut easy) = (0, 0);
-    for (name, urdf, flags, radius, wheels) in twins() {
+    for (name, urdf, flags, radius, wheels) in skid_steered().into_iter().chain(suspended()) {
         place.write(&format!("{name}.urdf"), urdf);
         let line = format!("import-urdf {name}.urdf {flags} --out {name}.toml");
         let imported = place.line(&line);
