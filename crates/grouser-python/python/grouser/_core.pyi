@@ -41,6 +41,7 @@ __all__ = [
     "card_rule",
     "check_document",
     "check_shard",
+    "check_system",
     "drive_mission",
     "find_campaign",
     "find_document",
