@@ -69,8 +69,12 @@ pub(crate) fn check_keys(
     system: &CoordinateSystem,
     site: MapSite,
 ) -> Result<Option<Remark>, Fault> {
-    let is_projected = system.number(key::PROJECTED).or(system.number(key::PROJECTION)).is_some();
     let model = system.number(key::MODEL);
+    // ArcGIS leaves systems of its own without a code: their name or their unit tells them.
+    let is_named = system.text_of(key::PROJECTED_CITATION).is_some()
+        || system.number(key::LINEAR_UNIT).is_some();
+    let is_projected = system.number(key::PROJECTED).or(system.number(key::PROJECTION)).is_some()
+        || (is_named && model != Some(GEOGRAPHIC));
     if model == Some(GEOCENTRIC) {
         return Err(Fault::Geocentric);
     }

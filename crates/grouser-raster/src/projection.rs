@@ -21,7 +21,8 @@ impl Projection {
         if let Some(code) = system.epsg() {
             return Self::registered(code);
         }
-        let of_text = |id: u16| Self::of_wkt(system.text_of(id)?.strip_prefix(TEXT)?);
+        let of_text =
+            |id: u16| Self::of_wkt(system.text_of(id)?.strip_prefix(TEXT)?.trim_end_matches('|'));
         let of_text = || [key::PROJECTED_CITATION, key::CITATION].into_iter().find_map(of_text);
         by_method(system).and_then(|definition| Self::of(&definition)).or_else(of_text)
     }
