@@ -208,7 +208,10 @@ fn files_that_mean_something_else_are_refused_or_applied() {
         assert!((factors[0] - 2.0).abs() < 0.01, "{name}: {factors:?}");
         assert!(command.contains("EPSG:32633"), "{name}: {command}");
         let text = fault(name).to_string();
-        assert!(text.contains("m in place of a metre") || text.contains("by the direction"), "{text}");
+        assert!(
+            text.contains("m in place of a metre") || text.contains("by the direction"),
+            "{text}"
+        );
     }
     let feet = fault("heights-in-survey-feet.tif").fault;
     assert!(matches!(&feet, Fault::HeightUnit { unit } if unit == "US survey feet"), "{feet}");
