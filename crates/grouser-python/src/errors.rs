@@ -113,7 +113,7 @@ pub(crate) fn of_raster(error: &RasterError) -> PyErr {
     }
 }
 
-/// Warns whoever called the package.
+/// Raises a `UserWarning` at the line that called the package.
 pub(crate) fn warn(py: Python<'_>, about: impl IntoIterator<Item = impl Display>) -> PyResult<()> {
     /// The frames of the package that such a call goes through.
     const FRAMES: i32 = 2;

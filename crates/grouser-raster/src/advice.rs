@@ -21,12 +21,12 @@ pub(crate) enum MappedBody {
 }
 
 impl MappedBody {
-    /// That of semi-major and semi-minor axes [m].
+    /// The body with these semi-major and semi-minor axes [m].
     pub(crate) fn of_axes(axes: [f64; 2]) -> Self {
         if (axes[0] - EARTH).abs() > NEAR { Self::Other(axes) } else { Self::Earth }
     }
 
-    /// That of a system of longitude and latitude.
+    /// The body of a system of longitude and latitude.
     pub(crate) fn of_keys(system: &CoordinateSystem) -> Self {
         let registered =
             system.number(key::GEODETIC).is_some_and(|code| !matches!(code, 0 | key::USER_DEFINED));

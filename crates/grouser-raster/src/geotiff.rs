@@ -4,8 +4,8 @@
 //! 42113 (nodata). Of several images the first is read that is neither an overview nor a mask. A
 //! height is missing where the cell has the file's nodata value, is NaN, is masked by a mask in the
 //! file or beside it, or lies in a block that was never written; GDAL's scale and offset are applied
-//! to the others. Cells are areas, whose heights are those of their middles, or points, as the file says
-//! (key 1025).
+//! to the others. Cells are areas, whose heights are those of their middles, or points, as the file
+//! says (key 1025).
 
 mod affine;
 mod beside;

@@ -135,8 +135,8 @@ fn check(
     name: &str,
     site: MapSite,
 ) -> Result<Option<Remark>, Fault> {
-    /// How far a metre of the ground may be from one of the map before somebody is told, and before
-    /// the map is refused [-]: a slope of 20° is wrong by a tenth of a degree, and by one.
+    /// How far the map's scale may be from 1 before a note says so, and before the map is refused
+    /// [-]: a slope of 20° is wrong by a tenth of a degree, and by one.
     const TOLD: f64 = 0.005;
     const REFUSED: f64 = 0.05;
     let Some(projection) = projection else {

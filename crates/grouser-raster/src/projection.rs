@@ -13,8 +13,8 @@ pub(crate) struct Projection {
 }
 
 impl Projection {
-    /// That of the keys of GeoTIFF: a registered one, one by its method and parameters, or the text
-    /// that ArcGIS leaves among the names.
+    /// The projection that keys of GeoTIFF describe: by its code in the register, by its method and
+    /// parameters, or by the text that ArcGIS leaves among the names.
     pub(crate) fn of_keys(system: &CoordinateSystem) -> Option<Self> {
         /// What ArcGIS puts before the text of a system.
         const TEXT: &str = "ESRI PE String = ";
@@ -27,7 +27,7 @@ impl Projection {
         by_method(system).and_then(|definition| Self::of(&definition)).or_else(of_text)
     }
 
-    /// That of a text, well-known text of the first or second edition.
+    /// The projection that a well-known text of the first or second edition describes.
     pub(crate) fn of_wkt(text: &str) -> Option<Self> {
         let of = |text: &str| Self::of(&proj4wkt::wkt_to_projstring(text).ok()?);
         // ArcGIS puts a system of heights behind that of coordinates.

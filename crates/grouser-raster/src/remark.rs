@@ -4,7 +4,7 @@ use std::fmt;
 
 use grouser_core::units::Vec2;
 
-/// Something that whoever drives on the heights ought to know.
+/// Something odd about heights, which does not keep a rover from driving on them.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Remark {

@@ -238,7 +238,8 @@ fn check_held(held: &[Held], least: u32) {
     assert!(held.iter().any(|it| it.width < 0.7), "{held:?}");
 }
 
-/// Of ten drives eight or more: of 95 in 100 that is all but certain.
+/// The hidden soil lies within the bands of eight of ten drives at least: with 95 in 100 inside, that
+/// is all but certain.
 #[test]
 fn the_hidden_soil_is_within_its_band() {
     check_held(&held(10), 8);

@@ -8,7 +8,7 @@
 //! [`slope_validation`](super::slope_validation).
 //!
 //! A hash of its readings puts each drive into the training or the test set ([`Split`]), so that
-//! whoever fits a soil can leave alone what it is judged on.
+//! a soil can be fitted without the drives that it is judged on.
 
 mod cells;
 mod conditions;

@@ -32,7 +32,7 @@ pub struct DriveCell {
     pub measured: [Option<Mean>; QUANTITIES],
     /// What each model predicts, over the same stretches.
     pub predicted: Vec<DriveValues>,
-    /// Of each model, trials without a stretch for which it knows a steady motion.
+    /// The number of trials, for each model, without a stretch for which it knows a steady motion.
     pub no_prediction: Vec<usize>,
 }
 
