@@ -1,9 +1,9 @@
 //! Heights as text: a point in each line, x, y and z in metres, east, north and up.
 //!
 //! Numbers stand apart by spaces, tabs, commas or semicolons. A first line with a name for each
-//! column says which are x, y and z ([`header`]); without one they are the first three, and those
-//! after them are not used, which is said. Lines may come in any order. Empty lines, those that start
-//! with `#` or `//`, and a title are passed over. Points lie on a regular grid, of which some may be
+//! column says which are x, y and z; without one they are the first three, and those after them are
+//! not used, which is said. Lines may come in any order. Empty lines, those that start with `#` or
+//! `//`, and a title are passed over. Points lie on a regular grid, of which some may be
 //! missing; a z of NaN is missing, too.
 
 mod axis;
