@@ -8,8 +8,9 @@
 //! ([`coulomb_cone`]), [`bekker`] is a closed form to check them against, and [`rft`] shares
 //! nothing with any of them. [`equilibrium`] finds the sinkage at which a wheel carries its load,
 //! and adds what the soil's [`discrepancy`] says of the model; [`batch`] does this for many wheels
-//! at once; [`time_step`] lends the reaction to engines of rigid bodies, whose wheels a
-//! [`mechanism`] carries; [`validity`] flags results that are extrapolations.
+//! at once; [`gradient`] says how a settled wheel changes with any number; [`time_step`] lends the
+//! reaction to engines of rigid bodies, whose wheels a [`mechanism`] carries; [`validity`] flags
+//! results that are extrapolations.
 //!
 //! The wheel frame has x forward, y to the left and z up, its origin at the hub. Angles on the rim
 //! are measured from straight down, positive towards the side at which the wheel enters the soil.
@@ -24,6 +25,7 @@ pub mod discrepancy;
 pub mod equilibrium;
 pub mod forces;
 mod gauss;
+pub mod gradient;
 mod inputs;
 pub mod ishigami;
 mod kernel;

@@ -13,7 +13,7 @@
 //! | simulation | [`simulation`] | a run, from its scenario to its trajectory |
 //! | vehicle | [`vehicle`] | the rover: loads, motion, drives |
 //! | contact | [`contact`] | what the soil does to one wheel |
-//! | foundations | [`units`] [`error`] [`elementary`] [`root`] [`newton`] [`soil`] [`wheel`] [`terrain`] | numbers and things |
+//! | foundations | [`units`] [`error`] [`elementary`] [`root`] [`newton`] [`difference`] [`soil`] [`wheel`] [`terrain`] | numbers and things |
 //!
 //! The examples of the types take Toyoura sand and the HAKUTO rover from [`paper`], which makes
 //! both value by value.
@@ -23,6 +23,7 @@
 //! inside another simulator or in a browser.
 
 pub mod contact;
+pub mod difference;
 pub mod elementary;
 pub mod error;
 mod lagrange;
