@@ -31,6 +31,7 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use grouser::answers::EVERY_MODEL;
 use grouser::contact::Model;
+use grouser::studies::gradient::GradientKeys;
 
 use crate::output::Format;
 
@@ -187,6 +188,22 @@ pub(crate) struct SlideArgs {
     /// `.pdf`.
     #[arg(long, value_name = "FILE")]
     pub(crate) slide: Option<PathBuf>,
+}
+
+/// The numbers that results are differentiated by.
+#[derive(Debug, Default, Args)]
+pub(crate) struct GradientArgs {
+    /// Also the derivatives of all results by numbers of the documents, of the answer as they are
+    /// written: `soil.friction_angle_deg,rover.wheel_unit.wheel.radius_m`, or `all`.
+    #[arg(long, value_name = "KEYS", value_delimiter = ',', value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) gradients: Vec<String>,
+}
+
+impl GradientArgs {
+    /// The keys, if any are asked for.
+    pub(crate) fn keys(&self) -> Option<GradientKeys> {
+        (!self.gradients.is_empty()).then(|| GradientKeys::of(&self.gradients))
+    }
 }
 
 /// Whether extrapolations are accepted.

@@ -1,5 +1,7 @@
 //! What stands in a table of results: a cell, and a column of them.
 
+use std::borrow::Cow;
+
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 /// The kind of a column's values.
@@ -11,7 +13,7 @@ pub enum ColumnKind {
     Whole,
     /// Words and sentences.
     Text,
-    /// Names of a closed list, as many as there are.
+    /// Names, as many as there are.
     Words,
 }
 
@@ -24,8 +26,8 @@ pub enum Cell {
     Whole(Option<u64>),
     /// A word or a sentence.
     Text(Option<String>),
-    /// Names of a closed list.
-    Words(Vec<&'static str>),
+    /// Names, as many as there are.
+    Words(Vec<Cow<'static, str>>),
 }
 
 impl Cell {
@@ -67,7 +69,7 @@ pub enum Values {
     /// Words and sentences.
     Text(Vec<Option<String>>),
     /// Lists of names.
-    Words(Vec<Vec<&'static str>>),
+    Words(Vec<Vec<Cow<'static, str>>>),
 }
 
 /// Between names where a list has to be one text.

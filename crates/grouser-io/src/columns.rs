@@ -399,7 +399,7 @@ impl<R> Column<R> {
             Value::Compared(of) | Value::Replayed(of) => float(of(row)[end]),
             Value::Whole(of) => Cell::Whole(of(row).map(|count| count as u64)),
             Value::Text(of) => Cell::Text(of(row)),
-            Value::Words(of) => Cell::Words(of(row)),
+            Value::Words(of) => Cell::Words(of(row).into_iter().map(Into::into).collect()),
         }
     }
 

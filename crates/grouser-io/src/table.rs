@@ -1,6 +1,8 @@
 //! Results as a table of named columns. Every output of rows is written from it: terminal, CSV,
 //! JSON, Parquet, Arrow and arrays.
 
+use std::borrow::Cow;
+
 use serde::ser::{Serialize, SerializeMap, SerializeSeq, Serializer};
 
 pub use super::cell::{BETWEEN_NAMES, Cell, ColumnKind, Values};
@@ -81,7 +83,7 @@ impl Table {
 
     /// The lists of names in a column; none if it has none.
     #[must_use]
-    pub fn words(&self, name: &str) -> &[Vec<&'static str>] {
+    pub fn words(&self, name: &str) -> &[Vec<Cow<'static, str>>] {
         match self.column(name) {
             Some(Values::Words(values)) => values,
             _ => &[],

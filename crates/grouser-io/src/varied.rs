@@ -12,6 +12,7 @@ use super::error::{DocumentError, Problem};
 use super::kind::Kind;
 use super::schema::range;
 use super::tree::{Node, Origin};
+use super::unit::unit_of;
 use super::values::{Described, Misfit};
 use grouser_core::error::ParameterError;
 use grouser_core::simulation::Scenario;
@@ -92,6 +93,19 @@ impl Key {
         Problem::OutOfRange { key: self.path.clone(), value, range: self.range_in_words() }
     }
 
+    /// How far its number has to go for what depends on it to change by as much as it is: its size,
+    /// or where that is small what is small in its unit.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        let small = match unit_of(&self.path).map(|unit| unit.symbol) {
+            Some("°") => 5.0,
+            Some("kPa") => 1.0,
+            Some("m") => 0.01,
+            _ => 0.1,
+        };
+        self.value.abs().max(small)
+    }
+
     pub(crate) fn range_in_words(&self) -> String {
         format!("{} to {}", self.range.start(), self.range.end())
     }
@@ -114,6 +128,8 @@ pub struct NoNumber {
     pub problem: Problem,
     /// How it may be mended.
     pub hint: Option<String>,
+    /// Whether other documents of its kind have the key, and this one gives it no value.
+    pub is_lacking: bool,
 }
 
 impl NoNumber {
@@ -121,15 +137,17 @@ impl NoNumber {
         let key = path.escape_debug().to_string();
         if document.get(path).is_some() {
             let whole = if document.kind() == Kind::Soil { "this soil" } else { "what is varied" };
-            return Self { problem: Problem::NotANumber { key, whole }, hint: None };
+            let problem = Problem::NotANumber { key, whole };
+            return Self { problem, hint: None, is_lacking: false };
         }
-        let hint = if range(document.kind(), path).is_some() {
+        let is_lacking = range(document.kind(), path).is_some();
+        let hint = if is_lacking {
             "the document gives this key no value: give it one first, if its law has the key"
                 .to_owned()
         } else {
             meant_number(document, path)
         };
-        Self { problem: Problem::UnknownKey { key }, hint: Some(hint) }
+        Self { problem: Problem::UnknownKey { key }, hint: Some(hint), is_lacking }
     }
 
     pub(crate) fn at(self, origin: &Origin) -> DocumentError {
@@ -138,7 +156,8 @@ impl NoNumber {
 }
 
 /// What a misspelt key was meant to be, or all that it could have been.
-pub(crate) fn meant(name: &str, known: &[&str]) -> String {
+#[must_use]
+pub fn meant(name: &str, known: &[&str]) -> String {
     let last = |key: &str| key.rsplit('.').next().unwrap_or_default().to_owned();
     let same_end = known.iter().copied().find(|key| last(key) == last(name));
     match same_end.or_else(|| nearest(name, known.iter().copied())) {

@@ -18,6 +18,7 @@ mod campaign;
 mod columns;
 mod descriptions;
 mod errors;
+mod gradients;
 mod ground;
 mod interrupt;
 mod learning;
@@ -66,6 +67,8 @@ mod _core {
         read_document_file, read_document_table, read_document_text, to_toml,
     };
     #[pymodule_export]
+    use super::gradients::settle_gradients;
+    #[pymodule_export]
     use super::ground::Footprints;
     #[pymodule_export]
     use super::learning::Learner;
@@ -106,7 +109,6 @@ mod _core {
     use super::validation::{validate, validate_all, validate_slopes};
     #[pymodule_export]
     use super::validity::{flag_names, flags};
-    #[pymodule_export]
     use super::wheels::{not_carried, settle, wheel_forces};
 
     /// Gravities by name [m/s²], defaults, and the version.

@@ -24,6 +24,7 @@ use grouser::studies::ensemble::NothingAccepted;
 use grouser::studies::ensemble::models::{ModelSpread, Question};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::forecast::{Choices, ForecastError, ForecastStudy, Ground};
+use grouser::studies::gradient::GradientKeys;
 use grouser::studies::heading::{HeadingStudy, Steering};
 use grouser::studies::heading_band::HeadingBand;
 use grouser::studies::heading_map::HeadingMap;
@@ -164,6 +165,7 @@ type Headings<'py> = (Bound<'py, PyDict>, Bound<'py, PyAny>, Bound<'py, PyAny>);
 ///
 /// * `sampling`: number of samples, and their seed; without it the soil as written and one model
 /// * `rule`: the limits of the verdicts, in the order of [`Rule`]'s fields
+/// * `gradients`: keys of the numbers that results are differentiated by
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
 pub(crate) fn heading<'py>(
@@ -173,19 +175,29 @@ pub(crate) fn heading<'py>(
     steering: &str,
     sampling: Option<(u32, u64)>,
     rule: [f64; 5],
+    gradients: Option<Vec<String>>,
 ) -> PyResult<Headings<'py>> {
     slopes(&slope_deg)?;
     if let Some((samples, _)) = sampling {
         check("samples", &[f64::from(samples)], &SAMPLES)?;
     }
+    let scenario = scenario.scenario()?;
+    let is_believed = sampling.is_some() && scenario.soils_of_bands().is_some();
+    if gradients.is_some() && is_believed {
+        let message = "gradients are of the soil as its document has it, with one model, and this \
+                       soil is uncertain: ask for that answer by nominal=True";
+        return Err(errors::parameter(message.to_owned(), "gradients", None, "nominal=True"));
+    }
+    let sampling = sampling.filter(|_| gradients.is_none());
     let steering = Steering::ALL.into_iter().find(|it| it.name() == steering).unwrap_or_default();
     let question = HeadingQuestion {
-        scenarios: vec![scenario.scenario()?.clone()],
+        scenarios: vec![scenario.clone()],
         slopes_deg: slope_deg.as_slice()?.to_vec(),
         steering,
         most_speed_ratio: None,
         sampling: sampling.map(|(count, seed)| Sampling { count, seed }),
         rule: rule_of(rule)?,
+        gradients: gradients.map(|keys| GradientKeys::of(&keys)),
     };
     let found = listening(py, move |cancelled| {
         let go_on = || !cancelled.is_set();
@@ -224,6 +236,9 @@ fn of_answer(error: &AnswerError) -> PyErr {
     match error {
         AnswerError::Parameter(error) => errors::of_parameter(error),
         AnswerError::Samples(error) => Problem::Sampling(*error).raised(),
+        AnswerError::Key(error) => {
+            errors::parameter(error.to_string(), "gradients", None, "the key of a number")
+        }
         other => errors::parameter(other.to_string(), "steering", None, "one of them"),
     }
 }

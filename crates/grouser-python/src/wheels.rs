@@ -34,7 +34,7 @@ const SHARE: usize = 256;
 const SHARES: usize = 32;
 
 /// What all wheels share, and the keys of it that differ from wheel to wheel.
-struct Stand {
+pub(crate) struct Stand {
     soils: Vec<(Soil, Model)>,
     wheel: Wheel,
     gravity: f64,
@@ -44,13 +44,13 @@ struct Stand {
 }
 
 /// What each wheel has of its own.
-struct Inputs<'a> {
+pub(crate) struct Inputs<'a> {
     /// What is in `pressed`: [`LOAD`] or [`SINKAGE`], in its unit.
-    quantity: Quantity,
-    pressed: &'a [f64],
-    slip_ratios: &'a [f64],
-    slip_angles_deg: &'a [f64],
-    soils: Option<&'a [i64]>,
+    pub(crate) quantity: Quantity,
+    pub(crate) pressed: &'a [f64],
+    pub(crate) slip_ratios: &'a [f64],
+    pub(crate) slip_angles_deg: &'a [f64],
+    pub(crate) soils: Option<&'a [i64]>,
 }
 
 /// The key of the gravity, beside those of soil and wheel.
@@ -59,7 +59,7 @@ const GRAVITY: &str = "gravity_m_s2";
 impl Stand {
     /// * `setting`: a scenario that gives gravity, and a wheel–soil model where it names one
     /// * `vary`: keys of soil and wheel, and the gravity, with a number for each wheel
-    fn new(
+    pub(crate) fn new(
         soils: &[PyRef<'_, Document>],
         wheel: &Document,
         setting: &Document,
@@ -97,6 +97,17 @@ impl Stand {
         Ok(Self { soils, wheel, gravity, of_soils, of_wheels, gravities })
     }
 
+    /// How many soils there are.
+    pub(crate) fn soil_count(&self) -> usize {
+        self.soils.len()
+    }
+
+    /// The keys of a wheel's soil, and of the wheel, that have a number of their own.
+    pub(crate) fn changed(&self, inputs: &Inputs<'_>, place: usize) -> [Vec<(&str, f64)>; 2] {
+        let soil = self.of_soils.at(inputs.soil_of(place), place).collect();
+        [soil, self.of_wheels.at(0, place).collect()]
+    }
+
     /// Whether anything of it differs from wheel to wheel.
     fn is_varied(&self) -> bool {
         !self.of_soils.is_empty() || !self.of_wheels.is_empty() || self.gravities.is_some()
@@ -128,7 +139,11 @@ impl Stand {
     }
 
     /// The same of a wheel whose numbers are all there and go together.
-    fn known_contact(&self, inputs: &Inputs<'_>, place: usize) -> Option<(Contact, Model)> {
+    pub(crate) fn known_contact(
+        &self,
+        inputs: &Inputs<'_>,
+        place: usize,
+    ) -> Option<(Contact, Model)> {
         let contact = self.contact(inputs, place).ok();
         contact.filter(|_| !self.is_missing(inputs, place))
     }
@@ -168,7 +183,7 @@ impl Stand {
 
     /// Checks that the numbers that differ from wheel to wheel are in their ranges, and that those
     /// of each wheel go together.
-    fn check(&self, py: Python<'_>, inputs: &Inputs<'_>) -> PyResult<()> {
+    pub(crate) fn check(&self, py: Python<'_>, inputs: &Inputs<'_>) -> PyResult<()> {
         if !self.is_varied() {
             return Ok(());
         }
@@ -188,12 +203,12 @@ impl Stand {
 
 impl Inputs<'_> {
     /// Which soil a wheel has.
-    fn soil_of(&self, place: usize) -> usize {
+    pub(crate) fn soil_of(&self, place: usize) -> usize {
         self.soils.map_or(0, |soils| usize::try_from(soils[place]).unwrap_or(0))
     }
 
     /// Checks that all arrays are of one length and in their ranges.
-    fn check(&self, soils: usize, pressed: &RangeInclusive<f64>) -> PyResult<()> {
+    pub(crate) fn check(&self, soils: usize, pressed: &RangeInclusive<f64>) -> PyResult<()> {
         let (name, count) = (self.quantity.name, self.pressed.len());
         let lengths = [self.slip_ratios.len(), self.slip_angles_deg.len()];
         let indices = self.soils.map_or(count, <[i64]>::len);

@@ -2,6 +2,7 @@
 //! and sentences that the program shows.
 
 pub mod forecast;
+mod gradient;
 pub mod heading;
 pub mod heading_map;
 pub mod learn;
@@ -20,6 +21,7 @@ use crate::document::statistics::NothingAccepted;
 use crate::document::table::Table;
 use crate::document::validity::OutsideDomain;
 use crate::error::ParameterError;
+use crate::studies::gradient::NoSuchKey;
 use crate::studies::heading::HeadingStudy;
 
 pub use self::samples::{Sampling, weights};
@@ -108,7 +110,23 @@ pub enum AnswerError {
     /// Two choices that have no answer together.
     #[error("{0} and {1} have no answer together")]
     Together(&'static str, &'static str),
+    /// A number to differentiate by that is not there.
+    #[error(transparent)]
+    Key(#[from] NoSuchKey),
     /// It was stopped on the way.
     #[error("it was stopped before its end")]
     Stopped,
+}
+
+impl AnswerError {
+    /// Checks that no two choices are made that have no answer together.
+    ///
+    /// * `choices`: each with whether it is made
+    fn check_together(choices: &[(&'static str, bool)]) -> Result<(), Self> {
+        let mut chosen = choices.iter().filter(|(_, is_chosen)| *is_chosen);
+        match (chosen.next(), chosen.next()) {
+            (Some((one, _)), Some((other, _))) => Err(Self::Together(one, other)),
+            _ => Ok(()),
+        }
+    }
 }

@@ -55,7 +55,7 @@
 //! of your own, a controller that holds the contour, and the band of an uncertain soil.
 
 pub use grouser_core::{
-    contact, error, mission, paper, simulation, soil, terrain, units, vehicle, wheel,
+    contact, difference, error, mission, paper, simulation, soil, terrain, units, vehicle, wheel,
 };
 use grouser_core::{elementary, newton, root};
 

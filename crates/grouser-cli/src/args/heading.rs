@@ -6,8 +6,8 @@ use grouser::studies::heading::Steering;
 use grouser::studies::wheel_speeds::USUAL_RATIO;
 
 use super::{
-    BalanceArgs, BeliefArgs, MODEL_OR_ALL, OutputArgs, PartArgs, RuleArgs, SettingArgs, SlideArgs,
-    StrictArgs, UncertaintyArgs,
+    BalanceArgs, BeliefArgs, GradientArgs, MODEL_OR_ALL, OutputArgs, PartArgs, RuleArgs,
+    SettingArgs, SlideArgs, StrictArgs, UncertaintyArgs,
 };
 use crate::list::{self, Numbers};
 
@@ -42,6 +42,8 @@ pub(crate) struct HeadingArgs {
     /// With `--wheel-speeds`: the fastest wheel's speed over the mean of all, at most; above 1.
     #[arg(long, value_name = "RATIO", default_value_t = USUAL_RATIO, requires = "wheel_speeds")]
     pub(crate) most_speed_ratio: f64,
+    #[command(flatten)]
+    pub(crate) gradients: GradientArgs,
     #[command(flatten)]
     pub(crate) belief: BeliefArgs,
     #[command(flatten)]
@@ -83,6 +85,8 @@ pub(crate) struct HeadingMapArgs {
     /// Rim speed [m/s], for the power.
     #[arg(long, value_name = "V", value_parser = list::parse, default_value = "0.06", allow_hyphen_values = true)]
     pub(crate) rim_speed_m_s: Numbers,
+    #[command(flatten)]
+    pub(crate) gradients: GradientArgs,
     #[command(flatten)]
     pub(crate) uncertainty: UncertaintyArgs,
     #[command(flatten)]

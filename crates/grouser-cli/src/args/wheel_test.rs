@@ -4,7 +4,7 @@ use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 
 use super::uncertainty::DRAWN;
-use super::{MODEL_OR_ALL, OutputArgs, SamplingArgs, SettingArgs, StrictArgs};
+use super::{GradientArgs, MODEL_OR_ALL, OutputArgs, SamplingArgs, SettingArgs, StrictArgs};
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
@@ -26,6 +26,8 @@ pub(crate) struct WheelTestArgs {
     /// Slip angles [°], -90 to 90, positive where the hub moves to the left.
     #[arg(long, value_name = "LIST", value_parser = list::parse, default_value = "0", allow_hyphen_values = true)]
     pub(crate) slip_angle_deg: Numbers,
+    #[command(flatten)]
+    pub(crate) gradients: GradientArgs,
     #[command(flatten)]
     pub(crate) sampling: SamplingArgs,
     #[command(flatten)]

@@ -56,6 +56,7 @@ fn repeat(command: &str, args: &HeadingArgs, question: &HeadingQuestion) -> Stri
             sampling::numbers(*sampling) + &sampling::rule_flags(&question.rule)
         }
     };
+    let rest = rest + &sampling::gradient_flag(question.gradients.as_ref());
     let line =
         |place| format!("grouser {command} {} --slope-deg {slopes}{rest}", question.file(place));
     (0..question.scenarios.len()).map(line).collect::<Vec<_>>().join("\n")

@@ -26,11 +26,12 @@ pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
 fn repeat(command: &str, args: &HeadingMapArgs, question: &HeadingMapQuestion) -> String {
     let [slopes, courses] = [&args.slope_deg, &args.course_deg].map(Numbers::joined);
     let (speed, samples) = (question.rim_speed, sampling::flags(question.sampling));
+    let gradients = sampling::gradient_flag(question.gradients.as_ref());
     let line = |place| {
         let file = question.file(place);
         format!(
             "grouser {command} {file} --slope-deg {slopes} --course-deg {courses} \
-             --rim-speed-m-s {speed}{samples}"
+             --rim-speed-m-s {speed}{samples}{gradients}"
         )
     };
     (0..question.scenarios.len()).map(line).collect::<Vec<_>>().join("\n")

@@ -3,6 +3,7 @@
 use grouser::answers::Sampling;
 use grouser::document::LoadedScenario;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
+use grouser::studies::gradient::GradientKeys;
 use grouser::studies::verdict::Rule;
 use serde_json::json;
 
@@ -60,6 +61,11 @@ pub(crate) fn with_bar<T>(
 /// The flags that ask for the same samples again, after a blank; nothing where none are asked for.
 pub(crate) fn flags(sampling: Option<Sampling>) -> String {
     sampling.map_or(String::new(), |sampling| " --uncertainty".to_owned() + &numbers(sampling))
+}
+
+/// The flag of the numbers that results are differentiated by, after a blank.
+pub(crate) fn gradient_flag(keys: Option<&GradientKeys>) -> String {
+    keys.map_or(String::new(), |keys| format!(" --gradients {}", keys.names().join(",")))
 }
 
 /// The flags of the number of samples and of their seed, after a blank.

@@ -33,10 +33,11 @@ fn repeat(args: &WheelTestArgs, question: &WheelTestQuestion) -> String {
              --seed {seed}"
         )
     });
+    let gradients = sampling::gradient_flag(question.gradients.as_ref());
     let (stand, samples) = (stand.unwrap_or_default(), sampling::flags(question.sampling));
     format!(
         "grouser wheel-test --soil soil.toml --wheel wheel.toml --model {model} \
          --gravity-m-s2 {gravity} --load-n {loads} --slip-angle-deg {angles} --slip-ratio {slips}\
-         {stand}{samples}"
+         {stand}{samples}{gradients}"
     )
 }

@@ -2,12 +2,12 @@
 
 use grouser::answers::heading::HeadingQuestion;
 use grouser::answers::heading_map::HeadingMapQuestion;
-use grouser::document;
+use grouser::document::{self, LoadedScenario};
 use grouser::studies::heading::Steering;
 
 use super::card::rule;
 use super::{balanced, check_numbers, check_samples, check_slopes, refuse_sampled_keys, single};
-use crate::args::{HeadingArgs, HeadingMapArgs, SettingArgs};
+use crate::args::{GradientArgs, HeadingArgs, HeadingMapArgs, SettingArgs};
 use crate::failure::Failure;
 
 /// The question of `heading`: for each model that is asked for the scenario whose rover, soil and
@@ -19,6 +19,7 @@ pub(crate) fn heading(args: &HeadingArgs) -> Result<HeadingQuestion, Failure> {
     // is refused.
     let has_headings = args.steering == Steering::None && !args.wheel_speeds;
     let is_sampled = has_headings || args.belief.is_asked_for();
+    let is_sampled = is_sampled && (args.gradients.keys().is_none() || args.belief.is_asked_for());
     let sampling = args.belief.sampling().filter(|_| is_sampled);
     if let Some(sampling) = sampling {
         check_samples(sampling.count, args.slope_deg.0.len())?;
@@ -28,6 +29,9 @@ pub(crate) fn heading(args: &HeadingArgs) -> Result<HeadingQuestion, Failure> {
         let scenario = balanced("heading", name, rover, soil, setting, &args.balance)?;
         if sampling.is_some() {
             refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
+        }
+        if !args.belief.nominal {
+            refuse_belief(&args.gradients, &scenario)?;
         }
         Ok(scenario)
     };
@@ -40,7 +44,21 @@ pub(crate) fn heading(args: &HeadingArgs) -> Result<HeadingQuestion, Failure> {
         most_speed_ratio: args.wheel_speeds.then_some(args.most_speed_ratio),
         sampling,
         rule: rule(&args.rule)?,
+        gradients: args.gradients.keys(),
     })
+}
+
+/// Refuses derivatives on a soil that is believed to be one of many: they are of the soil as its
+/// document has it, which nobody has asked for.
+fn refuse_belief(gradients: &GradientArgs, scenario: &LoadedScenario) -> Result<(), Failure> {
+    if gradients.keys().is_none() || scenario.soils_of_bands().is_none() {
+        return Ok(());
+    }
+    Err(Failure::Usage(
+        "--gradients: derivatives are of the soil as its document has it, with one model, and this \
+         soil is uncertain\nhint: --nominal asks for that answer"
+            .to_owned(),
+    ))
 }
 
 /// The question of a heading map. Its scenarios are one for each model that is asked for and soil:
@@ -74,5 +92,6 @@ pub(crate) fn heading_map(args: &HeadingMapArgs) -> Result<HeadingMapQuestion, F
         courses_deg: args.course_deg.0.clone(),
         rim_speed,
         sampling,
+        gradients: args.gradients.keys(),
     })
 }

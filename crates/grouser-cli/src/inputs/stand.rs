@@ -66,6 +66,7 @@ pub(crate) fn wheel_test(args: &WheelTestArgs) -> Result<WheelTestQuestion, Fail
         slip_ratios: args.slip_ratio.0.clone(),
         stand: args.stand.trials.map(simulated),
         sampling,
+        gradients: args.gradients.keys(),
     })
 }
 

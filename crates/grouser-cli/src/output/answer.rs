@@ -172,7 +172,9 @@ impl From<AnswerError> for Failure {
             AnswerError::OutsideDomain(error) => error.into(),
             AnswerError::Samples(error) => error.into(),
             AnswerError::Stopped => Self::Interrupted(error.to_string()),
-            AnswerError::Empty(_) | AnswerError::Together(..) => Self::Usage(error.to_string()),
+            AnswerError::Empty(_) | AnswerError::Together(..) | AnswerError::Key(_) => {
+                Self::Usage(error.to_string())
+            }
         }
     }
 }

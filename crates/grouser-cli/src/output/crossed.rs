@@ -82,7 +82,7 @@ fn three_digits(value: f64) -> String {
 fn flag_lines(table: &Table) -> String {
     let all = table.words(FLAGS);
     let line = |flag: Flag| {
-        let count = all.iter().filter(|names| names.contains(&flag.name())).count();
+        let count = all.iter().filter(|names| names.iter().any(|it| it == flag.name())).count();
         let meaning = flag.rule().meaning;
         (count > 0)
             .then(|| format!("{} ({count} of {} places): {meaning}\n", flag.name(), all.len()))

@@ -72,6 +72,7 @@ __all__ = [
     "routes",
     "seal_manifest",
     "settle",
+    "settle_gradients",
     "simulate",
     "simulate_band",
     "simulated_wheel_test",
@@ -374,6 +375,17 @@ def settle(
     soil_index: NDArray[np.int64] | None,
     vary: dict[str, Any],
 ) -> tuple[_Floats, list[str]]: ...
+def settle_gradients(
+    soils: Sequence[Document],
+    wheel: Document,
+    setting: Document,
+    load_n: _Floats,
+    slip_ratio: _Floats,
+    slip_angle_deg: _Floats,
+    soil_index: NDArray[np.int64] | None,
+    vary: dict[str, Any],
+    keys: Sequence[str],
+) -> tuple[_Floats, NDArray[np.bool_], list[str], list[str]]: ...
 def wheel_forces(
     soils: Sequence[Document],
     wheel: Document,
@@ -434,6 +446,7 @@ def heading(
     steering: str,
     sampling: tuple[int, int] | None,
     rule: Sequence[float],
+    gradients: Sequence[str] | None,
 ) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any] | None]: ...
 def simulated_wheel_test(
     soil: Document,

@@ -14,6 +14,7 @@ from ._arrays import Floats, line, number, whole_number
 from ._heading_band import HeadingBand, HeadingMapBand
 from ._descriptions import Scenario, Soil, Source
 from ._errors import ParameterError
+from ._gradients import Gradient, Keys, keys_of, of_columns
 from ._models import MODELS, ByModel, each_model
 from ._studies import columns_of, scenario_of, soil_of
 from ._verdicts import limits_of
@@ -98,6 +99,10 @@ class Headings(_tables.Tabular):
     band: HeadingBand | None = None
     """Quantiles over the samples, and the probability that a heading holds the contour."""
 
+    gradient: Gradient | None = None
+    """The derivatives of the results over the slopes, and of the steepest slope, with
+    ``gradients``; else None."""
+
     def _table(self) -> Mapping[str, Any]:
         return self.columns
 
@@ -161,6 +166,7 @@ def heading(
     samples: int = ...,
     seed: int = ...,
     rule: Mapping[str, float] | None = ...,
+    gradients: Keys | None = ...,
     uncertainty: bool | None = ...,
     **changes: Any,
 ) -> ByModel[Headings]: ...
@@ -178,6 +184,7 @@ def heading(
     samples: int = ...,
     seed: int = ...,
     rule: Mapping[str, float] | None = ...,
+    gradients: Keys | None = ...,
     uncertainty: bool | None = ...,
     **changes: Any,
 ) -> Headings: ...
@@ -194,6 +201,7 @@ def heading(
     samples: int = 40,
     seed: int = 1,
     rule: Mapping[str, float] | None = None,
+    gradients: Keys | None = None,
     uncertainty: bool | None = None,
     **changes: Any,
 ) -> Headings | ByModel[Headings]:
@@ -229,6 +237,11 @@ def heading(
         Seed of the samples: the same seed gives the same soils and models.
     rule : mapping, optional
         Limits of the verdicts, as for `card`.
+    gradients : str or sequence of str, optional
+        Keys of numbers of rover and soil by which the results and the steepest slope are
+        differentiated, such as ``soil.friction_angle_deg``, ``rover.wheel_unit.wheel.radius_m``,
+        ``slope_deg``, or ``"all"``. They are of the soil as its document has it, with one model; an
+        uncertain soil needs ``nominal=True``.
     uncertainty : bool, optional
         Samples are the usual answer: it changes nothing.
     **changes
@@ -269,6 +282,7 @@ def heading(
     if model == "all":
         settings: dict[str, Any] = {"slope_deg": slope_deg, "steering": steering}
         settings |= {"nominal": nominal, "samples": samples, "seed": seed, "rule": rule}
+        settings |= {"gradients": gradients}
         return each_model(lambda name: heading(scenario, model=name, **settings, **changes))
     changes = changes if model is None else {**changes, "model": model}
     slopes, run = line("slope_deg", slope_deg), scenario_of(scenario, changes)
@@ -276,8 +290,12 @@ def heading(
     if not nominal and steering == "none":
         count = whole_number("samples", samples, most=2**32 - 1)
         sampling = count, whole_number("seed", seed)
-    rows, limit, belief = _core.heading(run._document, slopes, steering, sampling, limits_of(rule))
+    keys = keys_of(gradients)
+    rows, limit, belief = _core.heading(
+        run._document, slopes, steering, sampling, limits_of(rule), keys
+    )
     columns = _tables.arrays_of(rows)
+    gradient = None if keys is None else of_columns(columns, limit)
     names = [one.name for one in fields(Headings)]
     own: dict[str, Any] = {name: columns[name] for name in names if name in columns}
     if belief is not None:
@@ -289,6 +307,7 @@ def heading(
         limit_message=limit["limit_reason"],
         limited_by=limit["limited_by"],
         columns=columns,
+        gradient=gradient,
         **own,
     )
 

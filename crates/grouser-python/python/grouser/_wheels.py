@@ -14,6 +14,7 @@ from . import _core, _shown, _tables
 from ._arrays import Broadcast, Floats, broadcast, number, varied
 from ._descriptions import Scenario, Soil, Source, Wheel
 from ._errors import ParameterError
+from ._gradients import Gradient, Keys, keys_of, of_rows
 from ._validity import flags_of
 
 if TYPE_CHECKING:
@@ -95,7 +96,7 @@ class WheelForces(_tables.Tabular):
         return self.slip_ratio.shape
 
     def _table(self) -> dict[str, Any]:
-        own = (one.name for one in fields(self) if one.name != "inputs")
+        own = (one.name for one in fields(self) if one.name not in ("inputs", "gradient"))
         inputs = {name: np.broadcast_to(it, self.shape) for name, it in self.inputs.items()}
         return {**inputs, **{name: getattr(self, name) for name in own}}
 
@@ -174,6 +175,8 @@ class Settled(WheelForces):
     flags: NDArray[np.object_]
     """Why each wheel is an extrapolation: names of `FLAGS`, joined by ``;``; empty inside the
     domain."""
+    gradient: Gradient | None = field(default=None, kw_only=True)
+    """The derivatives of the results, with ``gradients``; else None."""
 
     @property
     def messages(self) -> NDArray[np.object_]:
@@ -208,6 +211,7 @@ def settle(
     gravity_m_s2: ArrayLike = _core.EARTH_GRAVITY,
     model: str | None = None,
     vary: Mapping[str, ArrayLike] | None = None,
+    gradients: Keys | None = None,
 ) -> Settled:
     """Finds the smallest sinkages at which the soil carries wheels (F_z = load), and the forces
     there.
@@ -237,6 +241,10 @@ def settle(
     vary : mapping of str to array_like, optional
         Numbers of the soil or the wheel, by their keys, as ``soil.cohesion_kpa`` or
         ``wheel.radius_m``: they broadcast with the other arguments.
+    gradients : str or sequence of str, optional
+        Keys of numbers by which all results are differentiated, such as ``soil.cohesion_kpa``,
+        ``wheel.radius_m``, ``gravity_m_s2``, ``load_n``, ``slip_ratio`` and ``slip_angle_deg``, or
+        ``"all"``: the result then has a `Gradient`.
 
     Returns
     -------
@@ -271,6 +279,9 @@ def settle(
     stand = _Stand(soil, wheel, gravity_m_s2, model, vary)
     inputs = {"load_n": load_n, "slip_ratio": slip_ratio, "slip_angle_deg": slip_angle_deg}
     found = stand.found(_core.settle, inputs)
+    keys = keys_of(gradients)
+    if keys is not None:
+        found["gradient"] = stand.gradient(inputs, keys)
     sunk, missing = np.isnan(found["normal_force_n"]), np.isnan(found["capacity_n"])
     status = np.where(sunk, np.where(missing, INPUT_IS_NAN, SUNK_TO_AXLE), CARRIED)
     flags = flags_of(found.pop("flag_bits"))
@@ -347,14 +358,25 @@ class _Stand:
 
     def found(self, native: Any, inputs: Mapping[str, ArrayLike]) -> dict[str, Any]:
         """Results and inputs by name, as arrays of the common shape."""
-        asked = broadcast({**self._vary, **inputs}, {"soil": self._places})
-        index = asked.places[0] if len(self._soils) > 1 else None
+        asked, index = self._asked(inputs)
         vary = {name: asked.flat[name] for name in self._vary}
         numbers = (asked.flat[name] for name in inputs)
         rows, names = native(*self._documents, *numbers, index, vary)
         found = dict(zip(names, rows.reshape(len(names), *asked.shape)))
         found |= {name: asked.flat[name].reshape(asked.shape) for name in inputs}
         return {**found, "inputs": self._inputs(asked)}
+
+    def gradient(self, inputs: Mapping[str, ArrayLike], keys: Sequence[str]) -> Gradient:
+        """The derivatives of settled wheels by some keys."""
+        asked, index = self._asked(inputs)
+        vary = {name: asked.flat[name] for name in self._vary}
+        numbers = (asked.flat[name] for name in inputs)
+        found = _core.settle_gradients(*self._documents, *numbers, index, vary, keys)
+        return of_rows(*found, asked.shape)
+
+    def _asked(self, inputs: Mapping[str, ArrayLike]) -> tuple[Broadcast, Any]:
+        asked = broadcast({**self._vary, **inputs}, {"soil": self._places})
+        return asked, asked.places[0] if len(self._soils) > 1 else None
 
     def _inputs(self, asked: Broadcast) -> dict[str, NDArray[Any]]:
         return {**names_of(self._soils, self._places), **asked.given}

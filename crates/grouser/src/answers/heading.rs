@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use self::of_model::OfModel;
 pub use self::question::HeadingQuestion;
 use super::{
-    Answer, AnswerError, AnswerOptions, Displayed, EVERY_MODEL, Member, meanings, samples,
+    Answer, AnswerError, AnswerOptions, Displayed, EVERY_MODEL, Member, gradient, meanings, samples,
 };
 use crate::contact::validity::Finding;
 use crate::document::columns::heading::{self, held, steered};
@@ -58,7 +58,8 @@ impl HeadingQuestion {
         ];
         answer.tables.push((name.to_owned(), Arc::clone(&rows)));
         let lines: String = all.iter().map(|it| it.lines(self.has_several())).collect();
-        let words = lines + &self.model_lines();
+        let derivatives: String = all.iter().map(OfModel::gradient_lines).collect();
+        let words = lines + &self.model_lines() + &derivatives;
         answer.screen =
             vec![Displayed::Rows(Arc::clone(&rows), columns.clone()), Displayed::Words(words)];
         for (place, of_model) in all.iter().enumerate() {
@@ -83,6 +84,10 @@ impl HeadingQuestion {
             OfModel { own_speeds: Some(_), .. } => wheel_speeds::brief(&first.scenario.value.rover),
             _ => heading::brief(self.steering),
         };
+        if let Some(keys) = &first.keys {
+            let turned = heading::turned(self.steering).name;
+            names.extend(gradient::brief(&[turned], &keys.names().collect::<Vec<_>>()));
+        }
         if self.has_several() {
             names.insert(0, MODEL.to_owned());
         }
@@ -99,6 +104,9 @@ impl HeadingQuestion {
         answer.input("slope_deg", self.slopes_deg.clone());
         if self.steering != Steering::None {
             answer.input("steering", self.steering.name());
+        }
+        if let Some(keys) = &self.gradients {
+            answer.input("gradients", json!(keys.names()));
         }
         if let Some(ratio) = self.most_speed_ratio {
             answer.input("most_speed_ratio", ratio);

@@ -2,20 +2,23 @@
 
 use std::sync::Arc;
 
-use serde_json::Value;
+use rayon::prelude::*;
+use serde_json::{Value, json};
 
 use super::{
     Answer, AnswerError, AnswerOptions, CrossTable, Displayed, Member, Sampling, meanings, samples,
 };
+use crate::document::columns::gradient::RowDerivatives;
 use crate::document::columns::heading::{self, held};
-use crate::document::columns::{COURSE, MODEL, SLIP_RATIO, SLOPE, YAW};
+use crate::document::columns::{self, COURSE, MODEL, SLIP_RATIO, SLOPE, YAW};
 use crate::document::figure::HeatMap;
 use crate::document::table::{Table, Values};
 use crate::document::{LoadedScenario, escape};
 use crate::studies::ensemble::models::Question;
 use crate::studies::ensemble::samples::BandInputs;
-use crate::studies::heading::{HeadingOffset, HeadingStudy};
-use crate::studies::heading_map::HeadingMap;
+use crate::studies::gradient::{GradientKeys, HeadingKeys};
+use crate::studies::heading::{HeadingOffset, HeadingStudy, Steering};
+use crate::studies::heading_map::{HeadingMap, HeadingRow};
 
 /// The question.
 #[derive(Clone, Debug)]
@@ -33,6 +36,8 @@ pub struct HeadingMapQuestion {
     pub rim_speed: f64,
     /// The samples of its bands, if it has any.
     pub sampling: Option<Sampling>,
+    /// The numbers that its results are differentiated by, if any.
+    pub gradients: Option<GradientKeys>,
 }
 
 impl HeadingMapQuestion {
@@ -58,6 +63,10 @@ impl HeadingMapQuestion {
                 return Err(AnswerError::Empty(what));
             }
         }
+        AnswerError::check_together(&[
+            ("samples", self.sampling.is_some()),
+            ("derivatives", self.gradients.is_some()),
+        ])?;
         let studies: Vec<HeadingStudy> =
             self.scenarios.iter().map(|scenario| HeadingStudy::of(&scenario.value)).collect();
         let courses = COURSE.in_si(&self.courses_deg);
@@ -122,6 +131,9 @@ impl HeadingMapQuestion {
             let bands = map.bands(studies, &samples, options.go_on)?;
             table = heading::map_with_bands(table, &bands.ok_or(AnswerError::Stopped)?);
         }
+        if let Some(asked_for) = &self.gradients {
+            table = self.with_derivatives(table, studies, map, asked_for)?;
+        }
         if self.has_every_model {
             let rows = self.scenarios.iter().flat_map(|scenario| {
                 std::iter::repeat_n(scenario.value.model.name(), self.cells())
@@ -130,6 +142,28 @@ impl HeadingMapQuestion {
             table.columns.insert(0, (MODEL.to_owned(), Values::Text(words)));
         }
         Ok(table)
+    }
+
+    /// The rows with the derivatives of their results; the keys of all numbers are those of the
+    /// first scenario.
+    fn with_derivatives(
+        &self,
+        table: Table,
+        studies: &[HeadingStudy],
+        map: &HeadingMap,
+        asked_for: &GradientKeys,
+    ) -> Result<Table, AnswerError> {
+        let first = HeadingKeys::of(&self.scenarios[0], Steering::None, asked_for)?;
+        let names = GradientKeys::These(first.names().map(str::to_owned).collect());
+        let of_row = |row: &HeadingRow| -> Result<Vec<RowDerivatives>, AnswerError> {
+            let keys = HeadingKeys::of(&self.scenarios[row.study], Steering::None, &names)?;
+            let curve = studies[row.study].curve_on(row.course)?;
+            let limit = keys.of_limit(&curve);
+            let slopes = map.slopes.iter();
+            Ok(slopes.map(|slope| (keys.on_slope(&curve, *slope), limit.clone())).collect())
+        };
+        let rows: Vec<_> = map.rows.par_iter().map(of_row).collect::<Result<_, _>>()?;
+        Ok(columns::gradient::of_heading_map(table, &first, &rows.concat()))
     }
 
     /// How many rows a scenario has.
@@ -207,6 +241,9 @@ impl HeadingMapQuestion {
         answer.input(COURSE.name, self.courses_deg.clone());
         answer.input(SLOPE.name, self.slopes_deg.clone());
         answer.input("rim_speed_m_s", self.rim_speed);
+        if let Some(keys) = &self.gradients {
+            answer.input("gradients", json!(keys.names()));
+        }
         if let Some(sampling) = self.sampling {
             sampling.state(answer);
             let weights = self.scenarios.iter().map(|it| samples::weights(&self.band_inputs(it)));

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use serde_json::json;
 
 use super::{
-    Answer, AnswerError, AnswerOptions, Displayed, EVERY_MODEL, Member, Sampling, meanings, samples,
+    Answer, AnswerError, AnswerOptions, Displayed, EVERY_MODEL, Member, Sampling, gradient,
+    meanings, samples,
 };
 use crate::contact::Model;
 use crate::document::columns::wheel::WHEEL;
@@ -18,6 +19,7 @@ use crate::document::table::Table;
 use crate::document::{LoadedSoil, LoadedWheel};
 use crate::studies::ensemble::models::Question;
 use crate::studies::ensemble::samples::BandInputs;
+use crate::studies::gradient::{GradientKeys, WheelKeys};
 use crate::studies::measurement::PerQuantity;
 use crate::studies::simulated_test::SimulatedTest;
 use crate::studies::wheel_test::{WheelTest, WheelTestRow};
@@ -45,6 +47,8 @@ pub struct WheelTestQuestion {
     pub stand: Option<SimulatedStand>,
     /// The samples of its bands, if it has any.
     pub sampling: Option<Sampling>,
+    /// The numbers that its results are differentiated by, if any.
+    pub gradients: Option<GradientKeys>,
 }
 
 /// A simulated test stand.
@@ -80,25 +84,37 @@ impl WheelTestQuestion {
         if self.models.is_empty() {
             return Err(AnswerError::Empty("models"));
         }
-        if self.stand.is_some() && self.sampling.is_some() {
-            return Err(AnswerError::Together("a simulated stand", "samples"));
-        }
+        self.check_together()?;
+        let keys = self.gradients.as_ref().map(|it| WheelKeys::of(&self.soil, &self.wheel, it));
+        let keys = keys.transpose()?;
         let mut answer = Answer::new(name, "A wheel test");
         let mut rows = Table::default();
         for (model, inputs) in &self.models {
             let test = self.plan(model);
             let found = test.run();
-            rows.append(self.named(model, self.of_model(test, inputs, &found, options)?));
+            let mut table = self.of_model(&test, inputs, &found, options)?;
+            if let Some(keys) = &keys {
+                let derivatives: Vec<_> = found.iter().map(|row| keys.of_row(&test, row)).collect();
+                let names: Vec<&str> = keys.names().collect();
+                table = columns::gradient::of_wheels(table, &names, &derivatives);
+            }
+            rows.append(self.named(model, table));
             let found = found.into_iter().flat_map(|row| row.findings);
             answer.findings.get_or_insert_default().extend(found);
         }
+        let (names, lacking): (Vec<&str>, Vec<&str>) = keys
+            .as_ref()
+            .map_or_else(Default::default, |it| (it.names().collect(), it.lacking().collect()));
+        let derivatives = gradient::lines(&rows, &names, &lacking);
+        let mut brief = self.brief();
+        brief.extend(gradient::brief(&[SINKAGE.name, DRAWBAR_PULL.name], &names));
         let rows = Arc::new(rows);
         self.state(&mut answer);
         answer.results.push(Member::rows("rows", Arc::clone(&rows)));
         answer.tables.push((name.to_owned(), Arc::clone(&rows)));
         answer.screen = vec![
-            Displayed::Rows(Arc::clone(&rows), self.brief()),
-            Displayed::Words(self.model_line()),
+            Displayed::Rows(Arc::clone(&rows), brief),
+            Displayed::Words(self.model_line() + &derivatives),
         ];
         answer.attach("soil.toml", &self.soil);
         answer.attach("wheel.toml", &self.wheel);
@@ -106,6 +122,16 @@ impl WheelTestQuestion {
             self.page(&mut answer, &rows);
         }
         Ok(answer)
+    }
+
+    /// Checks that what is asked for has an answer together.
+    fn check_together(&self) -> Result<(), AnswerError> {
+        let choices = [
+            ("a simulated stand", self.stand.is_some()),
+            ("samples", self.sampling.is_some()),
+            ("derivatives", self.gradients.is_some()),
+        ];
+        AnswerError::check_together(&choices)
     }
 
     /// How often [`AnswerOptions::go_on`] is asked.
@@ -133,7 +159,7 @@ impl WheelTestQuestion {
     /// * `found`: what its test came to
     fn of_model(
         &self,
-        test: WheelTest,
+        test: &WheelTest,
         inputs: &BandInputs,
         found: &[WheelTestRow],
         options: &AnswerOptions<'_>,
@@ -142,7 +168,7 @@ impl WheelTestQuestion {
         let flags = found.iter().map(|row| &*row.findings);
         options.check(flags, &table, &columns::wheel_test::SETTINGS)?;
         if let Some(stand) = self.stand {
-            return Ok(columns::stand::table(&stand.of(test).run()));
+            return Ok(columns::stand::table(&stand.of(test.clone()).run()));
         }
         let Some(sampling) = self.sampling else { return Ok(table) };
         let samples = sampling.draw(&self.asked(inputs))?;
@@ -194,6 +220,9 @@ impl WheelTestQuestion {
                     "seed": seed,
                 }),
             );
+        }
+        if let Some(keys) = &self.gradients {
+            answer.input("gradients", json!(keys.names()));
         }
         if let Some(sampling) = self.sampling {
             sampling.state(answer);

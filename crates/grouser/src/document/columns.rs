@@ -10,6 +10,7 @@ pub mod drives;
 mod ended;
 pub mod fit;
 pub mod forecast;
+pub mod gradient;
 pub mod heading;
 pub mod learn;
 pub mod map;

@@ -36,11 +36,13 @@
 
 mod bracket;
 mod first_rise;
+mod gradient;
 mod path;
 mod study;
 
 use nalgebra::Vector3;
 
+pub use self::gradient::{ChangeableStudy, HeadingDerivatives};
 use self::path::{End, Held, JUST_TURNED, Path, Place, Point, Reach};
 pub use self::study::{HeadingStudy, STRAIGHT_UP, Steering};
 use super::validity::RoverOnSlope;
@@ -499,6 +501,12 @@ impl HeadingCurve {
     /// # Errors
     /// [`NoHeading`] if no heading holds the course there, or no drift holds the rover.
     pub fn at(&self, slope: f64) -> Result<HeadingOffset, NoHeading> {
+        let (point, settled_wheels) = self.point_on(slope)?;
+        Ok(self.heading(&point, settled_wheels))
+    }
+
+    /// The curve's point on a slope [rad], and how many wheels were settled to find it.
+    fn point_on(&self, slope: f64) -> Result<(Point, u64), NoHeading> {
         let (limit, reason) = self.limit()?;
         let (ground, stability) = (self.study.ground_limit(), self.study.stability);
         if slope > ground && ground < STEEPEST_SLOPE {
@@ -527,7 +535,7 @@ impl HeadingCurve {
             path.begin_at(if slope - low.place.z < high.place.z - slope { low } else { high });
             Self::settle_on(&path, slope, low, high)
         };
-        Ok(self.heading(&point, path.settled_wheels()))
+        Ok((point, path.settled_wheels()))
     }
 
     /// The curve's point on a slope, between two known ones.
@@ -587,18 +595,26 @@ impl HeadingCurve {
     }
 
     fn heading(&self, point: &Point, settled_wheels: u64) -> HeadingOffset {
-        let study = &self.study;
+        Self::heading_of(&self.study, self.held, point, settled_wheels)
+    }
+
+    fn heading_of(
+        study: &HeadingStudy,
+        held: Held,
+        point: &Point,
+        settled_wheels: u64,
+    ) -> HeadingOffset {
         let Point { place, wheels, .. } = point;
         let forces = forces_of(wheels);
         let crab = if place.y <= JUST_TURNED { 0.0 } else { place.y };
-        let path = Path::new(study, self.held);
+        let path = Path::new(study, held);
         let rover = path.rover(crab);
         let (force, moment) = dynamics::soil_resultant(&rover, forces, study.own_moments);
         HeadingOffset {
             slope: place.z,
-            course: self.held.course(crab),
-            yaw: self.held.yaw(crab),
-            steering: self.held.is_steered().then_some(crab),
+            course: held.course(crab),
+            yaw: held.yaw(crab),
+            steering: held.is_steered().then_some(crab),
             slip_ratio: place.x,
             yaw_moment: moment - rover.centre_of_mass().perp(&force),
             wheels: wheels.clone(),

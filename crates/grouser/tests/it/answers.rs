@@ -24,6 +24,7 @@ fn headings() -> HeadingQuestion {
         steering: Steering::None,
         most_speed_ratio: None,
         sampling: None,
+        gradients: None,
         rule: Rule::DEFAULT,
     }
 }
@@ -36,6 +37,7 @@ fn heading_map() -> HeadingMapQuestion {
         courses_deg: vec![0.0, 0.0, 30.0],
         rim_speed: 0.06,
         sampling: None,
+        gradients: None,
     }
 }
 
@@ -56,6 +58,7 @@ fn wheel_test() -> WheelTestQuestion {
         slip_ratios: vec![0.1, 0.2, 0.3],
         stand: None,
         sampling: None,
+        gradients: None,
     }
 }
 

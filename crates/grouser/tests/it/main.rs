@@ -21,6 +21,7 @@ mod flown;
 mod forecast;
 mod friction;
 mod given;
+mod gradients;
 mod gravity;
 mod ground;
 mod heading_branches;

@@ -4,11 +4,13 @@ use super::super::{AnswerError, AnswerOptions};
 use super::bands::Bands;
 use super::question::HeadingQuestion;
 use crate::document::LoadedScenario;
+use crate::document::columns::gradient;
 use crate::document::columns::heading::{self, LIMIT_REASON, LIMITED_BY};
 use crate::document::columns::wheel_speeds::{self, NONE_FOUND, WHEELS};
 use crate::document::columns::{ENERGY_PER_METRE, LIMIT_SLOPE, SLOPE};
 use crate::document::reading::rounded_down;
 use crate::document::table::Table;
+use crate::studies::gradient::HeadingKeys;
 use crate::studies::heading::{HeadingCurve, HeadingStudy, LimitedBy};
 use crate::studies::wheel_speeds::{WheelSpeedStudy, WheelSpeeds};
 
@@ -19,6 +21,8 @@ pub(super) struct OfModel<'q> {
     pub(super) bands: Option<Bands>,
     /// With wheels at speeds of their own: the steepest slopes, a row for each freedom.
     pub(super) own_speeds: Option<Table>,
+    /// The numbers that results are differentiated by.
+    pub(super) keys: Option<HeadingKeys>,
     /// A row for each slope.
     pub(super) table: Table,
     /// The steepest slope: one row.
@@ -46,6 +50,13 @@ impl<'q> OfModel<'q> {
             options.check(flags.iter().map(|it| &**it), &table, &[SLOPE.name])?;
         }
         let mut limit = heading::steepest(&curve);
+        let keys = question.gradients.as_ref();
+        let keys = keys.map(|it| HeadingKeys::of(scenario, question.steering, it)).transpose()?;
+        if let Some(keys) = &keys {
+            let rows: Vec<_> = slopes.iter().map(|slope| keys.on_slope(&curve, *slope)).collect();
+            table = gradient::of_headings(table, keys, &rows);
+            limit = gradient::of_limit(limit, keys, &keys.of_limit(&curve));
+        }
         let own_speeds = question.most_speed_ratio.map(|most_ratio| {
             WheelSpeeds::from(WheelSpeedStudy { heading: study, most_ratio }, curve.clone())
         });
@@ -58,7 +69,7 @@ impl<'q> OfModel<'q> {
             table = heading::advised(table, &bands.advice, &bands.asked, &bands.of_models);
             limit.columns.extend(bands.limit.columns.clone());
         }
-        Ok(Self { scenario, curve, bands, own_speeds, table, limit })
+        Ok(Self { scenario, curve, bands, own_speeds, keys, table, limit })
     }
 
     pub(super) fn name(&self) -> &'static str {
@@ -69,6 +80,14 @@ impl<'q> OfModel<'q> {
     pub(super) fn dense(&self) -> Table {
         let slopes: Vec<f64> = self.curve.headings().into_iter().map(|it| it.slope).collect();
         heading::table(&self.curve, &self.scenario.value.rover, &slopes)
+    }
+
+    /// What is said about derivatives.
+    pub(super) fn gradient_lines(&self) -> String {
+        let Some(keys) = &self.keys else { return String::new() };
+        let names: Vec<&str> = keys.names().collect();
+        let lacking: Vec<&str> = keys.lacking().collect();
+        super::super::gradient::lines(&self.table, &names, &lacking)
     }
 
     /// What is said about its steepest slope.

@@ -3,6 +3,7 @@
 use super::super::{AnswerError, Sampling};
 use crate::document::LoadedScenario;
 use crate::document::columns::SLOPE;
+use crate::studies::gradient::GradientKeys;
 use crate::studies::heading::Steering;
 use crate::studies::verdict::{Rule, SlopeStudy};
 
@@ -24,6 +25,8 @@ pub struct HeadingQuestion {
     pub sampling: Option<Sampling>,
     /// The limits of the verdicts.
     pub rule: Rule,
+    /// The numbers that its results are differentiated by, if any.
+    pub gradients: Option<GradientKeys>,
 }
 
 impl HeadingQuestion {
@@ -45,11 +48,10 @@ impl HeadingQuestion {
             ("wheels at speeds of their own", self.most_speed_ratio.is_some()),
             ("samples", self.sampling.is_some()),
         ];
-        let mut chosen = choices.into_iter().filter(|(_, is_chosen)| *is_chosen);
-        match (chosen.next(), chosen.next()) {
-            (Some((one, _)), Some((other, _))) => Err(AnswerError::Together(one, other)),
-            _ => Ok(()),
-        }
+        AnswerError::check_together(&choices)?;
+        let [_, own_speeds, samples] = choices;
+        let derivatives = ("derivatives", self.gradients.is_some());
+        AnswerError::check_together(&[own_speeds, samples, derivatives])
     }
 
     /// Whether there is an answer for each of several models.

@@ -260,11 +260,12 @@ impl Numbers for StudyNumbers<'_> {
         let key = self.base.key(path)?;
         if unused_keys(self.study).iter().any(|start| path.starts_with(start)) {
             let problem = Problem::Conflict("the study does not use this key");
-            return Err(NoNumber { problem, hint: None });
+            return Err(NoNumber { problem, hint: None, is_lacking: false });
         }
         if path == START_YAW && self.base.key(FIRST_YAW).is_ok() {
             let problem = Problem::Conflict("the first leg begins with a yaw of its own");
-            return Err(NoNumber { problem, hint: Some(format!("that is `{FIRST_YAW}`")) });
+            let hint = Some(format!("that is `{FIRST_YAW}`"));
+            return Err(NoNumber { problem, hint, is_lacking: false });
         }
         Ok(key)
     }

@@ -258,7 +258,10 @@ impl<'a> Path<'a> {
 
     /// The wheels at a place, and the forces left over there, over the weight: along and across
     /// the rover [-].
-    fn balance(&self, place: &Place) -> Result<([f64; 2], Vec<WheelReaction>), ReactionError> {
+    pub(super) fn balance(
+        &self,
+        place: &Place,
+    ) -> Result<([f64; 2], Vec<WheelReaction>), ReactionError> {
         let study = self.study;
         let (wheels, pull) = self.reactions(place)?;
         let (soil, _) =

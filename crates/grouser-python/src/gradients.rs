@@ -1,0 +1,118 @@
+//! Derivatives of settled wheels, for whole arrays.
+
+use grouser::contact::gradient::WheelDerivative;
+use grouser::contact::settle;
+use grouser::document::columns::wheel::WHEEL;
+use grouser::document::columns::{LOAD, SLIP_ANGLE};
+use grouser::document::study;
+use grouser::studies::gradient::{ChangedKeys, GradientKeys, StandSetting, WheelKeys};
+use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use rayon::prelude::*;
+
+use crate::columns::wheel_names;
+use crate::descriptions::Document;
+use crate::wheels::{Inputs, Stand};
+use crate::{errors, threads};
+
+/// Derivatives with a row for each key and result, whether each differs from side to side, the keys
+/// and the results.
+type Gradients<'py> =
+    (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<bool>>, Vec<String>, Vec<&'static str>);
+
+/// The derivatives of settled wheels by numbers of their documents and settings: rows of all
+/// results by the first key, then by the next; NaN where there is none.
+///
+/// * `vary`: keys of soil and wheel, and `gravity_m_s2`, with a number for each wheel; emptied
+/// * `keys`: the numbers, or `all` alone
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
+#[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
+pub(crate) fn settle_gradients<'py>(
+    py: Python<'py>,
+    soils: Vec<PyRef<'py, Document>>,
+    wheel: &Document,
+    setting: &Document,
+    load_n: PyReadonlyArray1<'py, f64>,
+    slip_ratio: PyReadonlyArray1<'py, f64>,
+    slip_angle_deg: PyReadonlyArray1<'py, f64>,
+    soil_index: Option<PyReadonlyArray1<'py, i64>>,
+    vary: &Bound<'py, PyDict>,
+    keys: Vec<String>,
+) -> PyResult<Gradients<'py>> {
+    let inputs = Inputs {
+        quantity: LOAD,
+        pressed: load_n.as_slice()?,
+        slip_ratios: slip_ratio.as_slice()?,
+        slip_angles_deg: slip_angle_deg.as_slice()?,
+        soils: soil_index.as_ref().map(|index| index.as_slice()).transpose()?,
+    };
+    let count = inputs.pressed.len();
+    let stand = Stand::new(&soils, wheel, setting, vary, count)?;
+    inputs.check(stand.soil_count(), &study::LOAD_N)?;
+    stand.check(py, &inputs)?;
+    let keys = keys_of(&soils, wheel, &keys)?;
+    let names: Vec<String> = keys[0].names().map(str::to_owned).collect();
+    let places = (0..count).into_par_iter();
+    let of_wheel = |place| of_wheel(&stand, &inputs, &keys, place);
+    let found: Vec<_> = threads::detached(py, || places.map(of_wheel).collect())?;
+    py.check_signals()?;
+    let rows = names.len() * WHEEL.len();
+    let values = PyArray2::<f64>::zeros(py, [rows, count], false);
+    let one_sided = PyArray2::<bool>::zeros(py, [rows, count], false);
+    {
+        let (mut values, mut one_sided) = (values.readwrite(), one_sided.readwrite());
+        let cells = values.as_slice_mut()?.chunks_mut(count.max(1));
+        let cells = cells.zip(one_sided.as_slice_mut()?.chunks_mut(count.max(1)));
+        for (row, (values, one_sided)) in cells.enumerate() {
+            let (key, column) = (row / WHEEL.len(), &WHEEL[row % WHEEL.len()]);
+            for (place, found) in found.iter().enumerate() {
+                let derivative = found.get(key).and_then(Option::as_ref);
+                let sides = derivative.map(|it| it.sides.each_ref().map(|it| column.number(it)));
+                values[place] = derivative.map_or(f64::NAN, |it| column.number(&it.value));
+                one_sided[place] = sides.is_some_and(|[below, above]| below != above);
+            }
+        }
+    }
+    Ok((values, one_sided, names, wheel_names().collect()))
+}
+
+/// The keys in each of the soils; `all` are those of the first.
+fn keys_of(
+    soils: &[PyRef<'_, Document>],
+    wheel: &Document,
+    keys: &[String],
+) -> PyResult<Vec<WheelKeys>> {
+    let mut asked_for = GradientKeys::of(keys);
+    let mut found = Vec::new();
+    for soil in soils {
+        let keys = WheelKeys::of(soil.soil()?, wheel.wheel()?, &asked_for).map_err(|error| {
+            errors::parameter(error.to_string(), "gradients", None, "the key of a number")
+        })?;
+        asked_for = GradientKeys::These(keys.names().map(str::to_owned).collect());
+        found.push(keys);
+    }
+    Ok(found)
+}
+
+/// The derivatives of a wheel by each key; none of one that does not settle.
+fn of_wheel(
+    stand: &Stand,
+    inputs: &Inputs<'_>,
+    keys: &[WheelKeys],
+    place: usize,
+) -> Vec<Option<WheelDerivative>> {
+    let Some((contact, model)) = stand.known_contact(inputs, place) else { return Vec::new() };
+    let load = inputs.pressed[place];
+    let Ok(settled) = settle(model.as_ref(), &contact, load) else { return Vec::new() };
+    let setting = StandSetting {
+        gravity: contact.gravity,
+        load,
+        slip_ratio: inputs.slip_ratios[place],
+        slip_angle: SLIP_ANGLE.unit.to_si(inputs.slip_angles_deg[place]),
+    };
+    let [soil, wheel] = stand.changed(inputs, place);
+    let changed = ChangedKeys { soil: &soil, wheel: &wheel };
+    keys[inputs.soil_of(place)].of_wheel(&model, &setting, &changed, &settled)
+}

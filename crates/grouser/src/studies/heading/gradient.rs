@@ -1,0 +1,250 @@
+//! How a heading, and the steepest slope, change with numbers of rover, soil and ground.
+//!
+//! On a slope α the slip ratio and the crab angle x = (s, c) balance the forces, R(x, α, p) = 0, and
+//! follow a number p by
+//!
+//! ```text
+//! dx/dp = −(∂R/∂x)⁻¹ ∂R/∂p
+//! ```
+//!
+//! At the fold, where ∂R/∂x has no inverse, its left null vector w gives the steepest slope's
+//! derivative: dα/dp = −(w·∂R/∂p)/(w·∂R/∂α). The partial derivatives are differences of settled
+//! rovers at one place; no balance is sought twice.
+
+use super::path::{Gradients, Held, Path, Place, Point};
+use super::study::HeadingStudy;
+use super::{HeadingCurve, HeadingOffset, LimitedBy, NoHeading};
+use crate::difference::{Slope, Steps, Variable, slopes};
+use crate::soil::Span;
+use crate::units::deg;
+use crate::vehicle::Rover;
+
+/// A study whose numbers may be changed.
+#[derive(Clone, Copy)]
+pub struct ChangeableStudy<'a> {
+    /// The numbers.
+    pub variables: &'a [Variable],
+    /// The study with these values for all of them, and its course [rad]; none where they are no
+    /// rover and soil together.
+    pub with: &'a dyn Fn(&[f64]) -> Option<(HeadingStudy, f64)>,
+    /// The results of a heading that are differentiated, in any units.
+    pub results: &'a dyn Fn(&HeadingOffset, &Rover) -> Vec<f64>,
+}
+
+/// The derivatives of results at a point of a curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeadingDerivatives {
+    /// Those of each result by each number; none by a number that can be changed to neither side.
+    pub by_variable: Vec<Option<Vec<Slope>>>,
+    /// Those by the slope [1/rad].
+    pub by_slope: Option<Vec<Slope>>,
+}
+
+/// How many equations balance a rover that holds its course.
+const EQUATIONS: usize = 2;
+/// Places of slip ratio, crab angle and slope among a point's coordinates.
+const SLIP: usize = 0;
+const CRAB: usize = 1;
+const SLOPE: usize = 2;
+
+/// Partial derivatives at a point, with its place fixed.
+struct Partials {
+    /// By each number, then by slip ratio, crab angle and slope: of the results, then of the two
+    /// imbalances.
+    by_variable: Vec<Option<Vec<Slope>>>,
+    results: usize,
+}
+
+impl HeadingCurve {
+    /// The derivatives of a heading on a slope [rad].
+    ///
+    /// # Errors
+    /// [`NoHeading`] if no heading holds the course there.
+    pub fn gradient(
+        &self,
+        slope: f64,
+        changeable: &ChangeableStudy<'_>,
+    ) -> Result<HeadingDerivatives, NoHeading> {
+        let (point, _) = self.point_on(slope)?;
+        let partials = self.partials(&point, changeable);
+        // Side walls that hold the rover without any crab hold it beside this number, too.
+        let is_held = slope <= self.held_below && point.place.y == 0.0;
+        let is_held = is_held || Path::new(&self.study, self.held).is_straight();
+        let unknowns: &[usize] = if is_held { &[SLIP] } else { &[SLIP, CRAB] };
+        let numbers = changeable.variables.len();
+        let by_variable = (0..numbers).map(|variable| partials.along(variable, unknowns)).collect();
+        Ok(HeadingDerivatives { by_variable, by_slope: partials.along(numbers + SLOPE, unknowns) })
+    }
+
+    /// The derivatives of the steepest slope [rad] by each number; none where it can be changed to
+    /// neither side, or where what ends the curve has no derivative.
+    #[must_use]
+    pub fn limit_gradient(&self, changeable: &ChangeableStudy<'_>) -> Vec<Option<Slope>> {
+        let none = || vec![None; changeable.variables.len()];
+        match self.limited_by() {
+            Some(LimitedBy::Wheels) => {
+                self.points.last().map_or_else(none, |last| self.fold_gradient(last, changeable))
+            }
+            Some(LimitedBy::GroundStrength) => self.strength_gradient(changeable),
+            Some(LimitedBy::Range) => vec![Some(Slope::smooth(0.0)); changeable.variables.len()],
+            Some(LimitedBy::NotFound) | None => none(),
+        }
+    }
+
+    fn fold_gradient(&self, last: &Point, changeable: &ChangeableStudy<'_>) -> Vec<Option<Slope>> {
+        /// Flatter than this the curve folds at its last point [-].
+        const FLAT: f64 = 1e-3;
+        let numbers = changeable.variables.len();
+        let partials = self.partials(last, changeable);
+        let Some([slip, crab, slope]) = partials.of_place(numbers) else {
+            return vec![None; numbers];
+        };
+        let gradients: Gradients = [0, 1].map(|row| Place::new(slip[row], crab[row], slope[row]));
+        let tangent = gradients[0].cross(&gradients[1]);
+        if tangent.z.abs() > FLAT * tangent.norm() {
+            // The curve ends while it rises: at the most slip, or where wheels tip or sink.
+            return vec![None; numbers];
+        }
+        let size = |column: [f64; 2]| column[0].hypot(column[1]);
+        let column = if size(slip) > size(crab) { slip } else { crab };
+        let null = [-column[1], column[0]];
+        let along = |by: [f64; 2]| null[0] * by[0] + null[1] * by[1];
+        let rise = along(slope);
+        let of = |variable: usize| {
+            let by = partials.imbalances(variable)?;
+            let value = -along(by.map(|it| it.value)) / rise;
+            let sides = [0, 1].map(|side| -along(by.map(|it| it.sides[side])) / rise);
+            let is_smooth = by.iter().all(|it| !it.is_one_sided());
+            Some(if is_smooth { Slope::smooth(value) } else { Slope { value, sides } })
+        };
+        (0..numbers).map(of).collect()
+    }
+
+    /// The same where the ground's own strength ends.
+    fn strength_gradient(&self, changeable: &ChangeableStudy<'_>) -> Vec<Option<Slope>> {
+        let here = [self.study.ground_limit()];
+        let mut evaluate = |points: &[Vec<f64>]| {
+            let limit = |numbers: &Vec<f64>| {
+                (changeable.with)(numbers).map(|(study, _)| vec![study.ground_limit()])
+            };
+            points.iter().map(limit).collect()
+        };
+        let found = slopes(changeable.variables, &here, &[1.0], Steps::EXACT, &mut evaluate);
+        found.by_variable.into_iter().map(|it| it?.first().copied()).collect()
+    }
+
+    fn partials(&self, point: &Point, changeable: &ChangeableStudy<'_>) -> Partials {
+        let place = |value: f64, small: f64, range: Span| Variable {
+            value,
+            scale: value.abs().max(small),
+            range,
+        };
+        let of_place = [
+            place(point.place.x, 0.1, Span::new(-1.0, 1.0)),
+            place(point.place.y, deg(5.0), Span::ANY),
+            place(point.place.z, deg(5.0), Span::at_least(0.0)),
+        ];
+        let variables: Vec<Variable> =
+            changeable.variables.iter().copied().chain(of_place).collect();
+        let mut evaluate = |points: &[Vec<f64>]| {
+            points.iter().map(|it| self.changed(it, point, changeable)).collect()
+        };
+        let values: Vec<f64> = variables.iter().map(|it| it.value).collect();
+        let Some(here) = self.changed(&values, point, changeable) else {
+            return Partials { by_variable: vec![None; variables.len()], results: 0 };
+        };
+        let results = here.len() - EQUATIONS;
+        let sizes: Vec<f64> = here[..results].iter().map(|it| it.abs()).collect();
+        // A result near zero is small against its own change, the imbalance against the weight.
+        let sizes: Vec<f64> = sizes.into_iter().chain([1.0; EQUATIONS]).collect();
+        let found = slopes(&variables, &here, &sizes, Steps::SETTLED, &mut evaluate);
+        Partials { by_variable: found.by_variable, results }
+    }
+
+    /// The results and the imbalances with other numbers, and at another place behind them.
+    fn changed(
+        &self,
+        values: &[f64],
+        near: &Point,
+        changeable: &ChangeableStudy<'_>,
+    ) -> Option<Vec<f64>> {
+        let (numbers, place) = values.split_at(changeable.variables.len());
+        let (study, course) = (changeable.with)(numbers)?;
+        let held = match self.held {
+            Held::Yaw(_) => Held::Yaw(course),
+            Held::Course(_) | Held::Body(_) => study.held(course),
+        };
+        let path = Path::new(&study, held);
+        path.begin_at(near);
+        let place = Place::from_column_slice(place);
+        let (left_over, wheels) = path.balance(&place).ok()?;
+        let point = Point { place, gradients: Gradients::default(), wheels };
+        let heading = Self::heading_of(&study, held, &point, 0);
+        Some((changeable.results)(&heading, &study.rover).into_iter().chain(left_over).collect())
+    }
+}
+
+impl Partials {
+    /// The partial derivatives of the imbalances along a variable.
+    fn imbalances(&self, variable: usize) -> Option<[Slope; EQUATIONS]> {
+        let slopes = self.by_variable[variable].as_ref()?;
+        Some([slopes[self.results], slopes[self.results + 1]])
+    }
+
+    /// The same by slip ratio, crab angle and slope, behind so many numbers.
+    fn of_place(&self, numbers: usize) -> Option<[[f64; EQUATIONS]; 3]> {
+        let values =
+            |axis: usize| self.imbalances(numbers + axis).map(|it| it.map(|slope| slope.value));
+        Some([values(SLIP)?, values(CRAB)?, values(SLOPE)?])
+    }
+
+    /// The derivatives of the results along a variable, with the unknowns that follow it.
+    fn along(&self, variable: usize, unknowns: &[usize]) -> Option<Vec<Slope>> {
+        let numbers = self.by_variable.len() - 3;
+        let own = self.by_variable[variable].as_ref()?;
+        let by = self.imbalances(variable)?;
+        let of_place = self.of_place(numbers)?;
+        let follow = |by: [f64; 2]| -> Option<Vec<f64>> {
+            if let [one] = unknowns {
+                return Some(vec![-by[0] / of_place[*one][0]]);
+            }
+            let [slip, crab] = [of_place[SLIP], of_place[CRAB]];
+            let determinant = slip[0] * crab[1] - crab[0] * slip[1];
+            let found = [
+                -(by[0] * crab[1] - crab[0] * by[1]) / determinant,
+                -(slip[0] * by[1] - by[0] * slip[1]) / determinant,
+            ];
+            found.iter().all(|it| it.is_finite()).then(|| found.to_vec())
+        };
+        let way = follow(by.map(|it| it.value))?;
+        let ways = [0, 1].map(|side| follow(by.map(|it| it.sides[side])));
+        let result = |result: usize| {
+            let partial = |axis: usize| {
+                self.by_variable[numbers + axis]
+                    .as_ref()
+                    .map_or_else(Slope::default, |it| it[result])
+            };
+            let sum = |own: f64, way: &[f64], of: &dyn Fn(Slope, f64) -> f64| {
+                let terms =
+                    unknowns.iter().zip(way).map(|(axis, way)| of(partial(*axis), *way) * way);
+                own + terms.sum::<f64>()
+            };
+            let value = sum(own[result].value, &way, &|slope, _| slope.value);
+            let is_smooth = !own[result].is_one_sided()
+                && by.iter().all(|it| !it.is_one_sided())
+                && unknowns.iter().all(|axis| !partial(*axis).is_one_sided());
+            if is_smooth {
+                return Slope::smooth(value);
+            }
+            let side = |side: usize| {
+                let way = ways[side].as_deref().unwrap_or(&way);
+                // An unknown that falls as the number rises comes to its other side.
+                let of =
+                    |slope: Slope, way: f64| slope.sides[if way < 0.0 { 1 - side } else { side }];
+                sum(own[result].sides[side], way, &of)
+            };
+            Slope { value, sides: [side(0), side(1)] }
+        };
+        Some((0..self.results).map(result).collect())
+    }
+}
