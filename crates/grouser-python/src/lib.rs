@@ -109,6 +109,7 @@ mod _core {
     use super::validation::{validate, validate_all, validate_slopes};
     #[pymodule_export]
     use super::validity::{flag_names, flags};
+    #[pymodule_export]
     use super::wheels::{not_carried, settle, wheel_forces};
 
     /// Gravities by name [m/s²], defaults, and the version.

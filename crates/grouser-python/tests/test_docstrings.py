@@ -15,7 +15,7 @@ import grouser as gr
 def members() -> Iterator[tuple[str, Any]]:
     """Every public function and class by its name, without exceptions."""
     modules: list[tuple[str, Any]] = [("", gr), ("campaign.", gr.campaign), ("style.", gr.style)]
-    for name in ("gym", "mujoco"):
+    for name in ("gym", "jax", "mujoco"):
         modules.append((f"{name}.", pytest.importorskip(f"grouser.{name}")))
     for prefix, module in modules:
         for name in module.__all__:

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import grouser.campaign
 import grouser.gym
+import grouser.jax
 import grouser.mujoco
 from sphinx.pycode import ModuleAnalyzer
 from sphinx.util import logging
@@ -59,7 +60,7 @@ def complete(app) -> None:
     told = set(
         re.findall(r"^ +(?:\.\. py:data:: )?(\w+)$|^\.\. py:data:: (\w+)$", page, flags=re.M)
     )
-    packages = (grouser, grouser.campaign, grouser.gym, grouser.mujoco)
+    packages = (grouser, grouser.campaign, grouser.gym, grouser.jax, grouser.mujoco)
     names = {name for package in packages for name in package.__all__}
     # A package within is told by its own names.
     names -= {package.__name__.removeprefix("grouser.") for package in packages}

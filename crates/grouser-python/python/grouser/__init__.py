@@ -53,6 +53,7 @@ from ._errors import (
 from ._card import Card, CardCourses, card
 from ._check import Checked, check
 from ._forecast import Forecast, forecast
+from ._gradients import Gradient
 from ._heading_band import HeadingBand, HeadingMapBand
 from ._headings import HeadingMap, Headings, heading, heading_map
 from ._learning import Learner, learn
@@ -108,6 +109,7 @@ __all__ = [
     "FLAGS",
     "Forecast",
     "GrouserError",
+    "Gradient",
     "HeadingBand",
     "HeadingMap",
     "HeadingMapBand",

@@ -1,0 +1,149 @@
+"""Settled wheels as a function that JAX differentiates: forward and in reverse, batched, and under
+``jit`` by calling back into the library.
+
+JAX computes with 32 bits unless ``jax.config.update("jax_enable_x64", True)`` was called; the
+library always computes with 64, so that derivatives keep their digits, and results are rounded to
+what JAX has.
+
+It needs JAX: ``pip install grouser[jax]``. How much harder does a wheel pull the more it
+slips?
+
+>>> import jax
+>>> import grouser.jax as gj
+>>> def pull(slip_ratio):
+...     return gj.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=slip_ratio)["drawbar_pull_n"]
+>>> round(float(jax.grad(pull)(0.2)), 1)
+10.5
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from . import _core
+from . import settle as _settle
+from ._descriptions import Soil, Source, Wheel
+from ._tables import COLUMNS
+
+__all__ = ["settle"]
+
+#: What a settled wheel has.
+_RESULTS = COLUMNS["wheel"]
+#: Arguments that are no keys of documents.
+_SETTINGS = ("load_n", "slip_ratio", "slip_angle_deg", "gravity_m_s2")
+
+
+def settle(
+    soil: Soil | Source,
+    wheel: Wheel | Source,
+    *,
+    load_n: Any,
+    slip_ratio: Any,
+    slip_angle_deg: Any = 0.0,
+    gravity_m_s2: Any = _core.EARTH_GRAVITY,
+    model: str | None = None,
+    vary: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
+    """Finds the sinkages at which the soil carries wheels, and the forces there, as
+    `grouser.settle` does.
+
+    Parameters
+    ----------
+    soil, wheel, load_n, slip_ratio, slip_angle_deg, gravity_m_s2, model, vary
+        As for `grouser.settle`; the numbers may be JAX's, and what is computed of them is
+        differentiable by all of them.
+
+    Returns
+    -------
+    dict of str to jax.Array
+        The results by their names, of the shape to which the numbers broadcast; NaN where the soil
+        does not carry the wheel. At a kink the derivative is the mean of both sides.
+
+    Raises
+    ------
+    ParameterError, DocumentNotFoundError
+        As `grouser.settle`, where numbers are known; under ``jit`` JAX reports them as errors of
+        the callback.
+
+    Examples
+    --------
+    By how many millimetres does a wheel sink less for each millimetre that it is wider?
+
+    >>> import jax
+    >>> import grouser.jax as gj
+    >>> def sinkage(width):
+    ...     numbers = {"wheel.width_m": width}
+    ...     return gj.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=0.2, vary=numbers)["sinkage_mm"]
+    >>> round(float(jax.grad(sinkage)(0.08)) / 1e3, 3)
+    -0.022
+    """
+    values = {
+        "load_n": load_n,
+        "slip_ratio": slip_ratio,
+        "slip_angle_deg": slip_angle_deg,
+        "gravity_m_s2": gravity_m_s2,
+        **(vary or {}),
+    }
+    numbers = jnp.broadcast_arrays(*(jnp.asarray(it, dtype=float) for it in values.values()))
+    found = _settled(_Stand(soil, wheel, model, tuple(values)), jnp.stack(numbers, axis=-1))
+    return {name: found[..., place] for place, name in enumerate(_RESULTS)}
+
+
+class _Stand:
+    """What of a call is no number: documents, model, and the names of the numbers."""
+
+    def __init__(
+        self, soil: Soil | Source, wheel: Wheel | Source, model: str | None, names: tuple[str, ...]
+    ) -> None:
+        self.soil = soil if isinstance(soil, Soil) else Soil(soil)
+        self.wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
+        self.model, self.names = model, names
+
+    def call(self, numbers: Any, gradients: bool) -> Any:
+        """Settled wheels, whose numbers are in the last axis."""
+        cells = np.asarray(numbers, dtype=np.float64)
+        named = {name: cells[..., place] for place, name in enumerate(self.names)}
+        settings = {name: named.pop(name) for name in _SETTINGS}
+        keys = list(self.names) if gradients else None
+        return _settle(
+            self.soil, self.wheel, model=self.model, vary=named, gradients=keys, **settings
+        )
+
+    def results(self, numbers: Any) -> Any:
+        """Results in the last axis."""
+        found = self.call(numbers, gradients=False)
+        return np.stack([getattr(found, name) for name in _RESULTS], axis=-1)
+
+    def jacobians(self, numbers: Any) -> Any:
+        """Results in the axis before the last, numbers in the last."""
+        found = self.call(numbers, gradients=True).gradient
+        assert found is not None
+        return np.stack([found[name] for name in _RESULTS], axis=-2)
+
+
+@partial(jax.custom_jvp, nondiff_argnums=(0,))
+def _settled(stand: _Stand, numbers: Any) -> Any:
+    return _call(stand.results, numbers, (len(_RESULTS),))
+
+
+@_settled.defjvp
+def _settled_jvp(stand: _Stand, primals: Any, tangents: Any) -> Any:
+    (numbers,), (change,) = primals, tangents
+    jacobian = _call(stand.jacobians, numbers, (len(_RESULTS), len(stand.names)))
+    return _settled(stand, numbers), jnp.einsum("...rk,...k->...r", jacobian, change)
+
+
+def _call(native: Any, numbers: Any, shape: tuple[int, ...]) -> Any:
+    """What the library computes of numbers, for any leading axes."""
+    result = jax.ShapeDtypeStruct((*numbers.shape[:-1], *shape), numbers.dtype)
+
+    def called(cells: Any) -> Any:
+        return np.asarray(native(cells), dtype=result.dtype)
+
+    return jax.pure_callback(called, result, numbers, vmap_method="expand_dims")

@@ -1,0 +1,122 @@
+"""Derivatives of settled wheels and headings, from Python and through JAX."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import grouser as gr
+import numpy as np
+import pytest
+
+KEYS = ["wheel.radius_m", "soil.friction_angle_deg", "load_n", "slip_ratio"]
+
+
+def test_gradients_of_wheels_have_a_last_axis_of_keys() -> None:
+    loads = [[10.0], [20.0]]
+    wheels = gr.settle("toyoura", "hakuto", load_n=loads, slip_ratio=[0.1, 0.2, 0.3], gradients=KEYS)
+    found = wheels.gradient
+    assert found is not None and found.names == tuple(KEYS)
+    assert found["sinkage_mm"].shape == (2, 3, 4)
+    step = 1e-4
+    for place, key in enumerate(KEYS[2:], start=2):
+        def changed(by: float, key: str = key) -> Any:
+            numbers = {"load_n": np.array(loads), "slip_ratio": np.array([0.1, 0.2, 0.3])}
+            numbers[key] = numbers[key] + by
+            return gr.settle("toyoura", "hakuto", **numbers).drawbar_pull_n
+
+        reference = (changed(step) - changed(-step)) / (2 * step)
+        np.testing.assert_allclose(found["drawbar_pull_n"][..., place], reference, rtol=1e-6)
+    assert not any(it.any() for it in found.one_sided.values())
+    data = found.to_xarray(["load_n", "slip_ratio"])
+    assert data["torque_nm"].sel(key="load_n").shape == (2, 3)
+
+
+def test_gradients_are_taken_where_numbers_are_varied() -> None:
+    vary = {"soil.friction_angle_deg": [30.0, 35.0]}
+    setting: dict[str, Any] = {"load_n": 17.0, "slip_ratio": 0.2}
+    both = gr.settle("toyoura", "hakuto", vary=vary, gradients=KEYS[1], **setting).gradient
+    assert both is not None
+    for place, angle in enumerate(vary["soil.friction_angle_deg"]):
+        alone = gr.Soil("toyoura", friction_angle_deg=angle)
+        one = gr.settle(alone, "hakuto", gradients=KEYS[1], **setting).gradient
+        assert one is not None
+        np.testing.assert_allclose(
+            both["drawbar_pull_n"][place], one["drawbar_pull_n"], rtol=1e-9
+        )
+
+
+def test_each_soil_of_several_has_its_own_gradients() -> None:
+    setting: dict[str, Any] = {"load_n": 17.0, "slip_ratio": 0.2, "gradients": KEYS[1]}
+    both = gr.settle(["toyoura", "lunar-nominal"], "hakuto", **setting).gradient
+    one = gr.settle("lunar-nominal", "hakuto", **setting).gradient
+    assert both is not None and one is not None
+    np.testing.assert_array_equal(both["torque_nm"][1], one["torque_nm"])
+
+
+def test_a_wheel_without_a_result_has_no_gradient() -> None:
+    sunk = gr.settle("toyoura", "hakuto", load_n=[17.0, 1e4], slip_ratio=0.2, gradients="load_n")
+    assert sunk.gradient is not None
+    assert np.isnan(sunk.gradient["sinkage_mm"][1, 0]) and sunk.gradient["sinkage_mm"][0, 0] > 0
+    assert sunk.to_pandas().shape[0] == 2
+
+
+def test_a_kink_is_said() -> None:
+    rolling = gr.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=0.0, gradients="slip_ratio")
+    assert rolling.gradient is not None and rolling.gradient.one_sided["sinkage_mm"].all()
+
+
+@pytest.mark.parametrize("keys", [["soil.frction_angle_deg"], [], [1], ["speed"]])
+def test_keys_that_no_document_has_are_refused(keys: Any) -> None:
+    with pytest.raises(gr.ParameterError, match="gradients|friction_angle_deg|load_n"):
+        gr.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=0.2, gradients=keys)
+
+
+def test_gradients_of_headings_lead_to_the_next_heading() -> None:
+    key = "rover.wheel_unit.wheel.radius_m"
+    level = gr.heading(slope_deg=[5, 10], gradients=[key, "slope_deg"])
+    assert level.gradient is not None and level.band is None
+    assert "one_sided" not in level.columns and not any(n.startswith("d_") for n in level.columns)
+    rover = gr.Rover("hakuto")
+    radius = rover.to_dict()["wheel_unit"]["wheel"]["radius_m"]
+    step = 1e-4
+
+    def at(value: float) -> Any:
+        wide = rover.replace(wheel_unit={"wheel": {"radius_m": value}})
+        return gr.heading(slope_deg=[5, 10], rover=wide, nominal=True)
+
+    more, less = at(radius + step), at(radius - step)
+    reference = (more.yaw_deg - less.yaw_deg) / (2 * step)
+    np.testing.assert_allclose(level.gradient["yaw_deg"][:, 0], reference, rtol=1e-4)
+    assert more.limit_slope_deg is not None and less.limit_slope_deg is not None
+    limit = (more.limit_slope_deg - less.limit_slope_deg) / (2 * step)
+    np.testing.assert_allclose(level.gradient["limit_slope_deg"], [limit, 0.0], rtol=1e-4)
+
+
+def test_an_uncertain_soil_has_gradients_as_it_is_written_alone() -> None:
+    key = "soil.friction_angle_deg"
+    with pytest.raises(gr.ParameterError, match="nominal=True"):
+        gr.heading(soil="toyoura-uncertain", gradients=key)
+    found = gr.heading(soil="toyoura-uncertain", slope_deg=5, gradients=key, nominal=True)
+    assert found.gradient is not None and found.gradient["yaw_deg"][0, 0] < 0
+
+
+def test_jax_differentiates_forward_and_in_reverse_batched_and_compiled() -> None:
+    jax = pytest.importorskip("jax")
+    jax.config.update("jax_enable_x64", True)
+    import grouser.jax as gj
+
+    def pull(radius: Any, slip: Any) -> Any:
+        vary = {"wheel.radius_m": radius}
+        found = gj.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=slip, vary=vary)
+        return found["drawbar_pull_n"]
+
+    slips = np.array([0.1, 0.2, 0.4])
+    own = gr.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=slips, gradients=[KEYS[0], KEYS[3]])
+    assert own.gradient is not None
+    in_reverse = jax.jit(jax.vmap(jax.grad(pull, argnums=(0, 1)), in_axes=(None, 0)))(0.1, slips)
+    forward = jax.vmap(jax.jacfwd(pull, argnums=(0, 1)), in_axes=(None, 0))(0.1, slips)
+    for place in range(2):
+        expected = own.gradient["drawbar_pull_n"][:, place]
+        np.testing.assert_allclose(in_reverse[place], expected, rtol=1e-12)
+        np.testing.assert_allclose(forward[place], expected, rtol=1e-12)
+    np.testing.assert_array_equal(pull(0.1, slips), own.drawbar_pull_n)
