@@ -2,6 +2,7 @@
 
 mod address;
 mod alone;
+mod c;
 mod changed;
 mod ci;
 mod cited;
@@ -48,6 +49,7 @@ cargo xtask CHORE
 
   ci [--full]         run all checks; --full runs the slow tests too
   alone [--full]      both commands of the README, in a clone that stands alone, with a home of its own
+  c                   compile, run and compare programs that use the C interface, by every compiler here
   schema [--check]    write schema/*.json from the program, or only compare
   figures [--check | --made]
                       write the program's output into the Markdown files, or only compare; --made leaves what
@@ -101,6 +103,7 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["ci"] => ci::run(extent::Extent::Usual),
         ["ci", "--full"] => ci::run(extent::Extent::Full),
         ["alone", options @ ..] => alone::check(options)?,
+        ["c"] => good(c::check()?),
         ["schema"] => schema::write()?,
         ["schema", "--check"] => schema::check()?,
         ["figures"] => figures::write(true)?,

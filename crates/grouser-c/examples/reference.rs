@@ -48,7 +48,8 @@ fn run() -> Result<(), Box<dyn Error>> {
     let radii: Vec<f64> = radii.collect();
     let drive = |run: &mut Run, left: f64, right: f64| {
         let speeds = [left, left, right, right];
-        let rims: Vec<f64> = speeds.iter().zip(&radii).map(|(speed, radius)| speed * radius).collect();
+        let rims: Vec<f64> =
+            speeds.iter().zip(&radii).map(|(speed, radius)| speed * radius).collect();
         (0..20).try_for_each(|_| run.step(&rims, 0.1))
     };
     let mut run = Run::new(&scenario)?;
@@ -92,7 +93,8 @@ fn time_step() -> Result<(), Box<dyn Error>> {
         let (wheel, soil) = (paper::hakuto_wheel(), paper::toyoura());
         let after = step.reaction(&[SteppingWheel { model: model.as_ref(), wheel, soil, sinkage }]);
         let wheel = after.wheels[0];
-        let forces = [wheel.forces.drawbar_pull, wheel.forces.side_force, wheel.forces.normal_force];
+        let forces =
+            [wheel.forces.drawbar_pull, wheel.forces.side_force, wheel.forces.normal_force];
         for axis in 0..3 {
             velocity[axis] = free[axis] + duration * forces[axis] / mass;
         }

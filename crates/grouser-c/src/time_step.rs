@@ -25,7 +25,7 @@ pub struct SteppingWheels {
 
 /// What [`SteppingWheels`] stand for.
 struct Wheels {
-    wheels: Vec<Arc<WheelOnSoil>>,
+    each: Vec<Arc<WheelOnSoil>>,
     damping: f64,
     rest_speed: f64,
 }
@@ -81,7 +81,7 @@ pub unsafe extern "C" fn grouser_stepping_wheels_new(
         positive("rest_speed_m_s", rest_speed_m_s)?;
         let wheels = tests.iter().map(|test| handles::get::<WheelOnSoil>(test.id));
         let wheels = Wheels {
-            wheels: wheels.collect::<Result<_, _>>()?,
+            each: wheels.collect::<Result<_, _>>()?,
             damping: sinkage_damping_s_m,
             rest_speed: rest_speed_m_s,
         };
@@ -231,8 +231,8 @@ pub unsafe extern "C" fn grouser_mechanism_step(
 impl Wheels {
     /// Checks that a step is one, of these wheels.
     fn check(&self, count: usize, step: EngineStep) -> Result<(), Failure> {
-        if count != self.wheels.len() {
-            return Err(wrong_size("the array of wheels", count, self.wheels.len()));
+        if count != self.each.len() {
+            return Err(wrong_size("the array of wheels", count, self.each.len()));
         }
         finite("duration_s", step.duration_s)?;
         finite("gravity_m_s2", step.gravity_m_s2)?;
@@ -248,7 +248,7 @@ impl Wheels {
         inverse_mass: &DMatrix<f64>,
         free: &DVector<f64>,
     ) -> contact::Stepped {
-        let stepping = self.wheels.iter().zip(sinkages).map(|(of, sinkage)| SteppingWheel {
+        let stepping = self.each.iter().zip(sinkages).map(|(of, sinkage)| SteppingWheel {
             model: of.model.as_ref(),
             wheel: of.wheel,
             soil: of.soil,
@@ -267,7 +267,7 @@ impl Wheels {
 
     /// The wheels as the mechanism has them.
     fn mounted(&self, mounted: &[MountedWheel]) -> Result<Vec<mechanism::MountedWheel>, Failure> {
-        let each = self.wheels.iter().zip(mounted).enumerate();
+        let each = self.each.iter().zip(mounted).enumerate();
         each.map(|(place, (of, it))| {
             let vectors = [it.axle, it.arm_m, it.normal, it.held.force_n, it.held.moment_nm];
             let all = vectors.iter().flatten().chain([&it.hub_height_m]);

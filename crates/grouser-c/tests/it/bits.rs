@@ -14,6 +14,7 @@ use grouser_core::mission::MissionRun;
 use grouser_core::paper;
 use grouser_core::simulation::{Run as CoreRun, Scenario};
 use grouser_core::units::EARTH_GRAVITY;
+use grouser_core::vehicle::Mount;
 use grouser_io::columns::wheel::WHEEL;
 use grouser_io::{Overrides, Source, read_mission, read_scenario};
 
@@ -46,7 +47,7 @@ fn wheels_have_the_bits_of_the_library_in_any_number() {
         let loads: Vec<f64> = (0..count).map(|k| 5.0 + f64::from(k)).collect();
         let angles: Vec<f64> = slips.iter().map(|slip| 0.3 - slip).collect();
         let mut found = Vec::<Settled>::with_capacity(slips.len());
-        let [load, slip, angle] = [&loads, &slips, &angles].map(|all| all.as_ptr());
+        let [load, slip, angle] = [&loads, &slips, &angles].map(Vec::as_ptr);
         // SAFETY: all arrays have room for as many values.
         let status =
             unsafe { grouser_settle(test, slips.len(), load, slip, angle, found.as_mut_ptr()) };
@@ -99,7 +100,7 @@ fn a_run_by_steps_has_the_bits_of_the_library() {
     for k in 0..40_u32 {
         let speeds = [0.5, 0.5, 0.6, 0.5 + 0.01 * f64::from(k % 7)];
         step(run, speeds);
-        let radii = scenario.rover.mounts().iter().map(|mount| mount.shearing_radius());
+        let radii = scenario.rover.mounts().iter().map(Mount::shearing_radius);
         let rims: Vec<f64> = radii.zip(speeds).map(|(radius, speed)| speed * radius).collect();
         core.step(&rims, 0.1).expect("it goes on");
         assert_eq!(pose(run), Pose::from(core.state()));
