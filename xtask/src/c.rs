@@ -57,7 +57,7 @@ pub(crate) fn check() -> Result<Count> {
         library: workspace::target().join("debug"),
     };
     fs::create_dir_all(&folders.made)?;
-    let mut count = Count::default();
+    let mut count = check_header()?;
     for language in &LANGUAGES {
         for compiler in language.compilers {
             count += folders.check_with(language, compiler)?;
@@ -65,6 +65,68 @@ pub(crate) fn check() -> Result<Count> {
     }
     count += folders.check_python()?;
     Ok(count)
+}
+
+/// What makes the header. A tool and no dependency: who builds the library has the header already.
+const CBINDGEN: &str = "0.29.4";
+
+/// Writes the header.
+pub(crate) fn write_header() -> Result<Count> {
+    let Some(made) = header()? else { return Ok(Count::skipped()) };
+    fs::write(header_path(), made)?;
+    Ok(Count::one(true))
+}
+
+/// Compares the header with what is made of the sources.
+fn check_header() -> Result<Count> {
+    let Some(made) = header()? else { return Ok(Count::skipped()) };
+    let is_same = fs::read(header_path())? == made;
+    if !is_same {
+        println!("grouser.h is not what the sources have; cargo xtask c --header writes it");
+    }
+    Ok(Count::one(is_same))
+}
+
+fn header_path() -> PathBuf {
+    workspace::root().join("crates/grouser-c/include/grouser.h")
+}
+
+/// What cbindgen makes of the sources; nothing, and a line that says so, where it cannot be had.
+fn header() -> Result<Option<Vec<u8>>> {
+    let tools = workspace::target().join("xtask/tools");
+    let cbindgen = tools.join("bin").join(format!("cbindgen{}", std::env::consts::EXE_SUFFIX));
+    let is_here = || {
+        let version = Command::new(&cbindgen).arg("--version").output();
+        version.is_ok_and(|it| String::from_utf8_lossy(&it.stdout).trim_end().ends_with(CBINDGEN))
+    };
+    if !is_here() {
+        println!("building cbindgen {CBINDGEN} into {}", tools.display());
+        let mut install = workspace::cargo();
+        install.args([
+            "install",
+            "cbindgen",
+            "--locked",
+            "--force",
+            "--version",
+            CBINDGEN,
+            "--root",
+        ]);
+        // Where it fails, the look that follows says so.
+        let _ = install.arg(&tools).status();
+    }
+    if !is_here() {
+        println!(
+            "cbindgen {CBINDGEN} is missing, so the header of the C interface is not compared"
+        );
+        return Ok(None);
+    }
+    let folder = workspace::root().join("crates/grouser-c");
+    let mut command = Command::new(&cbindgen);
+    command.arg("--quiet").arg("--config").arg(folder.join("cbindgen.toml")).arg(&folder);
+    let output = command.output().context("cbindgen did not start")?;
+    let text = String::from_utf8_lossy(&output.stderr);
+    ensure!(output.status.success(), "cbindgen failed: {text}");
+    Ok(Some(output.stdout))
 }
 
 impl Folders {

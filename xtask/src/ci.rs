@@ -69,7 +69,7 @@ const STEPS: [Step; 22] = {
         step("schemas", 2.0, Here(|_| schema::check().map(Count::one))),
         step("figures", 280.0, Here(|_| figures::check().map(Count::one))),
         step("fuzz", 150.0, Here(|extent| fuzz::check(&fuzz::Plan::of(extent)))),
-        Step { asks: OF_C, ..step("c", 60.0, Here(|_| c::check())) },
+        Step { asks: OF_C, ..step("c", 250.0, Here(|_| c::check())) },
         Step { asks: PACKED, ..step("packages", 20.0, Here(packages::check)) },
         step("wheel", 60.0, Here(|_| python::installed().map(|_| Count::one(true)))),
         Step { asks: PAGES, ..step("site", 200.0, Beside(&["site", "--as-it-is"])) },

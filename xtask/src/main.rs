@@ -49,7 +49,8 @@ cargo xtask CHORE
 
   ci [--full]         run all checks; --full runs the slow tests too
   alone [--full]      both commands of the README, in a clone that stands alone, with a home of its own
-  c                   compile, run and compare programs that use the C interface, by every compiler here
+  c [--header]        compile, run and compare programs that use the C interface, by every compiler here;
+                      --header writes its header instead
   schema [--check]    write schema/*.json from the program, or only compare
   figures [--check | --made]
                       write the program's output into the Markdown files, or only compare; --made leaves what
@@ -104,6 +105,7 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["ci", "--full"] => ci::run(extent::Extent::Full),
         ["alone", options @ ..] => alone::check(options)?,
         ["c"] => good(c::check()?),
+        ["c", "--header"] => good(c::write_header()?),
         ["schema"] => schema::write()?,
         ["schema", "--check"] => schema::check()?,
         ["figures"] => figures::write(true)?,

@@ -1,5 +1,6 @@
 //! The C interface of Grouser: wheels, rovers and missions on loose soil for programs in any
-//! language. `include/grouser.h` is made of this crate by a test, `docs/guide/c.md` explains it.
+//! language. `include/grouser.h` is made of this crate by `cargo xtask c --header`, `docs/guide/c.md`
+//! explains it.
 //!
 //! It computes nothing: documents are read by `grouser-io`, as the program and Python read them, and
 //! all else is `grouser-core`'s. Numbers are in SI units and radians, each with its unit in its

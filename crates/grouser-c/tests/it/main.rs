@@ -1,14 +1,13 @@
-//! What C can rely on: the header, the bits, the codes, and what a call allocates.
+//! What C can rely on: the bits, the codes, and what a call allocates.
 //!
-//! These tests call the functions that C calls. `cargo xtask c` compiles the programs in `examples`
-//! and `tests/wrong_uses.c`, and compares what they print.
+//! These tests call the functions that C calls. `cargo xtask c` compares the header, compiles
+//! the programs in `examples` and `tests/wrong_uses.c`, and compares what they print.
 
 #![expect(unsafe_code, reason = "functions for C take pointers")]
 
 mod allocations;
 mod bits;
 mod codes;
-mod header;
 
 use std::ffi::CStr;
 use std::mem::MaybeUninit;
