@@ -35,8 +35,9 @@ const LANGUAGES: [Language; 2] = [
     },
 ];
 
-/// Warnings are errors: a header that warns is one that somebody cannot use.
-const WARNINGS: [&str; 4] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"];
+/// Warnings are errors: a header that warns is one that somebody cannot use. And no compiler fuses
+/// what an example computes before the library does.
+const OPTIONS: [&str; 5] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-ffp-contract=off"];
 
 /// The folder of the crate, that of what is built here, and that of the library.
 struct Folders {
@@ -51,12 +52,7 @@ pub(crate) fn check() -> Result<Count> {
     let mut cargo = workspace::cargo();
     cargo.args(["build", "-p", "grouser-c", "--lib", "--example", "reference"]);
     ensure!(cargo.status().context("cargo did not start")?.success(), "the library does not build");
-    let folders = Folders {
-        sources: workspace::root().join("crates/grouser-c"),
-        made: workspace::target().join("xtask/c"),
-        library: workspace::target().join("debug"),
-    };
-    fs::create_dir_all(&folders.made)?;
+    let folders = Folders::new()?;
     let mut count = check_header()?;
     for language in &LANGUAGES {
         for compiler in language.compilers {
@@ -65,6 +61,22 @@ pub(crate) fn check() -> Result<Count> {
     }
     count += folders.check_python()?;
     Ok(count)
+}
+
+/// What `examples/hashes.c` prints by each compiler of C; nothing for one that is missing. The
+/// library is built already.
+pub(crate) fn hashes() -> Result<Vec<(&'static str, Option<String>)>> {
+    let folders = Folders::new()?;
+    let [language, _] = &LANGUAGES;
+    let by = |compiler: &'static str| {
+        if !runs(compiler, &["--version"]) {
+            return Ok((compiler, None));
+        }
+        let source = folders.sources.join("examples/hashes.c");
+        let made = folders.compile(compiler, language.standard, &source)?;
+        Ok((compiler, Some(output(&mut folders.command(&made))?)))
+    };
+    language.compilers.into_iter().map(by).collect()
 }
 
 /// What makes the header. A tool and no dependency: who builds the library has the header already.
@@ -130,6 +142,13 @@ fn header() -> Result<Option<Vec<u8>>> {
 }
 
 impl Folders {
+    fn new() -> Result<Self> {
+        let made = workspace::target().join("xtask/c");
+        fs::create_dir_all(&made)?;
+        let sources = workspace::root().join("crates/grouser-c");
+        Ok(Self { sources, made, library: workspace::target().join("debug") })
+    }
+
     /// Compiles, runs and compares the programs of a language by one compiler; and in C the wrong
     /// uses.
     fn check_with(&self, language: &Language, compiler: &str) -> Result<Count> {
@@ -162,7 +181,7 @@ impl Folders {
         let name = source.file_stem().unwrap_or_default().to_string_lossy();
         let made = self.made.join(format!("{name}-{compiler}"));
         let mut command = Command::new(compiler);
-        command.arg(standard).args(WARNINGS).arg(source);
+        command.arg(standard).args(OPTIONS).arg(source);
         command.arg("-I").arg(self.sources.join("include")).arg("-L").arg(&self.library);
         command.args(["-lgrouser_c", "-lm", "-lpthread", "-o"]).arg(&made);
         let status = command.status().with_context(|| format!("{compiler} did not start"))?;
@@ -216,7 +235,7 @@ impl Folders {
 }
 
 /// What a program prints.
-fn output(command: &mut Command) -> Result<String> {
+pub(crate) fn output(command: &mut Command) -> Result<String> {
     let output = command.output().with_context(|| format!("{command:?} did not start"))?;
     let text = String::from_utf8_lossy(&output.stderr);
     ensure!(output.status.success(), "{command:?} failed: {text}");

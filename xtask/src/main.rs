@@ -15,6 +15,7 @@ mod extent;
 mod figures;
 mod flaw;
 mod fuzz;
+mod hashes;
 mod hygiene;
 mod instructions;
 mod learning;
@@ -57,6 +58,7 @@ cargo xtask CHORE
                       was measured as it is
   fuzz [--cases N] [--seed N] [--only N] [--program FILE]
                       damaged and hostile input for every command, under limits of memory and time
+  hashes              compare digests of wheels, a traverse and a mission by each instruction set and by C
   instructions [--check]
                       count the instructions of the units of work anew (valgrind), or only compare
   packages [--full]   check the packages without publishing them; --full builds from them alone
@@ -116,6 +118,7 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
             println!("{count}");
             count.failed == 0
         }
+        ["hashes"] => good(hashes::check()?),
         ["instructions"] => instructions::write()?,
         ["instructions", "--check"] => good(instructions::check()?),
         ["count"] => count::write()?,

@@ -154,8 +154,8 @@ pub extern "C" fn grouser_run_play(run: Run, duration_s: f64) -> Status {
     with(run, |led| {
         finite("duration_s", duration_s)?;
         in_range("duration_s", &[duration_s], &(1e-6..=86400.0))?;
-        let until = led.run.state().time() + duration_s;
-        Ok(led.run.advance(&mut led.drive, until.min(led.scenario.duration))?)
+        let left = led.scenario.duration - led.run.state().time();
+        Ok(led.run.advance_by(&mut led.drive, duration_s.min(left))?)
     })
 }
 
