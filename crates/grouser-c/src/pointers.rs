@@ -90,6 +90,24 @@ pub(crate) unsafe fn place<'a, T>(
     Ok(&mut room[0])
 }
 
+/// A place for a result that may be unwanted; nothing if the pointer is null.
+///
+/// # Safety
+/// As [`place`].
+///
+/// # Errors
+/// As [`array`].
+pub(crate) unsafe fn optional_place<'a, T>(
+    name: &str,
+    pointer: *mut T,
+) -> Result<Option<&'a mut MaybeUninit<T>>, Failure> {
+    if pointer.is_null() {
+        return Ok(None);
+    }
+    // SAFETY: as this function's.
+    unsafe { place(name, pointer) }.map(Some)
+}
+
 /// A text of the caller's; nothing if the pointer is null.
 ///
 /// # Safety

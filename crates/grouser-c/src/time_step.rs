@@ -9,7 +9,7 @@ use grouser_core::units::Vec3;
 use nalgebra::{DMatrix, DVector};
 
 use crate::handles;
-use crate::pointers::{array, numbers, place, room, wrong_size};
+use crate::pointers::{array, numbers, optional_place, place, room, wrong_size};
 use crate::status::{Failure, Status, guarded};
 use crate::values::{MountedWheel, Stepped, Wrench};
 use crate::wheel_test::{WheelOnSoil, WheelTest, in_range};
@@ -123,12 +123,13 @@ pub unsafe extern "C" fn grouser_time_step(
         let motions = MOTIONS * count;
         let forces = FORCES * count;
         // SAFETY: the caller's pointers are as the header says.
-        let (sinkages, inverse_mass, free, out) = unsafe {
+        let (sinkages, inverse_mass, free, out, residual) = unsafe {
             (
                 numbers("sinkage_m", sinkage_m, count)?,
                 numbers("inverse_mass", inverse_mass, motions * forces)?,
                 numbers("free_m_s", free_m_s, motions)?,
                 room("out", out, count)?,
+                optional_place("residual_m_s", residual_m_s)?,
             )
         };
         let inverse_mass = DMatrix::from_row_slice(motions, forces, inverse_mass);
@@ -137,9 +138,8 @@ pub unsafe extern "C" fn grouser_time_step(
         out.iter_mut().zip(&stepped.wheels).for_each(|(out, wheel)| {
             out.write(wheel.into());
         });
-        if !residual_m_s.is_null() {
-            // SAFETY: the caller's pointer is as the header says.
-            unsafe { place("residual_m_s", residual_m_s) }?.write(stepped.residual);
+        if let Some(residual) = residual {
+            residual.write(stepped.residual);
         }
         Ok(())
     })
@@ -190,7 +190,7 @@ pub unsafe extern "C" fn grouser_mechanism_step(
             rows.checked_mul(size).ok_or_else(|| wrong_size("velocities", size, usize::MAX / rows))
         };
         // SAFETY: the caller's pointers are as the header says.
-        let (mounted, velocities, jacobians, inertia, wrenches, out) = unsafe {
+        let (mounted, velocities, jacobians, inertia, wrenches, out, residual) = unsafe {
             (
                 array("wheels", state.wheels, count)?,
                 numbers("velocities", state.velocities, size)?,
@@ -198,6 +198,7 @@ pub unsafe extern "C" fn grouser_mechanism_step(
                 numbers("inertia", state.inertia, entries(size)?)?,
                 room("wrenches", wrenches, count)?,
                 room("out", out, count)?,
+                optional_place("residual_m_s", residual_m_s)?,
             )
         };
         let mounted = wheels.mounted(mounted)?;
@@ -220,9 +221,8 @@ pub unsafe extern "C" fn grouser_mechanism_step(
             wrenches[place].write(Wrench { force_n, moment_nm });
             out[place].write(wheel.into());
         }
-        if !residual_m_s.is_null() {
-            // SAFETY: the caller's pointer is as the header says.
-            unsafe { place("residual_m_s", residual_m_s) }?.write(stepped.residual);
+        if let Some(residual) = residual {
+            residual.write(stepped.residual);
         }
         Ok(())
     })

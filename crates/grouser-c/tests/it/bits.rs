@@ -3,17 +3,23 @@
 use grouser_c::mission::{grouser_mission_new, grouser_mission_next_leg, grouser_mission_pose};
 use grouser_c::run::{
     Run, grouser_run_copy, grouser_run_free, grouser_run_play, grouser_run_pose,
-    grouser_run_restore, grouser_run_save, grouser_run_step, grouser_run_wheels,
-    grouser_state_free,
+    grouser_run_restore, grouser_run_save, grouser_run_step, grouser_run_wheel_name,
+    grouser_run_wheels, grouser_state_free,
 };
 use grouser_c::status::Status;
-use grouser_c::values::{Pose, Settled, Wheel};
+use grouser_c::time_step::{
+    EngineStep, MechanismState, grouser_mechanism_step, grouser_stepping_wheels_free,
+    grouser_stepping_wheels_new,
+};
+use grouser_c::values::{MountedWheel, Pose, Settled, Stepped, Wheel, Wrench};
 use grouser_c::wheel_test::{grouser_settle, grouser_wheel_test_free};
-use grouser_core::contact::{Contact, Ishigami, Slip, settle};
+use grouser_core::contact::mechanism::{self, Mechanism};
+use grouser_core::contact::time_step::{REST_SPEED, SINKAGE_DAMPING};
+use grouser_core::contact::{Contact, Ishigami, Slip, SteppingWheel, TimeStep, settle};
 use grouser_core::mission::MissionRun;
 use grouser_core::paper;
 use grouser_core::simulation::{Run as CoreRun, Scenario};
-use grouser_core::units::EARTH_GRAVITY;
+use grouser_core::units::{EARTH_GRAVITY, Vec3};
 use grouser_core::vehicle::Mount;
 use grouser_io::columns::wheel::WHEEL;
 use grouser_io::{Overrides, Source, read_mission, read_scenario};
@@ -183,4 +189,85 @@ fn a_mission_has_the_bits_of_the_library() {
         (end.x_m, end.y_m, end.yaw_rad),
         (expected.position.x, expected.position.y, expected.yaw)
     );
+}
+
+/// A free body of 1.7 kg on one wheel, 10 mm deep.
+#[test]
+fn a_step_of_a_mechanism_has_the_bits_of_the_library() {
+    let (wheel, soil, model) = (paper::hakuto_wheel(), paper::toyoura(), Ishigami::DEFAULT);
+    let distance = wheel.shearing_radius() - 0.01;
+    let jacobians: [f64; 36] = std::array::from_fn(|k| if k % 7 == 0 { 1.0 } else { 0.0 });
+    let masses = [1.7, 1.7, 1.7, 0.1, 0.2, 0.1];
+    let inertia: [f64; 36] = std::array::from_fn(|k| jacobians[k] * masses[k % 6]);
+    let velocities = [0.05, 0.01, -0.02, 0.0, 0.4, 0.0];
+    let held = mechanism::Wrench { force: Vec3::new(0.1, 0.0, 3.0), moment: Vec3::zeros() };
+    let (axle, arm, normal) = (Vec3::y(), Vec3::new(0.0, 0.02, 0.0), Vec3::z());
+    let radius = wheel.shearing_radius();
+    let mounted = [mechanism::MountedWheel { radius, axle, arm, normal, distance, held }];
+    let (jacobians, inertia, velocities) = (&jacobians[..], &inertia[..], &velocities[..]);
+    let with_moments = true;
+    let of_core = Mechanism { wheels: &mounted, jacobians, inertia, velocities, with_moments };
+    let (inverse_mass, free) = of_core.response(2e-3).expect("it has an inertia");
+    let step = TimeStep {
+        duration: 2e-3,
+        gravity: 1.62,
+        damping: SINKAGE_DAMPING,
+        rest_speed: REST_SPEED,
+        inverse_mass: &inverse_mass,
+        free: &free,
+    };
+    let sinkage = mounted[0].sinkage();
+    let expected = step.reaction(&[SteppingWheel { model: &model, wheel, soil, sinkage }]);
+    let wrench = mounted[0].wrench(&expected.wheels[0].forces, with_moments);
+
+    let test = wheel_test();
+    // SAFETY: there is one wheel test, and `made` gives a place for the result.
+    let wheels = made(|out| unsafe {
+        grouser_stepping_wheels_new(1, &raw const test, SINKAGE_DAMPING, REST_SPEED, out)
+    });
+    let held = Wrench { force_n: held.force.into(), moment_nm: held.moment.into() };
+    let mounted = MountedWheel {
+        axle: axle.into(),
+        arm_m: arm.into(),
+        normal: normal.into(),
+        hub_height_m: distance,
+        held,
+    };
+    let state = MechanismState {
+        wheel_count: 1,
+        wheels: &raw const mounted,
+        velocity_count: 6,
+        velocities: velocities.as_ptr(),
+        jacobians: jacobians.as_ptr(),
+        inertia: inertia.as_ptr(),
+        with_moments,
+    };
+    let step = EngineStep { duration_s: 2e-3, gravity_m_s2: 1.62 };
+    let (mut residual, mut stepped) = (f64::NAN, std::mem::MaybeUninit::<Stepped>::uninit());
+    // SAFETY: the state's arrays are as long as it says, and all places are ours.
+    let found: Wrench = made(|out| unsafe {
+        let (state, residual) = (&raw const state, &raw mut residual);
+        grouser_mechanism_step(wheels, step, state, out, stepped.as_mut_ptr(), residual)
+    });
+    // SAFETY: a call that succeeds has written its results.
+    let stepped = unsafe { stepped.assume_init() };
+    assert!(stepped.reaction.normal_force_n > 1.0, "the soil carries something");
+    assert_eq!(stepped, Stepped::from(&expected.wheels[0]));
+    assert_eq!(
+        (Vec3::from(found.force_n), Vec3::from(found.moment_nm)),
+        (wrench.force, wrench.moment)
+    );
+    assert_eq!(residual.to_bits(), expected.residual.to_bits());
+    assert_eq!(grouser_stepping_wheels_free(wheels), Status::Ok);
+}
+
+#[test]
+fn wheels_have_their_names() {
+    let (run, mut buffer) = (run_of(c""), [0; 32]);
+    // SAFETY: the buffer has as many bytes.
+    let status = unsafe { grouser_run_wheel_name(run, 2, buffer.as_mut_ptr(), buffer.len()) };
+    // SAFETY: a call that succeeds has written a text with its zero.
+    let name = unsafe { std::ffi::CStr::from_ptr(buffer.as_ptr()) };
+    let expected = default_scenario().rover.mounts()[2].name.clone();
+    assert_eq!((status, name.to_str()), (Status::Ok, Ok(expected.as_str())));
 }
