@@ -1,6 +1,9 @@
 //! The bits of the library, through the functions for C.
 
-use grouser_c::mission::{grouser_mission_new, grouser_mission_next_leg, grouser_mission_pose};
+use grouser_c::mission::{
+    Mission, grouser_mission_copy, grouser_mission_new, grouser_mission_next_leg,
+    grouser_mission_pose,
+};
 use grouser_c::run::{
     Run, grouser_run_copy, grouser_run_free, grouser_run_play, grouser_run_pose,
     grouser_run_restore, grouser_run_save, grouser_run_step, grouser_run_wheel_name,
@@ -163,6 +166,20 @@ fn a_restored_run_goes_on_with_the_same_bits() {
     assert_eq!(grouser_state_free(state), Status::Ok);
 }
 
+/// Where a mission ends that is driven to its end from where it is.
+fn drive_on(mission: Mission) -> Pose {
+    let mut driven = true;
+    let mut leg = std::mem::MaybeUninit::uninit();
+    while driven {
+        // SAFETY: both places are ours.
+        let status =
+            unsafe { grouser_mission_next_leg(mission, leg.as_mut_ptr(), &raw mut driven) };
+        assert_eq!(status, Status::Ok);
+    }
+    // SAFETY: `made` gives a place for the result.
+    made(|out| unsafe { grouser_mission_pose(mission, out) })
+}
+
 #[test]
 fn a_mission_has_the_bits_of_the_library() {
     let text = "schema = \"mission/1\"\nname = \"two legs\"\n[[leg]]\ndrive_m = 0.2\n[[leg]]\nturn_deg = 10.0\n";
@@ -173,6 +190,8 @@ fn a_mission_has_the_bits_of_the_library() {
     let null = std::ptr::null();
     // SAFETY: texts end with a zero, and `made` gives a place for the result.
     let mission = made(|out| unsafe { grouser_mission_new(text.as_ptr(), null, null, out) });
+    // SAFETY: `made` gives a place for the result.
+    let copy = made(|out| unsafe { grouser_mission_copy(mission, out) });
     for leg in &report.legs {
         let mut driven = false;
         // SAFETY: both places are ours.
@@ -182,6 +201,7 @@ fn a_mission_has_the_bits_of_the_library() {
         assert_eq!((found.distance_m, found.duration_s), (leg.distance, leg.time));
         assert_eq!(found.outcome, leg.outcome.kind().into());
     }
+    assert_eq!(drive_on(copy), drive_on(mission));
     // SAFETY: `made` gives a place for the result.
     let end: Pose = made(|out| unsafe { grouser_mission_pose(mission, out) });
     let expected = report.legs.last().expect("two legs").end;
