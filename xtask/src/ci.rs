@@ -12,8 +12,8 @@ use crate::extent::Extent;
 use crate::libtest::Count;
 use crate::workspace::Profile;
 use crate::{
-    changed, count, cpu, crates, figures, fuzz, packages, pages, python, rustdoc, schema, texts,
-    tools, wasm, workflows, workspace, yardstick,
+    c, changed, count, cpu, crates, figures, fuzz, hashes, packages, pages, python, rustdoc,
+    schema, texts, tools, wasm, workflows, workspace, yardstick,
 };
 
 /// A step of the checks.
@@ -41,13 +41,15 @@ enum Take {
 
 /// All of them, the quick ones first. Those up to the documentation, the figures and the wheel
 /// share one build.
-const STEPS: [Step; 21] = {
+const STEPS: [Step; 23] = {
     use Take::{Beside, Here, Last};
     const fn step(name: &'static str, budget: f64, take: Take) -> Step {
         Step { name, budget, asks: &[], is_long: false, take }
     }
     const PAGES: &[&str] = &["docs", "crates/grouser-cli", "crates/grouser-python", "xtask"];
     const PACKED: &[&str] = &["Cargo", "crates/grouser-python", "xtask"];
+    const OF_C: &[&str] =
+        &["Cargo", "crates/grouser-c/", "crates/grouser-core", "crates/grouser-io", "xtask"];
     const COUNTED: &[&str] = &["Cargo", "crates/grouser/", "crates/grouser-core", "xtask"];
     [
         step("tools", 1.0, Here(|_| Ok(tools::check()))),
@@ -67,6 +69,8 @@ const STEPS: [Step; 21] = {
         step("schemas", 2.0, Here(|_| schema::check().map(Count::one))),
         step("figures", 280.0, Here(|_| figures::check().map(Count::one))),
         step("fuzz", 150.0, Here(|extent| fuzz::check(&fuzz::Plan::of(extent)))),
+        Step { asks: OF_C, ..step("c", 250.0, Here(|_| c::check())) },
+        Step { asks: OF_C, ..step("hashes", 15.0, Here(|_| hashes::check())) },
         Step { asks: PACKED, ..step("packages", 20.0, Here(packages::check)) },
         step("wheel", 60.0, Here(|_| python::installed().map(|_| Count::one(true)))),
         Step { asks: PAGES, ..step("site", 200.0, Beside(&["site", "--as-it-is"])) },

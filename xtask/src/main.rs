@@ -2,6 +2,7 @@
 
 mod address;
 mod alone;
+mod c;
 mod changed;
 mod ci;
 mod cited;
@@ -14,6 +15,7 @@ mod extent;
 mod figures;
 mod flaw;
 mod fuzz;
+mod hashes;
 mod hygiene;
 mod instructions;
 mod learning;
@@ -48,12 +50,15 @@ cargo xtask CHORE
 
   ci [--full]         run all checks; --full runs the slow tests too
   alone [--full]      both commands of the README, in a clone that stands alone, with a home of its own
+  c [--header]        compile, run and compare programs that use the C interface, by every compiler here;
+                      --header writes its header instead
   schema [--check]    write schema/*.json from the program, or only compare
   figures [--check | --made]
                       write the program's output into the Markdown files, or only compare; --made leaves what
                       was measured as it is
   fuzz [--cases N] [--seed N] [--only N] [--program FILE]
                       damaged and hostile input for every command, under limits of memory and time
+  hashes              compare digests of wheels, a traverse and a mission by each instruction set and by C
   instructions [--check]
                       count the instructions of the units of work anew (valgrind), or only compare
   packages [--full]   check the packages without publishing them; --full builds from them alone
@@ -101,6 +106,8 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["ci"] => ci::run(extent::Extent::Usual),
         ["ci", "--full"] => ci::run(extent::Extent::Full),
         ["alone", options @ ..] => alone::check(options)?,
+        ["c"] => good(c::check()?),
+        ["c", "--header"] => good(c::write_header()?),
         ["schema"] => schema::write()?,
         ["schema", "--check"] => schema::check()?,
         ["figures"] => figures::write(true)?,
@@ -111,6 +118,7 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
             println!("{count}");
             count.failed == 0
         }
+        ["hashes"] => good(hashes::check()?),
         ["instructions"] => instructions::write()?,
         ["instructions", "--check"] => good(instructions::check()?),
         ["count"] => count::write()?,

@@ -8,7 +8,7 @@ use super::pilot::{Pilot, line_of, reach};
 use super::plan::{Heading, Leg, Manoeuvre, Measure, Mission, PlanError};
 use super::report::{BackOut, LegOutcome, LegReport, MissionReport, Taken};
 use super::stop::Then;
-use crate::simulation::{Method, Record, Run, RunError, Scenario, Start};
+use crate::simulation::{Method, Record, Run, RunError, Scenario, Start, State};
 use crate::vehicle::RoverState;
 
 /// A mission, as far as it has come.
@@ -116,6 +116,12 @@ impl MissionRun {
         let mut trajectory = self.run.finish();
         trajectory.method = self.fell_back.unwrap_or(trajectory.method);
         MissionReport { legs: self.reports, trajectory, fixes: self.navigator.into_fixes() }
+    }
+
+    /// All that changes in its run.
+    #[must_use]
+    pub fn state(&self) -> &State {
+        self.run.state()
     }
 
     /// The rover now.

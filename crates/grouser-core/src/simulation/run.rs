@@ -170,6 +170,20 @@ impl Run {
         self.lead(controller, [until, until], true, Due::Samples)
     }
 
+    /// Leads the run by a controller for a while [s], as [`advance`](Self::advance) does to a time:
+    /// steps of a tenth of a second lead through the times that one call to the end looks at.
+    ///
+    /// # Errors
+    /// The same as [`advance`](Self::advance).
+    pub fn advance_by(
+        &mut self,
+        controller: &mut dyn Controller,
+        span: f64,
+    ) -> Result<(), RunError> {
+        let until = snapped(self.state.time + span, WATCH_PERIOD);
+        self.advance(controller, until)
+    }
+
     /// Does what [`advance`](Self::advance) does, without a record of where that leads.
     ///
     /// * `kept_until`: until when a controller that is asked once expects to keep its speeds [s]
