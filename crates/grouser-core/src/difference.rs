@@ -257,8 +257,8 @@ impl Differences<'_, '_> {
         found
             .map(|(place, difference)| {
                 difference.or_else(|| {
-                    let sides = [Stencil::Above, Stencil::Below].into_iter();
-                    sides.filter_map(|side| self.one(place, side, self.steps.long)).next()
+                    let sides = [Stencil::Above, Stencil::Below];
+                    sides.into_iter().find_map(|side| self.one(place, side, self.steps.long))
                 })
             })
             .collect()

@@ -183,6 +183,7 @@ impl Document {
 
     /// The dotted keys of all its numbers, entries of lists by their place; those of priors are no
     /// numbers of a soil.
+    #[must_use]
     pub fn number_keys(&self) -> Vec<String> {
         number_keys(&self.keys)
     }

@@ -37,14 +37,16 @@ pub struct WheelGradient {
     pub evaluations: usize,
 }
 
+/// A contact and its load [N] with values for some numbers; none where they are no contact.
+pub type ContactWith<'a> = dyn Fn(&[f64]) -> Option<(Contact, f64)> + 'a;
+
 /// A wheel that may be changed: with other values for some numbers.
 #[derive(Clone, Copy)]
 pub struct ChangeableWheel<'a> {
     /// The wheel–soil model.
     pub model: &'a dyn WheelSoilModel,
-    /// The contact and its load [N] with these values for all numbers; none where they are no
-    /// contact.
-    pub with: &'a dyn Fn(&[f64]) -> Option<(Contact, f64)>,
+    /// The contact with other values for all numbers.
+    pub with: &'a ContactWith<'a>,
 }
 
 /// How many results a settled wheel has.
@@ -96,7 +98,9 @@ pub fn gradient(
     let sizes: Vec<f64> = sizes(settled, radius).into_iter().chain([load]).collect();
     let mut evaluate = |points: &[Vec<f64>]| evaluated(wheel, points);
     let found = slopes(&all, &here, &sizes, Steps::EXACT, &mut evaluate);
-    let (by_sinkage, rest) = found.by_variable.split_last().expect("the sinkage is one of them");
+    let [rest @ .., by_sinkage] = &found.by_variable[..] else {
+        unreachable!("the sinkage is one of them")
+    };
     let by_variable = rest.iter().map(|slopes| {
         let (slopes, by_sinkage) = (slopes.as_ref()?, by_sinkage.as_ref()?);
         implicit(slopes, by_sinkage)
@@ -204,7 +208,7 @@ fn sizes(settled: &Settled, radius: f64) -> [f64; RESULTS] {
     let (sinkage, stress) = (settled.sinkage, settled.forces.max_normal_stress);
     let kinds = [(sinkage, 1), (load, 7), (moment, 3), (stress, 1), (angle, 3)];
     let mut sizes = kinds.into_iter().flat_map(|(size, count)| std::iter::repeat_n(size, count));
-    std::array::from_fn(|_| sizes.next().expect("a size for each result"))
+    std::array::from_fn(|_| sizes.next().unwrap_or_default())
 }
 
 /// A list of results as a settled wheel.

@@ -22,24 +22,20 @@ pub(super) fn brief(results: &[&str], keys: &[&str]) -> Vec<String> {
 ///
 /// * `lacking`: the keys that the documents give no value
 pub(super) fn lines(rows: &Table, keys: &[&str], lacking: &[&str]) -> String {
-    let mut lines = String::new();
-    if keys.len() > MOST_KEYS {
-        let count = rows.names().iter().filter(|name| name.starts_with("d_")).count();
-        lines += &format!(
-            "{count} derivatives of each row, by {} keys, are in JSON and CSV\n",
-            keys.len()
-        );
-    }
-    for key in lacking {
-        lines += &format!("no derivative by {key}: the document gives it no value\n");
-    }
+    let count = rows.names().iter().filter(|name| name.starts_with("d_")).count();
+    let elsewhere = (keys.len() > MOST_KEYS).then(|| {
+        format!("{count} derivatives of each row, by {} keys, are in JSON and CSV\n", keys.len())
+    });
+    let lacking = lacking
+        .iter()
+        .map(|key| format!("no derivative by {key}: the document gives it no value\n"));
     let one_sided: usize = rows.words(ONE_SIDED).iter().map(Vec::len).sum();
-    if one_sided > 0 {
-        let is = if one_sided == 1 { "derivative is" } else { "derivatives are" };
-        lines += &format!(
+    let is = if one_sided == 1 { "derivative is" } else { "derivatives are" };
+    let one_sided = (one_sided > 0).then(|| {
+        format!(
             "{one_sided} {is} one-sided (column {ONE_SIDED}): the result has a kink there, and the \
              value is the mean of both sides\n"
-        );
-    }
-    lines
+        )
+    });
+    elsewhere.into_iter().chain(lacking).chain(one_sided).collect()
 }

@@ -42,7 +42,7 @@ mod study;
 
 use nalgebra::Vector3;
 
-pub use self::gradient::{ChangeableStudy, HeadingDerivatives};
+pub use self::gradient::{ChangeableStudy, HeadingDerivatives, StudyWith};
 use self::path::{End, Held, JUST_TURNED, Path, Place, Point, Reach};
 pub use self::study::{HeadingStudy, STRAIGHT_UP, Steering};
 use super::validity::RoverOnSlope;

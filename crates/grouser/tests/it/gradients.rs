@@ -217,21 +217,21 @@ impl Comparison {
 
     fn check(mut self, name: &str, worst: f64, median: f64) {
         self.errors.sort_by(f64::total_cmp);
-        let at = |share: f64| self.errors[((self.errors.len() - 1) as f64 * share) as usize];
+        let at = |percent: usize| self.errors[(self.errors.len() - 1) * percent / 100];
         let (left_out, all) = (self.one_sided + self.unclear, self.errors.len());
         println!(
             "{name}: {all} derivatives, median {:.1e}, 99 % {:.1e}, worst {:.1e}; {} one-sided, {} unclear",
-            at(0.5),
-            at(0.99),
-            at(1.0),
+            at(50),
+            at(99),
+            at(100),
             self.one_sided,
             self.unclear
         );
         let above = self.errors.iter().filter(|it| **it >= worst).count();
         // Where one rule of nodes follows another the forces themselves jump, by a few 1e-11.
-        let is_rare = above * 100_000 <= all && at(1.0) < 10.0 * worst;
+        let is_rare = above * 100_000 <= all && at(100) < 10.0 * worst;
         let found = &self.worst;
-        assert!(is_rare && at(0.5) < median, "{name}: {above} above {worst}: {found}");
+        assert!(is_rare && at(50) < median, "{name}: {above} above {worst}: {found}");
         assert!(left_out * 20 < all, "{name}: {left_out} of {all} were left out");
     }
 }
@@ -370,19 +370,20 @@ fn derivatives_of_headings_are_those_of_whole_curves() {
             let of = |changed: f64| {
                 let changed = grouser::document::scenario_with(&scenario.value, [(*key, changed)]);
                 let curve = HeadingStudy::of(&changed.unwrap()).curve().unwrap();
-                let yaws = slopes.map(|slope| curve.at(slope).unwrap().yaw.to_degrees());
-                (yaws, curve.limit().unwrap().0.to_degrees())
+                let [low, middle, high] = slopes.map(|slope| curve.at(slope).unwrap().yaw);
+                [low, middle, high, curve.limit().unwrap().0].map(f64::to_degrees)
             };
             let [lowest, lower, higher, highest] =
                 [-2.0, -1.0, 1.0, 2.0].map(|it| of(value + it * step));
             // The five-point difference.
-            let reference = |of: &dyn Fn(&([f64; 3], f64)) -> f64| {
-                (of(&lowest) - 8.0 * of(&lower) + 8.0 * of(&higher) - of(&highest)) / (12.0 * step)
+            let reference = |place: usize| {
+                let ends = lowest[place] - highest[place];
+                (ends + 8.0 * (higher[place] - lower[place])) / (12.0 * step)
             };
             let size = |reference: f64| 1e-5 * (reference.abs() + 10.0 / value.abs());
             for (at, slope) in slopes.iter().enumerate() {
                 let found = keys.on_slope(&curve, *slope)[place].as_ref().unwrap()[0];
-                let reference = reference(&|(yaws, _)| yaws[at]);
+                let reference = reference(at);
                 let error = (found.value - reference).abs();
                 assert!(
                     error < size(reference),
@@ -390,7 +391,7 @@ fn derivatives_of_headings_are_those_of_whole_curves() {
                     slope.to_degrees()
                 );
             }
-            let reference = reference(&|(_, limit)| *limit);
+            let reference = reference(3);
             let found = of_limit[place].unwrap();
             assert!(
                 (found.value - reference).abs() < size(reference),

@@ -19,14 +19,17 @@ use crate::soil::Span;
 use crate::units::deg;
 use crate::vehicle::Rover;
 
+/// A study and its course [rad] with values for some numbers; none where they are no rover and soil
+/// together.
+pub type StudyWith<'a> = dyn Fn(&[f64]) -> Option<(HeadingStudy, f64)> + 'a;
+
 /// A study whose numbers may be changed.
 #[derive(Clone, Copy)]
 pub struct ChangeableStudy<'a> {
     /// The numbers.
     pub variables: &'a [Variable],
-    /// The study with these values for all of them, and its course [rad]; none where they are no
-    /// rover and soil together.
-    pub with: &'a dyn Fn(&[f64]) -> Option<(HeadingStudy, f64)>,
+    /// The study with other values for all of them.
+    pub with: &'a StudyWith<'a>,
     /// The results of a heading that are differentiated, in any units.
     pub results: &'a dyn Fn(&HeadingOffset, &Rover) -> Vec<f64>,
 }
