@@ -33,7 +33,7 @@ pub(crate) fn run(args: &RouteArgs) -> Result<(), Failure> {
     let answer = inputs.question(args).answer("route", &ways);
     let mut pictures = Vec::new();
     if let Some(folder) = &mut folder {
-        folder.add("route.geojson", geojson::text(&ways[0].record));
+        folder.add("route.geojson", geojson::text(&ways[0].record, &inputs.raster.coordinates));
         pictures.push(("route.svg".to_owned(), picture(&inputs, &ways)));
     }
     let repeat = repeat(args, &inputs);
