@@ -138,7 +138,8 @@ pub(crate) enum Command {
     ImportTelemetry(ImportTelemetryArgs),
     /// Make a rover of URDF, the format in which robots are described to ROS.
     ImportUrdf(ImportUrdfArgs),
-    /// Make a rover, a wheel, a soil or a scenario of your own: asks, or takes answers by flags.
+    /// Make a rover, a wheel, a soil, a scenario or a mission of your own: asks, or takes answers by
+    /// flags.
     New(NewArgs),
     /// Check documents: soils, wheels, motors, rovers, scenarios, missions, data sets, campaigns,
     /// priors, mappings.

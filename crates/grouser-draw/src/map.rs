@@ -244,7 +244,7 @@ mod tests {
         let places = [Vec2::new(110.0, -45.0), Vec2::new(130.0, -40.0)];
         let tracks = [Track { name: "least <time>".into(), places: &places }];
         let flat = |_: usize, _: usize| Some(Vec2::zeros());
-        let svg = ways_over_ground("Ways", &grid(50, 40), &flat, &tracks);
+        let svg = ways_over_ground("Ways", &grid(50, 40), &flat, &tracks).to_svg();
         roxmltree::Document::parse(&svg).unwrap();
         assert_eq!(svg.matches("<circle").count(), 2, "a ring for each place");
         for text in [">least &lt;time&gt;</text>", ">start</text>", ">goal</text>"] {

@@ -22,6 +22,7 @@
 
 mod answers;
 mod lines;
+mod mission;
 mod rover;
 mod scenario;
 mod soil;
@@ -107,12 +108,8 @@ impl Draft {
             Kind::Wheel => wheel::usual,
             Kind::Soil => soil::usual,
             Kind::Scenario => scenario::usual,
-            Kind::Motor
-            | Kind::Mission
-            | Kind::DataSet
-            | Kind::Campaign
-            | Kind::Prior
-            | Kind::TelemetryMapping => {
+            Kind::Mission => mission::usual,
+            Kind::Motor | Kind::DataSet | Kind::Campaign | Kind::Prior | Kind::TelemetryMapping => {
                 return None;
             }
         };
@@ -127,12 +124,10 @@ impl Draft {
             Kind::Wheel => &wheel::KEYS,
             Kind::Soil => &soil::KEYS,
             Kind::Scenario => &scenario::KEYS,
-            Kind::Motor
-            | Kind::Mission
-            | Kind::DataSet
-            | Kind::Campaign
-            | Kind::Prior
-            | Kind::TelemetryMapping => &[],
+            Kind::Mission => &mission::KEYS,
+            Kind::Motor | Kind::DataSet | Kind::Campaign | Kind::Prior | Kind::TelemetryMapping => {
+                &[]
+            }
         }
     }
 
@@ -211,10 +206,10 @@ impl Draft {
     /// Checks that a document that an answer names exists and has no fault.
     fn check_name(&self, key: &str, answer: &str) -> Result<(), DocumentError> {
         match (self.answers.kind, key) {
-            (Kind::Scenario, "rover") => {
+            (Kind::Scenario | Kind::Mission, "rover") => {
                 read_rover(&Source::find(Kind::Rover, answer)?, &Overrides::none()).map(drop)
             }
-            (Kind::Scenario, "soil") => {
+            (Kind::Scenario | Kind::Mission, "soil") => {
                 read_soil(&Source::find(Kind::Soil, answer)?, &Overrides::none()).map(drop)
             }
             (Kind::Soil, soil::LIKE) => soil::check_preset(answer),
@@ -233,12 +228,10 @@ impl Draft {
             Kind::Wheel => Ok(self.answers.wheel()),
             Kind::Soil => Ok(self.answers.soil()),
             Kind::Scenario => Ok(self.answers.scenario()),
-            Kind::Motor
-            | Kind::Mission
-            | Kind::DataSet
-            | Kind::Campaign
-            | Kind::Prior
-            | Kind::TelemetryMapping => Ok(String::new()),
+            Kind::Mission => Ok(self.answers.mission()),
+            Kind::Motor | Kind::DataSet | Kind::Campaign | Kind::Prior | Kind::TelemetryMapping => {
+                Ok(String::new())
+            }
         }
     }
 

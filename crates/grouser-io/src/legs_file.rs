@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use grouser_core::terrain::Extent;
 use grouser_core::units::Vec2;
+use grouser_raster::zones::geojson::compare_system;
+use grouser_raster::{CoordinateSystem, Fault};
 use serde_json::Value as Json;
 
 use super::error::{DocumentError, Problem};
@@ -160,12 +162,33 @@ fn of_geojson(text: &Arc<Text>) -> Result<Vec<Node>, DocumentError> {
         north_east: Vec2::new(most(|it| it.x), most(|it| it.y)),
     };
     let system = json["crs"]["properties"]["name"].as_str();
-    grouser_raster::check_places(system, &extent).map_err(|found| {
-        let found = found.to_string();
-        let (what, hint) = found.split_once("\nhint: ").unwrap_or((&found, ""));
-        fault(what.to_owned()).with_hint(hint.to_owned())
-    })?;
+    grouser_raster::check_places(system, &extent).map_err(|found| in_legs(text, &found))?;
     Ok(legs)
+}
+
+/// What is wrong with a file of places.
+fn in_legs(text: &Text, fault: &Fault) -> DocumentError {
+    let (what, hint) = fault.in_parts("file");
+    DocumentError::whole(&text.label, Problem::NoLegs(what)).with_hint(hint)
+}
+
+/// Compares the systems that the files of a mission's legs name with that of its map; notes where
+/// that cannot be done.
+pub(crate) fn compare_systems(
+    mission: &Node,
+    map: &CoordinateSystem,
+) -> Result<Vec<String>, DocumentError> {
+    let Some(Value::List(legs)) = mission.entry(LEGS).map(|entry| &entry.node.value) else {
+        return Ok(Vec::new());
+    };
+    let mut texts: Vec<&Arc<Text>> = legs.iter().map(|leg| &leg.origin.text).collect();
+    texts.dedup_by(|one, other| Arc::ptr_eq(one, other));
+    let note = |text: &Arc<Text>| {
+        let remark = compare_system(text.content.as_bytes(), map);
+        let remark = remark.map_err(|fault| in_legs(text, &fault)).transpose()?;
+        Some(remark.map(|remark| format!("{}: {remark}", text.label)))
+    };
+    texts.into_iter().filter_map(note).collect()
 }
 
 /// The geometries of a document with their properties, in order.

@@ -51,9 +51,6 @@ pub(crate) fn found(what: &str, fault: &Fault) -> Found {
         let problem = Problem::Unreadable { kind: error.kind(), message: error.to_string() };
         return (problem, None);
     }
-    let text = fault.of(what);
-    let (problem, hint) =
-        text.split_once("\nhint: ").map_or((&*text, None), |(problem, hint)| (problem, Some(hint)));
-    let hint = own_hint.or(hint).map(str::to_owned);
-    (Problem::NoTerrain(problem.to_owned()), hint)
+    let (problem, hint) = fault.in_parts(what);
+    (Problem::NoTerrain(problem), own_hint.map(str::to_owned).or(hint))
 }

@@ -10,13 +10,14 @@ use super::describe::zones::FILE as SOIL_FILE;
 use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::file;
+use super::legs_file;
 use super::raster_file::{Found, found, key, options};
 use super::tree::{Entry, HeldMap, Node, Value};
 use super::zones_file;
 use grouser_core::simulation::Scenario;
 use grouser_core::terrain::{ElevationModel, Extent, Shape};
 use grouser_core::units::Vec2;
-use grouser_raster::{ReadOptions, Remark};
+use grouser_raster::{CoordinateSystem, ReadOptions, Remark};
 
 /// Gives maps that a document names their whole paths, so that the resolved document finds them
 /// from anywhere, and ground with heights no slope beside them.
@@ -66,15 +67,23 @@ pub(crate) fn read(
     let fault = |key_of: &str, (problem, hint)| {
         DocumentError::at(tree.origin_of(&key(key_of)), problem).with_hint(hint)
     };
-    let (model, notes) = if let Some(model) = held(path, document, tree)? {
-        (model, Vec::new())
+    let (model, system, mut notes) = if let Some(map) = held(path, document, tree)? {
+        (map.model, map.system, Vec::new())
     } else {
-        let read = model(Path::new(path), &options(document));
-        let (model, remarks) = read.map_err(|found| fault(FILE, found))?;
-        let name = Path::new(path).file_name().unwrap_or_default().display();
-        let note = |remark: &Remark| format!("{name}: {}", in_keys(&remark.to_string()));
-        (Arc::new(model), remarks.iter().map(note).collect())
+        let read = map(Path::new(path), &options(document));
+        let Map { model, remarks, system } = read.map_err(|found| fault(FILE, found))?;
+        let declared = |height: f64| format!("`{}` = {height}", key(MISSING));
+        let note = |remark: &Remark| format!("{}: {}", name_of(path), remark.in_words(declared));
+        (Arc::new(model), Some(system), remarks.iter().map(note).collect())
     };
+    if let Some(system) = &system {
+        if let Some(zones) = document.text(&key(SOIL_FILE)) {
+            let remark = zones_file::compare_system(Path::new(zones), system);
+            let remark = remark.map_err(|found| fault(SOIL_FILE, found))?;
+            notes.extend(remark.map(|remark| format!("{}: {remark}", name_of(zones))));
+        }
+        notes.extend(legs_file::compare_systems(tree, system)?);
+    }
     if document.get(&key(START)).is_none() {
         ground.start = middle(model.extent());
     } else if !contains(model.extent(), ground.start) {
@@ -87,31 +96,27 @@ pub(crate) fn read(
     Ok(notes)
 }
 
-/// A remark on a map with the keys that stand in a document.
-fn in_keys(remark: &str) -> String {
-    remark.replace("`missing_m`", &format!("`{}`", key(MISSING)))
+/// The name of a file without its folder.
+fn name_of(path: &str) -> String {
+    Path::new(path).file_name().unwrap_or_default().display().to_string()
 }
 
 /// The map in memory that a document names, if it does.
-fn held(
-    name: &str,
-    document: &Document,
-    tree: &Node,
-) -> Result<Option<Arc<ElevationModel>>, DocumentError> {
+fn held(name: &str, document: &Document, tree: &Node) -> Result<Option<HeldMap>, DocumentError> {
     let origin = tree.origin_of(&key(FILE));
     let Some(map) = origin.text.beside.maps.iter().find(|map| map.name == name) else {
         return Ok(None);
     };
     if let Some(read_with) = &map.options {
         // Read otherwise, the file is another map.
-        return Ok((*read_with == options(document)).then(|| map.model.clone()));
+        return Ok((*read_with == options(document)).then(|| map.clone()));
     }
     let of_files = [CELL_SIZE, SOUTH_WEST, BAND, MISSING].map(key);
     if let Some(key) = of_files.iter().find(|key| document.get(key).is_some()) {
         let problem = Problem::Conflict("a map in memory has this already");
         return Err(DocumentError::at(tree.origin_of(key), problem));
     }
-    Ok(Some(map.model.clone()))
+    Ok(Some(map.clone()))
 }
 
 /// The map of heights of a scenario that was read, under the name that its document has for it:
@@ -122,7 +127,7 @@ pub fn map_of(scenario: &Scenario, document: &Document) -> Option<HeldMap> {
     let name = document.text(&key(FILE))?.to_owned();
     // A resolved document has whole paths.
     let options = Path::new(&name).is_absolute().then(|| options(document));
-    Some(HeldMap { name, model: model.clone(), options })
+    Some(HeldMap { name, model: model.clone(), options, system: None })
 }
 
 /// Reads a map from a file, to be shared by documents that name it; and what is odd about it.
@@ -135,21 +140,30 @@ pub fn read_map(
 ) -> Result<(HeldMap, Vec<Remark>), DocumentError> {
     let whole = absolute(path).unwrap_or_else(|_| path.to_owned());
     let name = whole.display().to_string();
-    let (model, remarks) = model(&whole, &options).map_err(|(problem, hint)| {
+    let Map { model, remarks, system } = map(&whole, &options).map_err(|(problem, hint)| {
         // Options stand in no table.
         let hint = hint.map(|hint| hint.replace("`terrain.", "`"));
         DocumentError::whole(&name, problem).with_hint(hint)
     })?;
-    Ok((HeldMap { name, model: Arc::new(model), options: Some(options) }, remarks))
+    let (model, options, system) = (Arc::new(model), Some(options), Some(system));
+    Ok((HeldMap { name, model, options, system }, remarks))
 }
 
-fn model(path: &Path, options: &ReadOptions) -> Result<(ElevationModel, Vec<Remark>), Found> {
+/// A map as its file has it.
+struct Map {
+    model: ElevationModel,
+    remarks: Vec<Remark>,
+    system: CoordinateSystem,
+}
+
+fn map(path: &Path, options: &ReadOptions) -> Result<Map, Found> {
     // Neither a device nor a pipe is waited for.
     file::check_regular(path).map_err(|problem| (Problem::from(problem), None))?;
     let mut raster =
         grouser_raster::read(path, options).map_err(|error| found("map", &error.fault))?;
-    let remarks = take(&mut raster.remarks);
-    Ok((raster.model().map_err(|error| found("map", &error.into()))?, remarks))
+    let (remarks, system) = (take(&mut raster.remarks), take(&mut raster.coordinates));
+    let model = raster.model().map_err(|error| found("map", &error.into()))?;
+    Ok(Map { model, remarks, system })
 }
 
 fn middle(extent: Extent) -> Vec2 {

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use grouser_core::terrain::ElevationModel;
-use grouser_raster::ReadOptions;
+use grouser_raster::{CoordinateSystem, ReadOptions};
 use serde_json::Value as Json;
 
 /// A text that values come from.
@@ -180,6 +180,9 @@ pub struct HeldMap {
     /// How its file was read. A document that asks for something else reads the file anew. Without
     /// a file the document has to leave all of that out.
     pub options: Option<ReadOptions>,
+    /// The system of its coordinates; nothing where that was compared before, or is for others to
+    /// know.
+    pub system: Option<CoordinateSystem>,
 }
 
 /// What a text in memory may name, before the files of the current folder.

@@ -220,7 +220,8 @@ pub(crate) fn read(
     if stated.is_none() && believed.parameters.is_empty() {
         return Ok(None);
     }
-    let base = Varied { value: Soil::of(&soil), document: without_uncertainty(&soil) };
+    let own = without_uncertainty(&soil);
+    let base = Varied { value: Soil::of(&soil), document: own, notes: Vec::new() };
     let (own, is_stated) = (stated.clone().unwrap_or_default(), stated.is_some());
     let statements = [
         Statement { stated: &own, tree, table: "uncertainty.", prefix: "", yields: false },

@@ -24,6 +24,8 @@ pub struct Varied<V> {
     pub value: V,
     /// Its document, in the units of the keys.
     pub document: Document,
+    /// What is odd about files that it names.
+    pub notes: Vec<String>,
 }
 
 /// A number of a document, under a key.
@@ -60,8 +62,8 @@ impl<V: Described> Varied<V> {
     /// # Errors
     /// [`DocumentError`] for values that do not go together, with their place.
     pub fn new(document: Document, tree: &Node) -> Result<Self, DocumentError> {
-        let (value, _) = V::read(&document, tree)?;
-        Ok(Self { value, document })
+        let (value, notes) = V::read(&document, tree)?;
+        Ok(Self { value, document, notes })
     }
 
     /// The value with others under some keys.

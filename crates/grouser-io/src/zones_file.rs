@@ -15,7 +15,8 @@ use super::raster_file::{Found, found, key, options};
 use super::tree::{Entry, Node, Origin, Value};
 use grouser_core::soil::Soil;
 use grouser_core::terrain::{Extent, Ground, Shape, SoilZones};
-use grouser_raster::{ReadOptions, ZoneKey, read_zones, zone_names};
+use grouser_raster::zones::geojson::compare_system_of;
+use grouser_raster::{CoordinateSystem, ReadOptions, Remark, ZoneKey, read_zones, zone_names};
 
 /// Gives each name of a file's zones that the legend does not have, and that is a preset's, a row
 /// with that preset: the document has then all soils of the run.
@@ -114,6 +115,12 @@ fn zone_key(row: &Json) -> Option<ZoneKey> {
     let class = row.get(CLASS).and_then(Json::as_i64).map(ZoneKey::Class);
     let name = row.get(NAME).and_then(Json::as_str).map(|name| ZoneKey::Name(name.to_owned()));
     class.xor(name)
+}
+
+/// Compares the system that a file of zones names with that of the map.
+pub(crate) fn compare_system(path: &Path, map: &CoordinateSystem) -> Result<Option<Remark>, Found> {
+    file::check_regular(path).map_err(|problem| (Problem::from(problem), None))?;
+    compare_system_of(path, map).map_err(|error| found("file of zones", &error.fault))
 }
 
 fn zones(

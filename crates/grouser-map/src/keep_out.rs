@@ -43,7 +43,8 @@ pub fn keep_out(ground: Ground<'_>, map: &MobilityMap) -> Result<String, &'stati
     if blocks.iter().all(Vec::is_empty) {
         return Err("every cell is a go or a caution");
     }
-    let mut text = "{\"type\":\"FeatureCollection\",\"features\":[".to_owned();
+    let system = ground.raster().coordinates.geojson_member();
+    let mut text = format!("{{\"type\":\"FeatureCollection\",{system}\"features\":[");
     let there = KEPT_OUT.iter().zip(&blocks).filter(|(_, blocks)| !blocks.is_empty());
     for (place, (verdict, blocks)) in there.enumerate() {
         let comma = if place == 0 { "" } else { "," };

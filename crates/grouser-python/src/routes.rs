@@ -18,6 +18,7 @@ use grouser::studies::route::{
 use grouser::studies::verdict::SlopeStudy;
 use grouser::units::Vec2;
 use grouser_raster::Raster;
+use grouser_raster::zones::geojson::compare_system_of;
 use pyo3::prelude::*;
 
 use crate::descriptions::Document;
@@ -65,6 +66,7 @@ pub(crate) fn routes<'py>(
     check("samples", &[f64::from(task.samples)], &SAMPLES)?;
     let loaded = scenario.scenario()?;
     let raster = raster_of(terrain);
+    compare_systems(py, &task, terrain)?;
     let study = study(&task, SlopeStudy::of(loaded), &raster)?;
     let line = line(&task)?;
     let objectives =
@@ -174,6 +176,16 @@ fn line(task: &Task) -> PyResult<Option<Line>> {
 
 fn of_line(error: &LineError) -> PyErr {
     errors::parameter(error.to_string(), "along", None, "a line on the map")
+}
+
+/// Compares the systems that files of places name with that of the map, if it is a file's.
+fn compare_systems(py: Python<'_>, task: &Task, terrain: &Terrain) -> PyResult<()> {
+    let Some(system) = &terrain.map.system else { return Ok(()) };
+    for file in task.keep_out.iter().chain(&task.along_file) {
+        let remark = compare_system_of(file, system).map_err(|error| errors::of_raster(&error))?;
+        errors::warn(py, remark)?;
+    }
+    Ok(())
 }
 
 /// The study with its limits.

@@ -163,7 +163,8 @@ impl Terrain {
         let heights = heights.iter().copied().collect();
         let model = ElevationModel::above_base(grid, base, heights)
             .map_err(|error| refused(&error.to_string()))?;
-        Ok(Self { map: HeldMap { name, model: Arc::new(model), options: reading.map(options) } })
+        let (model, options) = (Arc::new(model), reading.map(options));
+        Ok(Self { map: HeldMap { name, model, options, system: None } })
     }
 
     /// What the map is made of.
@@ -282,7 +283,7 @@ impl Terrain {
 
     fn of_model(model: ElevationModel) -> Self {
         let name = format!("heights-{:016x}", fingerprint(&model));
-        Self { map: HeldMap { name, model: Arc::new(model), options: None } }
+        Self { map: HeldMap { name, model: Arc::new(model), options: None, system: None } }
     }
 
     /// The table of a document that names the map.

@@ -41,7 +41,8 @@ impl VariedKeys {
             let name: String = name.extract()?;
             let Some(path) = name.strip_prefix(prefix) else { continue };
             let key = |(value, document): &(&V, &Document)| {
-                let one = Varied { value: (*value).clone(), document: (*document).clone() };
+                let (value, document) = ((*value).clone(), (*document).clone());
+                let one = Varied { value, document, notes: Vec::new() };
                 one.key(path).map_err(|error| unknown(&name, &error))
             };
             let found = documents.iter().map(key).collect::<PyResult<Vec<_>>>()?;

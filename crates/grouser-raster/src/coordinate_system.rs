@@ -131,6 +131,17 @@ impl CoordinateSystem {
         self.number(key::PROJECTED).filter(|code| !matches!(*code, 0 | key::USER_DEFINED))
     }
 
+    /// The member of a GeoJSON object that names the system, as GDAL writes it and reads it, with a
+    /// comma behind it; nothing for a system without a code.
+    #[must_use]
+    pub fn geojson_member(&self) -> String {
+        self.epsg().map_or_else(String::new, |code| {
+            format!(
+                r#""crs":{{"type":"name","properties":{{"name":"urn:ogc:def:crs:EPSG::{code}"}}}},"#
+            )
+        })
+    }
+
     /// A name for people: the file's own, else the register's code, else the body's radius.
     #[must_use]
     pub fn name(&self) -> String {

@@ -27,6 +27,18 @@ impl RasterError {
 }
 
 impl Fault {
+    /// What is wrong, in a sentence as [`of`](Self::of) has it, and what to do about it.
+    ///
+    /// * `what`: it is, such as `map`
+    #[must_use]
+    pub fn in_parts(&self, what: &str) -> (String, Option<String>) {
+        let fault = self.of(what);
+        match fault.split_once("\nhint: ") {
+            Some((sentence, hint)) => (sentence.to_owned(), Some(hint.to_owned())),
+            None => (fault, None),
+        }
+    }
+
     /// What is wrong, in a sentence about a thing that has no file's name.
     ///
     /// * `what`: it is, such as `map`
@@ -301,6 +313,16 @@ pub enum Fault {
     SystemInDegrees {
         /// The system's name.
         name: String,
+    },
+    /// Another system than that of the map.
+    #[error(
+        "has coordinates of the system {name}, and the map those of {map}\nhint: ogr2ogr -t_srs {map} OUT.geojson IN.geojson"
+    )]
+    OtherSystem {
+        /// The system's name in the file.
+        name: String,
+        /// The system of the map.
+        map: String,
     },
     /// Numbers that are longitude and latitude.
     #[error(

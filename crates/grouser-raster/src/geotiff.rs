@@ -143,7 +143,7 @@ fn raster_of(
         nodata,
         missing: options.missing,
     };
-    let mut heights = Heights::new(cells);
+    let mut heights = Heights::new(cells, options.content);
     reading.read(&mut heights, (layout.sample_format, layout.bits_per_sample))?;
     let mut raster = heights.raster(placed.grid, placed.order, coordinates)?;
     raster.remarks.extend(placed.remark);

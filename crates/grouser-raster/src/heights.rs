@@ -4,7 +4,7 @@ use grouser_core::terrain::elevation::{above, round_base};
 use grouser_core::terrain::{ElevationError, ElevationGrid};
 
 use crate::error::Fault;
-use crate::{CoordinateSystem, Raster, RowOrder, remarks};
+use crate::{Content, CoordinateSystem, Raster, RowOrder, remarks};
 
 /// Heights from here on are missing [m]: planetary formats write special values of that size.
 pub const BEYOND: f64 = 1e30;
@@ -16,11 +16,12 @@ pub(crate) struct Heights {
     above: Vec<f32>,
     /// How many there will be.
     cells: usize,
+    content: Content,
 }
 
 impl Heights {
-    pub(crate) fn new(cells: usize) -> Self {
-        Self { base: None, above: Vec::new(), cells }
+    pub(crate) fn new(cells: usize, content: Content) -> Self {
+        Self { base: None, above: Vec::new(), cells, content }
     }
 
     /// Takes memory for that many more: with what is read, not with what is promised.
@@ -75,7 +76,11 @@ impl Heights {
         if order == RowOrder::NorthFirst {
             turn_over(&mut self.above, grid.columns);
         }
-        let remarks = remarks(&grid, base, &self.above);
+        let remarks = match self.content {
+            Content::Heights => remarks(&grid, base, &self.above),
+            // Class numbers jump as they like.
+            Content::Classes => Vec::new(),
+        };
         Ok(Raster { grid, base, heights: self.above, coordinates, remarks })
     }
 }

@@ -54,7 +54,7 @@ fn raster_of(file: &mut impl Read, length: u64, options: &ReadOptions) -> Result
     let grid = placement.grid(usize_of(columns, cells), usize_of(rows, cells));
     let (lines, line) =
         if by_columns { (grid.columns, grid.rows) } else { (grid.rows, grid.columns) };
-    let mut heights = Heights::new(cells);
+    let mut heights = Heights::new(cells, options.content);
     heights.fill()?;
     let mut bytes = vec![0; line * kind.bytes()];
     for start in 0..lines {

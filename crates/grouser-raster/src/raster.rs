@@ -1,7 +1,7 @@
 //! A grid of heights as a file has it.
 
 use grouser_core::terrain::lunar::LunarModel;
-use grouser_core::terrain::{ElevationError, ElevationGrid, ElevationModel};
+use grouser_core::terrain::{ElevationError, ElevationGrid, ElevationModel, Extent};
 use grouser_core::units::Vec2;
 
 use crate::{CoordinateSystem, Remark};
@@ -23,6 +23,21 @@ pub struct Raster {
 }
 
 impl Raster {
+    /// What it spans, and how far apart its points are, in words.
+    #[must_use]
+    pub fn spans(&self) -> String {
+        // Less is the rounding of places.
+        let shown = |length: f64| (1e3 * length).round() / 1e3;
+        let Extent { south_west: low, north_east: high } = self.grid.extent();
+        let [west, east, south, north] = [low.x, high.x, low.y, high.y].map(shown);
+        let [x, y] = [self.grid.spacing.x, self.grid.spacing.y].map(shown);
+        let apart = if x == y { format!("{x} m") } else { format!("{x} m (x) and {y} m (y)") };
+        format!(
+            "x from {west} to {east} m, y from {south} to {north} m, {} x {} points {apart} apart",
+            self.grid.columns, self.grid.rows
+        )
+    }
+
     /// A piece of made lunar ground, as a file has it: in a projection of the Moon's, about a place
     /// of no meaning.
     #[must_use]

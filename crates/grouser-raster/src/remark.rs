@@ -44,6 +44,13 @@ pub enum Remark {
         /// Where that is.
         at: Vec2,
     },
+    /// Places that may be of another system than the map's.
+    SystemNotCompared {
+        /// The system that their file names; nothing if it names none.
+        places: Option<String>,
+        /// What the map calls its system.
+        map: String,
+    },
     /// Columns of a text that no one asked for.
     UnusedColumns {
         /// Their names; for text without names their numbers, from 1.
@@ -57,13 +64,20 @@ pub enum Remark {
 }
 
 impl Remark {
-    /// The height that is probably a missing one [m], to be declared when the file is read again.
+    /// The remark in a sentence.
+    ///
+    /// * `missing`: how whoever reads the file again declares a height [m] that is a missing one
     #[must_use]
-    pub fn missing(&self) -> Option<f64> {
-        match self {
-            Self::Void { height, .. } => Some(*height),
-            _ => None,
-        }
+    pub fn in_words(&self, missing: impl Fn(f64) -> String) -> String {
+        let Self::Void { cells, height, gap } = self else { return self.to_string() };
+        let side = if *gap < 0.0 { "below" } else { "above" };
+        let (count, stand) = if *cells == 1 { ("cell", "is") } else { ("cells", "are") };
+        let declared = missing(*height);
+        format!(
+            "{cells} {count} of {height} m {stand} {:.0} m {side} all others: missing heights? \
+             {declared} takes them as such",
+            gap.abs()
+        )
     }
 }
 
@@ -79,8 +93,6 @@ pub(crate) fn scale(factors: [f64; 2]) -> String {
 
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let cells = |count: usize| if count == 1 { "cell" } else { "cells" };
-        let stand = |count: usize| if count == 1 { "is" } else { "are" };
         match self {
             Self::Scale { factors } => write!(
                 f,
@@ -92,17 +104,15 @@ impl fmt::Display for Remark {
                 f,
                 "the scale of the map's projection was not looked at: nothing is known of {system}"
             ),
-            Self::Void { cells: count, height, gap } => {
-                let side = if *gap < 0.0 { "below" } else { "above" };
-                write!(
-                    f,
-                    "{count} {} of {height} m {} {:.0} m {side} all others: missing heights? \
-                     `missing_m` = {height} takes them as such",
-                    cells(*count),
-                    stand(*count),
-                    gap.abs()
-                )
+            Self::Void { .. } => {
+                f.write_str(&self.in_words(|height| format!("`missing_m` = {height}")))
             }
+            Self::SystemNotCompared { places, map } => write!(
+                f,
+                "whether its places are in the map's system was not looked at: it names {}, and the \
+                 map {map}",
+                places.as_deref().unwrap_or("none")
+            ),
             Self::Steps { step, slope } => write!(
                 f,
                 "heights go up and down in steps of {} m, and one between neighbours makes {:.0}°: \
@@ -114,7 +124,7 @@ impl fmt::Display for Remark {
                 f,
                 "{count} {} {} out of all neighbours more steeply than ground does, the farthest by \
                  {} m at x {} m, y {} m: spikes and pits of the data?",
-                cells(*count),
+                if *count == 1 { "cell" } else { "cells" },
                 if *count == 1 { "stands" } else { "stand" },
                 short(*height),
                 at.x,

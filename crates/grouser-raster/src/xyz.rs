@@ -65,7 +65,7 @@ pub fn decode(text: impl BufRead, options: &ReadOptions) -> Result<Raster, Fault
         return Err(Fault::Sparse { points, columns: columns.count, rows: rows.count });
     }
     let across = usize::try_from(columns.count).unwrap_or(cells);
-    let mut heights = Heights::new(cells);
+    let mut heights = Heights::new(cells, options.content);
     heights.fill()?;
     let mut taken = vec![0_u64; cells.div_ceil(64)];
     for (at, z) in points.z.iter().enumerate() {

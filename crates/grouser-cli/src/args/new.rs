@@ -41,6 +41,7 @@ pub(crate) enum DraftChoice {
     Wheel,
     Soil,
     Scenario,
+    Mission,
 }
 
 impl From<DraftChoice> for Kind {
@@ -50,6 +51,7 @@ impl From<DraftChoice> for Kind {
             DraftChoice::Wheel => Self::Wheel,
             DraftChoice::Soil => Self::Soil,
             DraftChoice::Scenario => Self::Scenario,
+            DraftChoice::Mission => Self::Mission,
         }
     }
 }

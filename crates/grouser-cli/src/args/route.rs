@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
-use clap::builder::NonEmptyStringValueParser;
+use clap::builder::{NonEmptyStringValueParser, Resettable};
+use clap::{ArgGroup, Args};
 use grouser::studies::route::Objective;
 
-use super::{BalanceArgs, OutputArgs, PartArgs, RuleArgs, SettingArgs};
+use super::{BalanceArgs, OutputArgs, PartArgs, RuleArgs, SettingArgs, SlideArgs};
 use crate::list::{self, Numbers};
 
 #[derive(Debug, Args)]
@@ -18,6 +18,8 @@ use crate::list::{self, Numbers};
                   those of a given line, and each stretch of it that is not safe is named. \
                   docs/guide/maps.md explains the numbers."
 )]
+#[command(mut_arg("force", |force| force.requires(Resettable::Reset).requires("written")))]
+#[command(group(ArgGroup::new("written").args(["out", "slide"]).multiple(true)))]
 pub(crate) struct RouteArgs {
     /// A map of heights: a GeoTIFF in metres, or text with x, y and z in each line.
     #[arg(value_name = "DEM")]
@@ -93,4 +95,6 @@ pub(crate) struct RouteArgs {
     pub(crate) setting: SettingArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) slide: SlideArgs,
 }

@@ -11,12 +11,13 @@ mod summarise;
 
 use std::path::Path;
 
-use grouser::document::{self, Campaign, Kind, Overrides, Source};
+use grouser::document::{self, Campaign, Kind, Overrides, Source, escape};
 use grouser_store::{Results, StoreError, Study};
 use serde_json::{Value, json};
 
 use crate::args::{CampaignArgs, CampaignCommand};
 use crate::failure::Failure;
+use crate::output;
 
 pub(crate) fn run(args: &CampaignArgs) -> Result<(), Failure> {
     match &args.command {
@@ -66,7 +67,9 @@ fn campaign(study: &str, settings: &[String]) -> Result<Campaign, Failure> {
         Kind::Soil,
         Kind::Wheel,
     ])?;
-    Ok(document::read_campaign(&source, &overrides)?)
+    let campaign = document::read_campaign(&source, &overrides)?;
+    output::notes(campaign.notes().iter().map(|note| escape::line(note)));
+    Ok(campaign)
 }
 
 /// The results in a folder and the campaign that they are of.

@@ -72,9 +72,9 @@ fn report(
         path: args.out.display().to_string(),
     };
     match args.format {
-        Format::Table => {
-            output::show(rows.to_table(&roughness::names()) + sentence(args, &results).as_str())
-        }
+        Format::Table => output::show(
+            rows.to_table(&roughness::names()) + &sentence(args, &results, &raster.spans()),
+        ),
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => {
             let inputs = json!({
@@ -90,10 +90,10 @@ fn report(
     }
 }
 
-fn sentence(args: &MoonArgs, results: &Results<'_>) -> String {
-    let [columns, rows] = results.points;
+/// * `spans`: the ground, in words
+fn sentence(args: &MoonArgs, results: &Results<'_>, spans: &str) -> String {
     format!(
-        "{} craters of {} to {} m ({:.0} by the law), {columns} x {rows} points in {}\n",
+        "{} craters of {} to {} m ({:.0} by the law) in {}\n{spans}\n",
         results.craters,
         results.smallest_crater_m,
         args.largest_crater_m,

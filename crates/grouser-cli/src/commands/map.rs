@@ -4,8 +4,8 @@ mod folder;
 mod gazebo;
 mod picture;
 
+use grouser::answers::Answer;
 use grouser::answers::map::{MadeMap, MapFile, VerdictCounts};
-use grouser::answers::{Answer, PageBlock};
 use grouser::document::columns::map::VERDICT;
 use grouser::studies::mobility::{Ground, MobilityMap};
 use grouser_draw::style::on_both_grounds;
@@ -75,18 +75,12 @@ fn finish(
     bands: &[Summed<'_>],
     (areas, slide): (Option<String>, Option<SlideFile<'_>>),
 ) -> Result<(), Failure> {
-    let says = answer.blocks().find_map(|block| match block {
-        PageBlock::Verdict(text) => Some(text.as_str()),
-        _ => None,
-    });
-    let says = says.unwrap_or(&answer.title);
-
     let drawn = Pictures::of(inputs, &args.course_deg, (ground, map));
     let mut pictures = Vec::new();
     for &(band, of) in bands {
         let picture = drawn.band(band, of);
         if let Some(slide) = slide.as_ref().filter(|_| band.name == VERDICT) {
-            slide.write(says, &picture, &title_of(&inputs.scenario))?;
+            slide.write_over(answer, &picture, &title_of(&inputs.scenario))?;
         }
         pictures.push((format!("{}.svg", band.name), on_both_grounds(&picture)));
     }

@@ -1,4 +1,4 @@
-//! `grouser new`: a rover, a wheel, a soil or a scenario from answers to questions.
+//! `grouser new`: a rover, a wheel, a soil, a scenario or a mission from answers to questions.
 
 mod dialogue;
 
@@ -113,6 +113,7 @@ fn next(kind: Kind, out: &Path) -> String {
         Kind::Rover => format!("grouser heading --rover {out}"),
         Kind::Wheel => format!("grouser wheel-test --wheel {out}"),
         Kind::Soil => format!("grouser wheel-test --soil {out}"),
+        Kind::Mission => format!("grouser mission {out}"),
         _ => format!("grouser traverse {out}"),
     }
 }

@@ -11,6 +11,8 @@ use grouser::studies::route::{
     RouteTables,
 };
 use grouser_draw::map::{Track, ways_over_ground};
+use grouser_draw::style::on_both_grounds;
+use grouser_draw::{Sheet, title_of};
 
 use super::sampling;
 use crate::args::RouteArgs;
@@ -19,6 +21,7 @@ use crate::inputs::{self, Asked, RouteInputs};
 use crate::output;
 use crate::output::answer::give_with_pictures;
 use crate::output::folder::OutputFolder;
+use crate::output::slide::SlideFile;
 
 impl From<RouteError> for Failure {
     fn from(error: RouteError) -> Self {
@@ -28,13 +31,17 @@ impl From<RouteError> for Failure {
 
 pub(crate) fn run(args: &RouteArgs) -> Result<(), Failure> {
     let mut folder = OutputFolder::for_args(&args.output)?;
+    let slide = SlideFile::of(&args.slide, args.output.force)?;
     let inputs = inputs::route(args)?;
     let ways = ways(args, &inputs)?;
     let answer = inputs.question(args).answer("route", &ways);
     let mut pictures = Vec::new();
     if let Some(folder) = &mut folder {
-        folder.add("route.geojson", geojson::text(&ways[0].record));
-        pictures.push(("route.svg".to_owned(), picture(&inputs, &ways)));
+        folder.add("route.geojson", geojson::text(&ways[0].record, &inputs.raster.coordinates));
+        pictures.push(("route.svg".to_owned(), on_both_grounds(&picture(&inputs, &ways))));
+    }
+    if let Some(slide) = slide {
+        slide.write_over(&answer, &picture(&inputs, &ways), &title_of(&inputs.scenario))?;
     }
     let repeat = repeat(args, &inputs);
     give_with_pictures(&answer, &repeat, &pictures, folder, args.output.format)
@@ -161,7 +168,7 @@ fn repeat(args: &RouteArgs, inputs: &RouteInputs) -> String {
 }
 
 /// The ground and the ways.
-fn picture(inputs: &RouteInputs, ways: &[Way]) -> String {
+fn picture(inputs: &RouteInputs, ways: &[Way]) -> Sheet {
     let tracks: Vec<Track<'_>> = ways
         .iter()
         .filter(|way| !way.places.is_empty())

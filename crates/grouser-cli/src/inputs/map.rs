@@ -7,6 +7,7 @@ use grouser::answers::map::MapQuestion;
 use grouser::document::{self, LoadedScenario, escape};
 use grouser::studies::mobility::{CourseChoice, Ground};
 use grouser::studies::verdict::SlopeStudy;
+use grouser_raster::zones::geojson::compare_system_of;
 use grouser_raster::{Raster, RasterError, ReadOptions};
 
 use super::card::{rim_speed, rule};
@@ -66,15 +67,20 @@ pub(super) fn dem(
     let options = ReadOptions { cells, missing, ..ReadOptions::default() };
     let raster = grouser_raster::read(path, &options)?;
     output::notes(raster.remarks.iter().map(|remark| {
-        let of_flag = |height: f64| format!("`--missing-m {height}`");
-        let text = remark.to_string();
-        let text = match remark.missing() {
-            Some(height) => text.replace(&format!("`missing_m` = {height}"), &of_flag(height)),
-            None => text,
-        };
+        let text = remark.in_words(|height| format!("`--missing-m {height}`"));
         format!("{}: {}", escape::path(path), escape::line(&text))
     }));
     Ok(raster)
+}
+
+/// Checks that places of GeoJSON are in the system of the map that they are for, and says where that
+/// cannot be done.
+pub(super) fn check_system(file: &Path, map: &Raster) -> Result<(), Failure> {
+    let remark = compare_system_of(file, &map.coordinates)?;
+    output::notes(
+        remark.map(|it| format!("{}: {}", escape::path(file), escape::line(&it.to_string()))),
+    );
+    Ok(())
 }
 
 impl From<RasterError> for Failure {

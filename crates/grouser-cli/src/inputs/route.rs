@@ -12,7 +12,7 @@ use grouser::units::Vec2;
 use grouser_raster::Raster;
 
 use super::card::{rim_speed, rule};
-use super::map::dem;
+use super::map::{check_system, dem};
 use super::{balanced, refuse_sampled_keys, single};
 use crate::args::RouteArgs;
 use crate::failure::Failure;
@@ -61,6 +61,9 @@ pub(crate) fn route(args: &RouteArgs) -> Result<RouteInputs, Failure> {
     let limits = limits(args, &mobility)?;
     let raster = dem(&args.dem, args.max_cells, args.missing_m)?;
     let mut study = RouteStudy { mobility, limits, keep_out: None };
+    for file in args.keep_out.iter().chain(&args.along) {
+        check_system(file, &raster)?;
+    }
     if let Some(file) = &args.keep_out {
         study = study.keeping_out_of(file, &raster.grid.extent())?;
     }

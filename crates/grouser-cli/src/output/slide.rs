@@ -59,10 +59,6 @@ impl<'a> SlideFile<'a> {
 
     /// Writes the first sentence and the first figure of an answer that has a page.
     pub(crate) fn write_answer(&self, answer: &Answer, whose: &str) -> Result<(), Failure> {
-        let says = answer.blocks().find_map(|block| match block {
-            PageBlock::Verdict(text) => Some(text.as_str()),
-            _ => None,
-        });
         let picture = answer.blocks().find_map(|block| match block {
             PageBlock::Figure { figure, .. } => Some(figure.sheet()),
             PageBlock::Charts(charts) => charts.first().map(Drawable::sheet),
@@ -71,7 +67,21 @@ impl<'a> SlideFile<'a> {
         let Some(picture) = picture else {
             return Err(Failure::Run("this answer has no picture for a slide".to_owned()));
         };
-        self.write(says.unwrap_or(&answer.title), &picture, whose)
+        self.write_over(answer, &picture, whose)
+    }
+
+    /// Writes the first sentence of an answer that has a page over a picture of one's own.
+    pub(crate) fn write_over(
+        &self,
+        answer: &Answer,
+        picture: &Sheet,
+        whose: &str,
+    ) -> Result<(), Failure> {
+        let says = answer.blocks().find_map(|block| match block {
+            PageBlock::Verdict(text) => Some(text.as_str()),
+            _ => None,
+        });
+        self.write(says.unwrap_or(&answer.title), picture, whose)
     }
 }
 

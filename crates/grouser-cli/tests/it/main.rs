@@ -11,6 +11,7 @@ mod contract;
 mod conversations;
 mod drives;
 mod forecast;
+mod gradients;
 mod hostile;
 mod import;
 mod learn;

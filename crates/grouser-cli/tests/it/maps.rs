@@ -79,12 +79,22 @@ fn what_is_odd_about_heights_is_said_with_the_flag_that_helps() {
     let json: Value = serde_json::from_str(&place.read("one/map.json")).expect("JSON");
     assert!(json["verdicts"]["no_go"].as_u64() > Some(0));
     let declared = place.line("map void.xyz --missing-m -9999 --samples 2 --out two");
+    assert!(declared.stdout.contains("The map: x from 7000 to "), "{}", declared.stdout);
     assert!(!declared.stderr.contains("missing heights"), "{}", declared.stderr);
     let json: Value = serde_json::from_str(&place.read("two/map.json")).expect("JSON");
     assert_eq!((&json["verdicts"]["no_go"], &json["verdicts"]["unknown"]), (&0.into(), &9.into()));
     let quick = "--duration-s 1 --simulation quasi-steady";
     let driven = place.line(&format!("traverse --terrain void.xyz {quick}"));
     assert!(driven.stderr.contains(&format!("{note}`terrain.missing_m`")), "{}", driven.stderr);
+    place.write(
+        "many.toml",
+        "schema = \"campaign/1\"\nname = \"many\"\nstudy = \"traverse\"\nruns = 2\n\
+         [scenario]\nduration_s = 1.0\nterrain = { file = \"void.xyz\" }\n\
+         [[parameter]]\nkey = \"soil.friction_angle_deg\"\ndistribution = \"normal\"\n\
+         standard_deviation = 1.0\n",
+    );
+    let sampled = place.line("campaign run many.toml --out many");
+    assert!(sampled.stderr.contains(&format!("{note}`terrain.missing_m`")), "{}", sampled.stderr);
     let named = heights(|x, _| 0.1 * x).replace(' ', ",").replace(',', ",7,");
     let named: String =
         named.lines().map(|line| format!("{}\n", line.replacen(",7,", ",", 1))).collect();

@@ -22,7 +22,7 @@ fn a_rover_from_flags_passes_the_check_and_drives() {
 /// Without a terminal nothing is asked; every next command runs.
 #[test]
 fn every_kind_passes_the_check_and_its_next_command_runs() {
-    for kind in ["rover", "wheel", "soil", "scenario"] {
+    for kind in ["rover", "wheel", "soil", "scenario", "mission"] {
         let place = Place::new();
         let text = place.results(&format!("new {kind}"));
         assert!(text.contains("  not answered: name = my "), "{text}");

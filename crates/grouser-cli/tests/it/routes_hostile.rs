@@ -2,6 +2,7 @@
 //! wrong.
 
 use std::fs;
+use std::path::Path;
 
 use serde_json::{Value, json};
 
@@ -50,6 +51,62 @@ fn no_areas() -> [(&'static str, Value, &'static str); 12] {
         ),
         ("degrees", degrees, "has coordinates in degrees"),
     ]
+}
+
+/// Places of another zone of UTM than the map's are refused wherever GeoJSON is read, with both
+/// systems and the command that helps; of places without a system it is said, and of those of the
+/// map's nothing.
+#[test]
+fn places_of_another_system_than_the_maps_are_refused() {
+    let place = Place::new();
+    let map = "../grouser-raster/tests/fixtures/tiled-deflate-f32.tif";
+    let map = Path::new(env!("CARGO_MANIFEST_DIR")).join(map);
+    fs::copy(map, place.file("map.tif")).expect("a copy");
+    let terrain = "[terrain]\nfile = \"map.tif\"\nstart_m = [500012.0, 5200020.0]\n";
+    let head = "schema = \"scenario/1\"\nname = \"zones\"\nduration_s = 1.0\n";
+    place.write("zones.toml", format!("{head}{terrain}soil_file = \"areas.geojson\"\n"));
+    let head = "schema = \"mission/1\"\nname = \"a drive\"\nlegs_from = \"line.geojson\"\n";
+    place.write("legs.toml", format!("{head}{terrain}"));
+    let lines = [
+        "route map.tif --from 500012,5200020 --to 500018,5200020 --no-drive --samples 2 --keep-out areas.geojson",
+        "route map.tif --no-drive --samples 2 --along line.geojson",
+        "traverse zones.toml --simulation quasi-steady",
+        "mission legs.toml --nominal",
+    ];
+    let (x, y) = (500_012, 5_200_020);
+    let ring = [[x, y - 9], [x + 4, y - 9], [x + 4, y - 5], [x, y - 5], [x, y - 9]];
+    let areas = json!({"type": "Polygon", "coordinates": [ring]});
+    let line = json!({"type": "LineString", "coordinates": [[x, y], [x + 4, y]]});
+    let write = |system: Option<&str>| {
+        for (name, geometry) in [("areas.geojson", &areas), ("line.geojson", &line)] {
+            let properties = json!({"soil": "toyoura"});
+            let mut feature =
+                json!({"type": "Feature", "properties": properties, "geometry": geometry});
+            if let Some(system) = system {
+                feature["crs"] = json!({"properties": {"name": system}});
+            }
+            place.write(name, feature.to_string());
+        }
+    };
+    write(Some("EPSG:32632"));
+    for line in lines {
+        let refused = check_is_refusal(&place.line(line), 2);
+        let systems = "coordinates of the system EPSG:32632, and the map those of EPSG:32633";
+        assert!(refused.contains(systems), "{refused}");
+        assert!(refused.contains("hint: ogr2ogr -t_srs EPSG:32633 "), "{refused}");
+    }
+    for (system, is_noted) in [(None, true), (Some("urn:ogc:def:crs:EPSG::32633"), false)] {
+        write(system);
+        for line in lines {
+            let answer = place.line(line);
+            let note = "it names none, and the map WGS 84 / UTM zone 33N";
+            assert_eq!(answer.stderr.contains(note), is_noted, "{}", answer.conversation());
+        }
+    }
+    let way = "route map.tif --from 500012,5200020 --to 500018,5200020 --no-drive --samples 2";
+    place.results(&format!("{way} --out way"));
+    let again = place.line("route map.tif --no-drive --samples 2 --along way/route.geojson");
+    assert!(!again.stderr.contains("was not looked at"), "{}", again.conversation());
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Answers as slides.
 
 use crate::bad_input::check_is_refusal;
+use crate::maps::heights;
 use crate::program::Place;
 
 /// One sentence, one picture, and what it is of, in the form that the file's name ends in.
@@ -25,6 +26,12 @@ fn an_answer_is_a_slide_of_16_to_9() {
     let line = "mission two-steps-forward --simulation quasi-steady --nominal --slide legs.svg";
     place.results(line);
     assert!(place.read("legs.svg").contains("grouser mission two-steps-forward"));
+    place.write("flat.xyz", heights(|_, _| 2.0));
+    let line =
+        "route flat.xyz --from 7002,-298 --to 7010,-298 --no-drive --samples 2 --slide way.svg";
+    place.results(line);
+    let slide = place.read("way.svg");
+    assert!(slide.contains("Completed on") && slide.contains("least time"), "{slide}");
 }
 
 /// Before anything is computed.
@@ -43,6 +50,6 @@ fn slides_that_cannot_be_made_say_why() {
     assert_eq!(place.read("mine.svg"), "mine");
     place.results("heading --slope-deg 5 --nominal --slide mine.svg --force");
     assert!(place.read("mine.svg").starts_with("<svg"));
-    let able = "heading, map, mission".split(", ").chain(["traverse", "learn", "replay"]);
+    let able = "heading, map, route, mission".split(", ").chain(["traverse", "learn", "replay"]);
     refused("card --slide a.svg", &able.collect::<Vec<_>>());
 }

@@ -7,7 +7,7 @@ use grouser_io::escape;
 use super::light::{light, lit};
 use super::{CORNER, LETTERS, Window, text};
 use crate::sheet::{Cells, Colour, Face, Shape, Sheet, Stroke, Text, wrap};
-use crate::style::{Ground, Role, on_both_grounds, series};
+use crate::style::{Ground, Role, series};
 
 /// A way on a picture.
 #[derive(Clone, Debug)]
@@ -33,7 +33,7 @@ pub fn ways_over_ground(
     grid: &ElevationGrid,
     gradient: &dyn Fn(usize, usize) -> Option<Vec2>,
     tracks: &[Track<'_>],
-) -> String {
+) -> Sheet {
     let window = about(grid, tracks);
     let mut sheet = window.sheet(title, "", [window.south_west, window.north_east]);
     let shades =
@@ -44,7 +44,7 @@ pub fn ways_over_ground(
     }
     draw_ends(&mut sheet, &window, tracks);
     names(&mut sheet, &window, tracks);
-    on_both_grounds(&sheet)
+    sheet
 }
 
 /// All ways, with a fifth of their extent around them.

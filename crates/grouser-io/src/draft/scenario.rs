@@ -19,15 +19,15 @@ pub(super) const KEYS: [&str; 8] = [
 ];
 
 /// The usual value of a question.
-pub(super) fn usual(_: &Answers, key: &str) -> Usual {
-    let without = "as in a scenario without this key";
+pub(super) fn usual(answers: &Answers, key: &str) -> Usual {
+    let without = format!("as in a {} without this key", answers.kind);
     match key {
         "rover" => Usual::of(DEFAULT_ROVER, without),
         "soil" => Usual::of(DEFAULT_SOIL, without),
         key => {
-            let schemas = under(root(Kind::Scenario), key, None);
+            let schemas = under(root(answers.kind), key, None);
             let implied = schemas.iter().find_map(|schema| schema.get("default").cloned());
-            implied.map_or_else(|| Usual::left_out(without), |value| Usual::of(value, without))
+            Usual { value: implied, why: without }
         }
     }
 }

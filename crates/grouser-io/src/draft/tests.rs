@@ -1,10 +1,13 @@
 //! Drafts are read back, and hostile answers are refused.
 
 use super::Draft;
-use crate::{Kind, Overrides, Source, presets, read_rover, read_scenario, read_soil, read_wheel};
+use crate::{
+    Kind, Overrides, Source, presets, read_mission, read_rover, read_scenario, read_soil,
+    read_wheel,
+};
 use grouser_core::vehicle::Inertia;
 
-const KINDS: [Kind; 4] = [Kind::Rover, Kind::Wheel, Kind::Soil, Kind::Scenario];
+const KINDS: [Kind; 5] = [Kind::Rover, Kind::Wheel, Kind::Soil, Kind::Scenario, Kind::Mission];
 
 fn draft(kind: Kind, answers: &[(&str, &str)]) -> Draft {
     let mut draft = Draft::new(kind).expect("it has questions");
@@ -24,6 +27,7 @@ fn read(kind: Kind, source: &Source) {
         Kind::Rover => read_rover(source, &none).map(drop),
         Kind::Wheel => read_wheel(source, &none).map(drop),
         Kind::Soil => read_soil(source, &none).map(drop),
+        Kind::Mission => read_mission(source, &none).map(drop),
         _ => read_scenario(source, &none).map(drop),
     };
     read.unwrap_or_else(|error| panic!("{kind}: {error}\n{source:?}"));

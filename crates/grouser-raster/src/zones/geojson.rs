@@ -20,8 +20,11 @@ use grouser_core::units::Vec2;
 use self::syntax::{Coordinates, Feature, Geometry, Root};
 use super::key::ZoneKey;
 use super::map::ZoneMap;
-use super::places::{is_in_degrees, shown};
-use crate::error::Fault;
+use super::places::{compare, is_in_degrees, shown};
+use crate::CoordinateSystem;
+use crate::error::{Fault, RasterError};
+use crate::read::start_of;
+use crate::remark::Remark;
 
 /// The largest file that is read [bytes]; polygons take some times as much memory.
 pub const LARGEST_FILE: u64 = 1 << 25;
@@ -46,6 +49,46 @@ pub(super) fn read(path: &Path) -> Result<ZoneMap, Fault> {
 /// [`Fault`] if it has no polygons, or the edge of one crosses itself.
 pub(super) fn read_areas(path: &Path) -> Result<ZoneMap, Fault> {
     decode_areas(&bytes_of(path)?)
+}
+
+/// Compares the system that GeoJSON names with that of the map that its places are for; what is no
+/// GeoJSON names none, and is for its reader to report.
+///
+/// Do polygons of one zone of UTM fit a map that states no system?
+///
+/// ```
+/// use grouser_raster::CoordinateSystem;
+/// use grouser_raster::zones::geojson;
+///
+/// let file = br#"{"type": "FeatureCollection", "features": [],
+///     "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32633"}}}"#;
+/// let remark = geojson::compare_system(file, &CoordinateSystem::default())?;
+/// assert!(remark.expect("the map names none").to_string().contains("EPSG::32633"));
+/// # Ok::<(), grouser_raster::Fault>(())
+/// ```
+///
+/// # Errors
+/// [`Fault::OtherSystem`] where both name one, and not the same.
+pub fn compare_system(bytes: &[u8], map: &CoordinateSystem) -> Result<Option<Remark>, Fault> {
+    let Some(root) = starts_so(bytes).then(|| root_of(bytes).ok()).flatten() else {
+        return Ok(None);
+    };
+    compare(root.system(), map)
+}
+
+/// The same for a file.
+///
+/// # Errors
+/// [`RasterError`] with the file's name, also where it cannot be read.
+pub fn compare_system_of(
+    path: &Path,
+    map: &CoordinateSystem,
+) -> Result<Option<Remark>, RasterError> {
+    let remark = || {
+        let is_one = starts_so(&start_of(path)?);
+        if is_one { compare_system(&bytes_of(path)?, map) } else { Ok(None) }
+    };
+    remark().map_err(|fault: Fault| RasterError::new(path, fault))
 }
 
 fn bytes_of(path: &Path) -> Result<Vec<u8>, Fault> {

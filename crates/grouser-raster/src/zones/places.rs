@@ -1,8 +1,10 @@
-//! Whether places of GeoJSON are metres of a map, or degrees.
+//! Whether places of GeoJSON are metres of a map, or of another one, or degrees.
 
 use grouser_core::terrain::Extent;
 
+use crate::CoordinateSystem;
 use crate::error::Fault;
+use crate::remark::Remark;
 
 /// Whether places could be degrees of longitude and latitude.
 pub(super) fn may_be_degrees(places: &Extent) -> bool {
@@ -35,6 +37,40 @@ fn are_degrees(places: &Extent) -> bool {
     let middle = places.south_west + 0.5 * size;
     let is_small_and_far = across > 0.0 && across < 1.0 && middle.norm() > 100.0 * across;
     may_be_degrees(places) && is_small_and_far
+}
+
+/// Compares the system that a file of GeoJSON names with that of the map that it is for; a remark
+/// where one of them alone has a code.
+///
+/// # Errors
+/// [`Fault::OtherSystem`] where the two have different codes.
+pub(super) fn compare(
+    system: Option<&str>,
+    map: &CoordinateSystem,
+) -> Result<Option<Remark>, Fault> {
+    let (name, of_map) = (system.map(shown), map.name());
+    let codes = system.and_then(epsg).zip(map.epsg().map(u32::from));
+    let is_same = match codes {
+        Some((one, other)) => one == other,
+        // GeoJSON has no name for a system without a code.
+        None => name.as_ref() == Some(&of_map) || (name.is_none() && map.epsg().is_none()),
+    };
+    match (name, codes) {
+        _ if is_same => Ok(None),
+        (Some(name), Some((_, code))) => {
+            Err(Fault::OtherSystem { name, map: format!("EPSG:{code}") })
+        }
+        (places, _) => {
+            let map = if map.is_known() { of_map } else { "none".to_owned() };
+            Ok(Some(Remark::SystemNotCompared { places, map }))
+        }
+    }
+}
+
+/// The code in the EPSG register that a name of a system ends with.
+fn epsg(name: &str) -> Option<u32> {
+    let (register, code) = name.rsplit_once(':')?;
+    register.to_uppercase().contains("EPSG").then(|| code.parse().ok())?
 }
 
 /// Whether a coordinate system of that name has degrees.

@@ -5,7 +5,9 @@ use grouser_core::soil::Soil;
 use grouser_core::terrain::Extent;
 use grouser_core::units::{Vec2, deg};
 use grouser_raster::zones::geojson;
-use grouser_raster::{Fault, ReadOptions, ZoneKey, ZoneMap, read, read_zones};
+use grouser_raster::{
+    Content, CoordinateSystem, Fault, ReadOptions, ZoneKey, ZoneMap, read, read_zones,
+};
 
 use crate::ground::fixture;
 
@@ -147,6 +149,59 @@ fn coordinates_that_are_no_metres_of_the_map_are_refused() {
     let found = fault(SQUARE, (500_000.0, 5_200_000.0)).expect_err("elsewhere").fault;
     assert!(matches!(found, Fault::Elsewhere { .. }), "{found}");
     assert!(found.to_string().contains("x = 0 to 90.5 m"), "{found}");
+}
+
+/// A system by its code in the register, the map's, another one, and none: the first is the map's,
+/// the second is refused with both, and of the rest it is said that nobody looked.
+#[test]
+fn the_system_that_places_name_is_that_of_the_map() {
+    let map = |name: &str| {
+        let raster = read(&fixture(name), &ReadOptions::default()).expect("a map");
+        raster.coordinates
+    };
+    let [utm_33, moon] = ["tiled-deflate-f32.tif", "moon-cog-deflate-f32.tif"].map(map);
+    let compared = |name: Option<&str>, map: &CoordinateSystem| {
+        let crs = name.map_or_else(String::new, |name| {
+            format!(r#""crs": {{"type": "name", "properties": {{"name": "{name}"}}}},"#)
+        });
+        let text = format!(r#"{{"type": "FeatureCollection", {crs} "features": []}}"#);
+        let found = geojson::compare_system(text.as_bytes(), map);
+        found.map(|remark| remark.map(|it| it.to_string())).map_err(|fault| fault.in_parts("file"))
+    };
+    for same in ["urn:ogc:def:crs:EPSG::32633", "EPSG:32633", "WGS 84 / UTM zone 33N"] {
+        assert_eq!(compared(Some(same), &utm_33), Ok(None));
+    }
+    let (sentence, hint) = compared(Some("EPSG:32632"), &utm_33).expect_err("another zone");
+    assert!(sentence.contains("EPSG:32632") && sentence.contains("EPSG:32633"), "{sentence}");
+    assert_eq!(hint.as_deref(), Some("ogr2ogr -t_srs EPSG:32633 OUT.geojson IN.geojson"));
+    for (name, map, words) in [
+        (None, &utm_33, "it names none, and the map WGS 84 / UTM zone 33N"),
+        (Some("EPSG:32632"), &moon, "it names EPSG:32632, and the map"),
+        (Some("IAU_2015:30135"), &CoordinateSystem::default(), "and the map none"),
+    ] {
+        let remark = compared(name, map).expect("it is not refused").expect("a remark");
+        assert!(remark.contains(words), "{remark}");
+    }
+    for nameless in [&moon, &CoordinateSystem::default()] {
+        assert_eq!(compared(None, nameless), Ok(None));
+    }
+    assert_eq!(geojson::compare_system(b"0 0 1\n", &utm_33).expect("text"), None);
+}
+
+/// Class numbers jump as no heights do, and nothing is odd about that.
+#[test]
+fn classes_are_not_looked_at_as_heights_are() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("classes.xyz");
+    let class = |x: u8, y: u8| if (x, y) == (3, 3) { 200 } else { 1 };
+    let lines = (0..7).flat_map(|y| (0..7).map(move |x| format!("{x} {y} {}\n", class(x, y))));
+    fs::write(&file, lines.collect::<String>()).expect("written");
+    let remarks = |content: Content| {
+        let options = ReadOptions { content, ..ReadOptions::default() };
+        read(&file, &options).expect("a grid").remarks
+    };
+    assert!(!remarks(Content::Heights).is_empty());
+    assert_eq!(remarks(Content::Classes), []);
 }
 
 /// The words of a refusal.

@@ -55,8 +55,10 @@ impl MapQuestion<'_> {
         ];
         answer.tables.push((name.to_owned(), Arc::clone(&files)));
         answer.tables.push(("slopes".to_owned(), slopes));
-        answer.screen =
-            vec![Displayed::Rows(files, brief()), Displayed::Words(format!("{sentence}\n"))];
+        answer.screen = vec![
+            Displayed::Rows(files, brief()),
+            Displayed::Words(format!("{sentence}\nThe map: {}.\n", raster.spans())),
+        ];
         answer.attach("scenario.toml", self.scenario);
         let all =
             Table::default().and(&CLASS, &made.map.advice().iter().map(Some).collect::<Vec<_>>());

@@ -93,6 +93,12 @@ pub fn read_campaign(source: &Source, overrides: &Overrides) -> Result<Campaign,
 }
 
 impl Campaign {
+    /// What is odd about files that it names, such as the map.
+    #[must_use]
+    pub fn notes(&self) -> &[String] {
+        self.base.notes()
+    }
+
     /// Its name.
     #[must_use]
     pub fn name(&self) -> &str {

@@ -6,7 +6,7 @@
 //! [tables](super::mobility) of the steady motion that holds its course: by how steeply the ground
 //! rises along the way and across it. Turns are made on the spot, and cost what a turn on level
 //! ground does. No way leads where no heading holds the course, or where more of the samples than
-//! the [`Limits`] allow say no-go.
+//! the [`Limits`] allow say no-go. A sample that gets stuck in a turn does not complete the way.
 //!
 //! A way at the least *risk* is the one whose time is least in the worst tenth of the samples of
 //! soil and model: for each metre the mean over those, the conditional value at risk, in which a
@@ -27,6 +27,7 @@ mod profile;
 mod search;
 mod seek;
 mod study;
+mod turns;
 
 pub use self::along::{CheckedLine, Line};
 pub use self::answer::{
@@ -48,9 +49,10 @@ mod tests {
     use super::moves::DIRECTIONS;
     use super::search::{Found, Lattice};
     use super::*;
+    use crate::soil::Soil;
     use crate::studies::ensemble::samples::{BandInputs, Sample};
     use crate::studies::mobility::Ground;
-    use crate::studies::verdict::{SlopeStudy, Verdict};
+    use crate::studies::verdict::{SlopeStudy, SpotTurn, Verdict};
     use crate::terrain::{ElevationGrid, SoilZones, ZonePolygon};
     use crate::units::{Vec2, deg};
     use grouser_io::{self as document, Overrides, Source};
@@ -136,7 +138,8 @@ mod tests {
         let Found::Way(way, headings) = found else { panic!("there is a way") };
         let moves =
             way.iter().zip(headings).map(|(cell, heading)| lattice.price(*cell, *heading).1);
-        let turns = headings.windows(2).map(|pair| turn * lattice.moves.turn(pair[0], pair[1]));
+        let turns =
+            headings.windows(2).map(|pair| turn * lattice.moves.turn(pair[0], pair[1]).abs());
         moves.sum::<f64>() + turns.sum::<f64>()
     }
 
@@ -173,7 +176,7 @@ mod tests {
             let exact = exact as f64 / 1e6 + worth(to) - worth(from);
             // The first turns, from the heading at the start, are not in the sum of the way.
             let Found::Way(_, headings) = lattice.search(from, to, Some(3)) else { panic!() };
-            let first = turn * lattice.moves.turn(MOVED, headings[0]);
+            let first = turn * lattice.moves.turn(MOVED, headings[0]).abs();
             assert!(
                 (guided + first - exact).abs() < 1e-4 * exact,
                 "{objective:?} {guided} {exact}"
@@ -486,6 +489,41 @@ mod tests {
         let study = RouteStudy { mobility, limits, keep_out: None };
         let tables = study.tables(&samples, false, &|| true).unwrap().unwrap();
         (study, samples, tables)
+    }
+
+    /// On level ground a rover turns from a way to the east to one to the north: of the samples those
+    /// do not complete it that get stuck in that turn, as many as on the card's second page. Without
+    /// the turn all complete it.
+    #[test]
+    fn samples_that_get_stuck_in_a_turn_do_not_complete_the_way() {
+        let (study, samples, _) = uncertain();
+        // Where a sand carries little the sides cannot turn the rover.
+        let weak = |sample: &Sample| {
+            let soil = Soil { friction_angle: deg(12.0), ..sample.soil };
+            Sample { soil, ..sample.clone() }
+        };
+        let of = |(place, sample): (usize, &Sample)| {
+            if place % 4 == 0 { weak(sample) } else { sample.clone() }
+        };
+        let samples: Vec<Sample> = samples.iter().enumerate().map(of).collect();
+        let tables = study.tables(&samples, false, &|| true).unwrap().unwrap();
+        let raster = ground_of(40, 40, 0.5, |_| 0.0);
+        let ground = Ground::under(&study.mobility.heading.rover, &raster);
+        let risk_of = |places: &[[f64; 2]]| {
+            let found = study.along(&tables, ground, &line(places)).unwrap();
+            found.seen.risk.unwrap()
+        };
+        let straight = risk_of(&[[3.0, 3.0], [15.0, 3.0]]).completion;
+        let bent = risk_of(&[[3.0, 3.0], [9.0, 3.0], [9.0, 9.0]]);
+        let turn = SpotTurn { slope: 0.0, yaw: 0.0, is_left: true };
+        let stuck = study.mobility.stuck_on_the_spot(&turn, &samples);
+        let stuck = stuck.iter().filter(|it| **it).count();
+        assert_eq!(straight.completed.successes, samples.len(), "{straight:?}");
+        assert!(stuck > 0, "some get stuck");
+        assert_eq!(bent.completion.completed.successes, samples.len() - stuck);
+        let end = bent.completion.commonest.unwrap();
+        assert_eq!((end.leg, end.outcome, end.count), (2, "no-turn", stuck));
+        assert_eq!(bent.end.unwrap().place, Vec2::new(9.0, 3.0));
     }
 
     /// Along a slope, and where it bends up a gentler one: the leg has the worse of both verdicts,

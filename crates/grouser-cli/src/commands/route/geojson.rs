@@ -1,11 +1,14 @@
 //! Ways as GeoJSON, in the coordinates of the map.
 
 use grouser::document::route::RouteRecord;
-use serde_json::json;
+use grouser_raster::CoordinateSystem;
+use serde_json::{Value, json};
 
 /// The line of a way, if it may be driven. It is the only one: a mission takes all lines of a file
 /// one after the other.
-pub(super) fn text(way: &RouteRecord) -> String {
+///
+/// * `system`: of the map
+pub(super) fn text(way: &RouteRecord, system: &CoordinateSystem) -> String {
     let may_be_driven = way.reason.is_none();
     let feature = may_be_driven.then(|| {
         json!({
@@ -20,5 +23,6 @@ pub(super) fn text(way: &RouteRecord) -> String {
         })
     });
     let features: Vec<_> = feature.into_iter().collect();
-    json!({ "type": "FeatureCollection", "features": features }).to_string() + "\n"
+    let (system, features) = (system.geojson_member(), Value::from(features));
+    format!("{{\"type\":\"FeatureCollection\",{system}\"features\":{features}}}\n")
 }

@@ -251,6 +251,15 @@ impl Base {
         Ok(Self::Stand(Box::new(Varied::new(document, tree)?)))
     }
 
+    /// What is odd about files that it names.
+    pub(super) fn notes(&self) -> &[String] {
+        match self {
+            Self::Scenario(varied) => &varied.notes,
+            Self::Mission(varied) => &varied.notes,
+            Self::Stand(varied) => &varied.notes,
+        }
+    }
+
     /// Whether runs differ by more than their numbers.
     pub(super) fn scatters(&self) -> bool {
         match self {

@@ -12,13 +12,13 @@ use super::super::ensemble::samples::{Sample, outputs_of_places};
 use super::super::ensemble::{Band, Probability};
 use super::super::heading::{STRAIGHT_DOWN, STRAIGHT_UP, STUCK};
 use super::super::verdict::{
-    Advice, Driven, DrivenMotion, Holding, Judgement, Reason, STUCK_ON_GO, SlopeStudy, Verdict,
-    largest_current, largest_torque,
+    Advice, Driven, DrivenMotion, Holding, Judgement, Reason, STUCK_ON_GO, SlopeStudy, SpotTurn,
+    Verdict, largest_current, largest_torque, moving_slip,
 };
 use super::CardRow;
 use crate::elementary::wide::sin;
 use crate::error::ParameterError;
-use crate::simulation::{MOST_SLIP, Seeking, SteadyMotion};
+use crate::simulation::{Seeking, SteadyMotion};
 use crate::vehicle::Rover;
 
 /// A way to drive on a slope, other than along the contour with the nose in front.
@@ -87,7 +87,7 @@ impl Course {
             Self::Up | Self::Down => [rim_speed; 2],
             Self::BackDown | Self::BackUp | Self::BackAcross => [-rim_speed; 2],
             Self::Turn => [0.5 * rim_speed, rim_speed],
-            Self::TurnOnTheSpot => [-rim_speed, rim_speed],
+            Self::TurnOnTheSpot => return SpotTurn::rim_speeds(rover, rim_speed),
         };
         let of_mount = |left: f64| match left {
             left if left > 0.0 => uphill,
@@ -291,19 +291,13 @@ impl OnCourse {
         motion: &SteadyMotion,
         rim_speeds: &[f64],
     ) -> Option<Self> {
-        let turning = motion.wheels.iter().zip(rim_speeds).filter(|(_, rim)| **rim != 0.0);
-        let (sum, count) = turning.fold((0.0, 0), |(sum, count), (wheel, rim)| {
-            (sum + rim.signum() * wheel.slip.ratio, count + 1)
-        });
-        let slip_ratio = sum / f64::from(count.max(1));
-        let turns = !course.turns() || motion.yaw_rate > 0.0;
-        (slip_ratio.abs() <= MOST_SLIP && turns).then(|| {
-            let drift = -sin(motion.course());
-            let turn_way = TURN / motion.turning();
-            let torque = largest_torque(motion);
-            let current = largest_current(rover, motion, rim_speeds);
-            Self { slip_ratio, torque, current, drift, turn_way }
-        })
+        let sense = if course.turns() { 1.0 } else { 0.0 };
+        let slip_ratio = moving_slip(motion, rim_speeds, sense)?;
+        let drift = -sin(motion.course());
+        let turn_way = TURN / motion.turning();
+        let torque = largest_torque(motion);
+        let current = largest_current(rover, motion, rim_speeds);
+        Some(Self { slip_ratio, torque, current, drift, turn_way })
     }
 }
 

@@ -119,7 +119,8 @@ impl RouteStudy {
             }
             let heading = atan2(to.y - from.y, to.x - from.x);
             if let Some(before) = before.replace(heading) {
-                look.turn(from, angle_between(before, heading));
+                let turn = [before, angle_between(before, heading)];
+                look.turn(from, turn, corridor.gradient(from));
             }
             corridor.steps(from, to).for_each(|step| look.go(&step));
         }
@@ -127,10 +128,10 @@ impl RouteStudy {
     }
 }
 
-/// The angle between two directions [rad], 0 to π.
+/// The angle from one direction to another [rad], −π to π, positive to the left.
 fn angle_between(one: f64, other: f64) -> f64 {
     let (sin, cos) = sin_cos(other - one);
-    atan2(sin.abs(), cos)
+    atan2(sin, cos)
 }
 
 /// What has been seen of a line.
@@ -157,13 +158,13 @@ impl<'a> Look<'a> {
         }
     }
 
-    fn turn(&mut self, place: Vec2, angle: f64) {
+    fn turn(&mut self, place: Vec2, turn: [f64; 2], gradient: Option<Vec2>) {
         /// Less is rounding [rad].
         const STRAIGHT: f64 = 1e-9;
-        if angle < STRAIGHT {
+        if turn[1].abs() < STRAIGHT {
             return;
         }
-        self.measure.turn(angle);
+        self.measure.turn(place, turn, gradient);
         if !self.can_turn {
             self.is_priced = false;
             self.measure.cannot_turn();

@@ -95,6 +95,12 @@ impl Corridor<'_> {
         })
     }
 
+    /// How steeply the ground rises at a place to the east and to the north [m/m], if it is known all
+    /// around.
+    pub(super) fn gradient(&self, place: Vec2) -> Option<Vec2> {
+        Some(self.spot(self.cells(place))?.gradient)
+    }
+
     /// Columns to the east and rows to the north of the south-western point.
     fn cells(&self, place: Vec2) -> Vec2 {
         let grid = &self.ground.raster().grid;

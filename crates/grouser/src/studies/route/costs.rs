@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::hazard::Danger;
 use super::study::{Limits, Objective, RouteStudy, STUCK_WAY, WORST_SHARE};
+use super::turns::SpotTurns;
 use crate::elementary::wide::cos;
 use crate::error::ParameterError;
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
@@ -49,6 +50,8 @@ pub struct RouteTables {
     /// The least slope of each sampled course that has the verdict no-go [rad], where that has been
     /// looked for, with the reason.
     no_go_from: [Option<(f64, Reason)>; SAMPLED_COURSES],
+    /// Turns on the spot.
+    pub(super) turns: SpotTurns,
 }
 
 /// What a metre costs that has the least of one thing.
@@ -104,7 +107,8 @@ impl RouteStudy {
         let steepest = tables.iter().filter_map(MobilityTable::limit).fold(0.05, f64::max);
         let step = crate::elementary::wide::tan(steepest) / (ACROSS - 1) as f64;
         let no_go_from = [None; SAMPLED_COURSES];
-        Ok(Some(RouteTables { tables, limits: self.limits, risk, step, no_go_from }))
+        let turns = SpotTurns::of(&self.mobility, samples);
+        Ok(Some(RouteTables { tables, limits: self.limits, risk, step, no_go_from, turns }))
     }
 }
 
@@ -280,9 +284,13 @@ impl RouteTables {
         (below, (place - below as f64).clamp(0.0, 1.0))
     }
 
-    /// Why each sample may go no farther over ground that rises along the way and across it; nothing
-    /// of one that may.
-    pub(super) fn fates(&self, along: f64, across: f64) -> impl Iterator<Item = Option<Beyond>> {
+    /// Why each sample may go no farther over ground that rises along the way and across it, as the
+    /// `danger` of its end; nothing of one that may.
+    pub(super) fn fates(
+        &self,
+        along: f64,
+        across: f64,
+    ) -> impl Iterator<Item = Option<Option<Danger>>> {
         let (slope, course) = slope_and_course(along, across);
         let (below, share) = self.between(course);
         let [one, other] = [below, below + 1].map(|it| self.tables[it].beyond());
@@ -291,7 +299,13 @@ impl RouteTables {
             share if share > 0.5 => other.and(*one),
             _ => one.and(*other),
         });
-        self.fails_on(slope, course).zip(beyond).map(|(fails, beyond)| fails.then_some(beyond))
+        let danger = |beyond: Beyond| match beyond {
+            Beyond::NoHeading => Some(Danger::NoHeading),
+            Beyond::TooMuchSlip => Some(Danger::TooMuchSlip),
+            Beyond::NotFound => None,
+        };
+        let fates = self.fails_on(slope, course).zip(beyond);
+        fates.map(move |(fails, beyond)| fails.then(|| danger(beyond)))
     }
 
     /// Whether each sample may go no farther on a slope and course.

@@ -2,11 +2,10 @@
 
 use super::hazard::Danger;
 use crate::studies::completion::{Completion, SampleEnd};
-use crate::studies::mobility::Beyond;
 use crate::units::Vec2;
 
 /// What a way risks. A sample of soil and model ends where the way first is a no-go for it: it holds
-/// the course by no heading, or slips more than a no-go. Each sample is the same soil all the way,
+/// the course by no heading, slips more than a no-go, or gets stuck in a turn. Each sample is the same soil all the way,
 /// so that all of them are compared over the same ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RouteRisk {
@@ -34,7 +33,8 @@ pub(super) struct End {
     pub(super) along: f64,
     /// The place [m].
     pub(super) place: Vec2,
-    pub(super) beyond: Beyond,
+    /// Why; nothing where the search for a heading gave up.
+    pub(super) danger: Option<Danger>,
 }
 
 impl RouteRisk {
@@ -57,11 +57,7 @@ impl RouteRisk {
 impl End {
     /// By its leg and danger; not computed where the search for a heading gave up.
     fn named(&self) -> SampleEnd {
-        match self.beyond {
-            Beyond::NoHeading => SampleEnd::In(self.leg, Danger::NoHeading.name()),
-            Beyond::TooMuchSlip => SampleEnd::In(self.leg, Danger::TooMuchSlip.name()),
-            Beyond::NotFound => SampleEnd::NotComputed,
-        }
+        self.danger.map_or(SampleEnd::NotComputed, |danger| SampleEnd::In(self.leg, danger.name()))
     }
 }
 
@@ -72,14 +68,14 @@ mod tests {
     #[test]
     fn the_commonest_end_is_where_half_of_its_samples_have_ended() {
         let end =
-            |leg, along, beyond| Some(End { leg, along, place: Vec2::new(along, 0.0), beyond });
+            |leg, along, danger| Some(End { leg, along, place: Vec2::new(along, 0.0), danger });
         let found = RouteRisk::of(&[
             None,
-            end(1, 2.0, Beyond::NoHeading),
-            end(2, 9.0, Beyond::TooMuchSlip),
-            end(2, 7.0, Beyond::TooMuchSlip),
-            end(2, 8.0, Beyond::TooMuchSlip),
-            end(2, 8.0, Beyond::NotFound),
+            end(1, 2.0, Some(Danger::NoHeading)),
+            end(2, 9.0, Some(Danger::TooMuchSlip)),
+            end(2, 7.0, Some(Danger::TooMuchSlip)),
+            end(2, 8.0, Some(Danger::TooMuchSlip)),
+            end(2, 8.0, None),
             None,
         ]);
         let completed = found.completion.completed;

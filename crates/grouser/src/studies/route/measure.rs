@@ -5,10 +5,11 @@ use super::costs::{Metre, RouteTables};
 use super::end::{End, RouteRisk};
 use super::legs::{LegPlace, LegPlaces};
 use super::profile::{GroundOfPiece, ProfilePiece};
+use super::turns::Turn;
 use crate::simulation::NotSteady;
 use crate::simulation::power::electrical;
 use crate::studies::mobility::slope_and_course;
-use crate::studies::verdict::SlopeStudy;
+use crate::studies::verdict::{SlopeStudy, SpotTurn};
 use crate::units::Vec2;
 
 /// Turning on the spot on level ground.
@@ -26,12 +27,7 @@ impl Turning {
     /// By the steady motion with both sides against each other; or why there is none.
     pub(super) fn of(study: &SlopeStudy) -> Result<Self, String> {
         let SlopeStudy { heading, rim_speed, .. } = study;
-        let rims: Vec<f64> = heading
-            .rover
-            .mounts()
-            .iter()
-            .map(|mount| if mount.position.y > 0.0 { -rim_speed } else { *rim_speed })
-            .collect();
+        let rims = SpotTurn::rim_speeds(&heading.rover, *rim_speed);
         let motion = heading
             .steady_motion_of(0.0, 0.0, &rims)
             .map_err(|error: NotSteady| error.to_string())?;
@@ -97,6 +93,8 @@ pub(super) struct Measure<'a> {
     route: Route,
     /// Where each sample has ended.
     ends: Vec<Option<End>>,
+    /// The turns on ground that is known.
+    turns: Vec<Turn>,
     /// Whether it is known of all of the way whether it can be driven.
     is_certain: bool,
     /// Where the leg is judged.
@@ -134,6 +132,7 @@ impl<'a> Measure<'a> {
             turning,
             route,
             ends: Vec::new(),
+            turns: Vec::new(),
             is_certain: true,
             places: LegPlaces::default(),
             is_known: true,
@@ -160,9 +159,17 @@ impl<'a> Measure<'a> {
         });
     }
 
-    /// * `angle`: [rad], not negative
-    pub(super) fn turn(&mut self, angle: f64) {
-        self.route.turned += angle;
+    /// Turns on the spot.
+    ///
+    /// * `from`: where the nose points, from the map's x axis to the left [rad]
+    /// * `angle`: by which it turns [rad], positive to the left
+    /// * `gradient`: how steeply the ground rises there to the east and to the north [m/m], if it is
+    ///   known
+    pub(super) fn turn(&mut self, place: Vec2, [from, angle]: [f64; 2], gradient: Option<Vec2>) {
+        self.route.turned += angle.abs();
+        let (leg, along) = (self.route.waypoints.len(), self.so_far);
+        let turn = |gradient| Turn { leg, along, place, gradient, from, angle };
+        self.turns.extend(gradient.map(turn));
     }
 
     /// Length on the map from the start [m].
@@ -227,7 +234,7 @@ impl<'a> Measure<'a> {
         let (leg, middle) = (self.route.waypoints.len(), piece.middle());
         let along = self.so_far + 0.5 * piece.length;
         let fates = self.tables.fates(piece.along, piece.across);
-        let ends = fates.map(|fate| fate.map(|beyond| End { leg, along, place: middle, beyond }));
+        let ends = fates.map(|fate| fate.map(|danger| End { leg, along, place: middle, danger }));
         if self.ends.is_empty() {
             self.ends.extend(ends);
         } else {
@@ -238,7 +245,7 @@ impl<'a> Measure<'a> {
     /// Arrives at the end.
     pub(super) fn finish(mut self, end: Vec2) -> Route {
         self.arrive(end);
-        let Self { turning, mut route, ends, is_certain, drawn, .. } = self;
+        let Self { tables, turning, mut route, ends, turns, is_certain, drawn, .. } = self;
         route.time += route.turned * turning.time;
         route.energy += route.turned * turning.energy;
         let drawn = if route.turned > 0.0 { drawn + route.turned * turning.drawn } else { drawn };
@@ -248,7 +255,14 @@ impl<'a> Measure<'a> {
         }
         let count = ends.iter().flatten().count();
         route.probability_no_go = count as f64 / ends.len().max(1) as f64;
-        route.risk = (is_certain && !ends.is_empty()).then(|| RouteRisk::of(&ends));
+        route.risk = (is_certain && !ends.is_empty()).then(|| {
+            let stuck = tables.turns.ends(&turns);
+            let first = |(end, stuck): (Option<End>, Option<End>)| match (end, stuck) {
+                (Some(end), Some(stuck)) if stuck.along > end.along => Some(end),
+                (end, stuck) => stuck.or(end),
+            };
+            RouteRisk::of(&ends.into_iter().zip(stuck).map(first).collect::<Vec<_>>())
+        });
         route
     }
 }

@@ -1,7 +1,7 @@
 //! The moves of the lattice: sixteen directions from a cell to others, and the shortest way over
 //! them.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use crate::elementary::wide::atan2;
 use crate::units::Vec2;
@@ -86,11 +86,16 @@ impl Moves {
         (0..DIRECTIONS).max_by(|one, other| turned(*one).total_cmp(&turned(*other))).unwrap_or(0)
     }
 
-    /// The angle between two directions [rad], 0 to π.
+    /// The angle of a direction, from the east to the left [rad].
+    pub(super) fn angle(&self, direction: usize) -> f64 {
+        let along = self.along[direction];
+        atan2(along.y, along.x)
+    }
+
+    /// The angle from one direction to another [rad], −π to π, positive to the left.
     pub(super) fn turn(&self, from: usize, to: usize) -> f64 {
         let [from, to] = [from, to].map(|it| self.along[it]);
-        let turn = atan2(from.perp(&to), from.dot(&to));
-        turn.abs().min(PI)
+        atan2(from.perp(&to), from.dot(&to))
     }
 
     /// Columns and rows from one place to another.

@@ -20,7 +20,7 @@ use crate::units::Vec2;
 
 /// The cells of a grid as a rover meets them.
 pub(super) struct Lattice<'a> {
-    ground: Ground<'a>,
+    pub(super) ground: Ground<'a>,
     pub(super) moves: Moves,
     columns: usize,
     rows: usize,

@@ -1,6 +1,7 @@
 //! Seeks a way, and says what it takes.
 
 use super::answer::{Answer, Ends, JudgedAnswer, MOST_CELLS, NoRoute, Route, RouteError};
+use super::corridor::Corridor;
 use super::costs::{Costs, RouteTables, drawn_or_work};
 use super::legs::JudgedLeg;
 use super::measure::{Measure, Piece, Turning};
@@ -186,13 +187,16 @@ fn measured(
     heading: Option<usize>,
 ) -> Route {
     let mut measure = Measure::from(tables, turning, ends.from);
+    let corridor = Corridor { ground: lattice.ground };
     let mut before = heading;
     for (cell, direction) in way.iter().zip(headings) {
         if let Some(before) = before.filter(|before| before != direction) {
             if *cell != way[0] {
                 measure.arrive(lattice.place(*cell));
             }
-            measure.turn(lattice.moves.turn(before, *direction));
+            let turn = [lattice.moves.angle(before), lattice.moves.turn(before, *direction)];
+            let place = lattice.place(*cell);
+            measure.turn(place, turn, corridor.gradient(place));
         }
         before = Some(*direction);
         let Some((to, along, across)) = lattice.rises(*cell, *direction) else { continue };
