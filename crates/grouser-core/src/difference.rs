@@ -4,7 +4,8 @@
 //! for another. So there are always two steps. All variables together are moved by the shorter one,
 //! along one direction, and what changes there is compared with the sum of the single slopes. Only
 //! where the two part is each variable moved by the shorter step, too, and where that does not
-//! agree either, or the slopes to both sides differ, the slope is [one-sided](Slope::is_one_sided).
+//! agree either, or the slopes to both sides differ, the derivative is
+//! [one-sided](Derivative::is_one_sided).
 
 use crate::soil::Span;
 
@@ -21,7 +22,7 @@ pub struct Variable {
 
 /// Two step lengths, and how far their slopes may part.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Steps {
+pub struct StepLengths {
     /// The longer step, over a variable's scale [-].
     pub long: f64,
     /// The shorter one [-].
@@ -30,7 +31,7 @@ pub struct Steps {
     pub tolerance: f64,
 }
 
-impl Steps {
+impl StepLengths {
     /// Those for results that are exact but for rounding.
     pub const EXACT: Self = Self { long: 1e-5, short: 1e-6, tolerance: 1e-7 };
     /// Those for results that a search has settled, to a share of 1e-11 or so.
@@ -39,18 +40,24 @@ impl Steps {
 
 /// The slope of a result along a variable, in units of both.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Slope {
+pub struct Derivative {
     /// The slope; where both sides differ, their mean.
     pub value: f64,
     /// The slopes below and above the variable's value; alike where the result is smooth.
     pub sides: [f64; 2],
 }
 
-impl Slope {
+impl Derivative {
     /// One that is the same on both sides.
     #[must_use]
     pub const fn smooth(value: f64) -> Self {
         Self { value, sides: [value, value] }
+    }
+
+    /// The same in other units.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        Self { value: self.value * factor, sides: self.sides.map(|it| it * factor) }
     }
 
     /// Whether the slopes below and above differ by more than rounding: the result has a kink or a
@@ -64,9 +71,9 @@ impl Slope {
 /// The slopes of all results along all variables; none along a variable that can be moved to
 /// neither side.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Slopes {
+pub struct Derivatives {
     /// A list for each variable, with an entry for each result.
-    pub by_variable: Vec<Option<Vec<Slope>>>,
+    pub by_variable: Vec<Option<Vec<Derivative>>>,
     /// At how many points the results were computed.
     pub evaluations: usize,
 }
@@ -80,7 +87,7 @@ pub type Evaluate<'a> = dyn FnMut(&[Vec<f64>]) -> Vec<Option<Vec<f64>>> + 'a;
 /// * `sizes`: what a change of each result is small against
 ///
 /// ```
-/// use grouser_core::difference::{Steps, Variable, slopes};
+/// use grouser_core::difference::{StepLengths, Variable, derivatives};
 /// use grouser_core::soil::Span;
 ///
 /// let variable = |value| Variable { value, scale: 1.0, range: Span::ANY };
@@ -88,28 +95,29 @@ pub type Evaluate<'a> = dyn FnMut(&[Vec<f64>]) -> Vec<Option<Vec<f64>>> + 'a;
 /// let mut evaluate = |points: &[Vec<f64>]| {
 ///     points.iter().map(|it| Some(vec![f(it[0], it[1])])).collect()
 /// };
-/// let found = slopes(&[variable(3.0), variable(0.0)], &[0.0], &[1.0], Steps::EXACT, &mut evaluate);
+/// let found = derivatives(&[variable(3.0), variable(0.0)], &[0.0], &[1.0], StepLengths::EXACT, &mut evaluate);
 /// let [by_x, by_y] = &found.by_variable[..] else { unreachable!() };
 /// assert!(by_x.as_ref().unwrap()[0].value.abs() < 1e-9);
 /// let by_y = by_y.as_ref().unwrap()[0];
 /// assert!(by_y.is_one_sided() && (by_y.value - 9.0).abs() < 1e-9);
 /// assert_eq!(by_y.sides.map(f64::round), [8.0, 10.0]);
 /// ```
-pub fn slopes(
+pub fn derivatives(
     variables: &[Variable],
     here: &[f64],
     sizes: &[f64],
-    steps: Steps,
+    steps: StepLengths,
     evaluate: &mut Evaluate<'_>,
-) -> Slopes {
-    let mut differences = Differences { variables, here, sizes, steps, evaluate, evaluations: 0 };
+) -> Derivatives {
+    let mut differences =
+        DifferencesHere { variables, here, sizes, steps, evaluate, evaluations: 0 };
     let by_variable = differences.all();
-    Slopes { by_variable, evaluations: differences.evaluations }
+    Derivatives { by_variable, evaluations: differences.evaluations }
 }
 
 /// On which side of a variable its differences are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stencil {
+enum DifferencePoints {
     /// One step below, and one above.
     Central,
     /// One and two steps above.
@@ -118,17 +126,17 @@ enum Stencil {
     Below,
 }
 
-/// Differences along one variable.
+/// DifferencesHere along one variable.
 #[derive(Clone, Debug)]
 struct Difference {
-    stencil: Stencil,
+    stencil: DifferencePoints,
     /// The step [unit of the variable].
     step: f64,
     /// The results at the stencil's two points.
     there: [Vec<f64>; 2],
 }
 
-impl Stencil {
+impl DifferencePoints {
     /// The one that stays in a range.
     fn within(variable: &Variable, step: f64) -> Option<Self> {
         let Variable { value, range, .. } = variable;
@@ -164,8 +172,8 @@ impl Difference {
     fn slope(&self, result: usize, here: f64) -> f64 {
         let [one, two] = [self.there[0][result], self.there[1][result]];
         match self.stencil {
-            Stencil::Central => (two - one) / (2.0 * self.step),
-            Stencil::Above | Stencil::Below => {
+            DifferencePoints::Central => (two - one) / (2.0 * self.step),
+            DifferencePoints::Above | DifferencePoints::Below => {
                 self.stencil.sense() * (4.0 * (one - here) - (two - here)) / (2.0 * self.step)
             }
         }
@@ -176,17 +184,19 @@ impl Difference {
         let [one, two] = [self.there[0][result], self.there[1][result]];
         let sense = self.stencil.sense();
         match self.stencil {
-            Stencil::Central => ((two - here) + (one - here)) / self.step,
-            Stencil::Above | Stencil::Below => sense * ((two - one) - (one - here)) / self.step,
+            DifferencePoints::Central => ((two - here) + (one - here)) / self.step,
+            DifferencePoints::Above | DifferencePoints::Below => {
+                sense * ((two - one) - (one - here)) / self.step
+            }
         }
     }
 }
 
-struct Differences<'a, 'e> {
+struct DifferencesHere<'a, 'e> {
     variables: &'a [Variable],
     here: &'a [f64],
     sizes: &'a [f64],
-    steps: Steps,
+    steps: StepLengths,
     evaluate: &'a mut Evaluate<'e>,
     evaluations: usize,
 }
@@ -194,12 +204,12 @@ struct Differences<'a, 'e> {
 /// A bend beyond this share of a result's size, over a long step, may be a kink [-].
 const SUSPICIOUS: f64 = 1e-3;
 
-impl Differences<'_, '_> {
-    fn all(&mut self) -> Vec<Option<Vec<Slope>>> {
-        let steps: Vec<Option<Stencil>> = self
+impl DifferencesHere<'_, '_> {
+    fn all(&mut self) -> Vec<Option<Vec<Derivative>>> {
+        let steps: Vec<Option<DifferencePoints>> = self
             .variables
             .iter()
-            .map(|it| Stencil::within(it, self.steps.long * it.scale))
+            .map(|it| DifferencePoints::within(it, self.steps.long * it.scale))
             .collect();
         let (found, along) = self.long_and_along(&steps);
         let found = self.on_other_sides(found);
@@ -219,29 +229,29 @@ impl Differences<'_, '_> {
         slopes.collect()
     }
 
-    /// Differences by the long step along each variable, and by the short one along all at once.
+    /// DifferencesHere by the long step along each variable, and by the short one along all at once.
     fn long_and_along(
         &mut self,
-        stencils: &[Option<Stencil>],
+        stencils: &[Option<DifferencePoints>],
     ) -> (Vec<Option<Difference>>, Option<Difference>) {
         let long = self.steps.long;
         let mut points: Vec<Vec<f64>> = Vec::new();
         for (place, stencil) in stencils.iter().enumerate() {
             points.extend(stencil.iter().flat_map(|it| self.moved(place, *it, long)));
         }
-        let is_central = stencils.iter().flatten().all(|it| *it == Stencil::Central);
-        let along = if is_central { Stencil::Central } else { Stencil::Above };
+        let is_central = stencils.iter().flatten().all(|it| *it == DifferencePoints::Central);
+        let along = if is_central { DifferencePoints::Central } else { DifferencePoints::Above };
         let short = self.steps.short;
         points.extend(along.places().map(|steps| {
             let pairs = self.variables.iter().zip(stencils);
             let moved = pairs.map(|(it, stencil)| {
-                let sense = stencil.map_or(0.0, Stencil::sense);
+                let sense = stencil.map_or(0.0, DifferencePoints::sense);
                 it.value + steps * sense * short * it.scale
             });
             moved.collect()
         }));
         let mut results = self.evaluated(&points).into_iter();
-        let mut next = |stencil: Stencil, step: f64| {
+        let mut next = |stencil: DifferencePoints, step: f64| {
             let there = [results.next().flatten(), results.next().flatten()];
             let [Some(one), Some(two)] = there else { return None };
             Some(Difference { stencil, step, there: [one, two] })
@@ -257,15 +267,15 @@ impl Differences<'_, '_> {
         found
             .map(|(place, difference)| {
                 difference.or_else(|| {
-                    let sides = [Stencil::Above, Stencil::Below];
+                    let sides = [DifferencePoints::Above, DifferencePoints::Below];
                     sides.into_iter().find_map(|side| self.one(place, side, self.steps.long))
                 })
             })
             .collect()
     }
 
-    /// Differences along one variable, where there are results.
-    fn one(&mut self, place: usize, stencil: Stencil, step: f64) -> Option<Difference> {
+    /// DifferencesHere along one variable, where there are results.
+    fn one(&mut self, place: usize, stencil: DifferencePoints, step: f64) -> Option<Difference> {
         let variable = self.variables[place];
         let points = self.moved(place, stencil, step);
         let is_allowed =
@@ -278,7 +288,7 @@ impl Differences<'_, '_> {
         Some(Difference { stencil, step: step * variable.scale, there })
     }
 
-    /// Differences by the short step along some variables.
+    /// DifferencesHere by the short step along some variables.
     fn short(&mut self, long: &[Option<Difference>], are_open: &[bool]) -> Vec<Option<Difference>> {
         let short = self.steps.short;
         let mut points: Vec<Vec<f64>> = Vec::new();
@@ -340,10 +350,10 @@ impl Differences<'_, '_> {
         result: usize,
         long: &Difference,
         short: Option<&Difference>,
-    ) -> Slope {
+    ) -> Derivative {
         let (here, scale) = (self.here[result], self.variables[place].scale);
         let value = long.slope(result, here);
-        let Some(short) = short else { return Slope::smooth(value) };
+        let Some(short) = short else { return Derivative::smooth(value) };
         let nearer = short.slope(result, here);
         let tolerance = self.steps.tolerance * self.size(result, nearer * scale) / scale;
         // What bends grows with the step; a kink at the value itself does not.
@@ -354,18 +364,22 @@ impl Differences<'_, '_> {
         // A kink is the difference of two slopes of half the accuracy.
         const KINK: f64 = 10.0;
         if parts <= tolerance && kink.abs() <= KINK * tolerance {
-            return Slope::smooth(value);
+            return Derivative::smooth(value);
         }
         let half = bends[1] / 2.0;
         match short.stencil {
-            Stencil::Central => Slope { value: nearer, sides: [nearer - half, nearer + half] },
+            DifferencePoints::Central => {
+                Derivative { value: nearer, sides: [nearer - half, nearer + half] }
+            }
             // Only one side is known: both values are those of the two steps.
-            Stencil::Above | Stencil::Below => Slope { value: nearer, sides: [value, nearer] },
+            DifferencePoints::Above | DifferencePoints::Below => {
+                Derivative { value: nearer, sides: [value, nearer] }
+            }
         }
     }
 
     /// All variables, with one of them moved.
-    fn moved(&self, place: usize, stencil: Stencil, step: f64) -> [Vec<f64>; 2] {
+    fn moved(&self, place: usize, stencil: DifferencePoints, step: f64) -> [Vec<f64>; 2] {
         stencil.places().map(|steps| {
             let mut point: Vec<f64> = self.variables.iter().map(|it| it.value).collect();
             point[place] += steps * step * self.variables[place].scale;
@@ -388,11 +402,11 @@ mod tests {
     }
 
     /// The slope of one function of one variable, and at how many points it took.
-    fn of(f: impl Fn(f64) -> Option<f64>, variable: Variable) -> (Option<Slope>, usize) {
+    fn of(f: impl Fn(f64) -> Option<f64>, variable: Variable) -> (Option<Derivative>, usize) {
         let here = [f(variable.value).unwrap()];
         let mut evaluate =
             |points: &[Vec<f64>]| points.iter().map(|it| f(it[0]).map(|it| vec![it])).collect();
-        let found = slopes(&[variable], &here, &[1.0], Steps::EXACT, &mut evaluate);
+        let found = derivatives(&[variable], &here, &[1.0], StepLengths::EXACT, &mut evaluate);
         (found.by_variable[0].as_ref().map(|it| it[0]), found.evaluations)
     }
 
@@ -449,8 +463,9 @@ mod tests {
         };
         let variables = [at(0.3), at(0.0), at(2.0)];
         let here = [0.3_f64.sin() + 2.0];
-        let found = slopes(&variables, &here, &[1.0], Steps::EXACT, &mut evaluate);
-        let slopes: Vec<Slope> = found.by_variable.into_iter().map(|it| it.unwrap()[0]).collect();
+        let found = derivatives(&variables, &here, &[1.0], StepLengths::EXACT, &mut evaluate);
+        let slopes: Vec<Derivative> =
+            found.by_variable.into_iter().map(|it| it.unwrap()[0]).collect();
         assert_eq!(
             slopes.iter().map(|it| it.is_one_sided()).collect::<Vec<_>>(),
             [false, true, false]

@@ -22,10 +22,11 @@ type Rule = fn(&Sources) -> usize;
 /// before routes had profiles, pages pictures and slides, and logs readers of any order, and 105,000
 /// before messages of ROS, tables by mappings, robots of URDF as people describe them, watched logs
 /// and checks of where a reading is from; lines of Python were 8,150 before those. Recorded drives as
-/// a referee and what maps mean took 2,000 lines and three conversions.
+/// a referee and what maps mean took 2,000 lines and three conversions; the C interface, whose names
+/// are those of what it wraps, and derivatives 3,100 lines, eight conversions and a dozen names.
 const COUNTS: [(&str, usize, Rule); 9] = [
-    ("lines of Rust without comments and tests", 110_500, |all| all.rust.iter().map(lines).sum()),
-    ("lines of Python without comments and tests", 8_200, |all| all.python.iter().map(lines).sum()),
+    ("lines of Rust without comments and tests", 113_700, |all| all.rust.iter().map(lines).sum()),
+    ("lines of Python without comments and tests", 8_350, |all| all.python.iter().map(lines).sum()),
     ("files that name three outcomes or more as text", 1, outcome_homes),
     ("inputs of an answer written by hand (`fn settings`, `fn state`)", 18, |all| {
         all.rust_count("fn settings(") + all.rust_count("fn state(&self, answer")
@@ -34,9 +35,9 @@ const COUNTS: [(&str, usize, Rule); 9] = [
         all.rust.iter().map(|(_, text)| text.matches("Serialize)]").count()).sum()
     }),
     ("columns of results written by hand in Python", 237, python_columns),
-    ("conversions of units above the documents", 149, conversions),
-    ("names of types used more than once", 188, |all| repeated(&all.type_names())),
-    ("names of types used more than once in one crate", 101, |all| {
+    ("conversions of units above the documents", 157, conversions),
+    ("names of types used more than once", 200, |all| repeated(&all.type_names())),
+    ("names of types used more than once in one crate", 102, |all| {
         all.type_names_by_crate().values().map(repeated).sum()
     }),
 ];

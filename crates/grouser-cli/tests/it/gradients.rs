@@ -50,7 +50,8 @@ fn a_heading_and_the_steepest_slope_have_theirs() {
     assert!((by_friction - yaw).abs() < 1e-4, "{by_friction} for {yaw}");
     let reference = half_change([&less, &more], "limit_slope_deg") / 0.01;
     assert!((limit - reference).abs() < 1e-4, "{limit} for {reference}");
-    let map = place.json(&format!("heading-map --slope-deg 10 --course-deg 0 --gradients {FRICTION}"));
+    let map =
+        place.json(&format!("heading-map --slope-deg 10 --course-deg 0 --gradients {FRICTION}"));
     for result in ["yaw_deg", "limit_slope_deg"] {
         let [_, derivative] = with_derivative(&map["rows"][0], result, FRICTION);
         let own = if result == "yaw_deg" { by_friction } else { limit };

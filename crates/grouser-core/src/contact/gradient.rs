@@ -6,7 +6,7 @@
 //! dh/dp = (dW/dp − ∂F_z/∂p) / (∂F_z/∂h)        dF/dp = ∂F/∂p + ∂F/∂h dh/dp
 //! ```
 //!
-//! The partial derivatives are differences of forces ([`slopes`]), all of them together in the lanes
+//! The partial derivatives are differences of forces ([`derivatives`]), all of them together in the lanes
 //! that many wheels share. Nothing is settled twice, so that no search's tolerance enters.
 
 use super::batch::forces_many;
@@ -16,7 +16,7 @@ use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::model::WheelSoilModel;
 use super::patch::ContactPatch;
-use crate::difference::{Slope, Steps, Variable, slopes};
+use crate::difference::{Derivative, StepLengths, Variable, derivatives};
 use crate::soil::Span;
 
 /// How a settled wheel changes with a number, by one unit of it.
@@ -97,7 +97,7 @@ pub fn gradient(
     let here: Vec<f64> = results_of(settled).into_iter().chain([0.0]).collect();
     let sizes: Vec<f64> = sizes(settled, radius).into_iter().chain([load]).collect();
     let mut evaluate = |points: &[Vec<f64>]| evaluated(wheel, points);
-    let found = slopes(&all, &here, &sizes, Steps::EXACT, &mut evaluate);
+    let found = derivatives(&all, &here, &sizes, StepLengths::EXACT, &mut evaluate);
     let [rest @ .., by_sinkage] = &found.by_variable[..] else {
         unreachable!("the sinkage is one of them")
     };
@@ -139,7 +139,7 @@ fn evaluated(wheel: &ChangeableWheel<'_>, points: &[Vec<f64>]) -> Vec<Option<Vec
 /// The derivative along one variable, with the sinkage that goes with it.
 ///
 /// * `slopes`, `by_sinkage`: of the results and the imbalance, by the variable and by the sinkage
-fn implicit(slopes: &[Slope], by_sinkage: &[Slope]) -> Option<WheelDerivative> {
+fn implicit(slopes: &[Derivative], by_sinkage: &[Derivative]) -> Option<WheelDerivative> {
     let (imbalance, stiffness) = (slopes[RESULTS], by_sinkage[RESULTS]);
     if stiffness.value <= 0.0 || stiffness.sides.iter().any(|it| *it <= 0.0) {
         // Where F_z does not grow, no sinkage follows the load.
@@ -147,7 +147,7 @@ fn implicit(slopes: &[Slope], by_sinkage: &[Slope]) -> Option<WheelDerivative> {
     }
     let of = |change: f64, stiffness: f64, side: Option<usize>| {
         let sinking = -change / stiffness;
-        let of_side = |slope: &Slope, side: Option<usize>| match side {
+        let of_side = |slope: &Derivative, side: Option<usize>| match side {
             Some(side) => slope.sides[side],
             None => slope.value,
         };

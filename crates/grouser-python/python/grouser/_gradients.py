@@ -122,7 +122,7 @@ def of_columns(columns: dict[str, Any], limit: Mapping[str, Any]) -> Gradient:
 
 
 def of_rows(
-    rows: Floats, one_sided: NDArray[np.bool_], keys: Sequence[str], names: Sequence[str], shape: tuple[int, ...]
+    rows: Any, one_sided: Any, keys: Sequence[str], names: Sequence[str], shape: tuple[int, ...]
 ) -> Gradient:
     """Those of settled wheels: rows of all results by the first key, then by the next."""
     cells = rows.reshape(len(keys), len(names), *shape)

@@ -9,7 +9,7 @@ pub use self::wheel::{ChangedKeys, StandSetting, WheelKeys};
 
 use std::ops::RangeInclusive;
 
-use crate::difference::{Slope, Variable};
+use crate::difference::Variable;
 use crate::document::varied::{Key, Numbers, meant};
 use crate::soil::Span;
 
@@ -41,15 +41,6 @@ pub struct NoSuchKey {
     pub reason: String,
 }
 
-/// How one number changes with another.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Derivative {
-    /// The derivative; where both sides differ, their mean.
-    pub value: f64,
-    /// Whether it differs from side to side, or within the step of a difference.
-    pub is_one_sided: bool,
-}
-
 impl GradientKeys {
     /// Stands for every number.
     pub const ALL: &'static str = "all";
@@ -72,22 +63,6 @@ impl GradientKeys {
             Self::All => vec![Self::ALL.to_owned()],
             Self::These(names) => names.clone(),
         }
-    }
-}
-
-impl Derivative {
-    /// That of what does not change.
-    const NONE: Self = Self { value: 0.0, is_one_sided: false };
-
-    /// The same in another unit.
-    fn times(self, factor: f64) -> Self {
-        Self { value: self.value * factor, ..self }
-    }
-}
-
-impl From<Slope> for Derivative {
-    fn from(slope: Slope) -> Self {
-        Self { value: slope.value, is_one_sided: slope.is_one_sided() }
     }
 }
 

@@ -7,7 +7,8 @@ use super::super::table::{Table, Values};
 use super::LIMIT_SLOPE;
 use super::wheel::WHEEL;
 use crate::contact::gradient::WheelDerivative;
-use crate::studies::gradient::{Derivative, HeadingKeys};
+use crate::difference::Derivative;
+use crate::studies::gradient::HeadingKeys;
 
 /// The names of a row's derivatives that differ from side to side, or are of one side.
 pub const ONE_SIDED: &str = "one_sided";
@@ -61,8 +62,8 @@ pub fn of_headings(
 ) -> Table {
     let names: Vec<&str> = keys.names().collect();
     with_derivatives(table, &keys.results(), &names, |row, result, key| {
-        let Derivative { value, is_one_sided } = rows[row][key].as_ref()?[result];
-        Some((value, is_one_sided))
+        let derivative = rows[row][key].as_ref()?[result];
+        Some((derivative.value, derivative.is_one_sided()))
     })
 }
 
@@ -79,7 +80,7 @@ pub fn of_heading_map(table: Table, keys: &HeadingKeys, rows: &[RowDerivatives])
     with_derivatives(table, &results, &names, |row, result, key| {
         let (of_row, of_limit) = &rows[row];
         let derivative = if result < own { of_row[key].as_ref()?[result] } else { of_limit[key]? };
-        Some((derivative.value, derivative.is_one_sided))
+        Some((derivative.value, derivative.is_one_sided()))
     })
 }
 
@@ -88,7 +89,7 @@ pub fn of_heading_map(table: Table, keys: &HeadingKeys, rows: &[RowDerivatives])
 pub fn of_limit(table: Table, keys: &HeadingKeys, of_limit: &[Option<Derivative>]) -> Table {
     let names: Vec<&str> = keys.names().collect();
     with_derivatives(table, &[LIMIT_SLOPE.name], &names, |_, _, key| {
-        of_limit[key].map(|it| (it.value, it.is_one_sided))
+        of_limit[key].map(|it| (it.value, it.is_one_sided()))
     })
 }
 

@@ -1,7 +1,7 @@
 //! Derivatives of headings, and of the steepest slope.
 
-use super::{AskedKey, Derivative, GradientKeys, NoSuchKey, asked};
-use crate::difference::{Slope, Variable};
+use super::{AskedKey, GradientKeys, NoSuchKey, asked};
+use crate::difference::{Derivative, Variable};
 use crate::document::columns::heading::{Held, held, steered};
 use crate::document::columns::{COURSE, Column, LIMIT_SLOPE, POWER, SLOPE};
 use crate::document::varied::{Numbers as _, Varied};
@@ -18,12 +18,12 @@ use crate::vehicle::Rover;
 pub struct HeadingKeys {
     scenario: Varied<Scenario>,
     steering: Steering,
-    keys: Vec<(AskedKey, Place)>,
+    keys: Vec<(AskedKey, HeadingPlace)>,
 }
 
 /// Where a number stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Place {
+enum HeadingPlace {
     Scenario,
     Slope,
     Course,
@@ -43,7 +43,7 @@ impl HeadingKeys {
         asked_for: &GradientKeys,
     ) -> Result<Self, NoSuchKey> {
         let document = scenario.document.clone();
-        let scenario = Varied { value: scenario.value.clone(), document };
+        let scenario = Varied { value: scenario.value.clone(), document, notes: Vec::new() };
         let mut keys = Self { scenario, steering, keys: Vec::new() };
         let names = match asked_for {
             GradientKeys::These(names) => names.clone(),
@@ -77,12 +77,12 @@ impl HeadingKeys {
         let found = self.with_study(curve, |changeable| curve.gradient(slope, changeable));
         let Ok(found) = found else { return vec![None; self.keys.len()] };
         let degrees = SLOPE.unit.to_si(1.0);
-        let of_key = |((_, place), own): (&(AskedKey, Place), Option<Vec<Slope>>)| {
+        let of_key = |((_, place), own): (&(AskedKey, HeadingPlace), Option<Vec<Derivative>>)| {
             let (slopes, factor) = match place {
-                Place::Slope => (found.by_slope.clone()?, degrees),
-                Place::Scenario | Place::Course => (own?, 1.0),
+                HeadingPlace::Slope => (found.by_slope.clone()?, degrees),
+                HeadingPlace::Scenario | HeadingPlace::Course => (own?, 1.0),
             };
-            Some(slopes.into_iter().map(|slope| Derivative::from(slope).times(factor)).collect())
+            Some(slopes.into_iter().map(|slope| slope.times(factor)).collect())
         };
         self.keys.iter().zip(found.by_variable.clone()).map(of_key).collect()
     }
@@ -92,11 +92,12 @@ impl HeadingKeys {
     pub fn of_limit(&self, curve: &HeadingCurve) -> Vec<Option<Derivative>> {
         let found = self.with_study(curve, |changeable| curve.limit_gradient(changeable));
         let factor = LIMIT_SLOPE.unit.from_si(1.0);
-        let of_key = |((_, place), slope): (&(AskedKey, Place), Option<Slope>)| match place {
-            // The steepest slope does not depend on the slope that is looked at.
-            Place::Slope => Some(Derivative::NONE),
-            Place::Scenario | Place::Course => Some(Derivative::from(slope?).times(factor)),
-        };
+        let of_key =
+            |((_, place), slope): (&(AskedKey, HeadingPlace), Option<Derivative>)| match place {
+                // The steepest slope does not depend on the slope that is looked at.
+                HeadingPlace::Slope => Some(Derivative::smooth(0.0)),
+                HeadingPlace::Scenario | HeadingPlace::Course => Some(slope?.times(factor)),
+            };
         self.keys.iter().zip(found).map(of_key).collect()
     }
 
@@ -110,10 +111,10 @@ impl HeadingKeys {
             .keys
             .iter()
             .map(|(key, place)| match place {
-                Place::Scenario => key.variable(None),
-                Place::Course => key.variable(Some(course)),
+                HeadingPlace::Scenario => key.variable(None),
+                HeadingPlace::Course => key.variable(Some(course)),
                 // The curve has its own derivatives by the slope.
-                Place::Slope => AskedKey { key: None, ..key.clone() }.variable(None),
+                HeadingPlace::Slope => AskedKey { key: None, ..key.clone() }.variable(None),
             })
             .collect();
         let with = |numbers: &[f64]| self.changed(course, numbers);
@@ -129,9 +130,9 @@ impl HeadingKeys {
         let mut changed = Vec::new();
         for ((asked, place), number) in self.keys.iter().zip(numbers) {
             match (place, &asked.key) {
-                (Place::Scenario, Some(key)) => changed.push((&*key.path, *number)),
-                (Place::Course, _) => course = *number,
-                (Place::Slope | Place::Scenario, _) => {}
+                (HeadingPlace::Scenario, Some(key)) => changed.push((&*key.path, *number)),
+                (HeadingPlace::Course, _) => course = *number,
+                (HeadingPlace::Slope | HeadingPlace::Scenario, _) => {}
             }
         }
         let scenario = self.scenario.value.with(changed).ok()?;
@@ -148,15 +149,15 @@ impl HeadingKeys {
     }
 
     /// The number of a name.
-    fn key(&self, name: &str) -> Result<(AskedKey, Place), NoSuchKey> {
+    fn key(&self, name: &str) -> Result<(AskedKey, HeadingPlace), NoSuchKey> {
         if name == SLOPE.name {
             let range = 0.0..=SLOPE.unit.from_si(STEEPEST_SLOPE);
-            return Ok((AskedKey::setting(name, Some(range)), Place::Slope));
+            return Ok((AskedKey::setting(name, Some(range)), HeadingPlace::Slope));
         }
         if name == COURSE.name {
-            return Ok((AskedKey::setting(name, Some(study::COURSE_DEG)), Place::Course));
+            return Ok((AskedKey::setting(name, Some(study::COURSE_DEG)), HeadingPlace::Course));
         }
-        Ok((asked(name, name, &self.scenario)?, Place::Scenario))
+        Ok((asked(name, name, &self.scenario)?, HeadingPlace::Scenario))
     }
 }
 

@@ -16,12 +16,12 @@ use crate::wheel::Wheel;
 pub struct WheelKeys {
     soil: Varied<Soil>,
     wheel: Varied<Wheel>,
-    keys: Vec<(AskedKey, Place)>,
+    keys: Vec<(AskedKey, WheelPlace)>,
 }
 
 /// Where a number stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Place {
+enum WheelPlace {
     Soil,
     Wheel,
     Gravity,
@@ -66,8 +66,10 @@ impl WheelKeys {
         wheel: &LoadedWheel,
         asked_for: &GradientKeys,
     ) -> Result<Self, NoSuchKey> {
-        let soil = Varied { value: soil.value, document: soil.document.clone() };
-        let wheel = Varied { value: wheel.value, document: wheel.document.clone() };
+        let document = soil.document.clone();
+        let soil = Varied { value: soil.value, document, notes: Vec::new() };
+        let document = wheel.document.clone();
+        let wheel = Varied { value: wheel.value, document, notes: Vec::new() };
         let mut keys = Self { soil, wheel, keys: Vec::new() };
         let names = match asked_for {
             GradientKeys::These(names) => names.clone(),
@@ -130,19 +132,21 @@ impl WheelKeys {
     }
 
     /// The number of a name.
-    fn key(&self, name: &str) -> Result<(AskedKey, Place), NoSuchKey> {
+    fn key(&self, name: &str) -> Result<(AskedKey, WheelPlace), NoSuchKey> {
         let setting = |place, range| Ok((AskedKey::setting(name, range), place));
         if let Some(path) = name.strip_prefix(SOIL) {
-            return Ok((asked(name, path, &self.soil)?, Place::Soil));
+            return Ok((asked(name, path, &self.soil)?, WheelPlace::Soil));
         }
         if let Some(path) = name.strip_prefix(WHEEL) {
-            return Ok((asked(name, path, &self.wheel)?, Place::Wheel));
+            return Ok((asked(name, path, &self.wheel)?, WheelPlace::Wheel));
         }
         match name {
-            GRAVITY => setting(Place::Gravity, range(Kind::Scenario, GRAVITY)),
-            _ if name == LOAD.name => setting(Place::Load, Some(study::LOAD_N)),
-            _ if name == SLIP_RATIO.name => setting(Place::SlipRatio, Some(study::SLIP_RATIO)),
-            _ if name == SLIP_ANGLE.name => setting(Place::SlipAngle, Some(study::SLIP_ANGLE_DEG)),
+            GRAVITY => setting(WheelPlace::Gravity, range(Kind::Scenario, GRAVITY)),
+            _ if name == LOAD.name => setting(WheelPlace::Load, Some(study::LOAD_N)),
+            _ if name == SLIP_RATIO.name => setting(WheelPlace::SlipRatio, Some(study::SLIP_RATIO)),
+            _ if name == SLIP_ANGLE.name => {
+                setting(WheelPlace::SlipAngle, Some(study::SLIP_ANGLE_DEG))
+            }
             _ => Err(NoSuchKey::among(name, &self.all())),
         }
     }
@@ -159,12 +163,12 @@ impl WheelKeys {
         for ((asked, place), number) in self.keys.iter().zip(numbers) {
             let Some(key) = &asked.key else { continue };
             match place {
-                Place::Soil => soil.push((&*key.path, *number)),
-                Place::Wheel => wheel.push((&*key.path, *number)),
-                Place::Gravity => set.gravity = *number,
-                Place::Load => set.load = *number,
-                Place::SlipRatio => set.slip_ratio = *number,
-                Place::SlipAngle => set.slip_angle = SLIP_ANGLE.unit.to_si(*number),
+                WheelPlace::Soil => soil.push((&*key.path, *number)),
+                WheelPlace::Wheel => wheel.push((&*key.path, *number)),
+                WheelPlace::Gravity => set.gravity = *number,
+                WheelPlace::Load => set.load = *number,
+                WheelPlace::SlipRatio => set.slip_ratio = *number,
+                WheelPlace::SlipAngle => set.slip_angle = SLIP_ANGLE.unit.to_si(*number),
             }
         }
         let contact = Contact {
@@ -179,18 +183,18 @@ impl WheelKeys {
 
 impl ChangedKeys<'_> {
     /// Where a number stands, if not where its document has it.
-    fn value(&self, asked: &AskedKey, place: Place, setting: &StandSetting) -> Option<f64> {
+    fn value(&self, asked: &AskedKey, place: WheelPlace, setting: &StandSetting) -> Option<f64> {
         let among = |changed: &[(&str, f64)]| {
             let path = &asked.key.as_ref()?.path;
             changed.iter().rev().find(|(key, _)| key == path).map(|(_, value)| *value)
         };
         match place {
-            Place::Soil => among(self.soil),
-            Place::Wheel => among(self.wheel),
-            Place::Gravity => Some(setting.gravity),
-            Place::Load => Some(setting.load),
-            Place::SlipRatio => Some(setting.slip_ratio),
-            Place::SlipAngle => Some(SLIP_ANGLE.unit.from_si(setting.slip_angle)),
+            WheelPlace::Soil => among(self.soil),
+            WheelPlace::Wheel => among(self.wheel),
+            WheelPlace::Gravity => Some(setting.gravity),
+            WheelPlace::Load => Some(setting.load),
+            WheelPlace::SlipRatio => Some(setting.slip_ratio),
+            WheelPlace::SlipAngle => Some(SLIP_ANGLE.unit.from_si(setting.slip_angle)),
         }
     }
 }

@@ -14,7 +14,7 @@
 use super::path::{Gradients, Held, Path, Place, Point};
 use super::study::HeadingStudy;
 use super::{HeadingCurve, HeadingOffset, LimitedBy, NoHeading};
-use crate::difference::{Slope, Steps, Variable, slopes};
+use crate::difference::{Derivative, StepLengths, Variable, derivatives};
 use crate::soil::Span;
 use crate::units::deg;
 use crate::vehicle::Rover;
@@ -38,9 +38,9 @@ pub struct ChangeableStudy<'a> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeadingDerivatives {
     /// Those of each result by each number; none by a number that can be changed to neither side.
-    pub by_variable: Vec<Option<Vec<Slope>>>,
+    pub by_variable: Vec<Option<Vec<Derivative>>>,
     /// Those by the slope [1/rad].
-    pub by_slope: Option<Vec<Slope>>,
+    pub by_slope: Option<Vec<Derivative>>,
 }
 
 /// How many equations balance a rover that holds its course.
@@ -54,7 +54,7 @@ const SLOPE: usize = 2;
 struct Partials {
     /// By each number, then by slip ratio, crab angle and slope: of the results, then of the two
     /// imbalances.
-    by_variable: Vec<Option<Vec<Slope>>>,
+    by_variable: Vec<Option<Vec<Derivative>>>,
     results: usize,
 }
 
@@ -82,19 +82,25 @@ impl HeadingCurve {
     /// The derivatives of the steepest slope [rad] by each number; none where it can be changed to
     /// neither side, or where what ends the curve has no derivative.
     #[must_use]
-    pub fn limit_gradient(&self, changeable: &ChangeableStudy<'_>) -> Vec<Option<Slope>> {
+    pub fn limit_gradient(&self, changeable: &ChangeableStudy<'_>) -> Vec<Option<Derivative>> {
         let none = || vec![None; changeable.variables.len()];
         match self.limited_by() {
             Some(LimitedBy::Wheels) => {
                 self.points.last().map_or_else(none, |last| self.fold_gradient(last, changeable))
             }
             Some(LimitedBy::GroundStrength) => self.strength_gradient(changeable),
-            Some(LimitedBy::Range) => vec![Some(Slope::smooth(0.0)); changeable.variables.len()],
+            Some(LimitedBy::Range) => {
+                vec![Some(Derivative::smooth(0.0)); changeable.variables.len()]
+            }
             Some(LimitedBy::NotFound) | None => none(),
         }
     }
 
-    fn fold_gradient(&self, last: &Point, changeable: &ChangeableStudy<'_>) -> Vec<Option<Slope>> {
+    fn fold_gradient(
+        &self,
+        last: &Point,
+        changeable: &ChangeableStudy<'_>,
+    ) -> Vec<Option<Derivative>> {
         /// Flatter than this the curve folds at its last point [-].
         const FLAT: f64 = 1e-3;
         let numbers = changeable.variables.len();
@@ -118,13 +124,13 @@ impl HeadingCurve {
             let value = -along(by.map(|it| it.value)) / rise;
             let sides = [0, 1].map(|side| -along(by.map(|it| it.sides[side])) / rise);
             let is_smooth = by.iter().all(|it| !it.is_one_sided());
-            Some(if is_smooth { Slope::smooth(value) } else { Slope { value, sides } })
+            Some(if is_smooth { Derivative::smooth(value) } else { Derivative { value, sides } })
         };
         (0..numbers).map(of).collect()
     }
 
     /// The same where the ground's own strength ends.
-    fn strength_gradient(&self, changeable: &ChangeableStudy<'_>) -> Vec<Option<Slope>> {
+    fn strength_gradient(&self, changeable: &ChangeableStudy<'_>) -> Vec<Option<Derivative>> {
         let here = [self.study.ground_limit()];
         let mut evaluate = |points: &[Vec<f64>]| {
             let limit = |numbers: &Vec<f64>| {
@@ -132,7 +138,8 @@ impl HeadingCurve {
             };
             points.iter().map(limit).collect()
         };
-        let found = slopes(changeable.variables, &here, &[1.0], Steps::EXACT, &mut evaluate);
+        let found =
+            derivatives(changeable.variables, &here, &[1.0], StepLengths::EXACT, &mut evaluate);
         found.by_variable.into_iter().map(|it| it?.first().copied()).collect()
     }
 
@@ -160,7 +167,7 @@ impl HeadingCurve {
         let sizes: Vec<f64> = here[..results].iter().map(|it| it.abs()).collect();
         // A result near zero is small against its own change, the imbalance against the weight.
         let sizes: Vec<f64> = sizes.into_iter().chain([1.0; EQUATIONS]).collect();
-        let found = slopes(&variables, &here, &sizes, Steps::SETTLED, &mut evaluate);
+        let found = derivatives(&variables, &here, &sizes, StepLengths::SETTLED, &mut evaluate);
         Partials { by_variable: found.by_variable, results }
     }
 
@@ -189,7 +196,7 @@ impl HeadingCurve {
 
 impl Partials {
     /// The partial derivatives of the imbalances along a variable.
-    fn imbalances(&self, variable: usize) -> Option<[Slope; EQUATIONS]> {
+    fn imbalances(&self, variable: usize) -> Option<[Derivative; EQUATIONS]> {
         let slopes = self.by_variable[variable].as_ref()?;
         Some([slopes[self.results], slopes[self.results + 1]])
     }
@@ -202,7 +209,7 @@ impl Partials {
     }
 
     /// The derivatives of the results along a variable, with the unknowns that follow it.
-    fn along(&self, variable: usize, unknowns: &[usize]) -> Option<Vec<Slope>> {
+    fn along(&self, variable: usize, unknowns: &[usize]) -> Option<Vec<Derivative>> {
         let numbers = self.by_variable.len() - 3;
         let own = self.by_variable[variable].as_ref()?;
         let by = self.imbalances(variable)?;
@@ -225,9 +232,9 @@ impl Partials {
             let partial = |axis: usize| {
                 self.by_variable[numbers + axis]
                     .as_ref()
-                    .map_or_else(Slope::default, |it| it[result])
+                    .map_or_else(Derivative::default, |it| it[result])
             };
-            let sum = |own: f64, way: &[f64], of: &dyn Fn(Slope, f64) -> f64| {
+            let sum = |own: f64, way: &[f64], of: &dyn Fn(Derivative, f64) -> f64| {
                 let terms =
                     unknowns.iter().zip(way).map(|(axis, way)| of(partial(*axis), *way) * way);
                 own + terms.sum::<f64>()
@@ -237,16 +244,17 @@ impl Partials {
                 && by.iter().all(|it| !it.is_one_sided())
                 && unknowns.iter().all(|axis| !partial(*axis).is_one_sided());
             if is_smooth {
-                return Slope::smooth(value);
+                return Derivative::smooth(value);
             }
             let side = |side: usize| {
                 let way = ways[side].as_deref().unwrap_or(&way);
                 // An unknown that falls as the number rises comes to its other side.
-                let of =
-                    |slope: Slope, way: f64| slope.sides[if way < 0.0 { 1 - side } else { side }];
+                let of = |slope: Derivative, way: f64| {
+                    slope.sides[if way < 0.0 { 1 - side } else { side }]
+                };
                 sum(own[result].sides[side], way, &of)
             };
-            Slope { value, sides: [side(0), side(1)] }
+            Derivative { value, sides: [side(0), side(1)] }
         };
         Some((0..self.results).map(result).collect())
     }
