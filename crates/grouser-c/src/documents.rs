@@ -19,8 +19,13 @@ pub(crate) fn source(kind: Kind, text: &str) -> Result<Source, DocumentError> {
 /// Changes of single values, one a line, each as the program's `--set` has it.
 ///
 /// # Errors
-/// [`DocumentError`] for a line that is not written so.
-pub(crate) fn changes(text: Option<&str>) -> Result<Overrides, DocumentError> {
+/// [`DocumentError`] for a line that is not written so, or of a document that the call does not
+/// read.
+///
+/// * `kinds`: the documents that it reads
+pub(crate) fn changes(text: Option<&str>, kinds: &[Kind]) -> Result<Overrides, DocumentError> {
     let lines = text.unwrap_or_default().lines().map(str::trim);
-    Overrides::parse(lines.filter(|line| !line.is_empty()))
+    let changes = Overrides::parse(lines.filter(|line| !line.is_empty()))?;
+    changes.check_kinds(kinds)?;
+    Ok(changes)
 }

@@ -44,7 +44,9 @@ pub unsafe extern "C" fn grouser_mission_new(
             )
         };
         let source = source(Kind::Mission, required("mission", mission)?)?;
-        let plan = read_mission(&source, &self::changes(changed)?)?.value;
+        let changes =
+            self::changes(changed, &[Kind::Mission, Kind::Rover, Kind::Soil, Kind::Wheel])?;
+        let plan = read_mission(&source, &changes)?.value;
         let ways = plan.missions();
         let mut ways = ways.iter();
         let (_, mission) = match alternative {

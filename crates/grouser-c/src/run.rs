@@ -66,7 +66,9 @@ pub unsafe extern "C" fn grouser_run_new(
         let (scenario, changed, out) =
             unsafe { (text("scenario", scenario)?, text("changes", changes)?, place("out", out)?) };
         let source = source(Kind::Scenario, required("scenario", scenario)?)?;
-        let led = Led::new(read_scenario(&source, &self::changes(changed)?)?.value)?;
+        let kinds = [Kind::Scenario, Kind::Rover, Kind::Soil, Kind::Wheel];
+        let changes = self::changes(changed, &kinds)?;
+        let led = Led::new(read_scenario(&source, &changes)?.value)?;
         out.write(Run { id: handles::insert(Mutex::new(led)) });
         Ok(())
     })

@@ -205,7 +205,8 @@ impl WheelOnSoil {
         setting: Option<&str>,
         changed: Option<&str>,
     ) -> Result<Self, Failure> {
-        let overrides = changes(changed)?;
+        let kinds = [Kind::Soil, Kind::Wheel, Kind::Scenario];
+        let overrides = changes(changed, &kinds)?;
         let soil = read_soil(&source(Kind::Soil, soil)?, &overrides)?;
         let wheel = read_wheel(&source(Kind::Wheel, wheel)?, &overrides)?.value;
         let setting = match setting {
@@ -239,7 +240,7 @@ impl WheelOnSoil {
         out: &mut [MaybeUninit<Reaction>],
     ) {
         let wheel = |k: usize| (self.contact(motions, k), sinkages[k]);
-        if out.len() < BATCH {
+        if out.len() < BATCH && self.soil.discrepancy.is_none() {
             for (k, out) in (start..).zip(out) {
                 let (contact, sinkage) = wheel(k);
                 let forces = self.model.as_ref().forces(&contact, sinkage);

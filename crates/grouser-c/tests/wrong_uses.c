@@ -53,6 +53,12 @@ static void wrong_documents(void) {
   expect("a change that is none",
          grouser_wheel_test_new("toyoura", "hakuto", NULL, "cohesion", &other),
          GROUSER_STATUS_DOCUMENT, "key=value");
+  expect("a change of a document that is not read",
+         grouser_wheel_test_new("toyoura", "hakuto", NULL, "rover.body.mass_kg=5", &other),
+         GROUSER_STATUS_DOCUMENT, "reads no such document");
+  expect("a change of a mission in a run",
+         grouser_run_new("schema = \"scenario/1\"\nname = \"a\"\n", "mission.slope_deg=30", &run),
+         GROUSER_STATUS_DOCUMENT, "reads no such document");
   expect("not UTF-8", grouser_wheel_test_new("\xff", "hakuto", NULL, NULL, &other),
          GROUSER_STATUS_NOT_UTF8, "soil");
   expect("no such alternative", grouser_mission_new("there-and-back", "by sea", NULL, &mission),

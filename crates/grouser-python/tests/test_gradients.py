@@ -120,3 +120,5 @@ def test_jax_differentiates_forward_and_in_reverse_batched_and_compiled() -> Non
         np.testing.assert_allclose(in_reverse[place], expected, rtol=1e-12)
         np.testing.assert_allclose(forward[place], expected, rtol=1e-12)
     np.testing.assert_array_equal(pull(0.1, slips), own.drawbar_pull_n)
+    with pytest.raises(gr.ParameterError, match="load_n"):
+        gj.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=0.2, vary={"load_n": 20.0})

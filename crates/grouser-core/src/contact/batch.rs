@@ -6,6 +6,7 @@
 )]
 
 use super::bulldozing::WallResistance;
+use super::discrepancy;
 use super::forces::WheelForces;
 use super::inputs::Contact;
 use super::kernel::dispatch::Work;
@@ -109,7 +110,8 @@ impl Lanes {
 }
 
 /// The reaction of the soil on many wheels, each at a sinkage [m], in their order; each has the
-/// bits that it has alone.
+/// bits that it has alone. Where the soil has a [`Discrepancy`](crate::soil::Discrepancy) they are
+/// those with it, at the sinkage with it: a settled wheel's own.
 ///
 /// How much harder does a wheel pull the more it slips, at the same sinkage?
 ///
@@ -127,6 +129,22 @@ impl Lanes {
 /// assert_eq!(pulls, ["0.7 N", "1.8 N", "3.3 N"]);
 /// ```
 pub fn forces_many(model: &dyn WheelSoilModel, wheels: &[(Contact, f64)]) -> Vec<WheelForces> {
+    if wheels.iter().all(|(contact, _)| contact.soil.discrepancy.is_none()) {
+        return own_forces_many(model, wheels);
+    }
+    let own = |(contact, sinkage): &(Contact, f64)| {
+        (*contact, discrepancy::own_sinkage(contact, *sinkage))
+    };
+    let found = own_forces_many(model, &wheels.iter().map(own).collect::<Vec<_>>());
+    let pairs = wheels.iter().zip(found);
+    pairs.map(|((contact, _), forces)| discrepancy::corrected(contact, forces)).collect()
+}
+
+/// The same by the model alone.
+pub(super) fn own_forces_many(
+    model: &dyn WheelSoilModel,
+    wheels: &[(Contact, f64)],
+) -> Vec<WheelForces> {
     if wheels.len() < FEWEST {
         return wheels.iter().map(|(contact, sinkage)| model.forces(contact, *sinkage)).collect();
     }

@@ -9,7 +9,7 @@
 //! The partial derivatives are differences of forces ([`derivatives`]), all of them together in the lanes
 //! that many wheels share. Nothing is settled twice, so that no search's tolerance enters.
 
-use super::batch::forces_many;
+use super::batch::own_forces_many;
 use super::discrepancy::{self, Correction};
 use super::equilibrium::Settled;
 use super::forces::WheelForces;
@@ -88,10 +88,14 @@ pub fn gradient(
     contact: &Contact,
     settled: &Settled,
 ) -> WheelGradient {
+    let load = settled.forces.normal_force;
+    if load <= 0.0 {
+        // A wheel without a load touches nothing: its sinkage starts to grow without a slope.
+        return WheelGradient { by_variable: vec![None; variables.len()], evaluations: 0 };
+    }
     let sinkage = discrepancy::own_sinkage(contact, settled.sinkage);
     let radius = contact.wheel.shearing_radius();
     let own = Variable { value: sinkage, scale: sinkage, range: Span::new(0.0, radius) };
-    let load = settled.forces.normal_force;
     let all: Vec<Variable> = variables.iter().copied().chain([own]).collect();
     // The imbalance F_z − W comes last.
     let here: Vec<f64> = results_of(settled).into_iter().chain([0.0]).collect();
@@ -120,7 +124,7 @@ fn evaluated(wheel: &ChangeableWheel<'_>, points: &[Vec<f64>]) -> Vec<Option<Vec
         .collect();
     let sunk: Vec<(Contact, f64)> =
         changed.iter().flatten().map(|(contact, sinkage, _)| (*contact, *sinkage)).collect();
-    let mut forces = forces_many(wheel.model, &sunk).into_iter();
+    let mut forces = own_forces_many(wheel.model, &sunk).into_iter();
     let results = changed.iter().map(|changed| {
         let (contact, sinkage, load) = changed.as_ref()?;
         let forces = forces.next()?;
@@ -141,7 +145,8 @@ fn evaluated(wheel: &ChangeableWheel<'_>, points: &[Vec<f64>]) -> Vec<Option<Vec
 /// * `slopes`, `by_sinkage`: of the results and the imbalance, by the variable and by the sinkage
 fn implicit(slopes: &[Derivative], by_sinkage: &[Derivative]) -> Option<WheelDerivative> {
     let (imbalance, stiffness) = (slopes[RESULTS], by_sinkage[RESULTS]);
-    if stiffness.value <= 0.0 || stiffness.sides.iter().any(|it| *it <= 0.0) {
+    let grows = |slope: f64| slope.is_finite() && slope > 0.0;
+    if !grows(stiffness.value) || !stiffness.sides.into_iter().all(grows) {
         // Where F_z does not grow, no sinkage follows the load.
         return None;
     }

@@ -3,7 +3,7 @@
 
 JAX computes with 32 bits unless ``jax.config.update("jax_enable_x64", True)`` was called; the
 library always computes with 64, so that derivatives keep their digits, and results are rounded to
-what JAX has.
+what JAX has. There are first derivatives only.
 
 It needs JAX: ``pip install grouser[jax]``. How much harder does a wheel pull the more it
 slips?
@@ -29,6 +29,7 @@ import numpy as np
 from . import _core
 from . import settle as _settle
 from ._descriptions import Soil, Source, Wheel
+from ._errors import ParameterError
 from ._tables import COLUMNS
 
 __all__ = ["settle"]
@@ -67,9 +68,13 @@ def settle(
 
     Raises
     ------
-    ParameterError, DocumentNotFoundError
-        As `grouser.settle`, where numbers are known; under ``jit`` JAX reports them as errors of
-        the callback.
+    ParameterError
+        For an argument among the keys of ``vary``.
+    DocumentNotFoundError
+        If a name is neither a preset nor a file.
+    jax.errors.JaxRuntimeError
+        For numbers and keys that `grouser.settle` refuses, with its sentence: JAX reports what a
+        callback raises so.
 
     Examples
     --------
@@ -83,6 +88,10 @@ def settle(
     >>> round(float(jax.grad(sinkage)(0.08)) / 1e3, 3)
     -0.022
     """
+    own = set(_SETTINGS).intersection(vary or {})
+    if own:
+        name = min(own)
+        raise ParameterError(f"vary has the key {name!r}, which is an argument of its own", "vary")
     values = {
         "load_n": load_n,
         "slip_ratio": slip_ratio,

@@ -1,6 +1,7 @@
 //! What answers say of derivatives.
 
 use crate::document::columns::gradient::{ONE_SIDED, name};
+use crate::document::columns::{OK, STATUS};
 use crate::document::table::Table;
 
 /// Derivatives by more keys than this are too many columns for reading.
@@ -17,8 +18,8 @@ pub(super) fn brief(results: &[&str], keys: &[&str]) -> Vec<String> {
     keys.iter().flat_map(of_key).collect()
 }
 
-/// What is said below the rows: how many derivatives there are, by which keys there are none, and
-/// how many are one-sided.
+/// What is said below the rows: how many derivatives there are, by which keys there are none and
+/// why, and how many are one-sided.
 ///
 /// * `lacking`: the keys that the documents give no value
 pub(super) fn lines(rows: &Table, keys: &[&str], lacking: &[&str]) -> String {
@@ -26,9 +27,7 @@ pub(super) fn lines(rows: &Table, keys: &[&str], lacking: &[&str]) -> String {
     let elsewhere = (keys.len() > MOST_KEYS).then(|| {
         format!("{count} derivatives of each row, by {} keys, are in JSON and CSV\n", keys.len())
     });
-    let lacking = lacking
-        .iter()
-        .map(|key| format!("no derivative by {key}: the document gives it no value\n"));
+    let missing = keys.iter().filter_map(|key| missing_line(rows, key, lacking.contains(key)));
     let one_sided: usize = rows.words(ONE_SIDED).iter().map(Vec::len).sum();
     let is = if one_sided == 1 { "derivative is" } else { "derivatives are" };
     let one_sided = (one_sided > 0).then(|| {
@@ -37,5 +36,29 @@ pub(super) fn lines(rows: &Table, keys: &[&str], lacking: &[&str]) -> String {
              value is the mean of both sides\n"
         )
     });
-    elsewhere.into_iter().chain(lacking).chain(one_sided).collect()
+    elsewhere.into_iter().chain(missing).chain(one_sided).collect()
+}
+
+/// Why rows that have results have no derivatives by a key.
+fn missing_line(rows: &Table, key: &str, is_lacking: bool) -> Option<String> {
+    if is_lacking {
+        return Some(format!("no derivative by {key}: the document gives it no value\n"));
+    }
+    let end = format!("_d_{key}");
+    let is_of_key = |name: &&String| name.starts_with("d_") && name.ends_with(&end);
+    let names = rows.names();
+    let columns: Vec<&[Option<f64>]> =
+        names.iter().filter(is_of_key).map(|name| rows.numbers(name)).collect();
+    let is_missing = |row: usize| columns.iter().any(|column| column[row].is_none());
+    let statuses = rows.texts(STATUS);
+    let has_result = |row: &usize| statuses.get(*row).is_none_or(|it| it.as_deref() == Some(OK));
+    let count = (0..rows.rows()).filter(has_result).filter(|row| is_missing(*row)).count();
+    let of = if count == rows.rows() { String::new() } else { format!(" in {count} rows") };
+    (count > 0).then(|| {
+        format!(
+            "no derivative by {key}{of}: there the key cannot be changed alone, or the result has no \
+             slope (no load, the steepest slope itself, a curve that ends where a wheel sinks or the \
+             rover tips over)\n"
+        )
+    })
 }

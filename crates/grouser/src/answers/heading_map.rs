@@ -6,7 +6,8 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::{
-    Answer, AnswerError, AnswerOptions, CrossTable, Displayed, Member, Sampling, meanings, samples,
+    Answer, AnswerError, AnswerOptions, CrossTable, Displayed, Member, Sampling, gradient,
+    meanings, samples,
 };
 use crate::document::columns::gradient::RowDerivatives;
 use crate::document::columns::heading::{self, held};
@@ -79,12 +80,20 @@ impl HeadingMapQuestion {
         self.state(&mut answer);
         answer.results.push(Member::rows("rows", Arc::clone(&table)));
         answer.tables.push((name.to_owned(), Arc::clone(&table)));
+        let keys = self.gradients.as_ref();
+        let keys =
+            keys.map(|it| HeadingKeys::of(&self.scenarios[0], Steering::None, it)).transpose()?;
+        let (names, lacking) = keys.as_ref().map_or_else(Default::default, |it| {
+            (it.names().collect::<Vec<_>>(), it.lacking().collect::<Vec<_>>())
+        });
+        let brief = gradient::brief(&[YAW.name], &names);
+        let derivatives = gradient::lines(&table, &names, &lacking);
         let crossed = Displayed::Crossed {
             table: Arc::clone(&table),
-            columns: self.brief(),
+            columns: [self.brief(), brief].concat(),
             crossing: self.crossing(),
         };
-        answer.screen = vec![crossed, Displayed::Words(self.model_lines())];
+        answer.screen = vec![crossed, Displayed::Words(self.model_lines() + &derivatives)];
         for (place, scenario) in self.scenarios.iter().enumerate() {
             answer.attach(self.file(place), scenario);
         }

@@ -2,8 +2,8 @@
 
 use grouser::contact::time_step::{FORCES, MOTIONS, REST_SPEED, SINKAGE_DAMPING};
 use grouser::contact::{
-    Contact, Model, Settled, Slip, SteppingWheel, TimeStep, WheelForces, settle, settle_from,
-    settle_many,
+    Contact, Model, Settled, Slip, SteppingWheel, TimeStep, WheelForces, forces_many, settle,
+    settle_from, settle_many,
 };
 use grouser::document::{self, Kind, LoadedSoil, Overrides, Source};
 use grouser::soil::discrepancy::{SIDE_VALUES, VALUES};
@@ -198,6 +198,30 @@ fn every_way_to_a_reaction_has_the_discrepancy() {
 
 /// A wheel that settles near its own answer needs no more than one that has no discrepancy: a guess
 /// is a sinkage as answers have it.
+/// Asked at the sinkage at which it has settled, a wheel has the forces that it has settled with.
+#[test]
+fn forces_at_a_settled_sinkage_are_those_of_the_settled_wheel() {
+    for model in Model::ALL {
+        for motion in MOTIONS_TRIED {
+            let soil = sand(Some(uneven()));
+            let contact = contact(soil, slip_of(motion));
+            let settled = settled(&model, Some(uneven()), slip_of(motion), LOAD);
+            for count in [1, 40] {
+                let sunk = vec![(contact, settled.sinkage); count];
+                for forces in forces_many(model.as_ref(), &sunk) {
+                    for (found, expected) in [
+                        (forces.normal_force, LOAD),
+                        (forces.drawbar_pull, settled.forces.drawbar_pull),
+                        (forces.torque, settled.forces.torque),
+                    ] {
+                        assert!((found - expected).abs() < 1e-8 * LOAD, "{found} for {expected}");
+                    }
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn a_guess_has_the_discrepancy_of_an_answer() {
     let deep = Discrepancy { sinkage: [1.5; VALUES], ..Discrepancy::NONE };

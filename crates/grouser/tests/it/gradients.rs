@@ -408,3 +408,60 @@ fn derivatives_of_headings_are_those_of_whole_curves() {
         assert!((by_slope - reference).abs() < 1e-5, "{model}: {by_slope} for {reference}");
     }
 }
+
+fn heading_keys(keys: &[&str]) -> (HeadingKeys, grouser::document::LoadedScenario) {
+    let scenario = read_scenario(&Source::default_scenario(), &Overrides::none()).unwrap();
+    let asked = GradientKeys::These(keys.iter().map(|key| (*key).to_owned()).collect());
+    (HeadingKeys::of(&scenario, Steering::None, &asked).unwrap(), scenario)
+}
+
+/// On level ground the heading is none, and begins to turn with the slope as it does just beside.
+#[test]
+fn a_heading_begins_to_turn_on_level_ground() {
+    let (keys, scenario) = heading_keys(&["slope_deg"]);
+    let study = HeadingStudy::of(&scenario.value);
+    for course in [0.0, deg(30.0)] {
+        let curve = study.curve_on(course).unwrap();
+        let by_slope = |slope: f64| keys.on_slope(&curve, slope)[0].as_ref().unwrap()[0].value;
+        let [level, beside] = [by_slope(0.0), by_slope(deg(0.01))];
+        assert!((level - beside).abs() < 0.02 * beside.abs(), "{level}, beside it {beside}");
+        assert!(beside > 0.1, "{beside}");
+    }
+}
+
+/// Straight up a slope the wheels spin on the spot in the end: that limit has derivatives, too.
+#[test]
+fn a_steepest_slope_on_which_wheels_spin_has_derivatives() {
+    let key = "soil.friction_angle_deg";
+    let (keys, scenario) = heading_keys(&[key]);
+    let limit = |degrees: f64| {
+        let changed = grouser::document::scenario_with(&scenario.value, [(key, degrees)]).unwrap();
+        let curve = HeadingStudy::of(&changed).curve_on(deg(90.0)).unwrap();
+        curve.limit().unwrap().0.to_degrees()
+    };
+    let curve = HeadingStudy::of(&scenario.value).curve_on(deg(90.0)).unwrap();
+    let found = keys.of_limit(&curve)[0].expect("a derivative").value;
+    let reference = (limit(38.01) - limit(37.99)) / 0.02;
+    assert!((found - reference).abs() < 1e-4, "{found} for {reference}");
+}
+
+/// On the steepest slope itself the curve turns back: no number there is a derivative.
+#[test]
+fn the_steepest_slope_itself_has_no_derivatives_of_its_heading() {
+    let (keys, scenario) = heading_keys(&["soil.friction_angle_deg"]);
+    let curve = HeadingStudy::of(&scenario.value).curve().unwrap();
+    let (limit, _) = curve.limit().unwrap();
+    assert_eq!(keys.on_slope(&curve, limit)[0], None);
+    assert!(keys.on_slope(&curve, limit - deg(0.01))[0].is_some());
+}
+
+#[test]
+fn a_wheel_without_a_load_has_no_derivatives() {
+    let contact = given::on_stand(given::toyoura(), given::hakuto_wheel(), 0.2, 0.0);
+    let numbers = Numbers::of(contact, [0.2, 0.0], 0.0);
+    let with = |values: &[f64]| numbers.with(values);
+    let settled = given::settled(Model::Ishigami.as_ref(), &contact, 0.0);
+    let changeable = ChangeableWheel { model: Model::Ishigami.as_ref(), with: &with };
+    let found = gradient(&changeable, &numbers.variables(), &contact, &settled);
+    assert!(found.by_variable.iter().all(Option::is_none));
+}

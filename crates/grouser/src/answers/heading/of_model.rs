@@ -82,12 +82,16 @@ impl<'q> OfModel<'q> {
         heading::table(&self.curve, &self.scenario.value.rover, &slopes)
     }
 
-    /// What is said about derivatives.
+    /// What is said about derivatives, of the rows and of the steepest slope.
     pub(super) fn gradient_lines(&self) -> String {
         let Some(keys) = &self.keys else { return String::new() };
         let names: Vec<&str> = keys.names().collect();
         let lacking: Vec<&str> = keys.lacking().collect();
-        super::super::gradient::lines(&self.table, &names, &lacking)
+        let of_rows = super::super::gradient::lines(&self.table, &names, &lacking);
+        let of_limit = super::super::gradient::lines(&self.limit, &names, &lacking);
+        let new = of_limit.lines().filter(|line| line.starts_with("no derivative"));
+        let new = new.filter(|line| !of_rows.contains(line));
+        of_rows.clone() + &new.map(|line| format!("steepest slope: {line}\n")).collect::<String>()
     }
 
     /// What is said about its steepest slope.

@@ -2,8 +2,10 @@
 
 use super::{AskedKey, GradientKeys, NoSuchKey, asked};
 use crate::difference::{Derivative, Variable};
-use crate::document::columns::heading::{Held, held, steered};
-use crate::document::columns::{COURSE, Column, LIMIT_SLOPE, POWER, SLOPE};
+use crate::document::columns::heading::{Held, YAW_MOMENT, held, steered};
+use crate::document::columns::{
+    COURSE, Column, ENERGY_PER_METRE, LIMIT_SLOPE, POWER, SLIP_RATIO, SLOPE, TORQUE,
+};
 use crate::document::varied::{Numbers as _, Varied};
 use crate::document::{Described as _, LoadedScenario, study};
 use crate::simulation::Scenario;
@@ -122,7 +124,27 @@ impl HeadingKeys {
             let held = Held { heading, rover, rim_speed: None };
             results(self.steering).map(|column| column.number(&held)).collect()
         };
-        ask(&ChangeableStudy { variables: &variables, with: &with, results: &results })
+        let sizes: Vec<f64> = self.sizes();
+        ask(&ChangeableStudy {
+            variables: &variables,
+            with: &with,
+            results: &results,
+            sizes: &sizes,
+        })
+    }
+
+    /// What a change of each result is small against where it is near zero: a degree, a percent, a
+    /// millimetre, and for forces a hundredth of the weight, with a lever of a metre.
+    fn sizes(&self) -> Vec<f64> {
+        let weight = self.scenario.value.rover.mass() * self.scenario.value.gravity;
+        let size = |name: &str| match name {
+            _ if name == SLIP_RATIO.name => 0.01,
+            _ if [TORQUE.name, YAW_MOMENT.name, ENERGY_PER_METRE.name].contains(&name) => {
+                0.01 * weight
+            }
+            _ => 1.0,
+        };
+        self.results().into_iter().map(size).collect()
     }
 
     /// The study with other numbers, and its course [rad].

@@ -11,7 +11,7 @@
 //! derivative: dα/dp = −(w·∂R/∂p)/(w·∂R/∂α). The partial derivatives are differences of settled
 //! rovers at one place; no balance is sought twice.
 
-use super::path::{Gradients, Held, Path, Place, Point};
+use super::path::{Gradients, Held, MOST_SLIP, Path, Place, Point};
 use super::study::HeadingStudy;
 use super::{HeadingCurve, HeadingOffset, LimitedBy, NoHeading};
 use crate::difference::{Derivative, StepLengths, Variable, derivatives};
@@ -32,6 +32,8 @@ pub struct ChangeableStudy<'a> {
     pub with: &'a StudyWith<'a>,
     /// The results of a heading that are differentiated, in any units.
     pub results: &'a dyn Fn(&HeadingOffset, &Rover) -> Vec<f64>,
+    /// What a change of each of them is small against where it is near zero.
+    pub sizes: &'a [f64],
 }
 
 /// The derivatives of results at a point of a curve.
@@ -42,6 +44,11 @@ pub struct HeadingDerivatives {
     /// Those by the slope [1/rad].
     pub by_slope: Option<Vec<Derivative>>,
 }
+
+/// Side walls whose law jumps hold a rover on slopes of more than this [rad].
+const JUMP: f64 = 1e-6;
+/// An imbalance whose determinant is smaller, over its terms, is that of a fold [-].
+const FOLDED: f64 = 1e-4;
 
 /// How many equations balance a rover that holds its course.
 const EQUATIONS: usize = 2;
@@ -70,8 +77,9 @@ impl HeadingCurve {
     ) -> Result<HeadingDerivatives, NoHeading> {
         let (point, _) = self.point_on(slope)?;
         let partials = self.partials(&point, changeable);
-        // Side walls that hold the rover without any crab hold it beside this number, too.
-        let is_held = slope <= self.held_below && point.place.y == 0.0;
+        // Side walls that hold the rover without any crab hold it beside this number, too. Where
+        // their law does not jump the curve starts on level ground, but for rounding.
+        let is_held = self.held_below > JUMP && slope <= self.held_below;
         let is_held = is_held || Path::new(&self.study, self.held).is_straight();
         let unknowns: &[usize] = if is_held { &[SLIP] } else { &[SLIP, CRAB] };
         let numbers = changeable.variables.len();
@@ -111,8 +119,7 @@ impl HeadingCurve {
         let gradients: Gradients = [0, 1].map(|row| Place::new(slip[row], crab[row], slope[row]));
         let tangent = gradients[0].cross(&gradients[1]);
         if tangent.z.abs() > FLAT * tangent.norm() {
-            // The curve ends while it rises: at the most slip, or where wheels tip or sink.
-            return vec![None; numbers];
+            return self.end_gradient(last, &partials);
         }
         let size = |column: [f64; 2]| column[0].hypot(column[1]);
         let column = if size(slip) > size(crab) { slip } else { crab };
@@ -125,6 +132,29 @@ impl HeadingCurve {
             let sides = [0, 1].map(|side| -along(by.map(|it| it.sides[side])) / rise);
             let is_smooth = by.iter().all(|it| !it.is_one_sided());
             Some(if is_smooth { Derivative::smooth(value) } else { Derivative { value, sides } })
+        };
+        (0..numbers).map(of).collect()
+    }
+
+    /// The same where the curve ends while it rises: wheels that spin on the spot keep their slip.
+    /// Where wheels tip over or sink the end has no equation of its own here, and no derivative.
+    fn end_gradient(&self, last: &Point, partials: &Partials) -> Vec<Option<Derivative>> {
+        let numbers = partials.by_variable.len() - 3;
+        if (last.place.x.abs() - MOST_SLIP).abs() > 1e-9 {
+            return vec![None; numbers];
+        }
+        let is_straight = Path::new(&self.study, self.held).is_straight();
+        let unknowns: &[usize] = if is_straight { &[SLOPE] } else { &[CRAB, SLOPE] };
+        let rise = |by: [f64; 2]| partials.solved(by, unknowns)?.last().copied();
+        let of = |variable: usize| {
+            let by = partials.imbalances(variable)?;
+            let value = rise(by.map(|it| it.value))?;
+            let is_smooth = by.iter().all(|it| !it.is_one_sided());
+            if is_smooth {
+                return Some(Derivative::smooth(value));
+            }
+            let side = |side: usize| rise(by.map(|it| it.sides[side]));
+            Some(Derivative { value, sides: [side(0)?, side(1)?] })
         };
         (0..numbers).map(of).collect()
     }
@@ -164,9 +194,8 @@ impl HeadingCurve {
             return Partials { by_variable: vec![None; variables.len()], results: 0 };
         };
         let results = here.len() - EQUATIONS;
-        let sizes: Vec<f64> = here[..results].iter().map(|it| it.abs()).collect();
-        // A result near zero is small against its own change, the imbalance against the weight.
-        let sizes: Vec<f64> = sizes.into_iter().chain([1.0; EQUATIONS]).collect();
+        let sizes = here[..results].iter().zip(changeable.sizes).map(|(it, size)| it.abs() + size);
+        let sizes: Vec<f64> = sizes.chain([1.0; EQUATIONS]).collect();
         let found = derivatives(&variables, &here, &sizes, StepLengths::SETTLED, &mut evaluate);
         Partials { by_variable: found.by_variable, results }
     }
@@ -208,26 +237,34 @@ impl Partials {
         Some([values(SLIP)?, values(CRAB)?, values(SLOPE)?])
     }
 
+    /// How fast the unknowns, one or two of a point's coordinates, change so that the imbalances
+    /// stay zero; nothing where the curve folds, so that none follow.
+    ///
+    /// * `by`: how fast the imbalances change by themselves
+    fn solved(&self, by: [f64; EQUATIONS], unknowns: &[usize]) -> Option<Vec<f64>> {
+        let of_place = self.of_place(self.by_variable.len() - 3)?;
+        if let [one] = unknowns {
+            return Some(vec![-by[0] / of_place[*one][0]]).filter(|it| it[0].is_finite());
+        }
+        let [one, other] = [of_place[unknowns[0]], of_place[unknowns[1]]];
+        let terms = [one[0] * other[1], other[0] * one[1]];
+        let determinant = terms[0] - terms[1];
+        if determinant.abs() <= FOLDED * (terms[0].abs() + terms[1].abs()) {
+            return None;
+        }
+        Some(vec![
+            -(by[0] * other[1] - other[0] * by[1]) / determinant,
+            -(one[0] * by[1] - by[0] * one[1]) / determinant,
+        ])
+    }
+
     /// The derivatives of the results along a variable, with the unknowns that follow it.
     fn along(&self, variable: usize, unknowns: &[usize]) -> Option<Vec<Derivative>> {
         let numbers = self.by_variable.len() - 3;
         let own = self.by_variable[variable].as_ref()?;
         let by = self.imbalances(variable)?;
-        let of_place = self.of_place(numbers)?;
-        let follow = |by: [f64; 2]| -> Option<Vec<f64>> {
-            if let [one] = unknowns {
-                return Some(vec![-by[0] / of_place[*one][0]]);
-            }
-            let [slip, crab] = [of_place[SLIP], of_place[CRAB]];
-            let determinant = slip[0] * crab[1] - crab[0] * slip[1];
-            let found = [
-                -(by[0] * crab[1] - crab[0] * by[1]) / determinant,
-                -(slip[0] * by[1] - by[0] * slip[1]) / determinant,
-            ];
-            found.iter().all(|it| it.is_finite()).then(|| found.to_vec())
-        };
-        let way = follow(by.map(|it| it.value))?;
-        let ways = [0, 1].map(|side| follow(by.map(|it| it.sides[side])));
+        let way = self.solved(by.map(|it| it.value), unknowns)?;
+        let ways = [0, 1].map(|side| self.solved(by.map(|it| it.sides[side]), unknowns));
         let result = |result: usize| {
             let partial = |axis: usize| {
                 self.by_variable[numbers + axis]

@@ -159,7 +159,7 @@ const BALANCED: f64 = 1e-10;
 /// Stands for c = 0⁺, where a side-wall law that jumps has its full force [rad].
 pub(super) const JUST_TURNED: f64 = 1e-9;
 /// Wheels that slip this much no longer move the rover, or hold it [-].
-const MOST_SLIP: f64 = 0.999;
+pub(super) const MOST_SLIP: f64 = 0.999;
 
 impl<'a> Path<'a> {
     pub(super) fn new(study: &'a HeadingStudy, held: Held) -> Self {
