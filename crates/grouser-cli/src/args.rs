@@ -31,7 +31,7 @@ use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use grouser::answers::EVERY_MODEL;
 use grouser::contact::Model;
-use grouser::studies::gradient::GradientKeys;
+use grouser::document::gradient::GradientKeys;
 
 use crate::output::Format;
 

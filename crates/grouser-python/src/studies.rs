@@ -12,6 +12,7 @@ use grouser::document::columns::run::{
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{self, COURSE, LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE};
 use grouser::document::forecast as words;
+use grouser::document::gradient::GradientKeys;
 use grouser::document::learn::contradiction;
 use grouser::document::simulated_test::{NOISE, TRIALS};
 use grouser::document::study::{self, COURSE_DEG, MAP_SPEED_M_S, SHARE};
@@ -24,7 +25,6 @@ use grouser::studies::ensemble::NothingAccepted;
 use grouser::studies::ensemble::models::{ModelSpread, Question};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::forecast::{Choices, ForecastError, ForecastStudy, Ground};
-use grouser::studies::gradient::GradientKeys;
 use grouser::studies::heading::{HeadingStudy, Steering};
 use grouser::studies::heading_band::HeadingBand;
 use grouser::studies::heading_map::HeadingMap;

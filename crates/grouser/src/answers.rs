@@ -16,12 +16,12 @@ pub mod wheel_test;
 
 use crate::contact::validity::Finding;
 use crate::document::columns;
+use crate::document::gradient::NoSuchKey;
 use crate::document::reading;
 use crate::document::statistics::NothingAccepted;
 use crate::document::table::Table;
 use crate::document::validity::OutsideDomain;
 use crate::error::ParameterError;
-use crate::studies::gradient::NoSuchKey;
 use crate::studies::heading::HeadingStudy;
 
 pub use self::samples::{Sampling, weights};

@@ -9,6 +9,7 @@ pub mod columns;
 mod doubts;
 pub mod experiment;
 pub mod forecast;
+pub mod gradient;
 pub mod learn;
 pub mod plates;
 pub mod ranking;

@@ -4,7 +4,6 @@
 //! | study | computes |
 //! |---|---|
 //! | [`wheel_test`] | forces and sinkage on a single-wheel test stand |
-//! | [`gradient`] | how the answers of these change with any number of their documents |
 //! | [`wheel_test_band`] | the same where soil and model are uncertain |
 //! | [`heading`] | the heading offset that holds the contour on a slope |
 //! | [`heading_map`], [`heading_band`] | the same for other courses and soils, and where soil and model are uncertain |
@@ -39,7 +38,6 @@ pub mod drive_validation;
 pub mod ensemble;
 pub mod evidence;
 pub mod forecast;
-pub mod gradient;
 pub mod heading;
 pub mod heading_band;
 pub mod heading_map;

@@ -2,8 +2,8 @@
 
 use grouser::answers::Sampling;
 use grouser::document::LoadedScenario;
+use grouser::document::gradient::GradientKeys;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
-use grouser::studies::gradient::GradientKeys;
 use grouser::studies::verdict::Rule;
 use serde_json::json;
 

@@ -13,11 +13,11 @@ use crate::document::columns::gradient::RowDerivatives;
 use crate::document::columns::heading::{self, held};
 use crate::document::columns::{self, COURSE, MODEL, SLIP_RATIO, SLOPE, YAW};
 use crate::document::figure::HeatMap;
+use crate::document::gradient::{GradientKeys, HeadingKeys};
 use crate::document::table::{Table, Values};
 use crate::document::{LoadedScenario, escape};
 use crate::studies::ensemble::models::Question;
 use crate::studies::ensemble::samples::BandInputs;
-use crate::studies::gradient::{GradientKeys, HeadingKeys};
 use crate::studies::heading::{HeadingOffset, HeadingStudy, Steering};
 use crate::studies::heading_map::{HeadingMap, HeadingRow};
 

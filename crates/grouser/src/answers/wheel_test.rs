@@ -14,12 +14,12 @@ use crate::document::columns::{
     self, DRAWBAR_PULL, LOAD, MODEL, Quantity, SIDE_FORCE, SINKAGE, SLIP_ANGLE, SLIP_RATIO, TORQUE,
 };
 use crate::document::figure::{BAND_COLOUR, Chart, Series, Style, axis};
+use crate::document::gradient::{GradientKeys, WheelKeys};
 use crate::document::reading::{capitalised, four_digits};
 use crate::document::table::Table;
 use crate::document::{LoadedSoil, LoadedWheel};
 use crate::studies::ensemble::models::Question;
 use crate::studies::ensemble::samples::BandInputs;
-use crate::studies::gradient::{GradientKeys, WheelKeys};
 use crate::studies::measurement::PerQuantity;
 use crate::studies::simulated_test::SimulatedTest;
 use crate::studies::wheel_test::{WheelTest, WheelTestRow};

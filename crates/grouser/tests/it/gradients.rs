@@ -4,9 +4,9 @@
 use grouser::contact::gradient::{ChangeableWheel, WheelDerivative, gradient};
 use grouser::contact::{Contact, Model, Settled, Slip, settle};
 use grouser::difference::Variable;
+use grouser::document::gradient::{GradientKeys, HeadingKeys};
 use grouser::document::{Overrides, Source, read_scenario};
 use grouser::soil::{PressureSinkage, SmallWheel, Soil, Span};
-use grouser::studies::gradient::{GradientKeys, HeadingKeys};
 use grouser::studies::heading::{HeadingStudy, Steering};
 use grouser::units::deg;
 use proptest::prelude::*;

@@ -11,6 +11,7 @@ const LAYERS: [&[&str]; 9] = [
     &[
         "units",
         "error",
+        "difference",
         "elementary",
         "lagrange",
         "newton",

@@ -8,9 +8,9 @@ use crate::document::columns::gradient;
 use crate::document::columns::heading::{self, LIMIT_REASON, LIMITED_BY};
 use crate::document::columns::wheel_speeds::{self, NONE_FOUND, WHEELS};
 use crate::document::columns::{ENERGY_PER_METRE, LIMIT_SLOPE, SLOPE};
+use crate::document::gradient::HeadingKeys;
 use crate::document::reading::rounded_down;
 use crate::document::table::Table;
-use crate::studies::gradient::HeadingKeys;
 use crate::studies::heading::{HeadingCurve, HeadingStudy, LimitedBy};
 use crate::studies::wheel_speeds::{WheelSpeedStudy, WheelSpeeds};
 

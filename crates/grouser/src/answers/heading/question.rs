@@ -3,7 +3,7 @@
 use super::super::{AnswerError, Sampling};
 use crate::document::LoadedScenario;
 use crate::document::columns::SLOPE;
-use crate::studies::gradient::GradientKeys;
+use crate::document::gradient::GradientKeys;
 use crate::studies::heading::Steering;
 use crate::studies::verdict::{Rule, SlopeStudy};
 

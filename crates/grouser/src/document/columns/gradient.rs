@@ -8,7 +8,7 @@ use super::LIMIT_SLOPE;
 use super::wheel::WHEEL;
 use crate::contact::gradient::WheelDerivative;
 use crate::difference::Derivative;
-use crate::studies::gradient::HeadingKeys;
+use crate::document::gradient::HeadingKeys;
 
 /// The names of a row's derivatives that differ from side to side, or are of one side.
 pub const ONE_SIDED: &str = "one_sided";

@@ -15,8 +15,8 @@ use super::path::{Gradients, Held, MOST_SLIP, Path, Place, Point};
 use super::study::HeadingStudy;
 use super::{HeadingCurve, HeadingOffset, LimitedBy, NoHeading};
 use crate::difference::{Derivative, StepLengths, Variable, derivatives};
+use crate::elementary::wide::hypot;
 use crate::soil::Span;
-use crate::units::deg;
 use crate::vehicle::Rover;
 
 /// A study and its course [rad] with values for some numbers; none where they are no rover and soil
@@ -49,6 +49,11 @@ pub struct HeadingDerivatives {
 const JUMP: f64 = 1e-6;
 /// An imbalance whose determinant is smaller, over its terms, is that of a fold [-].
 const FOLDED: f64 = 1e-4;
+
+/// Slip that is small: steps of smaller ones are shares of it [-].
+const SMALL_SLIP: f64 = 0.1;
+/// An angle that is small [rad].
+const SMALL_ANGLE: f64 = 0.1;
 
 /// How many equations balance a rover that holds its course.
 const EQUATIONS: usize = 2;
@@ -121,7 +126,7 @@ impl HeadingCurve {
         if tangent.z.abs() > FLAT * tangent.norm() {
             return self.end_gradient(last, &partials);
         }
-        let size = |column: [f64; 2]| column[0].hypot(column[1]);
+        let size = |column: [f64; 2]| hypot(column[0], column[1]);
         let column = if size(slip) > size(crab) { slip } else { crab };
         let null = [-column[1], column[0]];
         let along = |by: [f64; 2]| null[0] * by[0] + null[1] * by[1];
@@ -180,9 +185,9 @@ impl HeadingCurve {
             range,
         };
         let of_place = [
-            place(point.place.x, 0.1, Span::new(-1.0, 1.0)),
-            place(point.place.y, deg(5.0), Span::ANY),
-            place(point.place.z, deg(5.0), Span::at_least(0.0)),
+            place(point.place.x, SMALL_SLIP, Span::new(-1.0, 1.0)),
+            place(point.place.y, SMALL_ANGLE, Span::ANY),
+            place(point.place.z, SMALL_ANGLE, Span::at_least(0.0)),
         ];
         let variables: Vec<Variable> =
             changeable.variables.iter().copied().chain(of_place).collect();
