@@ -27,7 +27,7 @@ _LIMIT = "limit_slope_deg"
 @dataclass(frozen=True, eq=False)
 class Gradient(Mapping[str, Floats]):
     """Derivatives of results, by the results' names: arrays of the results' shape with a last axis
-    of `names`, each in the result's unit for one unit of the key. NaN by a key that the documents
+    of keys, each in the result's unit for one unit of the key. NaN by a key that the documents
     lack, and where there is no result.
 
     They are exact to about 1e-9: partial derivatives at what was found are taken by differences,
