@@ -371,7 +371,8 @@ class _Stand:
         asked, index = self._asked(inputs)
         vary = {name: asked.flat[name] for name in self._vary}
         numbers = (asked.flat[name] for name in inputs)
-        found = _core.settle_gradients(*self._documents, *numbers, index, vary, keys)
+        native: Any = _core.settle_gradients
+        found = native(*self._documents, *numbers, index, vary, keys)
         return of_rows(*found, asked.shape)
 
     def _asked(self, inputs: Mapping[str, ArrayLike]) -> tuple[Broadcast, Any]:

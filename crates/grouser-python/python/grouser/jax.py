@@ -150,7 +150,8 @@ def _settled_jvp(stand: _Stand, primals: Any, tangents: Any) -> Any:
 
 def _call(native: Any, numbers: Any, shape: tuple[int, ...]) -> Any:
     """What the library computes of numbers, for any leading axes."""
-    result = jax.ShapeDtypeStruct((*numbers.shape[:-1], *shape), numbers.dtype)
+    described: Any = jax.ShapeDtypeStruct
+    result = described((*numbers.shape[:-1], *shape), numbers.dtype)
 
     def called(cells: Any) -> Any:
         return np.asarray(native(cells), dtype=result.dtype)
