@@ -372,8 +372,8 @@ class _Stand:
         vary = {name: asked.flat[name] for name in self._vary}
         numbers = (asked.flat[name] for name in inputs)
         native: Any = _core.settle_gradients
-        found = native(*self._documents, *numbers, index, vary, keys)
-        return of_rows(*found, asked.shape)
+        rows, one_sided, keys, names = native(*self._documents, *numbers, index, vary, keys)
+        return of_rows(rows, one_sided, keys, names, asked.shape)
 
     def _asked(self, inputs: Mapping[str, ArrayLike]) -> tuple[Broadcast, Any]:
         asked = broadcast({**self._vary, **inputs}, {"soil": self._places})
