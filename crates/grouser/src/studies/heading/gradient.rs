@@ -186,7 +186,7 @@ impl HeadingCurve {
         };
         let of_place = [
             place(point.place.x, SMALL_SLIP, Span::new(-1.0, 1.0)),
-            place(point.place.y, SMALL_ANGLE, Span::ANY),
+            place(point.place.y, SMALL_ANGLE, Span::at_least(0.0)),
             place(point.place.z, SMALL_ANGLE, Span::at_least(0.0)),
         ];
         let variables: Vec<Variable> =
