@@ -72,9 +72,11 @@ def settle(
         For an argument among the keys of ``vary``.
     DocumentNotFoundError
         If a name is neither a preset nor a file.
-    jax.errors.JaxRuntimeError
-        For numbers and keys that `grouser.settle` refuses, with its sentence: JAX reports what a
-        callback raises so.
+
+    Notes
+    -----
+    Numbers and keys that `grouser.settle` refuses end in JAX's own error of a callback, which has
+    the refusal's sentence.
 
     Examples
     --------
