@@ -54,6 +54,19 @@ impl Derivative {
         Self { value, sides: [value, value] }
     }
 
+    /// What a function of slopes gives: of their values, and of those on either side.
+    ///
+    /// * `of`: asked with the side for [`at`](Self::at)
+    pub fn each(of: impl Fn(Option<usize>) -> f64) -> Self {
+        Self { value: of(None), sides: [of(Some(0)), of(Some(1))] }
+    }
+
+    /// The slope on a side, 0 below and 1 above; without one its value.
+    #[must_use]
+    pub fn at(self, side: Option<usize>) -> f64 {
+        side.map_or(self.value, |side| self.sides[side])
+    }
+
     /// The same in other units.
     #[must_use]
     pub fn times(self, factor: f64) -> Self {
@@ -126,7 +139,7 @@ enum DifferencePoints {
     Below,
 }
 
-/// DifferencesHere along one variable.
+/// Differences along one variable.
 #[derive(Clone, Debug)]
 struct Difference {
     stencil: DifferencePoints,
@@ -168,6 +181,16 @@ impl DifferencePoints {
 }
 
 impl Difference {
+    /// The difference of the next two of some results, where both are there.
+    fn next(
+        stencil: DifferencePoints,
+        step: f64,
+        results: &mut impl Iterator<Item = Option<Vec<f64>>>,
+    ) -> Option<Self> {
+        let [one, two] = [results.next().flatten(), results.next().flatten()];
+        Some(Self { stencil, step, there: [one?, two?] })
+    }
+
     /// The slope of a result that is `here` at the middle.
     fn slope(&self, result: usize, here: f64) -> f64 {
         let [one, two] = [self.there[0][result], self.there[1][result]];
@@ -206,12 +229,12 @@ const SUSPICIOUS: f64 = 1e-3;
 
 impl DifferencesHere<'_, '_> {
     fn all(&mut self) -> Vec<Option<Vec<Derivative>>> {
-        let steps: Vec<Option<DifferencePoints>> = self
+        let stencils: Vec<Option<DifferencePoints>> = self
             .variables
             .iter()
             .map(|it| DifferencePoints::within(it, self.steps.long * it.scale))
             .collect();
-        let (found, along) = self.long_and_along(&steps);
+        let (found, along) = self.long_and_along(&stencils);
         let found = self.on_other_sides(found);
         let is_straight = self.is_straight(&found, along.as_ref());
         let is_open = |difference: &Option<Difference>, place: usize| {
@@ -229,7 +252,7 @@ impl DifferencesHere<'_, '_> {
         slopes.collect()
     }
 
-    /// DifferencesHere by the long step along each variable, and by the short one along all at once.
+    /// Differences by the long step along each variable, and by the short one along all at once.
     fn long_and_along(
         &mut self,
         stencils: &[Option<DifferencePoints>],
@@ -251,11 +274,7 @@ impl DifferencesHere<'_, '_> {
             moved.collect()
         }));
         let mut results = self.evaluated(&points).into_iter();
-        let mut next = |stencil: DifferencePoints, step: f64| {
-            let there = [results.next().flatten(), results.next().flatten()];
-            let [Some(one), Some(two)] = there else { return None };
-            Some(Difference { stencil, step, there: [one, two] })
-        };
+        let mut next = |stencil, step| Difference::next(stencil, step, &mut results);
         let each = stencils.iter().zip(self.variables);
         let found = each.map(|(stencil, it)| next((*stencil)?, long * it.scale)).collect();
         (found, next(along, short))
@@ -274,7 +293,7 @@ impl DifferencesHere<'_, '_> {
             .collect()
     }
 
-    /// DifferencesHere along one variable, where there are results.
+    /// Differences along one variable, where there are results.
     fn one(&mut self, place: usize, stencil: DifferencePoints, step: f64) -> Option<Difference> {
         let variable = self.variables[place];
         let points = self.moved(place, stencil, step);
@@ -283,12 +302,11 @@ impl DifferencesHere<'_, '_> {
         if !points.iter().all(is_allowed) {
             return None;
         }
-        let there: Option<Vec<Vec<f64>>> = self.evaluated(&points).into_iter().collect();
-        let there: [Vec<f64>; 2] = there?.try_into().ok()?;
-        Some(Difference { stencil, step: step * variable.scale, there })
+        let mut results = self.evaluated(&points).into_iter();
+        Difference::next(stencil, step * variable.scale, &mut results)
     }
 
-    /// DifferencesHere by the short step along some variables.
+    /// Differences by the short step along some variables.
     fn short(&mut self, long: &[Option<Difference>], are_open: &[bool]) -> Vec<Option<Difference>> {
         let short = self.steps.short;
         let mut points: Vec<Vec<f64>> = Vec::new();
@@ -302,14 +320,8 @@ impl DifferencesHere<'_, '_> {
         }
         let mut results = self.evaluated(&points).into_iter();
         let mut of = |place: usize| {
-            let stencil = is_open(place)?.stencil;
-            let there = [results.next().flatten(), results.next().flatten()];
-            let [Some(one), Some(two)] = there else { return None };
-            Some(Difference {
-                stencil,
-                step: short * self.variables[place].scale,
-                there: [one, two],
-            })
+            let step = short * self.variables[place].scale;
+            Difference::next(is_open(place)?.stencil, step, &mut results)
         };
         (0..long.len()).map(&mut of).collect()
     }

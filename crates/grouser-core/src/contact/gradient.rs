@@ -6,11 +6,11 @@
 //! dh/dp = (dW/dp − ∂F_z/∂p) / (∂F_z/∂h)        dF/dp = ∂F/∂p + ∂F/∂h dh/dp
 //! ```
 //!
-//! The partial derivatives are differences of forces ([`derivatives`]), all of them together in the lanes
-//! that many wheels share. Nothing is settled twice, so that no search's tolerance enters.
+//! The partial derivatives are differences of forces ([`derivatives`]), all of them together in the
+//! lanes that many wheels share. Nothing is settled twice, so that no search's tolerance enters.
 
 use super::batch::own_forces_many;
-use super::discrepancy::{self, Correction};
+use super::discrepancy;
 use super::equilibrium::Settled;
 use super::forces::WheelForces;
 use super::inputs::Contact;
@@ -129,12 +129,7 @@ fn evaluated(wheel: &ChangeableWheel<'_>, points: &[Vec<f64>]) -> Vec<Option<Vec
         let (contact, sinkage, load) = changed.as_ref()?;
         let forces = forces.next()?;
         let imbalance = forces.normal_force - load;
-        let settled = match Correction::of(contact) {
-            Some(it) => {
-                Settled { sinkage: it.sinkage(*sinkage), forces: it.forces(forces), evaluations: 0 }
-            }
-            None => Settled { sinkage: *sinkage, forces, evaluations: 0 },
-        };
+        let settled = Settled::of(contact, *sinkage, forces, 0);
         Some(results_of(&settled).into_iter().chain([imbalance]).collect())
     });
     results.collect()
@@ -150,36 +145,16 @@ fn implicit(slopes: &[Derivative], by_sinkage: &[Derivative]) -> Option<WheelDer
         // Where F_z does not grow, no sinkage follows the load.
         return None;
     }
-    let of = |change: f64, stiffness: f64, side: Option<usize>| {
-        let sinking = -change / stiffness;
-        let of_side = |slope: &Derivative, side: Option<usize>| match side {
-            Some(side) => slope.sides[side],
-            None => slope.value,
-        };
+    // Alike to the last bit on both sides where every part is.
+    let of = |side: Option<usize>| {
+        let change = imbalance.at(side);
         // A wheel that sinks as the variable falls comes to the sinkage's other side.
-        let other = side.map(|side| if sinking < 0.0 { 1 - side } else { side });
-        let result = |place: usize| {
-            of_side(&slopes[place], side) + of_side(&by_sinkage[place], other) * sinking
-        };
-        std::array::from_fn::<f64, RESULTS, _>(result)
+        let other = side.map(|side| if change > 0.0 { 1 - side } else { side });
+        let sinking = -change / stiffness.at(other);
+        let result = |place: usize| slopes[place].at(side) + by_sinkage[place].at(other) * sinking;
+        of_results(std::array::from_fn(result))
     };
-    let value = of(imbalance.value, stiffness.value, None);
-    let one_side = |side: usize| {
-        let change = imbalance.sides[side];
-        let other = if -change < 0.0 { 1 - side } else { side };
-        of(change, stiffness.sides[other], Some(side))
-    };
-    let is_smooth = slopes.iter().chain(by_sinkage).all(|it| !it.is_one_sided());
-    let mut sides = if is_smooth { [value; 2] } else { [one_side(0), one_side(1)] };
-    // The imbalance's kink is in every result, one of a result's own in that alone.
-    for place in 0..RESULTS {
-        let parts = [&slopes[place], &by_sinkage[place], &imbalance, &stiffness];
-        if parts.iter().all(|it| !it.is_one_sided()) {
-            sides[0][place] = value[place];
-            sides[1][place] = value[place];
-        }
-    }
-    Some(WheelDerivative { value: of_results(value), sides: sides.map(of_results) })
+    Some(WheelDerivative { value: of(None), sides: [of(Some(0)), of(Some(1))] })
 }
 
 /// The results as a list.

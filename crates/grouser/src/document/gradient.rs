@@ -53,9 +53,7 @@ impl GradientKeys {
             names => Self::These(names.to_vec()),
         }
     }
-}
 
-impl GradientKeys {
     /// The keys as they were asked for.
     #[must_use]
     pub fn names(&self) -> Vec<String> {

@@ -60,7 +60,7 @@ impl LoadedWheel<'_> {
 
 impl Settled {
     /// What a model finds, with what the soil's discrepancy adds.
-    pub(super) fn of(
+    pub(in crate::contact) fn of(
         contact: &Contact,
         sinkage: f64,
         forces: WheelForces,

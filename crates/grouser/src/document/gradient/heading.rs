@@ -10,7 +10,7 @@ use crate::document::varied::{Numbers as _, Varied};
 use crate::document::{Described as _, LoadedScenario, study};
 use crate::simulation::Scenario;
 use crate::studies::heading::{
-    ChangeableStudy, HeadingCurve, HeadingOffset, HeadingStudy, Steering,
+    ChangeableStudy, HeadingCurve, HeadingDerivatives, HeadingOffset, HeadingStudy, Steering,
 };
 use crate::units::STEEPEST_SLOPE;
 use crate::vehicle::Rover;
@@ -77,16 +77,18 @@ impl HeadingKeys {
     #[must_use]
     pub fn on_slope(&self, curve: &HeadingCurve, slope: f64) -> Vec<Option<Vec<Derivative>>> {
         let found = self.with_study(curve, |changeable| curve.gradient(slope, changeable));
-        let Ok(found) = found else { return vec![None; self.keys.len()] };
+        let Ok(HeadingDerivatives { by_variable, by_slope }) = found else {
+            return vec![None; self.keys.len()];
+        };
         let degrees = SLOPE.unit.to_si(1.0);
         let of_key = |((_, place), own): (&(AskedKey, HeadingPlace), Option<Vec<Derivative>>)| {
             let (slopes, factor) = match place {
-                HeadingPlace::Slope => (found.by_slope.clone()?, degrees),
+                HeadingPlace::Slope => (by_slope.clone()?, degrees),
                 HeadingPlace::Scenario | HeadingPlace::Course => (own?, 1.0),
             };
             Some(slopes.into_iter().map(|slope| slope.times(factor)).collect())
         };
-        self.keys.iter().zip(found.by_variable.clone()).map(of_key).collect()
+        self.keys.iter().zip(by_variable).map(of_key).collect()
     }
 
     /// The derivatives of the steepest slope [°] by each key.

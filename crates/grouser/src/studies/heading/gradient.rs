@@ -133,10 +133,7 @@ impl HeadingCurve {
         let rise = along(slope);
         let of = |variable: usize| {
             let by = partials.imbalances(variable)?;
-            let value = -along(by.map(|it| it.value)) / rise;
-            let sides = [0, 1].map(|side| -along(by.map(|it| it.sides[side])) / rise);
-            let is_smooth = by.iter().all(|it| !it.is_one_sided());
-            Some(if is_smooth { Derivative::smooth(value) } else { Derivative { value, sides } })
+            Some(Derivative::each(|side| -along(by.map(|it| it.at(side))) / rise))
         };
         (0..numbers).map(of).collect()
     }
@@ -150,16 +147,11 @@ impl HeadingCurve {
         }
         let is_straight = Path::new(&self.study, self.held).is_straight();
         let unknowns: &[usize] = if is_straight { &[SLOPE] } else { &[CRAB, SLOPE] };
-        let rise = |by: [f64; 2]| partials.solved(by, unknowns)?.last().copied();
         let of = |variable: usize| {
             let by = partials.imbalances(variable)?;
-            let value = rise(by.map(|it| it.value))?;
-            let is_smooth = by.iter().all(|it| !it.is_one_sided());
-            if is_smooth {
-                return Some(Derivative::smooth(value));
-            }
-            let side = |side: usize| rise(by.map(|it| it.sides[side]));
-            Some(Derivative { value, sides: [side(0)?, side(1)?] })
+            let rise = |side| partials.solved(by.map(|it| it.at(side)), unknowns)?.last().copied();
+            let sides = [rise(Some(0))?, rise(Some(1))?];
+            Some(Derivative { value: rise(None)?, sides })
         };
         (0..numbers).map(of).collect()
     }
@@ -268,35 +260,23 @@ impl Partials {
         let numbers = self.by_variable.len() - 3;
         let own = self.by_variable[variable].as_ref()?;
         let by = self.imbalances(variable)?;
-        let way = self.solved(by.map(|it| it.value), unknowns)?;
-        let ways = [0, 1].map(|side| self.solved(by.map(|it| it.sides[side]), unknowns));
+        let way_at = |side| self.solved(by.map(|it| it.at(side)), unknowns);
+        let ways = [way_at(Some(0))?, way_at(Some(1))?];
+        let way = way_at(None)?;
         let result = |result: usize| {
             let partial = |axis: usize| {
-                self.by_variable[numbers + axis]
-                    .as_ref()
-                    .map_or_else(Derivative::default, |it| it[result])
+                let slopes = self.by_variable[numbers + axis].as_ref();
+                slopes.map_or_else(Derivative::default, |it| it[result])
             };
-            let sum = |own: f64, way: &[f64], of: &dyn Fn(Derivative, f64) -> f64| {
-                let terms =
-                    unknowns.iter().zip(way).map(|(axis, way)| of(partial(*axis), *way) * way);
-                own + terms.sum::<f64>()
-            };
-            let value = sum(own[result].value, &way, &|slope, _| slope.value);
-            let is_smooth = !own[result].is_one_sided()
-                && by.iter().all(|it| !it.is_one_sided())
-                && unknowns.iter().all(|axis| !partial(*axis).is_one_sided());
-            if is_smooth {
-                return Derivative::smooth(value);
-            }
-            let side = |side: usize| {
-                let way = ways[side].as_deref().unwrap_or(&way);
-                // An unknown that falls as the number rises comes to its other side.
-                let of = |slope: Derivative, way: f64| {
-                    slope.sides[if way < 0.0 { 1 - side } else { side }]
-                };
-                sum(own[result].sides[side], way, &of)
-            };
-            Derivative { value, sides: [side(0), side(1)] }
+            Derivative::each(|side| {
+                let way = side.map_or(&way, |side| &ways[side]);
+                let terms = unknowns.iter().zip(way).map(|(axis, way)| {
+                    // An unknown that falls as the number rises comes to its other side.
+                    let other = side.map(|side| if *way < 0.0 { 1 - side } else { side });
+                    partial(*axis).at(other) * way
+                });
+                own[result].at(side) + terms.sum::<f64>()
+            })
         };
         Some((0..self.results).map(result).collect())
     }
