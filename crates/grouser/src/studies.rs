@@ -4,6 +4,7 @@
 //! | study | computes |
 //! |---|---|
 //! | [`wheel_test`] | forces and sinkage on a single-wheel test stand |
+//! | [`design`] | numbers of a rover that are found: the least of an aim under limits |
 //! | [`wheel_test_band`] | the same where soil and model are uncertain |
 //! | [`heading`] | the heading offset that holds the contour on a slope |
 //! | [`heading_map`], [`heading_band`] | the same for other courses and soils, and where soil and model are uncertain |
@@ -33,6 +34,7 @@ pub mod calibration;
 pub mod card;
 pub mod comparison;
 pub mod completion;
+pub mod design;
 pub mod drive;
 pub mod drive_validation;
 pub mod ensemble;

@@ -1,0 +1,213 @@
+//! Constrained minima by sequential least-squares programming (Kraft 1988): the one file that knows
+//! the library that has it.
+
+use std::cell::RefCell;
+use std::convert::Infallible;
+
+use basin::{
+    BoxBounds, ConstraintDescription, ConstraintJacobian, ConstraintSet, ConstraintSolveError,
+    Constraints, CostFunction, DenseMatrix, Executor, Gradient, NoLinearConstraints,
+    NoNonlinearBlock, NonlinearBlock, NonlinearBlocks, NonlinearInequalityValues,
+    SelectedFirstOrderState, Slsqp, State, TerminationCode,
+};
+
+/// The objective and the constraints at a point, with their derivatives.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Values {
+    /// What is to be least.
+    pub(super) objective: f64,
+    /// What must not be above 0.
+    pub(super) constraints: Vec<f64>,
+    /// Derivatives of the objective, then of each constraint.
+    pub(super) gradients: Vec<Vec<f64>>,
+}
+
+/// A smooth problem over the unit cube.
+pub(super) trait Smooth {
+    /// How many numbers are free.
+    fn free(&self) -> usize;
+    /// How many constraints there are.
+    fn constraints(&self) -> usize;
+    /// The values at a point; none where there are none.
+    fn at(&self, point: &[f64]) -> Option<Values>;
+}
+
+/// A constrained minimum.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Minimum {
+    /// Where it is, in the unit cube.
+    pub(super) point: Vec<f64>,
+    /// The objective there.
+    pub(super) objective: f64,
+    /// By how much the objective would fall if a constraint were loosened by one.
+    pub(super) multipliers: Vec<f64>,
+}
+
+/// What objective and constraints are exact to.
+const ACCURACY: f64 = 1e-9;
+/// Iterations after which a search is given up.
+const MOST_STEPS: u64 = 200;
+
+/// The minimum to which a search from a start leads; nothing where it gives up.
+pub(super) fn minimum(problem: &dyn Smooth, start: &[f64]) -> Option<Minimum> {
+    let count = problem.free();
+    let (low, high) = (vec![0.0; count], vec![1.0; count]);
+    let adapted = Adapted { problem, low, high, last: RefCell::default() };
+    let solver = Slsqp::new().with_absolute_accuracy_tolerance(ACCURACY);
+    let state = SelectedFirstOrderState::new(start.to_vec());
+    let found = Executor::new(adapted, solver, state).max_iter(MOST_STEPS).run_with_solver().ok()?;
+    if found.report.code() != TerminationCode::SolverConverged {
+        return None;
+    }
+    Some(Minimum {
+        point: found.state.param().clone(),
+        objective: found.state.cost(),
+        multipliers: found.solver.inequality_multipliers().map(<[f64]>::to_vec).unwrap_or_default(),
+    })
+}
+
+/// The problem as the library wants it. It asks for values and derivatives one after the other at
+/// one point, where they are computed together.
+struct Adapted<'a> {
+    problem: &'a dyn Smooth,
+    low: Vec<f64>,
+    high: Vec<f64>,
+    last: RefCell<Option<(Vec<f64>, Values)>>,
+}
+
+impl Adapted<'_> {
+    fn values<T>(&self, point: &[f64], of: impl FnOnce(&Values) -> T) -> T {
+        let mut last = self.last.borrow_mut();
+        if last.as_ref().is_none_or(|(known, _)| known != point) {
+            let values = self.problem.at(point).unwrap_or_else(|| self.nothing());
+            *last = Some((point.to_vec(), values));
+        }
+        of(&last.as_ref().expect("it was set").1)
+    }
+
+    /// What stands for no values: no step is taken to where they are not finite.
+    fn nothing(&self) -> Values {
+        let (free, constraints) = (self.problem.free(), self.problem.constraints());
+        Values {
+            objective: f64::NAN,
+            constraints: vec![f64::NAN; constraints],
+            gradients: vec![vec![f64::NAN; free]; constraints + 1],
+        }
+    }
+}
+
+type Set = ConstraintSet<
+    BoxBounds<Vec<f64>>,
+    NoLinearConstraints,
+    NonlinearBlocks<NoNonlinearBlock, NonlinearBlock>,
+>;
+
+impl Constraints for Adapted<'_> {
+    type Set = Set;
+
+    fn constraints(&self) -> <Set as ConstraintDescription>::Borrowed<'_> {
+        ConstraintSet::new()
+            .with_bounds(BoxBounds::new(Some(&self.low), Some(&self.high)))
+            .with_nonlinear_inequalities(self.problem.constraints())
+    }
+}
+
+impl CostFunction for Adapted<'_> {
+    type Param = Vec<f64>;
+    type Output = f64;
+    type Error = Infallible;
+
+    fn cost(&self, point: &Vec<f64>) -> Result<f64, Infallible> {
+        Ok(self.values(point, |it| it.objective))
+    }
+}
+
+impl Gradient for Adapted<'_> {
+    type Gradient = Vec<f64>;
+
+    fn gradient(&self, point: &Vec<f64>) -> Result<Vec<f64>, Infallible> {
+        Ok(self.values(point, |it| it.gradients[0].clone()))
+    }
+}
+
+impl NonlinearInequalityValues for Adapted<'_> {
+    type Param = Vec<f64>;
+    type Values = Vec<f64>;
+    type Error = Infallible;
+
+    fn nonlinear_inequalities(
+        &self,
+        point: &Vec<f64>,
+    ) -> Result<Vec<f64>, ConstraintSolveError<Infallible>> {
+        Ok(self.values(point, |it| it.constraints.clone()))
+    }
+}
+
+impl ConstraintJacobian for Adapted<'_> {
+    type Param = Vec<f64>;
+    type Jacobian = DenseMatrix;
+    type Error = Infallible;
+
+    fn constraint_jacobian(
+        &self,
+        point: &Vec<f64>,
+    ) -> Result<DenseMatrix, ConstraintSolveError<Infallible>> {
+        let rows = self.values(point, |it| it.gradients[1..].concat());
+        Ok(DenseMatrix::from_row_slice(self.problem.constraints(), self.problem.free(), &rows))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A rectangle of least boundary with an area of at least 1/4, no wider than it may be: x + y
+    /// with 1/4 − x y ≤ 0 and x − most ≤ 0.
+    struct Rectangle {
+        most: f64,
+    }
+
+    impl Smooth for Rectangle {
+        fn free(&self) -> usize {
+            2
+        }
+
+        fn constraints(&self) -> usize {
+            2
+        }
+
+        fn at(&self, point: &[f64]) -> Option<Values> {
+            let [x, y] = [point[0], point[1]];
+            Some(Values {
+                objective: x + y,
+                constraints: vec![0.25 - x * y, x - self.most],
+                gradients: vec![vec![1.0, 1.0], vec![-y, -x], vec![1.0, 0.0]],
+            })
+        }
+    }
+
+    #[test]
+    fn a_square_has_the_least_boundary_from_any_start() {
+        for start in [[0.9, 0.9], [0.1, 0.9], [0.5, 0.2], [0.0, 0.0]] {
+            let found = minimum(&Rectangle { most: 2.0 }, &start).expect("a minimum");
+            assert!(found.point.iter().all(|it| (it - 0.5).abs() < 1e-5), "{start:?}: {found:?}");
+            // d(2 √A)/dA at A = 1/4.
+            assert!((found.multipliers[0] - 2.0).abs() < 1e-5, "{found:?}");
+            assert!(found.multipliers[1].abs() < 1e-6, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn what_holds_it_back_has_a_price() {
+        let found = minimum(&Rectangle { most: 0.4 }, &[0.3, 0.9]).expect("a minimum");
+        assert!((found.point[0] - 0.4).abs() < 1e-7 && (found.point[1] - 0.625).abs() < 1e-7);
+        // x + A/x: the price of its width is 1 − A/x², that of its area 1/x.
+        assert!((found.multipliers[0] - 2.5).abs() < 1e-5, "{found:?}");
+        assert!((found.multipliers[1] - 0.5625).abs() < 1e-5, "{found:?}");
+    }
+
+    #[test]
+    fn a_problem_without_an_answer_has_none() {
+        assert_eq!(minimum(&Rectangle { most: 0.2 }, &[0.1, 0.9]), None);
+    }
+}
