@@ -6,7 +6,7 @@
 use serde_json::Value as Json;
 
 use super::error::{DocumentError, Problem};
-use super::json_schema::{self, FROM_PRIOR};
+use super::json_schema::{self, ANY_KEY, FROM_PRIOR};
 use super::kind::Kind;
 use super::schema::{alternatives, keys, paths_of, root, under, words};
 use super::tree::{Entry, Node, Origin, Value, number};
@@ -255,6 +255,9 @@ impl Checker<'_> {
         key: &Origin,
         all: &[&'static Json],
     ) -> Result<(), DocumentError> {
+        if let Some(of_any) = schema.get(ANY_KEY).filter(|it| it.is_object()) {
+            return self.any_keys(of_any, entries, path);
+        }
         for entry in entries {
             let path = join(path, &entry.key);
             match keys(schema).find(|(key, _)| *key == entry.key) {
@@ -284,6 +287,23 @@ impl Checker<'_> {
                     .with_hint(about))
             }
         }
+    }
+
+    /// A table whose keys are those of another document: tables in it hold the ends of keys.
+    fn any_keys(
+        &self,
+        schema: &'static Json,
+        entries: &[Entry],
+        path: &str,
+    ) -> Result<(), DocumentError> {
+        for entry in entries {
+            let path = join(path, &entry.key);
+            match &entry.node.value {
+                Value::Table(inside) => self.any_keys(schema, inside, &path)?,
+                _ => self.value(schema, &entry.node, &path, &entry.key_origin)?,
+            }
+        }
+        Ok(())
     }
 
     fn unknown_key(

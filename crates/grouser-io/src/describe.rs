@@ -4,6 +4,7 @@ mod about;
 pub(crate) mod campaign;
 pub(crate) mod data_set;
 pub(crate) mod data_sheet;
+pub(crate) mod design;
 mod differences;
 pub(crate) mod mission;
 pub(crate) mod power;
@@ -32,6 +33,7 @@ pub(crate) fn rows(kind: Kind) -> &'static dyn Rows {
         Kind::Mission => &mission::MISSION,
         Kind::DataSet => &data_set::DATA_SET,
         Kind::Campaign => &campaign::CAMPAIGN,
+        Kind::Design => &design::DESIGN,
         Kind::Prior => &prior::PRIORS,
         Kind::TelemetryMapping => &telemetry_mapping::TELEMETRY_MAPPING,
     }

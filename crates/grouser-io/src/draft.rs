@@ -109,7 +109,12 @@ impl Draft {
             Kind::Soil => soil::usual,
             Kind::Scenario => scenario::usual,
             Kind::Mission => mission::usual,
-            Kind::Motor | Kind::DataSet | Kind::Campaign | Kind::Prior | Kind::TelemetryMapping => {
+            Kind::Motor
+            | Kind::DataSet
+            | Kind::Campaign
+            | Kind::Design
+            | Kind::Prior
+            | Kind::TelemetryMapping => {
                 return None;
             }
         };
@@ -125,7 +130,12 @@ impl Draft {
             Kind::Soil => &soil::KEYS,
             Kind::Scenario => &scenario::KEYS,
             Kind::Mission => &mission::KEYS,
-            Kind::Motor | Kind::DataSet | Kind::Campaign | Kind::Prior | Kind::TelemetryMapping => {
+            Kind::Motor
+            | Kind::DataSet
+            | Kind::Campaign
+            | Kind::Design
+            | Kind::Prior
+            | Kind::TelemetryMapping => {
                 &[]
             }
         }
@@ -229,7 +239,12 @@ impl Draft {
             Kind::Soil => Ok(self.answers.soil()),
             Kind::Scenario => Ok(self.answers.scenario()),
             Kind::Mission => Ok(self.answers.mission()),
-            Kind::Motor | Kind::DataSet | Kind::Campaign | Kind::Prior | Kind::TelemetryMapping => {
+            Kind::Motor
+            | Kind::DataSet
+            | Kind::Campaign
+            | Kind::Design
+            | Kind::Prior
+            | Kind::TelemetryMapping => {
                 Ok(String::new())
             }
         }

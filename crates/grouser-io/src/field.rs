@@ -84,6 +84,8 @@ pub(crate) enum Shape<T: 'static> {
     Number(Number, Reach<T>),
     Numbers(Numbers<T>),
     Pairs(Pairs<T>),
+    /// Keys of another document, each with the least and the most that its number may be.
+    Bounds(fn(&mut T, &str, [f64; 2])),
     /// A table.
     Inner(&'static dyn Inner<T>),
     /// At least so many tables.
@@ -511,6 +513,7 @@ impl<T> Field<T> {
                 };
                 all.iter().map(pair).collect()
             }
+            (Shape::Bounds(_), given) => bounds(given).map(|(key, ends)| (key, Json::from(ends.to_vec()))).collect(),
             (Shape::Number(..) | Shape::Numbers(_), given) => float(given),
             (Shape::List(each, _), Json::Array(all)) => {
                 all.iter().map(|given| each.complete(given)).collect()
@@ -528,6 +531,24 @@ impl<T> Field<T> {
             _ => given.clone(),
         }
     }
+}
+
+/// The keys of a table of bounds with their ends; a table in it holds keys that begin with its own.
+pub(crate) fn bounds(given: &Json) -> impl Iterator<Item = (String, [f64; 2])> + '_ {
+    fn add(given: &Json, path: &str, found: &mut Vec<(String, [f64; 2])>) {
+        for (key, given) in given.as_object().into_iter().flatten() {
+            let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+            let ends: Vec<f64> =
+                given.as_array().into_iter().flatten().filter_map(Json::as_f64).collect();
+            match ends[..] {
+                [least, most] => found.push((path, [least, most])),
+                _ => add(given, &path, found),
+            }
+        }
+    }
+    let mut found = Vec::new();
+    add(given, "", &mut found);
+    found.into_iter()
 }
 
 impl Fill {

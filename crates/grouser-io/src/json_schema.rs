@@ -221,6 +221,11 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
             let pair = list_of(&of_number(&pairs.range()), 2, Some(2));
             list_of(&pair, 1, None)
         }
+        Shape::Bounds(_) => {
+            let number = json!({ "type": "number", "format": "double" });
+            let ends = list_of(&number, 2, Some(2));
+            json!({ "type": "object", ANY_KEY: ends, "minProperties": 1 })
+        }
         Shape::Inner(inner) => inner.schema(defs),
         Shape::List(each, least) => list_of(&each.schema(defs), *least, None),
         Shape::Part(kind, inner) => {
@@ -260,6 +265,9 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
     }
     schema
 }
+
+/// The schema of what stands under keys that are not known beforehand.
+pub(crate) const ANY_KEY: &str = "additionalProperties";
 
 fn of_number(number: &Number) -> Json {
     let least = if number.is_open { "exclusiveMinimum" } else { "minimum" };

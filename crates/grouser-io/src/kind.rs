@@ -31,6 +31,8 @@ pub enum Kind {
     DataSet,
     /// Many runs over what is not known exactly, `campaign/1`.
     Campaign,
+    /// Numbers of a rover that are free, and what they are to be the best for, `design/1`.
+    Design,
     /// What is believed of a soil's numbers that its source does not print, `prior/1`.
     Prior,
     /// Which topics and fields of a log of messages are which columns of telemetry,
@@ -40,7 +42,7 @@ pub enum Kind {
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Soil,
         Self::Wheel,
         Self::Motor,
@@ -49,6 +51,7 @@ impl Kind {
         Self::Mission,
         Self::DataSet,
         Self::Campaign,
+        Self::Design,
         Self::Prior,
         Self::TelemetryMapping,
     ];
@@ -65,6 +68,7 @@ impl Kind {
             Self::Mission => "mission",
             Self::DataSet => "data-set",
             Self::Campaign => "campaign",
+            Self::Design => "design",
             Self::Prior => "prior",
             Self::TelemetryMapping => "telemetry-mapping",
         }
@@ -82,6 +86,7 @@ impl Kind {
             Self::Mission => "mission/1",
             Self::DataSet => "data-set/1",
             Self::Campaign => "campaign/1",
+            Self::Design => "design/1",
             Self::Prior => "prior/1",
             Self::TelemetryMapping => "telemetry-mapping/1",
         }
@@ -91,7 +96,7 @@ impl Kind {
     pub(crate) const fn soil_key(self) -> Option<&'static str> {
         match self {
             Self::Soil => Some(""),
-            Self::Scenario | Self::Mission => Some("soil"),
+            Self::Scenario | Self::Mission | Self::Design => Some("soil"),
             Self::Wheel
             | Self::Motor
             | Self::Rover
@@ -120,6 +125,10 @@ impl Kind {
                 Part { kind: Self::Rover, path: &["rover"], default: Some(DEFAULT_ROVER) },
                 Part { kind: Self::Soil, path: &["soil"], default: Some(DEFAULT_SOIL) },
                 Part { kind: Self::Soil, path: &["terrain", "zone", EACH, "soil"], default: None },
+            ],
+            Self::Design => &[
+                Part { kind: Self::Rover, path: &["rover"], default: Some(DEFAULT_ROVER) },
+                Part { kind: Self::Soil, path: &["soil"], default: Some(DEFAULT_SOIL) },
             ],
             Self::Campaign => &[
                 Part { kind: Self::Scenario, path: &["scenario"], default: None },

@@ -102,7 +102,12 @@ pub(crate) fn add(kind: Kind, tree: &mut Node, overrides: &Overrides) {
     // priors have one in each row.
     if matches!(
         kind,
-        Kind::Scenario | Kind::Mission | Kind::Campaign | Kind::Prior | Kind::TelemetryMapping
+        Kind::Scenario
+            | Kind::Mission
+            | Kind::Campaign
+            | Kind::Design
+            | Kind::Prior
+            | Kind::TelemetryMapping
     ) {
         return;
     }

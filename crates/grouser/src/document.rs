@@ -61,6 +61,7 @@ pub fn checked(source: &Source) -> Result<Checked, DocumentError> {
         Kind::Rover => read_rover(source, &overrides)?.assumed,
         Kind::DataSet => read_data_set(source, &overrides)?.assumed,
         Kind::Campaign => read_campaign(source, &overrides).map(|_| Vec::new())?,
+        Kind::Design => read_design(source, &overrides)?.assumed,
         Kind::Prior => read_priors(source, &overrides).map(|_| Vec::new())?,
         Kind::TelemetryMapping => read_telemetry_mapping(source, &overrides)?.assumed,
     };

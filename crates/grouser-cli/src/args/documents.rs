@@ -79,6 +79,7 @@ pub(crate) enum KindChoice {
     Mission,
     DataSet,
     Campaign,
+    Design,
     Prior,
     TelemetryMapping,
 }
@@ -94,6 +95,7 @@ impl From<KindChoice> for Kind {
             KindChoice::Mission => Self::Mission,
             KindChoice::DataSet => Self::DataSet,
             KindChoice::Campaign => Self::Campaign,
+            KindChoice::Design => Self::Design,
             KindChoice::Prior => Self::Prior,
             KindChoice::TelemetryMapping => Self::TelemetryMapping,
         }

@@ -62,6 +62,7 @@ pub fn doubts(source: &Source) -> Result<Vec<String>, DocumentError> {
         | Kind::Motor
         | Kind::DataSet
         | Kind::Campaign
+        | Kind::Design
         | Kind::Prior
         | Kind::TelemetryMapping => Vec::new(),
     })
