@@ -3,6 +3,7 @@
 mod advice;
 mod campaign;
 mod card;
+mod design;
 mod documents;
 mod draw;
 mod forecast;
@@ -41,6 +42,7 @@ pub(crate) use campaign::{
     CampaignRerunArgs, CampaignRunArgs, CampaignSummariseArgs, ExecutorChoice,
 };
 pub(crate) use card::{CardArgs, RuleArgs, SideChoice};
+pub(crate) use design::DesignArgs;
 pub(crate) use documents::{CheckArgs, CompletionsArgs, ManArgs, PresetsArgs, SchemaArgs};
 pub(crate) use draw::DrawArgs;
 pub(crate) use forecast::ForecastArgs;
@@ -126,6 +128,8 @@ pub(crate) enum Command {
     Validate(ValidateArgs),
     /// Estimate soil parameters, with confidence intervals, from wheel or plate tests.
     Calibrate(CalibrateArgs),
+    /// Numbers of a rover that are the best under limits: wheels, places, masses.
+    Design(DesignArgs),
     /// Monte Carlo campaigns: sample uncertain inputs, run, summarise.
     Campaign(CampaignArgs),
     /// Draw the theory from the numbers of a rover: a wheel in its soil, frames, slope, loads,

@@ -6,6 +6,7 @@ pub(crate) mod campaign;
 pub(crate) mod card;
 pub(crate) mod check;
 pub(crate) mod completions;
+pub(crate) mod design;
 mod destinations;
 pub(crate) mod draw;
 pub(crate) mod forecast;

@@ -72,6 +72,7 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::Replay(args) => commands::replay::run(args),
         Command::Validate(args) => commands::validate::run(args),
         Command::Calibrate(args) => commands::calibrate::run(args),
+        Command::Design(args) => commands::design::run(args),
         Command::Campaign(args) => commands::campaign::run(args),
         Command::Draw(args) => commands::draw::run(args),
         Command::Import(args) => commands::import::run(args),

@@ -135,9 +135,7 @@ impl Draft {
             | Kind::Campaign
             | Kind::Design
             | Kind::Prior
-            | Kind::TelemetryMapping => {
-                &[]
-            }
+            | Kind::TelemetryMapping => &[],
         }
     }
 
@@ -244,9 +242,7 @@ impl Draft {
             | Kind::Campaign
             | Kind::Design
             | Kind::Prior
-            | Kind::TelemetryMapping => {
-                Ok(String::new())
-            }
+            | Kind::TelemetryMapping => Ok(String::new()),
         }
     }
 

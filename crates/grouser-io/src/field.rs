@@ -12,8 +12,8 @@ use serde_json::Value as Json;
 use super::kind::Kind;
 use super::tree::Node;
 pub(crate) use super::unit::{
-    A, DEG, DEG_C, DEG_S, J_K, K_W, KG, KG_M2, KG_M3, KPA, M, M_PER_RAD, M_PER_RAD2, M_S, M_S2, N,
-    NM, NM_A, OF_KEY, OHM, ONE, RAD, S, Unit, V, V_RAD, V_S_RAD, W, WH,
+    A, DEG, DEG_C, DEG_S, J_K, J_PER_M, K_W, KG, KG_M2, KG_M3, KPA, M, M_PER_RAD, M_PER_RAD2, M_S,
+    M_S2, N, NM, NM_A, OF_KEY, OHM, ONE, RAD, S, Unit, V, V_RAD, V_S_RAD, W, WH,
 };
 use super::unit::{DIRECTION_DEG, less_whole_turns};
 
@@ -513,7 +513,9 @@ impl<T> Field<T> {
                 };
                 all.iter().map(pair).collect()
             }
-            (Shape::Bounds(_), given) => bounds(given).map(|(key, ends)| (key, Json::from(ends.to_vec()))).collect(),
+            (Shape::Bounds(_), given) => {
+                bounds(given).map(|(key, ends)| (key, Json::from(ends.to_vec()))).collect()
+            }
             (Shape::Number(..) | Shape::Numbers(_), given) => float(given),
             (Shape::List(each, _), Json::Array(all)) => {
                 all.iter().map(|given| each.complete(given)).collect()

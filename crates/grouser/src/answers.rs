@@ -1,6 +1,7 @@
 //! Questions with their answers: from the documents that a question is about to the tables, figures
 //! and sentences that the program shows.
 
+pub mod design;
 pub mod forecast;
 mod gradient;
 pub mod heading;
@@ -22,6 +23,7 @@ use crate::document::statistics::NothingAccepted;
 use crate::document::table::Table;
 use crate::document::validity::OutsideDomain;
 use crate::error::ParameterError;
+use crate::studies::design::NoDesign;
 use crate::studies::heading::HeadingStudy;
 
 pub use self::samples::{Sampling, weights};
@@ -110,6 +112,9 @@ pub enum AnswerError {
     /// Two choices that have no answer together.
     #[error("{0} and {1} have no answer together")]
     Together(&'static str, &'static str),
+    /// There is no design.
+    #[error(transparent)]
+    Design(#[from] NoDesign),
     /// A number to differentiate by that is not there.
     #[error(transparent)]
     Key(#[from] NoSuchKey),

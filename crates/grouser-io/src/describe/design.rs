@@ -68,8 +68,18 @@ pub(crate) static DESIGN: Table<Settings> = Table {
 static LIMITS: Table<Settings> = Table {
     doc: "What is limited: `at_least`, `at_most` or both.",
     fields: &[
-        table("limit_slope_deg", "The steepest slope on which a heading holds the contour.", &LIMIT_SLOPE).optional(),
-        table("sinkage_ratio", "The deepest wheel's sinkage over its shearing radius.", &SINKAGE_RATIO).optional(),
+        table(
+            "limit_slope_deg",
+            "The steepest slope on which a heading holds the contour.",
+            &LIMIT_SLOPE,
+        )
+        .optional(),
+        table(
+            "sinkage_ratio",
+            "The deepest wheel's sinkage over its shearing radius.",
+            &SINKAGE_RATIO,
+        )
+        .optional(),
         table("slip_ratio", "Slip ratio of the wheels.", &SLIP_RATIO).optional(),
         table("energy_j_per_m", "Work of the wheels per metre of way.", &ENERGY).optional(),
         table("yaw_deg", "The yaw that holds the contour.", &YAW).optional(),

@@ -17,57 +17,24 @@ use self::slsqp::{Minimum, Smooth, Values};
 use super::heading::HeadingStudy;
 use crate::difference::{StepLengths, Variable, derivatives};
 use crate::document::Described as _;
-use crate::document::varied::{Key, Varied};
-use crate::simulation::Scenario;
+use crate::document::columns::SLOPE;
+use crate::document::design::{DesignTask, Measure};
+use crate::document::varied::Key;
 use crate::soil::Span;
+use crate::vehicle::{Inertia, Rover};
 use crate::wheel::Wheel;
 
 /// The least of an aim under limits.
 #[derive(Clone, Debug)]
 pub struct DesignStudy {
-    /// The scenario whose rover, soil, gravity, model and load transfer count.
-    pub scenario: Varied<Scenario>,
-    /// The numbers that are free, at least one.
-    pub free: Vec<FreeNumber>,
-    /// What is to be least.
-    pub aim: Measure,
-    /// What is limited.
-    pub limits: Vec<Limit>,
+    /// What is free, what is to be least, and what is limited.
+    pub task: DesignTask,
     /// The slope on which slip, sinkage and work are measured [rad].
-    pub slope: f64,
+    slope: f64,
+    limits: Vec<Limit>,
 }
 
-/// A number that is free between two bounds, in its key's unit.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FreeNumber {
-    /// The number.
-    pub key: Key,
-    /// The least that it may be.
-    pub least: f64,
-    /// The most that it may be.
-    pub most: f64,
-}
-
-/// What is measured of a design.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Measure {
-    /// The steepest slope on which a heading holds the contour [rad].
-    LimitSlope,
-    /// The deepest wheel's sinkage over its shearing radius, h/r_s [-].
-    SinkageRatio,
-    /// Slip ratio of the wheels [-].
-    SlipRatio,
-    /// Work of the wheels per metre of way [J/m].
-    EnergyPerMetre,
-    /// Yaw that holds the contour [rad].
-    Yaw,
-    /// The largest torque of a wheel [N·m].
-    Torque,
-    /// Mass of all wheels [kg].
-    WheelMass,
-}
-
-/// A limit of a measure, in SI.
+/// A limit of a measure, in its unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
     /// What is limited.
@@ -92,13 +59,35 @@ pub enum Side {
 pub struct Design {
     /// The free numbers, in their keys' units.
     pub values: Vec<f64>,
+    /// All numbers of the scenario that it changes, by their keys: the free ones, and what the mass
+    /// of the wheels follows from.
+    pub numbers: Vec<(String, f64)>,
     /// What is measured of it, in the order of [`Measure::ALL`].
     pub measures: [f64; Measure::ALL.len()],
-    /// By how much the aim would fall for each limit loosened by one, in SI; 0 for one that does
+    /// By how much the aim would fall for each limit loosened by one, in both units; 0 for one that does
     /// not hold it back.
     pub prices: Vec<f64>,
     /// What shows that it is the least.
     pub certificate: Certificate,
+}
+
+impl Side {
+    /// Its key in documents.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::AtLeast => "at_least",
+            Self::AtMost => "at_most",
+        }
+    }
+}
+
+impl Design {
+    /// A measure of it, in its unit.
+    #[must_use]
+    pub fn of(&self, measure: Measure) -> f64 {
+        self.measures[place(measure)]
+    }
 }
 
 /// What shows that a design is the least.
@@ -131,51 +120,50 @@ pub enum NoDesign {
     },
 }
 
-impl Measure {
-    /// All of them.
-    pub const ALL: [Self; 7] = [
-        Self::LimitSlope,
-        Self::SinkageRatio,
-        Self::SlipRatio,
-        Self::EnergyPerMetre,
-        Self::Yaw,
-        Self::Torque,
-        Self::WheelMass,
-    ];
+/// The key of a wheel's mass.
+const MASS: &str = "rover.wheel_unit.mass_kg";
+/// The table of its inertia.
+const INERTIA: &str = "rover.wheel_unit.inertia_kg_m2";
 
-    /// Its name in documents, with the unit that it has there.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::LimitSlope => "limit_slope_deg",
-            Self::SinkageRatio => "sinkage_ratio",
-            Self::SlipRatio => "slip_ratio",
-            Self::EnergyPerMetre => "energy_j_per_m",
-            Self::Yaw => "yaw_deg",
-            Self::Torque => "torque_nm",
-            Self::WheelMass => "wheel_mass_kg",
-        }
+/// What a change of a measure is small against, in its unit: aims and limits are counted in it.
+const fn size(measure: Measure) -> f64 {
+    match measure {
+        Measure::LimitSlope | Measure::Yaw => 5.0,
+        Measure::SinkageRatio | Measure::SlipRatio => 0.1,
+        Measure::EnergyPerMetre => 10.0,
+        Measure::Torque | Measure::WheelMass => 1.0,
     }
+}
 
-    fn place(self) -> usize {
-        Self::ALL.iter().position(|it| *it == self).unwrap_or_default()
-    }
-
-    /// What a change of it is small against, in SI: objective and limits are measured in it.
-    const fn size(self) -> f64 {
-        match self {
-            Self::LimitSlope | Self::Yaw => 0.1,
-            Self::SinkageRatio | Self::SlipRatio => 0.1,
-            Self::EnergyPerMetre => 10.0,
-            Self::Torque | Self::WheelMass => 1.0,
-        }
-    }
+fn place(measure: Measure) -> usize {
+    Measure::ALL.iter().position(|it| *it == measure).unwrap_or_default()
 }
 
 /// Measures of a design.
 type Measures = [f64; Measure::ALL.len()];
 
 impl DesignStudy {
+    /// The study of a task.
+    #[must_use]
+    pub fn of(task: DesignTask) -> Self {
+        let slope = task.scenario.document.number("slope_deg").unwrap_or_default();
+        let both = Measure::ALL.into_iter().zip(task.limits).flat_map(|(measure, ends)| {
+            let of = |side, bound| Limit { measure, side, bound };
+            [of(Side::AtLeast, ends.least), of(Side::AtMost, ends.most)]
+        });
+        // Documents have the limits of angles in degrees, as measures are here.
+        let in_unit =
+            |limit: Limit| Limit { bound: limit.measure.unit().as_given(limit.bound), ..limit };
+        let limits = both.filter(|it| it.bound.is_finite()).map(in_unit).collect();
+        Self { task, slope: SLOPE.unit.to_si(slope), limits }
+    }
+
+    /// The limits, in the order of prices.
+    #[must_use]
+    pub fn limits(&self) -> &[Limit] {
+        &self.limits
+    }
+
     /// The least of the aim.
     ///
     /// # Errors
@@ -184,9 +172,8 @@ impl DesignStudy {
         let starts = self.starts();
         let found: Vec<Option<Minimum>> =
             starts.par_iter().map(|start| slsqp::minimum(self, start)).collect();
-        let best = found.iter().flatten().min_by(|one, other| {
-            one.objective.total_cmp(&other.objective)
-        });
+        let best =
+            found.iter().flatten().min_by(|one, other| one.objective.total_cmp(&other.objective));
         let Some(best) = best else { return Err(self.why_none(&starts)) };
         let values = self.values(&best.point);
         let Some(measures) = self.measures(&values) else {
@@ -196,36 +183,62 @@ impl DesignStudy {
             (it.objective - best.objective).abs() <= AGREED * best.objective.abs().max(1.0)
         });
         let certificate = self.certificate(best, starts.len(), agreed.count());
-        Ok(Design { values, measures, prices: self.prices(best), certificate })
+        let (numbers, prices) = (self.numbers(&values), self.prices(best));
+        Ok(Design { values, numbers, measures, prices, certificate })
     }
 
     /// Where searches start: the scenario's own numbers, then points spread over the bounds.
     fn starts(&self) -> Vec<Vec<f64>> {
         /// Searches from points that are spread.
         const SPREAD: u32 = 4;
-        let share = |free: &FreeNumber| (free.key.value - free.least) / (free.most - free.least);
-        let own: Vec<f64> = self.free.iter().map(|it| share(it).clamp(0.0, 1.0)).collect();
+        let share = |(key, [least, most]): &(Key, [f64; 2])| (key.value - least) / (most - least);
+        let own: Vec<f64> = self.task.free.iter().map(|it| share(it).clamp(0.0, 1.0)).collect();
         // The additive recurrence of the golden ratio's kin (R_d), which fills any cube evenly.
-        let count = self.free.len() as f64;
+        let count = self.task.free.len() as f64;
         let ratio = (0..32).fold(2.0_f64, |ratio, _| (1.0 + ratio).powf(1.0 / (count + 1.0)));
         let spread = (1..=SPREAD).map(|number| {
             let axis = |axis: i32| (0.5 + f64::from(number) * ratio.powi(-(axis + 1))).fract();
-            (0..self.free.len()).map(|place| axis(i32::try_from(place).unwrap_or(0))).collect()
+            (0..self.task.free.len()).map(|place| axis(i32::try_from(place).unwrap_or(0))).collect()
         });
         std::iter::once(own).chain(spread).collect()
     }
 
     /// The free numbers at a point of the unit cube, in their keys' units.
     fn values(&self, point: &[f64]) -> Vec<f64> {
-        let pairs = self.free.iter().zip(point);
-        pairs.map(|(free, share)| free.least + share * (free.most - free.least)).collect()
+        let pairs = self.task.free.iter().zip(point);
+        pairs.map(|((_, [least, most]), share)| least + share * (most - least)).collect()
+    }
+
+    /// All numbers that a design changes, by their keys: the free ones, and where the wheels' size is
+    /// among them their mass and inertia.
+    fn numbers(&self, values: &[f64]) -> Vec<(String, f64)> {
+        let own =
+            self.task.free.iter().map(|(key, _)| key.path.clone()).zip(values.iter().copied());
+        let mut numbers: Vec<(String, f64)> = own.collect();
+        if numbers.iter().any(|(key, _)| key == MASS) {
+            return numbers;
+        }
+        let keys = numbers.iter().map(|(key, value)| (&**key, *value));
+        let Ok(changed) = self.task.scenario.value.with(keys) else { return numbers };
+        let unit = |rover: &Rover| rover.parts().wheel_unit;
+        let (own, unit) = (unit(&self.task.scenario.value.rover), unit(&changed.rover));
+        let factor = sheet(&unit.wheel) / sheet(&own.wheel);
+        if factor == 1.0 {
+            return numbers;
+        }
+        numbers.push((MASS.to_owned(), own.mass * factor));
+        let turning = factor * (unit.wheel.radius / own.wheel.radius).powi(2);
+        let Inertia { xx, yy, zz } = own.inertia;
+        let axes = [("xx", xx), ("yy", yy), ("zz", zz)];
+        numbers.extend(axes.map(|(axis, own)| (format!("{INERTIA}.{axis}"), own * turning)));
+        numbers
     }
 
     /// What is measured of a design; nothing of one that is none, or that does not cross the slope.
     fn measures(&self, values: &[f64]) -> Option<Measures> {
-        let keys = self.free.iter().map(|it| &*it.key.path);
-        let mut scenario = self.scenario.value.with(keys.zip(values.iter().copied())).ok()?;
-        scenario.rover = self.with_masses(scenario.rover)?;
+        let numbers = self.numbers(values);
+        let numbers = numbers.iter().map(|(key, value)| (&**key, *value));
+        let scenario = self.task.scenario.value.with(numbers).ok()?;
         let curve = HeadingStudy::of(&scenario).curve().ok()?;
         let (limit, _) = curve.limit().ok()?;
         let heading = curve.at(self.slope).ok()?;
@@ -242,34 +255,15 @@ impl DesignStudy {
             Measure::Torque => torques.clone().fold(0.0, f64::max),
             Measure::WheelMass => rover.mounts().iter().map(|mount| mount.unit.mass).sum(),
         };
-        Some(Measure::ALL.map(of))
-    }
-
-    /// The rover with wheels of the mass that their size has.
-    fn with_masses(&self, mut rover: crate::vehicle::Rover) -> Option<crate::vehicle::Rover> {
-        let is_free = |key: &FreeNumber| key.key.path.ends_with("mass_kg");
-        if self.free.iter().any(is_free) {
-            return Some(rover);
-        }
-        let own = self.scenario.value.rover.parts().wheel_unit;
-        let unit = &mut rover.parts_mut().wheel_unit;
-        let factor = sheet(&unit.wheel) / sheet(&own.wheel);
-        unit.mass = own.mass * factor;
-        let turning = factor * (unit.wheel.radius / own.wheel.radius).powi(2);
-        for (axis, own) in [
-            (&mut unit.inertia.xx, own.inertia.xx),
-            (&mut unit.inertia.yy, own.inertia.yy),
-            (&mut unit.inertia.zz, own.inertia.zz),
-        ] {
-            *axis = own * turning;
-        }
-        rover.checked().ok()
+        Some(Measure::ALL.map(|measure| measure.unit().from_si(of(measure))))
     }
 
     /// By how much the aim falls for each limit that is loosened by one, in SI.
     fn prices(&self, best: &Minimum) -> Vec<f64> {
         let limits = self.limits.iter().zip(&best.multipliers);
-        limits.map(|(limit, price)| price * self.aim.size() / limit.measure.size()).collect()
+        limits
+            .map(|(limit, price)| price * size(self.task.minimise) / size(limit.measure))
+            .collect()
     }
 
     /// Looks at designs around the best, 1 % of the bounds away along each number and between.
@@ -278,12 +272,13 @@ impl DesignStudy {
         const AWAY: f64 = 0.01;
         /// Better by less than this is rounding, over the aim's size [-].
         const ROUNDING: f64 = 1e-6;
-        let count = self.free.len();
+        let count = self.task.free.len();
         let shifts: Vec<Vec<f64>> = (0..3_usize.pow(u32::try_from(count.min(5)).unwrap_or(5)))
             .map(|number| {
                 (0..count)
                     .map(|place| {
-                        let digit = number / 3_usize.pow(u32::try_from(place.min(5)).unwrap_or(5)) % 3;
+                        let digit =
+                            number / 3_usize.pow(u32::try_from(place.min(5)).unwrap_or(5)) % 3;
                         AWAY * (digit as f64 - 1.0)
                     })
                     .collect()
@@ -295,7 +290,7 @@ impl DesignStudy {
             let measures = self.measures(&self.values(&point));
             measures.is_some_and(|measures| {
                 let keeps = self.limits.iter().all(|limit| limit.excess(&measures) <= 0.0);
-                let aim = measures[self.aim.place()] / self.aim.size();
+                let aim = measures[place(self.task.minimise)] / size(self.task.minimise);
                 keeps && aim < best.objective - ROUNDING
             })
         };
@@ -311,11 +306,12 @@ impl DesignStudy {
             let all = self.limits.iter().map(excess);
             all.max_by(|one, other| one.0.total_cmp(&other.0)).map(|(by, of)| (by, of, *measures))
         };
-        let nearest = measured.filter_map(|it| worst(&it)).min_by(|one, other| one.0.total_cmp(&other.0));
+        let nearest =
+            measured.filter_map(|it| worst(&it)).min_by(|one, other| one.0.total_cmp(&other.0));
         match nearest {
             None => NoDesign::NothingMoves { slope: self.slope },
             Some((_, measure, measures)) => {
-                let value = measures[measure.place()];
+                let value = measures[place(measure)];
                 NoDesign::Unreachable { miss: format!("{} with {value:.4}", measure.name()) }
             }
         }
@@ -328,7 +324,7 @@ const AGREED: f64 = 1e-4;
 impl Limit {
     /// By how much a design misses it, over the measure's size; not above 0 where it keeps it.
     fn excess(&self, measures: &Measures) -> f64 {
-        let over = (measures[self.measure.place()] - self.bound) / self.measure.size();
+        let over = (measures[place(self.measure)] - self.bound) / size(self.measure);
         match self.side {
             Side::AtLeast => -over,
             Side::AtMost => over,
@@ -344,7 +340,7 @@ fn sheet(wheel: &Wheel) -> f64 {
 
 impl Smooth for DesignStudy {
     fn free(&self) -> usize {
-        self.free.len()
+        self.task.free.len()
     }
 
     fn constraints(&self) -> usize {
@@ -354,12 +350,13 @@ impl Smooth for DesignStudy {
     fn at(&self, point: &[f64]) -> Option<Values> {
         let of = |point: &[f64]| {
             let measures = self.measures(&self.values(point))?;
-            let aim = measures[self.aim.place()] / self.aim.size();
+            let aim = measures[place(self.task.minimise)] / size(self.task.minimise);
             let limits = self.limits.iter().map(|limit| limit.excess(&measures));
             Some(std::iter::once(aim).chain(limits).collect::<Vec<f64>>())
         };
         let here = of(point)?;
-        let variable = |value: &f64| Variable { value: *value, scale: 1.0, range: Span::new(0.0, 1.0) };
+        let variable =
+            |value: &f64| Variable { value: *value, scale: 1.0, range: Span::new(0.0, 1.0) };
         let variables: Vec<Variable> = point.iter().map(variable).collect();
         let sizes = vec![1.0; here.len()];
         let mut evaluate = |points: &[Vec<f64>]| points.iter().map(|it| of(it)).collect();

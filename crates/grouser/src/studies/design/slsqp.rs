@@ -55,7 +55,8 @@ pub(super) fn minimum(problem: &dyn Smooth, start: &[f64]) -> Option<Minimum> {
     let adapted = Adapted { problem, low, high, last: RefCell::default() };
     let solver = Slsqp::new().with_absolute_accuracy_tolerance(ACCURACY);
     let state = SelectedFirstOrderState::new(start.to_vec());
-    let found = Executor::new(adapted, solver, state).max_iter(MOST_STEPS).run_with_solver().ok()?;
+    let found =
+        Executor::new(adapted, solver, state).max_iter(MOST_STEPS).run_with_solver().ok()?;
     if found.report.code() != TerminationCode::SolverConverged {
         return None;
     }
