@@ -18,6 +18,7 @@ mod validate;
 
 use std::ops::RangeInclusive;
 
+use grouser::document::design::LoadedDesign;
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::{
     self, DocumentError, Kind, LoadedScenario, Overrides, Source, UncertainSoil,
@@ -40,7 +41,7 @@ pub(crate) use self::telemetry::{
 };
 pub(crate) use self::traverse::traverse;
 pub(crate) use self::validate::{drive_validation, ranked_data_set, slope_validation, validation};
-use crate::args::{BalanceArgs, DrawArgs, RunArgs, SettingArgs, SlopeArgs, TerrainArgs};
+use crate::args::{BalanceArgs, DesignArgs, DrawArgs, RunArgs, SettingArgs, SlopeArgs, TerrainArgs};
 use crate::failure::Failure;
 use crate::list::{self, Numbers};
 
@@ -166,6 +167,16 @@ fn single(flag: &str, numbers: &Numbers, range: &RangeInclusive<f64>) -> Result<
     };
     check_numbers(flag, numbers, range)?;
     Ok(number)
+}
+
+/// A design's task with a command's settings.
+///
+/// * `setting`: the command's own, or those of one model among several
+pub(crate) fn design(args: &DesignArgs, setting: &SettingArgs) -> Result<LoadedDesign, Failure> {
+    let mut overrides = Overrides::parse_flags("--set", &setting.settings)?;
+    overrides.check_kinds(&[Kind::Design, Kind::Rover, Kind::Soil, Kind::Wheel, Kind::Motor])?;
+    scenario_settings(&mut overrides, Kind::Design, setting, &args.balance)?;
+    Ok(document::read_design(&Source::find(Kind::Design, &args.design)?, &overrides)?)
 }
 
 /// The settings that every run takes.

@@ -84,8 +84,8 @@ pub(crate) enum Shape<T: 'static> {
     Number(Number, Reach<T>),
     Numbers(Numbers<T>),
     Pairs(Pairs<T>),
-    /// Keys of another document, each with the least and the most that its number may be.
-    Bounds(fn(&mut T, &str, [f64; 2])),
+    /// Keys of another document.
+    Keyed(Keyed),
     /// A table.
     Inner(&'static dyn Inner<T>),
     /// At least so many tables.
@@ -96,6 +96,15 @@ pub(crate) enum Shape<T: 'static> {
     NumberOr(&'static str, &'static dyn Inner<T>),
     /// A text that is what the sentence says and goes somewhere, or a table.
     TextOr(&'static str, fn(&mut T, &str), &'static dyn Inner<T>),
+}
+
+/// What stands under the keys of another document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Keyed {
+    /// The least and the most that its number may be.
+    Bounds,
+    /// What it may be: numbers or names.
+    Choices,
 }
 
 /// Where a number goes; nowhere if the value follows another law.
@@ -513,9 +522,7 @@ impl<T> Field<T> {
                 };
                 all.iter().map(pair).collect()
             }
-            (Shape::Bounds(_), given) => {
-                bounds(given).map(|(key, ends)| (key, Json::from(ends.to_vec()))).collect()
-            }
+            (Shape::Keyed(_), given) => keyed(given).map(|(key, all)| (key, all.clone())).collect(),
             (Shape::Number(..) | Shape::Numbers(_), given) => float(given),
             (Shape::List(each, _), Json::Array(all)) => {
                 all.iter().map(|given| each.complete(given)).collect()
@@ -535,17 +542,13 @@ impl<T> Field<T> {
     }
 }
 
-/// The keys of a table of bounds with their ends; a table in it holds keys that begin with its own.
-pub(crate) fn bounds(given: &Json) -> impl Iterator<Item = (String, [f64; 2])> + '_ {
-    fn add(given: &Json, path: &str, found: &mut Vec<(String, [f64; 2])>) {
+/// What stands under the keys of another document, lists all of them; a table in it holds keys that
+/// begin with its own.
+pub(crate) fn keyed(given: &Json) -> impl Iterator<Item = (String, &Json)> {
+    fn add<'g>(given: &'g Json, path: &str, found: &mut Vec<(String, &'g Json)>) {
         for (key, given) in given.as_object().into_iter().flatten() {
             let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-            let ends: Vec<f64> =
-                given.as_array().into_iter().flatten().filter_map(Json::as_f64).collect();
-            match ends[..] {
-                [least, most] => found.push((path, [least, most])),
-                _ => add(given, &path, found),
-            }
+            if given.is_object() { add(given, &path, found) } else { found.push((path, given)) }
         }
     }
     let mut found = Vec::new();

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value as Json, json};
 
 use super::field::{
-    Allowed, Field, Form, Keyword, Laws, Number, PRESET, Presence, Shape, Table, Text, Whole,
+    Allowed, Field, Form, Keyed, Keyword, Laws, Number, PRESET, Presence, Shape, Table, Text, Whole,
 };
 
 /// The remark on a key that the soil's priors have a value for. The reader asks for the key where
@@ -221,10 +221,16 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
             let pair = list_of(&of_number(&pairs.range()), 2, Some(2));
             list_of(&pair, 1, None)
         }
-        Shape::Bounds(_) => {
+        Shape::Keyed(keyed) => {
             let number = json!({ "type": "number", "format": "double" });
-            let ends = list_of(&number, 2, Some(2));
-            json!({ "type": "object", ANY_KEY: ends, "minProperties": 1 })
+            let each = match keyed {
+                Keyed::Bounds => list_of(&number, 2, Some(2)),
+                Keyed::Choices => {
+                    let either = json!({ "anyOf": [number, { "type": "string", "minLength": 1 }] });
+                    list_of(&either, 1, None)
+                }
+            };
+            json!({ "type": "object", ANY_KEY: each, "minProperties": 1 })
         }
         Shape::Inner(inner) => inner.schema(defs),
         Shape::List(each, least) => list_of(&each.schema(defs), *least, None),

@@ -254,6 +254,14 @@ impl Overrides {
         Ok(())
     }
 
+    /// Adds a value that a document of a kind gives another of its keys.
+    pub(crate) fn of_document(&mut self, kind: Kind, key: &str, key_origin: &Origin, value: Node) {
+        let steps = key.split('.').map(str::to_owned).collect();
+        let (kind, path) = without_parts(kind, steps);
+        let key_origin = key_origin.clone();
+        self.all.push(Override { kind, path, key_origin, value, changes_a_source: false });
+    }
+
     /// Puts the values for one kind of document into its tree.
     pub(crate) fn apply(&self, kind: Kind, tree: &mut Node) -> Result<(), DocumentError> {
         for (_, path) in self.left_out.iter().filter(|(of, _)| *of == kind) {

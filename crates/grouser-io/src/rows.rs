@@ -5,7 +5,7 @@ use serde_json::Value as Json;
 
 use super::field::{
     At, Beside, Each, Field, Inner, Law, Laws, Numbers, Pairs, Presence, Reached, Rows, Shape,
-    Table, Text, Texts, Whole, bounds,
+    Table, Text, Texts, Whole,
 };
 use super::json_schema;
 use super::tree::{Node, Value};
@@ -43,9 +43,6 @@ impl<T> Field<T> {
                         self.set(value, &format!("{place}.{which}"), given);
                     }
                 }
-            }
-            (Shape::Bounds(put), given) => {
-                bounds(given).for_each(|(key, ends)| put(value, &key, ends));
             }
             (
                 Shape::Inner(inner)

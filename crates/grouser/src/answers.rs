@@ -23,7 +23,6 @@ use crate::document::statistics::NothingAccepted;
 use crate::document::table::Table;
 use crate::document::validity::OutsideDomain;
 use crate::error::ParameterError;
-use crate::studies::design::NoDesign;
 use crate::studies::heading::HeadingStudy;
 
 pub use self::samples::{Sampling, weights};
@@ -112,9 +111,9 @@ pub enum AnswerError {
     /// Two choices that have no answer together.
     #[error("{0} and {1} have no answer together")]
     Together(&'static str, &'static str),
-    /// There is no design.
-    #[error(transparent)]
-    Design(#[from] NoDesign),
+    /// There is no design, and why.
+    #[error("{0}")]
+    Design(String),
     /// A number to differentiate by that is not there.
     #[error(transparent)]
     Key(#[from] NoSuchKey),

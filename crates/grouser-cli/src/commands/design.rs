@@ -2,29 +2,59 @@
 
 use grouser::answers::AnswerOptions;
 use grouser::answers::design::DesignQuestion;
-use grouser::document::{self, Kind, Overrides, Source};
+use grouser::document::design::{LoadedDesign, Measure};
 
-use crate::args::DesignArgs;
+use crate::args::{DesignArgs, SettingArgs};
 use crate::failure::Failure;
+use crate::inputs;
 use crate::output::answer::give;
 use crate::output::folder::OutputFolder;
 
 pub(crate) fn run(args: &DesignArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
-    let mut overrides = Overrides::parse_flags("--set", &args.setting.settings)?;
-    overrides.check_kinds(&[Kind::Design, Kind::Rover, Kind::Soil, Kind::Wheel, Kind::Motor])?;
-    for (flag, key, value) in [
-        ("--model", "design.model", &args.setting.model),
-        ("--gravity-m-s2", "design.gravity_m_s2", &args.setting.gravity),
-    ] {
-        if let Some(value) = value {
-            overrides.flag(flag, key, value)?;
-        }
-    }
-    let source = Source::find(Kind::Design, &args.design)?;
-    let question = DesignQuestion { task: document::read_design(&source, &overrides)? };
+    let trade = match args.trade[..] {
+        [] => None,
+        [one, other] if one != other => Some([one, other]),
+        _ => return Err(Failure::Usage(format!("--trade takes two measures, such as {EXAMPLE}"))),
+    };
+    let (task, by_models) = tasks(args)?;
+    let (is_nominal, seed) = (args.nominal, args.seed.unwrap_or(1));
+    let question = DesignQuestion { task, is_nominal, seed, trade, by_models };
     let options = AnswerOptions { has_page: folder.is_some(), ..AnswerOptions::ROWS };
     let mut answer = question.answer("design", &options)?;
-    answer.next = vec!["grouser heading --rover rover.toml --nominal".to_owned()];
-    give(&answer, "grouser design design.toml", folder, args.output.format)
+    answer.next = vec![
+        "grouser heading --rover rover.toml".to_owned(),
+        "grouser validate --rover rover.toml".to_owned(),
+    ];
+    give(&answer, &repeat(args), folder, args.output.format)
+}
+
+/// Two measures that may be traded.
+const EXAMPLE: &str = "energy_j_per_m,wheel_mass_kg";
+
+/// The task, and the same by every other model where all are asked for.
+fn tasks(args: &DesignArgs) -> Result<(LoadedDesign, Vec<LoadedDesign>), Failure> {
+    if !args.setting.has_every_model() {
+        return Ok((inputs::design(args, &args.setting)?, Vec::new()));
+    }
+    let own = inputs::design(args, &SettingArgs { model: None, ..args.setting.clone() })?;
+    let is_own = |setting: &SettingArgs| setting.model.as_deref() == Some(model_of(&own));
+    let others = args.setting.each_model().into_iter().filter(|setting| !is_own(setting));
+    let others = others.map(|setting| inputs::design(args, &setting)).collect::<Result<_, _>>()?;
+    Ok((own, others))
+}
+
+fn model_of(task: &LoadedDesign) -> &str {
+    task.value.alternatives[0].conditions[0].scenario.value.model.name()
+}
+
+/// The command that gives the answer again, from the document in the folder.
+fn repeat(args: &DesignArgs) -> String {
+    let trade: Vec<&str> = args.trade.iter().copied().map(Measure::name).collect();
+    let trade =
+        if trade.is_empty() { String::new() } else { format!(" --trade {}", trade.join(",")) };
+    let nominal = if args.nominal { " --nominal" } else { "" };
+    let seed = args.seed.map_or_else(String::new, |seed| format!(" --seed {seed}"));
+    let model = if args.setting.has_every_model() { " --model all" } else { "" };
+    format!("grouser design design.toml{trade}{nominal}{seed}{model}")
 }

@@ -1,11 +1,11 @@
 //! `design/1`: numbers of a rover that are free, what is to be least, and what is limited.
 
-use super::super::design::{Ends, Measure, Settings};
+use super::super::design::{Aim, Ends, Measure, Settings};
 use super::super::field::{
-    At, DEG, Field, Fill, J_PER_M, KG, NM, ONE, Shape, Table, Unit, field, number, table, word,
-    words,
+    At, DEG, Field, Fill, J_PER_M, KG, Keyed, Keyword, M, NM, ONE, Shape, Table, Unit, field, list,
+    note, number, table, word, words,
 };
-use super::about::{assumed, notes, purpose, schema, source};
+use super::about::{assumed, gravity, model, notes, purpose, schema, source};
 use super::run::{OfScenario, Run};
 use grouser_core::simulation::Scenario;
 
@@ -16,7 +16,8 @@ impl OfScenario for Settings {
 }
 
 pub(crate) static DESIGN: Table<Settings> = Table {
-    doc: "Numbers of a rover that are free between bounds, what is to be least, and what is limited.",
+    doc: "Numbers of a rover that are free between bounds, what is to be least, and what is \
+          limited.",
     fields: &[
         schema("design/1"),
         purpose(),
@@ -28,98 +29,147 @@ pub(crate) static DESIGN: Table<Settings> = Table {
         Run::MODEL,
         Run::GRAVITY,
         Run::SLOPE,
+        course(|all: &mut Settings| Some(&mut all.course)).or(0.0),
         Run::LOAD_TRANSFER,
         Run::WHEEL_MOMENTS,
-        words(
-            "minimise",
-            "What is to be least.",
-            &[
-                word("wheel_mass_kg", "Mass of all wheels.", |all: &mut Settings| {
-                    all.minimise = Measure::WheelMass;
-                }),
-                word("energy_j_per_m", "Work of the wheels per metre of way.", |all| {
-                    all.minimise = Measure::EnergyPerMetre;
-                }),
-                word("slip_ratio", "Slip ratio of the wheels.", |all| {
-                    all.minimise = Measure::SlipRatio;
-                }),
-                word("sinkage_ratio", "The deepest wheel's sinkage over its radius.", |all| {
-                    all.minimise = Measure::SinkageRatio;
-                }),
-                word("yaw_deg", "The yaw that holds the contour.", |all| {
-                    all.minimise = Measure::Yaw;
-                }),
-                word("torque_nm", "The largest torque of a wheel.", |all| {
-                    all.minimise = Measure::Torque;
-                }),
-            ],
-        ),
+        words("minimise", "What is to be least.", MINIMISE),
+        table("weights", "What each measure counts in a weighted sum, in its unit.", &WEIGHTS)
+            .optional(),
         field(
             "free",
             "The numbers that are free: keys such as `rover.wheel_unit.wheel.radius_m`, each with \
              the least and the most that it may be.",
-            Shape::Bounds(|all: &mut Settings, key, ends| all.free.push((key.to_owned(), ends))),
+            Shape::Keyed(Keyed::Bounds),
         ),
+        field(
+            "choose",
+            "Keys with the numbers or names that they may have, `rover` and `rover.motor` among \
+             them; every combination is tried.",
+            Shape::Keyed(Keyed::Choices),
+        )
+        .optional(),
         table("subject_to", "What is limited: `at_least`, `at_most` or both.", &LIMITS)
             .otherwise(Fill::Keys(&[])),
+        number(
+            "probability",
+            ONE,
+            0.5..=0.99,
+            "With which probability each limit is to be kept, where the soil is uncertain",
+            |all: &mut Settings| Some(&mut all.probability),
+        )
+        .or(0.95),
+        list("also", "Where all limits hold as well.", &ALSO, 1).optional(),
     ],
 };
+
+const MINIMISE: &[Keyword<Settings>] = &[
+    word("wheel_mass_kg", "Mass of all wheels.", |all| all.aim = Aim::One(Measure::WheelMass)),
+    word("energy_j_per_m", "Work of the wheels per metre of way.", |all| {
+        all.aim = Aim::One(Measure::EnergyPerMetre);
+    }),
+    word("slip_ratio", "Slip ratio of the wheels.", |all| all.aim = Aim::One(Measure::SlipRatio)),
+    word("sinkage_ratio", "The deepest wheel's sinkage over its shearing radius.", |all| {
+        all.aim = Aim::One(Measure::SinkageRatio);
+    }),
+    word("crab_deg", "The crab angle that holds the course.", |all| {
+        all.aim = Aim::One(Measure::Crab);
+    }),
+    word("torque_nm", "The largest torque of a wheel.", |all| {
+        all.aim = Aim::One(Measure::Torque);
+    }),
+    word("weighted_sum", "The sum of measures with their `weights`.", |all| {
+        all.aim = Aim::WeightedSum;
+    }),
+];
+
+/// A place where limits hold as well: what is not said is as the document has it.
+static ALSO: Table<Settings> = Table {
+    doc: "A second ground, on which all limits hold as well.",
+    fields: &[
+        note("soil", "The soil: a preset's name, or a path from this document's folder.")
+            .optional(),
+        gravity("Gravity, g", |_: &mut Settings| None).optional(),
+        number("slope_deg", DEG, 0.0..=60.0, "Inclination of the plane, α", |_| None).optional(),
+        course(|_| None).optional(),
+        model("The wheel-soil model."),
+    ],
+};
+
+const fn course(reach: fn(&mut Settings) -> Option<&mut f64>) -> Field<Settings> {
+    let doc = "Course, χ: direction of travel from the contour; 90 straight uphill";
+    number("course_deg", DEG, -90.0..=90.0, doc, reach)
+}
+
+static WEIGHTS: Table<Settings> = Table {
+    doc: "What each measure counts in a weighted sum, in its unit.",
+    fields: &[
+        weight(Measure::SinkageRatio, |all| Some(&mut all.weights[1])),
+        weight(Measure::SlipRatio, |all| Some(&mut all.weights[2])),
+        weight(Measure::EnergyPerMetre, |all| Some(&mut all.weights[3])),
+        weight(Measure::Crab, |all| Some(&mut all.weights[4])),
+        weight(Measure::Torque, |all| Some(&mut all.weights[5])),
+        weight(Measure::WheelMass, |all| Some(&mut all.weights[8])),
+    ],
+};
+
+/// What a measure counts: a number over one in the measure's unit.
+const fn weight(
+    measure: Measure,
+    reach: fn(&mut Settings) -> Option<&mut f64>,
+) -> Field<Settings> {
+    number(measure.name(), ONE, 0.0..=FARTHEST, "What one in its unit counts", reach).optional()
+}
 
 static LIMITS: Table<Settings> = Table {
     doc: "What is limited: `at_least`, `at_most` or both.",
     fields: &[
-        table(
-            "limit_slope_deg",
-            "The steepest slope on which a heading holds the contour.",
-            &LIMIT_SLOPE,
-        )
-        .optional(),
-        table(
-            "sinkage_ratio",
-            "The deepest wheel's sinkage over its shearing radius.",
-            &SINKAGE_RATIO,
-        )
-        .optional(),
-        table("slip_ratio", "Slip ratio of the wheels.", &SLIP_RATIO).optional(),
-        table("energy_j_per_m", "Work of the wheels per metre of way.", &ENERGY).optional(),
-        table("yaw_deg", "The yaw that holds the contour.", &YAW).optional(),
-        table("torque_nm", "The largest torque of a wheel.", &TORQUE).optional(),
-        table("wheel_mass_kg", "Mass of all wheels.", &WHEEL_MASS).optional(),
+        limit(Measure::LimitSlope, &LIMIT_SLOPE),
+        limit(Measure::SinkageRatio, &SINKAGE_RATIO),
+        limit(Measure::SlipRatio, &SLIP_RATIO),
+        limit(Measure::EnergyPerMetre, &ENERGY),
+        limit(Measure::Crab, &CRAB),
+        limit(Measure::Torque, &TORQUE),
+        limit(Measure::TippingSlope, &TIPPING_SLOPE),
+        limit(Measure::Width, &WIDTH),
+        limit(Measure::WheelMass, &WHEEL_MASS),
     ],
 };
+
+const fn limit(measure: Measure, ends: &'static At<Settings, Ends>) -> Field<Settings> {
+    table(measure.name(), measure.doc(), ends).optional()
+}
 
 static LIMIT_SLOPE: At<Settings, Ends> = At { inner: &ANGLE, at: |all| &mut all.limits[0] };
 static SINKAGE_RATIO: At<Settings, Ends> = At { inner: &RATIO, at: |all| &mut all.limits[1] };
 static SLIP_RATIO: At<Settings, Ends> = At { inner: &RATIO, at: |all| &mut all.limits[2] };
 static ENERGY: At<Settings, Ends> = At { inner: &WORK, at: |all| &mut all.limits[3] };
-static YAW: At<Settings, Ends> = At { inner: &ANGLE, at: |all| &mut all.limits[4] };
+static CRAB: At<Settings, Ends> = At { inner: &ANGLE, at: |all| &mut all.limits[4] };
 static TORQUE: At<Settings, Ends> = At { inner: &MOMENT, at: |all| &mut all.limits[5] };
-static WHEEL_MASS: At<Settings, Ends> = At { inner: &MASS, at: |all| &mut all.limits[6] };
+static TIPPING_SLOPE: At<Settings, Ends> = At { inner: &ANGLE, at: |all| &mut all.limits[6] };
+static WIDTH: At<Settings, Ends> = At { inner: &LENGTH, at: |all| &mut all.limits[7] };
+static WHEEL_MASS: At<Settings, Ends> = At { inner: &MASS, at: |all| &mut all.limits[8] };
 
 static ANGLE: Table<Ends> = Table { doc: ENDS, fields: &[at_least(DEG), at_most(DEG)] };
 static RATIO: Table<Ends> = Table { doc: ENDS, fields: &[at_least(ONE), at_most(ONE)] };
 static WORK: Table<Ends> = Table { doc: ENDS, fields: &[at_least(J_PER_M), at_most(J_PER_M)] };
 static MOMENT: Table<Ends> = Table { doc: ENDS, fields: &[at_least(NM), at_most(NM)] };
+static LENGTH: Table<Ends> = Table { doc: ENDS, fields: &[at_least(M), at_most(M)] };
 static MASS: Table<Ends> = Table { doc: ENDS, fields: &[at_least(KG), at_most(KG)] };
 
 const ENDS: &str = "The least or the most that it may be.";
 /// Keys of which a limit has one.
 const SIDES: &[&str] = &["at_least", "at_most"];
-/// No limit is farther from zero. Source: ours.
+/// No limit is farther from zero, and no weight is larger. Source: ours.
 const FARTHEST: f64 = 1e6;
 
 const fn at_least(unit: Unit) -> Field<Ends> {
-    let range = -FARTHEST..=FARTHEST;
-    number("at_least", unit, range, "The least that it may be", |ends: &mut Ends| {
-        Some(&mut ends.least)
-    })
-    .any_of(SIDES)
+    let doc = "The least that it may be";
+    number("at_least", unit, -FARTHEST..=FARTHEST, doc, |ends: &mut Ends| Some(&mut ends.least))
+        .any_of(SIDES)
 }
 
 const fn at_most(unit: Unit) -> Field<Ends> {
-    let range = -FARTHEST..=FARTHEST;
-    number("at_most", unit, range, "The most that it may be", |ends: &mut Ends| {
-        Some(&mut ends.most)
-    })
-    .any_of(SIDES)
+    let doc = "The most that it may be";
+    number("at_most", unit, -FARTHEST..=FARTHEST, doc, |ends: &mut Ends| Some(&mut ends.most))
+        .any_of(SIDES)
 }

@@ -4,38 +4,36 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value, json};
 
-use super::{Answer, AnswerError, AnswerOptions, Attached, Displayed, Member};
-use crate::document::columns::{Column, number, text};
+use super::{Answer, AnswerError, AnswerOptions, Attached, Displayed, Member, meanings};
+use crate::contact::Model;
+use crate::document::columns::design::{
+    self as columns, DesignRow, MODEL, ROW, SHARE,
+};
 use crate::document::design::{LoadedDesign, Measure};
+use crate::document::figure::{Chart, Series, Style};
 use crate::document::reading::four_digits;
 use crate::document::table::Table;
 use crate::document::unit::ONE;
 use crate::document::{Kind, to_toml};
-use crate::studies::design::{Design, DesignStudy, Limit};
+use crate::studies::design::{Design, DesignStudy, Kept, Limit, Nearest, NoDesign, Side};
 
 /// The question.
 #[derive(Clone, Debug)]
 pub struct DesignQuestion {
     /// The task.
     pub task: LoadedDesign,
+    /// Whether soils are taken as their documents have them.
+    pub is_nominal: bool,
+    /// With which random numbers soils are drawn.
+    pub seed: u64,
+    /// Two measures that are traded for one another, if any are.
+    pub trade: Option<[Measure; 2]>,
+    /// The same task by other models, if what they find is asked for.
+    pub by_models: Vec<LoadedDesign>,
 }
 
-/// A limit, and how a design keeps it.
-struct Kept<'a> {
-    limit: &'a Limit,
-    value: f64,
-    price: f64,
-}
-
-const CONSTRAINTS: &[Column<Kept<'_>>] = &[
-    text("name", "What is limited", |it| Some(it.limit.measure.name().to_owned())),
-    text("side", "`at_least` or `at_most`", |it| Some(it.limit.side.name().to_owned())),
-    number("bound", ONE, "The limit, in the unit of its name", |it| it.limit.bound),
-    number("value", ONE, "What the design has", |it| it.value),
-    number("price", ONE, "By how much the aim falls if the limit is loosened by one", |it| {
-        it.price
-    }),
-];
+/// Designs along a trade-off.
+const TRADE_POINTS: usize = 9;
 
 impl DesignQuestion {
     /// The answer.
@@ -43,20 +41,21 @@ impl DesignQuestion {
     /// # Errors
     /// [`AnswerError::Design`] where there is no design.
     pub fn answer(&self, name: &str, _: &AnswerOptions<'_>) -> Result<Answer, AnswerError> {
-        let study = DesignStudy::of(self.task.value.clone());
-        let design = study.design()?;
-        let table = Arc::new(constraints(&study, &design));
+        let study = DesignStudy::of(self.task.value.clone(), self.is_nominal, self.seed);
+        let why_none = |none: NoDesign| AnswerError::Design(self.why_none(&none));
+        let design = study.design().map_err(why_none)?;
+        let trade = self.trade.map(|measures| study.trade_off(measures, TRADE_POINTS));
+        let trade = trade.transpose().map_err(why_none)?;
+        let rows = self.rows(&study, &design);
+        let (limits, designs) = (columns::limits(&design.kept), self.table(&rows));
+        let (limits, designs) = (Arc::new(limits), Arc::new(designs));
         let mut answer = Answer::new(name, "A design");
-        self.state(&mut answer);
-        let free = self.task.value.free.iter().map(|(key, _)| key.path.clone());
-        let values: Map<String, Value> =
-            free.zip(design.values.iter().map(|value| json!(value))).collect();
-        let aim = self.task.value.minimise;
+        self.state(&mut answer, &study);
         answer.results = vec![
-            Member::Value("design", Value::Object(values)),
-            Member::Value("objective", json!({ "name": aim.name(), "value": design.of(aim) })),
-            Member::rows("constraints", Arc::clone(&table)),
-            Member::Value("measures", measures(&design)),
+            Member::Value("design", self.free_numbers(&design)),
+            Member::Value("objective", json!(design.objective)),
+            Member::rows("constraints", Arc::clone(&limits)),
+            Member::rows("designs", Arc::clone(&designs)),
             Member::Value(
                 "certificate",
                 json!({ "probes": design.certificate.probes, "better": design.certificate.better }),
@@ -66,49 +65,125 @@ impl DesignQuestion {
                 json!({ "searches": design.certificate.starts, "agreed": design.certificate.agreed }),
             ),
         ];
-        answer.tables.push((name.to_owned(), Arc::clone(&table)));
-        let lines = self.lines(&study, &design);
+        answer.tables = vec![
+            (name.to_owned(), Arc::clone(&designs)),
+            ("constraints".into(), Arc::clone(&limits)),
+        ];
+        let lines = self.lines(&design, &rows);
+        let brief = brief(&study, &self.task.value.free);
         answer.screen = vec![
-            Displayed::Words(lines.join("\n") + "\n"),
-            Displayed::Rows(Arc::clone(&table), table.names()),
+            Displayed::Words(lines.join("\n") + "\n\n"),
+            Displayed::Rows(Arc::clone(&limits), limits_in_brief(&limits)),
+            Displayed::Words("\n".to_owned()),
+            Displayed::Rows(Arc::clone(&designs), brief.clone()),
         ];
         lines.into_iter().for_each(|line| answer.verdict(line));
-        answer.rows("What is limited", &table, table.names());
+        answer.rows("What is limited, and what loosening it by one is worth", &limits, limits_in_brief(&limits));
+        answer.rows("The rover as given and as found, by each model", &designs, brief.clone());
+        if let (Some(trade), Some(measures)) = (trade, self.trade) {
+            self.add_trade(&mut answer, &trade, measures, &brief);
+        }
+        answer.columns = meanings(columns::LIMITS);
+        answer.columns.extend(meanings(columns::DESIGNS));
         answer.attach("design.toml", &self.task);
         answer.documents.push(self.rover(&design));
         Ok(answer)
     }
 
     /// The inputs of the answer.
-    fn state(&self, answer: &mut Answer) {
-        let keys = ["rover", "soil", "gravity_m_s2", "slope_deg", "minimise", "free", "subject_to"];
+    fn state(&self, answer: &mut Answer, study: &DesignStudy) {
+        let keys = [
+            "rover",
+            "soil",
+            "gravity_m_s2",
+            "slope_deg",
+            "course_deg",
+            "minimise",
+            "weights",
+            "free",
+            "choose",
+            "subject_to",
+            "also",
+        ];
         answer.inputs_of(&self.task.document, keys);
-        answer.input("model", self.task.value.scenario.value.model.name());
+        let first = self.task.value.alternatives.first().and_then(|it| it.conditions.first());
+        answer.input("model", first.map(|it| it.scenario.value.model.name()));
+        if study.is_uncertain() {
+            answer.input("probability", self.task.value.probability);
+            answer.input("samples", DesignStudy::SAMPLES);
+            answer.input("fresh_samples", DesignStudy::FRESH_SAMPLES);
+            answer.input("seed", self.seed);
+        }
+    }
+
+    fn free_numbers(&self, design: &Design) -> Value {
+        let task = &self.task.value;
+        let chosen = task.alternatives[design.alternative].chosen.iter().cloned();
+        let free = task.free.iter().map(|(key, _)| key.clone());
+        let free = free.zip(design.values.iter().map(|value| json!(value)));
+        Value::Object(chosen.chain(free).collect::<Map<String, Value>>())
+    }
+
+    /// The rover as given and as found, by its model and by the others.
+    fn rows(&self, study: &DesignStudy, design: &Design) -> Vec<DesignRow> {
+        let task = &self.task.value;
+        let own = &task.alternatives[design.alternative];
+        let Some(ground) = own.conditions.first() else { return Vec::new() };
+        let model_of_task = &ground.scenario.value.model;
+        let model = model_of_task;
+        let others: Vec<&Model> = Model::ALL.iter().filter(|it| *it != model).collect();
+        let row = |name: &str, place: usize, model: &Model, values: &[f64]| DesignRow {
+            name: name.to_owned(),
+            model: model.name().to_owned(),
+            chosen: task.alternatives[place].chosen.clone(),
+            values: values.to_vec(),
+            measures: study.nominal_measures(place, values, model),
+        };
+        let given = &task.alternatives[0];
+        let mut rows = vec![
+            row("as given", 0, given.conditions.first().map_or(model, |it| &it.scenario.value.model), &given.given),
+            row("found", design.alternative, model, &design.values),
+        ];
+        rows.extend(others.iter().map(|it| row("found", design.alternative, it, &design.values)));
+        let by_model = self.by_models.iter().map(|task| {
+            let study = DesignStudy::of(task.value.clone(), self.is_nominal, self.seed);
+            let model = task.value.alternatives.first().and_then(|it| it.conditions.first());
+            let model = model.map_or(model_of_task, |it| &it.scenario.value.model);
+            match study.design() {
+                Ok(by) => row("found by it", by.alternative, model, &by.values),
+                Err(_) => DesignRow {
+                    measures: None,
+                    ..row("found by it", design.alternative, model, &[])
+                },
+            }
+        });
+        rows.extend(by_model);
+        rows
+    }
+
+    fn table(&self, rows: &[DesignRow]) -> Table {
+        let keys: Vec<&str> = self.task.value.free.iter().map(|(key, _)| &**key).collect();
+        columns::designs(rows, &keys)
     }
 
     /// What is said of the design.
-    fn lines(&self, study: &DesignStudy, design: &Design) -> Vec<String> {
+    fn lines(&self, design: &Design, rows: &[DesignRow]) -> Vec<String> {
         let task = &self.task.value;
-        let pairs = task.free.iter().zip(&design.values);
-        let numbers =
-            pairs.map(|((key, _), value)| format!("{} = {}", key.path, four_digits(*value)));
-        let aim = task.minimise;
-        let mut lines = vec![format!(
-            "{} is {} at the least, with {}.",
-            aim.name(),
-            four_digits(design.of(aim)),
-            numbers.collect::<Vec<_>>().join(", ")
-        )];
-        let limits = study.limits().iter().zip(&design.prices).filter(|(_, price)| **price > 0.0);
-        lines.extend(limits.map(|(limit, price)| {
-            let unit = limit.measure.unit().symbol;
-            format!(
-                "{} holds it back: loosened by 1 {unit} it is worth {} {}.",
-                limit.measure.name(),
-                four_digits(*price),
-                aim.unit().symbol
-            )
-        }));
+        let numbers = self.numbers_in_words(design.alternative, &design.values);
+        let aim = self.aim();
+        let mut lines =
+            vec![format!("{aim} is {} at the least, with {numbers}.", four_digits(design.objective))];
+        let uncertain = design.kept.iter().find_map(|it| it.share);
+        if uncertain.is_some() {
+            lines.push(format!(
+                "The soil is uncertain: every limit is to be kept with a probability of {}.",
+                four_digits(task.probability)
+            ));
+        }
+        lines.extend(design.kept.iter().filter_map(|kept| self.price_line(kept)));
+        lines.extend(self.ends_line(design));
+        lines.extend(design.kept.iter().filter_map(|kept| short_line(kept, task.probability)));
+        lines.extend(self.models_line(design, rows));
         let it = design.certificate;
         lines.push(format!(
             "{} of {} searches came to it; {} of {} designs within 1 % of the bounds are better.",
@@ -117,9 +192,129 @@ impl DesignQuestion {
         lines
     }
 
+    /// What the aim is called.
+    fn aim(&self) -> String {
+        let weights = Measure::ALL.into_iter().zip(self.task.value.weights);
+        let all: Vec<(Measure, f64)> = weights.filter(|(_, weight)| *weight != 0.0).collect();
+        match all[..] {
+            [(measure, _)] => measure.name().to_owned(),
+            _ => {
+                let terms = all.iter().map(|(it, weight)| format!("{weight} {}", it.name()));
+                terms.collect::<Vec<_>>().join(" + ")
+            }
+        }
+    }
+
+    fn numbers_in_words(&self, alternative: usize, values: &[f64]) -> String {
+        let task = &self.task.value;
+        let chosen = task.alternatives[alternative].chosen.iter();
+        let chosen = chosen.map(|(key, value)| format!("{key} = {value}"));
+        let pairs = task.free.iter().zip(values);
+        let free = pairs.map(|((key, _), value)| format!("{key} = {}", four_digits(*value)));
+        chosen.chain(free).collect::<Vec<_>>().join(", ")
+    }
+
+    /// What a limit costs.
+    fn price_line(&self, kept: &Kept) -> Option<String> {
+        let unit = kept.limit.measure.unit();
+        // A ratio is loosened by a hundredth.
+        let (by, price) = if unit == ONE {
+            ("0.01".to_owned(), 0.01 * kept.price)
+        } else {
+            (format!("1 {}", unit.symbol), kept.price)
+        };
+        (kept.price > 0.0).then(|| {
+            format!(
+                "{} holds it back: loosened by {by}, it is worth {} of {}.",
+                limit_in_words(&kept.limit),
+                four_digits(price),
+                self.aim()
+            )
+        })
+    }
+
+    /// Which numbers lie at an end of what they may be.
+    fn ends_line(&self, design: &Design) -> Option<String> {
+        /// Nearer to an end than this, over the bounds, is at it [-].
+        const AT_END: f64 = 1e-6;
+        let pairs = self.task.value.free.iter().zip(&design.values);
+        let at_end = pairs.filter_map(|((key, [least, most]), value)| {
+            let near = AT_END * (most - least);
+            let end = if value - least < near {
+                "the least"
+            } else if most - value < near {
+                "the most"
+            } else {
+                return None;
+            };
+            Some(format!("{key} is {end} that it may be"))
+        });
+        let at_end: Vec<String> = at_end.collect();
+        (!at_end.is_empty()).then(|| format!("Bounds hold it back, too: {}.", at_end.join(", ")))
+    }
+
+    /// Which other models say that the design misses a limit.
+    fn models_line(&self, design: &Design, rows: &[DesignRow]) -> Option<String> {
+        let nominal = |kept: &&Kept| kept.limit.ground == 0;
+        let misses = |row: &&DesignRow| {
+            let measures = row.measures.as_ref();
+            row.name == "found"
+                && design.kept.iter().filter(nominal).any(|kept| {
+                    measures.is_none_or(|it| !kept.limit.holds(it[kept.limit.measure.place()]))
+                })
+        };
+        let own = rows.iter().position(|row| row.name == "found").unwrap_or(0);
+        let others = rows.iter().enumerate().filter(|(place, _)| *place != own).map(|it| it.1);
+        let names: Vec<&str> = others.filter(misses).map(|row| &*row.model).collect();
+        (!names.is_empty()).then(|| {
+            format!("By other models it misses a limit: {}.", names.join(", "))
+        })
+    }
+
+    /// Designs between the least of one measure and of another.
+    fn add_trade(
+        &self,
+        answer: &mut Answer,
+        trade: &[Design],
+        [first, second]: [Measure; 2],
+        brief: &[String],
+    ) {
+        let row = |design: &Design| DesignRow {
+            name: "found".to_owned(),
+            model: String::new(),
+            chosen: self.task.value.alternatives[design.alternative].chosen.clone(),
+            values: design.values.clone(),
+            measures: Some(design.measures),
+        };
+        let rows: Vec<DesignRow> = trade.iter().map(row).collect();
+        let table = Arc::new(self.table(&rows));
+        let of = |measure: Measure| format!("{} [{}]", measure.doc(), measure.unit().symbol);
+        let point = |design: &Design| {
+            let [y, x] =
+                [first, second].map(|it| it.unit().from_si(design.measures[it.place()]));
+            (x, y)
+        };
+        let line = Series::new("found", Style::Line, 0, trade.iter().map(point));
+        let chart = Chart::new("What one is worth in the other", (of(second), of(first)), vec![line]);
+        answer.charts(vec![chart]);
+        let skipped = [ROW, MODEL];
+        let names: Vec<String> =
+            brief.iter().filter(|it| !skipped.contains(&&***it)).cloned().collect();
+        answer.rows("Designs along the trade-off", &table, names.clone());
+        answer.screen.push(Displayed::Words(format!(
+            "\nBetween the least {} and the least {}:\n",
+            first.name(),
+            second.name()
+        )));
+        answer.screen.push(Displayed::Rows(Arc::clone(&table), names));
+        answer.results.push(Member::rows("trade", Arc::clone(&table)));
+        answer.tables.push(("trade".into(), table));
+    }
+
     /// The rover's document with the numbers that were found.
     fn rover(&self, design: &Design) -> Attached {
-        let document = &self.task.value.scenario.document;
+        let ground = &self.task.value.alternatives[design.alternative].conditions[0];
+        let document = &ground.scenario.document;
         let numbers = design.numbers.iter().map(|(key, value)| (&**key, *value));
         let changed = document.with(numbers).part(Kind::Rover, "rover");
         Attached {
@@ -129,17 +324,68 @@ impl DesignQuestion {
             assumptions: Vec::new(),
         }
     }
+
+    /// Why there is no design, in words that name the task's keys.
+    #[must_use]
+    pub fn why_none(&self, none: &NoDesign) -> String {
+        let NoDesign::Unreachable(nearest) = none else { return none.to_string() };
+        let Nearest { alternative, values, missed, ground_limit } = &**nearest;
+        let missed = missed.iter().map(|(limit, value)| {
+            let unit = limit.measure.unit();
+            let has = four_digits(unit.from_si(*value));
+            let own = match limit.measure {
+                Measure::LimitSlope if limit.bound > *ground_limit => format!(
+                    " (the ground itself stands to {}° only)",
+                    four_digits(ground_limit.to_degrees())
+                ),
+                _ => String::new(),
+            };
+            format!("{} where it has {has}{own}", limit_in_words(limit))
+        });
+        format!(
+            "{none}: the nearest, with {}, misses {}",
+            self.numbers_in_words(*alternative, values),
+            missed.collect::<Vec<_>>().join(" and ")
+        )
+    }
 }
 
-fn constraints(study: &DesignStudy, design: &Design) -> Table {
-    let pairs = study.limits().iter().zip(&design.prices);
-    let kept: Vec<Kept<'_>> = pairs
-        .map(|(limit, price)| Kept { limit, value: design.of(limit.measure), price: *price })
-        .collect();
-    Table::of(CONSTRAINTS, &kept)
+/// A limit, such as `limit_slope_deg ≥ 21`.
+fn limit_in_words(limit: &Limit) -> String {
+    let sign = match limit.side {
+        Side::AtLeast => "≥",
+        Side::AtMost => "≤",
+    };
+    let bound = four_digits(limit.measure.unit().from_si(limit.bound));
+    let place = if limit.ground == 0 { String::new() } else { format!(" on ground {}", limit.ground + 1) };
+    format!("{} {sign} {bound}{place}", limit.measure.name())
 }
 
-fn measures(design: &Design) -> Value {
-    let all = Measure::ALL.into_iter().map(|it| (it.name().to_owned(), json!(design.of(it))));
-    Value::Object(all.collect())
+/// That fewer fresh samples keep a limit than are to.
+fn short_line(kept: &Kept, probability: f64) -> Option<String> {
+    let share = kept.share.filter(|share| *share < probability)?;
+    Some(format!(
+        "Of {} soils that took no part only {} % keep {}.",
+        DesignStudy::FRESH_SAMPLES,
+        four_digits(100.0 * share),
+        limit_in_words(&kept.limit)
+    ))
+}
+
+/// The columns of limits that are there.
+fn limits_in_brief(limits: &Table) -> Vec<String> {
+    let has = |name: &String| name != SHARE || limits.numbers(SHARE).iter().any(Option::is_some);
+    limits.names().into_iter().filter(has).collect()
+}
+
+/// The columns of designs for reading: the free numbers, what is to be least, what is limited.
+fn brief(study: &DesignStudy, free: &[(String, [f64; 2])]) -> Vec<String> {
+    let task = &study.task;
+    let asked = |measure: &Measure| {
+        let ends = task.limits[measure.place()];
+        task.weights[measure.place()] != 0.0 || ends.least.is_finite() || ends.most.is_finite()
+    };
+    let measures = Measure::ALL.into_iter().filter(asked).map(|it| it.name().to_owned());
+    let free = free.iter().map(|(key, _)| key.clone());
+    [ROW, MODEL].map(String::from).into_iter().chain(free).chain(measures).collect()
 }

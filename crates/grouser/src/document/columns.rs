@@ -6,6 +6,7 @@ pub mod card_courses;
 pub mod card_days;
 pub mod card_drives;
 pub mod completion;
+pub mod design;
 pub mod drives;
 mod ended;
 pub mod fit;

@@ -1,47 +1,59 @@
 //! Numbers of a rover that are found instead of guessed: the least of an aim under limits.
 //!
-//! Some numbers of a scenario are free between bounds. Every design is measured by the curve of its
-//! headings along the contour: the steepest slope, and on one slope the slip, the sinkage and the
-//! work. The aim is the least of one such measure, the limits are on others; both are smooth, so
-//! that sequential least-squares programming finds a minimum and what each limit costs
+//! Some numbers of a rover are free between bounds. Every design is measured by the curve of its
+//! headings on a course: the steepest slope, and on one slope the slip, the sinkage and the work. The
+//! aim is the least of one such measure, or of a sum of them; the limits are on others. Both are
+//! smooth, so that sequential least-squares programming finds a minimum and what each limit costs
 //! ([`slsqp`]). It is sought from several starts, and looked at again by designs around it.
 //!
+//! Where the soil is uncertain, a limit is to be kept with a probability. Samples of soil and model
+//! are the same for every design, and a limit is on the mean of a measure less z of its standard
+//! deviations, which is smooth. What z has to be for the share of samples that is asked for is found
+//! with the design: it is looked up in the samples there, and the search goes on from there. Samples
+//! that took no part say in the end which share keeps each limit.
+//!
 //! A wheel that grows gets heavier by a rule: it is of one sheet, rim and grousers, whose mass per
-//! area is that of the scenario's own wheel. What its mass adds to the load counts.
+//! area is that of the rover's own wheel. What its mass adds to the load counts.
+//!
+//! A design that does not cross the slope is measured where its curve ends, and that it crosses the
+//! slope is a limit like others: a search that starts below may climb.
 
+mod measured;
 mod slsqp;
 
+use grouser_io::design::{Alternative, DesignTask, Measure};
+use grouser_io::statistics::NothingAccepted;
+use grouser_io::statistics::normal::normal_score;
 use rayon::prelude::*;
 
+use self::measured::Ground;
+pub use self::measured::Measures;
 use self::slsqp::{Minimum, Smooth, Values};
-use super::heading::HeadingStudy;
+use crate::contact::Model;
 use crate::difference::{StepLengths, Variable, derivatives};
-use crate::document::Described as _;
-use crate::document::columns::SLOPE;
-use crate::document::design::{DesignTask, Measure};
-use crate::document::varied::Key;
 use crate::soil::Span;
-use crate::vehicle::{Inertia, Rover};
-use crate::wheel::Wheel;
 
 /// The least of an aim under limits.
 #[derive(Clone, Debug)]
 pub struct DesignStudy {
     /// What is free, what is to be least, and what is limited.
     pub task: DesignTask,
-    /// The slope on which slip, sinkage and work are measured [rad].
-    slope: f64,
-    limits: Vec<Limit>,
+    /// Whether soils are taken as their documents have them.
+    pub is_nominal: bool,
+    /// With which random numbers soils are drawn.
+    pub seed: u64,
 }
 
-/// A limit of a measure, in its unit.
+/// A limit of a measure on one of the grounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
+    /// On which ground, as numbered in [`Alternative::conditions`].
+    pub ground: usize,
     /// What is limited.
     pub measure: Measure,
     /// To which side.
     pub side: Side,
-    /// The limit.
+    /// The limit, in SI.
     pub bound: f64,
 }
 
@@ -54,40 +66,39 @@ pub enum Side {
     AtMost,
 }
 
+/// A limit, and how a design keeps it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kept {
+    /// The limit.
+    pub limit: Limit,
+    /// What the design has, in SI; where the soil is uncertain, what it has or does better with the
+    /// probability that is asked for.
+    pub value: f64,
+    /// By how much the aim falls if the limit is loosened by one, each in its unit; 0 for one that does
+    /// not hold the design back.
+    pub price: f64,
+    /// The share of fresh samples that keeps it, where the soil is uncertain.
+    pub share: Option<f64>,
+}
+
 /// A design that was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
+    /// Of which rover among those that may be chosen.
+    pub alternative: usize,
     /// The free numbers, in their keys' units.
     pub values: Vec<f64>,
-    /// All numbers of the scenario that it changes, by their keys: the free ones, and what the mass
-    /// of the wheels follows from.
+    /// All numbers of the rover that it changes, by their keys: the free ones, and what the masses
+    /// of the wheels follow from.
     pub numbers: Vec<(String, f64)>,
-    /// What is measured of it, in the order of [`Measure::ALL`].
-    pub measures: [f64; Measure::ALL.len()],
-    /// By how much the aim would fall for each limit loosened by one, in both units; 0 for one that does
-    /// not hold it back.
-    pub prices: Vec<f64>,
+    /// The aim.
+    pub objective: f64,
+    /// What is measured of it on the first ground, on average over samples where there are any.
+    pub measures: Measures,
+    /// Every limit.
+    pub kept: Vec<Kept>,
     /// What shows that it is the least.
     pub certificate: Certificate,
-}
-
-impl Side {
-    /// Its key in documents.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::AtLeast => "at_least",
-            Self::AtMost => "at_most",
-        }
-    }
-}
-
-impl Design {
-    /// A measure of it, in its unit.
-    #[must_use]
-    pub fn of(&self, measure: Measure) -> f64 {
-        self.measures[place(measure)]
-    }
 }
 
 /// What shows that a design is the least.
@@ -107,163 +118,403 @@ pub struct Certificate {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoDesign {
     /// No rover within the bounds moves, or none that was looked at.
-    #[error("no rover within these bounds crosses a slope of {:.2}°", .slope.to_degrees())]
-    NothingMoves {
-        /// The slope on which designs are measured [rad].
-        slope: f64,
-    },
-    /// No design keeps a limit.
-    #[error("no design within these bounds keeps every limit; the nearest misses {miss}")]
-    Unreachable {
-        /// The limit that is missed by the most, and its measure there, in SI.
-        miss: String,
-    },
+    #[error("no rover that was looked at within these bounds moves on this ground")]
+    NothingMoves,
+    /// No design keeps all limits.
+    #[error("no design within these bounds keeps every limit")]
+    Unreachable(Box<Nearest>),
+    /// The aim does not depend on what is free.
+    #[error("the aim does not depend on any number that is free")]
+    Constant,
+    /// No soil can be drawn.
+    #[error(transparent)]
+    NoSample(#[from] NothingAccepted),
 }
 
-/// The key of a wheel's mass.
-const MASS: &str = "rover.wheel_unit.mass_kg";
-/// The table of its inertia.
-const INERTIA: &str = "rover.wheel_unit.inertia_kg_m2";
+/// The design that comes nearest to keeping all limits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Nearest {
+    /// Of which rover among those that may be chosen.
+    pub alternative: usize,
+    /// The free numbers, in their keys' units.
+    pub values: Vec<f64>,
+    /// Limits that it misses, and what it has, in SI.
+    pub missed: Vec<(Limit, f64)>,
+    /// The steepest slope on which the first ground stands by its own strength [rad].
+    pub ground_limit: f64,
+}
 
 /// What a change of a measure is small against, in its unit: aims and limits are counted in it.
 const fn size(measure: Measure) -> f64 {
     match measure {
-        Measure::LimitSlope | Measure::Yaw => 5.0,
-        Measure::SinkageRatio | Measure::SlipRatio => 0.1,
+        Measure::LimitSlope | Measure::Crab | Measure::TippingSlope => 5.0,
+        Measure::SinkageRatio | Measure::SlipRatio | Measure::Width => 0.1,
         Measure::EnergyPerMetre => 10.0,
         Measure::Torque | Measure::WheelMass => 1.0,
     }
 }
 
-fn place(measure: Measure) -> usize {
-    Measure::ALL.iter().position(|it| *it == measure).unwrap_or_default()
+/// The same, in SI.
+fn size_in_si(measure: Measure) -> f64 {
+    measure.unit().to_si(size(measure))
 }
 
-/// Measures of a design.
-type Measures = [f64; Measure::ALL.len()];
-
-impl DesignStudy {
-    /// The study of a task.
+impl Side {
+    /// Its key in documents.
     #[must_use]
-    pub fn of(task: DesignTask) -> Self {
-        let slope = task.scenario.document.number("slope_deg").unwrap_or_default();
-        let both = Measure::ALL.into_iter().zip(task.limits).flat_map(|(measure, ends)| {
-            let of = |side, bound| Limit { measure, side, bound };
-            [of(Side::AtLeast, ends.least), of(Side::AtMost, ends.most)]
-        });
-        // Documents have the limits of angles in degrees, as measures are here.
-        let in_unit =
-            |limit: Limit| Limit { bound: limit.measure.unit().as_given(limit.bound), ..limit };
-        let limits = both.filter(|it| it.bound.is_finite()).map(in_unit).collect();
-        Self { task, slope: SLOPE.unit.to_si(slope), limits }
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::AtLeast => "at_least",
+            Self::AtMost => "at_most",
+        }
     }
 
-    /// The limits, in the order of prices.
+    /// One where more is worse, minus one where less is.
+    const fn sign(self) -> f64 {
+        match self {
+            Self::AtLeast => -1.0,
+            Self::AtMost => 1.0,
+        }
+    }
+}
+
+impl Limit {
+    /// Whether a value of its measure, in SI, keeps it but for rounding.
     #[must_use]
-    pub fn limits(&self) -> &[Limit] {
-        &self.limits
+    pub fn holds(&self, value: f64) -> bool {
+        self.excess(value) <= 1e-6
+    }
+
+    /// By how much something misses it, over the measure's size; not above 0 where it keeps it.
+    fn excess(&self, value: f64) -> f64 {
+        self.side.sign() * (value - self.bound) / size_in_si(self.measure)
+    }
+}
+
+impl DesignStudy {
+    /// How many soils are drawn for a search.
+    pub const SAMPLES: u32 = 40;
+    /// How many are drawn in the end.
+    pub const FRESH_SAMPLES: u32 = 200;
+
+    /// The study of a task.
+    ///
+    /// * `is_nominal`: whether soils are taken as their documents have them
+    #[must_use]
+    pub fn of(task: DesignTask, is_nominal: bool, seed: u64) -> Self {
+        Self { task, is_nominal, seed }
+    }
+
+    /// Whether any limit is kept with a probability.
+    #[must_use]
+    pub fn is_uncertain(&self) -> bool {
+        let all = self.task.alternatives.iter().flat_map(|it| &it.conditions);
+        !self.is_nominal && all.into_iter().any(|it| it.scenario.soils_of_bands().is_some())
     }
 
     /// The least of the aim.
     ///
     /// # Errors
-    /// [`NoDesign`] where no design moves, or none keeps all limits.
+    /// [`NoDesign`] where no design moves, none keeps all limits, or no soil can be drawn.
     pub fn design(&self) -> Result<Design, NoDesign> {
-        let starts = self.starts();
-        let found: Vec<Option<Minimum>> =
-            starts.par_iter().map(|start| slsqp::minimum(self, start)).collect();
-        let best =
-            found.iter().flatten().min_by(|one, other| one.objective.total_cmp(&other.objective));
-        let Some(best) = best else { return Err(self.why_none(&starts)) };
-        let values = self.values(&best.point);
-        let Some(measures) = self.measures(&values) else {
-            return Err(NoDesign::NothingMoves { slope: self.slope });
-        };
-        let agreed = found.iter().flatten().filter(|it| {
-            (it.objective - best.objective).abs() <= AGREED * best.objective.abs().max(1.0)
-        });
-        let certificate = self.certificate(best, starts.len(), agreed.count());
-        let (numbers, prices) = (self.numbers(&values), self.prices(best));
-        Ok(Design { values, numbers, measures, prices, certificate })
+        self.least(&self.task.weights, None)
     }
 
-    /// Where searches start: the scenario's own numbers, then points spread over the bounds.
+    /// The designs between the least of one measure and the least of another: each has the least of the
+    /// first with no more than so much of the second.
+    ///
+    /// # Errors
+    /// The same as [`design`](Self::design), where one of the two ends has none.
+    pub fn trade_off(&self, measures: [Measure; 2], count: usize) -> Result<Vec<Design>, NoDesign> {
+        let weights = measures.map(|measure| {
+            let mut weights = [0.0; Measure::COUNT];
+            weights[measure.place()] = 1.0;
+            weights
+        });
+        let ends = [self.least(&weights[0], None)?, self.least(&weights[1], None)?];
+        let second = measures[1];
+        let [most, least] = [&ends[0], &ends[1]].map(|end| end.measures[second.place()]);
+        let between = (1..count.saturating_sub(1)).into_par_iter().filter_map(|number| {
+            let share = number as f64 / (count - 1) as f64;
+            let bound = most + share * (least - most);
+            let limit = Limit { ground: 0, measure: second, side: Side::AtMost, bound };
+            self.least(&weights[0], Some(limit)).ok()
+        });
+        let between: Vec<Design> = between.collect();
+        let [first, last] = ends;
+        Ok(std::iter::once(first).chain(between).chain([last]).collect())
+    }
+
+    /// What a rover measures with other numbers, by a model and the soils as documents have them;
+    /// nothing where it does not move.
+    #[must_use]
+    pub fn nominal_measures(
+        &self,
+        alternative: usize,
+        values: &[f64],
+        model: &Model,
+    ) -> Option<Measures> {
+        let alternative = &self.task.alternatives[alternative];
+        let numbers = measured::numbers(&self.task.free, alternative, values)?;
+        let ground = Ground::nominal(alternative.conditions.first()?);
+        ground.with_model(model.clone()).measures(&numbers).pop()?
+    }
+
+    /// The best of the rovers that may be chosen.
+    fn least(&self, weights: &[f64], extra: Option<Limit>) -> Result<Design, NoDesign> {
+        let (mut best, mut none): (Option<Design>, Vec<NoDesign>) = (None, Vec::new());
+        for place in 0..self.task.alternatives.len() {
+            match Search::of(self, place, weights, extra)?.design() {
+                Ok(design) if best.as_ref().is_none_or(|it| design.objective < it.objective) => {
+                    best = Some(design);
+                }
+                Ok(_) => {}
+                Err(why) => none.push(why),
+            }
+        }
+        let nearer = |one: &NoDesign| match one {
+            NoDesign::Unreachable(nearest) => nearest
+                .missed
+                .iter()
+                .map(|(limit, value)| limit.excess(*value))
+                .fold(0.0, f64::max),
+            _ => f64::INFINITY,
+        };
+        best.ok_or_else(|| {
+            let nearest = none.into_iter().min_by(|one, other| nearer(one).total_cmp(&nearer(other)));
+            nearest.unwrap_or(NoDesign::NothingMoves)
+        })
+    }
+}
+
+/// A search over the numbers of one rover.
+struct Search<'a> {
+    study: &'a DesignStudy,
+    place: usize,
+    alternative: &'a Alternative,
+    /// The weights of the aim, each over one in its unit.
+    weights: &'a [f64],
+    /// What the aim is counted in.
+    aim_size: f64,
+    limits: Vec<Limit>,
+    /// How many standard deviations each limit keeps off its bound.
+    scores: Vec<f64>,
+    grounds: Vec<Ground>,
+}
+
+/// The mean of a measure over samples, and its standard deviation.
+#[derive(Clone, Copy, Debug, Default)]
+struct Moments {
+    mean: f64,
+    deviation: f64,
+}
+
+impl Moments {
+    fn of(values: impl Iterator<Item = f64> + Clone) -> Self {
+        let count = values.clone().count() as f64;
+        let mean = values.clone().sum::<f64>() / count;
+        let variance = values.map(|it| (it - mean).powi(2)).sum::<f64>() / count;
+        Self { mean, deviation: variance.sqrt() }
+    }
+}
+
+impl<'a> Search<'a> {
+    fn of(
+        study: &'a DesignStudy,
+        place: usize,
+        weights: &'a [f64],
+        extra: Option<Limit>,
+    ) -> Result<Self, NoDesign> {
+        let alternative = &study.task.alternatives[place];
+        let grounds = alternative.conditions.iter().map(|condition| {
+            if study.is_nominal {
+                return Ok(Ground::nominal(condition));
+            }
+            Ground::drawn(condition, study.seed, DesignStudy::SAMPLES)
+        });
+        let grounds = grounds.collect::<Result<Vec<Ground>, NothingAccepted>>()?;
+        let sizes = Measure::ALL.into_iter().zip(weights);
+        let aim_size = sizes.map(|(measure, weight)| weight * size(measure)).sum();
+        let mut limits = limits_of(&study.task, alternative);
+        limits.extend(extra);
+        let score = |limit: &Limit| match grounds[limit.ground].is_uncertain() {
+            true => normal_score(study.task.probability),
+            false => 0.0,
+        };
+        let scores = limits.iter().map(score).collect();
+        Ok(Self { study, place, alternative, weights, aim_size, limits, scores, grounds })
+    }
+
+    fn design(mut self) -> Result<Design, NoDesign> {
+        /// How often what samples say of a limit is looked up again.
+        const LOOKS: usize = 4;
+        let starts = self.starts();
+        self.check_aim(&starts)?;
+        let (mut best, mut agreed) = self.search(&starts)?;
+        for _ in 0..LOOKS {
+            if !self.look_up_scores(&best) {
+                break;
+            }
+            let started: Vec<Vec<f64>> = [vec![best.point.clone()], starts.clone()].concat();
+            (best, agreed) = self.search(&started)?;
+        }
+        let certificate = self.certificate(&best, starts.len(), agreed.min(starts.len()));
+        self.found(&best, certificate)
+    }
+
+    /// The least that searches come to, and how many come to it.
+    fn search(&self, starts: &[Vec<f64>]) -> Result<(Minimum, usize), NoDesign> {
+        let from = |start: &Vec<f64>| {
+            let found = slsqp::minimum(self, start);
+            // One that cannot keep its limits from there is led to where they are kept first.
+            found.or_else(|| slsqp::minimum(self, &self.nearest(start).filter(|it| it.1 <= 0.0)?.0))
+        };
+        let found: Vec<Option<Minimum>> = starts.par_iter().map(from).collect();
+        let best =
+            found.iter().flatten().min_by(|one, other| one.objective.total_cmp(&other.objective));
+        let Some(best) = best.cloned() else { return Err(self.why_none(starts)) };
+        let agrees = |it: &&Minimum| {
+            (it.objective - best.objective).abs() <= AGREED * best.objective.abs().max(1.0)
+        };
+        let agreed = found.iter().flatten().filter(agrees).count();
+        Ok((best, agreed))
+    }
+
+    /// Where searches start: the rover's own numbers, then points spread over the bounds.
     fn starts(&self) -> Vec<Vec<f64>> {
         /// Searches from points that are spread.
-        const SPREAD: u32 = 4;
-        let share = |(key, [least, most]): &(Key, [f64; 2])| (key.value - least) / (most - least);
-        let own: Vec<f64> = self.task.free.iter().map(|it| share(it).clamp(0.0, 1.0)).collect();
-        // The additive recurrence of the golden ratio's kin (R_d), which fills any cube evenly.
-        let count = self.task.free.len() as f64;
-        let ratio = (0..32).fold(2.0_f64, |ratio, _| (1.0 + ratio).powf(1.0 / (count + 1.0)));
-        let spread = (1..=SPREAD).map(|number| {
-            let axis = |axis: i32| (0.5 + f64::from(number) * ratio.powi(-(axis + 1))).fract();
-            (0..self.task.free.len()).map(|place| axis(i32::try_from(place).unwrap_or(0))).collect()
-        });
-        std::iter::once(own).chain(spread).collect()
+        const SPREAD: usize = 4;
+        let ends = self.study.task.free.iter().map(|(_, ends)| ends);
+        let share = |(given, [least, most]): (&f64, &[f64; 2])| (given - least) / (most - least);
+        let own = self.alternative.given.iter().zip(ends).map(share);
+        let own: Vec<f64> = own.map(|share| share.clamp(0.0, 1.0)).collect();
+        std::iter::once(own).chain(spread(self.free()).skip(1).take(SPREAD)).collect()
     }
 
     /// The free numbers at a point of the unit cube, in their keys' units.
     fn values(&self, point: &[f64]) -> Vec<f64> {
-        let pairs = self.task.free.iter().zip(point);
+        let pairs = self.study.task.free.iter().zip(point);
         pairs.map(|((_, [least, most]), share)| least + share * (most - least)).collect()
     }
 
-    /// All numbers that a design changes, by their keys: the free ones, and where the wheels' size is
-    /// among them their mass and inertia.
-    fn numbers(&self, values: &[f64]) -> Vec<(String, f64)> {
-        let own =
-            self.task.free.iter().map(|(key, _)| key.path.clone()).zip(values.iter().copied());
-        let mut numbers: Vec<(String, f64)> = own.collect();
-        if numbers.iter().any(|(key, _)| key == MASS) {
-            return numbers;
-        }
-        let keys = numbers.iter().map(|(key, value)| (&**key, *value));
-        let Ok(changed) = self.task.scenario.value.with(keys) else { return numbers };
-        let unit = |rover: &Rover| rover.parts().wheel_unit;
-        let (own, unit) = (unit(&self.task.scenario.value.rover), unit(&changed.rover));
-        let factor = sheet(&unit.wheel) / sheet(&own.wheel);
-        if factor == 1.0 {
-            return numbers;
-        }
-        numbers.push((MASS.to_owned(), own.mass * factor));
-        let turning = factor * (unit.wheel.radius / own.wheel.radius).powi(2);
-        let Inertia { xx, yy, zz } = own.inertia;
-        let axes = [("xx", xx), ("yy", yy), ("zz", zz)];
-        numbers.extend(axes.map(|(axis, own)| (format!("{INERTIA}.{axis}"), own * turning)));
-        numbers
-    }
-
-    /// What is measured of a design; nothing of one that is none, or that does not cross the slope.
-    fn measures(&self, values: &[f64]) -> Option<Measures> {
-        let numbers = self.numbers(values);
-        let numbers = numbers.iter().map(|(key, value)| (&**key, *value));
-        let scenario = self.task.scenario.value.with(numbers).ok()?;
-        let curve = HeadingStudy::of(&scenario).curve().ok()?;
-        let (limit, _) = curve.limit().ok()?;
-        let heading = curve.at(self.slope).ok()?;
-        let rover = &scenario.rover;
-        let wheels = rover.mounts().iter().zip(&heading.wheels);
-        let sinkage = wheels.map(|(mount, it)| it.settled.sinkage / mount.shearing_radius());
-        let torques = heading.wheels.iter().map(|it| it.settled.forces.torque.abs());
-        let of = |measure| match measure {
-            Measure::LimitSlope => limit,
-            Measure::SinkageRatio => sinkage.clone().fold(0.0, f64::max),
-            Measure::SlipRatio => heading.slip_ratio,
-            Measure::EnergyPerMetre => heading.energy_per_metre(rover),
-            Measure::Yaw => heading.yaw,
-            Measure::Torque => torques.clone().fold(0.0, f64::max),
-            Measure::WheelMass => rover.mounts().iter().map(|mount| mount.unit.mass).sum(),
+    /// What every sample measures on every ground; nothing of a design that is none.
+    fn measured(&self, point: &[f64]) -> Option<Vec<Vec<Measures>>> {
+        let values = self.values(point);
+        let numbers = measured::numbers(&self.study.task.free, self.alternative, &values)?;
+        let of_ground = |ground: &Ground| {
+            let all: Vec<Measures> = ground.measures(&numbers).into_iter().flatten().collect();
+            let enough = all.len() as f64 >= self.study.task.probability * ground.count() as f64;
+            (enough && !all.is_empty()).then_some(all)
         };
-        Some(Measure::ALL.map(|measure| measure.unit().from_si(of(measure))))
+        self.grounds.iter().map(of_ground).collect()
     }
 
-    /// By how much the aim falls for each limit that is loosened by one, in SI.
-    fn prices(&self, best: &Minimum) -> Vec<f64> {
-        let limits = self.limits.iter().zip(&best.multipliers);
-        limits
-            .map(|(limit, price)| price * size(self.task.minimise) / size(limit.measure))
-            .collect()
+    /// The aim, over its size.
+    fn aim(&self, measured: &[Vec<Measures>]) -> f64 {
+        let of = |measure: Measure| {
+            let mean = Moments::of(measured[0].iter().map(|it| it[measure.place()])).mean;
+            measure.unit().from_si(mean)
+        };
+        let weights = Measure::ALL.into_iter().zip(self.weights).filter(|(_, it)| **it != 0.0);
+        weights.map(|(measure, weight)| weight * of(measure)).sum::<f64>() / self.aim_size
+    }
+
+    /// What a limit is on: a measure's mean, and so many deviations from it.
+    fn limited(&self, limit: usize, measured: &[Vec<Measures>]) -> f64 {
+        let (limit, score) = (&self.limits[limit], self.scores[limit]);
+        let all = measured[limit.ground].iter().map(|it| it[limit.measure.place()]);
+        let Moments { mean, deviation } = Moments::of(all);
+        // A score of zero beside no deviation is no slope of infinity.
+        if score == 0.0 { mean } else { mean + limit.side.sign() * score * deviation }
+    }
+
+    fn excesses(&self, measured: &[Vec<Measures>]) -> Vec<f64> {
+        let of = |place: usize| self.limits[place].excess(self.limited(place, measured));
+        (0..self.limits.len()).map(of).collect()
+    }
+
+    /// Aim and limits of a design.
+    fn outcome(&self, point: &[f64]) -> Option<Vec<f64>> {
+        let measured = self.measured(point)?;
+        let aim = self.aim(&measured);
+        Some(std::iter::once(aim).chain(self.excesses(&measured)).collect())
+    }
+
+    /// Looks up how many deviations each limit has to keep off for the share of samples that is
+    /// asked for; whether any has changed.
+    fn look_up_scores(&mut self, best: &Minimum) -> bool {
+        /// What is exact enough, over a measure's size [-].
+        const EXACT: f64 = 1e-3;
+        let Some(measured) = self.measured(&best.point) else { return false };
+        let mut has_changed = false;
+        for (place, limit) in self.limits.iter().enumerate() {
+            let ground = &self.grounds[limit.ground];
+            if !ground.is_uncertain() {
+                continue;
+            }
+            let sign = limit.side.sign();
+            let all = measured[limit.ground].iter().map(|it| it[limit.measure.place()]);
+            let Moments { mean, deviation } = Moments::of(all.clone());
+            if deviation <= 1e-9 * size_in_si(limit.measure) {
+                continue;
+            }
+            let mut worse: Vec<f64> = all.map(|it| sign * (it - mean) / deviation).collect();
+            worse.sort_by(f64::total_cmp);
+            let asked = self.study.task.probability * ground.count() as f64;
+            let kept = (1..worse.len()).find(|count| *count as f64 >= asked);
+            let score = worse[kept.unwrap_or(worse.len()) - 1];
+            let change = (score - self.scores[place]).abs() * deviation;
+            has_changed |= change > EXACT * size_in_si(limit.measure);
+            self.scores[place] = score;
+        }
+        has_changed
+    }
+
+    fn found(&self, best: &Minimum, certificate: Certificate) -> Result<Design, NoDesign> {
+        let values = self.values(&best.point);
+        let numbers = measured::numbers(&self.study.task.free, self.alternative, &values);
+        let (Some(measured), Some(numbers)) = (self.measured(&best.point), numbers) else {
+            return Err(NoDesign::NothingMoves);
+        };
+        let mean = |measure: Measure| {
+            Moments::of(measured[0].iter().map(|it| it[measure.place()])).mean
+        };
+        let fresh = self.fresh(&numbers)?;
+        let kept = self.limits.iter().enumerate().map(|(place, limit)| {
+            let multiplier = best.multipliers.get(place).copied().unwrap_or(0.0);
+            Kept {
+                limit: *limit,
+                value: self.limited(place, &measured),
+                price: multiplier * self.aim_size / size(limit.measure),
+                share: fresh[limit.ground].as_ref().map(|all| share(limit, all)),
+            }
+        });
+        Ok(Design {
+            alternative: self.place,
+            objective: best.objective * self.aim_size,
+            measures: Measure::ALL.map(mean),
+            kept: kept.collect(),
+            values,
+            numbers,
+            certificate,
+        })
+    }
+
+    /// What samples measure that took no part, on each ground that is uncertain.
+    fn fresh(
+        &self,
+        numbers: &[(String, f64)],
+    ) -> Result<Vec<Option<Vec<Option<Measures>>>>, NothingAccepted> {
+        let of_ground = |(place, ground): (usize, &Ground)| {
+            if !ground.is_uncertain() {
+                return Ok(None);
+            }
+            let condition = &self.alternative.conditions[place];
+            let seed = self.study.seed.wrapping_add(1);
+            let fresh = Ground::drawn(condition, seed, DesignStudy::FRESH_SAMPLES)?;
+            Ok(Some(fresh.measures(numbers)))
+        };
+        self.grounds.iter().enumerate().map(of_ground).collect()
     }
 
     /// Looks at designs around the best, 1 % of the bounds away along each number and between.
@@ -272,94 +523,79 @@ impl DesignStudy {
         const AWAY: f64 = 0.01;
         /// Better by less than this is rounding, over the aim's size [-].
         const ROUNDING: f64 = 1e-6;
-        let count = self.task.free.len();
-        let shifts: Vec<Vec<f64>> = (0..3_usize.pow(u32::try_from(count.min(5)).unwrap_or(5)))
-            .map(|number| {
-                (0..count)
-                    .map(|place| {
-                        let digit =
-                            number / 3_usize.pow(u32::try_from(place.min(5)).unwrap_or(5)) % 3;
-                        AWAY * (digit as f64 - 1.0)
-                    })
-                    .collect()
+        /// Designs in all directions.
+        const DIRECTIONS: usize = 60;
+        let along = (0..self.free()).flat_map(|axis| {
+            [0.0, 1.0].map(move |side| {
+                (0..self.free()).map(move |it| if it == axis { side } else { 0.5 })
             })
-            .collect();
-        let is_better = |shift: &Vec<f64>| {
-            let moved = best.point.iter().zip(shift).map(|(it, by)| (it + by).clamp(0.0, 1.0));
-            let point: Vec<f64> = moved.collect();
-            let measures = self.measures(&self.values(&point));
-            measures.is_some_and(|measures| {
-                let keeps = self.limits.iter().all(|limit| limit.excess(&measures) <= 0.0);
-                let aim = measures[place(self.task.minimise)] / size(self.task.minimise);
-                keeps && aim < best.objective - ROUNDING
+        });
+        let along = along.map(Iterator::collect::<Vec<f64>>);
+        let shares: Vec<Vec<f64>> = along.chain(spread(self.free()).take(DIRECTIONS)).collect();
+        let is_better = |share: &&Vec<f64>| {
+            let moved = best.point.iter().zip(*share);
+            let moved = moved.map(|(it, share)| (it + AWAY * (2.0 * share - 1.0)).clamp(0.0, 1.0));
+            let outcome = self.outcome(&moved.collect::<Vec<f64>>());
+            outcome.is_some_and(|outcome| {
+                outcome[0] < best.objective - ROUNDING && outcome[1..].iter().all(|it| *it <= 0.0)
             })
         };
-        let better = shifts.par_iter().filter(|shift| is_better(shift)).count();
-        Certificate { starts, agreed, probes: shifts.len(), better }
+        let better = shares.par_iter().filter(is_better).count();
+        Certificate { starts, agreed, probes: shares.len(), better }
     }
 
-    /// Why no search found a design, by the designs at which they started.
+    /// Whether what is free acts on the aim at any start.
+    fn check_aim(&self, starts: &[Vec<f64>]) -> Result<(), NoDesign> {
+        let mut aims = starts.iter().filter_map(|start| Some(self.aim(&self.measured(start)?)));
+        let Some(first) = aims.next() else { return Ok(()) };
+        let mut others = aims.peekable();
+        if others.peek().is_some() && others.all(|aim| aim == first) {
+            return Err(NoDesign::Constant);
+        }
+        Ok(())
+    }
+
+    /// The point from a start that misses the worst limit by the least, and by how much.
+    fn nearest(&self, start: &[f64]) -> Option<(Vec<f64>, f64)> {
+        let worst = self.outcome(start)?[1..].iter().copied().fold(0.0, f64::max);
+        let elastic = Elastic { search: self, most: 2.0 * worst.max(1.0) };
+        let mut point = start.to_vec();
+        point.push(worst / elastic.most);
+        let found = slsqp::minimum(&elastic, &point)?;
+        let excess = found.objective;
+        let point = found.point[..self.free()].to_vec();
+        // What is missed by less than the search is exact to is kept.
+        Some((point, if excess < 1e-6 { 0.0 } else { excess }))
+    }
+
+    /// Why no search found a design: which limits the nearest one misses.
     fn why_none(&self, starts: &[Vec<f64>]) -> NoDesign {
-        let measured = starts.iter().filter_map(|start| self.measures(&self.values(start)));
-        let worst = |measures: &Measures| {
-            let excess = |limit: &Limit| (limit.excess(measures), limit.measure);
-            let all = self.limits.iter().map(excess);
-            all.max_by(|one, other| one.0.total_cmp(&other.0)).map(|(by, of)| (by, of, *measures))
-        };
-        let nearest =
-            measured.filter_map(|it| worst(&it)).min_by(|one, other| one.0.total_cmp(&other.0));
-        match nearest {
-            None => NoDesign::NothingMoves { slope: self.slope },
-            Some((_, measure, measures)) => {
-                let value = measures[place(measure)];
-                NoDesign::Unreachable { miss: format!("{} with {value:.4}", measure.name()) }
-            }
-        }
-    }
-}
-
-/// Searches that differ by less came to one design [-].
-const AGREED: f64 = 1e-4;
-
-impl Limit {
-    /// By how much a design misses it, over the measure's size; not above 0 where it keeps it.
-    fn excess(&self, measures: &Measures) -> f64 {
-        let over = (measures[place(self.measure)] - self.bound) / size(self.measure);
-        match self.side {
-            Side::AtLeast => -over,
-            Side::AtMost => over,
-        }
-    }
-}
-
-/// The area of the sheet that a wheel is made of, 2π r b + N h_g b [m²].
-fn sheet(wheel: &Wheel) -> f64 {
-    let grousers = wheel.grousers.map_or(0.0, |it| f64::from(it.count) * it.height);
-    (std::f64::consts::TAU * wheel.radius + grousers) * wheel.width
-}
-
-impl Smooth for DesignStudy {
-    fn free(&self) -> usize {
-        self.task.free.len()
+        let nearest = starts.par_iter().filter_map(|start| self.nearest(start));
+        let nearest = nearest.min_by(|one, other| one.1.total_cmp(&other.1));
+        let Some((point, _)) = nearest else { return NoDesign::NothingMoves };
+        let Some(measured) = self.measured(&point) else { return NoDesign::NothingMoves };
+        let all = self.limits.iter().enumerate();
+        let all = all.map(|(place, limit)| (*limit, self.limited(place, &measured)));
+        let missed = all.filter(|(limit, value)| limit.excess(*value) > 1e-6).collect();
+        NoDesign::Unreachable(Box::new(Nearest {
+            alternative: self.place,
+            values: self.values(&point),
+            missed,
+            ground_limit: self.grounds[0].strength(),
+        }))
     }
 
-    fn constraints(&self) -> usize {
-        self.limits.len()
-    }
-
-    fn at(&self, point: &[f64]) -> Option<Values> {
-        let of = |point: &[f64]| {
-            let measures = self.measures(&self.values(point))?;
-            let aim = measures[place(self.task.minimise)] / size(self.task.minimise);
-            let limits = self.limits.iter().map(|limit| limit.excess(&measures));
-            Some(std::iter::once(aim).chain(limits).collect::<Vec<f64>>())
-        };
+    /// Values and derivatives of what a point gives.
+    fn smooth(
+        point: &[f64],
+        of: impl Fn(&[f64]) -> Option<Vec<f64>> + Sync,
+    ) -> Option<Values> {
         let here = of(point)?;
         let variable =
             |value: &f64| Variable { value: *value, scale: 1.0, range: Span::new(0.0, 1.0) };
         let variables: Vec<Variable> = point.iter().map(variable).collect();
         let sizes = vec![1.0; here.len()];
-        let mut evaluate = |points: &[Vec<f64>]| points.iter().map(|it| of(it)).collect();
+        let mut evaluate = |points: &[Vec<f64>]| points.par_iter().map(|it| of(it)).collect();
         let found = derivatives(&variables, &here, &sizes, StepLengths::SETTLED, &mut evaluate);
         let by: Vec<Vec<f64>> = found
             .by_variable
@@ -372,5 +608,89 @@ impl Smooth for DesignStudy {
             gradients: (0..here.len()).map(gradient).collect(),
             constraints: here[1..].to_vec(),
         })
+    }
+}
+
+/// Searches that differ by less came to one design [-].
+const AGREED: f64 = 1e-4;
+
+/// The limits on every ground; that the slope is crossed is one, unless a stricter one is stated.
+fn limits_of(task: &DesignTask, alternative: &Alternative) -> Vec<Limit> {
+    let of_ground = |(ground, slope): (usize, f64)| {
+        let both = Measure::ALL.into_iter().zip(task.limits).flat_map(move |(measure, ends)| {
+            let least = match measure {
+                Measure::LimitSlope if slope > 0.0 => ends.least.max(slope),
+                _ => ends.least,
+            };
+            let of = |side, bound| Limit { ground, measure, side, bound };
+            [of(Side::AtLeast, least), of(Side::AtMost, ends.most)]
+        });
+        // What no ground changes is limited once.
+        both.filter(move |it| it.bound.is_finite() && (ground == 0 || !it.measure.is_of_rover()))
+    };
+    let slopes = alternative.conditions.iter().map(|condition| condition.slope);
+    slopes.enumerate().flat_map(of_ground).collect()
+}
+
+/// The share of samples that keeps a limit; one that does not move keeps none.
+fn share(limit: &Limit, samples: &[Option<Measures>]) -> f64 {
+    let keeps = |it: &&Option<Measures>| {
+        it.is_some_and(|it| limit.holds(it[limit.measure.place()]))
+    };
+    samples.iter().filter(keeps).count() as f64 / samples.len() as f64
+}
+
+/// Points that fill the unit cube evenly: the additive recurrence of the golden ratio's kin, R_d.
+fn spread(dimensions: usize) -> impl Iterator<Item = Vec<f64>> {
+    let power = 1.0 / (dimensions as f64 + 1.0);
+    let ratio = (0..32).fold(2.0_f64, |ratio, _| (1.0 + ratio).powf(power));
+    (0..).map(move |number: u32| {
+        let step = |axis: u32| ratio.powi(-(i32::try_from(axis).unwrap_or(0) + 1));
+        let axis = |axis: u32| (0.5 + f64::from(number) * step(axis)).fract();
+        (0..u32::try_from(dimensions).unwrap_or(0)).map(axis).collect()
+    })
+}
+
+impl Smooth for Search<'_> {
+    fn free(&self) -> usize {
+        self.study.task.free.len()
+    }
+
+    fn constraints(&self) -> usize {
+        self.limits.len()
+    }
+
+    fn at(&self, point: &[f64]) -> Option<Values> {
+        Self::smooth(point, |point| self.outcome(point))
+    }
+}
+
+/// The least by which the worst limit is missed: a last number that each limit may be missed by.
+struct Elastic<'a> {
+    search: &'a Search<'a>,
+    /// What the last number is a share of.
+    most: f64,
+}
+
+impl Smooth for Elastic<'_> {
+    fn free(&self) -> usize {
+        self.search.free() + 1
+    }
+
+    fn constraints(&self) -> usize {
+        self.search.constraints()
+    }
+
+    fn at(&self, point: &[f64]) -> Option<Values> {
+        let (share, own) = point.split_last()?;
+        let slack = share * self.most;
+        let mut values = self.search.at(own)?;
+        values.objective = slack;
+        values.constraints.iter_mut().for_each(|it| *it -= slack);
+        let [aim, limits @ ..] = &mut values.gradients[..] else { return None };
+        aim.fill(0.0);
+        aim.push(self.most);
+        limits.iter_mut().for_each(|it| it.push(-self.most));
+        Some(values)
     }
 }

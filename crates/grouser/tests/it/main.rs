@@ -9,6 +9,7 @@ mod campaign;
 mod campaign_documents;
 mod card;
 mod declarations;
+mod design;
 mod differences;
 mod directions;
 mod discrepancy;

@@ -207,6 +207,80 @@ mod tests {
         assert!((found.multipliers[1] - 0.5625).abs() < 1e-5, "{found:?}");
     }
 
+    /// A towed wheel on Bekker's soil with n = 1: the least of its sheet's mass and of the work that it
+    /// takes, c r b + R with R = b k z²/2, while it sinks by z = (3 W/(2 k b √(2 r)))^(2/3), no deeper
+    /// than it may. Its radius is what a point says times a metre, and so is its width.
+    struct TowedWheel {
+        deepest: f64,
+    }
+
+    impl TowedWheel {
+        const LOAD: f64 = 50.0;
+        const STIFFNESS: f64 = 2e6;
+        /// What a square metre of r b counts.
+        const MASS: f64 = 400.0;
+
+        fn outcome(&self, [radius, width]: [f64; 2]) -> [f64; 2] {
+            let sinkage = 3.0 * Self::LOAD / (2.0 * Self::STIFFNESS * width * (2.0 * radius).sqrt());
+            let sinkage = sinkage.powf(2.0 / 3.0);
+            let resistance = width * Self::STIFFNESS * sinkage * sinkage / 2.0;
+            let aim = Self::MASS * radius * width + resistance;
+            [aim, sinkage / self.deepest - 1.0]
+        }
+
+        /// Where b √r = p keeps the sinkage, the aim is A b + c p²/b with A = k z²/2: its least is at
+        /// b = p √(c/A).
+        fn closed_form(&self) -> ([f64; 2], f64) {
+            let z = self.deepest;
+            let p = 3.0 * Self::LOAD / (2.0 * Self::STIFFNESS * 2.0_f64.sqrt()) * z.powf(-1.5);
+            let a = Self::STIFFNESS * z * z / 2.0;
+            let width = p * (Self::MASS / a).sqrt();
+            ([(p / width).powi(2), width], 2.0 * p * (Self::MASS * a).sqrt())
+        }
+    }
+
+    impl Smooth for TowedWheel {
+        fn free(&self) -> usize {
+            2
+        }
+
+        fn constraints(&self) -> usize {
+            1
+        }
+
+        fn at(&self, point: &[f64]) -> Option<Values> {
+            let of = |r: f64, b: f64| self.outcome([r.max(1e-3), b.max(1e-3)]);
+            let (here, step) = (of(point[0], point[1]), 1e-6);
+            let by = |r: f64, b: f64| {
+                let (up, down) = (of(point[0] + r, point[1] + b), of(point[0] - r, point[1] - b));
+                [0, 1].map(|it| (up[it] - down[it]) / (2.0 * step))
+            };
+            let (by_radius, by_width) = (by(step, 0.0), by(0.0, step));
+            Some(Values {
+                objective: here[0],
+                constraints: vec![here[1]],
+                gradients: vec![vec![by_radius[0], by_width[0]], vec![by_radius[1], by_width[1]]],
+            })
+        }
+    }
+
+    #[test]
+    fn a_towed_wheel_is_that_of_the_closed_form() {
+        for deepest in [0.004, 0.006, 0.01] {
+            let wheel = TowedWheel { deepest };
+            let (size, aim) = wheel.closed_form();
+            for start in [[0.3, 0.3], [0.05, 0.2], [0.8, 0.1]] {
+                let found = minimum(&wheel, &start).expect("a wheel");
+                let error = |place: usize| (found.point[place] / size[place] - 1.0).abs();
+                assert!(error(0) < 1e-3 && error(1) < 1e-3, "{deepest}: {found:?}, {size:?}");
+                assert!((found.objective / aim - 1.0).abs() < 1e-6, "{deepest}: {found:?}, {aim}");
+                // The aim goes with z^(-1/2), and the limit is on z over the deepest.
+                let price = found.multipliers[0] / (aim / 2.0);
+                assert!((price - 1.0).abs() < 1e-3, "{deepest}: {price}");
+            }
+        }
+    }
+
     #[test]
     fn a_problem_without_an_answer_has_none() {
         assert_eq!(minimum(&Rectangle { most: 0.2 }, &[0.1, 0.9]), None);

@@ -1,0 +1,185 @@
+//! What is measured of a rover on a ground.
+
+use std::f64::consts::TAU;
+
+use grouser_io::Described as _;
+use grouser_io::design::{Alternative, Condition, Measure};
+use grouser_io::statistics::NothingAccepted;
+use rayon::prelude::*;
+
+use crate::contact::Model;
+use crate::simulation::Scenario;
+use crate::studies::ensemble::models::Question;
+use crate::studies::ensemble::samples::{BandInputs, Sample};
+use crate::studies::heading::HeadingStudy;
+use crate::vehicle::{Inertia, Rover};
+use crate::wheel::Wheel;
+
+/// What is measured of a design, in SI, in the order of [`Measure::ALL`].
+pub type Measures = [f64; Measure::COUNT];
+
+/// A ground with the soils and models that are taken for it.
+pub(super) struct Ground {
+    scenario: Scenario,
+    slope: f64,
+    course: f64,
+    samples: Vec<Sample>,
+    is_uncertain: bool,
+}
+
+impl Ground {
+    /// The soil as its document has it, and its one model.
+    pub(super) fn nominal(condition: &Condition) -> Self {
+        let scenario = condition.scenario.value.clone();
+        let sample = Sample { soil: scenario.ground.soil, model: scenario.model.clone() };
+        let Condition { slope, course, .. } = *condition;
+        Self { scenario, slope, course, samples: vec![sample], is_uncertain: false }
+    }
+
+    /// So many soils and models that it may be, where its document leaves that open.
+    pub(super) fn drawn(
+        condition: &Condition,
+        seed: u64,
+        count: u32,
+    ) -> Result<Self, NothingAccepted> {
+        let nominal = Self::nominal(condition);
+        if condition.scenario.soils_of_bands().is_none() {
+            return Ok(nominal);
+        }
+        let inputs = BandInputs::of_scenario(&condition.scenario);
+        let samples =
+            inputs.asked(Question::on_course(condition.course)).samples(seed, count)?;
+        Ok(Self { samples, is_uncertain: true, ..nominal })
+    }
+
+    /// The same by another model.
+    pub(super) fn with_model(mut self, model: Model) -> Self {
+        self.samples.iter_mut().for_each(|it| it.model = model.clone());
+        self
+    }
+
+    pub(super) fn is_uncertain(&self) -> bool {
+        self.is_uncertain
+    }
+
+    /// How many samples there are.
+    pub(super) fn count(&self) -> usize {
+        self.samples.len()
+    }
+
+    /// The steepest slope on which the ground stands by its own strength [rad].
+    pub(super) fn strength(&self) -> f64 {
+        HeadingStudy::of(&self.scenario).ground_limit()
+    }
+
+    /// What each sample measures of the rover with other numbers; nothing where it does not move.
+    pub(super) fn measures(&self, numbers: &[(String, f64)]) -> Vec<Option<Measures>> {
+        let numbers = numbers.iter().map(|(key, value)| (&**key, *value));
+        let Ok(scenario) = self.scenario.with(numbers) else {
+            return vec![None; self.samples.len()];
+        };
+        let of_rover = of_rover(&scenario);
+        let of_sample = |sample: &Sample| {
+            let study = HeadingStudy {
+                soil: sample.soil,
+                model: sample.model.clone(),
+                ..HeadingStudy::of(&scenario)
+            };
+            self.measures_of(&study, of_rover)
+        };
+        self.samples.par_iter().map(of_sample).collect()
+    }
+
+    /// * `of_rover`: what is measured of the rover alone
+    fn measures_of(&self, study: &HeadingStudy, of_rover: Measures) -> Option<Measures> {
+        /// Short of a curve's end, which has no slope [-].
+        const SHORT_OF_END: f64 = 1.0 - 1e-6;
+        let curve = study.curve_on(self.course).ok()?;
+        let (limit, _) = curve.limit().ok()?;
+        let heading = curve.at(self.slope.min(SHORT_OF_END * limit)).ok()?;
+        let wheels = study.rover.mounts().iter().zip(&heading.wheels);
+        let sinkages = wheels.map(|(mount, it)| it.settled.sinkage / mount.shearing_radius());
+        let torques = heading.wheels.iter().map(|it| it.settled.forces.torque.abs());
+        let mut measures = of_rover;
+        let mut set = |measure: Measure, value: f64| measures[measure.place()] = value;
+        set(Measure::LimitSlope, limit);
+        set(Measure::SinkageRatio, sinkages.fold(0.0, f64::max));
+        set(Measure::SlipRatio, heading.slip_ratio);
+        set(Measure::EnergyPerMetre, heading.energy_per_metre(&study.rover));
+        set(Measure::Crab, heading.crab());
+        set(Measure::Torque, torques.fold(0.0, f64::max));
+        Some(measures)
+    }
+}
+
+/// What is measured of a rover alone, wherever it drives.
+fn of_rover(scenario: &Scenario) -> Measures {
+    /// Yaws at which it may tip over: every 5 degrees.
+    const YAWS: u32 = 72;
+    let study = HeadingStudy::of(scenario);
+    let mounts = study.rover.mounts();
+    let tipping = (0..YAWS).map(|it| study.tipping_slope(TAU * f64::from(it) / f64::from(YAWS)));
+    let reach = mounts.iter().map(|it| it.position.y.abs() + it.unit.wheel.width / 2.0);
+    let mut measures = [0.0; Measure::COUNT];
+    measures[Measure::TippingSlope.place()] = tipping.fold(f64::INFINITY, f64::min);
+    measures[Measure::Width.place()] = 2.0 * reach.fold(0.0, f64::max);
+    measures[Measure::WheelMass.place()] = mounts.iter().map(|it| it.unit.mass).sum();
+    measures
+}
+
+/// All numbers that a design changes, by their keys: the free ones, and masses and inertias of
+/// wheels whose size is among them. Nothing where they are no rover.
+pub(super) fn numbers(
+    free: &[(String, [f64; 2])],
+    alternative: &Alternative,
+    values: &[f64],
+) -> Option<Vec<(String, f64)>> {
+    let own = free.iter().map(|(key, _)| key.clone()).zip(values.iter().copied());
+    let mut numbers: Vec<(String, f64)> = own.collect();
+    let scenario = &alternative.conditions.first()?.scenario;
+    let keys = numbers.iter().map(|(key, value)| (&**key, *value));
+    let changed = scenario.value.with(keys).ok()?;
+    for (table, factor, radii, inertia, mass) in units(&scenario.value.rover, &changed.rover) {
+        let is_free = |key: &str| free.iter().any(|(free, _)| free == key);
+        let key = format!("{table}.mass_kg");
+        if factor == 1.0 || is_free(&key) || scenario.document.number(&key).is_none() {
+            continue;
+        }
+        numbers.push((key, mass * factor));
+        let turning = factor * radii * radii;
+        let Inertia { xx, yy, zz } = inertia;
+        let axes = [("xx", xx), ("yy", yy), ("zz", zz)];
+        let inertias =
+            axes.map(|(axis, own)| (format!("{table}.inertia_kg_m2.{axis}"), own * turning));
+        numbers.extend(inertias.into_iter().filter(|(key, _)| {
+            scenario.document.number(key).is_some() && !is_free(key)
+        }));
+    }
+    Some(numbers)
+}
+
+/// The wheel units of a rover that have a mass: the tables that they stand in, by which factors
+/// their sheets and their radii grew, and their own inertia and mass [kg].
+fn units(own: &Rover, changed: &Rover) -> Vec<(String, f64, f64, Inertia, f64)> {
+    let growth = |own: &Wheel, changed: &Wheel| {
+        (sheet(changed) / sheet(own), changed.radius / own.radius)
+    };
+    let unit = |rover: &Rover| rover.parts().wheel_unit;
+    let (one, other) = (unit(own), unit(changed));
+    let (factor, radii) = growth(&one.wheel, &other.wheel);
+    let mut units =
+        vec![("rover.wheel_unit".to_owned(), factor, radii, one.inertia, one.mass)];
+    let mounts = own.parts().mounts.iter().zip(&changed.parts().mounts).enumerate();
+    units.extend(mounts.filter_map(|(place, (mount, other))| {
+        let (factor, radii) = growth(mount.wheel.as_ref()?, other.wheel.as_ref()?);
+        let inertia = mount.inertia.unwrap_or(one.inertia);
+        Some((format!("rover.mount.{place}"), factor, radii, inertia, mount.mass?))
+    }));
+    units
+}
+
+/// The area of the sheet that a wheel is made of, 2π r b + N h_g b [m²].
+fn sheet(wheel: &Wheel) -> f64 {
+    let grousers = wheel.grousers.map_or(0.0, |it| f64::from(it.count) * it.height);
+    (TAU * wheel.radius + grousers) * wheel.width
+}
