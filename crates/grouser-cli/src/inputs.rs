@@ -41,7 +41,9 @@ pub(crate) use self::telemetry::{
 };
 pub(crate) use self::traverse::traverse;
 pub(crate) use self::validate::{drive_validation, ranked_data_set, slope_validation, validation};
-use crate::args::{BalanceArgs, DesignArgs, DrawArgs, RunArgs, SettingArgs, SlopeArgs, TerrainArgs};
+use crate::args::{
+    BalanceArgs, DesignArgs, DrawArgs, RunArgs, SettingArgs, SlopeArgs, TerrainArgs,
+};
 use crate::failure::Failure;
 use crate::list::{self, Numbers};
 

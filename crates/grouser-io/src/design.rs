@@ -2,6 +2,7 @@
 
 use serde_json::Value as Json;
 
+use super::columns::{ENERGY_PER_METRE, LIMIT_SLOPE, SLIP_RATIO, SLOPE, TORQUE};
 use super::describe::design::DESIGN;
 use super::describe::scenario;
 use super::document::Document;
@@ -139,12 +140,12 @@ impl Measure {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::LimitSlope => "limit_slope_deg",
+            Self::LimitSlope => LIMIT_SLOPE.name,
             Self::SinkageRatio => "sinkage_ratio",
-            Self::SlipRatio => "slip_ratio",
-            Self::EnergyPerMetre => "energy_j_per_m",
+            Self::SlipRatio => SLIP_RATIO.name,
+            Self::EnergyPerMetre => ENERGY_PER_METRE.name,
             Self::Crab => "crab_deg",
-            Self::Torque => "torque_nm",
+            Self::Torque => TORQUE.name,
             Self::TippingSlope => "tipping_slope_deg",
             Self::Width => "width_m",
             Self::WheelMass => "wheel_mass_kg",
@@ -161,7 +162,9 @@ impl Measure {
             Self::EnergyPerMetre => "Work of the wheels per metre of way",
             Self::Crab => "Crab angle that holds the course",
             Self::Torque => "The largest torque of a wheel",
-            Self::TippingSlope => "The slope on which the rover at rest tips over, at its worst yaw",
+            Self::TippingSlope => {
+                "The slope on which the rover at rest tips over, at its worst yaw"
+            }
             Self::Width => "Width of the rover over its wheels",
             Self::WheelMass => "Mass of all wheels",
         }
@@ -216,9 +219,8 @@ impl Settings {
     /// The weights of the sum that is to be least.
     fn weights(&self, tree: &Node) -> Result<Weights, DocumentError> {
         let is_weighted = self.weights.iter().any(|weight| *weight != 0.0);
-        let fault = |key: &str, what| {
-            Err(DocumentError::at(tree.origin_of(key), Problem::Conflict(what)))
-        };
+        let fault =
+            |key: &str, what| Err(DocumentError::at(tree.origin_of(key), Problem::Conflict(what)));
         match self.aim {
             Aim::WeightedSum if is_weighted => Ok(self.weights),
             Aim::WeightedSum => {
@@ -286,7 +288,9 @@ fn choices<'t>(tree: &'t Node) -> Vec<Vec<Choice<'t>>> {
 fn entries_of(table: &Node) -> Vec<(String, &Node)> {
     let Value::Table(entries) = &table.value else { return Vec::new() };
     fn of_entry(entry: &Entry) -> Vec<(String, &Node)> {
-        let Value::Table(_) = entry.node.value else { return vec![(entry.key.clone(), &entry.node)] };
+        let Value::Table(_) = entry.node.value else {
+            return vec![(entry.key.clone(), &entry.node)];
+        };
         let inside = entries_of(&entry.node).into_iter();
         inside.map(|(key, node)| (format!("{}.{key}", entry.key), node)).collect()
     }
@@ -332,29 +336,21 @@ fn condition(source: &Source, overrides: &Overrides) -> Result<Condition, Docume
     let Written { tree, document, assumptions } = written(Kind::Design, source, overrides)?;
     let course = Settings::of(&document).course;
     let mut document = scenario_of(&document);
-    let slope = DEG.to_si(document.number("slope_deg").unwrap_or_default());
+    let slope = DEG.to_si(document.number(SLOPE.name).unwrap_or_default());
     let soil = document.part(Kind::Soil, "soil");
     let assumed = soil.as_ref().map_or_else(Vec::new, priors::assumed);
     let (value, notes) = Scenario::read(&document, &tree)?;
     let mut companions = Vec::new();
     let soil = tree.entry("soil").map_or(&tree, |entry| &entry.node);
     let uncertain = uncertain_soil::read(&mut document, "soil", soil, &mut companions)?;
-    let scenario =
-        Loaded { document, value, uncertain, assumptions, assumed, companions, notes };
+    let scenario = Loaded { document, value, uncertain, assumptions, assumed, companions, notes };
     Ok(Condition { scenario, slope, course })
 }
 
 /// The scenario that a design says its numbers of.
 fn scenario_of(document: &Document) -> Document {
-    const SHARED: [&str; 7] = [
-        "rover",
-        "soil",
-        "model",
-        "gravity_m_s2",
-        "slope_deg",
-        "load_transfer",
-        "wheel_moments",
-    ];
+    const SHARED: [&str; 7] =
+        ["rover", "soil", "model", "gravity_m_s2", SLOPE.name, "load_transfer", "wheel_moments"];
     let keys = document.keys().as_object().into_iter().flatten();
     let keys = keys.filter(|(key, _)| SHARED.contains(&key.as_str()));
     let given = keys.map(|(key, given)| (key.clone(), given.clone())).collect();
@@ -369,8 +365,9 @@ fn free(document: &Document, tree: &Node) -> Result<Vec<(String, [f64; 2])>, Doc
         let origin = || tree.origin_of(&format!("free.{key}"));
         if !key.starts_with("rover.") {
             let problem = Problem::Conflict("only numbers of the rover are free");
-            return Err(DocumentError::at(origin(), problem)
-                .with_hint(format!("a ground is stated: {key} = …, or [[also]] for a second one")));
+            return Err(DocumentError::at(origin(), problem).with_hint(format!(
+                "a ground is stated: {key} = …, or [[also]] for a second one"
+            )));
         }
         Ok((key, [number(0), number(1)]))
     };

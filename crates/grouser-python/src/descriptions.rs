@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use grouser::document::design::LoadedDesign;
 use grouser::document::{
     self, Beside, Companion, DocumentError, HeldMap, Kind, LoadedMission, LoadedRover,
     LoadedScenario, LoadedSoil, LoadedWheel, Overrides, Problem, Source, map_of,
@@ -30,6 +31,7 @@ enum Read {
     Scenario(Box<LoadedScenario>),
     Mission(Box<LoadedMission>),
     Campaign(Box<LoadedCampaign>),
+    Design(Box<LoadedDesign>),
 }
 
 impl Read {
@@ -40,6 +42,7 @@ impl Read {
             Kind::Rover => Self::Rover(document::read_rover(source, overrides)?.into()),
             Kind::Campaign => Self::Campaign(LoadedCampaign::read(source, overrides)?.into()),
             Kind::Mission => Self::Mission(document::read_mission(source, overrides)?.into()),
+            Kind::Design => Self::Design(document::read_design(source, overrides)?.into()),
             Kind::Scenario | Kind::Motor | Kind::DataSet | Kind::Prior | Kind::TelemetryMapping => {
                 Self::Scenario(document::read_scenario(source, overrides)?.into())
             }
@@ -53,7 +56,7 @@ impl Read {
         match self {
             Self::Scenario(it) => &it.notes,
             Self::Mission(it) => &it.notes,
-            Self::Soil(_) | Self::Wheel(_) | Self::Rover(_) | Self::Campaign(_) => &[],
+            Self::Soil(_) | Self::Wheel(_) | Self::Rover(_) | Self::Campaign(_) | Self::Design(_) => &[],
         }
     }
 }
@@ -68,6 +71,7 @@ impl Document {
             Read::Scenario(it) => &it.document,
             Read::Mission(it) => &it.document,
             Read::Campaign(it) => it.campaign().document(),
+            Read::Design(it) => &it.document,
         }
     }
 
@@ -85,8 +89,8 @@ impl Document {
             Read::Rover(it) => &it.companions,
             Read::Scenario(it) => &it.companions,
             Read::Mission(it) => &it.companions,
-            // A campaign holds all that it needs.
-            Read::Campaign(_) => &[],
+            // A campaign holds all that it needs, and so does a design.
+            Read::Campaign(_) | Read::Design(_) => &[],
         }
     }
 
@@ -140,6 +144,13 @@ impl Document {
         }
     }
 
+    pub(crate) fn design(&self) -> PyResult<&LoadedDesign> {
+        match &self.read {
+            Read::Design(design) => Ok(design),
+            _ => Err(self.is_no("design")),
+        }
+    }
+
     pub(crate) fn campaign(&self) -> PyResult<&LoadedCampaign> {
         match &self.read {
             Read::Campaign(campaign) => Ok(campaign),
@@ -158,7 +169,7 @@ impl Document {
 
 #[pymethods]
 impl Document {
-    /// `soil`, `wheel`, `rover`, `scenario`, `mission` or `campaign`.
+    /// `soil`, `wheel`, `rover`, `scenario`, `mission`, `design` or `campaign`.
     #[getter]
     fn kind(&self) -> &'static str {
         match &self.read {
@@ -168,6 +179,7 @@ impl Document {
             Read::Scenario(_) => Kind::Scenario.name(),
             Read::Mission(_) => Kind::Mission.name(),
             Read::Campaign(_) => Kind::Campaign.name(),
+            Read::Design(_) => Kind::Design.name(),
         }
     }
 
@@ -181,6 +193,7 @@ impl Document {
             Read::Scenario(it) => it.assumptions.clone(),
             Read::Mission(it) => it.assumptions.clone(),
             Read::Campaign(it) => it.campaign().assumptions().to_vec(),
+            Read::Design(it) => it.assumptions.clone(),
         }
     }
 
@@ -194,6 +207,7 @@ impl Document {
             Read::Scenario(it) => it.assumed.clone(),
             Read::Mission(it) => it.assumed.clone(),
             Read::Campaign(it) => it.campaign().assumed(),
+            Read::Design(it) => it.assumed.clone(),
         };
         all.into_iter().map(|one| one.key).collect()
     }
@@ -402,9 +416,16 @@ fn keyword(path: &str, value: &str) -> String {
 }
 
 fn kind_of(name: &str) -> PyResult<Kind> {
-    let known =
-        [Kind::Soil, Kind::Wheel, Kind::Rover, Kind::Scenario, Kind::Mission, Kind::Campaign];
-    known
+    const KNOWN: [Kind; 7] = [
+        Kind::Soil,
+        Kind::Wheel,
+        Kind::Rover,
+        Kind::Scenario,
+        Kind::Mission,
+        Kind::Campaign,
+        Kind::Design,
+    ];
+    KNOWN
         .into_iter()
         .find(|kind| kind.name() == name)
         .ok_or_else(|| PyValueError::new_err(format!("there are no documents of kind {name:?}")))

@@ -17,6 +17,7 @@ mod calibration;
 mod campaign;
 mod columns;
 mod descriptions;
+mod designs;
 mod errors;
 mod gradients;
 mod ground;
@@ -66,6 +67,8 @@ mod _core {
         Document, check_document, find_document, meant_keys, present_names, presets,
         read_document_file, read_document_table, read_document_text, to_toml,
     };
+    #[pymodule_export]
+    use super::designs::design;
     #[pymodule_export]
     use super::gradients::settle_gradients;
     #[pymodule_export]

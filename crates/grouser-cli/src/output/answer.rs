@@ -171,7 +171,7 @@ impl From<AnswerError> for Failure {
             AnswerError::Parameter(error) => error.into(),
             AnswerError::OutsideDomain(error) => error.into(),
             AnswerError::Samples(error) => error.into(),
-            AnswerError::Design(error) => Self::Run(error.to_string()),
+            AnswerError::Design(why) => Self::Run(why),
             AnswerError::Stopped => Self::Interrupted(error.to_string()),
             AnswerError::Empty(_) | AnswerError::Together(..) | AnswerError::Key(_) => {
                 Self::Usage(error.to_string())

@@ -9,6 +9,7 @@ mod campaign_damage;
 mod card;
 mod contract;
 mod conversations;
+mod design;
 mod drives;
 mod forecast;
 mod gradients;

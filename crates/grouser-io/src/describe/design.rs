@@ -6,7 +6,7 @@ use super::super::field::{
     note, number, table, word, words,
 };
 use super::about::{assumed, gravity, model, notes, purpose, schema, source};
-use super::run::{OfScenario, Run};
+use super::run::{OfScenario, Run, SLOPE};
 use grouser_core::simulation::Scenario;
 
 impl OfScenario for Settings {
@@ -63,18 +63,24 @@ pub(crate) static DESIGN: Table<Settings> = Table {
 };
 
 const MINIMISE: &[Keyword<Settings>] = &[
-    word("wheel_mass_kg", "Mass of all wheels.", |all| all.aim = Aim::One(Measure::WheelMass)),
-    word("energy_j_per_m", "Work of the wheels per metre of way.", |all| {
+    word(Measure::WheelMass.name(), "Mass of all wheels.", |all| {
+        all.aim = Aim::One(Measure::WheelMass);
+    }),
+    word(Measure::EnergyPerMetre.name(), "Work of the wheels per metre of way.", |all| {
         all.aim = Aim::One(Measure::EnergyPerMetre);
     }),
-    word("slip_ratio", "Slip ratio of the wheels.", |all| all.aim = Aim::One(Measure::SlipRatio)),
-    word("sinkage_ratio", "The deepest wheel's sinkage over its shearing radius.", |all| {
-        all.aim = Aim::One(Measure::SinkageRatio);
+    word(Measure::SlipRatio.name(), "Slip ratio of the wheels.", |all| {
+        all.aim = Aim::One(Measure::SlipRatio);
     }),
-    word("crab_deg", "The crab angle that holds the course.", |all| {
+    word(
+        Measure::SinkageRatio.name(),
+        "The deepest wheel's sinkage over its shearing radius.",
+        |all| all.aim = Aim::One(Measure::SinkageRatio),
+    ),
+    word(Measure::Crab.name(), "The crab angle that holds the course.", |all| {
         all.aim = Aim::One(Measure::Crab);
     }),
-    word("torque_nm", "The largest torque of a wheel.", |all| {
+    word(Measure::Torque.name(), "The largest torque of a wheel.", |all| {
         all.aim = Aim::One(Measure::Torque);
     }),
     word("weighted_sum", "The sum of measures with their `weights`.", |all| {
@@ -89,7 +95,7 @@ static ALSO: Table<Settings> = Table {
         note("soil", "The soil: a preset's name, or a path from this document's folder.")
             .optional(),
         gravity("Gravity, g", |_: &mut Settings| None).optional(),
-        number("slope_deg", DEG, 0.0..=60.0, "Inclination of the plane, α", |_| None).optional(),
+        number(SLOPE, DEG, 0.0..=60.0, "Inclination of the plane, α", |_| None).optional(),
         course(|_| None).optional(),
         model("The wheel-soil model."),
     ],
@@ -113,30 +119,43 @@ static WEIGHTS: Table<Settings> = Table {
 };
 
 /// What a measure counts: a number over one in the measure's unit.
-const fn weight(
-    measure: Measure,
-    reach: fn(&mut Settings) -> Option<&mut f64>,
-) -> Field<Settings> {
+const fn weight(measure: Measure, reach: fn(&mut Settings) -> Option<&mut f64>) -> Field<Settings> {
     number(measure.name(), ONE, 0.0..=FARTHEST, "What one in its unit counts", reach).optional()
 }
 
 static LIMITS: Table<Settings> = Table {
     doc: "What is limited: `at_least`, `at_most` or both.",
     fields: &[
-        limit(Measure::LimitSlope, &LIMIT_SLOPE),
-        limit(Measure::SinkageRatio, &SINKAGE_RATIO),
-        limit(Measure::SlipRatio, &SLIP_RATIO),
-        limit(Measure::EnergyPerMetre, &ENERGY),
-        limit(Measure::Crab, &CRAB),
-        limit(Measure::Torque, &TORQUE),
-        limit(Measure::TippingSlope, &TIPPING_SLOPE),
-        limit(Measure::Width, &WIDTH),
-        limit(Measure::WheelMass, &WHEEL_MASS),
+        limit(
+            Measure::LimitSlope,
+            "The steepest slope on which a heading holds the course.",
+            &LIMIT_SLOPE,
+        ),
+        limit(
+            Measure::SinkageRatio,
+            "The deepest wheel's sinkage over its shearing radius.",
+            &SINKAGE_RATIO,
+        ),
+        limit(Measure::SlipRatio, "Slip ratio of the wheels.", &SLIP_RATIO),
+        limit(Measure::EnergyPerMetre, "Work of the wheels per metre of way.", &ENERGY),
+        limit(Measure::Crab, "The crab angle that holds the course.", &CRAB),
+        limit(Measure::Torque, "The largest torque of a wheel.", &TORQUE),
+        limit(
+            Measure::TippingSlope,
+            "The slope on which the rover at rest tips over.",
+            &TIPPING_SLOPE,
+        ),
+        limit(Measure::Width, "Width of the rover over its wheels.", &WIDTH),
+        limit(Measure::WheelMass, "Mass of all wheels.", &WHEEL_MASS),
     ],
 };
 
-const fn limit(measure: Measure, ends: &'static At<Settings, Ends>) -> Field<Settings> {
-    table(measure.name(), measure.doc(), ends).optional()
+const fn limit(
+    measure: Measure,
+    doc: &'static str,
+    ends: &'static At<Settings, Ends>,
+) -> Field<Settings> {
+    table(measure.name(), doc, ends).optional()
 }
 
 static LIMIT_SLOPE: At<Settings, Ends> = At { inner: &ANGLE, at: |all| &mut all.limits[0] };

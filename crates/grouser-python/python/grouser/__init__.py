@@ -1,6 +1,6 @@
 """Predicts how a wheeled rover moves on loose soil.
 
-`Soil`, `Wheel`, `Rover`, `Site`, `Scenario` and `Mission` describe the inputs, `Terrain` is a map
+`Soil`, `Wheel`, `Rover`, `Site`, `Scenario`, `Mission` and `Design` describe the inputs, `Terrain` is a map
 of heights to drive on. `settle` and
 `wheel_forces` compute the forces of the soil on wheels, for whole arrays. `simulate`,
 `rollout`, `heading`, `heading_map` and `wheel_speeds` compute the motion of a rover, `mission`
@@ -8,7 +8,7 @@ drives it through legs with limits at which it stops, `wheel_test` simulates a w
 stand, and `validate` and `calibrate` compare models with measurements, which
 `import_wheel_tests` converts. `map` says where on a `Terrain` a rover can go,
 `route` which way over it is the cheapest. `SlipEstimator` reads slip from motor currents,
-`Learner` learns the soil from the telemetry of a drive. `card` is the operator's card, `forecast` predicts under another
+`Learner` learns the soil from the telemetry of a drive. `card` is the operator's card, `design` finds the best numbers of a rover, `forecast` predicts under another
 gravity, and `check` checks documents. `Run` and ``grouser.gym``, which is imported by itself,
 are for step-by-step control. `Campaign` and `grouser.campaign` are for Monte Carlo campaigns,
 on one machine or on many.
@@ -34,7 +34,7 @@ from . import campaign, style
 from ._core import EARTH_GRAVITY, MARS_GRAVITY, MOON_GRAVITY, __version__
 from ._animations import Animation
 from ._calibration import Calibration, calibrate, calibrate_plates, calibrate_shear
-from ._descriptions import Mission, Rover, Scenario, Site, Soil, Wheel
+from ._descriptions import Design, Mission, Rover, Scenario, Site, Soil, Wheel
 from ._errors import present_name as _present_name
 from ._errors import (
     CalibrationError,
@@ -52,6 +52,7 @@ from ._errors import (
 )
 from ._card import Card, CardCourses, card
 from ._check import Checked, check
+from ._designs import BestDesign, design
 from ._forecast import Forecast, forecast
 from ._gradients import Gradient
 from ._heading_band import HeadingBand, HeadingMapBand
@@ -91,6 +92,7 @@ __all__ = [
     "MOON_GRAVITY",
     "Alternatives",
     "Animation",
+    "BestDesign",
     "ByModel",
     "Calibration",
     "CalibrationError",
@@ -102,6 +104,7 @@ __all__ = [
     "Card",
     "CardCourses",
     "Checked",
+    "Design",
     "DocumentError",
     "DocumentNotFoundError",
     "DocumentUnreadableError",
@@ -151,6 +154,7 @@ __all__ = [
     "campaign",
     "card",
     "check",
+    "design",
     "forecast",
     "heading",
     "heading_map",

@@ -42,6 +42,7 @@ __all__ = [
     "check_document",
     "check_shard",
     "check_system",
+    "design",
     "drive_mission",
     "find_campaign",
     "find_document",
@@ -408,6 +409,9 @@ def spread_labels(
 ) -> list[float]: ...
 def style_colours(dark: bool) -> dict[str, list[str]]: ...
 def simulate(scenario: Document) -> dict[str, Any]: ...
+def design(
+    design: Document, is_nominal: bool, seed: int, trade: tuple[str, str] | None
+) -> tuple[dict[str, Any], dict[str, dict[str, Any]], str]: ...
 def drive_mission(
     mission: Document, sampling: tuple[int, int] | None
 ) -> list[dict[str, Any]]: ...

@@ -521,6 +521,33 @@ class Mission(_OnGround, _keys.MissionKeys):
         return Scenario._of(items, self._files)
 
 
+class Design(_OnGround, _keys.DesignKeys):
+    """Numbers of a rover that are free between bounds, what is to be least, and what is limited.
+
+    ``Design("design-lighter-wheels")`` is a preset, ``Design("my-design.toml")`` a file, and
+    ``Design(free={…}, minimise=…, subject_to={…})`` gives its keys. ``free`` has keys of the rover,
+    each with the least and the most that it may be; ``choose`` lists of numbers or names;
+    ``subject_to`` limits, each with ``at_least`` or ``at_most``; ``also`` grounds on which limits
+    hold as well. ``schema/design.json`` has all keys. `design` finds the numbers.
+
+    Sources and errors are those of `Soil`.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> lighter = gr.Design(
+    ...     minimise="wheel_mass_kg",
+    ...     free={"rover.wheel_unit.wheel.radius_m": [0.06, 0.16]},
+    ...     subject_to={"sinkage_ratio": {"at_most": 0.1}},
+    ... )
+    >>> lighter.rover.name, lighter.slope_deg
+    ('HAKUTO', 10.0)
+    """
+
+    __slots__ = ()
+    _kind = "design"
+
+
 class Site(_Description, _keys.SiteKeys):
     """Where a rover drives: a plane of one soil on a slope, under a gravity.
 

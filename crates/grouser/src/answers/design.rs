@@ -6,10 +6,9 @@ use serde_json::{Map, Value, json};
 
 use super::{Answer, AnswerError, AnswerOptions, Attached, Displayed, Member, meanings};
 use crate::contact::Model;
-use crate::document::columns::design::{
-    self as columns, DesignRow, MODEL, ROW, SHARE,
-};
-use crate::document::design::{LoadedDesign, Measure};
+use crate::document::columns::design::{self as columns, DesignRow, MODEL, ROW, SHARE};
+use crate::document::columns::{COURSE, SLOPE};
+use crate::document::design::{DesignTask, LoadedDesign, Measure};
 use crate::document::figure::{Chart, Series, Style};
 use crate::document::reading::four_digits;
 use crate::document::table::Table;
@@ -77,8 +76,14 @@ impl DesignQuestion {
             Displayed::Words("\n".to_owned()),
             Displayed::Rows(Arc::clone(&designs), brief.clone()),
         ];
-        lines.into_iter().for_each(|line| answer.verdict(line));
-        answer.rows("What is limited, and what loosening it by one is worth", &limits, limits_in_brief(&limits));
+        for line in lines {
+            answer.verdict(line);
+        }
+        answer.rows(
+            "What is limited, and what loosening it by one is worth",
+            &limits,
+            limits_in_brief(&limits),
+        );
         answer.rows("The rover as given and as found, by each model", &designs, brief.clone());
         if let (Some(trade), Some(measures)) = (trade, self.trade) {
             self.add_trade(&mut answer, &trade, measures, &brief);
@@ -96,8 +101,8 @@ impl DesignQuestion {
             "rover",
             "soil",
             "gravity_m_s2",
-            "slope_deg",
-            "course_deg",
+            SLOPE.name,
+            COURSE.name,
             "minimise",
             "weights",
             "free",
@@ -106,8 +111,7 @@ impl DesignQuestion {
             "also",
         ];
         answer.inputs_of(&self.task.document, keys);
-        let first = self.task.value.alternatives.first().and_then(|it| it.conditions.first());
-        answer.input("model", first.map(|it| it.scenario.value.model.name()));
+        answer.input("model", model_of(&self.task.value, 0).name());
         if study.is_uncertain() {
             answer.input("probability", self.task.value.probability);
             answer.input("samples", DesignStudy::SAMPLES);
@@ -124,14 +128,9 @@ impl DesignQuestion {
         Value::Object(chosen.chain(free).collect::<Map<String, Value>>())
     }
 
-    /// The rover as given and as found, by its model and by the others.
+    /// The rover as given, and as found by its model and by the others.
     fn rows(&self, study: &DesignStudy, design: &Design) -> Vec<DesignRow> {
         let task = &self.task.value;
-        let own = &task.alternatives[design.alternative];
-        let Some(ground) = own.conditions.first() else { return Vec::new() };
-        let model_of_task = &ground.scenario.value.model;
-        let model = model_of_task;
-        let others: Vec<&Model> = Model::ALL.iter().filter(|it| *it != model).collect();
         let row = |name: &str, place: usize, model: &Model, values: &[f64]| DesignRow {
             name: name.to_owned(),
             model: model.name().to_owned(),
@@ -139,25 +138,22 @@ impl DesignQuestion {
             values: values.to_vec(),
             measures: study.nominal_measures(place, values, model),
         };
-        let given = &task.alternatives[0];
+        let found = design.alternative;
+        let (given, own) = (model_of(task, 0), model_of(task, found));
         let mut rows = vec![
-            row("as given", 0, given.conditions.first().map_or(model, |it| &it.scenario.value.model), &given.given),
-            row("found", design.alternative, model, &design.values),
+            row("as given", 0, given, &task.alternatives[0].given),
+            row("found", found, own, &design.values),
         ];
-        rows.extend(others.iter().map(|it| row("found", design.alternative, it, &design.values)));
-        let by_model = self.by_models.iter().map(|task| {
+        let others = Model::ALL.iter().filter(|it| *it != own);
+        rows.extend(others.map(|other| row("found", found, other, &design.values)));
+        rows.extend(self.by_models.iter().map(|task| {
             let study = DesignStudy::of(task.value.clone(), self.is_nominal, self.seed);
-            let model = task.value.alternatives.first().and_then(|it| it.conditions.first());
-            let model = model.map_or(model_of_task, |it| &it.scenario.value.model);
+            let model = model_of(&task.value, 0);
             match study.design() {
                 Ok(by) => row("found by it", by.alternative, model, &by.values),
-                Err(_) => DesignRow {
-                    measures: None,
-                    ..row("found by it", design.alternative, model, &[])
-                },
+                Err(_) => DesignRow { measures: None, ..row("found by it", found, model, &[]) },
             }
-        });
-        rows.extend(by_model);
+        }));
         rows
     }
 
@@ -171,8 +167,10 @@ impl DesignQuestion {
         let task = &self.task.value;
         let numbers = self.numbers_in_words(design.alternative, &design.values);
         let aim = self.aim();
-        let mut lines =
-            vec![format!("{aim} is {} at the least, with {numbers}.", four_digits(design.objective))];
+        let mut lines = vec![format!(
+            "{aim} is {} at the least, with {numbers}.",
+            four_digits(design.objective)
+        )];
         let uncertain = design.kept.iter().find_map(|it| it.share);
         if uncertain.is_some() {
             lines.push(format!(
@@ -183,7 +181,7 @@ impl DesignQuestion {
         lines.extend(design.kept.iter().filter_map(|kept| self.price_line(kept)));
         lines.extend(self.ends_line(design));
         lines.extend(design.kept.iter().filter_map(|kept| short_line(kept, task.probability)));
-        lines.extend(self.models_line(design, rows));
+        lines.extend(models_line(design, rows));
         let it = design.certificate;
         lines.push(format!(
             "{} of {} searches came to it; {} of {} designs within 1 % of the bounds are better.",
@@ -196,13 +194,11 @@ impl DesignQuestion {
     fn aim(&self) -> String {
         let weights = Measure::ALL.into_iter().zip(self.task.value.weights);
         let all: Vec<(Measure, f64)> = weights.filter(|(_, weight)| *weight != 0.0).collect();
-        match all[..] {
-            [(measure, _)] => measure.name().to_owned(),
-            _ => {
-                let terms = all.iter().map(|(it, weight)| format!("{weight} {}", it.name()));
-                terms.collect::<Vec<_>>().join(" + ")
-            }
+        if let [(measure, _)] = all[..] {
+            return measure.name().to_owned();
         }
+        let terms = all.iter().map(|(it, weight)| format!("{weight} {}", it.name()));
+        terms.collect::<Vec<_>>().join(" + ")
     }
 
     fn numbers_in_words(&self, alternative: usize, values: &[f64]) -> String {
@@ -253,24 +249,6 @@ impl DesignQuestion {
         (!at_end.is_empty()).then(|| format!("Bounds hold it back, too: {}.", at_end.join(", ")))
     }
 
-    /// Which other models say that the design misses a limit.
-    fn models_line(&self, design: &Design, rows: &[DesignRow]) -> Option<String> {
-        let nominal = |kept: &&Kept| kept.limit.ground == 0;
-        let misses = |row: &&DesignRow| {
-            let measures = row.measures.as_ref();
-            row.name == "found"
-                && design.kept.iter().filter(nominal).any(|kept| {
-                    measures.is_none_or(|it| !kept.limit.holds(it[kept.limit.measure.place()]))
-                })
-        };
-        let own = rows.iter().position(|row| row.name == "found").unwrap_or(0);
-        let others = rows.iter().enumerate().filter(|(place, _)| *place != own).map(|it| it.1);
-        let names: Vec<&str> = others.filter(misses).map(|row| &*row.model).collect();
-        (!names.is_empty()).then(|| {
-            format!("By other models it misses a limit: {}.", names.join(", "))
-        })
-    }
-
     /// Designs between the least of one measure and of another.
     fn add_trade(
         &self,
@@ -290,12 +268,12 @@ impl DesignQuestion {
         let table = Arc::new(self.table(&rows));
         let of = |measure: Measure| format!("{} [{}]", measure.doc(), measure.unit().symbol);
         let point = |design: &Design| {
-            let [y, x] =
-                [first, second].map(|it| it.unit().from_si(design.measures[it.place()]));
+            let [y, x] = [first, second].map(|it| it.unit().from_si(design.measures[it.place()]));
             (x, y)
         };
         let line = Series::new("found", Style::Line, 0, trade.iter().map(point));
-        let chart = Chart::new("What one is worth in the other", (of(second), of(first)), vec![line]);
+        let chart =
+            Chart::new("What one is worth in the other", (of(second), of(first)), vec![line]);
         answer.charts(vec![chart]);
         let skipped = [ROW, MODEL];
         let names: Vec<String> =
@@ -350,6 +328,27 @@ impl DesignQuestion {
     }
 }
 
+/// The model of the first ground of a rover that may be chosen.
+fn model_of(task: &DesignTask, alternative: usize) -> &Model {
+    &task.alternatives[alternative].conditions[0].scenario.value.model
+}
+
+/// Which other models say that the design misses a limit.
+fn models_line(design: &Design, rows: &[DesignRow]) -> Option<String> {
+    let nominal = |kept: &&Kept| kept.limit.ground == 0;
+    let misses = |row: &&DesignRow| {
+        let measures = row.measures.as_ref();
+        row.name == "found"
+            && design.kept.iter().filter(nominal).any(|kept| {
+                measures.is_none_or(|it| !kept.limit.holds(it[kept.limit.measure.place()]))
+            })
+    };
+    let own = rows.iter().position(|row| row.name == "found").unwrap_or(0);
+    let others = rows.iter().enumerate().filter(|(place, _)| *place != own).map(|it| it.1);
+    let names: Vec<&str> = others.filter(misses).map(|row| &*row.model).collect();
+    (!names.is_empty()).then(|| format!("By other models it misses a limit: {}.", names.join(", ")))
+}
+
 /// A limit, such as `limit_slope_deg ≥ 21`.
 fn limit_in_words(limit: &Limit) -> String {
     let sign = match limit.side {
@@ -357,7 +356,8 @@ fn limit_in_words(limit: &Limit) -> String {
         Side::AtMost => "≤",
     };
     let bound = four_digits(limit.measure.unit().from_si(limit.bound));
-    let place = if limit.ground == 0 { String::new() } else { format!(" on ground {}", limit.ground + 1) };
+    let place =
+        if limit.ground == 0 { String::new() } else { format!(" on ground {}", limit.ground + 1) };
     format!("{} {sign} {bound}{place}", limit.measure.name())
 }
 

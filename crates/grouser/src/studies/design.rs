@@ -32,6 +32,7 @@ use self::slsqp::{Minimum, Smooth, Values};
 use crate::contact::Model;
 use crate::difference::{StepLengths, Variable, derivatives};
 use crate::soil::Span;
+use crate::studies::ensemble::design::{self as points, Sampling};
 
 /// The least of an aim under limits.
 #[derive(Clone, Debug)]
@@ -257,7 +258,7 @@ impl DesignStudy {
         let alternative = &self.task.alternatives[alternative];
         let numbers = measured::numbers(&self.task.free, alternative, values)?;
         let ground = Ground::nominal(alternative.conditions.first()?);
-        ground.with_model(model.clone()).measures(&numbers).pop()?
+        ground.with_model(model).measures(&numbers).pop()?
     }
 
     /// The best of the rovers that may be chosen.
@@ -273,15 +274,14 @@ impl DesignStudy {
             }
         }
         let nearer = |one: &NoDesign| match one {
-            NoDesign::Unreachable(nearest) => nearest
-                .missed
-                .iter()
-                .map(|(limit, value)| limit.excess(*value))
-                .fold(0.0, f64::max),
+            NoDesign::Unreachable(nearest) => {
+                nearest.missed.iter().map(|(limit, value)| limit.excess(*value)).fold(0.0, f64::max)
+            }
             _ => f64::INFINITY,
         };
         best.ok_or_else(|| {
-            let nearest = none.into_iter().min_by(|one, other| nearer(one).total_cmp(&nearer(other)));
+            let nearest =
+                none.into_iter().min_by(|one, other| nearer(one).total_cmp(&nearer(other)));
             nearest.unwrap_or(NoDesign::NothingMoves)
         })
     }
@@ -337,9 +337,9 @@ impl<'a> Search<'a> {
         let aim_size = sizes.map(|(measure, weight)| weight * size(measure)).sum();
         let mut limits = limits_of(&study.task, alternative);
         limits.extend(extra);
-        let score = |limit: &Limit| match grounds[limit.ground].is_uncertain() {
-            true => normal_score(study.task.probability),
-            false => 0.0,
+        let score = |limit: &Limit| {
+            let is_uncertain = grounds[limit.ground].is_uncertain();
+            if is_uncertain { normal_score(study.task.probability) } else { 0.0 }
         };
         let scores = limits.iter().map(score).collect();
         Ok(Self { study, place, alternative, weights, aim_size, limits, scores, grounds })
@@ -388,7 +388,7 @@ impl<'a> Search<'a> {
         let share = |(given, [least, most]): (&f64, &[f64; 2])| (given - least) / (most - least);
         let own = self.alternative.given.iter().zip(ends).map(share);
         let own: Vec<f64> = own.map(|share| share.clamp(0.0, 1.0)).collect();
-        std::iter::once(own).chain(spread(self.free()).skip(1).take(SPREAD)).collect()
+        std::iter::once(own).chain(spread(self.free()).take(SPREAD)).collect()
     }
 
     /// The free numbers at a point of the unit cube, in their keys' units.
@@ -476,9 +476,8 @@ impl<'a> Search<'a> {
         let (Some(measured), Some(numbers)) = (self.measured(&best.point), numbers) else {
             return Err(NoDesign::NothingMoves);
         };
-        let mean = |measure: Measure| {
-            Moments::of(measured[0].iter().map(|it| it[measure.place()])).mean
-        };
+        let mean =
+            |measure: Measure| Moments::of(measured[0].iter().map(|it| it[measure.place()])).mean;
         let fresh = self.fresh(&numbers)?;
         let kept = self.limits.iter().enumerate().map(|(place, limit)| {
             let multiplier = best.multipliers.get(place).copied().unwrap_or(0.0);
@@ -586,10 +585,7 @@ impl<'a> Search<'a> {
     }
 
     /// Values and derivatives of what a point gives.
-    fn smooth(
-        point: &[f64],
-        of: impl Fn(&[f64]) -> Option<Vec<f64>> + Sync,
-    ) -> Option<Values> {
+    fn smooth(point: &[f64], of: impl Fn(&[f64]) -> Option<Vec<f64>> + Sync) -> Option<Values> {
         let here = of(point)?;
         let variable =
             |value: &f64| Variable { value: *value, scale: 1.0, range: Span::new(0.0, 1.0) };
@@ -634,21 +630,17 @@ fn limits_of(task: &DesignTask, alternative: &Alternative) -> Vec<Limit> {
 
 /// The share of samples that keeps a limit; one that does not move keeps none.
 fn share(limit: &Limit, samples: &[Option<Measures>]) -> f64 {
-    let keeps = |it: &&Option<Measures>| {
-        it.is_some_and(|it| limit.holds(it[limit.measure.place()]))
-    };
+    let keeps =
+        |it: &&Option<Measures>| it.is_some_and(|it| limit.holds(it[limit.measure.place()]));
     samples.iter().filter(keeps).count() as f64 / samples.len() as f64
 }
 
-/// Points that fill the unit cube evenly: the additive recurrence of the golden ratio's kin, R_d.
+/// Points that fill the unit cube evenly.
 fn spread(dimensions: usize) -> impl Iterator<Item = Vec<f64>> {
-    let power = 1.0 / (dimensions as f64 + 1.0);
-    let ratio = (0..32).fold(2.0_f64, |ratio, _| (1.0 + ratio).powf(power));
-    (0..).map(move |number: u32| {
-        let step = |axis: u32| ratio.powi(-(i32::try_from(axis).unwrap_or(0) + 1));
-        let axis = |axis: u32| (0.5 + f64::from(number) * step(axis)).fract();
-        (0..u32::try_from(dimensions).unwrap_or(0)).map(axis).collect()
-    })
+    /// More than are asked for.
+    const POINTS: u64 = 128;
+    let set = points::Design { sampling: Sampling::Sobol, points: POINTS, dimensions, seed: 1 };
+    (0..POINTS).map(move |index| set.point(index))
 }
 
 impl Smooth for Search<'_> {
@@ -686,11 +678,15 @@ impl Smooth for Elastic<'_> {
         let slack = share * self.most;
         let mut values = self.search.at(own)?;
         values.objective = slack;
-        values.constraints.iter_mut().for_each(|it| *it -= slack);
+        for constraint in &mut values.constraints {
+            *constraint -= slack;
+        }
         let [aim, limits @ ..] = &mut values.gradients[..] else { return None };
         aim.fill(0.0);
         aim.push(self.most);
-        limits.iter_mut().for_each(|it| it.push(-self.most));
+        for limit in limits {
+            limit.push(-self.most);
+        }
         Some(values)
     }
 }

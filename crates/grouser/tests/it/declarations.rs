@@ -10,6 +10,7 @@ use grouser::document::columns::heading::{BAND, held};
 use grouser::document::columns::run::{RECORD, WHEEL_RECORD};
 use grouser::document::columns::stand::TRIALS;
 use grouser::document::columns::wheel::WHEEL;
+use grouser::document::design::Measure;
 use grouser::document::unit_of;
 use grouser::document::{self, Kind};
 use grouser::mission::Limited;
@@ -91,6 +92,7 @@ fn a_number_of_a_document_has_one_row() {
     let rows = keys.iter().map(|key| (key.as_str(), texts.matches(&format!("\"{key}\"")).count()));
     // Limits have the names of what they limit.
     let limits = Limited::ALL.map(|limited| document::limited_quantity(limited).name);
+    let limits = [&limits[..], &Measure::ALL.map(Measure::name)].concat();
     let rows = rows.filter(|(key, count)| *count != 0 || !limits.contains(key));
     let several: BTreeMap<&str, usize> = rows.filter(|(_, count)| *count != 1).collect();
     assert_eq!(several, DIFFERENT_NUMBERS.into_iter().collect());

@@ -115,9 +115,8 @@ fn what_is_chosen_is_the_best_of_all_that_may_be() {
     };
     let each: Vec<f64> =
         [8, 24].map(|count| one(count).design().expect("a design").objective).into();
-    let both = study_of(&format!(
-        "{body}[choose]\n\"rover.wheel_unit.wheel.grousers.count\" = [8, 24]\n"
-    ));
+    let both =
+        study_of(&format!("{body}[choose]\n\"rover.wheel_unit.wheel.grousers.count\" = [8, 24]\n"));
     let found = both.design().expect("a design");
     assert_eq!(found.objective, each[0].min(each[1]));
     assert_ne!(each[0], each[1]);
@@ -205,20 +204,17 @@ fn what_has_no_design_says_which_limit_and_how_far() {
         trade: None,
         by_models: Vec::new(),
     };
-    let why = |settings: &[&str]| {
-        match question(settings).answer("design", &AnswerOptions::ROWS) {
-            Err(AnswerError::Design(why)) => why,
-            other => panic!("{other:?}"),
-        }
+    let why = |settings: &[&str]| match question(settings).answer("design", &AnswerOptions::ROWS) {
+        Err(AnswerError::Design(why)) => why,
+        other => panic!("{other:?}"),
     };
     let steep = why(&["design.subject_to.limit_slope_deg.at_least=35"]);
     assert!(steep.contains("limit_slope_deg ≥ 35 where it has 2"), "{steep}");
     assert!(steep.contains("the ground itself stands to 31.01°"), "{steep}");
     let shallow = why(&["design.subject_to.sinkage_ratio.at_most=0.01"]);
     assert!(shallow.contains("sinkage_ratio ≤ 0.01"), "{shallow}");
-    let constant = study_of(
-        "minimise = \"wheel_mass_kg\"\n[free]\n\"rover.body.mass_kg\" = [3.0, 5.0]\n",
-    );
+    let constant =
+        study_of("minimise = \"wheel_mass_kg\"\n[free]\n\"rover.body.mass_kg\" = [3.0, 5.0]\n");
     assert_eq!(constant.design().map(drop), Err(NoDesign::Constant));
 }
 

@@ -47,14 +47,15 @@ impl Ground {
             return Ok(nominal);
         }
         let inputs = BandInputs::of_scenario(&condition.scenario);
-        let samples =
-            inputs.asked(Question::on_course(condition.course)).samples(seed, count)?;
+        let samples = inputs.asked(Question::on_course(condition.course)).samples(seed, count)?;
         Ok(Self { samples, is_uncertain: true, ..nominal })
     }
 
     /// The same by another model.
-    pub(super) fn with_model(mut self, model: Model) -> Self {
-        self.samples.iter_mut().for_each(|it| it.model = model.clone());
+    pub(super) fn with_model(mut self, model: &Model) -> Self {
+        for sample in &mut self.samples {
+            sample.model = model.clone();
+        }
         self
     }
 
@@ -151,9 +152,11 @@ pub(super) fn numbers(
         let axes = [("xx", xx), ("yy", yy), ("zz", zz)];
         let inertias =
             axes.map(|(axis, own)| (format!("{table}.inertia_kg_m2.{axis}"), own * turning));
-        numbers.extend(inertias.into_iter().filter(|(key, _)| {
-            scenario.document.number(key).is_some() && !is_free(key)
-        }));
+        numbers.extend(
+            inertias
+                .into_iter()
+                .filter(|(key, _)| scenario.document.number(key).is_some() && !is_free(key)),
+        );
     }
     Some(numbers)
 }
@@ -161,14 +164,12 @@ pub(super) fn numbers(
 /// The wheel units of a rover that have a mass: the tables that they stand in, by which factors
 /// their sheets and their radii grew, and their own inertia and mass [kg].
 fn units(own: &Rover, changed: &Rover) -> Vec<(String, f64, f64, Inertia, f64)> {
-    let growth = |own: &Wheel, changed: &Wheel| {
-        (sheet(changed) / sheet(own), changed.radius / own.radius)
-    };
+    let growth =
+        |own: &Wheel, changed: &Wheel| (sheet(changed) / sheet(own), changed.radius / own.radius);
     let unit = |rover: &Rover| rover.parts().wheel_unit;
     let (one, other) = (unit(own), unit(changed));
     let (factor, radii) = growth(&one.wheel, &other.wheel);
-    let mut units =
-        vec![("rover.wheel_unit".to_owned(), factor, radii, one.inertia, one.mass)];
+    let mut units = vec![("rover.wheel_unit".to_owned(), factor, radii, one.inertia, one.mass)];
     let mounts = own.parts().mounts.iter().zip(&changed.parts().mounts).enumerate();
     units.extend(mounts.filter_map(|(place, (mount, other))| {
         let (factor, radii) = growth(mount.wheel.as_ref()?, other.wheel.as_ref()?);

@@ -221,7 +221,8 @@ mod tests {
         const MASS: f64 = 400.0;
 
         fn outcome(&self, [radius, width]: [f64; 2]) -> [f64; 2] {
-            let sinkage = 3.0 * Self::LOAD / (2.0 * Self::STIFFNESS * width * (2.0 * radius).sqrt());
+            let sinkage =
+                3.0 * Self::LOAD / (2.0 * Self::STIFFNESS * width * (2.0 * radius).sqrt());
             let sinkage = sinkage.powf(2.0 / 3.0);
             let resistance = width * Self::STIFFNESS * sinkage * sinkage / 2.0;
             let aim = Self::MASS * radius * width + resistance;

@@ -1,0 +1,64 @@
+//! Designs: which numbers of a rover are the best.
+
+use grouser::answers::design::DesignQuestion;
+use grouser::answers::{AnswerError, AnswerOptions, Member};
+use grouser::document::design::Measure;
+use grouser::document::table::Table;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use serde_json::{Map, Value};
+
+use crate::columns::table_to_python;
+use crate::descriptions::Document;
+use crate::errors;
+use crate::interrupt::listening;
+use crate::validation::record_to_python;
+
+/// What was found, without tables; the tables by their names; and the rover as TOML.
+type Found<'py> = (Bound<'py, PyAny>, Bound<'py, PyDict>, String);
+
+/// The design that has the least of its aim.
+///
+/// * `trade`: two measures that are traded for one another
+#[pyfunction]
+pub(crate) fn design<'py>(
+    py: Python<'py>,
+    design: &Document,
+    is_nominal: bool,
+    seed: u64,
+    trade: Option<(String, String)>,
+) -> PyResult<Found<'py>> {
+    let trade = trade.map(|(one, other)| Ok::<_, PyErr>([measure(&one)?, measure(&other)?]));
+    let question = DesignQuestion {
+        task: design.design()?.clone(),
+        is_nominal,
+        seed,
+        trade: trade.transpose()?,
+        by_models: Vec::new(),
+    };
+    let found = listening(py, move |_| question.answer("design", &AnswerOptions::ROWS))?;
+    let answer = found.map_err(|error| match error {
+        AnswerError::Parameter(error) => errors::of_parameter(&error),
+        other => errors::parameter(other.to_string(), "design", None, "a design within its limits"),
+    })?;
+    let (mut record, tables) = (Map::new(), PyDict::new(py));
+    for member in answer.results {
+        match member {
+            Member::Value(name, value) => drop(record.insert(name.to_owned(), value)),
+            Member::Rows(name, rows) => {
+                tables.set_item(name, table_to_python(py, Table::clone(&rows))?)?;
+            }
+            Member::Row(..) => {}
+        }
+    }
+    let rover = answer.documents.iter().find(|it| it.file == "rover.toml");
+    let rover = rover.map(|it| it.toml.clone()).unwrap_or_default();
+    Ok((record_to_python(py, &Value::Object(record))?, tables, rover))
+}
+
+fn measure(name: &str) -> PyResult<Measure> {
+    Measure::named(name).ok_or_else(|| {
+        let names = Measure::ALL.map(Measure::name).join(", ");
+        errors::parameter(format!("there is no measure {name}"), "trade", None, &names)
+    })
+}
