@@ -13,6 +13,7 @@ use toml::{Table, Value};
 
 use crate::campaign::LoadedCampaign;
 use crate::terrain::Terrain;
+use crate::threads::released;
 use crate::values::Change;
 use crate::{errors, values};
 
@@ -353,7 +354,7 @@ fn read_changed(
             .change(&key, &value, beside)
             .map_err(|error| errors::of_document(&error, &arguments))?;
     }
-    let read = changes.py().detach(|| Read::new(kind, source, &overrides));
+    let read = released(changes.py(), || Read::new(kind, source, &overrides))?;
     let read = read.map_err(|error| {
         let given = [Some(changes), table].into_iter().flatten();
         errors::of_document(&as_keywords(error, given), &arguments)
@@ -426,7 +427,7 @@ pub(crate) fn check_document(
         Some(text) => Source::text(name.display().to_string(), text),
         None => Source::file(name),
     };
-    let found = py.detach(|| Ok((document::checked(&source)?, document::doubts(&source)?)));
+    let found = released(py, || Ok((document::checked(&source)?, document::doubts(&source)?)))?;
     let (checked, notes) = found.map_err(|error| errors::of_document(&error, &[]))?;
     let assumed = checked.assumed.into_iter().map(|it| (it.key, it.value, it.prior));
     Ok((checked.kind.name(), assumed.collect(), notes))

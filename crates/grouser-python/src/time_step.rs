@@ -137,7 +137,7 @@ impl SteppingWheels {
             soil,
             sinkage,
         });
-        let stepped = step.reaction(&stepping.collect::<Vec<_>>());
+        let stepped = errors::caught(|| step.reaction(&stepping.collect::<Vec<_>>()))?;
         let results = PyArray2::zeros(py, [WHEEL.len() + 2, count], false);
         let wrenches = PyArray2::zeros(py, [count, 6], false);
         {
