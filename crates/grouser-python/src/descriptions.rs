@@ -54,7 +54,8 @@ impl Read {
         match self {
             Self::Scenario(it) => &it.notes,
             Self::Mission(it) => &it.notes,
-            Self::Soil(_) | Self::Wheel(_) | Self::Rover(_) | Self::Campaign(_) => &[],
+            Self::Campaign(it) => it.campaign().notes(),
+            Self::Soil(_) | Self::Wheel(_) | Self::Rover(_) => &[],
         }
     }
 }
@@ -132,6 +133,14 @@ impl Document {
             Read::Scenario(scenario) => Ok(scenario),
             _ => Err(self.is_no("scenario")),
         }
+    }
+
+    /// The scenario, for an answer about planes: a warning says that its terrain is not used.
+    pub(crate) fn scenario_on_planes(&self, py: Python<'_>) -> PyResult<&LoadedScenario> {
+        let scenario = self.scenario()?;
+        let line = scenario.document.plane_line();
+        errors::warn(py, (!line.is_empty()).then_some(line.trim_end()))?;
+        Ok(scenario)
     }
 
     pub(crate) fn mission(&self) -> PyResult<&LoadedMission> {

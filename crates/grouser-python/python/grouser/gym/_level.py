@@ -99,8 +99,8 @@ class LevelTraverseEnv(RoverEnv):
     Raises
     ------
     ParameterError, DocumentError, DocumentNotFoundError
-        As `grouser.Scenario`; and for a key that both the scenario's mapping and an argument give,
-        or that is not used.
+        As `grouser.Scenario`; for a scenario with a terrain; and for a key that both the scenario's
+        mapping and an argument give, or that is not used.
 
     Examples
     --------
