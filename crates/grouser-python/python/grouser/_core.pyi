@@ -219,6 +219,7 @@ class SteppingWheels:
         velocities: _Floats,
         held: _Floats,
         with_moments: bool,
+        gravity_m_s2: float,
     ) -> tuple[_Floats, _Floats, float]: ...
 
 @final

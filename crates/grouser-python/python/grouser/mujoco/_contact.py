@@ -43,7 +43,7 @@ class SoilContact:
     Parameters
     ----------
     mj_model : mujoco.MjModel
-        The model. Its integrator must not be RK4; gravity is the size of its gravity.
+        The model. Its integrator must not be RK4; gravity is the size of its gravity at each step.
     soil : Soil, name, path, mapping, or a sequence of them
         The soil, or one for each wheel.
     wheels : mapping
@@ -71,6 +71,11 @@ class SoilContact:
         For invalid bodies, geoms or values; if a wheel has another size than
         the geoms of its body; if MuJoCo's own contact between a wheel and the ground is on; if
         there is no gravity.
+
+    Notes
+    -----
+    A `SoilContact` has working memory, so that threads must not share one: ``copy.copy`` makes
+    another for the same model. It cannot be pickled.
 
     Examples
     --------
@@ -116,7 +121,6 @@ class SoilContact:
         if not wheels:
             raise ParameterError("there are no wheels", "wheels")
         self._model = mj_model
-        self._ahead = mujoco.MjData(mj_model)
         self._names = tuple(wheels)
         hinges = [_hinge(mj_model, name) for name in wheels]
         self._hinges = np.array(hinges)
@@ -131,7 +135,7 @@ class SoilContact:
         self._reaction = _core.SteppingWheels(
             [one._document for one in soils],
             [one._document for one in made],
-            setting(float(np.linalg.norm(mj_model.opt.gravity)), model)._document,
+            setting(_gravity(mj_model), model)._document,
             number("sinkage_damping_s_m", sinkage_damping_s_m),
             number("rest_speed_m_s", rest_speed_m_s),
         )
@@ -141,10 +145,33 @@ class SoilContact:
         self._moments = wheel_moments == "included"
         self._found = np.zeros((len(self._reaction.names), len(made)))
         self._residual = 0.0
-        self._state = np.zeros(mujoco.mj_stateSize(mj_model, _STATE))
-        self._jacobians = np.zeros((len(made), 6, mj_model.nv))
+        self._take_memory()
+
+    def _take_memory(self) -> None:
+        """Working memory, which no other contact has."""
+        self._ahead = mujoco.MjData(self._model)
+        self._state = np.zeros(mujoco.mj_stateSize(self._model, _STATE))
+        self._jacobians = np.zeros((len(self._names), 6, self._model.nv))
         # Views, by which MuJoCo writes each wheel's rows.
         self._rows = [(one[:3], one[3:]) for one in self._jacobians]
+
+    def __copy__(self) -> SoilContact:
+        twin = object.__new__(type(self))
+        twin.__dict__.update(self.__dict__)
+        twin._take_memory()
+        return twin
+
+    def __deepcopy__(self, memo: object) -> SoilContact:
+        raise TypeError(
+            "a SoilContact cannot be copied with its model: use copy.copy for the same model, or make "
+            "one for the other model"
+        )
+
+    def __reduce__(self) -> Any:
+        raise TypeError(
+            "a SoilContact cannot be pickled: make it anew where it is needed, from the model, the "
+            "soil, the wheels and the ground"
+        )
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -189,9 +216,15 @@ class SoilContact:
         Raises
         ------
         ParameterError
-            If the model's motion is not finite.
+            If the data are of another model, if the motion is not finite, or if there is no gravity
+            any more.
         """
         model, ahead = self._model, self._ahead
+        if data.model is not model:
+            raise ParameterError(
+                "the data are of another model than the contact: make a SoilContact for that model",
+                "data",
+            )
         mujoco.mj_getState(model, data, self._state, _STATE)
         mujoco.mj_setState(model, ahead, self._state, _STATE)
         mujoco.mj_step(model, ahead)
@@ -208,6 +241,7 @@ class SoilContact:
             ahead.qvel,
             ahead.xfrc_applied[self._bodies],
             self._moments,
+            _gravity(model),
         )
         data.xfrc_applied[self._bodies] = wrenches
 
@@ -215,6 +249,11 @@ class SoilContact:
 _RK4, _HINGE = int(mujoco.mjtIntegrator.mjINT_RK4), int(mujoco.mjtJoint.mjJNT_HINGE)
 #: The state that a step depends on.
 _STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
+
+
+def _gravity(model: mujoco.MjModel) -> float:
+    """The size of a model's gravity [m/s²]."""
+    return float(np.linalg.norm(model.opt.gravity))
 
 
 def _one_each(soil: Any, count: int) -> list[Soil]:
