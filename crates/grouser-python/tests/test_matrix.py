@@ -91,7 +91,7 @@ FEATURES: dict[str, tuple[dict[str, Any], tuple[str, ...]]] = {
 @lru_cache(maxsize=None)
 def scenario(feature: str) -> gr.Scenario:
     keys = FEATURES[feature][0]
-    plane = {} if "terrain" in keys else {"slope_deg": SLOPES[0]}
+    plane: dict[str, Any] = {} if "terrain" in keys else {"slope_deg": SLOPES[0]}
     return gr.Scenario(duration_s=0.5, **plane, **keys)
 
 
