@@ -13,7 +13,6 @@ use super::file;
 use super::legs_file;
 use super::raster_file::{Found, found, key, options};
 use super::tree::{Entry, HeldMap, Node, Value};
-use super::values::Described as _;
 use super::zones_file;
 use grouser_core::simulation::Scenario;
 use grouser_core::terrain::{ElevationModel, Extent, Shape};
@@ -52,13 +51,10 @@ pub(crate) fn read(
     document: &Document,
     tree: &Node,
 ) -> Result<Vec<String>, DocumentError> {
-    if scenario.ground.is_plane() {
+    let ground = &mut scenario.ground;
+    if ground.is_plane() {
         return Ok(Vec::new());
     }
-    if let Some(slope) = document.number(SLOPE) {
-        scenario.check_without(SLOPE, slope).map_err(|misfit| misfit.of(tree))?;
-    }
-    let ground = &mut scenario.ground;
     let Some(path) = document.text(&key(FILE)) else {
         zones_file::read(ground, document, tree)?;
         return Ok(Vec::new());

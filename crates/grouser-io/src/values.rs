@@ -471,6 +471,9 @@ impl Described for Scenario {
     }
 
     fn fetch(&mut self, document: &Document, tree: &Node) -> Result<Vec<String>, DocumentError> {
+        if let Some(slope) = document.number(SLOPE).filter(|_| !self.ground.is_plane()) {
+            self.check_without(SLOPE, slope).map_err(|misfit| misfit.of(tree))?;
+        }
         terrain_file::read(self, document, tree)
     }
 
