@@ -126,9 +126,7 @@ class LevelTraverseEnv(RoverEnv):
         before, ended
             As for `RoverEnv.reward`.
         """
-        progress = (self.state["x_m"] - before["x_m"]) / (
-            self._rovers.fastest * self._rovers.dt_s
-        )
+        progress = (self.state["x_m"] - before["x_m"]) / (self._rovers.fastest * self._rovers.dt_s)
         offset = self.state["y_m"] / LINE_M
         return progress - offset * offset + PENALTY * ended
 

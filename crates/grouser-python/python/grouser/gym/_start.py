@@ -30,11 +30,8 @@ def start_of(
         _check_keys(scenario, {"soil": soil, "slope_deg": slope_deg})
     run = Scenario(scenario)
     if "terrain" in run.to_dict():
-        raise ParameterError(
-            "the scenario has a terrain: an environment samples the slope of a plane, and its line "
-            "or path lies on that; grouser.Run steps a rover over a terrain",
-            "terrain",
-        )
+        message = "the scenario has a terrain: environments are on planes, grouser.Run is on any ground"
+        raise ParameterError(message, "terrain")
     # A mapping or no scenario at all leaves its missing keys to the environment.
     named = {} if scenario is None else scenario if isinstance(scenario, Mapping) else run.to_dict()
     if soil is None and "soil" not in named:

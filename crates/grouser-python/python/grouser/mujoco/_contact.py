@@ -135,7 +135,7 @@ class SoilContact:
         self._reaction = _core.SteppingWheels(
             [one._document for one in soils],
             [one._document for one in made],
-            setting(_gravity(mj_model), model)._document,
+            setting(float(np.linalg.norm(mj_model.opt.gravity)), model)._document,
             number("sinkage_damping_s_m", sinkage_damping_s_m),
             number("rest_speed_m_s", rest_speed_m_s),
         )
@@ -161,16 +161,10 @@ class SoilContact:
         twin._take_memory()
         return twin
 
-    def __deepcopy__(self, memo: object) -> SoilContact:
-        raise TypeError(
-            "a SoilContact cannot be copied with its model: use copy.copy for the same model, or make "
-            "one for the other model"
-        )
-
     def __reduce__(self) -> Any:
         raise TypeError(
-            "a SoilContact cannot be pickled: make it anew where it is needed, from the model, the "
-            "soil, the wheels and the ground"
+            "a SoilContact is neither pickled nor copied with its model: copy.copy makes another for "
+            "the same model, and for another model or process it is made anew"
         )
 
     @property
@@ -221,10 +215,8 @@ class SoilContact:
         """
         model, ahead = self._model, self._ahead
         if data.model is not model:
-            raise ParameterError(
-                "the data are of another model than the contact: make a SoilContact for that model",
-                "data",
-            )
+            message = "the data are of another model: a SoilContact is made for each model"
+            raise ParameterError(message, "data")
         mujoco.mj_getState(model, data, self._state, _STATE)
         mujoco.mj_setState(model, ahead, self._state, _STATE)
         mujoco.mj_step(model, ahead)
@@ -241,7 +233,7 @@ class SoilContact:
             ahead.qvel,
             ahead.xfrc_applied[self._bodies],
             self._moments,
-            _gravity(model),
+            float(np.linalg.norm(model.opt.gravity)),
         )
         data.xfrc_applied[self._bodies] = wrenches
 
@@ -249,11 +241,6 @@ class SoilContact:
 _RK4, _HINGE = int(mujoco.mjtIntegrator.mjINT_RK4), int(mujoco.mjtJoint.mjJNT_HINGE)
 #: The state that a step depends on.
 _STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
-
-
-def _gravity(model: mujoco.MjModel) -> float:
-    """The size of a model's gravity [m/s²]."""
-    return float(np.linalg.norm(model.opt.gravity))
 
 
 def _one_each(soil: Any, count: int) -> list[Soil]:
@@ -272,9 +259,7 @@ def _hinge(model: Any, name: str) -> int:
         raise ParameterError(f"the model has no body {name!r} for a wheel", "wheels")
     first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
     if count != 1 or int(model.jnt_type[first]) != _HINGE:
-        raise ParameterError(
-            f"the wheel {name!r} must turn on one hinge, and on that alone", "wheels"
-        )
+        raise ParameterError(f"the wheel {name!r} must turn on one hinge and no other", "wheels")
     return first
 
 
