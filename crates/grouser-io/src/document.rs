@@ -4,6 +4,7 @@ use serde::Serialize;
 use serde_json::{Map, Value as Json};
 
 use super::describe;
+use super::describe::run::TERRAIN;
 use super::kind::{Kind, PRIORS_KEY};
 use grouser_core::contact::Model;
 
@@ -173,6 +174,15 @@ impl Document {
         let model = self.usual_model(soil);
         let model = model.name();
         format!("model: {model}, as the soil leaves its wheel sinkage ratio to priors\n")
+    }
+
+    /// A line on ground with heights that an answer leaves aside, as it is about planes of the slopes
+    /// that are asked for; empty for a document without.
+    #[must_use]
+    pub fn plane_line(&self) -> String {
+        let has_heights = self.get(TERRAIN).is_some();
+        let line = "ground: planes of the slopes that are asked for; the [terrain] is not used\n";
+        if has_heights { line.to_owned() } else { String::new() }
     }
 
     /// The document as TOML.

@@ -55,11 +55,6 @@ pub(crate) fn read(
     if ground.is_plane() {
         return Ok(Vec::new());
     }
-    if document.number(SLOPE).is_some_and(|slope| slope != 0.0) {
-        let problem = Problem::Conflict("the terrain says how the ground is inclined");
-        let hint = Some("leave out `slope_deg`, or `[terrain]`".to_owned());
-        return Err(DocumentError::at(tree.origin_of(SLOPE), problem).with_hint(hint));
-    }
     let Some(path) = document.text(&key(FILE)) else {
         zones_file::read(ground, document, tree)?;
         return Ok(Vec::new());
@@ -86,10 +81,6 @@ pub(crate) fn read(
     }
     if document.get(&key(START)).is_none() {
         ground.start = middle(model.extent());
-    } else if !contains(model.extent(), ground.start) {
-        let (x, y) = (ground.start.x, ground.start.y);
-        let problem = format!("the start, x {x} m, y {y} m, is beyond the map {path}");
-        return Err(fault(START, (Problem::NoTerrain(problem), Some(spans(model.extent())))));
     }
     ground.shape = Shape::Map(model);
     zones_file::read(ground, document, tree)?;

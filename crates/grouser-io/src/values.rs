@@ -11,9 +11,10 @@ use std::sync::Arc;
 use super::campaign::{Settings, Stand};
 use super::describe::campaign::{BLANK_STAND, CAMPAIGN, STAND};
 use super::describe::power::{MOTOR, NO_MOTOR};
-use super::describe::run::{ROVER_OF_PARTS, TERRAIN};
+use super::describe::run::{ROVER_OF_PARTS, SLOPE, TERRAIN};
 use super::describe::scenario::SCENARIO;
 use super::describe::soil::{LARGEST_EXIT_RATIO, LARGEST_EXPONENT, SMALLEST_EXPONENT, SOIL};
+use super::describe::terrain::START;
 use super::describe::wheel::WHEEL;
 use super::describe::{rover, scenario, soil, wheel};
 use super::document::Document;
@@ -21,14 +22,16 @@ use super::error::{DocumentError, Problem};
 use super::field::Inner;
 use super::kind::Kind;
 use super::priors;
-use super::terrain_file;
+use super::raster_file::key;
+use super::terrain_file::{self, spans};
 use super::tree::Node;
 use super::unit::DEG;
 use grouser_core::contact::validity;
 use grouser_core::error::ParameterError;
 use grouser_core::simulation::{PrescribedYaw, Scenario, TooFast};
 use grouser_core::soil::{AssumedValues, Exit, PressureSinkage, Shear, ShearModulus, Soil, Span};
-use grouser_core::terrain::Shape;
+use grouser_core::terrain::{Extent, Shape};
+use grouser_core::units::Vec2;
 use grouser_core::vehicle::{Inertia, LoadSharing, Motor, Mount, OwnMoments, Rover};
 use grouser_core::wheel::Wheel;
 
@@ -54,6 +57,11 @@ impl Misfit {
         move |error| Self::new(path, error)
     }
 
+    fn of_no_number(path: &str, number: f64) -> Self {
+        let expected = "left out: this document has no such number";
+        Self::new(path, ParameterError::new(format!("`{path}`"), number, expected))
+    }
+
     fn with_hint(self, hint: impl Into<String>) -> Self {
         Self { hint: Some(hint.into()), ..self }
     }
@@ -67,12 +75,17 @@ impl Misfit {
         Self { path: format!("{key}.{}", self.path), ..self }
     }
 
+    /// How they may be mended.
+    pub(crate) fn hint(self) -> Option<String> {
+        self.hint
+    }
+
     /// What is wrong with the numbers of a value that was one.
     #[must_use]
     pub fn of_numbers(self) -> ParameterError {
         match *self.problem {
             Problem::Unfit(error) => error,
-            _ => unreachable!("new numbers leave names as they were"),
+            _ => unreachable!("new numbers leave words and names as they were"),
         }
     }
 
@@ -138,6 +151,14 @@ pub trait Described: Clone + 'static {
         Self::table().reach(&mut self.clone(), path).map(|reached| reached.range())
     }
 
+    /// Checks a number under a dotted key that leads to none in this value.
+    ///
+    /// # Errors
+    /// [`Misfit`] unless the number changes nothing.
+    fn check_without(&self, path: &str, number: f64) -> Result<(), Misfit> {
+        Err(Misfit::of_no_number(path, number))
+    }
+
     /// The same with other values of some keys, in the keys' units.
     ///
     /// # Errors
@@ -145,12 +166,10 @@ pub trait Described: Clone + 'static {
     fn with<'k>(&self, values: impl IntoIterator<Item = (&'k str, f64)>) -> Result<Self, Misfit> {
         let mut value = self.clone();
         for (path, number) in values {
-            let Some(reached) = Self::table().reach(&mut value, path) else {
-                let expected = "left out: this document has no such number";
-                let error = ParameterError::new(format!("`{path}`"), number, expected);
-                return Err(Misfit::new(path, error));
-            };
-            reached.set(number);
+            match Self::table().reach(&mut value, path) {
+                Some(reached) => reached.set(number),
+                None => value.check_without(path, number)?,
+            }
         }
         value.settled()
     }
@@ -452,7 +471,23 @@ impl Described for Scenario {
     }
 
     fn fetch(&mut self, document: &Document, tree: &Node) -> Result<Vec<String>, DocumentError> {
+        if let Some(slope) = document.number(SLOPE).filter(|_| !self.ground.is_plane()) {
+            self.check_without(SLOPE, slope).map_err(|misfit| misfit.of(tree))?;
+        }
         terrain_file::read(self, document, tree)
+    }
+
+    fn check_without(&self, path: &str, number: f64) -> Result<(), Misfit> {
+        match path {
+            SLOPE if number == 0.0 => Ok(()),
+            SLOPE => {
+                let name = "`slope_deg`, beside a `[terrain]`,";
+                let error = ParameterError::new(name, number, INCLINED_BY_TERRAIN);
+                let hint = "leave out `slope_deg`, or `[terrain]`, which inclines the ground";
+                Err(Misfit::new(SLOPE, error).with_hint(hint))
+            }
+            _ => Err(Misfit::of_no_number(path, number)),
+        }
     }
 
     fn settled(self) -> Result<Self, Misfit> {
@@ -498,12 +533,31 @@ fn zone_soils(run: &mut Scenario) -> &mut [Soil] {
     run.ground.zones.as_mut().map_or(&mut [], |zones| &mut Arc::make_mut(zones).soils)
 }
 
-/// Checks that the ground can be.
+/// What a slope beside ground with heights may be.
+const INCLINED_BY_TERRAIN: &str = "0, or left out: the terrain says how the ground is inclined";
+
+/// Checks that the ground can be, and that a run starts on its map.
 fn check_terrain(run: &Scenario) -> Result<(), Misfit> {
     match &run.ground.shape {
         Shape::Formula(surface) => surface.check().map_err(Misfit::at(TERRAIN)),
-        Shape::Plane(_) | Shape::Map(_) | Shape::Own(_) => Ok(()),
+        Shape::Map(map) => check_start(run.ground.start, map.extent()),
+        Shape::Plane(_) | Shape::Own(_) => Ok(()),
     }
+}
+
+/// Checks that a start is on a map.
+fn check_start(start: Vec2, extent: Extent) -> Result<(), Misfit> {
+    let Extent { south_west: low, north_east: high } = extent;
+    let axes = [("x", start.x, low.x, high.x), ("y", start.y, low.y, high.y)];
+    let Some((axis, at, low, high)) =
+        axes.into_iter().find(|(_, at, low, high)| !(low..=high).contains(&at))
+    else {
+        return Ok(());
+    };
+    let key = key(START);
+    let name = format!("{axis} of `{key}`, on a map from {low} to {high} m,");
+    let misfit = Misfit::new(key, ParameterError::new(name, at, "on the map"));
+    Err(misfit.with_hint(spans(extent)))
 }
 
 /// Checks a yaw over time, beside the yaw at the start [rad].

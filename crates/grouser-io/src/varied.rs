@@ -81,7 +81,12 @@ impl<V: Described> Numbers for Varied<V> {
         value
             .zip(self.value.range(path))
             .map(|(value, range)| Key { path: path.to_owned(), value, range })
-            .ok_or_else(|| NoNumber::of(&self.document, path))
+            .ok_or_else(|| {
+                let lacking = NoNumber::of(&self.document, path);
+                // What keeps the key from being a number, where a rule between keys does.
+                let hint = self.value.check_without(path, f64::NAN).err().and_then(Misfit::hint);
+                NoNumber { hint: lacking.hint.or(hint), ..lacking }
+            })
     }
 
     fn check_with(&self, keys: &[Key], values: &[f64]) -> Result<(), Misfit> {
@@ -214,5 +219,25 @@ mod tests {
         {
             assert!(scenario_with(&eq18, [(key, value)]).is_err(), "{key}");
         }
+    }
+
+    /// A slope beside ground with heights, which inclines it: also where no number is given.
+    #[test]
+    fn rules_between_keys_are_those_of_documents() {
+        let terrain = ["scenario.terrain.surface=incline", "scenario.terrain.slope_deg=5"];
+        let read = |slope: &str| {
+            let settings = [terrain[0], terrain[1], slope];
+            let overrides = Overrides::parse(&settings).unwrap();
+            read_scenario(&Source::default_scenario(), &overrides)
+        };
+        let level = read("scenario.slope_deg=0").unwrap();
+        let put = scenario_with(&level.value, [("slope_deg", 8.0)]).unwrap_err().to_string();
+        let in_document = read("scenario.slope_deg=8").unwrap_err().to_string();
+        assert!(in_document.contains(&put) && put.contains("[terrain]"), "{put}: {in_document}");
+        assert_eq!(scenario_with(&level.value, [("slope_deg", 0.0)]).unwrap(), level.value);
+        let (value, document) = (level.value.clone(), level.document.clone());
+        let varied = Varied { value, document, notes: Vec::new() };
+        let hint = varied.key("slope_deg").err().and_then(|lacking| lacking.hint);
+        assert!(hint.unwrap().contains("[terrain]"));
     }
 }

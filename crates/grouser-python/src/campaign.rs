@@ -23,6 +23,7 @@ use rayon::prelude::*;
 use crate::descriptions::Document;
 use crate::errors;
 use crate::interrupt::listening;
+use crate::threads::released;
 
 /// A campaign that was read, and the study that identifies it in its folder.
 pub(crate) struct LoadedCampaign {
@@ -137,7 +138,7 @@ pub(crate) fn check_shard(
     data: &[u8],
 ) -> PyResult<()> {
     let study = &campaign.campaign()?.study;
-    let checked = py.detach(|| shard::check(study, shard, data));
+    let checked = released(py, || shard::check(study, shard, data))?;
     checked.map_err(|fault| errors::of_store(&StoreError::Shard { shard, fault }))
 }
 
@@ -245,10 +246,10 @@ impl CampaignManifest {
         let identity = self.manifest.identity(shard);
         let data = data.to_vec();
         let names: Vec<&str> = columns.iter().map(String::as_str).collect();
-        let table = py.detach(|| {
+        let table = released(py, || {
             let checked = shard::Checked::open(&identity, data.into());
             checked.map_err(|fault| damaged(&file, fault))?.table(&names)
-        });
+        })?;
         columns_of(py, table.map_err(|error| errors::of_store(&error))?)
     }
 }
@@ -310,7 +311,7 @@ impl CampaignFolder {
         part: Option<(u64, u64)>,
     ) -> PyResult<Self> {
         let (study, part) = (&campaign.campaign()?.study, part_of(part)?);
-        let folder = py.detach(|| Folder::open(&path, study, part));
+        let folder = released(py, || Folder::open(&path, study, part))?;
         Ok(Self { folder: Some(folder.map_err(|error| errors::of_store(&error))?) })
     }
 
@@ -339,25 +340,26 @@ impl CampaignFolder {
     /// Adds a shard.
     fn accept(&mut self, py: Python<'_>, shard: u64, data: &[u8]) -> PyResult<()> {
         let folder = self.open_mut()?;
-        py.detach(|| folder.accept(shard, data)).map_err(|error| errors::of_store(&error))
+        released(py, || folder.accept(shard, data))?.map_err(|error| errors::of_store(&error))
     }
 
     /// Counts a shard that a worker has written to its place.
     fn adopt(&mut self, py: Python<'_>, shard: u64) -> PyResult<()> {
         let folder = self.open_mut()?;
-        py.detach(|| folder.adopt(shard)).map_err(|error| errors::of_store(&error))
+        released(py, || folder.adopt(shard))?.map_err(|error| errors::of_store(&error))
     }
 
     /// Writes the session to the manifest.
     fn pause(&mut self, py: Python<'_>) -> PyResult<()> {
         let folder = self.open_mut()?;
-        py.detach(|| folder.pause()).map_err(|error| errors::of_store(&error))
+        released(py, || folder.pause())?.map_err(|error| errors::of_store(&error))
     }
 
     /// The digest of all shards, how many there are, and their bytes.
     fn finish(&mut self, py: Python<'_>) -> PyResult<(String, u64, u64)> {
         let folder = self.open_mut()?;
-        let finished = py.detach(|| folder.finish()).map_err(|error| errors::of_store(&error))?;
+        let finished =
+            released(py, || folder.finish())?.map_err(|error| errors::of_store(&error))?;
         Ok((finished.digest, finished.shards, finished.bytes))
     }
 

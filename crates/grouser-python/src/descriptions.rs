@@ -14,6 +14,7 @@ use toml::{Table, Value};
 
 use crate::campaign::LoadedCampaign;
 use crate::terrain::Terrain;
+use crate::threads::released;
 use crate::values::Change;
 use crate::{errors, values};
 
@@ -56,7 +57,8 @@ impl Read {
         match self {
             Self::Scenario(it) => &it.notes,
             Self::Mission(it) => &it.notes,
-            Self::Soil(_) | Self::Wheel(_) | Self::Rover(_) | Self::Campaign(_) | Self::Design(_) => &[],
+            Self::Campaign(it) => it.campaign().notes(),
+            Self::Soil(_) | Self::Wheel(_) | Self::Rover(_) | Self::Design(_) => &[],
         }
     }
 }
@@ -135,6 +137,14 @@ impl Document {
             Read::Scenario(scenario) => Ok(scenario),
             _ => Err(self.is_no("scenario")),
         }
+    }
+
+    /// The scenario, for an answer about planes: a warning says that its terrain is not used.
+    pub(crate) fn scenario_on_planes(&self, py: Python<'_>) -> PyResult<&LoadedScenario> {
+        let scenario = self.scenario()?;
+        let line = scenario.document.plane_line();
+        errors::warn(py, (!line.is_empty()).then_some(line.trim_end()))?;
+        Ok(scenario)
     }
 
     pub(crate) fn mission(&self) -> PyResult<&LoadedMission> {
@@ -367,7 +377,7 @@ fn read_changed(
             .change(&key, &value, beside)
             .map_err(|error| errors::of_document(&error, &arguments))?;
     }
-    let read = changes.py().detach(|| Read::new(kind, source, &overrides));
+    let read = released(changes.py(), || Read::new(kind, source, &overrides))?;
     let read = read.map_err(|error| {
         let given = [Some(changes), table].into_iter().flatten();
         errors::of_document(&as_keywords(error, given), &arguments)
@@ -447,7 +457,7 @@ pub(crate) fn check_document(
         Some(text) => Source::text(name.display().to_string(), text),
         None => Source::file(name),
     };
-    let found = py.detach(|| Ok((document::checked(&source)?, document::doubts(&source)?)));
+    let found = released(py, || Ok((document::checked(&source)?, document::doubts(&source)?)))?;
     let (checked, notes) = found.map_err(|error| errors::of_document(&error, &[]))?;
     let assumed = checked.assumed.into_iter().map(|it| (it.key, it.value, it.prior));
     Ok((checked.kind.name(), assumed.collect(), notes))

@@ -1,9 +1,11 @@
 //! The library's errors as Python's, by the names of `grouser/_errors.py`.
 
+use std::any::Any;
 use std::ffi::CString;
 use std::fmt::Display;
 use std::io::ErrorKind;
 use std::ops::RangeInclusive;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::ranking::RankingError;
@@ -32,6 +34,22 @@ mod classes {
     import_exception!(grouser._errors, CampaignLockedError);
     import_exception!(grouser._errors, CampaignNotFoundError);
     import_exception!(grouser._errors, CampaignDiskError);
+    import_exception!(grouser._errors, InternalError);
+}
+
+/// Computes, with a panic as an `InternalError`: the panics that PyO3 passes on are no `Exception`,
+/// so that `except Exception` would not see them.
+pub(crate) fn caught<T>(work: impl FnOnce() -> T) -> PyResult<T> {
+    catch_unwind(AssertUnwindSafe(work)).map_err(|why| of_panic(why.as_ref()))
+}
+
+fn of_panic(why: &(dyn Any + Send)) -> PyErr {
+    let text = why.downcast_ref::<&str>().copied();
+    let text = text.or_else(|| why.downcast_ref::<String>().map(String::as_str));
+    classes::InternalError::new_err(format!(
+        "a fault of grouser, please report it with what was called: {}",
+        text.unwrap_or("a panic without a message")
+    ))
 }
 
 /// The value in a document's problem.

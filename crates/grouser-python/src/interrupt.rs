@@ -6,10 +6,9 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
-use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
-use crate::threads;
+use crate::{errors, threads};
 
 /// How often Python is asked for signals: short enough that Ctrl-C seems to act at once.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -25,7 +24,7 @@ impl Cancelled {
 }
 
 /// Computes in a thread of its own, without Python's lock; parallel parts run on the threads of
-/// [`threads`]. On a signal that Python turns into an exception, such as Ctrl-C, that exception is
+/// [`threads`], and a panic is an `InternalError`. On a signal that Python turns into an exception, such as Ctrl-C, that exception is
 /// returned. `work` is then cancelled: it finishes the part it is computing, and its result is
 /// dropped.
 pub(crate) fn listening<T: Send + 'static>(
@@ -35,13 +34,14 @@ pub(crate) fn listening<T: Send + 'static>(
     let cancelled = Cancelled::default();
     let (sender, receiver) = channel();
     let (flag, pool) = (cancelled.clone(), threads::pool(py)?);
-    thread::spawn(move || drop(sender.send(pool.install(|| work(&flag)))));
+    let answer = move || errors::caught(|| pool.install(|| work(&flag)));
+    thread::spawn(move || drop(sender.send(answer())));
     let mut waiting = receiver;
     loop {
         let (answer, again) = py.detach(move || (waiting.recv_timeout(PATIENCE), waiting));
         waiting = again;
         match answer {
-            Ok(result) => return Ok(result),
+            Ok(result) => return result,
             Err(RecvTimeoutError::Timeout) => {
                 if let Err(signal) = py.check_signals() {
                     cancelled.0.store(true, Ordering::Relaxed);
@@ -49,9 +49,17 @@ pub(crate) fn listening<T: Send + 'static>(
                 }
             }
             Err(RecvTimeoutError::Disconnected) => {
-                let message = "a computation ended without an answer: this is a fault of grouser";
-                return Err(PyRuntimeError::new_err(message));
+                return errors::caught(|| unreachable!("a computation ended without an answer"));
             }
         }
     }
+}
+
+/// Panics where computations do: tests see by it what Python gets.
+///
+/// * `is_listening`: whether in a thread of its own, which Ctrl-C interrupts
+#[pyfunction]
+pub(crate) fn panic(py: Python<'_>, is_listening: bool) -> PyResult<()> {
+    let fault = || panic!("as a test asked for");
+    if is_listening { listening(py, move |_| fault()) } else { threads::released(py, fault) }
 }

@@ -74,6 +74,8 @@ mod _core {
     #[pymodule_export]
     use super::ground::Footprints;
     #[pymodule_export]
+    use super::interrupt::panic;
+    #[pymodule_export]
     use super::learning::Learner;
     #[pymodule_export]
     use super::maps::mobility_map;

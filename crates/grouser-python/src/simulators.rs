@@ -220,11 +220,11 @@ impl Simulators {
 
     /// A row for each rover with the columns of a trajectory.
     fn samples<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<Vec<f64>> = py.detach(|| {
+        let rows: Vec<Vec<f64>> = threads::released(py, || {
             let row =
                 |led: &Stepped| RECORD.iter().map(|it| it.number(led.rover.run().now())).collect();
             self.lock().iter().map(row).collect()
-        });
+        })?;
         Ok(PyArray2::from_vec2(py, &rows)?)
     }
 
@@ -239,10 +239,10 @@ impl Simulators {
             };
             rovers.iter().map(row).collect::<Vec<Vec<f64>>>()
         };
-        let all: Vec<Vec<Vec<f64>>> = py.detach(|| {
+        let all: Vec<Vec<Vec<f64>>> = threads::released(py, || {
             let rovers = self.lock();
             wheel_sample_columns().map(|(_, get)| matrix(&*get, &rovers)).collect()
-        });
+        })?;
         Ok(PyArray3::from_vec3(py, &all)?)
     }
 
@@ -265,11 +265,11 @@ impl Simulators {
         py: Python<'py>,
         ways: Vec<f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows: Vec<Vec<f64>> = py.detach(|| {
+        let rows: Vec<Vec<f64>> = threads::released(py, || {
             let rovers = self.lock();
             let paths = rovers.iter().filter_map(|led| led.rover.path());
             paths.map(|path| beside(path, &ways)).collect()
-        });
+        })?;
         Ok(PyArray2::from_vec2(py, &rows)?)
     }
 
@@ -300,7 +300,7 @@ impl Simulators {
         let mut start = 0;
         while start < self.radii.len() {
             let pool = threads::pool(py)?;
-            let done: Vec<_> = py.detach(|| {
+            let done: Vec<_> = threads::released(py, || {
                 // Locked before the pool runs: a thread of the pool that waits for others starts
                 // other work, which must not ask for the same lock.
                 let mut rovers = self.lock();
@@ -308,7 +308,7 @@ impl Simulators {
                 let batch: Vec<(usize, &mut Stepped)> = batch.collect();
                 let act = |(place, led): (usize, &mut Stepped)| act(led, place);
                 pool.install(|| batch.into_par_iter().map(act).collect())
-            });
+            })?;
             result = result.and(done.into_iter().collect::<Result<(), RunError>>());
             py.check_signals()?;
             start += BATCH;

@@ -181,7 +181,7 @@ pub(crate) fn heading<'py>(
     if let Some((samples, _)) = sampling {
         check("samples", &[f64::from(samples)], &SAMPLES)?;
     }
-    let scenario = scenario.scenario()?;
+    let scenario = scenario.scenario_on_planes(py)?;
     let is_believed = sampling.is_some() && scenario.soils_of_bands().is_some();
     if gradients.is_some() && is_believed {
         let message = "gradients are of the soil as its document has it, with one model, and this \
@@ -254,7 +254,7 @@ pub(crate) fn wheel_speeds<'py>(
     most_speed_ratio: f64,
 ) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>, Vec<String>)> {
     let slopes = slopes(&slope_deg)?;
-    let scenario = scenario.scenario()?.value.clone();
+    let scenario = scenario.scenario_on_planes(py)?.value.clone();
     let names = wheel_names(&scenario);
     let found = listening(py, move |cancelled| {
         let heading = HeadingStudy::of(&scenario);
@@ -290,7 +290,7 @@ pub(crate) fn heading_map<'py>(
     check(COURSE.name, course_deg.as_slice()?, &COURSE_DEG)?;
     let courses = COURSE.in_si(course_deg.as_slice()?);
     check("rim_speed_m_s", &[rim_speed_m_s], &MAP_SPEED_M_S)?;
-    let all = scenarios.iter().map(|scenario| scenario.scenario());
+    let all = scenarios.iter().map(|scenario| scenario.scenario_on_planes(py));
     let all = all.collect::<PyResult<Vec<_>>>()?;
     let soil_name = |scenario: &&document::LoadedScenario| {
         scenario.document.text("soil.name").unwrap_or("unnamed").to_owned()
@@ -457,7 +457,7 @@ pub(crate) fn card<'py>(
     let (is_uphill_right, holds_heading, accepts_contradiction) =
         is_uphill_right_holds_heading_accepts_contradiction;
     check("samples", &[f64::from(samples)], &SAMPLES)?;
-    let scenario = scenario.scenario()?;
+    let scenario = scenario.scenario_on_planes(py)?;
     if let Some(why) = contradiction(&scenario.document).filter(|_| !accepts_contradiction) {
         let message = format!("{why}; accept_contradiction=True takes it as it is");
         return Err(errors::parameter(message, "soil", None, "a soil without contradictions"));
@@ -524,7 +524,7 @@ pub(crate) fn forecast<'py>(
     seed: u64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let slopes = slopes(&slope_deg)?;
-    let scenario = scenario.scenario()?;
+    let scenario = scenario.scenario_on_planes(py)?;
     if let Some(gravity) = measured_gravity_m_s2 {
         check("measured_gravity_m_s2", &[gravity], &words::GRAVITY)?;
     }

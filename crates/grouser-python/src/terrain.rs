@@ -19,6 +19,7 @@ use pyo3::prelude::*;
 use toml::{Table, Value};
 
 use crate::errors;
+use crate::threads::released;
 
 /// Checks the coordinate system of a map that has no file.
 ///
@@ -70,7 +71,7 @@ impl Terrain {
         let heights = heights.as_array();
         let (rows, columns) = heights.dim();
         let grid = grid(rows, columns, south_west_m, spacing_m);
-        let model = py.detach(|| {
+        let model = released(py, || {
             let row = |from_south: usize| {
                 heights.row(if north_first { rows - 1 - from_south } else { from_south })
             };
@@ -83,7 +84,7 @@ impl Terrain {
                 |height: &f64| if is_known(*height) { above(*height, base) } else { f32::NAN };
             let kept = (0..rows).flat_map(row).map(kept).collect();
             ElevationModel::above_base(grid, base, kept)
-        });
+        })?;
         let model = model.map_err(|error| refused(&error.to_string()))?;
         let above: Vec<f32> = model.heights_above_base().collect();
         errors::warn(py, remarks(model.grid(), model.base(), &above))?;
@@ -94,7 +95,7 @@ impl Terrain {
     #[staticmethod]
     #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
     fn from_file(py: Python<'_>, path: PathBuf, reading: Reading) -> PyResult<Self> {
-        let read = py.detach(|| read_map(&path, options(reading)));
+        let read = released(py, || read_map(&path, options(reading)))?;
         let (map, remarks) = read.map_err(|error| errors::of_document(&error, &[]))?;
         errors::warn(py, remarks)?;
         Ok(Self { map })
@@ -132,7 +133,7 @@ impl Terrain {
             largest_crater: largest_crater_m,
             seed,
         };
-        let made = py.detach(|| {
+        let made = released(py, || {
             let LunarModel { grid, heights, .. } = site.model()?;
             // As files have them, and with the base of those that are read: its northern row comes
             // first.
@@ -141,7 +142,7 @@ impl Terrain {
             let kept = |height: &f64| above(f64::from(above(*height, 0.0)), base);
             let kept = heights.iter().map(kept).collect();
             Ok(ElevationModel::above_base(grid, base, kept))
-        });
+        })?;
         let model = made.map_err(|error: ParameterError| errors::of_parameter(&error))?;
         model.map(Self::of_model).map_err(|error| refused(&error.to_string()))
     }
@@ -318,7 +319,7 @@ impl Terrain {
             let place = Vec2::new(*x, *y);
             if model.is_known(place) { number(model, place) } else { f64::NAN }
         };
-        let found: Vec<f64> = py.detach(|| x.iter().zip(y).map(at).collect());
+        let found: Vec<f64> = released(py, || x.iter().zip(y).map(at).collect())?;
         Ok(PyArray1::from_vec(py, found))
     }
 }

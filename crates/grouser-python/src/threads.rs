@@ -13,6 +13,8 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
+use crate::errors;
+
 /// A pool, and the process whose threads it has.
 struct Own {
     process: u32,
@@ -45,8 +47,16 @@ pub(crate) fn pool(_under_pythons_lock: Python<'_>) -> PyResult<Arc<ThreadPool>>
 /// Computes without Python's lock; parallel parts run on the threads of this process.
 ///
 /// # Errors
-/// The same as [`pool`].
+/// The same as [`pool`], and `InternalError` for a panic.
 pub(crate) fn detached<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     let pool = pool(py)?;
-    Ok(py.detach(|| pool.install(work)))
+    released(py, || pool.install(work))
+}
+
+/// Computes without Python's lock, in this thread.
+///
+/// # Errors
+/// `InternalError` for a panic.
+pub(crate) fn released<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    py.detach(|| errors::caught(work))
 }

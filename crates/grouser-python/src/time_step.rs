@@ -5,6 +5,7 @@ use grouser::contact::time_step::{REST_SPEED, SINKAGE_DAMPING};
 use grouser::contact::{Model, Settled, SteppedWheel, SteppingWheel, TimeStep};
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{SLIP_ANGLE, SLIP_RATIO};
+use grouser::document::{Kind, range};
 use grouser::soil::Soil;
 use grouser::units::Vec3;
 use grouser::wheel::Wheel;
@@ -17,12 +18,16 @@ use pyo3::prelude::*;
 use crate::columns::{wheel_names, wheel_row};
 use crate::descriptions::Document;
 use crate::errors;
-use crate::wheels::{check_under, model_and_gravity};
+use crate::wheels::{check, check_under, model_and_gravity};
+
+/// The key of gravity in a scenario.
+const GRAVITY: &str = "gravity_m_s2";
 
 /// Wheels and the soils under them, whose reaction is computed at every step.
 #[pyclass(frozen, module = "grouser._core")]
 pub(crate) struct SteppingWheels {
     wheels: Vec<(Wheel, Soil, Model)>,
+    /// Under which they were checked [m/s²].
     gravity: f64,
     damping: f64,
     rest_speed: f64,
@@ -93,6 +98,7 @@ impl SteppingWheels {
     /// * `jacobians`: of each hub, three rows of velocity and three of angular velocity
     /// * `inertia`, `velocities`: of the mechanism
     /// * `held`: force and moment on each body in the preliminary step
+    /// * `gravity_m_s2`: now, which an engine may change
     #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
     #[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
     fn apply<'py>(
@@ -106,7 +112,9 @@ impl SteppingWheels {
         velocities: PyReadonlyArray1<'py, f64>,
         held: PyReadonlyArray2<'py, f64>,
         with_moments: bool,
+        gravity_m_s2: f64,
     ) -> PyResult<Answer<'py>> {
+        self.check_gravity(gravity_m_s2)?;
         let count = self.wheels.len();
         let wheels = self.mounted(&poses, &distances, &held).ok_or_else(not_finite)?;
         let mechanism = Mechanism {
@@ -124,7 +132,7 @@ impl SteppingWheels {
         }
         let step = TimeStep {
             duration: duration_s,
-            gravity: self.gravity,
+            gravity: gravity_m_s2,
             damping: self.damping,
             rest_speed: self.rest_speed,
             inverse_mass: &inverse_mass,
@@ -137,7 +145,7 @@ impl SteppingWheels {
             soil,
             sinkage,
         });
-        let stepped = step.reaction(&stepping.collect::<Vec<_>>());
+        let stepped = errors::caught(|| step.reaction(&stepping.collect::<Vec<_>>()))?;
         let results = PyArray2::zeros(py, [WHEEL.len() + 2, count], false);
         let wrenches = PyArray2::zeros(py, [count, 6], false);
         {
@@ -158,6 +166,16 @@ impl SteppingWheels {
 }
 
 impl SteppingWheels {
+    /// Checks that the soils bear the wheels under another gravity than at first.
+    fn check_gravity(&self, gravity: f64) -> PyResult<()> {
+        if gravity == self.gravity {
+            return Ok(());
+        }
+        let range = range(Kind::Scenario, GRAVITY).unwrap_or(f64::MIN_POSITIVE..=f64::MAX);
+        check(GRAVITY, &[gravity], &range)?;
+        self.wheels.iter().try_for_each(|(wheel, soil, _)| check_under(soil, wheel, gravity))
+    }
+
     /// The wheels where a preliminary step led them; nothing if arrays do not fit.
     fn mounted(
         &self,

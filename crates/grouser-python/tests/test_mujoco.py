@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import copy
 import importlib.util
 import os
+import pickle
 import subprocess
 import sys
 from pathlib import Path
@@ -56,6 +58,47 @@ class Plane:
 
     def steps(self, duration_s: float) -> int:
         return round(duration_s / self.model.opt.timestep)
+
+
+# ---- gravity, data and copies ----
+
+
+def sinkage_mm(rover: Plane) -> float:
+    rover.soil.step(rover.data, rover.steps(1.0))
+    return float(rover.soil.forces.sinkage_mm.mean())
+
+
+def test_gravity_is_that_of_each_step() -> None:
+    changed, made = Plane(), Plane()
+    made.model.opt.gravity[2] = changed.model.opt.gravity[2] = -1.62
+    wheels = {name: made.rover.wheel for name in made.soil.names}
+    made.soil = SoilContact(made.model, soil="toyoura", wheels=wheels, ground="ground")
+    assert sinkage_mm(changed) == sinkage_mm(made)
+    assert sinkage_mm(changed) != sinkage_mm(Plane())
+    changed.model.opt.gravity[2] = 0.0
+    with pytest.raises(gr.ParameterError, match="gravity_m_s2 is 0"):
+        changed.soil.apply(changed.data)
+
+
+def test_data_of_another_model_are_refused() -> None:
+    rover = Plane()
+    with pytest.raises(gr.ParameterError, match="of another model"):
+        rover.soil.apply(Plane().data)
+
+
+def test_a_copy_shares_no_memory_and_others_say_what_to_do() -> None:
+    alone, rover = Plane(), Plane()
+    twin, data = copy.copy(rover.soil), mujoco.MjData(rover.model)
+    expected = sinkage_mm(alone)
+    # In turns: what one keeps between its calls must not be the other's.
+    for _ in range(rover.steps(1.0)):
+        rover.soil.step(rover.data)
+        twin.step(data)
+    assert rover.soil.forces.sinkage_mm.mean() == twin.forces.sinkage_mm.mean() == expected
+    assert not np.shares_memory(rover.soil._state, twin._state)
+    for call in (copy.deepcopy, pickle.dumps):
+        with pytest.raises(TypeError, match=r"copy\.copy makes another.*made anew"):
+            call(rover.soil)
 
 
 # ---- what is there, and what is not ----

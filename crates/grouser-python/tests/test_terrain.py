@@ -235,8 +235,39 @@ def test_a_map_in_memory_has_its_own_cell_size() -> None:
     scenario = gr.Scenario(terrain=terrain())
     with pytest.raises(gr.ParameterError, match="a map in memory has this already"):
         scenario.replace(terrain={"cell_size_m": 1.0})
-    with pytest.raises(gr.ParameterError, match="beyond the map"):
+    with pytest.raises(gr.ParameterError, match="on the map"):
         scenario.replace(terrain={"start_m": (0.0, 0.0)})
+
+
+def test_rules_between_keys_hold_where_numbers_are_exchanged() -> None:
+    rover = gr.Run(terrain=terrain(), **QUICK)
+    for exchange in (
+        lambda: rover.reset(slope_deg=8.0),
+        lambda: gr.rollout(rover.scenario, slope_deg=[0.0, 8.0]),
+        lambda: rover.scenario.replace(slope_deg=8.0),
+    ):
+        with pytest.raises(gr.ParameterError, match=r"`slope_deg`, beside a `\[terrain\]`, is 8"):
+            exchange()
+    np.testing.assert_array_equal(rover.reset(slope_deg=0.0), rover.reset())
+    placed = gr.Scenario(terrain={"file": terrain(), "start_m": (12.0, 24.0)}, **QUICK)
+    with pytest.raises(gr.ParameterError, match=r"x of `terrain.start_m`, on a map from 10 to 26 m"):
+        gr.rollout(placed, vary={"terrain.start_m.0": [12.0, 99.0]})
+
+
+def test_a_campaign_reads_its_map_from_a_file(tmp_path: Path) -> None:
+    spread = {"key": "soil.friction_angle_deg", "distribution": "uniform", "low": 36.0, "high": 38.0}
+    settings: dict[str, Any] = {"runs": 2, "parameter": [spread]}
+    on_array = gr.Scenario(terrain=terrain(), **QUICK)
+    with pytest.raises(gr.ParameterError, match=r"(?s)the map is an array.*numpy.save"):
+        gr.Campaign(study="traverse", scenario=on_array, **settings)
+    np.save(tmp_path / "site.npy", terrain().heights_m[::-1])
+    place = {"cell_size_m": 2.0, "south_west_m": (10.0, 20.0)}
+    on_file = on_array.replace(terrain=gr.Terrain.from_file(tmp_path / "site.npy", **place))
+    study = gr.Campaign(study="traverse", scenario=on_file, **settings)
+    assert pickle.loads(pickle.dumps(study)) == study
+    assert gr.campaign.run(study, out=tmp_path / "runs").is_finished
+    with pytest.raises(gr.ParameterError, match="headings are of planes"):
+        gr.Campaign(study="heading", scenario=on_file, **settings)
 
 
 # ---- rasterio ----

@@ -179,6 +179,10 @@ impl Described for Plan {
         self.scenario.fetch(document, tree)
     }
 
+    fn check_without(&self, path: &str, number: f64) -> Result<(), Misfit> {
+        self.scenario.check_without(path, number)
+    }
+
     fn settled(self) -> Result<Self, Misfit> {
         let plan = Self { scenario: self.scenario.settled()?, ..self };
         check_stops(&plan.stops, "")?;

@@ -53,9 +53,7 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
         choices=["visual", "wheels", "fused", "motion-capture"],
         help="what measured ways and rotations, in place of what the mapping says",
     )
-    command.add_argument(
-        "--force", action="store_true", help="replace the file if it is there"
-    )
+    command.add_argument("--force", action="store_true", help="replace the file if it is there")
     return parser.parse_args(arguments)
 
 

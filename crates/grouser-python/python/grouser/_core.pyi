@@ -61,6 +61,7 @@ __all__ = [
     "most_shard_bytes",
     "not_carried",
     "outcomes",
+    "panic",
     "path_columns",
     "present_names",
     "presets",
@@ -219,6 +220,7 @@ class SteppingWheels:
         velocities: _Floats,
         held: _Floats,
         with_moments: bool,
+        gravity_m_s2: float,
     ) -> tuple[_Floats, _Floats, float]: ...
 
 @final
@@ -400,6 +402,7 @@ def wheel_forces(
 def flag_names(bits: _Floats) -> NDArray[np.object_]: ...
 def flags() -> list[tuple[str, str]]: ...
 def outcomes() -> list[tuple[str, str, str, str, bool]]: ...
+def panic(is_listening: bool) -> None: ...
 def not_carried(load_n: _Floats, capacity_n: _Floats) -> list[str]: ...
 def animation(
     sources: Sequence[tuple[Document, str]], names: Sequence[str], path: os.PathLike[str]

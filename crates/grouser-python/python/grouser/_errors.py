@@ -152,6 +152,10 @@ class CalibrationError(GrouserError, ArithmeticError):
     that the data leave underdetermined is a result."""
 
 
+class InternalError(GrouserError, RuntimeError):
+    """A fault of this package, whatever the arguments: please report it, with what was called."""
+
+
 class CampaignError(GrouserError):
     """A campaign that cannot continue: a folder with another study, a shard that no worker can
     compute."""

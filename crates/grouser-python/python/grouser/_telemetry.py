@@ -173,9 +173,7 @@ def _converted_bag(
     try:
         with AnyReader([log], default_typestore=usual) as reader:
             topics = sorted({(it.topic, it.msgtype) for it in reader.connections})
-            rows = _core.TelemetryMessages(
-                str(log), out, rover, mapping, topics, choices, odometry
-            )
+            rows = _core.TelemetryMessages(str(log), out, rover, mapping, topics, choices, odometry)
             wanted = [it for it in reader.connections if rows.wants(it.topic)]
             _add_all(reader, wanted, rows)
             return rows.finish()

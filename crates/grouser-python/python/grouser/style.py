@@ -73,9 +73,7 @@ def rc_params(*, dark: bool = False) -> dict[str, Any]:
     from cycler import cycler
 
     found = colours(dark=dark)
-    [ink], [paper], [faint], [grid] = (
-        found[name] for name in ("ink", "paper", "faint", "grid")
-    )
+    [ink], [paper], [faint], [grid] = (found[name] for name in ("ink", "paper", "faint", "grid"))
     # The first colour is that of text.
     series = found["series"][1:]
     return {

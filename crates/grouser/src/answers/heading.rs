@@ -121,12 +121,15 @@ impl HeadingQuestion {
         }
     }
 
-    /// Which model the rows have, where nobody names one, and which ones their bands.
+    /// Which ground and model the rows have, where nobody asks for these, and which models their
+    /// bands.
     fn model_lines(&self) -> String {
         let first = &self.scenarios[0];
         let is_spread = self.sampling.is_some() && !self.has_several();
         let weights = || samples::line(&BandInputs::of_scenario(first));
-        first.document.usual_model_line("soil") + &is_spread.then(weights).unwrap_or_default()
+        first.document.plane_line()
+            + &first.document.usual_model_line("soil")
+            + &is_spread.then(weights).unwrap_or_default()
     }
 
     fn page(

@@ -223,8 +223,8 @@ impl HeadingMapQuestion {
         }
     }
 
-    /// Which model the rows of a soil have, where nobody names one; with the soil's name if there
-    /// are several.
+    /// Which ground the rows have, and which model those of a soil, where nobody names one; with
+    /// the soil's name if there are several.
     fn model_lines(&self) -> String {
         let is_spread = self.sampling.is_some() && !self.has_every_model;
         let line = |(scenario, name): (&LoadedScenario, String)| {
@@ -234,7 +234,8 @@ impl HeadingMapQuestion {
             let is_named = self.scenarios.len() > 1 && !line.is_empty();
             if is_named { format!("{}: {line}", escape::line(&name)) } else { line }
         };
-        self.scenarios.iter().zip(self.soils()).map(line).collect()
+        let each: String = self.scenarios.iter().zip(self.soils()).map(line).collect();
+        self.scenarios[0].document.plane_line() + &each
     }
 
     /// The inputs of the answer.

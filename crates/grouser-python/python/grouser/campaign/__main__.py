@@ -117,9 +117,7 @@ def _report(results: Results, line: _ProgressLine, format: str) -> int:
         shards = results.shard_count
         files = "file" if shards == 1 else "files"
         print(f"{shards} {files}, {size / 1e6:.1f} MB, SHA-256 {results.digest}")
-    failed = sum(
-        count for status, count in statuses.items() if status in _core.FAILED_STATUSES
-    )
+    failed = sum(count for status, count in statuses.items() if status in _core.FAILED_STATUSES)
     if failed:
         _print_error(f"{failed} of {runs} runs failed; the column `reason` says why")
     return 3 if failed else 0

@@ -199,9 +199,7 @@ def summary_of(
     for start in range(0, len(names), at_once):
         columns = results._columns(names[start : start + at_once])
         values = [(name, np.ascontiguousarray(column)) for name, column in columns.items()]
-        for one in _core.campaign_summary(
-            campaign._document, runs, values, statuses, shares
-        ):
+        for one in _core.campaign_summary(campaign._document, runs, values, statuses, shares):
             quantities[one["quantity"]] = _quantity(one)
     status, outcome = _shares(found["status"]), _shares(found["outcome"])
     legs = {column: _shares(words) for column, words in found["legs"].items()}

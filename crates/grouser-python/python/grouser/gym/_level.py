@@ -99,8 +99,8 @@ class LevelTraverseEnv(RoverEnv):
     Raises
     ------
     ParameterError, DocumentError, DocumentNotFoundError
-        As `grouser.Scenario`; and for a key that both the scenario's mapping and an argument give,
-        or that is not used.
+        As `grouser.Scenario`; for a scenario with a terrain; and for a key that both the scenario's
+        mapping and an argument give, or that is not used.
 
     Examples
     --------
@@ -126,9 +126,7 @@ class LevelTraverseEnv(RoverEnv):
         before, ended
             As for `RoverEnv.reward`.
         """
-        progress = (self.state["x_m"] - before["x_m"]) / (
-            self._rovers.fastest * self._rovers.dt_s
-        )
+        progress = (self.state["x_m"] - before["x_m"]) / (self._rovers.fastest * self._rovers.dt_s)
         offset = self.state["y_m"] / LINE_M
         return progress - offset * offset + PENALTY * ended
 

@@ -29,6 +29,9 @@ def start_of(
     if isinstance(scenario, Mapping):
         _check_keys(scenario, {"soil": soil, "slope_deg": slope_deg})
     run = Scenario(scenario)
+    if "terrain" in run.to_dict():
+        message = "the scenario has a terrain: environments are on planes, grouser.Run is on any ground"
+        raise ParameterError(message, "terrain")
     # A mapping or no scenario at all leaves its missing keys to the environment.
     named = {} if scenario is None else scenario if isinstance(scenario, Mapping) else run.to_dict()
     if soil is None and "soil" not in named:

@@ -43,7 +43,7 @@ class SoilContact:
     Parameters
     ----------
     mj_model : mujoco.MjModel
-        The model. Its integrator must not be RK4; gravity is the size of its gravity.
+        The model. Its integrator must not be RK4; gravity is the size of its gravity at each step.
     soil : Soil, name, path, mapping, or a sequence of them
         The soil, or one for each wheel.
     wheels : mapping
@@ -71,6 +71,11 @@ class SoilContact:
         For invalid bodies, geoms or values; if a wheel has another size than
         the geoms of its body; if MuJoCo's own contact between a wheel and the ground is on; if
         there is no gravity.
+
+    Notes
+    -----
+    A `SoilContact` has working memory, so that threads must not share one: ``copy.copy`` makes
+    another for the same model. It cannot be pickled.
 
     Examples
     --------
@@ -116,7 +121,6 @@ class SoilContact:
         if not wheels:
             raise ParameterError("there are no wheels", "wheels")
         self._model = mj_model
-        self._ahead = mujoco.MjData(mj_model)
         self._names = tuple(wheels)
         hinges = [_hinge(mj_model, name) for name in wheels]
         self._hinges = np.array(hinges)
@@ -141,10 +145,27 @@ class SoilContact:
         self._moments = wheel_moments == "included"
         self._found = np.zeros((len(self._reaction.names), len(made)))
         self._residual = 0.0
-        self._state = np.zeros(mujoco.mj_stateSize(mj_model, _STATE))
-        self._jacobians = np.zeros((len(made), 6, mj_model.nv))
+        self._take_memory()
+
+    def _take_memory(self) -> None:
+        """Working memory, which no other contact has."""
+        self._ahead = mujoco.MjData(self._model)
+        self._state = np.zeros(mujoco.mj_stateSize(self._model, _STATE))
+        self._jacobians = np.zeros((len(self._names), 6, self._model.nv))
         # Views, by which MuJoCo writes each wheel's rows.
         self._rows = [(one[:3], one[3:]) for one in self._jacobians]
+
+    def __copy__(self) -> SoilContact:
+        twin = object.__new__(type(self))
+        twin.__dict__.update(self.__dict__)
+        twin._take_memory()
+        return twin
+
+    def __reduce__(self) -> Any:
+        raise TypeError(
+            "a SoilContact is neither pickled nor copied with its model: copy.copy makes another for "
+            "the same model, and for another model or process it is made anew"
+        )
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -189,9 +210,13 @@ class SoilContact:
         Raises
         ------
         ParameterError
-            If the model's motion is not finite.
+            If the data are of another model, if the motion is not finite, or if there is no gravity
+            any more.
         """
         model, ahead = self._model, self._ahead
+        if data.model is not model:
+            message = "the data are of another model: a SoilContact is made for each model"
+            raise ParameterError(message, "data")
         mujoco.mj_getState(model, data, self._state, _STATE)
         mujoco.mj_setState(model, ahead, self._state, _STATE)
         mujoco.mj_step(model, ahead)
@@ -208,6 +233,7 @@ class SoilContact:
             ahead.qvel,
             ahead.xfrc_applied[self._bodies],
             self._moments,
+            float(np.linalg.norm(model.opt.gravity)),
         )
         data.xfrc_applied[self._bodies] = wrenches
 
@@ -233,9 +259,7 @@ def _hinge(model: Any, name: str) -> int:
         raise ParameterError(f"the model has no body {name!r} for a wheel", "wheels")
     first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
     if count != 1 or int(model.jnt_type[first]) != _HINGE:
-        raise ParameterError(
-            f"the wheel {name!r} must turn on one hinge, and on that alone", "wheels"
-        )
+        raise ParameterError(f"the wheel {name!r} must turn on one hinge and no other", "wheels")
     return first
 
 

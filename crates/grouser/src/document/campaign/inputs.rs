@@ -78,6 +78,18 @@ pub(super) fn prepare(
         Study::Mission => Base::mission(Document::of(Kind::Mission, &given), node)?,
         Study::WheelTest => Base::stand(document, node)?,
     };
+    if settings.study == Study::Heading && node.entry(TERRAIN).is_some() {
+        let problem = Problem::Conflict("headings are of planes, and the terrain is none");
+        let hint =
+            "leave `terrain` out, and state `slope_deg`; runs over it are study = \"traverse\"";
+        return Err(DocumentError::at(node.origin_of(TERRAIN), problem).with_hint(hint.to_owned()));
+    }
+    if base.has_map_in_memory() {
+        let problem = Problem::Conflict("the map is an array, which a campaign's document lacks");
+        let hint = "write it to a file, numpy.save(\"site.npy\", terrain.heights_m[::-1]), and name \
+                    that: file = \"site.npy\", with cell_size_m and south_west_m";
+        return Err(DocumentError::at(node.origin_of(MAP_FILE), problem).with_hint(hint.to_owned()));
+    }
     let of_soil = if settings.soil_uncertainty { of_soil(document, place, tree)? } else { None };
     let mut statements = Vec::new();
     if let Some(OfSoil { stated, tree, .. }) = &of_soil {
@@ -126,6 +138,11 @@ pub(super) fn prepare(
     let ensemble = Ensemble::new(sampling, runs, seed, inputs.distribution, sensitivity);
     Ok((base, Prepared { keys: inputs.keys, factors, ensemble, models, resolved }))
 }
+
+/// The key of ground with heights.
+const TERRAIN: &str = "terrain";
+/// The key of a map's file.
+const MAP_FILE: &str = "terrain.file";
 
 /// The keys under which a base may stand.
 pub(super) const PLACES: [&str; 3] = ["scenario", "mission", "wheel_test"];

@@ -12,7 +12,7 @@ use super::super::columns::{
 use super::super::error::{DocumentError, Problem};
 use super::super::table::{BETWEEN_NAMES, Cell, ColumnKind};
 use super::super::varied::{Key, Numbers, Varied};
-use super::super::{Document, Misfit, Node, Plan};
+use super::super::{Document, Misfit, Node, Plan, map_of};
 use super::table::{Column, Role};
 use crate::contact::validity::{Finding, Situation};
 use crate::contact::{Contact, Model, SettleError, Slip, settle};
@@ -258,6 +258,16 @@ impl Base {
             Self::Mission(varied) => &varied.notes,
             Self::Stand(varied) => &varied.notes,
         }
+    }
+
+    /// Whether it drives on a map that no file has: other processes cannot read it.
+    pub(super) fn has_map_in_memory(&self) -> bool {
+        let map = match self {
+            Self::Scenario(varied) => map_of(&varied.value, &varied.document),
+            Self::Mission(varied) => map_of(&varied.value.scenario, &varied.document),
+            Self::Stand(_) => None,
+        };
+        map.is_some_and(|map| map.options.is_none())
     }
 
     /// Whether runs differ by more than their numbers.
