@@ -120,6 +120,14 @@ def mission_of(run: gr.Scenario) -> gr.Mission:
     return gr.Mission(keys, leg=[{"drive_m": 0.2}])
 
 
+def design_of(run: gr.Scenario) -> gr.Design:
+    """A radius to be found with what a design takes of a scenario."""
+    shared = ("rover", "soil", "model", "gravity_m_s2")
+    keys = {name: value for name, value in run.to_dict().items() if name in shared}
+    radius = {"rover.wheel_unit.wheel.radius_m": [0.095, 0.105]}
+    return gr.Design(keys, slope_deg=SLOPES[0], minimise="energy_j_per_m", free=radius)
+
+
 def same(one: Any, other: Any) -> Numbers:
     assert one == other
     return []
@@ -295,6 +303,7 @@ CALLS: dict[str, tuple[Callable[[gr.Scenario], Numbers], tuple[str, ...]]] = {
         "Rover": lambda s: same(gr.Rover.from_toml(s.rover.to_toml()), s.rover),
         "Site": lambda s: same(s.site.soil, s.soil),
         "Mission": lambda s: same(mission_of(s).rover, s.rover),
+        "Design": lambda s: same(design_of(s).rover, s.rover),
         "Terrain": lambda s: [(MAP.height_m([1.0, 2.0], 3.0), (2,))],
         "Run.reset[slope_deg]": lambda s: [(gr.Run(s).reset(slope_deg=8.0), (6,))],
         "Run.reset[yaw_deg]": lambda s: [(gr.Run(s).reset(yaw_deg=8.0, seed=1), (6,))],
@@ -327,6 +336,7 @@ CALLS: dict[str, tuple[Callable[[gr.Scenario], Numbers], tuple[str, ...]]] = {
         "wheel_speeds": lambda s: [
             (gr.wheel_speeds(s, slope_deg=SLOPES, most_speed_ratio=1.2).slip_ratio, (1, 3))
         ],
+        "design": lambda s: [(gr.design(design_of(s), nominal=True).objective, ())],
         "card": lambda s: of_columns(gr.card(s, slope_deg=SLOPES, samples=2), "yaw_deg"),
         "forecast": lambda s: of_columns(
             gr.forecast(s, site="moon", slope_deg=SLOPES, **ONE_CHOICE).columns, "slope_deg"
@@ -409,7 +419,7 @@ def test_every_public_call_is_in_the_matrix() -> None:
 
 
 #: Calls that take up to seconds meet those features alone that change what they ask.
-SLOW = ("wheel_speeds", "route", "map", "forecast")
+SLOW = ("wheel_speeds", "route", "map", "forecast", "design")
 CHANGED = ("none", "map", "zones", "motors", "steering", "belief")
 PAIRS = [(it, call) for it in FEATURES for call in CALLS if call not in SLOW or it in CHANGED]
 

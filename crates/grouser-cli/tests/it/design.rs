@@ -38,7 +38,8 @@ fn an_answer_has_the_numbers_their_limits_and_what_shows_that_they_are_the_best(
 fn two_measures_are_traded_and_other_models_choose_for_themselves() {
     let place = Place::new();
     let found = place.json(&format!("{LIGHTER} --trade energy_j_per_m,wheel_mass_kg --model all"));
-    let masses: Vec<f64> = column(&found["trade"], "wheel_mass_kg").into_iter().map(number).collect();
+    let masses: Vec<f64> =
+        column(&found["trade"], "wheel_mass_kg").into_iter().map(number).collect();
     assert_eq!(masses.len(), 9);
     assert!(masses.windows(2).all(|pair| pair[0] >= pair[1] - 1e-6), "{masses:?}");
     let rows = column(&found["designs"], "row");
