@@ -286,7 +286,7 @@ impl Learner {
 
     fn learnt_soil(&self, log: &str, samples: u32, seed: u64) -> PyResult<LearntSoil> {
         let drive = self.drive();
-        let found = LearntSoil::now(&self.scenario, drive.learner(), (seed, samples), log);
+        let found = LearntSoil::now(&self.scenario, &drive, (seed, samples), log);
         let found = found.map_err(|error| Problem::Sampling(error).raised())?;
         found.ok_or_else(|| nothing_to_learn("the scenario has no uncertain soil".to_owned()))
     }

@@ -16,6 +16,7 @@ pub mod validation;
 pub mod wheel_test;
 
 use crate::contact::validity::Finding;
+use crate::document::Document;
 use crate::document::columns;
 use crate::document::gradient::NoSuchKey;
 use crate::document::reading;
@@ -88,6 +89,13 @@ fn findings_up_to(
     let curves = courses.into_iter().filter_map(|course| study.curve_on(course).ok());
     let found = curves.map(|curve| columns::heading::findings(&curve, &slopes).concat());
     found.reduce(|all, more| [all, more].concat())
+}
+
+/// What a scenario is about, a line each: rover, soil and gravity.
+fn setting(scenario: &Document) -> Vec<String> {
+    let gravity = scenario.get("gravity_m_s2").map(|it| format!("gravity: {it} m/s²"));
+    let parts = ["rover", "soil"].map(|part| format!("{part}: {}", scenario.name_of(part)));
+    parts.into_iter().chain(gravity).collect()
 }
 
 /// What stands for every model, in inputs and as a choice.

@@ -57,7 +57,7 @@ pub(crate) fn run(args: &LearnArgs) -> Result<(), Failure> {
     }
     let mut answer = question.answer("learn", &found);
     if let Some(folder) = folder.as_mut().filter(|_| taught.is_ok()) {
-        add_soil(folder, args, (&question, found.drive.learner()), &mut answer)?;
+        add_soil(folder, args, (&question, &found.drive), &mut answer)?;
     }
     answer.next.push("grouser replay LOG --rover ROVER --soil SOIL --out REPLAYED".to_owned());
     if let Some(slide) = slide {
@@ -101,11 +101,11 @@ fn check_taught(args: &LearnArgs, learner: &Learner) -> Result<(), Failure> {
 fn add_soil(
     folder: &mut OutputFolder,
     args: &LearnArgs,
-    (question, learner): (&LearnQuestion, &Learner),
+    (question, drive): (&LearnQuestion, &Drive),
     answer: &mut Answer,
 ) -> Result<(), Failure> {
     let (scenario, log) = (&question.scenario, escape::path(&args.log));
-    let learnt = LearntSoil::now(scenario, learner, (args.seed, args.samples), &log);
+    let learnt = LearntSoil::now(scenario, drive, (args.seed, args.samples), &log);
     let learnt = learnt.map_err(|error| reaches_too_far(&error))?;
     let Some(learnt) = learnt else { return Ok(()) };
     if args.cards && learnt.soil.get("contradictions").is_some() {

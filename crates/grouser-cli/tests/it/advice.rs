@@ -14,8 +14,8 @@ const SAMPLES: &str = "--samples 16 --seed 3";
 /// slope that rises to the north, and a leg of a mission.
 const COURSES: [(f64, &str, [f64; 2], &str); 3] = [
     (0.0, "", [1.0, 0.0], "drive_m = 0.2\nheading = \"contour\""),
-    (90.0, "up", [0.0, 1.0], "goto = { x_m = 0.0, y_m = 0.2 }"),
-    (-90.0, "down", [0.0, -1.0], "goto = { x_m = 0.0, y_m = -0.2 }"),
+    (90.0, "up", [0.0, 1.0], "goto = { x_m = 0.0, y_m = 0.2 }\nyaw_deg = 90.0"),
+    (-90.0, "down", [0.0, -1.0], "goto = { x_m = 0.0, y_m = -0.2 }\nyaw_deg = -90.0"),
 ];
 
 /// An even plane that rises to the north, as text.
@@ -101,7 +101,9 @@ fn check_slopes(rover: &str, soil: &str, slopes: &[f64]) {
             );
             let line = format!("route plane.xyz {of} --along line.geojson --no-drive {SAMPLES}");
             let route = place.json(&line);
-            check_same(&route["legs"][0]["advice"], on_map, &format!("{what}: route"));
+            // Level ground has no contour, and a way there no course off it.
+            let of_way = if *slope == 0.0 { &row["advice"] } else { on_map };
+            check_same(&route["legs"][0]["advice"], of_way, &format!("{what}: route"));
             place.write("mission.toml", mission(rover, soil, *slope, leg));
             let mission = place.json(&format!("mission mission.toml {SAMPLES}"));
             check_same(&mission["legs"][0]["advice"], on_map, &format!("{what}: mission"));
@@ -137,6 +139,38 @@ fn all_commands_say_the_same_of_a_slope() {
 #[test]
 fn all_commands_cannot_tell_alike() {
     check_slopes("rashid", "toyoura", &[4.0, 14.0]);
+}
+
+/// On level ground, where all moments of a turn on the spot are one: a leg that turns, a leg that
+/// turns to where it leads, a bend of a way, and the card's second page.
+#[test]
+fn all_commands_say_the_same_of_a_turn_on_the_spot() {
+    let place = Place::new();
+    let (rover, soil) = ("hakuto", "toyoura-uncertain");
+    let of = format!("--rover {rover} --soil {soil} {SAMPLES}");
+    let card = place.json(&format!("card {of}"));
+    let on_card = on_course(&card, 0.0, "turn-on-the-spot").expect("a row");
+    assert_eq!(on_card["verdict"], "caution", "a turn that is worth a word: {on_card}");
+    let check = |advice: &Value, what: &str| {
+        for key in ["verdict", "reason"] {
+            assert_eq!(advice[key], on_card[key], "{what}: {advice}");
+        }
+        let stuck = &on_card["probability_stuck_without_checks"];
+        assert_eq!(&advice["probability_stuck"], stuck, "{what}");
+        assert!(advice["yaw_deg"].is_null(), "{what}: no heading is set in a turn");
+    };
+    let legs = "turn_deg = 10.0\n\n[[leg]]\ngoto = { x_m = 0.0, y_m = 0.2 }";
+    place.write("mission.toml", mission(rover, soil, 0.0, legs));
+    let mission = place.json(&format!("mission mission.toml {SAMPLES}"));
+    check(&mission["legs"][0]["advice"], "mission, a turn");
+    check(&mission["legs"][1]["advice"], "mission, a turn before a way");
+    place.write("level.xyz", plane(0.0));
+    let bend = "{\"type\": \"LineString\", \"coordinates\": [[3, 3], [6, 3], [6, 6]]}";
+    place.write("bend.geojson", bend);
+    let route = place.json(&format!("route level.xyz {of} --along bend.geojson --no-drive"));
+    assert_eq!(route["legs"][0]["advice"]["verdict"], "go");
+    check(&route["legs"][1]["advice"], "route");
+    assert!(route["legs"][1]["course_deg"].is_null(), "it is about the turn");
 }
 
 /// Many rovers, beliefs and slopes.

@@ -38,6 +38,7 @@ fn a_drive_narrows_the_next_slopes() {
         }
     }
     assert_eq!(answer["warnings"].as_array().map(Vec::len), Some(0));
+    assert!(!place.read("today/soil.toml").contains("date ="), "the log's clock says no day");
     // The soil that was learnt is a soil for all other commands.
     let soil = answer["soil"].as_str().expect("a path");
     let again = place.json(&format!("heading --rover hakuto --soil {soil} --slope-deg 10"));
@@ -54,9 +55,19 @@ fn a_drive_narrows_the_next_slopes() {
 #[test]
 fn other_commands_believe_what_was_learnt() {
     let place = driven();
+    // At nine in the morning of a day in Greenwich.
+    let log = place.read("log.csv");
+    let clocked = log.lines().enumerate().map(|(row, line)| match line.split_once(',') {
+        Some((time, rest)) if row > 0 => {
+            format!("{},{rest}\n", 1_795_770_000.0 + time.parse::<f64>().expect("a time"))
+        }
+        _ => format!("{line}\n"),
+    });
+    place.write("log.csv", clocked.collect::<String>());
     let learn = "learn log.csv --prior toyoura-uncertain --rover hakuto --slope-deg 8 \
                  --predict-slope-deg 5,10 --samples 60 --out today";
     let learnt = place.json(learn);
+    assert!(place.read("today/soil.toml").contains("date = \"2026-11-27\"\n"));
     let heading = "heading --rover hakuto --soil today/soil.toml --slope-deg 5,10 --samples 60";
     let found = place.json(heading);
     for (model, share) in learnt["models"].as_object().expect("models") {

@@ -61,7 +61,7 @@ impl MissionRun {
         let scenario = Scenario { start, ..mission.scenario.clone() };
         let state = RoverState { yaw: start.yaw, ..RoverState::default() };
         let straight = scenario.rover.steering_angles();
-        let mut pilot = match turn_before(first, &scenario, &state, true) {
+        let mut pilot = match first.turn_before(&scenario, &state, true) {
             Some(yaw) => Pilot::to_yaw(yaw, &state, first.speed(), &straight),
             None => Pilot::of_leg(first, &scenario, &state, &straight),
         };
@@ -149,7 +149,7 @@ impl MissionRun {
         let stops = self.mission.stops_of(leg);
         let straight = self.mission.scenario.rover.steering_angles();
         let mut turned_to = End::Reached;
-        if let Some(yaw) = turn_before(leg, self.run.scenario(), self.navigator.seen(), is_first) {
+        if let Some(yaw) = leg.turn_before(self.run.scenario(), self.navigator.seen(), is_first) {
             let seen = self.navigator.seen();
             let pilot = Pilot::to_yaw(yaw, seen, leg.speed(), &straight);
             let goal = self.turn_to(yaw, leg);
@@ -286,31 +286,41 @@ impl MissionRun {
     }
 }
 
-/// The yaw to which a rover turns on the spot before a leg, if it does.
-fn turn_before(leg: &Leg, scenario: &Scenario, state: &RoverState, is_first: bool) -> Option<f64> {
-    let yaw = match (leg.yaw, leg.manoeuvre) {
-        // The first leg begins with its yaw.
-        (Some(_), _) if is_first => return None,
-        (Some(yaw), _) => yaw,
-        // Its wheels turn in place of its nose.
-        (None, Manoeuvre::Goto { .. }) if matches!(leg.heading, Heading::Crab { .. }) => {
-            return None;
-        }
-        // Where it already is, no direction leads there.
-        (None, Manoeuvre::Goto { place, within, .. })
-            if (place - state.position).norm() <= within =>
-        {
-            return None;
-        }
-        (None, Manoeuvre::Goto { .. }) => {
-            let nose = line_of(leg, scenario, state).yaw();
-            if (nose - state.yaw).abs() < OFF_NOSE {
+impl Leg {
+    /// The yaw to which a rover turns on the spot before the leg [rad], if it does.
+    ///
+    /// * `state`: of the rover where it begins
+    /// * `is_first`: whether it is the first leg, which begins with its yaw
+    #[must_use]
+    pub fn turn_before(
+        &self,
+        scenario: &Scenario,
+        state: &RoverState,
+        is_first: bool,
+    ) -> Option<f64> {
+        let yaw = match (self.yaw, self.manoeuvre) {
+            (Some(_), _) if is_first => return None,
+            (Some(yaw), _) => yaw,
+            // Its wheels turn in place of its nose.
+            (None, Manoeuvre::Goto { .. }) if matches!(self.heading, Heading::Crab { .. }) => {
                 return None;
             }
-            nose
-        }
-        (None, _) => return None,
-    };
-    let angle = turned(yaw - state.yaw);
-    (angle.abs() > SAME_YAW).then_some(state.yaw + angle)
+            // Where it already is, no direction leads there.
+            (None, Manoeuvre::Goto { place, within, .. })
+                if (place - state.position).norm() <= within =>
+            {
+                return None;
+            }
+            (None, Manoeuvre::Goto { .. }) => {
+                let nose = line_of(self, scenario, state).yaw();
+                if (nose - state.yaw).abs() < OFF_NOSE {
+                    return None;
+                }
+                nose
+            }
+            (None, _) => return None,
+        };
+        let angle = turned(yaw - state.yaw);
+        (angle.abs() > SAME_YAW).then_some(state.yaw + angle)
+    }
 }

@@ -28,7 +28,7 @@ use super::super::columns::{
 };
 use super::super::unit::{A, DEG, M, NM};
 use super::log_column::{LogColumn, column};
-pub use clock::TimeUnit;
+pub use clock::{TimeUnit, day_of};
 pub use odometry::Odometry;
 pub use reader::{CellReader, NextRow, TelemetryReader};
 pub use rows::{Cell, TelemetryRows, TimeColumn, is_same_wheel};

@@ -12,7 +12,8 @@ use serde_json::{Value, json};
 use self::of_model::OfModel;
 pub use self::question::HeadingQuestion;
 use super::{
-    Answer, AnswerError, AnswerOptions, Displayed, EVERY_MODEL, Member, gradient, meanings, samples,
+    Answer, AnswerError, AnswerOptions, Displayed, EVERY_MODEL, Member, gradient, meanings,
+    samples, setting,
 };
 use crate::contact::validity::Finding;
 use crate::document::columns::heading::{self, held, steered};
@@ -145,11 +146,7 @@ impl HeadingQuestion {
         }) {
             answer.verdict(line);
         }
-        let document = &all[0].scenario.document;
-        answer.list([
-            format!("rover: {}", document.name_of("rover")),
-            format!("soil: {}", document.name_of("soil")),
-        ]);
+        answer.list(setting(&all[0].scenario.document));
         self.figures(answer, all);
         answer.rows("On each slope", rows, columns);
         answer.folded("Everything over the slope", |answer| {

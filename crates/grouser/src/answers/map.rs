@@ -56,8 +56,8 @@ impl MapQuestion<'_> {
         answer.tables.push((name.to_owned(), Arc::clone(&files)));
         answer.tables.push(("slopes".to_owned(), slopes));
         answer.screen = vec![
-            Displayed::Rows(files, brief()),
             Displayed::Words(format!("{sentence}\nThe map: {}.\n", raster.spans())),
+            Displayed::Rows(files, brief()),
         ];
         answer.attach("scenario.toml", self.scenario);
         let all =

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use serde_json::json;
 
-use super::{Answer, Attached, Displayed, Member, Sampling, meanings, samples};
+use super::{Answer, Attached, Displayed, Member, Sampling, meanings, samples, setting};
 use crate::document::LoadedScenario;
 use crate::document::columns::replay::{
     self as columns, FINDINGS, STRETCH, WORK, brief_channels, brief_findings, columns_of,
@@ -118,11 +118,8 @@ impl ReplayQuestion {
         for it in &found.sentences {
             answer.verdict(sentence(it));
         }
-        answer.list([
-            format!("rover: {}", self.scenario.document.name_of("rover")),
-            format!("soil: {}", self.scenario.document.name_of("soil")),
-            format!("model: {}", self.scenario.value.model.name()),
-        ]);
+        answer.list(setting(&self.scenario.document));
+        answer.list([format!("model: {}", self.scenario.value.model.name())]);
         answer.list(found.whole());
         answer.list(found.notes.clone());
         let (channels, findings) = found.brief();

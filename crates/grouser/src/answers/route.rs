@@ -30,8 +30,9 @@ impl RouteQuestion<'_> {
     #[must_use]
     pub fn answer(&self, name: &str, ways: &[Way]) -> Answer {
         let rows = Arc::new(rows_of(ways));
-        let title = if self.has_line() { "What a way takes" } else { "The cheapest way" };
-        let mut answer = Answer::new(name, title);
+        let what = if self.has_line() { "What a way takes" } else { "The cheapest way" };
+        let [rover, soil] = ["rover", "soil"].map(|part| self.scenario.document.name_of(part));
+        let mut answer = Answer::new(name, format!("{what}: {rover} on {soil}"));
         self.state(&mut answer);
         let others: Vec<&RouteRecord> = ways[1..].iter().map(|way| &way.record).collect();
         answer.results = vec![

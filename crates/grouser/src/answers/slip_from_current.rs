@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use super::{Answer, Displayed, Member, Sampling, meanings, samples};
+use super::{Answer, Displayed, Member, Sampling, meanings, samples, setting};
 use crate::document::LoadedScenario;
 use crate::document::columns::slip_from_current::{
     self as columns, ESTIMATE, SHARE_HELD, TRUE_SLIP, WHEEL, brief,
@@ -133,11 +133,7 @@ impl SlipQuestion {
         notes: Vec<String>,
     ) {
         answer.verdict(verdict(wheels));
-        answer.list([
-            format!("rover: {}", self.scenario.document.name_of("rover")),
-            format!("soil: {}", self.scenario.document.name_of("soil")),
-        ]);
-        answer.list(notes);
+        answer.list(setting(&self.scenario.document).into_iter().chain(notes));
         answer.heading("Each wheel over time");
         for (wheel, chart) in charts(&self.scenario.value.rover, rows) {
             answer.figure(Some(&format!("figures/{wheel}")), chart, CAPTION);

@@ -15,7 +15,8 @@ use super::{
 use crate::contact::Model;
 use crate::soil::Discrepancy;
 use crate::soil::discrepancy::{SIDE_VALUES, VALUES};
-use crate::studies::learn::{Learner, LearntSample};
+use crate::studies::learn::{Drive, LearntSample};
+use grouser_io::measurements::telemetry::day_of;
 use grouser_io::statistics::{NothingAccepted, quantile};
 use grouser_io::{SAMPLES_MODEL, SAMPLES_WEIGHT};
 
@@ -42,8 +43,9 @@ const LISTS: [List; 4] = [
 const PRIOR_SAMPLES_FILE: &str = "prior-samples.csv";
 
 impl LearntSoil {
-    /// What a learner knows now, under each of its models; `None` of a scenario without an uncertain
-    /// soil. The numbers of the document itself are those under the model with the greatest share.
+    /// What the learner of a drive knows now, under each of its models; `None` of a scenario without an uncertain
+    /// soil. The numbers of the document itself are those under the model with the greatest share,
+    /// and its date is the day of the drive's end, where the log's clock says it.
     ///
     /// * `seed`, `count`: of the samples of each model
     /// * `log`: what the drive is called
@@ -52,10 +54,11 @@ impl LearntSoil {
     /// [`NothingAccepted`] if no soil can be drawn.
     pub fn now(
         scenario: &LoadedScenario,
-        learner: &Learner,
+        drive: &Drive,
         (seed, count): (u64, u32),
         log: &str,
     ) -> Result<Option<Self>, NothingAccepted> {
+        let learner = drive.learner();
         let prior = scenario.document.part(Kind::Soil, "soil").zip(scenario.uncertain.as_ref());
         let Some((document, uncertain)) = prior else { return Ok(None) };
         let models = learner.models();
@@ -69,7 +72,8 @@ impl LearntSoil {
             env!("CARGO_PKG_VERSION"),
             learner.learnt().way,
         );
-        let learnt = Self::of((&document, uncertain), &believed, &source);
+        let day = drive.last_time().and_then(day_of);
+        let learnt = Self::of((&document, uncertain), &believed, &source, day);
         Ok(Some(learnt.contradicted_by(contradictions(learner))))
     }
 
@@ -109,7 +113,13 @@ impl LearntSoil {
     /// * `prior`: the soil's document before the drive, and its uncertain keys
     /// * `believed`: under each model; at least one
     /// * `source`: of the drive, in words
-    fn of(prior: (&Document, &UncertainSoil), believed: &[Believed], source: &str) -> Self {
+    /// * `day`: of its end, if that is known
+    fn of(
+        prior: (&Document, &UncertainSoil),
+        believed: &[Believed],
+        source: &str,
+        day: Option<String>,
+    ) -> Self {
         let most = believed.iter().max_by(|one, other| one.share.total_cmp(&other.share));
         let Believed { model, samples, .. } = most.unwrap_or(&believed[0]);
         let (document, uncertain) = prior;
@@ -130,6 +140,7 @@ impl LearntSoil {
             keys["source"] = format!("{source}; before: {}", document.source()).into();
             keys.shift_remove("date");
             keys.shift_remove("notes");
+            keys.extend(day.map(|day| ("date".to_owned(), day.into())));
             if let Some(Json::Array(assumed)) = keys.get_mut("assumed") {
                 assumed.retain(|one| !is_about(one, &learnt));
             }

@@ -124,7 +124,11 @@ impl Serialize for AdvisedLegs {
 /// The worst place of a leg.
 const LEG: [Column<JudgedLeg>; 6] = [
     SLOPE.given("Slope at the worst place, up to a whole degree", |it| Some(it.advice.slope)),
-    COURSE.given("Course there, from the contour, positive uphill", |it| Some(it.advice.course)),
+    COURSE.given(
+        "Course there, from the contour, positive uphill; missing where the worst of the leg is the \
+         turn on the spot before it",
+        |it| (!it.advice.is_of_turn()).then_some(it.advice.course),
+    ),
     ALONG.number("Length on the map from the start of the way to that place", |it| {
         it.place.along[0]
     }),
@@ -372,6 +376,12 @@ impl HazardRecord {
                 100.0 * limits.most_no_go
             ),
             Danger::Verdict(reason) => format!("the verdict is no-go: {}", reason.meaning()),
+            Danger::TurnVerdict(reason) => {
+                format!(
+                    "it turns on the spot, and the verdict on that is no-go: {}",
+                    reason.meaning()
+                )
+            }
             Danger::NoTurn => "the line turns, and the rover cannot turn on the spot".to_owned(),
         }
     }

@@ -1,12 +1,14 @@
 //! Missions that are driven, and what became of each leg beside what it was to be.
 
+use std::f64::consts::FRAC_PI_2;
+
 use rayon::prelude::*;
 
 use super::completion::{Completion, SampleEnd};
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::mobility::{advised_place, slope_and_course};
-use super::verdict::{Advice, SlopeStudy};
-use crate::elementary::wide::{asin, sin_cos, tan};
+use super::verdict::{Advice, SlopeStudy, SpotTurn, SpotTurns};
+use crate::elementary::wide::{asin, atan2, sin_cos, tan};
 use crate::error::ParameterError;
 use crate::mission::{
     Heading, Leg, LegReport, Manoeuvre, Mission, MissionError, MissionReport, MissionRun,
@@ -89,28 +91,29 @@ impl DrivenMission {
         Self { name: name.to_owned(), planned: mission.legs.len(), legs: legs.collect(), report }
     }
 
-    /// For each leg that was begun the place that advice is about, as slope and course [rad]: on a
-    /// plane its slope and the course that the leg asks for or has gone, over ground with heights the steepest
-    /// place of the way. `None` for legs that lead nowhere, that are driven backward or with wheels
-    /// that crab, and over zones of soil: advice is about a nose in front on one soil.
-    #[must_use]
-    pub fn places(&self, scenario: &Scenario) -> Vec<Option<(f64, f64)>> {
+    /// For each leg that was begun the place that advice is about, as slope and course [rad], and the
+    /// moments of its turns on the spot. On a plane the place is its slope and the course that the leg
+    /// asks for or has gone, over ground with heights the steepest of the way. `None` for legs that
+    /// lead nowhere, that are driven backward or with wheels that crab, and over zones of soil: advice
+    /// is about a nose in front on one soil.
+    fn asked(&self, scenario: &Scenario) -> Vec<(Option<(f64, f64)>, Vec<SpotTurn>)> {
         // Places are seen from where the mission starts.
-        let mut before = (Vec2::zeros(), scenario.start.yaw);
-        let place = |leg: &DrivenLeg| {
-            let (from, yaw) = before;
-            before = (leg.report.end.position, leg.report.end.yaw);
-            if scenario.ground.zones.is_some() || !leg.is_nose_first() {
-                return None;
+        let mut end = RoverState { yaw: scenario.start.yaw, ..RoverState::default() };
+        let asked = |leg: &DrivenLeg| {
+            let before = std::mem::replace(&mut end, leg.report.end);
+            if scenario.ground.zones.is_some() {
+                return (None, Vec::new());
             }
-            let way = leg.way(from, yaw)?;
-            Some(leg.place(scenario, from, way))
+            let way = leg.way(before.position, before.yaw).filter(|_| leg.is_nose_first());
+            let place = way.map(|way| leg.place(scenario, before.position, way));
+            (place, leg.turns(scenario, before))
         };
-        self.legs.iter().map(place).collect()
+        self.legs.iter().map(asked).collect()
     }
 
-    /// What to do on each leg that was begun, if it leads somewhere; `None` if `go_on` was false
-    /// before the end.
+    /// What to do on each leg that was begun, if it leads somewhere or turns on the spot: where the
+    /// turn before its way has the worse verdict, in that. `None` if `go_on` was false before the
+    /// end.
     ///
     /// # Errors
     /// The same as [`SlopeStudy::advice`].
@@ -121,7 +124,17 @@ impl DrivenMission {
         samples: &[Sample],
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Vec<Option<Advice>>>, ParameterError> {
-        study.advice_where_known(&self.places(scenario), samples, go_on)
+        let asked = self.asked(scenario);
+        let places: Vec<_> = asked.iter().filter_map(|it| it.0).collect();
+        let Some(ways) = study.advice_at(&places, samples, go_on)? else { return Ok(None) };
+        let (mut ways, spot_turns) = (ways.into_iter(), SpotTurns::of(study, samples));
+        let leg = |(place, turns): (Option<_>, Vec<SpotTurn>)| {
+            let way: Option<Advice> = place.and_then(|_| ways.next());
+            let verdict = |it: &Advice| it.judgement.verdict;
+            let all = way.into_iter().chain(spot_turns.advice(&turns));
+            all.reduce(|one, other| if verdict(&other) > verdict(&one) { other } else { one })
+        };
+        Ok(Some(asked.into_iter().map(leg).collect()))
     }
 
     /// Those of its legs that lead somewhere.
@@ -159,11 +172,32 @@ impl DrivenLeg {
         (way.norm() > 0.0).then_some(way)
     }
 
+    /// The moments of its turns on the spot: before it, and as a manoeuvre.
+    fn turns(&self, scenario: &Scenario, mut before: RoverState) -> Vec<SpotTurn> {
+        let is_first = self.number == 1;
+        before.yaw = self.leg.yaw.filter(|_| is_first).unwrap_or(before.yaw);
+        let to_yaw = self.leg.turn_before(scenario, &before, is_first).map(|it| it - before.yaw);
+        let itself = match self.leg.manoeuvre {
+            Manoeuvre::Turn { angle } => Some(angle),
+            _ => None,
+        };
+        let (lie, _) = scenario.ground_under(&before);
+        let slope = asin(lie.steepness().clamp(0.0, 1.0));
+        let slope = scenario.ground.plane_slope().unwrap_or(advised_place((slope, 0.0)).0);
+        let uphill = lie.uphill().unwrap_or_else(Vec2::zeros);
+        let yaw = before.yaw - (atan2(uphill.y, uphill.x) - FRAC_PI_2);
+        let turns = [(yaw, to_yaw), (yaw + to_yaw.unwrap_or(0.0), itself)].into_iter();
+        turns
+            .flat_map(|(from, angle)| angle.map(|it| SpotTurn::moments(slope, from, it)))
+            .flatten()
+            .collect()
+    }
+
     fn place(&self, scenario: &Scenario, from: Vec2, way: Vec2) -> (f64, f64) {
         /// Places of the way that are looked at.
         const PLACES: usize = 33;
         let is_contour = self.leg.heading == Heading::Contour;
-        let yaw = crate::elementary::wide::atan2(way.y, way.x);
+        let yaw = atan2(way.y, way.x);
         if let Some(slope) = scenario.ground.plane_slope() {
             let along = way.normalize();
             let course = asin(along.y.clamp(-1.0, 1.0));

@@ -52,7 +52,7 @@ mod tests {
     use crate::soil::Soil;
     use crate::studies::ensemble::samples::{BandInputs, Sample};
     use crate::studies::mobility::Ground;
-    use crate::studies::verdict::{SlopeStudy, SpotTurn, Verdict};
+    use crate::studies::verdict::{Holding, SlopeStudy, SpotTurn, SpotTurns, Verdict};
     use crate::terrain::{ElevationGrid, SoilZones, ZonePolygon};
     use crate::units::{Vec2, deg};
     use grouser_io::{self as document, Overrides, Source};
@@ -515,15 +515,42 @@ mod tests {
         };
         let straight = risk_of(&[[3.0, 3.0], [15.0, 3.0]]).completion;
         let bent = risk_of(&[[3.0, 3.0], [9.0, 3.0], [9.0, 9.0]]);
-        let turn = SpotTurn { slope: 0.0, yaw: 0.0, is_left: true };
-        let stuck = study.mobility.stuck_on_the_spot(&turn, &samples);
-        let stuck = stuck.iter().filter(|it| **it).count();
+        let turns = SpotTurns::of(&study.mobility, &samples);
+        let turned = turns.turned(&SpotTurn::moments(0.0, 0.0, deg(90.0)));
+        let stuck = turned.iter().filter(|it| **it == Holding::Not).count();
         assert_eq!(straight.completed.successes, samples.len(), "{straight:?}");
         assert!(stuck > 0, "some get stuck");
         assert_eq!(bent.completion.completed.successes, samples.len() - stuck);
         let end = bent.completion.commonest.unwrap();
         assert_eq!((end.leg, end.outcome, end.count), (2, "no-turn", stuck));
         assert_eq!(bent.end.unwrap().place, Vec2::new(9.0, 3.0));
+    }
+
+    /// A way that leads from level ground up a slope, or down from there, turns on the level part once
+    /// turns are kept off the slope, and is no shorter for it.
+    #[test]
+    fn turns_are_kept_off_slopes_on_which_they_are_a_no_go() {
+        let (study, _, mut tables) = uncertain();
+        let raster = ground_of(40, 44, 0.5, |at| (at.y - 10.0).max(0.0) * deg(6.0).tan());
+        let ground = Ground::under(&study.mobility.heading.rover, &raster);
+        let pairs =
+            [([5.0, 4.0], [12.0, 17.0]), ([5.0, 17.0], [12.0, 4.0])].map(|(a, b)| ends(a, b));
+        let steepest_turn = |tables: &RouteTables| {
+            pairs.map(|ends| match study.route(tables, ground, &ends, Objective::Time).unwrap() {
+                Answer::Route(route) => {
+                    let turns = route.turns.iter().map(|turn| turn.gradient.norm());
+                    (turns.fold(f64::NAN, f64::max), route.time)
+                }
+                Answer::NoSafeRoute(why) => panic!("{why}"),
+            })
+        };
+        let free = steepest_turn(&tables);
+        assert!(tables.keep_turns_off(deg(1.0)) && !tables.keep_turns_off(deg(2.0)));
+        let kept_off = steepest_turn(&tables);
+        assert!(free.iter().any(|it| it.0 > deg(5.0).tan()), "there is something to keep off");
+        for (free, kept_off) in free.iter().zip(&kept_off) {
+            assert!(kept_off.0 <= 1e-9 && kept_off.1 >= free.1 - 1e-6, "{free:?} {kept_off:?}");
+        }
     }
 
     /// Along a slope, and where it bends up a gentler one: the leg has the worse of both verdicts,

@@ -21,7 +21,7 @@ pub(super) use self::held::Holding;
 pub use self::reason::{Judgement, Reason, Verdict};
 pub use self::rule::{BELOW_FRICTION_ANGLE, Rule, SLIDES_ON_NO_GO, STUCK_ON_GO};
 pub use self::slip_check::{MOST_CHECKED_SLIP, SOIL_LENGTH, STUCK_WITH_CHECKS, SlipCheck};
-pub(super) use self::spot_turn::{SpotTurn, moving_slip};
+pub(super) use self::spot_turn::{SpotTurn, SpotTurns, moving_slip};
 use super::ensemble::models::{Question, answers};
 use super::ensemble::samples::{Sample, outputs_of_samples};
 use super::ensemble::{Band, Probability, outputs};
@@ -62,7 +62,7 @@ pub enum Side {
 pub struct Advice {
     /// Slope, *α* [rad].
     pub slope: f64,
-    /// Course, *χ* [rad], from the contour, positive uphill.
+    /// Course, *χ* [rad], from the contour, positive uphill; 0 of a turn on the spot.
     pub course: f64,
     /// The verdict, and what decides it.
     pub judgement: Judgement,
@@ -76,6 +76,9 @@ pub struct Advice {
     /// Driven by the median of these; `None` where no heading holds the course in half of the
     /// samples. Its motion is computed where nothing before makes the slope a no-go.
     pub driven: Option<Driven>,
+    /// Of a turn on the spot: samples in which the rover gets stuck in it, of those for which that
+    /// is known.
+    pub stuck_in_turn: Option<Probability>,
 }
 
 impl SlopeStudy {
@@ -197,22 +200,6 @@ impl SlopeStudy {
         Ok(places.iter().map(of).collect())
     }
 
-    /// The same for places some of which are not known, and have no advice.
-    ///
-    /// # Errors
-    /// The same as [`advice`](Self::advice).
-    pub fn advice_where_known(
-        &self,
-        places: &[Option<(f64, f64)>],
-        samples: &[Sample],
-        go_on: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Option<Vec<Option<Advice>>>, ParameterError> {
-        let known: Vec<_> = places.iter().copied().flatten().collect();
-        let Some(found) = self.advice_at(&known, samples, go_on)? else { return Ok(None) };
-        let mut found = found.into_iter();
-        Ok(Some(places.iter().map(|place| place.and_then(|_| found.next())).collect()))
-    }
-
     /// Contour traverses on the soil as written up to a slope [rad], by the models that it is not
     /// computed with.
     ///
@@ -269,6 +256,7 @@ impl SlopeStudy {
             not_found: held.len() - known,
             yaw: yaw.filter(|_| !samples.is_empty()),
             driven,
+            stuck_in_turn: None,
         }
     }
 
@@ -331,9 +319,17 @@ impl Advice {
     }
 
     /// Share of ways of [`DRIFT_WAY`] on which a rover that is driven and looked after as the card
-    /// says gets stuck all the same [-]; `None` where it is not driven.
+    /// says gets stuck all the same [-], or share of the samples that get stuck in a turn on the
+    /// spot; `None` where it is not driven.
     #[must_use]
     pub fn probability_stuck(&self) -> Option<f64> {
-        Some(self.driven?.motion?.slip_check.stuck)
+        let on_way = || Some(self.driven?.motion?.slip_check.stuck);
+        self.stuck_in_turn.map_or_else(on_way, |it| (it.trials > 0).then(|| it.estimate()))
+    }
+
+    /// Whether it is about a turn on the spot, and not about a course.
+    #[must_use]
+    pub fn is_of_turn(&self) -> bool {
+        self.stuck_in_turn.is_some()
     }
 }

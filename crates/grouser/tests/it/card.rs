@@ -610,7 +610,7 @@ fn turning_on_the_way_slips_less_than_on_the_spot() {
         assert_eq!(motion.stuck.successes, 0);
         let (way, downhill) = (motion.turn_way.expect("turns"), motion.turn_downhill.expect("it"));
         assert!(way.low > 0.0 && downhill.high < 0.1 && downhill.high.abs() < way.high);
-        assert!(spot.judgement.verdict == Verdict::NoGo);
+        assert!(spot.judgement.verdict > Verdict::Go, "{spot:?}");
     }
 }
 

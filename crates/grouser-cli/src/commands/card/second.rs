@@ -329,9 +329,9 @@ fn notes(texts: &Texts) -> Vec<(&'static str, String)> {
         (
             "Verdicts",
             format!(
-                "white: go; hatched: caution; dense: nobody can tell; black: no-go. Straight up and \
-                 down by all of page 1's rule, others by its slip. None is to be driven within \
-                 {below} of the friction angle. Slopes that page 1 calls no-go have none.",
+                "white: go; hatched: caution; dense: nobody can tell; black: no-go. Up and down by \
+                 all of page 1's rule, on the spot by who gets stuck, others by slip. None is \
+                 driven within {below} of the friction angle. Page 1's no-go slopes have none.",
                 below = degrees(BELOW_FRICTION_ANGLE)
             ),
         ),

@@ -2,10 +2,10 @@
 
 use grouser::answers::Sampling;
 use grouser::document::LoadedMission;
+use grouser::document::columns::YAW;
 use grouser::document::columns::completion::in_words;
-use grouser::document::columns::{SLOPE, YAW};
-use grouser::document::reading::four_digits;
-use grouser::mission::Mission;
+use grouser::document::columns::verdict::subject;
+use grouser::mission::{Manoeuvre, Mission};
 use grouser::studies::completion::Completion;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
@@ -17,7 +17,10 @@ use crate::commands::sampling::{whole, with_bar};
 use crate::failure::Failure;
 use crate::inputs;
 
-/// What each mission risks, and the advice for each of its legs that leads somewhere.
+/// Before the numbers of legs that there is no advice for.
+const NOT_ADVISED: &str = "Not advised on, backward, crabbing or over several soils: leg ";
+
+/// What each mission risks, and the advice for each of its legs that leads somewhere or turns.
 pub(super) struct Believed {
     pub(super) sampling: Sampling,
     pub(super) rule: Rule,
@@ -59,12 +62,16 @@ impl Believed {
         (risk, advice)
     }
 
-    /// The same in sentences: the whole first, then each leg that has advice.
+    /// The same in sentences: the whole first, then each leg that has advice, and which have none.
     pub(super) fn sentences(&self, place: usize, way: &DrivenMission) -> Vec<String> {
         let (risk, advice) = self.way(place);
-        let legs = way.legs.iter().zip(advice);
-        let legs = legs.filter_map(|(leg, advice)| Some(of_leg(leg, advice.as_ref()?)));
-        [in_words(risk, "")].into_iter().chain(legs).collect()
+        let legs = || way.legs.iter().zip(advice);
+        let advised = legs().filter_map(|(leg, advice)| Some(of_leg(leg, advice.as_ref()?)));
+        let moves = |leg: &DrivenLeg| !matches!(leg.leg.manoeuvre, Manoeuvre::Wait { .. });
+        let others = legs().filter(|(leg, advice)| advice.is_none() && moves(leg));
+        let others: Vec<String> = others.map(|(leg, _)| leg.number.to_string()).collect();
+        let others = (!others.is_empty()).then(|| format!("{NOT_ADVISED}{}.", others.join(", ")));
+        [in_words(risk, "")].into_iter().chain(advised).chain(others).collect()
     }
 
     /// The leg with the worst verdict, and of several the one on which the rover most often gets
@@ -73,27 +80,18 @@ impl Believed {
         let (_, advice) = self.way(place);
         let legs = way.legs.iter().zip(advice).filter_map(|(leg, it)| Some((leg, it.as_ref()?)));
         let count = advice.iter().flatten().count();
+        let rank = |it: &Advice| (it.judgement.verdict, it.probability_stuck().unwrap_or(0.0));
         // Of two that are as bad it is the first.
-        let (leg, advice) = legs.reduce(|worst, leg| {
-            let of = |(_, advice): &(&DrivenLeg, &Advice)| {
-                (advice.judgement.verdict, advice.probability_stuck().unwrap_or(0.0))
-            };
-            if of(&leg) > of(&worst) { leg } else { worst }
-        })?;
+        let (leg, advice) =
+            legs.reduce(|one, other| if rank(other.1) > rank(one.1) { other } else { one })?;
         (count > 1).then(|| format!("The worst: {}", of_leg(leg, advice)))
     }
 }
 
 /// What to do on a leg.
 fn of_leg(leg: &DrivenLeg, advice: &Advice) -> String {
-    let slope = four_digits(SLOPE.unit.from_si(advice.slope));
-    let course = four_digits(SLOPE.unit.from_si(advice.course));
     let nose = advice
         .heading()
         .map_or_else(String::new, |yaw| format!("nose at {:.1}°; ", YAW.unit.from_si(yaw)));
-    format!(
-        "Leg {} (slope {slope}°, course {course}°): {nose}{}.",
-        leg.number,
-        advice.judgement.sentence()
-    )
+    format!("Leg {} ({}): {nose}{}.", leg.number, subject(advice), advice.judgement.sentence())
 }

@@ -3,6 +3,9 @@
 
 use chrono::{DateTime, NaiveDateTime};
 
+/// Between 1973 and 2286, in seconds since 1970: no log takes as long.
+const ERA: std::ops::Range<f64> = 1e8..1e10;
+
 /// How times of a column are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TimeUnit {
@@ -36,7 +39,7 @@ impl TimeUnit {
     /// The unit in which a number is a time between 1973 and 2286; seconds for any other number.
     /// None of these is a time in seconds that a log has.
     pub(super) fn of(time: f64) -> Self {
-        let is_time = |unit: &Self| (1e8..1e10).contains(&(time.abs() / unit.per_second()));
+        let is_time = |unit: &Self| ERA.contains(&(time.abs() / unit.per_second()));
         let all = [Self::Milliseconds, Self::Microseconds, Self::Nanoseconds];
         all.into_iter().find(is_time).unwrap_or(Self::Seconds)
     }
@@ -59,6 +62,17 @@ impl TimeUnit {
             Self::Nanoseconds => "nanoseconds",
         }
     }
+}
+
+/// The day of a time in Greenwich, year-month-day; none of a clock that does not count seconds from
+/// 1970 on.
+///
+/// * `time`: [s]
+#[must_use]
+pub fn day_of(time: f64) -> Option<String> {
+    #[expect(clippy::cast_possible_truncation, reason = "a day has a second of its own")]
+    let date = ERA.contains(&time).then(|| DateTime::from_timestamp(time as i64, 0))??;
+    Some(date.date_naive().to_string())
 }
 
 /// A date with its time of day, in seconds since 1970; without an offset it is that of Greenwich.
@@ -90,6 +104,16 @@ mod tests {
         }
         for text in ["", "10", "1970", "1970-13-01T00:00:00Z", "yesterday", "2026-11-26"] {
             assert_eq!(seconds_of_date(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_day_is_that_of_a_time_since_1970_and_of_no_other() {
+        let noon = seconds_of_date("2026-11-27T12:00:00Z").expect("a date");
+        assert_eq!(day_of(noon).as_deref(), Some("2026-11-27"));
+        assert_eq!(day_of(noon + 43_200.0).as_deref(), Some("2026-11-28"));
+        for time in [0.0, 3600.0, -noon, f64::NAN] {
+            assert_eq!(day_of(time), None, "{time}");
         }
     }
 

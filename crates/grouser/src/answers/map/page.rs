@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde_json::Value;
 
-use super::super::{Answer, PageBlock, meanings};
+use super::super::{Answer, PageBlock, meanings, setting};
 use super::files::MapFile;
 use super::question::MapQuestion;
 use crate::document::columns::map::{HEADING, VERDICT, bands};
@@ -27,12 +27,7 @@ impl MapQuestion<'_> {
         verdict: String,
     ) {
         answer.verdict(verdict);
-        let document = &self.scenario.document;
-        answer.list([
-            format!("rover: {}", document.name_of("rover")),
-            format!("soil: {}", document.name_of("soil")),
-            self.of_course(),
-        ]);
+        answer.list(setting(&self.scenario.document).into_iter().chain([self.of_course()]));
         let of = |name: &str| files.iter().find(|file| file.name == name);
         [VERDICT, SLOPE.name].into_iter().filter_map(of).for_each(|file| picture(answer, file));
         answer.heading("What to do on each slope");

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::super::{Answer, PageBlock, meanings};
+use super::super::{Answer, PageBlock, meanings, setting};
 use super::columns::{WAY, brief};
 use super::profile::charts;
 use super::question::RouteQuestion;
@@ -31,6 +31,7 @@ impl RouteQuestion<'_> {
     pub(super) fn page(&self, answer: &mut Answer, ways: &[Way], rows: &Arc<Table>) {
         answer.verdict(&*ways[0].record.sentence);
         answer.verdict(verdict(&ways[0].record));
+        answer.list(setting(&self.scenario.document));
         let caption = "The ground as a Sun in the north-west lights it, 30° above the horizon. \
                        Rings: where the way turns.";
         let picture = format!("{}.svg", answer.name);

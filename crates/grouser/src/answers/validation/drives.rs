@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value, json};
 
-use super::super::{Answer, AnswerError, Displayed, Member, meanings};
+use super::super::{Answer, AnswerError, Displayed, Member, meanings, setting};
 use super::shown::{number, table};
 use super::{figures::Figure, flat, meanings_of_errors};
 use crate::contact::Model;
@@ -172,11 +172,8 @@ impl DriveValidationQuestion {
     /// The page, but for what all pages end with.
     fn page(&self, answer: &mut Answer, found: &JudgedDrives) {
         found.sentences.iter().for_each(|it| answer.verdict(sentence(it)));
-        answer.list([
-            format!("rover: {}", self.scenario.document.name_of("rover")),
-            format!("soil: {}", self.scenario.document.name_of("soil")),
-            format!("stretches compared: {}", found.validation.compared),
-        ]);
+        answer.list(setting(&self.scenario.document));
+        answer.list([format!("stretches compared: {}", found.validation.compared)]);
         answer.list(found.notes.clone());
         answer.words(LEGEND.trim());
         for (caption, split) in [

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde_json::json;
 
-use super::super::{Answer, AnswerError, AnswerOptions, Displayed, Member};
+use super::super::{Answer, AnswerError, AnswerOptions, Displayed, Member, setting};
 use super::shown::{number, table, yes_or_no};
 use super::{FILE, draw, figures, meanings_of_errors, written};
 use crate::document::LoadedScenario;
@@ -85,12 +85,8 @@ impl SlopeValidationQuestion {
 
     /// The page, but for what all pages end with.
     fn page(&self, answer: &mut Answer, found: &Found) {
-        let document = &self.scenario.document;
-        answer.list([
-            format!("rover: {}", document.name_of("rover")),
-            format!("soil: {}", document.name_of("soil")),
-            format!("wheel–soil model: {}", self.scenario.value.model.name()),
-        ]);
+        answer.list(setting(&self.scenario.document));
+        answer.list([format!("wheel–soil model: {}", self.scenario.value.model.name())]);
         answer.list(self.tests.notes.clone());
         answer.heading("Every slope, and the errors");
         let points = &found.validation.points;

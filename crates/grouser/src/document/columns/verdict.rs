@@ -1,6 +1,7 @@
 //! Advice on a slope: whether to drive there and why, the heading to set, and how often a rover
 //! gets stuck by it.
 
+use super::super::reading::four_digits;
 use super::super::table::Table;
 use super::super::unit::{DEG, ONE};
 use super::{Column, Quantity, YAW, quantity, text};
@@ -38,12 +39,13 @@ pub const ADVICE: [Column<Advice>; 5] = [
     }),
     PROBABILITY_STUCK.maybe(
         "Share of ways of 10 m on which a rover that is driven by this heading gets stuck, although \
-         its slip is looked at as often as the card says; missing where it is not driven",
+         its slip is looked at as often as the card says; missing where it is not driven. Of a turn \
+         on the spot the share of the samples that get stuck in it",
         Advice::probability_stuck,
     ),
     YAW.maybe(
         "Heading that is set, positive uphill: the median over all samples; missing where no \
-         heading holds the course in half of them",
+         heading holds the course in half of them, and of a turn on the spot",
         Advice::heading,
     ),
     YAW.band(
@@ -51,6 +53,17 @@ pub const ADVICE: [Column<Advice>; 5] = [
         |it| it.yaw,
     ),
 ];
+
+/// Slope and course that it is about, or a turn on the spot: `slope 5°, course 90°`.
+#[must_use]
+pub fn subject(advice: &Advice) -> String {
+    let deg = |angle: f64| four_digits(DEG.from_si(angle));
+    let course = match advice.stuck_in_turn {
+        Some(_) => "turn on the spot".to_owned(),
+        None => format!("course {}°", deg(advice.course)),
+    };
+    format!("slope {}°, {course}", deg(advice.slope))
+}
 
 /// A row for each advice.
 #[must_use]

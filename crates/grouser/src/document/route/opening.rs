@@ -1,8 +1,8 @@
 //! What is said of a way first: how probably it is completed, and the worst verdict of its legs.
 
 use super::super::columns::completion::in_words;
-use super::super::columns::{COURSE, SLOPE};
-use super::super::reading::{capitalised, four_digits};
+use super::super::columns::verdict::subject;
+use super::super::reading::capitalised;
 use crate::studies::route::{JudgedLeg, Route};
 use crate::studies::verdict::Verdict;
 
@@ -33,7 +33,6 @@ pub(super) fn opening(route: &Route, legs: &[Option<JudgedLeg>]) -> String {
 /// The worst verdict of some legs as a sentence, behind another one.
 fn verdict((number, leg): (usize, &JudgedLeg), count: usize) -> String {
     let advice = &leg.advice;
-    let (slope, course) = (SLOPE.unit.from_si(advice.slope), COURSE.unit.from_si(advice.course));
     let verdict = capitalised(leg.verdict().in_words());
     let of_legs = match (count, leg.verdict()) {
         (1, _) => String::new(),
@@ -41,10 +40,9 @@ fn verdict((number, leg): (usize, &JudgedLeg), count: usize) -> String {
         (count, _) => format!(" on leg {number} of {count}, no other is worse"),
     };
     format!(
-        " {verdict}{of_legs}{} (slope {}°, course {}°): {}.",
+        " {verdict}{of_legs}{} ({}): {}.",
         from_the_start(leg.place.along[0]),
-        four_digits(slope),
-        four_digits(course),
+        subject(advice),
         advice.judgement.reason.meaning()
     )
 }

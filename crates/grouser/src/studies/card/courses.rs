@@ -3,8 +3,9 @@
 //!
 //! Each is the steady motion at one yaw, with all rims at one speed forwards or backwards, or the
 //! two sides against each other to turn. Straight up and down have the verdict that every study
-//! gives; on the others it is that of the first page's rule for the size of the slip, which is
-//! negative where a rover runs ahead of its rims, and none is better than on a gentler slope.
+//! gives; a turn on the spot has that of how many samples get stuck in it; on the others it is that
+//! of the first page's rule for the size of the slip, which is negative where a rover runs ahead of
+//! its rims. None is better than on a gentler slope.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -132,7 +133,8 @@ pub struct CourseMotion {
     pub turn_way: Option<Band>,
     /// Way downhill meanwhile [m], likewise.
     pub turn_downhill: Option<Band>,
-    /// Samples in which the rover is stuck, or its nose does not turn uphill.
+    /// Samples in which the rover is stuck, or its nose does not turn uphill; of a turn on the spot
+    /// of those for which that is known.
     pub stuck: Probability,
     /// Share of ways of 10 m on which it gets stuck between two looks at the slip [-]; straight up
     /// and down.
@@ -199,11 +201,19 @@ impl SlopeStudy {
             if worst.verdict != Verdict::NoGo {
                 let steady = self.motions(course, (slope, yaw, &rim_speeds), samples, &before);
                 let rover = &self.heading.rover;
-                let on_course = |it: &Option<SteadyMotion>| {
-                    OnCourse::of(course, rover, it.as_ref()?, &rim_speeds)
+                let on_course = |it: &SteadyMotion| OnCourse::of(course, rover, it, &rim_speeds);
+                // A rover that accelerates straight ahead digs in or slides; nothing says so of a
+                // turn whose steady motion was not found.
+                let is_known =
+                    |it: &&Option<SteadyMotion>| it.is_some() || course != Course::TurnOnTheSpot;
+                let known = steady.iter().filter(is_known);
+                let all: Vec<Option<OnCourse>> = known.map(|it| on_course(it.as_ref()?)).collect();
+                let held = |it: &Option<OnCourse>| {
+                    Holding::of_motion(yaw, Some(it.map(|it| it.slip_ratio)))
                 };
-                let all: Vec<Option<OnCourse>> = steady.iter().map(on_course).collect();
-                worst = worst.or(self.judgement_of_course(yaw, &all));
+                let unknown = std::iter::repeat_n(Holding::Unknown, steady.len() - all.len());
+                let held: Vec<Holding> = all.iter().map(held).chain(unknown).collect();
+                worst = worst.or(self.judgement_of_course(course, &held));
                 motion = Some(CourseMotion::over(course, &all));
                 before = steady;
             }
@@ -214,16 +224,14 @@ impl SlopeStudy {
         driven.iter().map(on_slope).collect()
     }
 
-    fn judgement_of_course(&self, yaw: f64, motions: &[Option<OnCourse>]) -> Judgement {
-        let held = |it: &Option<OnCourse>| match it {
-            Some(it) => Holding::At { yaw, slip_ratio: it.slip_ratio, is_outside: false },
-            None => Holding::Not,
-        };
-        let held: Vec<Holding> = motions.iter().map(held).collect();
-        let stuck = motions.iter().filter(|it| it.is_none()).count();
-        let is_free = stuck as f64 <= STUCK_ON_GO * motions.len() as f64;
-        let mut found = self.rule.on_slips(&held);
-        found.add(!is_free, Verdict::Caution, Reason::Stuck);
+    fn judgement_of_course(&self, course: Course, held: &[Holding]) -> Judgement {
+        if course == Course::TurnOnTheSpot {
+            return self.of_turns(held);
+        }
+        let stuck = held.iter().filter(|it| **it == Holding::Not).count();
+        let share = stuck as f64 / held.len() as f64;
+        let mut found = self.rule.on_slips(held);
+        found.add(share > STUCK_ON_GO, Verdict::Caution, Reason::Stuck);
         found
     }
 

@@ -3,6 +3,7 @@
 use super::end::RouteRisk;
 use super::legs::{JudgedLeg, LegPlaces, judged};
 use super::profile::ProfilePiece;
+use super::turns::Turn;
 use crate::error::ParameterError;
 use crate::studies::ensemble::samples::Sample;
 use crate::studies::verdict::SlopeStudy;
@@ -54,14 +55,17 @@ pub struct Route {
     /// The places of each leg from waypoint to waypoint where it is judged; `None` of a leg that
     /// leads over ground that nobody knows, or that nobody may go to.
     pub legs: Vec<Option<LegPlaces>>,
+    /// The turns on the spot, in order; those where it is not known how the ground rises are none
+    /// of them.
+    pub(super) turns: Vec<Turn>,
     /// All of it, piece by piece: of a way that was sought a move of the lattice, of a given line as
     /// long as the map's points are apart.
     pub profile: Vec<ProfilePiece>,
 }
 
 impl Route {
-    /// What to do on each leg, at its worst place; `None` of a leg some of whose ground is not
-    /// known, and of one without length. `None` altogether if `go_on` was false before the end.
+    /// What to do on each leg, at its worst place or in the turn before it, if that is worse; `None`
+    /// of a leg some of whose ground is not known, and of one without length. `None` altogether if `go_on` was false before the end.
     ///
     /// # Errors
     /// The same as [`SlopeStudy::advice`].
@@ -71,7 +75,7 @@ impl Route {
         samples: &[Sample],
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Vec<Option<JudgedLeg>>>, ParameterError> {
-        judged(&self.legs, study, samples, go_on)
+        judged(&self.legs, &self.turns, (study, samples), go_on)
     }
 }
 

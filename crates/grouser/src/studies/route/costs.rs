@@ -4,7 +4,6 @@ use rayon::prelude::*;
 
 use super::hazard::Danger;
 use super::study::{Limits, Objective, RouteStudy, STUCK_WAY, WORST_SHARE};
-use super::turns::SpotTurns;
 use crate::elementary::wide::cos;
 use crate::error::ParameterError;
 use crate::studies::ensemble::samples::{Sample, outputs_of_samples};
@@ -12,7 +11,7 @@ use crate::studies::heading::{HeadingCurve, LimitedBy, STRAIGHT_UP};
 use crate::studies::mobility::{
     Beyond, Detail, Mobility, MobilityTable, advised_place, slope_and_course,
 };
-use crate::studies::verdict::Reason;
+use crate::studies::verdict::{Reason, SpotTurns};
 
 /// Courses from straight down to straight up are so far apart [rad]: 7.5°.
 const COURSE_STEP: f64 = std::f64::consts::PI / 24.0;
@@ -52,6 +51,8 @@ pub struct RouteTables {
     no_go_from: [Option<(f64, Reason)>; SAMPLED_COURSES],
     /// Turns on the spot.
     pub(super) turns: SpotTurns,
+    /// The least slope on which none is made [rad].
+    no_turn_from: f64,
 }
 
 /// What a metre costs that has the least of one thing.
@@ -108,7 +109,15 @@ impl RouteStudy {
         let step = crate::elementary::wide::tan(steepest) / (ACROSS - 1) as f64;
         let no_go_from = [None; SAMPLED_COURSES];
         let turns = SpotTurns::of(&self.mobility, samples);
-        Ok(Some(RouteTables { tables, limits: self.limits, risk, step, no_go_from, turns }))
+        Ok(Some(RouteTables {
+            tables,
+            limits: self.limits,
+            risk,
+            step,
+            no_go_from,
+            turns,
+            no_turn_from: f64::INFINITY,
+        }))
     }
 }
 
@@ -255,6 +264,18 @@ impl RouteTables {
             *known = Some((from, reason));
         }
         is_new
+    }
+
+    /// Keeps ways from turning on the spot on slopes from one on [rad]; whether they did.
+    pub(super) fn keep_turns_off(&mut self, from: f64) -> bool {
+        let is_new = from < self.no_turn_from;
+        self.no_turn_from = from.min(self.no_turn_from);
+        is_new
+    }
+
+    /// Whether a way may turn on the spot where the ground rises so steeply [m/m].
+    pub(super) fn may_turn(&self, rise: f64) -> bool {
+        advised_place(slope_and_course(rise, 0.0)).0 < self.no_turn_from
     }
 
     /// Why a slope and course have the verdict no-go, if that has been found.

@@ -5,8 +5,8 @@ use crate::studies::completion::{Completion, SampleEnd};
 use crate::units::Vec2;
 
 /// What a way risks. A sample of soil and model ends where the way first is a no-go for it: it holds
-/// the course by no heading, slips more than a no-go, or gets stuck in a turn. Each sample is the same soil all the way,
-/// so that all of them are compared over the same ground.
+/// the course by no heading, slips more than a no-go, or gets stuck in a turn on the spot. Each sample
+/// is the same soil all the way, so that all of them are compared over the same ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RouteRisk {
     /// How probably it is completed; ends are named as [dangers](Danger).

@@ -20,6 +20,8 @@ pub enum Danger {
     NoGo,
     /// It has the verdict no-go, for this reason.
     Verdict(Reason),
+    /// It turns on the spot there, and the verdict on that is no-go, for this reason.
+    TurnVerdict(Reason),
     /// The line turns there, and the rover cannot turn on the spot on level ground.
     NoTurn,
 }
@@ -49,6 +51,7 @@ impl Danger {
             Self::TooMuchSlip => "too-much-slip",
             Self::NoGo => "no_go",
             Self::Verdict(_) => "no-go-verdict",
+            Self::TurnVerdict(_) => "no-go-turn",
             Self::NoTurn => "no-turn",
         }
     }

@@ -8,10 +8,11 @@
 
 use super::costs::{SAMPLED_COURSES, nearest_course};
 use super::hazard::{Danger, Hazard};
+use super::turns::Turn;
 use crate::error::ParameterError;
 use crate::studies::ensemble::samples::Sample;
 use crate::studies::mobility::{advised_place, class_of};
-use crate::studies::verdict::{Advice, SlopeStudy, Verdict};
+use crate::studies::verdict::{Advice, SlopeStudy, SpotTurns, Verdict};
 use crate::units::Vec2;
 
 /// A place of a leg.
@@ -34,7 +35,8 @@ pub struct LegPlace {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LegPlaces([Option<LegPlace>; SAMPLED_COURSES]);
 
-/// A leg with the verdict on its worst place.
+/// A leg with the verdict on its worst place, or on the turn on the spot before it, if that is
+/// worse.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JudgedLeg {
     /// What to do there: with the slope up to the whole degree, and the course to one.
@@ -66,6 +68,16 @@ impl LegPlaces {
 }
 
 impl JudgedLeg {
+    /// A leg with the verdict on the turn before it.
+    fn of_turn(turn: &Turn, spot_turns: &SpotTurns) -> Option<Self> {
+        let advice = spot_turns.advice(&turn.moments())?;
+        let (slope, course) = (advice.slope, advice.course);
+        let probability_no_go = advice.probability_stuck().unwrap_or(1.0);
+        let along = [turn.along; 2];
+        let place = LegPlace { slope, course, along, place: turn.place, probability_no_go };
+        Some(Self { advice, place })
+    }
+
     /// Its verdict.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
@@ -76,7 +88,8 @@ impl JudgedLeg {
     #[must_use]
     pub fn hazard(&self) -> Option<Hazard> {
         let LegPlace { along, place, .. } = self.place;
-        let danger = Danger::Verdict(self.advice.judgement.reason);
+        let of = if self.advice.is_of_turn() { Danger::TurnVerdict } else { Danger::Verdict };
+        let danger = of(self.advice.judgement.reason);
         (self.verdict() == Verdict::NoGo).then_some(Hazard { danger, along, place, worst: None })
     }
 }
@@ -88,16 +101,22 @@ impl JudgedLeg {
 /// The same as [`SlopeStudy::advice`].
 pub(super) fn judged(
     legs: &[Option<LegPlaces>],
-    study: &SlopeStudy,
-    samples: &[Sample],
+    turns: &[Turn],
+    (study, samples): (&SlopeStudy, &[Sample]),
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Vec<Option<JudgedLeg>>>, ParameterError> {
     let mut judge = Judge { study, samples, go_on, known: Vec::new() };
-    let leg = |places: &Option<LegPlaces>| match places {
-        Some(places) => judge.worst(places),
+    let spot_turns = SpotTurns::of(study, samples);
+    let leg = |(place, places): (usize, &Option<LegPlaces>)| match places {
+        Some(places) => {
+            let before = turns.iter().filter(|turn| turn.leg == place + 1);
+            let turned = before.filter_map(|turn| JudgedLeg::of_turn(turn, &spot_turns));
+            let found = judge.worst(places)?.into_iter().chain(turned);
+            Ok(found.reduce(|worst, it| if it.verdict() > worst.verdict() { it } else { worst }))
+        }
         None => Ok(None),
     };
-    match legs.iter().map(leg).collect() {
+    match legs.iter().enumerate().map(leg).collect() {
         Ok(legs) => Ok(Some(legs)),
         Err(Halt::Stopped) => Ok(None),
         Err(Halt::Invalid(error)) => Err(error),

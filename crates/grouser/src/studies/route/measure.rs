@@ -5,7 +5,7 @@ use super::costs::{Metre, RouteTables};
 use super::end::{End, RouteRisk};
 use super::legs::{LegPlace, LegPlaces};
 use super::profile::{GroundOfPiece, ProfilePiece};
-use super::turns::Turn;
+use super::turns::{Turn, ends_in_turns};
 use crate::simulation::NotSteady;
 use crate::simulation::power::electrical;
 use crate::studies::mobility::slope_and_course;
@@ -93,8 +93,6 @@ pub(super) struct Measure<'a> {
     route: Route,
     /// Where each sample has ended.
     ends: Vec<Option<End>>,
-    /// The turns on ground that is known.
-    turns: Vec<Turn>,
     /// Whether it is known of all of the way whether it can be driven.
     is_certain: bool,
     /// Where the leg is judged.
@@ -125,6 +123,7 @@ impl<'a> Measure<'a> {
             probability_no_go: 0.0,
             risk: None,
             legs: Vec::new(),
+            turns: Vec::new(),
             profile: Vec::new(),
         };
         let mut measure = Self {
@@ -132,7 +131,6 @@ impl<'a> Measure<'a> {
             turning,
             route,
             ends: Vec::new(),
-            turns: Vec::new(),
             is_certain: true,
             places: LegPlaces::default(),
             is_known: true,
@@ -169,7 +167,8 @@ impl<'a> Measure<'a> {
         self.route.turned += angle.abs();
         let (leg, along) = (self.route.waypoints.len(), self.so_far);
         let turn = |gradient| Turn { leg, along, place, gradient, from, angle };
-        self.turns.extend(gradient.map(turn));
+        self.is_certain &= gradient.is_some();
+        self.route.turns.extend(gradient.map(turn));
     }
 
     /// Length on the map from the start [m].
@@ -245,7 +244,7 @@ impl<'a> Measure<'a> {
     /// Arrives at the end.
     pub(super) fn finish(mut self, end: Vec2) -> Route {
         self.arrive(end);
-        let Self { tables, turning, mut route, ends, turns, is_certain, drawn, .. } = self;
+        let Self { tables, turning, mut route, ends, is_certain, drawn, .. } = self;
         route.time += route.turned * turning.time;
         route.energy += route.turned * turning.energy;
         let drawn = if route.turned > 0.0 { drawn + route.turned * turning.drawn } else { drawn };
@@ -256,7 +255,7 @@ impl<'a> Measure<'a> {
         let count = ends.iter().flatten().count();
         route.probability_no_go = count as f64 / ends.len().max(1) as f64;
         route.risk = (is_certain && !ends.is_empty()).then(|| {
-            let stuck = tables.turns.ends(&turns);
+            let stuck = ends_in_turns(&tables.turns, &route.turns, ends.len());
             let first = |(end, stuck): (Option<End>, Option<End>)| match (end, stuck) {
                 (Some(end), Some(stuck)) if stuck.along > end.along => Some(end),
                 (end, stuck) => stuck.or(end),

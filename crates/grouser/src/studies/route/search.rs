@@ -113,6 +113,12 @@ impl<'a> Lattice<'a> {
         !self.gradients[cell][0].is_nan()
     }
 
+    /// Whether one may turn on the spot there.
+    fn may_turn(&self, cell: usize) -> bool {
+        let [east, north] = self.gradients[cell].map(f64::from);
+        self.costs.of.may_turn(Vec2::new(east, north).norm())
+    }
+
     /// Height above the base [m].
     fn height(&self, cell: usize) -> f64 {
         f64::from(self.ground.raster().heights[cell])
@@ -220,10 +226,11 @@ impl<'a> Lattice<'a> {
             let left = (direction + 1) % DIRECTIONS;
             let right = (direction + DIRECTIONS - 1) % DIRECTIONS;
             let (ahead, price) = self.price(cell, direction);
+            let turn = if self.may_turn(cell) { self.turn } else { f64::INFINITY };
             let steps = [
                 (ahead * DIRECTIONS + direction, price, DROVE),
-                (cell * DIRECTIONS + left, self.turn * self.moves.to_next[direction], TURNED_LEFT),
-                (cell * DIRECTIONS + right, self.turn * self.moves.to_next[right], TURNED_RIGHT),
+                (cell * DIRECTIONS + left, turn * self.moves.to_next[direction], TURNED_LEFT),
+                (cell * DIRECTIONS + right, turn * self.moves.to_next[right], TURNED_RIGHT),
             ];
             for (next, price, by) in steps.into_iter().filter(|(_, price, _)| price.is_finite()) {
                 let cost = f64::from(costs[state]) + price;

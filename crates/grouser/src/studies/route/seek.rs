@@ -62,7 +62,9 @@ impl RouteStudy {
 
     /// Seeks the cheapest way that has no leg with the verdict no-go, and judges its legs; `None` if
     /// `go_on` was false before the end. Where a way has such a leg, the slopes of its course from
-    /// there on are kept off, and a way is sought again.
+    /// there on are kept off, and a way is sought again. Where a turn on the spot has that verdict,
+    /// none is made on such slopes, if there is a way without; else the way has that turn, and says
+    /// so.
     ///
     /// * `tables`: of this study; with the risk, if that is the objective
     /// * `samples`: those of the tables
@@ -78,19 +80,30 @@ impl RouteStudy {
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<JudgedAnswer>, RouteError> {
         let mut tables = tables.clone();
+        let mut with_bad_turns = None;
         loop {
             let found = self.route(&tables, ground, ends, objective)?;
-            let Answer::Route(route) = &found else { return Ok(Some((found, Vec::new()))) };
+            let Answer::Route(route) = &found else {
+                return Ok(Some(with_bad_turns.unwrap_or((found, Vec::new()))));
+            };
             let legs = route.advice(&self.mobility, samples, go_on)?;
             let Some(legs) = legs else { return Ok(None) };
             let mut is_new = false;
-            for leg in legs.iter().flatten().filter(|leg| leg.verdict() == Verdict::NoGo) {
+            let no_go = || legs.iter().flatten().filter(|leg| leg.verdict() == Verdict::NoGo);
+            for leg in no_go().filter(|leg| !leg.advice.is_of_turn()) {
                 let Some(from) = self.no_go_from(leg, samples, go_on)? else { return Ok(None) };
                 let Judgement { reason, .. } = leg.advice.judgement;
                 is_new |= tables.keep_off(leg.advice.course, from, reason);
             }
             if !is_new {
-                return Ok(Some((found, legs)));
+                // Legs are not bad: their turns may be.
+                let turns = no_go().filter(|leg| leg.advice.is_of_turn());
+                match turns.map(|leg| leg.advice.slope).reduce(f64::min) {
+                    Some(from) if tables.keep_turns_off(from) => {
+                        with_bad_turns = Some((found, legs));
+                    }
+                    _ => return Ok(Some((found, legs))),
+                }
             }
         }
     }

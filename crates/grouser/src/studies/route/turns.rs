@@ -1,22 +1,13 @@
-//! Turns on the spot along a way: which of the samples get stuck in them.
+//! Turns on the spot along a way: which of the samples make them.
 
-use std::collections::BTreeMap;
-use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::f64::consts::FRAC_PI_2;
 
 use super::end::End;
 use super::hazard::Danger;
 use crate::elementary::wide::atan2;
-use crate::studies::ensemble::samples::Sample;
-use crate::studies::mobility::{advised_place, class_of, slope_and_course};
-use crate::studies::verdict::{SlopeStudy, SpotTurn};
+use crate::studies::mobility::{advised_place, slope_and_course};
+use crate::studies::verdict::{Holding, SpotTurn, SpotTurns};
 use crate::units::Vec2;
-
-/// A turn is looked at where the nose is at a multiple of this off the contour [rad]: at the ones
-/// nearest to its start and its end, and at all between.
-const YAW_STEP: f64 = FRAC_PI_4;
-/// How many of these there are all around.
-const YAWS: i32 = 8;
 
 /// A turn on the spot of a way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,64 +26,37 @@ pub(super) struct Turn {
     pub(super) angle: f64,
 }
 
-/// Which samples get stuck in a turn: by class of slope, yaw in steps, and whether to the left.
-type Known = BTreeMap<(usize, i32, bool), Arc<[bool]>>;
-
-/// Turns on the spot of all samples. What was computed is kept, by all copies.
-#[derive(Clone, Debug)]
-pub(super) struct SpotTurns {
-    study: SlopeStudy,
-    samples: Vec<Sample>,
-    known: Arc<Mutex<Known>>,
+/// Where each sample ends in a turn of a way: at the first that it gets stuck in, or for which that is
+/// not known.
+///
+/// * `samples`: how many there are
+pub(super) fn ends_in_turns(
+    spot_turns: &SpotTurns,
+    turns: &[Turn],
+    samples: usize,
+) -> Vec<Option<End>> {
+    let ends_in = |turn: &Turn| {
+        let Turn { leg, along, place, .. } = *turn;
+        let end = move |held| match held {
+            Holding::At { .. } => None,
+            Holding::Not => Some(End { leg, along, place, danger: Some(Danger::NoTurn) }),
+            Holding::Unknown => Some(End { leg, along, place, danger: None }),
+        };
+        spot_turns.turned(&turn.moments()).into_iter().map(end).collect::<Vec<_>>()
+    };
+    turns.iter().map(ends_in).fold(vec![None; samples], |known, ends| {
+        known.into_iter().zip(ends).map(|(known, end)| known.or(end)).collect()
+    })
 }
 
-impl SpotTurns {
-    /// * `samples`: with none there is the soil as written
-    pub(super) fn of(study: &SlopeStudy, samples: &[Sample]) -> Self {
-        let as_written = [study.nominal()];
-        let samples = if samples.is_empty() { &as_written } else { samples };
-        Self { study: study.clone(), samples: samples.to_vec(), known: Arc::default() }
+impl Turn {
+    /// The moments at which it is looked at, on a slope up to the whole degree.
+    pub(super) fn moments(&self) -> Vec<SpotTurn> {
+        let Self { gradient, from, angle, .. } = *self;
+        let (slope, _) = advised_place(slope_and_course(gradient.norm(), 0.0));
+        let contour = atan2(gradient.y, gradient.x) - FRAC_PI_2;
+        SpotTurn::moments(slope, from - contour, angle)
     }
-
-    /// Where each sample ends that gets stuck in a turn of a way, at the first that it does.
-    pub(super) fn ends(&self, turns: &[Turn]) -> Vec<Option<End>> {
-        let mut ends: Vec<Option<End>> = vec![None; self.samples.len()];
-        for turn in turns {
-            let Turn { leg, along, place, .. } = *turn;
-            let end = End { leg, along, place, danger: Some(Danger::NoTurn) };
-            for stuck in moments(turn).map(|it| self.stuck(it)) {
-                ends.iter_mut().zip(&*stuck).filter(|it| *it.1).for_each(|(known, _)| {
-                    known.get_or_insert(end);
-                });
-            }
-        }
-        ends
-    }
-
-    fn stuck(&self, (slope, step, is_left): (f64, i32, bool)) -> Arc<[bool]> {
-        let key = (class_of(slope), step, is_left);
-        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(stuck) = known().get(&key) {
-            return Arc::clone(stuck);
-        }
-        let turn = SpotTurn { slope, yaw: YAW_STEP * f64::from(step), is_left };
-        let stuck: Arc<[bool]> = self.study.stuck_on_the_spot(&turn, &self.samples).into();
-        known().insert(key, Arc::clone(&stuck));
-        stuck
-    }
-}
-
-/// The moments at which a turn is looked at: slope up to the whole degree [rad], yaw in steps, and
-/// whether it is to the left. On level ground all are one.
-fn moments(turn: &Turn) -> impl Iterator<Item = (f64, i32, bool)> {
-    let Turn { gradient, from, angle, .. } = *turn;
-    let (slope, _) = advised_place(slope_and_course(gradient.norm(), 0.0));
-    let contour = atan2(gradient.y, gradient.x) - FRAC_PI_2;
-    #[expect(clippy::cast_possible_truncation, reason = "a few turns of the nose")]
-    let step = |yaw: f64| ((yaw - contour) / YAW_STEP).round() as i32;
-    let (one, other) = (step(from), step(from + angle));
-    let steps = if slope > 0.0 { one.min(other)..=one.max(other) } else { 0..=0 };
-    steps.map(move |step| (slope, step.rem_euclid(YAWS), angle > 0.0))
 }
 
 #[cfg(test)]
@@ -108,11 +72,15 @@ mod tests {
             let place = Vec2::zeros();
             Turn { leg: 1, along: 0.0, place, gradient, from: deg(from), angle: deg(angle) }
         };
-        let of = |turn: Turn| moments(&turn).map(|it| (it.1, it.2)).collect::<Vec<_>>();
+        let of = |turn: Turn| {
+            let all = turn.moments().into_iter();
+            all.map(|it| (it.yaw.to_degrees().round(), it.is_left)).collect::<Vec<_>>()
+        };
         let left = turn(gradient, 0.0, 90.0);
-        assert!(moments(&left).all(|(slope, _, _)| (slope - deg(5.0)).abs() < 1e-12));
-        assert_eq!(of(left), [(0, true), (1, true), (2, true)]);
-        assert_eq!(of(turn(gradient, 10.0, -60.0)), [(7, false), (0, false)]);
-        assert_eq!(of(turn(Vec2::zeros(), 70.0, -60.0)), [(0, false)]);
+        assert!(left.moments().iter().all(|it| (it.slope - deg(5.0)).abs() < 1e-12));
+        assert_eq!(of(left), [(0.0, true), (45.0, true), (90.0, true)]);
+        assert_eq!(of(turn(gradient, 10.0, -60.0)), [(315.0, false), (0.0, false)]);
+        assert_eq!(of(turn(Vec2::zeros(), 70.0, -60.0)), [(0.0, false)]);
+        assert_eq!(of(turn(gradient, 0.0, 720.0)).len(), 8);
     }
 }

@@ -39,6 +39,29 @@ impl Holding {
         }
     }
 
+    /// Of a motion on a course that no heading is sought for, or in a turn on the spot.
+    ///
+    /// * `yaw`: that it is driven at [rad]
+    /// * `slip_ratio`: nothing where no steady motion was found, which is no finding about the
+    ///   soil, and nothing within where it is stuck [-]
+    pub(in super::super) fn of_motion(yaw: f64, slip_ratio: Option<Option<f64>>) -> Self {
+        match slip_ratio {
+            Some(Some(slip_ratio)) => Self::At { yaw, slip_ratio, is_outside: false },
+            Some(None) => Self::Not,
+            None => Self::Unknown,
+        }
+    }
+
+    /// The worse of two moments: being stuck, then what is not known, then the larger slip.
+    pub(super) fn or_worse(self, other: Self) -> Self {
+        let rank = |it: &Self| match it {
+            Self::Not => f64::INFINITY,
+            Self::Unknown => f64::MAX,
+            Self::At { slip_ratio, .. } => slip_ratio.abs(),
+        };
+        if rank(&other) > rank(&self) { other } else { self }
+    }
+
     /// Whether a heading holds the course.
     pub(in super::super) fn is_held(self) -> bool {
         matches!(self, Self::At { .. })

@@ -24,6 +24,8 @@ pub enum Reason {
     NoHeading,
     /// The rover gets stuck too often.
     Stuck,
+    /// In a turn on the spot the wheels dig: they slip too much in too many of the samples.
+    WheelsDig,
     /// The rover, or the ground by itself, slides in too much of the belief's weight.
     Slides,
     /// The nose falls so fast that nobody can hold the heading.
@@ -40,7 +42,7 @@ pub enum Reason {
     NoStatedUncertainty,
     /// In half of the samples the result is so far outside a domain that nobody is to drive by it.
     OutsideDomain,
-    /// The search for a heading gave up in samples that could decide.
+    /// The search for a heading, or for the motion in a turn, gave up in samples that could decide.
     SearchGaveUp,
 }
 
@@ -73,11 +75,12 @@ impl Verdict {
 
 impl Reason {
     /// All of them.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::AllMet,
         Self::ShareThatHolds,
         Self::NoHeading,
         Self::Stuck,
+        Self::WheelsDig,
         Self::Slides,
         Self::HeadingFalls,
         Self::Drift,
@@ -110,6 +113,7 @@ impl Reason {
             ),
             Self::NoHeading => ("no_heading", "in half of the samples no heading holds the course"),
             Self::Stuck => ("stuck", "the rover gets stuck in too many of the samples"),
+            Self::WheelsDig => ("wheels_dig", "the wheels dig in too many of the samples"),
             Self::Slides => ("slides", "rover or ground slide in too many of the samples"),
             Self::HeadingFalls => {
                 ("heading_falls", "the nose falls faster than anybody can set it again")
@@ -131,7 +135,7 @@ impl Reason {
                 "most of the samples are outside the domain that their model was tested in",
             ),
             Self::SearchGaveUp => {
-                ("search_gave_up", "the search for a heading gave up in samples that could decide")
+                ("search_gave_up", "the search gave up in samples that could decide")
             }
         }
     }
