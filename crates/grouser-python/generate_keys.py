@@ -23,7 +23,6 @@ KINDS = {
     "Rover": ("rover", set()),
     "Scenario": ("scenario", {"rover", "soil"}),
     "Mission": ("mission", {"rover", "soil"}),
-    "Design": ("design", {"rover", "soil"}),
 }
 #: Keys of a site, which are a scenario's.
 SITE = ("slope_deg", "gravity_m_s2")

@@ -18,7 +18,7 @@ mod validate;
 
 use std::ops::RangeInclusive;
 
-use grouser::document::design::LoadedDesign;
+use grouser::document::LoadedDesign;
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::{
     self, DocumentError, Kind, LoadedScenario, Overrides, Source, UncertainSoil,

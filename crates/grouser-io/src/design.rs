@@ -1,24 +1,7 @@
-//! The settings of a design's document: what is free, what is to be least, what is limited.
+//! The settings of a design's document: what is measured, what is to be least, what is limited.
 
-use serde_json::Value as Json;
-
-use super::columns::{ENERGY_PER_METRE, LIMIT_SLOPE, SLIP_RATIO, SLOPE, TORQUE};
-use super::describe::design::DESIGN;
-use super::describe::scenario;
-use super::document::Document;
-use super::error::{DocumentError, Problem};
-use super::field::{Inner as _, keyed};
-use super::kind::Kind;
-use super::loaded::Loaded;
-use super::overrides::Overrides;
-use super::priors;
-use super::read::{Written, written};
-use super::source::Source;
-use super::tree::{Entry, Node, Value};
-use super::uncertain_soil;
+use super::columns::{ENERGY_PER_METRE, LIMIT_SLOPE, SLIP_RATIO, TORQUE};
 use super::unit::{DEG, J_PER_M, KG, M, NM, ONE, Unit};
-use super::values::Described as _;
-use super::varied::{Key, Numbers as _, Varied};
 use grouser_core::simulation::Scenario;
 
 /// What is measured of a design.
@@ -46,7 +29,7 @@ pub enum Measure {
 
 /// The ends between which something may be, in SI; infinite where there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ends {
+pub struct LimitEnds {
     /// The least that it may be.
     pub least: f64,
     /// The most that it may be.
@@ -55,18 +38,18 @@ pub struct Ends {
 
 /// What a document says.
 #[derive(Clone, Debug)]
-pub(crate) struct Settings {
+pub(crate) struct DesignSettings {
     pub(crate) scenario: Scenario,
     pub(crate) course: f64,
-    pub(crate) aim: Aim,
+    pub(crate) aim: DesignAim,
     pub(crate) weights: Weights,
-    pub(crate) limits: [Ends; Measure::COUNT],
+    pub(crate) limits: [LimitEnds; Measure::COUNT],
     pub(crate) probability: f64,
 }
 
 /// What is to be least.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Aim {
+pub(crate) enum DesignAim {
     One(Measure),
     WeightedSum,
 }
@@ -74,47 +57,7 @@ pub(crate) enum Aim {
 /// What one of each measure, in its unit, counts in a sum.
 pub type Weights = [f64; Measure::COUNT];
 
-/// Numbers of a rover that are free, what is to be least, and what is limited.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DesignTask {
-    /// The rovers among which is chosen, one for each combination of what may be chosen.
-    pub alternatives: Vec<Alternative>,
-    /// The numbers that are free, each with the least and the most that it may be in its key's unit.
-    pub free: Vec<(String, [f64; 2])>,
-    /// What is to be least: the sum of measures with these weights.
-    pub weights: Weights,
-    /// What is limited, in the order of [`Measure::ALL`].
-    pub limits: [Ends; Measure::COUNT],
-    /// With which probability each limit is to be kept, where soils are uncertain [-].
-    pub probability: f64,
-}
-
-/// A rover whose numbers are free.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Alternative {
-    /// What was chosen for it, by its keys.
-    pub chosen: Vec<(String, Json)>,
-    /// Where it drives: the document's own ground, then those where limits hold as well.
-    pub conditions: Vec<Condition>,
-    /// The free numbers as its documents have them.
-    pub given: Vec<f64>,
-}
-
-/// Where designs are measured.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Condition {
-    /// Rover, soil, gravity and model.
-    pub scenario: Loaded<Scenario>,
-    /// The slope on which slip, sinkage and work are measured [rad].
-    pub slope: f64,
-    /// The course, *χ* [rad]: direction of travel from the contour, positive uphill.
-    pub course: f64,
-}
-
-/// A design's task that was read.
-pub type LoadedDesign = Loaded<DesignTask>;
-
-impl Ends {
+impl LimitEnds {
     /// No limit.
     pub const NONE: Self = Self { least: f64::NEG_INFINITY, most: f64::INFINITY };
 }
@@ -200,210 +143,4 @@ impl Measure {
     pub const fn place(self) -> usize {
         self as usize
     }
-}
-
-impl Settings {
-    fn of(document: &Document) -> Self {
-        let mut settings = Self {
-            scenario: scenario::blank(),
-            course: 0.0,
-            aim: Aim::WeightedSum,
-            weights: [0.0; Measure::COUNT],
-            limits: [Ends::NONE; Measure::COUNT],
-            probability: f64::NAN,
-        };
-        DESIGN.put(&mut settings, document.keys());
-        settings
-    }
-
-    /// The weights of the sum that is to be least.
-    fn weights(&self, tree: &Node) -> Result<Weights, DocumentError> {
-        let is_weighted = self.weights.iter().any(|weight| *weight != 0.0);
-        let fault =
-            |key: &str, what| Err(DocumentError::at(tree.origin_of(key), Problem::Conflict(what)));
-        match self.aim {
-            Aim::WeightedSum if is_weighted => Ok(self.weights),
-            Aim::WeightedSum => {
-                fault("minimise", "`weighted_sum` needs `weights`: a table of measures")
-            }
-            Aim::One(_) if is_weighted => {
-                fault("weights", "`weights` go with `minimise = \"weighted_sum\"`")
-            }
-            Aim::One(measure) => {
-                let mut weights = [0.0; Measure::COUNT];
-                weights[measure.place()] = 1.0;
-                Ok(weights)
-            }
-        }
-    }
-}
-
-/// Reads a design's task with its rovers and soils.
-///
-/// # Errors
-/// [`DocumentError`] for whatever is wrong first.
-pub fn read_design(source: &Source, overrides: &Overrides) -> Result<LoadedDesign, DocumentError> {
-    let Written { tree, document, assumptions } = written(Kind::Design, source, overrides)?;
-    let settings = Settings::of(&document);
-    let weights = settings.weights(&tree)?;
-    check_limits(&settings.limits, &tree)?;
-    let free = free(&document, &tree)?;
-    let (choices, mut alternatives) = (choices(&tree), Vec::new());
-    if choices.len() > MOST_CHOICES {
-        let problem = Problem::Conflict("more than 64 combinations of what may be chosen");
-        return Err(DocumentError::at(tree.origin_of("choose"), problem));
-    }
-    for choice in choices {
-        alternatives.push(alternative(source, overrides, &tree, &choice, &free)?);
-    }
-    let soil = document.part(Kind::Soil, "soil");
-    let assumed = soil.as_ref().map_or_else(Vec::new, priors::assumed);
-    let Settings { limits, probability, .. } = settings;
-    let value = DesignTask { alternatives, free, weights, limits, probability };
-    let (companions, notes) = (Vec::new(), Vec::new());
-    Ok(Loaded { document, value, uncertain: None, assumptions, assumed, companions, notes })
-}
-
-/// The most combinations of what may be chosen.
-const MOST_CHOICES: usize = 64;
-
-/// A value that is chosen for a key.
-type Choice<'t> = (String, &'t Node);
-
-/// Every combination of what may be chosen; one without any where nothing is.
-fn choices<'t>(tree: &'t Node) -> Vec<Vec<Choice<'t>>> {
-    let mut all: Vec<Vec<Choice<'t>>> = vec![Vec::new()];
-    for (key, values) in tree.entry("choose").into_iter().flat_map(|it| entries_of(&it.node)) {
-        let Value::List(values) = &values.value else { continue };
-        let with = |choice: &Vec<Choice<'t>>| {
-            let one = |value| choice.iter().cloned().chain([(key.clone(), value)]).collect();
-            values.iter().map(one).collect::<Vec<Vec<Choice<'t>>>>()
-        };
-        all = all.iter().flat_map(with).collect();
-    }
-    all
-}
-
-/// The keys in a table and in tables in it, with the tables they stand in.
-fn entries_of(table: &Node) -> Vec<(String, &Node)> {
-    let Value::Table(entries) = &table.value else { return Vec::new() };
-    fn of_entry(entry: &Entry) -> Vec<(String, &Node)> {
-        let Value::Table(_) = entry.node.value else {
-            return vec![(entry.key.clone(), &entry.node)];
-        };
-        let inside = entries_of(&entry.node).into_iter();
-        inside.map(|(key, node)| (format!("{}.{key}", entry.key), node)).collect()
-    }
-    entries.iter().flat_map(of_entry).collect()
-}
-
-/// The rover that comes of a choice, wherever it drives.
-fn alternative(
-    source: &Source,
-    overrides: &Overrides,
-    tree: &Node,
-    choice: &[Choice<'_>],
-    free: &[(String, [f64; 2])],
-) -> Result<Alternative, DocumentError> {
-    let mut own = overrides.clone();
-    for (key, node) in choice {
-        own.of_document(Kind::Design, key, &node.origin, (*node).clone());
-    }
-    let mut conditions = vec![condition(source, &own)?];
-    let others = tree.entry("also").map(|entry| &entry.node.value);
-    if let Some(Value::List(others)) = others {
-        for other in others {
-            let mut there = own.clone();
-            for (key, node) in entries_of(other) {
-                there.of_document(Kind::Design, &key, &node.origin, node.clone());
-            }
-            conditions.push(condition(source, &there)?);
-        }
-    }
-    let varied = Varied {
-        value: conditions[0].scenario.value.clone(),
-        document: conditions[0].scenario.document.clone(),
-        notes: Vec::new(),
-    };
-    let given = free.iter().map(|(path, ends)| Ok(free_key(&varied, path, *ends, tree)?.value));
-    let given = given.collect::<Result<_, DocumentError>>()?;
-    let chosen = choice.iter().map(|(key, node)| (key.clone(), node.to_json())).collect();
-    Ok(Alternative { chosen, conditions, given })
-}
-
-/// Where designs are measured, by a document with other values in some places.
-fn condition(source: &Source, overrides: &Overrides) -> Result<Condition, DocumentError> {
-    let Written { tree, document, assumptions } = written(Kind::Design, source, overrides)?;
-    let course = Settings::of(&document).course;
-    let mut document = scenario_of(&document);
-    let slope = DEG.to_si(document.number(SLOPE.name).unwrap_or_default());
-    let soil = document.part(Kind::Soil, "soil");
-    let assumed = soil.as_ref().map_or_else(Vec::new, priors::assumed);
-    let (value, notes) = Scenario::read(&document, &tree)?;
-    let mut companions = Vec::new();
-    let soil = tree.entry("soil").map_or(&tree, |entry| &entry.node);
-    let uncertain = uncertain_soil::read(&mut document, "soil", soil, &mut companions)?;
-    let scenario = Loaded { document, value, uncertain, assumptions, assumed, companions, notes };
-    Ok(Condition { scenario, slope, course })
-}
-
-/// The scenario that a design says its numbers of.
-fn scenario_of(document: &Document) -> Document {
-    const SHARED: [&str; 7] =
-        ["rover", "soil", "model", "gravity_m_s2", SLOPE.name, "load_transfer", "wheel_moments"];
-    let keys = document.keys().as_object().into_iter().flatten();
-    let keys = keys.filter(|(key, _)| SHARED.contains(&key.as_str()));
-    let given = keys.map(|(key, given)| (key.clone(), given.clone())).collect();
-    Document::of(Kind::Scenario, &given)
-}
-
-/// The keys that are free, with their ends.
-fn free(document: &Document, tree: &Node) -> Result<Vec<(String, [f64; 2])>, DocumentError> {
-    let given = document.keys().get("free").into_iter().flat_map(keyed);
-    let ends = |(key, given): (String, &Json)| {
-        let number = |place: usize| given.get(place).and_then(Json::as_f64).unwrap_or(f64::NAN);
-        let origin = || tree.origin_of(&format!("free.{key}"));
-        if !key.starts_with("rover.") {
-            let problem = Problem::Conflict("only numbers of the rover are free");
-            return Err(DocumentError::at(origin(), problem).with_hint(format!(
-                "a ground is stated: {key} = …, or [[also]] for a second one"
-            )));
-        }
-        Ok((key, [number(0), number(1)]))
-    };
-    given.map(ends).collect()
-}
-
-/// The number under a key that is free, between ends that it may have.
-fn free_key(
-    scenario: &Varied<Scenario>,
-    path: &str,
-    [least, most]: [f64; 2],
-    tree: &Node,
-) -> Result<Key, DocumentError> {
-    let origin = tree.entry("free").map_or(tree, |entry| &entry.node);
-    let origin = origin.entry(path).map_or_else(|| origin.origin_of(path), |it| &it.node.origin);
-    let key = scenario.key(path).map_err(|none| none.at(origin))?;
-    for end in [least, most] {
-        if !key.range.contains(&end) {
-            return Err(DocumentError::at(origin, key.out_of_range(end)));
-        }
-    }
-    if least >= most {
-        let problem = Problem::Conflict("the first end of what is free is to be below the second");
-        return Err(DocumentError::at(origin, problem));
-    }
-    Ok(key)
-}
-
-/// Checks that limits leave room.
-fn check_limits(limits: &[Ends; Measure::COUNT], tree: &Node) -> Result<(), DocumentError> {
-    for (measure, Ends { least, most }) in Measure::ALL.into_iter().zip(limits) {
-        if least > most {
-            let problem = Problem::Conflict("`at_least` is above `at_most`: nothing can be both");
-            let path = format!("subject_to.{}", measure.name());
-            return Err(DocumentError::at(tree.origin_of(&path), problem));
-        }
-    }
-    Ok(())
 }

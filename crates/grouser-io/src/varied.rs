@@ -227,7 +227,7 @@ mod tests {
         let terrain = ["scenario.terrain.surface=incline", "scenario.terrain.slope_deg=5"];
         let read = |slope: &str| {
             let settings = [terrain[0], terrain[1], slope];
-            let overrides = Overrides::parse(&settings).unwrap();
+            let overrides = Overrides::parse(settings).unwrap();
             read_scenario(&Source::default_scenario(), &overrides)
         };
         let level = read("scenario.slope_deg=0").unwrap();

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use grouser::document::design::LoadedDesign;
+use grouser::document::LoadedDesign;
 use grouser::document::{
     self, Beside, Companion, DocumentError, HeldMap, Kind, LoadedMission, LoadedRover,
     LoadedScenario, LoadedSoil, LoadedWheel, Overrides, Problem, Source, map_of,

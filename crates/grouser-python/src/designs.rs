@@ -15,7 +15,7 @@ use crate::interrupt::listening;
 use crate::validation::record_to_python;
 
 /// What was found, without tables; the tables by their names; and the rover as TOML.
-type Found<'py> = (Bound<'py, PyAny>, Bound<'py, PyDict>, String);
+type FoundDesign<'py> = (Bound<'py, PyAny>, Bound<'py, PyDict>, String);
 
 /// The design that has the least of its aim.
 ///
@@ -27,7 +27,7 @@ pub(crate) fn design<'py>(
     is_nominal: bool,
     seed: u64,
     trade: Option<(String, String)>,
-) -> PyResult<Found<'py>> {
+) -> PyResult<FoundDesign<'py>> {
     let trade = trade.map(|(one, other)| Ok::<_, PyErr>([measure(&one)?, measure(&other)?]));
     let question = DesignQuestion {
         task: design.design()?.clone(),
@@ -48,7 +48,7 @@ pub(crate) fn design<'py>(
             Member::Rows(name, rows) => {
                 tables.set_item(name, table_to_python(py, Table::clone(&rows))?)?;
             }
-            Member::Row(..) => {}
+            Member::Row(..) | Member::With(..) | Member::Entries(_) => {}
         }
     }
     let rover = answer.documents.iter().find(|it| it.file == "rover.toml");

@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::output;
 
 /// Arguments that take a preset or a file, and the kind of preset.
-const PRESETS: [(&str, Kind); 10] = [
+const PRESETS: [(&str, Kind); 11] = [
     ("soil", Kind::Soil),
     ("prior", Kind::Soil),
     ("ground", Kind::Soil),
@@ -19,6 +19,7 @@ const PRESETS: [(&str, Kind); 10] = [
     ("scenario", Kind::Scenario),
     ("mission", Kind::Mission),
     ("study", Kind::Campaign),
+    ("design", Kind::Design),
     ("data", Kind::DataSet),
     ("mapping", Kind::TelemetryMapping),
 ];

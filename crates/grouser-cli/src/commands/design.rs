@@ -2,7 +2,8 @@
 
 use grouser::answers::AnswerOptions;
 use grouser::answers::design::DesignQuestion;
-use grouser::document::design::{LoadedDesign, Measure};
+use grouser::document::LoadedDesign;
+use grouser::document::design::Measure;
 
 use crate::args::{DesignArgs, SettingArgs};
 use crate::failure::Failure;
@@ -45,7 +46,7 @@ fn tasks(args: &DesignArgs) -> Result<(LoadedDesign, Vec<LoadedDesign>), Failure
 }
 
 fn model_of(task: &LoadedDesign) -> &str {
-    task.value.alternatives[0].conditions[0].scenario.value.model.name()
+    task.value.candidates[0].grounds[0].scenario.value.model.name()
 }
 
 /// The command that gives the answer again, from the document in the folder.

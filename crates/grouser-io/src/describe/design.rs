@@ -1,6 +1,6 @@
 //! `design/1`: numbers of a rover that are free, what is to be least, and what is limited.
 
-use super::super::design::{Aim, Ends, Measure, Settings};
+use super::super::design::{DesignAim, DesignSettings, LimitEnds, Measure};
 use super::super::field::{
     At, DEG, Field, Fill, J_PER_M, KG, Keyed, Keyword, M, NM, ONE, Shape, Table, Unit, field, list,
     note, number, table, word, words,
@@ -9,13 +9,13 @@ use super::about::{assumed, gravity, model, notes, purpose, schema, source};
 use super::run::{OfScenario, Run, SLOPE};
 use grouser_core::simulation::Scenario;
 
-impl OfScenario for Settings {
+impl OfScenario for DesignSettings {
     fn scenario(&mut self) -> &mut Scenario {
         &mut self.scenario
     }
 }
 
-pub(crate) static DESIGN: Table<Settings> = Table {
+pub(crate) static DESIGN: Table<DesignSettings> = Table {
     doc: "Numbers of a rover that are free between bounds, what is to be least, and what is \
           limited.",
     fields: &[
@@ -29,7 +29,7 @@ pub(crate) static DESIGN: Table<Settings> = Table {
         Run::MODEL,
         Run::GRAVITY,
         Run::SLOPE,
-        course(|all: &mut Settings| Some(&mut all.course)).or(0.0),
+        course(|all: &mut DesignSettings| Some(&mut all.course)).or(0.0),
         Run::LOAD_TRANSFER,
         Run::WHEEL_MOMENTS,
         words("minimise", "What is to be least.", MINIMISE),
@@ -55,58 +55,58 @@ pub(crate) static DESIGN: Table<Settings> = Table {
             ONE,
             0.5..=0.99,
             "With which probability each limit is to be kept, where the soil is uncertain",
-            |all: &mut Settings| Some(&mut all.probability),
+            |all: &mut DesignSettings| Some(&mut all.probability),
         )
         .or(0.95),
         list("also", "Where all limits hold as well.", &ALSO, 1).optional(),
     ],
 };
 
-const MINIMISE: &[Keyword<Settings>] = &[
+const MINIMISE: &[Keyword<DesignSettings>] = &[
     word(Measure::WheelMass.name(), "Mass of all wheels.", |all| {
-        all.aim = Aim::One(Measure::WheelMass);
+        all.aim = DesignAim::One(Measure::WheelMass);
     }),
     word(Measure::EnergyPerMetre.name(), "Work of the wheels per metre of way.", |all| {
-        all.aim = Aim::One(Measure::EnergyPerMetre);
+        all.aim = DesignAim::One(Measure::EnergyPerMetre);
     }),
     word(Measure::SlipRatio.name(), "Slip ratio of the wheels.", |all| {
-        all.aim = Aim::One(Measure::SlipRatio);
+        all.aim = DesignAim::One(Measure::SlipRatio);
     }),
     word(
         Measure::SinkageRatio.name(),
         "The deepest wheel's sinkage over its shearing radius.",
-        |all| all.aim = Aim::One(Measure::SinkageRatio),
+        |all| all.aim = DesignAim::One(Measure::SinkageRatio),
     ),
     word(Measure::Crab.name(), "The crab angle that holds the course.", |all| {
-        all.aim = Aim::One(Measure::Crab);
+        all.aim = DesignAim::One(Measure::Crab);
     }),
     word(Measure::Torque.name(), "The largest torque of a wheel.", |all| {
-        all.aim = Aim::One(Measure::Torque);
+        all.aim = DesignAim::One(Measure::Torque);
     }),
     word("weighted_sum", "The sum of measures with their `weights`.", |all| {
-        all.aim = Aim::WeightedSum;
+        all.aim = DesignAim::WeightedSum;
     }),
 ];
 
 /// A place where limits hold as well: what is not said is as the document has it.
-static ALSO: Table<Settings> = Table {
+static ALSO: Table<DesignSettings> = Table {
     doc: "A second ground, on which all limits hold as well.",
     fields: &[
         note("soil", "The soil: a preset's name, or a path from this document's folder.")
             .optional(),
-        gravity("Gravity, g", |_: &mut Settings| None).optional(),
+        gravity("Gravity, g", |_: &mut DesignSettings| None).optional(),
         number(SLOPE, DEG, 0.0..=60.0, "Inclination of the plane, α", |_| None).optional(),
         course(|_| None).optional(),
         model("The wheel-soil model."),
     ],
 };
 
-const fn course(reach: fn(&mut Settings) -> Option<&mut f64>) -> Field<Settings> {
+const fn course(reach: fn(&mut DesignSettings) -> Option<&mut f64>) -> Field<DesignSettings> {
     let doc = "Course, χ: direction of travel from the contour; 90 straight uphill";
     number("course_deg", DEG, -90.0..=90.0, doc, reach)
 }
 
-static WEIGHTS: Table<Settings> = Table {
+static WEIGHTS: Table<DesignSettings> = Table {
     doc: "What each measure counts in a weighted sum, in its unit.",
     fields: &[
         weight(Measure::SinkageRatio, |all| Some(&mut all.weights[1])),
@@ -119,11 +119,14 @@ static WEIGHTS: Table<Settings> = Table {
 };
 
 /// What a measure counts: a number over one in the measure's unit.
-const fn weight(measure: Measure, reach: fn(&mut Settings) -> Option<&mut f64>) -> Field<Settings> {
+const fn weight(
+    measure: Measure,
+    reach: fn(&mut DesignSettings) -> Option<&mut f64>,
+) -> Field<DesignSettings> {
     number(measure.name(), ONE, 0.0..=FARTHEST, "What one in its unit counts", reach).optional()
 }
 
-static LIMITS: Table<Settings> = Table {
+static LIMITS: Table<DesignSettings> = Table {
     doc: "What is limited: `at_least`, `at_most` or both.",
     fields: &[
         limit(
@@ -153,27 +156,32 @@ static LIMITS: Table<Settings> = Table {
 const fn limit(
     measure: Measure,
     doc: &'static str,
-    ends: &'static At<Settings, Ends>,
-) -> Field<Settings> {
+    ends: &'static At<DesignSettings, LimitEnds>,
+) -> Field<DesignSettings> {
     table(measure.name(), doc, ends).optional()
 }
 
-static LIMIT_SLOPE: At<Settings, Ends> = At { inner: &ANGLE, at: |all| &mut all.limits[0] };
-static SINKAGE_RATIO: At<Settings, Ends> = At { inner: &RATIO, at: |all| &mut all.limits[1] };
-static SLIP_RATIO: At<Settings, Ends> = At { inner: &RATIO, at: |all| &mut all.limits[2] };
-static ENERGY: At<Settings, Ends> = At { inner: &WORK, at: |all| &mut all.limits[3] };
-static CRAB: At<Settings, Ends> = At { inner: &ANGLE, at: |all| &mut all.limits[4] };
-static TORQUE: At<Settings, Ends> = At { inner: &MOMENT, at: |all| &mut all.limits[5] };
-static TIPPING_SLOPE: At<Settings, Ends> = At { inner: &ANGLE, at: |all| &mut all.limits[6] };
-static WIDTH: At<Settings, Ends> = At { inner: &LENGTH, at: |all| &mut all.limits[7] };
-static WHEEL_MASS: At<Settings, Ends> = At { inner: &MASS, at: |all| &mut all.limits[8] };
+static LIMIT_SLOPE: At<DesignSettings, LimitEnds> =
+    At { inner: &ANGLE, at: |all| &mut all.limits[0] };
+static SINKAGE_RATIO: At<DesignSettings, LimitEnds> =
+    At { inner: &RATIO, at: |all| &mut all.limits[1] };
+static SLIP_RATIO: At<DesignSettings, LimitEnds> =
+    At { inner: &RATIO, at: |all| &mut all.limits[2] };
+static ENERGY: At<DesignSettings, LimitEnds> = At { inner: &WORK, at: |all| &mut all.limits[3] };
+static CRAB: At<DesignSettings, LimitEnds> = At { inner: &ANGLE, at: |all| &mut all.limits[4] };
+static TORQUE: At<DesignSettings, LimitEnds> = At { inner: &MOMENT, at: |all| &mut all.limits[5] };
+static TIPPING_SLOPE: At<DesignSettings, LimitEnds> =
+    At { inner: &ANGLE, at: |all| &mut all.limits[6] };
+static WIDTH: At<DesignSettings, LimitEnds> = At { inner: &LENGTH, at: |all| &mut all.limits[7] };
+static WHEEL_MASS: At<DesignSettings, LimitEnds> =
+    At { inner: &MASS, at: |all| &mut all.limits[8] };
 
-static ANGLE: Table<Ends> = Table { doc: ENDS, fields: &[at_least(DEG), at_most(DEG)] };
-static RATIO: Table<Ends> = Table { doc: ENDS, fields: &[at_least(ONE), at_most(ONE)] };
-static WORK: Table<Ends> = Table { doc: ENDS, fields: &[at_least(J_PER_M), at_most(J_PER_M)] };
-static MOMENT: Table<Ends> = Table { doc: ENDS, fields: &[at_least(NM), at_most(NM)] };
-static LENGTH: Table<Ends> = Table { doc: ENDS, fields: &[at_least(M), at_most(M)] };
-static MASS: Table<Ends> = Table { doc: ENDS, fields: &[at_least(KG), at_most(KG)] };
+static ANGLE: Table<LimitEnds> = Table { doc: ENDS, fields: &[at_least(DEG), at_most(DEG)] };
+static RATIO: Table<LimitEnds> = Table { doc: ENDS, fields: &[at_least(ONE), at_most(ONE)] };
+static WORK: Table<LimitEnds> = Table { doc: ENDS, fields: &[at_least(J_PER_M), at_most(J_PER_M)] };
+static MOMENT: Table<LimitEnds> = Table { doc: ENDS, fields: &[at_least(NM), at_most(NM)] };
+static LENGTH: Table<LimitEnds> = Table { doc: ENDS, fields: &[at_least(M), at_most(M)] };
+static MASS: Table<LimitEnds> = Table { doc: ENDS, fields: &[at_least(KG), at_most(KG)] };
 
 const ENDS: &str = "The least or the most that it may be.";
 /// Keys of which a limit has one.
@@ -181,14 +189,16 @@ const SIDES: &[&str] = &["at_least", "at_most"];
 /// No limit is farther from zero, and no weight is larger. Source: ours.
 const FARTHEST: f64 = 1e6;
 
-const fn at_least(unit: Unit) -> Field<Ends> {
+const fn at_least(unit: Unit) -> Field<LimitEnds> {
     let doc = "The least that it may be";
-    number("at_least", unit, -FARTHEST..=FARTHEST, doc, |ends: &mut Ends| Some(&mut ends.least))
-        .any_of(SIDES)
+    number("at_least", unit, -FARTHEST..=FARTHEST, doc, |ends: &mut LimitEnds| {
+        Some(&mut ends.least)
+    })
+    .any_of(SIDES)
 }
 
-const fn at_most(unit: Unit) -> Field<Ends> {
+const fn at_most(unit: Unit) -> Field<LimitEnds> {
     let doc = "The most that it may be";
-    number("at_most", unit, -FARTHEST..=FARTHEST, doc, |ends: &mut Ends| Some(&mut ends.most))
+    number("at_most", unit, -FARTHEST..=FARTHEST, doc, |ends: &mut LimitEnds| Some(&mut ends.most))
         .any_of(SIDES)
 }

@@ -521,7 +521,7 @@ class Mission(_OnGround, _keys.MissionKeys):
         return Scenario._of(items, self._files)
 
 
-class Design(_OnGround, _keys.DesignKeys):
+class Design(_OnGround):
     """Numbers of a rover that are free between bounds, what is to be least, and what is limited.
 
     ``Design("design-lighter-wheels")`` is a preset, ``Design("my-design.toml")`` a file, and

@@ -8,13 +8,16 @@ use super::{Answer, AnswerError, AnswerOptions, Attached, Displayed, Member, mea
 use crate::contact::Model;
 use crate::document::columns::design::{self as columns, DesignRow, MODEL, ROW, SHARE};
 use crate::document::columns::{COURSE, SLOPE};
-use crate::document::design::{DesignTask, LoadedDesign, Measure};
+use crate::document::design::Measure;
 use crate::document::figure::{Chart, Series, Style};
 use crate::document::reading::four_digits;
 use crate::document::table::Table;
 use crate::document::unit::ONE;
+use crate::document::{DesignTask, LoadedDesign};
 use crate::document::{Kind, to_toml};
-use crate::studies::design::{Design, DesignStudy, Kept, Limit, Nearest, NoDesign, Side};
+use crate::studies::design::{
+    BestDesign, DesignLimit, DesignStudy, KeptLimit, LimitSide, Nearest, NoDesign,
+};
 
 /// The question.
 #[derive(Clone, Debug)]
@@ -120,28 +123,28 @@ impl DesignQuestion {
         }
     }
 
-    fn free_numbers(&self, design: &Design) -> Value {
+    fn free_numbers(&self, design: &BestDesign) -> Value {
         let task = &self.task.value;
-        let chosen = task.alternatives[design.alternative].chosen.iter().cloned();
+        let chosen = task.candidates[design.candidate].chosen.iter().cloned();
         let free = task.free.iter().map(|(key, _)| key.clone());
         let free = free.zip(design.values.iter().map(|value| json!(value)));
         Value::Object(chosen.chain(free).collect::<Map<String, Value>>())
     }
 
     /// The rover as given, and as found by its model and by the others.
-    fn rows(&self, study: &DesignStudy, design: &Design) -> Vec<DesignRow> {
+    fn rows(&self, study: &DesignStudy, design: &BestDesign) -> Vec<DesignRow> {
         let task = &self.task.value;
         let row = |name: &str, place: usize, model: &Model, values: &[f64]| DesignRow {
             name: name.to_owned(),
             model: model.name().to_owned(),
-            chosen: task.alternatives[place].chosen.clone(),
+            chosen: task.candidates[place].chosen.clone(),
             values: values.to_vec(),
             measures: study.nominal_measures(place, values, model),
         };
-        let found = design.alternative;
+        let found = design.candidate;
         let (given, own) = (model_of(task, 0), model_of(task, found));
         let mut rows = vec![
-            row("as given", 0, given, &task.alternatives[0].given),
+            row("as given", 0, given, &task.candidates[0].given),
             row("found", found, own, &design.values),
         ];
         let others = Model::ALL.iter().filter(|it| *it != own);
@@ -150,7 +153,7 @@ impl DesignQuestion {
             let study = DesignStudy::of(task.value.clone(), self.is_nominal, self.seed);
             let model = model_of(&task.value, 0);
             match study.design() {
-                Ok(by) => row("found by it", by.alternative, model, &by.values),
+                Ok(by) => row("found by it", by.candidate, model, &by.values),
                 Err(_) => DesignRow { measures: None, ..row("found by it", found, model, &[]) },
             }
         }));
@@ -163,9 +166,9 @@ impl DesignQuestion {
     }
 
     /// What is said of the design.
-    fn lines(&self, design: &Design, rows: &[DesignRow]) -> Vec<String> {
+    fn lines(&self, design: &BestDesign, rows: &[DesignRow]) -> Vec<String> {
         let task = &self.task.value;
-        let numbers = self.numbers_in_words(design.alternative, &design.values);
+        let numbers = self.numbers_in_words(design.candidate, &design.values);
         let aim = self.aim();
         let mut lines = vec![format!(
             "{aim} is {} at the least, with {numbers}.",
@@ -201,9 +204,9 @@ impl DesignQuestion {
         terms.collect::<Vec<_>>().join(" + ")
     }
 
-    fn numbers_in_words(&self, alternative: usize, values: &[f64]) -> String {
+    fn numbers_in_words(&self, candidate: usize, values: &[f64]) -> String {
         let task = &self.task.value;
-        let chosen = task.alternatives[alternative].chosen.iter();
+        let chosen = task.candidates[candidate].chosen.iter();
         let chosen = chosen.map(|(key, value)| format!("{key} = {value}"));
         let pairs = task.free.iter().zip(values);
         let free = pairs.map(|((key, _), value)| format!("{key} = {}", four_digits(*value)));
@@ -211,7 +214,7 @@ impl DesignQuestion {
     }
 
     /// What a limit costs.
-    fn price_line(&self, kept: &Kept) -> Option<String> {
+    fn price_line(&self, kept: &KeptLimit) -> Option<String> {
         let unit = kept.limit.measure.unit();
         // A ratio is loosened by a hundredth.
         let (by, price) = if unit == ONE {
@@ -230,7 +233,7 @@ impl DesignQuestion {
     }
 
     /// Which numbers lie at an end of what they may be.
-    fn ends_line(&self, design: &Design) -> Option<String> {
+    fn ends_line(&self, design: &BestDesign) -> Option<String> {
         /// Nearer to an end than this, over the bounds, is at it [-].
         const AT_END: f64 = 1e-6;
         let pairs = self.task.value.free.iter().zip(&design.values);
@@ -253,21 +256,21 @@ impl DesignQuestion {
     fn add_trade(
         &self,
         answer: &mut Answer,
-        trade: &[Design],
+        trade: &[BestDesign],
         [first, second]: [Measure; 2],
         brief: &[String],
     ) {
-        let row = |design: &Design| DesignRow {
+        let row = |design: &BestDesign| DesignRow {
             name: "found".to_owned(),
             model: String::new(),
-            chosen: self.task.value.alternatives[design.alternative].chosen.clone(),
+            chosen: self.task.value.candidates[design.candidate].chosen.clone(),
             values: design.values.clone(),
             measures: Some(design.measures),
         };
         let rows: Vec<DesignRow> = trade.iter().map(row).collect();
         let table = Arc::new(self.table(&rows));
         let of = |measure: Measure| format!("{} [{}]", measure.doc(), measure.unit().symbol);
-        let point = |design: &Design| {
+        let point = |design: &BestDesign| {
             let [y, x] = [first, second].map(|it| it.unit().from_si(design.measures[it.place()]));
             (x, y)
         };
@@ -290,8 +293,8 @@ impl DesignQuestion {
     }
 
     /// The rover's document with the numbers that were found.
-    fn rover(&self, design: &Design) -> Attached {
-        let ground = &self.task.value.alternatives[design.alternative].conditions[0];
+    fn rover(&self, design: &BestDesign) -> Attached {
+        let ground = &self.task.value.candidates[design.candidate].grounds[0];
         let document = &ground.scenario.document;
         let numbers = design.numbers.iter().map(|(key, value)| (&**key, *value));
         let changed = document.with(numbers).part(Kind::Rover, "rover");
@@ -307,7 +310,7 @@ impl DesignQuestion {
     #[must_use]
     pub fn why_none(&self, none: &NoDesign) -> String {
         let NoDesign::Unreachable(nearest) = none else { return none.to_string() };
-        let Nearest { alternative, values, missed, ground_limit } = &**nearest;
+        let Nearest { candidate, values, missed, ground_limit } = &**nearest;
         let missed = missed.iter().map(|(limit, value)| {
             let unit = limit.measure.unit();
             let has = four_digits(unit.from_si(*value));
@@ -322,20 +325,20 @@ impl DesignQuestion {
         });
         format!(
             "{none}: the nearest, with {}, misses {}",
-            self.numbers_in_words(*alternative, values),
+            self.numbers_in_words(*candidate, values),
             missed.collect::<Vec<_>>().join(" and ")
         )
     }
 }
 
 /// The model of the first ground of a rover that may be chosen.
-fn model_of(task: &DesignTask, alternative: usize) -> &Model {
-    &task.alternatives[alternative].conditions[0].scenario.value.model
+fn model_of(task: &DesignTask, candidate: usize) -> &Model {
+    &task.candidates[candidate].grounds[0].scenario.value.model
 }
 
 /// Which other models say that the design misses a limit.
-fn models_line(design: &Design, rows: &[DesignRow]) -> Option<String> {
-    let nominal = |kept: &&Kept| kept.limit.ground == 0;
+fn models_line(design: &BestDesign, rows: &[DesignRow]) -> Option<String> {
+    let nominal = |kept: &&KeptLimit| kept.limit.ground == 0;
     let misses = |row: &&DesignRow| {
         let measures = row.measures.as_ref();
         row.name == "found"
@@ -350,10 +353,10 @@ fn models_line(design: &Design, rows: &[DesignRow]) -> Option<String> {
 }
 
 /// A limit, such as `limit_slope_deg ≥ 21`.
-fn limit_in_words(limit: &Limit) -> String {
+fn limit_in_words(limit: &DesignLimit) -> String {
     let sign = match limit.side {
-        Side::AtLeast => "≥",
-        Side::AtMost => "≤",
+        LimitSide::AtLeast => "≥",
+        LimitSide::AtMost => "≤",
     };
     let bound = four_digits(limit.measure.unit().from_si(limit.bound));
     let place =
@@ -362,7 +365,7 @@ fn limit_in_words(limit: &Limit) -> String {
 }
 
 /// That fewer fresh samples keep a limit than are to.
-fn short_line(kept: &Kept, probability: f64) -> Option<String> {
+fn short_line(kept: &KeptLimit, probability: f64) -> Option<String> {
     let share = kept.share.filter(|share| *share < probability)?;
     Some(format!(
         "Of {} soils that took no part only {} % keep {}.",

@@ -21,14 +21,15 @@
 mod measured;
 mod slsqp;
 
-use grouser_io::design::{Alternative, DesignTask, Measure};
+use grouser_io::design::Measure;
+use grouser_io::design_task::{Candidate, DesignTask};
 use grouser_io::statistics::NothingAccepted;
 use grouser_io::statistics::normal::normal_score;
 use rayon::prelude::*;
 
-use self::measured::Ground;
+use self::measured::MeasuredGround;
 pub use self::measured::Measures;
-use self::slsqp::{Minimum, Smooth, Values};
+use self::slsqp::{Minimum, PointValues, Smooth};
 use crate::contact::Model;
 use crate::difference::{StepLengths, Variable, derivatives};
 use crate::soil::Span;
@@ -47,20 +48,20 @@ pub struct DesignStudy {
 
 /// A limit of a measure on one of the grounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limit {
-    /// On which ground, as numbered in [`Alternative::conditions`].
+pub struct DesignLimit {
+    /// On which ground, as numbered in [`Candidate::grounds`].
     pub ground: usize,
     /// What is limited.
     pub measure: Measure,
     /// To which side.
-    pub side: Side,
+    pub side: LimitSide,
     /// The limit, in SI.
     pub bound: f64,
 }
 
 /// To which side a measure is limited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
+pub enum LimitSide {
     /// It is to be as large or larger.
     AtLeast,
     /// It is to be as small or smaller.
@@ -69,9 +70,9 @@ pub enum Side {
 
 /// A limit, and how a design keeps it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kept {
+pub struct KeptLimit {
     /// The limit.
-    pub limit: Limit,
+    pub limit: DesignLimit,
     /// What the design has, in SI; where the soil is uncertain, what it has or does better with the
     /// probability that is asked for.
     pub value: f64,
@@ -84,9 +85,9 @@ pub struct Kept {
 
 /// A design that was found.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Design {
+pub struct BestDesign {
     /// Of which rover among those that may be chosen.
-    pub alternative: usize,
+    pub candidate: usize,
     /// The free numbers, in their keys' units.
     pub values: Vec<f64>,
     /// All numbers of the rover that it changes, by their keys: the free ones, and what the masses
@@ -97,7 +98,7 @@ pub struct Design {
     /// What is measured of it on the first ground, on average over samples where there are any.
     pub measures: Measures,
     /// Every limit.
-    pub kept: Vec<Kept>,
+    pub kept: Vec<KeptLimit>,
     /// What shows that it is the least.
     pub certificate: Certificate,
 }
@@ -136,11 +137,11 @@ pub enum NoDesign {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nearest {
     /// Of which rover among those that may be chosen.
-    pub alternative: usize,
+    pub candidate: usize,
     /// The free numbers, in their keys' units.
     pub values: Vec<f64>,
     /// Limits that it misses, and what it has, in SI.
-    pub missed: Vec<(Limit, f64)>,
+    pub missed: Vec<(DesignLimit, f64)>,
     /// The steepest slope on which the first ground stands by its own strength [rad].
     pub ground_limit: f64,
 }
@@ -160,7 +161,7 @@ fn size_in_si(measure: Measure) -> f64 {
     measure.unit().to_si(size(measure))
 }
 
-impl Side {
+impl LimitSide {
     /// Its key in documents.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -179,7 +180,7 @@ impl Side {
     }
 }
 
-impl Limit {
+impl DesignLimit {
     /// Whether a value of its measure, in SI, keeps it but for rounding.
     #[must_use]
     pub fn holds(&self, value: f64) -> bool {
@@ -209,7 +210,7 @@ impl DesignStudy {
     /// Whether any limit is kept with a probability.
     #[must_use]
     pub fn is_uncertain(&self) -> bool {
-        let all = self.task.alternatives.iter().flat_map(|it| &it.conditions);
+        let all = self.task.candidates.iter().flat_map(|it| &it.grounds);
         !self.is_nominal && all.into_iter().any(|it| it.scenario.soils_of_bands().is_some())
     }
 
@@ -217,7 +218,7 @@ impl DesignStudy {
     ///
     /// # Errors
     /// [`NoDesign`] where no design moves, none keeps all limits, or no soil can be drawn.
-    pub fn design(&self) -> Result<Design, NoDesign> {
+    pub fn design(&self) -> Result<BestDesign, NoDesign> {
         self.least(&self.task.weights, None)
     }
 
@@ -226,7 +227,11 @@ impl DesignStudy {
     ///
     /// # Errors
     /// The same as [`design`](Self::design), where one of the two ends has none.
-    pub fn trade_off(&self, measures: [Measure; 2], count: usize) -> Result<Vec<Design>, NoDesign> {
+    pub fn trade_off(
+        &self,
+        measures: [Measure; 2],
+        count: usize,
+    ) -> Result<Vec<BestDesign>, NoDesign> {
         let weights = measures.map(|measure| {
             let mut weights = [0.0; Measure::COUNT];
             weights[measure.place()] = 1.0;
@@ -238,10 +243,10 @@ impl DesignStudy {
         let between = (1..count.saturating_sub(1)).into_par_iter().filter_map(|number| {
             let share = number as f64 / (count - 1) as f64;
             let bound = most + share * (least - most);
-            let limit = Limit { ground: 0, measure: second, side: Side::AtMost, bound };
+            let limit = DesignLimit { ground: 0, measure: second, side: LimitSide::AtMost, bound };
             self.least(&weights[0], Some(limit)).ok()
         });
-        let between: Vec<Design> = between.collect();
+        let between: Vec<BestDesign> = between.collect();
         let [first, last] = ends;
         Ok(std::iter::once(first).chain(between).chain([last]).collect())
     }
@@ -251,21 +256,21 @@ impl DesignStudy {
     #[must_use]
     pub fn nominal_measures(
         &self,
-        alternative: usize,
+        candidate: usize,
         values: &[f64],
         model: &Model,
     ) -> Option<Measures> {
-        let alternative = &self.task.alternatives[alternative];
-        let numbers = measured::numbers(&self.task.free, alternative, values)?;
-        let ground = Ground::nominal(alternative.conditions.first()?);
+        let candidate = &self.task.candidates[candidate];
+        let numbers = measured::numbers(&self.task.free, candidate, values)?;
+        let ground = MeasuredGround::nominal(candidate.grounds.first()?);
         ground.with_model(model).measures(&numbers).pop()?
     }
 
     /// The best of the rovers that may be chosen.
-    fn least(&self, weights: &[f64], extra: Option<Limit>) -> Result<Design, NoDesign> {
-        let (mut best, mut none): (Option<Design>, Vec<NoDesign>) = (None, Vec::new());
-        for place in 0..self.task.alternatives.len() {
-            match Search::of(self, place, weights, extra)?.design() {
+    fn least(&self, weights: &[f64], extra: Option<DesignLimit>) -> Result<BestDesign, NoDesign> {
+        let (mut best, mut none): (Option<BestDesign>, Vec<NoDesign>) = (None, Vec::new());
+        for place in 0..self.task.candidates.len() {
+            match DesignSearch::of(self, place, weights, extra)?.design() {
                 Ok(design) if best.as_ref().is_none_or(|it| design.objective < it.objective) => {
                     best = Some(design);
                 }
@@ -288,18 +293,18 @@ impl DesignStudy {
 }
 
 /// A search over the numbers of one rover.
-struct Search<'a> {
+struct DesignSearch<'a> {
     study: &'a DesignStudy,
     place: usize,
-    alternative: &'a Alternative,
+    candidate: &'a Candidate,
     /// The weights of the aim, each over one in its unit.
     weights: &'a [f64],
     /// What the aim is counted in.
     aim_size: f64,
-    limits: Vec<Limit>,
+    limits: Vec<DesignLimit>,
     /// How many standard deviations each limit keeps off its bound.
     scores: Vec<f64>,
-    grounds: Vec<Ground>,
+    grounds: Vec<MeasuredGround>,
 }
 
 /// The mean of a measure over samples, and its standard deviation.
@@ -318,34 +323,34 @@ impl Moments {
     }
 }
 
-impl<'a> Search<'a> {
+impl<'a> DesignSearch<'a> {
     fn of(
         study: &'a DesignStudy,
         place: usize,
         weights: &'a [f64],
-        extra: Option<Limit>,
+        extra: Option<DesignLimit>,
     ) -> Result<Self, NoDesign> {
-        let alternative = &study.task.alternatives[place];
-        let grounds = alternative.conditions.iter().map(|condition| {
+        let candidate = &study.task.candidates[place];
+        let grounds = candidate.grounds.iter().map(|there| {
             if study.is_nominal {
-                return Ok(Ground::nominal(condition));
+                return Ok(MeasuredGround::nominal(there));
             }
-            Ground::drawn(condition, study.seed, DesignStudy::SAMPLES)
+            MeasuredGround::drawn(there, study.seed, DesignStudy::SAMPLES)
         });
-        let grounds = grounds.collect::<Result<Vec<Ground>, NothingAccepted>>()?;
+        let grounds = grounds.collect::<Result<Vec<MeasuredGround>, NothingAccepted>>()?;
         let sizes = Measure::ALL.into_iter().zip(weights);
         let aim_size = sizes.map(|(measure, weight)| weight * size(measure)).sum();
-        let mut limits = limits_of(&study.task, alternative);
+        let mut limits = limits_of(&study.task, candidate);
         limits.extend(extra);
-        let score = |limit: &Limit| {
+        let score = |limit: &DesignLimit| {
             let is_uncertain = grounds[limit.ground].is_uncertain();
             if is_uncertain { normal_score(study.task.probability) } else { 0.0 }
         };
         let scores = limits.iter().map(score).collect();
-        Ok(Self { study, place, alternative, weights, aim_size, limits, scores, grounds })
+        Ok(Self { study, place, candidate, weights, aim_size, limits, scores, grounds })
     }
 
-    fn design(mut self) -> Result<Design, NoDesign> {
+    fn design(mut self) -> Result<BestDesign, NoDesign> {
         /// How often what samples say of a limit is looked up again.
         const LOOKS: usize = 4;
         let starts = self.starts();
@@ -386,7 +391,7 @@ impl<'a> Search<'a> {
         const SPREAD: usize = 4;
         let ends = self.study.task.free.iter().map(|(_, ends)| ends);
         let share = |(given, [least, most]): (&f64, &[f64; 2])| (given - least) / (most - least);
-        let own = self.alternative.given.iter().zip(ends).map(share);
+        let own = self.candidate.given.iter().zip(ends).map(share);
         let own: Vec<f64> = own.map(|share| share.clamp(0.0, 1.0)).collect();
         std::iter::once(own).chain(spread(self.free()).take(SPREAD)).collect()
     }
@@ -400,8 +405,8 @@ impl<'a> Search<'a> {
     /// What every sample measures on every ground; nothing of a design that is none.
     fn measured(&self, point: &[f64]) -> Option<Vec<Vec<Measures>>> {
         let values = self.values(point);
-        let numbers = measured::numbers(&self.study.task.free, self.alternative, &values)?;
-        let of_ground = |ground: &Ground| {
+        let numbers = measured::numbers(&self.study.task.free, self.candidate, &values)?;
+        let of_ground = |ground: &MeasuredGround| {
             let all: Vec<Measures> = ground.measures(&numbers).into_iter().flatten().collect();
             let enough = all.len() as f64 >= self.study.task.probability * ground.count() as f64;
             (enough && !all.is_empty()).then_some(all)
@@ -470,9 +475,9 @@ impl<'a> Search<'a> {
         has_changed
     }
 
-    fn found(&self, best: &Minimum, certificate: Certificate) -> Result<Design, NoDesign> {
+    fn found(&self, best: &Minimum, certificate: Certificate) -> Result<BestDesign, NoDesign> {
         let values = self.values(&best.point);
-        let numbers = measured::numbers(&self.study.task.free, self.alternative, &values);
+        let numbers = measured::numbers(&self.study.task.free, self.candidate, &values);
         let (Some(measured), Some(numbers)) = (self.measured(&best.point), numbers) else {
             return Err(NoDesign::NothingMoves);
         };
@@ -481,15 +486,15 @@ impl<'a> Search<'a> {
         let fresh = self.fresh(&numbers)?;
         let kept = self.limits.iter().enumerate().map(|(place, limit)| {
             let multiplier = best.multipliers.get(place).copied().unwrap_or(0.0);
-            Kept {
+            KeptLimit {
                 limit: *limit,
                 value: self.limited(place, &measured),
                 price: multiplier * self.aim_size / size(limit.measure),
                 share: fresh[limit.ground].as_ref().map(|all| share(limit, all)),
             }
         });
-        Ok(Design {
-            alternative: self.place,
+        Ok(BestDesign {
+            candidate: self.place,
             objective: best.objective * self.aim_size,
             measures: Measure::ALL.map(mean),
             kept: kept.collect(),
@@ -504,13 +509,13 @@ impl<'a> Search<'a> {
         &self,
         numbers: &[(String, f64)],
     ) -> Result<Vec<Option<Vec<Option<Measures>>>>, NothingAccepted> {
-        let of_ground = |(place, ground): (usize, &Ground)| {
+        let of_ground = |(place, ground): (usize, &MeasuredGround)| {
             if !ground.is_uncertain() {
                 return Ok(None);
             }
-            let condition = &self.alternative.conditions[place];
+            let there = &self.candidate.grounds[place];
             let seed = self.study.seed.wrapping_add(1);
-            let fresh = Ground::drawn(condition, seed, DesignStudy::FRESH_SAMPLES)?;
+            let fresh = MeasuredGround::drawn(there, seed, DesignStudy::FRESH_SAMPLES)?;
             Ok(Some(fresh.measures(numbers)))
         };
         self.grounds.iter().enumerate().map(of_ground).collect()
@@ -577,15 +582,18 @@ impl<'a> Search<'a> {
         let all = all.map(|(place, limit)| (*limit, self.limited(place, &measured)));
         let missed = all.filter(|(limit, value)| limit.excess(*value) > 1e-6).collect();
         NoDesign::Unreachable(Box::new(Nearest {
-            alternative: self.place,
+            candidate: self.place,
             values: self.values(&point),
             missed,
             ground_limit: self.grounds[0].strength(),
         }))
     }
 
-    /// Values and derivatives of what a point gives.
-    fn smooth(point: &[f64], of: impl Fn(&[f64]) -> Option<Vec<f64>> + Sync) -> Option<Values> {
+    /// PointValues and derivatives of what a point gives.
+    fn smooth(
+        point: &[f64],
+        of: impl Fn(&[f64]) -> Option<Vec<f64>> + Sync,
+    ) -> Option<PointValues> {
         let here = of(point)?;
         let variable =
             |value: &f64| Variable { value: *value, scale: 1.0, range: Span::new(0.0, 1.0) };
@@ -599,7 +607,7 @@ impl<'a> Search<'a> {
             .map(|by| Some(by?.into_iter().map(|it| it.value).collect()))
             .collect::<Option<_>>()?;
         let gradient = |result: usize| by.iter().map(|of| of[result]).collect();
-        Some(Values {
+        Some(PointValues {
             objective: here[0],
             gradients: (0..here.len()).map(gradient).collect(),
             constraints: here[1..].to_vec(),
@@ -611,25 +619,25 @@ impl<'a> Search<'a> {
 const AGREED: f64 = 1e-4;
 
 /// The limits on every ground; that the slope is crossed is one, unless a stricter one is stated.
-fn limits_of(task: &DesignTask, alternative: &Alternative) -> Vec<Limit> {
+fn limits_of(task: &DesignTask, candidate: &Candidate) -> Vec<DesignLimit> {
     let of_ground = |(ground, slope): (usize, f64)| {
         let both = Measure::ALL.into_iter().zip(task.limits).flat_map(move |(measure, ends)| {
             let least = match measure {
                 Measure::LimitSlope if slope > 0.0 => ends.least.max(slope),
                 _ => ends.least,
             };
-            let of = |side, bound| Limit { ground, measure, side, bound };
-            [of(Side::AtLeast, least), of(Side::AtMost, ends.most)]
+            let of = |side, bound| DesignLimit { ground, measure, side, bound };
+            [of(LimitSide::AtLeast, least), of(LimitSide::AtMost, ends.most)]
         });
         // What no ground changes is limited once.
         both.filter(move |it| it.bound.is_finite() && (ground == 0 || !it.measure.is_of_rover()))
     };
-    let slopes = alternative.conditions.iter().map(|condition| condition.slope);
+    let slopes = candidate.grounds.iter().map(|there| there.slope);
     slopes.enumerate().flat_map(of_ground).collect()
 }
 
 /// The share of samples that keeps a limit; one that does not move keeps none.
-fn share(limit: &Limit, samples: &[Option<Measures>]) -> f64 {
+fn share(limit: &DesignLimit, samples: &[Option<Measures>]) -> f64 {
     let keeps =
         |it: &&Option<Measures>| it.is_some_and(|it| limit.holds(it[limit.measure.place()]));
     samples.iter().filter(keeps).count() as f64 / samples.len() as f64
@@ -643,7 +651,7 @@ fn spread(dimensions: usize) -> impl Iterator<Item = Vec<f64>> {
     (0..POINTS).map(move |index| set.point(index))
 }
 
-impl Smooth for Search<'_> {
+impl Smooth for DesignSearch<'_> {
     fn free(&self) -> usize {
         self.study.task.free.len()
     }
@@ -652,14 +660,14 @@ impl Smooth for Search<'_> {
         self.limits.len()
     }
 
-    fn at(&self, point: &[f64]) -> Option<Values> {
+    fn at(&self, point: &[f64]) -> Option<PointValues> {
         Self::smooth(point, |point| self.outcome(point))
     }
 }
 
 /// The least by which the worst limit is missed: a last number that each limit may be missed by.
 struct Elastic<'a> {
-    search: &'a Search<'a>,
+    search: &'a DesignSearch<'a>,
     /// What the last number is a share of.
     most: f64,
 }
@@ -673,7 +681,7 @@ impl Smooth for Elastic<'_> {
         self.search.constraints()
     }
 
-    fn at(&self, point: &[f64]) -> Option<Values> {
+    fn at(&self, point: &[f64]) -> Option<PointValues> {
         let (share, own) = point.split_last()?;
         let slack = share * self.most;
         let mut values = self.search.at(own)?;

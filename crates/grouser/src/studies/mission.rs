@@ -44,6 +44,9 @@ pub struct DrivenLeg {
     pub origin: Vec2,
 }
 
+/// The place that advice on a leg is about, as slope and course [rad], and the moments of its turns.
+type AskedLeg = (Option<(f64, f64)>, Vec<SpotTurn>);
+
 impl DrivenMission {
     /// Drives missions, each from its start.
     ///
@@ -96,7 +99,7 @@ impl DrivenMission {
     /// asks for or has gone, over ground with heights the steepest of the way. `None` for legs that
     /// lead nowhere, that are driven backward or with wheels that crab, and over zones of soil: advice
     /// is about a nose in front on one soil.
-    fn asked(&self, scenario: &Scenario) -> Vec<(Option<(f64, f64)>, Vec<SpotTurn>)> {
+    fn asked(&self, scenario: &Scenario) -> Vec<AskedLeg> {
         // Places are seen from where the mission starts.
         let mut end = RoverState { yaw: scenario.start.yaw, ..RoverState::default() };
         let asked = |leg: &DrivenLeg| {
@@ -188,7 +191,7 @@ impl DrivenLeg {
         let yaw = before.yaw - (atan2(uphill.y, uphill.x) - FRAC_PI_2);
         let turns = [(yaw, to_yaw), (yaw + to_yaw.unwrap_or(0.0), itself)].into_iter();
         turns
-            .flat_map(|(from, angle)| angle.map(|it| SpotTurn::moments(slope, from, it)))
+            .filter_map(|(from, angle)| angle.map(|it| SpotTurn::moments(slope, from, it)))
             .flatten()
             .collect()
     }

@@ -2,9 +2,9 @@
 
 use grouser::answers::design::DesignQuestion;
 use grouser::answers::{AnswerError, AnswerOptions};
-use grouser::document::design::{LoadedDesign, Measure, read_design};
-use grouser::document::{DocumentError, Kind, Overrides, Source};
-use grouser::studies::design::{Design, DesignStudy, NoDesign};
+use grouser::document::design::Measure;
+use grouser::document::{DocumentError, Kind, LoadedDesign, Overrides, Source, read_design};
+use grouser::studies::design::{BestDesign, DesignStudy, NoDesign};
 
 const LIGHTER: &str = "design-lighter-wheels";
 
@@ -23,13 +23,13 @@ fn study_of(text: &str) -> DesignStudy {
     DesignStudy::of(read_text(&text).expect("a design").value, false, 1)
 }
 
-fn measure(design: &Design, measure: Measure) -> f64 {
+fn measure(design: &BestDesign, measure: Measure) -> f64 {
     measure.unit().from_si(design.measures[measure.place()])
 }
 
 /// The excess of every limit, in its unit, and the aim of a design with other numbers.
-fn misses(study: &DesignStudy, found: &Design, values: &[f64]) -> Option<(f64, bool)> {
-    let model = &study.task.alternatives[0].conditions[0].scenario.value.model;
+fn misses(study: &DesignStudy, found: &BestDesign, values: &[f64]) -> Option<(f64, bool)> {
+    let model = &study.task.candidates[0].grounds[0].scenario.value.model;
     let measures = study.nominal_measures(0, values, model)?;
     let keeps = found.kept.iter().all(|it| it.limit.holds(measures[it.limit.measure.place()]));
     Some((measures[Measure::WheelMass.place()], keeps))
@@ -91,7 +91,7 @@ fn a_width_that_is_asked_for_is_the_closed_form() {
         "minimise = \"wheel_mass_kg\"\n[free]\n\"rover.wheel_unit.wheel.width_m\" = [0.05, 0.2]\n\
          [subject_to]\nwidth_m = { at_least = 0.48 }\n",
     );
-    let ground = &study.task.alternatives[0].conditions[0].scenario.value;
+    let ground = &study.task.candidates[0].grounds[0].scenario.value;
     let mounts = ground.rover.mounts();
     let track = 2.0 * mounts.iter().map(|it| it.position.y.abs()).fold(0.0, f64::max);
     let unit = ground.rover.parts().wheel_unit;
@@ -121,10 +121,10 @@ fn what_is_chosen_is_the_best_of_all_that_may_be() {
     assert_eq!(found.objective, each[0].min(each[1]));
     assert_ne!(each[0], each[1]);
     let rovers = study_of(&format!("{body}[choose]\nrover = [\"hakuto\", \"mgru3\"]\n"));
-    assert_eq!(rovers.task.alternatives.len(), 2);
+    assert_eq!(rovers.task.candidates.len(), 2);
     assert_ne!(
-        rovers.task.alternatives[0].conditions[0].scenario.value.rover,
-        rovers.task.alternatives[1].conditions[0].scenario.value.rover
+        rovers.task.candidates[0].grounds[0].scenario.value.rover,
+        rovers.task.candidates[1].grounds[0].scenario.value.rover
     );
 }
 
@@ -155,7 +155,7 @@ fn a_limit_on_an_uncertain_soil_is_kept_by_the_share_that_is_asked_for() {
     };
     let [half, most] = [0.5, 0.95].map(with);
     assert!(half.objective < most.objective, "{half:?} {most:?}");
-    let share = |design: &Design| {
+    let share = |design: &BestDesign| {
         let of = |measure: Measure| {
             design.kept.iter().find(|it| it.limit.measure == measure).and_then(|it| it.share)
         };
@@ -188,7 +188,7 @@ fn a_weighted_sum_lies_between_its_parts() {
     );
     let mass = design("minimise = \"wheel_mass_kg\"");
     let energy = design("minimise = \"energy_j_per_m\"");
-    let sum = |it: &Design| {
+    let sum = |it: &BestDesign| {
         2.0 * measure(it, Measure::WheelMass) + 0.5 * measure(it, Measure::EnergyPerMetre)
     };
     assert!((sum(&both) - both.objective).abs() < 1e-9 * both.objective, "{both:?}");

@@ -41,6 +41,7 @@ fn read(kind: Kind, source: &Source, overrides: &Overrides) -> Result<Read, Docu
         Kind::Scenario => read!(read_scenario),
         Kind::Mission => read!(read_mission),
         Kind::DataSet => read!(read_data_set),
+        Kind::Design => read!(read_design),
         Kind::Campaign => {
             let campaign = document::read_campaign(source, overrides)?;
             let resolved = campaign.resolved().to_owned();

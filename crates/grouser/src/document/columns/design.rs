@@ -6,7 +6,7 @@ use super::super::design::Measure;
 use super::super::table::{Table, Values};
 use super::super::unit::ONE;
 use super::{Column, number, text, whole};
-use crate::studies::design::{Kept, Measures};
+use crate::studies::design::{KeptLimit, Measures};
 
 /// What a row is of.
 pub const ROW: &str = "row";
@@ -16,7 +16,7 @@ pub const MODEL: &str = "model";
 pub const SHARE: &str = "share";
 
 /// A limit, and how a design keeps it.
-pub const LIMITS: &[Column<Kept>] = &[
+pub const LIMITS: &[Column<KeptLimit>] = &[
     whole("ground", "The ground: 1 for the document's own, then those of `also`", |it| {
         Some(it.limit.ground + 1)
     }),
@@ -87,7 +87,7 @@ const fn measured(measure: Measure, of: fn(&DesignRow) -> Option<f64>) -> Column
 
 /// The limits, and how a design keeps them.
 #[must_use]
-pub fn limits(kept: &[Kept]) -> Table {
+pub fn limits(kept: &[KeptLimit]) -> Table {
     Table::of(LIMITS, kept)
 }
 

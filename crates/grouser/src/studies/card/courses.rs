@@ -208,9 +208,8 @@ impl SlopeStudy {
                     |it: &&Option<SteadyMotion>| it.is_some() || course != Course::TurnOnTheSpot;
                 let known = steady.iter().filter(is_known);
                 let all: Vec<Option<OnCourse>> = known.map(|it| on_course(it.as_ref()?)).collect();
-                let held = |it: &Option<OnCourse>| {
-                    Holding::of_motion(yaw, Some(it.map(|it| it.slip_ratio)))
-                };
+                let held =
+                    |it: &Option<OnCourse>| Holding::of_motion(yaw, it.map(|it| it.slip_ratio));
                 let unknown = std::iter::repeat_n(Holding::Unknown, steady.len() - all.len());
                 let held: Vec<Holding> = all.iter().map(held).chain(unknown).collect();
                 worst = worst.or(self.judgement_of_course(course, &held));

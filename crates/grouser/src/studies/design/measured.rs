@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use grouser_io::Described as _;
-use grouser_io::design::{Alternative, Condition, Measure};
+use grouser_io::design::Measure;
+use grouser_io::design_task::{Candidate, DesignGround};
 use grouser_io::statistics::NothingAccepted;
 use rayon::prelude::*;
 
@@ -19,7 +20,7 @@ use crate::wheel::Wheel;
 pub type Measures = [f64; Measure::COUNT];
 
 /// A ground with the soils and models that are taken for it.
-pub(super) struct Ground {
+pub(super) struct MeasuredGround {
     scenario: Scenario,
     slope: f64,
     course: f64,
@@ -27,27 +28,27 @@ pub(super) struct Ground {
     is_uncertain: bool,
 }
 
-impl Ground {
+impl MeasuredGround {
     /// The soil as its document has it, and its one model.
-    pub(super) fn nominal(condition: &Condition) -> Self {
-        let scenario = condition.scenario.value.clone();
+    pub(super) fn nominal(there: &DesignGround) -> Self {
+        let scenario = there.scenario.value.clone();
         let sample = Sample { soil: scenario.ground.soil, model: scenario.model.clone() };
-        let Condition { slope, course, .. } = *condition;
+        let DesignGround { slope, course, .. } = *there;
         Self { scenario, slope, course, samples: vec![sample], is_uncertain: false }
     }
 
     /// So many soils and models that it may be, where its document leaves that open.
     pub(super) fn drawn(
-        condition: &Condition,
+        there: &DesignGround,
         seed: u64,
         count: u32,
     ) -> Result<Self, NothingAccepted> {
-        let nominal = Self::nominal(condition);
-        if condition.scenario.soils_of_bands().is_none() {
+        let nominal = Self::nominal(there);
+        if there.scenario.soils_of_bands().is_none() {
             return Ok(nominal);
         }
-        let inputs = BandInputs::of_scenario(&condition.scenario);
-        let samples = inputs.asked(Question::on_course(condition.course)).samples(seed, count)?;
+        let inputs = BandInputs::of_scenario(&there.scenario);
+        let samples = inputs.asked(Question::on_course(there.course)).samples(seed, count)?;
         Ok(Self { samples, is_uncertain: true, ..nominal })
     }
 
@@ -132,12 +133,12 @@ fn of_rover(scenario: &Scenario) -> Measures {
 /// wheels whose size is among them. Nothing where they are no rover.
 pub(super) fn numbers(
     free: &[(String, [f64; 2])],
-    alternative: &Alternative,
+    candidate: &Candidate,
     values: &[f64],
 ) -> Option<Vec<(String, f64)>> {
     let own = free.iter().map(|(key, _)| key.clone()).zip(values.iter().copied());
     let mut numbers: Vec<(String, f64)> = own.collect();
-    let scenario = &alternative.conditions.first()?.scenario;
+    let scenario = &candidate.grounds.first()?.scenario;
     let keys = numbers.iter().map(|(key, value)| (&**key, *value));
     let changed = scenario.value.with(keys).ok()?;
     for (table, factor, radii, inertia, mass) in units(&scenario.value.rover, &changed.rover) {

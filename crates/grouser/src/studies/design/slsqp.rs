@@ -13,7 +13,7 @@ use basin::{
 
 /// The objective and the constraints at a point, with their derivatives.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Values {
+pub(super) struct PointValues {
     /// What is to be least.
     pub(super) objective: f64,
     /// What must not be above 0.
@@ -29,7 +29,7 @@ pub(super) trait Smooth {
     /// How many constraints there are.
     fn constraints(&self) -> usize;
     /// The values at a point; none where there are none.
-    fn at(&self, point: &[f64]) -> Option<Values>;
+    fn at(&self, point: &[f64]) -> Option<PointValues>;
 }
 
 /// A constrained minimum.
@@ -73,11 +73,11 @@ struct Adapted<'a> {
     problem: &'a dyn Smooth,
     low: Vec<f64>,
     high: Vec<f64>,
-    last: RefCell<Option<(Vec<f64>, Values)>>,
+    last: RefCell<Option<(Vec<f64>, PointValues)>>,
 }
 
 impl Adapted<'_> {
-    fn values<T>(&self, point: &[f64], of: impl FnOnce(&Values) -> T) -> T {
+    fn values<T>(&self, point: &[f64], of: impl FnOnce(&PointValues) -> T) -> T {
         let mut last = self.last.borrow_mut();
         if last.as_ref().is_none_or(|(known, _)| known != point) {
             let values = self.problem.at(point).unwrap_or_else(|| self.nothing());
@@ -87,9 +87,9 @@ impl Adapted<'_> {
     }
 
     /// What stands for no values: no step is taken to where they are not finite.
-    fn nothing(&self) -> Values {
+    fn nothing(&self) -> PointValues {
         let (free, constraints) = (self.problem.free(), self.problem.constraints());
-        Values {
+        PointValues {
             objective: f64::NAN,
             constraints: vec![f64::NAN; constraints],
             gradients: vec![vec![f64::NAN; free]; constraints + 1],
@@ -177,9 +177,9 @@ mod tests {
             2
         }
 
-        fn at(&self, point: &[f64]) -> Option<Values> {
+        fn at(&self, point: &[f64]) -> Option<PointValues> {
             let [x, y] = [point[0], point[1]];
-            Some(Values {
+            Some(PointValues {
                 objective: x + y,
                 constraints: vec![0.25 - x * y, x - self.most],
                 gradients: vec![vec![1.0, 1.0], vec![-y, -x], vec![1.0, 0.0]],
@@ -249,7 +249,7 @@ mod tests {
             1
         }
 
-        fn at(&self, point: &[f64]) -> Option<Values> {
+        fn at(&self, point: &[f64]) -> Option<PointValues> {
             let of = |r: f64, b: f64| self.outcome([r.max(1e-3), b.max(1e-3)]);
             let (here, step) = (of(point[0], point[1]), 1e-6);
             let by = |r: f64, b: f64| {
@@ -257,7 +257,7 @@ mod tests {
                 [0, 1].map(|it| (up[it] - down[it]) / (2.0 * step))
             };
             let (by_radius, by_width) = (by(step, 0.0), by(0.0, step));
-            Some(Values {
+            Some(PointValues {
                 objective: here[0],
                 constraints: vec![here[1]],
                 gradients: vec![vec![by_radius[0], by_width[0]], vec![by_radius[1], by_width[1]]],

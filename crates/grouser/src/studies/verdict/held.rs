@@ -42,14 +42,10 @@ impl Holding {
     /// Of a motion on a course that no heading is sought for, or in a turn on the spot.
     ///
     /// * `yaw`: that it is driven at [rad]
-    /// * `slip_ratio`: nothing where no steady motion was found, which is no finding about the
-    ///   soil, and nothing within where it is stuck [-]
-    pub(in super::super) fn of_motion(yaw: f64, slip_ratio: Option<Option<f64>>) -> Self {
-        match slip_ratio {
-            Some(Some(slip_ratio)) => Self::At { yaw, slip_ratio, is_outside: false },
-            Some(None) => Self::Not,
-            None => Self::Unknown,
-        }
+    /// * `slip_ratio`: nothing where it is stuck [-]
+    pub(in super::super) fn of_motion(yaw: f64, slip_ratio: Option<f64>) -> Self {
+        let at = |slip_ratio| Self::At { yaw, slip_ratio, is_outside: false };
+        slip_ratio.map_or(Self::Not, at)
     }
 
     /// The worse of two moments: being stuck, then what is not known, then the larger slip.

@@ -62,8 +62,11 @@ impl SpotTurn {
 pub(in super::super) struct SpotTurns {
     study: SlopeStudy,
     samples: Vec<Sample>,
-    known: Arc<Mutex<Vec<(SpotTurn, Vec<Holding>)>>>,
+    known: Arc<Mutex<KnownTurns>>,
 }
+
+/// Moments, each with what becomes of every sample in it.
+type KnownTurns = Vec<(SpotTurn, Vec<Holding>)>;
 
 impl SpotTurns {
     /// * `samples`: with none there is the soil as written
@@ -119,7 +122,8 @@ impl SpotTurns {
             let study = heading.of_sample(&self.samples[place]);
             let motion = study.steady_motion_of(turn.slope, turn.yaw, &rims);
             let slip = motion.map(|it| moving_slip(&it, &rims, turn.sense()));
-            Holding::of_motion(turn.yaw, slip.ok())
+            // A motion that is not found is no finding about the soil.
+            slip.map_or(Holding::Unknown, |slip| Holding::of_motion(turn.yaw, slip))
         };
         let held = outputs_of_places(&self.samples, &|| true, in_sample).unwrap_or_default();
         known().push((*turn, held.clone()));

@@ -1,0 +1,267 @@
+//! Reads a design's document with all rovers that may be chosen, on every ground.
+
+use serde_json::Value as Json;
+
+use super::columns::SLOPE;
+use super::describe::design::DESIGN;
+use super::describe::scenario;
+use super::design::{DesignAim, DesignSettings, LimitEnds, Measure, Weights};
+use super::document::Document;
+use super::error::{DocumentError, Problem};
+use super::field::{Inner as _, keyed};
+use super::kind::Kind;
+use super::loaded::Loaded;
+use super::overrides::Overrides;
+use super::priors;
+use super::read::{Written, written};
+use super::source::Source;
+use super::tree::{Entry, Node, Value};
+use super::uncertain_soil;
+use super::unit::DEG;
+use super::values::Described as _;
+use super::varied::{Key, Numbers as _, Varied};
+use grouser_core::simulation::Scenario;
+
+/// Numbers of a rover that are free, what is to be least, and what is limited.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignTask {
+    /// The rovers among which is chosen, one for each combination of what may be chosen.
+    pub candidates: Vec<Candidate>,
+    /// The numbers that are free, each with the least and the most that it may be in its key's unit.
+    pub free: Vec<(String, [f64; 2])>,
+    /// What is to be least: the sum of measures with these weights.
+    pub weights: Weights,
+    /// What is limited, in the order of [`Measure::ALL`].
+    pub limits: [LimitEnds; Measure::COUNT],
+    /// With which probability each limit is to be kept, where soils are uncertain [-].
+    pub probability: f64,
+}
+
+/// A rover whose numbers are free.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Candidate {
+    /// What was chosen for it, by its keys.
+    pub chosen: Vec<(String, Json)>,
+    /// Where it drives: the document's own ground, then those where limits hold as well.
+    pub grounds: Vec<DesignGround>,
+    /// The free numbers as its documents have them.
+    pub given: Vec<f64>,
+}
+
+/// Where designs are measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignGround {
+    /// Rover, soil, gravity and model.
+    pub scenario: Loaded<Scenario>,
+    /// The slope on which slip, sinkage and work are measured [rad].
+    pub slope: f64,
+    /// The course, *χ* [rad]: direction of travel from the contour, positive uphill.
+    pub course: f64,
+}
+
+/// A design's task that was read.
+pub type LoadedDesign = Loaded<DesignTask>;
+
+/// Reads a design's task with its rovers and soils.
+///
+/// # Errors
+/// [`DocumentError`] for whatever is wrong first.
+pub fn read_design(source: &Source, overrides: &Overrides) -> Result<LoadedDesign, DocumentError> {
+    let Written { tree, document, assumptions } = written(Kind::Design, source, overrides)?;
+    let settings = settings_of(&document);
+    let weights = weights_of(&settings, &tree)?;
+    check_limits(&settings.limits, &tree)?;
+    let free = free(&document, &tree)?;
+    let (choices, mut candidates) = (choices(&tree), Vec::new());
+    if choices.len() > MOST_CHOICES {
+        let problem = Problem::Conflict("more than 64 combinations of what may be chosen");
+        return Err(DocumentError::at(tree.origin_of("choose"), problem));
+    }
+    for choice in choices {
+        candidates.push(candidate(source, overrides, &tree, &choice, &free)?);
+    }
+    let soil = document.part(Kind::Soil, "soil");
+    let assumed = soil.as_ref().map_or_else(Vec::new, priors::assumed);
+    let DesignSettings { limits, probability, .. } = settings;
+    let value = DesignTask { candidates, free, weights, limits, probability };
+    let (companions, notes) = (Vec::new(), Vec::new());
+    Ok(Loaded { document, value, uncertain: None, assumptions, assumed, companions, notes })
+}
+
+fn settings_of(document: &Document) -> DesignSettings {
+    let mut settings = DesignSettings {
+        scenario: scenario::blank(),
+        course: 0.0,
+        aim: DesignAim::WeightedSum,
+        weights: [0.0; Measure::COUNT],
+        limits: [LimitEnds::NONE; Measure::COUNT],
+        probability: f64::NAN,
+    };
+    DESIGN.put(&mut settings, document.keys());
+    settings
+}
+
+/// The weights of the sum that is to be least.
+fn weights_of(settings: &DesignSettings, tree: &Node) -> Result<Weights, DocumentError> {
+    let is_weighted = settings.weights.iter().any(|weight| *weight != 0.0);
+    let fault =
+        |key: &str, what| Err(DocumentError::at(tree.origin_of(key), Problem::Conflict(what)));
+    match settings.aim {
+        DesignAim::WeightedSum if is_weighted => Ok(settings.weights),
+        DesignAim::WeightedSum => {
+            fault("minimise", "`weighted_sum` needs `weights`: a table of measures")
+        }
+        DesignAim::One(_) if is_weighted => {
+            fault("weights", "`weights` go with `minimise = \"weighted_sum\"`")
+        }
+        DesignAim::One(measure) => {
+            let mut weights = [0.0; Measure::COUNT];
+            weights[measure.place()] = 1.0;
+            Ok(weights)
+        }
+    }
+}
+
+/// The most combinations of what may be chosen.
+const MOST_CHOICES: usize = 64;
+
+/// A value that is chosen for a key.
+type Chosen<'t> = (String, &'t Node);
+
+/// Every combination of what may be chosen; one without any where nothing is.
+fn choices<'t>(tree: &'t Node) -> Vec<Vec<Chosen<'t>>> {
+    let mut all: Vec<Vec<Chosen<'t>>> = vec![Vec::new()];
+    for (key, values) in tree.entry("choose").into_iter().flat_map(|it| entries_of(&it.node)) {
+        let Value::List(values) = &values.value else { continue };
+        let with = |choice: &Vec<Chosen<'t>>| {
+            let one = |value| choice.iter().cloned().chain([(key.clone(), value)]).collect();
+            values.iter().map(one).collect::<Vec<Vec<Chosen<'t>>>>()
+        };
+        all = all.iter().flat_map(with).collect();
+    }
+    all
+}
+
+/// The keys in a table and in tables in it, with the tables they stand in.
+fn entries_of(table: &Node) -> Vec<(String, &Node)> {
+    let Value::Table(entries) = &table.value else { return Vec::new() };
+    fn of_entry(entry: &Entry) -> Vec<(String, &Node)> {
+        let Value::Table(_) = entry.node.value else {
+            return vec![(entry.key.clone(), &entry.node)];
+        };
+        let inside = entries_of(&entry.node).into_iter();
+        inside.map(|(key, node)| (format!("{}.{key}", entry.key), node)).collect()
+    }
+    entries.iter().flat_map(of_entry).collect()
+}
+
+/// The rover that comes of a choice, wherever it drives.
+fn candidate(
+    source: &Source,
+    overrides: &Overrides,
+    tree: &Node,
+    choice: &[Chosen<'_>],
+    free: &[(String, [f64; 2])],
+) -> Result<Candidate, DocumentError> {
+    let mut own = overrides.clone();
+    for (key, node) in choice {
+        own.of_document(Kind::Design, key, &node.origin, (*node).clone());
+    }
+    let mut grounds = vec![ground(source, &own)?];
+    let others = tree.entry("also").map(|entry| &entry.node.value);
+    if let Some(Value::List(others)) = others {
+        for other in others {
+            let mut there = own.clone();
+            for (key, node) in entries_of(other) {
+                there.of_document(Kind::Design, &key, &node.origin, node.clone());
+            }
+            grounds.push(ground(source, &there)?);
+        }
+    }
+    let varied = Varied {
+        value: grounds[0].scenario.value.clone(),
+        document: grounds[0].scenario.document.clone(),
+        notes: Vec::new(),
+    };
+    let given = free.iter().map(|(path, ends)| Ok(free_key(&varied, path, *ends, tree)?.value));
+    let given = given.collect::<Result<_, DocumentError>>()?;
+    let chosen = choice.iter().map(|(key, node)| (key.clone(), node.to_json())).collect();
+    Ok(Candidate { chosen, grounds, given })
+}
+
+/// Where designs are measured, by a document with other values in some places.
+fn ground(source: &Source, overrides: &Overrides) -> Result<DesignGround, DocumentError> {
+    let Written { tree, document, assumptions } = written(Kind::Design, source, overrides)?;
+    let course = settings_of(&document).course;
+    let mut document = scenario_of(&document);
+    let slope = DEG.to_si(document.number(SLOPE.name).unwrap_or_default());
+    let soil = document.part(Kind::Soil, "soil");
+    let assumed = soil.as_ref().map_or_else(Vec::new, priors::assumed);
+    let (value, notes) = Scenario::read(&document, &tree)?;
+    let mut companions = Vec::new();
+    let soil = tree.entry("soil").map_or(&tree, |entry| &entry.node);
+    let uncertain = uncertain_soil::read(&mut document, "soil", soil, &mut companions)?;
+    let scenario = Loaded { document, value, uncertain, assumptions, assumed, companions, notes };
+    Ok(DesignGround { scenario, slope, course })
+}
+
+/// The scenario that a design says its numbers of.
+fn scenario_of(document: &Document) -> Document {
+    const SHARED: [&str; 7] =
+        ["rover", "soil", "model", "gravity_m_s2", SLOPE.name, "load_transfer", "wheel_moments"];
+    let keys = document.keys().as_object().into_iter().flatten();
+    let keys = keys.filter(|(key, _)| SHARED.contains(&key.as_str()));
+    let given = keys.map(|(key, given)| (key.clone(), given.clone())).collect();
+    Document::of(Kind::Scenario, &given)
+}
+
+/// The keys that are free, with their ends.
+fn free(document: &Document, tree: &Node) -> Result<Vec<(String, [f64; 2])>, DocumentError> {
+    let given = document.keys().get("free").into_iter().flat_map(keyed);
+    let ends = |(key, given): (String, &Json)| {
+        let number = |place: usize| given.get(place).and_then(Json::as_f64).unwrap_or(f64::NAN);
+        let origin = || tree.origin_of(&format!("free.{key}"));
+        if !key.starts_with("rover.") {
+            let problem = Problem::Conflict("only numbers of the rover are free");
+            return Err(DocumentError::at(origin(), problem).with_hint(format!(
+                "a ground is stated: {key} = …, or [[also]] for a second one"
+            )));
+        }
+        Ok((key, [number(0), number(1)]))
+    };
+    given.map(ends).collect()
+}
+
+/// The number under a key that is free, between ends that it may have.
+fn free_key(
+    scenario: &Varied<Scenario>,
+    path: &str,
+    [least, most]: [f64; 2],
+    tree: &Node,
+) -> Result<Key, DocumentError> {
+    let origin = tree.entry("free").map_or(tree, |entry| &entry.node);
+    let origin = origin.entry(path).map_or_else(|| origin.origin_of(path), |it| &it.node.origin);
+    let key = scenario.key(path).map_err(|none| none.at(origin))?;
+    for end in [least, most] {
+        if !key.range.contains(&end) {
+            return Err(DocumentError::at(origin, key.out_of_range(end)));
+        }
+    }
+    if least >= most {
+        let problem = Problem::Conflict("the first end of what is free is to be below the second");
+        return Err(DocumentError::at(origin, problem));
+    }
+    Ok(key)
+}
+
+/// Checks that limits leave room.
+fn check_limits(limits: &[LimitEnds; Measure::COUNT], tree: &Node) -> Result<(), DocumentError> {
+    for (measure, LimitEnds { least, most }) in Measure::ALL.into_iter().zip(limits) {
+        if least > most {
+            let problem = Problem::Conflict("`at_least` is above `at_most`: nothing can be both");
+            let path = format!("subject_to.{}", measure.name());
+            return Err(DocumentError::at(tree.origin_of(&path), problem));
+        }
+    }
+    Ok(())
+}
