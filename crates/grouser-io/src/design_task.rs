@@ -26,7 +26,7 @@ use grouser_core::simulation::Scenario;
 #[derive(Clone, Debug, PartialEq)]
 pub struct DesignTask {
     /// The rovers among which is chosen, one for each combination of what may be chosen.
-    pub candidates: Vec<Candidate>,
+    pub candidates: Vec<RoverChoice>,
     /// The numbers that are free, each with the least and the most that it may be in its key's unit.
     pub free: Vec<(String, [f64; 2])>,
     /// What is to be least: the sum of measures with these weights.
@@ -39,7 +39,7 @@ pub struct DesignTask {
 
 /// A rover whose numbers are free.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Candidate {
+pub struct RoverChoice {
     /// What was chosen for it, by its keys.
     pub chosen: Vec<(String, Json)>,
     /// Where it drives: the document's own ground, then those where limits hold as well.
@@ -162,7 +162,7 @@ fn candidate(
     tree: &Node,
     choice: &[Chosen<'_>],
     free: &[(String, [f64; 2])],
-) -> Result<Candidate, DocumentError> {
+) -> Result<RoverChoice, DocumentError> {
     let mut own = overrides.clone();
     for (key, node) in choice {
         own.of_document(Kind::Design, key, &node.origin, (*node).clone());
@@ -186,7 +186,7 @@ fn candidate(
     let given = free.iter().map(|(path, ends)| Ok(free_key(&varied, path, *ends, tree)?.value));
     let given = given.collect::<Result<_, DocumentError>>()?;
     let chosen = choice.iter().map(|(key, node)| (key.clone(), node.to_json())).collect();
-    Ok(Candidate { chosen, grounds, given })
+    Ok(RoverChoice { chosen, grounds, given })
 }
 
 /// Where designs are measured, by a document with other values in some places.

@@ -4,7 +4,7 @@
 //! headings on a course: the steepest slope, and on one slope the slip, the sinkage and the work. The
 //! aim is the least of one such measure, or of a sum of them; the limits are on others. Both are
 //! smooth, so that sequential least-squares programming finds a minimum and what each limit costs
-//! ([`slsqp`]). It is sought from several starts, and looked at again by designs around it.
+//! (Kraft 1988). It is sought from several starts, and looked at again by designs around it.
 //!
 //! Where the soil is uncertain, a limit is to be kept with a probability. Samples of soil and model
 //! are the same for every design, and a limit is on the mean of a measure less z of its standard
@@ -22,7 +22,7 @@ mod measured;
 mod slsqp;
 
 use grouser_io::design::Measure;
-use grouser_io::design_task::{Candidate, DesignTask};
+use grouser_io::design_task::{DesignTask, RoverChoice};
 use grouser_io::statistics::NothingAccepted;
 use grouser_io::statistics::normal::normal_score;
 use rayon::prelude::*;
@@ -49,7 +49,7 @@ pub struct DesignStudy {
 /// A limit of a measure on one of the grounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DesignLimit {
-    /// On which ground, as numbered in [`Candidate::grounds`].
+    /// On which ground, as numbered in [`RoverChoice::grounds`].
     pub ground: usize,
     /// What is limited.
     pub measure: Measure,
@@ -296,7 +296,7 @@ impl DesignStudy {
 struct DesignSearch<'a> {
     study: &'a DesignStudy,
     place: usize,
-    candidate: &'a Candidate,
+    candidate: &'a RoverChoice,
     /// The weights of the aim, each over one in its unit.
     weights: &'a [f64],
     /// What the aim is counted in.
@@ -619,7 +619,7 @@ impl<'a> DesignSearch<'a> {
 const AGREED: f64 = 1e-4;
 
 /// The limits on every ground; that the slope is crossed is one, unless a stricter one is stated.
-fn limits_of(task: &DesignTask, candidate: &Candidate) -> Vec<DesignLimit> {
+fn limits_of(task: &DesignTask, candidate: &RoverChoice) -> Vec<DesignLimit> {
     let of_ground = |(ground, slope): (usize, f64)| {
         let both = Measure::ALL.into_iter().zip(task.limits).flat_map(move |(measure, ends)| {
             let least = match measure {

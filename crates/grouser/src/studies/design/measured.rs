@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use grouser_io::Described as _;
 use grouser_io::design::Measure;
-use grouser_io::design_task::{Candidate, DesignGround};
+use grouser_io::design_task::{DesignGround, RoverChoice};
 use grouser_io::statistics::NothingAccepted;
 use rayon::prelude::*;
 
@@ -133,7 +133,7 @@ fn of_rover(scenario: &Scenario) -> Measures {
 /// wheels whose size is among them. Nothing where they are no rover.
 pub(super) fn numbers(
     free: &[(String, [f64; 2])],
-    candidate: &Candidate,
+    candidate: &RoverChoice,
     values: &[f64],
 ) -> Option<Vec<(String, f64)>> {
     let own = free.iter().map(|(key, _)| key.clone()).zip(values.iter().copied());
