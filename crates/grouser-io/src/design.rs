@@ -138,6 +138,12 @@ impl Measure {
         matches!(self, Self::TippingSlope | Self::Width | Self::WheelMass)
     }
 
+    /// Whether more of it is better.
+    #[must_use]
+    pub const fn is_to_be_large(self) -> bool {
+        matches!(self, Self::LimitSlope | Self::TippingSlope)
+    }
+
     /// Its place in [`ALL`](Self::ALL).
     #[must_use]
     pub const fn place(self) -> usize {

@@ -150,6 +150,7 @@ static PRESETS: &[Preset] = &[
     preset!(DataSet, "measurements", "published-wheel-tests", "published_wheel_tests.csv"),
     preset!(DataSet, "measurements", "viper-slip-slope", "viper_slip_slope.csv"),
     preset!(DataSet, "measurements", "hakuto-slope", "hakuto_slope.csv"),
+    preset!(Design, "designs", "design-climbing-wheels"),
     preset!(Design, "designs", "design-lighter-wheels"),
     preset!(Campaign, "campaigns", "campaign-heading"),
     preset!(Campaign, "campaigns", "campaign-mission"),

@@ -18,7 +18,8 @@ pub(crate) struct DesignArgs {
     /// The design's file or preset (`design/1`): what is free, what is to be least, what is limited.
     #[arg(value_parser = NonEmptyStringValueParser::new())]
     pub(crate) design: String,
-    /// Also the designs between the least of one measure and the least of another.
+    /// Also the designs between the best of one measure and the best of another: the least, or the
+    /// steepest slope.
     #[arg(long, value_name = "MEASURE,MEASURE", value_delimiter = ',', num_args = 1)]
     #[arg(value_parser = list::one_of(Measure::ALL, Measure::name))]
     pub(crate) trade: Vec<Measure>,

@@ -77,7 +77,7 @@ def design(
         Seed of the samples.
     trade : tuple of two str, optional
         Two measures, such as ``("energy_j_per_m", "wheel_mass_kg")``: also the designs between the
-        least of one and the least of the other.
+        best of one and the best of the other: the least, or the steepest slope.
     **changes
         Keys of the design with other values: ``soil="toyoura-uncertain"``.
 

@@ -278,12 +278,13 @@ impl DesignQuestion {
         let chart =
             Chart::new("What one is worth in the other", (of(second), of(first)), vec![line]);
         answer.charts(vec![chart]);
-        let skipped = [ROW, MODEL];
-        let names: Vec<String> =
-            brief.iter().filter(|it| !skipped.contains(&&***it)).cloned().collect();
+        let skipped = [ROW, MODEL, first.name(), second.name()];
+        let own = brief.iter().filter(|it| !skipped.contains(&&***it)).cloned();
+        let traded = [first, second].map(|it| it.name().to_owned());
+        let names: Vec<String> = own.chain(traded).collect();
         answer.rows("Designs along the trade-off", &table, names.clone());
         answer.screen.push(Displayed::Words(format!(
-            "\nBetween the least {} and the least {}:\n",
+            "\nBetween the best {} and the best {}:\n",
             first.name(),
             second.name()
         )));
@@ -381,7 +382,8 @@ fn limits_in_brief(limits: &Table) -> Vec<String> {
     limits.names().into_iter().filter(has).collect()
 }
 
-/// The columns of designs for reading: the free numbers, what is to be least, what is limited.
+/// The columns of designs for reading: what was chosen, the free numbers, what is to be least, what
+/// is limited.
 fn brief(study: &DesignStudy, free: &[(String, [f64; 2])]) -> Vec<String> {
     let task = &study.task;
     let asked = |measure: &Measure| {
@@ -390,5 +392,6 @@ fn brief(study: &DesignStudy, free: &[(String, [f64; 2])]) -> Vec<String> {
     };
     let measures = Measure::ALL.into_iter().filter(asked).map(|it| it.name().to_owned());
     let free = free.iter().map(|(key, _)| key.clone());
-    [ROW, MODEL].map(String::from).into_iter().chain(free).chain(measures).collect()
+    let chosen = (task.candidates.len() > 1).then(|| CHOSEN.to_owned());
+    [ROW, MODEL].map(String::from).into_iter().chain(chosen).chain(free).chain(measures).collect()
 }

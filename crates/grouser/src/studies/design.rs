@@ -21,6 +21,8 @@
 mod measured;
 mod slsqp;
 
+use std::cmp::Ordering;
+
 use grouser_io::design::Measure;
 use grouser_io::design_task::{DesignTask, RoverChoice};
 use grouser_io::statistics::NothingAccepted;
@@ -187,6 +189,10 @@ impl DesignLimit {
         self.excess(value) <= 1e-6
     }
 
+    fn is_of_slope(&self) -> bool {
+        self.measure == Measure::LimitSlope
+    }
+
     /// By how much something misses it, over the measure's size; not above 0 where it keeps it.
     fn excess(&self, value: f64) -> f64 {
         self.side.sign() * (value - self.bound) / size_in_si(self.measure)
@@ -222,8 +228,8 @@ impl DesignStudy {
         self.least(&self.task.weights, None)
     }
 
-    /// The designs between the least of one measure and the least of another: each has the least of the
-    /// first with no more than so much of the second.
+    /// The designs between the best of one measure and the best of another: each has the best of the
+    /// first with no worse than so much of the second.
     ///
     /// # Errors
     /// The same as [`design`](Self::design), where one of the two ends has none.
@@ -234,16 +240,17 @@ impl DesignStudy {
     ) -> Result<Vec<BestDesign>, NoDesign> {
         let weights = measures.map(|measure| {
             let mut weights = [0.0; Measure::COUNT];
-            weights[measure.place()] = 1.0;
+            weights[measure.place()] = if measure.is_to_be_large() { -1.0 } else { 1.0 };
             weights
         });
         let ends = [self.least(&weights[0], None)?, self.least(&weights[1], None)?];
         let second = measures[1];
-        let [most, least] = [&ends[0], &ends[1]].map(|end| end.measures[second.place()]);
+        let side = if second.is_to_be_large() { LimitSide::AtLeast } else { LimitSide::AtMost };
+        let [from, to] = [&ends[0], &ends[1]].map(|end| end.measures[second.place()]);
         let between = (1..count.saturating_sub(1)).into_par_iter().filter_map(|number| {
             let share = number as f64 / (count - 1) as f64;
-            let bound = most + share * (least - most);
-            let limit = DesignLimit { ground: 0, measure: second, side: LimitSide::AtMost, bound };
+            let bound = from + share * (to - from);
+            let limit = DesignLimit { ground: 0, measure: second, side, bound };
             self.least(&weights[0], Some(limit)).ok()
         });
         let between: Vec<BestDesign> = between.collect();
@@ -339,7 +346,7 @@ impl<'a> DesignSearch<'a> {
         });
         let grounds = grounds.collect::<Result<Vec<MeasuredGround>, NothingAccepted>>()?;
         let sizes = Measure::ALL.into_iter().zip(weights);
-        let aim_size = sizes.map(|(measure, weight)| weight * size(measure)).sum();
+        let aim_size = sizes.map(|(measure, weight)| weight.abs() * size(measure)).sum();
         let mut limits = limits_of(&study.task, candidate);
         limits.extend(extra);
         let score = |limit: &DesignLimit| {
@@ -372,7 +379,8 @@ impl<'a> DesignSearch<'a> {
         let from = |start: &Vec<f64>| {
             let found = slsqp::minimum(self, start);
             // One that cannot keep its limits from there is led to where they are kept first.
-            found.or_else(|| slsqp::minimum(self, &self.nearest(start).filter(|it| it.1 <= 0.0)?.0))
+            let nearest = || self.nearest(start).filter(|it| it.excess == 0.0);
+            found.or_else(|| slsqp::minimum(self, &nearest()?.point))
         };
         let found: Vec<Option<Minimum>> = starts.par_iter().map(from).collect();
         let best =
@@ -559,37 +567,54 @@ impl<'a> DesignSearch<'a> {
         Ok(())
     }
 
-    /// The point from a start that misses the worst limit by the least, and by how much.
-    fn nearest(&self, start: &[f64]) -> Option<(Vec<f64>, f64)> {
-        let worst = self.outcome(start)?[1..].iter().copied().fold(0.0, f64::max);
-        let elastic = Elastic { search: self, most: 2.0 * worst.max(1.0) };
+    /// The point from a start that comes nearest to keeping all limits. Slopes are climbed first: on
+    /// one that is not crossed nothing else has a meaning.
+    fn nearest(&self, start: &[f64]) -> Option<NearestPoint> {
+        let climbed = self.nearest_of(start, DesignLimit::is_of_slope)?;
+        if climbed.excess > 0.0 { Some(climbed) } else { self.nearest_of(&climbed.point, |_| true) }
+    }
+
+    /// The point from a start that misses the worst of some limits by the least.
+    fn nearest_of(
+        &self,
+        start: &[f64],
+        is_meant: fn(&DesignLimit) -> bool,
+    ) -> Option<NearestPoint> {
+        let excesses = self.outcome(start)?;
+        let meant = self.limits.iter().zip(&excesses[1..]).filter(|(limit, _)| is_meant(limit));
+        let worst = meant.map(|(_, excess)| *excess).fold(0.0, f64::max);
+        let elastic = Elastic { search: self, is_meant, most: 2.0 * worst.max(1.0) };
         let mut point = start.to_vec();
         point.push(worst / elastic.most);
         let found = slsqp::minimum(&elastic, &point)?;
-        let excess = found.objective;
-        let point = found.point[..self.free()].to_vec();
         // What is missed by less than the search is exact to is kept.
-        Some((point, if excess < 1e-6 { 0.0 } else { excess }))
+        let excess = if found.objective < 1e-6 { 0.0 } else { found.objective };
+        Some(NearestPoint { point: found.point[..self.free()].to_vec(), excess, is_meant })
     }
 
     /// Why no search found a design: which limits the nearest one misses.
     fn why_none(&self, starts: &[Vec<f64>]) -> NoDesign {
-        let nearest = starts.par_iter().filter_map(|start| self.nearest(start));
-        let nearest = nearest.min_by(|one, other| one.1.total_cmp(&other.1));
-        let Some((point, _)) = nearest else { return NoDesign::NothingMoves };
-        let Some(measured) = self.measured(&point) else { return NoDesign::NothingMoves };
-        let all = self.limits.iter().enumerate();
+        let nearest: Vec<NearestPoint> =
+            starts.par_iter().filter_map(|start| self.nearest(start)).collect();
+        let crosses = |it: &&NearestPoint| self.limits.iter().all(it.is_meant);
+        let of_all = nearest.iter().filter(crosses).min_by(NearestPoint::by_excess);
+        let Some(nearest) = of_all.or_else(|| nearest.iter().min_by(NearestPoint::by_excess))
+        else {
+            return NoDesign::NothingMoves;
+        };
+        let Some(measured) = self.measured(&nearest.point) else { return NoDesign::NothingMoves };
+        let all = self.limits.iter().enumerate().filter(|(_, limit)| (nearest.is_meant)(limit));
         let all = all.map(|(place, limit)| (*limit, self.limited(place, &measured)));
-        let missed = all.filter(|(limit, value)| limit.excess(*value) > 1e-6).collect();
+        let missed = all.filter(|(limit, value)| !limit.holds(*value)).collect();
         NoDesign::Unreachable(Box::new(Nearest {
             candidate: self.place,
-            values: self.values(&point),
+            values: self.values(&nearest.point),
             missed,
             ground_limit: self.grounds[0].strength(),
         }))
     }
 
-    /// PointValues and derivatives of what a point gives.
+    /// Values and derivatives of what a point gives.
     fn smooth(
         point: &[f64],
         of: impl Fn(&[f64]) -> Option<Vec<f64>> + Sync,
@@ -665,9 +690,26 @@ impl Smooth for DesignSearch<'_> {
     }
 }
 
-/// The least by which the worst limit is missed: a last number that each limit may be missed by.
+/// A point that comes near to keeping limits.
+struct NearestPoint {
+    /// Where it is, in the unit cube.
+    point: Vec<f64>,
+    /// By how much it misses the worst of them, over its size; 0 where it keeps them.
+    excess: f64,
+    /// Which limits were looked at.
+    is_meant: fn(&DesignLimit) -> bool,
+}
+
+impl NearestPoint {
+    fn by_excess(one: &&Self, other: &&Self) -> Ordering {
+        one.excess.total_cmp(&other.excess)
+    }
+}
+
+/// The least by which the worst of some limits is missed: a last number that each may be missed by.
 struct Elastic<'a> {
     search: &'a DesignSearch<'a>,
+    is_meant: fn(&DesignLimit) -> bool,
     /// What the last number is a share of.
     most: f64,
 }
@@ -686,14 +728,20 @@ impl Smooth for Elastic<'_> {
         let slack = share * self.most;
         let mut values = self.search.at(own)?;
         values.objective = slack;
-        for constraint in &mut values.constraints {
-            *constraint -= slack;
-        }
         let [aim, limits @ ..] = &mut values.gradients[..] else { return None };
         aim.fill(0.0);
         aim.push(self.most);
-        for limit in limits {
-            limit.push(-self.most);
+        let constraints = values.constraints.iter_mut().zip(limits);
+        for (limit, (constraint, gradient)) in self.search.limits.iter().zip(constraints) {
+            if (self.is_meant)(limit) {
+                *constraint -= slack;
+                gradient.push(-self.most);
+            } else {
+                // Kept, whatever the point.
+                *constraint = -1.0;
+                gradient.fill(0.0);
+                gradient.push(0.0);
+            }
         }
         Some(values)
     }

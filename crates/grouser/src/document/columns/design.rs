@@ -12,6 +12,8 @@ use crate::studies::design::{KeptLimit, Measures};
 pub const ROW: &str = "row";
 /// The wheel–soil model of a row.
 pub const MODEL: &str = "model";
+/// What was chosen for a row.
+pub const CHOSEN: &str = "chosen";
 /// The share of fresh samples that keeps a limit.
 pub const SHARE: &str = "share";
 
@@ -66,7 +68,7 @@ pub const DESIGNS: &[Column<DesignRow>] = &[
         Some(it.name.clone())
     }),
     text(MODEL, "The wheel–soil model that measures it", |it| Some(it.model.clone())),
-    text("chosen", "What was chosen for it", |it| {
+    text(CHOSEN, "What was chosen for it", |it| {
         let chosen = it.chosen.iter().map(|(key, value)| format!("{key}={value}"));
         (!it.chosen.is_empty()).then(|| chosen.collect::<Vec<_>>().join(", "))
     }),
