@@ -222,7 +222,9 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
             list_of(&pair, 1, None)
         }
         Shape::Keyed(keyed) => {
-            let number = json!({ "type": "number", "format": "double" });
+            // The key has the range that counts.
+            let number =
+                json!({ "type": "number", "format": "double", "minimum": -1e12, "maximum": 1e12 });
             let each = match keyed {
                 Keyed::Bounds => list_of(&number, 2, Some(2)),
                 Keyed::Choices => {

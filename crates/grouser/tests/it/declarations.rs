@@ -133,17 +133,13 @@ fn is_a_key_too(name: &str) -> bool {
 }
 
 /// Where a name that only results have stands once more, and why.
-const OTHER_PLACES: [(&str, &str); 11] = [
+const OTHER_PLACES: [(&str, &str); 7] = [
     // Options of the program and arguments of Python's functions, which results repeat.
-    ("course_deg", "src/args/heading.rs"),
-    ("course_deg", "src/args/slip_from_current.rs"),
-    ("course_deg", "src/args/map.rs"),
     ("most_slope_deg", "src/args/route.rs"),
     ("most_slope_deg", "grouser-python/src/routes.rs"),
     // A direction on a path that is asked for.
     ("heading_deg", "grouser-python/src/paths.rs"),
     ("along_m", "grouser-python/src/paths.rs"),
-    ("course_deg", "grouser-python/src/studies.rs"),
     // A way as a record, which has lists beside the numbers of its row.
     ("turned_deg", "document/route.rs"),
     ("battery_energy_j", "document/route.rs"),
