@@ -101,9 +101,9 @@ impl Measure {
         match self {
             Self::LimitSlope => "The steepest slope on which a heading holds the course",
             Self::SinkageRatio => "The deepest wheel's sinkage over its shearing radius, h/r_s",
-            Self::SlipRatio => "Slip ratio of the wheels, s",
+            Self::SlipRatio => "Slip ratio of the wheels without its sign, |s|",
             Self::EnergyPerMetre => "Work of the wheels per metre of way",
-            Self::Crab => "Crab angle that holds the course",
+            Self::Crab => "Crab angle that holds the course, without its sign",
             Self::Torque => "The largest torque of a wheel",
             Self::TippingSlope => {
                 "The slope on which the rover at rest tips over, at its worst yaw"

@@ -21,6 +21,7 @@ use super::unit::DEG;
 use super::values::Described as _;
 use super::varied::{Key, Numbers as _, Varied};
 use grouser_core::simulation::Scenario;
+use grouser_core::vehicle::Rover;
 
 /// Numbers of a rover that are free, what is to be least, and what is limited.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,6 +45,8 @@ pub struct RoverChoice {
     pub chosen: Vec<(String, Json)>,
     /// Where it drives: the document's own ground, then those where limits hold as well.
     pub grounds: Vec<DesignGround>,
+    /// The rover whose wheels say what a sheet of them weighs: before anything but it was chosen.
+    pub base: Rover,
     /// The free numbers as its documents have them.
     pub given: Vec<f64>,
 }
@@ -72,12 +75,9 @@ pub fn read_design(source: &Source, overrides: &Overrides) -> Result<LoadedDesig
     let weights = weights_of(&settings, &tree)?;
     check_limits(&settings.limits, &tree)?;
     let free = free(&document, &tree)?;
-    let (choices, mut candidates) = (choices(&tree), Vec::new());
-    if choices.len() > MOST_CHOICES {
-        let problem = Problem::Conflict("more than 64 combinations of what may be chosen");
-        return Err(DocumentError::at(tree.origin_of("choose"), problem));
-    }
-    for choice in choices {
+    check_choices(&free, &tree)?;
+    let mut candidates = Vec::new();
+    for choice in choices(&tree) {
         candidates.push(candidate(source, overrides, &tree, &choice, &free)?);
     }
     let soil = document.part(Kind::Soil, "soil");
@@ -122,11 +122,34 @@ fn weights_of(settings: &DesignSettings, tree: &Node) -> Result<Weights, Documen
     }
 }
 
+/// The key of the rover, and of what begins with it.
+const ROVER: &str = "rover";
+
 /// The most combinations of what may be chosen.
 const MOST_CHOICES: usize = 64;
 
 /// A value that is chosen for a key.
 type Chosen<'t> = (String, &'t Node);
+
+/// Checks that what may be chosen is of the rover, is not free as well, and is not too much.
+fn check_choices(free: &[(String, [f64; 2])], tree: &Node) -> Result<(), DocumentError> {
+    let fault = |origin, what| Err(DocumentError::at(origin, Problem::Conflict(what)));
+    let mut count = 1_usize;
+    for (key, values) in tree.entry("choose").into_iter().flat_map(|it| entries_of(&it.node)) {
+        let Value::List(all) = &values.value else { continue };
+        if key != ROVER && !key.starts_with("rover.") {
+            return fault(&values.origin, "only the rover and what is of it may be chosen");
+        }
+        if free.iter().any(|(other, _)| *other == key) {
+            return fault(&values.origin, "what is free is not chosen from a list as well");
+        }
+        count = count.saturating_mul(all.len());
+        if count > MOST_CHOICES {
+            return fault(&values.origin, "more than 64 combinations of what may be chosen");
+        }
+    }
+    Ok(())
+}
 
 /// Every combination of what may be chosen; one without any where nothing is.
 fn choices<'t>(tree: &'t Node) -> Vec<Vec<Chosen<'t>>> {
@@ -171,6 +194,10 @@ fn candidate(
     let others = tree.entry("also").map(|entry| &entry.node.value);
     if let Some(Value::List(others)) = others {
         for other in others {
+            if entries_of(other).is_empty() {
+                let problem = Problem::Conflict("a second ground differs from the first in a key");
+                return Err(DocumentError::at(&other.origin, problem));
+            }
             let mut there = own.clone();
             for (key, node) in entries_of(other) {
                 there.of_document(Kind::Design, &key, &node.origin, node.clone());
@@ -183,10 +210,15 @@ fn candidate(
         document: grounds[0].scenario.document.clone(),
         notes: Vec::new(),
     };
+    let mut of_base = overrides.clone();
+    for (key, node) in choice.iter().filter(|(key, _)| key == ROVER) {
+        of_base.of_document(Kind::Design, key, &node.origin, (*node).clone());
+    }
+    let base = ground(source, &of_base)?.scenario.value.rover;
     let given = free.iter().map(|(path, ends)| Ok(free_key(&varied, path, *ends, tree)?.value));
     let given = given.collect::<Result<_, DocumentError>>()?;
     let chosen = choice.iter().map(|(key, node)| (key.clone(), node.to_json())).collect();
-    Ok(RoverChoice { chosen, grounds, given })
+    Ok(RoverChoice { chosen, grounds, base, given })
 }
 
 /// Where designs are measured, by a document with other values in some places.
@@ -229,7 +261,12 @@ fn free(document: &Document, tree: &Node) -> Result<Vec<(String, [f64; 2])>, Doc
         }
         Ok((key, [number(0), number(1)]))
     };
-    given.map(ends).collect()
+    let free: Vec<(String, [f64; 2])> = given.map(ends).collect::<Result<_, _>>()?;
+    if free.is_empty() {
+        let problem = Problem::Conflict("`free` names no number");
+        return Err(DocumentError::at(tree.origin_of("free"), problem));
+    }
+    Ok(free)
 }
 
 /// The number under a key that is free, between ends that it may have.
@@ -242,6 +279,14 @@ fn free_key(
     let origin = tree.entry("free").map_or(tree, |entry| &entry.node);
     let origin = origin.entry(path).map_or_else(|| origin.origin_of(path), |it| &it.node.origin);
     let key = scenario.key(path).map_err(|none| none.at(origin))?;
+    if let Some((mount, _)) = path.split_once(".wheel.")
+        && mount.starts_with("rover.mount.")
+        && scenario.document.number(&format!("{mount}.mass_kg")).is_none()
+    {
+        let problem = Problem::Conflict("a wheel's mass follows its size, and this mount has none");
+        return Err(DocumentError::at(origin, problem)
+            .with_hint(format!("give the mount a mass: {mount}.mass_kg")));
+    }
     for end in [least, most] {
         if !key.range.contains(&end) {
             return Err(DocumentError::at(origin, key.out_of_range(end)));

@@ -23,10 +23,7 @@ pub(crate) fn run(args: &DesignArgs) -> Result<(), Failure> {
     let question = DesignQuestion { task, is_nominal, seed, trade, by_models };
     let options = AnswerOptions { has_page: folder.is_some(), ..AnswerOptions::ROWS };
     let mut answer = question.answer("design", &options)?;
-    answer.next = vec![
-        "grouser heading --rover rover.toml".to_owned(),
-        "grouser validate --rover rover.toml".to_owned(),
-    ];
+    answer.next = vec!["grouser heading --rover rover.toml".to_owned()];
     give(&answer, &repeat(args), folder, args.output.format)
 }
 

@@ -70,7 +70,9 @@ fn what_cannot_be_is_refused_in_words() {
 #[test]
 fn a_belief_asks_for_a_probability_and_nominal_for_none() {
     let place = Place::new();
-    let line = "--set design.soil=toyoura-uncertain --set design.model=ishigami";
+    let line = "--set design.soil=toyoura-uncertain --set design.model=ishigami \
+                --set design.subject_to.limit_slope_deg.at_least=12 \
+                --set design.subject_to.sinkage_ratio.at_most=0.2";
     let believed = place.json(&format!("{LIGHTER} {line}"));
     assert_eq!(believed["inputs"]["probability"], json!(0.95));
     assert!(number(&believed["constraints"][0]["share"]) > 0.8, "{believed}");

@@ -43,7 +43,7 @@ pub(crate) static DESIGN: Table<DesignSettings> = Table {
         ),
         field(
             "choose",
-            "Keys with the numbers or names that they may have, `rover` and `rover.motor` among \
+            "Keys of the rover with the numbers or names that they may have, `rover` itself among \
              them; every combination is tried.",
             Shape::Keyed(Keyed::Choices),
         )

@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use super::{Answer, AnswerError, AnswerOptions, Attached, Displayed, Member, meanings};
 use crate::contact::Model;
-use crate::document::columns::design::{self as columns, DesignRow, MODEL, ROW, SHARE};
+use crate::document::columns::design::{self as columns, CHOSEN, DesignRow, MODEL, ROW, SHARE};
 use crate::document::columns::{COURSE, SLOPE};
 use crate::document::design::Measure;
 use crate::document::figure::{Chart, Series, Style};
@@ -18,6 +18,7 @@ use crate::document::{Kind, to_toml};
 use crate::studies::design::{
     BestDesign, DesignLimit, DesignStudy, KeptLimit, LimitSide, Nearest, NoDesign,
 };
+use crate::studies::ensemble::models::{self, Question};
 
 /// The question.
 #[derive(Clone, Debug)]
@@ -87,7 +88,11 @@ impl DesignQuestion {
             &limits,
             limits_in_brief(&limits),
         );
-        answer.rows("The rover as given and as found, by each model", &designs, brief.clone());
+        answer.rows(
+            "The rover as given and as found, by each model, on the soil as its document has it",
+            &designs,
+            brief.clone(),
+        );
         if let (Some(trade), Some(measures)) = (trade, self.trade) {
             self.add_trade(&mut answer, &trade, measures, &brief);
         }
@@ -147,7 +152,8 @@ impl DesignQuestion {
             row("as given", 0, given, &task.candidates[0].given),
             row("found", found, own, &design.values),
         ];
-        let others = Model::ALL.iter().filter(|it| *it != own);
+        let question = Question::on_course(task.candidates[found].grounds[0].course);
+        let others = Model::ALL.iter().filter(|it| *it != own && models::answers(it, question));
         rows.extend(others.map(|other| row("found", found, other, &design.values)));
         rows.extend(self.by_models.iter().map(|task| {
             let study = DesignStudy::of(task.value.clone(), self.is_nominal, self.seed);
@@ -185,6 +191,9 @@ impl DesignQuestion {
         lines.extend(self.ends_line(design));
         lines.extend(design.kept.iter().filter_map(|kept| short_line(kept, task.probability)));
         lines.extend(models_line(design, rows));
+        if design.certificate.better > 0 {
+            lines.push("It is not the least: designs near it are better.".to_owned());
+        }
         let it = design.certificate;
         lines.push(format!(
             "{} of {} searches came to it; {} of {} designs within 1 % of the bounds are better.",

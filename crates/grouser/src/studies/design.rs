@@ -3,12 +3,12 @@
 //! Some numbers of a rover are free between bounds. Every design is measured by the curve of its
 //! headings on a course: the steepest slope, and on one slope the slip, the sinkage and the work. The
 //! aim is the least of one such measure, or of a sum of them; the limits are on others. Both are
-//! smooth, so that sequential least-squares programming finds a minimum and what each limit costs
+//! smooth but for kinks where another wheel is the deepest, so that sequential least-squares programming finds a minimum and what each limit costs
 //! (Kraft 1988). It is sought from several starts, and looked at again by designs around it.
 //!
 //! Where the soil is uncertain, a limit is to be kept with a probability. Samples of soil and model
-//! are the same for every design, and a limit is on the mean of a measure less z of its standard
-//! deviations, which is smooth. What z has to be for the share of samples that is asked for is found
+//! are the same for every design, and a limit is on the mean of a measure some z of its standard
+//! deviations off, which is smooth. What z has to be for the share of samples that is asked for is found
 //! with the design: it is looked up in the samples there, and the search goes on from there. Samples
 //! that took no part say in the end which share keeps each limit.
 //!
@@ -20,8 +20,6 @@
 
 mod measured;
 mod slsqp;
-
-use std::cmp::Ordering;
 
 use grouser_io::design::Measure;
 use grouser_io::design_task::{DesignTask, RoverChoice};
@@ -124,9 +122,14 @@ pub enum NoDesign {
     /// No rover within the bounds moves, or none that was looked at.
     #[error("no rover that was looked at within these bounds moves on this ground")]
     NothingMoves,
-    /// No design keeps all limits.
-    #[error("no design within these bounds keeps every limit")]
+    /// No design was found that keeps all limits.
+    #[error("no design was found within these bounds that keeps every limit")]
     Unreachable(Box<Nearest>),
+    /// No search came to an end.
+    #[error(
+        "no search for a design came to an end, from any start: this is no finding about rover and soil"
+    )]
+    NotFound,
     /// The aim does not depend on what is free.
     #[error("the aim does not depend on any number that is free")]
     Constant,
@@ -269,8 +272,8 @@ impl DesignStudy {
     ) -> Option<Measures> {
         let candidate = &self.task.candidates[candidate];
         let numbers = measured::numbers(&self.task.free, candidate, values)?;
-        let ground = MeasuredGround::nominal(candidate.grounds.first()?);
-        ground.with_model(model).measures(&numbers).pop()?
+        let ground = MeasuredGround::nominal(candidate.grounds.first()?).with_model(model);
+        Some(ground.where_crossed(ground.measures(&numbers).pop()??))
     }
 
     /// The best of the rovers that may be chosen.
@@ -309,6 +312,8 @@ struct DesignSearch<'a> {
     /// What the aim is counted in.
     aim_size: f64,
     limits: Vec<DesignLimit>,
+    /// How many of them the task has.
+    stated: usize,
     /// How many standard deviations each limit keeps off its bound.
     scores: Vec<f64>,
     grounds: Vec<MeasuredGround>,
@@ -347,14 +352,16 @@ impl<'a> DesignSearch<'a> {
         let grounds = grounds.collect::<Result<Vec<MeasuredGround>, NothingAccepted>>()?;
         let sizes = Measure::ALL.into_iter().zip(weights);
         let aim_size = sizes.map(|(measure, weight)| weight.abs() * size(measure)).sum();
-        let mut limits = limits_of(&study.task, candidate);
-        limits.extend(extra);
+        let own = limits_of(&study.task, candidate);
+        let stated = own.len();
+        let limits: Vec<DesignLimit> = own.into_iter().chain(extra).collect();
         let score = |limit: &DesignLimit| {
             let is_uncertain = grounds[limit.ground].is_uncertain();
             if is_uncertain { normal_score(study.task.probability) } else { 0.0 }
         };
-        let scores = limits.iter().map(score).collect();
-        Ok(Self { study, place, candidate, weights, aim_size, limits, scores, grounds })
+        // What is traded is bounded by its mean.
+        let scores = limits[..stated].iter().map(score).chain(extra.map(|_| 0.0)).collect();
+        Ok(Self { study, place, candidate, weights, aim_size, limits, stated, scores, grounds })
     }
 
     fn design(mut self) -> Result<BestDesign, NoDesign> {
@@ -362,20 +369,20 @@ impl<'a> DesignSearch<'a> {
         const LOOKS: usize = 4;
         let starts = self.starts();
         self.check_aim(&starts)?;
-        let (mut best, mut agreed) = self.search(&starts)?;
+        let (mut best, mut agreed) = self.search(&starts, starts.len())?;
         for _ in 0..LOOKS {
             if !self.look_up_scores(&best) {
                 break;
             }
             let started: Vec<Vec<f64>> = [vec![best.point.clone()], starts.clone()].concat();
-            (best, agreed) = self.search(&started)?;
+            (best, agreed) = self.search(&started, starts.len())?;
         }
-        let certificate = self.certificate(&best, starts.len(), agreed.min(starts.len()));
+        let certificate = self.certificate(&best, starts.len(), agreed);
         self.found(&best, certificate)
     }
 
-    /// The least that searches come to, and how many come to it.
-    fn search(&self, starts: &[Vec<f64>]) -> Result<(Minimum, usize), NoDesign> {
+    /// The least that searches come to, and how many of the last come to it.
+    fn search(&self, starts: &[Vec<f64>], last: usize) -> Result<(Minimum, usize), NoDesign> {
         let from = |start: &Vec<f64>| {
             let found = slsqp::minimum(self, start);
             // One that cannot keep its limits from there is led to where they are kept first.
@@ -389,7 +396,7 @@ impl<'a> DesignSearch<'a> {
         let agrees = |it: &&Minimum| {
             (it.objective - best.objective).abs() <= AGREED * best.objective.abs().max(1.0)
         };
-        let agreed = found.iter().flatten().filter(agrees).count();
+        let agreed = found[starts.len() - last..].iter().flatten().filter(agrees).count();
         Ok((best, agreed))
     }
 
@@ -459,8 +466,8 @@ impl<'a> DesignSearch<'a> {
         /// What is exact enough, over a measure's size [-].
         const EXACT: f64 = 1e-3;
         let Some(measured) = self.measured(&best.point) else { return false };
-        let mut has_changed = false;
-        for (place, limit) in self.limits.iter().enumerate() {
+        let (mut scores, mut has_changed) = (self.scores.clone(), false);
+        for (place, limit) in self.limits[..self.stated].iter().enumerate() {
             let ground = &self.grounds[limit.ground];
             if !ground.is_uncertain() {
                 continue;
@@ -478,7 +485,10 @@ impl<'a> DesignSearch<'a> {
             let score = worse[kept.unwrap_or(worse.len()) - 1];
             let change = (score - self.scores[place]).abs() * deviation;
             has_changed |= change > EXACT * size_in_si(limit.measure);
-            self.scores[place] = score;
+            scores[place] = score;
+        }
+        if has_changed {
+            self.scores = scores;
         }
         has_changed
     }
@@ -524,7 +534,8 @@ impl<'a> DesignSearch<'a> {
             let there = &self.candidate.grounds[place];
             let seed = self.study.seed.wrapping_add(1);
             let fresh = MeasuredGround::drawn(there, seed, DesignStudy::FRESH_SAMPLES)?;
-            Ok(Some(fresh.measures(numbers)))
+            let measured = fresh.measures(numbers).into_iter();
+            Ok(Some(measured.map(|it| Some(fresh.where_crossed(it?))).collect()))
         };
         self.grounds.iter().enumerate().map(of_ground).collect()
     }
@@ -597,15 +608,21 @@ impl<'a> DesignSearch<'a> {
         let nearest: Vec<NearestPoint> =
             starts.par_iter().filter_map(|start| self.nearest(start)).collect();
         let crosses = |it: &&NearestPoint| self.limits.iter().all(it.is_meant);
-        let of_all = nearest.iter().filter(crosses).min_by(NearestPoint::by_excess);
-        let Some(nearest) = of_all.or_else(|| nearest.iter().min_by(NearestPoint::by_excess))
-        else {
-            return NoDesign::NothingMoves;
+        let by_excess =
+            |one: &&NearestPoint, other: &&NearestPoint| one.excess.total_cmp(&other.excess);
+        let of_all = nearest.iter().filter(crosses).min_by(by_excess);
+        let Some(nearest) = of_all.or_else(|| nearest.iter().min_by(by_excess)) else {
+            let moves = starts.iter().any(|start| self.measured(start).is_some());
+            return if moves { NoDesign::NotFound } else { NoDesign::NothingMoves };
         };
         let Some(measured) = self.measured(&nearest.point) else { return NoDesign::NothingMoves };
         let all = self.limits.iter().enumerate().filter(|(_, limit)| (nearest.is_meant)(limit));
         let all = all.map(|(place, limit)| (*limit, self.limited(place, &measured)));
-        let missed = all.filter(|(limit, value)| !limit.holds(*value)).collect();
+        let missed: Vec<(DesignLimit, f64)> =
+            all.filter(|(limit, value)| !limit.holds(*value)).collect();
+        if missed.is_empty() {
+            return NoDesign::NotFound;
+        }
         NoDesign::Unreachable(Box::new(Nearest {
             candidate: self.place,
             values: self.values(&nearest.point),
@@ -698,12 +715,6 @@ struct NearestPoint {
     excess: f64,
     /// Which limits were looked at.
     is_meant: fn(&DesignLimit) -> bool,
-}
-
-impl NearestPoint {
-    fn by_excess(one: &&Self, other: &&Self) -> Ordering {
-        one.excess.total_cmp(&other.excess)
-    }
 }
 
 /// The least by which the worst of some limits is missed: a last number that each may be missed by.

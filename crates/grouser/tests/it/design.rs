@@ -129,6 +129,17 @@ fn what_is_chosen_is_the_best_of_all_that_may_be() {
 }
 
 #[test]
+fn a_chosen_wheel_weighs_what_the_same_wheel_weighs_that_is_free() {
+    let with = |more: &str| {
+        let free = "minimise = \"wheel_mass_kg\"\n[free]\n\"rover.wheel_unit.wheel.width_m\" = [0.05, 0.06]\n";
+        study_of(&format!("{free}{more}")).design().expect("a design").objective
+    };
+    let chosen = with("[choose]\nrover.wheel_unit.wheel.radius_m = [0.09]\n");
+    let free = with("\"rover.wheel_unit.wheel.radius_m\" = [0.09, 0.12]\n");
+    assert!((chosen - free).abs() < 1e-6 * free, "{chosen} {free}");
+}
+
+#[test]
 fn limits_hold_on_every_ground() {
     let body = "minimise = \"wheel_mass_kg\"\n\
                 [free]\n\"rover.wheel_unit.wheel.radius_m\" = [0.06, 0.16]\n\
@@ -249,6 +260,13 @@ fn documents_that_say_nothing_that_can_be_are_refused_where_they_say_it() {
                  rover = [\"no-such-rover\"]"
             ),
             "no-such-rover",
+        ),
+        (
+            format!(
+                "{mass}\"rover.wheel_unit.wheel.radius_m\" = [0.1, 0.2]\n[choose]\n\
+                 slope_deg = [2.0, 10.0]"
+            ),
+            "may be chosen",
         ),
     ] {
         let message = refused(&text);

@@ -58,7 +58,7 @@ pub struct DesignRow {
 
 impl DesignRow {
     fn measure(&self, measure: Measure) -> Option<f64> {
-        Some(self.measures?[measure.place()])
+        Some(self.measures?[measure.place()]).filter(|it| it.is_finite())
     }
 }
 

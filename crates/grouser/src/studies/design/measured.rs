@@ -12,7 +12,7 @@ use crate::contact::Model;
 use crate::simulation::Scenario;
 use crate::studies::ensemble::models::Question;
 use crate::studies::ensemble::samples::{BandInputs, Sample};
-use crate::studies::heading::HeadingStudy;
+use crate::studies::heading::{HeadingStudy, LimitedBy};
 use crate::vehicle::{Inertia, Rover};
 use crate::wheel::Wheel;
 
@@ -92,12 +92,26 @@ impl MeasuredGround {
         self.samples.par_iter().map(of_sample).collect()
     }
 
+    /// The same without what is of no slope that is crossed: none of that is kept.
+    pub(super) fn where_crossed(&self, mut measures: Measures) -> Measures {
+        if measures[Measure::LimitSlope.place()] < self.slope {
+            let of_slope = |it: &Measure| *it != Measure::LimitSlope && !it.is_of_rover();
+            for measure in Measure::ALL.into_iter().filter(of_slope) {
+                measures[measure.place()] = f64::NAN;
+            }
+        }
+        measures
+    }
+
     /// * `of_rover`: what is measured of the rover alone
     fn measures_of(&self, study: &HeadingStudy, of_rover: Measures) -> Option<Measures> {
         /// Short of a curve's end, which has no slope [-].
         const SHORT_OF_END: f64 = 1.0 - 1e-6;
         let curve = study.curve_on(self.course).ok()?;
         let (limit, _) = curve.limit().ok()?;
+        if curve.limited_by() == Some(LimitedBy::NotFound) {
+            return None;
+        }
         let heading = curve.at(self.slope.min(SHORT_OF_END * limit)).ok()?;
         let wheels = study.rover.mounts().iter().zip(&heading.wheels);
         let sinkages = wheels.map(|(mount, it)| it.settled.sinkage / mount.shearing_radius());
@@ -106,9 +120,9 @@ impl MeasuredGround {
         let mut set = |measure: Measure, value: f64| measures[measure.place()] = value;
         set(Measure::LimitSlope, limit);
         set(Measure::SinkageRatio, sinkages.fold(0.0, f64::max));
-        set(Measure::SlipRatio, heading.slip_ratio);
+        set(Measure::SlipRatio, heading.slip_ratio.abs());
         set(Measure::EnergyPerMetre, heading.energy_per_metre(&study.rover));
-        set(Measure::Crab, heading.crab());
+        set(Measure::Crab, heading.crab().abs());
         set(Measure::Torque, torques.fold(0.0, f64::max));
         Some(measures)
     }
@@ -121,10 +135,13 @@ fn of_rover(scenario: &Scenario) -> Measures {
     let study = HeadingStudy::of(scenario);
     let mounts = study.rover.mounts();
     let tipping = (0..YAWS).map(|it| study.tipping_slope(TAU * f64::from(it) / f64::from(YAWS)));
-    let reach = mounts.iter().map(|it| it.position.y.abs() + it.unit.wheel.width / 2.0);
+    let side = |sign: f64| {
+        let ends = mounts.iter().map(|it| sign * it.position.y + it.unit.wheel.width / 2.0);
+        ends.fold(f64::NEG_INFINITY, f64::max)
+    };
     let mut measures = [0.0; Measure::COUNT];
     measures[Measure::TippingSlope.place()] = tipping.fold(f64::INFINITY, f64::min);
-    measures[Measure::Width.place()] = 2.0 * reach.fold(0.0, f64::max);
+    measures[Measure::Width.place()] = side(1.0) + side(-1.0);
     measures[Measure::WheelMass.place()] = mounts.iter().map(|it| it.unit.mass).sum();
     measures
 }
@@ -141,8 +158,11 @@ pub(super) fn numbers(
     let scenario = &candidate.grounds.first()?.scenario;
     let keys = numbers.iter().map(|(key, value)| (&**key, *value));
     let changed = scenario.value.with(keys).ok()?;
-    for (table, factor, radii, inertia, mass) in units(&scenario.value.rover, &changed.rover) {
-        let is_free = |key: &str| free.iter().any(|(free, _)| free == key);
+    for (table, factor, radii, inertia, mass) in units(&candidate.base, &changed.rover) {
+        let is_free = |key: &str| {
+            let chosen = candidate.chosen.iter().map(|(key, _)| key);
+            free.iter().map(|(key, _)| key).chain(chosen).any(|it| it == key)
+        };
         let key = format!("{table}.mass_kg");
         if factor == 1.0 || is_free(&key) || scenario.document.number(&key).is_none() {
             continue;
@@ -168,12 +188,14 @@ fn units(own: &Rover, changed: &Rover) -> Vec<(String, f64, f64, Inertia, f64)> 
     let growth =
         |own: &Wheel, changed: &Wheel| (sheet(changed) / sheet(own), changed.radius / own.radius);
     let unit = |rover: &Rover| rover.parts().wheel_unit;
-    let (one, other) = (unit(own), unit(changed));
-    let (factor, radii) = growth(&one.wheel, &other.wheel);
+    let (one, other_unit) = (unit(own), unit(changed));
+    let (factor, radii) = growth(&one.wheel, &other_unit.wheel);
     let mut units = vec![("rover.wheel_unit".to_owned(), factor, radii, one.inertia, one.mass)];
     let mounts = own.parts().mounts.iter().zip(&changed.parts().mounts).enumerate();
     units.extend(mounts.filter_map(|(place, (mount, other))| {
-        let (factor, radii) = growth(mount.wheel.as_ref()?, other.wheel.as_ref()?);
+        let wheel = mount.wheel.as_ref().unwrap_or(&one.wheel);
+        let changed = other.wheel.as_ref().unwrap_or(&other_unit.wheel);
+        let (factor, radii) = growth(wheel, changed);
         let inertia = mount.inertia.unwrap_or(one.inertia);
         Some((format!("rover.mount.{place}"), factor, radii, inertia, mount.mass?))
     }));
