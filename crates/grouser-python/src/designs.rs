@@ -28,11 +28,11 @@ pub(crate) fn design<'py>(
     seed: u64,
     trade: Option<(String, String)>,
 ) -> PyResult<FoundDesign<'py>> {
-    let trade = trade.map(|(one, other)| Ok::<_, PyErr>([measure(&one)?, measure(&other)?]));
     if trade.as_ref().is_some_and(|(one, other)| one == other) {
         let message = "trade takes two measures".to_owned();
         return Err(errors::parameter(message, "trade", None, "two different names"));
     }
+    let trade = trade.map(|(one, other)| Ok::<_, PyErr>([measure(&one)?, measure(&other)?]));
     let question = DesignQuestion {
         task: design.design()?.clone(),
         is_nominal,
