@@ -161,8 +161,9 @@ def route(
         waypoints is over ``leg``. It is the advice for the worst place of the leg, to a whole
         degree, with the slope and course ``leg_slope_deg`` and ``leg_course_deg``: whether to drive
         there and why (``leg_verdict``, ``leg_reason``), ``leg_probability_stuck``, and the heading
-        to set, ``leg_yaw_deg``, from the contour, with its band (``…_p2_5``, ``…_p97_5``). What is
-        met along the way is over ``piece``: ``piece_leg``, ``piece_along_m`` from the start on the
+        to set, ``leg_yaw_deg``, from the contour, with its band (``…_p2_5``, ``…_p97_5``). Where the
+        turn on the spot before a leg is worse it is that of the turn, without course and heading. What
+        is met along the way is over ``piece``: ``piece_leg``, ``piece_along_m`` from the start on the
         map to its middle, its place and height ``piece_x_m``, ``piece_y_m``, ``piece_z_m``,
         ``piece_slope_deg``, ``piece_course_deg``, ``piece_slip_ratio`` in the median of the samples,
         and ``piece_probability_no_go``; NaN where the ground is not known. With
