@@ -26,7 +26,7 @@ type Rule = fn(&Sources) -> usize;
 /// are those of what it wraps, and derivatives 3,100 lines, eight conversions and a dozen names; designs
 /// 1,700 lines and an answer's inputs, turns that are judged and rules of exchanges 400.
 const COUNTS: [(&str, usize, Rule); 9] = [
-    ("lines of Rust without comments and tests", 115_900, |all| all.rust.iter().map(lines).sum()),
+    ("lines of Rust without comments and tests", 116_000, |all| all.rust.iter().map(lines).sum()),
     ("lines of Python without comments and tests", 8_410, |all| all.python.iter().map(lines).sum()),
     ("files that name three outcomes or more as text", 1, outcome_homes),
     ("inputs of an answer written by hand (`fn settings`, `fn state`)", 19, |all| {
