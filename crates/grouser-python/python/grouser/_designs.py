@@ -100,7 +100,7 @@ def design(
     >>> found = gr.design("design-lighter-wheels")
     >>> round(found.design["rover.wheel_unit.wheel.radius_m"], 4), round(found.objective, 3)
     (0.1291, 1.022)
-    >>> found.constraints["name"].tolist(), found.constraints["price"].round(2).tolist()
+    >>> list(found.constraints["name"]), found.constraints["price"].round(2).tolist()
     (['limit_slope_deg', 'sinkage_ratio'], [0.0, 7.44])
     """
     task = Design(design, **changes)
