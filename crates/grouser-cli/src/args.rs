@@ -6,6 +6,7 @@ mod card;
 mod design;
 mod documents;
 mod draw;
+mod export_fmu;
 mod forecast;
 mod groups;
 mod heading;
@@ -45,6 +46,7 @@ pub(crate) use card::{CardArgs, RuleArgs, SideChoice};
 pub(crate) use design::DesignArgs;
 pub(crate) use documents::{CheckArgs, CompletionsArgs, ManArgs, PresetsArgs, SchemaArgs};
 pub(crate) use draw::DrawArgs;
+pub(crate) use export_fmu::{DrivenBy, ExportFmuArgs};
 pub(crate) use forecast::ForecastArgs;
 pub(crate) use groups::grouped;
 pub(crate) use heading::{HeadingArgs, HeadingMapArgs};
@@ -142,6 +144,8 @@ pub(crate) enum Command {
     ImportTelemetry(ImportTelemetryArgs),
     /// Make a rover of URDF, the format in which robots are described to ROS.
     ImportUrdf(ImportUrdfArgs),
+    /// Make an FMU of a scenario or a mission, which other simulation tools load (FMI 3.0).
+    ExportFmu(ExportFmuArgs),
     /// Make a rover, a wheel, a soil, a scenario or a mission of your own: asks, or takes answers by
     /// flags.
     New(NewArgs),

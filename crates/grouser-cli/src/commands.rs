@@ -9,6 +9,7 @@ pub(crate) mod completions;
 pub(crate) mod design;
 mod destinations;
 pub(crate) mod draw;
+pub(crate) mod export_fmu;
 pub(crate) mod forecast;
 pub(crate) mod heading;
 pub(crate) mod heading_map;

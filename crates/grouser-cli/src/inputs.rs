@@ -184,7 +184,7 @@ pub(crate) fn design(args: &DesignArgs, setting: &SettingArgs) -> Result<LoadedD
 /// The settings that every run takes.
 ///
 /// * `kind`: of the document whose keys they are: a scenario, or one with the same keys
-fn scenario_settings(
+pub(crate) fn scenario_settings(
     overrides: &mut Overrides,
     kind: Kind,
     setting: &SettingArgs,

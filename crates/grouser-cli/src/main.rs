@@ -78,6 +78,7 @@ fn run(command: &Command) -> Result<(), Failure> {
         Command::Import(args) => commands::import::run(args),
         Command::ImportTelemetry(args) => commands::import_telemetry::run(args),
         Command::ImportUrdf(args) => commands::import_urdf::run(args),
+        Command::ExportFmu(args) => commands::export_fmu::run(args),
         Command::New(args) => commands::new::run(args),
         Command::Check(args) => commands::check::run(args),
         Command::Presets(args) => commands::presets::run(args),

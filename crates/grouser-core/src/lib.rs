@@ -35,6 +35,7 @@ mod random;
 pub mod root;
 pub mod simulation;
 pub mod soil;
+mod stored;
 pub mod terrain;
 pub mod units;
 pub mod vehicle;

@@ -50,7 +50,7 @@ pub use record::{Record, WheelRecord};
 pub use run::{LEAST_STEP, Run};
 pub use scatter::Scatter;
 pub use scenario::{Approach, Integrator, Motion, Numerics, Scenario, Start};
-pub use state::State;
+pub use state::{BadState, State};
 pub use steady_motion::{Seeking, SteadyMotion};
 pub use steady_state::{MOST_SLIP, NotSteady};
 pub use supply::Charge;

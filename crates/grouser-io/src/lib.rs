@@ -108,7 +108,7 @@ pub use read::{
     read_soil, read_wheel, written,
 };
 pub use samples::{MODEL as SAMPLES_MODEL, RowsOfModel, WEIGHT as SAMPLES_WEIGHT};
-pub use schema::{range, schema};
+pub use schema::{range, schema, sentence};
 pub use source::{LARGEST_FILE, Source};
 pub use stop_file::{Overruled, overruled};
 pub use telemetry_mapping::read_telemetry_mapping;

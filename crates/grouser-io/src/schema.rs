@@ -40,6 +40,17 @@ pub fn range(kind: Kind, path: &str) -> Option<std::ops::RangeInclusive<f64>> {
     widest.map(|(least, most)| least..=most)
 }
 
+/// What a key of a document is: the sentence of its row; none for a key that no law has.
+///
+/// * `path`: as in [`range`]; an entry of a list, by its place, is what its list is
+#[must_use]
+pub fn sentence(kind: Kind, path: &str) -> Option<String> {
+    let keys = path.split('.').filter(|key| key.parse::<usize>().is_err());
+    let path = keys.collect::<Vec<_>>().join(".");
+    let rows = under(root(kind), &path, None).into_iter();
+    rows.filter_map(|row| row.get("description")?.as_str()).map(str::to_owned).next()
+}
+
 /// The same schema as a value, made once.
 pub(crate) fn root(kind: Kind) -> &'static Json {
     static SCHEMAS: [OnceLock<Json>; Kind::ALL.len()] =

@@ -3,6 +3,7 @@
 use std::ops::{Add, Mul};
 
 use super::patch::ContactPatch;
+use crate::stored::stored;
 
 /// Forces and moments of the soil on a wheel, about its hub, in the wheel frame (x forward, y
 /// left, z up), and the parts they are made of.
@@ -33,6 +34,21 @@ pub struct WheelForces {
     /// The arc in contact, in angles from straight down, positive on the entering side.
     pub patch: ContactPatch,
 }
+
+stored!(struct WheelForces {
+    drawbar_pull,
+    side_force,
+    normal_force,
+    torque,
+    overturning_moment,
+    aligning_moment,
+    thrust,
+    motion_resistance,
+    side_force_from_shear,
+    bulldozing_load,
+    max_normal_stress,
+    patch,
+});
 
 impl WheelForces {
     /// The same forces seen in a mirror that swaps front and back.

@@ -4,6 +4,7 @@
 
 use crate::elementary;
 use crate::soil::Soil;
+use crate::stored::stored;
 
 /// The arc in contact, in angles [rad] from straight down, positive on the entering side.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,6 +16,8 @@ pub struct ContactPatch {
     /// Exit angle, *θ_r* [rad], not positive.
     pub exit: f64,
 }
+
+stored!(struct ContactPatch { entry, max_stress, exit });
 
 impl ContactPatch {
     /// The arc of a wheel sunk by *h*.

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::elementary::wide::{atan2, hypot, tan};
+use crate::stored::stored;
 use crate::units::Vec2;
 
 /// A wheel slower than this is at rest [m/s]. Source: ours.
@@ -83,6 +84,8 @@ pub struct Slip {
     /// the rim's sense to the hub's in proportion to their speeds, so that nothing jumps.
     pub entering_side: f64,
 }
+
+stored!(struct Slip { ratio, angle, rim, forward, lateral, sideways, entering_side });
 
 impl Slip {
     /// Between this slip and another; senses are those of the nearer one, and so is the angle where

@@ -248,7 +248,7 @@ impl MissionRun {
             let end = driven.step(&mut self.run, &mut self.navigator)?;
             let records = self.run.kept();
             if (records.len() >= BATCH || end.is_some()) && watch(records) {
-                self.run.take_records();
+                drop(self.run.take_records());
             }
             if let Some(end) = end {
                 return Ok(end);

@@ -15,6 +15,7 @@ use super::quasi_steady::{MOST_LAG, blended, rolling};
 use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
 use super::turning::Turning;
 use crate::contact::Slip;
+use crate::stored::stored;
 use crate::units::Vec2;
 use crate::vehicle::{Mount, WheelReaction};
 
@@ -47,6 +48,8 @@ pub(super) struct Carried {
     stride: Stride,
 }
 
+stored!(struct Carried { memory, stride });
+
 impl Carried {
     /// The wheels where the rover is.
     pub(super) fn wheels(&self) -> Vec<WheelReaction> {
@@ -65,6 +68,8 @@ struct Stride {
     gone: f64,
 }
 
+stored!(struct Stride { from, to, length, gone });
+
 /// A pose with its steady state.
 #[derive(Clone)]
 struct Node {
@@ -74,6 +79,8 @@ struct Node {
     /// Rates of the pose: of the place [m/s] and of the yaw [rad/s].
     rates: (Vec2, f64),
 }
+
+stored!(struct Node { place, yaw, steady, rates });
 
 impl<'a, 'g> AlongGround<'a, 'g> {
     /// The motion from a point on; sets the point's velocities to their steady state.

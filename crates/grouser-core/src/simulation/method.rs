@@ -1,6 +1,7 @@
 //! Which of the two ways through time a run took.
 
 use super::steady_state::NotSteady;
+use crate::stored::stored;
 
 /// How a run was computed.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,6 +18,12 @@ pub enum Method {
         because: NotSteady,
     },
 }
+
+stored!(enum Method {
+    0 => Dynamic,
+    1 => QuasiSteady,
+    2 => FallbackToDynamic { time, because },
+});
 
 impl Method {
     /// `dynamic`, `quasi-steady`, or `fell-back`.

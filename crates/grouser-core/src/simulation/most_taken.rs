@@ -1,5 +1,6 @@
 //! What motors took at most over a stretch of a run.
 
+use crate::stored::stored;
 use crate::vehicle::Electrical;
 
 /// The most that was seen since it was [begun](super::Run::begin_most_taken), at looks a tenth of a
@@ -11,6 +12,8 @@ pub(crate) struct MostTaken {
     /// Highest temperature of a motor's winding, where some are known [°C].
     pub(crate) temperature: Option<f64>,
 }
+
+stored!(struct MostTaken { current, temperature });
 
 impl MostTaken {
     /// Looks at what each motor takes, and at the warmest winding [°C].

@@ -1,6 +1,7 @@
 //! What may become of a rover.
 
 use super::outcome_kind::OutcomeKind;
+use crate::stored::stored;
 use crate::units::Vec2;
 
 /// What became of the rover.
@@ -50,6 +51,16 @@ pub enum Outcome {
     },
 }
 
+stored!(enum Outcome {
+    0 => Completed,
+    1 => Immobilised { time, because },
+    2 => Sliding { time },
+    3 => TippedOver { time },
+    4 => BrownOut { time, because },
+    5 => OffTheMap { time, wheel, place },
+    6 => HighCentred { time, place },
+});
+
 /// Why a battery no longer gave what was drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PowerLost {
@@ -68,6 +79,12 @@ pub enum PowerLost {
         power: f64,
     },
 }
+
+stored!(enum PowerLost {
+    0 => Empty,
+    1 => BelowCutoff { voltage, cutoff },
+    2 => TooMuchDrawn { power },
+});
 
 /// What stopped a rover.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,6 +107,13 @@ pub enum StuckBecause {
         capacity: f64,
     },
 }
+
+stored!(enum StuckBecause {
+    0 => WheelsSpin,
+    1 => NoProgress,
+    2 => MotorsStall,
+    3 => SunkToAxle { wheel, load, capacity },
+});
 
 impl Outcome {
     /// Its kind, of which the [table](OutcomeKind::row) says name, meaning, severity and what a

@@ -2,6 +2,7 @@
 
 use super::power;
 use super::turning::Turning;
+use crate::stored::stored;
 use crate::vehicle::{Rover, RoverState};
 
 /// What is integrated: the rover's state, the motors' work, the work on the soil, and the
@@ -15,6 +16,8 @@ pub(super) struct Point {
     /// How the wheels turn, where that is not as they are set to.
     pub(super) turning: Option<Turning>,
 }
+
+stored!(struct Point { state, motors, soil, electrical, turning });
 
 impl Point {
     /// The start of a run.

@@ -20,6 +20,7 @@ use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
 use super::turning::Turning;
 use crate::contact::WheelForces;
 use crate::lagrange;
+use crate::stored::stored;
 use crate::units::Vec2;
 use crate::vehicle::WheelReaction;
 use crate::vehicle::kinematics::{rolling_motion, wheel_slips};
@@ -65,6 +66,8 @@ pub(super) struct Stretch {
     reach: f64,
 }
 
+stored!(struct Stretch { nodes, width, reach });
+
 /// What one run hands on from one advance to the next.
 #[derive(Clone, Default)]
 pub(super) struct Carried {
@@ -73,6 +76,8 @@ pub(super) struct Carried {
     /// Velocities with which the rims would roll.
     rolled: Vector3<f64>,
 }
+
+stored!(struct Carried { memory, stretch, rolled });
 
 impl Carried {
     /// The wheels at a point of the motion, if it is one of steady states.

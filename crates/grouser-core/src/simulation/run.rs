@@ -255,8 +255,10 @@ impl Run {
         &self.records
     }
 
-    /// The same, which do not stay any longer.
-    pub(crate) fn take_records(&mut self) -> Vec<Record> {
+    /// Takes the records that stay so far, so that a long run needs no memory for them; those of
+    /// later times follow.
+    #[must_use = "the records are gone otherwise; `drop` says that that is meant"]
+    pub fn take_records(&mut self) -> Vec<Record> {
         self.forget_now();
         std::mem::take(&mut self.records)
     }
@@ -298,7 +300,7 @@ impl Run {
         period: f64,
         ends: &mut dyn FnMut(&Self) -> bool,
     ) -> Result<(), RunError> {
-        check(rim_speeds, &self.scenario)?;
+        DriveLaw::check_each(rim_speeds, &self.scenario.rover)?;
         if !(LEAST_STEP..=LONGEST_DURATION).contains(&span) {
             let expected = "from 1e-6 to 86400";
             return Err(ParameterError::new("step [s]", span, expected).into());
@@ -306,7 +308,8 @@ impl Run {
         if self.state.outcome.is_some() {
             return Ok(());
         }
-        let mut is_new_command = self.scenario.rim_speeds(rim_speeds) != self.state.set_speeds;
+        let set_speeds = self.state.set_speeds.iter().copied();
+        let mut is_new_command = !self.scenario.each_rim_speed(rim_speeds).eq(set_speeds);
         if is_new_command {
             self.state.turn(&self.scenario, rim_speeds);
         }
@@ -456,9 +459,13 @@ impl Run {
         due: Due,
     ) -> Result<(), RunError> {
         let time = self.state.time;
+        let is_limited = self.state.supply.is_some() && self.scenario.rover.has_droop();
+        if self.scenario.yaw.is_none() && !is_limited {
+            // The usual case needs no list.
+            return self.leg(is_new_command, kept_until, due).go_to(until);
+        }
         let turns = self.scenario.yaw.iter().flat_map(|yaw| yaw.turns_between(time, until));
         let mut ends: Vec<f64> = turns.chain([until]).collect();
-        let is_limited = self.state.supply.is_some() && self.scenario.rover.has_droop();
         if is_limited {
             ends.extend(multiples_between(time, until, LIMIT_PERIOD));
             ends.sort_by(f64::total_cmp);
@@ -539,11 +546,6 @@ fn ask(
     controller.command(&seen, &mut commanded);
     let work = seen.work.get();
     state.work += work;
-    check(&commanded, scenario)?;
+    DriveLaw::check_each(&commanded, &scenario.rover)?;
     Ok(commanded)
-}
-
-/// Checks that there is a finite speed for each wheel.
-fn check(rim_speeds: &[f64], scenario: &Scenario) -> Result<(), ParameterError> {
-    DriveLaw::ConstantEach(rim_speeds.to_vec()).check(&scenario.rover)
 }

@@ -298,10 +298,18 @@ impl Scenario {
     /// The rim speeds, *ω r_s* [m/s], of wheels of which others are commanded [m/s].
     #[must_use]
     pub fn rim_speeds(&self, commanded: &[f64]) -> Vec<f64> {
+        self.each_rim_speed(commanded).collect()
+    }
+
+    /// The same, one after the other.
+    pub(super) fn each_rim_speed<'a>(
+        &'a self,
+        commanded: &'a [f64],
+    ) -> impl Iterator<Item = f64> + 'a {
         let differ = |(wheel, (commanded, scatter)): (usize, (&f64, f64))| {
             commanded * self.by_wheel.speed.of(wheel) * scatter
         };
-        commanded.iter().zip(self.scatter.speed_factors()).enumerate().map(differ).collect()
+        commanded.iter().zip(self.scatter.speed_factors()).enumerate().map(differ)
     }
 
     /// The state at time 0.

@@ -16,6 +16,7 @@ use super::times::is_multiple;
 use super::turning::Turning;
 use super::watch::{WATCH_PERIOD, Watch};
 use super::work::Work;
+use crate::stored::{self, Stored};
 use crate::vehicle::settling::Known;
 use crate::vehicle::{Rover, RoverState, WheelReaction};
 
@@ -55,6 +56,22 @@ pub struct State {
     pub(super) carried: Carried,
     /// The wheels where the motion was last evaluated.
     pub(super) near: Vec<Known>,
+}
+
+/// Why bytes are no state of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum BadState {
+    /// They are damaged, or no state of this version.
+    #[error("the bytes are damaged, or no state of a run of this version of Grouser")]
+    Unreadable,
+    /// The rover of the state has another number of wheels than the scenario's.
+    #[error("the state is of a rover with {found} wheels, the scenario's has {expected}")]
+    OtherWheels {
+        /// Wheels of the state.
+        found: usize,
+        /// Wheels of the scenario's rover.
+        expected: usize,
+    },
 }
 
 impl State {
@@ -110,6 +127,118 @@ impl State {
         self.point.turning = Some(turning);
         self.point.start_work(&scenario.rover);
         self.rim_speeds.copy_from_slice(turning.rim_speeds());
+    }
+
+    /// The state as bytes, for files and other processes: [`from_bytes`](Self::from_bytes) reads
+    /// them. They have a form of their own in each version of the library.
+    ///
+    /// ```
+    /// use grouser_core::paper;
+    /// use grouser_core::simulation::{Run, State};
+    ///
+    /// let scenario = paper::traverse()?;
+    /// let mut run = Run::new(&scenario)?;
+    /// run.step(&[0.06; 4], 1.0)?;
+    /// let bytes = run.state().to_bytes();
+    /// let mut other = Run::resume(&scenario, State::from_bytes(&bytes, &scenario)?);
+    /// run.step(&[0.05; 4], 1.0)?;
+    /// other.step(&[0.05; 4], 1.0)?;
+    /// assert_eq!(run.now(), other.now());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let Self {
+            time,
+            point,
+            commanded,
+            set_speeds,
+            rim_speeds,
+            steered,
+            steered_until,
+            slip_ratios,
+            outcome,
+            method,
+            work,
+            watch,
+            supply,
+            most_taken,
+            history,
+            carried,
+            near,
+        } = self;
+        stored::sealed(|bytes| {
+            (*time, *point).store(bytes);
+            for each in [commanded, set_speeds, rim_speeds, slip_ratios] {
+                each.store(bytes);
+            }
+            (steered.as_ref().map(|rover| rover.steering_angles()), *steered_until).store(bytes);
+            outcome.store(bytes);
+            method.store(bytes);
+            work.store(bytes);
+            watch.store(bytes);
+            supply.store(bytes);
+            most_taken.store(bytes);
+            history.store(bytes);
+            carried.store(bytes);
+            near.store(bytes);
+        })
+    }
+
+    /// The state that was made [bytes](Self::to_bytes). A scenario and this state determine all
+    /// that follows, bit for bit.
+    ///
+    /// * `scenario`: the one of its run, with its wheels as its document has them
+    ///
+    /// # Errors
+    /// [`BadState`] for bytes that are damaged, by another version of the library, or of a rover
+    /// with another number of wheels. Of another scenario with as many wheels the state is taken
+    /// as it is.
+    pub fn from_bytes(bytes: &[u8], scenario: &Scenario) -> Result<Self, BadState> {
+        let mut content = stored::opened(bytes).ok_or(BadState::Unreadable)?;
+        let state = Self::restored(&mut content, &scenario.rover).ok_or(BadState::Unreadable)?;
+        if !content.is_empty() {
+            return Err(BadState::Unreadable);
+        }
+        let (found, expected) = (state.commanded.len(), scenario.rover.wheel_count());
+        if found != expected {
+            return Err(BadState::OtherWheels { found, expected });
+        }
+        Ok(state)
+    }
+
+    fn restored(bytes: &mut &[u8], rover: &Rover) -> Option<Self> {
+        let (time, point) = Stored::restore(bytes)?;
+        let [commanded, set_speeds, rim_speeds, slip_ratios] =
+            <[Vec<f64>; 4] as Stored>::restore(bytes)?;
+        let count = commanded.len();
+        if [&set_speeds, &rim_speeds, &slip_ratios].iter().any(|each| each.len() != count) {
+            return None;
+        }
+        let (angles, steered_until) = <(Option<Vec<f64>>, f64) as Stored>::restore(bytes)?;
+        let steered = match angles.filter(|angles| angles.len() == rover.wheel_count()) {
+            Some(angles) => Some(Arc::new(rover.steered(&angles).ok()?)),
+            None => None,
+        };
+        Some(Self {
+            time,
+            point,
+            commanded,
+            set_speeds,
+            rim_speeds,
+            steered,
+            steered_until,
+            slip_ratios,
+            outcome: Stored::restore(bytes)?,
+            method: Stored::restore(bytes)?,
+            work: Stored::restore(bytes)?,
+            watch: Stored::restore(bytes)?,
+            supply: Stored::restore(bytes)?,
+            most_taken: Stored::restore(bytes)?,
+            history: Stored::restore(bytes)?,
+            carried: Stored::restore(bytes)?,
+            near: Stored::restore(bytes)?,
+        })
     }
 
     /// Time since the start [s].

@@ -6,6 +6,7 @@ use super::point::Point;
 use super::quasi_steady::{self, QuasiSteady};
 use super::steady_state::NotSteady;
 use crate::contact::Slip;
+use crate::stored::stored;
 use crate::vehicle::WheelReaction;
 
 /// The motion of a rover whose wheels turn at given speeds, with steady velocities.
@@ -21,6 +22,8 @@ pub(super) enum Carried {
     Plane(quasi_steady::Carried),
     Uneven(Box<along_ground::Carried>),
 }
+
+stored!(enum Carried { 0 => Plane(carried), 1 => Uneven(carried) });
 
 impl Default for Carried {
     fn default() -> Self {

@@ -17,6 +17,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use super::equations::{Equations, Evaluation};
 use super::turning::Turning;
 use crate::newton;
+use crate::stored::stored;
 use crate::units::Vec2;
 use crate::vehicle::load;
 use crate::vehicle::{OnGround, RoverState, WheelReaction};
@@ -62,6 +63,15 @@ pub enum NotSteady {
     },
 }
 
+stored!(enum NotSteady {
+    0 => UnevenSoil,
+    1 => NoSteadyState,
+    2 => Unstable { rate },
+    3 => Spinning { slip_ratio },
+    4 => Slow { settling_time },
+    5 => Lags { settling_time, lag },
+});
+
 /// A steady state.
 #[derive(Clone, Debug)]
 pub(super) struct SteadyState {
@@ -76,6 +86,8 @@ pub(super) struct SteadyState {
     /// How they turn, where that is not as they are set to.
     pub(super) turning: Option<Turning>,
 }
+
+stored!(struct SteadyState { yaw, velocities, powers, wheels, turning });
 
 /// Finds steady states, each from the one before.
 pub(super) struct SteadySolver<'a, 'g> {
@@ -99,6 +111,8 @@ pub(super) struct Memory {
     /// Where stability was last looked at, and the settling time there [s].
     checked: Option<(f64, Vector3<f64>, f64)>,
 }
+
+stored!(struct Memory { inverse, with_motors, checked });
 
 /// Velocities this near to those of the steady state are taken for it, over the fastest rim's speed
 /// [-]: a tenth of the relative tolerance of dynamic runs.

@@ -7,6 +7,7 @@
 
 use super::outcome::{Outcome, PowerLost};
 use super::times::is_same_time;
+use crate::stored::stored;
 use crate::vehicle::{Electrical, MotorLimits, Rover, Terminals};
 
 /// Time between two changes of the motors' limits [s]. Source: ours; the windings of the smallest
@@ -38,6 +39,8 @@ pub(super) struct Supply {
     last: Option<Look>,
 }
 
+stored!(struct Supply { temperatures, charge, terminals, beside, limits, last });
+
 /// What was seen at a look.
 #[derive(Clone, Debug, PartialEq)]
 struct Look {
@@ -50,6 +53,8 @@ struct Look {
     discharge: f64,
     beside: f64,
 }
+
+stored!(struct Look { time, taken, heats, discharge, beside });
 
 impl Supply {
     /// At the start of a run; none of a rover of which neither is known.

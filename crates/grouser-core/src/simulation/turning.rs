@@ -1,5 +1,7 @@
 //! How wheels turn whose speed depends on their load.
 
+use crate::stored::Stored;
+
 /// So many wheels may have motors whose speed depends on their load. Source: ours; no rover has had
 /// more.
 pub const MOST_WHEELS: usize = 8;
@@ -14,6 +16,17 @@ pub(super) struct Turning {
     rim_speeds: [f64; MOST_WHEELS],
     /// What the integrals of controllers add to the voltage, *z* [V].
     integrals: [f64; MOST_WHEELS],
+}
+
+impl Stored for Turning {
+    fn store(&self, bytes: &mut Vec<u8>) {
+        self.numbers().concat().store(bytes);
+    }
+
+    fn restore(bytes: &mut &[u8]) -> Option<Self> {
+        let numbers = Vec::restore(bytes)?;
+        (numbers.len() <= 2 * MOST_WHEELS).then(|| Self::of(&numbers))
+    }
 }
 
 impl Turning {

@@ -2,6 +2,7 @@
 
 use super::outcome::{Outcome, StuckBecause};
 use super::scenario::Scenario;
+use crate::stored::stored;
 use crate::vehicle::RoverState;
 use crate::vehicle::kinematics::{rolling_velocity, wheel_velocity};
 
@@ -28,6 +29,8 @@ pub(super) struct Watch {
     stalled: Option<f64>,
     sliding: Option<f64>,
 }
+
+stored!(struct Watch { spinning, without_progress, stalled, sliding });
 
 /// How wheels turn.
 #[derive(Clone, Copy)]

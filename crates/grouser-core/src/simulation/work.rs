@@ -1,5 +1,6 @@
 //! How much was computed for a run.
 
+use crate::stored::stored;
 use std::ops::AddAssign;
 
 /// How much was computed for a run: counts that repeat on every machine.
@@ -14,6 +15,8 @@ pub struct Work {
     /// Wheels that were settled, for the evaluations and for the samples.
     pub settled_wheels: u64,
 }
+
+stored!(struct Work { evaluations, jacobians, steps, settled_wheels });
 
 impl AddAssign for Work {
     fn add_assign(&mut self, other: Self) {

@@ -12,6 +12,7 @@
 //! the rover is without power.
 
 use crate::error::{ParameterError, not_negative, positive};
+use crate::stored::stored;
 
 /// A battery, and what the electronics draw from it.
 ///
@@ -58,6 +59,8 @@ pub struct Terminals {
     /// Current, *I* [A].
     pub current: f64,
 }
+
+stored!(struct Terminals { voltage, current });
 
 impl Battery {
     /// Checks that the battery's numbers are within their ranges.

@@ -69,14 +69,7 @@ impl DriveLaw {
     pub fn check(&self, rover: &Rover) -> Result<(), ParameterError> {
         match self {
             Self::Constant(speed) => finite("rim speed [m/s]", *speed),
-            Self::ConstantEach(speeds) if speeds.len() != rover.wheel_count() => {
-                let count = speeds.len() as f64;
-                let expected = "one for each wheel of the rover";
-                Err(ParameterError::new("the number of rim speeds", count, expected))
-            }
-            Self::ConstantEach(speeds) => {
-                speeds.iter().try_for_each(|speed| finite("rim speed [m/s]", *speed))
-            }
+            Self::ConstantEach(speeds) => Self::check_each(speeds, rover),
             Self::Eq18AsPrinted(target) | Self::Eq18(target) => {
                 positive("desired speed [m/s]", target.speed)?;
                 below_one("reference slip ratio", target.slip_ratio)
@@ -86,6 +79,16 @@ impl DriveLaw {
                 below_one("largest slip ratio", limit.slip_ratio)
             }
         }
+    }
+
+    /// Checks that there is a finite rim speed [m/s] for each wheel.
+    pub(crate) fn check_each(speeds: &[f64], rover: &Rover) -> Result<(), ParameterError> {
+        if speeds.len() != rover.wheel_count() {
+            let count = speeds.len() as f64;
+            let expected = "one for each wheel of the rover";
+            return Err(ParameterError::new("the number of rim speeds", count, expected));
+        }
+        speeds.iter().try_for_each(|speed| finite("rim speed [m/s]", *speed))
     }
 
     /// The largest rim speed that the law starts with [m/s], with its sign.

@@ -16,6 +16,7 @@
 use super::speed_control::SpeedControl;
 use super::winding::Winding;
 use crate::error::{ParameterError, not_negative, positive};
+use crate::stored::stored;
 
 /// A DC motor behind a gear.
 ///
@@ -71,6 +72,8 @@ pub struct Electrical {
     /// Power [W]; below 0 where it is taken back.
     pub power: f64,
 }
+
+stored!(struct Electrical { current, voltage, power });
 
 impl Motor {
     /// Checks that the motor's numbers are within their ranges.

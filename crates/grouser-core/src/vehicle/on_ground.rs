@@ -9,6 +9,7 @@ use super::rover::Rover;
 use super::state::RoverState;
 use crate::contact::{SettleError, Settled, Slip, WheelForces, WheelSoilModel};
 use crate::error::ParameterError;
+use crate::stored::stored;
 use crate::terrain::Ground;
 use crate::units::Vec2;
 
@@ -41,6 +42,8 @@ pub struct WheelReaction {
     /// Its sinkage and the soil's forces.
     pub settled: Settled,
 }
+
+stored!(struct WheelReaction { slip, load, settled });
 
 /// Why the wheels do not settle.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

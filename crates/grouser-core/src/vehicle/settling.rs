@@ -29,6 +29,7 @@ use crate::contact::equilibrium::{grows_as_usual, is_usual_step};
 use crate::contact::load_sinkage::LoadSinkage;
 use crate::contact::{Contact, Settled, Slip, WheelForces, WheelSoilModel};
 use crate::soil::Soil;
+use crate::stored::stored;
 use crate::terrain::Ground;
 use crate::units::Vec2;
 use crate::{elementary, lagrange};
@@ -70,6 +71,8 @@ pub(crate) struct Known {
     slope: Slope,
 }
 
+stored!(struct Known { slip, place, slope });
+
 /// A sinkage that was tried, and the forces there.
 #[derive(Clone, Copy, Debug, Default)]
 struct Place {
@@ -82,6 +85,8 @@ struct Place {
     moments: Vec2,
 }
 
+stored!(struct Place { depth, load, forces, moments });
+
 /// How sinkage and forces change with ln F_z.
 #[derive(Clone, Copy, Debug, Default)]
 struct Slope {
@@ -91,6 +96,8 @@ struct Slope {
     /// Over how much of ln F_z that was seen.
     width: f64,
 }
+
+stored!(struct Slope { depth, forces, moments, width });
 
 /// Loads this near to those of the last sinkages are met by the curves [ln F_z]: what they leave
 /// out is below rounding, and where forces have a kink below this.

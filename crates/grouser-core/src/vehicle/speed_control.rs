@@ -15,6 +15,7 @@
 //! integral's correction, back-calculation: [AstromHagglund2006].
 
 use crate::error::{ParameterError, not_negative, positive};
+use crate::stored::stored;
 
 /// A speed controller and its limits.
 ///
@@ -63,6 +64,8 @@ pub struct MotorLimits {
     /// Current [A].
     pub current: f64,
 }
+
+stored!(struct MotorLimits { voltage, current });
 
 impl MotorLimits {
     /// All that it asks for.

@@ -3,6 +3,7 @@
 use nalgebra::{Matrix2, Rotation2};
 
 use crate::elementary::wide;
+use crate::stored::stored;
 use crate::units::Vec2;
 
 /// Pose and velocity of a rover on the slope.
@@ -17,6 +18,8 @@ pub struct RoverState {
     /// Yaw rate, *γ' = dγ/dt* [rad/s].
     pub yaw_rate: f64,
 }
+
+stored!(struct RoverState { position, yaw, velocity, yaw_rate });
 
 impl RoverState {
     /// The rotation that takes vectors of the body frame to the slope frame.

@@ -19,6 +19,7 @@ const LAYERS: [&[&str]; 9] = [
         "random",
         "root",
         "soil",
+        "stored",
         "wheel",
         "terrain",
     ],

@@ -4,6 +4,7 @@ use crate::contact::discrepancy::{self, Correction};
 use crate::contact::forces::WheelForces;
 use crate::contact::inputs::Contact;
 use crate::contact::model::WheelSoilModel;
+use crate::stored::stored;
 
 /// A wheel under its load: what settles.
 #[derive(Clone, Copy)]
@@ -30,6 +31,8 @@ pub struct Settled {
     /// How often the model was evaluated, for F_z alone or for all forces.
     pub evaluations: u32,
 }
+
+stored!(struct Settled { sinkage, forces, evaluations });
 
 /// Why no sinkage carries the load.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]

@@ -24,6 +24,7 @@ use super::step::{COUPLED, COUPLED_BY_PLACE, Numbers, Step};
 use super::{OnSample, Point, SIZE, Stalled, WITH_MOTORS, rates_at};
 use crate::elementary::{pow, wide};
 use crate::simulation::equations::Equations;
+use crate::stored::stored;
 
 /// Smallest error that a step may leave, besides the relative tolerance times the value, over that
 /// tolerance: lengths [m], angles [rad] and speeds [m/s] far below what a rover notices, and
@@ -44,6 +45,8 @@ pub(in crate::simulation) struct History {
     first_span: Option<f64>,
 }
 
+stored!(struct History { known, first_span });
+
 /// What is known of a motion, by how many numbers move.
 #[derive(Clone, Default)]
 enum Known {
@@ -52,6 +55,8 @@ enum Known {
     Ideal(Box<Way<SIZE>>),
     WithMotors(Box<Way<WITH_MOTORS>>),
 }
+
+stored!(enum Known { 0 => Nothing, 1 => Ideal(way), 2 => WithMotors(way) });
 
 impl History {
     /// Forgets it but for the length of its first step: what comes is another motion.

@@ -1,5 +1,6 @@
 //! One step, whichever method took it: where it led, all points on its way, and its error.
 
+use crate::stored::stored;
 use std::ops::Range;
 
 /// A point, or its rates.
@@ -21,6 +22,8 @@ pub(super) struct Step<const N: usize> {
     /// Estimate of its error, at least at its end: the difference to the embedded step of order 4.
     pub(super) error: Numbers<N>,
 }
+
+stored!(struct Step<const N> { from, to, bends, error });
 
 impl<const N: usize> Step<N> {
     /// The point at a share of the step, 0 to 1.

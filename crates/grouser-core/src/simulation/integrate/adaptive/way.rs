@@ -2,6 +2,7 @@
 //! be, and by which method.
 
 use super::super::step::{Numbers, Step};
+use crate::stored::stored;
 
 /// Steps that are longer than this, times the motion's fastest rate, are implicit: explicit ones
 /// are stable up to 3.3. Source: Hairer and Wanner (1996), section IV.2.
@@ -34,6 +35,8 @@ pub(super) struct Way<const N: usize> {
     pub(super) seen: (f64, Numbers<N>),
 }
 
+stored!(struct Way<const N> { start, span, step, implicit, next, seen });
+
 /// What is known of the next step.
 #[derive(Clone, Copy)]
 pub(super) struct Outlook<const N: usize> {
@@ -46,6 +49,8 @@ pub(super) struct Outlook<const N: usize> {
     /// [s].
     pub(super) stagnant: (u32, f64),
 }
+
+stored!(struct Outlook<const N> { rates, span, implicit, stagnant });
 
 impl<const N: usize> Outlook<N> {
     pub(super) fn first(span: f64, implicit: bool) -> Self {

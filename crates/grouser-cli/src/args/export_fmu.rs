@@ -1,0 +1,48 @@
+//! Arguments of `export-fmu`.
+
+use std::path::PathBuf;
+
+use clap::builder::NonEmptyStringValueParser;
+use clap::{Args, ValueEnum};
+use grouser_fmi::model::Drive;
+
+use super::SettingArgs;
+
+#[derive(Debug, Args)]
+pub(crate) struct ExportFmuArgs {
+    /// File or preset of a scenario or a mission.
+    #[arg(value_name = "DOCUMENT", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) document: String,
+    /// The file to write, whose name ends in `.fmu`.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: PathBuf,
+    /// Replace the file if it is there.
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Who turns the wheels. Without it the inputs in a scenario, and the document in a mission.
+    #[arg(long, value_enum, value_name = "WHO")]
+    pub(crate) driven_by: Option<DrivenBy>,
+    /// The library that the FMU carries, if it does not lie beside the program.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) library: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) setting: SettingArgs,
+}
+
+/// Who turns the wheels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DrivenBy {
+    /// The tool, by an input for each wheel.
+    Inputs,
+    /// The scenario's drive, or the mission's legs.
+    Document,
+}
+
+impl From<DrivenBy> for Drive {
+    fn from(choice: DrivenBy) -> Self {
+        match choice {
+            DrivenBy::Inputs => Self::Inputs,
+            DrivenBy::Document => Self::Document,
+        }
+    }
+}

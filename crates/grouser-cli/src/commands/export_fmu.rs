@@ -1,0 +1,125 @@
+//! `grouser export-fmu`: a scenario or a mission as an FMU.
+
+use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+use std::fs;
+use std::io::{Cursor, Write as _};
+use std::path::{Path, PathBuf};
+
+use grouser::document::{self, Kind, Overrides, Source, escape, preset};
+use grouser_fmi::contents::{self, File};
+use grouser_fmi::model::Drive;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipWriter};
+
+use crate::args::{BalanceArgs, DrivenBy, ExportFmuArgs};
+use crate::failure::Failure;
+use crate::inputs;
+use crate::output::{self, file};
+
+pub(crate) fn run(args: &ExportFmuArgs) -> Result<(), Failure> {
+    let out = &args.out;
+    if out.extension().is_none_or(|end| !end.eq_ignore_ascii_case("fmu")) {
+        let out = escape::path(out);
+        return Err(Failure::Usage(format!("--out {out}: the name of an FMU must end with .fmu")));
+    }
+    file::check_new(out, args.force)?;
+    let mut files = files(args)?;
+    files.push(library(args)?);
+    files.sort();
+    let archive = archive(&files)
+        .map_err(|error| Failure::Run(format!("cannot write {}: {error}", escape::path(out))))?;
+    file::write_result(out, &archive)
+}
+
+/// All files but the library.
+fn files(args: &ExportFmuArgs) -> Result<Vec<File>, Failure> {
+    let name = &*args.document;
+    let (kind, source) = match [Kind::Scenario, Kind::Mission]
+        .into_iter()
+        .find_map(|kind| Some((kind, Source::Preset(preset(kind, name)?))))
+    {
+        Some(found) => found,
+        None => {
+            let source = Source::find(Kind::Scenario, name)?;
+            (document::kind_of_source(&source)?, source)
+        }
+    };
+    let mut overrides = Overrides::parse_flags("--set", &args.setting.settings)?;
+    let balance = BalanceArgs { load_transfer: None, wheel_moments: None };
+    let driven_by = |usual| Drive::from(args.driven_by.unwrap_or(usual));
+    let made = match kind {
+        Kind::Scenario => {
+            inputs::scenario_settings(&mut overrides, kind, &args.setting, &balance)?;
+            overrides.check_kinds(&[kind, Kind::Rover, Kind::Soil, Kind::Wheel])?;
+            let loaded = document::read_scenario(&source, &overrides)?;
+            output::notes(loaded.notes.iter().map(|note| escape::line(note)));
+            note_nominal(loaded.stated_uncertainty().is_some());
+            contents::of_scenario(&loaded, driven_by(DrivenBy::Inputs))
+        }
+        Kind::Mission => {
+            inputs::scenario_settings(&mut overrides, kind, &args.setting, &balance)?;
+            overrides.check_kinds(&[kind, Kind::Rover, Kind::Soil, Kind::Wheel])?;
+            let loaded = document::read_mission(&source, &overrides)?;
+            output::notes(loaded.notes.iter().map(|note| escape::line(note)));
+            note_nominal(loaded.stated_uncertainty().is_some());
+            contents::of_mission(&loaded, driven_by(DrivenBy::Document))
+        }
+        other => {
+            return Err(Failure::Usage(format!(
+                "{} is a {other}: an FMU is made of a scenario or a mission",
+                escape::line(name)
+            )));
+        }
+    };
+    made.map_err(|text| Failure::Usage(escape::line(&text).into_owned()))
+}
+
+/// Says of a soil that is not known exactly which of its samples an FMU has.
+fn note_nominal(is_uncertain: bool) {
+    if is_uncertain {
+        let note = "the FMU has the nominal soil of an uncertain one; samples of it are parameters \
+                    for the tool to set";
+        output::notes([note.to_owned()]);
+    }
+}
+
+/// The library, at its place in an FMU.
+fn library(args: &ExportFmuArgs) -> Result<File, Failure> {
+    let place = contents::library_path().ok_or_else(|| {
+        Failure::Run("FMI has no name for the system that this program runs on".to_owned())
+    })?;
+    let path = match &args.library {
+        Some(path) => path.clone(),
+        None => beside_the_program()?,
+    };
+    let content = fs::read(&path).map_err(Failure::at("cannot read", &path))?;
+    Ok((place, content))
+}
+
+fn beside_the_program() -> Result<PathBuf, Failure> {
+    let program =
+        std::env::current_exe().map_err(Failure::at("cannot find", Path::new("grouser")))?;
+    let name = format!("{DLL_PREFIX}grouser_fmi{DLL_SUFFIX}");
+    let path = program.with_file_name(&name);
+    if path.is_file() {
+        return Ok(path);
+    }
+    Err(Failure::Run(format!(
+        "{name}, the library that FMUs carry, is not beside the program: `cargo build --release -p \
+         grouser-fmi` builds it into target/release, and --library names it"
+    )))
+}
+
+/// An archive with the same bytes for the same files.
+fn archive(files: &[File]) -> zip::result::ZipResult<Vec<u8>> {
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .last_modified_time(DateTime::default())
+        .unix_permissions(0o644);
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    for (name, content) in files {
+        archive.start_file(name.as_str(), options)?;
+        archive.write_all(content)?;
+    }
+    Ok(archive.finish()?.into_inner())
+}
