@@ -4,7 +4,6 @@ use std::ffi::c_char;
 use std::sync::Mutex;
 
 use grouser_core::simulation::{Record, Run as CoreRun, Scenario, State as CoreState};
-use grouser_core::vehicle::DriveLaw;
 use grouser_io::{Kind, read_scenario};
 
 use crate::documents::{changes, source};
@@ -37,7 +36,6 @@ pub struct State {
 struct Led {
     /// The scenario as it was read.
     scenario: Scenario,
-    drive: DriveLaw,
     run: CoreRun,
     /// Shearing radius of each wheel [m].
     radii: Vec<f64>,
@@ -156,8 +154,7 @@ pub extern "C" fn grouser_run_play(run: Run, duration_s: f64) -> Status {
     with(run, |led| {
         finite("duration_s", duration_s)?;
         in_range("duration_s", &[duration_s], &(1e-6..=86400.0))?;
-        let left = led.scenario.duration - led.run.state().time();
-        Ok(led.run.advance_by(&mut led.drive, duration_s.min(left))?)
+        Ok(led.run.play(duration_s)?)
     })
 }
 
@@ -272,8 +269,8 @@ impl Led {
             .iter()
             .map(grouser_core::vehicle::Mount::shearing_radius)
             .collect();
-        let (drive, rim_speeds) = (scenario.drive.clone(), vec![0.0; radii.len()]);
-        Ok(Self { scenario, drive, run, radii, rim_speeds })
+        let rim_speeds = vec![0.0; radii.len()];
+        Ok(Self { scenario, run, radii, rim_speeds })
     }
 }
 

@@ -103,12 +103,7 @@ impl Motion {
                 run.step(&rims, span).map_err(|error| error.to_string())
             }
             Self::Scenario(run) => {
-                let left = run.scenario().duration - run.state().time();
-                if left <= SAME_TIME || run.outcome().is_some() {
-                    return Ok(());
-                }
-                let mut drive = run.scenario().drive.clone();
-                let done = run.advance_by(&mut drive, span.min(left));
+                let done = run.play(span);
                 // Nobody asks for records here, and long runs must not need memory for them.
                 drop(run.take_records());
                 done.map_err(|error| error.to_string())

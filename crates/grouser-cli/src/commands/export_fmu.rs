@@ -100,8 +100,9 @@ fn beside_the_program() -> Result<PathBuf, Failure> {
     let program =
         std::env::current_exe().map_err(Failure::at("cannot find", Path::new("grouser")))?;
     let name = format!("{DLL_PREFIX}grouser_fmi{DLL_SUFFIX}");
-    let path = program.with_file_name(&name);
-    if path.is_file() {
+    // Cargo leaves the library of a program in `deps` beside it.
+    let places = [program.with_file_name(&name), program.with_file_name("deps").join(&name)];
+    if let Some(path) = places.into_iter().find(|path| path.is_file()) {
         return Ok(path);
     }
     Err(Failure::Run(format!(

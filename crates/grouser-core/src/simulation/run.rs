@@ -136,10 +136,20 @@ impl Run {
     /// # Errors
     /// The same as [`to_end`](Self::to_end).
     pub fn run_to_end(&mut self) -> Result<(), RunError> {
+        self.play(self.scenario.duration)
+    }
+
+    /// Leads the run by the scenario's own drive for a while [s], at most to the end of the
+    /// scenario: steps of a tenth of a second lead where one call to the end does, bit for bit.
+    ///
+    /// # Errors
+    /// The same as [`to_end`](Self::to_end).
+    pub fn play(&mut self, span: f64) -> Result<(), RunError> {
         let (mut drive, duration) = (self.scenario.drive.clone(), self.scenario.duration);
         // At the start the wheels turn as it says already.
         let is_asked = self.state.time > 0.0;
-        self.lead(&mut drive, [duration, duration], is_asked, Due::Samples)
+        let until = snapped(self.state.time + span, WATCH_PERIOD).min(duration);
+        self.lead(&mut drive, [until, duration], is_asked, Due::Samples)
     }
 
     /// Does what [`to_end`](Self::to_end) does, with records of start and end alone: what a run
