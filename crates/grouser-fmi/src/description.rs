@@ -24,7 +24,10 @@ const OUTCOME: &str = "Outcome";
 pub(crate) fn description(model: &Model, token: &str) -> String {
     let scenario = model.nominal();
     let name = escaped(model.document().name());
-    let source = escaped(model.document().source());
+    let source = match escaped(model.document().source()) {
+        source if source.is_empty() => source,
+        source => format!(" description=\"{source}\""),
+    };
     let version = env!("CARGO_PKG_VERSION");
     let is_mission = model.kind() == Kind::Mission;
     let numerics = &scenario.numerics;
@@ -38,8 +41,8 @@ pub(crate) fn description(model: &Model, token: &str) -> String {
         if is_mission { String::new() } else { format!(" stopTime=\"{:?}\"", scenario.duration) };
     let mut xml = format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
-         <fmiModelDescription fmiVersion=\"3.0\" modelName=\"{name}\" instantiationToken=\"{token}\" \
-         description=\"{source}\" license=\"MIT OR Apache-2.0\" generationTool=\"Grouser {version}\" \
+         <fmiModelDescription fmiVersion=\"3.0\" modelName=\"{name}\" instantiationToken=\"{token}\"\
+         {source} license=\"MIT OR Apache-2.0\" generationTool=\"Grouser {version}\" \
          variableNamingConvention=\"flat\">\n  \
          <CoSimulation modelIdentifier=\"{IDENTIFIER}\" canGetAndSetFMUState=\"true\" \
          canSerializeFMUState=\"true\" canHandleVariableCommunicationStepSize=\"true\"{fixed}/>\n"

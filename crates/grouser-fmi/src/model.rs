@@ -9,7 +9,7 @@ use grouser::document::{
 };
 use grouser::mission::Mission;
 use grouser::simulation::Scenario;
-use grouser::vehicle::{DriveLaw, Mount};
+use grouser::vehicle::DriveLaw;
 
 use crate::variables::{Role, Variable, variables};
 
@@ -50,8 +50,6 @@ pub struct Model {
     pub parameters: Vec<Key>,
     /// All that the FMU says and takes.
     pub variables: Vec<Variable>,
-    /// Shearing radius of each wheel [m].
-    radii: Vec<f64>,
     /// What is commanded of each wheel at the start [rad/s].
     pub starts: Vec<f64>,
 }
@@ -113,10 +111,11 @@ impl Model {
         let variables = variables(kind, scenario, drive, &parameters).map_err(|name| {
             format!("two variables would have the name {name:?}: give that wheel another name")
         })?;
-        let radii: Vec<f64> = scenario.rover.mounts().iter().map(Mount::shearing_radius).collect();
-        let speeds = commands.unwrap_or_else(|| vec![0.0; radii.len()]);
-        let starts = speeds.iter().zip(&radii).map(|(rim, radius)| rim / radius).collect();
-        Ok(Self { subject, drive, parameters, variables, radii, starts })
+        let mounts = scenario.rover.mounts();
+        let speeds = commands.unwrap_or_else(|| vec![0.0; mounts.len()]);
+        let each = speeds.iter().zip(mounts);
+        let starts = each.map(|(rim, mount)| rim / mount.shearing_radius()).collect();
+        Ok(Self { subject, drive, parameters, variables, starts })
     }
 
     /// The model in a folder of resources, which a token belongs to.
@@ -209,11 +208,6 @@ impl Model {
             Role::Parameter { place } => Some(self.parameters[place].value),
             _ => None,
         }
-    }
-
-    /// Speeds of the rims [m/s] of wheels that turn at some speeds [rad/s].
-    pub(crate) fn rim_speeds(&self, wheel_speeds: &[f64]) -> Vec<f64> {
-        wheel_speeds.iter().zip(&self.radii).map(|(speed, radius)| speed * radius).collect()
     }
 }
 

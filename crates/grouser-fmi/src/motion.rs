@@ -99,7 +99,9 @@ impl Motion {
         match self {
             Self::Mission(driven) => driven.go_to(from + span),
             Self::Scenario(run) if model.drive == Drive::Inputs => {
-                let rims = model.rim_speeds(wheel_speeds);
+                let each = wheel_speeds.iter().zip(run.scenario().rover.mounts());
+                let rims: Vec<f64> =
+                    each.map(|(speed, mount)| speed * mount.shearing_radius()).collect();
                 run.step(&rims, span).map_err(|error| error.to_string())
             }
             Self::Scenario(run) => {

@@ -119,7 +119,7 @@ pub(crate) fn variables(
     all.extend(parameters.iter().enumerate().map(|(place, key)| Variable {
         name: key.path.clone(),
         unit: unit_of(&key.path).unwrap_or(ONE),
-        sentence: sentence(kind, &key.path).unwrap_or_default(),
+        sentence: sentence(kind, &key.path).unwrap_or_default().trim_end_matches('.').to_owned(),
         role: Role::Parameter { place },
     }));
     let named = |prefix: &str, name: &str, unit, doc: &str, output| Variable {

@@ -77,9 +77,15 @@ fn a_parameter_changes_what_the_same_setting_of_a_document_changes() {
         ("soil.cohesion_kpa", "soil.cohesion_kpa", 0.5),
         ("slope_deg", "scenario.slope_deg", 14.0),
         ("gravity_m_s2", "scenario.gravity_m_s2", 1.62),
+        // Of larger wheels the rims are faster.
+        ("rover.wheel_unit.wheel.radius_m", "wheel.radius_m", 0.12),
     ];
     let fmu = Unpacked::of_scenario(&[]);
     let end = |instance: &Instance<'_>| {
+        for wheel in ["front-left", "rear-left", "rear-right", "front-right"] {
+            let name = format!("{wheel}.commanded_wheel_speed_rad_s");
+            assert_eq!(instance.try_set(&name, 0.6), Status::Ok);
+        }
         assert_eq!(instance.advance(0.0, 0.5).0, Status::Ok, "{}", instance.said());
         instance.get("x_m").to_bits()
     };
