@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use grouser::document::{Kind, Loaded, LoadedMission, LoadedScenario};
+use grouser::document::{Loaded, LoadedMission, LoadedScenario};
 use serde_json::Value as Json;
 
 use crate::description::{IDENTIFIER, description, page};
@@ -16,23 +16,32 @@ const FILES: [(&str, &str); 2] = [("file", "terrain"), ("soil_file", "zones")];
 /// A file of an FMU: its path there, and what is in it.
 pub type File = (String, Vec<u8>);
 
-/// The files of the FMU of a scenario, all but the library, in the order of their names.
+/// What an FMU has, all but the library.
+#[derive(Debug)]
+pub struct Contents {
+    /// Its files, in the order of their names.
+    pub files: Vec<File>,
+    /// What it says and takes.
+    pub model: Model,
+}
+
+/// The FMU of a scenario.
 ///
 /// * `drive`: who turns the wheels
 ///
 /// # Errors
 /// A sentence for a scenario that cannot be one, and for files that it names and that cannot be
 /// read.
-pub fn of_scenario(loaded: &LoadedScenario, drive: Drive) -> Result<Vec<File>, String> {
-    files(Kind::Scenario, loaded, drive, &Model::of_scenario(loaded, drive)?)
+pub fn of_scenario(loaded: &LoadedScenario, drive: Drive) -> Result<Contents, String> {
+    contents(loaded, Model::of_scenario(loaded, drive)?)
 }
 
-/// The files of the FMU of a mission.
+/// The FMU of a mission.
 ///
 /// # Errors
 /// The same as [`of_scenario`].
-pub fn of_mission(loaded: &LoadedMission, drive: Drive) -> Result<Vec<File>, String> {
-    files(Kind::Mission, loaded, drive, &Model::of_mission(loaded, drive)?)
+pub fn of_mission(loaded: &LoadedMission, drive: Drive) -> Result<Contents, String> {
+    contents(loaded, Model::of_mission(loaded, drive)?)
 }
 
 /// Where the library of this system is in an FMU; none where FMI has no name for the system.
@@ -49,12 +58,7 @@ pub fn library_path() -> Option<String> {
     is_named.then(|| format!("binaries/{architecture}-{system}/{IDENTIFIER}{end}"))
 }
 
-fn files<V>(
-    kind: Kind,
-    loaded: &Loaded<V>,
-    drive: Drive,
-    model: &Model,
-) -> Result<Vec<File>, String> {
+fn contents<V>(loaded: &Loaded<V>, model: Model) -> Result<Contents, String> {
     let mut files = Vec::new();
     let mut document = loaded.document.clone();
     for (key, folder) in FILES {
@@ -70,16 +74,16 @@ fn files<V>(
         });
     }
     let text = document.to_toml();
-    let token = token(drive, &text);
+    let token = token(model.drive, &text);
     for companion in &loaded.companions {
         let content = companion.content.clone().into_bytes();
         files.push((format!("resources/{}", companion.name), content));
     }
-    files.push((format!("resources/{}", file_name(kind)), text.into_bytes()));
-    files.push(("documentation/index.html".to_owned(), page(model).into_bytes()));
-    files.push(("modelDescription.xml".to_owned(), description(model, &token).into_bytes()));
+    files.push((format!("resources/{}", file_name(model.kind())), text.into_bytes()));
+    files.push(("documentation/index.html".to_owned(), page(&model).into_bytes()));
+    files.push(("modelDescription.xml".to_owned(), description(&model, &token).into_bytes()));
     files.sort();
-    Ok(files)
+    Ok(Contents { files, model })
 }
 
 fn file_name_of(path: &str) -> Result<&str, String> {

@@ -74,7 +74,7 @@ pub(crate) fn description(model: &Model, token: &str) -> String {
 }
 
 fn is_output(variable: &Variable) -> bool {
-    !matches!(variable.role, Role::Time | Role::Input { .. } | Role::Parameter { .. })
+    variable.causality() == "output"
 }
 
 fn write_units(xml: &mut String, variables: &[Variable]) {
@@ -122,14 +122,13 @@ fn write_variable(xml: &mut String, model: &Model, reference: usize, variable: &
         symbol if symbol == ONE.symbol => String::new(),
         symbol => format!(" unit=\"{symbol}\""),
     };
-    let (element, role) = match variable.role {
-        Role::Time => ("Float64", "independent\" variability=\"continuous"),
-        Role::Input { .. } => ("Float64", "input\" variability=\"continuous"),
-        Role::Parameter { .. } => ("Float64", "parameter\" variability=\"fixed"),
-        Role::Output(_) => ("Float64", "output\" variability=\"continuous"),
-        Role::Outcome => ("Enumeration", "output\" variability=\"discrete"),
-        Role::Reason => ("String", "output\" variability=\"discrete"),
-        Role::Leg => ("Int64", "output\" variability=\"discrete"),
+    let causality = variable.causality();
+    let (element, variability) = match variable.role {
+        Role::Time | Role::Input { .. } | Role::Output(_) => ("Float64", "continuous"),
+        Role::Parameter { .. } => ("Float64", "fixed"),
+        Role::Outcome => ("Enumeration", "discrete"),
+        Role::Reason => ("String", "discrete"),
+        Role::Leg => ("Int64", "discrete"),
     };
     let range = match variable.role {
         Role::Parameter { place } => {
@@ -147,8 +146,8 @@ fn write_variable(xml: &mut String, model: &Model, reference: usize, variable: &
     };
     let _ = writeln!(
         xml,
-        "    <{element} name=\"{name}\" valueReference=\"{reference}\" causality=\"{role}\"\
-         {type_}{unit}{range}{start} description=\"{sentence}\"/>"
+        "    <{element} name=\"{name}\" valueReference=\"{reference}\" causality=\"{causality}\" \
+         variability=\"{variability}\"{type_}{unit}{range}{start} description=\"{sentence}\"/>"
     );
 }
 
@@ -171,12 +170,7 @@ pub(crate) fn page(model: &Model) -> String {
         env!("CARGO_PKG_VERSION")
     );
     for variable in &model.variables {
-        let role = match variable.role {
-            Role::Time => "time",
-            Role::Input { .. } => "input",
-            Role::Parameter { .. } => "parameter",
-            _ => "output",
-        };
+        let role = variable.causality();
         let _ = writeln!(
             page,
             "<tr><td>{}</td><td>{}</td><td>{role}</td><td>{}</td></tr>",

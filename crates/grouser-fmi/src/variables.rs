@@ -67,6 +67,29 @@ pub enum Output {
     Soil(usize, &'static Column<Settled>),
 }
 
+impl Variable {
+    /// What it is to an importer, by FMI's word for it.
+    #[must_use]
+    pub fn causality(&self) -> &'static str {
+        match self.role {
+            Role::Time => "independent",
+            Role::Input { .. } => "input",
+            Role::Parameter { .. } => "parameter",
+            Role::Output(_) | Role::Outcome | Role::Reason | Role::Leg => "output",
+        }
+    }
+
+    /// The place of the wheel whose variable it is, if it is one's.
+    #[must_use]
+    pub fn wheel(&self) -> Option<usize> {
+        match self.role {
+            Role::Input { wheel }
+            | Role::Output(Output::Wheel(wheel, _) | Output::Soil(wheel, _)) => Some(wheel),
+            _ => None,
+        }
+    }
+}
+
 impl Output {
     /// The number of a record, in the column's unit; NaN where there is none.
     pub(crate) fn number(self, record: &Record) -> f64 {

@@ -53,7 +53,7 @@ impl Subject {
 }
 
 /// Quick lines of every command, each with the names of its files among [`documents`].
-const LINES: [(&str, &str, &[&str]); 42] = [
+const LINES: [(&str, &str, &[&str]); 43] = [
     (
         "wheel-test",
         "wheel-test --soil soil.toml --wheel wheel.toml --load-n 17 --slip-ratio -0.4:0.8:0.4 \
@@ -245,6 +245,7 @@ const LINES: [(&str, &str, &[&str]); 42] = [
     ("check, zones", "check zones.toml", &["zones.toml", "zones.geojson", "soil.toml"]),
     ("mission, map", "mission mission.toml --nominal --format json", &["mission.toml", "map.xyz"]),
     ("import-urdf", "import-urdf robot.urdf --differential", &["robot.urdf"]),
+    ("export-fmu", "export-fmu scenario.toml", &["scenario.toml"]),
     ("presets", "presets toyoura --kind soil", &[]),
     ("schema", "schema soil", &[]),
     ("completions", "completions bash", &[]),

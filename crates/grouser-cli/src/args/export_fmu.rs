@@ -13,17 +13,18 @@ pub(crate) struct ExportFmuArgs {
     /// File or preset of a scenario or a mission.
     #[arg(value_name = "DOCUMENT", value_parser = NonEmptyStringValueParser::new())]
     pub(crate) document: String,
-    /// The file to write, whose name ends in `.fmu`.
+    /// The file to write, whose name ends in `.fmu`. Without it, list the variables that the FMU
+    /// would have.
     #[arg(long, value_name = "FILE")]
-    pub(crate) out: PathBuf,
+    pub(crate) out: Option<PathBuf>,
     /// Replace the file if it is there.
-    #[arg(long)]
+    #[arg(long, requires = "out")]
     pub(crate) force: bool,
     /// Who turns the wheels. Without it the inputs in a scenario, and the document in a mission.
     #[arg(long, value_enum, value_name = "WHO")]
     pub(crate) driven_by: Option<DrivenBy>,
     /// The library that the FMU carries, if it does not lie beside the program.
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", requires = "out")]
     pub(crate) library: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,

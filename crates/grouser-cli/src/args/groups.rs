@@ -10,7 +10,7 @@ const GROUPS: [(&str, &[&str]); 7] = [
     ("A drive", &["mission", "import-telemetry", "slip-from-current", "learn", "replay"]),
     ("A laboratory", &["import", "calibrate"]),
     ("Doubt", &["validate", "campaign"]),
-    ("Files", &["check", "schema", "import-urdf", "completions", "man"]),
+    ("Files", &["check", "schema", "import-urdf", "export-fmu", "completions", "man"]),
 ];
 
 /// Characters in a line of help at the most.

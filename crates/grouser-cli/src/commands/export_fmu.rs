@@ -6,33 +6,54 @@ use std::io::{Cursor, Write as _};
 use std::path::{Path, PathBuf};
 
 use grouser::document::{self, Kind, Overrides, Source, escape, preset};
-use grouser_fmi::contents::{self, File};
+use grouser_fmi::contents::{self, Contents, File};
 use grouser_fmi::model::Drive;
+use grouser_fmi::variables::Variable;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use crate::args::{BalanceArgs, DrivenBy, ExportFmuArgs};
 use crate::failure::Failure;
 use crate::inputs;
+use crate::output::rows::aligned;
+use crate::output::text::Text;
 use crate::output::{self, file};
 
 pub(crate) fn run(args: &ExportFmuArgs) -> Result<(), Failure> {
-    let out = &args.out;
+    let Some(out) = &args.out else {
+        return output::show(table(&contents(args)?.model.variables));
+    };
     if out.extension().is_none_or(|end| !end.eq_ignore_ascii_case("fmu")) {
         let out = escape::path(out);
         return Err(Failure::Usage(format!("--out {out}: the name of an FMU must end with .fmu")));
     }
     file::check_new(out, args.force)?;
-    let mut files = files(args)?;
+    let mut files = contents(args)?.files;
     files.push(library(args)?);
     files.sort();
-    let archive = archive(&files)
-        .map_err(|error| Failure::Run(format!("cannot write {}: {error}", escape::path(out))))?;
+    let archive = archive(&files).map_err(|error| {
+        Failure::Run(format!("cannot write {}: {error}", escape::path(out)))
+    })?;
     file::write_result(out, &archive)
 }
 
-/// All files but the library.
-fn files(args: &ExportFmuArgs) -> Result<Vec<File>, Failure> {
+/// The variables as a table; those that every wheel has once.
+fn table(variables: &[Variable]) -> Text {
+    let header = ["variable", "unit", "is", "what"].map(str::to_owned);
+    let one = variables.iter().filter(|it| it.wheel().is_none_or(|wheel| wheel == 0));
+    let row = |variable: &Variable| {
+        let name = match variable.name.rsplit_once('.').filter(|_| variable.wheel().is_some()) {
+            Some((_, name)) => format!("WHEEL.{name}"),
+            None => variable.name.clone(),
+        };
+        let (unit, is) = (variable.unit.symbol.to_owned(), variable.causality().to_owned());
+        vec![name, unit, is, variable.sentence.clone()]
+    };
+    aligned(&header, &one.map(row).collect::<Vec<_>>())
+}
+
+/// What the FMU has, all but the library.
+fn contents(args: &ExportFmuArgs) -> Result<Contents, Failure> {
     let name = &*args.document;
     let (kind, source) = match [Kind::Scenario, Kind::Mission]
         .into_iter()

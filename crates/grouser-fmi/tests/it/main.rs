@@ -83,7 +83,7 @@ impl Unpacked {
     }
 
     fn of_scenario(settings: &[&str]) -> Self {
-        Self::of(contents::of_scenario(&scenario(settings), Drive::Inputs).expect("an FMU"))
+        Self::of(contents::of_scenario(&scenario(settings), Drive::Inputs).expect("an FMU").files)
     }
 
     /// What the description says of the variable of a name.

@@ -104,7 +104,7 @@ fn a_parameter_changes_what_the_same_setting_of_a_document_changes() {
 fn a_document_turns_the_wheels_of_its_own_fmu_as_a_traverse_does() {
     for settings in [&["scenario.drive.law=eq18"][..], &["scenario.duration_s=2"]] {
         let loaded = scenario(settings);
-        let fmu = Unpacked::of(contents::of_scenario(&loaded, Drive::Document).expect("an FMU"));
+        let fmu = Unpacked::of(contents::of_scenario(&loaded, Drive::Document).expect("an FMU").files);
         let instance = Instance::new(&fmu).initialized();
         let run = Run::new(&loaded.value).expect("a run").to_end().expect("an end");
         let steps = (10.0 * loaded.value.duration).round();
@@ -126,7 +126,7 @@ fn a_mission_is_driven_by_its_legs() {
     let loaded = read_mission(&source, &Overrides::none()).expect("a mission");
     let refusal = contents::of_mission(&loaded, Drive::Inputs).expect_err("no inputs");
     assert!(refusal.contains("legs"), "{refusal}");
-    let fmu = Unpacked::of(contents::of_mission(&loaded, Drive::Document).expect("an FMU"));
+    let fmu = Unpacked::of(contents::of_mission(&loaded, Drive::Document).expect("an FMU").files);
     let (_, mission) = loaded.value.missions().remove(0);
     let report = MissionRun::new(&mission).expect("a mission").to_end().expect("an end");
     let instance = Instance::new(&fmu).initialized();
