@@ -24,13 +24,13 @@ Export = Callable[..., Path]
 
 COMMAND = "commanded_wheel_speed_rad_s"
 #: A map that rises to the east.
-HEIGHTS = "ncols 6\nnrows 4\nxllcorner 0\nyllcorner 0\ncellsize 2\n" + 4 * "0 .1 .2 .3 .4 .5\n"
+HEIGHTS = "".join(f"{x} {y} {0.05 * x}\n" for y in range(0, 10, 2) for x in range(0, 12, 2))
 
 FEATURES: dict[str, tuple[str, ...]] = {
     "none": (),
-    "map": ('scenario.terrain.file="map.asc"',),
+    "map": ('scenario.terrain.file="map.xyz"',),
     "formula": ('scenario.terrain.surface="incline"', "scenario.terrain.slope_deg=4"),
-    "zones": ('scenario.terrain.file="map.asc"', 'scenario.terrain.soil_file="zones.geojson"'),
+    "zones": ('scenario.terrain.file="map.xyz"', 'scenario.terrain.soil_file="zones.geojson"'),
     "suspension": ('scenario.rover="hakuto-rockers"',),
     "motors": ('scenario.rover="hakuto-flight"',),
     "steering": ('scenario.rover="hakuto-steered"',),
@@ -48,7 +48,7 @@ FEATURES: dict[str, tuple[str, ...]] = {
 def export(program: Program, tmp_path_factory: pytest.TempPathFactory) -> Export:
     """Makes an FMU of a scenario with settings, once."""
     folder = tmp_path_factory.mktemp("fmu")
-    (folder / "map.asc").write_text(HEIGHTS)
+    (folder / "map.xyz").write_text(HEIGHTS)
     ring = [[-1.0, -1.0], [13.0, -1.0], [13.0, 9.0], [-1.0, 9.0], [-1.0, -1.0]]
     area = {"type": "Polygon", "coordinates": [ring]}
     zone = {"type": "Feature", "properties": {"soil": "lunar-nominal"}, "geometry": area}
@@ -159,7 +159,7 @@ def test_steps_have_the_bits_of_a_run(
         assert rover["energy_j"] == run.energy_j
         for column in ("slip_ratio", "sinkage_mm", "load_n", "torque_nm"):
             found = [rover[f"{name}.{column}"] for name in run.wheel_names]
-            np.testing.assert_array_equal(found, getattr(run, column), err_msg=column)
+            np.testing.assert_array_equal(found, run.wheel[column], err_msg=column)
 
 
 def test_fmpy_simulates_with_inputs_as_a_run_does(export: Export) -> None:
@@ -175,7 +175,7 @@ def test_fmpy_simulates_with_inputs_as_a_run_does(export: Export) -> None:
     for row in result[1:]:
         run.step(0.5, 0.1)
         assert (row["x_m"], row["y_m"]) == tuple(run.state[:2])
-        assert row["front-left.slip_ratio"] == run.slip_ratio[run.wheel_names.index("front-left")]
+        assert row["front-left.slip_ratio"] == run.wheel["slip_ratio"][run.wheel_names.index("front-left")]
     assert len(result) == 11
 
 
@@ -276,11 +276,9 @@ def test_a_document_drives_its_own_fmu(
     assert validation.validate_fmu(str(fmu)) == []
     rover = instance(fmu).initialize()
     if document == "there-and-back":
-        end = gr.Mission(document).drive().x_m[10]
-        steps = 10
+        end = gr.mission(document).trajectory.x_m[10]
     else:
         end = program("traverse", document)["samples"][10]["x_m"]
-        steps = 10
-    for step in range(steps):
+    for step in range(10):
         rover.step(step / 10, 0.1)
     assert rover["x_m"] == end
