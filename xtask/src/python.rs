@@ -50,6 +50,8 @@ const LOGS: [&str; 4] = [
     "foxglove-sdk>=0.30,<1",
     "rerun-sdk>=0.41,<1",
 ];
+/// What loads the program's FMUs: the version that `docs/guide/fmi.md` names.
+const FMUS: &str = "fmpy==0.3.32";
 const TYPES: &str = "mypy>=1.10";
 /// What reads the workflows.
 const YAML: &str = "pyyaml>=6";
@@ -138,7 +140,7 @@ fn make_environment() -> Result<PathBuf> {
     let python = made(&folder().join("environment"))?;
     let required = requirements()?.into_iter().filter(|one| one.extra != HEAVY);
     let mut needed: Vec<String> = required.map(|one| one.text).collect();
-    needed.extend([BUILDING, TYPES, YAML, CITATION].map(String::from));
+    needed.extend([BUILDING, TYPES, FMUS, YAML, CITATION].map(String::from));
     needed.extend(TESTING.map(String::from));
     needed.extend(LOGS.map(String::from));
     needed.extend(SITE.map(String::from));
