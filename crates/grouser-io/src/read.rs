@@ -150,7 +150,15 @@ fn read<V: Described>(
     source: &Source,
     overrides: &Overrides,
 ) -> Result<Loaded<V>, DocumentError> {
-    let Written { tree, mut document, assumptions } = written(kind, source, overrides)?;
+    understood(kind, written(kind, source, overrides)?)
+}
+
+/// What a document of a kind that stands for one value means.
+pub(crate) fn understood<V: Described>(
+    kind: Kind,
+    written: Written,
+) -> Result<Loaded<V>, DocumentError> {
+    let Written { tree, mut document, assumptions } = written;
     let soil = kind.soil_key().and_then(|key| match key {
         "" => Some(document.clone()),
         key => document.part(Kind::Soil, key),
