@@ -91,8 +91,7 @@ pub fn read_design(source: &Source, overrides: &Overrides) -> Result<LoadedDesig
     let assumed = soil.as_ref().map_or_else(Vec::new, priors::assumed);
     let DesignSettings { limits, probability, .. } = settings;
     let value = DesignTask { candidates, free, weights, limits, probability };
-    let (companions, notes) = (Vec::new(), Vec::new());
-    Ok(Loaded { document, value, uncertain: None, assumptions, assumed, companions, notes })
+    Ok(Loaded { assumptions, assumed, ..Loaded::of(document, value) })
 }
 
 fn settings_of(document: &Document) -> DesignSettings {
@@ -206,11 +205,8 @@ fn candidate(
             grounds.push(ground(source, &chosen_by(&own, &differs))?);
         }
     }
-    let varied = Varied {
-        value: grounds[0].scenario.value.clone(),
-        document: grounds[0].scenario.document.clone(),
-        notes: Vec::new(),
-    };
+    let first = &grounds[0].scenario;
+    let varied = Varied::of(first.value.clone(), first.document.clone());
     let of_rover = choice.iter().filter(|(key, _)| key == ROVER);
     let base = ground(source, &chosen_by(overrides, of_rover))?.scenario.value.rover;
     let given = free.iter().map(|(path, ends)| Ok(free_key(&varied, path, *ends, tree)?.value));
