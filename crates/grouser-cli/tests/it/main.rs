@@ -12,6 +12,7 @@ mod conversations;
 mod design;
 mod drives;
 mod forecast;
+mod given_files;
 mod gradients;
 mod hostile;
 mod import;
