@@ -9,8 +9,8 @@
  * What a rover does (it gets stuck, it slides) is no error but a GrouserOutcome. A run that cannot
  * be computed beyond some time stays there.
  *
- * Handles. What a call whose name ends in _new, _copy or _save gives is freed by the call that ends
- * in _free. A handle is a number, not an address: a zero handle, a freed one and one of another kind
+ * Handles. What a call whose name ends in _new, _copy, _save or _read gives is freed by the call that
+ * ends in _free. A handle is a number, not an address: a zero handle, a freed one and one of another kind
  * are GROUSER_STATUS_BAD_HANDLE. Copying the struct does not copy what it stands for.
  *
  * Pointers. A null pointer is GROUSER_STATUS_NULL_POINTER unless the call says otherwise. Any other
@@ -411,6 +411,22 @@ enum GrouserStatus grouser_run_save(struct GrouserRun run, struct GrouserState *
 // Sets a run to a saved state, from which it goes on as the saved one did, bit for bit. The state
 // may be that of another run of the same scenario, and may be used again.
 enum GrouserStatus grouser_run_restore(struct GrouserRun run, struct GrouserState state);
+
+// How many bytes a saved state has, into out.
+enum GrouserStatus grouser_state_size(struct GrouserState state, size_t *out);
+
+// Writes a saved state as bytes, for files and other processes, into out, an array of size, as many
+// as grouser_state_size says. The same version of Grouser reads them.
+enum GrouserStatus grouser_state_write(struct GrouserState state, size_t size, uint8_t *out);
+
+// Reads a state that grouser_state_write wrote, into out: one of the run's scenario, which is the
+// caller's to see to; another number of wheels is an error, as damaged bytes are.
+//
+// size: of the array bytes.
+enum GrouserStatus grouser_state_read(struct GrouserRun run,
+                                      size_t size,
+                                      const uint8_t *bytes,
+                                      struct GrouserState *out);
 
 // Frees a saved state.
 enum GrouserStatus grouser_state_free(struct GrouserState state);

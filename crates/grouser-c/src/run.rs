@@ -3,12 +3,12 @@
 use std::ffi::c_char;
 use std::sync::Mutex;
 
-use grouser_core::simulation::{Record, Run as CoreRun, Scenario, State as CoreState};
+use grouser_core::simulation::{BadState, Record, Run as CoreRun, Scenario, State as CoreState};
 use grouser_io::{Kind, read_scenario};
 
 use crate::documents::{changes, source};
 use crate::handles::{self, lock};
-use crate::pointers::{numbers, place, room, text, write_text, wrong_size};
+use crate::pointers::{array, numbers, place, room, text, write_text, wrong_size};
 use crate::status::{Failure, Status, guarded};
 use crate::time_step::finite;
 use crate::values::{Attitude, Outcome, Pose, Wheel};
@@ -250,6 +250,61 @@ pub extern "C" fn grouser_run_restore(run: Run, state: State) -> Status {
             return Err(Failure::new(Status::OtherScenario, text));
         }
         led.run = CoreRun::resume(&led.scenario, saved.state.clone());
+        Ok(())
+    })
+}
+
+/// How many bytes a saved state has, into out.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn grouser_state_size(state: State, out: *mut usize) -> Status {
+    guarded(|| {
+        // SAFETY: the caller's pointer is as the header says.
+        let out = unsafe { place("out", out) }?;
+        out.write(handles::get::<Saved>(state.id)?.state.to_bytes().len());
+        Ok(())
+    })
+}
+
+/// Writes a saved state as bytes, for files and other processes, into out, an array of size, as many
+/// as grouser_state_size says. The same version of Grouser reads them.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn grouser_state_write(state: State, size: usize, out: *mut u8) -> Status {
+    guarded(|| {
+        let bytes = handles::get::<Saved>(state.id)?.state.to_bytes();
+        if size != bytes.len() {
+            return Err(wrong_size("out", size, bytes.len()));
+        }
+        // SAFETY: the caller's pointer is as the header says.
+        for (out, byte) in unsafe { room("out", out, size) }?.iter_mut().zip(bytes) {
+            out.write(byte);
+        }
+        Ok(())
+    })
+}
+
+/// Reads a state that grouser_state_write wrote, into out: one of the run's scenario, which is the
+/// caller's to see to; another number of wheels is an error, as damaged bytes are.
+///
+/// size: of the array bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn grouser_state_read(
+    run: Run,
+    size: usize,
+    bytes: *const u8,
+    out: *mut State,
+) -> Status {
+    with(run, |led| {
+        // SAFETY: the caller's pointers are as the header says.
+        let (bytes, out) = unsafe { (array("bytes", bytes, size)?, place("out", out)?) };
+        let state = CoreState::from_bytes(bytes, &led.scenario).map_err(|error| {
+            let status = match error {
+                BadState::Unreadable => Status::OutOfRange,
+                BadState::OtherWheels { .. } => Status::OtherScenario,
+            };
+            Failure::new(status, error.to_string())
+        })?;
+        let saved = Saved { scenario: led.scenario.clone(), state };
+        out.write(State { id: handles::insert(saved) });
         Ok(())
     })
 }

@@ -107,7 +107,8 @@ static void wrong_runs(void) {
   char name[4];
   GrouserOutcome outcome;
   GrouserWheel wheels[4];
-  GrouserState state = {0};
+  GrouserState state = {0}, read;
+  uint8_t bytes[4] = {0};
   GrouserRun run, steep;
   GrouserPose pose;
   const char *document = "schema = \"scenario/1\"\nname = \"a\"\n";
@@ -135,6 +136,12 @@ static void wrong_runs(void) {
   expect("a state", grouser_run_save(run, &state), GROUSER_STATUS_OK, "");
   expect("a state of another scenario", grouser_run_restore(steep, state),
          GROUSER_STATUS_OTHER_SCENARIO, "another scenario");
+  expect("its size, nowhere", grouser_state_size(state, NULL), GROUSER_STATUS_NULL_POINTER, "out");
+  expect("no room for its bytes", grouser_state_write(state, sizeof bytes, bytes),
+         GROUSER_STATUS_WRONG_SIZE, "out has 4 entries");
+  expect("bytes of no state", grouser_state_read(run, sizeof bytes, bytes, &read),
+         GROUSER_STATUS_OUT_OF_RANGE, "damaged");
+  expect("no bytes", grouser_state_read(run, 4, NULL, &read), GROUSER_STATUS_NULL_POINTER, "bytes");
   expect("its end", grouser_state_free(state), GROUSER_STATUS_OK, "");
   expect("a freed state", grouser_run_restore(run, state), GROUSER_STATUS_BAD_HANDLE, "freed");
   expect("the run's end", grouser_run_free(run), GROUSER_STATUS_OK, "");

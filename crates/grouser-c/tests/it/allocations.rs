@@ -69,7 +69,7 @@ fn wheels_settle_without_allocating() {
 #[test]
 fn a_step_of_a_run_allocates_little_and_a_pose_nothing() {
     const STEPS: u64 = 50;
-    for (changes, most) in [(c"", 23), (c"scenario.simulation=\"quasi-steady\"", 46)] {
+    for (changes, most) in [(c"", 20), (c"scenario.simulation=\"quasi-steady\"", 43)] {
         let run = run_of(changes);
         let speeds = [0.5, 0.5, 0.6, 0.6];
         // SAFETY: there is a speed for each wheel.

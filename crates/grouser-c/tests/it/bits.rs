@@ -7,7 +7,8 @@ use grouser_c::mission::{
 use grouser_c::run::{
     Run, grouser_run_copy, grouser_run_free, grouser_run_play, grouser_run_pose,
     grouser_run_restore, grouser_run_save, grouser_run_step, grouser_run_wheel_name,
-    grouser_run_wheels, grouser_state_free,
+    grouser_run_wheels, grouser_state_free, grouser_state_read, grouser_state_size,
+    grouser_state_write,
 };
 use grouser_c::status::Status;
 use grouser_c::time_step::{
@@ -160,6 +161,20 @@ fn a_restored_run_goes_on_with_the_same_bits() {
     let other = run_of(c"");
     assert_eq!(grouser_run_restore(other, state), Status::Ok);
     assert_eq!([go_on(run), go_on(copy), go_on(other)], [first; 3]);
+    // The same from bytes.
+    let mut size = 0;
+    // SAFETY: there are places for the size and for as many bytes.
+    let bytes = unsafe {
+        assert_eq!(grouser_state_size(state, &raw mut size), Status::Ok);
+        let mut bytes = vec![0; size];
+        assert_eq!(grouser_state_write(state, size, bytes.as_mut_ptr()), Status::Ok);
+        assert_eq!(grouser_state_write(state, size - 1, bytes.as_mut_ptr()), Status::WrongSize);
+        bytes
+    };
+    // SAFETY: there are as many bytes, and `made` gives a place for the result.
+    let read = made(|out| unsafe { grouser_state_read(other, size, bytes.as_ptr(), out) });
+    assert_eq!(grouser_run_restore(other, read), Status::Ok);
+    assert_eq!(go_on(other), first);
     // What does not change is no part of a state.
     let steeper = run_of(c"scenario.slope_deg=12");
     assert_eq!(grouser_run_restore(steeper, state), Status::OtherScenario);

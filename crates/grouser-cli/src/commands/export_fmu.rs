@@ -31,9 +31,8 @@ pub(crate) fn run(args: &ExportFmuArgs) -> Result<(), Failure> {
     let mut files = contents(args)?.files;
     files.push(library(args)?);
     files.sort();
-    let archive = archive(&files).map_err(|error| {
-        Failure::Run(format!("cannot write {}: {error}", escape::path(out)))
-    })?;
+    let archive = archive(&files)
+        .map_err(|error| Failure::Run(format!("cannot write {}: {error}", escape::path(out))))?;
     file::write_result(out, &archive)
 }
 

@@ -104,7 +104,8 @@ fn a_parameter_changes_what_the_same_setting_of_a_document_changes() {
 fn a_document_turns_the_wheels_of_its_own_fmu_as_a_traverse_does() {
     for settings in [&["scenario.drive.law=eq18"][..], &["scenario.duration_s=2"]] {
         let loaded = scenario(settings);
-        let fmu = Unpacked::of(contents::of_scenario(&loaded, Drive::Document).expect("an FMU").files);
+        let fmu =
+            Unpacked::of(contents::of_scenario(&loaded, Drive::Document).expect("an FMU").files);
         let instance = Instance::new(&fmu).initialized();
         let run = Run::new(&loaded.value).expect("a run").to_end().expect("an end");
         let steps = (10.0 * loaded.value.duration).round();
