@@ -135,7 +135,7 @@ pub(crate) fn variables(
         all.push(Variable {
             name: format!("{}.commanded_{}", mount.name, WHEEL_SPEED.name),
             unit: WHEEL_SPEED.unit,
-            sentence: format!("Angular speed that is commanded of wheel {}", mount.name),
+            sentence: "Angular speed that is commanded".to_owned(),
             role: Role::Input { wheel },
         });
     }

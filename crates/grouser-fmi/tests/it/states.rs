@@ -2,7 +2,10 @@
 
 use std::ffi::c_void;
 
-use grouser::simulation::{BadState, Run, State};
+use grouser::simulation::{
+    Approach, BadState, Controller, Numerics, Observation, Run, Scenario, State,
+};
+use grouser::vehicle::{Battery, Motor, Rover, SpeedControl, Winding};
 use grouser_fmi::functions::{
     Status, fmi3DeserializeFMUState, fmi3DoStep, fmi3FreeFMUState, fmi3GetFMUState,
     fmi3SerializeFMUState, fmi3SerializedFMUStateSize, fmi3SetFMUState,
@@ -36,6 +39,87 @@ fn a_run_goes_on_from_its_bytes_bit_for_bit() {
             assert_eq!(run.state().to_bytes(), other.state().to_bytes(), "{feature}");
         }
     }
+}
+
+/// A rover with small motors behind controllers, their windings, and a battery of two cells: wheels
+/// have speeds of their own, and a supply that changes.
+fn powered(approach: Approach) -> Scenario {
+    let scenario = scenario(&[]).value;
+    let winding = Winding {
+        thermal_resistance: 20.0,
+        heat_capacity: 2.0,
+        surroundings: 20.0,
+        highest: 125.0,
+        derated_from: None,
+    };
+    let control = SpeedControl { gain: 0.5, integral: 2.0, voltage: None, current: None };
+    let motor = Motor {
+        resistance: 10.0,
+        torque_constant: 0.010,
+        gear_ratio: 250.0,
+        efficiency: 0.6,
+        friction: 1e-3,
+        is_self_locking: false,
+        feeds_back: false,
+        control: Some(control),
+        winding: Some(winding),
+    };
+    let battery = Battery {
+        capacity: 72e3,
+        full_voltage: 8.4,
+        empty_voltage: 6.4,
+        resistance: 0.3,
+        cutoff_voltage: 5.5,
+        electronics: 3.0,
+        charge: 1.0,
+    };
+    let mut parts = scenario.rover.parts().clone();
+    (parts.wheel_unit.motor, parts.battery) = (Some(motor), Some(battery));
+    let numerics = Numerics { approach, ..scenario.numerics };
+    Scenario { rover: Rover::draft(parts).checked().expect("a rover"), numerics, ..scenario }
+}
+
+#[test]
+fn motors_windings_and_battery_go_on_from_bytes() {
+    for approach in [Approach::Dynamic, Approach::QuasiSteady] {
+        let scenario = powered(approach);
+        let mut run = Run::new(&scenario).expect("a run");
+        run.step(&[0.05; 4], 1.3).expect("a step");
+        let state = State::from_bytes(&run.state().to_bytes(), &scenario).expect("a state");
+        assert!(state.battery().is_some_and(|battery| battery.charge < 1.0));
+        assert!(state.warmest().is_some_and(|warmest| warmest > 20.0));
+        let mut other = Run::resume(&scenario, state);
+        run.step(&[0.06; 4], 2.1).expect("a step");
+        other.step(&[0.06; 4], 2.1).expect("a step");
+        assert_eq!(run.now(), other.now());
+        assert_eq!(run.state().to_bytes(), other.state().to_bytes());
+    }
+}
+
+/// The wheels of a mission are steered: its state has their angles.
+#[test]
+fn steered_wheels_go_on_from_bytes() {
+    struct ToTheLeft;
+    impl Controller for ToTheLeft {
+        fn command(&mut self, _seen: &Observation<'_>, rim_speeds: &mut [f64]) {
+            rim_speeds.fill(0.05);
+        }
+        fn steer(&mut self, _seen: &Observation<'_>, angles: &mut [f64]) {
+            angles.fill(0.2);
+        }
+        fn period(&self) -> Option<f64> {
+            Some(0.1)
+        }
+    }
+    let scenario = scenario(&["scenario.rover=hakuto-steered"]).value;
+    let mut run = Run::new(&scenario).expect("a run");
+    run.advance(&mut ToTheLeft, 1.0).expect("a motion");
+    let state = State::from_bytes(&run.state().to_bytes(), &scenario).expect("a state");
+    let mut other = Run::resume(&scenario, state);
+    assert!(other.now().wheels.iter().any(|wheel| wheel.steering > 0.0));
+    run.advance(&mut ToTheLeft, 2.0).expect("a motion");
+    other.advance(&mut ToTheLeft, 2.0).expect("a motion");
+    assert_eq!(run.now(), other.now());
 }
 
 #[test]
