@@ -11,6 +11,7 @@ mod screen;
 pub(crate) mod slide;
 pub(crate) mod terminal;
 pub(crate) mod text;
+pub(crate) mod zip;
 
 use std::borrow::Cow;
 use std::fmt::Display;

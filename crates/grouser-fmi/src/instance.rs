@@ -311,7 +311,9 @@ impl Saved {
         number(&mut bytes, *phase as u64);
         for numbers in [parameters, inputs] {
             number(&mut bytes, numbers.len() as u64);
-            numbers.iter().for_each(|value| number(&mut bytes, value.to_bits()));
+            for value in numbers {
+                number(&mut bytes, value.to_bits());
+            }
         }
         number(&mut bytes, start.to_bits());
         number(&mut bytes, time.to_bits());

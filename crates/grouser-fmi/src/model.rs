@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use grouser::document::given_file::NamedFiles;
 use grouser::document::varied::{Key, Numbers, Varied};
 use grouser::document::{
     Described, Document, Kind, Loaded, LoadedMission, LoadedScenario, Overrides, Plan, Source,
@@ -233,8 +234,9 @@ pub(crate) fn token(drive: Drive, document: &str) -> String {
 }
 
 fn varied<V: Clone>(loaded: &Loaded<V>) -> Varied<V> {
-    let Loaded { document, value, notes, .. } = loaded;
-    Varied { value: value.clone(), document: document.clone(), notes: notes.clone() }
+    let Loaded { document, value, given, notes, .. } = loaded;
+    let files = NamedFiles { given: given.clone(), notes: notes.clone() };
+    Varied { value: value.clone(), document: document.clone(), files }
 }
 
 /// The numbers of a document that may be given other values.

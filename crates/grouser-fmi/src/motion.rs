@@ -145,7 +145,7 @@ impl Motion {
         let now = driven.records.front().map_or(0.0, |record| record.time);
         let ended = driven.legs.iter().filter(|(end, _)| *end <= now + SAME_TIME).count();
         // After the last one it stays there.
-        driven.legs.len().min(ended + 1) as i64
+        i64::try_from(driven.legs.len().min(ended + 1)).unwrap_or(i64::MAX)
     }
 }
 

@@ -110,8 +110,8 @@ pub(crate) const UNDER_WAY: i64 = 0;
 
 /// The number of an outcome.
 pub(crate) fn number_of(kind: OutcomeKind) -> i64 {
-    let place = OutcomeKind::ALL.iter().position(|it| *it == kind);
-    place.map_or(UNDER_WAY, |place| place as i64 + 1)
+    let each = (UNDER_WAY + 1..).zip(OutcomeKind::ALL);
+    each.into_iter().find(|(_, it)| *it == kind).map_or(UNDER_WAY, |(number, _)| number)
 }
 
 /// All variables of a model.

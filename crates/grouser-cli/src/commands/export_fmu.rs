@@ -2,22 +2,19 @@
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::fs;
-use std::io::{Cursor, Write as _};
 use std::path::{Path, PathBuf};
 
 use grouser::document::{self, Kind, Overrides, Source, escape, preset};
 use grouser_fmi::contents::{self, Contents, File};
 use grouser_fmi::model::Drive;
 use grouser_fmi::variables::Variable;
-use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use crate::args::{BalanceArgs, DrivenBy, ExportFmuArgs};
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output::rows::aligned;
 use crate::output::text::Text;
-use crate::output::{self, file};
+use crate::output::{self, file, zip};
 
 pub(crate) fn run(args: &ExportFmuArgs) -> Result<(), Failure> {
     let Some(out) = &args.out else {
@@ -31,8 +28,10 @@ pub(crate) fn run(args: &ExportFmuArgs) -> Result<(), Failure> {
     let mut files = contents(args)?.files;
     files.push(library(args)?);
     files.sort();
-    let archive = archive(&files)
-        .map_err(|error| Failure::Run(format!("cannot write {}: {error}", escape::path(out))))?;
+    let archive = zip::archive(&files).ok_or_else(|| {
+        let text = "its files have more than 4 GB, which an FMU cannot have";
+        Failure::Run(format!("cannot write {}: {text}", escape::path(out)))
+    })?;
     file::write_result(out, &archive)
 }
 
@@ -54,15 +53,12 @@ fn table(variables: &[Variable]) -> Text {
 /// What the FMU has, all but the library.
 fn contents(args: &ExportFmuArgs) -> Result<Contents, Failure> {
     let name = &*args.document;
-    let (kind, source) = match [Kind::Scenario, Kind::Mission]
-        .into_iter()
-        .find_map(|kind| Some((kind, Source::Preset(preset(kind, name)?))))
-    {
-        Some(found) => found,
-        None => {
-            let source = Source::find(Kind::Scenario, name)?;
-            (document::kind_of_source(&source)?, source)
-        }
+    let kinds = [Kind::Scenario, Kind::Mission];
+    let (kind, source) = if let Some(found) = kinds.iter().find_map(|kind| preset(*kind, name)) {
+        (found.kind, Source::Preset(found))
+    } else {
+        let source = Source::find(Kind::Scenario, name)?;
+        (document::kind_of_source(&source)?, source)
     };
     let mut overrides = Overrides::parse_flags("--set", &args.setting.settings)?;
     let balance = BalanceArgs { load_transfer: None, wheel_moments: None };
@@ -129,18 +125,4 @@ fn beside_the_program() -> Result<PathBuf, Failure> {
         "{name}, the library that FMUs carry, is not beside the program: `cargo build --release -p \
          grouser-fmi` builds it into target/release, and --library names it"
     )))
-}
-
-/// An archive with the same bytes for the same files.
-fn archive(files: &[File]) -> zip::result::ZipResult<Vec<u8>> {
-    let options = SimpleFileOptions::default()
-        .compression_method(CompressionMethod::Deflated)
-        .last_modified_time(DateTime::default())
-        .unix_permissions(0o644);
-    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    for (name, content) in files {
-        archive.start_file(name.as_str(), options)?;
-        archive.write_all(content)?;
-    }
-    Ok(archive.finish()?.into_inner())
 }
