@@ -7,7 +7,8 @@ use grouser::document::{Loaded, LoadedMission, LoadedScenario};
 use serde_json::Value as Json;
 
 use crate::description::{IDENTIFIER, description, page};
-use crate::model::{Drive, Model, file_name, token};
+use crate::drive::Drive;
+use crate::model::{FmuModel, file_name, token};
 
 /// Keys of files with heights and with zones of soil, in the table `terrain`; and the folder of
 /// each in an FMU.
@@ -22,7 +23,7 @@ pub struct Contents {
     /// Its files, in the order of their names.
     pub files: Vec<File>,
     /// What it says and takes.
-    pub model: Model,
+    pub model: FmuModel,
 }
 
 /// The FMU of a scenario.
@@ -33,7 +34,7 @@ pub struct Contents {
 /// A sentence for a scenario that cannot be one, and for files that it names and that cannot be
 /// read.
 pub fn of_scenario(loaded: &LoadedScenario, drive: Drive) -> Result<Contents, String> {
-    contents(loaded, Model::of_scenario(loaded, drive)?)
+    contents(loaded, FmuModel::of_scenario(loaded, drive)?)
 }
 
 /// The FMU of a mission.
@@ -41,7 +42,7 @@ pub fn of_scenario(loaded: &LoadedScenario, drive: Drive) -> Result<Contents, St
 /// # Errors
 /// The same as [`of_scenario`].
 pub fn of_mission(loaded: &LoadedMission, drive: Drive) -> Result<Contents, String> {
-    contents(loaded, Model::of_mission(loaded, drive)?)
+    contents(loaded, FmuModel::of_mission(loaded, drive)?)
 }
 
 /// Where the library of this system is in an FMU; none where FMI has no name for the system.
@@ -58,7 +59,7 @@ pub fn library_path() -> Option<String> {
     is_named.then(|| format!("binaries/{architecture}-{system}/{IDENTIFIER}{end}"))
 }
 
-fn contents<V>(loaded: &Loaded<V>, model: Model) -> Result<Contents, String> {
+fn contents<V>(loaded: &Loaded<V>, model: FmuModel) -> Result<Contents, String> {
     let mut files = Vec::new();
     let mut document = loaded.document.clone();
     for (key, folder) in FILES {

@@ -7,8 +7,9 @@ use grouser::document::Kind;
 use grouser::document::unit::ONE;
 use grouser::simulation::OutcomeKind;
 
+use crate::drive::Drive;
 use crate::functions::CATEGORY;
-use crate::model::{Drive, Model};
+use crate::model::FmuModel;
 use crate::units::{BASE, in_base};
 use crate::variables::{Role, UNDER_WAY, Variable, number_of};
 
@@ -21,7 +22,7 @@ const OUTCOME: &str = "Outcome";
 /// The description of a model.
 ///
 /// * `token`: which belongs to its document
-pub(crate) fn description(model: &Model, token: &str) -> String {
+pub(crate) fn description(model: &FmuModel, token: &str) -> String {
     let scenario = model.nominal();
     let name = escaped(model.document().name());
     let source = match escaped(model.document().source()) {
@@ -115,7 +116,7 @@ fn write_outcomes(xml: &mut String) {
     *xml += "    </EnumerationType>\n  </TypeDefinitions>\n";
 }
 
-fn write_variable(xml: &mut String, model: &Model, reference: usize, variable: &Variable) {
+fn write_variable(xml: &mut String, model: &FmuModel, reference: usize, variable: &Variable) {
     let (name, sentence) = (escaped(&variable.name), escaped(&variable.sentence));
     let start = model.start_of(variable).map_or(String::new(), |it| format!(" start=\"{it:?}\""));
     let unit = match variable.unit.symbol {
@@ -152,7 +153,7 @@ fn write_variable(xml: &mut String, model: &Model, reference: usize, variable: &
 }
 
 /// A page about the model, for readers.
-pub(crate) fn page(model: &Model) -> String {
+pub(crate) fn page(model: &FmuModel) -> String {
     let name = escaped(model.document().name());
     let turned = match model.drive {
         Drive::Inputs => {

@@ -11,13 +11,13 @@ use std::path::Path;
 use std::sync::{Mutex, TryLockError};
 
 use crate::handles::Handles;
-use crate::instance::{Instance, Phase, Saved};
-use crate::model::Model;
+use crate::instance::{Instance, Phase, SavedInstance};
+use crate::model::FmuModel;
 
 /// What a function returns.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
+pub enum FmiStatus {
     /// The call did what it says.
     Ok = 0,
     /// It did, and something is odd.
@@ -31,7 +31,7 @@ pub enum Status {
 }
 
 /// The importer's log.
-type LogMessage = unsafe extern "C" fn(*mut c_void, Status, *const c_char, *const c_char);
+type LogMessage = unsafe extern "C" fn(*mut c_void, FmiStatus, *const c_char, *const c_char);
 
 /// The importer's log, and what it wants back with each message.
 struct Logger {
@@ -40,19 +40,19 @@ struct Logger {
 }
 
 /// An instance of an importer.
-struct Entry {
+struct Held {
     logger: Logger,
     instance: Mutex<Instance>,
 }
 
-static INSTANCES: Handles<Entry> = Handles::new();
-static STATES: Handles<Saved> = Handles::new();
+static INSTANCES: Handles<Held> = Handles::new();
+static STATES: Handles<SavedInstance> = Handles::new();
 
 /// The category of messages, as the description declares it.
 pub(crate) const CATEGORY: &CStr = c"logStatusError";
 
 impl Logger {
-    fn say(&self, status: Status, text: &str) {
+    fn say(&self, status: FmiStatus, text: &str) {
         let Some(log) = self.log else { return };
         let text = CString::new(text.replace('\0', "")).unwrap_or_default();
         let environment = std::ptr::with_exposed_provenance_mut(self.environment);
@@ -62,9 +62,9 @@ impl Logger {
 }
 
 /// Does what a call does with an instance.
-fn with(instance: *mut c_void, act: impl FnOnce(&mut Instance) -> Result<(), String>) -> Status {
+fn with(instance: *mut c_void, act: impl FnOnce(&mut Instance) -> Result<(), String>) -> FmiStatus {
     // Without its instance nobody's log is known.
-    let Some(entry) = INSTANCES.get(instance) else { return Status::Error };
+    let Some(entry) = INSTANCES.get(instance) else { return FmiStatus::Error };
     let done = caught(|| {
         let mut instance = entry.instance.try_lock().map_err(|error| match error {
             TryLockError::WouldBlock => "another thread is in a call with this instance".to_owned(),
@@ -79,19 +79,19 @@ fn with(instance: *mut c_void, act: impl FnOnce(&mut Instance) -> Result<(), Str
             entry.logger.say(status, &text);
             status
         },
-        |()| Status::Ok,
+        |()| FmiStatus::Ok,
     )
 }
 
 /// What is done, or how it failed.
-fn caught<T>(act: impl FnOnce() -> Result<T, String>) -> Result<T, (Status, String)> {
+fn caught<T>(act: impl FnOnce() -> Result<T, String>) -> Result<T, (FmiStatus, String)> {
     match catch_unwind(AssertUnwindSafe(act)) {
-        Ok(done) => done.map_err(|text| (Status::Error, text)),
+        Ok(done) => done.map_err(|text| (FmiStatus::Error, text)),
         Err(panic) => {
             let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
             let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
             let text = text.unwrap_or_default();
-            Err((Status::Fatal, format!("a bug in Grouser, please report it: {text}")))
+            Err((FmiStatus::Fatal, format!("a bug in Grouser, please report it: {text}")))
         }
     }
 }
@@ -176,7 +176,7 @@ pub unsafe extern "C" fn fmi3SetDebugLogging(
     _logging_on: bool,
     count: usize,
     categories: *const *const c_char,
-) -> Status {
+) -> FmiStatus {
     with(instance, |_| {
         // SAFETY: the importer's pointers are as FMI says.
         for category in unsafe { array("categories", categories, count) }? {
@@ -223,10 +223,10 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
         };
         let token = token.unwrap_or_default();
         let folder = folder.ok_or("the FMU needs the path of its resources, which is null")?;
-        Ok(Instance::new(Model::in_resources(Path::new(folder), token)?, token))
+        Ok(Instance::new(FmuModel::in_resources(Path::new(folder), token)?, token))
     });
     match made {
-        Ok(instance) => INSTANCES.insert(Entry { logger, instance: Mutex::new(instance) }),
+        Ok(instance) => INSTANCES.insert(Held { logger, instance: Mutex::new(instance) }),
         Err((status, text)) => {
             logger.say(status, &text);
             std::ptr::null_mut()
@@ -237,7 +237,7 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
 /// Says that there is no other kind of instance, and returns null.
 fn no_instance(what: &str, environment: *mut c_void, log: Option<LogMessage>) -> *mut c_void {
     let logger = Logger { environment: environment.expose_provenance(), log };
-    logger.say(Status::Error, &format!("this FMU is for co-simulation, not for {what}"));
+    logger.say(FmiStatus::Error, &format!("this FMU is for co-simulation, not for {what}"));
     std::ptr::null_mut()
 }
 
@@ -287,25 +287,25 @@ pub extern "C" fn fmi3EnterInitializationMode(
     start_time: f64,
     _stop_time_defined: bool,
     _stop_time: f64,
-) -> Status {
+) -> FmiStatus {
     with(instance, |it| it.enter_initialization(start_time))
 }
 
 /// Ends the initialization: the rover stands at its start.
 #[unsafe(no_mangle)]
-pub extern "C" fn fmi3ExitInitializationMode(instance: *mut c_void) -> Status {
+pub extern "C" fn fmi3ExitInitializationMode(instance: *mut c_void) -> FmiStatus {
     with(instance, Instance::exit_initialization)
 }
 
 /// Ends the simulation; results can still be read.
 #[unsafe(no_mangle)]
-pub extern "C" fn fmi3Terminate(instance: *mut c_void) -> Status {
+pub extern "C" fn fmi3Terminate(instance: *mut c_void) -> FmiStatus {
     with(instance, Instance::terminate)
 }
 
 /// Makes an instance what it was when it was made.
 #[unsafe(no_mangle)]
-pub extern "C" fn fmi3Reset(instance: *mut c_void) -> Status {
+pub extern "C" fn fmi3Reset(instance: *mut c_void) -> FmiStatus {
     with(instance, |it| {
         it.reset();
         Ok(())
@@ -320,7 +320,7 @@ pub unsafe extern "C" fn fmi3GetFloat64(
     reference_count: usize,
     values: *mut f64,
     value_count: usize,
-) -> Status {
+) -> FmiStatus {
     with(instance, |it| {
         same_count(reference_count, value_count)?;
         // SAFETY: the importer's pointers are as FMI says.
@@ -345,7 +345,7 @@ pub unsafe extern "C" fn fmi3GetInt64(
     reference_count: usize,
     values: *mut i64,
     value_count: usize,
-) -> Status {
+) -> FmiStatus {
     with(instance, |it| {
         same_count(reference_count, value_count)?;
         // SAFETY: the importer's pointers are as FMI says.
@@ -370,7 +370,7 @@ pub unsafe extern "C" fn fmi3GetString(
     reference_count: usize,
     values: *mut *const c_char,
     value_count: usize,
-) -> Status {
+) -> FmiStatus {
     with(instance, |it| {
         same_count(reference_count, value_count)?;
         // SAFETY: the importer's pointers are as FMI says.
@@ -396,7 +396,7 @@ pub unsafe extern "C" fn fmi3SetFloat64(
     reference_count: usize,
     values: *const f64,
     value_count: usize,
-) -> Status {
+) -> FmiStatus {
     with(instance, |it| {
         same_count(reference_count, value_count)?;
         // SAFETY: the importer's pointers are as FMI says.
@@ -421,7 +421,7 @@ pub unsafe extern "C" fn fmi3DoStep(
     terminate_simulation: *mut bool,
     early_return: *mut bool,
     last_successful_time: *mut f64,
-) -> Status {
+) -> FmiStatus {
     with(instance, |it| {
         let done = it.step(current_communication_point, communication_step_size);
         // SAFETY: the importer's pointers are as FMI says.
@@ -437,7 +437,10 @@ pub unsafe extern "C" fn fmi3DoStep(
 
 /// Copies all that changes in an instance. A state that is there already is replaced.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetFMUState(instance: *mut c_void, state: *mut *mut c_void) -> Status {
+pub unsafe extern "C" fn fmi3GetFMUState(
+    instance: *mut c_void,
+    state: *mut *mut c_void,
+) -> FmiStatus {
     with(instance, |it| {
         // SAFETY: the importer's pointer is as FMI says.
         let place = &mut unsafe { room("the place of the state", state, 1) }?[0];
@@ -449,7 +452,7 @@ pub unsafe extern "C" fn fmi3GetFMUState(instance: *mut c_void, state: *mut *mut
 
 /// Sets an instance to a copied state, which may be used again.
 #[unsafe(no_mangle)]
-pub extern "C" fn fmi3SetFMUState(instance: *mut c_void, state: *mut c_void) -> Status {
+pub extern "C" fn fmi3SetFMUState(instance: *mut c_void, state: *mut c_void) -> FmiStatus {
     with(instance, |it| it.restore(&*saved(state)?))
 }
 
@@ -458,7 +461,7 @@ pub extern "C" fn fmi3SetFMUState(instance: *mut c_void, state: *mut c_void) -> 
 pub unsafe extern "C" fn fmi3FreeFMUState(
     instance: *mut c_void,
     state: *mut *mut c_void,
-) -> Status {
+) -> FmiStatus {
     with(instance, |_| {
         if state.is_null() {
             return Ok(());
@@ -477,7 +480,7 @@ pub unsafe extern "C" fn fmi3SerializedFMUStateSize(
     instance: *mut c_void,
     state: *mut c_void,
     size: *mut usize,
-) -> Status {
+) -> FmiStatus {
     with(instance, |_| {
         let bytes = saved(state)?.to_bytes();
         // SAFETY: the importer's pointer is as FMI says.
@@ -493,7 +496,7 @@ pub unsafe extern "C" fn fmi3SerializeFMUState(
     state: *mut c_void,
     serialized: *mut u8,
     size: usize,
-) -> Status {
+) -> FmiStatus {
     with(instance, |_| {
         let bytes = saved(state)?.to_bytes();
         if bytes.len() != size {
@@ -512,7 +515,7 @@ pub unsafe extern "C" fn fmi3DeserializeFMUState(
     serialized: *const u8,
     size: usize,
     state: *mut *mut c_void,
-) -> Status {
+) -> FmiStatus {
     with(instance, |it| {
         // SAFETY: the importer's pointers are as FMI says.
         let (bytes, place) = unsafe {
@@ -525,13 +528,13 @@ pub unsafe extern "C" fn fmi3DeserializeFMUState(
     })
 }
 
-fn saved(state: *mut c_void) -> Result<std::sync::Arc<Saved>, String> {
+fn saved(state: *mut c_void) -> Result<std::sync::Arc<SavedInstance>, String> {
     STATES.get(state).ok_or_else(|| "the state was freed, or never was one".to_owned())
 }
 
 /// Inputs are kept over a step, so that one without event mode is always in step mode.
 #[unsafe(no_mangle)]
-pub extern "C" fn fmi3EnterStepMode(instance: *mut c_void) -> Status {
+pub extern "C" fn fmi3EnterStepMode(instance: *mut c_void) -> FmiStatus {
     with(instance, |it| it.check_phase(&[Phase::Step]))
 }
 
@@ -541,7 +544,7 @@ macro_rules! lacking {
         $($(
             #[doc = concat!("An error: this FMU has no ", $what, ".")]
             #[unsafe(no_mangle)]
-            pub extern "C" fn $name(instance: *mut c_void $(, _: $type_)*) -> Status {
+            pub extern "C" fn $name(instance: *mut c_void $(, _: $type_)*) -> FmiStatus {
                 with(instance, |_| {
                     let name = stringify!($name);
                     Err(format!(concat!("this FMU has no ", $what, ", which {} is for"), name))

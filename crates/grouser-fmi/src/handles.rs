@@ -7,10 +7,10 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 /// A table of all objects of one kind.
 pub(crate) struct Handles<T> {
-    table: Mutex<Table<T>>,
+    table: Mutex<Objects<T>>,
 }
 
-struct Table<T> {
+struct Objects<T> {
     /// How many there were so far: no number is used twice.
     count: usize,
     objects: BTreeMap<usize, Arc<T>>,
@@ -18,7 +18,7 @@ struct Table<T> {
 
 impl<T> Handles<T> {
     pub(crate) const fn new() -> Self {
-        Self { table: Mutex::new(Table { count: 0, objects: BTreeMap::new() }) }
+        Self { table: Mutex::new(Objects { count: 0, objects: BTreeMap::new() }) }
     }
 
     /// Puts an object into the table.

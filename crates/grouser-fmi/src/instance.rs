@@ -6,8 +6,8 @@ use std::sync::Arc;
 use grouser::simulation::LEAST_STEP;
 use grouser::simulation::scenario::LONGEST_DURATION;
 
-use crate::model::Model;
-use crate::motion::Motion;
+use crate::model::FmuModel;
+use crate::motion::RoverMotion;
 use crate::variables::{Role, Variable};
 
 /// What FMI lets an importer do.
@@ -33,18 +33,18 @@ pub(crate) struct State {
     start: f64,
     time: f64,
     /// None until someone asks for it, and again where a parameter changed.
-    motion: Option<Motion>,
+    motion: Option<RoverMotion>,
 }
 
 /// A state, and the model that it belongs to.
-pub(crate) struct Saved {
+pub(crate) struct SavedInstance {
     token: String,
     pub(crate) state: State,
 }
 
 /// An instance.
 pub(crate) struct Instance {
-    model: Arc<Model>,
+    model: Arc<FmuModel>,
     token: String,
     state: State,
     /// The text that was last given out.
@@ -52,7 +52,7 @@ pub(crate) struct Instance {
 }
 
 impl Instance {
-    pub(crate) fn new(model: Model, token: &str) -> Self {
+    pub(crate) fn new(model: FmuModel, token: &str) -> Self {
         let state = State {
             phase: Phase::Instantiated,
             parameters: model.usual(),
@@ -236,12 +236,12 @@ impl Instance {
     }
 
     /// A copy of all that changes.
-    pub(crate) fn saved(&self) -> Saved {
-        Saved { token: self.token.clone(), state: self.state.clone() }
+    pub(crate) fn saved(&self) -> SavedInstance {
+        SavedInstance { token: self.token.clone(), state: self.state.clone() }
     }
 
     /// Sets all that changes.
-    pub(crate) fn restore(&mut self, saved: &Saved) -> Result<(), String> {
+    pub(crate) fn restore(&mut self, saved: &SavedInstance) -> Result<(), String> {
         self.check_own(&saved.token)?;
         self.state = saved.state.clone();
         Ok(())
@@ -254,8 +254,8 @@ impl Instance {
         Err("the state is of an instance of another FMU".to_owned())
     }
 
-    /// The state that was made [bytes](Saved::to_bytes).
-    pub(crate) fn read(&self, bytes: &[u8]) -> Result<Saved, String> {
+    /// The state that was made [bytes](SavedInstance::to_bytes).
+    pub(crate) fn read(&self, bytes: &[u8]) -> Result<SavedInstance, String> {
         let damaged = || "the bytes are damaged, or no state of this FMU".to_owned();
         let mut reader = Reader(bytes);
         let token = reader.bytes().and_then(|it| String::from_utf8(it).ok()).ok_or_else(damaged)?;
@@ -275,17 +275,17 @@ impl Instance {
             return Err(damaged());
         }
         let motion = motion
-            .map(|bytes| Motion::restored(&self.model, &parameters, &bytes, time - start))
+            .map(|bytes| RoverMotion::restored(&self.model, &parameters, &bytes, time - start))
             .transpose()?;
         let state = State { phase, parameters, inputs, start, time, motion };
-        Ok(Saved { token, state })
+        Ok(SavedInstance { token, state })
     }
 
-    fn motion(&mut self) -> Result<&mut Motion, String> {
+    fn motion(&mut self) -> Result<&mut RoverMotion, String> {
         let Self { model, state, .. } = self;
         let State { motion, parameters, .. } = state;
         if motion.is_none() {
-            *motion = Some(Motion::start(model, parameters)?);
+            *motion = Some(RoverMotion::start(model, parameters)?);
         }
         motion.as_mut().ok_or_else(|| "there is no motion".to_owned())
     }
@@ -297,7 +297,7 @@ impl Instance {
     }
 }
 
-impl Saved {
+impl SavedInstance {
     /// The state as bytes, for files and other processes.
     pub(crate) fn to_bytes(&self) -> Vec<u8> {
         let State { phase, parameters, inputs, start, time, motion } = &self.state;
@@ -348,7 +348,7 @@ impl Reader<'_> {
     }
 }
 
-fn variable(model: &Model, reference: u32) -> Result<&Variable, String> {
+fn variable(model: &FmuModel, reference: u32) -> Result<&Variable, String> {
     let place = usize::try_from(reference).ok();
     place.and_then(|place| model.variables.get(place)).ok_or_else(|| {
         let last = model.variables.len() - 1;

@@ -8,6 +8,7 @@
 //!
 //! | module | contents |
 //! |---|---|
+//! | [`drive`] | who turns the wheels |
 //! | [`model`] | a document as a model: who turns the wheels, parameters, variables |
 //! | [`variables`] | what an FMU says and takes, each with its unit and where it comes from |
 //! | [`description`] | `modelDescription.xml` |
@@ -27,6 +28,7 @@
 
 pub mod contents;
 pub mod description;
+pub mod drive;
 pub mod functions;
 mod handles;
 mod instance;

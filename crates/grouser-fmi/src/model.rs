@@ -12,39 +12,20 @@ use grouser::mission::Mission;
 use grouser::simulation::Scenario;
 use grouser::vehicle::DriveLaw;
 
+use crate::drive::Drive;
 use crate::variables::{Role, Variable, variables};
-
-/// Who turns the wheels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Drive {
-    /// The importer, by the inputs.
-    Inputs,
-    /// The document: a scenario's drive or a mission's legs.
-    Document,
-}
-
-impl Drive {
-    /// Both, by the words that say them.
-    pub const ALL: [(&'static str, Self); 2] =
-        [("inputs", Self::Inputs), ("document", Self::Document)];
-
-    fn word(self) -> &'static str {
-        let [inputs, document] = Self::ALL.map(|(word, _)| word);
-        if self == Self::Inputs { inputs } else { document }
-    }
-}
 
 /// What the document is.
 #[derive(Debug)]
-enum Subject {
+enum Documented {
     Scenario(Varied<Scenario>),
     Mission(Varied<Plan>),
 }
 
 /// A document as a model.
 #[derive(Debug)]
-pub struct Model {
-    subject: Subject,
+pub struct FmuModel {
+    subject: Documented,
     /// Who turns the wheels.
     pub drive: Drive,
     /// Numbers of the document that an importer may change.
@@ -55,7 +36,7 @@ pub struct Model {
     pub starts: Vec<f64>,
 }
 
-impl Model {
+impl FmuModel {
     /// The model of a scenario.
     ///
     /// # Errors
@@ -78,7 +59,7 @@ impl Model {
             drive == Drive::Document || !(key.starts_with("drive.rim") || key == "duration_s")
         };
         let parameters = keys(&varied, is_open);
-        Self::new(Subject::Scenario(varied), drive, parameters, commands)
+        Self::new(Documented::Scenario(varied), drive, parameters, commands)
     }
 
     /// The model of a mission, whose legs turn the wheels.
@@ -99,11 +80,11 @@ impl Model {
         }
         let varied = varied(loaded);
         let parameters = keys(&varied, |_| true);
-        Self::new(Subject::Mission(varied), drive, parameters, None)
+        Self::new(Documented::Mission(varied), drive, parameters, None)
     }
 
     fn new(
-        subject: Subject,
+        subject: Documented,
         drive: Drive,
         parameters: Vec<Key>,
         commands: Option<Vec<f64>>,
@@ -158,8 +139,8 @@ impl Model {
     /// The document.
     pub(crate) fn document(&self) -> &Document {
         match &self.subject {
-            Subject::Scenario(varied) => &varied.document,
-            Subject::Mission(varied) => &varied.document,
+            Documented::Scenario(varied) => &varied.document,
+            Documented::Mission(varied) => &varied.document,
         }
     }
 
@@ -174,8 +155,8 @@ impl Model {
     /// A sentence for values that do not go together.
     pub(crate) fn scenario(&self, values: &[f64]) -> Result<Scenario, String> {
         match &self.subject {
-            Subject::Scenario(varied) => self.with(varied, values),
-            Subject::Mission(varied) => Ok(self.with(varied, values)?.scenario),
+            Documented::Scenario(varied) => self.with(varied, values),
+            Documented::Mission(varied) => Ok(self.with(varied, values)?.scenario),
         }
     }
 
@@ -184,7 +165,7 @@ impl Model {
     /// # Errors
     /// The same as [`scenario`](Self::scenario).
     pub(crate) fn mission(&self, values: &[f64]) -> Result<Option<Mission>, String> {
-        let Subject::Mission(varied) = &self.subject else { return Ok(None) };
+        let Documented::Mission(varied) = &self.subject else { return Ok(None) };
         let first = self.with(varied, values)?.missions().into_iter().next();
         Ok(first.map(|(_, mission)| mission))
     }
@@ -212,7 +193,7 @@ impl Model {
     }
 }
 
-impl Subject {
+impl Documented {
     fn seen(&self) -> (Kind, &Scenario) {
         match self {
             Self::Scenario(varied) => (Kind::Scenario, &varied.value),

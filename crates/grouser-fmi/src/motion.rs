@@ -6,19 +6,20 @@ use grouser::mission::{Mission, MissionRun};
 use grouser::simulation::{Outcome, OutcomeKind, Record, Run, Scenario, State};
 use grouser::studies::mission::DrivenLeg;
 
-use crate::model::{Drive, Model};
+use crate::drive::Drive;
+use crate::model::FmuModel;
 use crate::variables::{UNDER_WAY, number_of};
 
 /// The rover on its way.
 #[derive(Clone)]
-pub(crate) enum Motion {
+pub(crate) enum RoverMotion {
     Scenario(Box<Run>),
-    Mission(Box<Driven>),
+    Mission(Box<LedMission>),
 }
 
 /// A mission on its way.
 #[derive(Clone)]
-pub(crate) struct Driven {
+pub(crate) struct LedMission {
     mission: Mission,
     run: MissionRun,
     /// The records of the leg under way and after it, from the last one on that was reached.
@@ -31,16 +32,16 @@ pub(crate) struct Driven {
 /// Times that differ by less are one, but for rounding [s]: that of runs.
 const SAME_TIME: f64 = 1e-9;
 
-impl Motion {
+impl RoverMotion {
     /// The model at its start.
     ///
     /// # Errors
     /// A sentence where it cannot be computed.
-    pub(crate) fn start(model: &Model, parameters: &[f64]) -> Result<Self, String> {
+    pub(crate) fn start(model: &FmuModel, parameters: &[f64]) -> Result<Self, String> {
         if let Some(mission) = model.mission(parameters)? {
             let run = MissionRun::new(&mission).map_err(|error| error.to_string())?;
             let (records, legs) = (VecDeque::new(), Vec::new());
-            let mut driven = Driven { mission, run, records, legs, is_over: false };
+            let mut driven = LedMission { mission, run, records, legs, is_over: false };
             driven.go_to(0.0)?;
             return Ok(Self::Mission(Box::new(driven)));
         }
@@ -57,7 +58,7 @@ impl Motion {
     /// # Errors
     /// A sentence for bytes that are no state of it.
     pub(crate) fn restored(
-        model: &Model,
+        model: &FmuModel,
         parameters: &[f64],
         state: &[u8],
         span: f64,
@@ -92,7 +93,7 @@ impl Motion {
     /// A sentence where that cannot be computed.
     pub(crate) fn step(
         &mut self,
-        model: &Model,
+        model: &FmuModel,
         wheel_speeds: &[f64],
         [from, span]: [f64; 2],
     ) -> Result<(), String> {
@@ -149,7 +150,7 @@ impl Motion {
     }
 }
 
-impl Driven {
+impl LedMission {
     /// Goes on to the record of a time since the start [s].
     ///
     /// # Errors

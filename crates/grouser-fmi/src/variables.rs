@@ -16,7 +16,7 @@ use grouser::document::varied::Key;
 use grouser::document::{Kind, Unit, sentence, unit_of};
 use grouser::simulation::{OutcomeKind, Record, Scenario, WheelRecord};
 
-use crate::model::Drive;
+use crate::drive::Drive;
 
 /// A variable. Its reference is its place in the list.
 #[derive(Clone, Debug)]

@@ -24,9 +24,10 @@ type Rule = fn(&Sources) -> usize;
 /// and checks of where a reading is from; lines of Python were 8,150 before those. Recorded drives as
 /// a referee and what maps mean took 2,000 lines and three conversions; the C interface, whose names
 /// are those of what it wraps, and derivatives 3,100 lines, eight conversions and a dozen names; designs
-/// 1,700 lines and an answer's inputs, turns that are judged and rules of exchanges 400.
+/// 1,700 lines and an answer's inputs, turns that are judged and rules of exchanges 400; FMUs and states
+/// as bytes 2,200 of 2,700 at once.
 const COUNTS: [(&str, usize, Rule); 9] = [
-    ("lines of Rust without comments and tests", 116_000, |all| all.rust.iter().map(lines).sum()),
+    ("lines of Rust without comments and tests", 118_700, |all| all.rust.iter().map(lines).sum()),
     ("lines of Python without comments and tests", 8_410, |all| all.python.iter().map(lines).sum()),
     ("files that name three outcomes or more as text", 1, outcome_homes),
     ("inputs of an answer written by hand (`fn settings`, `fn state`)", 19, |all| {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Args, ValueEnum};
-use grouser_fmi::model::Drive;
+use grouser_fmi::drive::Drive;
 
 use super::SettingArgs;
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use grouser::document::{self, Kind, Overrides, Source, escape, preset};
 use grouser_fmi::contents::{self, Contents, File};
-use grouser_fmi::model::Drive;
+use grouser_fmi::drive::Drive;
 use grouser_fmi::variables::Variable;
 
 use crate::args::{BalanceArgs, DrivenBy, ExportFmuArgs};

@@ -6,7 +6,7 @@ use grouser::document::columns::run;
 use grouser::document::{Kind, range, unit_of};
 use grouser::simulation::{OutcomeKind, Run};
 use grouser_fmi::contents;
-use grouser_fmi::model::Drive;
+use grouser_fmi::drive::Drive;
 
 use super::{FEATURES, Unpacked, scenario};
 

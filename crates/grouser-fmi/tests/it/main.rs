@@ -15,11 +15,11 @@ use std::sync::Mutex;
 
 use grouser::document::{LoadedScenario, Overrides, Source, read_scenario};
 use grouser_fmi::contents::{self, File};
+use grouser_fmi::drive::Drive;
 use grouser_fmi::functions::{
-    Status, fmi3EnterInitializationMode, fmi3ExitInitializationMode, fmi3FreeInstance,
+    FmiStatus, fmi3EnterInitializationMode, fmi3ExitInitializationMode, fmi3FreeInstance,
     fmi3GetFloat64, fmi3InstantiateCoSimulation, fmi3SetFloat64,
 };
-use grouser_fmi::model::Drive;
 use tempfile::TempDir;
 
 /// What makes a scenario meet each feature that a run has, and a word of a refusal, if inputs
@@ -138,7 +138,7 @@ impl Unpacked {
 /// Keeps what an instance says.
 unsafe extern "C" fn logged(
     log: *mut c_void,
-    _status: Status,
+    _status: FmiStatus,
     _category: *const c_char,
     message: *const c_char,
 ) {
@@ -165,19 +165,19 @@ impl<'a> Instance<'a> {
     fn initialized(self) -> Self {
         assert_eq!(
             fmi3EnterInitializationMode(self.handle, false, 0.0, 0.0, false, 0.0),
-            Status::Ok
+            FmiStatus::Ok
         );
-        assert_eq!(fmi3ExitInitializationMode(self.handle), Status::Ok, "{:?}", self.log);
+        assert_eq!(fmi3ExitInitializationMode(self.handle), FmiStatus::Ok, "{:?}", self.log);
         self
     }
 
     fn get(&self, name: &str) -> f64 {
         let (status, value) = self.try_get(self.fmu.reference(name));
-        assert_eq!(status, Status::Ok, "{:?}", self.log);
+        assert_eq!(status, FmiStatus::Ok, "{:?}", self.log);
         value
     }
 
-    fn try_get(&self, reference: u32) -> (Status, f64) {
+    fn try_get(&self, reference: u32) -> (FmiStatus, f64) {
         let mut value = 0.0;
         // SAFETY: there is room for a value.
         let status =
@@ -185,7 +185,7 @@ impl<'a> Instance<'a> {
         (status, value)
     }
 
-    fn try_set(&self, name: &str, value: f64) -> Status {
+    fn try_set(&self, name: &str, value: f64) -> FmiStatus {
         let reference = self.fmu.reference(name);
         // SAFETY: there is a value.
         unsafe { fmi3SetFloat64(self.handle, &raw const reference, 1, &raw const value, 1) }

@@ -7,7 +7,7 @@ use grouser::simulation::{
 };
 use grouser::vehicle::{Battery, Motor, Rover, SpeedControl, Winding};
 use grouser_fmi::functions::{
-    Status, fmi3DeserializeFMUState, fmi3DoStep, fmi3FreeFMUState, fmi3GetFMUState,
+    FmiStatus, fmi3DeserializeFMUState, fmi3DoStep, fmi3FreeFMUState, fmi3GetFMUState,
     fmi3SerializeFMUState, fmi3SerializedFMUStateSize, fmi3SetFMUState,
 };
 
@@ -153,7 +153,7 @@ fn damaged_bytes_are_refused() {
 }
 
 impl Instance<'_> {
-    fn step(&self, from: f64, span: f64) -> Status {
+    fn step(&self, from: f64, span: f64) -> FmiStatus {
         let null = std::ptr::null_mut();
         // SAFETY: results that are not asked for have no place.
         unsafe { fmi3DoStep(self.handle, from, span, true, null, null, null, std::ptr::null_mut()) }
@@ -162,7 +162,7 @@ impl Instance<'_> {
     fn state(&self) -> *mut c_void {
         let mut state = std::ptr::null_mut();
         // SAFETY: there is a place for the state.
-        assert_eq!(unsafe { fmi3GetFMUState(self.handle, &raw mut state) }, Status::Ok);
+        assert_eq!(unsafe { fmi3GetFMUState(self.handle, &raw mut state) }, FmiStatus::Ok);
         state
     }
 
@@ -170,16 +170,19 @@ impl Instance<'_> {
         let (mut state, mut size) = (self.state(), 0);
         // SAFETY: there is room for the size and for as many bytes.
         unsafe {
-            assert_eq!(fmi3SerializedFMUStateSize(self.handle, state, &raw mut size), Status::Ok);
+            assert_eq!(
+                fmi3SerializedFMUStateSize(self.handle, state, &raw mut size),
+                FmiStatus::Ok
+            );
             let mut bytes = vec![0; size];
             let written = fmi3SerializeFMUState(self.handle, state, bytes.as_mut_ptr(), size);
-            assert_eq!(written, Status::Ok);
-            assert_eq!(fmi3FreeFMUState(self.handle, &raw mut state), Status::Ok);
+            assert_eq!(written, FmiStatus::Ok);
+            assert_eq!(fmi3FreeFMUState(self.handle, &raw mut state), FmiStatus::Ok);
             bytes
         }
     }
 
-    fn read(&self, bytes: &[u8]) -> (Status, *mut c_void) {
+    fn read(&self, bytes: &[u8]) -> (FmiStatus, *mut c_void) {
         let mut state = std::ptr::null_mut();
         // SAFETY: there are as many bytes, and a place for the state.
         let status = unsafe {
@@ -200,20 +203,20 @@ fn an_instance_goes_on_from_a_copy_and_from_bytes_bit_for_bit() {
             let loaded = scenario(settings);
             format!("{}.commanded_wheel_speed_rad_s", loaded.value.rover.mounts()[place].name)
         };
-        assert_eq!(one.step(0.0, 0.13), Status::Ok, "{feature}: {}", one.said());
+        assert_eq!(one.step(0.0, 0.13), FmiStatus::Ok, "{feature}: {}", one.said());
         let (copy, bytes) = (one.state(), one.bytes());
         let go_on = |instance: &Instance<'_>| {
-            assert_eq!(instance.try_set(&name(1), 0.7), Status::Ok);
-            assert_eq!(instance.step(0.13, 0.21), Status::Ok);
+            assert_eq!(instance.try_set(&name(1), 0.7), FmiStatus::Ok);
+            assert_eq!(instance.step(0.13, 0.21), FmiStatus::Ok);
             instance.bytes()
         };
         let expected = go_on(&one);
-        assert_eq!(fmi3SetFMUState(one.handle, copy), Status::Ok);
+        assert_eq!(fmi3SetFMUState(one.handle, copy), FmiStatus::Ok);
         assert_eq!(go_on(&one), expected, "{feature}");
         let other = Instance::new(&fmu);
         let (status, state) = other.read(&bytes);
-        assert_eq!(status, Status::Ok, "{feature}: {}", other.said());
-        assert_eq!(fmi3SetFMUState(other.handle, state), Status::Ok);
+        assert_eq!(status, FmiStatus::Ok, "{feature}: {}", other.said());
+        assert_eq!(fmi3SetFMUState(other.handle, state), FmiStatus::Ok);
         assert_eq!(go_on(&other), expected, "{feature}");
         assert_eq!(other.get("x_m").to_bits(), one.get("x_m").to_bits(), "{feature}");
     }
@@ -226,17 +229,17 @@ fn bytes_of_another_fmu_and_damaged_ones_are_errors() {
     let (one, other) = (Instance::new(&plane).initialized(), Instance::new(&moon));
     let bytes = one.bytes();
     let (status, state) = other.read(&bytes);
-    assert_eq!((status, state.is_null()), (Status::Error, true));
+    assert_eq!((status, state.is_null()), (FmiStatus::Error, true));
     assert!(other.said().contains("another FMU"), "{}", other.said());
     for length in [0, 5, bytes.len() / 2, bytes.len() - 1] {
-        assert_eq!(one.read(&bytes[..length]).0, Status::Error, "{length}");
+        assert_eq!(one.read(&bytes[..length]).0, FmiStatus::Error, "{length}");
         assert!(one.said().contains("damaged"), "{}", one.said());
     }
     let mut state = one.state();
     let other_state = state;
     // SAFETY: the place is one of a state.
-    assert_eq!(unsafe { fmi3FreeFMUState(one.handle, &raw mut state) }, Status::Ok);
+    assert_eq!(unsafe { fmi3FreeFMUState(one.handle, &raw mut state) }, FmiStatus::Ok);
     assert!(state.is_null());
-    assert_eq!(fmi3SetFMUState(one.handle, other_state), Status::Error);
+    assert_eq!(fmi3SetFMUState(one.handle, other_state), FmiStatus::Error);
     assert!(one.said().contains("freed"), "{}", one.said());
 }

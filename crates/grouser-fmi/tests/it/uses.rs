@@ -6,11 +6,11 @@ use grouser::document::{Kind, Overrides, Source, preset, read_mission};
 use grouser::mission::MissionRun;
 use grouser::simulation::{OutcomeKind, Run};
 use grouser_fmi::contents;
+use grouser_fmi::drive::Drive;
 use grouser_fmi::functions::{
-    Status, fmi3DoStep, fmi3EnterEventMode, fmi3EnterInitializationMode, fmi3FreeInstance,
+    FmiStatus, fmi3DoStep, fmi3EnterEventMode, fmi3EnterInitializationMode, fmi3FreeInstance,
     fmi3GetFloat32, fmi3GetFloat64, fmi3GetInt64, fmi3Reset, fmi3SetFloat64, fmi3Terminate,
 };
-use grouser_fmi::model::Drive;
 
 use super::{FEATURES, Instance, Unpacked, scenario};
 
@@ -20,11 +20,11 @@ impl Instance<'_> {
         // SAFETY: there is room for a value.
         let status =
             unsafe { fmi3GetInt64(self.handle, &raw const reference, 1, &raw mut value, 1) };
-        assert_eq!(status, Status::Ok, "{}", self.said());
+        assert_eq!(status, FmiStatus::Ok, "{}", self.said());
         value
     }
 
-    fn advance(&self, from: f64, span: f64) -> (Status, f64) {
+    fn advance(&self, from: f64, span: f64) -> (FmiStatus, f64) {
         let (mut last, null) = (f64::NAN, std::ptr::null_mut());
         // SAFETY: there is a place for the time, and none for what is not asked for.
         let status =
@@ -48,12 +48,12 @@ fn steps_have_the_bits_of_a_run() {
             let mut rims = Vec::new();
             for (wheel, mount) in mounts.iter().enumerate() {
                 let name = format!("{}.commanded_wheel_speed_rad_s", mount.name);
-                assert_eq!(instance.try_set(&name, speed(wheel)), Status::Ok);
+                assert_eq!(instance.try_set(&name, speed(wheel)), FmiStatus::Ok);
                 rims.push(speed(wheel) * mount.shearing_radius());
             }
             assert_eq!(
                 instance.advance(time, span).0,
-                Status::Ok,
+                FmiStatus::Ok,
                 "{feature}: {}",
                 instance.said()
             );
@@ -84,9 +84,9 @@ fn a_parameter_changes_what_the_same_setting_of_a_document_changes() {
     let end = |instance: &Instance<'_>| {
         for wheel in ["front-left", "rear-left", "rear-right", "front-right"] {
             let name = format!("{wheel}.commanded_wheel_speed_rad_s");
-            assert_eq!(instance.try_set(&name, 0.6), Status::Ok);
+            assert_eq!(instance.try_set(&name, 0.6), FmiStatus::Ok);
         }
-        assert_eq!(instance.advance(0.0, 0.5).0, Status::Ok, "{}", instance.said());
+        assert_eq!(instance.advance(0.0, 0.5).0, FmiStatus::Ok, "{}", instance.said());
         instance.get("x_m").to_bits()
     };
     let usual = end(&Instance::new(&fmu).initialized());
@@ -94,7 +94,7 @@ fn a_parameter_changes_what_the_same_setting_of_a_document_changes() {
         let set = Unpacked::of_scenario(&[&format!("{key}={value}")]);
         let expected = end(&Instance::new(&set).initialized());
         let instance = Instance::new(&fmu);
-        assert_eq!(instance.try_set(name, value), Status::Ok, "{}", instance.said());
+        assert_eq!(instance.try_set(name, value), FmiStatus::Ok, "{}", instance.said());
         assert_eq!(end(&instance.initialized()), expected, "{name}");
         assert_ne!(expected, usual, "{name}");
     }
@@ -111,12 +111,12 @@ fn a_document_turns_the_wheels_of_its_own_fmu_as_a_traverse_does() {
         let steps = (10.0 * loaded.value.duration).round();
         let mut step = 0.0;
         while step < steps {
-            assert_eq!(instance.advance(step / 10.0, 0.1).0, Status::Ok, "{}", instance.said());
+            assert_eq!(instance.advance(step / 10.0, 0.1).0, FmiStatus::Ok, "{}", instance.said());
             step += 1.0;
         }
         assert_eq!(instance.get("x_m").to_bits(), run.last().state.position.x.to_bits());
         // Past its end it stays there.
-        assert_eq!(instance.advance(steps / 10.0, 1.0).0, Status::Ok);
+        assert_eq!(instance.advance(steps / 10.0, 1.0).0, FmiStatus::Ok);
         assert_eq!(instance.get("x_m").to_bits(), run.last().state.position.x.to_bits());
     }
 }
@@ -134,7 +134,7 @@ fn a_mission_is_driven_by_its_legs() {
     let mut time = 0.0;
     for record in report.trajectory.records.iter().filter(|it| it.time > 0.0) {
         let (status, _) = instance.advance(time, record.time - time);
-        assert_eq!(status, Status::Ok, "{}", instance.said());
+        assert_eq!(status, FmiStatus::Ok, "{}", instance.said());
         // Where two legs meet a time has two records.
         if record.time > time {
             let found = instance.get("x_m");
@@ -144,12 +144,12 @@ fn a_mission_is_driven_by_its_legs() {
     }
     let last = report.trajectory.last();
     assert_eq!(instance.get("x_m").to_bits(), last.place().x.to_bits());
-    assert_eq!(instance.advance(time, 10.0).0, Status::Ok, "{}", instance.said());
+    assert_eq!(instance.advance(time, 10.0).0, FmiStatus::Ok, "{}", instance.said());
     assert_eq!(instance.get("x_m").to_bits(), last.place().x.to_bits());
     assert_eq!(OutcomeKind::ALL[0], OutcomeKind::Completed);
     assert_eq!((report.kind(), instance.outcome()), (OutcomeKind::Completed, 1));
     let between = Instance::new(&fmu).initialized();
-    assert_eq!(between.advance(0.0, 0.0437).0, Status::Error);
+    assert_eq!(between.advance(0.0, 0.0437).0, FmiStatus::Error);
     assert!(between.said().contains("sample_interval_s"), "{}", between.said());
 }
 
@@ -165,8 +165,8 @@ fn alternatives_of_a_mission_are_refused_by_name() {
 fn wrong_uses_are_errors_with_a_sentence_and_change_nothing() {
     let fmu = Unpacked::of_scenario(&[]);
     let instance = Instance::new(&fmu);
-    let refused = |status: Status, words: &str| {
-        assert_eq!(status, Status::Error, "{words}");
+    let refused = |status: FmiStatus, words: &str| {
+        assert_eq!(status, FmiStatus::Error, "{words}");
         assert!(instance.said().contains(words), "{words}: {}", instance.said());
     };
     let input = "front-left.commanded_wheel_speed_rad_s";
@@ -182,11 +182,11 @@ fn wrong_uses_are_errors_with_a_sentence_and_change_nothing() {
         "start time",
     );
     let instance = instance.initialized();
-    let refused = |status: Status, words: &str| {
-        assert_eq!(status, Status::Error, "{words}");
+    let refused = |status: FmiStatus, words: &str| {
+        assert_eq!(status, FmiStatus::Error, "{words}");
         assert!(instance.said().contains(words), "{words}: {}", instance.said());
     };
-    assert_eq!(instance.advance(0.0, 0.1), (Status::Ok, 0.1));
+    assert_eq!(instance.advance(0.0, 0.1), (FmiStatus::Ok, 0.1));
     let before = instance.get("x_m");
     refused(instance.try_set("soil.cohesion_kpa", 1.0), "after the initialization");
     refused(instance.try_set(input, f64::NAN), "finite");
@@ -211,8 +211,8 @@ fn wrong_uses_are_errors_with_a_sentence_and_change_nothing() {
     let nothing = std::ptr::null_mut();
     refused(fmi3GetFloat32(instance.handle, &raw const reference, 1, nothing, 1), "type");
     assert_eq!(instance.get("x_m").to_bits(), before.to_bits());
-    assert_eq!(instance.advance(0.1, 0.1), (Status::Ok, 0.2));
-    assert_eq!(fmi3Reset(instance.handle), Status::Ok);
+    assert_eq!(instance.advance(0.1, 0.1), (FmiStatus::Ok, 0.2));
+    assert_eq!(fmi3Reset(instance.handle), FmiStatus::Ok);
     refused(instance.advance(0.0, 0.1).0, "before the initialization");
 }
 
@@ -221,8 +221,8 @@ fn a_freed_instance_and_none_are_errors() {
     let fmu = Unpacked::of_scenario(&[]);
     let instance = Instance::new(&fmu);
     fmi3FreeInstance(instance.handle);
-    assert_eq!(fmi3Reset(instance.handle), Status::Error);
-    assert_eq!(fmi3Reset(std::ptr::null_mut()), Status::Error);
+    assert_eq!(fmi3Reset(instance.handle), FmiStatus::Error);
+    assert_eq!(fmi3Reset(std::ptr::null_mut()), FmiStatus::Error);
     fmi3FreeInstance(std::ptr::null_mut());
 }
 
@@ -250,7 +250,7 @@ fn instances_on_several_threads_have_the_bits_of_one() {
         let instance = Instance::new(&fmu).initialized();
         for step in 0..5 {
             let time = f64::from(step) * 0.1;
-            assert_eq!(instance.advance(time, 0.1).0, Status::Ok, "{}", instance.said());
+            assert_eq!(instance.advance(time, 0.1).0, FmiStatus::Ok, "{}", instance.said());
         }
         instance.get("x_m").to_bits()
     };
@@ -269,10 +269,10 @@ fn a_rover_that_tips_over_stays_and_says_so() {
     let instance = Instance::new(&fmu).initialized();
     for step in 0..30 {
         let (status, _) = instance.advance(f64::from(step) * 0.1, 0.1);
-        assert_eq!(status, Status::Ok, "{}", instance.said());
+        assert_eq!(status, FmiStatus::Ok, "{}", instance.said());
     }
     assert_ne!(instance.outcome(), 0);
     let place = instance.get("x_m");
-    assert_eq!(instance.advance(3.0, 1.0).0, Status::Ok);
+    assert_eq!(instance.advance(3.0, 1.0).0, FmiStatus::Ok);
     assert_eq!(instance.get("x_m").to_bits(), place.to_bits());
 }
