@@ -125,7 +125,7 @@ fn write_variable(xml: &mut String, model: &FmuModel, reference: usize, variable
     };
     let causality = variable.causality();
     let (element, variability) = match variable.role {
-        Role::Time | Role::Input { .. } | Role::Output(_) => ("Float64", "continuous"),
+        Role::Time | Role::Input { .. } | Role::ResultOf(_) => ("Float64", "continuous"),
         Role::Parameter { .. } => ("Float64", "fixed"),
         Role::Outcome => ("Enumeration", "discrete"),
         Role::Reason => ("String", "discrete"),

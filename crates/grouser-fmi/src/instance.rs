@@ -24,7 +24,7 @@ const PHASES: [Phase; 4] =
 
 /// All that changes in an instance.
 #[derive(Clone)]
-pub(crate) struct State {
+pub(crate) struct InstanceState {
     phase: Phase,
     parameters: Vec<f64>,
     /// Speeds that are commanded of the wheels [rad/s].
@@ -39,21 +39,21 @@ pub(crate) struct State {
 /// A state, and the model that it belongs to.
 pub(crate) struct SavedInstance {
     token: String,
-    pub(crate) state: State,
+    pub(crate) state: InstanceState,
 }
 
 /// An instance.
 pub(crate) struct Instance {
     model: Arc<FmuModel>,
     token: String,
-    state: State,
+    state: InstanceState,
     /// The text that was last given out.
     text: CString,
 }
 
 impl Instance {
     pub(crate) fn new(model: FmuModel, token: &str) -> Self {
-        let state = State {
+        let state = InstanceState {
             phase: Phase::Instantiated,
             parameters: model.usual(),
             inputs: model.starts.clone(),
@@ -103,7 +103,7 @@ impl Instance {
 
     pub(crate) fn reset(&mut self) {
         let fresh = &self.model;
-        self.state = State {
+        self.state = InstanceState {
             phase: Phase::Instantiated,
             parameters: fresh.usual(),
             inputs: fresh.starts.clone(),
@@ -121,7 +121,7 @@ impl Instance {
             Role::Time => Ok(self.state.time),
             Role::Input { wheel } => Ok(self.state.inputs[wheel]),
             Role::Parameter { place } => Ok(self.state.parameters[place]),
-            Role::Output(output) => {
+            Role::ResultOf(output) => {
                 self.check_computed(variable)?;
                 let record = self.motion()?.record();
                 record.map(|record| output.number(record)).ok_or_else(|| {
@@ -222,7 +222,7 @@ impl Instance {
         if !(LEAST_STEP..=LONGEST_DURATION).contains(&span) {
             return Err(format!("the step is {span} s long, it must be from 1e-6 to 86400"));
         }
-        let State { start, inputs, .. } = &self.state;
+        let InstanceState { start, inputs, .. } = &self.state;
         let (since, inputs) = ([time - start, span], inputs.clone());
         let model = Arc::clone(&self.model);
         self.motion()?.step(&model, &inputs, since)?;
@@ -257,7 +257,7 @@ impl Instance {
     /// The state that was made [bytes](SavedInstance::to_bytes).
     pub(crate) fn read(&self, bytes: &[u8]) -> Result<SavedInstance, String> {
         let damaged = || "the bytes are damaged, or no state of this FMU".to_owned();
-        let mut reader = Reader(bytes);
+        let mut reader = StateReader(bytes);
         let token = reader.bytes().and_then(|it| String::from_utf8(it).ok()).ok_or_else(damaged)?;
         self.check_own(&token)?;
         let read = (|| {
@@ -277,13 +277,13 @@ impl Instance {
         let motion = motion
             .map(|bytes| RoverMotion::restored(&self.model, &parameters, &bytes, time - start))
             .transpose()?;
-        let state = State { phase, parameters, inputs, start, time, motion };
+        let state = InstanceState { phase, parameters, inputs, start, time, motion };
         Ok(SavedInstance { token, state })
     }
 
     fn motion(&mut self) -> Result<&mut RoverMotion, String> {
         let Self { model, state, .. } = self;
-        let State { motion, parameters, .. } = state;
+        let InstanceState { motion, parameters, .. } = state;
         if motion.is_none() {
             *motion = Some(RoverMotion::start(model, parameters)?);
         }
@@ -300,7 +300,7 @@ impl Instance {
 impl SavedInstance {
     /// The state as bytes, for files and other processes.
     pub(crate) fn to_bytes(&self) -> Vec<u8> {
-        let State { phase, parameters, inputs, start, time, motion } = &self.state;
+        let InstanceState { phase, parameters, inputs, start, time, motion } = &self.state;
         let mut bytes = Vec::new();
         let number = |bytes: &mut Vec<u8>, number: u64| bytes.extend(number.to_le_bytes());
         let text = |bytes: &mut Vec<u8>, text: &[u8]| {
@@ -326,9 +326,9 @@ impl SavedInstance {
 }
 
 /// What is left of bytes.
-struct Reader<'b>(&'b [u8]);
+struct StateReader<'b>(&'b [u8]);
 
-impl Reader<'_> {
+impl StateReader<'_> {
     fn number(&mut self) -> Option<u64> {
         let (number, rest) = self.0.split_first_chunk()?;
         self.0 = rest;

@@ -47,7 +47,7 @@ pub enum Role {
         place: usize,
     },
     /// A result.
-    Output(Output),
+    ResultOf(ResultOf),
     /// What became of the rover, by its number.
     Outcome,
     /// Why, in words.
@@ -58,7 +58,7 @@ pub enum Role {
 
 /// A column of results.
 #[derive(Clone, Copy, Debug)]
-pub enum Output {
+pub enum ResultOf {
     /// Of the rover.
     Rover(&'static Column<Record>),
     /// Of a wheel, by its place.
@@ -75,7 +75,7 @@ impl Variable {
             Role::Time => "independent",
             Role::Input { .. } => "input",
             Role::Parameter { .. } => "parameter",
-            Role::Output(_) | Role::Outcome | Role::Reason | Role::Leg => "output",
+            Role::ResultOf(_) | Role::Outcome | Role::Reason | Role::Leg => "output",
         }
     }
 
@@ -84,13 +84,13 @@ impl Variable {
     pub fn wheel(&self) -> Option<usize> {
         match self.role {
             Role::Input { wheel }
-            | Role::Output(Output::Wheel(wheel, _) | Output::Soil(wheel, _)) => Some(wheel),
+            | Role::ResultOf(ResultOf::Wheel(wheel, _) | ResultOf::Soil(wheel, _)) => Some(wheel),
             _ => None,
         }
     }
 }
 
-impl Output {
+impl ResultOf {
     /// The number of a record, in the column's unit; NaN where there is none.
     pub(crate) fn number(self, record: &Record) -> f64 {
         let wheel = |place: usize| record.wheels.get(place);
@@ -149,20 +149,20 @@ pub(crate) fn variables(
         name: format!("{prefix}{name}"),
         unit,
         sentence: doc.to_owned(),
-        role: Role::Output(output),
+        role: Role::ResultOf(output),
     };
     for column in of_rover(scenario) {
-        all.push(named("", column.name, column.unit, column.doc, Output::Rover(column)));
+        all.push(named("", column.name, column.unit, column.doc, ResultOf::Rover(column)));
     }
     const SOIL: &[Column<Settled>] = &WHEEL;
     for (place, mount) in mounts.iter().enumerate() {
         let prefix = format!("{}.", mount.name);
         for column in of_wheel(mount.unit.motor.is_some(), mount.steering_axis.is_some()) {
-            let output = Output::Wheel(place, column);
+            let output = ResultOf::Wheel(place, column);
             all.push(named(&prefix, column.name, column.unit, column.doc, output));
         }
         for column in SOIL {
-            let output = Output::Soil(place, column);
+            let output = ResultOf::Soil(place, column);
             all.push(named(&prefix, column.name, column.unit, column.doc, output));
         }
     }
