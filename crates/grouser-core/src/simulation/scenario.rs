@@ -7,6 +7,7 @@ use crate::contact::Model;
 use crate::elementary::wide;
 use crate::error::{ParameterError, finite, positive};
 use crate::soil::SlopeStability;
+use crate::stored::stored;
 use crate::terrain::{Ground, Lie};
 use crate::units::{EARTH_GRAVITY, Vec2};
 use crate::vehicle::kinematics::rolling_velocity;
@@ -141,6 +142,8 @@ pub enum Approach {
     /// is not valid the run goes on dynamically, and its trajectory says so.
     QuasiSteady,
 }
+
+stored!(enum Approach { 0 => Dynamic, 1 => QuasiSteady });
 
 /// What carries the motion through time.
 #[derive(Clone, Copy, Debug, PartialEq)]
