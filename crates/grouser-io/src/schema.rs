@@ -10,7 +10,7 @@ use serde_json::{Map, Value as Json};
 
 use super::describe;
 use super::json_schema;
-use super::kind::Kind;
+use super::kind::{Kind, without_parts};
 
 /// The JSON Schema (draft 2020-12) of a kind of document, as text.
 #[must_use]
@@ -38,6 +38,19 @@ pub fn range(kind: Kind, path: &str) -> Option<std::ops::RangeInclusive<f64>> {
     });
     let widest = ranges.reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)));
     widest.map(|(least, most)| least..=most)
+}
+
+/// What a key of a document is: the sentence of its row, with the unit.
+///
+/// * `path`: the key with its tables, and the parts that it stands in: of a scenario
+///   `soil.friction_angle_deg`
+#[must_use]
+pub fn meaning(kind: Kind, path: &str) -> Option<&'static str> {
+    let path = path.split('.').map(str::to_owned).collect();
+    let (kind, path) = without_parts(kind, path);
+    let root = root(kind);
+    let found = under(root, &path.join("."), None);
+    found.into_iter().find_map(|schema| schema.get("description")?.as_str())
 }
 
 /// The same schema as a value, made once.

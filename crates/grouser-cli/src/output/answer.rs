@@ -1,6 +1,7 @@
 //! The writer of answers: to a terminal, as JSON, as CSV, and into a folder with a page.
 
 use grouser::answers::{Answer, AnswerError, Displayed, PageBlock};
+use grouser::document::json;
 use grouser::document::statistics::NothingAccepted;
 use grouser::document::table::Table;
 use grouser_draw::chart::Drawable;
@@ -8,7 +9,7 @@ use grouser_draw::chart::Drawable;
 use super::folder::OutputFolder;
 use super::rows::Rows;
 use super::text::Text;
-use super::{Format, crossed, json};
+use super::{Format, crossed};
 use crate::failure::Failure;
 use crate::report::REPORT;
 use crate::report::answer::{Basis, close};
