@@ -30,6 +30,7 @@ pub(crate) mod reproduce;
 pub(crate) mod route;
 pub(crate) mod sampling;
 pub(crate) mod schema;
+pub(crate) mod serve;
 pub(crate) mod slip_from_current;
 mod strict;
 mod telemetry;
@@ -37,10 +38,9 @@ pub(crate) mod traverse;
 pub(crate) mod validate;
 pub(crate) mod wheel_test;
 
+use grouser::document::json;
 use serde::Serialize;
 use serde_json::Value;
-
-use crate::output::json;
 
 /// A JSON output: what it is, who made it, from what, and the results.
 #[derive(Serialize)]

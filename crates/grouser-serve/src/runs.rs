@@ -1,0 +1,91 @@
+//! Computations: few at a time, each with an end, and stopped where nobody waits for its answer.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use hyper::StatusCode;
+use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+
+use crate::limits::Limits;
+use crate::refusal::Refusal;
+
+/// The places of computations.
+pub(crate) struct Runs {
+    /// Of those that compute.
+    computing: Arc<Semaphore>,
+    /// Of these, and of those that wait.
+    all: Arc<Semaphore>,
+    time: Duration,
+    /// Whether the server ends.
+    has_ended: Arc<AtomicBool>,
+}
+
+/// The place of a computation. It is free again when this is dropped.
+pub(crate) struct Place {
+    _all: OwnedSemaphorePermit,
+    _computing: OwnedSemaphorePermit,
+}
+
+/// Somebody waits for an answer, until this is dropped.
+pub(crate) struct Asking(Arc<AtomicBool>);
+
+/// What a computation asks whether to go on.
+#[derive(Clone)]
+pub(crate) struct GoOn {
+    has_gone: Arc<AtomicBool>,
+    has_ended: Arc<AtomicBool>,
+    until: Instant,
+}
+
+impl Runs {
+    pub(crate) fn new(limits: &Limits) -> Self {
+        Self {
+            computing: Arc::new(Semaphore::new(limits.runs)),
+            all: Arc::new(Semaphore::new(limits.runs + limits.waiting)),
+            time: limits.run_time,
+            has_ended: Arc::default(),
+        }
+    }
+
+    /// Waits for a place.
+    pub(crate) async fn place(&self) -> Result<Place, Refusal> {
+        let full = |_| {
+            let message = "too many computations wait already";
+            Refusal::new(StatusCode::SERVICE_UNAVAILABLE, message)
+        };
+        let all = Arc::clone(&self.all).try_acquire_owned().map_err(full)?;
+        let computing = Arc::clone(&self.computing).acquire_owned().await;
+        let computing = computing.unwrap_or_else(|_| unreachable!("it is never closed"));
+        Ok(Place { _all: all, _computing: computing })
+    }
+
+    /// Somebody who asks, and what the computation asks.
+    pub(crate) fn asking(&self) -> (Asking, GoOn) {
+        let has_gone = Arc::new(AtomicBool::new(false));
+        let has_ended = Arc::clone(&self.has_ended);
+        let go_on =
+            GoOn { has_gone: Arc::clone(&has_gone), has_ended, until: Instant::now() + self.time };
+        (Asking(has_gone), go_on)
+    }
+
+    /// Stops all computations.
+    pub(crate) fn end(&self) {
+        self.has_ended.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Drop for Asking {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+impl GoOn {
+    /// Whether to go on.
+    pub(crate) fn is_on(&self) -> bool {
+        !self.has_gone.load(Ordering::Relaxed)
+            && !self.has_ended.load(Ordering::Relaxed)
+            && Instant::now() < self.until
+    }
+}
