@@ -10,7 +10,7 @@ pub(crate) struct Asset {
 }
 
 macro_rules! asset {
-    ($path:literal, $kind:literal) => {
+    ($path:literal, $kind:expr) => {
         Asset {
             path: concat!("/", $path),
             kind: $kind,
@@ -24,4 +24,16 @@ pub(crate) const PAGE: Asset =
     Asset { path: "/", ..asset!("index.html", "text/html; charset=utf-8") };
 
 /// Everything that it loads.
-pub(crate) static ASSETS: [Asset; 1] = [asset!("page.css", "text/css; charset=utf-8")];
+pub(crate) static ASSETS: [Asset; 9] = [
+    asset!("page.css", "text/css; charset=utf-8"),
+    asset!("main.js", SCRIPT),
+    asset!("api.js", SCRIPT),
+    asset!("session.js", SCRIPT),
+    asset!("dom.js", SCRIPT),
+    asset!("slider.js", SCRIPT),
+    asset!("chart.js", SCRIPT),
+    asset!("heading.js", SCRIPT),
+    asset!("wheel.js", SCRIPT),
+];
+
+const SCRIPT: &str = "text/javascript; charset=utf-8";

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bytes::Bytes;
 use http_body_util::{BodyExt as _, LengthLimitError, Limited};
-use hyper::body::Incoming;
+use hyper::body::{Body as _, Incoming};
 use hyper::header::{
     CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HeaderName, HeaderValue, REFERRER_POLICY,
     SET_COOKIE, X_CONTENT_TYPE_OPTIONS, X_FRAME_OPTIONS,
@@ -138,6 +138,10 @@ async fn json_of(console: &Console, request: Request<Incoming>) -> Result<Bytes,
         let message = format!("the body is larger than {most} bytes, the most that is read");
         Refusal::new(StatusCode::PAYLOAD_TOO_LARGE, message)
     };
+    // What says so itself is not read at all.
+    if request.body().size_hint().lower() > limits.body_bytes as u64 {
+        return Err(too_large());
+    }
     let collected = Limited::new(request.into_body(), limits.body_bytes).collect();
     match tokio::time::timeout(limits.body_time, collected).await {
         Ok(Ok(body)) => Ok(body.to_bytes()),
