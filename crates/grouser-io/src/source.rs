@@ -112,8 +112,8 @@ impl Source {
         let is_path = is_toml || name.contains(['/', '\\']);
         // A link is there even if its file is not: reading it says so.
         let is_there = |path: &Path| !name.is_empty() && path.symlink_metadata().is_ok();
-        match &text.beside.within {
-            Some(within) => match text.path_of(name) {
+        if let Some(within) = &text.beside.within {
+            match text.path_of(name) {
                 Ok(path) if !name.is_empty() => {
                     return Ok(Self::Confined { path, within: within.clone() });
                 }
@@ -121,12 +121,11 @@ impl Source {
                     return Err(DocumentError::whole(escape::line(name), problem.into()));
                 }
                 _ => {}
-            },
-            None => {
-                let path = text.folder.join(name);
-                if is_path || is_there(&path) {
-                    return Ok(Self::File(path));
-                }
+            }
+        } else {
+            let path = text.folder.join(name);
+            if is_path || is_there(&path) {
+                return Ok(Self::File(path));
             }
         }
         let problem = Problem::NoSuchPresetOrFile { kind, name: escape::line(name).into_owned() };

@@ -195,7 +195,7 @@ export function chartOf(cards) {
   const bounded = own.curve.filter((row) => typeof row.yaw_deg_p2_5 === "number");
   const yaw = own.session.course === 0 ? own.yaw() : undefined;
   return draw({
-    title: "Heading that holds the contour",
+    title: "Heading offset that holds the contour, uphill [°]",
     x: "slope [°]", y: "heading offset, uphill [°]",
     curves: [own, ...(other ? [other] : [])].map((card) => ({ points: points(card) })),
     band: bounded.map((row) => [row.slope_deg, row.yaw_deg_p2_5, row.yaw_deg_p97_5 ?? Infinity]),

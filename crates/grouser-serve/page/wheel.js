@@ -62,7 +62,7 @@ export class WheelAnswer {
     this.worth = element("div", { class: "card" });
     this.export = element("div");
     this.element = element("div", {}, [
-      element("div", { class: "cards" }, [this.numbers, this.worth]), this.figures, this.export,
+      this.figures, this.export,
     ]);
     /** @type {string[]} */
     this.pictures = [];
@@ -145,10 +145,10 @@ export class WheelAnswer {
     this.export.replaceChildren(exportOf(this.shown, undefined));
   }
 
-  /** The cut wheel first, then the charts, then the other drawings. */
+  /** The numbers and the cut wheel first, then the charts, then the other drawings. */
   arrange() {
     const [wheel, ...others] = this.drawings;
-    this.figures.replaceChildren(...(wheel ? [wheel] : []), ...this.charts, ...others);
+    this.figures.replaceChildren(this.numbers, ...(wheel ? [wheel] : []), ...this.charts, this.worth, ...others);
   }
 
   /**

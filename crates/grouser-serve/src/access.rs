@@ -3,6 +3,7 @@
 use std::net::{IpAddr, SocketAddr};
 
 use hyper::header::{AUTHORIZATION, COOKIE, HOST, HeaderMap, HeaderName, ORIGIN};
+use hyper::http::uri::Authority;
 use hyper::{Request, StatusCode};
 
 use crate::refusal::Refusal;
@@ -45,7 +46,7 @@ impl Access {
     pub(crate) fn check_host<B>(&self, request: &Request<B>) -> Result<(), Refusal> {
         let mut hosts = request.headers().get_all(HOST).iter();
         let host = hosts.next().and_then(|host| host.to_str().ok());
-        let authority = request.uri().authority().map(|it| it.as_str());
+        let authority = request.uri().authority().map(Authority::as_str);
         let is_own = |host: &str| self.is_own(host);
         let is_allowed =
             hosts.next().is_none() && host.is_some_and(is_own) && authority.is_none_or(is_own);

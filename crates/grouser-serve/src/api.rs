@@ -20,6 +20,9 @@ use crate::server::Console;
 /// Reads a question.
 pub(crate) type Read = fn(&Folder, &[u8]) -> Result<Question, Refusal>;
 
+/// Lists what there is, as a line.
+pub(crate) type List = fn(&Console) -> String;
+
 /// Takes a line; whether somebody reads it.
 pub(crate) type Send<'a> = &'a dyn Fn(String) -> bool;
 
@@ -52,5 +55,5 @@ pub(crate) static QUESTIONS: [(&str, Read); 6] = [
 ];
 
 /// What there is to choose from, by their paths below `/api/`.
-pub(crate) static LISTS: [(&str, fn(&Console) -> String); 2] =
+pub(crate) static LISTS: [(&str, List); 2] =
     [("presets", lists::presets), ("documents", lists::documents)];

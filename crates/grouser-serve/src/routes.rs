@@ -11,7 +11,7 @@ use hyper::header::{
 };
 use hyper::{Method, Request, Response, StatusCode};
 
-use crate::api::{self, Read};
+use crate::api::{self, List, Read};
 use crate::assets::{ASSETS, Asset, PAGE};
 use crate::body::Body;
 use crate::question;
@@ -22,7 +22,7 @@ use crate::server::Console;
 enum Route {
     File(&'static Asset),
     /// What is there to choose from.
-    List(fn(&Console) -> String),
+    List(List),
     /// A question, as the body has it.
     Question(Read),
 }

@@ -1,7 +1,7 @@
 //! `scenario` and `stand`: what a question is about, as complete documents, with the numbers that
 //! may be set, from the rows that declare them.
 
-use grouser::document::{Described, Kind, Loaded, json, meaning, unit_of};
+use grouser::document::{Described, Kind, Loaded, UncertainSoil, json, meaning, unit_of};
 use serde_json::{Map, Value, json};
 
 use super::Question;
@@ -63,7 +63,7 @@ fn joined<T: Clone>(one: &[T], other: &[T]) -> Vec<T> {
 
 /// The numbers of a document that may be set: the key, what it says, and what it may be.
 fn keys<V: Described>(kind: Kind, loaded: &Loaded<V>) -> Vec<Value> {
-    let uncertain: Vec<&str> = loaded.uncertain.iter().flat_map(|it| it.keys()).collect();
+    let uncertain: Vec<&str> = loaded.uncertain.iter().flat_map(UncertainSoil::keys).collect();
     let one = |path: &String| {
         let value = loaded.document.number(path)?;
         let range = loaded.value.range(path)?;

@@ -30,7 +30,7 @@ pub(super) fn read(folder: &Folder, body: &[u8]) -> Result<Question, Refusal> {
     let stages = Stages::of(&fields, Some(DRAFT))?;
     let steering = steering(&fields)?;
     let gradients = fields.texts("gradients")?;
-    let is_nominal = fields_are_nominal(&stages);
+    let is_nominal = !stages.has_samples();
     let rule = rule(&fields)?;
     fields.finish()?;
     // What is no heading of the body has no samples, and derivatives are of the soil as written.
@@ -72,11 +72,6 @@ pub(super) fn read(folder: &Folder, body: &[u8]) -> Result<Question, Refusal> {
     Ok(stages.question(question, line))
 }
 
-/// Whether the soil as written is asked for.
-fn fields_are_nominal(stages: &Stages) -> bool {
-    !stages.has_samples()
-}
-
 fn steering(fields: &Fields) -> Result<Steering, Refusal> {
     let Some(word) = fields.text("steering")? else { return Ok(Steering::None) };
     Steering::ALL.into_iter().find(|it| it.name() == word).ok_or_else(|| {
@@ -85,8 +80,11 @@ fn steering(fields: &Fields) -> Result<Steering, Refusal> {
     })
 }
 
+/// A limit of the verdicts.
+type Limit = fn(&Rule) -> f64;
+
 /// The limits of the verdicts by their keys.
-const RULE: [(&str, fn(&Rule) -> f64); 5] = [
+const RULE: [(&str, Limit); 5] = [
     ("go_slip_ratio", |it| it.go_slip_ratio),
     ("go_probability", |it| it.go_probability),
     ("go_drift_m_per_m", |it| it.go_drift_m_per_m),

@@ -28,7 +28,7 @@ pub(super) trait Staged: 'static {
 /// Which samples are asked for, one after another, and what is to be shown.
 #[derive(Clone, Debug)]
 pub(super) struct Stages {
-    stages: Vec<Option<Sampling>>,
+    samplings: Vec<Option<Sampling>>,
     /// Whether sentences, documents and the command come along.
     shows: bool,
     /// Whether figures come along, too.
@@ -69,22 +69,22 @@ impl Stages {
         };
         let draws = fields.truth("figures")?;
         let (shows, is_strict) = (fields.truth("shown")? || draws, fields.truth("strict")?);
-        Ok(Self { stages, shows, draws, is_strict })
+        Ok(Self { samplings: stages, shows, draws, is_strict })
     }
 
     /// Whether any stage has samples.
     pub(super) fn has_samples(&self) -> bool {
-        self.stages.iter().any(Option::is_some)
+        self.samplings.iter().any(Option::is_some)
     }
 
     /// The same without samples.
     pub(super) fn without_samples(self) -> Self {
-        Self { stages: vec![None], ..self }
+        Self { samplings: vec![None], ..self }
     }
 
     /// Checks that samples of so many rows are not more than anyone can have meant.
     pub(super) fn check_rows(&self, rows: usize) -> Result<(), Refusal> {
-        let samples = self.stages.iter().flatten().map(|it| it.count).max().unwrap_or(1);
+        let samples = self.samplings.iter().flatten().map(|it| it.count).max().unwrap_or(1);
         if rows.saturating_mul(samples as usize) <= MOST_ROWS {
             return Ok(());
         }
@@ -97,7 +97,7 @@ impl Stages {
     /// The question, answered stage by stage.
     pub(super) fn question(self, mut asked: impl Staged, line: CommandLine) -> Question {
         Question::new(move |go_on, send| {
-            for sampling in self.stages {
+            for sampling in self.samplings {
                 asked.sample(sampling);
                 let is_on = || go_on.is_on();
                 let options = AnswerOptions {
