@@ -38,6 +38,8 @@ pub(crate) mod traverse;
 pub(crate) mod validate;
 pub(crate) mod wheel_test;
 
+use grouser::answers::with_files;
+use grouser::document::given_file::GivenFile;
 use grouser::document::json;
 use serde::Serialize;
 use serde_json::Value;
@@ -57,6 +59,13 @@ pub(crate) struct Answer<R> {
     model_weights: Option<Value>,
     #[serde(flatten)]
     results: R,
+}
+
+/// Adds what files gave to the inputs of an answer, where there are any.
+fn add_files(inputs: &mut Value, given: &[GivenFile]) {
+    if let Value::Object(inputs) = inputs {
+        *inputs = with_files(inputs, given).into_owned();
+    }
 }
 
 impl<R: Serialize> Answer<R> {

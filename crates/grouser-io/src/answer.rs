@@ -3,15 +3,17 @@
 //! A study declares its answer once. What writes one to a terminal, as JSON, CSV, a page or a folder
 //! knows no study: it takes the parts in their order.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use grouser_core::contact::validity::Finding;
 use serde::ser::{Serialize, SerializeMap, Serializer};
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 
 use super::columns::Column;
 use super::document::Document;
 use super::figure::{Chart, Figure};
+use super::given_file::GivenFile;
 use super::loaded::Loaded;
 use super::table::{Table, WithObject};
 use super::tree::Companion;
@@ -61,6 +63,8 @@ pub struct Answer {
     pub columns: Vec<ColumnMeaning>,
     /// The documents that it was computed from.
     pub documents: Vec<Attached>,
+    /// What the files gave that it was computed from. As JSON they stand among the inputs.
+    pub given: Vec<GivenFile>,
     /// Commands to go on with, typed in the folder of its page. A front end writes them: it alone
     /// knows its options.
     pub next: Vec<String>,
@@ -226,7 +230,7 @@ impl Answer {
         }
     }
 
-    /// Adds a document by the name of its file.
+    /// Adds a document by the name of its file, and what the files gave that it names.
     pub fn attach<V>(&mut self, file: impl Into<String>, document: &Loaded<V>) {
         self.documents.push(Attached {
             file: file.into(),
@@ -234,6 +238,7 @@ impl Answer {
             companions: document.companions.clone(),
             assumptions: document.assumptions.clone(),
         });
+        self.given.extend(document.given.iter().cloned());
     }
 
     /// Adds a figure to the page.
@@ -310,6 +315,20 @@ impl Answer {
     }
 }
 
+/// Inputs with what files gave, where there are any.
+#[must_use]
+pub fn with_files<'i>(
+    inputs: &'i Map<String, Value>,
+    given: &[GivenFile],
+) -> Cow<'i, Map<String, Value>> {
+    if given.is_empty() {
+        return Cow::Borrowed(inputs);
+    }
+    let mut inputs = inputs.clone();
+    inputs.insert("files".to_owned(), json!(given));
+    Cow::Owned(inputs)
+}
+
 impl Member {
     /// Rows under a key.
     pub fn rows(key: &'static str, table: impl Into<Arc<Table>>) -> Self {
@@ -333,7 +352,7 @@ impl Serialize for Answer {
         let schema = self.schema.as_ref().unwrap_or(&self.name);
         map.serialize_entry("schema", &format!("grouser.{schema}.v1"))?;
         map.serialize_entry("version", env!("CARGO_PKG_VERSION"))?;
-        map.serialize_entry("inputs", &self.inputs)?;
+        map.serialize_entry("inputs", &with_files(&self.inputs, &self.given))?;
         if let Some(belief) = &self.belief {
             map.serialize_entry("belief", belief)?;
         }
@@ -362,8 +381,6 @@ impl Serialize for Answer {
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
-
     use super::*;
     use crate::cell::Values;
 

@@ -158,9 +158,7 @@ pub fn read_data_set(
         Ok(case)
     });
     let value = DataSet { file, gravity, cases: cases.collect::<Result<_, DocumentError>>()? };
-    let (assumed, companions) = (Vec::new(), Vec::new());
-    let notes = Vec::new();
-    Ok(Loaded { document, value, uncertain: None, assumptions, assumed, companions, notes })
+    Ok(Loaded { assumptions, ..Loaded::of(document, value) })
 }
 
 impl CaseSection {

@@ -95,21 +95,30 @@ impl Measure {
         }
     }
 
-    /// What it is: a sentence without its full stop.
+    /// What it is.
+    #[must_use]
+    pub(crate) const fn sentence(self) -> &'static str {
+        match self {
+            Self::LimitSlope => "The steepest slope on which a heading holds the course.",
+            Self::SinkageRatio => "The deepest wheel's sinkage over its shearing radius, h/r_s.",
+            Self::SlipRatio => "Slip ratio of the wheels without its sign, |s|.",
+            Self::EnergyPerMetre => "Work of the wheels per metre of way.",
+            Self::Crab => "Crab angle that holds the course, without its sign.",
+            Self::Torque => "The largest torque of a wheel.",
+            Self::TippingSlope => {
+                "The slope on which the rover at rest tips over, at its worst yaw."
+            }
+            Self::Width => "Width of the rover over its wheels.",
+            Self::WheelMass => "Mass of all wheels.",
+        }
+    }
+
+    /// The same without its full stop.
     #[must_use]
     pub const fn doc(self) -> &'static str {
-        match self {
-            Self::LimitSlope => "The steepest slope on which a heading holds the course",
-            Self::SinkageRatio => "The deepest wheel's sinkage over its shearing radius, h/r_s",
-            Self::SlipRatio => "Slip ratio of the wheels without its sign, |s|",
-            Self::EnergyPerMetre => "Work of the wheels per metre of way",
-            Self::Crab => "Crab angle that holds the course, without its sign",
-            Self::Torque => "The largest torque of a wheel",
-            Self::TippingSlope => {
-                "The slope on which the rover at rest tips over, at its worst yaw"
-            }
-            Self::Width => "Width of the rover over its wheels",
-            Self::WheelMass => "Mass of all wheels",
+        match self.sentence().as_bytes() {
+            [text @ .., b'.'] => self.sentence().split_at(text.len()).0,
+            _ => self.sentence(),
         }
     }
 

@@ -13,13 +13,12 @@ use super::kind::Kind;
 use super::loaded::Loaded;
 use super::overrides::Overrides;
 use super::priors;
-use super::read::{Written, written};
+use super::read::{Written, understood, written};
 use super::source::Source;
 use super::tree::{Entry, Node, Value};
-use super::uncertain_soil;
 use super::unit::DEG;
-use super::values::Described as _;
 use super::varied::{Key, Numbers as _, Varied};
+use grouser_core::contact::Model;
 use grouser_core::simulation::Scenario;
 use grouser_core::vehicle::Rover;
 
@@ -65,6 +64,14 @@ pub struct DesignGround {
 /// A design's task that was read.
 pub type LoadedDesign = Loaded<DesignTask>;
 
+impl DesignTask {
+    /// The wheel–soil model of a rover that may be chosen, on its first ground.
+    #[must_use]
+    pub fn model(&self, candidate: usize) -> &Model {
+        &self.candidates[candidate].grounds[0].scenario.value.model
+    }
+}
+
 /// Reads a design's task with its rovers and soils.
 ///
 /// # Errors
@@ -84,8 +91,7 @@ pub fn read_design(source: &Source, overrides: &Overrides) -> Result<LoadedDesig
     let assumed = soil.as_ref().map_or_else(Vec::new, priors::assumed);
     let DesignSettings { limits, probability, .. } = settings;
     let value = DesignTask { candidates, free, weights, limits, probability };
-    let (companions, notes) = (Vec::new(), Vec::new());
-    Ok(Loaded { document, value, uncertain: None, assumptions, assumed, companions, notes })
+    Ok(Loaded { assumptions, assumed, ..Loaded::of(document, value) })
 }
 
 fn settings_of(document: &Document) -> DesignSettings {
@@ -186,54 +192,48 @@ fn candidate(
     choice: &[Chosen<'_>],
     free: &[(String, [f64; 2])],
 ) -> Result<RoverChoice, DocumentError> {
-    let mut own = overrides.clone();
-    for (key, node) in choice {
-        own.of_document(Kind::Design, key, &node.origin, (*node).clone());
-    }
+    let own = chosen_by(overrides, choice);
     let mut grounds = vec![ground(source, &own)?];
     let others = tree.entry("also").map(|entry| &entry.node.value);
     if let Some(Value::List(others)) = others {
         for other in others {
-            if entries_of(other).is_empty() {
+            let differs = entries_of(other);
+            if differs.is_empty() {
                 let problem = Problem::Conflict("a second ground differs from the first in a key");
                 return Err(DocumentError::at(&other.origin, problem));
             }
-            let mut there = own.clone();
-            for (key, node) in entries_of(other) {
-                there.of_document(Kind::Design, &key, &node.origin, node.clone());
-            }
-            grounds.push(ground(source, &there)?);
+            grounds.push(ground(source, &chosen_by(&own, &differs))?);
         }
     }
-    let varied = Varied {
-        value: grounds[0].scenario.value.clone(),
-        document: grounds[0].scenario.document.clone(),
-        notes: Vec::new(),
-    };
-    let mut of_base = overrides.clone();
-    for (key, node) in choice.iter().filter(|(key, _)| key == ROVER) {
-        of_base.of_document(Kind::Design, key, &node.origin, (*node).clone());
-    }
-    let base = ground(source, &of_base)?.scenario.value.rover;
+    let first = &grounds[0].scenario;
+    let varied = Varied::of(first.value.clone(), first.document.clone());
+    let of_rover = choice.iter().filter(|(key, _)| key == ROVER);
+    let base = ground(source, &chosen_by(overrides, of_rover))?.scenario.value.rover;
     let given = free.iter().map(|(path, ends)| Ok(free_key(&varied, path, *ends, tree)?.value));
     let given = given.collect::<Result<_, DocumentError>>()?;
     let chosen = choice.iter().map(|(key, node)| (key.clone(), node.to_json())).collect();
     Ok(RoverChoice { chosen, grounds, base, given })
 }
 
+/// The overrides with the values that a design gives some of its keys.
+fn chosen_by<'c, 't: 'c>(
+    overrides: &Overrides,
+    choice: impl IntoIterator<Item = &'c Chosen<'t>>,
+) -> Overrides {
+    let mut with = overrides.clone();
+    for (key, node) in choice {
+        with.of_document(Kind::Design, key, &node.origin, (*node).clone());
+    }
+    with
+}
+
 /// Where designs are measured, by a document with other values in some places.
 fn ground(source: &Source, overrides: &Overrides) -> Result<DesignGround, DocumentError> {
-    let Written { tree, document, assumptions } = written(Kind::Design, source, overrides)?;
-    let course = settings_of(&document).course;
-    let mut document = scenario_of(&document);
+    let written = written(Kind::Design, source, overrides)?;
+    let course = settings_of(&written.document).course;
+    let document = scenario_of(&written.document);
     let slope = DEG.to_si(document.number(SLOPE.name).unwrap_or_default());
-    let soil = document.part(Kind::Soil, "soil");
-    let assumed = soil.as_ref().map_or_else(Vec::new, priors::assumed);
-    let (value, notes) = Scenario::read(&document, &tree)?;
-    let mut companions = Vec::new();
-    let soil = tree.entry("soil").map_or(&tree, |entry| &entry.node);
-    let uncertain = uncertain_soil::read(&mut document, "soil", soil, &mut companions)?;
-    let scenario = Loaded { document, value, uncertain, assumptions, assumed, companions, notes };
+    let scenario = understood(Kind::Scenario, Written { document, ..written })?;
     Ok(DesignGround { scenario, slope, course })
 }
 

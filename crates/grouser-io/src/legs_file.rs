@@ -10,6 +10,7 @@ use grouser_raster::{CoordinateSystem, Fault};
 use serde_json::Value as Json;
 
 use super::error::{DocumentError, Problem};
+use super::given_file::{Content, GivenFile};
 use super::lines::{cells, check_count, lines};
 use super::mission::LEGS_FROM;
 use super::source::{LARGEST_FILE, read_file};
@@ -175,16 +176,38 @@ fn in_legs(text: &Text, fault: &Fault) -> DocumentError {
     DocumentError::whole(&text.label, Problem::NoLegs(what)).with_hint(hint)
 }
 
+/// What the files of a mission's legs gave.
+pub(crate) fn given(mission: &Node) -> Vec<GivenFile> {
+    let mut files: Vec<(&Arc<Text>, u64)> = Vec::new();
+    for leg in legs_of(mission) {
+        let text = &leg.origin.text;
+        match files.last_mut().filter(|(file, _)| Arc::ptr_eq(file, text)) {
+            Some((_, legs)) => *legs += 1,
+            None => files.push((text, 1)),
+        }
+    }
+    let is_file = |(text, _): &(&Arc<Text>, u64)| !Arc::ptr_eq(text, &mission.origin.text);
+    let given = |(text, legs): (&Arc<Text>, u64)| {
+        GivenFile::new(text.label.clone(), Content::Legs, legs, legs)
+    };
+    files.into_iter().filter(is_file).map(given).collect()
+}
+
+/// The legs of a mission.
+fn legs_of(mission: &Node) -> &[Node] {
+    match mission.entry(LEGS).map(|entry| &entry.node.value) {
+        Some(Value::List(legs)) => legs,
+        _ => &[],
+    }
+}
+
 /// Compares the systems that the files of a mission's legs name with that of its map; notes where
 /// that cannot be done.
 pub(crate) fn compare_systems(
     mission: &Node,
     map: &CoordinateSystem,
 ) -> Result<Vec<String>, DocumentError> {
-    let Some(Value::List(legs)) = mission.entry(LEGS).map(|entry| &entry.node.value) else {
-        return Ok(Vec::new());
-    };
-    let mut texts: Vec<&Arc<Text>> = legs.iter().map(|leg| &leg.origin.text).collect();
+    let mut texts: Vec<&Arc<Text>> = legs_of(mission).iter().map(|leg| &leg.origin.text).collect();
     texts.dedup_by(|one, other| Arc::ptr_eq(one, other));
     let note = |text: &Arc<Text>| {
         let remark = compare_system(text.content.as_bytes(), map);

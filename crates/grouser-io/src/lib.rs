@@ -49,6 +49,7 @@ pub mod escape;
 mod field;
 pub mod figure;
 pub mod file;
+pub mod given_file;
 mod gravity;
 pub mod guard;
 pub mod json;

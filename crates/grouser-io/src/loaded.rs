@@ -1,6 +1,7 @@
 //! A document that was read: its keys in their own units, and the domain's value in SI.
 
 use super::document::Document;
+use super::given_file::GivenFile;
 use super::priors::Assumed;
 use super::tree::Companion;
 use super::uncertain_soil::UncertainSoil;
@@ -35,11 +36,27 @@ pub struct Loaded<V> {
     pub assumed: Vec<Assumed>,
     /// Files that the resolved document names, to be written beside it.
     pub companions: Vec<Companion>,
-    /// What is odd about files that it names, such as a map of heights.
+    /// What the files gave that it names, such as a map of heights.
+    pub given: Vec<GivenFile>,
+    /// What is odd about them.
     pub notes: Vec<String>,
 }
 
 impl<V> Loaded<V> {
+    /// A document that assumes nothing, and names no file.
+    pub(crate) fn of(document: Document, value: V) -> Self {
+        Self {
+            document,
+            value,
+            uncertain: None,
+            assumptions: Vec::new(),
+            assumed: Vec::new(),
+            companions: Vec::new(),
+            given: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+
     /// The soils that it, or its soil, may be, if the document itself says how well its numbers are
     /// known.
     #[must_use]
@@ -58,7 +75,7 @@ impl<V> Loaded<V> {
     /// The same document with another meaning: that of a part of its value.
     #[must_use]
     pub fn with_value<W>(&self, value: W) -> Loaded<W> {
-        let Self { document, uncertain, assumptions, assumed, companions, notes, .. } = self;
+        let Self { document, uncertain, assumptions, assumed, companions, given, notes, .. } = self;
         Loaded {
             document: document.clone(),
             value,
@@ -66,6 +83,7 @@ impl<V> Loaded<V> {
             assumptions: assumptions.clone(),
             assumed: assumed.clone(),
             companions: companions.clone(),
+            given: given.clone(),
             notes: notes.clone(),
         }
     }

@@ -50,6 +50,7 @@ pub use source::Source;
 
 use super::escape;
 use super::file;
+use super::given_file::{Content, GivenFile};
 use row::{Header, name_of};
 use taken::{LeftOut, Row, Taken};
 use wheel_tests::{Cell, Quantity, Trial, WheelTests};
@@ -75,6 +76,8 @@ pub struct Measurements {
     pub tests: WheelTests,
     /// The line of the file in which each trial stands.
     pub lines: Vec<u64>,
+    /// What the file gave.
+    pub given: GivenFile,
     /// What was noticed and left: columns not used, values that look like another unit's.
     pub notes: Vec<String>,
 }
@@ -186,7 +189,9 @@ pub fn read_from(
     notes.extend(notes::suspicions(&rows));
     // They quote what the file says.
     let notes = notes.iter().map(|note| escape::line(note).into_owned()).collect();
-    Ok(Measurements { lines: rows.iter().map(|row| row.line).collect(), notes, tests: tests(rows) })
+    let given = GivenFile::new(label, Content::WheelTests, table.rows(), rows.len() as u64);
+    let lines = rows.iter().map(|row| row.line).collect();
+    Ok(Measurements { lines, given, notes, tests: tests(rows) })
 }
 
 fn why_there_are_none(choice: &Choice, left_out: Option<LeftOut>) -> MeasurementProblem {

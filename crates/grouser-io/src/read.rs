@@ -11,6 +11,7 @@ use super::check;
 use super::describe;
 use super::document::Document;
 use super::error::{DocumentError, Place, Problem};
+use super::given_file::NamedFiles;
 use super::kind::{EACH, Kind, PRIORS_KEY, Part};
 use super::legs_file;
 use super::loaded::Loaded;
@@ -150,13 +151,21 @@ fn read<V: Described>(
     source: &Source,
     overrides: &Overrides,
 ) -> Result<Loaded<V>, DocumentError> {
-    let Written { tree, mut document, assumptions } = written(kind, source, overrides)?;
+    understood(kind, written(kind, source, overrides)?)
+}
+
+/// What a document of a kind that stands for one value means.
+pub(crate) fn understood<V: Described>(
+    kind: Kind,
+    written: Written,
+) -> Result<Loaded<V>, DocumentError> {
+    let Written { tree, mut document, assumptions } = written;
     let soil = kind.soil_key().and_then(|key| match key {
         "" => Some(document.clone()),
         key => document.part(Kind::Soil, key),
     });
     let assumed = soil.as_ref().map_or_else(Vec::new, priors::assumed);
-    let (value, notes) = V::read(&document, &tree)?;
+    let (value, NamedFiles { given, notes }) = V::read(&document, &tree)?;
     let mut companions = Vec::new();
     let uncertain = match kind.soil_key() {
         Some(key) => {
@@ -165,7 +174,7 @@ fn read<V: Described>(
         }
         None => None,
     };
-    Ok(Loaded { document, value, uncertain, assumptions, assumed, companions, notes })
+    Ok(Loaded { document, value, uncertain, assumptions, assumed, companions, given, notes })
 }
 
 /// A document that was found, checked and completed, but not yet understood.

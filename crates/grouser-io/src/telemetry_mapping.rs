@@ -152,9 +152,7 @@ pub fn read_telemetry_mapping(
     let mut given = Given::default();
     TELEMETRY_MAPPING.put(&mut given, document.keys());
     let value = TelemetryMapping::read(given, &tree)?;
-    let (assumed, companions) = (Vec::new(), Vec::new());
-    let notes = Vec::new();
-    Ok(Loaded { document, value, uncertain: None, assumptions, assumed, companions, notes })
+    Ok(Loaded { assumptions, ..Loaded::of(document, value) })
 }
 
 impl TelemetryMapping {

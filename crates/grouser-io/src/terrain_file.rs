@@ -1,5 +1,6 @@
 //! Maps of heights that scenarios and missions name.
 
+use std::iter;
 use std::mem::take;
 use std::path::{Path, absolute};
 use std::sync::Arc;
@@ -10,6 +11,7 @@ use super::describe::zones::FILE as SOIL_FILE;
 use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::file;
+use super::given_file::{Content, GivenFile, NamedFiles};
 use super::legs_file;
 use super::raster_file::{Found, found, key, options};
 use super::tree::{Entry, HeldMap, Node, Value};
@@ -57,14 +59,14 @@ pub(crate) fn read(
     scenario: &mut Scenario,
     document: &Document,
     tree: &Node,
-) -> Result<Vec<String>, DocumentError> {
+) -> Result<NamedFiles, DocumentError> {
     let ground = &mut scenario.ground;
     if ground.is_plane() {
-        return Ok(Vec::new());
+        return Ok(NamedFiles::default());
     }
     let Some(path) = document.text(&key(FILE)) else {
-        zones_file::read(ground, document, tree)?;
-        return Ok(Vec::new());
+        let given = zones_file::read(ground, document, tree)?.into_iter().collect();
+        return Ok(NamedFiles { given, notes: Vec::new() });
     };
     let fault = |key_of: &str, (problem, hint)| {
         DocumentError::at(tree.origin_of(&key(key_of)), problem).with_hint(hint)
@@ -89,9 +91,18 @@ pub(crate) fn read(
     if document.get(&key(START)).is_none() {
         ground.start = middle(model.extent());
     }
+    let heights = given_heights(path, &model);
     ground.shape = Shape::Map(model);
-    zones_file::read(ground, document, tree)?;
-    Ok(notes)
+    let zones = zones_file::read(ground, document, tree)?;
+    Ok(NamedFiles { given: iter::once(heights).chain(zones).collect(), notes })
+}
+
+/// What a map of heights gave.
+///
+/// * `file`: its name
+fn given_heights(file: &str, model: &ElevationModel) -> GivenFile {
+    let (cells, missing) = (model.grid().columns * model.grid().rows, model.missing());
+    GivenFile::new(file, Content::Heights, cells as u64, (cells - missing) as u64)
 }
 
 /// The name of a file without its folder.

@@ -221,7 +221,7 @@ pub(crate) fn read(
         return Ok(None);
     }
     let own = without_uncertainty(&soil);
-    let base = Varied { value: Soil::of(&soil), document: own, notes: Vec::new() };
+    let base = Varied::of(Soil::of(&soil), own);
     let (own, is_stated) = (stated.clone().unwrap_or_default(), stated.is_some());
     let statements = [
         Statement { stated: &own, tree, table: "uncertainty.", prefix: "", yields: false },

@@ -20,6 +20,7 @@ use super::describe::{rover, scenario, soil, wheel};
 use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::field::Inner;
+use super::given_file::NamedFiles;
 use super::kind::Kind;
 use super::priors;
 use super::raster_file::key;
@@ -113,21 +114,21 @@ pub trait Described: Clone + 'static {
     ///
     /// # Errors
     /// [`DocumentError`] for a file that is not what it should be.
-    fn fetch(&mut self, _document: &Document, _tree: &Node) -> Result<Vec<String>, DocumentError> {
-        Ok(Vec::new())
+    fn fetch(&mut self, _document: &Document, _tree: &Node) -> Result<NamedFiles, DocumentError> {
+        Ok(NamedFiles::default())
     }
 
     /// What a document means, with what stands in files that it names, all of it in force; and what
-    /// is odd about these files.
+    /// there is to say of these files.
     ///
     /// * `tree`: the document as it was written
     ///
     /// # Errors
     /// [`DocumentError`] for files that are wrong, and values that do not go together.
-    fn read(document: &Document, tree: &Node) -> Result<(Self, Vec<String>), DocumentError> {
+    fn read(document: &Document, tree: &Node) -> Result<(Self, NamedFiles), DocumentError> {
         let mut value = Self::of(document);
-        let notes = value.fetch(document, tree)?;
-        Ok((value.settled().map_err(|misfit| misfit.of(tree))?, notes))
+        let files = value.fetch(document, tree)?;
+        Ok((value.settled().map_err(|misfit| misfit.of(tree))?, files))
     }
 
     /// The value, all of it in force.
@@ -470,7 +471,7 @@ impl Described for Scenario {
         }
     }
 
-    fn fetch(&mut self, document: &Document, tree: &Node) -> Result<Vec<String>, DocumentError> {
+    fn fetch(&mut self, document: &Document, tree: &Node) -> Result<NamedFiles, DocumentError> {
         if let Some(slope) = document.number(SLOPE).filter(|_| !self.ground.is_plane()) {
             self.check_without(SLOPE, slope).map_err(|misfit| misfit.of(tree))?;
         }

@@ -9,6 +9,7 @@ use std::ops::RangeInclusive;
 use super::check::nearest;
 use super::document::Document;
 use super::error::{DocumentError, Problem};
+use super::given_file::NamedFiles;
 use super::kind::Kind;
 use super::schema::range;
 use super::tree::{Node, Origin};
@@ -24,8 +25,8 @@ pub struct Varied<V> {
     pub value: V,
     /// Its document, in the units of the keys.
     pub document: Document,
-    /// What is odd about files that it names.
-    pub notes: Vec<String>,
+    /// What there is to say of files that it names.
+    pub files: NamedFiles,
 }
 
 /// A number of a document, under a key.
@@ -54,6 +55,13 @@ pub trait Numbers {
     fn check_with(&self, keys: &[Key], values: &[f64]) -> Result<(), Misfit>;
 }
 
+impl<V> Varied<V> {
+    /// A value whose files nobody is told of.
+    pub fn of(value: V, document: Document) -> Self {
+        Self { value, document, files: NamedFiles::default() }
+    }
+}
+
 impl<V: Described> Varied<V> {
     /// What a document means.
     ///
@@ -62,8 +70,8 @@ impl<V: Described> Varied<V> {
     /// # Errors
     /// [`DocumentError`] for values that do not go together, with their place.
     pub fn new(document: Document, tree: &Node) -> Result<Self, DocumentError> {
-        let (value, notes) = V::read(&document, tree)?;
-        Ok(Self { value, document, notes })
+        let (value, files) = V::read(&document, tree)?;
+        Ok(Self { value, document, files })
     }
 
     /// The value with others under some keys.
@@ -236,7 +244,7 @@ mod tests {
         assert!(in_document.contains(&put) && put.contains("[terrain]"), "{put}: {in_document}");
         assert_eq!(scenario_with(&level.value, [("slope_deg", 0.0)]).unwrap(), level.value);
         let (value, document) = (level.value.clone(), level.document.clone());
-        let varied = Varied { value, document, notes: Vec::new() };
+        let varied = Varied::of(value, document);
         let hint = varied.key("slope_deg").err().and_then(|lacking| lacking.hint);
         assert!(hint.unwrap().contains("[terrain]"));
     }

@@ -9,12 +9,14 @@ use super::describe::zones::{CLASS, FILE, LEGEND, NAME, SOIL};
 use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::file;
+use super::given_file::{Content, GivenFile};
 use super::kind::Kind;
 use super::presets::preset;
 use super::raster_file::{Found, found, key, options};
 use super::tree::{Entry, Node, Origin, Value};
 use grouser_core::soil::Soil;
 use grouser_core::terrain::{Extent, Ground, Shape, SoilZones};
+use grouser_raster::zones::Counts;
 use grouser_raster::zones::geojson::compare_system_of;
 use grouser_raster::{CoordinateSystem, ReadOptions, Remark, ZoneKey, read_zones, zone_names};
 
@@ -62,20 +64,21 @@ fn row(name: &str, origin: &Origin) -> Node {
     Node { value: Value::Table(vec![entry(NAME), entry(SOIL)]), origin: origin.clone() }
 }
 
-/// Reads the zones that a document names, if it names some, and puts them into its ground.
+/// Reads the zones that a document names, if it names some, and puts them into its ground; what
+/// their file gave.
 ///
 /// * `tree`: the document as it was written
 pub(crate) fn read(
     ground: &mut Ground,
     document: &Document,
     tree: &Node,
-) -> Result<(), DocumentError> {
+) -> Result<Option<GivenFile>, DocumentError> {
     let rows = document.get(&key(LEGEND)).and_then(Json::as_array);
     let rows: &[Json] = rows.map_or(&[], Vec::as_slice);
     let Some(path) = document.text(&key(FILE)) else {
         ground.zones = None;
         if rows.is_empty() {
-            return Ok(());
+            return Ok(None);
         }
         let problem = Problem::Conflict("zones have soils, and no file says where they lie");
         let hint = Some("`soil_file` names it".to_owned());
@@ -103,11 +106,11 @@ pub(crate) fn read(
         Shape::Plane(_) | Shape::Formula(_) | Shape::Own(_) => None,
     };
     let zones = zones(Path::new(path), &options(document), extent, &legend, soils);
-    let zones = zones.map_err(|(problem, hint)| {
+    let (zones, given) = zones.map_err(|(problem, hint)| {
         DocumentError::at(tree.origin_of(&key(FILE)), problem).with_hint(hint)
     })?;
     ground.zones = Some(Arc::new(zones));
-    Ok(())
+    Ok(Some(given))
 }
 
 /// What a row of the legend is of; none if it does not say, or says both.
@@ -129,7 +132,7 @@ fn zones(
     ground: Option<Extent>,
     legend: &[(ZoneKey, Option<usize>)],
     soils: Vec<Soil>,
-) -> Result<SoilZones, Found> {
+) -> Result<(SoilZones, GivenFile), Found> {
     file::check_regular(path).map_err(|problem| (Problem::from(problem), None))?;
     // A band, and the height that stands for a missing one, are those of the map.
     let options = ReadOptions { band: None, missing: None, ..*options };
@@ -137,8 +140,12 @@ fn zones(
     let map = map.map_err(|error| found("file of zones", &error.fault))?;
     let hint =
         "a row `[[terrain.zone]]` has `class` or `name`, and `soil`; names of presets need none";
-    map.with_legend(legend, soils).map_err(|fault| {
+    let Counts { there, used } = map.counts(ground.as_ref());
+    let content = if map.is_raster() { Content::ZoneCells } else { Content::Zones };
+    let given = GivenFile::new(path.display().to_string(), content, there, used);
+    let zones = map.with_legend(legend, soils).map_err(|fault| {
         let (problem, own) = found("file of zones", &fault);
         (problem, own.or_else(|| Some(hint.to_owned())))
-    })
+    })?;
+    Ok((zones, given))
 }

@@ -139,7 +139,8 @@ impl TelemetryError {
                     .to_owned(),
             ),
             Problem::OverBudget(_) => Some(
-                "`mcap decompress LOG -o UNPACKED` writes it unpacked, if it is meant so"
+                "--max-unpacked-mib N reads more, if it is meant so; or unpack it first, such as \
+                 by `mcap decompress LOG -o UNPACKED`"
                     .to_owned(),
             ),
             _ => None,

@@ -14,6 +14,7 @@ use std::rc::Rc;
 
 use flate2::read::MultiGzDecoder;
 use grouser_core::vehicle::Rover;
+use grouser_io::given_file::GivenFile;
 use grouser_io::measurements::telemetry::{
     Lost, Odometry, TelemetryReader, TelemetryRecord, TelemetryRows,
 };
@@ -23,7 +24,7 @@ use self::mapped::MappedTable;
 use self::mcap::McapLog;
 use self::options::LogOptions;
 use self::parquet::ParquetLog;
-use crate::error::{Problem, TelemetryError};
+use crate::error::{OverBudget, Problem, TelemetryError};
 use crate::mcap::format::MAGIC;
 
 /// How a file that is packed by gzip begins.
@@ -80,7 +81,9 @@ impl TelemetryLog {
             return Ok(Self { label, source: Source::Parquet(log) });
         }
         let source: Box<dyn Read> = if start.starts_with(GZIP) {
-            Box::new(MultiGzDecoder::new(BufReader::new(file)))
+            let budget = options.budget(&file).map_err(of_disk)?;
+            let source = MultiGzDecoder::new(BufReader::new(file));
+            Box::new(Unpacked { source, rest: budget.most_unpacked(), budget })
         } else {
             Box::new(BufReader::new(file))
         };
@@ -176,6 +179,12 @@ impl TelemetryLog {
         self.table().lost()
     }
 
+    /// What it gave so far.
+    #[must_use]
+    pub fn given(&self) -> GivenFile {
+        self.table().given(self.label())
+    }
+
     /// The share of its rows, or readings, that was used so far [-].
     #[must_use]
     pub fn share_used(&self) -> f64 {
@@ -224,6 +233,23 @@ fn first_bytes(file: &mut File) -> io::Result<Vec<u8>> {
     let mut start = Vec::new();
     file.take(ENOUGH).read_to_end(&mut start)?;
     Ok(start)
+}
+
+/// What a source unpacks to, within a budget.
+struct Unpacked<R> {
+    source: R,
+    /// What is left of the budget [bytes].
+    rest: u64,
+    budget: OverBudget,
+}
+
+impl<R: Read> Read for Unpacked<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.source.read(buffer)?;
+        let over = || io::Error::other(format!("{}; --max-unpacked-mib N reads more", self.budget));
+        self.rest = self.rest.checked_sub(count as u64).ok_or_else(over)?;
+        Ok(count)
+    }
 }
 
 /// Notices whether a source ends within a row.

@@ -57,7 +57,7 @@ impl Read {
         match self {
             Self::Scenario(it) => &it.notes,
             Self::Mission(it) => &it.notes,
-            Self::Campaign(it) => it.campaign().notes(),
+            Self::Campaign(it) => &it.campaign().files().notes,
             Self::Soil(_) | Self::Wheel(_) | Self::Rover(_) | Self::Design(_) => &[],
         }
     }

@@ -212,6 +212,7 @@ fn study(task: &Task, mut mobility: SlopeStudy, raster: &Raster) -> PyResult<Rou
     match &task.keep_out {
         Some(file) => study
             .keeping_out_of(file, &raster.grid.extent())
+            .map(|(study, _)| study)
             .map_err(|error| errors::of_raster(&error)),
         None => Ok(study),
     }

@@ -47,7 +47,7 @@ pub(crate) fn pool(_under_pythons_lock: Python<'_>) -> PyResult<Arc<ThreadPool>>
 /// Computes without Python's lock; parallel parts run on the threads of this process.
 ///
 /// # Errors
-/// The same as [`pool`], and `InternalError` for a panic.
+/// Those of [`pool`], and `InternalError` for a panic.
 pub(crate) fn detached<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
     let pool = pool(py)?;
     released(py, || pool.install(work))

@@ -42,7 +42,7 @@ impl VariedKeys {
             let Some(path) = name.strip_prefix(prefix) else { continue };
             let key = |(value, document): &(&V, &Document)| {
                 let (value, document) = ((*value).clone(), (*document).clone());
-                let one = Varied { value, document, notes: Vec::new() };
+                let one = Varied::of(value, document);
                 one.key(path).map_err(|error| unknown(&name, &error))
             };
             let found = documents.iter().map(key).collect::<PyResult<Vec<_>>>()?;

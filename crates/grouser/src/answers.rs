@@ -15,9 +15,14 @@ pub mod slip_from_current;
 pub mod validation;
 pub mod wheel_test;
 
+use std::path::Path;
+
+use grouser_raster::Raster;
+
 use crate::contact::validity::Finding;
 use crate::document::Document;
 use crate::document::columns;
+use crate::document::given_file::{Content, GivenFile};
 use crate::document::gradient::NoSuchKey;
 use crate::document::reading;
 use crate::document::statistics::NothingAccepted;
@@ -74,6 +79,13 @@ pub fn check_flags<'f>(
         format!("row {} ({})", place + 1, reading::row_in_words(&row.row(0)))
     };
     OutsideDomain::check(rows, named)
+}
+
+/// What a map of heights gave.
+fn given_heights(file: &Path, raster: &Raster) -> GivenFile {
+    let known = raster.heights.iter().filter(|it| it.is_finite()).count();
+    let name = file.display().to_string();
+    GivenFile::new(name, Content::Heights, raster.heights.len() as u64, known as u64)
 }
 
 /// The flags of steady motions on the soil as written: on each of some courses [rad], and on each

@@ -21,12 +21,14 @@ mod soil_family;
 pub mod study;
 pub mod validation;
 pub mod validity;
+mod zones;
 
 pub use grouser_io::*;
 
 pub use campaign::{Campaign, read_campaign};
 pub use doubts::doubts;
 pub use soil_family::{FitKey, SoilFamily};
+pub use zones::given_to_drives;
 
 /// Checks a document of any kind, named by its `schema`.
 ///

@@ -61,6 +61,7 @@ pub mod verdict;
 pub mod wheel_speeds;
 pub mod wheel_test;
 pub mod wheel_test_band;
+pub mod zones_met;
 
 pub use grouser_io::measurements::{slope_tests, wheel_tests as measurement};
 use grouser_io::statistics::random;

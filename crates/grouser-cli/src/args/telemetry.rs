@@ -28,6 +28,9 @@ pub(crate) struct LogArgs {
     /// The topic that is meant where several have what a mapping reads; can be repeated.
     #[arg(long = "topic", value_name = "TYPE=TOPIC", value_parser = choice)]
     pub(crate) topics: Vec<(String, String)>,
+    /// The most that is unpacked of a packed log [MiB], in place of 256 and 64 for each of its own.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1 << 20))]
+    pub(crate) max_unpacked_mib: Option<u64>,
     /// End with exit code 0 even where less than half of the log could be used, which is 3
     /// otherwise.
     #[arg(long)]

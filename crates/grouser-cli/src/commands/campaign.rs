@@ -11,6 +11,7 @@ mod summarise;
 
 use std::path::Path;
 
+use grouser::document::given_file::GivenFile;
 use grouser::document::{self, Campaign, Kind, Overrides, Source, escape};
 use grouser_store::{Results, StoreError, Study};
 use serde_json::{Value, json};
@@ -68,7 +69,11 @@ fn campaign(study: &str, settings: &[String]) -> Result<Campaign, Failure> {
         Kind::Wheel,
     ])?;
     let campaign = document::read_campaign(&source, &overrides)?;
-    output::notes(campaign.notes().iter().map(|note| escape::line(note)));
+    let files = campaign.files();
+    let given = files.given.iter().map(GivenFile::sentence);
+    output::notes(
+        given.chain(files.notes.iter().cloned()).map(|it| escape::line(&it).into_owned()),
+    );
     Ok(campaign)
 }
 

@@ -1,6 +1,5 @@
 //! `grouser design`: numbers of a rover that are the best under limits.
 
-use grouser::answers::AnswerOptions;
 use grouser::answers::design::DesignQuestion;
 use grouser::document::LoadedDesign;
 use grouser::document::design::Measure;
@@ -21,8 +20,7 @@ pub(crate) fn run(args: &DesignArgs) -> Result<(), Failure> {
     let (task, by_models) = tasks(args)?;
     let (is_nominal, seed) = (args.nominal, args.seed.unwrap_or(1));
     let question = DesignQuestion { task, is_nominal, seed, trade, by_models };
-    let options = AnswerOptions { has_page: folder.is_some(), ..AnswerOptions::ROWS };
-    let mut answer = question.answer("design", &options)?;
+    let mut answer = question.answer("design")?;
     answer.next = vec!["grouser heading --rover rover.toml".to_owned()];
     give(&answer, &repeat(args), folder, args.output.format)
 }
@@ -36,14 +34,11 @@ fn tasks(args: &DesignArgs) -> Result<(LoadedDesign, Vec<LoadedDesign>), Failure
         return Ok((inputs::design(args, &args.setting)?, Vec::new()));
     }
     let own = inputs::design(args, &SettingArgs { model: None, ..args.setting.clone() })?;
-    let is_own = |setting: &SettingArgs| setting.model.as_deref() == Some(model_of(&own));
+    let is_own =
+        |setting: &SettingArgs| setting.model.as_deref() == Some(own.value.model(0).name());
     let others = args.setting.each_model().into_iter().filter(|setting| !is_own(setting));
     let others = others.map(|setting| inputs::design(args, &setting)).collect::<Result<_, _>>()?;
     Ok((own, others))
-}
-
-fn model_of(task: &LoadedDesign) -> &str {
-    task.value.candidates[0].grounds[0].scenario.value.model.name()
 }
 
 /// The command that gives the answer again, from the document in the folder.

@@ -80,7 +80,7 @@ fn check(label: &str, text: &str, limits: Limits) -> Result<(), Failure> {
 /// Reads plate tests as a calibration does, and tells what it finds.
 fn check_plates(label: &str, text: &str, limits: Limits) -> Result<(), Failure> {
     let read = plates::read_from(label, text.as_bytes(), limits);
-    let plates::PlateMeasurements { curves, notes } =
+    let plates::PlateMeasurements { curves, notes, .. } =
         read.map_err(|error| of_import(label, error))?;
     let rows: usize = curves.iter().map(|curve| curve.points.len()).sum();
     tell_curves(&notes, rows, curves.len(), "plates");
@@ -90,7 +90,7 @@ fn check_plates(label: &str, text: &str, limits: Limits) -> Result<(), Failure> 
 /// Reads shear tests as a calibration does, and tells what it finds.
 fn check_shear(label: &str, text: &str, limits: Limits) -> Result<(), Failure> {
     let read = shear_tests::read_from(label, text.as_bytes(), limits);
-    let shear_tests::ShearMeasurements { curves, notes } =
+    let shear_tests::ShearMeasurements { curves, notes, .. } =
         read.map_err(|error| of_import(label, error))?;
     let rows: usize = curves.iter().map(|curve| curve.points.len()).sum();
     tell_curves(&notes, rows, curves.len(), "shear tests");

@@ -13,6 +13,7 @@ mod watch;
 use grouser::answers::Answer;
 use grouser::answers::learn::{LearnQuestion, LearntDrive, SOIL_FILE};
 use grouser::document::columns::learn::gross_in_words;
+use grouser::document::given_file::GivenFile;
 use grouser::document::learn::LearntSoil;
 use grouser::document::{LoadedScenario, SAMPLES_FILE, escape};
 use grouser::studies::ensemble::samples::Sample;
@@ -172,8 +173,9 @@ fn learn(args: &LearnArgs, question: &LearnQuestion) -> Result<(LearntDrive, f64
     let narrowed = narrowed.map_err(|error| reaches_too_far(&error))?;
     let lost = drive.lost().sentences();
     let notes = lost.into_iter().chain(ending.notes).chain(learner.notes()).collect();
+    let (given, slips) = (ending.given, None);
     let found =
-        LearntDrive { drive, before, after, verdicts, advice, narrowed, slips: None, notes };
+        LearntDrive { drive, before, after, verdicts, advice, narrowed, slips, given, notes };
     Ok((found, ending.share_used))
 }
 
@@ -183,6 +185,8 @@ struct Ended {
     notes: Vec<String>,
     /// The record of a last row that may not be whole: it counts, but what is kept ends before it.
     last: Option<TelemetryRecord>,
+    /// What it gave; nothing where nobody knows.
+    given: Option<GivenFile>,
     /// The share of the log that was used [-].
     share_used: f64,
 }
@@ -235,12 +239,13 @@ fn drive_on(
                     return Err(Failure::Usage(format!("{label}: has no rows of telemetry")));
                 }
                 if ending.rows > 0 {
-                    drive.note_lost(position.lost(ending.lost));
+                    drive.note_lost(position.lost(ending.lost.clone()));
                 }
                 if let Some(live) = &mut live {
                     live.finish()?;
                 }
-                return Ok(Ended { notes: ending.notes, last, share_used: ending.share_used });
+                let records::Ending { notes, given, share_used, .. } = ending;
+                return Ok(Ended { notes, last, given, share_used });
             }
             Event::Failed(failure) => return Err(failure),
         }

@@ -7,6 +7,8 @@ mod page;
 use grouser::document::columns::TIME;
 use grouser::document::columns::mission::{MissionObject, legs_brief, missions_brief};
 use grouser::document::columns::run;
+use grouser::document::given_file::GivenFile;
+use grouser::document::given_to_drives;
 use grouser::studies::mission::DrivenMission;
 use grouser_draw::style::on_both_grounds;
 use grouser_draw::{Shown, title_of};
@@ -16,7 +18,7 @@ use serde_json::json;
 use self::answered::{Answered, reasons, sentence};
 use self::believed::Believed;
 use super::destinations::Destinations;
-use super::{Answer, method, sampling, strict};
+use super::{Answer, add_files, method, sampling, strict};
 use crate::args::{MissionArgs, StrictArgs};
 use crate::failure::Failure;
 use crate::inputs;
@@ -46,7 +48,9 @@ pub(crate) fn run(args: &MissionArgs) -> Result<(), Failure> {
         || log.is_some()
         || telemetry.is_some()
         || slide.is_some()
-        || args.strict.strict;
+        || args.strict.strict
+        // Which zones are met is seen of records.
+        || document.value.scenario.ground.zones.is_some();
     let drive = if has_records { DrivenMission::all } else { DrivenMission::all_ends };
     let ways = drive(&missions)?;
     let believed = match args.belief.sampling() {
@@ -127,6 +131,7 @@ impl Answered {
             inputs["seed"] = sampling.seed.into();
             inputs[sampling::BELIEF] = belief.clone();
         }
+        add_files(&mut inputs, &self.given());
         let answer = Answer::new("mission", inputs, results);
         if let Some(mut folder) = folder {
             folder.add("mission.json", answer.to_text());
@@ -154,6 +159,12 @@ impl Answered {
         }
     }
 
+    /// What the files gave.
+    fn given(&self) -> Vec<GivenFile> {
+        let drives = self.ways.iter().map(|way| &way.report.trajectory);
+        given_to_drives(&self.document, &self.document.value.scenario, drives)
+    }
+
     /// The end of the names of a way's files: its number, where there are several.
     fn ending(&self, place: usize) -> String {
         if self.ways.len() > 1 { format!("-{}", place + 1) } else { String::new() }
@@ -174,6 +185,7 @@ impl Answered {
         let blocks = Text::blocks(blocks);
         let is_draft = self.believed.as_ref().is_some_and(|it| it.is_draft);
         let draft = Text::from(if is_draft { sampling::DRAFT_LINE } else { "" });
+        let draft = draft + output::answer::given(&self.given());
         if self.ways.len() == 1 {
             return blocks + draft;
         }

@@ -4,6 +4,7 @@ use grouser::answers::Answer;
 use grouser::answers::replay::{ROVER, ReplayQuestion};
 use grouser::studies::replay::{Replay, Replayer};
 use grouser_draw::title_of;
+use grouser_logs::TelemetryLog;
 
 use super::{log, sampling};
 use crate::args::ReplayArgs;
@@ -20,11 +21,11 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     let target = target.transpose()?;
     let slide = SlideFile::of(&args.slide, args.output.force)?;
     let question = inputs::replay(args)?;
-    let (replay, notes, share_used) = replay(args, &question)?;
+    let (replay, log) = replay(args, &question)?;
     if let Some(target) = target {
         target.write_replay(&question.scenario, &replay, folder.as_mut())?;
     }
-    let mut answer = question.answer("replay", &replay, notes);
+    let mut answer = question.answer("replay", &replay, log.given(), log.notes());
     let slope = args.slope_deg.as_ref().map_or(String::new(), |it| format!(" --slope-deg={it}"));
     let samples = sampling::flags(question.sampling);
     let odometry = args.telemetry.odometry_option();
@@ -35,8 +36,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
         slide.write_answer(&answer, &title_of(&question.scenario))?;
     }
     give(&answer, &repeat, folder, args.output.format)?;
-    let label = inputs::telemetry_label(&args.log);
-    inputs::check_share_used(&label, share_used, &args.telemetry.log)
+    inputs::check_share_used(log.label(), log.share_used(), &args.telemetry.log)
 }
 
 /// The commands to go on with.
@@ -50,11 +50,8 @@ fn next(answer: &Answer) -> Vec<String> {
     with_rover.into_iter().filter(|_| has_rover).chain([learn.to_owned()]).collect()
 }
 
-/// The log, replayed, notes on what of it was left out, and the share of it that was used.
-fn replay(
-    args: &ReplayArgs,
-    question: &ReplayQuestion,
-) -> Result<(Replay, Vec<String>, f64), Failure> {
+/// The log, replayed, and as it was read to its end.
+fn replay(args: &ReplayArgs, question: &ReplayQuestion) -> Result<(Replay, TelemetryLog), Failure> {
     let scenario = &question.scenario.value;
     let samples = match question.sampling {
         Some(it) => sampling::draw_of(&question.scenario, it)?,
@@ -68,5 +65,5 @@ fn replay(
     }
     let replay = sampling::with_bar(samples.len(), |go_on| replayer.finish(&samples, go_on));
     let replay = replay.map_err(|error| Failure::Usage(format!("{}: {error}", log.label())))?;
-    Ok((sampling::whole(replay), log.notes(), log.share_used()))
+    Ok((sampling::whole(replay), log))
 }

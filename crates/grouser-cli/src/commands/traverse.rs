@@ -6,11 +6,12 @@ mod page;
 use grouser::answers;
 use grouser::answers::EVERY_MODEL;
 use grouser::contact::validity::Flag;
-use grouser::document::LoadedScenario;
 use grouser::document::columns::run::{self, RunObject};
 use grouser::document::columns::{MODEL, Quantity, TIME, X, Y, YAW, Z};
+use grouser::document::given_file::GivenFile;
 use grouser::document::reading::{four_digits, metres};
 use grouser::document::table::{Row, Table};
+use grouser::document::{LoadedScenario, given_to_drives};
 use grouser::simulation::{Run, Scenario, Trajectory};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::traverse_band::RunBand;
@@ -22,7 +23,7 @@ use serde_json::{Value, json};
 use self::of_model::{OfModel, RECORDS, chart, reason};
 use super::animation::Target;
 use super::destinations::Destinations;
-use super::{Answer, method, sampling};
+use super::{Answer, add_files, method, sampling};
 use crate::args::{TraverseArgs, UncertaintyArgs};
 use crate::failure::Failure;
 use crate::inputs;
@@ -131,7 +132,10 @@ impl OfModel {
             folder.finish()?;
         }
         match args.output.format {
-            Format::Table => output::show(table(&self.run, &self.scenario) + self.band_table()),
+            Format::Table => {
+                let given = output::answer::given(&given(std::slice::from_ref(self)));
+                output::show(table(&self.run, &self.scenario) + self.band_table() + given)
+            }
             Format::Csv => {
                 tell_end(&self.run);
                 self.band.iter().for_each(|band| output::notes(band.run.ends.sentences()));
@@ -181,7 +185,14 @@ fn settings(args: &TraverseArgs, all: &[OfModel]) -> Value {
             settings[sampling::WEIGHTS] = answers::weights(&BandInputs::of_scenario(&one.scenario));
         }
     }
+    add_files(&mut settings, &given(all));
     settings
+}
+
+/// What the files gave.
+fn given(all: &[OfModel]) -> Vec<GivenFile> {
+    let scenario = &all[0].scenario;
+    given_to_drives(scenario, &scenario.value, all.iter().map(|it| &it.run))
 }
 
 #[derive(Serialize)]
@@ -234,7 +245,7 @@ fn output_all(
             let mut names = vec![MODEL.to_owned()];
             let has_bands = args.uncertainty.sampling.uncertainty;
             names.extend(if has_bands { run::summary_bands_brief() } else { run::summary_brief() });
-            output::show(rows.to_table(&names))
+            output::show(rows.to_table(&names) + output::answer::given(&given(all)))
         }
         Format::Csv => output::print(&rows.to_csv()?),
         Format::Json => output::print_json(&answer),

@@ -1,8 +1,11 @@
 //! What a route is made of.
 
+use std::path::Path;
+
 use grouser::answers::Sampling;
 pub(crate) use grouser::answers::route::Asked;
 use grouser::answers::route::RouteQuestion;
+use grouser::document::given_file::{Content, GivenFile};
 use grouser::document::unit::less_whole_turns;
 use grouser::document::{LoadedScenario, escape, study};
 use grouser::studies::mobility::Ground;
@@ -10,6 +13,7 @@ use grouser::studies::route::{Ends, Limits, Line, LineError, RouteStudy};
 use grouser::studies::verdict::SlopeStudy;
 use grouser::units::Vec2;
 use grouser_raster::Raster;
+use grouser_raster::zones::Counts;
 
 use super::card::{rim_speed, rule};
 use super::map::{check_system, dem};
@@ -24,6 +28,8 @@ pub(crate) struct RouteInputs {
     pub(crate) study: RouteStudy,
     pub(crate) asked: Asked,
     pub(crate) raster: Raster,
+    /// What the files gave of a line and of areas to keep out of.
+    pub(crate) given: Vec<GivenFile>,
 }
 
 impl RouteInputs {
@@ -42,6 +48,7 @@ impl RouteInputs {
             asked: &self.asked,
             along: args.along.as_deref(),
             keep_out: args.keep_out.as_deref(),
+            given: &self.given,
             sampling: Sampling { count: args.samples, seed: args.seed },
         }
     }
@@ -64,10 +71,20 @@ pub(crate) fn route(args: &RouteArgs) -> Result<RouteInputs, Failure> {
     for file in args.keep_out.iter().chain(&args.along) {
         check_system(file, &raster)?;
     }
+    let mut given = Vec::new();
+    let name = |file: &Path| file.display().to_string();
     if let Some(file) = &args.keep_out {
-        study = study.keeping_out_of(file, &raster.grid.extent())?;
+        let (with_areas, Counts { there, used }) =
+            study.keeping_out_of(file, &raster.grid.extent())?;
+        study = with_areas;
+        given.push(GivenFile::new(name(file), Content::KeepOut, there, used));
     }
-    Ok(RouteInputs { scenario, study, asked, raster })
+    if let (Some(file), Asked::Along(line)) = (&args.along, &asked) {
+        // Places off the map are refused before anything is computed.
+        let places = line.places().len() as u64;
+        given.push(GivenFile::new(name(file), Content::Way, places, places));
+    }
+    Ok(RouteInputs { scenario, study, asked, raster, given })
 }
 
 fn asked(args: &RouteArgs) -> Result<Asked, Failure> {

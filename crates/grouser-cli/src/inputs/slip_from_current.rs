@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use grouser::answers::slip_from_current::SlipQuestion;
+use grouser::document::given_file::GivenFile;
 use grouser::document::measurements::motor_log::{
     LogChoice, MotorLog, MotorLogOfTelemetry, is_telemetry, read_motor_log,
 };
@@ -71,14 +72,17 @@ pub(crate) fn slip_from_current(args: &SlipFromCurrentArgs) -> Result<SlipInputs
     let choice = choice(args)?;
     let bytes = read_bytes(&args.log, choice.limits)?;
     let label = escape::path(&args.log);
-    let (log, notes) = if is_telemetry(&bytes) {
+    let (log, given, notes) = if is_telemetry(&bytes) {
         of_telemetry(args, &choice, &scenario.value.rover)?
     } else {
-        (read_motor_log(&label, &bytes, &choice, &scenario.value.rover)?, Vec::new())
+        let log = read_motor_log(&label, &bytes, &choice, &scenario.value.rover)?;
+        let given = log.given(&label);
+        (log, given, Vec::new())
     };
     let one = |numbers: &Option<Numbers>| numbers.as_ref().map(|it| it.0[0]);
     let question = SlipQuestion {
         log: args.log.display().to_string(),
+        given,
         ignored: args.ignore.clone(),
         scenario,
         given_yaw: one(&args.yaw_deg),
@@ -89,12 +93,12 @@ pub(crate) fn slip_from_current(args: &SlipFromCurrentArgs) -> Result<SlipInputs
     Ok(SlipInputs { question, estimator, log, notes, bytes })
 }
 
-/// Telemetry, by the reader of `learn`; and what of it was left out.
+/// Telemetry, by the reader of `learn`; what it gave, and what of it was left out.
 fn of_telemetry(
     args: &SlipFromCurrentArgs,
     choice: &LogChoice,
     rover: &Rover,
-) -> Result<(MotorLog, Vec<String>), Failure> {
+) -> Result<(MotorLog, GivenFile, Vec<String>), Failure> {
     let mut telemetry = telemetry_without_way(&args.log, &args.log_args, rover)?;
     let mut log = MotorLogOfTelemetry::default();
     let most = choice.limits.rows;
@@ -107,7 +111,7 @@ fn of_telemetry(
         log.add(&record, choice, rover);
     }
     check_share_used(telemetry.label(), telemetry.share_used(), &args.log_args)?;
-    Ok((log.finish(telemetry.label())?, telemetry.notes()))
+    Ok((log.finish(telemetry.label())?, telemetry.given(), telemetry.notes()))
 }
 
 fn settings(args: &SlipFromCurrentArgs) -> Result<SlipSettings, Failure> {

@@ -100,7 +100,8 @@ pub(crate) fn is_standard_input(path: &Path) -> bool {
 pub(crate) fn log_options(args: &LogArgs) -> Result<LogOptions, Failure> {
     let mapping = args.mapping.as_deref().map(Mapping::find).transpose()?;
     let topics = args.topics.iter().cloned().collect();
-    Ok(LogOptions::default().with_mapping(mapping).with_topics(topics))
+    let options = LogOptions::default().with_mapping(mapping).with_topics(topics);
+    Ok(options.with_most_unpacked(args.max_unpacked_mib.map(|mebibytes| mebibytes << 20)))
 }
 
 /// The rover that was driven.

@@ -5,9 +5,11 @@ use std::path::{Path, PathBuf};
 use grouser::answers::validation::{
     DriveValidationQuestion, SlopeValidationQuestion, ValidationQuestion,
 };
+use grouser::document::given_file::GivenFile;
 use grouser::document::measurements::{self, Choice};
 use grouser::document::{Kind, LoadedScenario, Source, escape, presets};
 use grouser::studies::drive_validation::{DriveRecorder, RecordedDrive};
+use grouser_logs::TelemetryLog;
 
 use super::{StandInputs, balanced, stand, telemetry};
 use crate::args::{BalanceArgs, SettingArgs, ValidateArgs};
@@ -105,16 +107,17 @@ pub(crate) fn drive_validation(
     let scenario = on_slopes(rover, soil, &args.setting)?;
     let logs = logs_below(folder)?;
     let (mut drives, mut notes, mut first_error) = (Vec::new(), Notes::default(), None);
-    let (mut rows, mut used) = (0.0, 0.0);
+    let (mut given, mut rows, mut used) = (Vec::new(), 0.0, 0.0);
     for path in &logs {
         let name = path.strip_prefix(folder).unwrap_or(path).to_string_lossy().into_owned();
         match drive(path, &name, args, &scenario) {
-            Ok((drive, of_log, share)) => {
+            Ok((drive, log)) => {
                 rows += drive.records as f64;
-                used += share * drive.records as f64;
-                for note in of_log {
+                used += log.share_used() * drive.records as f64;
+                for note in log.notes() {
                     notes.add(&name, note);
                 }
+                given.push(GivenFile { file: name, ..log.given() });
                 drives.push(drive);
             }
             Err(error) => {
@@ -128,7 +131,7 @@ pub(crate) fn drive_validation(
     }
     let (folder, notes) = (folder.display().to_string(), notes.sentences());
     let share = if rows > 0.0 { used / rows } else { 1.0 };
-    Ok((DriveValidationQuestion { folder, scenario, drives, notes }, share))
+    Ok((DriveValidationQuestion { folder, scenario, drives, given, notes }, share))
 }
 
 /// Why a log is left out, without its name, which stands before every note.
@@ -160,19 +163,19 @@ impl Notes {
     }
 }
 
-/// A drive, notes on its log, and the share of its rows that was used.
+/// A drive, and its log, read to its end.
 fn drive(
     path: &Path,
     name: &str,
     args: &ValidateArgs,
     scenario: &LoadedScenario,
-) -> Result<(RecordedDrive, Vec<String>, f64), Failure> {
+) -> Result<(RecordedDrive, TelemetryLog), Failure> {
     let mut log = telemetry(path, &args.telemetry, &scenario.value.rover, None)?;
     let mut recorder = DriveRecorder::new(&scenario.value);
     while let Some(record) = log.next_record()? {
         recorder.update(record);
     }
-    Ok((recorder.finish(name.to_owned()), log.notes(), log.share_used()))
+    Ok((recorder.finish(name.to_owned()), log))
 }
 
 /// What the names of logs end with.

@@ -1,6 +1,8 @@
 //! The writer of answers: to a terminal, as JSON, as CSV, and into a folder with a page.
 
 use grouser::answers::{Answer, AnswerError, Displayed, PageBlock};
+use grouser::document::escape;
+use grouser::document::given_file::GivenFile;
 use grouser::document::json;
 use grouser::document::statistics::NothingAccepted;
 use grouser::document::table::Table;
@@ -114,7 +116,13 @@ pub(crate) fn text(answer: &Answer) -> Text {
         Displayed::Excerpt { table, columns, most, what } => excerpt(table, columns, *most, what),
         Displayed::Words(words) => words.into(),
     };
-    answer.screen.iter().map(shown).collect()
+    answer.screen.iter().map(shown).chain([given(&answer.given)]).collect()
+}
+
+/// What files gave: a line each.
+pub(crate) fn given(files: &[GivenFile]) -> Text {
+    let lines = files.iter().map(|file| format!("{}\n", escape::line(&file.sentence())));
+    Text::from(lines.collect::<String>())
 }
 
 /// Some of many rows, as far apart as each other, and where all are.

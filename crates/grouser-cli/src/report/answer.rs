@@ -9,6 +9,7 @@ use grouser::document::columns::run::{
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{SLOPE, TIME, X, Y};
 use grouser::document::figure::{by_part, by_unit};
+use grouser::document::given_file::GivenFile;
 use grouser::document::reading::{capitalised, four_digits};
 use grouser::document::table::Table;
 use grouser::document::{Document, Loaded};
@@ -26,11 +27,14 @@ pub(crate) struct Basis {
     repeat: String,
     /// Commands to go on with, typed there, too.
     next: Vec<String>,
+    /// What the files gave.
+    given: Vec<GivenFile>,
 }
 
 impl Basis {
     pub(crate) fn new(repeat: String) -> Self {
-        Self { documents: Vec::new(), assumptions: Vec::new(), repeat, next: Vec::new() }
+        let (documents, assumptions, next, given) = Default::default();
+        Self { documents, assumptions, repeat, next, given }
     }
 
     /// The basis of an answer.
@@ -41,6 +45,7 @@ impl Basis {
             assumptions: answer.assumptions().into_iter().map(str::to_owned).collect(),
             repeat: repeat.to_owned(),
             next: answer.next.clone(),
+            given: answer.given.clone(),
         }
     }
 
@@ -48,6 +53,11 @@ impl Basis {
     pub(crate) fn followed_by(mut self, next: &[&str]) -> Self {
         self.next = next.iter().map(|it| (*it).to_owned()).collect();
         self
+    }
+
+    /// The same with what files gave.
+    pub(crate) fn with_files(self, given: Vec<GivenFile>) -> Self {
+        Self { given, ..self }
     }
 
     /// The same with a document that lies beside the page.
@@ -73,6 +83,11 @@ pub(crate) fn close<'f>(
     let has_documents = !basis.documents.is_empty();
     page.flags(findings);
     add_next(&mut page, &basis.next);
+    if !basis.given.is_empty() {
+        page.folded("What the files gave", |page| {
+            page.list(basis.given.iter().map(GivenFile::sentence).collect::<Vec<_>>());
+        });
+    }
     if has_documents {
         page.folded("Assumptions in force", |page| {
             if basis.assumptions.is_empty() {

@@ -627,6 +627,7 @@ fn a_data_set_of_the_program_is_found_by_its_name() {
     let (mut by_name, by_path) = (json("cmu-single-wheel"), json("rows.csv"));
     assert_eq!(by_name["inputs"]["data"], "cmu-single-wheel");
     by_name["inputs"]["data"] = "rows.csv".into();
+    by_name["inputs"]["files"][0]["file"] = "rows.csv".into();
     assert_eq!(by_name, by_path);
     let wrong = place.line(&format!("{judge} ./cmu-single-wheel"));
     assert_eq!(wrong.code(), 2, "{}", wrong.stdout);

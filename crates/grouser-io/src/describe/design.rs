@@ -63,30 +63,20 @@ pub(crate) static DESIGN: Table<DesignSettings> = Table {
 };
 
 const MINIMISE: &[Keyword<DesignSettings>] = &[
-    word(Measure::WheelMass.name(), "Mass of all wheels.", |all| {
-        all.aim = DesignAim::One(Measure::WheelMass);
-    }),
-    word(Measure::EnergyPerMetre.name(), "Work of the wheels per metre of way.", |all| {
-        all.aim = DesignAim::One(Measure::EnergyPerMetre);
-    }),
-    word(Measure::SlipRatio.name(), "Slip ratio of the wheels.", |all| {
-        all.aim = DesignAim::One(Measure::SlipRatio);
-    }),
-    word(
-        Measure::SinkageRatio.name(),
-        "The deepest wheel's sinkage over its shearing radius.",
-        |all| all.aim = DesignAim::One(Measure::SinkageRatio),
-    ),
-    word(Measure::Crab.name(), "The crab angle that holds the course.", |all| {
-        all.aim = DesignAim::One(Measure::Crab);
-    }),
-    word(Measure::Torque.name(), "The largest torque of a wheel.", |all| {
-        all.aim = DesignAim::One(Measure::Torque);
-    }),
+    least(Measure::WheelMass, |all| all.aim = DesignAim::One(Measure::WheelMass)),
+    least(Measure::EnergyPerMetre, |all| all.aim = DesignAim::One(Measure::EnergyPerMetre)),
+    least(Measure::SlipRatio, |all| all.aim = DesignAim::One(Measure::SlipRatio)),
+    least(Measure::SinkageRatio, |all| all.aim = DesignAim::One(Measure::SinkageRatio)),
+    least(Measure::Crab, |all| all.aim = DesignAim::One(Measure::Crab)),
+    least(Measure::Torque, |all| all.aim = DesignAim::One(Measure::Torque)),
     word("weighted_sum", "The sum of measures with their `weights`.", |all| {
         all.aim = DesignAim::WeightedSum;
     }),
 ];
+
+const fn least(measure: Measure, put: fn(&mut DesignSettings)) -> Keyword<DesignSettings> {
+    word(measure.name(), measure.sentence(), put)
+}
 
 /// A place where limits hold as well: what is not said is as the document has it.
 static ALSO: Table<DesignSettings> = Table {
@@ -109,12 +99,14 @@ const fn course(reach: fn(&mut DesignSettings) -> Option<&mut f64>) -> Field<Des
 static WEIGHTS: Table<DesignSettings> = Table {
     doc: "What each measure counts in a weighted sum, in its unit.",
     fields: &[
-        weight(Measure::SinkageRatio, |all| Some(&mut all.weights[1])),
-        weight(Measure::SlipRatio, |all| Some(&mut all.weights[2])),
-        weight(Measure::EnergyPerMetre, |all| Some(&mut all.weights[3])),
-        weight(Measure::Crab, |all| Some(&mut all.weights[4])),
-        weight(Measure::Torque, |all| Some(&mut all.weights[5])),
-        weight(Measure::WheelMass, |all| Some(&mut all.weights[8])),
+        weight(Measure::SinkageRatio, |all| Some(&mut all.weights[Measure::SinkageRatio.place()])),
+        weight(Measure::SlipRatio, |all| Some(&mut all.weights[Measure::SlipRatio.place()])),
+        weight(Measure::EnergyPerMetre, |all| {
+            Some(&mut all.weights[Measure::EnergyPerMetre.place()])
+        }),
+        weight(Measure::Crab, |all| Some(&mut all.weights[Measure::Crab.place()])),
+        weight(Measure::Torque, |all| Some(&mut all.weights[Measure::Torque.place()])),
+        weight(Measure::WheelMass, |all| Some(&mut all.weights[Measure::WheelMass.place()])),
     ],
 };
 
@@ -129,52 +121,43 @@ const fn weight(
 static LIMITS: Table<DesignSettings> = Table {
     doc: "What is limited: `at_least`, `at_most` or both.",
     fields: &[
-        limit(
-            Measure::LimitSlope,
-            "The steepest slope on which a heading holds the course.",
-            &LIMIT_SLOPE,
-        ),
-        limit(
-            Measure::SinkageRatio,
-            "The deepest wheel's sinkage over its shearing radius.",
-            &SINKAGE_RATIO,
-        ),
-        limit(Measure::SlipRatio, "Slip ratio of the wheels.", &SLIP_RATIO),
-        limit(Measure::EnergyPerMetre, "Work of the wheels per metre of way.", &ENERGY),
-        limit(Measure::Crab, "The crab angle that holds the course.", &CRAB),
-        limit(Measure::Torque, "The largest torque of a wheel.", &TORQUE),
-        limit(
-            Measure::TippingSlope,
-            "The slope on which the rover at rest tips over.",
-            &TIPPING_SLOPE,
-        ),
-        limit(Measure::Width, "Width of the rover over its wheels.", &WIDTH),
-        limit(Measure::WheelMass, "Mass of all wheels.", &WHEEL_MASS),
+        limit(Measure::LimitSlope, &LIMIT_SLOPE),
+        limit(Measure::SinkageRatio, &SINKAGE_RATIO),
+        limit(Measure::SlipRatio, &SLIP_RATIO),
+        limit(Measure::EnergyPerMetre, &ENERGY),
+        limit(Measure::Crab, &CRAB),
+        limit(Measure::Torque, &TORQUE),
+        limit(Measure::TippingSlope, &TIPPING_SLOPE),
+        limit(Measure::Width, &WIDTH),
+        limit(Measure::WheelMass, &WHEEL_MASS),
     ],
 };
 
 const fn limit(
     measure: Measure,
-    doc: &'static str,
     ends: &'static At<DesignSettings, LimitEnds>,
 ) -> Field<DesignSettings> {
-    table(measure.name(), doc, ends).optional()
+    table(measure.name(), measure.sentence(), ends).optional()
 }
 
 static LIMIT_SLOPE: At<DesignSettings, LimitEnds> =
-    At { inner: &ANGLE, at: |all| &mut all.limits[0] };
+    At { inner: &ANGLE, at: |all| &mut all.limits[Measure::LimitSlope.place()] };
 static SINKAGE_RATIO: At<DesignSettings, LimitEnds> =
-    At { inner: &RATIO, at: |all| &mut all.limits[1] };
+    At { inner: &RATIO, at: |all| &mut all.limits[Measure::SinkageRatio.place()] };
 static SLIP_RATIO: At<DesignSettings, LimitEnds> =
-    At { inner: &RATIO, at: |all| &mut all.limits[2] };
-static ENERGY: At<DesignSettings, LimitEnds> = At { inner: &WORK, at: |all| &mut all.limits[3] };
-static CRAB: At<DesignSettings, LimitEnds> = At { inner: &ANGLE, at: |all| &mut all.limits[4] };
-static TORQUE: At<DesignSettings, LimitEnds> = At { inner: &MOMENT, at: |all| &mut all.limits[5] };
+    At { inner: &RATIO, at: |all| &mut all.limits[Measure::SlipRatio.place()] };
+static ENERGY: At<DesignSettings, LimitEnds> =
+    At { inner: &WORK, at: |all| &mut all.limits[Measure::EnergyPerMetre.place()] };
+static CRAB: At<DesignSettings, LimitEnds> =
+    At { inner: &ANGLE, at: |all| &mut all.limits[Measure::Crab.place()] };
+static TORQUE: At<DesignSettings, LimitEnds> =
+    At { inner: &MOMENT, at: |all| &mut all.limits[Measure::Torque.place()] };
 static TIPPING_SLOPE: At<DesignSettings, LimitEnds> =
-    At { inner: &ANGLE, at: |all| &mut all.limits[6] };
-static WIDTH: At<DesignSettings, LimitEnds> = At { inner: &LENGTH, at: |all| &mut all.limits[7] };
+    At { inner: &ANGLE, at: |all| &mut all.limits[Measure::TippingSlope.place()] };
+static WIDTH: At<DesignSettings, LimitEnds> =
+    At { inner: &LENGTH, at: |all| &mut all.limits[Measure::Width.place()] };
 static WHEEL_MASS: At<DesignSettings, LimitEnds> =
-    At { inner: &MASS, at: |all| &mut all.limits[8] };
+    At { inner: &MASS, at: |all| &mut all.limits[Measure::WheelMass.place()] };
 
 static ANGLE: Table<LimitEnds> = Table { doc: ENDS, fields: &[at_least(DEG), at_most(DEG)] };
 static RATIO: Table<LimitEnds> = Table { doc: ENDS, fields: &[at_least(ONE), at_most(ONE)] };

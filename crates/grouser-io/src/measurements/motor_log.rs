@@ -18,6 +18,7 @@ use super::super::columns::{
     YAW,
 };
 use super::super::escape;
+use super::super::given_file::{Content, GivenFile};
 use super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::limits::Limits;
 use super::log_column::{LogColumn, column};
@@ -33,6 +34,18 @@ pub const WHEEL: &str = "wheel";
 pub struct MotorLog {
     /// In the order of the file.
     pub records: Vec<MotorRecord>,
+}
+
+impl MotorLog {
+    /// What a file with the log gave: of each record each wheel, where it was read.
+    ///
+    /// * `file`: its name
+    #[must_use]
+    pub fn given(&self, file: &str) -> GivenFile {
+        let all = || self.records.iter().flat_map(|record| &record.wheels);
+        let (there, used) = (all().count() as u64, all().flatten().count() as u64);
+        GivenFile::new(file, Content::MotorLog, there, used)
+    }
 }
 
 /// What was read of a rover at one time, in SI units.

@@ -14,6 +14,7 @@ use grouser_core::vehicle::Rover;
 use super::super::check::nearest;
 use super::super::columns::{COURSE, OK, Quantity, SLIP_RATIO, SLOPE, STATUS, YAW, quantity};
 use super::super::escape;
+use super::super::given_file::{Content, GivenFile};
 use super::super::unit::{DEG, ONE, Unit};
 use super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::row::{meets, name_of, number_of, places};
@@ -21,10 +22,12 @@ use super::taken::LeftOut;
 use super::{Choice, table, why_there_are_none};
 
 /// A rover's motion on slopes, measured.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SlopeTests {
     /// The means of the rows that repeat each other, in the order in which they begin.
     pub points: Vec<SlopePoint>,
+    /// What the file gave.
+    pub given: GivenFile,
     /// What was noticed and left.
     pub notes: Vec<String>,
 }
@@ -158,7 +161,8 @@ pub fn read_slopes(
     }
     let notes = header.notes().into_iter().chain(left_out.iter().map(LeftOut::note));
     let notes = notes.map(|note| escape::line(&note).into_owned()).collect();
-    Ok(SlopeTests { points: points(&rows), notes })
+    let given = GivenFile::new(label, Content::SlopeTests, table.rows(), rows.len() as u64);
+    Ok(SlopeTests { points: points(&rows), given, notes })
 }
 
 /// The header, understood.

@@ -69,6 +69,12 @@ impl<'a, R: Read> Table<'a, R> {
         Ok(true)
     }
 
+    /// How many rows were read so far.
+    #[must_use]
+    pub fn rows(&self) -> u64 {
+        self.rows as u64
+    }
+
     fn check_cells(&self, row: &StringRecord, line: u64) -> Result<(), MeasurementError> {
         match row.iter().map(str::len).find(|length| *length > Limits::LONGEST_CELL) {
             None => Ok(()),

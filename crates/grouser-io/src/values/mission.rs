@@ -4,6 +4,8 @@ use super::super::describe::mission::{self, MISSION};
 use super::super::document::Document;
 use super::super::error::{DocumentError, Problem};
 use super::super::field::Inner;
+use super::super::given_file::NamedFiles;
+use super::super::legs_file;
 use super::super::mission::{LegKeys, Plan, limited_quantity};
 use super::super::terrain_file;
 use super::super::tree::Node;
@@ -175,8 +177,10 @@ impl Described for Plan {
         self.scenario.follow(document);
     }
 
-    fn fetch(&mut self, document: &Document, tree: &Node) -> Result<Vec<String>, DocumentError> {
-        self.scenario.fetch(document, tree)
+    fn fetch(&mut self, document: &Document, tree: &Node) -> Result<NamedFiles, DocumentError> {
+        let mut files = self.scenario.fetch(document, tree)?;
+        files.given.extend(legs_file::given(tree));
+        Ok(files)
     }
 
     fn check_without(&self, path: &str, number: f64) -> Result<(), Misfit> {

@@ -10,7 +10,7 @@ use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 
 use crate::mcap::format::{ChunkIndex, MAGIC, Message};
-use crate::mcap::read::{Known, Messages};
+use crate::mcap::read::{Known, Messages, OverBudget};
 
 /// What waits for its turn at the most [bytes]; more is passed on before.
 const MOST_WAITING: usize = 64 << 20;
@@ -33,16 +33,20 @@ impl Chronological {
     /// Begins at the start of a file; nothing if it is no MCAP.
     ///
     /// * `index`: of its chunks, if it is whole
-    pub(crate) fn new(mut file: File, index: Vec<ChunkIndex>) -> io::Result<Option<Self>> {
+    /// * `budget`: how much of it is read
+    pub(crate) fn new(
+        mut file: File,
+        index: Vec<ChunkIndex>,
+        budget: OverBudget,
+    ) -> io::Result<Option<Self>> {
         file.rewind()?;
-        let length = file.metadata()?.len();
         let chunks = to_be_sorted(index);
         let begins = chunks.iter().map(|it| it.first).collect();
         let source: Box<dyn Read> = match &chunks[..] {
             [] => Box::new(BufReader::new(file)),
             _ => Box::new(ChunksOf { file, chunks, next: 0, rest: MAGIC.to_vec() }),
         };
-        let messages = Messages::new(source, length)?;
+        let messages = Messages::new(source, budget)?;
         Ok(messages.map(|messages| Self {
             messages,
             begins,

@@ -31,25 +31,29 @@ const RECORDS_PER_BYTE: u64 = 1;
 const UNPACKED: u64 = 256 << 20;
 const UNPACKED_PER_BYTE: u64 = 64;
 
-/// A log that unpacks to more than a log of its size may.
+/// A log that unpacks to more than a log of its size may, or than was allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "its {length} bytes unpack to more than {} MiB or {} records, the most that are read of a log \
-     of that size",
-    self.most_unpacked() >> 20, self.most_records()
+    "its {length} bytes unpack to more than {} MiB or {} records, the most that are read of {}",
+    self.most_unpacked() >> 20, self.most_records(),
+    if self.allowed.is_some() { "it" } else { "a log of that size" }
 )]
 pub struct OverBudget {
     /// Size of the log [bytes].
-    length: u64,
+    pub(crate) length: u64,
+    /// The most that was allowed, in place of what its size allows [bytes].
+    pub(crate) allowed: Option<u64>,
 }
 
 impl OverBudget {
-    fn most_unpacked(self) -> u64 {
-        UNPACKED.saturating_add(self.length.saturating_mul(UNPACKED_PER_BYTE))
+    pub(crate) fn most_unpacked(self) -> u64 {
+        let by_size = || UNPACKED.saturating_add(self.length.saturating_mul(UNPACKED_PER_BYTE));
+        self.allowed.unwrap_or_else(by_size)
     }
 
     fn most_records(self) -> u64 {
-        RECORDS.saturating_add(self.length.saturating_mul(RECORDS_PER_BYTE))
+        let by_size = || RECORDS.saturating_add(self.length.saturating_mul(RECORDS_PER_BYTE));
+        self.allowed.map_or_else(by_size, |bytes| bytes / (UNPACKED / RECORDS))
     }
 }
 
@@ -145,8 +149,8 @@ pub(crate) struct Messages<R> {
 impl<R: Read> Messages<R> {
     /// Reads how the file begins; nothing if it is no MCAP.
     ///
-    /// * `length`: of the file [bytes]
-    pub(crate) fn new(mut source: R, length: u64) -> io::Result<Option<Self>> {
+    /// * `of_length`: how much of it is read
+    pub(crate) fn new(mut source: R, of_length: OverBudget) -> io::Result<Option<Self>> {
         let mut magic = Vec::new();
         (&mut source).take(MAGIC.len() as u64).read_to_end(&mut magic)?;
         if magic != MAGIC {
@@ -154,7 +158,6 @@ impl<R: Read> Messages<R> {
         }
         let source = Counting { source, count: magic.len() as u64 };
         let (known, damage) = (Known::default(), Damage::default());
-        let of_length = OverBudget { length };
         let budget =
             Budget { unpacked: of_length.most_unpacked(), records: of_length.most_records() };
         Ok(Some(Self {

@@ -11,7 +11,7 @@ use super::format::{
     Message, MessageIndex, Metadata, MetadataIndex, Part as _, Record, Schema, Statistics,
     SummaryOffset,
 };
-use super::read::{Damage, Messages};
+use super::read::{Damage, Messages, OverBudget};
 use super::write::{Container, SchemaOf};
 
 /// A message: the place of its channel, its time [ns] and its data.
@@ -51,7 +51,8 @@ fn written(sent: &[Sent]) -> io::Result<Vec<u8>> {
 
 /// All messages of a file, as far as it can be read.
 fn read(file: &[u8]) -> io::Result<(Vec<Sent>, Damage)> {
-    let Some(mut messages) = Messages::new(file, 1 << 20)? else {
+    let Some(mut messages) = Messages::new(file, OverBudget { length: 1 << 20, allowed: None })?
+    else {
         return Ok((vec![], Damage::default()));
     };
     let mut all = Vec::new();

@@ -77,9 +77,10 @@ impl McapLog {
         options: &LogOptions,
     ) -> Result<Self, TelemetryError> {
         let failed = |error| failure(label, error);
-        let (known, chunks) = contents(&mut file).map_err(failed)?;
+        let budget = options.budget(&file).map_err(failed)?;
+        let (known, chunks) = contents(&mut file, budget).map_err(failed)?;
         let rows = MessageRows::new(label, &topics(&known), rover, options)?;
-        let messages = Chronological::new(file, chunks).map_err(failed)?;
+        let messages = Chronological::new(file, chunks, budget).map_err(failed)?;
         let messages = messages
             .ok_or_else(|| failed(io::Error::other("the file changed while it was read")))?;
         let (decoders, descriptions) = (HashMap::new(), HashMap::new());
@@ -187,10 +188,10 @@ fn failure(label: &str, error: io::Error) -> TelemetryError {
 
 /// What a log has, and where its chunks are: from the index at its end, or, without one, from all
 /// that is there.
-fn contents(file: &mut File) -> io::Result<(Known, Vec<ChunkIndex>)> {
+fn contents(file: &mut File, budget: OverBudget) -> io::Result<(Known, Vec<ChunkIndex>)> {
     match indexed(file)? {
         Some(found) => Ok(found),
-        None => Ok((scanned(file)?, Vec::new())),
+        None => Ok((scanned(file, budget)?, Vec::new())),
     }
 }
 
@@ -252,10 +253,9 @@ fn indexed(file: &mut File) -> io::Result<Option<(Known, Vec<ChunkIndex>)>> {
 }
 
 /// Channels and schemas of all chunks.
-fn scanned(file: &mut File) -> io::Result<Known> {
+fn scanned(file: &mut File, budget: OverBudget) -> io::Result<Known> {
     file.rewind()?;
-    let length = file.metadata()?.len();
-    let Some(mut messages) = Messages::new(BufReader::new(&*file), length)? else {
+    let Some(mut messages) = Messages::new(BufReader::new(&*file), budget)? else {
         return Ok(Known::default());
     };
     while messages.next_message(|_, _| false)?.is_some() {}

@@ -1,9 +1,13 @@
 //! What there is to say of a log besides what is in it.
 
+use std::fs::File;
+use std::io;
+
 use grouser_io::measurements::telemetry::Odometry;
 
 use crate::mapping::Mapping;
 use crate::mapping::plan::TopicChoices;
+use crate::mcap::read::OverBudget;
 
 /// How a log is read; as it is without any of it.
 #[derive(Clone, Debug, Default)]
@@ -17,6 +21,8 @@ pub struct LogOptions {
     /// What measured ways and rotations, in place of what the mapping says; of a table without it
     /// cameras, as the names of its columns say.
     pub odometry: Option<Odometry>,
+    /// The most that is unpacked of a packed log, in place of what its size allows [bytes].
+    pub most_unpacked: Option<u64>,
 }
 
 impl LogOptions {
@@ -36,6 +42,17 @@ impl LogOptions {
     #[must_use]
     pub fn with_odometry(self, odometry: Option<Odometry>) -> Self {
         Self { odometry, ..self }
+    }
+
+    /// The same with the most that is unpacked of a packed log [bytes], if that is stated.
+    #[must_use]
+    pub fn with_most_unpacked(self, most_unpacked: Option<u64>) -> Self {
+        Self { most_unpacked, ..self }
+    }
+
+    /// How much of a log is read.
+    pub(crate) fn budget(&self, file: &File) -> io::Result<OverBudget> {
+        Ok(OverBudget { length: file.metadata()?.len(), allowed: self.most_unpacked })
     }
 
     /// Whether it says anything that only a log of messages has.

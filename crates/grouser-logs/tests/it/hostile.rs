@@ -1,6 +1,11 @@
 //! Damaged logs, and logs that claim to be larger than they are: read as far as they go, and never
 //! more.
 
+use std::io::Write as _;
+
+use flate2::Compression;
+use flate2::write::GzEncoder;
+
 use super::container::{Container, Packed, header};
 use super::format::{Chunk, Record as _, compression};
 use super::*;
@@ -136,4 +141,46 @@ fn a_log_that_unpacks_to_more_than_any_of_its_size_is_refused() {
     assert_eq!(read(&whole, Some(MAPPING)).unwrap().0.len(), 1);
     let error = read(&bomb, Some(MAPPING)).unwrap_err().to_string();
     assert!(error.contains("unpack to more than") && error.contains("hint"), "{error}");
+}
+
+/// A table of three million short rows in some kilobytes; what is allowed counts in place of what
+/// its size allows.
+#[test]
+fn a_packed_table_is_read_within_its_budget() {
+    let mut table = b"time_s,roll_deg\n".to_vec();
+    (0..40_000_u32).for_each(|row| table.extend(format!("{row}.0,1.5\n").into_bytes()));
+    let mut packed = GzEncoder::new(Vec::new(), Compression::best());
+    packed.write_all(&table).unwrap();
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("log.csv.gz");
+    fs::write(&path, packed.finish().unwrap()).unwrap();
+    let count = |most_unpacked: Option<u64>| {
+        let options = LogOptions::default().with_most_unpacked(most_unpacked);
+        let mut log = TelemetryLog::open(&path, &rover(), &options)?;
+        let mut count = 0;
+        while log.next_record()?.is_some() {
+            count += 1;
+        }
+        Ok::<_, TelemetryError>(count)
+    };
+    assert_eq!(count(None).unwrap(), 40_000);
+    assert_eq!(count(Some(table.len() as u64)).unwrap(), 40_000);
+    let refused = count(Some(table.len() as u64 - 1)).unwrap_err().to_string();
+    assert!(refused.contains("unpack to more than 0 MiB"), "{refused}");
+    assert!(refused.contains("--max-unpacked-mib"), "{refused}");
+
+    let bytes = log(Packed::Zstd);
+    fs::write(&path, &bytes).unwrap();
+    let refused = |most: u64| {
+        let mapping = Some(Mapping::parse("mapping.toml", MAPPING).unwrap());
+        let options = LogOptions::default().with_mapping(mapping).with_most_unpacked(Some(most));
+        let mut log = match TelemetryLog::open(&path, &rover(), &options) {
+            Ok(log) => log,
+            Err(error) => return Some(error.to_string()),
+        };
+        (0..100).find_map(|_| log.next_record().err()).map(|error| error.to_string())
+    };
+    assert!(refused(1 << 20).is_none());
+    let refused = refused(1 << 10).expect("it unpacks to more than a kilobyte");
+    assert!(refused.contains("the most that are read of it"), "{refused}");
 }

@@ -17,6 +17,15 @@ pub struct ZoneMap {
     shape: Shape,
 }
 
+/// How many zones there are: cells of a raster that have one, or areas.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Counts {
+    /// All: also cells without a zone.
+    pub there: u64,
+    /// Those that lie on the ground, with some of them at least.
+    pub used: u64,
+}
+
 #[derive(Clone, Debug, PartialEq)]
 enum Shape {
     /// The number of each cell's key, or [`NO_ZONE`].
@@ -38,11 +47,8 @@ impl ZoneMap {
         keys.sort();
         keys.dedup();
         check_count(&keys)?;
-        let corners = || polygons.iter().flat_map(|(_, rings)| rings.iter().flatten().copied());
-        let low = corners().reduce(|one, other| one.inf(&other));
-        let high = corners().reduce(|one, other| one.sup(&other));
-        let extent = low.zip(high);
-        let extent = extent.map(|(south_west, north_east)| Extent { south_west, north_east });
+        let extent = span(polygons.iter().flat_map(|(_, rings)| rings.iter().flatten().copied()));
+        let extent = extent.map(|[south_west, north_east]| Extent { south_west, north_east });
         let number = |key: &ZoneKey| keys.binary_search(key).unwrap_or(keys.len());
         let polygons = polygons
             .into_iter()
@@ -64,6 +70,39 @@ impl ZoneMap {
             Shape::Cells(grid, _) => Some(grid.extent()),
             Shape::Polygons(_, extent) => *extent,
         }
+    }
+
+    /// Whether it is a raster of cells, not areas.
+    #[must_use]
+    pub fn is_raster(&self) -> bool {
+        matches!(self.shape, Shape::Cells(..))
+    }
+
+    /// How many zones there are, and how many lie on the ground that they are for.
+    ///
+    /// * `ground`: without an end, if it has none
+    #[must_use]
+    pub fn counts(&self, ground: Option<&Extent>) -> Counts {
+        let is_on = |low: Vec2, high: Vec2| ground.is_none_or(|it| !lie_apart([low, high], it));
+        let (there, used) = match &self.shape {
+            Shape::Cells(grid, cells) => {
+                let is_used = |(place, zone): &(usize, &u8)| {
+                    let (column, row) = (place % grid.columns, place / grid.columns);
+                    let offset = Vec2::new(column as f64, row as f64);
+                    let at = grid.south_west + grid.spacing.component_mul(&offset);
+                    **zone != NO_ZONE && is_on(at - 0.5 * grid.spacing, at + 0.5 * grid.spacing)
+                };
+                (cells.len(), cells.iter().enumerate().filter(is_used).count())
+            }
+            Shape::Polygons(polygons, _) => {
+                let is_used = |polygon: &&ZonePolygon| {
+                    let span = span(polygon.rings.iter().flatten().copied());
+                    span.is_some_and(|[low, high]| is_on(low, high))
+                };
+                (polygons.len(), polygons.iter().filter(is_used).count())
+            }
+        };
+        Counts { there: there as u64, used: used as u64 }
     }
 
     /// The zones with their soils.
@@ -116,11 +155,7 @@ impl ZoneMap {
             // Ground by a formula has no end.
             return check_places(None, &zones);
         };
-        let apart = zones.south_west.x > ground.north_east.x
-            || zones.south_west.y > ground.north_east.y
-            || zones.north_east.x < ground.south_west.x
-            || zones.north_east.y < ground.south_west.y;
-        if !apart {
+        if !lie_apart([zones.south_west, zones.north_east], ground) {
             return Ok(());
         }
         Err(if may_be_degrees(&zones) {
@@ -129,6 +164,21 @@ impl ZoneMap {
             Fault::Elsewhere { zones, ground: *ground }
         })
     }
+}
+
+/// The smallest and the largest coordinates of places; none where there is no place.
+fn span(places: impl Iterator<Item = Vec2>) -> Option<[Vec2; 2]> {
+    places.fold(None, |span, place| {
+        let [low, high] = span.unwrap_or([place, place]);
+        Some([low.inf(&place), high.sup(&place)])
+    })
+}
+
+fn lie_apart([low, high]: [Vec2; 2], ground: &Extent) -> bool {
+    low.x > ground.north_east.x
+        || low.y > ground.north_east.y
+        || high.x < ground.south_west.x
+        || high.y < ground.south_west.y
 }
 
 /// Checks that there are no more zones than can be distinguished.

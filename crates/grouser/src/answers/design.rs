@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value, json};
 
-use super::{Answer, AnswerError, AnswerOptions, Attached, Displayed, Member, meanings};
+use super::{Answer, AnswerError, Attached, Displayed, Member, meanings};
 use crate::contact::Model;
 use crate::document::columns::design::{self as columns, CHOSEN, DesignRow, MODEL, ROW, SHARE};
 use crate::document::columns::{COURSE, SLOPE};
@@ -13,8 +13,7 @@ use crate::document::figure::{Chart, Series, Style};
 use crate::document::reading::four_digits;
 use crate::document::table::Table;
 use crate::document::unit::ONE;
-use crate::document::{DesignTask, LoadedDesign};
-use crate::document::{Kind, to_toml};
+use crate::document::{DesignTask, Kind, LoadedDesign, to_toml};
 use crate::studies::design::{
     BestDesign, DesignLimit, DesignStudy, KeptLimit, LimitSide, Nearest, NoDesign,
 };
@@ -31,10 +30,12 @@ pub struct DesignQuestion {
     pub seed: u64,
     /// Two measures that are traded for one another, if any are.
     pub trade: Option<[Measure; 2]>,
-    /// The same task by other models, if what they find is asked for.
+    /// The task by each of the other models, if what they find is asked for.
     pub by_models: Vec<LoadedDesign>,
 }
 
+/// What a row is called that is of the design.
+const FOUND: &str = "found";
 /// Designs along a trade-off.
 const TRADE_POINTS: usize = 9;
 
@@ -43,7 +44,7 @@ impl DesignQuestion {
     ///
     /// # Errors
     /// [`AnswerError::Design`] where there is no design.
-    pub fn answer(&self, name: &str, _: &AnswerOptions<'_>) -> Result<Answer, AnswerError> {
+    pub fn answer(&self, name: &str) -> Result<Answer, AnswerError> {
         let study = DesignStudy::of(self.task.value.clone(), self.is_nominal, self.seed);
         let why_none = |none: NoDesign| AnswerError::Design(self.why_none(&none));
         let design = study.design().map_err(why_none)?;
@@ -73,7 +74,7 @@ impl DesignQuestion {
             ("constraints".into(), Arc::clone(&limits)),
         ];
         let lines = self.lines(&design, &rows);
-        let brief = brief(&study, &self.task.value.free);
+        let brief = brief(&study.task);
         answer.screen = vec![
             Displayed::Words(lines.join("\n") + "\n\n"),
             Displayed::Rows(Arc::clone(&limits), limits_in_brief(&limits)),
@@ -119,7 +120,7 @@ impl DesignQuestion {
             "also",
         ];
         answer.inputs_of(&self.task.document, keys);
-        answer.input("model", model_of(&self.task.value, 0).name());
+        answer.input("model", self.task.value.model(0).name());
         if study.is_uncertain() {
             answer.input("probability", self.task.value.probability);
             answer.input("samples", DesignStudy::SAMPLES);
@@ -147,17 +148,17 @@ impl DesignQuestion {
             measures: study.nominal_measures(place, values, model),
         };
         let found = design.candidate;
-        let (given, own) = (model_of(task, 0), model_of(task, found));
+        let (given, own) = (task.model(0), task.model(found));
         let mut rows = vec![
             row("as given", 0, given, &task.candidates[0].given),
-            row("found", found, own, &design.values),
+            row(FOUND, found, own, &design.values),
         ];
         let question = Question::on_course(task.candidates[found].grounds[0].course);
         let others = Model::ALL.iter().filter(|it| *it != own && models::answers(it, question));
-        rows.extend(others.map(|other| row("found", found, other, &design.values)));
+        rows.extend(others.map(|other| row(FOUND, found, other, &design.values)));
         rows.extend(self.by_models.iter().map(|task| {
             let study = DesignStudy::of(task.value.clone(), self.is_nominal, self.seed);
-            let model = model_of(&task.value, 0);
+            let model = task.value.model(0);
             match study.design() {
                 Ok(by) => row("found by it", by.candidate, model, &by.values),
                 Err(_) => DesignRow { measures: None, ..row("found by it", found, model, &[]) },
@@ -270,7 +271,7 @@ impl DesignQuestion {
         brief: &[String],
     ) {
         let row = |design: &BestDesign| DesignRow {
-            name: "found".to_owned(),
+            name: FOUND.to_owned(),
             model: String::new(),
             chosen: self.task.value.candidates[design.candidate].chosen.clone(),
             values: design.values.clone(),
@@ -283,7 +284,7 @@ impl DesignQuestion {
             let [y, x] = [first, second].map(|it| it.unit().from_si(design.measures[it.place()]));
             (x, y)
         };
-        let line = Series::new("found", Style::Line, 0, trade.iter().map(point));
+        let line = Series::new(FOUND, Style::Line, 0, trade.iter().map(point));
         let chart =
             Chart::new("What one is worth in the other", (of(second), of(first)), vec![line]);
         answer.charts(vec![chart]);
@@ -341,23 +342,18 @@ impl DesignQuestion {
     }
 }
 
-/// The model of the first ground of a rover that may be chosen.
-fn model_of(task: &DesignTask, candidate: usize) -> &Model {
-    &task.candidates[candidate].grounds[0].scenario.value.model
-}
-
 /// Which other models say that the design misses a limit.
 fn models_line(design: &BestDesign, rows: &[DesignRow]) -> Option<String> {
     let nominal = |kept: &&KeptLimit| kept.limit.ground == 0;
-    let misses = |row: &&DesignRow| {
-        let measures = row.measures.as_ref();
-        row.name == "found"
-            && design.kept.iter().filter(nominal).any(|kept| {
+    let misses =
+        |row: &&DesignRow| {
+            let measures = row.measures.as_ref();
+            design.kept.iter().filter(nominal).any(|kept| {
                 measures.is_none_or(|it| !kept.limit.holds(it[kept.limit.measure.place()]))
             })
-    };
-    let own = rows.iter().position(|row| row.name == "found").unwrap_or(0);
-    let others = rows.iter().enumerate().filter(|(place, _)| *place != own).map(|it| it.1);
+        };
+    // The first is by the design's own model.
+    let others = rows.iter().filter(|row| row.name == FOUND).skip(1);
     let names: Vec<&str> = others.filter(misses).map(|row| &*row.model).collect();
     (!names.is_empty()).then(|| format!("By other models it misses a limit: {}.", names.join(", ")))
 }
@@ -374,7 +370,7 @@ fn limit_in_words(limit: &DesignLimit) -> String {
     format!("{} {sign} {bound}{place}", limit.measure.name())
 }
 
-/// That fewer fresh samples keep a limit than are to.
+/// A sentence on a limit that fewer fresh samples keep than are to.
 fn short_line(kept: &KeptLimit, probability: f64) -> Option<String> {
     let share = kept.share.filter(|share| *share < probability)?;
     Some(format!(
@@ -393,14 +389,13 @@ fn limits_in_brief(limits: &Table) -> Vec<String> {
 
 /// The columns of designs for reading: what was chosen, the free numbers, what is to be least, what
 /// is limited.
-fn brief(study: &DesignStudy, free: &[(String, [f64; 2])]) -> Vec<String> {
-    let task = &study.task;
+fn brief(task: &DesignTask) -> Vec<String> {
     let asked = |measure: &Measure| {
         let ends = task.limits[measure.place()];
         task.weights[measure.place()] != 0.0 || ends.least.is_finite() || ends.most.is_finite()
     };
     let measures = Measure::ALL.into_iter().filter(asked).map(|it| it.name().to_owned());
-    let free = free.iter().map(|(key, _)| key.clone());
+    let free = task.free.iter().map(|(key, _)| key.clone());
     let chosen = (task.candidates.len() > 1).then(|| CHOSEN.to_owned());
     [ROW, MODEL].map(String::from).into_iter().chain(chosen).chain(free).chain(measures).collect()
 }

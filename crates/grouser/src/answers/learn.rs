@@ -42,6 +42,7 @@ impl LearnQuestion {
         answer.tables = tables.files();
         answer.screen = tables.screen(&words::lines(found));
         answer.documents.push(before_the_drive(&self.scenario));
+        answer.given.extend(found.given.iter().chain(&self.scenario.given).cloned());
         self.page(&mut answer, found, &tables);
         let slopes = self.slopes();
         let curve = HeadingStudy::of(&self.scenario.value).curve().ok();

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use self::files::{FILES, brief};
 pub use self::files::{MadeMap, MapFile, VerdictCounts};
 pub use self::question::MapQuestion;
-use super::{Answer, Displayed, Member};
+use super::{Answer, Displayed, Member, given_heights};
 use crate::document::columns::map::{CLASS, HEADING};
 use crate::document::columns::verdict::{self, ADVICE, ADVICE_OBJECT};
 use crate::document::columns::{LIMIT_SLOPE, POWER, SINKAGE, SLIP_RATIO, YAW};
@@ -59,6 +59,7 @@ impl MapQuestion<'_> {
             Displayed::Words(format!("{sentence}\nThe map: {}.\n", raster.spans())),
             Displayed::Rows(files, brief()),
         ];
+        answer.given.push(given_heights(self.dem, raster));
         answer.attach("scenario.toml", self.scenario);
         let all =
             Table::default().and(&CLASS, &made.map.advice().iter().map(Some).collect::<Vec<_>>());

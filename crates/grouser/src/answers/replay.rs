@@ -14,6 +14,7 @@ use crate::document::columns::replay::{
 };
 use crate::document::columns::{ENERGY, SLOPE, TIME};
 use crate::document::figure::{BAND_COLOUR, Chart, Series, Style, axis};
+use crate::document::given_file::GivenFile;
 use crate::document::reading::{capitalised, four_digits, sentence};
 use crate::document::table::Table;
 use crate::studies::ensemble::samples::BandInputs;
@@ -55,9 +56,16 @@ impl ReplayQuestion {
     /// The answer.
     ///
     /// * `replay`: the log, replayed with the scenario and the samples
-    /// * `notes`: on what of the log was left out
+    /// * `given`: what the log gave
+    /// * `notes`: on what of it was left out
     #[must_use]
-    pub fn answer(&self, name: &str, replay: &Replay, notes: Vec<String>) -> Answer {
+    pub fn answer(
+        &self,
+        name: &str,
+        replay: &Replay,
+        given: GivenFile,
+        notes: Vec<String>,
+    ) -> Answer {
         let rover = &self.scenario.value.rover;
         let found = Found {
             replay,
@@ -84,6 +92,7 @@ impl ReplayQuestion {
             Displayed::Rows(Arc::clone(&found.findings), findings),
             Displayed::Words(format!("\n{lines}")),
         ];
+        answer.given.push(given);
         answer.attach("scenario.toml", &self.scenario);
         self.page(&mut answer, &found);
         if let Some(changed) = self.changed_rover(replay) {

@@ -14,7 +14,7 @@ use serde_json::{Map, Value, json};
 use self::columns::{MOST_SLOPE, WAY, brief};
 pub use self::question::{Asked, RouteQuestion};
 pub use self::way::Way;
-use super::{Answer, Displayed, Member, findings_up_to};
+use super::{Answer, Displayed, Member, findings_up_to, given_heights};
 use crate::contact::validity::Finding;
 use crate::document::columns::completion::RISK;
 use crate::document::columns::{SLOPE, YAW};
@@ -49,6 +49,8 @@ impl RouteQuestion<'_> {
             Displayed::Rows(Arc::clone(&rows), brief(ways)),
             Displayed::Words(lines),
         ];
+        answer.given.push(given_heights(self.dem, self.raster));
+        answer.given.extend(self.given.iter().cloned());
         answer.attach("scenario.toml", self.scenario);
         self.page(&mut answer, ways, &rows);
         answer.findings = self.findings(ways);

@@ -11,6 +11,7 @@ use crate::document::columns::slip_from_current::{
 };
 use crate::document::columns::{COURSE, SLIP_RATIO, SLOPE, STATUS, TIME};
 use crate::document::figure::{BAND_COLOUR, Chart, Series, Style, axis};
+use crate::document::given_file::GivenFile;
 use crate::document::measurements::motor_log::MotorLog;
 use crate::document::reading::four_digits;
 use crate::document::table::Table;
@@ -25,6 +26,8 @@ use crate::vehicle::Rover;
 pub struct SlipQuestion {
     /// The log's name.
     pub log: String,
+    /// What it gave.
+    pub given: GivenFile,
     /// Columns of the log that are not read.
     pub ignored: Vec<String>,
     /// The scenario of rover, soil and slope.
@@ -70,6 +73,7 @@ impl SlipQuestion {
         answer.tables =
             vec![(name.to_owned(), Arc::clone(&rows)), ("wheels".into(), Arc::clone(&wheels))];
         screen(&mut answer, &rows, &wheels, &notes);
+        answer.given.push(self.given.clone());
         answer.attach("scenario.toml", &self.scenario);
         self.page(&mut answer, (&rows, &wheels), notes);
         answer

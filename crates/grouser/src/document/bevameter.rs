@@ -4,6 +4,7 @@
 use std::io::Read;
 
 use super::escape;
+use super::given_file::{Content, GivenFile};
 use super::measurements::bevameter_columns::REPEAT;
 use super::measurements::table::{Table, other_delimiter};
 use super::measurements::{Column, Limits, MeasurementError, MeasurementProblem as Problem};
@@ -126,6 +127,14 @@ impl<'a, R: Read> Rows<'a, R> {
     /// The same of a number that may be unknown: 0 then.
     pub(super) fn number_or_zero(&self, name: &str) -> Result<f64, MeasurementError> {
         if self.text(name).is_empty() { Ok(0.0) } else { self.number(name) }
+    }
+
+    /// What the file gave.
+    ///
+    /// * `left_out`: rows that do not count
+    pub(super) fn given(&self, content: Content, left_out: u64) -> GivenFile {
+        let rows = self.table.rows();
+        GivenFile::new(self.label, content, rows, rows.saturating_sub(left_out))
     }
 
     /// Returns the error for a file that has no rows that count.

@@ -29,6 +29,7 @@ pub use table::{Column, Role};
 use self::inputs::Prepared;
 use self::rows::Base;
 use super::error::DocumentError;
+use super::given_file::NamedFiles;
 use super::table::{Cell, Table};
 use super::{Assumed, Document, Kind, Overrides, Source, Written, assumed, written};
 use crate::studies::ensemble::{Ensemble, outputs_while};
@@ -93,10 +94,10 @@ pub fn read_campaign(source: &Source, overrides: &Overrides) -> Result<Campaign,
 }
 
 impl Campaign {
-    /// What is odd about files that it names, such as the map.
+    /// What there is to say of files that it names, such as the map.
     #[must_use]
-    pub fn notes(&self) -> &[String] {
-        self.base.notes()
+    pub fn files(&self) -> &NamedFiles {
+        self.base.files()
     }
 
     /// Its name.

@@ -13,6 +13,7 @@ use std::path::Path;
 
 use super::bevameter::{Rows, left_out_note};
 use super::escape;
+use super::given_file::{Content, GivenFile};
 use super::measurements::bevameter_columns::{
     PLATE_COLUMNS, PLATE_DIAMETER, PLATE_RADIUS, PLATE_WIDTH, PRESSURE, PRESSURE_SCATTER, SINKAGE,
 };
@@ -29,6 +30,8 @@ const SIZES: [(&str, f64); 3] = [(PLATE_WIDTH, 1.0), (PLATE_DIAMETER, 0.5), (PLA
 pub struct PlateMeasurements {
     /// A curve for each width and repeat, in the order in which they appear.
     pub curves: Vec<PlateCurve>,
+    /// What the file gave.
+    pub given: GivenFile,
     /// What was noticed and left: columns not used, rows left out, values that look like another
     /// unit's.
     pub notes: Vec<String>,
@@ -61,7 +64,7 @@ pub fn read_from(
         Rows::open(label, source, limits, &PLATE_COLUMNS, "a column of plate tests", &needed)?;
     let (size, share) = SIZES.into_iter().find(|(name, _)| rows.has(name)).unwrap_or(SIZES[0]);
     let (mut curves, mut repeats) = (Vec::<PlateCurve>::new(), Vec::<String>::new());
-    let mut before_contact = 0;
+    let mut before_contact = 0_usize;
     while rows.advance()? {
         let width = share * rows.number(size)?;
         let (sinkage, pressure) = (rows.number(SINKAGE)?, rows.number(PRESSURE)?);
@@ -87,7 +90,8 @@ pub fn read_from(
     let mut notes = rows.unused_notes();
     notes.extend(left_out_note(before_contact, "their sinkage is below zero, before contact"));
     notes.extend(doubts(&curves));
-    Ok(PlateMeasurements { curves, notes })
+    let given = rows.given(Content::PlateTests, before_contact as u64);
+    Ok(PlateMeasurements { curves, given, notes })
 }
 
 /// What looks like another unit's.

@@ -13,6 +13,7 @@ use std::path::Path;
 
 use super::bevameter::{Rows, left_out_note};
 use super::escape;
+use super::given_file::{Content, GivenFile};
 use super::measurements::bevameter_columns::{
     NORMAL_STRESS, SHEAR_COLUMNS, SHEAR_DISPLACEMENT, SHEAR_STRESS, SHEAR_STRESS_SCATTER,
 };
@@ -26,6 +27,8 @@ use crate::studies::calibration::repeated_curves::CurvePoint;
 pub struct ShearMeasurements {
     /// A curve for each normal stress and repeat, in the order in which they appear.
     pub curves: Vec<ShearCurve>,
+    /// What the file gave.
+    pub given: GivenFile,
     /// What was noticed and left: columns not used, rows left out.
     pub notes: Vec<String>,
 }
@@ -62,7 +65,7 @@ pub fn read_from(
     let needed: [&[&str]; 3] = [&[SHEAR_DISPLACEMENT], &[SHEAR_STRESS], &[NORMAL_STRESS]];
     let mut rows =
         Rows::open(label, source, limits, &SHEAR_COLUMNS, "a column of shear tests", &needed)?;
-    let (mut tests, mut before_contact) = (Vec::<Growing>::new(), 0);
+    let (mut tests, mut before_contact) = (Vec::<Growing>::new(), 0_usize);
     while rows.advance()? {
         let (at, value) = (rows.number(SHEAR_DISPLACEMENT)?, rows.number(SHEAR_STRESS)?);
         let normal_stress = rows.number(NORMAL_STRESS)?;
@@ -99,7 +102,8 @@ pub fn read_from(
     let mut notes = rows.unused_notes();
     notes
         .extend(left_out_note(before_contact, "their displacement is below zero, before shearing"));
-    Ok(ShearMeasurements { curves: tests.into_iter().map(curve).collect(), notes })
+    let given = rows.given(Content::ShearTests, before_contact as u64);
+    Ok(ShearMeasurements { curves: tests.into_iter().map(curve).collect(), given, notes })
 }
 
 #[cfg(test)]

@@ -102,7 +102,7 @@ impl SoilFamily {
         if !fitted.iter().any(|key| key.path.starts_with(DISCREPANCY)) {
             document = document.changed(|keys| drop(keys.shift_remove(DISCREPANCY)));
         }
-        let base = Varied { value: Soil::of(&document), document, notes: Vec::new() };
+        let base = Varied::of(Soil::of(&document), document);
         let (mut keys, mut parameters) = (Vec::<Key>::new(), Vec::new());
         for (place, FitKey { path, bounds }) in fitted.iter().enumerate() {
             let name = format!("soil.{path}");

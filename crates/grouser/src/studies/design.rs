@@ -3,14 +3,15 @@
 //! Some numbers of a rover are free between bounds. Every design is measured by the curve of its
 //! headings on a course: the steepest slope, and on one slope the slip, the sinkage and the work. The
 //! aim is the least of one such measure, or of a sum of them; the limits are on others. Both are
-//! smooth but for kinks where another wheel is the deepest, so that sequential least-squares programming finds a minimum and what each limit costs
-//! (Kraft 1988). It is sought from several starts, and looked at again by designs around it.
+//! smooth but for kinks where another wheel is the deepest, so that sequential least-squares
+//! programming finds a minimum and what each limit costs (Kraft 1988). It is sought from several
+//! starts, and looked at again by designs around it.
 //!
 //! Where the soil is uncertain, a limit is to be kept with a probability. Samples of soil and model
-//! are the same for every design, and a limit is on the mean of a measure some z of its standard
-//! deviations off, which is smooth. What z has to be for the share of samples that is asked for is found
-//! with the design: it is looked up in the samples there, and the search goes on from there. Samples
-//! that took no part say in the end which share keeps each limit.
+//! are the same for every design, and a limit is on the mean of a measure and z of its standard
+//! deviations to the worse side, which is smooth. What z has to be for the share of samples that is
+//! asked for is found with the design: it is looked up in the samples there, and the search goes on
+//! from there. Samples that took no part say in the end which share keeps each limit.
 //!
 //! A wheel that grows gets heavier by a rule: it is of one sheet, rim and grousers, whose mass per
 //! area is that of the rover's own wheel. What its mass adds to the load counts.
@@ -86,7 +87,7 @@ pub struct KeptLimit {
 /// A design that was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BestDesign {
-    /// Of which rover among those that may be chosen.
+    /// The rover, by its place among those that may be chosen.
     pub candidate: usize,
     /// The free numbers, in their keys' units.
     pub values: Vec<f64>,
@@ -141,7 +142,7 @@ pub enum NoDesign {
 /// The design that comes nearest to keeping all limits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nearest {
-    /// Of which rover among those that may be chosen.
+    /// The rover, by its place among those that may be chosen.
     pub candidate: usize,
     /// The free numbers, in their keys' units.
     pub values: Vec<f64>,
@@ -326,8 +327,14 @@ struct Moments {
     deviation: f64,
 }
 
+/// A measure of each sample of a ground.
+fn each(samples: &[Measures], measure: Measure) -> impl Iterator<Item = f64> + Clone {
+    samples.iter().map(move |it| it[measure.place()])
+}
+
 impl Moments {
-    fn of(values: impl Iterator<Item = f64> + Clone) -> Self {
+    fn of(samples: &[Measures], measure: Measure) -> Self {
+        let values = each(samples, measure);
         let count = values.clone().count() as f64;
         let mean = values.clone().sum::<f64>() / count;
         let variance = values.map(|it| (it - mean).powi(2)).sum::<f64>() / count;
@@ -417,7 +424,8 @@ impl<'a> DesignSearch<'a> {
         pairs.map(|((_, [least, most]), share)| least + share * (most - least)).collect()
     }
 
-    /// What every sample measures on every ground; nothing of a design that is none.
+    /// What every sample measures on every ground; nothing where the numbers are no rover, or where too
+    /// few samples move.
     fn measured(&self, point: &[f64]) -> Option<Vec<Vec<Measures>>> {
         let values = self.values(point);
         let numbers = measured::numbers(&self.study.task.free, self.candidate, &values)?;
@@ -431,10 +439,7 @@ impl<'a> DesignSearch<'a> {
 
     /// The aim, over its size.
     fn aim(&self, measured: &[Vec<Measures>]) -> f64 {
-        let of = |measure: Measure| {
-            let mean = Moments::of(measured[0].iter().map(|it| it[measure.place()])).mean;
-            measure.unit().from_si(mean)
-        };
+        let of = |measure: Measure| measure.unit().from_si(Moments::of(&measured[0], measure).mean);
         let weights = Measure::ALL.into_iter().zip(self.weights).filter(|(_, it)| **it != 0.0);
         weights.map(|(measure, weight)| weight * of(measure)).sum::<f64>() / self.aim_size
     }
@@ -442,10 +447,8 @@ impl<'a> DesignSearch<'a> {
     /// What a limit is on: a measure's mean, and so many deviations from it.
     fn limited(&self, limit: usize, measured: &[Vec<Measures>]) -> f64 {
         let (limit, score) = (&self.limits[limit], self.scores[limit]);
-        let all = measured[limit.ground].iter().map(|it| it[limit.measure.place()]);
-        let Moments { mean, deviation } = Moments::of(all);
-        // A score of zero beside no deviation is no slope of infinity.
-        if score == 0.0 { mean } else { mean + limit.side.sign() * score * deviation }
+        let Moments { mean, deviation } = Moments::of(&measured[limit.ground], limit.measure);
+        mean + limit.side.sign() * score * deviation
     }
 
     fn excesses(&self, measured: &[Vec<Measures>]) -> Vec<f64> {
@@ -473,11 +476,12 @@ impl<'a> DesignSearch<'a> {
                 continue;
             }
             let sign = limit.side.sign();
-            let all = measured[limit.ground].iter().map(|it| it[limit.measure.place()]);
-            let Moments { mean, deviation } = Moments::of(all.clone());
+            let samples = &measured[limit.ground];
+            let Moments { mean, deviation } = Moments::of(samples, limit.measure);
             if deviation <= 1e-9 * size_in_si(limit.measure) {
                 continue;
             }
+            let all = each(samples, limit.measure);
             let mut worse: Vec<f64> = all.map(|it| sign * (it - mean) / deviation).collect();
             worse.sort_by(f64::total_cmp);
             let asked = self.study.task.probability * ground.count() as f64;
@@ -499,8 +503,7 @@ impl<'a> DesignSearch<'a> {
         let (Some(measured), Some(numbers)) = (self.measured(&best.point), numbers) else {
             return Err(NoDesign::NothingMoves);
         };
-        let mean =
-            |measure: Measure| Moments::of(measured[0].iter().map(|it| it[measure.place()])).mean;
+        let mean = |measure: Measure| Moments::of(&measured[0], measure).mean;
         let fresh = self.fresh(&numbers)?;
         let kept = self.limits.iter().enumerate().map(|(place, limit)| {
             let multiplier = best.multipliers.get(place).copied().unwrap_or(0.0);
@@ -630,31 +633,6 @@ impl<'a> DesignSearch<'a> {
             ground_limit: self.grounds[0].strength(),
         }))
     }
-
-    /// Values and derivatives of what a point gives.
-    fn smooth(
-        point: &[f64],
-        of: impl Fn(&[f64]) -> Option<Vec<f64>> + Sync,
-    ) -> Option<PointValues> {
-        let here = of(point)?;
-        let variable =
-            |value: &f64| Variable { value: *value, scale: 1.0, range: Span::new(0.0, 1.0) };
-        let variables: Vec<Variable> = point.iter().map(variable).collect();
-        let sizes = vec![1.0; here.len()];
-        let mut evaluate = |points: &[Vec<f64>]| points.par_iter().map(|it| of(it)).collect();
-        let found = derivatives(&variables, &here, &sizes, StepLengths::SETTLED, &mut evaluate);
-        let by: Vec<Vec<f64>> = found
-            .by_variable
-            .into_iter()
-            .map(|by| Some(by?.into_iter().map(|it| it.value).collect()))
-            .collect::<Option<_>>()?;
-        let gradient = |result: usize| by.iter().map(|of| of[result]).collect();
-        Some(PointValues {
-            objective: here[0],
-            gradients: (0..here.len()).map(gradient).collect(),
-            constraints: here[1..].to_vec(),
-        })
-    }
 }
 
 /// Searches that differ by less came to one design [-].
@@ -703,7 +681,25 @@ impl Smooth for DesignSearch<'_> {
     }
 
     fn at(&self, point: &[f64]) -> Option<PointValues> {
-        Self::smooth(point, |point| self.outcome(point))
+        let here = self.outcome(point)?;
+        let variable =
+            |value: &f64| Variable { value: *value, scale: 1.0, range: Span::new(0.0, 1.0) };
+        let variables: Vec<Variable> = point.iter().map(variable).collect();
+        let sizes = vec![1.0; here.len()];
+        let mut evaluate =
+            |points: &[Vec<f64>]| points.par_iter().map(|it| self.outcome(it)).collect();
+        let found = derivatives(&variables, &here, &sizes, StepLengths::SETTLED, &mut evaluate);
+        let by: Vec<Vec<f64>> = found
+            .by_variable
+            .into_iter()
+            .map(|by| Some(by?.into_iter().map(|it| it.value).collect()))
+            .collect::<Option<_>>()?;
+        let gradient = |result: usize| by.iter().map(|of| of[result]).collect();
+        Some(PointValues {
+            objective: here[0],
+            gradients: (0..here.len()).map(gradient).collect(),
+            constraints: here[1..].to_vec(),
+        })
     }
 }
 

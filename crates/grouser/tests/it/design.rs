@@ -1,7 +1,7 @@
 //! Designs: closed forms, random designs that are worse, probabilities, and what has none.
 
+use grouser::answers::AnswerError;
 use grouser::answers::design::DesignQuestion;
-use grouser::answers::{AnswerError, AnswerOptions};
 use grouser::document::design::Measure;
 use grouser::document::{DocumentError, Kind, LoadedDesign, Overrides, Source, read_design};
 use grouser::studies::design::{BestDesign, DesignStudy, NoDesign};
@@ -60,7 +60,7 @@ fn no_random_design_is_better() {
 }
 
 #[test]
-#[ignore = "ten thousand designs take minutes: part of `cargo xtask ci --full`"]
+#[ignore = "minutes"]
 fn none_of_ten_thousand_random_designs_is_better() {
     random_designs_are_worse(10_000);
 }
@@ -215,7 +215,7 @@ fn what_has_no_design_says_which_limit_and_how_far() {
         trade: None,
         by_models: Vec::new(),
     };
-    let why = |settings: &[&str]| match question(settings).answer("design", &AnswerOptions::ROWS) {
+    let why = |settings: &[&str]| match question(settings).answer("design") {
         Err(AnswerError::Design(why)) => why,
         other => panic!("{other:?}"),
     };

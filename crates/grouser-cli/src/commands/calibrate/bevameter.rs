@@ -5,13 +5,14 @@ use std::path::Path;
 
 use grouser::document::calibration::{BevameterFound, BevameterProblem, BevameterTests, Solved};
 use grouser::document::checkpoint::fingerprint;
+use grouser::document::given_file::GivenFile;
 use grouser::document::measurements::Limits;
 use grouser::document::measurements::bevameter_sets::rows_of;
 use grouser::document::{Document, escape, plates, shear_tests};
 use grouser_draw::chart::{Chart, Drawable, Series, Style};
 use serde_json::{Value, json};
 
-use super::super::Answer;
+use super::super::{Answer, add_files};
 use super::checkpoint::{Checkpoint, open_folder};
 use super::progress::{Progress, sampling};
 use super::report;
@@ -28,12 +29,12 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     let folder = open_folder(args)?;
     let (soil, gravity) = inputs::soil(&args.soil, &args.setting)?;
     let files = Files::read(args)?;
-    let tests = files.tests(args.read.limits())?;
+    let (tests, given) = files.tests(args.read.limits())?;
     let law = args.plate_law.map(PlateLawChoice::name);
     let problem =
         BevameterProblem::new(&soil.document, law, gravity, &tests).map_err(Failure::Usage)?;
     output::notes(problem.notes());
-    let settings = settings(args, &files, problem.soil(), gravity);
+    let mut settings = settings(args, &files, problem.soil(), gravity);
     let checkpoint = Checkpoint::open(args, settings.to_string())?;
     let progress = Progress::new(checkpoint.as_ref());
     let found = problem
@@ -41,9 +42,10 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
         .map_err(|error| progress.failure(error))?;
     let solved = &found.solved;
     output::notes(solved.notes());
+    add_files(&mut settings, &given);
     let answer = Answer::new("calibrate", settings, found.results());
     let blocks = [vec![report::parameters(&solved.records)], report::conclusions(solved)].concat();
-    let text = Text::blocks(blocks);
+    let text = Text::blocks(blocks) + output::answer::given(&given);
     if let Some(mut folder) = folder {
         folder.add("calibration.json", answer.to_text());
         report::add_soil(&mut folder, problem.family(), solved, &found.soil)?;
@@ -72,19 +74,22 @@ impl<'a> Files<'a> {
         })
     }
 
-    fn tests(&self, limits: Limits) -> Result<BevameterTests, Failure> {
-        let mut tests = BevameterTests::default();
+    /// The tests, and what the files gave.
+    fn tests(&self, limits: Limits) -> Result<(BevameterTests, Vec<GivenFile>), Failure> {
+        let (mut tests, mut given) = (BevameterTests::default(), Vec::new());
         if let Some((file, bytes)) = &self.plates {
             let read = plates::read_from(&escape::path(file), bytes.as_slice(), limits)?;
             output::notes(&read.notes);
+            given.push(read.given);
             tests.plates = read.curves;
         }
         if let Some((file, bytes)) = &self.shear {
             let read = shear_tests::read_from(&escape::path(file), bytes.as_slice(), limits)?;
             output::notes(&read.notes);
+            given.push(read.given);
             tests.shear = read.curves;
         }
-        Ok(tests)
+        Ok((tests, given))
     }
 
     fn each(&self) -> impl Iterator<Item = &(&'a Path, Vec<u8>)> {

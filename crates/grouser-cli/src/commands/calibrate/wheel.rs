@@ -8,7 +8,7 @@ use grouser::document::measurements::{self, Choice, Measurements};
 use grouser::document::{SoilFamily, to_toml};
 use serde_json::{Value, json};
 
-use super::super::Answer;
+use super::super::{Answer, add_files};
 use super::checkpoint::{Checkpoint, open_folder};
 use super::next_runs::aim;
 use super::progress::{Progress, sampling};
@@ -34,8 +34,11 @@ pub(super) fn run(args: &CalibrateArgs) -> Result<(), Failure> {
     let found = find(args, &problem, checkpoint.as_ref())?;
     let solved = &found.solved;
     output::notes(found.notes());
-    let answer = Answer::new("calibrate", problem.settings.clone(), found.results(&args.target));
-    let text = report::text(&found, &args.target);
+    let given = [problem.measured.given.clone()];
+    let mut inputs = problem.settings.clone();
+    add_files(&mut inputs, &given);
+    let answer = Answer::new("calibrate", inputs, found.results(&args.target));
+    let text = report::text(&found, &args.target) + output::answer::given(&given);
     if let Some(mut folder) = folder {
         folder.add("calibration.json", answer.to_text());
         report::add_soil(&mut folder, &problem.family, solved, &found.soil)?;

@@ -5,6 +5,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::thread;
 use std::time::Duration;
 
+use grouser::document::given_file::GivenFile;
 use grouser::document::measurements::telemetry::{Lost, TelemetryRecord};
 use grouser_logs::TelemetryLog;
 
@@ -40,6 +41,8 @@ pub(super) struct Ending {
     /// What else there is to say of it.
     pub(super) notes: Vec<String>,
     pub(super) rows: u64,
+    /// What it gave; nothing where nobody knows.
+    pub(super) given: Option<GivenFile>,
     /// The share of the log that was used [-].
     pub(super) share_used: f64,
 }
@@ -47,7 +50,7 @@ pub(super) struct Ending {
 impl Ending {
     /// Where nothing is known of it.
     fn of_nothing() -> Self {
-        Self { lost: Lost::default(), notes: Vec::new(), rows: 0, share_used: 1.0 }
+        Self { lost: Lost::default(), notes: Vec::new(), rows: 0, given: None, share_used: 1.0 }
     }
 }
 
@@ -95,5 +98,6 @@ fn read(mut log: TelemetryLog, sender: &SyncSender<Event>) -> Result<Event, Fail
         }
     }
     let (lost, notes) = (log.lost().clone(), log.notes_of_source());
-    Ok(Event::End(Ending { lost, notes, rows: log.rows(), share_used: log.share_used() }))
+    let (rows, given, share_used) = (log.rows(), Some(log.given()), log.share_used());
+    Ok(Event::End(Ending { lost, notes, rows, given, share_used }))
 }

@@ -62,7 +62,7 @@ impl Believed {
         (risk, advice)
     }
 
-    /// The same in sentences: the whole first, then each leg that has advice, and which have none.
+    /// Sentences on a mission: the whole first, then each leg that has advice, and which have none.
     pub(super) fn sentences(&self, place: usize, way: &DrivenMission) -> Vec<String> {
         let (risk, advice) = self.way(place);
         let legs = || way.legs.iter().zip(advice);

@@ -74,7 +74,7 @@ pub(super) fn html(answered: &Answered) -> String {
         "grouser mission mission.toml --stop-from STOPS.toml --out WITH-STOPS",
         "grouser mission mission.toml --animate drive.html",
     ]);
-    let basis = basis.with("mission.toml", &answered.document);
+    let basis = basis.with("mission.toml", &answered.document).with_files(answered.given());
     answer::close(page, Some(&findings), &columns, &basis)
 }
 

@@ -12,6 +12,7 @@ use grouser::studies::traverse_band::Ends;
 use grouser::units::Vec2;
 use grouser_draw::chart::{BAND_COLOUR, Chart, Drawable, Series, Style};
 
+use super::given;
 use super::of_model::{OfModel, chart, reason};
 use crate::args::TraverseArgs;
 use crate::commands::sampling;
@@ -171,5 +172,6 @@ fn basis(args: &TraverseArgs, all: &[OfModel]) -> Basis {
     let next =
         next.into_iter().filter(|line| samples.is_empty() || !line.contains("--uncertainty"));
     let next: Vec<&str> = next.collect();
-    Basis::new(repeat).followed_by(&next).with("scenario.toml", &all[0].scenario)
+    let basis = Basis::new(repeat).followed_by(&next).with("scenario.toml", &all[0].scenario);
+    basis.with_files(given(all))
 }

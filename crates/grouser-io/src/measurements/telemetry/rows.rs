@@ -9,6 +9,7 @@ use grouser_core::vehicle::Rover;
 use super::super::super::check::nearest;
 use super::super::super::columns::{TIME, X, Y};
 use super::super::super::escape;
+use super::super::super::given_file::{Content, GivenFile};
 use super::super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::super::log_column::LogColumn;
 use super::clock::{OTHER_TIMES, TimeUnit, seconds_of_date};
@@ -179,13 +180,21 @@ impl TelemetryRows {
         self.rows
     }
 
+    /// What the rows so far gave; those that became records count.
+    ///
+    /// * `file`: its name
+    #[must_use]
+    pub fn given(&self, file: &str) -> GivenFile {
+        let Lost { damaged_rows, rows_without_time, rows_out_of_order, .. } = self.lost;
+        let used = self.rows - rows_without_time - rows_out_of_order;
+        GivenFile::new(file, Content::Telemetry, self.rows + damaged_rows, used)
+    }
+
     /// The share of all rows that became records so far; 1 before the first row.
     #[must_use]
     pub fn share_used(&self) -> f64 {
-        let Lost { damaged_rows, rows_without_time, rows_out_of_order, .. } = self.lost;
-        let all = self.rows + damaged_rows;
-        let used = self.rows - rows_without_time - rows_out_of_order;
-        if all == 0 { 1.0 } else { used as f64 / all as f64 }
+        let GivenFile { there, used, .. } = self.given("");
+        if there == 0 { 1.0 } else { used as f64 / there as f64 }
     }
 
     /// What was lost so far.

@@ -6,6 +6,7 @@ use super::super::Sampling;
 use super::advice::AdviceQuestion;
 use crate::document::LoadedScenario;
 use crate::document::columns::SLOPE;
+use crate::document::given_file::GivenFile;
 use crate::studies::heading_band::HeadingBand;
 use crate::studies::learn::Drive;
 use crate::studies::learn::advice::{AdviceSettings, DriveAdvice};
@@ -49,6 +50,8 @@ pub struct LearntDrive {
     /// What the motors' currents say; nothing without currents, of a rover whose motors are not
     /// known, or where nobody asks for it.
     pub slips: Option<SlipsFromCurrents>,
+    /// What the log gave; nothing where nobody knows.
+    pub given: Option<GivenFile>,
     /// What was left out of the telemetry, a sentence each.
     pub notes: Vec<String>,
 }

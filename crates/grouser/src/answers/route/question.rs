@@ -6,6 +6,7 @@ use grouser_raster::Raster;
 
 use super::super::Sampling;
 use crate::document::LoadedScenario;
+use crate::document::given_file::GivenFile;
 use crate::studies::mobility::Ground;
 use crate::studies::route::{Ends, Line, RouteError, RouteStudy};
 
@@ -26,6 +27,8 @@ pub struct RouteQuestion<'q> {
     pub along: Option<&'q Path>,
     /// The file of the areas where nobody may go, if there are any.
     pub keep_out: Option<&'q Path>,
+    /// What the files gave of that line and these areas.
+    pub given: &'q [GivenFile],
     /// The samples of soil and model.
     pub sampling: Sampling,
 }

@@ -14,6 +14,7 @@ use crate::document::columns::drives::{
 };
 use crate::document::columns::{MODEL, Quantity, SLOPE, YAW, advice::RIM_SPEED};
 use crate::document::figure::{Chart, Series, Style};
+use crate::document::given_file::GivenFile;
 use crate::document::reading::{capitalised, sentence};
 use crate::document::table::Table;
 use crate::document::validation::ErrorsRecord;
@@ -40,6 +41,8 @@ pub struct DriveValidationQuestion {
     pub scenario: LoadedScenario,
     /// The drives.
     pub drives: Vec<RecordedDrive>,
+    /// What the log of each gave.
+    pub given: Vec<GivenFile>,
     /// Notes on what of the folder was left out.
     pub notes: Vec<String>,
 }
@@ -93,6 +96,7 @@ impl DriveValidationQuestion {
             (FILE.to_owned(), Arc::clone(&found.drives)),
         ];
         answer.screen = found.screen();
+        answer.given.clone_from(&self.given);
         answer.attach("scenario.toml", &self.scenario);
         self.page(&mut answer, &found);
         Ok(answer)

@@ -66,6 +66,7 @@ impl SlopeValidationQuestion {
         answer.tables.push((FILE.to_owned(), Arc::clone(&found.slopes)));
         answer.screen = found.screen();
         answer.attach("scenario.toml", &self.scenario);
+        answer.given.push(self.tests.given.clone());
         if options.has_page {
             self.page(&mut answer, &found);
         }

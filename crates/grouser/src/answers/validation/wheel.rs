@@ -61,6 +61,7 @@ impl ValidationQuestion {
         answer.screen = screen(&validation, &errors, &cells);
         answer.attach("soil.toml", &self.soil);
         answer.attach("wheel.toml", &self.wheel);
+        answer.given.push(self.measured.given.clone());
         if options.has_page {
             self.page(&mut answer, &validation, &errors);
         }

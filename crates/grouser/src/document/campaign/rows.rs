@@ -10,6 +10,7 @@ use super::super::columns::{
     self, DRAWBAR_PULL, MODEL, OK, SIDE_FORCE, SINKAGE, SLIP_RATIO, TORQUE,
 };
 use super::super::error::{DocumentError, Problem};
+use super::super::given_file::NamedFiles;
 use super::super::table::{BETWEEN_NAMES, Cell, ColumnKind};
 use super::super::varied::{Key, Numbers, Varied};
 use super::super::{Document, Misfit, Node, Plan, map_of};
@@ -251,12 +252,12 @@ impl Base {
         Ok(Self::Stand(Box::new(Varied::new(document, tree)?)))
     }
 
-    /// What is odd about files that it names.
-    pub(super) fn notes(&self) -> &[String] {
+    /// What there is to say of files that it names.
+    pub(super) fn files(&self) -> &NamedFiles {
         match self {
-            Self::Scenario(varied) => &varied.notes,
-            Self::Mission(varied) => &varied.notes,
-            Self::Stand(varied) => &varied.notes,
+            Self::Scenario(varied) => &varied.files,
+            Self::Mission(varied) => &varied.files,
+            Self::Stand(varied) => &varied.files,
         }
     }
 

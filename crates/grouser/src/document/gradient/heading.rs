@@ -45,7 +45,7 @@ impl HeadingKeys {
         asked_for: &GradientKeys,
     ) -> Result<Self, NoSuchKey> {
         let document = scenario.document.clone();
-        let scenario = Varied { value: scenario.value.clone(), document, notes: Vec::new() };
+        let scenario = Varied::of(scenario.value.clone(), document);
         let mut keys = Self { scenario, steering, keys: Vec::new() };
         let names = match asked_for {
             GradientKeys::These(names) => names.clone(),

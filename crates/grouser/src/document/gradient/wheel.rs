@@ -67,9 +67,9 @@ impl WheelKeys {
         asked_for: &GradientKeys,
     ) -> Result<Self, NoSuchKey> {
         let document = soil.document.clone();
-        let soil = Varied { value: soil.value, document, notes: Vec::new() };
+        let soil = Varied::of(soil.value, document);
         let document = wheel.document.clone();
-        let wheel = Varied { value: wheel.value, document, notes: Vec::new() };
+        let wheel = Varied::of(wheel.value, document);
         let mut keys = Self { soil, wheel, keys: Vec::new() };
         let names = match asked_for {
             GradientKeys::These(names) => names.clone(),

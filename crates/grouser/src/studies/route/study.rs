@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use grouser_raster::zones::ZoneKey;
+use grouser_raster::zones::{Counts, ZoneKey};
 use grouser_raster::{RasterError, read_areas};
 
 use crate::studies::verdict::SlopeStudy;
@@ -67,19 +67,25 @@ pub struct RouteStudy {
 }
 
 impl RouteStudy {
-    /// The study with areas that ways are to keep out of: the polygons of a file of GeoJSON.
+    /// The study with areas that ways are to keep out of: the polygons of a file of GeoJSON; and
+    /// how many there are, and lie on the ground.
     ///
     /// * `ground`: the extent of the heights
     ///
     /// # Errors
     /// [`RasterError`] if the file has no such polygons on this ground.
-    pub fn keeping_out_of(self, file: &Path, ground: &Extent) -> Result<Self, RasterError> {
+    pub fn keeping_out_of(
+        self,
+        file: &Path,
+        ground: &Extent,
+    ) -> Result<(Self, Counts), RasterError> {
         let map = read_areas(file, ground)?;
+        let counts = map.counts(Some(ground));
         // That there is a zone is all that counts.
         let legend = [(ZoneKey::Class(0), Some(0))];
         let zones = map.with_legend(&legend, vec![self.mobility.heading.soil]);
         let zones = zones.map_err(|fault| RasterError { file: file.to_owned(), fault })?;
-        Ok(Self { keep_out: Some(zones), ..self })
+        Ok((Self { keep_out: Some(zones), ..self }, counts))
     }
 }
 
