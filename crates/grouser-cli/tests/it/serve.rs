@@ -64,31 +64,47 @@ impl Drop for Served {
 #[test]
 fn answers_are_those_of_the_commands_that_come_with_them() {
     let place = Place::new();
-    place.write("soft sand.toml", crate::program::changed_preset("soil", "toyoura", "38.0", "33.0"));
+    place
+        .write("soft sand.toml", crate::program::changed_preset("soil", "toyoura", "38.0", "33.0"));
     let served = Served::start(&place, &["."]);
     for (question, body) in [
         ("heading", json!({})),
         ("heading", json!({"soil": "toyoura-uncertain", "slope_deg": [4, 12], "stages": [0, 10]})),
-        ("heading", json!({"soil": "soft sand.toml", "rover": "hakuto", "gravity_m_s2": "moon", "nominal": true})),
+        (
+            "heading",
+            json!({"soil": "soft sand.toml", "rover": "hakuto", "gravity_m_s2": "moon", "nominal": true}),
+        ),
         ("heading", json!({"slope_deg": 8.5, "model": "all", "nominal": true})),
         ("heading", json!({"steering": "crab", "rover": "mgru3", "slope_deg": 5})),
-        ("heading", json!({
-            "slope_deg": 10, "samples": 8, "seed": 3, "go_slip_ratio": 0.2,
-            "set": {"soil.cohesion_kpa": 0.25, "rover.wheel_unit.wheel.radius_m": 0.12},
-        })),
-        ("heading", json!({
-            "slope_deg": 10, "nominal": true, "gradients": ["soil.friction_angle_deg", "slope_deg"],
-        })),
+        (
+            "heading",
+            json!({
+                "slope_deg": 10, "samples": 8, "seed": 3, "go_slip_ratio": 0.2,
+                "set": {"soil.cohesion_kpa": 0.25, "rover.wheel_unit.wheel.radius_m": 0.12},
+            }),
+        ),
+        (
+            "heading",
+            json!({
+                "slope_deg": 10, "nominal": true, "gradients": ["soil.friction_angle_deg", "slope_deg"],
+            }),
+        ),
         ("heading-map", json!({})),
-        ("heading-map", json!({
-            "slope_deg": 10, "course_deg": [-30, 15], "samples": 8, "rim_speed_m_s": 0.1,
-            "set": {"scenario.gravity_m_s2": 3.71},
-        })),
+        (
+            "heading-map",
+            json!({
+                "slope_deg": 10, "course_deg": [-30, 15], "samples": 8, "rim_speed_m_s": 0.1,
+                "set": {"scenario.gravity_m_s2": 3.71},
+            }),
+        ),
         ("wheel-test", json!({})),
-        ("wheel-test", json!({
-            "slip_ratio": [-0.2, 0.3], "slip_angle_deg": 10, "load_n": [5, 20], "stages": [0, 8],
-            "soil": "toyoura-uncertain", "set": {"wheel.width_m": 0.1},
-        })),
+        (
+            "wheel-test",
+            json!({
+                "slip_ratio": [-0.2, 0.3], "slip_angle_deg": 10, "load_n": [5, 20], "stages": [0, 8],
+                "soil": "toyoura-uncertain", "set": {"wheel.width_m": 0.1},
+            }),
+        ),
         ("wheel-test", json!({"slip_ratio": 0.3, "gradients": ["all"], "model": "small-wheel"})),
     ] {
         let mut asked = body.clone();
@@ -118,7 +134,7 @@ fn presets_are_those_of_the_command() {
     let mut reply = String::new();
     stream.read_to_string(&mut reply).unwrap();
     let listed: Value = serde_json::from_str(reply.split_once("\r\n\r\n").unwrap().1).unwrap();
-    assert_eq!(listed, place.json("presets --format json"));
+    assert_eq!(listed, place.json("presets"));
 }
 
 #[test]
