@@ -12,36 +12,11 @@ mod parts;
 mod staged;
 mod wheel_test;
 
-use crate::folder::Folder;
-use crate::refusal::Refusal;
-use crate::runs::GoOn;
-use crate::server::Console;
-
-/// Reads a question.
-pub(crate) type Read = fn(&Folder, &[u8]) -> Result<Question, Refusal>;
+use crate::asked::Read;
+use crate::console::Console;
 
 /// Lists what there is, as a line.
 pub(crate) type List = fn(&Console) -> String;
-
-/// Takes a line; whether somebody reads it.
-pub(crate) type Send<'a> = &'a dyn Fn(String) -> bool;
-
-/// A question.
-pub(crate) struct Question(Box<Answering>);
-
-/// What answers a question.
-type Answering = dyn FnOnce(&GoOn, Send<'_>) -> Result<(), Refusal>;
-
-impl Question {
-    fn new(answer: impl FnOnce(&GoOn, Send<'_>) -> Result<(), Refusal> + 'static) -> Self {
-        Self(Box::new(answer))
-    }
-
-    /// Computes the answer, and sends it line by line.
-    pub(crate) fn answer(self, go_on: &GoOn, send: Send<'_>) -> Result<(), Refusal> {
-        (self.0)(go_on, send)
-    }
-}
 
 /// The questions, by their paths below `/api/`: those of answers have the names of the program's
 /// commands.

@@ -8,24 +8,24 @@ use bytes::Bytes;
 use hyper::body::{Body as HttpBody, Frame, SizeHint};
 use tokio::sync::mpsc::Receiver;
 
-use crate::runs::Asking;
+use crate::runs::Waiter;
 
 /// The body of a response.
-pub(crate) enum Body {
+pub(crate) enum ReplyBody {
     /// All of it; nothing once it was sent.
     Whole(Option<Bytes>),
     /// The lines of an answer as they come. When it is dropped, because the last was sent or the
     /// reader has gone, nobody asks any more.
-    Lines { first: Option<Bytes>, rest: Receiver<Bytes>, _asking: Asking },
+    Lines { first: Option<Bytes>, rest: Receiver<Bytes>, _asking: Waiter },
 }
 
-impl Body {
+impl ReplyBody {
     pub(crate) fn whole(content: impl Into<Bytes>) -> Self {
         Self::Whole(Some(content.into()))
     }
 }
 
-impl HttpBody for Body {
+impl HttpBody for ReplyBody {
     type Data = Bytes;
     type Error = Infallible;
 

@@ -16,9 +16,9 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::Semaphore;
 use tokio::time::{Instant, Sleep, sleep, timeout};
 
+use crate::console::Console;
 use crate::refusal::Refusal;
 use crate::routes;
-use crate::server::Console;
 
 /// Bytes of the head of a request.
 const HEAD: usize = 16 << 10;

@@ -8,7 +8,7 @@ use grouser::document::{self, Beside, DocumentError, Kind, Overrides, Source};
 
 /// The folder of documents, or none.
 #[derive(Clone, Debug)]
-pub(crate) struct Folder(Option<PathBuf>);
+pub(crate) struct ServedFolder(Option<PathBuf>);
 
 /// A document of the folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,7 +23,7 @@ const DEEPEST: usize = 3;
 /// Entries that are looked at.
 const MOST: usize = 2000;
 
-impl Folder {
+impl ServedFolder {
     /// * `path`: without one there are presets alone
     pub(crate) fn open(path: Option<&Path>) -> io::Result<Self> {
         let Some(path) = path else { return Ok(Self(None)) };

@@ -4,7 +4,8 @@
 //! A request passes these checks, in this order: `access` asks whether its `Host` is one of ours
 //! (403) and whether it has the token (401), `routes` whether there is such a path (404) and method
 //! (405), and for a question whether its `Origin` is ours (403) and its body small (413) and quick
-//! (408) JSON. `connection` bounds connections and what they take, `runs` computations, `folder`
+//! (408) JSON. `connection` bounds connections and what they take, `answering` and
+//! `runs` computations, `folder`
 //! the files that may be opened. `api` makes questions of JSON; `page/` has the page.
 //!
 //! It is made on `hyper` itself. What a router and layers of middleware would add are a dozen
@@ -21,13 +22,15 @@
 //! ```
 
 mod access;
+mod answering;
 mod api;
+mod asked;
 mod assets;
 mod body;
 mod connection;
+mod console;
 mod folder;
 mod limits;
-mod question;
 mod refusal;
 mod routes;
 mod runs;

@@ -1,11 +1,7 @@
 //! Why a request is not answered: a status, and a sentence as JSON.
 
-use grouser::document::json;
-use hyper::header::{ALLOW, CONNECTION, CONTENT_TYPE, HeaderValue, RETRY_AFTER};
-use hyper::{Response, StatusCode};
+use hyper::StatusCode;
 use serde_json::{Value, json};
-
-use crate::body::Body;
 
 /// A request that is not answered.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,9 +14,6 @@ pub(crate) struct Refusal {
     /// What helps, if something is known.
     pub(crate) hint: Option<String>,
 }
-
-/// The type of JSON.
-pub(crate) const JSON: HeaderValue = HeaderValue::from_static("application/json");
 
 impl Refusal {
     pub(crate) fn new(status: StatusCode, message: impl Into<String>) -> Self {
@@ -47,26 +40,5 @@ impl Refusal {
             }
         }
         error
-    }
-
-    /// It as an answer. Where the request's body was not read, the connection ends with it.
-    pub(crate) fn response(&self) -> Response<Body> {
-        let mut response = Response::new(Body::whole(json::line(&self.to_json()) + "\n"));
-        *response.status_mut() = self.status;
-        let headers = response.headers_mut();
-        headers.insert(CONTENT_TYPE, JSON);
-        match self.status {
-            StatusCode::SERVICE_UNAVAILABLE => {
-                headers.insert(RETRY_AFTER, HeaderValue::from_static("1"));
-            }
-            StatusCode::METHOD_NOT_ALLOWED => {
-                headers.insert(ALLOW, HeaderValue::from_static("GET, HEAD, POST"));
-            }
-            StatusCode::PAYLOAD_TOO_LARGE | StatusCode::REQUEST_TIMEOUT => {
-                headers.insert(CONNECTION, HeaderValue::from_static("close"));
-            }
-            _ => {}
-        }
-        response
     }
 }

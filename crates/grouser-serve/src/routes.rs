@@ -3,23 +3,28 @@
 use std::sync::Arc;
 
 use bytes::Bytes;
+use grouser::document::json;
 use http_body_util::{BodyExt as _, LengthLimitError, Limited};
 use hyper::body::{Body as _, Incoming};
 use hyper::header::{
-    CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HeaderName, HeaderValue, REFERRER_POLICY,
-    SET_COOKIE, X_CONTENT_TYPE_OPTIONS, X_FRAME_OPTIONS,
+    ALLOW, CACHE_CONTROL, CONNECTION, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HeaderName,
+    HeaderValue, REFERRER_POLICY, RETRY_AFTER, SET_COOKIE, X_CONTENT_TYPE_OPTIONS, X_FRAME_OPTIONS,
 };
 use hyper::{Method, Request, Response, StatusCode};
 
-use crate::api::{self, List, Read};
+use crate::answering;
+use crate::api::{self, List};
+use crate::asked::Read;
 use crate::assets::{ASSETS, Asset, PAGE};
-use crate::body::Body;
-use crate::question;
-use crate::refusal::{JSON, Refusal};
-use crate::server::Console;
+use crate::body::ReplyBody;
+use crate::console::Console;
+use crate::refusal::Refusal;
+
+/// The type of JSON.
+const JSON: HeaderValue = HeaderValue::from_static("application/json");
 
 /// What a path leads to.
-enum Route {
+enum PathTarget {
     File(&'static Asset),
     /// What is there to choose from.
     List(List),
@@ -28,10 +33,13 @@ enum Route {
 }
 
 /// The response to a request.
-pub(crate) async fn respond(console: &Arc<Console>, request: Request<Incoming>) -> Response<Body> {
+pub(crate) async fn respond(
+    console: &Arc<Console>,
+    request: Request<Incoming>,
+) -> Response<ReplyBody> {
     let mut response = match answer(console, request).await {
         Ok(response) => response,
-        Err(refusal) => refusal.response(),
+        Err(refusal) => refused(&refusal),
     };
     for (name, value) in PROTECTION {
         response.headers_mut().insert(name, HeaderValue::from_static(value));
@@ -59,14 +67,14 @@ const PROTECTION: [(HeaderName, &str); 8] = [
 async fn answer(
     console: &Arc<Console>,
     request: Request<Incoming>,
-) -> Result<Response<Body>, Refusal> {
+) -> Result<Response<ReplyBody>, Refusal> {
     console.access.check_host(&request)?;
     console.access.check_token(&request)?;
     let route = find(request.uri().path()).ok_or_else(|| {
         let message = format!("there is nothing at {}", request.uri().path());
         Refusal::new(StatusCode::NOT_FOUND, message)
     })?;
-    let is_question = matches!(route, Route::Question(_));
+    let is_question = matches!(route, PathTarget::Question(_));
     let is_allowed = match *request.method() {
         Method::GET | Method::HEAD => !is_question,
         Method::POST => is_question,
@@ -78,32 +86,38 @@ async fn answer(
         return Err(Refusal::new(StatusCode::METHOD_NOT_ALLOWED, message));
     }
     match route {
-        Route::File(asset) => Ok(file(console, asset)),
-        Route::List(list) => Ok(whole(JSON, list(console))),
-        Route::Question(read) => {
+        PathTarget::File(asset) => Ok(file(console, asset)),
+        PathTarget::List(list) => {
+            // Files are read for it, which others need not wait for.
+            let console = Arc::clone(console);
+            let listed = tokio::task::spawn_blocking(move || list(&console)).await;
+            let failed = |_| Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, "there is no list");
+            Ok(whole(JSON, listed.map_err(failed)?))
+        }
+        PathTarget::Question(read) => {
             console.access.check_origin(request.headers())?;
             let body = json_of(console, request).await?;
-            question::answer(console, read, body).await
+            answering::answer(console, read, body).await
         }
     }
 }
 
-fn find(path: &str) -> Option<Route> {
+fn find(path: &str) -> Option<PathTarget> {
     if path == PAGE.path {
-        return Some(Route::File(&PAGE));
+        return Some(PathTarget::File(&PAGE));
     }
     if let Some(asset) = ASSETS.iter().find(|asset| asset.path == path) {
-        return Some(Route::File(asset));
+        return Some(PathTarget::File(asset));
     }
     let name = path.strip_prefix("/api/")?;
     if let Some((_, list)) = api::LISTS.iter().find(|(own, _)| *own == name) {
-        return Some(Route::List(*list));
+        return Some(PathTarget::List(*list));
     }
     let (_, read) = api::QUESTIONS.iter().find(|(own, _)| *own == name)?;
-    Some(Route::Question(*read))
+    Some(PathTarget::Question(*read))
 }
 
-fn file(console: &Console, asset: &Asset) -> Response<Body> {
+fn file(console: &Console, asset: &Asset) -> Response<ReplyBody> {
     let mut response = whole(HeaderValue::from_static(asset.kind), asset.content);
     if asset.path == PAGE.path {
         // Whoever gets here has the token.
@@ -113,9 +127,29 @@ fn file(console: &Console, asset: &Asset) -> Response<Body> {
     response
 }
 
-fn whole(kind: HeaderValue, content: impl Into<Bytes>) -> Response<Body> {
-    let mut response = Response::new(Body::whole(content));
+fn whole(kind: HeaderValue, content: impl Into<Bytes>) -> Response<ReplyBody> {
+    let mut response = Response::new(ReplyBody::whole(content));
     response.headers_mut().insert(CONTENT_TYPE, kind);
+    response
+}
+
+/// A refusal as a response. Where the request's body was not read, the connection ends with it.
+fn refused(refusal: &Refusal) -> Response<ReplyBody> {
+    let mut response = whole(JSON, json::line(&refusal.to_json()) + "\n");
+    *response.status_mut() = refusal.status;
+    let headers = response.headers_mut();
+    match refusal.status {
+        StatusCode::SERVICE_UNAVAILABLE => {
+            headers.insert(RETRY_AFTER, HeaderValue::from_static("1"));
+        }
+        StatusCode::METHOD_NOT_ALLOWED => {
+            headers.insert(ALLOW, HeaderValue::from_static("GET, HEAD, POST"));
+        }
+        StatusCode::PAYLOAD_TOO_LARGE | StatusCode::REQUEST_TIMEOUT => {
+            headers.insert(CONNECTION, HeaderValue::from_static("close"));
+        }
+        _ => {}
+    }
     response
 }
 

@@ -11,7 +11,7 @@ use crate::limits::Limits;
 use crate::refusal::Refusal;
 
 /// The places of computations.
-pub(crate) struct Runs {
+pub(crate) struct RunPlaces {
     /// Of those that compute.
     computing: Arc<Semaphore>,
     /// Of these, and of those that wait.
@@ -28,7 +28,7 @@ pub(crate) struct Place {
 }
 
 /// Somebody waits for an answer, until this is dropped.
-pub(crate) struct Asking(Arc<AtomicBool>);
+pub(crate) struct Waiter(Arc<AtomicBool>);
 
 /// What a computation asks whether to go on.
 #[derive(Clone)]
@@ -38,7 +38,7 @@ pub(crate) struct GoOn {
     until: Instant,
 }
 
-impl Runs {
+impl RunPlaces {
     pub(crate) fn new(limits: &Limits) -> Self {
         Self {
             computing: Arc::new(Semaphore::new(limits.runs)),
@@ -61,12 +61,12 @@ impl Runs {
     }
 
     /// Somebody who asks, and what the computation asks.
-    pub(crate) fn asking(&self) -> (Asking, GoOn) {
+    pub(crate) fn asking(&self) -> (Waiter, GoOn) {
         let has_gone = Arc::new(AtomicBool::new(false));
         let has_ended = Arc::clone(&self.has_ended);
         let go_on =
             GoOn { has_gone: Arc::clone(&has_gone), has_ended, until: Instant::now() + self.time };
-        (Asking(has_gone), go_on)
+        (Waiter(has_gone), go_on)
     }
 
     /// Stops all computations.
@@ -75,7 +75,7 @@ impl Runs {
     }
 }
 
-impl Drop for Asking {
+impl Drop for Waiter {
     fn drop(&mut self) {
         self.0.store(true, Ordering::Relaxed);
     }

@@ -10,9 +10,10 @@ use tokio::runtime::{Builder, Runtime};
 
 use crate::access::Access;
 use crate::connection;
-use crate::folder::Folder;
+use crate::console::Console;
+use crate::folder::ServedFolder;
 use crate::limits::Limits;
-use crate::runs::Runs;
+use crate::runs::RunPlaces;
 use crate::token::Token;
 
 /// What a server serves, and to whom.
@@ -77,14 +78,6 @@ pub struct Server {
     address: SocketAddr,
 }
 
-/// What all connections share.
-pub(crate) struct Console {
-    pub(crate) access: Access,
-    pub(crate) folder: Folder,
-    pub(crate) runs: Runs,
-    pub(crate) limits: Limits,
-}
-
 /// How often it is asked whether to end.
 const LOOK: Duration = Duration::from_millis(50);
 /// Time for computations to stop at the end.
@@ -96,7 +89,7 @@ impl Server {
     /// # Errors
     /// [`ServeError`] for a folder that cannot be read, and an address that cannot be had.
     pub fn bind(settings: &Settings) -> Result<Self, ServeError> {
-        let folder = Folder::open(settings.folder.as_deref()).map_err(|error| {
+        let folder = ServedFolder::open(settings.folder.as_deref()).map_err(|error| {
             ServeError::Folder { path: settings.folder.clone().unwrap_or_default(), error }
         })?;
         let asked = SocketAddr::new(settings.address, settings.port);
@@ -115,7 +108,7 @@ impl Server {
         let console = Console {
             access: Access::new(token, address, &settings.hosts),
             folder,
-            runs: Runs::new(&settings.limits),
+            runs: RunPlaces::new(&settings.limits),
             limits: settings.limits,
         };
         Ok(Self { listener, runtime, console: Arc::new(console), address })

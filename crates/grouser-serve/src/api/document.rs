@@ -4,16 +4,16 @@
 use grouser::document::{Described, Kind, Loaded, UncertainSoil, json, meaning, unit_of};
 use serde_json::{Map, Value, json};
 
-use super::Question;
-use super::fields::Fields;
-use super::parts::{Parts, StandParts};
-use crate::folder::Folder;
+use super::fields::AskedFields;
+use super::parts::{ScenarioParts, StandParts};
+use crate::asked::Question;
+use crate::folder::ServedFolder;
 use crate::refusal::Refusal;
 
 /// The scenario of a question about headings.
-pub(super) fn scenario(folder: &Folder, body: &[u8]) -> Result<Question, Refusal> {
-    let fields = Fields::of(body)?;
-    let parts = Parts::of(&fields)?;
+pub(super) fn scenario(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refusal> {
+    let fields = AskedFields::of(body)?;
+    let parts = ScenarioParts::of(&fields)?;
     fields.finish()?;
     let scenario = parts.scenario(folder)?;
     Ok(Question::new(move |_, send| {
@@ -34,8 +34,8 @@ pub(super) fn scenario(folder: &Folder, body: &[u8]) -> Result<Question, Refusal
 }
 
 /// The soil and the wheel of a question about a test stand.
-pub(super) fn stand(folder: &Folder, body: &[u8]) -> Result<Question, Refusal> {
-    let fields = Fields::of(body)?;
+pub(super) fn stand(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refusal> {
+    let fields = AskedFields::of(body)?;
     let parts = StandParts::of(&fields)?;
     fields.finish()?;
     let stands = parts.stands(folder, false)?;

@@ -10,7 +10,7 @@ use serde_json::{Map, Value};
 use crate::refusal::Refusal;
 
 /// The keys of a question.
-pub(super) struct Fields {
+pub(super) struct AskedFields {
     given: RefCell<Map<String, Value>>,
     /// The keys that it may have.
     known: RefCell<Vec<&'static str>>,
@@ -19,7 +19,7 @@ pub(super) struct Fields {
 /// Numbers in a list at the most.
 const MOST: usize = 2000;
 
-impl Fields {
+impl AskedFields {
     /// The keys of a body.
     pub(super) fn of(body: &[u8]) -> Result<Self, Refusal> {
         let malformed = |message: String| Refusal::new(StatusCode::BAD_REQUEST, message);

@@ -9,12 +9,12 @@ use grouser::studies::heading::Steering;
 use grouser::studies::verdict::Rule;
 use hyper::StatusCode;
 
-use super::Question;
 use super::command::CommandLine;
-use super::fields::Fields;
-use super::parts::Parts;
+use super::fields::AskedFields;
+use super::parts::ScenarioParts;
 use super::staged::{Staged, Stages};
-use crate::folder::Folder;
+use crate::asked::Question;
+use crate::folder::ServedFolder;
 use crate::refusal::Refusal;
 
 /// The samples of a first answer, as the program has them.
@@ -22,11 +22,11 @@ const DRAFT: u32 = 40;
 /// The slopes where nothing is said of them, as the program has them [°].
 const SLOPES: [f64; 4] = [5.0, 10.0, 15.0, 20.0];
 
-pub(super) fn read(folder: &Folder, body: &[u8]) -> Result<Question, Refusal> {
-    let fields = Fields::of(body)?;
+pub(super) fn read(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refusal> {
+    let fields = AskedFields::of(body)?;
     let range = document::range(Kind::Scenario, "slope_deg").unwrap_or(0.0..=60.0);
     let slopes_deg = fields.numbers("slope_deg", &range, &SLOPES)?;
-    let parts = Parts::of(&fields)?;
+    let parts = ScenarioParts::of(&fields)?;
     let stages = Stages::of(&fields, Some(DRAFT))?;
     let steering = steering(&fields)?;
     let gradients = fields.texts("gradients")?;
@@ -72,7 +72,7 @@ pub(super) fn read(folder: &Folder, body: &[u8]) -> Result<Question, Refusal> {
     Ok(stages.question(question, line))
 }
 
-fn steering(fields: &Fields) -> Result<Steering, Refusal> {
+fn steering(fields: &AskedFields) -> Result<Steering, Refusal> {
     let Some(word) = fields.text("steering")? else { return Ok(Steering::None) };
     Steering::ALL.into_iter().find(|it| it.name() == word).ok_or_else(|| {
         let words = Steering::ALL.map(Steering::name).join(", ");
@@ -81,10 +81,10 @@ fn steering(fields: &Fields) -> Result<Steering, Refusal> {
 }
 
 /// A limit of the verdicts.
-type Limit = fn(&Rule) -> f64;
+type RuleLimit = fn(&Rule) -> f64;
 
 /// The limits of the verdicts by their keys.
-const RULE: [(&str, Limit); 5] = [
+const RULE: [(&str, RuleLimit); 5] = [
     ("go_slip_ratio", |it| it.go_slip_ratio),
     ("go_probability", |it| it.go_probability),
     ("go_drift_m_per_m", |it| it.go_drift_m_per_m),
@@ -92,7 +92,7 @@ const RULE: [(&str, Limit); 5] = [
     ("no_go_probability", |it| it.no_go_probability),
 ];
 
-fn rule(fields: &Fields) -> Result<Rule, Refusal> {
+fn rule(fields: &AskedFields) -> Result<Rule, Refusal> {
     let mut limits = [0.0; 5];
     for ((name, usual), limit) in RULE.into_iter().zip(&mut limits) {
         *limit = fields.number(name, &SHARE)?.unwrap_or(usual(&Rule::DEFAULT));

@@ -5,12 +5,12 @@ use grouser::answers::{Answer, AnswerError, AnswerOptions, Sampling};
 use grouser::document::study::{COURSE_DEG, MAP_SPEED_M_S};
 use grouser::document::{self, Kind};
 
-use super::Question;
 use super::command::CommandLine;
-use super::fields::Fields;
-use super::parts::Parts;
+use super::fields::AskedFields;
+use super::parts::ScenarioParts;
 use super::staged::{Staged, Stages};
-use crate::folder::Folder;
+use crate::asked::Question;
+use crate::folder::ServedFolder;
 use crate::refusal::Refusal;
 
 /// The slopes and courses where nothing is said of them, as the program has them [°].
@@ -20,13 +20,13 @@ const COURSES: [f64; 9] = [-60.0, -45.0, -30.0, -15.0, 0.0, 15.0, 30.0, 45.0, 60
 /// The rim speed, likewise [m/s].
 const RIM_SPEED: f64 = 0.06;
 
-pub(super) fn read(folder: &Folder, body: &[u8]) -> Result<Question, Refusal> {
-    let fields = Fields::of(body)?;
+pub(super) fn read(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refusal> {
+    let fields = AskedFields::of(body)?;
     let range = document::range(Kind::Scenario, "slope_deg").unwrap_or(0.0..=60.0);
     let slopes_deg = fields.numbers("slope_deg", &range, &SLOPES)?;
     let courses_deg = fields.numbers("course_deg", &COURSE_DEG, &COURSES)?;
     let rim_speed = fields.number("rim_speed_m_s", &MAP_SPEED_M_S)?.unwrap_or(RIM_SPEED);
-    let parts = Parts::of(&fields)?;
+    let parts = ScenarioParts::of(&fields)?;
     let stages = Stages::of(&fields, None)?;
     fields.finish()?;
     stages.check_rows(slopes_deg.len() * courses_deg.len())?;
@@ -36,7 +36,7 @@ pub(super) fn read(folder: &Folder, body: &[u8]) -> Result<Question, Refusal> {
     line.numbers("slope-deg", &slopes_deg);
     line.numbers("course-deg", &courses_deg);
     line.option("rim-speed-m-s", &rim_speed.to_string());
-    let has_every_model = parts.settings().has_every_model();
+    let has_every_model = parts.common().has_every_model();
     let question = HeadingMapQuestion {
         scenarios,
         has_every_model,

@@ -3,7 +3,7 @@
 use grouser::document::{self, Kind, json};
 use serde_json::json;
 
-use crate::server::Console;
+use crate::console::Console;
 
 /// The presets, as `grouser presets` lists them.
 pub(super) fn presets(_: &Console) -> String {

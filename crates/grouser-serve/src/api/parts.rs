@@ -11,13 +11,13 @@ use hyper::StatusCode;
 use serde_json::{Value, json};
 
 use super::command::CommandLine;
-use super::fields::Fields;
-use crate::folder::Folder;
+use super::fields::AskedFields;
+use crate::folder::ServedFolder;
 use crate::refusal::Refusal;
 
-/// Settings of a question, beside its numbers.
+/// CommonSettings of a question, beside its numbers.
 #[derive(Clone, Debug)]
-pub(super) struct Settings {
+pub(super) struct CommonSettings {
     model: Option<String>,
     /// [m/s²].
     gravity: Option<f64>,
@@ -29,11 +29,11 @@ pub(super) struct Settings {
 
 /// A scenario by its parts.
 #[derive(Clone, Debug)]
-pub(super) struct Parts {
+pub(super) struct ScenarioParts {
     scenario: Option<String>,
     rover: Option<String>,
     soil: Option<String>,
-    settings: Settings,
+    settings: CommonSettings,
 }
 
 /// A wheel on a test stand by its parts.
@@ -41,7 +41,7 @@ pub(super) struct Parts {
 pub(super) struct StandParts {
     soil: String,
     wheel: String,
-    settings: Settings,
+    settings: CommonSettings,
 }
 
 /// A wheel on a test stand.
@@ -54,8 +54,8 @@ pub(super) struct Stand {
     pub(super) asked_model: Option<Model>,
 }
 
-impl Settings {
-    fn of(fields: &Fields) -> Result<Self, Refusal> {
+impl CommonSettings {
+    fn of(fields: &AskedFields) -> Result<Self, Refusal> {
         let mut set = Vec::new();
         for (key, value) in fields.entries("set")? {
             let toml = toml_of(&key, &value)?;
@@ -90,7 +90,7 @@ impl Settings {
     }
 
     /// What is set in documents of some kinds.
-    fn overrides(&self, folder: &Folder, kinds: &[Kind]) -> Result<Overrides, Refusal> {
+    fn overrides(&self, folder: &ServedFolder, kinds: &[Kind]) -> Result<Overrides, Refusal> {
         let mut overrides = Overrides::none();
         for (key, value) in &self.set {
             folder.set(&mut overrides, key, value).map_err(|error| self.blamed(&error))?;
@@ -100,7 +100,7 @@ impl Settings {
     }
 
     /// Adds what every run takes.
-    fn add_to(&self, overrides: &mut Overrides, folder: &Folder) -> Result<(), Refusal> {
+    fn add_to(&self, overrides: &mut Overrides, folder: &ServedFolder) -> Result<(), Refusal> {
         let words = [
             ("scenario.model", &self.model),
             ("scenario.load_transfer", &self.load_transfer),
@@ -122,7 +122,7 @@ impl Settings {
     /// Refuses settings of keys that the samples of a soil give a value.
     fn refuse_sampled(
         &self,
-        folder: &Folder,
+        folder: &ServedFolder,
         uncertain: Option<&UncertainSoil>,
     ) -> Result<(), Refusal> {
         let keys: Vec<&str> = uncertain.into_iter().flat_map(UncertainSoil::sampled_keys).collect();
@@ -175,27 +175,27 @@ impl Settings {
 const KEYS: [&str; 6] =
     ["rover", "soil", "model", "gravity_m_s2", "load_transfer", "wheel_moments"];
 
-impl Parts {
-    pub(super) fn of(fields: &Fields) -> Result<Self, Refusal> {
+impl ScenarioParts {
+    pub(super) fn of(fields: &AskedFields) -> Result<Self, Refusal> {
         Ok(Self {
             scenario: fields.text("scenario")?,
             rover: fields.text("rover")?,
             soil: fields.text("soil")?,
-            settings: Settings::of(fields)?,
+            settings: CommonSettings::of(fields)?,
         })
     }
 
-    pub(super) fn settings(&self) -> &Settings {
+    pub(super) fn common(&self) -> &CommonSettings {
         &self.settings
     }
 
     /// The scenarios for each model that is asked for; their own slope does not count.
     pub(super) fn scenarios(
         &self,
-        folder: &Folder,
+        folder: &ServedFolder,
         is_sampled: bool,
     ) -> Result<Vec<LoadedScenario>, Refusal> {
-        let read = |settings: &Settings| {
+        let read = |settings: &CommonSettings| {
             let scenario = self.read(folder, settings, true)?;
             if is_sampled {
                 settings.refuse_sampled(folder, scenario.uncertain.as_ref())?;
@@ -206,7 +206,7 @@ impl Parts {
     }
 
     /// The scenario as it is.
-    pub(super) fn scenario(&self, folder: &Folder) -> Result<LoadedScenario, Refusal> {
+    pub(super) fn scenario(&self, folder: &ServedFolder) -> Result<LoadedScenario, Refusal> {
         self.read(folder, &self.settings, false)
     }
 
@@ -214,8 +214,8 @@ impl Parts {
     ///   from elsewhere
     fn read(
         &self,
-        folder: &Folder,
-        settings: &Settings,
+        folder: &ServedFolder,
+        settings: &CommonSettings,
         is_heading: bool,
     ) -> Result<LoadedScenario, Refusal> {
         let source = match &self.scenario {
@@ -254,21 +254,25 @@ impl Parts {
 
 impl StandParts {
     /// Those of a question; without a soil or a wheel the program's usual ones.
-    pub(super) fn of(fields: &Fields) -> Result<Self, Refusal> {
+    pub(super) fn of(fields: &AskedFields) -> Result<Self, Refusal> {
         Ok(Self {
             soil: fields.text("soil")?.unwrap_or_else(|| document::DEFAULT_SOIL.to_owned()),
             wheel: fields.text("wheel")?.unwrap_or_else(|| document::DEFAULT_ROVER.to_owned()),
-            settings: Settings::of(fields)?,
+            settings: CommonSettings::of(fields)?,
         })
     }
 
-    pub(super) fn settings(&self) -> &Settings {
+    pub(super) fn common(&self) -> &CommonSettings {
         &self.settings
     }
 
     /// The stand for each model that is asked for.
-    pub(super) fn stands(&self, folder: &Folder, is_sampled: bool) -> Result<Vec<Stand>, Refusal> {
-        let read = |settings: &Settings| {
+    pub(super) fn stands(
+        &self,
+        folder: &ServedFolder,
+        is_sampled: bool,
+    ) -> Result<Vec<Stand>, Refusal> {
+        let read = |settings: &CommonSettings| {
             let stand = self.read(folder, settings)?;
             if is_sampled {
                 settings.refuse_sampled(folder, stand.soil.uncertain.as_ref())?;
@@ -278,7 +282,7 @@ impl StandParts {
         self.settings.each_model().iter().map(read).collect()
     }
 
-    fn read(&self, folder: &Folder, settings: &Settings) -> Result<Stand, Refusal> {
+    fn read(&self, folder: &ServedFolder, settings: &CommonSettings) -> Result<Stand, Refusal> {
         let blamed = |error: DocumentError| settings.blamed(&error);
         let overrides = settings.overrides(folder, &[Kind::Soil, Kind::Wheel])?;
         let soil = find("soil", folder, Kind::Soil, &self.soil)?;
@@ -312,7 +316,12 @@ impl Stand {
 }
 
 /// A document that a question names.
-fn find(key: &'static str, folder: &Folder, kind: Kind, name: &str) -> Result<Source, Refusal> {
+fn find(
+    key: &'static str,
+    folder: &ServedFolder,
+    kind: Kind,
+    name: &str,
+) -> Result<Source, Refusal> {
     folder.find(kind, name).map_err(|error| {
         let refusal = Refusal::of_key(key, error.problem().to_string());
         Refusal { hint: error.hint().map(str::to_owned), ..refusal }
@@ -320,7 +329,7 @@ fn find(key: &'static str, folder: &Folder, kind: Kind, name: &str) -> Result<So
 }
 
 /// A number, or what a name stands for [m/s²].
-fn gravity(fields: &Fields) -> Result<Option<f64>, Refusal> {
+fn gravity(fields: &AskedFields) -> Result<Option<f64>, Refusal> {
     const KEY: &str = "gravity_m_s2";
     let name = match fields.take(KEY) {
         None => return Ok(None),

@@ -9,9 +9,9 @@ use grouser_draw::chart::Drawable as _;
 use hyper::StatusCode;
 use serde_json::{Value, json};
 
-use super::Question;
 use super::command::CommandLine;
-use super::fields::Fields;
+use super::fields::AskedFields;
+use crate::asked::Question;
 use crate::refusal::Refusal;
 
 /// A question that samples answer, or none.
@@ -43,7 +43,7 @@ const MOST_ROWS: usize = 1_000_000;
 
 impl Stages {
     /// * `usual`: the samples where nothing is said of them, as the program has them
-    pub(super) fn of(fields: &Fields, usual: Option<u32>) -> Result<Self, Refusal> {
+    pub(super) fn of(fields: &AskedFields, usual: Option<u32>) -> Result<Self, Refusal> {
         let is_nominal = fields.truth("nominal")?;
         let samples = fields.counts("samples", &(2..=MOST))?;
         let seed = fields.counts("seed", &(0..=u64::MAX))?;

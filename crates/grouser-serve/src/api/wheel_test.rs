@@ -7,12 +7,12 @@ use grouser::document::study::{LOAD_N, SLIP_ANGLE_DEG, SLIP_RATIO};
 use grouser::studies::ensemble::samples::BandInputs;
 use hyper::StatusCode;
 
-use super::Question;
 use super::command::CommandLine;
-use super::fields::Fields;
+use super::fields::AskedFields;
 use super::parts::{Stand, StandParts};
 use super::staged::{Staged, Stages};
-use crate::folder::Folder;
+use crate::asked::Question;
+use crate::folder::ServedFolder;
 use crate::refusal::Refusal;
 
 /// What is asked where nothing is said of it, as the program has it.
@@ -20,8 +20,8 @@ const LOADS: [f64; 1] = [17.0];
 const SLIPS: [f64; 10] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
 const ANGLES: [f64; 1] = [0.0];
 
-pub(super) fn read(folder: &Folder, body: &[u8]) -> Result<Question, Refusal> {
-    let fields = Fields::of(body)?;
+pub(super) fn read(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refusal> {
+    let fields = AskedFields::of(body)?;
     let loads = fields.numbers("load_n", &LOAD_N, &LOADS)?;
     let slip_ratios = fields.numbers("slip_ratio", &SLIP_RATIO, &SLIPS)?;
     let slip_angles_deg = fields.numbers("slip_angle_deg", &SLIP_ANGLE_DEG, &ANGLES)?;
@@ -53,7 +53,7 @@ pub(super) fn read(folder: &Folder, body: &[u8]) -> Result<Question, Refusal> {
         wheel,
         gravity,
         models,
-        is_model_named: parts.settings().names_model(),
+        is_model_named: parts.common().names_model(),
         loads,
         slip_angles_deg,
         slip_ratios,

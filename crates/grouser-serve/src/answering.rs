@@ -10,10 +10,10 @@ use hyper::header::{CONTENT_TYPE, HeaderValue};
 use hyper::{Response, StatusCode};
 use tokio::sync::{mpsc, oneshot};
 
-use crate::api::Read;
-use crate::body::Body;
+use crate::asked::Read;
+use crate::body::ReplyBody;
+use crate::console::Console;
 use crate::refusal::Refusal;
-use crate::server::Console;
 
 /// Lines that wait for a reader.
 const AHEAD: usize = 4;
@@ -25,7 +25,7 @@ pub(crate) async fn answer(
     console: &Arc<Console>,
     read: Read,
     body: Bytes,
-) -> Result<Response<Body>, Refusal> {
+) -> Result<Response<ReplyBody>, Refusal> {
     // From here on whoever hangs up is not asking any more.
     let (asking, go_on) = console.runs.asking();
     let place = console.runs.place().await?;
@@ -55,7 +55,8 @@ pub(crate) async fn answer(
         let nothing = Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, "there is no answer");
         return Err(failed.await.unwrap_or(nothing));
     };
-    let mut response = Response::new(Body::Lines { first: Some(first), rest, _asking: asking });
+    let mut response =
+        Response::new(ReplyBody::Lines { first: Some(first), rest, _asking: asking });
     response.headers_mut().insert(CONTENT_TYPE, LINES);
     Ok(response)
 }
