@@ -28,7 +28,7 @@ pub(crate) async fn answer(
 ) -> Result<Response<ReplyBody>, Refusal> {
     // From here on whoever hangs up is not asking any more.
     let (asking, go_on) = console.runs.asking();
-    let place = console.runs.place().await?;
+    let place = console.runs.place()?;
     let (send, mut rest) = mpsc::channel::<Bytes>(AHEAD);
     let (fail, failed) = oneshot::channel();
     let folder = console.folder.clone();

@@ -15,9 +15,9 @@ pub struct Limits {
     pub body_bytes: usize,
     /// Time without progress after which a reader has gone.
     pub write_time: Duration,
-    /// Computations at a time; each has all processors.
+    /// Computations that take long, at a time: those with samples. Each has all processors.
     pub runs: usize,
-    /// Computations that wait for these. One more is refused with 503.
+    /// Computations that wait for these, or are quick. One more is refused with 503.
     pub waiting: usize,
     /// Time of a computation.
     pub run_time: Duration,

@@ -22,10 +22,7 @@ pub(crate) struct RunPlaces {
 }
 
 /// The place of a computation. It is free again when this is dropped.
-pub(crate) struct Place {
-    _all: OwnedSemaphorePermit,
-    _computing: OwnedSemaphorePermit,
-}
+pub(crate) struct Place(#[expect(dead_code, reason = "it is held")] OwnedSemaphorePermit);
 
 /// Somebody waits for an answer, until this is dropped.
 pub(crate) struct Waiter(Arc<AtomicBool>);
@@ -36,7 +33,11 @@ pub(crate) struct GoOn {
     has_gone: Arc<AtomicBool>,
     has_ended: Arc<AtomicBool>,
     until: Instant,
+    computing: Arc<Semaphore>,
 }
+
+/// How often it is looked whether it is somebody's turn.
+const LOOK: Duration = Duration::from_millis(2);
 
 impl RunPlaces {
     pub(crate) fn new(limits: &Limits) -> Self {
@@ -48,24 +49,25 @@ impl RunPlaces {
         }
     }
 
-    /// Waits for a place.
-    pub(crate) async fn place(&self) -> Result<Place, Refusal> {
+    /// A place, if one is free.
+    pub(crate) fn place(&self) -> Result<Place, Refusal> {
         let full = |_| {
             let message = "too many computations wait already";
             Refusal::new(StatusCode::SERVICE_UNAVAILABLE, message)
         };
-        let all = Arc::clone(&self.all).try_acquire_owned().map_err(full)?;
-        let computing = Arc::clone(&self.computing).acquire_owned().await;
-        let computing = computing.unwrap_or_else(|_| unreachable!("it is never closed"));
-        Ok(Place { _all: all, _computing: computing })
+        Arc::clone(&self.all).try_acquire_owned().map(Place).map_err(full)
     }
 
     /// Somebody who asks, and what the computation asks.
     pub(crate) fn asking(&self) -> (Waiter, GoOn) {
         let has_gone = Arc::new(AtomicBool::new(false));
         let has_ended = Arc::clone(&self.has_ended);
-        let go_on =
-            GoOn { has_gone: Arc::clone(&has_gone), has_ended, until: Instant::now() + self.time };
+        let go_on = GoOn {
+            has_gone: Arc::clone(&has_gone),
+            has_ended,
+            until: Instant::now() + self.time,
+            computing: Arc::clone(&self.computing),
+        };
         (Waiter(has_gone), go_on)
     }
 
@@ -87,5 +89,18 @@ impl GoOn {
         !self.has_gone.load(Ordering::Relaxed)
             && !self.has_ended.load(Ordering::Relaxed)
             && Instant::now() < self.until
+    }
+
+    /// Waits for the turn of what takes long, which is over when the result is dropped; nothing if
+    /// nobody waits for the answer any more. What is quick needs no turn, so that it is not behind
+    /// what takes long.
+    pub(crate) fn turn(&self) -> Option<OwnedSemaphorePermit> {
+        while self.is_on() {
+            if let Ok(turn) = Arc::clone(&self.computing).try_acquire_owned() {
+                return Some(turn);
+            }
+            std::thread::sleep(LOOK);
+        }
+        None
     }
 }

@@ -102,7 +102,7 @@ impl Server {
         let runtime = Builder::new_current_thread()
             .enable_io()
             .enable_time()
-            .max_blocking_threads(settings.limits.runs + 2)
+            .max_blocking_threads(settings.limits.runs + settings.limits.waiting + 2)
             .build()
             .map_err(ServeError::System)?;
         let console = Console {

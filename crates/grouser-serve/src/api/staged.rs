@@ -34,7 +34,11 @@ pub(super) struct Stages {
     /// Whether figures come along, too.
     draws: bool,
     is_strict: bool,
+    rows: usize,
 }
+
+/// More rows take long without samples, too.
+const QUICK_ROWS: usize = 1000;
 
 /// Samples at the most.
 const MOST: u64 = 10_000;
@@ -69,7 +73,7 @@ impl Stages {
         };
         let draws = fields.truth("figures")?;
         let (shows, is_strict) = (fields.truth("shown")? || draws, fields.truth("strict")?);
-        Ok(Self { samplings: stages, shows, draws, is_strict })
+        Ok(Self { samplings: stages, shows, draws, is_strict, rows: 1 })
     }
 
     /// Whether any stage has samples.
@@ -83,10 +87,10 @@ impl Stages {
     }
 
     /// Checks that samples of so many rows are not more than anyone can have meant.
-    pub(super) fn check_rows(&self, rows: usize) -> Result<(), Refusal> {
+    pub(super) fn of_rows(self, rows: usize) -> Result<Self, Refusal> {
         let samples = self.samplings.iter().flatten().map(|it| it.count).max().unwrap_or(1);
         if rows.saturating_mul(samples as usize) <= MOST_ROWS {
-            return Ok(());
+            return Ok(Self { rows, ..self });
         }
         let message = format!(
             "{rows} rows of {samples} samples each: together they must be at most {MOST_ROWS}"
@@ -98,6 +102,11 @@ impl Stages {
     pub(super) fn question(self, mut asked: impl Staged, line: CommandLine) -> Question {
         Question::new(move |go_on, send| {
             for sampling in self.samplings {
+                let is_quick = sampling.is_none() && self.rows <= QUICK_ROWS;
+                let turn = if is_quick { None } else { go_on.turn() };
+                if turn.is_none() && !is_quick {
+                    return Err(refused(AnswerError::Stopped));
+                }
                 asked.sample(sampling);
                 let is_on = || go_on.is_on();
                 let options = AnswerOptions {
@@ -106,6 +115,7 @@ impl Stages {
                     go_on: &is_on,
                 };
                 let answer = asked.answer(&options).map_err(refused)?;
+                drop(turn);
                 if !go_on.is_on() {
                     return Err(refused(AnswerError::Stopped));
                 }

@@ -30,7 +30,7 @@ pub(super) fn read(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refus
     let gradients = fields.texts("gradients")?;
     fields.finish()?;
     let rows = loads.len() * slip_ratios.len() * slip_angles_deg.len();
-    stages.check_rows(rows)?;
+    let stages = stages.of_rows(rows)?;
     let stands = parts.stands(folder, stages.has_samples())?;
     let mut line = CommandLine::new("wheel-test");
     parts.add_words(&mut line);

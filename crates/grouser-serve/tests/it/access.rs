@@ -4,6 +4,9 @@ use grouser_serve::Settings;
 
 use crate::served::Served;
 
+/// A name of somebody else.
+const EVIL: &str = "evil.example";
+
 #[test]
 fn a_foreign_host_is_refused_before_a_missing_token_and_that_before_an_unknown_path() {
     let server = Served::usual();
@@ -34,8 +37,7 @@ fn two_hosts_or_none_are_refused() {
     assert!(matches!(server.send(&two).status, 400 | 403));
     let none = "GET / HTTP/1.1\r\nConnection: close\r\n\r\n";
     assert!(matches!(server.send(none).status, 400 | 403));
-    let whole =
-        format!("GET http://evil.example/ HTTP/1.1\r\nHost: {own}\r\nConnection: close\r\n\r\n");
+    let whole = format!("GET http://{EVIL}/ HTTP/1.1\r\nHost: {own}\r\nConnection: close\r\n\r\n");
     assert_eq!(server.send(&whole).status, 403);
 }
 
@@ -86,7 +88,7 @@ fn questions_of_other_pages_are_refused() {
     let asked = |more: &str| server.ask("POST", "/api/stand", more, "{}").status;
     assert_eq!(asked(""), 200);
     assert_eq!(asked(&format!("Origin: http://localhost:{port}\r\n")), 200);
-    assert_eq!(asked("Origin: http://evil.example\r\n"), 403);
+    assert_eq!(asked(&format!("Origin: http://{EVIL}\r\n")), 403);
     assert_eq!(asked("Origin: null\r\n"), 403);
     assert_eq!(asked(&format!("Origin: http://localhost:{}\r\n", port ^ 1)), 403);
     assert_eq!(asked("Sec-Fetch-Site: cross-site\r\n"), 403);
