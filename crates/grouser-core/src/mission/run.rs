@@ -20,8 +20,6 @@ pub struct MissionRun {
     run: Run,
     navigator: Navigator,
     reports: Vec<LegReport>,
-    /// How it was first computed otherwise than asked for.
-    fell_back: Option<Method>,
     is_over: bool,
 }
 
@@ -68,7 +66,7 @@ impl MissionRun {
         let run = Run::with_controller(&scenario, &mut pilot)?;
         let mission = mission.clone();
         let navigator = Navigator::new(mission.sensors, run.state().rover());
-        Ok(Self { mission, run, navigator, reports: Vec::new(), fell_back: None, is_over: false })
+        Ok(Self { mission, run, navigator, reports: Vec::new(), is_over: false })
     }
 
     /// Drives the mission to its end.
@@ -113,8 +111,7 @@ impl MissionRun {
     #[must_use]
     pub fn finish(mut self) -> MissionReport {
         self.run.record();
-        let mut trajectory = self.run.finish();
-        trajectory.method = self.fell_back.unwrap_or(trajectory.method);
+        let trajectory = self.run.finish();
         MissionReport { legs: self.reports, trajectory, fixes: self.navigator.into_fixes() }
     }
 
@@ -140,7 +137,7 @@ impl MissionRun {
     /// next one seeks it again, and this says why it was not found first.
     #[must_use]
     pub fn method(&self) -> &Method {
-        self.fell_back.as_ref().unwrap_or_else(|| self.run.state().method())
+        self.run.state().method()
     }
 
     fn drive(&mut self, leg: &Leg, watch: Watch<'_>) -> Result<LegReport, RunError> {
@@ -235,9 +232,7 @@ impl MissionRun {
         look_ahead: Option<f64>,
         watch: Watch<'_>,
     ) -> Result<End, RunError> {
-        if let Some(method) = self.run.try_steady_again() {
-            self.fell_back.get_or_insert(method);
-        }
+        self.run.try_steady_again();
         let mut ahead = look_ahead.map(Ahead::new);
         loop {
             if let Some(ahead) = &mut ahead

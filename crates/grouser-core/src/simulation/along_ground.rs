@@ -11,8 +11,9 @@ use nalgebra::Vector3;
 
 use super::equations::Equations;
 use super::point::Point;
-use super::quasi_steady::{MOST_LAG, blended, rolling};
-use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
+use super::quasi_steady::{MOST_LAG, blended};
+use super::steady_run::Before;
+use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState, rolling};
 use super::turning::Turning;
 use crate::contact::Slip;
 use crate::units::Vec2;
@@ -45,6 +46,8 @@ pub(super) struct AlongGround<'a, 'g> {
 pub(super) struct Carried {
     memory: Memory,
     stride: Stride,
+    /// Velocities with which the rims would roll.
+    rolled: Vector3<f64>,
 }
 
 impl Carried {
@@ -78,30 +81,30 @@ struct Node {
 impl<'a, 'g> AlongGround<'a, 'g> {
     /// The motion from a point on; sets the point's velocities to their steady state.
     ///
-    /// * `carried`: of the run so far
+    /// * `before`: the run so far
     /// * `rims_changed`: whether the wheels had other speeds so far
     pub(super) fn from(
         equations: &'a Equations<'g>,
-        carried: Option<Carried>,
+        before: Before<Carried>,
         point: &mut Point,
         rims_changed: bool,
     ) -> Result<Self, NotSteady> {
-        let guess = match &carried {
-            Some(carried) => carried.stride.steady().velocities,
-            None => rolling(equations),
+        let (place, yaw, now) = (point.state.position, point.state.yaw, point.velocities());
+        let mut solver = SteadySolver::new(equations, Memory::default());
+        solver.go_to(place);
+        let steady = match before {
+            Before::Steady(Carried { memory, stride, .. }) if !rims_changed => {
+                let solver = SteadySolver::new(equations, memory);
+                let next = if stride.length > 0.0 { 2.0 * stride.length } else { f64::INFINITY };
+                return Ok(Self { equations, solver, stride, next });
+            }
+            Before::Steady(Carried { rolled, .. }) => {
+                solver.find_after(yaw, &now, Some(&rolled))?
+            }
+            Before::Another => solver.find_after(yaw, &now, None)?,
+            Before::Nothing => solver.find(yaw, &rolling(equations))?,
         };
-        let (memory, stride) = match carried.filter(|_| !rims_changed) {
-            Some(Carried { memory, stride }) => (memory, Some(stride)),
-            None => (Memory::default(), None),
-        };
-        let mut solver = SteadySolver::new(equations, memory);
-        if let Some(stride) = stride {
-            let next = if stride.length > 0.0 { 2.0 * stride.length } else { f64::INFINITY };
-            return Ok(Self { equations, solver, stride, next });
-        }
-        let (place, yaw) = (point.state.position, point.state.yaw);
-        let from = Node::at(equations, &mut solver, place, yaw, &guess)
-            .or_else(|_| Node::at(equations, &mut solver, place, yaw, &rolling(equations)))?;
+        let from = Node::of(equations, &solver, place, yaw, steady)?;
         solver.settling_time(&from.steady)?;
         let stride = Stride { to: from.clone(), from, length: 0.0, gone: 0.0 };
         let mut motion = Self { equations, solver, stride, next: f64::INFINITY };
@@ -111,7 +114,8 @@ impl<'a, 'g> AlongGround<'a, 'g> {
 
     /// What the next advance starts with.
     pub(super) fn carry(self) -> Carried {
-        Carried { memory: self.solver.memory(), stride: self.stride }
+        let rolled = rolling(self.equations);
+        Carried { memory: self.solver.memory(), stride: self.stride, rolled }
     }
 
     /// The wheels at the point that it has come to.
@@ -241,6 +245,17 @@ impl Node {
     ) -> Result<Self, NotSteady> {
         solver.go_to(place);
         let steady = solver.find(yaw, guess)?;
+        Self::of(equations, solver, place, yaw, steady)
+    }
+
+    /// A pose with its steady state.
+    fn of(
+        equations: &Equations<'_>,
+        solver: &SteadySolver<'_, '_>,
+        place: Vec2,
+        yaw: f64,
+        steady: SteadyState,
+    ) -> Result<Self, NotSteady> {
         let state = solver.state_of(yaw, &steady.velocities);
         let rates = equations.pose_rates(&state).ok_or(NotSteady::NoSteadyState)?;
         Ok(Self { place, yaw, steady, rates })
@@ -278,11 +293,6 @@ impl Stride {
         let s = self.share();
         let [from, to] = [&self.from.steady.powers, &self.to.steady.powers];
         [0, 1, 2].map(|which| (1.0 - s) * from[which] + s * to[which])
-    }
-
-    /// The steady state nearest to where the rover is.
-    fn steady(&self) -> &SteadyState {
-        if self.share() < 0.5 { &self.from.steady } else { &self.to.steady }
     }
 
     fn turning(&self) -> Option<Turning> {

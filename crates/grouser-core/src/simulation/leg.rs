@@ -13,7 +13,7 @@ use super::method::Method;
 use super::outcome::{Outcome, StuckBecause};
 use super::point::Point;
 use super::record::Record;
-use super::scenario::{Integrator, Scenario};
+use super::scenario::{Approach, Integrator, Scenario};
 use super::state::State;
 use super::steady_run::{Carried, SteadyRun};
 use super::steady_state::NotSteady;
@@ -78,7 +78,7 @@ impl Leg<'_> {
         equations.renew_allowance();
         let mut times = times;
         let mut done = Ok(());
-        if self.state.method == Method::QuasiSteady {
+        if self.state.approach == Approach::QuasiSteady {
             let carried = std::mem::take(&mut self.state.carried);
             match self.go_steadily(&equations, carried, times) {
                 Ok(carried) => self.state.carried = carried,
@@ -89,12 +89,16 @@ impl Leg<'_> {
                 }
                 Err(Ended::NotSteady(because)) => {
                     let time = self.state.time;
-                    self.state.method = Method::FallbackToDynamic { time, because };
+                    self.state.approach = Approach::Dynamic;
+                    if self.state.method == Method::QuasiSteady {
+                        self.state.method = Method::FallbackToDynamic { time, because };
+                    }
                     times = &times[times.partition_point(|other| *other <= time)..];
                 }
             }
         }
-        if self.state.method != Method::QuasiSteady && done.is_ok() {
+        if self.state.approach == Approach::Dynamic && done.is_ok() {
+            self.state.carried = Carried::Velocities;
             done = self.go_dynamically(&equations, times);
         }
         self.state.work += equations.work();

@@ -9,7 +9,8 @@ pub enum Method {
     Dynamic,
     /// The velocities were steady at every instant, the pose was integrated.
     QuasiSteady,
-    /// Quasi-steady up to a time, dynamic from there on.
+    /// Quasi-steady up to a time, dynamic from there until the wheels were to turn otherwise, when
+    /// a steady motion is sought again; the first time of several.
     FallbackToDynamic {
         /// When [s].
         time: f64,

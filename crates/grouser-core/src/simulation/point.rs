@@ -1,5 +1,7 @@
 //! A point of a run: all that is integrated.
 
+use nalgebra::Vector3;
+
 use super::power;
 use super::turning::Turning;
 use crate::vehicle::{Rover, RoverState};
@@ -31,6 +33,12 @@ impl Point {
             let wheel_speeds: Vec<f64> = rover.wheel_speeds(turning.rim_speeds()).collect();
             -power::spin_energy(rover, &wheel_speeds)
         });
+    }
+
+    /// *(u, v, γ')* [m/s, m/s, rad/s], in the body frame.
+    pub(super) fn velocities(&self) -> Vector3<f64> {
+        let RoverState { velocity, yaw_rate, .. } = self.state;
+        Vector3::new(velocity.x, velocity.y, yaw_rate)
     }
 
     /// Changes pose and velocities at once. What that changes in kinetic energy counts as work of

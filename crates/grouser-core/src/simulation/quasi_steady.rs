@@ -16,13 +16,14 @@ use nalgebra::Vector3;
 
 use super::equations::Equations;
 use super::point::Point;
-use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
+use super::steady_run::Before;
+use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState, rolling};
 use super::turning::Turning;
 use crate::contact::WheelForces;
 use crate::lagrange;
 use crate::units::Vec2;
 use crate::vehicle::WheelReaction;
-use crate::vehicle::kinematics::{rolling_motion, wheel_slips};
+use crate::vehicle::kinematics::wheel_slips;
 use crate::vehicle::settling::add_weighted;
 use crate::vehicle::state::rotation;
 
@@ -46,12 +47,6 @@ const AMPLE: f64 = 1.25;
 /// rim's speed [-]. The polynomial through all five is nearer by a hundred times where motion is
 /// smooth.
 const RESOLVED: f64 = 1e-5;
-/// Velocities that differ by more than this from those of rolling wheels are of another motion,
-/// over the fastest rim's speed [-]. Source: ours; a slip ratio of 1 is this far from rolling.
-const ANOTHER_MOTION: f64 = 1.0;
-/// Rims that turn faster by such a factor move the rover alike [-]. Source: ours; at most as a
-/// guess.
-const SIMILAR: std::ops::RangeInclusive<f64> = 0.2..=5.0;
 /// A step in time turns the rover by at most this share of a stretch [-].
 const STEP_SHARE: f64 = 0.1;
 
@@ -66,22 +61,18 @@ pub(super) struct Stretch {
 }
 
 /// What one run hands on from one advance to the next.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub(super) struct Carried {
     memory: Memory,
-    stretch: Option<Stretch>,
+    stretch: Stretch,
     /// Velocities with which the rims would roll.
     rolled: Vector3<f64>,
 }
 
 impl Carried {
     /// The wheels at a point of the motion, if it is one of steady states.
-    pub(super) fn wheels(
-        &self,
-        equations: &Equations<'_>,
-        point: &Point,
-    ) -> Option<Vec<WheelReaction>> {
-        Some(self.stretch.as_ref()?.wheels(equations, point))
+    pub(super) fn wheels(&self, equations: &Equations<'_>, point: &Point) -> Vec<WheelReaction> {
+        self.stretch.wheels(equations, point)
     }
 }
 
@@ -95,12 +86,12 @@ pub(super) struct QuasiSteady<'a, 'g> {
 impl<'a, 'g> QuasiSteady<'a, 'g> {
     /// The motion from a point on; sets the point's velocities to their steady state.
     ///
-    /// * `carried`: of the run so far
+    /// * `before`: the run so far
     /// * `horizon`: how long the rims will keep their speeds [s]
     /// * `rims_changed`: whether they were others so far
     pub(super) fn from(
         equations: &'a Equations<'g>,
-        carried: Carried,
+        before: Before<Carried>,
         point: &mut Point,
         horizon: f64,
         rims_changed: bool,
@@ -108,25 +99,28 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
         if equations.has_uneven_soil() {
             return Err(NotSteady::UnevenSoil);
         }
-        let Carried { memory, stretch, rolled } = carried;
         let yaw = point.state.yaw;
-        let rolling = rolling(equations);
-        // Motion depends on ratios of speeds alone: of rims that all turn faster, everything is
-        // faster.
-        let faster = rolling.xy().dot(&rolled.xy()) / rolled.xy().norm_squared();
-        let faster = if SIMILAR.contains(&faster) { faster } else { 1.0 };
-        let mut solver = SteadySolver::new(equations, memory);
-        let guess = match stretch {
-            Some(stretch) if !rims_changed => return Ok(Self { equations, solver, stretch }),
-            Some(stretch) => {
-                solver.scale_memory(faster);
-                let guess = faster * (stretch.velocities(yaw) - rolled) + rolling;
-                // Rims that turn the other way leave nothing of how it moved.
-                if solver.size(&(guess - rolling)) > ANOTHER_MOTION { rolling } else { guess }
+        let (mut solver, here) = match before {
+            Before::Steady(Carried { memory, stretch, .. }) if !rims_changed => {
+                let solver = SteadySolver::new(equations, memory);
+                return Ok(Self { equations, solver, stretch });
             }
-            None => rolling,
+            Before::Steady(Carried { memory, rolled, .. }) => {
+                let mut solver = SteadySolver::new(equations, memory);
+                let here = solver.find_after(yaw, &point.velocities(), Some(&rolled))?;
+                (solver, here)
+            }
+            Before::Another => {
+                let mut solver = SteadySolver::new(equations, Memory::default());
+                let here = solver.find_after(yaw, &point.velocities(), None)?;
+                (solver, here)
+            }
+            Before::Nothing => {
+                let mut solver = SteadySolver::new(equations, Memory::default());
+                let here = solver.find(yaw, &rolling(equations))?;
+                (solver, here)
+            }
         };
-        let here = solver.find(yaw, &guess)?;
         let stretch = Stretch::ahead(&mut solver, here, horizon)?;
         let mut motion = Self { equations, solver, stretch };
         motion.set_velocities(point);
@@ -137,7 +131,7 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
     pub(super) fn carry(self) -> Carried {
         let rolled = rolling(self.equations);
         let memory = self.solver.memory();
-        Carried { memory, stretch: Some(self.stretch), rolled }
+        Carried { memory, stretch: self.stretch, rolled }
     }
 
     /// The wheels at a point of the motion.
@@ -408,10 +402,4 @@ fn nothing_of(reaction: &WheelReaction) -> WheelReaction {
     nothing.settled.evaluations = 0;
     nothing.settled.forces = WheelForces::default();
     nothing
-}
-
-/// Velocities of a rover that follows its rims as well as a rigid body can, at a light slip.
-pub(super) fn rolling(equations: &Equations<'_>) -> Vector3<f64> {
-    let (velocity, rate) = rolling_motion(equations.rover().mounts(), equations.rim_speeds());
-    super::scenario::ROLLING_SHARE * Vector3::new(velocity.x, velocity.y, rate)
 }

@@ -7,7 +7,6 @@ use super::controller::{Controller, Observation};
 use super::equations::Equations;
 use super::error::RunError;
 use super::leg::{Due, Leg};
-use super::method::Method;
 use super::most_taken::MostTaken;
 use super::outcome::Outcome;
 use super::record::Record;
@@ -196,11 +195,9 @@ impl Run {
         self.lead(controller, [until, kept_until], true, Due::Samples)
     }
 
-    /// Seeks steady motions again where none was found before; how it was computed until then, if
-    /// it was not by them.
-    pub(crate) fn try_steady_again(&mut self) -> Option<Method> {
-        let fell_back = matches!(self.state.method, Method::FallbackToDynamic { .. });
-        fell_back.then(|| std::mem::replace(&mut self.state.method, Method::QuasiSteady))
+    /// Seeks steady motions again where none was found before.
+    pub(crate) fn try_steady_again(&mut self) {
+        self.state.approach = self.scenario.numerics.approach;
     }
 
     /// Sets the rover rolling where its rims roll another way than before, and it does not follow
@@ -470,6 +467,9 @@ impl Run {
             is_new_command |= is_limited && self.state.renew_limits(&self.scenario.rover);
             // A prescribed yaw may turn otherwise where this stretch ends.
             let kept_until = if end < until { end } else { kept_until };
+            if is_new_command {
+                self.try_steady_again();
+            }
             self.leg(is_new_command, kept_until, due).go_to(end)?;
             if self.state.outcome.is_some() {
                 break;
@@ -507,10 +507,7 @@ impl Run {
         let supply = self.state.supply.as_ref();
         let equations = Equations::of(&self.scenario, set_speeds)
             .limited(supply.map_or(&[], |supply| supply.limits()));
-        let steady = match self.state.method {
-            Method::QuasiSteady => carried.wheels(&equations, point),
-            _ => None,
-        };
+        let steady = carried.wheels(&equations, point);
         let wheels = steady.unwrap_or_else(|| equations.reactions_of(point).unwrap_or_default());
         Record::new(&equations, *time, point, &wheels, supply)
     }

@@ -42,6 +42,8 @@ pub struct State {
     /// Slip ratio of each wheel, when the rover was last looked at.
     pub(super) slip_ratios: Vec<f64>,
     pub(super) outcome: Option<Outcome>,
+    /// How the motion is computed now.
+    pub(super) approach: Approach,
     pub(super) method: Method,
     pub(super) work: Work,
     pub(super) watch: Watch,
@@ -79,6 +81,7 @@ impl State {
             steered: None,
             steered_until: 0.0,
             outcome: None,
+            approach: scenario.numerics.approach,
             method: match scenario.numerics.approach {
                 Approach::Dynamic => Method::Dynamic,
                 Approach::QuasiSteady => Method::QuasiSteady,
@@ -161,7 +164,8 @@ impl State {
         self.outcome.as_ref()
     }
 
-    /// How the motion was computed so far.
+    /// How the motion was computed so far: where no steady motion was found, it is sought again when
+    /// the wheels turn otherwise, and this says why it was not found first.
     #[must_use]
     pub fn method(&self) -> &Method {
         &self.method

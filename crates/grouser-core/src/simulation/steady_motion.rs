@@ -4,9 +4,9 @@
 use nalgebra::Vector3;
 
 use super::equations::Equations;
-use super::quasi_steady::rolling;
+
 use super::scenario::ROLLING_SHARE;
-use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState};
+use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState, rolling};
 use crate::elementary::wide;
 use crate::units::Vec2;
 use crate::vehicle::WheelReaction;

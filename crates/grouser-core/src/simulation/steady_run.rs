@@ -15,17 +15,26 @@ pub(super) enum SteadyRun<'a, 'g> {
 }
 
 /// What one run hands on from one advance to the next.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 #[expect(clippy::large_enum_variant, reason = "the large one is the usual one")]
 pub(super) enum Carried {
+    /// Nothing: the rover starts, rolling.
+    #[default]
+    Nothing,
+    /// The velocities at the point: they were integrated.
+    Velocities,
     Plane(quasi_steady::Carried),
     Uneven(Box<along_ground::Carried>),
 }
 
-impl Default for Carried {
-    fn default() -> Self {
-        Self::Plane(quasi_steady::Carried::default())
-    }
+/// How a rover moved until now, to a motion of one kind.
+pub(super) enum Before<C> {
+    /// It starts, rolling.
+    Nothing,
+    /// By a motion of another kind.
+    Another,
+    /// By one of this kind.
+    Steady(C),
 }
 
 impl Carried {
@@ -36,8 +45,9 @@ impl Carried {
         point: &Point,
     ) -> Option<Vec<WheelReaction>> {
         match self {
-            Self::Plane(carried) => carried.wheels(equations, point),
+            Self::Plane(carried) => Some(carried.wheels(equations, point)),
             Self::Uneven(carried) => Some(carried.wheels()),
+            Self::Nothing | Self::Velocities => None,
         }
     }
 }
@@ -56,18 +66,20 @@ impl<'a, 'g> SteadyRun<'a, 'g> {
         rims_changed: bool,
     ) -> Result<Self, NotSteady> {
         if equations.has_relief() {
-            let carried = match carried {
-                Carried::Uneven(carried) => Some(*carried),
-                Carried::Plane(_) => None,
+            let before = match carried {
+                Carried::Nothing => Before::Nothing,
+                Carried::Velocities | Carried::Plane(_) => Before::Another,
+                Carried::Uneven(carried) => Before::Steady(*carried),
             };
-            let motion = AlongGround::from(equations, carried, point, rims_changed)?;
+            let motion = AlongGround::from(equations, before, point, rims_changed)?;
             return Ok(Self::Uneven(Box::new(motion)));
         }
-        let carried = match carried {
-            Carried::Plane(carried) => carried,
-            Carried::Uneven(_) => quasi_steady::Carried::default(),
+        let before = match carried {
+            Carried::Nothing => Before::Nothing,
+            Carried::Velocities | Carried::Uneven(_) => Before::Another,
+            Carried::Plane(carried) => Before::Steady(carried),
         };
-        let motion = QuasiSteady::from(equations, carried, point, horizon, rims_changed)?;
+        let motion = QuasiSteady::from(equations, before, point, horizon, rims_changed)?;
         Ok(Self::Plane(Box::new(motion)))
     }
 

@@ -16,8 +16,10 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::equations::{Equations, Evaluation};
 use super::turning::Turning;
+use crate::contact::slip::CREEP_SPEED;
 use crate::newton;
 use crate::units::Vec2;
+use crate::vehicle::kinematics::rolling_motion;
 use crate::vehicle::load;
 use crate::vehicle::{OnGround, RoverState, WheelReaction};
 
@@ -80,7 +82,8 @@ pub(super) struct SteadyState {
 /// Finds steady states, each from the one before.
 pub(super) struct SteadySolver<'a, 'g> {
     equations: &'a Equations<'g>,
-    /// Speed to measure velocities by: the fastest rim's [m/s].
+    /// Speed to measure velocities by: the fastest rim's, or where all stand still that at which
+    /// they creep [m/s].
     scale: f64,
     /// Length that makes a yaw rate a speed: the farthest wheel's distance [m].
     reach: f64,
@@ -117,12 +120,20 @@ pub const MOST_SLIP: f64 = 0.9;
 /// in the Moon's gravity half of this.)
 pub const LONGEST_SETTLING: f64 = 0.1;
 
+/// Rims that turn faster by such a factor move the rover alike [-]. Source: ours; at most as a
+/// guess.
+const SIMILAR: std::ops::RangeInclusive<f64> = 0.2..=5.0;
+/// Rims turn much the same as before where the velocities of rolling wheels change by no more than
+/// this, but for a common factor, over the fastest rim's speed [-]. Source: ours; a slip ratio of 1
+/// is twice as far.
+const MUCH_THE_SAME: f64 = 0.5;
+
 impl<'a, 'g> SteadySolver<'a, 'g> {
     pub(super) fn new(equations: &'a Equations<'g>, memory: Memory) -> Self {
         let fastest = equations.rim_speeds().iter().fold(0.0, |most: f64, rim| most.max(rim.abs()));
         let arms = equations.rover().load_arms();
         let reach = arms.iter().map(Vec2::norm).fold(0.0, f64::max);
-        Self { equations, scale: fastest, reach, memory, place: Vec2::zeros() }
+        Self { equations, scale: fastest.max(CREEP_SPEED), reach, memory, place: Vec2::zeros() }
     }
 
     /// Sets the place [m] at which steady states are sought from now on.
@@ -148,7 +159,7 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
 
     /// Adapts the memory to rims that all turn faster by a factor: accelerations, which depend on
     /// ratios of speeds, change as much slower.
-    pub(super) fn scale_memory(&mut self, faster: f64) {
+    fn scale_memory(&mut self, faster: f64) {
         if let Some(inverse) = &mut self.memory.inverse {
             *inverse *= faster;
         }
@@ -172,15 +183,52 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         yaw: f64,
         guess: &Vector3<f64>,
     ) -> Result<SteadyState, NotSteady> {
-        // Wheels that stand still hold a rover by creep alone: that is no motion to speak of.
-        if self.scale == 0.0 {
-            return Err(NotSteady::NoSteadyState);
-        }
         if self.equations.droops() {
             return self.find_turning(yaw, guess).ok_or(NotSteady::NoSteadyState);
         }
         let close = self.find_close(yaw, guess);
         close.or_else(|| self.settle(yaw, guess)).ok_or(NotSteady::NoSteadyState)
+    }
+
+    /// The steady state after a change of the rims' speeds.
+    ///
+    /// Where a rover can move in more than one way, as in a turn on the spot on a slope, how it
+    /// moved decides which it comes to: where the rims turn much the same as before, its slips stay
+    /// near what they were; elsewhere it is followed from its velocities.
+    ///
+    /// * `now`: its velocities
+    /// * `rolled`: velocities with which the rims rolled before, if that is known
+    pub(super) fn find_after(
+        &mut self,
+        yaw: f64,
+        now: &Vector3<f64>,
+        rolled: Option<&Vector3<f64>>,
+    ) -> Result<SteadyState, NotSteady> {
+        let rolling = rolling(self.equations);
+        if self.is_at_rest() {
+            return self.find(yaw, &rolling);
+        }
+        let near = rolled.map(|rolled| {
+            // Motion depends on ratios of speeds alone: of rims that all turn faster, everything is
+            // faster.
+            let faster = rolling.xy().dot(&rolled.xy()) / rolled.xy().norm_squared();
+            let faster = if SIMILAR.contains(&faster) { faster } else { 1.0 };
+            (faster, faster * (now - rolled) + rolling, rolling - faster * rolled)
+        });
+        match near {
+            Some((faster, guess, change)) if self.size(&change) <= MUCH_THE_SAME => {
+                self.scale_memory(faster);
+                self.find(yaw, &guess)
+            }
+            // Motors that droop turn the rims in their own time.
+            _ if self.equations.droops() => self.find(yaw, &rolling),
+            _ => self.settle(yaw, now).ok_or(NotSteady::NoSteadyState),
+        }
+    }
+
+    /// Whether no wheel is to turn.
+    fn is_at_rest(&self) -> bool {
+        self.scale <= CREEP_SPEED
     }
 
     /// The same of wheels that turn as they are set to, by Newton's steps alone.
@@ -305,6 +353,10 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         /// The first step [s]: within the milliseconds in which slip settles.
         const FIRST_STEP: f64 = 1e-3;
         const MOST_STEPS: usize = 40;
+        /// A step that changes velocities by less is lengthened, over the fastest rim's speed [-],
+        /// and by how much at most [-].
+        const SHARE: f64 = 0.1;
+        const MOST_LONGER: f64 = 3.0;
         let mut velocities = *guess;
         let mut here = self.evaluate(yaw, &velocities)?;
         let mut span = FIRST_STEP;
@@ -324,7 +376,9 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
                 Some(_) if self.size(&step) > 1.0 => span *= 0.1,
                 Some(next) => {
                     let fading = acceleration.norm() / acceleration_of(&next).norm();
-                    span *= fading.clamp(0.3, 10.0);
+                    // Accelerations that stay, as of a start, are followed by shares of the way.
+                    let share = (SHARE / self.size(&step)).min(MOST_LONGER);
+                    span *= fading.clamp(0.3, 10.0).max(share);
                     velocities += step;
                     here = next;
                 }
@@ -348,7 +402,8 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         }
         let slips = steady.wheels.iter().map(|wheel| wheel.slip.ratio.abs());
         let slip_ratio = slips.sum::<f64>() / steady.wheels.len() as f64;
-        if slip_ratio > MOST_SLIP {
+        // Wheels that stand still hold the rover.
+        if slip_ratio > MOST_SLIP && !self.is_at_rest() {
             return Err(NotSteady::Spinning { slip_ratio });
         }
         let jacobian = self.jacobian_of(steady).ok_or(NotSteady::NoSteadyState)?;
@@ -415,6 +470,12 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         }
         Some(jacobian)
     }
+}
+
+/// Velocities of a rover that follows its rims as well as a rigid body can, at a light slip.
+pub(super) fn rolling(equations: &Equations<'_>) -> Vector3<f64> {
+    let (velocity, rate) = rolling_motion(equations.rover().mounts(), equations.rim_speeds());
+    super::scenario::ROLLING_SHARE * Vector3::new(velocity.x, velocity.y, rate)
 }
 
 fn acceleration_of(evaluation: &Evaluation) -> Vector3<f64> {

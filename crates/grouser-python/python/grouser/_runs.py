@@ -243,7 +243,8 @@ class RunBatch:
     @property
     def simulation(self) -> NDArray[np.object_]:
         """Method of each run: ``dynamic``; ``quasi-steady`` if its scenario asks for it;
-        ``fell-back`` after a fallback from quasi-steady to dynamic."""
+        ``fell-back`` after a fallback from quasi-steady to dynamic, which holds until the wheels
+        are to turn otherwise."""
         return objects(status[2] for status in self._status())
 
     @property

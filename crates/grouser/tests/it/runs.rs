@@ -293,10 +293,10 @@ fn driving_straight_costs_one_balance_however_far() {
 /// Where no balance is stable, or none exists, the run is dynamic and says so: the same bits.
 #[test]
 fn without_a_valid_balance_the_run_is_dynamic() {
-    let locked = DriveLaw::ConstantEach(vec![0.0, 0.0, 0.0, 0.0]);
-    let parked =
-        Scenario { drive: locked, duration: 2.0, start: AT_REST, ..traverse(deg(10.0), 0.0) };
-    for scenario in [parked, Scenario { duration: 2.0, ..traverse(deg(58.0), 0.0) }] {
+    let locked = DriveLaw::ConstantEach(vec![0.0; 4]);
+    let sliding = Scenario { drive: locked, start: AT_REST, ..traverse(deg(45.0), 0.0) };
+    for scenario in [sliding, traverse(deg(58.0), 0.0)] {
+        let scenario = Scenario { duration: 2.0, ..scenario };
         let (dynamic, steady) = (run(&scenario), run(&quasi_steady(&scenario)));
         assert!(
             matches!(steady.method, Method::FallbackToDynamic { time: 0.0, .. }),
@@ -304,6 +304,25 @@ fn without_a_valid_balance_the_run_is_dynamic() {
             steady.method
         );
         assert_eq!((dynamic.records, dynamic.outcome), (steady.records, steady.outcome));
+    }
+}
+
+/// Locked wheels hold a rover up to where the soil gives way: it creeps below a micrometre in a
+/// second, straight down, and to know it takes one balance.
+#[test]
+fn a_parked_rover_stays_where_it_is() {
+    let locked = DriveLaw::ConstantEach(vec![0.0; 4]);
+    for (slope, yaw) in [(0.0, 0.0), (10.0, 0.0), (10.0, 90.0), (10.0, -40.0), (18.0, 25.0)] {
+        let base = traverse(deg(slope), deg(yaw));
+        let parked = Scenario { drive: locked.clone(), duration: 20.0, start: AT_REST, ..base };
+        let (dynamic, steady) = (run(&parked), run(&quasi_steady(&parked)));
+        let name = format!("{slope}°, yaw {yaw}°");
+        assert_eq!(steady.method, Method::QuasiSteady, "{name}");
+        assert_eq!((&steady.outcome, &dynamic.outcome), (&Outcome::Completed, &Outcome::Completed));
+        assert!(steady.work.evaluations < 60, "{name}: {:?}", steady.work);
+        let [way, other] = [&steady, &dynamic].map(|run| run.last().state.position);
+        assert!(way.norm() < 2e-5 && way.y <= 1e-12, "{name}: {way}");
+        assert!((way - other).norm() < 1e-6, "{name}: {way} and {other}");
     }
 }
 

@@ -216,6 +216,64 @@ fn quasi_steady_steps_lead_where_the_quasi_steady_run_leads() {
     assert!(rover.now().wheels.len() == 4 && rover.outcome().is_none());
 }
 
+/// Speeds of all rims, of those on the left and of those on the right.
+fn sides(left: f64, right: f64) -> [f64; 4] {
+    [left, left, right, right]
+}
+
+/// Stops, starts, reversals and turns on the spot, as drivers and learners command them: between
+/// changes velocities are steady, also where a turn on the spot has two of them. A dynamic run needs
+/// tenths of a second at a change at most, that is half a millimetre.
+#[test]
+fn stops_reversals_and_turns_on_the_spot_are_quasi_steady() {
+    let go = sides(RIM_SPEED, RIM_SPEED);
+    let patterns = [
+        ("stops", 2, sides(0.0, 0.0), 120),
+        ("reversals", 4, go.map(|rim| -rim), 120),
+        ("turns", 4, sides(-0.5 * RIM_SPEED, 0.5 * RIM_SPEED), 220),
+        ("curves", 3, sides(RIM_SPEED, 0.3 * RIM_SPEED), 120),
+    ];
+    for slope in [3.0, 10.0] {
+        for (name, steps, other, most) in patterns {
+            let command = |k: usize| if (k / steps).is_multiple_of(2) { go } else { other };
+            let commands: Vec<[f64; 4]> = (0..36).map(command).collect();
+            let changes = (commands.len() - 1) / steps;
+            let base = traverse(deg(slope), 0.0);
+            let approach = Approach::QuasiSteady;
+            let numerics = Numerics { approach, ..base.numerics };
+            let steady = Scenario { numerics, ..base.clone() };
+            let [dynamic, steady] = [&base, &steady].map(|it| led(it, 0.5, &commands));
+            let name = format!("{name} on {slope}°");
+            assert_eq!(steady.state().method(), &Method::QuasiSteady, "{name}");
+            let [work, without] = [&steady, &dynamic].map(|run| run.state().work().evaluations);
+            let per_change = work / changes as u64;
+            assert!(per_change < most && 2 * work < without, "{name}: {work} and {without}");
+            let apart = apart(&dynamic.now().state, &steady.now().state) / changes as f64;
+            assert!(apart < 5e-4, "{name}: {apart} m or rad by each change");
+        }
+    }
+}
+
+/// Where no steady motion is found, velocities are integrated until the wheels turn otherwise.
+#[test]
+fn a_steady_motion_is_sought_again_with_each_command() {
+    let spin = [-0.1, 0.1, 0.1, -0.1];
+    let command = |k: usize| if k == 4 { spin } else { [RIM_SPEED; 4] };
+    let commands: Vec<[f64; 4]> = (0..40).map(command).collect();
+    let base = traverse(deg(10.0), 0.0);
+    let approach = Approach::QuasiSteady;
+    let steady = Scenario { numerics: Numerics { approach, ..base.numerics }, ..base.clone() };
+    let [dynamic, steady] = [&base, &steady].map(|it| led(it, 0.5, &commands));
+    let Method::FallbackToDynamic { time, .. } = *steady.state().method() else {
+        panic!("{:?}", steady.state().method())
+    };
+    assert!((time - 2.0).abs() < 1e-9, "{time} s");
+    let [work, without] = [&steady, &dynamic].map(|run| run.state().work());
+    assert!(work.steps > 36 * 5 && work.evaluations < without.evaluations, "{work:?}");
+    let apart = apart(&dynamic.now().state, &steady.now().state);
+    assert!(apart < 2e-3, "{apart} m or rad");
+}
+
 /// Steps of a command that is the scenario's own find the balance anew as the rover turns.
 #[test]
 fn quasi_steady_steps_of_the_same_command_follow_a_rover_that_turns() {

@@ -70,7 +70,8 @@ class LevelTraverseEnv(RoverEnv):
 
     **Info**: ``x_m`` [m], ``slope_deg`` [°], ``energy_j`` [J], ``outcome`` (None during the run),
     ``fallback_to_dynamic``: whether a quasi-steady episode had no steady state at some time, and
-    has been computed dynamically since. Sharp turns have that effect in most episodes.
+    was computed dynamically until the next action. Turns on the spot at full speed have that
+    effect.
 
     **Options** of a reset, each in place of a sampled value: ``slope_deg`` [°], ``yaw_deg`` [°] and
     ``soil_seed``, a whole number that determines the soil, or None for the values of its document.
