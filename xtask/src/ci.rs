@@ -46,7 +46,8 @@ const STEPS: [Step; 23] = {
     const fn step(name: &'static str, budget: f64, take: Take) -> Step {
         Step { name, budget, asks: &[], is_long: false, take }
     }
-    const PAGES: &[&str] = &["docs", "crates/grouser-cli", "crates/grouser-python", "xtask"];
+    const PAGES: &[&str] =
+        &["docs", "crates/grouser-cli", "crates/grouser-python", "crates/grouser-serve", "xtask"];
     const PACKED: &[&str] = &["Cargo", "crates/grouser-python", "xtask"];
     const OF_C: &[&str] =
         &["Cargo", "crates/grouser-c/", "crates/grouser-core", "crates/grouser-io", "xtask"];
@@ -77,7 +78,7 @@ const STEPS: [Step; 23] = {
         Step { asks: COUNTED, ..step("instructions", 80.0, Beside(&["instructions", "--check"])) },
         step("python", 550.0, Here(python::check)),
         step("workflows", 2.0, Here(|_| workflows::check().map(Count::one))),
-        Step { asks: PAGES, ..step("pages", 180.0, Last(pages::check)) },
+        Step { asks: PAGES, ..step("pages", 210.0, Last(pages::check)) },
         Step { is_long: true, ..step("release", 600.0, Here(|_| release())) },
     ]
 };

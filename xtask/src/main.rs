@@ -68,6 +68,9 @@ cargo xtask CHORE
                       with the Python package that is installed already
   pages               look at the site of `cargo xtask site`, and at reports, in Chromium: at two widths,
                       light and dark
+  console [--pictures]
+                      use the console in Chromium, and compare it with the program; --pictures writes
+                      one of each view into docs/pictures/console
   costs               count what wheels cost over the domain, and write the map into
                       docs/performance.md
   outputs FOLDER [PROGRAM]
@@ -129,6 +132,10 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["packages", "--full"] => good(packages::check(extent::Extent::Full)?),
         ["python"] => good(python::check(extent::Extent::Usual)?),
         ["pages"] => good(pages::check()?),
+        ["console"] => good(pages::console(None)?),
+        ["console", "--pictures"] => {
+            good(pages::console(Some(&workspace::root().join("docs/pictures/console")))?)
+        }
         ["python", "--lowest"] => good(python::check_lowest()?),
         ["site"] => good(site::build(&python::installed()?)?),
         ["site", "--as-it-is"] => good(site::build(&python::as_it_is())?),

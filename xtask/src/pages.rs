@@ -2,7 +2,7 @@
 //!
 //! Pages must not be wider than the window, nor clip text, nor ask other hosts; their scripts must
 //! run without an error, their links lead somewhere, and axe must find no serious violation of
-//! accessibility.
+//! accessibility. The console is used too: what it shows must be what the program prints.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,6 +13,9 @@ use anyhow::{Context, Result, ensure};
 use crate::libtest::Count;
 use crate::tools::{self, CHROMIUM};
 use crate::{python, workspace};
+
+/// What uses the console, in the same language.
+const USER: &str = include_str!("console.py");
 
 /// What looks at the pages, in the language whose driver of browsers is at hand.
 const LOOKER: &str = include_str!("pages.py");
@@ -81,7 +84,32 @@ pub(crate) fn check() -> Result<Count> {
     let mut count = looked_at(&python, browser, &site, &PAGES)?;
     let (folder, pages) = reports()?;
     count += looked_at(&python, browser, &folder, &pages)?;
+    count += used(&python, browser, None)?;
     Ok(count)
+}
+
+/// Uses the console as its users do, and counts claims about it; without a browser they count as
+/// skipped.
+///
+/// * `pictures`: the folder that a picture of each view is written into
+pub(crate) fn console(pictures: Option<&Path>) -> Result<Count> {
+    let Some(browser) = tools::browser() else {
+        println!("{}", CHROMIUM.missing());
+        return Ok(Count::skipped());
+    };
+    used(&python::environment()?, browser, pictures)
+}
+
+fn used(python: &Path, browser: &str, pictures: Option<&Path>) -> Result<Count> {
+    let program = workspace::build_program()?;
+    let mut look = Command::new(python);
+    look.arg("-c").arg(USER).arg(browser).arg(rules_of_axe(python)?).arg(program);
+    look.args(pictures);
+    let output = look.stdin(Stdio::null()).stderr(Stdio::inherit()).output()?;
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    print!("{printed}");
+    ensure!(output.status.success() || printed.contains("failed"), "the console was not tried");
+    Ok(Count::of_closing_line(&printed))
 }
 
 /// Makes the reports anew; their folder, and their names in it.

@@ -20,6 +20,7 @@ mod mission;
 mod new;
 mod replay;
 mod route;
+mod serve;
 mod slip_from_current;
 mod telemetry;
 mod terminal;
@@ -62,6 +63,7 @@ pub(crate) use mission::MissionArgs;
 pub(crate) use new::NewArgs;
 pub(crate) use replay::ReplayArgs;
 pub(crate) use route::RouteArgs;
+pub(crate) use serve::ServeArgs;
 pub(crate) use slip_from_current::SlipFromCurrentArgs;
 pub(crate) use telemetry::{LogArgs, TelemetryArgs};
 pub(crate) use terminal::{TerminalArgs, colours_of};
@@ -88,6 +90,8 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Run the source paper's study and write its report.
     Reproduce(ReproduceArgs),
+    /// Open the console: a page in the browser with sliders, headings, wheels and verdicts.
+    Serve(ServeArgs),
     /// Drive a rover across a slope and report where it ends up.
     Traverse(TraverseArgs),
     /// Drive a rover through legs: drives, turns, arcs, waypoints, with limits at which it stops.

@@ -31,6 +31,7 @@ pub(crate) mod reproduce;
 pub(crate) mod route;
 pub(crate) mod sampling;
 pub(crate) mod schema;
+pub(crate) mod serve;
 pub(crate) mod slip_from_current;
 mod strict;
 mod telemetry;
@@ -40,10 +41,9 @@ pub(crate) mod wheel_test;
 
 use grouser::answers::with_files;
 use grouser::document::given_file::GivenFile;
+use grouser::document::json;
 use serde::Serialize;
 use serde_json::Value;
-
-use crate::output::json;
 
 /// A JSON output: what it is, who made it, from what, and the results.
 #[derive(Serialize)]

@@ -55,6 +55,7 @@ fn parsed(matches: &clap::ArgMatches) -> Result<(), Failure> {
 fn run(command: &Command) -> Result<(), Failure> {
     match command {
         Command::Reproduce(args) => commands::reproduce::run(args),
+        Command::Serve(args) => commands::serve::run(args),
         Command::Traverse(args) => commands::traverse::run(args),
         Command::Mission(args) => commands::mission::run(args),
         Command::WheelTest(args) => commands::wheel_test::run(args),

@@ -5,7 +5,6 @@ pub(crate) mod answer;
 mod crossed;
 pub(crate) mod file;
 pub(crate) mod folder;
-pub(crate) mod json;
 pub(crate) mod rows;
 mod screen;
 pub(crate) mod slide;
@@ -19,7 +18,7 @@ use std::io::{BufWriter, ErrorKind, Write, stderr, stdout};
 use std::path::Path;
 
 use anstream::AutoStream;
-use grouser::document::escape;
+use grouser::document::{escape, json};
 use serde::Serialize;
 
 use crate::failure::Failure;

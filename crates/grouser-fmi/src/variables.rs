@@ -13,7 +13,7 @@ use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{Column, TIME, WHEEL_SPEED};
 use grouser::document::unit::{ONE, S};
 use grouser::document::varied::Key;
-use grouser::document::{Kind, Unit, sentence, unit_of};
+use grouser::document::{Kind, Unit, meaning, unit_of};
 use grouser::simulation::{OutcomeKind, Record, Scenario, WheelRecord};
 
 use crate::drive::Drive;
@@ -142,7 +142,7 @@ pub(crate) fn variables(
     all.extend(parameters.iter().enumerate().map(|(place, key)| Variable {
         name: key.path.clone(),
         unit: unit_of(&key.path).unwrap_or(ONE),
-        sentence: sentence(kind, &key.path).unwrap_or_default().trim_end_matches('.').to_owned(),
+        sentence: meaning(kind, &key.path).unwrap_or_default().trim_end_matches('.').to_owned(),
         role: Role::Parameter { place },
     }));
     let named = |prefix: &str, name: &str, unit, doc: &str, output| Variable {

@@ -166,7 +166,7 @@ impl CaseSection {
         let none = Overrides::none();
         let find = |kind: Kind, key: &str, name: &str| {
             let origin = node.origin_of(key).clone();
-            let source = Source::find_from(&origin.text.folder, kind, name)
+            let source = Source::named_in(&origin.text, kind, name)
                 .map_err(|error| error.seen_from(&origin))?;
             Ok((source, origin))
         };

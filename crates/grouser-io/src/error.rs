@@ -287,9 +287,9 @@ impl From<FileProblem> for Problem {
             FileProblem::Folder => Self::Folder,
             FileProblem::TooLarge { limit } => Self::TooLarge { limit },
             FileProblem::Unreadable { kind, message } => Self::Unreadable { kind, message },
-            FileProblem::BrokenLink { .. } | FileProblem::NotAFile { .. } => {
-                Self::NotAFile(problem)
-            }
+            FileProblem::BrokenLink { .. }
+            | FileProblem::NotAFile { .. }
+            | FileProblem::Outside => Self::NotAFile(problem),
         }
     }
 }

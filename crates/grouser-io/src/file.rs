@@ -7,7 +7,7 @@
 
 use std::fs::{self, File, FileType, Metadata};
 use std::io::{self, Read as _};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 /// A file that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -21,6 +21,9 @@ pub enum FileProblem {
         /// What the link says.
         target: PathBuf,
     },
+    /// A path, or a link behind it, that leads out of the folder that files may be in.
+    #[error("this leads out of the folder that files may be in")]
+    Outside,
     /// A folder where a file should be.
     #[error("this is a folder, not a file")]
     Folder,
@@ -66,6 +69,36 @@ pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, FileProblem> {
         return Err(FileProblem::TooLarge { limit });
     }
     Ok(bytes)
+}
+
+/// A path without links, if it stays within a folder. Of what is outside nothing is said, not even
+/// whether it is there.
+///
+/// * `within`: the folder, itself without links
+///
+/// # Errors
+/// [`FileProblem`] for a path that leads out of the folder, or nowhere.
+pub(crate) fn confined(path: &Path, within: &Path) -> Result<PathBuf, FileProblem> {
+    let mut steps = within.join(path);
+    if steps.components().any(|step| step == Component::ParentDir) {
+        let mut plain = PathBuf::new();
+        for step in steps.components() {
+            match step {
+                Component::ParentDir => drop(plain.pop()),
+                step => plain.push(step),
+            }
+        }
+        steps = plain;
+    }
+    if !steps.starts_with(within) {
+        return Err(FileProblem::Outside);
+    }
+    // A link that leads nowhere may name what is outside: its target is not said.
+    let found = fs::canonicalize(&steps).map_err(|error| match failed(&steps, &error) {
+        FileProblem::BrokenLink { .. } => FileProblem::NoSuchFile,
+        problem => problem,
+    })?;
+    if found.starts_with(within) { Ok(found) } else { Err(FileProblem::Outside) }
 }
 
 /// A link that leads nowhere, and where it should lead.

@@ -181,3 +181,13 @@ impl Part {
         path.len() > self.path.len() && path.iter().zip(self.path).all(meets)
     }
 }
+
+/// `scenario.soil.cohesion_kpa` is the soil's `cohesion_kpa`, whether the scenario names its soil
+/// or holds it.
+pub(crate) fn without_parts(mut kind: Kind, mut path: Vec<String>) -> (Kind, Vec<String>) {
+    while let Some(part) = kind.parts().iter().find(|part| !part.is_listed() && part.holds(&path)) {
+        path.drain(..part.path.len());
+        kind = part.kind;
+    }
+    (kind, path)
+}

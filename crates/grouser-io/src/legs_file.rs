@@ -47,12 +47,15 @@ pub(crate) fn put_in(mission: &mut Node) -> Result<(), DocumentError> {
 /// * `origin`: where it is named
 pub(crate) fn text_of(name: &str, origin: &Origin) -> Result<Arc<Text>, DocumentError> {
     let beside = origin.text.beside.files.iter().find(|beside| beside.name == name);
-    let path = origin.text.folder.join(name);
-    let label = beside.map_or_else(|| path.display().to_string(), |_| name.to_owned());
-    let content = match beside {
-        Some(beside) => beside.content.clone(),
-        None => read_file(&path, LARGEST_FILE)
-            .map_err(|problem| DocumentError::whole(&label, problem))?,
+    let (label, content) = if let Some(beside) = beside {
+        (name.to_owned(), beside.content.clone())
+    } else {
+        let path = origin.text.path_of(name);
+        let path = path.map_err(|why| DocumentError::at(origin, why.into()))?;
+        let label = path.display().to_string();
+        let content = read_file(&path, LARGEST_FILE)
+            .map_err(|problem| DocumentError::whole(&label, problem))?;
+        (label, content)
     };
     Ok(Arc::new(Text { label, content, ..Text::default() }))
 }

@@ -52,6 +52,7 @@ pub mod file;
 pub mod given_file;
 mod gravity;
 pub mod guard;
+pub mod json;
 mod json_schema;
 mod kind;
 mod legs_file;
@@ -101,7 +102,7 @@ pub use limits::read_limits;
 pub use loaded::{Loaded, fnv_1a};
 pub use mission::{Plan, limited_quantity};
 pub use overrides::Overrides;
-pub use presets::{Advice, Preset, preset, presets};
+pub use presets::{Advice, Preset, PresetRecord, preset, presets};
 pub use priors::{Assumed, assumed, stated_by_priors, with_priors_held, without_priors_of};
 pub use read::{
     LoadedMission, LoadedMotor, LoadedRover, LoadedScenario, LoadedSoil, LoadedWheel, Written,
@@ -109,7 +110,7 @@ pub use read::{
     read_soil, read_wheel, written,
 };
 pub use samples::{MODEL as SAMPLES_MODEL, RowsOfModel, WEIGHT as SAMPLES_WEIGHT};
-pub use schema::{range, schema, sentence};
+pub use schema::{meaning, range, schema};
 pub use source::{LARGEST_FILE, Source};
 pub use stop_file::{Overruled, overruled};
 pub use telemetry_mapping::read_telemetry_mapping;

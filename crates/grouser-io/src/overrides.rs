@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::check::{did_you_mean, keys_at, nearest, places};
 use super::error::{DocumentError, Problem};
-use super::kind::Kind;
+use super::kind::{Kind, without_parts};
 use super::schema::{names_in, root};
 use super::text::parse;
 use super::tree::{Beside, Entry, Node, Origin, Text, Value};
@@ -437,23 +437,13 @@ fn with_document(key: &str, value: &Node) -> Vec<String> {
     places_of(key).or_else(|| places_of(last)).or_else(alike).unwrap_or_default()
 }
 
-/// `scenario.soil.cohesion_kpa` is the soil's `cohesion_kpa`, whether the scenario names its soil
-/// or holds it.
-fn without_parts(mut kind: Kind, mut path: Vec<String>) -> (Kind, Vec<String>) {
-    while let Some(part) = kind.parts().iter().find(|part| !part.is_listed() && part.holds(&path)) {
-        path.drain(..part.path.len());
-        kind = part.kind;
-    }
-    (kind, path)
-}
-
 fn argument(content: String) -> Arc<Text> {
     argument_with(content, Beside::default())
 }
 
 fn argument_with(content: String, beside: Beside) -> Arc<Text> {
-    let label = content.clone();
-    Arc::new(Text { label, content, is_argument: true, beside, ..Text::default() })
+    let (label, folder) = (content.clone(), beside.within.clone().unwrap_or_default());
+    Arc::new(Text { label, content, folder, is_argument: true, beside })
 }
 
 /// The answer to a question of a draft; messages quote it with its key.

@@ -2,6 +2,8 @@
 
 mod advice;
 
+use serde::Serialize;
+
 use super::kind::Kind;
 
 pub use advice::Advice;
@@ -17,6 +19,33 @@ pub struct Preset {
     pub text: &'static str,
     /// The measured rows of a data set, as CSV; other kinds have none.
     pub rows: Option<&'static str>,
+}
+
+/// A preset in a list.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct PresetRecord {
+    /// The kind of document.
+    pub kind: &'static str,
+    /// The name it is called by.
+    pub name: &'static str,
+    /// The document's name.
+    pub title: String,
+    /// The stated source of its values.
+    pub source: String,
+    /// The world that it is of; soils and rovers have one.
+    pub world: Option<&'static str>,
+    /// What it is good for; soils and rovers say so.
+    pub advice: Option<&'static str>,
+}
+
+impl Preset {
+    /// Its row in a list.
+    #[must_use]
+    pub fn record(&'static self) -> PresetRecord {
+        let (title, source) = self.title_and_source();
+        let (world, advice) = self.advice().map(|it| (it.world, it.text)).unzip();
+        PresetRecord { kind: self.kind.name(), name: self.name, title, source, world, advice }
+    }
 }
 
 /// All presets of a kind, in the order in which they are listed.

@@ -254,7 +254,7 @@ fn complete(
         stop_file::put_in(tree)?;
     }
     if matches!(kind, Kind::Scenario | Kind::Mission) {
-        terrain_file::locate(tree);
+        terrain_file::locate(tree)?;
     }
     let has = |key: &str| tree.entry(key).map(|entry| &entry.node.value);
     let has_rows = matches!(has(PRIORS_KEY), Some(Value::Table(_)));
@@ -320,8 +320,7 @@ fn fetch(
     };
     match &entry.node.value {
         Value::String(name) => {
-            let folder = &entry.node.origin.text.folder;
-            let source = Source::find_from(folder, part.kind, name)
+            let source = Source::named_in(&entry.node.origin.text, part.kind, name)
                 .map_err(|error| error.seen_from(&entry.node.origin))?;
             entry.node = load(part.kind, &source, overrides, prefix)
                 .map_err(|error| blame_name(error, &entry.node.origin, &source))?;

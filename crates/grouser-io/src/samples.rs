@@ -59,7 +59,8 @@ impl SampleTable {
             let (label, content) = (name.to_owned(), beside.content.clone());
             return Self::parse(Arc::new(Text { label, content, ..Text::default() }));
         }
-        let path = origin.text.folder.join(name);
+        let path =
+            origin.text.path_of(name).map_err(|why| DocumentError::at(origin, why.into()))?;
         let label = path.display().to_string();
         let content = read_file(&path, LARGEST_TABLE).map_err(|problem| {
             let is_whole = origin.text.folder == Path::new("");

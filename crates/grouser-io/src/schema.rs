@@ -10,7 +10,7 @@ use serde_json::{Map, Value as Json};
 
 use super::describe;
 use super::json_schema;
-use super::kind::Kind;
+use super::kind::{Kind, without_parts};
 
 /// The JSON Schema (draft 2020-12) of a kind of document, as text.
 #[must_use]
@@ -40,15 +40,18 @@ pub fn range(kind: Kind, path: &str) -> Option<std::ops::RangeInclusive<f64>> {
     widest.map(|(least, most)| least..=most)
 }
 
-/// What a key of a document is: the sentence of its row; none for a key that no law has.
+/// What a key of a document is: the sentence of its row, with the unit.
 ///
-/// * `path`: as in [`range`]; an entry of a list, by its place, is what its list is
+/// * `path`: the key with its tables, and the parts that it stands in: of a scenario
+///   `soil.friction_angle_deg`; an entry of a list, by its place, is what its list is
 #[must_use]
-pub fn sentence(kind: Kind, path: &str) -> Option<String> {
+pub fn meaning(kind: Kind, path: &str) -> Option<&'static str> {
     let keys = path.split('.').filter(|key| key.parse::<usize>().is_err());
-    let path = keys.collect::<Vec<_>>().join(".");
-    let rows = under(root(kind), &path, None).into_iter();
-    rows.filter_map(|row| row.get("description")?.as_str()).map(str::to_owned).next()
+    let path = keys.map(str::to_owned).collect();
+    let (kind, path) = without_parts(kind, path);
+    let root = root(kind);
+    let found = under(root, &path.join("."), None);
+    found.into_iter().find_map(|schema| schema.get("description")?.as_str())
 }
 
 /// The same schema as a value, made once.

@@ -31,6 +31,13 @@ pub enum Source {
     Preset(&'static Preset),
     /// A file.
     File(PathBuf),
+    /// A file in a folder that neither it nor what it names may lead out of.
+    Confined {
+        /// The file, without links.
+        path: PathBuf,
+        /// The folder, without links.
+        within: PathBuf,
+    },
     /// A text with a name for messages; its relative paths start from the current folder.
     Text {
         /// What messages call it.
@@ -53,7 +60,19 @@ impl Source {
     /// # Errors
     /// [`DocumentError`] if there is neither.
     pub fn find(kind: Kind, name: &str) -> Result<Self, DocumentError> {
-        Self::find_from(Path::new(""), kind, name)
+        Self::named_in(&Text::default(), kind, name)
+    }
+
+    /// The preset of that name, or else the file at that path in a folder. Neither it nor a file
+    /// that it names may be outside, links included.
+    ///
+    /// * `within`: the folder, without links ([`std::fs::canonicalize`])
+    ///
+    /// # Errors
+    /// [`DocumentError`] if there is neither, or it is outside.
+    pub fn find_within(within: &Path, kind: Kind, name: &str) -> Result<Self, DocumentError> {
+        let beside = Beside { within: Some(within.to_owned()), ..Beside::default() };
+        Self::named_in(&Text { beside, ..Text::default() }, kind, name)
     }
 
     /// A file.
@@ -84,17 +103,30 @@ impl Source {
         Self::text("the default scenario", "schema = \"scenario/1\"\nname = \"traverse\"\n")
     }
 
-    /// [`find`](Self::find), with relative paths from a folder.
-    pub(crate) fn find_from(folder: &Path, kind: Kind, name: &str) -> Result<Self, DocumentError> {
+    /// [`find`](Self::find), with the paths that a text may name.
+    pub(crate) fn named_in(text: &Text, kind: Kind, name: &str) -> Result<Self, DocumentError> {
         if let Some(preset) = presets::preset(kind, name) {
             return Ok(Self::Preset(preset));
         }
         let is_toml = Path::new(name).extension().is_some_and(|end| end == "toml");
-        let path = folder.join(name);
+        let is_path = is_toml || name.contains(['/', '\\']);
         // A link is there even if its file is not: reading it says so.
-        let is_there = || !name.is_empty() && path.symlink_metadata().is_ok();
-        if is_toml || name.contains(['/', '\\']) || is_there() {
-            return Ok(Self::File(path));
+        let is_there = |path: &Path| !name.is_empty() && path.symlink_metadata().is_ok();
+        if let Some(within) = &text.beside.within {
+            match text.path_of(name) {
+                Ok(path) if !name.is_empty() => {
+                    return Ok(Self::Confined { path, within: within.clone() });
+                }
+                Err(problem) if is_path => {
+                    return Err(DocumentError::whole(escape::line(name), problem.into()));
+                }
+                _ => {}
+            }
+        } else {
+            let path = text.folder.join(name);
+            if is_path || is_there(&path) {
+                return Ok(Self::File(path));
+            }
         }
         let problem = Problem::NoSuchPresetOrFile { kind, name: escape::line(name).into_owned() };
         let names: Vec<_> = presets::presets(kind).map(|preset| preset.name).collect();
@@ -115,7 +147,10 @@ impl Source {
                 named.clone_from(beside);
                 (label.clone(), content.clone(), PathBuf::new())
             }
-            Self::File(path) => {
+            Self::File(path) | Self::Confined { path, .. } => {
+                if let Self::Confined { within, .. } = self {
+                    named.within = Some(within.clone());
+                }
                 let label = path.display().to_string();
                 let content = read_file(path, LARGEST_FILE).map_err(|problem| {
                     let hint = (problem == Problem::NoSuchFile).then(|| meant_file(path)).flatten();

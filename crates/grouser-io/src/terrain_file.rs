@@ -23,17 +23,23 @@ use grouser_raster::{CoordinateSystem, ReadOptions, Remark};
 
 /// Gives maps that a document names their whole paths, so that the resolved document finds them
 /// from anywhere, and ground with heights no slope beside them.
-pub(crate) fn locate(tree: &mut Node) {
-    let Some(entry) = tree.entry_mut(TERRAIN) else { return };
+///
+/// # Errors
+/// [`DocumentError`] for a map outside of the folder that it has to be in.
+pub(crate) fn locate(tree: &mut Node) -> Result<(), DocumentError> {
+    let Some(entry) = tree.entry_mut(TERRAIN) else { return Ok(()) };
     let key_origin = entry.key_origin.clone();
     for key in [FILE, SOIL_FILE] {
         if let Some(Entry { node, .. }) = entry.node.entry_mut(key)
             && let Value::String(name) = &mut node.value
             && !name.is_empty()
             && !node.origin.text.beside.maps.iter().any(|map| map.name == *name)
-            && let Ok(path) = absolute(node.origin.text.folder.join(&name))
         {
-            *name = path.display().to_string();
+            let path = node.origin.text.path_of(name);
+            let path = path.map_err(|why| DocumentError::at(&node.origin, why.into()))?;
+            if let Ok(path) = absolute(path) {
+                *name = path.display().to_string();
+            }
         }
     }
     zones_file::name_presets(&mut entry.node);
@@ -43,6 +49,7 @@ pub(crate) fn locate(tree: &mut Node) {
         let node = Node { value: Value::Float(0.0), origin: key_origin.clone() };
         entries.push(Entry { key: SLOPE.to_owned(), key_origin, node });
     }
+    Ok(())
 }
 
 /// Reads the map that a scenario's document names, if it names one, and puts it into the scenario.

@@ -8,6 +8,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::file::{self, FileProblem};
 use grouser_core::terrain::ElevationModel;
 use grouser_raster::{CoordinateSystem, ReadOptions};
 use serde_json::Value as Json;
@@ -28,6 +29,18 @@ pub(crate) struct Text {
 }
 
 impl Text {
+    /// The path of a file that it names.
+    ///
+    /// # Errors
+    /// [`FileProblem`] where it may name files of one folder only, and this is none.
+    pub(crate) fn path_of(&self, name: &str) -> Result<PathBuf, FileProblem> {
+        let path = self.folder.join(name);
+        match &self.beside.within {
+            Some(within) => file::confined(&path, within),
+            None => Ok(path),
+        }
+    }
+
     /// The bytes of the line around a byte, without its end.
     pub(crate) fn line_around(&self, byte: usize) -> Range<usize> {
         let mut byte = byte.min(self.content.len());
@@ -192,11 +205,14 @@ pub struct Beside {
     pub files: Vec<Companion>,
     /// Maps of heights.
     pub maps: Vec<HeldMap>,
+    /// The folder, without links, that every other file has to be in, and where relative paths then
+    /// start; any file may be named without one.
+    pub within: Option<PathBuf>,
 }
 
 impl From<Vec<Companion>> for Beside {
     fn from(files: Vec<Companion>) -> Self {
-        Self { files, maps: Vec::new() }
+        Self { files, ..Self::default() }
     }
 }
 

@@ -51,7 +51,7 @@ impl Mapping {
     fn read(source: &Source) -> Result<Self, TelemetryError> {
         let label = match source {
             Source::Preset(preset) => format!("mapping {}", preset.name),
-            Source::File(path) => escape::path(path),
+            Source::File(path) | Source::Confined { path, .. } => escape::path(path),
             Source::Text { label, .. } => label.clone(),
         };
         let read = read_telemetry_mapping(source, &Overrides::none());

@@ -4,7 +4,7 @@ use clap::Command;
 
 /// Headings with their commands; each command is in one group.
 const GROUPS: [(&str, &[&str]); 7] = [
-    ("Start", &["reproduce", "new", "presets", "help"]),
+    ("Start", &["reproduce", "serve", "new", "presets", "help"]),
     ("One question", &["wheel-test", "heading", "heading-map", "traverse", "design", "draw"]),
     ("A site", &["terrain", "map", "route", "card", "forecast"]),
     ("A drive", &["mission", "import-telemetry", "slip-from-current", "learn", "replay"]),

@@ -7,6 +7,7 @@ mod picture;
 use grouser::answers::Answer;
 use grouser::answers::map::{MadeMap, MapFile, VerdictCounts};
 use grouser::document::columns::map::VERDICT;
+use grouser::document::json;
 use grouser::studies::mobility::{Ground, MobilityMap};
 use grouser_draw::style::on_both_grounds;
 use grouser_draw::title_of;
@@ -19,9 +20,9 @@ use super::sampling;
 use crate::args::MapArgs;
 use crate::failure::Failure;
 use crate::inputs::{self, MapInputs};
+use crate::output;
 use crate::output::answer::{add_pictures, html, print};
 use crate::output::slide::SlideFile;
-use crate::output::{self, json};
 
 /// The name of the page.
 const PAGE: &str = "map.html";

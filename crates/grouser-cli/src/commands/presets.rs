@@ -1,6 +1,6 @@
 //! `grouser presets [NAME]`: lists presets, or prints one.
 
-use grouser::document::{self, Kind, Preset};
+use grouser::document::{self, Kind, Preset, PresetRecord};
 use serde::Serialize;
 
 use super::Answer;
@@ -9,16 +9,6 @@ use crate::failure::Failure;
 use crate::output::rows::Rows;
 use crate::output::text::Text;
 use crate::output::{self, Format};
-
-#[derive(Serialize)]
-struct PresetRecord {
-    kind: &'static str,
-    name: &'static str,
-    title: String,
-    source: String,
-    world: Option<&'static str>,
-    advice: Option<&'static str>,
-}
 
 #[derive(Serialize)]
 struct Results<'a> {
@@ -84,11 +74,7 @@ fn print_preset(
 
 /// * `is_chosen`: whether one kind was asked for by its name
 fn list(presets: &[&'static Preset], args: &PresetsArgs, is_chosen: bool) -> Result<(), Failure> {
-    let all = presets.iter().map(|preset| {
-        let (title, source) = preset.title_and_source();
-        let (world, advice) = preset.advice().map(|it| (it.world, it.text)).unzip();
-        PresetRecord { kind: preset.kind.name(), name: preset.name, title, source, world, advice }
-    });
+    let all = presets.iter().map(|preset| preset.record());
     let is_of_world = |it: &PresetRecord| args.world.is_none() || it.world == args.world.as_deref();
     let sought = args.search.as_ref().map(|text| text.to_lowercase());
     let is_found = |preset: &Preset, it: &PresetRecord| {

@@ -3,6 +3,7 @@
 use grouser::answers::{Answer, AnswerError, Displayed, PageBlock};
 use grouser::document::escape;
 use grouser::document::given_file::GivenFile;
+use grouser::document::json;
 use grouser::document::statistics::NothingAccepted;
 use grouser::document::table::Table;
 use grouser_draw::chart::Drawable;
@@ -10,7 +11,7 @@ use grouser_draw::chart::Drawable;
 use super::folder::OutputFolder;
 use super::rows::Rows;
 use super::text::Text;
-use super::{Format, crossed, json};
+use super::{Format, crossed};
 use crate::failure::Failure;
 use crate::report::REPORT;
 use crate::report::answer::{Basis, close};

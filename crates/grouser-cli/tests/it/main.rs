@@ -34,6 +34,7 @@ mod robots;
 mod routes;
 mod routes_hostile;
 mod scrambled;
+mod serve;
 mod simulated;
 mod slides;
 mod slip_from_current;

@@ -206,9 +206,9 @@ impl From<FileProblem> for MeasurementProblem {
             FileProblem::Folder => Self::Folder,
             FileProblem::TooLarge { limit } => Self::TooLarge(Excess::Bytes { most: limit }),
             FileProblem::Unreadable { message, .. } => Self::Unreadable(message),
-            FileProblem::BrokenLink { .. } | FileProblem::NotAFile { .. } => {
-                Self::NotAFile(problem)
-            }
+            FileProblem::BrokenLink { .. }
+            | FileProblem::NotAFile { .. }
+            | FileProblem::Outside => Self::NotAFile(problem),
         }
     }
 }

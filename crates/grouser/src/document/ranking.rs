@@ -152,7 +152,7 @@ pub fn rank_one(source: &Source, limits: Limits) -> Result<Ranking, RankingError
             let rows = measurements::Source::preset(preset.name);
             rows.map(|rows| DataSet { set, rows, named_at: None })
         }
-        Source::File(path) => Some(beside_its_document(set, path)?),
+        Source::File(path) | Source::Confined { path, .. } => Some(beside_its_document(set, path)?),
         // A text in memory has no file beside it.
         Source::Text { .. } => None,
     };

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use grouser::answers::learn::{shares, slope_in_words, warning_in_words};
 use grouser::document::columns::TIME;
 use grouser::document::columns::learn as columns;
+use grouser::document::json;
 use grouser::document::table::Table;
 use grouser::studies::heading_band::SlopeBand;
 use grouser::studies::learn::{Drive, Lesson};
@@ -18,7 +19,7 @@ use super::samples::reaches_too_far;
 use crate::args::LearnArgs;
 use crate::commands::sampling;
 use crate::failure::Failure;
-use crate::output::{self, Format, json};
+use crate::output::{self, Format};
 
 /// Prints what a log that is followed tells on the way.
 ///

@@ -3,24 +3,36 @@
 
 use std::io::{self, Write};
 
-use grouser::document::escape;
 use serde::Serialize;
 use serde_json::Serializer;
 use serde_json::ser::{CompactFormatter, Formatter, PrettyFormatter};
 
+use super::escape;
+
 /// Writes indented JSON.
-pub(crate) fn write(to: impl Write, value: &impl Serialize) -> io::Result<()> {
+///
+/// # Errors
+/// Those of what it is written to.
+pub fn write(to: impl Write, value: &impl Serialize) -> io::Result<()> {
     let shown = Shown(PrettyFormatter::new());
     value.serialize(&mut Serializer::with_formatter(to, shown)).map_err(io::Error::from)
 }
 
 /// Indented JSON as a text.
-pub(crate) fn text(value: &impl Serialize) -> String {
+///
+/// # Panics
+/// For values that are no JSON: maps whose keys are no texts.
+#[must_use]
+pub fn text(value: &impl Serialize) -> String {
     in_memory(value, PrettyFormatter::new())
 }
 
 /// JSON on one line.
-pub(crate) fn line(value: &impl Serialize) -> String {
+///
+/// # Panics
+/// The same as [`text`].
+#[must_use]
+pub fn line(value: &impl Serialize) -> String {
     in_memory(value, CompactFormatter)
 }
 

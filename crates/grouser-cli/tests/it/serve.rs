@@ -1,0 +1,185 @@
+//! `grouser serve`: one line, the same numbers as the commands have, and an end.
+
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::net::TcpStream;
+use std::process::{Child, Stdio};
+use std::time::{Duration, Instant};
+
+use grouser::document::json;
+use serde_json::{Value, json};
+
+use crate::program::Place;
+
+/// A server, and the address that it printed.
+struct Served {
+    child: Child,
+    port: u16,
+    token: String,
+}
+
+impl Served {
+    fn start(place: &Place, arguments: &[&str]) -> Self {
+        let arguments = [&["serve", "--no-open"], arguments].concat();
+        let mut child =
+            place.command(&arguments).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+        let mut line = String::new();
+        BufReader::new(child.stdout.as_mut().unwrap()).read_line(&mut line).unwrap();
+        let (port, token) = line
+            .trim()
+            .strip_prefix("http://127.0.0.1:")
+            .and_then(|rest| rest.split_once("/?token="))
+            .unwrap_or_else(|| panic!("this is no address: {line}"));
+        let (port, token) = (port.parse().unwrap(), token.to_owned());
+        Self { child, port, token }
+    }
+
+    /// The lines that a question is answered by.
+    fn ask(&self, question: &str, body: &Value) -> Vec<Value> {
+        let Self { port, token, .. } = self;
+        let body = body.to_string();
+        let mut stream = TcpStream::connect(("127.0.0.1", *port)).unwrap();
+        // In the elder protocol an answer is not cut into pieces.
+        let request = format!(
+            "POST /api/{question} HTTP/1.0\r\nHost: 127.0.0.1:{port}\r\nAuthorization: Bearer \
+             {token}\r\nContent-Type: application/json\r\nContent-Length: {}\r\n\r\n{body}",
+            body.len()
+        );
+        stream.write_all(request.as_bytes()).unwrap();
+        let mut reply = String::new();
+        stream.read_to_string(&mut reply).unwrap();
+        let (head, body) = reply.split_once("\r\n\r\n").unwrap();
+        assert!(head.contains(" 200 "), "{reply}");
+        body.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+    }
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// Each question with its command, whose output it equals.
+#[test]
+fn answers_are_those_of_the_commands_that_come_with_them() {
+    let place = Place::new();
+    place
+        .write("soft sand.toml", crate::program::changed_preset("soil", "toyoura", "38.0", "33.0"));
+    let served = Served::start(&place, &["."]);
+    for (question, body) in [
+        ("heading", json!({})),
+        ("heading", json!({"soil": "toyoura-uncertain", "slope_deg": [4, 12], "stages": [0, 10]})),
+        (
+            "heading",
+            json!({"soil": "soft sand.toml", "rover": "hakuto", "gravity_m_s2": "moon", "nominal": true}),
+        ),
+        ("heading", json!({"slope_deg": 8.5, "model": "all", "nominal": true})),
+        ("heading", json!({"steering": "crab", "rover": "mgru3", "slope_deg": 5})),
+        (
+            "heading",
+            json!({
+                "slope_deg": 10, "samples": 8, "seed": 3, "go_slip_ratio": 0.2,
+                "set": {"soil.cohesion_kpa": 0.25, "rover.wheel_unit.wheel.radius_m": 0.12},
+            }),
+        ),
+        (
+            "heading",
+            json!({
+                "slope_deg": 10, "nominal": true, "gradients": ["soil.friction_angle_deg", "slope_deg"],
+            }),
+        ),
+        ("heading-map", json!({})),
+        (
+            "heading-map",
+            json!({
+                "slope_deg": 10, "course_deg": [-30, 15], "samples": 8, "rim_speed_m_s": 0.1,
+                "set": {"scenario.gravity_m_s2": 3.71},
+            }),
+        ),
+        ("wheel-test", json!({})),
+        (
+            "wheel-test",
+            json!({
+                "slip_ratio": [-0.2, 0.3], "slip_angle_deg": 10, "load_n": [5, 20], "stages": [0, 8],
+                "soil": "toyoura-uncertain", "set": {"wheel.width_m": 0.1},
+            }),
+        ),
+        ("wheel-test", json!({"slip_ratio": 0.3, "gradients": ["all"], "model": "small-wheel"})),
+    ] {
+        let mut asked = body.clone();
+        asked["shown"] = true.into();
+        let lines = served.ask(question, &asked);
+        assert_eq!(lines.len() % 2, 0);
+        for stage in lines.chunks(2) {
+            let command = stage[1]["command"].as_str().unwrap();
+            let printed = place.shell(&format!("{command} --format json"));
+            assert!(printed.status.success(), "{command}: {}", printed.stderr);
+            let printed: Value = serde_json::from_str(&printed.stdout).unwrap();
+            assert_eq!(json::line(&printed), json::line(&stage[0]), "{command}");
+        }
+    }
+}
+
+#[test]
+fn presets_are_those_of_the_command() {
+    let place = Place::new();
+    let served = Served::start(&place, &[]);
+    let mut stream = TcpStream::connect(("127.0.0.1", served.port)).unwrap();
+    let request = format!(
+        "GET /api/presets HTTP/1.0\r\nHost: localhost:{}\r\nAuthorization: Bearer {}\r\n\r\n",
+        served.port, served.token
+    );
+    stream.write_all(request.as_bytes()).unwrap();
+    let mut reply = String::new();
+    stream.read_to_string(&mut reply).unwrap();
+    let listed: Value = serde_json::from_str(reply.split_once("\r\n\r\n").unwrap().1).unwrap();
+    assert_eq!(listed, place.json("presets"));
+}
+
+#[test]
+#[cfg(unix)]
+fn ctrl_c_ends_it_with_what_it_computes() {
+    let place = Place::new();
+    let mut served = Served::start(&place, &[]);
+    let (port, token) = (served.port, served.token.clone());
+    let asking = std::thread::spawn(move || {
+        let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
+        let body = r#"{"soil": "toyoura-uncertain", "samples": 10000}"#;
+        let request = format!(
+            "POST /api/heading HTTP/1.0\r\nHost: localhost:{port}\r\nAuthorization: Bearer \
+             {token}\r\nContent-Type: application/json\r\nContent-Length: {}\r\n\r\n{body}",
+            body.len()
+        );
+        stream.write_all(request.as_bytes()).unwrap();
+        let _ = stream.read_to_string(&mut String::new());
+    });
+    std::thread::sleep(Duration::from_millis(300));
+    let id = served.child.id().to_string();
+    let sent = std::process::Command::new("kill").args(["-INT", &id]).status().unwrap();
+    assert!(sent.success());
+    let began = Instant::now();
+    let status = loop {
+        if let Some(status) = served.child.try_wait().unwrap() {
+            break status;
+        }
+        assert!(began.elapsed() < Duration::from_secs(10), "it does not end");
+        std::thread::sleep(Duration::from_millis(20));
+    };
+    assert!(status.success(), "{status}");
+    asking.join().unwrap();
+}
+
+#[test]
+fn wrong_settings_say_what_is_wrong() {
+    let place = Place::new();
+    let absent = place.run(&["serve", "--no-open", "nowhere"]);
+    assert_eq!(absent.code(), 2);
+    assert!(absent.stderr.contains("the folder nowhere cannot be read"), "{}", absent.stderr);
+    let served = Served::start(&place, &[]);
+    let port = served.port.to_string();
+    let taken = place.run(&["serve", "--no-open", "--port", &port]);
+    assert_eq!(taken.code(), 1);
+    assert!(taken.stderr.contains("cannot be listened on"), "{}", taken.stderr);
+    assert_eq!(place.run(&["serve", "--no-open", "--listen", "moon"]).code(), 2);
+}

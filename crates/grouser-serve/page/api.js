@@ -1,0 +1,130 @@
+// Asks the server, and reads its answers line by line.
+
+/**
+ * A row of an answer: columns by their names.
+ * @typedef {Record<string, any>} Row
+ */
+
+/**
+ * A line of an answer.
+ * @typedef {object} Line
+ * @property {string} schema what it is
+ * @property {Row[]} [rows]
+ * @property {string} [error]
+ * @property {string} [key] of the question, that is to blame
+ * @property {string} [hint]
+ * @property {string} [command]
+ * @property {string[]} [sentences]
+ * @property {string[]} [assumptions]
+ * @property {Record<string, string>} [documents]
+ * @property {Key[]} [keys]
+ * @property {Record<string, string>} [names]
+ * @property {string} [model]
+ * @property {boolean} [states_uncertainty]
+ * @property {{name: string, caption: string, svg: string}[]} [drawings]
+ */
+
+/**
+ * A number of a document that may be set.
+ * @typedef {object} Key
+ * @property {string} key
+ * @property {number} value
+ * @property {number} minimum
+ * @property {number} maximum
+ * @property {string | null} unit
+ * @property {string | null} meaning
+ * @property {boolean} is_uncertain
+ * @property {boolean} is_assumed
+ */
+
+/** What the engine says is wrong, and with which key. */
+export class Refused extends Error {
+  /** @param {Line} line */
+  constructor(line) {
+    super(line.error + (line.hint ? `\n${line.hint}` : ""));
+    this.key = line.key;
+  }
+}
+
+/**
+ * Asks a question; each line is handed on as it comes.
+ * @param {string} name of the question
+ * @param {object} question
+ * @param {AbortSignal} signal stops the computation, too
+ * @param {(line: Line) => void} take
+ */
+export async function ask(name, question, signal, take) {
+  const response = await fetch(`api/${name}`, {
+    method: "POST",
+    headers: { "content-type": "application/json" },
+    body: JSON.stringify(question),
+    signal,
+  });
+  /** @param {string} text */
+  const taken = (text) => {
+    /** @type {Line} */
+    const line = JSON.parse(text);
+    if (line.error !== undefined) throw new Refused(line);
+    take(line);
+  };
+  if (!response.body) throw new Error("there is no answer");
+  const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
+  let rest = "";
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) break;
+    const lines = (rest + value).split("\n");
+    rest = lines.pop() ?? "";
+    for (const line of lines) if (line) taken(line);
+  }
+  if (rest) taken(rest);
+}
+
+/**
+ * What there is to choose from.
+ * @param {string} name of the list
+ * @returns {Promise<Row[]>}
+ */
+export async function list(name) {
+  const answer = await (await fetch(`api/${name}`)).json();
+  if (answer.error) throw new Refused(answer);
+  return answer.rows;
+}
+
+/**
+ * A question that is asked again and again: a new one stops the one before it.
+ */
+export class Asking {
+  constructor() {
+    /** @type {AbortController | undefined} */
+    this.running = undefined;
+  }
+
+  /**
+   * @param {string} name
+   * @param {object} question
+   * @param {(line: Line) => void} take
+   * @param {(error: Error | undefined) => void} end with what went wrong, if anything did
+   */
+  async ask(name, question, take, end) {
+    this.running?.abort();
+    const own = new AbortController();
+    this.running = own;
+    const isCurrent = () => this.running === own;
+    try {
+      await ask(name, question, own.signal, (line) => {
+        if (isCurrent()) take(line);
+      });
+      if (isCurrent()) end(undefined);
+    } catch (error) {
+      if (!isCurrent()) return;
+      const lost = error instanceof TypeError;
+      end(lost ? new Error("The server does not answer: is it still running?") : /** @type {Error} */ (error));
+    }
+  }
+
+  stop() {
+    this.running?.abort();
+    this.running = undefined;
+  }
+}

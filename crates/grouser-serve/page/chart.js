@@ -1,0 +1,111 @@
+// Charts: curves, a band and the point where one is, in their own units.
+
+const NAMES = "http://www.w3.org/2000/svg";
+
+/**
+ * @param {string} name
+ * @param {Record<string, string | number>} attributes
+ * @param {string} [text]
+ */
+function svg(name, attributes, text) {
+  const made = document.createElementNS(NAMES, name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
+  if (text !== undefined) made.textContent = text;
+  return made;
+}
+
+/**
+ * @typedef {object} Curve
+ * @property {[number, number][]} points
+ * @property {string} [name]
+ */
+
+/**
+ * @typedef {object} Chart
+ * @property {string} title
+ * @property {string} x quantity and unit
+ * @property {string} y
+ * @property {Curve[]} curves
+ * @property {[number, number, number][]} [band] place, low and high end, which may be infinite
+ * @property {[number, number]} [point]
+ */
+
+/**
+ * Round numbers between two others, with as many digits as they need.
+ * @param {number} low
+ * @param {number} high
+ * @param {number} most
+ */
+function round(low, high, most) {
+  const rough = (high - low) / most;
+  const ten = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((it) => it * ten).find((it) => it >= rough) ?? rough;
+  const digits = Math.max(0, -Math.floor(Math.log10(step)));
+  const places = [];
+  for (let place = Math.ceil(low / step - 1e-9); place * step <= high + 1e-9 * step; place += 1) {
+    places.push(place * step);
+  }
+  return places.map((at) => ({ at, text: at.toFixed(digits).replace("-", "−") }));
+}
+
+/**
+ * Draws a chart.
+ * @param {Chart} chart
+ */
+export function draw(chart) {
+  const [width, height] = [420, 250];
+  const box = { left: 52, right: width - 10, top: 26, bottom: height - 38 };
+  const { curves, band = [], point } = chart;
+  const all = [
+    ...curves.flatMap((curve) => curve.points),
+    ...band.flatMap(([x, low, high]) => /** @type {[number, number][]} */ ([[x, low], [x, high]])).filter(([, at]) => Number.isFinite(at)),
+    ...(point ? [point] : []),
+  ];
+  const said = point ? `; at ${num(point[0])} it is ${num(point[1])}` : "";
+  const drawn = svg("svg", {
+    class: "chart", viewBox: `0 0 ${width} ${height}`, role: "img",
+    "aria-label": `${chart.title}: ${chart.y} over ${chart.x}${said}`,
+  });
+  drawn.append(svg("text", { class: "title", x: box.left, y: 15 }, chart.title));
+  if (all.length === 0) {
+    drawn.append(svg("text", { x: box.left, y: height / 2 }, "There is nothing to draw."));
+    return drawn;
+  }
+  const spread = (/** @type {number[]} */ numbers) => {
+    let [low, high] = [Math.min(...numbers), Math.max(...numbers)];
+    if (high - low < 1e-9) [low, high] = [low - 0.5, high + 0.5];
+    const margin = 0.05 * (high - low);
+    return [low - margin, high + margin];
+  };
+  const xs = all.map(([x]) => x);
+  const [left, right] = [Math.min(...xs), Math.max(Math.max(...xs), Math.min(...xs) + 1e-9)];
+  const [low, high] = spread(all.map(([, y]) => y));
+  const x = (/** @type {number} */ at) => box.left + ((at - left) / (right - left)) * (box.right - box.left);
+  const y = (/** @type {number} */ at) => box.bottom - ((at - (low ?? 0)) / ((high ?? 1) - (low ?? 0))) * (box.bottom - box.top);
+  for (const { at, text } of round(low ?? 0, high ?? 1, 5)) {
+    drawn.append(svg("line", { class: "grid", x1: box.left, x2: box.right, y1: y(at), y2: y(at) }));
+    drawn.append(svg("text", { x: box.left - 6, y: y(at) + 4, "text-anchor": "end" }, text));
+  }
+  for (const { at, text } of round(left, right, 7)) {
+    drawn.append(svg("line", { class: "tick", x1: x(at), x2: x(at), y1: box.bottom, y2: box.bottom + 4 }));
+    drawn.append(svg("text", { x: x(at), y: box.bottom + 17, "text-anchor": "middle" }, text));
+  }
+  drawn.append(svg("path", { class: "axis", d: `M${box.left} ${box.top}V${box.bottom}H${box.right}` }));
+  drawn.append(svg("text", { x: (box.left + box.right) / 2, y: height - 5, "text-anchor": "middle" }, chart.x));
+  if (band.length > 1) {
+    const there = band.map(([at, lower]) => `${x(at)},${y(lower)}`);
+    const back = [...band].reverse().map(([at, , upper]) => `${x(at)},${Number.isFinite(upper) ? y(upper) : box.top}`);
+    drawn.append(svg("polygon", { class: "band", points: [...there, ...back].join(" ") }));
+  }
+  for (const [place, { points }] of curves.entries()) {
+    const path = points.map(([atX, atY]) => `${x(atX)},${y(atY)}`).join(" ");
+    drawn.append(svg("polyline", { class: place ? "curve second" : "curve", points: path }));
+  }
+  if (point) drawn.append(svg("circle", { class: "point", cx: x(point[0]), cy: y(point[1]), r: 5.5 }));
+  return drawn;
+}
+
+/** @param {number} value */
+function num(value) {
+  return String(Number(value.toPrecision(4)));
+}

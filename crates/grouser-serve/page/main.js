@@ -1,0 +1,261 @@
+// The page: the session, its sliders, and the view that is asked for.
+
+import { Asking, list } from "./api.js";
+import { byId, element } from "./dom.js";
+import { Card, announce, cardCommand, chartOf, exportOf } from "./heading.js";
+import { fromAddress, toAddress } from "./session.js";
+import { Slider, endsOf } from "./slider.js";
+import { WheelAnswer, about as aboutWheel, labelOf } from "./wheel.js";
+
+/** @typedef {import("./session.js").Session} Session */
+
+// The token was in the first address: a cookie stands for it from here on.
+if (location.search) history.replaceState(null, "", location.pathname + location.hash);
+
+let { own: session, pinned } = fromAddress();
+/** @type {Slider[]} */
+let sliders = [];
+/** @type {Card[]} */
+let cards = [];
+/** @type {WheelAnswer | undefined} */
+let wheel;
+/** Keys that the sliders do not have: what of a scenario makes no difference to a heading. */
+const GRAVITY = "scenario.gravity_m_s2";
+const MOST_PINNED = 2;
+
+const asking = new Asking();
+const [answer, place] = [byId("answer"), byId("sliders")];
+
+/** @param {Error | undefined} error */
+function complain(error) {
+  const key = /** @type {any} */ (error)?.key;
+  let isPlaced = false;
+  for (const slider of sliders) {
+    const isIts = key !== undefined && slider.key === key;
+    slider.complain(isIts ? error?.message ?? "" : "");
+    isPlaced ||= isIts;
+  }
+  const field = key && byId(key);
+  byId("session-error").textContent = error && !isPlaced ? error.message : "";
+  for (const name of ["rover", "soil", "wheel", "model"]) byId(name).removeAttribute("aria-invalid");
+  if (error && field instanceof HTMLSelectElement) field.setAttribute("aria-invalid", "true");
+}
+
+let waiting = 0;
+/** Asks anew, once for all that moved since the last picture. */
+function moved() {
+  toAddress(session, pinned);
+  announce("computing …");
+  if (waiting) return;
+  waiting = requestAnimationFrame(() => {
+    waiting = 0;
+    if (session.view === "wheel") wheel?.ask(session);
+    else cards[0]?.ask();
+  });
+}
+
+/**
+ * A slider of a number of the session.
+ * @param {"slope" | "course" | "speed" | "load" | "slip" | "angle"} name
+ * @param {string} key
+ * @param {string} label
+ * @param {string} unit
+ * @param {[number, number]} ends
+ */
+function ofSession(name, key, label, unit, [low, high]) {
+  const slider = new Slider({ key, label, unit, value: session[name], low, high }, (value) => {
+    session[name] = value;
+    moved();
+  });
+  sliders.push(slider);
+  return slider.element;
+}
+
+/** @param {import("./api.js").Key} key */
+function ofKey(key) {
+  const value = session.set[key.key] ?? key.value;
+  const remarks = [key.is_uncertain ? "uncertain" : "", key.is_assumed ? "from priors" : ""].filter(Boolean);
+  /** @type {Slider} */
+  const slider = new Slider({
+    key: key.key, label: labelOf(key), unit: key.unit ?? "", value, usual: key.value, ...endsOf(key),
+    ...(remarks.length ? { remark: `(${remarks.join(", ")})` } : {}),
+  }, (number) => {
+    if (number === key.value) delete session.set[key.key];
+    else session.set[key.key] = number;
+    slider.mark(number);
+    moved();
+  });
+  sliders.push(slider);
+  return slider.element;
+}
+
+/**
+ * @param {string} title
+ * @param {Node[]} inside
+ * @param {boolean} isOpen
+ */
+function group(title, inside, isOpen) {
+  return element("details", isOpen ? { open: true } : {}, [element("summary", {}, [title]), ...inside]);
+}
+
+/** Makes the sliders of the documents that the session names, then asks. */
+function begin() {
+  const isWheel = session.view === "wheel";
+  for (const [id, is] of Object.entries({ "view-heading": !isWheel, "view-wheel": isWheel })) {
+    if (is) byId(id).setAttribute("aria-current", "page");
+    else byId(id).removeAttribute("aria-current");
+  }
+  byId("rover").closest("label").hidden = isWheel;
+  byId("wheel").closest("label").hidden = !isWheel;
+  cards.forEach((card) => card.stop());
+  wheel?.stop();
+  const { rover, soil } = session;
+  const question = isWheel ? { soil, wheel: aboutWheel(session).wheel } : { rover, soil };
+  asking.ask(isWheel ? "stand" : "scenario", question, (line) => {
+    const keys = line.keys ?? [];
+    const of = (/** @type {string} */ kind) => keys.filter((key) => key.key.startsWith(`${kind}.`)).map(ofKey);
+    const names = line.names ?? {};
+    sliders = [];
+    if (isWheel) {
+      place.replaceChildren(
+        element("h2", {}, ["Move"]),
+        ofSession("slip", "slip_ratio", "Slip ratio", "", [-0.3, 0.9]),
+        ofSession("load", "load_n", "Load on the wheel", "N", [1, Math.max(100, 2 * session.load)]),
+        ofSession("angle", "slip_angle_deg", "Slip angle", "°", [-45, 45]),
+        group(`Wheel: ${names["wheel"]}`, of("wheel"), true), group(`Soil: ${names["soil"]}`, of("soil"), false),
+      );
+      wheel = new WheelAnswer(ended);
+      wheel.keys = keys;
+      answer.replaceChildren(wheel.element);
+    } else {
+      const gravity = keys.filter((key) => key.key === GRAVITY);
+      place.replaceChildren(
+        element("h2", {}, ["Move"]),
+        ofSession("slope", "slope_deg", "Slope", "°", [0, 40]),
+        ofSession("course", "course_deg", "Course, from the contour, uphill", "°", [-90, 90]),
+        ofSession("speed", "rim_speed_m_s", "Speed of the rims, for the power", "m/s", [0.005, 0.5]),
+        ...gravity.map((key) => ofKey({ ...key, minimum: 0.5, maximum: 25 })),
+        group(`Soil: ${names["soil"]}`, of("soil"), true), group(`Rover: ${names["rover"]}`, of("rover"), false),
+      );
+      showCards();
+    }
+    moved();
+  }, (error) => {
+    if (error) complain(error);
+  });
+}
+
+/** @param {Error | undefined} error */
+function ended(error) {
+  complain(error);
+  announce(error ? "no answer" : said());
+}
+
+/** The answer in a few words, for who does not see it. */
+function said() {
+  if (session.view === "wheel") return "the wheel is up to date";
+  const yaw = cards[0]?.yaw();
+  const verdict = cards[0]?.row?.["verdict"]?.replace("_", " ") ?? "";
+  return [typeof yaw === "number" ? `${yaw.toFixed(1)}° uphill` : "no heading", verdict].filter(Boolean).join(", ");
+}
+
+const figure = element("figure");
+const out = element("div");
+
+function showCards() {
+  const drawn = () => figure.replaceChildren(chartOf(cards));
+  const pin = element("button", { type: "button", id: "pin", disabled: pinned.length >= MOST_PINNED, onclick: () => {
+    pinned = [...pinned, structuredClone(session)];
+    showCards();
+    moved();
+  } }, ["Pin beside (p)"]);
+  const own = new Card(session, false, [pin], (error) => {
+    ended(error);
+    drawn();
+    out.replaceChildren(exportOf(own.shown, cardCommand(own.shown?.command)));
+  }, drawn);
+  const others = pinned.map((other, index) => new Card(other, true, [
+    element("button", { type: "button", onclick: () => {
+      session = { ...structuredClone(other), view: session.view };
+      begin();
+    } }, ["Take up"]),
+    element("button", { type: "button", onclick: () => {
+      pinned = pinned.filter((_, at) => at !== index);
+      showCards();
+      moved();
+    } }, ["Remove"]),
+  ], () => {}, drawn));
+  cards.forEach((card) => card.stop());
+  cards = [own, ...others];
+  answer.replaceChildren(
+    element("div", { class: "cards" }, [...cards.map((card) => card.element), figure]), out,
+  );
+  others.forEach((card) => card.ask());
+}
+
+/** @param {string} view */
+function show(view) {
+  session.view = view;
+  begin();
+}
+
+/** Fills what there is to choose from. */
+async function choices() {
+  const [presets, documents] = await Promise.all([list("presets"), list("documents")]);
+  for (const kind of ["rover", "soil", "wheel"]) {
+    const select = byId(kind);
+    const option = (/** @type {string} */ value, /** @type {string} */ title) =>
+      element("option", { value, title }, [value]);
+    const own = documents.filter((row) => row["kind"] === kind).map((row) => option(row["path"], row["path"]));
+    const known = presets.filter((row) => row["kind"] === kind).map((row) => option(row["name"], row["title"]));
+    select.replaceChildren(
+      ...(own.length ? [element("optgroup", { label: "Of the folder" }, own)] : []),
+      element("optgroup", { label: "Presets" }, known),
+    );
+  }
+  reflect();
+}
+
+/** Shows in the session line what the session has. */
+function reflect() {
+  for (const name of /** @type {const} */ (["rover", "soil", "wheel", "model", "belief"])) {
+    const select = /** @type {HTMLSelectElement} */ (byId(name));
+    const value = session[name];
+    if (value && ![...select.options].some((option) => option.value === value)) {
+      select.append(element("option", { value }, [value]));
+    }
+    select.value = value;
+  }
+}
+
+for (const name of /** @type {const} */ (["rover", "soil", "wheel", "model", "belief"])) {
+  byId(name).addEventListener("change", (/** @type {any} */ event) => {
+    session[name] = event.target.value;
+    // Numbers of one document are none of another.
+    const isOther = (/** @type {string} */ key) => !key.startsWith(`${name}.`);
+    session.set = Object.fromEntries(Object.entries(session.set).filter(([key]) => isOther(key)));
+    if (name === "model" || name === "belief") moved();
+    else begin();
+  });
+}
+byId("session").addEventListener("submit", (/** @type {Event} */ event) => event.preventDefault());
+byId("skip").addEventListener("click", (/** @type {Event} */ event) => {
+  // The fragment is the session's.
+  event.preventDefault();
+  answer.focus();
+  answer.scrollIntoView();
+});
+byId("view-heading").addEventListener("click", () => show("heading"));
+byId("view-wheel").addEventListener("click", () => show("wheel"));
+addEventListener("hashchange", () => {
+  ({ own: session, pinned } = fromAddress());
+  reflect();
+  begin();
+});
+addEventListener("keydown", (event) => {
+  const isTyping = event.target instanceof HTMLInputElement || event.target instanceof HTMLSelectElement;
+  if (event.key === "p" && !isTyping && !event.ctrlKey && !event.metaKey && !event.altKey) byId("pin")?.click();
+});
+
+byId("busy").setAttribute("aria-live", "polite");
+choices().then(begin, complain);

@@ -1,0 +1,34 @@
+//! What the page, and other programs, may ask. Each question is JSON in the words of documents and
+//! columns; its answer is lines of JSON.
+
+mod command;
+mod document;
+mod drawing;
+mod fields;
+mod heading;
+mod heading_map;
+mod lists;
+mod parts;
+mod staged;
+mod wheel_test;
+
+use crate::asked::Read;
+use crate::console::Console;
+
+/// Lists what there is, as a line.
+pub(crate) type List = fn(&Console) -> String;
+
+/// The questions, by their paths below `/api/`: those of answers have the names of the program's
+/// commands.
+pub(crate) static QUESTIONS: [(&str, Read); 6] = [
+    ("heading", heading::read),
+    ("heading-map", heading_map::read),
+    ("wheel-test", wheel_test::read),
+    ("wheel-drawing", drawing::read),
+    ("scenario", document::scenario),
+    ("stand", document::stand),
+];
+
+/// What there is to choose from, by their paths below `/api/`.
+pub(crate) static LISTS: [(&str, List); 2] =
+    [("presets", lists::presets), ("documents", lists::documents)];

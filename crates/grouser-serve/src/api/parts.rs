@@ -1,0 +1,372 @@
+//! The rover, the soil and the settings that a question is about, as the program's options name
+//! them.
+
+use grouser::answers::EVERY_MODEL;
+use grouser::contact::Model;
+use grouser::document::{
+    self, DocumentError, Kind, LoadedScenario, LoadedSoil, LoadedWheel, Overrides, Source,
+    UncertainSoil,
+};
+use hyper::StatusCode;
+use serde_json::{Value, json};
+
+use super::command::CommandLine;
+use super::fields::AskedFields;
+use crate::folder::ServedFolder;
+use crate::refusal::Refusal;
+
+/// CommonSettings of a question, beside its numbers.
+#[derive(Clone, Debug)]
+pub(super) struct CommonSettings {
+    model: Option<String>,
+    /// [m/s²].
+    gravity: Option<f64>,
+    load_transfer: Option<String>,
+    wheel_moments: Option<String>,
+    /// Keys of documents, each with its value as TOML.
+    set: Vec<(String, String)>,
+}
+
+/// A scenario by its parts.
+#[derive(Clone, Debug)]
+pub(super) struct ScenarioParts {
+    scenario: Option<String>,
+    rover: Option<String>,
+    soil: Option<String>,
+    settings: CommonSettings,
+}
+
+/// A wheel on a test stand by its parts.
+#[derive(Clone, Debug)]
+pub(super) struct StandParts {
+    soil: String,
+    wheel: String,
+    settings: CommonSettings,
+}
+
+/// A wheel on a test stand.
+pub(super) struct Stand {
+    pub(super) soil: LoadedSoil,
+    pub(super) wheel: LoadedWheel,
+    /// Gravity [m/s²].
+    pub(super) gravity: f64,
+    /// The model that is asked for by its name, if one is.
+    pub(super) asked_model: Option<Model>,
+}
+
+impl CommonSettings {
+    fn of(fields: &AskedFields) -> Result<Self, Refusal> {
+        let mut set = Vec::new();
+        for (key, value) in fields.entries("set")? {
+            let toml = toml_of(&key, &value)?;
+            set.push((key, toml));
+        }
+        Ok(Self {
+            model: fields.text("model")?,
+            gravity: gravity(fields)?,
+            load_transfer: fields.text("load_transfer")?,
+            wheel_moments: fields.text("wheel_moments")?,
+            set,
+        })
+    }
+
+    /// Whether every model is asked for.
+    pub(super) fn has_every_model(&self) -> bool {
+        self.model.as_deref() == Some(EVERY_MODEL)
+    }
+
+    /// Whether a model is asked for by its name.
+    pub(super) fn names_model(&self) -> bool {
+        self.model.is_some()
+    }
+
+    /// The same for each model that is asked for.
+    fn each_model(&self) -> Vec<Self> {
+        if !self.has_every_model() {
+            return vec![self.clone()];
+        }
+        let named = |model: Model| Self { model: Some(model.name().to_owned()), ..self.clone() };
+        Model::ALL.map(named).into()
+    }
+
+    /// What is set in documents of some kinds.
+    fn overrides(&self, folder: &ServedFolder, kinds: &[Kind]) -> Result<Overrides, Refusal> {
+        let mut overrides = Overrides::none();
+        for (key, value) in &self.set {
+            folder.set(&mut overrides, key, value).map_err(|error| self.blamed(&error))?;
+        }
+        overrides.check_kinds(kinds).map_err(|error| self.blamed(&error))?;
+        Ok(overrides)
+    }
+
+    /// Adds what every run takes.
+    fn add_to(&self, overrides: &mut Overrides, folder: &ServedFolder) -> Result<(), Refusal> {
+        let words = [
+            ("scenario.model", &self.model),
+            ("scenario.load_transfer", &self.load_transfer),
+            ("scenario.wheel_moments", &self.wheel_moments),
+        ];
+        for (key, value) in words {
+            if let Some(value) = value {
+                let set = folder.set(overrides, key, &text_of(value));
+                set.map_err(|error| self.blamed(&error))?;
+            }
+        }
+        if let Some(gravity) = self.gravity {
+            let set = folder.set(overrides, "scenario.gravity_m_s2", &format!("{gravity:?}"));
+            set.map_err(|error| self.blamed(&error))?;
+        }
+        Ok(())
+    }
+
+    /// Refuses settings of keys that the samples of a soil give a value.
+    fn refuse_sampled(
+        &self,
+        folder: &ServedFolder,
+        uncertain: Option<&UncertainSoil>,
+    ) -> Result<(), Refusal> {
+        let keys: Vec<&str> = uncertain.into_iter().flat_map(UncertainSoil::sampled_keys).collect();
+        if keys.is_empty() {
+            return Ok(());
+        }
+        let mut overrides = Overrides::none();
+        for (key, value) in &self.set {
+            folder.set(&mut overrides, key, value).map_err(|error| self.blamed(&error))?;
+        }
+        let hint = "every sample gives this key its own value";
+        overrides.refuse(Kind::Soil, &keys, hint).map_err(|error| self.blamed(&error))
+    }
+
+    /// An error of documents, beside the key that caused it.
+    fn blamed(&self, error: &DocumentError) -> Refusal {
+        let place = &error.place().document;
+        let own =
+            self.set.iter().find(|(key, value)| *place == Overrides::change_label(key, value));
+        let key = match own {
+            Some((key, _)) => Some(key.as_str()),
+            None => KEYS.into_iter().find(|key| place.starts_with(&format!("scenario.{key} = "))),
+        };
+        let status = if error.is_environment() {
+            StatusCode::INTERNAL_SERVER_ERROR
+        } else {
+            StatusCode::UNPROCESSABLE_ENTITY
+        };
+        let Some(key) = key else { return Refusal::new(status, error.to_string()) };
+        Refusal {
+            status,
+            message: error.problem().to_string(),
+            key: Some(key.to_owned()),
+            hint: error.hint().map(str::to_owned),
+        }
+    }
+
+    fn add_words(&self, line: &mut CommandLine) {
+        for (key, value) in &self.set {
+            line.option("set", &format!("{key}={value}"));
+        }
+        line.maybe("model", self.model.as_deref());
+        line.maybe("gravity-m-s2", self.gravity.map(|it| it.to_string()).as_deref());
+        line.maybe("load-transfer", self.load_transfer.as_deref());
+        line.maybe("wheel-moments", self.wheel_moments.as_deref());
+    }
+}
+
+/// Keys of a question that stand for the scenario's of the same name.
+const KEYS: [&str; 6] =
+    ["rover", "soil", "model", "gravity_m_s2", "load_transfer", "wheel_moments"];
+
+impl ScenarioParts {
+    pub(super) fn of(fields: &AskedFields) -> Result<Self, Refusal> {
+        Ok(Self {
+            scenario: fields.text("scenario")?,
+            rover: fields.text("rover")?,
+            soil: fields.text("soil")?,
+            settings: CommonSettings::of(fields)?,
+        })
+    }
+
+    pub(super) fn common(&self) -> &CommonSettings {
+        &self.settings
+    }
+
+    /// The scenarios for each model that is asked for; their own slope does not count.
+    pub(super) fn scenarios(
+        &self,
+        folder: &ServedFolder,
+        is_sampled: bool,
+    ) -> Result<Vec<LoadedScenario>, Refusal> {
+        let read = |settings: &CommonSettings| {
+            let scenario = self.read(folder, settings, true)?;
+            if is_sampled {
+                settings.refuse_sampled(folder, scenario.uncertain.as_ref())?;
+            }
+            Ok(scenario)
+        };
+        self.settings.each_model().iter().map(read).collect()
+    }
+
+    /// The scenario as it is.
+    pub(super) fn scenario(&self, folder: &ServedFolder) -> Result<LoadedScenario, Refusal> {
+        self.read(folder, &self.settings, false)
+    }
+
+    /// * `is_heading`: whether slope and drive are refused, as an answer about headings has them
+    ///   from elsewhere
+    fn read(
+        &self,
+        folder: &ServedFolder,
+        settings: &CommonSettings,
+        is_heading: bool,
+    ) -> Result<LoadedScenario, Refusal> {
+        let source = match &self.scenario {
+            Some(name) => find("scenario", folder, Kind::Scenario, name)?,
+            None => Source::default_scenario(),
+        };
+        let kinds = [Kind::Scenario, Kind::Rover, Kind::Soil, Kind::Wheel];
+        let mut overrides = settings.overrides(folder, &kinds)?;
+        let blamed = |error: DocumentError| settings.blamed(&error);
+        if is_heading {
+            let unused =
+                ["slope_deg", "duration_s", "sample_interval_s", "simulation", "drive", "start"];
+            let hint = "slopes are given by `slope_deg` of the question; a heading offset has no \
+                        drive, start or duration";
+            overrides.refuse(Kind::Scenario, &unused, hint).map_err(blamed)?;
+        }
+        settings.add_to(&mut overrides, folder)?;
+        for (key, name) in [("rover", &self.rover), ("soil", &self.soil)] {
+            if let Some(name) = name {
+                let key = format!("scenario.{key}");
+                folder.set(&mut overrides, &key, &text_of(name)).map_err(blamed)?;
+            }
+        }
+        document::read_scenario(&source, &overrides).map_err(blamed)
+    }
+
+    pub(super) fn add_words(&self, line: &mut CommandLine) {
+        if let Some(scenario) = &self.scenario {
+            line.word(scenario);
+        }
+        line.maybe("rover", self.rover.as_deref());
+        line.maybe("soil", self.soil.as_deref());
+        self.settings.add_words(line);
+    }
+}
+
+impl StandParts {
+    /// Those of a question; without a soil or a wheel the program's usual ones.
+    pub(super) fn of(fields: &AskedFields) -> Result<Self, Refusal> {
+        Ok(Self {
+            soil: fields.text("soil")?.unwrap_or_else(|| document::DEFAULT_SOIL.to_owned()),
+            wheel: fields.text("wheel")?.unwrap_or_else(|| document::DEFAULT_ROVER.to_owned()),
+            settings: CommonSettings::of(fields)?,
+        })
+    }
+
+    pub(super) fn common(&self) -> &CommonSettings {
+        &self.settings
+    }
+
+    /// The stand for each model that is asked for.
+    pub(super) fn stands(
+        &self,
+        folder: &ServedFolder,
+        is_sampled: bool,
+    ) -> Result<Vec<Stand>, Refusal> {
+        let read = |settings: &CommonSettings| {
+            let stand = self.read(folder, settings)?;
+            if is_sampled {
+                settings.refuse_sampled(folder, stand.soil.uncertain.as_ref())?;
+            }
+            Ok(stand)
+        };
+        self.settings.each_model().iter().map(read).collect()
+    }
+
+    fn read(&self, folder: &ServedFolder, settings: &CommonSettings) -> Result<Stand, Refusal> {
+        let blamed = |error: DocumentError| settings.blamed(&error);
+        let overrides = settings.overrides(folder, &[Kind::Soil, Kind::Wheel])?;
+        let soil = find("soil", folder, Kind::Soil, &self.soil)?;
+        let soil = document::read_soil(&soil, &overrides).map_err(blamed)?;
+        let wheel = find("wheel", folder, Kind::Wheel, &self.wheel)?;
+        let wheel = document::read_wheel(&wheel, &overrides).map_err(blamed)?;
+        // Gravity and model are keys of scenarios, and are checked as such.
+        let mut of_run = Overrides::none();
+        settings.add_to(&mut of_run, folder)?;
+        let run = document::read_scenario(&Source::default_scenario(), &of_run).map_err(blamed)?;
+        let gravity = run.value.gravity;
+        soil.value
+            .check_under(&wheel.value, gravity)
+            .map_err(|error| Refusal::new(StatusCode::UNPROCESSABLE_ENTITY, error.to_string()))?;
+        let asked_model = settings.names_model().then_some(run.value.model);
+        Ok(Stand { soil, wheel, gravity, asked_model })
+    }
+
+    pub(super) fn add_words(&self, line: &mut CommandLine) {
+        line.option("soil", &self.soil);
+        line.option("wheel", &self.wheel);
+        self.settings.add_words(line);
+    }
+}
+
+impl Stand {
+    /// The model that it is computed with.
+    pub(super) fn model(&self) -> Model {
+        self.asked_model.clone().unwrap_or_else(|| self.soil.document.usual_model(""))
+    }
+}
+
+/// A document that a question names.
+fn find(
+    key: &'static str,
+    folder: &ServedFolder,
+    kind: Kind,
+    name: &str,
+) -> Result<Source, Refusal> {
+    folder.find(kind, name).map_err(|error| {
+        let refusal = Refusal::of_key(key, error.problem().to_string());
+        Refusal { hint: error.hint().map(str::to_owned), ..refusal }
+    })
+}
+
+/// A number, or what a name stands for [m/s²].
+fn gravity(fields: &AskedFields) -> Result<Option<f64>, Refusal> {
+    const KEY: &str = "gravity_m_s2";
+    let name = match fields.take(KEY) {
+        None => return Ok(None),
+        Some(Value::String(name)) => name,
+        Some(value) => match value.as_f64() {
+            Some(number) => return Ok(Some(number)),
+            None => return Err(Refusal::of_key(KEY, "it must be a number, or a name")),
+        },
+    };
+    let names = document::GRAVITIES.map(|(name, _)| name);
+    let known = document::gravity(&name).map(Some);
+    known.ok_or_else(|| {
+        let hint = match document::nearest(&name, names) {
+            Some(meant) => format!("did you mean `{meant}`?"),
+            None => format!("in m/s², such as 9.80665, or one of {}", names.join(", ")),
+        };
+        Refusal::of_key(KEY, "this is neither a number nor the name of a gravity").with_hint(hint)
+    })
+}
+
+/// A text as TOML. What JSON escapes in texts TOML reads.
+fn text_of(text: &str) -> String {
+    json!(text).to_string()
+}
+
+/// A value as TOML.
+fn toml_of(key: &str, value: &Value) -> Result<String, Refusal> {
+    match value {
+        Value::Bool(_) | Value::Number(_) | Value::String(_) => Ok(value.to_string()),
+        Value::Array(all) => {
+            let all: Vec<String> =
+                all.iter().map(|value| toml_of(key, value)).collect::<Result<_, _>>()?;
+            Ok(format!("[{}]", all.join(", ")))
+        }
+        Value::Object(_) | Value::Null => {
+            Err(Refusal::of_key(key, "it must be a number, a text, true, false, or a list of them")
+                .with_hint("a table is set key by key"))
+        }
+    }
+}

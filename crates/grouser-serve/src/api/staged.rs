@@ -1,0 +1,181 @@
+//! Answers in stages: the soil as written first, then few samples, then many. Each is a line, the
+//! same object as the program prints with `--format json`.
+
+use std::collections::BTreeMap;
+
+use grouser::answers::{Answer, AnswerError, AnswerOptions, Displayed, PageBlock, Sampling};
+use grouser::document::json;
+use grouser_draw::chart::Drawable as _;
+use hyper::StatusCode;
+use serde_json::{Value, json};
+
+use super::command::CommandLine;
+use super::fields::AskedFields;
+use crate::asked::Question;
+use crate::refusal::Refusal;
+
+/// A question that samples answer, or none.
+pub(super) trait Staged: 'static {
+    /// Sets the samples.
+    fn sample(&mut self, sampling: Option<Sampling>);
+
+    fn answer(&self, options: &AnswerOptions<'_>) -> Result<Answer, AnswerError>;
+
+    /// The words that ask the program for these samples.
+    fn add_samples(&self, line: &mut CommandLine, sampling: Option<Sampling>);
+}
+
+/// Which samples are asked for, one after another, and what is to be shown.
+#[derive(Clone, Debug)]
+pub(super) struct Stages {
+    samplings: Vec<Option<Sampling>>,
+    /// Whether sentences, documents and the command come along.
+    shows: bool,
+    /// Whether figures come along, too.
+    draws: bool,
+    is_strict: bool,
+    rows: usize,
+}
+
+/// More rows take long without samples, too.
+const QUICK_ROWS: usize = 1000;
+
+/// Samples at the most.
+const MOST: u64 = 10_000;
+/// Rows times samples at the most.
+const MOST_ROWS: usize = 1_000_000;
+
+impl Stages {
+    /// * `usual`: the samples where nothing is said of them, as the program has them
+    pub(super) fn of(fields: &AskedFields, usual: Option<u32>) -> Result<Self, Refusal> {
+        let is_nominal = fields.truth("nominal")?;
+        let samples = fields.counts("samples", &(2..=MOST))?;
+        let seed = fields.counts("seed", &(0..=u64::MAX))?;
+        let stages = fields.counts("stages", &(0..=MOST))?;
+        let seed = seed.and_then(|seed| seed.first().copied()).unwrap_or(1);
+        let sampling = |count: u64| {
+            let count = u32::try_from(count).unwrap_or(u32::MAX);
+            (count > 0).then_some(Sampling { count: count.max(2), seed })
+        };
+        let one = samples.and_then(|samples| samples.first().copied());
+        if [is_nominal, one.is_some(), stages.is_some()].into_iter().filter(|it| *it).count() > 1 {
+            let message = "`nominal`, `samples` and `stages` exclude each other";
+            return Err(Refusal::of_key("samples", message));
+        }
+        let stages = match (stages, one) {
+            (Some(stages), _) if stages.is_empty() || stages.len() > 4 => {
+                return Err(Refusal::of_key("stages", "it must be a list of 1 to 4"));
+            }
+            (Some(stages), _) => stages.into_iter().map(sampling).collect(),
+            (None, Some(one)) => vec![sampling(one)],
+            (None, None) if is_nominal => vec![None],
+            (None, None) => vec![usual.map(|count| Sampling { count, seed })],
+        };
+        let draws = fields.truth("figures")?;
+        let (shows, is_strict) = (fields.truth("shown")? || draws, fields.truth("strict")?);
+        Ok(Self { samplings: stages, shows, draws, is_strict, rows: 1 })
+    }
+
+    /// Whether any stage has samples.
+    pub(super) fn has_samples(&self) -> bool {
+        self.samplings.iter().any(Option::is_some)
+    }
+
+    /// The same without samples.
+    pub(super) fn without_samples(self) -> Self {
+        Self { samplings: vec![None], ..self }
+    }
+
+    /// Checks that samples of so many rows are not more than anyone can have meant.
+    pub(super) fn of_rows(self, rows: usize) -> Result<Self, Refusal> {
+        let samples = self.samplings.iter().flatten().map(|it| it.count).max().unwrap_or(1);
+        if rows.saturating_mul(samples as usize) <= MOST_ROWS {
+            return Ok(Self { rows, ..self });
+        }
+        let message = format!(
+            "{rows} rows of {samples} samples each: together they must be at most {MOST_ROWS}"
+        );
+        Err(Refusal::of_key("samples", message))
+    }
+
+    /// The question, answered stage by stage.
+    pub(super) fn question(self, mut asked: impl Staged, line: CommandLine) -> Question {
+        Question::new(move |go_on, send| {
+            for sampling in self.samplings {
+                let is_quick = sampling.is_none() && self.rows <= QUICK_ROWS;
+                let turn = if is_quick { None } else { go_on.turn() };
+                if turn.is_none() && !is_quick {
+                    return Err(refused(AnswerError::Stopped));
+                }
+                asked.sample(sampling);
+                let is_on = || go_on.is_on();
+                let options = AnswerOptions {
+                    has_page: self.draws,
+                    is_strict: self.is_strict,
+                    go_on: &is_on,
+                };
+                let answer = asked.answer(&options).map_err(refused)?;
+                drop(turn);
+                if !go_on.is_on() {
+                    return Err(refused(AnswerError::Stopped));
+                }
+                if !send(json::line(&answer)) {
+                    return Ok(());
+                }
+                if self.shows {
+                    let mut line = line.clone();
+                    asked.add_samples(&mut line, sampling);
+                    if !send(json::line(&shown(&answer, &line, self.draws))) {
+                        return Ok(());
+                    }
+                }
+            }
+            Ok(())
+        })
+    }
+}
+
+/// What a page shows of an answer beside its numbers.
+fn shown(answer: &Answer, line: &CommandLine, draws: bool) -> Value {
+    let words = answer.screen.iter().filter_map(|shown| match shown {
+        Displayed::Words(words) => Some(words.lines()),
+        _ => None,
+    });
+    let documents = answer.documents.iter().map(|it| (it.file.as_str(), it.toml.as_str()));
+    let figures = answer.blocks().filter_map(|block| match block {
+        PageBlock::Figure { figure, caption, .. } if draws => {
+            Some(json!({ "caption": caption, "svg": figure.to_svg() }))
+        }
+        _ => None,
+    });
+    json!({
+        "schema": "grouser.shown.v1",
+        "command": line.text(),
+        "sentences": words.flatten().collect::<Vec<_>>(),
+        "assumptions": answer.assumptions(),
+        "documents": documents.collect::<BTreeMap<_, _>>(),
+        "figures": figures.collect::<Vec<_>>(),
+    })
+}
+
+/// Why there is no answer.
+fn refused(error: AnswerError) -> Refusal {
+    match error {
+        AnswerError::Stopped => {
+            let message = "it was stopped before its end: it took too long, or the server ends";
+            Refusal::new(StatusCode::SERVICE_UNAVAILABLE, message)
+                .with_hint("ask for fewer samples, or rows")
+        }
+        AnswerError::Key(error) => Refusal::of_key("gradients", error.to_string()),
+        AnswerError::Together(..) => {
+            Refusal::new(StatusCode::UNPROCESSABLE_ENTITY, error.to_string())
+        }
+        AnswerError::Samples(error) => {
+            let message = format!("the soil's uncertainty reaches too far: {error}");
+            Refusal::of_key("soil", message).with_hint(
+                "smaller standard deviations keep the samples within the ranges of their keys",
+            )
+        }
+        error => Refusal::new(StatusCode::UNPROCESSABLE_ENTITY, error.to_string()),
+    }
+}

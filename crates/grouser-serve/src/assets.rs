@@ -1,0 +1,39 @@
+//! The files of the page, as they are in `page/`.
+
+/// A file of the page.
+pub(crate) struct Asset {
+    /// Its path on the server.
+    pub(crate) path: &'static str,
+    /// Its type.
+    pub(crate) kind: &'static str,
+    pub(crate) content: &'static [u8],
+}
+
+macro_rules! asset {
+    ($path:literal, $kind:expr) => {
+        Asset {
+            path: concat!("/", $path),
+            kind: $kind,
+            content: include_bytes!(concat!("../page/", $path)),
+        }
+    };
+}
+
+/// The page itself.
+pub(crate) const PAGE: Asset =
+    Asset { path: "/", ..asset!("index.html", "text/html; charset=utf-8") };
+
+/// Everything that it loads.
+pub(crate) static ASSETS: [Asset; 9] = [
+    asset!("page.css", "text/css; charset=utf-8"),
+    asset!("main.js", SCRIPT),
+    asset!("api.js", SCRIPT),
+    asset!("session.js", SCRIPT),
+    asset!("dom.js", SCRIPT),
+    asset!("slider.js", SCRIPT),
+    asset!("chart.js", SCRIPT),
+    asset!("heading.js", SCRIPT),
+    asset!("wheel.js", SCRIPT),
+];
+
+const SCRIPT: &str = "text/javascript; charset=utf-8";

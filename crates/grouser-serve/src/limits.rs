@@ -1,0 +1,40 @@
+//! How much the server takes on, and for how long.
+
+use std::time::Duration;
+
+/// The limits of a server.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Connections at a time. One more is refused with 503.
+    pub connections: usize,
+    /// Time for the head of a request, and between two requests on a connection.
+    pub head_time: Duration,
+    /// Time for the body of a request.
+    pub body_time: Duration,
+    /// Bytes of a body.
+    pub body_bytes: usize,
+    /// Time without progress after which a reader has gone.
+    pub write_time: Duration,
+    /// Computations that take long, at a time: those with samples. Each has all processors.
+    pub runs: usize,
+    /// Computations that wait for these, or are quick. One more is refused with 503.
+    pub waiting: usize,
+    /// Time of a computation.
+    pub run_time: Duration,
+}
+
+impl Default for Limits {
+    /// Ours: a page has six connections and one computation; a document has some kilobytes.
+    fn default() -> Self {
+        Self {
+            connections: 256,
+            head_time: Duration::from_secs(10),
+            body_time: Duration::from_secs(10),
+            body_bytes: 1 << 20,
+            write_time: Duration::from_secs(20),
+            runs: 2,
+            waiting: 64,
+            run_time: Duration::from_secs(60),
+        }
+    }
+}

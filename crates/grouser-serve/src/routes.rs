@@ -1,0 +1,191 @@
+//! From a request to its response: the checks in their order, and the paths.
+
+use std::sync::Arc;
+
+use bytes::Bytes;
+use grouser::document::json;
+use http_body_util::{BodyExt as _, LengthLimitError, Limited};
+use hyper::body::{Body as _, Incoming};
+use hyper::header::{
+    ALLOW, CACHE_CONTROL, CONNECTION, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HeaderName,
+    HeaderValue, REFERRER_POLICY, RETRY_AFTER, SET_COOKIE, X_CONTENT_TYPE_OPTIONS, X_FRAME_OPTIONS,
+};
+use hyper::{Method, Request, Response, StatusCode};
+
+use crate::answering;
+use crate::api::{self, List};
+use crate::asked::Read;
+use crate::assets::{ASSETS, Asset, PAGE};
+use crate::body::ReplyBody;
+use crate::console::Console;
+use crate::refusal::Refusal;
+
+/// The type of JSON.
+const JSON: HeaderValue = HeaderValue::from_static("application/json");
+
+/// What a path leads to.
+enum PathTarget {
+    File(&'static Asset),
+    /// What is there to choose from.
+    List(List),
+    /// A question, as the body has it.
+    Question(Read),
+}
+
+/// The response to a request.
+pub(crate) async fn respond(
+    console: &Arc<Console>,
+    request: Request<Incoming>,
+) -> Response<ReplyBody> {
+    let mut response = match answer(console, request).await {
+        Ok(response) => response,
+        Err(refusal) => refused(&refusal),
+    };
+    for (name, value) in PROTECTION {
+        response.headers_mut().insert(name, HeaderValue::from_static(value));
+    }
+    response
+}
+
+/// Nothing is loaded but from here, nothing runs but the page's scripts, no other page frames or
+/// reads it, and nothing is kept.
+const PROTECTION: [(HeaderName, &str); 8] = [
+    (
+        CONTENT_SECURITY_POLICY,
+        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; \
+         connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    ),
+    (X_CONTENT_TYPE_OPTIONS, "nosniff"),
+    (X_FRAME_OPTIONS, "DENY"),
+    (REFERRER_POLICY, "no-referrer"),
+    (CACHE_CONTROL, "no-store"),
+    (HeaderName::from_static("cross-origin-opener-policy"), "same-origin"),
+    (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
+    (HeaderName::from_static("permissions-policy"), "camera=(), geolocation=(), microphone=()"),
+];
+
+async fn answer(
+    console: &Arc<Console>,
+    request: Request<Incoming>,
+) -> Result<Response<ReplyBody>, Refusal> {
+    console.access.check_host(&request)?;
+    console.access.check_token(&request)?;
+    let route = find(request.uri().path()).ok_or_else(|| {
+        let message = format!("there is nothing at {}", request.uri().path());
+        Refusal::new(StatusCode::NOT_FOUND, message)
+    })?;
+    let is_question = matches!(route, PathTarget::Question(_));
+    let is_allowed = match *request.method() {
+        Method::GET | Method::HEAD => !is_question,
+        Method::POST => is_question,
+        _ => false,
+    };
+    if !is_allowed {
+        let method = if is_question { "POST" } else { "GET" };
+        let message = format!("{} is asked by {method}", request.uri().path());
+        return Err(Refusal::new(StatusCode::METHOD_NOT_ALLOWED, message));
+    }
+    match route {
+        PathTarget::File(asset) => Ok(file(console, asset)),
+        PathTarget::List(list) => {
+            // Files are read for it, which others need not wait for.
+            let console = Arc::clone(console);
+            let listed = tokio::task::spawn_blocking(move || list(&console)).await;
+            let failed = |_| Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, "there is no list");
+            Ok(whole(JSON, listed.map_err(failed)?))
+        }
+        PathTarget::Question(read) => {
+            console.access.check_origin(request.headers())?;
+            let body = json_of(console, request).await?;
+            answering::answer(console, read, body).await
+        }
+    }
+}
+
+fn find(path: &str) -> Option<PathTarget> {
+    if path == PAGE.path {
+        return Some(PathTarget::File(&PAGE));
+    }
+    if let Some(asset) = ASSETS.iter().find(|asset| asset.path == path) {
+        return Some(PathTarget::File(asset));
+    }
+    let name = path.strip_prefix("/api/")?;
+    if let Some((_, list)) = api::LISTS.iter().find(|(own, _)| *own == name) {
+        return Some(PathTarget::List(*list));
+    }
+    let (_, read) = api::QUESTIONS.iter().find(|(own, _)| *own == name)?;
+    Some(PathTarget::Question(*read))
+}
+
+fn file(console: &Console, asset: &Asset) -> Response<ReplyBody> {
+    let mut response = whole(HeaderValue::from_static(asset.kind), asset.content);
+    if asset.path == PAGE.path {
+        // Whoever gets here has the token.
+        let cookie = HeaderValue::from_str(&console.access.set_cookie());
+        response.headers_mut().extend(cookie.ok().map(|cookie| (SET_COOKIE, cookie)));
+    }
+    response
+}
+
+fn whole(kind: HeaderValue, content: impl Into<Bytes>) -> Response<ReplyBody> {
+    let mut response = Response::new(ReplyBody::whole(content));
+    response.headers_mut().insert(CONTENT_TYPE, kind);
+    response
+}
+
+/// A refusal as a response. Where the request's body was not read, the connection ends with it.
+fn refused(refusal: &Refusal) -> Response<ReplyBody> {
+    let mut response = whole(JSON, json::line(&refusal.to_json()) + "\n");
+    *response.status_mut() = refusal.status;
+    let headers = response.headers_mut();
+    match refusal.status {
+        StatusCode::SERVICE_UNAVAILABLE => {
+            headers.insert(RETRY_AFTER, HeaderValue::from_static("1"));
+        }
+        StatusCode::METHOD_NOT_ALLOWED => {
+            headers.insert(ALLOW, HeaderValue::from_static("GET, HEAD, POST"));
+        }
+        StatusCode::PAYLOAD_TOO_LARGE | StatusCode::REQUEST_TIMEOUT => {
+            headers.insert(CONNECTION, HeaderValue::from_static("close"));
+        }
+        _ => {}
+    }
+    response
+}
+
+/// The body of a question, if it is small and quick.
+async fn json_of(console: &Console, request: Request<Incoming>) -> Result<Bytes, Refusal> {
+    let limits = &console.limits;
+    let kind = request.headers().get(CONTENT_TYPE).and_then(|kind| kind.to_str().ok());
+    // A form of another page cannot be of this type.
+    let is_json = kind.is_some_and(|kind| {
+        kind.split(';')
+            .next()
+            .is_some_and(|kind| kind.trim().eq_ignore_ascii_case("application/json"))
+    });
+    if !is_json {
+        let message = "a question is JSON: content-type: application/json";
+        return Err(Refusal::new(StatusCode::UNSUPPORTED_MEDIA_TYPE, message));
+    }
+    let too_large = || {
+        let most = limits.body_bytes;
+        let message = format!("the body is larger than {most} bytes, the most that is read");
+        Refusal::new(StatusCode::PAYLOAD_TOO_LARGE, message)
+    };
+    // What says so itself is not read at all.
+    if request.body().size_hint().lower() > limits.body_bytes as u64 {
+        return Err(too_large());
+    }
+    let collected = Limited::new(request.into_body(), limits.body_bytes).collect();
+    match tokio::time::timeout(limits.body_time, collected).await {
+        Ok(Ok(body)) => Ok(body.to_bytes()),
+        Ok(Err(error)) if error.is::<LengthLimitError>() => Err(too_large()),
+        Ok(Err(error)) => {
+            Err(Refusal::new(StatusCode::BAD_REQUEST, format!("the body broke off: {error}")))
+        }
+        Err(_) => {
+            let message = "the body did not come in time";
+            Err(Refusal::new(StatusCode::REQUEST_TIMEOUT, message))
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! Computations: few at a time, each with an end, and stopped where nobody waits for its answer.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use hyper::StatusCode;
+use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+
+use crate::limits::Limits;
+use crate::refusal::Refusal;
+
+/// The places of computations.
+pub(crate) struct RunPlaces {
+    /// Of those that compute.
+    computing: Arc<Semaphore>,
+    /// Of these, and of those that wait.
+    all: Arc<Semaphore>,
+    time: Duration,
+    /// Whether the server ends.
+    has_ended: Arc<AtomicBool>,
+}
+
+/// The place of a computation. It is free again when this is dropped.
+pub(crate) struct Place(#[expect(dead_code, reason = "it is held")] OwnedSemaphorePermit);
+
+/// Somebody waits for an answer, until this is dropped.
+pub(crate) struct Waiter(Arc<AtomicBool>);
+
+/// What a computation asks whether to go on.
+#[derive(Clone)]
+pub(crate) struct GoOn {
+    has_gone: Arc<AtomicBool>,
+    has_ended: Arc<AtomicBool>,
+    until: Instant,
+    computing: Arc<Semaphore>,
+}
+
+/// How often it is looked whether it is somebody's turn.
+const LOOK: Duration = Duration::from_millis(2);
+
+impl RunPlaces {
+    pub(crate) fn new(limits: &Limits) -> Self {
+        Self {
+            computing: Arc::new(Semaphore::new(limits.runs)),
+            all: Arc::new(Semaphore::new(limits.runs + limits.waiting)),
+            time: limits.run_time,
+            has_ended: Arc::default(),
+        }
+    }
+
+    /// A place, if one is free.
+    pub(crate) fn place(&self) -> Result<Place, Refusal> {
+        let full = |_| {
+            let message = "too many computations wait already";
+            Refusal::new(StatusCode::SERVICE_UNAVAILABLE, message)
+        };
+        Arc::clone(&self.all).try_acquire_owned().map(Place).map_err(full)
+    }
+
+    /// Somebody who asks, and what the computation asks.
+    pub(crate) fn asking(&self) -> (Waiter, GoOn) {
+        let has_gone = Arc::new(AtomicBool::new(false));
+        let has_ended = Arc::clone(&self.has_ended);
+        let go_on = GoOn {
+            has_gone: Arc::clone(&has_gone),
+            has_ended,
+            until: Instant::now() + self.time,
+            computing: Arc::clone(&self.computing),
+        };
+        (Waiter(has_gone), go_on)
+    }
+
+    /// Stops all computations.
+    pub(crate) fn end(&self) {
+        self.has_ended.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Drop for Waiter {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+impl GoOn {
+    /// Whether to go on.
+    pub(crate) fn is_on(&self) -> bool {
+        !self.has_gone.load(Ordering::Relaxed)
+            && !self.has_ended.load(Ordering::Relaxed)
+            && Instant::now() < self.until
+    }
+
+    /// Waits for the turn of what takes long, which is over when the result is dropped; nothing if
+    /// nobody waits for the answer any more. What is quick needs no turn, so that it is not behind
+    /// what takes long.
+    pub(crate) fn turn(&self) -> Option<OwnedSemaphorePermit> {
+        while self.is_on() {
+            if let Ok(turn) = Arc::clone(&self.computing).try_acquire_owned() {
+                return Some(turn);
+            }
+            std::thread::sleep(LOOK);
+        }
+        None
+    }
+}

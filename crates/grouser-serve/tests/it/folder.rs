@@ -1,0 +1,120 @@
+//! What may be opened: documents of the folder, and nothing outside of it.
+
+use std::fs;
+
+use grouser::document::{Kind, preset};
+use grouser_serve::Settings;
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+use crate::served::Served;
+
+/// A folder with a soil, beside a soil that nobody may open.
+fn served() -> (TempDir, Served) {
+    let outside = tempfile::tempdir().unwrap();
+    let folder = outside.path().join("folder");
+    fs::create_dir_all(folder.join("sub")).unwrap();
+    let sand = preset(Kind::Soil, "toyoura").unwrap().text;
+    fs::write(outside.path().join("secret.toml"), sand).unwrap();
+    fs::write(folder.join("sub/sand.toml"), sand).unwrap();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::symlink;
+        symlink(outside.path().join("secret.toml"), folder.join("link.toml")).unwrap();
+        symlink(outside.path(), folder.join("out")).unwrap();
+        symlink("sub/sand.toml", folder.join("inside.toml")).unwrap();
+    }
+    let server = Served::start(&Settings { folder: Some(folder), ..Settings::default() });
+    (outside, server)
+}
+
+fn refusal(server: &Served, question: &str, body: &Value) -> Value {
+    let reply = server.post(question, body);
+    assert_eq!(reply.status, 422, "{reply:?}");
+    reply.lines().remove(0)
+}
+
+#[test]
+fn documents_of_the_folder_are_listed_and_opened() {
+    let (_folder, server) = served();
+    let listed = server.ask("GET", "/api/documents", "", "").lines().remove(0);
+    assert_eq!(listed["rows"], json!([{"kind": "soil", "path": "sub/sand.toml"}]));
+    assert_eq!(server.post("stand", &json!({"soil": "sub/sand.toml"})).status, 200);
+    assert_eq!(server.post("stand", &json!({"soil": "sub/../sub/sand.toml"})).status, 200);
+    #[cfg(unix)]
+    assert_eq!(server.post("stand", &json!({"soil": "inside.toml"})).status, 200);
+}
+
+#[test]
+fn no_name_leads_out_of_the_folder() {
+    let (outside, server) = served();
+    let whole = outside.path().join("secret.toml");
+    let mut names = vec!["../secret.toml", "sub/../../secret.toml", "/etc/passwd", "/dev/stdin"];
+    names.push(whole.to_str().unwrap());
+    if cfg!(unix) {
+        names.extend(["link.toml", "out/secret.toml", "out/folder/../secret.toml"]);
+    }
+    for name in names {
+        let error = refusal(&server, "stand", &json!({ "soil": name }));
+        assert_eq!(error["key"], "soil", "{name}: {error}");
+        assert!(error["error"].as_str().unwrap().contains("leads out"), "{name}: {error}");
+    }
+    // Of what is outside nothing is said, not even whether it is there.
+    let absent = refusal(&server, "stand", &json!({"soil": "../nothing.toml"}));
+    let present = refusal(&server, "stand", &json!({"soil": "../secret.toml"}));
+    assert_eq!(absent, present);
+}
+
+#[test]
+fn neither_does_a_name_in_a_document_or_among_what_is_set() {
+    let (outside, server) = served();
+    let secret = outside.path().join("secret.toml");
+    let secret = secret.to_str().unwrap();
+    let error = refusal(&server, "heading", &json!({ "soil": secret }));
+    assert_eq!(error["key"], "soil");
+    for key in ["scenario.soil", "scenario.terrain.file", "rover.wheel_unit.wheel", "rover.motor"] {
+        for name in [secret, "../secret.toml", "/etc/passwd"] {
+            let error = refusal(&server, "heading", &json!({"set": {key: name}}));
+            let said = error["error"].as_str().unwrap();
+            assert!(said.contains("leads out"), "{key} = {name}: {error}");
+        }
+    }
+    let scenario = "schema = \"scenario/1\"\nname = \"x\"\nsoil = \"../secret.toml\"\n";
+    fs::write(outside.path().join("folder/scenario.toml"), scenario).unwrap();
+    let error = refusal(&server, "heading", &json!({"scenario": "scenario.toml"}));
+    assert!(error["error"].as_str().unwrap().contains("leads out"), "{error}");
+    let samples = format!(
+        "{}\n[uncertainty]\nsamples = \"../secret.toml\"\n",
+        preset(Kind::Soil, "toyoura").unwrap().text
+    );
+    fs::write(outside.path().join("folder/sampled.toml"), samples).unwrap();
+    let error = refusal(&server, "stand", &json!({"soil": "sampled.toml"}));
+    assert!(error["error"].as_str().unwrap().contains("leads out"), "{error}");
+}
+
+#[test]
+fn without_a_folder_there_are_presets_alone() {
+    let server = Served::usual();
+    assert_eq!(server.post("stand", &json!({"soil": "clay"})).status, 200);
+    for name in ["Cargo.toml", "./Cargo.toml", "/etc/passwd", "..", ""] {
+        let error = refusal(&server, "stand", &json!({ "soil": name }));
+        assert_eq!(error["key"], "soil", "{name}");
+    }
+    let listed = server.ask("GET", "/api/documents", "", "").lines().remove(0);
+    assert_eq!(listed["rows"], json!([]));
+}
+
+#[test]
+fn paths_of_the_server_are_its_own() {
+    let (_folder, server) = served();
+    for path in [
+        "/../Cargo.toml",
+        "/sub/sand.toml",
+        "/%2e%2e/secret.toml",
+        "//main.js",
+        "/api/",
+        "/api/../main.js",
+    ] {
+        assert_eq!(server.ask("GET", path, "", "").status, 404, "{path}");
+    }
+}

@@ -1,0 +1,145 @@
+//! Bodies, connections and computations have bounds, with an answer that says so.
+
+use std::io::{Read as _, Write as _};
+use std::net::TcpStream;
+use std::time::{Duration, Instant};
+
+use grouser_serve::{Limits, Settings};
+use serde_json::json;
+
+use crate::served::{Reply, Served};
+
+fn limited(limits: Limits) -> Served {
+    Served::start(&Settings { limits, ..Settings::default() })
+}
+
+fn head(server: &Served, length: &str) -> String {
+    let Served { port, token, .. } = server;
+    format!(
+        "POST /api/stand HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nAuthorization: Bearer {token}\r\n\
+         Content-Type: application/json\r\n{length}\r\n\r\n"
+    )
+}
+
+#[test]
+fn a_body_that_is_too_large_is_refused_before_it_was_read() {
+    let server = Served::usual();
+    // A thousand million bytes are promised, none of them is sent.
+    let mut stream = server.connect();
+    let long = format!("Content-Length: {}\r\nExpect: 100-continue", 1_000_000_000);
+    stream.write_all(head(&server, &long).as_bytes()).unwrap();
+    assert_eq!(Reply::read(stream).status, 413);
+    // The same in pieces of unknown number.
+    let mut stream = server.connect();
+    stream.write_all(head(&server, "Transfer-Encoding: chunked").as_bytes()).unwrap();
+    let chunk = format!("10000\r\n{}\r\n", "x".repeat(0x10000));
+    for _ in 0..64 {
+        if stream.write_all(chunk.as_bytes()).is_err() {
+            break;
+        }
+    }
+    let mut answer = [0; 12];
+    if stream.read_exact(&mut answer).is_ok() {
+        assert_eq!(&answer, b"HTTP/1.1 413");
+    }
+    assert_eq!(server.post("stand", &json!({})).status, 200);
+}
+
+#[test]
+fn half_requests_have_an_end() {
+    let short = Duration::from_millis(300);
+    let server = limited(Limits { head_time: short, body_time: short, ..Limits::default() });
+    let began = Instant::now();
+    let mut of_head = server.connect();
+    of_head.write_all(b"GET / HTTP/1.1\r\nHost: ").unwrap();
+    assert_eq!(Reply::read(of_head).status, 408);
+    let mut of_body = server.connect();
+    of_body.write_all((head(&server, "Content-Length: 100") + "{").as_bytes()).unwrap();
+    assert_eq!(Reply::read(of_body).status, 408);
+    assert!(began.elapsed() < Duration::from_secs(10));
+}
+
+#[test]
+fn a_thousand_connections_are_bounded() {
+    let server = limited(Limits { connections: 50, ..Limits::default() });
+    let mut open: Vec<TcpStream> = (0..1000).map(|_| server.connect()).collect();
+    std::thread::sleep(Duration::from_millis(300));
+    let last = open.pop().unwrap();
+    let refused = Reply::read(last);
+    assert_eq!(refused.status, 503, "{refused:?}");
+    drop(open);
+    // Their places are free again.
+    let until = Instant::now() + Duration::from_secs(10);
+    while server.ask("GET", "/", "", "").status != 200 {
+        assert!(Instant::now() < until, "no place became free");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+}
+
+#[test]
+fn one_computation_too_many_is_refused() {
+    let server = limited(Limits { runs: 1, waiting: 1, ..Limits::default() });
+    let long = json!({"soil": "toyoura-uncertain", "samples": 10000, "slope_deg": [5, 10, 15]});
+    let start = |body: &serde_json::Value| {
+        let mut stream = server.connect();
+        let body = body.to_string();
+        let head = head(&server, &format!("Content-Length: {}", body.len()));
+        let request = head.replace("/api/stand", "/api/heading") + &body;
+        stream.write_all(request.as_bytes()).unwrap();
+        stream
+    };
+    let (first, second) = (start(&long), start(&long));
+    std::thread::sleep(Duration::from_millis(200));
+    assert_eq!(server.post("stand", &json!({})).status, 503);
+    // Who hangs up makes place at once: these would compute for many seconds.
+    drop((first, second));
+    let began = Instant::now();
+    while server.post("stand", &json!({})).status != 200 {
+        assert!(began.elapsed() < Duration::from_secs(5), "an aborted run goes on");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+#[test]
+fn a_computation_that_takes_too_long_is_stopped() {
+    let server = limited(Limits { run_time: Duration::from_millis(100), ..Limits::default() });
+    let long = json!({"soil": "toyoura-uncertain", "stages": [0, 10000], "slope_deg": [5, 10, 15]});
+    let reply = server.post("heading", &long);
+    let last = reply.lines().pop().unwrap();
+    assert_eq!(last["schema"], "grouser.error.v1");
+    assert!(last["error"].as_str().unwrap().contains("stopped before its end"), "{last}");
+}
+
+#[test]
+fn a_server_ends_with_what_it_computes() {
+    let server = Served::usual();
+    let mut stream = server.connect();
+    let body = json!({"soil": "toyoura-uncertain", "samples": 10000}).to_string();
+    let head = head(&server, &format!("Content-Length: {}", body.len()));
+    let request = head.replace("/api/stand", "/api/heading") + &body;
+    stream.write_all(request.as_bytes()).unwrap();
+    std::thread::sleep(Duration::from_millis(200));
+    let began = Instant::now();
+    drop(server);
+    assert!(began.elapsed() < Duration::from_secs(4));
+}
+
+#[test]
+fn what_is_no_http_is_no_trouble() {
+    let server = limited(Limits { head_time: Duration::from_secs(1), ..Limits::default() });
+    for bytes in [
+        "\0\0\0\0",
+        "GET\r\n\r\n",
+        "POST /api/heading HTTP/1.1\r\n\r\n",
+        "\u{16}\u{3}\u{1}",
+        "GET / HTTP/1.1\r\nHost: a\r\nX: \r\n \r\n",
+    ] {
+        let mut stream = server.connect();
+        stream.write_all(bytes.as_bytes()).unwrap();
+        stream.shutdown(std::net::Shutdown::Write).unwrap();
+        assert_ne!(Reply::read(stream).status, 200, "{bytes:?}");
+    }
+    let long = format!("GET /{} HTTP/1.1\r\n\r\n", "x".repeat(100_000));
+    assert_ne!(server.send(&long).status, 200);
+    assert_eq!(server.ask("GET", "/", "", "").status, 200);
+}

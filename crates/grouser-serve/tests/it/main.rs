@@ -1,0 +1,7 @@
+//! The server, over real sockets.
+
+mod access;
+mod answers;
+mod folder;
+mod limits;
+mod served;

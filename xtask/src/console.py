@@ -1,0 +1,232 @@
+"""Opens the console in Chromium, as its users do, and prints what is wrong with it.
+
+`python console.py CHROMIUM AXE PROGRAM [PICTURES]`: starts `PROGRAM serve`, and looks at each view at two
+sizes, light and dark: errors of scripts, addresses of other hosts, pages wider than the window, and
+violations of accessibility that axe calls serious or critical. Then it moves sliders by the keyboard and
+compares the page with what the program prints for the command under the answer. With a folder for
+pictures it writes one of each view. The last line has the counts.
+"""
+
+import json
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from playwright.sync_api import sync_playwright
+
+VIEWS = ("heading", "wheel")
+SIZES = [(1280, 720), (820, 1180)]
+THEMES = ("light", "dark")
+IMPACTS = ("serious", "critical")
+#: A name that would do harm as markup.
+HOSTILE = "<img src=x onerror=alert(1)>"
+
+AXE = """async (impacts) => {
+  const result = await axe.run(document, { resultTypes: ['violations'] });
+  return result.violations.filter(one => impacts.includes(one.impact)).map(one =>
+    `${one.id} (${one.impact}), ${one.nodes.length} times: ${one.nodes[0].target.join(' ')}`);
+}"""
+
+
+class Server:
+    """`grouser serve` in a folder of its own, until the end of a block."""
+
+    def __init__(self, program):
+        self.program = program
+
+    def __enter__(self):
+        self.place = tempfile.TemporaryDirectory()
+        sand = subprocess.run([self.program, "presets", "toyoura", "--kind", "soil"], capture_output=True, text=True, check=True)
+        hostile = sand.stdout.replace('"Toyoura sand"', json.dumps(HOSTILE))
+        Path(self.place.name, "hostile.toml").write_text(hostile, encoding="utf-8")
+        self.process = subprocess.Popen(
+            [self.program, "serve", ".", "--no-open"], cwd=self.place.name, stdout=subprocess.PIPE, text=True
+        )
+        self.address = self.process.stdout.readline().strip()
+        return self
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait(10)
+        self.place.cleanup()
+
+    def run(self, command):
+        """What the program prints for a command of the page, as JSON."""
+        words = command.replace("grouser ", f"'{self.program}' ", 1) + " --format json"
+        done = subprocess.run(words, shell=True, cwd=self.place.name, capture_output=True, text=True, check=True)
+        return json.loads(done.stdout)
+
+
+class Looks:
+    """Claims about the page, and how many of them hold."""
+
+    def __init__(self):
+        self.passed = self.failed = 0
+
+    def claim(self, what, flaws):
+        """Counts a claim, which holds if it has no flaws."""
+        for flaw in flaws:
+            print(f"console, {what}: {flaw}")
+        self.passed, self.failed = self.passed + (not flaws), self.failed + bool(flaws)
+
+
+def opened(browser, server, fragment="", size=SIZES[0], theme="light", bypass=False):
+    """A page, and a list of what goes wrong on it from now on."""
+    # Scripts from outside, as axe and the driver's waiting are, pass no strict policy.
+    context = browser.new_context(
+        viewport={"width": size[0], "height": size[1]}, color_scheme=theme, bypass_csp=bypass
+    )
+    page = context.new_page()
+    flaws = []
+    own = server.address.split("?")[0]
+    page.on("pageerror", lambda error: flaws.append(f"error of a script: {error}"))
+    page.on("console", lambda line: line.type == "error" and flaws.append(f"says {line.text}"))
+    page.on("dialog", lambda dialog: (flaws.append("opens a dialog"), dialog.dismiss()))
+    page.on(
+        "request",
+        lambda request: request.url.startswith((own, "data:", "blob:")) or flaws.append(f"asks another host: {request.url}"),
+    )
+    page.goto(f"{server.address}#{fragment}")
+    settled(page)
+    return page, flaws
+
+
+def settled(page):
+    """Waits until the answer is there."""
+    page.wait_for_timeout(100)
+    for _ in range(300):
+        said = page.locator("#busy").inner_text()
+        if said and not said.startswith("computing") and page.locator(".stale").count() == 0:
+            # Charts come a little later.
+            page.wait_for_timeout(300)
+            return
+        page.wait_for_timeout(100)
+    raise AssertionError("there is no answer after half a minute")
+
+
+def four(value):
+    """A number as the page's tables have it."""
+    return "–" if value is None else re.sub(r"\.?0+$", "", f"{value:#.4g}") if "e" not in f"{value:.4g}" else f"{value:.4g}"
+
+
+def shown(page, column):
+    """The number that the page has in a column."""
+    return page.locator(f"article [data-column='{column}']").first.inner_text()
+
+
+def numbers_differ(page, server):
+    """Where the page has another number than its command."""
+    row = server.run(page.locator("#command").inner_text())["rows"][0]
+    flaws = []
+    large = page.locator("article .number").first.inner_text().split("°")[0]
+    if large != f"{abs(row['yaw_deg']):.1f}":
+        flaws.append(f"the heading is {large}, the program has {row['yaw_deg']}")
+    for column in ("yaw_deg_p2_5", "yaw_deg_p97_5", "slip_ratio_p2_5", "slip_ratio_p97_5", "sinkage_mm_p2_5", "sinkage_mm_p97_5"):
+        if shown(page, column) != four(row[column]):
+            flaws.append(f"{column} is {shown(page, column)}, the program has {row[column]}")
+    for column in ("slip_ratio", "sinkage_mm"):
+        if shown(page, column) != four(row[column]):
+            flaws.append(f"{column} is {shown(page, column)}, the program has {row[column]}")
+    verdict = page.locator(".verdict").first.get_attribute("class").split()[-1]
+    if verdict != row["verdict"]:
+        flaws.append(f"the verdict is {verdict}, the program has {row['verdict']}")
+    return flaws
+
+
+def unreached(page):
+    """Controls that the Tab key does not reach."""
+    page.evaluate("document.activeElement.blur()")
+    wanted = """[...document.querySelectorAll('input, select, button, summary, a[href], pre[tabindex]')]
+      .filter(one => one.checkVisibility() && !one.disabled)"""
+    count = page.evaluate(f"{wanted}.length")
+    page.evaluate("window.reached = new Set()")
+    for _ in range(count + 5):
+        page.keyboard.press("Tab")
+        page.evaluate("window.reached.add(document.activeElement)")
+    return page.evaluate(f"{wanted}.filter(one => !window.reached.has(one)).map(one => one.outerHTML.slice(0, 80))")
+
+
+def look_at_views(looks, browser, server, axe, pictures):
+    for view in VIEWS:
+        for size in SIZES:
+            for theme in THEMES:
+                page, flaws = opened(browser, server, f"view={view}", size, theme)
+                if page.evaluate("document.documentElement.scrollWidth > document.documentElement.clientWidth"):
+                    flaws.append("wider than the window")
+                if "token" in page.url:
+                    flaws.append("the address keeps the token")
+                if pictures and (size, theme) == (SIZES[0], "light"):
+                    page.screenshot(path=str(Path(pictures, f"{view}.png")))
+                page.context.close()
+                page, _ = opened(browser, server, f"view={view}", size, theme, bypass=True)
+                page.evaluate(axe)
+                flaws += page.evaluate(AXE, list(IMPACTS))
+                page.context.close()
+                looks.claim(f"{view} at {size[0]} px, {theme}", flaws)
+
+
+def use(looks, browser, server):
+    page, flaws = opened(browser, server)
+    looks.claim("numbers are the program's", numbers_differ(page, server))
+    before = page.locator("article .number").first.inner_text()
+    page.get_by_label("Slope, in °").focus()
+    for _ in range(5):
+        page.keyboard.press("ArrowRight")
+    settled(page)
+    moved = page.locator("article .number").first.inner_text()
+    looks.claim("a slider moves the answer", ["it stays"] if moved == before else numbers_differ(page, server))
+    friction = page.get_by_role("spinbutton", name=re.compile("Angle of internal friction"))
+    friction.fill("34.5")
+    settled(page)
+    looks.claim("a number of the soil moves the answer", numbers_differ(page, server))
+    link = page.url.split("#")[1]
+    friction.fill("99")
+    page.wait_for_timeout(1000)
+    said = page.locator(".slider .error:not(:empty)").all_inner_texts()
+    looks.claim("an error stands beside its cause", [] if said and "it must be 5 to 60" in said[0] else [f"there is {said}"])
+    friction.fill("38")
+    settled(page)
+    looks.claim("an error goes with its cause", page.locator(".slider .error:not(:empty)").all_inner_texts())
+    page.evaluate("document.activeElement.blur()")
+    page.keyboard.press("p")
+    settled(page)
+    looks.claim("a key pins a set-up", [] if page.locator("article").count() == 2 else ["there is none beside"])
+    looks.claim("the keyboard reaches everything", unreached(page))
+    looks.claim("nothing goes wrong meanwhile", [it for it in flaws if "422" not in it])
+    page.context.close()
+    page, flaws = opened(browser, server, link)
+    text = page.locator(".setup").first.inner_text()
+    restored = numbers_differ(page, server) + ([] if "34.5" in text else [f"it has {text}"])
+    looks.claim("a link restores a session", flaws + restored)
+    page.context.close()
+    page, flaws = opened(browser, server, "soil=hostile.toml")
+    there = page.locator("summary").first.inner_text()
+    looks.claim("a hostile name is text", flaws + ([] if HOSTILE in there else [f"there is {there}"]))
+    page.context.close()
+    page, flaws = opened(browser, server, "view=wheel")
+    row = next(it for it in server.run(page.locator("#command").inner_text())["rows"] if it["slip_ratio"] == 0.2)
+    large = page.locator(".number").first.inner_text().split(" ")[0]
+    pull = four(row["drawbar_pull_n"])
+    looks.claim("the pull is the program's", flaws + ([] if large == pull else [f"{large}, the program has {pull}"]))
+    looks.claim("the wheel is drawn", [] if page.locator("figure img").count() == 3 else ["it is not"])
+    looks.claim("the keyboard reaches everything about a wheel", unreached(page))
+    page.context.close()
+
+
+def main(chromium, axe, program, pictures=None):
+    looks = Looks()
+    script = Path(axe).read_text(encoding="utf-8")
+    with Server(program) as server, sync_playwright() as playwright:
+        # Without a sandbox it also runs as root, as in a container; it shows our own pages only.
+        browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+        look_at_views(looks, browser, server, script, pictures)
+        use(looks, browser, server)
+        browser.close()
+    print(f"{looks.passed} passed, {looks.failed} failed")
+    return int(looks.failed > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
