@@ -5,9 +5,9 @@ use serde::ser::{Serialize, SerializeMap as _, Serializer};
 /// A file that was given, and how much of what it has counts.
 ///
 /// ```
-/// use grouser_io::given_file::{Content, GivenFile};
+/// use grouser_io::given_file::{FileContent, GivenFile};
 ///
-/// let log = GivenFile::new("drive.csv", Content::Telemetry, 301, 299);
+/// let log = GivenFile::new("drive.csv", FileContent::Telemetry, 301, 299);
 /// assert_eq!(log.sentence(), "drive.csv: telemetry, 299 of 301 rows");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -15,7 +15,7 @@ pub struct GivenFile {
     /// Its name.
     pub file: String,
     /// What it has.
-    pub content: Content,
+    pub content: FileContent,
     /// How many there are.
     pub there: u64,
     /// How many of them count.
@@ -27,7 +27,7 @@ pub struct GivenFile {
 
 /// What a file has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Content {
+pub enum FileContent {
     /// A map of heights, in cells; those that count have a height.
     Heights,
     /// Zones of soil as a raster, in cells; those that count have a zone and lie on the ground.
@@ -54,7 +54,7 @@ pub enum Content {
     MotorLog,
 }
 
-impl Content {
+impl FileContent {
     /// What it is.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -94,7 +94,7 @@ impl Content {
 impl GivenFile {
     /// * `there`: how many there are
     /// * `used`: how many of them count
-    pub fn new(file: impl Into<String>, content: Content, there: u64, used: u64) -> Self {
+    pub fn new(file: impl Into<String>, content: FileContent, there: u64, used: u64) -> Self {
         Self { file: file.into(), content, there, used, zones: Vec::new() }
     }
 

@@ -10,7 +10,7 @@ use grouser_raster::{CoordinateSystem, Fault};
 use serde_json::Value as Json;
 
 use super::error::{DocumentError, Problem};
-use super::given_file::{Content, GivenFile};
+use super::given_file::{FileContent, GivenFile};
 use super::lines::{cells, check_count, lines};
 use super::mission::LEGS_FROM;
 use super::source::{LARGEST_FILE, read_file};
@@ -188,7 +188,7 @@ pub(crate) fn given(mission: &Node) -> Vec<GivenFile> {
     }
     let is_file = |(text, _): &(&Arc<Text>, u64)| !Arc::ptr_eq(text, &mission.origin.text);
     let given = |(text, legs): (&Arc<Text>, u64)| {
-        GivenFile::new(text.label.clone(), Content::Legs, legs, legs)
+        GivenFile::new(text.label.clone(), FileContent::Legs, legs, legs)
     };
     files.into_iter().filter(is_file).map(given).collect()
 }

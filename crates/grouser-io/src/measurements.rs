@@ -50,7 +50,7 @@ pub use source::Source;
 
 use super::escape;
 use super::file;
-use super::given_file::{Content, GivenFile};
+use super::given_file::{FileContent, GivenFile};
 use row::{Header, name_of};
 use taken::{LeftOut, Row, Taken};
 use wheel_tests::{Cell, Quantity, Trial, WheelTests};
@@ -189,7 +189,7 @@ pub fn read_from(
     notes.extend(notes::suspicions(&rows));
     // They quote what the file says.
     let notes = notes.iter().map(|note| escape::line(note).into_owned()).collect();
-    let given = GivenFile::new(label, Content::WheelTests, table.rows(), rows.len() as u64);
+    let given = GivenFile::new(label, FileContent::WheelTests, table.rows(), rows.len() as u64);
     let lines = rows.iter().map(|row| row.line).collect();
     Ok(Measurements { lines, given, notes, tests: tests(rows) })
 }

@@ -11,7 +11,7 @@ use super::describe::zones::FILE as SOIL_FILE;
 use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::file;
-use super::given_file::{Content, GivenFile, NamedFiles};
+use super::given_file::{FileContent, GivenFile, NamedFiles};
 use super::legs_file;
 use super::raster_file::{Found, found, key, options};
 use super::tree::{Entry, HeldMap, Node, Value};
@@ -102,7 +102,7 @@ pub(crate) fn read(
 /// * `file`: its name
 fn given_heights(file: &str, model: &ElevationModel) -> GivenFile {
     let (cells, missing) = (model.grid().columns * model.grid().rows, model.missing());
-    GivenFile::new(file, Content::Heights, cells as u64, (cells - missing) as u64)
+    GivenFile::new(file, FileContent::Heights, cells as u64, (cells - missing) as u64)
 }
 
 /// The name of a file without its folder.

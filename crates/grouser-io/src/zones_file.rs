@@ -9,14 +9,14 @@ use super::describe::zones::{CLASS, FILE, LEGEND, NAME, SOIL};
 use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::file;
-use super::given_file::{Content, GivenFile};
+use super::given_file::{FileContent, GivenFile};
 use super::kind::Kind;
 use super::presets::preset;
 use super::raster_file::{Found, found, key, options};
 use super::tree::{Entry, Node, Origin, Value};
 use grouser_core::soil::Soil;
 use grouser_core::terrain::{Extent, Ground, Shape, SoilZones};
-use grouser_raster::zones::Counts;
+use grouser_raster::zones::ZoneCounts;
 use grouser_raster::zones::geojson::compare_system_of;
 use grouser_raster::{CoordinateSystem, ReadOptions, Remark, ZoneKey, read_zones, zone_names};
 
@@ -140,8 +140,8 @@ fn zones(
     let map = map.map_err(|error| found("file of zones", &error.fault))?;
     let hint =
         "a row `[[terrain.zone]]` has `class` or `name`, and `soil`; names of presets need none";
-    let Counts { there, used } = map.counts(ground.as_ref());
-    let content = if map.is_raster() { Content::ZoneCells } else { Content::Zones };
+    let ZoneCounts { there, used } = map.counts(ground.as_ref());
+    let content = if map.is_raster() { FileContent::ZoneCells } else { FileContent::Zones };
     let given = GivenFile::new(path.display().to_string(), content, there, used);
     let zones = map.with_legend(legend, soils).map_err(|fault| {
         let (problem, own) = found("file of zones", &fault);

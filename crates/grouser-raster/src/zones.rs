@@ -28,7 +28,7 @@ mod map;
 mod places;
 
 pub use key::ZoneKey;
-pub use map::{Counts, ZoneMap};
+pub use map::{ZoneCounts, ZoneMap};
 pub use places::check_places;
 
 use std::path::Path;

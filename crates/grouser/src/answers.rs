@@ -22,7 +22,7 @@ use grouser_raster::Raster;
 use crate::contact::validity::Finding;
 use crate::document::Document;
 use crate::document::columns;
-use crate::document::given_file::{Content, GivenFile};
+use crate::document::given_file::{FileContent, GivenFile};
 use crate::document::gradient::NoSuchKey;
 use crate::document::reading;
 use crate::document::statistics::NothingAccepted;
@@ -85,7 +85,7 @@ pub fn check_flags<'f>(
 fn given_heights(file: &Path, raster: &Raster) -> GivenFile {
     let known = raster.heights.iter().filter(|it| it.is_finite()).count();
     let name = file.display().to_string();
-    GivenFile::new(name, Content::Heights, raster.heights.len() as u64, known as u64)
+    GivenFile::new(name, FileContent::Heights, raster.heights.len() as u64, known as u64)
 }
 
 /// The flags of steady motions on the soil as written: on each of some courses [rad], and on each

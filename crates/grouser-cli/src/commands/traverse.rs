@@ -6,12 +6,11 @@ mod page;
 use grouser::answers;
 use grouser::answers::EVERY_MODEL;
 use grouser::contact::validity::Flag;
+use grouser::document::LoadedScenario;
 use grouser::document::columns::run::{self, RunObject};
 use grouser::document::columns::{MODEL, Quantity, TIME, X, Y, YAW, Z};
-use grouser::document::given_file::GivenFile;
 use grouser::document::reading::{four_digits, metres};
 use grouser::document::table::{Row, Table};
-use grouser::document::{LoadedScenario, given_to_drives};
 use grouser::simulation::{Run, Scenario, Trajectory};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::traverse_band::RunBand;
@@ -20,7 +19,7 @@ use grouser_draw::{Shown, title_of};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use self::of_model::{OfModel, RECORDS, chart, reason};
+use self::of_model::{OfModel, RECORDS, chart, given, reason};
 use super::animation::Target;
 use super::destinations::Destinations;
 use super::{Answer, add_files, method, sampling};
@@ -187,12 +186,6 @@ fn settings(args: &TraverseArgs, all: &[OfModel]) -> Value {
     }
     add_files(&mut settings, &given(all));
     settings
-}
-
-/// What the files gave.
-fn given(all: &[OfModel]) -> Vec<GivenFile> {
-    let scenario = &all[0].scenario;
-    given_to_drives(scenario, &scenario.value, all.iter().map(|it| &it.run))
 }
 
 #[derive(Serialize)]

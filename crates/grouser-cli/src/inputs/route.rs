@@ -5,7 +5,7 @@ use std::path::Path;
 use grouser::answers::Sampling;
 pub(crate) use grouser::answers::route::Asked;
 use grouser::answers::route::RouteQuestion;
-use grouser::document::given_file::{Content, GivenFile};
+use grouser::document::given_file::{FileContent, GivenFile};
 use grouser::document::unit::less_whole_turns;
 use grouser::document::{LoadedScenario, escape, study};
 use grouser::studies::mobility::Ground;
@@ -13,7 +13,7 @@ use grouser::studies::route::{Ends, Limits, Line, LineError, RouteStudy};
 use grouser::studies::verdict::SlopeStudy;
 use grouser::units::Vec2;
 use grouser_raster::Raster;
-use grouser_raster::zones::Counts;
+use grouser_raster::zones::ZoneCounts;
 
 use super::card::{rim_speed, rule};
 use super::map::{check_system, dem};
@@ -74,15 +74,15 @@ pub(crate) fn route(args: &RouteArgs) -> Result<RouteInputs, Failure> {
     let mut given = Vec::new();
     let name = |file: &Path| file.display().to_string();
     if let Some(file) = &args.keep_out {
-        let (with_areas, Counts { there, used }) =
+        let (with_areas, ZoneCounts { there, used }) =
             study.keeping_out_of(file, &raster.grid.extent())?;
         study = with_areas;
-        given.push(GivenFile::new(name(file), Content::KeepOut, there, used));
+        given.push(GivenFile::new(name(file), FileContent::KeepOut, there, used));
     }
     if let (Some(file), Asked::Along(line)) = (&args.along, &asked) {
         // Places off the map are refused before anything is computed.
         let places = line.places().len() as u64;
-        given.push(GivenFile::new(name(file), Content::Way, places, places));
+        given.push(GivenFile::new(name(file), FileContent::Way, places, places));
     }
     Ok(RouteInputs { scenario, study, asked, raster, given })
 }

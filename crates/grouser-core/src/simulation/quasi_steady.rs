@@ -16,8 +16,7 @@ use nalgebra::Vector3;
 
 use super::equations::Equations;
 use super::point::Point;
-use super::steady_run::Before;
-use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState, rolling};
+use super::steady_state::{Before, Memory, NotSteady, SteadySolver, SteadyState, rolling};
 use super::turning::Turning;
 use crate::contact::WheelForces;
 use crate::lagrange;

@@ -4,7 +4,7 @@ use super::along_ground::{self, AlongGround};
 use super::equations::Equations;
 use super::point::Point;
 use super::quasi_steady::{self, QuasiSteady};
-use super::steady_state::NotSteady;
+use super::steady_state::{Before, NotSteady};
 use crate::contact::Slip;
 use crate::stored::stored;
 use crate::vehicle::WheelReaction;
@@ -29,16 +29,6 @@ pub(super) enum Carried {
 }
 
 stored!(enum Carried { 0 => Nothing, 1 => Velocities, 2 => Plane(carried), 3 => Uneven(carried) });
-
-/// How a rover moved until now, to a motion of one kind.
-pub(super) enum Before<C> {
-    /// It starts, rolling.
-    Nothing,
-    /// By a motion of another kind.
-    Another,
-    /// By one of this kind.
-    Steady(C),
-}
 
 impl Carried {
     /// The wheels at a point of the motion, if it is one of steady states.

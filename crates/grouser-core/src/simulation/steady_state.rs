@@ -74,6 +74,16 @@ stored!(enum NotSteady {
     5 => Lags { settling_time, lag },
 });
 
+/// How a rover moved until now, to a motion of one kind.
+pub(super) enum Before<C> {
+    /// It starts, rolling.
+    Nothing,
+    /// By a motion of another kind.
+    Another,
+    /// By one of this kind.
+    Steady(C),
+}
+
 /// A steady state.
 #[derive(Clone, Debug)]
 pub(super) struct SteadyState {

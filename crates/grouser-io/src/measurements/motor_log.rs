@@ -18,7 +18,7 @@ use super::super::columns::{
     YAW,
 };
 use super::super::escape;
-use super::super::given_file::{Content, GivenFile};
+use super::super::given_file::{FileContent, GivenFile};
 use super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::limits::Limits;
 use super::log_column::{LogColumn, column};
@@ -44,7 +44,7 @@ impl MotorLog {
     pub fn given(&self, file: &str) -> GivenFile {
         let all = || self.records.iter().flat_map(|record| &record.wheels);
         let (there, used) = (all().count() as u64, all().flatten().count() as u64);
-        GivenFile::new(file, Content::MotorLog, there, used)
+        GivenFile::new(file, FileContent::MotorLog, there, used)
     }
 }
 

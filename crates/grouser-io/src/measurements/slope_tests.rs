@@ -14,7 +14,7 @@ use grouser_core::vehicle::Rover;
 use super::super::check::nearest;
 use super::super::columns::{COURSE, OK, Quantity, SLIP_RATIO, SLOPE, STATUS, YAW, quantity};
 use super::super::escape;
-use super::super::given_file::{Content, GivenFile};
+use super::super::given_file::{FileContent, GivenFile};
 use super::super::unit::{DEG, ONE, Unit};
 use super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::row::{meets, name_of, number_of, places};
@@ -161,7 +161,7 @@ pub fn read_slopes(
     }
     let notes = header.notes().into_iter().chain(left_out.iter().map(LeftOut::note));
     let notes = notes.map(|note| escape::line(&note).into_owned()).collect();
-    let given = GivenFile::new(label, Content::SlopeTests, table.rows(), rows.len() as u64);
+    let given = GivenFile::new(label, FileContent::SlopeTests, table.rows(), rows.len() as u64);
     Ok(SlopeTests { points: points(&rows), given, notes })
 }
 

@@ -19,7 +19,7 @@ pub struct ZoneMap {
 
 /// How many zones there are: cells of a raster that have one, or areas.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Counts {
+pub struct ZoneCounts {
     /// All: also cells without a zone.
     pub there: u64,
     /// Those that lie on the ground, with some of them at least.
@@ -82,7 +82,7 @@ impl ZoneMap {
     ///
     /// * `ground`: without an end, if it has none
     #[must_use]
-    pub fn counts(&self, ground: Option<&Extent>) -> Counts {
+    pub fn counts(&self, ground: Option<&Extent>) -> ZoneCounts {
         let is_on = |low: Vec2, high: Vec2| ground.is_none_or(|it| !lie_apart([low, high], it));
         let (there, used) = match &self.shape {
             Shape::Cells(grid, cells) => {
@@ -102,7 +102,7 @@ impl ZoneMap {
                 (polygons.len(), polygons.iter().filter(is_used).count())
             }
         };
-        Counts { there: there as u64, used: used as u64 }
+        ZoneCounts { there: there as u64, used: used as u64 }
     }
 
     /// The zones with their soils.

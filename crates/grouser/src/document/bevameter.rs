@@ -4,7 +4,7 @@
 use std::io::Read;
 
 use super::escape;
-use super::given_file::{Content, GivenFile};
+use super::given_file::{FileContent, GivenFile};
 use super::measurements::bevameter_columns::REPEAT;
 use super::measurements::table::{Table, other_delimiter};
 use super::measurements::{Column, Limits, MeasurementError, MeasurementProblem as Problem};
@@ -132,7 +132,7 @@ impl<'a, R: Read> Rows<'a, R> {
     /// What the file gave.
     ///
     /// * `left_out`: rows that do not count
-    pub(super) fn given(&self, content: Content, left_out: u64) -> GivenFile {
+    pub(super) fn given(&self, content: FileContent, left_out: u64) -> GivenFile {
         let rows = self.table.rows();
         GivenFile::new(self.label, content, rows, rows.saturating_sub(left_out))
     }

@@ -13,7 +13,7 @@ use std::path::Path;
 
 use super::bevameter::{Rows, left_out_note};
 use super::escape;
-use super::given_file::{Content, GivenFile};
+use super::given_file::{FileContent, GivenFile};
 use super::measurements::bevameter_columns::{
     PLATE_COLUMNS, PLATE_DIAMETER, PLATE_RADIUS, PLATE_WIDTH, PRESSURE, PRESSURE_SCATTER, SINKAGE,
 };
@@ -90,7 +90,7 @@ pub fn read_from(
     let mut notes = rows.unused_notes();
     notes.extend(left_out_note(before_contact, "their sinkage is below zero, before contact"));
     notes.extend(doubts(&curves));
-    let given = rows.given(Content::PlateTests, before_contact as u64);
+    let given = rows.given(FileContent::PlateTests, before_contact as u64);
     Ok(PlateMeasurements { curves, given, notes })
 }
 

@@ -13,7 +13,7 @@ use std::path::Path;
 
 use super::bevameter::{Rows, left_out_note};
 use super::escape;
-use super::given_file::{Content, GivenFile};
+use super::given_file::{FileContent, GivenFile};
 use super::measurements::bevameter_columns::{
     NORMAL_STRESS, SHEAR_COLUMNS, SHEAR_DISPLACEMENT, SHEAR_STRESS, SHEAR_STRESS_SCATTER,
 };
@@ -102,7 +102,7 @@ pub fn read_from(
     let mut notes = rows.unused_notes();
     notes
         .extend(left_out_note(before_contact, "their displacement is below zero, before shearing"));
-    let given = rows.given(Content::ShearTests, before_contact as u64);
+    let given = rows.given(FileContent::ShearTests, before_contact as u64);
     Ok(ShearMeasurements { curves: tests.into_iter().map(curve).collect(), given, notes })
 }
 

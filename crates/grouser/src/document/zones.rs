@@ -1,6 +1,6 @@
 //! What files gave to a drive: which of their zones it met.
 
-use super::given_file::{Content, GivenFile};
+use super::given_file::{FileContent, GivenFile};
 use super::{Document, Loaded};
 use crate::simulation::{Scenario, Trajectory};
 use crate::studies::zones_met::zones_met;
@@ -16,7 +16,8 @@ pub fn given_to_drives<'r, V>(
     drives: impl IntoIterator<Item = &'r Trajectory>,
 ) -> Vec<GivenFile> {
     let mut given = document.given.clone();
-    let of_zones = |it: &&mut GivenFile| matches!(it.content, Content::Zones | Content::ZoneCells);
+    let of_zones =
+        |it: &&mut GivenFile| matches!(it.content, FileContent::Zones | FileContent::ZoneCells);
     if let Some(file) = given.iter_mut().find(of_zones) {
         let all: Vec<Vec<bool>> = drives.into_iter().map(|it| zones_met(it, scenario)).collect();
         let is_met = |place: usize| all.iter().any(|it| it.get(place) == Some(&true));

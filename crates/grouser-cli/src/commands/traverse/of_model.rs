@@ -3,6 +3,8 @@
 use grouser::document::columns::MODEL;
 use grouser::document::columns::TIME;
 use grouser::document::columns::run;
+use grouser::document::given_file::GivenFile;
+use grouser::document::given_to_drives;
 use grouser::document::table::Table;
 use grouser::document::{LoadedScenario, escape};
 use grouser::simulation::{Run, RunError, Trajectory};
@@ -166,4 +168,10 @@ fn spread(times: &[TimeBand], name: String, colour: usize) -> [Series; 2] {
 /// The reason of an outcome, after a colon, on one line.
 pub(super) fn reason(run: &Trajectory) -> String {
     run.outcome.reason().map_or(String::new(), |reason| format!(": {}", escape::line(&reason)))
+}
+
+/// What the files gave.
+pub(super) fn given(all: &[OfModel]) -> Vec<GivenFile> {
+    let scenario = &all[0].scenario;
+    given_to_drives(scenario, &scenario.value, all.iter().map(|it| &it.run))
 }

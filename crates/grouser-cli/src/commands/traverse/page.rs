@@ -12,8 +12,7 @@ use grouser::studies::traverse_band::Ends;
 use grouser::units::Vec2;
 use grouser_draw::chart::{BAND_COLOUR, Chart, Drawable, Series, Style};
 
-use super::given;
-use super::of_model::{OfModel, chart, reason};
+use super::of_model::{OfModel, chart, given, reason};
 use crate::args::TraverseArgs;
 use crate::commands::sampling;
 use crate::report::answer::{self, Basis, over_ground, over_time, run_meanings};

@@ -9,7 +9,7 @@ use grouser_core::vehicle::Rover;
 use super::super::super::check::nearest;
 use super::super::super::columns::{TIME, X, Y};
 use super::super::super::escape;
-use super::super::super::given_file::{Content, GivenFile};
+use super::super::super::given_file::{FileContent, GivenFile};
 use super::super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::super::log_column::LogColumn;
 use super::clock::{OTHER_TIMES, TimeUnit, seconds_of_date};
@@ -187,7 +187,7 @@ impl TelemetryRows {
     pub fn given(&self, file: &str) -> GivenFile {
         let Lost { damaged_rows, rows_without_time, rows_out_of_order, .. } = self.lost;
         let used = self.rows - rows_without_time - rows_out_of_order;
-        GivenFile::new(file, Content::Telemetry, self.rows + damaged_rows, used)
+        GivenFile::new(file, FileContent::Telemetry, self.rows + damaged_rows, used)
     }
 
     /// The share of all rows that became records so far; 1 before the first row.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use grouser_raster::zones::{Counts, ZoneKey};
+use grouser_raster::zones::{ZoneCounts, ZoneKey};
 use grouser_raster::{RasterError, read_areas};
 
 use crate::studies::verdict::SlopeStudy;
@@ -78,7 +78,7 @@ impl RouteStudy {
         self,
         file: &Path,
         ground: &Extent,
-    ) -> Result<(Self, Counts), RasterError> {
+    ) -> Result<(Self, ZoneCounts), RasterError> {
         let map = read_areas(file, ground)?;
         let counts = map.counts(Some(ground));
         // That there is a zone is all that counts.
