@@ -50,7 +50,7 @@ pub enum FileContent {
     ShearTests,
     /// Telemetry, in rows; those that count became records.
     Telemetry,
-    /// A log of motors, in readings: of each record one for each wheel.
+    /// A log of motors, in readings of a wheel.
     MotorLog,
 }
 

@@ -39,6 +39,9 @@ struct Override {
     changes_a_source: bool,
 }
 
+/// Steps of a key at the most: documents have about ten.
+const DEEPEST: usize = 64;
+
 impl Overrides {
     /// None.
     #[must_use]
@@ -243,7 +246,11 @@ impl Overrides {
             };
             return Err(DocumentError::whole(&text.label, problem).with_hint(hint));
         }
-        if path.is_empty() || path.iter().any(String::is_empty) {
+        if path.len() > DEEPEST {
+            let problem = Problem::Malformed("no key of a document is that deep");
+            return Err(DocumentError::whole(&text.label, problem));
+        }
+        if path.iter().any(String::is_empty) {
             let problem = Problem::Malformed("there is no key between its dots");
             return Err(DocumentError::whole(&text.label, problem));
         }

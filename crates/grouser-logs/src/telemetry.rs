@@ -182,7 +182,12 @@ impl TelemetryLog {
     /// What it gave so far.
     #[must_use]
     pub fn given(&self) -> GivenFile {
-        self.table().given(self.label())
+        let given = self.table().given(self.label());
+        let unread = match &self.source {
+            Source::Parquet(log) => log.unread(),
+            Source::Csv { .. } | Source::Mapped { .. } | Source::Mcap(_) => 0,
+        };
+        GivenFile { there: given.there + unread, ..given }
     }
 
     /// The share of its rows, or readings, that was used so far [-].

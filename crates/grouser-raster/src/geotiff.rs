@@ -8,7 +8,7 @@
 //! says (key 1025).
 
 mod affine;
-mod beside;
+pub(crate) mod beside;
 mod metadata;
 mod reference;
 

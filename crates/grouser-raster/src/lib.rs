@@ -56,6 +56,7 @@ pub mod zones;
 
 pub use coordinate_system::{CoordinateSystem, GeoKeys};
 pub use error::{Fault, RasterError};
+pub use geotiff::beside::beside;
 pub use heights::BEYOND;
 pub use meaning::{MapSite, check_system};
 pub use options::{CELLS, Content, Placement, ReadOptions, RowOrder};

@@ -1,5 +1,9 @@
 //! What all connections share.
 
+use std::sync::Arc;
+
+use tokio::sync::Semaphore;
+
 use crate::access::Access;
 use crate::folder::ServedFolder;
 use crate::limits::Limits;
@@ -10,5 +14,7 @@ pub(crate) struct Console {
     pub(crate) access: Access,
     pub(crate) folder: ServedFolder,
     pub(crate) runs: RunPlaces,
+    /// One list is made at a time: files are read for it.
+    pub(crate) lists: Arc<Semaphore>,
     pub(crate) limits: Limits,
 }

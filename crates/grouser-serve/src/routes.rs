@@ -89,10 +89,16 @@ async fn answer(
         PathTarget::File(asset) => Ok(file(console, asset)),
         PathTarget::List(list) => {
             // Files are read for it, which others need not wait for.
+            let failed = || Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, "there is no list");
+            let place = Arc::clone(&console.lists).acquire_owned().await.map_err(|_| failed())?;
             let console = Arc::clone(console);
-            let listed = tokio::task::spawn_blocking(move || list(&console)).await;
-            let failed = |_| Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, "there is no list");
-            Ok(whole(JSON, listed.map_err(failed)?))
+            let made = move || {
+                let list = list(&console);
+                drop(place);
+                list
+            };
+            let listed = tokio::task::spawn_blocking(made).await.map_err(|_| failed());
+            Ok(whole(JSON, listed?))
         }
         PathTarget::Question(read) => {
             console.access.check_origin(request.headers())?;

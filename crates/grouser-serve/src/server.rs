@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use tokio::runtime::{Builder, Runtime};
+use tokio::sync::Semaphore;
 
 use crate::access::Access;
 use crate::connection;
@@ -109,6 +110,7 @@ impl Server {
             access: Access::new(token, address, &settings.hosts),
             folder,
             runs: RunPlaces::new(&settings.limits),
+            lists: Arc::new(Semaphore::new(1)),
             limits: settings.limits,
         };
         Ok(Self { listener, runtime, console: Arc::new(console), address })

@@ -133,8 +133,9 @@ impl MissionRun {
         self.run.state().time()
     }
 
-    /// How the motion was computed so far: where no steady motion was found in one manoeuvre, the
-    /// next one seeks it again, and this says why it was not found first.
+    /// How the motion was computed so far: where no steady motion was found, it is sought again when
+    /// the wheels are to turn otherwise and with the next manoeuvre, and this says why it was not
+    /// found first.
     #[must_use]
     pub fn method(&self) -> &Method {
         self.run.state().method()

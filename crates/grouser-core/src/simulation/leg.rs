@@ -82,12 +82,17 @@ impl Leg<'_> {
             let carried = std::mem::take(&mut self.state.carried);
             match self.go_steadily(&equations, carried, times) {
                 Ok(carried) => self.state.carried = carried,
-                Err(Ended::Failed(error)) => done = Err(error),
+                Err(Ended::Failed(error)) => {
+                    self.state.carried = Carried::Velocities;
+                    done = Err(error);
+                }
                 // More time would not find it: nothing is known of the motion.
                 Err(Ended::NotSteady(_)) if equations.is_spent() => {
+                    self.state.carried = Carried::Velocities;
                     done = Err(self.endless(&equations));
                 }
                 Err(Ended::NotSteady(because)) => {
+                    equations.renew_allowance();
                     let time = self.state.time;
                     self.state.approach = Approach::Dynamic;
                     if self.state.method == Method::QuasiSteady {

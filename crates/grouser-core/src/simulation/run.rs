@@ -484,9 +484,6 @@ impl Run {
             is_new_command |= is_limited && self.state.renew_limits(&self.scenario.rover);
             // A prescribed yaw may turn otherwise where this stretch ends.
             let kept_until = if end < until { end } else { kept_until };
-            if is_new_command {
-                self.try_steady_again();
-            }
             self.leg(is_new_command, kept_until, due).go_to(end)?;
             if self.state.outcome.is_some() {
                 break;

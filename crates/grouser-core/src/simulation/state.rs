@@ -371,6 +371,7 @@ impl State {
         self.point.motors += energy(&rover) - energy(&scenario.rover);
         self.history.clear();
         self.steered = Some(Arc::new(rover.clone()));
+        self.approach = scenario.numerics.approach;
         scenario.rover = rover;
     }
 
@@ -399,6 +400,8 @@ impl State {
         if set_speeds != self.set_speeds {
             self.history.clear();
             self.set_speeds = set_speeds;
+            // A steady motion may be found again.
+            self.approach = scenario.numerics.approach;
         }
     }
 }

@@ -207,6 +207,10 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         yaw: f64,
         guess: &Vector3<f64>,
     ) -> Result<SteadyState, NotSteady> {
+        // A rover at rest that is turned, or whose motors roll back, has no speed to measure by.
+        if self.is_at_rest() && (self.equations.is_held() || self.equations.droops()) {
+            return Err(NotSteady::NoSteadyState);
+        }
         if self.equations.droops() {
             return self.find_turning(yaw, guess).ok_or(NotSteady::NoSteadyState);
         }

@@ -37,14 +37,14 @@ pub struct MotorLog {
 }
 
 impl MotorLog {
-    /// What a file with the log gave: of each record each wheel, where it was read.
+    /// What a file with the log gave: its readings of wheels, all of which count.
     ///
     /// * `file`: its name
     #[must_use]
     pub fn given(&self, file: &str) -> GivenFile {
-        let all = || self.records.iter().flat_map(|record| &record.wheels);
-        let (there, used) = (all().count() as u64, all().flatten().count() as u64);
-        GivenFile::new(file, FileContent::MotorLog, there, used)
+        let readings = self.records.iter().flat_map(|record| record.wheels.iter().flatten());
+        let readings = readings.count() as u64;
+        GivenFile::new(file, FileContent::MotorLog, readings, readings)
     }
 }
 

@@ -189,6 +189,11 @@ impl ParquetLog {
         &self.table
     }
 
+    /// Damaged rows so far.
+    pub(crate) fn unread(&self) -> u64 {
+        self.unread
+    }
+
     /// The share of its rows that was used so far; damaged ones are not.
     pub(crate) fn share_used(&self) -> f64 {
         let read = self.table.rows() as f64;

@@ -143,7 +143,7 @@ fn a_log_that_unpacks_to_more_than_any_of_its_size_is_refused() {
     assert!(error.contains("unpack to more than") && error.contains("hint"), "{error}");
 }
 
-/// A table of three million short rows in some kilobytes; what is allowed counts in place of what
+/// A table of short rows that are packed well; what is allowed counts in place of what
 /// its size allows.
 #[test]
 fn a_packed_table_is_read_within_its_budget() {

@@ -33,20 +33,33 @@ pub(super) struct PamNotes {
     pub(super) offset: Option<f64>,
 }
 
+/// The files beside a map that are read with it, of those that are there.
+#[must_use]
+pub fn beside(map: &Path) -> Vec<PathBuf> {
+    let after = [".msk", ".aux.xml"].map(|ending| with_ending(map, ending));
+    let worlds = WORLDS.map(|ending| map.with_extension(ending));
+    after.into_iter().chain(worlds).filter(|it| it.is_file()).collect()
+}
+
+/// Endings of files with a map's place, in the order in which they are looked for.
+const WORLDS: [&str; 4] = ["tfw", "TFW", "tifw", "wld"];
+
+fn with_ending(map: &Path, ending: &str) -> PathBuf {
+    let mut name = OsString::from(map);
+    name.push(ending);
+    PathBuf::from(name)
+}
+
 impl Sidecars {
     /// * `band`: with the heights, from 1
     /// * `limits`: of the mask
     pub(super) fn of(path: &Path, band: usize, limits: OpenOptions) -> Result<Self, Fault> {
-        let with = |ending: &str| {
-            let mut name = OsString::from(path);
-            name.push(ending);
-            Some(PathBuf::from(name)).filter(|it| it.is_file())
-        };
+        let with = |ending: &str| Some(with_ending(path, ending)).filter(|it| it.is_file());
         let mask = with(".msk").map(|it| TiffFile::open_with_options(it, limits)).transpose();
         let mask = mask.map_err(|error| of_part(error.into(), ".msk"))?;
         let notes = with(".aux.xml").map(|it| PamNotes::of(&text(&it)?, band)).transpose();
         let notes = notes.map_err(|fault| of_part(fault, ".aux.xml"))?.unwrap_or_default();
-        let worlds = ["tfw", "TFW", "tifw", "wld"].map(|it| path.with_extension(it));
+        let worlds = WORLDS.map(|it| path.with_extension(it));
         let world = worlds.iter().find(|it| it.is_file());
         let world = world.map(|it| world_of(&text(it)?)).transpose();
         let world = world.map_err(|fault| of_part(fault, "world"))?;

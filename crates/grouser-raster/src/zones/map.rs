@@ -155,7 +155,7 @@ impl ZoneMap {
             // Ground by a formula has no end.
             return check_places(None, &zones);
         };
-        if !lie_apart([zones.south_west, zones.north_east], ground) {
+        if self.counts(Some(ground)).used > 0 {
             return Ok(());
         }
         Err(if may_be_degrees(&zones) {

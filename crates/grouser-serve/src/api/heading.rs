@@ -36,7 +36,8 @@ pub(super) fn read(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refus
     // What is no heading of the body has no samples, and derivatives are of the soil as written.
     let is_plain = steering == Steering::None && gradients.is_empty();
     let stages = if is_plain { stages } else { stages.without_samples() };
-    let stages = stages.of_rows(slopes_deg.len())?;
+    let every = parts.common().has_every_model();
+    let stages = stages.of_rows(("slope_deg", slopes_deg.len()), every, gradients.len())?;
     let scenarios = parts.scenarios(folder, stages.has_samples())?;
     let is_believed = scenarios.iter().any(|it| it.soils_of_bands().is_some());
     if !gradients.is_empty() && !is_nominal && is_believed {

@@ -29,7 +29,8 @@ pub(super) fn read(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refus
     let parts = ScenarioParts::of(&fields)?;
     let stages = Stages::of(&fields, None)?;
     fields.finish()?;
-    let stages = stages.of_rows(slopes_deg.len() * courses_deg.len())?;
+    let rows = slopes_deg.len() * courses_deg.len();
+    let stages = stages.of_rows(("slope_deg", rows), parts.common().has_every_model(), 0)?;
     let scenarios = parts.scenarios(folder, stages.has_samples())?;
     let mut line = CommandLine::new("heading-map");
     parts.add_words(&mut line);

@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use grouser::answers::{Answer, AnswerError, AnswerOptions, Displayed, PageBlock, Sampling};
+use grouser::contact::Model;
 use grouser::document::json;
 use grouser_draw::chart::Drawable as _;
 use hyper::StatusCode;
@@ -34,6 +35,7 @@ pub(super) struct Stages {
     /// Whether figures come along, too.
     draws: bool,
     is_strict: bool,
+    /// With those of every model and of every derivative.
     rows: usize,
 }
 
@@ -44,6 +46,10 @@ const QUICK_ROWS: usize = 1000;
 const MOST: u64 = 10_000;
 /// Rows times samples at the most.
 const MOST_ROWS: usize = 1_000_000;
+/// Rows times models and derivatives at the most: they are computed to their end.
+const MOST_PLAIN: usize = 20_000;
+/// Keys of derivatives at the most.
+pub(super) const MOST_GRADIENTS: usize = 64;
 
 impl Stages {
     /// * `usual`: the samples where nothing is said of them, as the program has them
@@ -87,13 +93,36 @@ impl Stages {
     }
 
     /// Checks that samples of so many rows are not more than anyone can have meant.
-    pub(super) fn of_rows(self, rows: usize) -> Result<Self, Refusal> {
+    ///
+    /// * `key`: of what there are so many of
+    /// * `has_every_model`, `gradients`: what each row has
+    pub(super) fn of_rows(
+        self,
+        (key, rows): (&str, usize),
+        has_every_model: bool,
+        gradients: usize,
+    ) -> Result<Self, Refusal> {
+        let models = if has_every_model { Model::ALL.len() } else { 1 };
+        if gradients > MOST_GRADIENTS {
+            let message = format!("{gradients} keys, it may have {MOST_GRADIENTS}");
+            return Err(Refusal::of_key("gradients", message));
+        }
+        let plain = rows.saturating_mul(models).saturating_mul(1 + gradients);
+        if plain > MOST_PLAIN {
+            let message = format!(
+                "{rows} rows of {models} models and {gradients} derivatives: together they must be \
+                 at most {MOST_PLAIN}"
+            );
+            return Err(Refusal::of_key(key, message));
+        }
+        let rows_of_samples = rows;
+        let rows = plain;
         let samples = self.samplings.iter().flatten().map(|it| it.count).max().unwrap_or(1);
-        if rows.saturating_mul(samples as usize) <= MOST_ROWS {
+        if rows_of_samples.saturating_mul(samples as usize) <= MOST_ROWS {
             return Ok(Self { rows, ..self });
         }
         let message = format!(
-            "{rows} rows of {samples} samples each: together they must be at most {MOST_ROWS}"
+            "{rows_of_samples} rows of {samples} samples each: together they must be at most {MOST_ROWS}"
         );
         Err(Refusal::of_key("samples", message))
     }

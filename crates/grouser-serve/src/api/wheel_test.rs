@@ -30,7 +30,8 @@ pub(super) fn read(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refus
     let gradients = fields.texts("gradients")?;
     fields.finish()?;
     let rows = loads.len() * slip_ratios.len() * slip_angles_deg.len();
-    let stages = stages.of_rows(rows)?;
+    let every = parts.common().has_every_model();
+    let stages = stages.of_rows(("load_n", rows), every, gradients.len())?;
     let stands = parts.stands(folder, stages.has_samples())?;
     let mut line = CommandLine::new("wheel-test");
     parts.add_words(&mut line);

@@ -118,3 +118,19 @@ fn paths_of_the_server_are_its_own() {
         assert_eq!(server.ask("GET", path, "", "").status, 404, "{path}");
     }
 }
+
+/// What is read with a map lies in the folder as the map does.
+#[cfg(unix)]
+#[test]
+fn no_file_beside_a_map_leads_out_of_the_folder() {
+    let (outside, server) = served();
+    let folder = outside.path().join("folder");
+    std::fs::write(outside.path().join("secret.tfw"), "1\n0\n0\n-1\n0\n0\n").unwrap();
+    std::fs::write(folder.join("map.tif"), "no map").unwrap();
+    let map = json!({"set": {"scenario.terrain.file": "map.tif"}});
+    let error = refusal(&server, "heading", &map);
+    assert!(!error["error"].as_str().unwrap().contains("leads out"), "{error}");
+    std::os::unix::fs::symlink(outside.path().join("secret.tfw"), folder.join("map.tfw")).unwrap();
+    let error = refusal(&server, "heading", &map);
+    assert!(error["error"].as_str().unwrap().contains("leads out"), "{error}");
+}

@@ -143,3 +143,25 @@ fn what_is_no_http_is_no_trouble() {
     assert_ne!(server.send(&long).status, 200);
     assert_eq!(server.ask("GET", "/", "", "").status, 200);
 }
+
+/// Keys of thousands of steps, and answers larger than any page shows, are refused.
+#[test]
+fn questions_without_measure_are_refused() {
+    let server = Served::usual();
+    let deep = format!("soil.{}b", "a.".repeat(20_000));
+    let many: Vec<f64> = (1..=200).map(f64::from).collect();
+    let slips: Vec<f64> = (0..150).map(|it| 0.005 * f64::from(it)).collect();
+    let keys = vec!["soil.friction_angle_deg"; 65];
+    let questions = [
+        ("stand", json!({"set": {deep: 1}}), "that deep"),
+        ("wheel-test", json!({"load_n": many, "slip_ratio": slips}), "at most 20000"),
+        ("wheel-test", json!({"gradients": keys}), "65 keys"),
+    ];
+    for (path, question, said) in questions {
+        let reply = server.post(path, &question);
+        assert_eq!(reply.status, 422, "{path}");
+        let error = reply.lines().remove(0);
+        assert!(error["error"].as_str().unwrap().contains(said), "{error}");
+    }
+    assert_eq!(server.ask("GET", "/api/presets", "", "").status, 200);
+}
