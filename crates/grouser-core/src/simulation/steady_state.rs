@@ -151,6 +151,8 @@ const SIMILAR: std::ops::RangeInclusive<f64> = 0.2..=5.0;
 /// this, but for a common factor, over the fastest rim's speed [-]. Source: ours; a slip ratio of 1
 /// is twice as far.
 const MUCH_THE_SAME: f64 = 0.5;
+/// Steps of a start, whose accelerations stay, become longer by this at the most [-].
+const MOST_LONGER: f64 = 3.0;
 
 impl<'a, 'g> SteadySolver<'a, 'g> {
     pub(super) fn new(equations: &'a Equations<'g>, memory: Memory) -> Self {
@@ -215,7 +217,7 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
             return self.find_turning(yaw, guess).ok_or(NotSteady::NoSteadyState);
         }
         let close = self.find_close(yaw, guess);
-        close.or_else(|| self.settle(yaw, guess)).ok_or(NotSteady::NoSteadyState)
+        close.or_else(|| self.settle(yaw, guess, 0.0)).ok_or(NotSteady::NoSteadyState)
     }
 
     /// The steady state after a change of the rims' speeds.
@@ -250,7 +252,7 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
             }
             // Motors that droop turn the rims in their own time.
             _ if self.equations.droops() => self.find(yaw, &rolling),
-            _ => self.settle(yaw, now).ok_or(NotSteady::NoSteadyState),
+            _ => self.settle(yaw, now, MOST_LONGER).ok_or(NotSteady::NoSteadyState),
         }
     }
 
@@ -306,7 +308,7 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
             return Some(steady);
         }
         // From where motors would lead that hold their speeds.
-        let held = self.settle(yaw, guess)?;
+        let held = self.settle(yaw, guess, 0.0)?;
         self.find_turning_anew(yaw, &joined(&held.velocities, set.rim_speeds()))
     }
 
@@ -377,14 +379,14 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
     }
 
     /// Implicit Euler steps from the guess, linear in each, as long as the accelerations allow.
-    fn settle(&mut self, yaw: f64, guess: &Vector3<f64>) -> Option<SteadyState> {
+    ///
+    /// * `most_longer`: how much longer steps become that change velocities little [-]
+    fn settle(&mut self, yaw: f64, guess: &Vector3<f64>, most_longer: f64) -> Option<SteadyState> {
         /// The first step [s]: within the milliseconds in which slip settles.
         const FIRST_STEP: f64 = 1e-3;
         const MOST_STEPS: usize = 40;
-        /// A step that changes velocities by less is lengthened, over the fastest rim's speed [-],
-        /// and by how much at most [-].
+        /// A step that changes velocities by less is little, over the fastest rim's speed [-].
         const SHARE: f64 = 0.1;
-        const MOST_LONGER: f64 = 3.0;
         let mut velocities = *guess;
         let mut here = self.evaluate(yaw, &velocities)?;
         let mut span = FIRST_STEP;
@@ -405,7 +407,7 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
                 Some(next) => {
                     let fading = acceleration.norm() / acceleration_of(&next).norm();
                     // Accelerations that stay, as of a start, are followed by shares of the way.
-                    let share = (SHARE / self.size(&step)).min(MOST_LONGER);
+                    let share = (SHARE / self.size(&step)).min(most_longer);
                     span *= fading.clamp(0.3, 10.0).max(share);
                     velocities += step;
                     here = next;
