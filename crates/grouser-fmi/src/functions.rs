@@ -312,6 +312,32 @@ pub extern "C" fn fmi3Reset(instance: *mut c_void) -> FmiStatus {
     })
 }
 
+/// Reads the value of each reference.
+///
+/// * `counts`: of references and of values
+///
+/// # Safety
+/// The importer's pointers are as FMI says.
+unsafe fn read_each<T>(
+    instance: *mut c_void,
+    references: *const u32,
+    values: *mut T,
+    counts: [usize; 2],
+    value_of: impl Fn(&mut Instance, u32) -> Result<T, String>,
+) -> FmiStatus {
+    with(instance, |it| {
+        same_count(counts[0], counts[1])?;
+        // SAFETY: as this function's.
+        let (references, values) = unsafe {
+            (array("references", references, counts[0])?, room("values", values, counts[1])?)
+        };
+        for (reference, value) in references.iter().zip(values) {
+            *value = value_of(it, *reference)?;
+        }
+        Ok(())
+    })
+}
+
 /// Reads numbers.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetFloat64(
@@ -321,20 +347,9 @@ pub unsafe extern "C" fn fmi3GetFloat64(
     values: *mut f64,
     value_count: usize,
 ) -> FmiStatus {
-    with(instance, |it| {
-        same_count(reference_count, value_count)?;
-        // SAFETY: the importer's pointers are as FMI says.
-        let (references, values) = unsafe {
-            (
-                array("references", references, reference_count)?,
-                room("values", values, value_count)?,
-            )
-        };
-        for (reference, value) in references.iter().zip(values) {
-            *value = it.number(*reference)?;
-        }
-        Ok(())
-    })
+    let counts = [reference_count, value_count];
+    // SAFETY: the importer's pointers are as FMI says.
+    unsafe { read_each(instance, references, values, counts, Instance::number) }
 }
 
 /// Reads whole numbers.
@@ -346,20 +361,9 @@ pub unsafe extern "C" fn fmi3GetInt64(
     values: *mut i64,
     value_count: usize,
 ) -> FmiStatus {
-    with(instance, |it| {
-        same_count(reference_count, value_count)?;
-        // SAFETY: the importer's pointers are as FMI says.
-        let (references, values) = unsafe {
-            (
-                array("references", references, reference_count)?,
-                room("values", values, value_count)?,
-            )
-        };
-        for (reference, value) in references.iter().zip(values) {
-            *value = it.whole(*reference)?;
-        }
-        Ok(())
-    })
+    let counts = [reference_count, value_count];
+    // SAFETY: the importer's pointers are as FMI says.
+    unsafe { read_each(instance, references, values, counts, Instance::whole) }
 }
 
 /// Reads texts, which are valid until the next call that reads one.
@@ -371,21 +375,14 @@ pub unsafe extern "C" fn fmi3GetString(
     values: *mut *const c_char,
     value_count: usize,
 ) -> FmiStatus {
-    with(instance, |it| {
-        same_count(reference_count, value_count)?;
-        // SAFETY: the importer's pointers are as FMI says.
-        let (references, values) = unsafe {
-            (
-                array("references", references, reference_count)?,
-                room("values", values, value_count)?,
-            )
-        };
-        // There is one text, so that one that is asked for twice is the same.
-        for (reference, value) in references.iter().zip(values) {
-            *value = it.text(*reference)?.as_ptr();
-        }
-        Ok(())
-    })
+    // There is one text, so that one that is asked for twice is the same.
+    let counts = [reference_count, value_count];
+    // SAFETY: the importer's pointers are as FMI says.
+    unsafe {
+        read_each(instance, references, values, counts, |it, reference| {
+            Ok(it.text(reference)?.as_ptr())
+        })
+    }
 }
 
 /// Sets inputs and parameters: all of them, or none if one cannot be set.

@@ -32,9 +32,9 @@ pub enum FileContent {
     Heights,
     /// Zones of soil as a raster, in cells; those that count have a zone and lie on the ground.
     ZoneCells,
-    /// Zones of soil as areas; those that count lie on the ground, with some of them at least.
+    /// Zones of soil as areas; those count whose span meets that of the ground.
     Zones,
-    /// Areas to keep out of; those that count lie on the ground, with some of them at least.
+    /// Areas to keep out of; those count whose span meets that of the ground.
     KeepOut,
     /// Places of a way; those that count lie on the ground.
     Way,

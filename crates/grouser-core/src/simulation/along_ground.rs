@@ -95,21 +95,20 @@ impl<'a, 'g> AlongGround<'a, 'g> {
         point: &mut Point,
         rims_changed: bool,
     ) -> Result<Self, NotSteady> {
-        let (place, yaw, now) = (point.state.position, point.state.yaw, point.velocities());
-        let mut solver = SteadySolver::new(equations, Memory::default());
-        solver.go_to(place);
-        let steady = match before {
+        let before = match before {
             Before::Steady(Carried { memory, stride, .. }) if !rims_changed => {
                 let solver = SteadySolver::new(equations, memory);
                 let next = if stride.length > 0.0 { 2.0 * stride.length } else { f64::INFINITY };
                 return Ok(Self { equations, solver, stride, next });
             }
-            Before::Steady(Carried { rolled, .. }) => {
-                solver.find_after(yaw, &now, Some(&rolled))?
-            }
-            Before::Another => solver.find_after(yaw, &now, None)?,
-            Before::Nothing => solver.find(yaw, &rolling(equations))?,
+            Before::Steady(Carried { rolled, .. }) => Before::Steady(rolled),
+            Before::Another => Before::Another,
+            Before::Nothing => Before::Nothing,
         };
+        let (place, yaw) = (point.state.position, point.state.yaw);
+        let mut solver = SteadySolver::new(equations, Memory::default());
+        solver.go_to(place);
+        let steady = solver.find_after(yaw, &point.velocities(), before)?;
         let from = Node::of(equations, &solver, place, yaw, steady)?;
         solver.settling_time(&from.steady)?;
         let stride = Stride { to: from.clone(), from, length: 0.0, gone: 0.0 };

@@ -79,16 +79,13 @@ impl Leg<'_> {
         let mut times = times;
         let mut done = Ok(());
         if self.state.approach == Approach::QuasiSteady {
-            let carried = std::mem::take(&mut self.state.carried);
+            // Unless it goes on steadily, its velocities alone are known.
+            let carried = std::mem::replace(&mut self.state.carried, Carried::Velocities);
             match self.go_steadily(&equations, carried, times) {
                 Ok(carried) => self.state.carried = carried,
-                Err(Ended::Failed(error)) => {
-                    self.state.carried = Carried::Velocities;
-                    done = Err(error);
-                }
+                Err(Ended::Failed(error)) => done = Err(error),
                 // More time would not find it: nothing is known of the motion.
                 Err(Ended::NotSteady(_)) if equations.is_spent() => {
-                    self.state.carried = Carried::Velocities;
                     done = Err(self.endless(&equations));
                 }
                 Err(Ended::NotSteady(because)) => {

@@ -104,27 +104,17 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
             return Err(NotSteady::UnevenSoil);
         }
         let yaw = point.state.yaw;
-        let (mut solver, here) = match before {
+        let (memory, before) = match before {
             Before::Steady(Carried { memory, stretch, .. }) if !rims_changed => {
                 let solver = SteadySolver::new(equations, memory);
                 return Ok(Self { equations, solver, stretch });
             }
-            Before::Steady(Carried { memory, rolled, .. }) => {
-                let mut solver = SteadySolver::new(equations, memory);
-                let here = solver.find_after(yaw, &point.velocities(), Some(&rolled))?;
-                (solver, here)
-            }
-            Before::Another => {
-                let mut solver = SteadySolver::new(equations, Memory::default());
-                let here = solver.find_after(yaw, &point.velocities(), None)?;
-                (solver, here)
-            }
-            Before::Nothing => {
-                let mut solver = SteadySolver::new(equations, Memory::default());
-                let here = solver.find(yaw, &rolling(equations))?;
-                (solver, here)
-            }
+            Before::Steady(Carried { memory, rolled, .. }) => (memory, Before::Steady(rolled)),
+            Before::Another => (Memory::default(), Before::Another),
+            Before::Nothing => (Memory::default(), Before::Nothing),
         };
+        let mut solver = SteadySolver::new(equations, memory);
+        let here = solver.find_after(yaw, &point.velocities(), before)?;
         let stretch = Stretch::ahead(&mut solver, here, horizon)?;
         let mut motion = Self { equations, solver, stretch };
         motion.set_velocities(point);

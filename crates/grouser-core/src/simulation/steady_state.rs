@@ -75,6 +75,7 @@ stored!(enum NotSteady {
 });
 
 /// How a rover moved until now, to a motion of one kind.
+#[derive(Clone, Copy)]
 pub(super) enum Before<C> {
     /// It starts, rolling.
     Nothing,
@@ -220,40 +221,39 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         close.or_else(|| self.settle(yaw, guess, 0.0)).ok_or(NotSteady::NoSteadyState)
     }
 
-    /// The steady state after a change of the rims' speeds.
+    /// The steady state with which a motion begins, or goes on after a change of the rims' speeds.
     ///
     /// Where a rover can move in more than one way, as in a turn on the spot on a slope, how it
     /// moved decides which it comes to: where the rims turn much the same as before, its slips stay
     /// near what they were; elsewhere it is followed from its velocities.
     ///
     /// * `now`: its velocities
-    /// * `rolled`: velocities with which the rims rolled before, if that is known
+    /// * `before`: how it moved, with the velocities with which the rims rolled
     pub(super) fn find_after(
         &mut self,
         yaw: f64,
         now: &Vector3<f64>,
-        rolled: Option<&Vector3<f64>>,
+        before: Before<Vector3<f64>>,
     ) -> Result<SteadyState, NotSteady> {
         let rolling = rolling(self.equations);
-        if self.is_at_rest() {
+        if self.is_at_rest() || matches!(before, Before::Nothing) {
             return self.find(yaw, &rolling);
         }
-        let near = rolled.map(|rolled| {
+        if let Before::Steady(rolled) = before {
             // Motion depends on ratios of speeds alone: of rims that all turn faster, everything is
             // faster.
             let faster = rolling.xy().dot(&rolled.xy()) / rolled.xy().norm_squared();
             let faster = if SIMILAR.contains(&faster) { faster } else { 1.0 };
-            (faster, faster * (now - rolled) + rolling, rolling - faster * rolled)
-        });
-        match near {
-            Some((faster, guess, change)) if self.size(&change) <= MUCH_THE_SAME => {
+            if self.size(&(rolling - faster * rolled)) <= MUCH_THE_SAME {
                 self.scale_memory(faster);
-                self.find(yaw, &guess)
+                return self.find(yaw, &(faster * (now - rolled) + rolling));
             }
-            // Motors that droop turn the rims in their own time.
-            _ if self.equations.droops() => self.find(yaw, &rolling),
-            _ => self.settle(yaw, now, MOST_LONGER).ok_or(NotSteady::NoSteadyState),
         }
+        if self.equations.droops() {
+            // Motors that droop turn the rims in their own time.
+            return self.find(yaw, &rolling);
+        }
+        self.settle(yaw, now, MOST_LONGER).ok_or(NotSteady::NoSteadyState)
     }
 
     /// Whether no wheel is to turn.

@@ -22,7 +22,7 @@ pub struct ZoneMap {
 pub struct ZoneCounts {
     /// All: also cells without a zone.
     pub there: u64,
-    /// Those that lie on the ground, with some of them at least.
+    /// Those whose span meets that of the ground.
     pub used: u64,
 }
 

@@ -115,14 +115,12 @@ impl Stages {
             );
             return Err(Refusal::of_key(key, message));
         }
-        let rows_of_samples = rows;
-        let rows = plain;
         let samples = self.samplings.iter().flatten().map(|it| it.count).max().unwrap_or(1);
-        if rows_of_samples.saturating_mul(samples as usize) <= MOST_ROWS {
-            return Ok(Self { rows, ..self });
+        if rows.saturating_mul(samples as usize) <= MOST_ROWS {
+            return Ok(Self { rows: plain, ..self });
         }
         let message = format!(
-            "{rows_of_samples} rows of {samples} samples each: together they must be at most {MOST_ROWS}"
+            "{rows} rows of {samples} samples each: together they must be at most {MOST_ROWS}"
         );
         Err(Refusal::of_key("samples", message))
     }
