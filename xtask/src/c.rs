@@ -49,8 +49,11 @@ struct Folders {
 /// Builds the library, and compiles, runs and compares all programs. What is not here is named and
 /// counts as skipped.
 pub(crate) fn check() -> Result<Count> {
-    let mut cargo = workspace::cargo();
+    // Beside the program, with which it shares all that was compiled: alone, it would choose other
+    // features of the libraries below, and compile all of them once more.
+    let mut cargo = workspace::linting_cargo();
     cargo.args(["build", "-p", "grouser-c", "--lib", "--example", "reference"]);
+    cargo.args(["--bins", "-p", "grouser-cli", "-p", "grouser-bench"]);
     ensure!(cargo.status().context("cargo did not start")?.success(), "the library does not build");
     let folders = Folders::new()?;
     let mut count = check_header()?;
