@@ -12,12 +12,14 @@ use crate::{python, workspace};
 
 /// Whose files the sources of the Python package must have: the package, and the crates that it is
 /// made of.
-const IN_THE_SOURCES: [&str; 8] = [
+const IN_THE_SOURCES: [&str; 10] = [
     "crates/grouser/src/",
     "crates/grouser-core/src/",
     "crates/grouser-draw/src/",
     "crates/grouser-io/src/",
     "crates/grouser-logs/src/",
+    "crates/grouser-serve/page/",
+    "crates/grouser-serve/src/",
     "crates/grouser-store/src/",
     "crates/grouser-python/src/",
     "crates/grouser-python/python/",

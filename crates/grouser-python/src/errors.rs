@@ -43,7 +43,7 @@ pub(crate) fn caught<T>(work: impl FnOnce() -> T) -> PyResult<T> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|why| of_panic(why.as_ref()))
 }
 
-fn of_panic(why: &(dyn Any + Send)) -> PyErr {
+pub(crate) fn of_panic(why: &(dyn Any + Send)) -> PyErr {
     let text = why.downcast_ref::<&str>().copied();
     let text = text.or_else(|| why.downcast_ref::<String>().map(String::as_str));
     classes::InternalError::new_err(format!(

@@ -6,8 +6,8 @@
 //! ([`simulators`], on [`paths`]), reads slip from currents ([`slip_from_current`]), learns from
 //! telemetry ([`learning`]), runs studies ([`studies`], [`missions`], [`rollouts`], [`validation`],
 //! [`calibration`]) and campaigns ([`campaign`]), computes the soil's reaction for other engines
-//! ([`time_step`], and the [`ground`] under their wheels) reads [`telemetry`] and exports tables
-//! ([`arrow`]). It does so without Python's lock, with threads that a forked process has too
+//! ([`time_step`], and the [`ground`] under their wheels), reads [`telemetry`], exports tables ([`arrow`]) and
+//! serves the [`console`]. It does so without Python's lock, with threads that a forked process has too
 //! ([`threads`]), and Ctrl-C interrupts it ([`interrupt`]). Nothing here computes physics, and the
 //! library knows nothing of Python.
 
@@ -16,6 +16,7 @@ mod arrow;
 mod calibration;
 mod campaign;
 mod columns;
+mod console;
 mod descriptions;
 mod designs;
 mod errors;
@@ -62,6 +63,8 @@ mod _core {
     };
     #[pymodule_export]
     use super::columns::{result_columns, unit_of};
+    #[pymodule_export]
+    use super::console::ConsoleServer;
     #[pymodule_export]
     use super::descriptions::{
         Document, check_document, find_document, meant_keys, present_names, presets,

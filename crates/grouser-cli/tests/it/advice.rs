@@ -178,10 +178,23 @@ fn all_commands_say_the_same_of_a_turn_on_the_spot() {
 #[ignore = "minutes"]
 fn all_commands_say_the_same_of_many_slopes() {
     let slopes: Vec<f64> = (0..=20).step_by(4).map(f64::from).collect();
-    for rover in ["hakuto", "rashid", "yutu-2", "mgru3", "pragyan"] {
-        for soil in ["toyoura-uncertain", "lunar-0-15-cm", "grc-1"] {
-            check_slopes(rover, soil, &slopes);
-        }
+    let beliefs =
+        ["toyoura-uncertain", "toyoura", "lunar-0-15-cm", "grc-1", "hit-lss1", "mars-simulant"];
+    let rovers = [
+        "hakuto",
+        "hakuto-flight",
+        "hakuto-steered",
+        "hakuto-rockers",
+        "el-dorado-2",
+        "mgru3",
+        "rashid",
+        "pragyan",
+        "yutu-2",
+        "curiosity-rocker-bogie",
+    ];
+    for (rover, soil) in rovers.iter().flat_map(|rover| beliefs.map(|soil| (rover, soil))) {
+        println!("{rover} on {soil}");
+        check_slopes(rover, soil, &slopes);
     }
 }
 

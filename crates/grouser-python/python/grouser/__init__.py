@@ -10,7 +10,7 @@ stand, and `validate` and `calibrate` compare models with measurements, which
 `route` which way over it is the cheapest. `SlipEstimator` reads slip from motor currents,
 `Learner` learns the soil from the telemetry of a drive. `card` is the operator's card, `design` finds the best numbers of a rover, `forecast` predicts under another
 gravity, and `check` checks documents. `Run` and ``grouser.gym``, which is imported by itself,
-are for step-by-step control. `Campaign` and `grouser.campaign` are for Monte Carlo campaigns,
+are for step-by-step control. `serve` opens the console, a page to try things on. `Campaign` and `grouser.campaign` are for Monte Carlo campaigns,
 on one machine or on many.
 
 Names end with units: ``load_n``, ``sinkage_mm``, ``slope_deg``. Frames and signs are defined in
@@ -53,6 +53,7 @@ from ._errors import (
 )
 from ._card import Card, CardCourses, card
 from ._check import Checked, check
+from ._console import Console, serve
 from ._designs import BestDesign, design
 from ._forecast import Forecast, forecast
 from ._gradients import Gradient
@@ -105,6 +106,7 @@ __all__ = [
     "Card",
     "CardCourses",
     "Checked",
+    "Console",
     "Design",
     "DocumentError",
     "DocumentNotFoundError",
@@ -169,6 +171,7 @@ __all__ = [
     "require_inside",
     "rollout",
     "route",
+    "serve",
     "settle",
     "simulate",
     "style",
