@@ -94,24 +94,96 @@ impl<'a> OnGround<'a> {
         near: &[WheelReaction],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let Self { rover, sharing, own_moments, .. } = *self;
-        let forces: Vec<WheelForces> = forces_of(near).copied().collect();
-        let mut moments = load::moments(rover, stance.pull, sharing, own_moments, &forces);
-        let mut wheels = self.settle_under(stance, moments, contacts, near)?;
         if !self.is_coupled() {
-            return Ok(wheels);
+            let moments = load::moments(rover, stance.pull, sharing, own_moments, &[]);
+            return self.settle_under(stance, moments, contacts, near);
         }
-        const MOST_ROUNDS: u32 = 60;
         /// Agreement of the moments, over weight times reach [-]: well under the integrator's.
         const AGREED: f64 = 1e-11;
         let reach = rover.load_arms().iter().map(Vec2::norm).fold(0.0, f64::max);
         let scale = rover.mass() * self.gravity * reach;
+        // Where a round tips the rover over or sinks a wheel, loads may balance it all the same.
+        let in_turns = self.settle_by_rounds(stance, contacts, near, (scale, AGREED));
+        let damped =
+            |error| self.settle_by_damped_steps(stance, contacts, scale, AGREED).ok_or(error);
+        in_turns.or_else(damped).or_else(|error| match error {
+            ReactionError::Tipping(_) => self.settle_rocking(stance, contacts, scale).ok_or(error),
+            error => Err(error),
+        })
+    }
+
+    /// The reaction on every wheel of a rover that stands firmly, and that its own acceleration
+    /// would tip over: wheels whose speed is set anew pull with all their friction for the
+    /// hundredths of a second until the ground moves below them with that speed. In that time a
+    /// rover turns by far less than it takes to fall: its weight acts on the edge that it would
+    /// tip over, and what is left of the moments rocks it.
+    ///
+    /// * `scale`: weight times reach [N·m]
+    fn settle_rocking(
+        &self,
+        stance: &Stance,
+        contacts: &[Contact],
+        scale: f64,
+    ) -> Option<Vec<WheelReaction>> {
+        /// How far within its wheels a rover stands firmly, over its reach [-]: farther than forces
+        /// that move it steadily shift where its weight acts.
+        const FIRMLY: f64 = 0.2;
+        /// By how much the weight acts within the edge, over how far it does at rest [-].
+        const WITHIN: f64 = 1e-6;
+        const MOST_ROUNDS: u32 = 100;
+        /// Agreement of the moments, over weight times reach [-].
+        const AGREED: f64 = 1e-9;
+        let Self { rover, sharing, own_moments, .. } = *self;
+        let (polygon, weight) = (rover.support_polygon(), stance.weight);
+        let at_rest = rover.centre_height() * stance.pull / weight;
+        let reach = scale / (rover.mass() * self.gravity);
+        if polygon.margin(at_rest) < FIRMLY * reach {
+            return None;
+        }
+        let onto = |moments: Vec2| {
+            let foot = moments / weight;
+            let edge = polygon.nearest(foot);
+            if edge == foot { moments } else { edge.lerp(&at_rest, WITHIN) * weight }
+        };
+        let mut moments = onto(load::moments(rover, stance.pull, sharing, own_moments, &[]));
+        let mut wheels: Vec<WheelReaction> = Vec::new();
+        for _ in 0..MOST_ROUNDS {
+            wheels = self.settle_under(stance, moments, contacts, &wheels).ok()?;
+            let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
+            let next = onto(load::moments(rover, stance.pull, sharing, own_moments, &forces));
+            if (next - moments).norm() <= AGREED * scale {
+                return Some(wheels);
+            }
+            // Half of the way: rounds that overshoot close in, too.
+            moments = moments.lerp(&next, 0.5);
+        }
+        None
+    }
+
+    /// The reaction on every wheel, by rounds of loads and of the forces under them.
+    ///
+    /// * `scale`, `agreed`: as those of [`settle_by_damped_steps`](Self::settle_by_damped_steps)
+    fn settle_by_rounds(
+        &self,
+        stance: &Stance,
+        contacts: &[Contact],
+        near: &[WheelReaction],
+        (scale, agreed): (f64, f64),
+    ) -> Result<Vec<WheelReaction>, ReactionError> {
+        let Self { rover, sharing, own_moments, .. } = *self;
+        const MOST_ROUNDS: u32 = 60;
+        /// Near enough where rounds go on in circles so small.
+        const NEARLY: f64 = 1e-9;
+        let forces: Vec<WheelForces> = forces_of(near).copied().collect();
+        let mut moments = load::moments(rover, stance.pull, sharing, own_moments, &forces);
+        let mut wheels = self.settle_under(stance, moments, contacts, near)?;
         let mut change = f64::INFINITY;
         let mut mixing = Mixing::default();
         for _ in 0..MOST_ROUNDS {
             let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
             let next = load::moments(rover, stance.pull, sharing, own_moments, &forces);
             change = (next - moments).norm() / scale;
-            if change <= AGREED {
+            if change <= agreed {
                 return Ok(wheels);
             }
             let mixed = mixing.next(moments, next);
@@ -121,8 +193,8 @@ impl<'a> OnGround<'a> {
                 Err(_) => (next, self.settle_under(stance, next, contacts, &wheels)?),
             };
         }
-        if let Some(settled) = self.settle_by_damped_steps(stance, contacts, scale, AGREED) {
-            return Ok(settled);
+        if change <= NEARLY {
+            return Ok(wheels);
         }
         let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
         let next = load::moments(rover, stance.pull, sharing, own_moments, &forces);

@@ -41,9 +41,26 @@ impl SupportPolygon {
         let distances = self.edges.iter().map(|edge| edge.area(point) / edge.length);
         distances.fold(f64::INFINITY, f64::min)
     }
+
+    /// The point of the polygon that is nearest to a point: the point itself, if it is inside.
+    #[must_use]
+    pub fn nearest(&self, point: Vec2) -> Vec2 {
+        if self.margin(point) >= 0.0 {
+            return point;
+        }
+        let on_edges = self.edges.iter().map(|edge| edge.nearest(point));
+        let distance = |it: &Vec2| (point - it).norm_squared();
+        on_edges.min_by(|one, other| distance(one).total_cmp(&distance(other))).unwrap_or(point)
+    }
 }
 
 impl Edge {
+    /// The point of the edge that is nearest to a point.
+    fn nearest(&self, point: Vec2) -> Vec2 {
+        let share = (point - self.from).dot(&self.along) / (self.length * self.length);
+        self.from + self.along * share.clamp(0.0, 1.0)
+    }
+
     /// Area of the parallelogram that a point spans with the edge [m²], positive inside the
     /// polygon.
     fn area(&self, point: Vec2) -> f64 {
@@ -61,6 +78,18 @@ mod tests {
         let square = SupportPolygon::of(&corners.map(|(x, y)| Vec2::new(x, y)));
         assert!((square.margin(Vec2::new(0.7, 0.1)) - 0.3).abs() < 1e-12);
         assert!((square.margin(Vec2::new(0.0, -1.5)) + 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_nearest_point_is_on_an_edge_a_corner_or_inside() {
+        let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+        let square = SupportPolygon::of(&corners.map(|(x, y)| Vec2::new(x, y)));
+        for (point, nearest) in
+            [((0.2, 0.3), (0.2, 0.3)), ((0.2, 3.0), (0.2, 1.0)), ((-2.0, -5.0), (-1.0, -1.0))]
+        {
+            let found = square.nearest(Vec2::new(point.0, point.1));
+            assert!((found - Vec2::new(nearest.0, nearest.1)).norm() < 1e-12, "{found}");
+        }
     }
 
     /// A wheel between others is no corner, and takes nothing from the polygon.
