@@ -76,6 +76,13 @@ fn beside() -> &'static Json {
             "description": "The preset of a soil that it is like: from this one come the values \
                             without an answer.",
         });
+        schema["properties"][soil::KNOWN] = json!({
+            "type": "string",
+            "enum": ["this-bed", "this-soil", "copied"],
+            "description": "How well its constants are known: measured on the bed that is driven \
+                            on (`this-bed`), on this soil elsewhere (`this-soil`), or taken from a \
+                            table or a guess (`copied`).",
+        });
         schema
     })
 }
@@ -265,7 +272,10 @@ impl Draft {
         let beside = beside();
         let own = under(beside, key, None);
         if !own.is_empty()
-            && matches!((self.answers.kind, key), (Kind::Rover, _) | (Kind::Soil, soil::LIKE))
+            && matches!(
+                (self.answers.kind, key),
+                (Kind::Rover, _) | (Kind::Soil, soil::LIKE | soil::KNOWN)
+            )
         {
             return (beside, own);
         }

@@ -22,10 +22,15 @@ impl Lines {
     ///
     /// * `about`: what it is, in a comment
     pub(super) fn new(kind: Kind, about: &str) -> Self {
-        let mut lines = Self { kind, text: String::new(), table: String::new(), law: None };
+        let mut lines = Self::rest(kind);
         lines.comment(about);
         lines.plain("schema", &Json::from(kind.tag()));
         lines
+    }
+
+    /// Goes on with a document.
+    pub(super) fn rest(kind: Kind) -> Self {
+        Self { kind, text: String::new(), table: String::new(), law: None }
     }
 
     pub(super) fn comment(&mut self, comment: &str) {

@@ -4,18 +4,24 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value as Json};
 
+use crate::statistics::Marginal;
+
 use super::super::check::nearest;
 use super::super::error::{DocumentError, Problem};
 use super::super::escape;
 use super::super::kind::Kind;
 use super::super::overrides::Overrides;
 use super::super::presets::{preset, presets};
+use super::super::priors::stated_by_priors;
+use super::super::read::read_soil;
+use super::super::source::Source;
+use super::super::stated::Parameter;
 use super::super::text;
 use super::super::tree::Text;
-use super::answers::{Answers, Usual};
+use super::answers::{Answers, Usual, rounded};
 use super::lines::Lines;
 
-pub(super) const KEYS: [&str; 10] = [
+pub(super) const KEYS: [&str; 11] = [
     "name",
     "source",
     LIKE,
@@ -26,10 +32,15 @@ pub(super) const KEYS: [&str; 10] = [
     "pressure_sinkage.k_phi",
     "pressure_sinkage.n",
     "shear.longitudinal_m",
+    KNOWN,
 ];
+/// The questions that are constants.
+const QUESTIONED: &[&str] = KEYS.split_at(3).1.split_at(7).0;
 
 /// The preset that the soil is like.
 pub(super) const LIKE: &str = "like";
+/// How well the constants are known.
+pub(super) const KNOWN: &str = "known";
 /// Which preset, if none is named.
 const USUAL_PRESET: &str = "lunar-0-15-cm";
 /// Tables that are of the preset's own tests, not of a soil like it.
@@ -57,6 +68,9 @@ impl Answers {
     pub(super) fn usual_of_soil(&self, key: &str) -> Usual {
         if key == LIKE {
             return Usual::of(USUAL_PRESET, "the surface of the Moon between craters");
+        }
+        if key == KNOWN {
+            return Usual::left_out("it is not stated, and verdicts on this soil cannot tell");
         }
         let name = self.like();
         match self.keys_of_preset().pointer(&format!("/{}", key.replace('.', "/"))) {
@@ -93,18 +107,18 @@ impl Answers {
     }
 
     /// Which constants are all the preset's, so that bands draw about them as about copied ones.
-    fn copied_constants(&self) -> Vec<&'static str> {
+    fn copied_constants(&self) -> impl Iterator<Item = &'static str> {
         let is_given = |question: &&str| self.given.contains_key(*question);
-        let copied = CONSTANTS.iter().filter(|(_, questions)| !questions.iter().any(is_given));
-        copied.map(|(key, _)| *key).collect()
+        let copied = CONSTANTS.iter().filter(move |(_, questions)| !questions.iter().any(is_given));
+        copied.map(|(key, _)| *key)
     }
 
     pub(super) fn soil(&self) -> String {
         let like = self.like();
         let mut keys = self.keys_of_preset();
         let mut assumed: Vec<String> =
-            KEYS[3..].iter().filter_map(|key| self.reason(key, key)).collect();
-        for key in &KEYS[3..] {
+            QUESTIONED.iter().filter_map(|key| self.reason(key, key)).collect();
+        for key in QUESTIONED {
             if let Some(answer) = self.given.get(*key) {
                 set(&mut keys, key, answer.clone());
             }
@@ -130,11 +144,15 @@ impl Answers {
         for (key, value) in numbers {
             lines.key(key, Some(value), "");
         }
-        let copied = self.copied_constants();
-        if !copied.is_empty() {
+        let known = self.given.get(KNOWN);
+        let stated: Vec<(&str, Json)> = match known {
+            Some(known) => CONSTANTS.map(|(key, _)| (key, known.clone())).to_vec(),
+            None => self.copied_constants().map(|key| (key, Json::from("copied"))).collect(),
+        };
+        if !stated.is_empty() {
             lines.table(&format!("[{KNOWN_FROM}]"), KNOWN_FROM);
-            for key in copied {
-                lines.key(key, Some(&Json::from("copied")), "");
+            for (key, word) in stated {
+                lines.key(key, Some(&word), "");
             }
         }
         for (table, keys) in tables {
@@ -144,8 +162,34 @@ impl Answers {
                 lines.key(key, Some(value), "");
             }
         }
-        lines.end()
+        let soil = lines.end();
+        let rows = if known.is_some() { uncertainty_of(&soil) } else { String::new() };
+        soil + &rows
     }
+}
+
+/// Rows that state how well the constants of a soil are known: as the priors take those to be that
+/// are from where `known_from` says.
+fn uncertainty_of(soil: &str) -> String {
+    let Ok(read) = read_soil(&Source::text("the draft", soil), &Overrides::none()) else {
+        return String::new();
+    };
+    let believed = stated_by_priors(&read.document).parameters.into_iter();
+    let own = believed.filter(|it| QUESTIONED.contains(&&*it.key));
+    let rows = own.filter_map(|Parameter { key, marginal, .. }| {
+        let (law, deviation) = match marginal {
+            Marginal::Normal { standard_deviation, .. } => ("normal", standard_deviation),
+            Marginal::Lognormal { standard_deviation, .. } => ("lognormal", standard_deviation),
+            Marginal::Uniform { .. } | Marginal::Triangular { .. } => return None,
+        };
+        let mut lines = Lines::rest(Kind::Soil);
+        lines.table("[[uncertainty.parameter]]", "uncertainty.parameter");
+        lines.plain("key", &Json::from(key));
+        lines.plain("distribution", &Json::from(law));
+        lines.plain("standard_deviation", &Json::from(rounded(deviation)));
+        Some(lines.end())
+    });
+    rows.collect()
 }
 
 /// Checks that there is a preset of this name.

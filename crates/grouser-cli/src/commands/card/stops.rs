@@ -62,7 +62,8 @@ pub(super) fn missing(card: &Card) -> Failure {
     let why = doubt.or_else(|| judgements.clone().next()).map_or("", |it| it.reason.meaning());
     let hint = match doubt.map(|it| it.reason) {
         Some(Reason::NoStatedUncertainty) => {
-            "\nhint: a soil that states how well its numbers are known gives verdicts"
+            "\nhint: a soil that states how well its numbers are known gives verdicts: `grouser new \
+             soil --set known=copied` makes one"
         }
         _ => "",
     };
