@@ -267,7 +267,10 @@ pub struct Row<'t> {
 
 impl Row<'_> {
     /// Writes its values as entries of an object of JSON.
-    pub(crate) fn write<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
+    ///
+    /// # Errors
+    /// The writer's.
+    pub fn write<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
         let columns = &self.table.columns;
         columns.iter().try_for_each(|(name, values)| values.write(map, name, self.row))
     }

@@ -18,7 +18,7 @@ use crate::{errors, threads};
 
 /// Derivatives with a row for each key and result, whether each differs from side to side, the keys
 /// and the results.
-type Gradients<'py> =
+pub(crate) type Gradients<'py> =
     (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<bool>>, Vec<String>, Vec<&'static str>);
 
 /// The derivatives of settled wheels by numbers of their documents and settings: rows of all

@@ -1,13 +1,16 @@
 //! Many runs at once: scenarios, soils and numbers that vary from run to run.
 
 use grouser::contact::Model;
+use grouser::difference::Derivative;
+use grouser::document;
 use grouser::document::columns::Column;
 use grouser::document::columns::run::{RECORD, STANDING};
+use grouser::document::gradient::{GradientKeys, RunKeys};
 use grouser::document::{
     Described as _, Kind, LoadedScenario, LoadedSoil, Misfit, range, scenario_with,
 };
 use grouser::error::ParameterError;
-use grouser::simulation::{Record, Run, Scenario};
+use grouser::simulation::{Record, Run, RunError, Scenario, Trajectory};
 use grouser::soil::Soil;
 use grouser::studies::ensemble::outputs_while;
 use grouser::vehicle::DriveLaw;
@@ -18,6 +21,7 @@ use rayon::prelude::*;
 
 use crate::descriptions::Document;
 use crate::errors;
+use crate::gradients::Gradients;
 use crate::interrupt::listening;
 use crate::varied::{self, VariedKeys};
 use crate::wheels::{check_or_nan, column};
@@ -26,8 +30,10 @@ use crate::wheels::{check_or_nan, column};
 pub(crate) struct Runs {
     /// The scenarios, and whether each names its wheel–soil model itself.
     bases: Vec<(Scenario, bool)>,
+    documents: Vec<document::Document>,
     base_of: Option<Vec<usize>>,
     soils: Vec<(Soil, Model)>,
+    soil_documents: Vec<document::Document>,
     soil_of: Option<Vec<usize>>,
     /// Arguments, and the keys of scenarios that they set, with a value for each run.
     varied: Vec<([&'static str; 2], Vec<f64>)>,
@@ -75,7 +81,7 @@ impl Runs {
         let soil_of = places(soil_index, soils.len(), count)?;
         let arguments = arguments_of(varied, count)?;
         let documents: Vec<_> = soils.iter().map(|soil| varied::parts(soil)).collect();
-        let prefix = if soils.is_empty() { NO_KEY } else { "soil." };
+        let prefix = if soils.is_empty() { NO_KEY } else { SOIL };
         let of_soils = VariedKeys::taken(varied, prefix, &documents, count)?;
         let documents: Vec<_> = bases.iter().map(|base| varied::parts(base)).collect();
         let of_bases = VariedKeys::taken(varied, "", &documents, count)?;
@@ -83,8 +89,10 @@ impl Runs {
         let usual = |it: &&LoadedSoil| (it.value, it.document.usual_model(""));
         let runs = Self {
             bases: bases.iter().map(named).collect(),
+            documents: bases.iter().map(|it| it.document.clone()).collect(),
             base_of,
             soils: soils.iter().map(usual).collect(),
+            soil_documents: soils.iter().map(|it| it.document.clone()).collect(),
             soil_of,
             varied: arguments,
             of_bases,
@@ -115,13 +123,52 @@ impl Runs {
                 scenario.model = model.clone();
             }
         }
+        let of_base = self.of_bases.at(self.base_at(place), place);
+        scenario_with(&scenario, of_base.chain(self.arguments(place)))
+    }
+
+    /// The keys that arguments set, and their numbers in a run.
+    fn arguments(&self, place: usize) -> impl Iterator<Item = (&str, f64)> {
+        let (base, _) = &self.bases[self.base_at(place)];
         let drives_over_ground =
-            matches!(scenario.drive, DriveLaw::Eq18(_) | DriveLaw::Eq18AsPrinted(_));
-        let arguments = self.varied.iter().map(|([_, key], values)| {
+            matches!(base.drive, DriveLaw::Eq18(_) | DriveLaw::Eq18AsPrinted(_));
+        self.varied.iter().map(move |([_, key], values)| {
             let is_ground_speed = drives_over_ground && *key == RIM_SPEED;
             (if is_ground_speed { "drive.ground_speed_m_s" } else { *key }, values[place])
-        });
-        scenario_with(&scenario, self.of_bases.at(self.base_at(place), place).chain(arguments))
+        })
+    }
+
+    /// The number of a run under a key of its scenario.
+    fn number(&self, place: usize, path: &str) -> Option<f64> {
+        let own = self.arguments(place).find(|(key, _)| *key == path);
+        let varied = || self.of_bases.at(self.base_at(place), place).find(|(key, _)| *key == path);
+        if let Some((_, number)) = own.or_else(varied) {
+            return Some(number);
+        }
+        let of_soil = path.strip_prefix(SOIL).zip(self.soil_documents.get(self.soil_at(place)));
+        let Some((key, soil)) = of_soil else {
+            return self.documents[self.base_at(place)].number(path);
+        };
+        let varied = self.of_soils.at(self.soil_at(place), place).find(|(own, _)| *own == key);
+        varied.map(|(_, number)| number).or_else(|| soil.number(key))
+    }
+
+    /// The numbers that results are differentiated by: `all` are those of the first scenario, and
+    /// of the first soil in the place of its own.
+    fn gradient_keys(&self, base: &LoadedScenario, asked_for: &[String]) -> PyResult<RunKeys> {
+        let mut keys = RunKeys::of(base, &GradientKeys::of(asked_for));
+        if let (GradientKeys::All, Some(soil)) =
+            (GradientKeys::of(asked_for), self.soil_documents.first())
+        {
+            let of_base = keys.iter().flat_map(RunKeys::names).filter(|it| !it.starts_with(SOIL));
+            let of_base: Vec<String> = of_base.map(str::to_owned).collect();
+            let of_soil = soil.number_keys().into_iter().map(|key| format!("{SOIL}{key}"));
+            let names = of_base.into_iter().chain(of_soil).collect();
+            keys = RunKeys::of(base, &GradientKeys::These(names));
+        }
+        keys.map_err(|error| {
+            errors::parameter(error.to_string(), "gradients", None, "the key of a number")
+        })
     }
 
     /// The first number of a run that is NaN.
@@ -156,6 +203,8 @@ fn places(index: &Index<'_>, known: usize, count: usize) -> PyResult<Option<Vec<
 
 /// What no key starts with.
 const NO_KEY: &str = "\0";
+/// What the keys of a soil start with, in a scenario.
+const SOIL: &str = "soil.";
 
 /// The arguments among what varies, taken from it.
 fn arguments_of(
@@ -184,6 +233,9 @@ fn of_record() -> impl Iterator<Item = (usize, &'static Column<Record>)> {
     RECORD.iter().chain(&STANDING).enumerate()
 }
 
+/// How a run is led to its end: with its records, or without.
+type Lead = fn(Run) -> Result<Trajectory, RunError>;
+
 /// What is kept of a run.
 struct End {
     outcome: &'static str,
@@ -191,6 +243,9 @@ struct End {
     last: Row,
     /// All records, where they are wanted.
     samples: Vec<Row>,
+    /// Derivatives of the last record, where they are wanted: of all results by the first key, then
+    /// by the next.
+    gradient: Vec<Option<Derivative>>,
 }
 
 impl End {
@@ -200,22 +255,29 @@ impl End {
             reason: Some(reason),
             last: [f64::NAN; RECORD.len() + STANDING.len()],
             samples: Vec::new(),
+            gradient: Vec::new(),
         }
     }
 
-    fn of(scenario: &Scenario, keep: bool) -> Self {
+    /// * `gradient`: of a run, which was led as others are to be
+    fn of(
+        scenario: &Scenario,
+        keep: bool,
+        gradient: impl FnOnce(&Trajectory, Lead) -> Vec<Option<Derivative>>,
+    ) -> Self {
         let row = |sample: &Record| {
             let mut row = [f64::NAN; RECORD.len() + STANDING.len()];
             of_record().for_each(|(place, column)| row[place] = column.number(sample));
             row
         };
-        let lead = if keep { Run::to_end } else { Run::to_outcome };
+        let lead: Lead = if keep { Run::to_end } else { Run::to_outcome };
         match Run::new(scenario).and_then(lead) {
             Ok(run) => Self {
                 outcome: run.outcome.name(),
                 reason: run.outcome.reason(),
                 last: row(run.last()),
                 samples: if keep { run.records.iter().map(row).collect() } else { Vec::new() },
+                gradient: gradient(&run, lead),
             },
             Err(error) => Self::failed(error.to_string()),
         }
@@ -227,6 +289,7 @@ impl End {
 /// * `soils`: in the place of the scenarios' own; none, to leave those
 /// * `varied`: an array of `count` numbers for each argument and key that varies; emptied
 /// * `keep`: whether all records are kept, beside the ends
+/// * `gradients`: keys of the numbers that ends are differentiated by
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
 #[allow(clippy::needless_pass_by_value, reason = "how lists come from Python")]
@@ -239,9 +302,15 @@ pub(crate) fn rollout<'py>(
     varied: &Bound<'py, PyDict>,
     count: usize,
     keep: bool,
+    gradients: Option<Vec<String>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let runs = Runs::new(&scenarios, &scenario_index, &soils, &soil_index, varied, count)?;
     let on_heights = runs.bases.iter().any(|(base, _)| !base.ground.is_plane());
+    let keys = match (&gradients, scenarios.first()) {
+        (Some(names), Some(base)) => Some(runs.gradient_keys(base.scenario()?, names)?),
+        _ => None,
+    };
+    let by = keys.clone();
     let ends = listening(py, move |cancelled| {
         if let Some(misfit) = runs.first_misfit() {
             return Err(misfit);
@@ -251,13 +320,48 @@ pub(crate) fn rollout<'py>(
                 return Ok(End::failed(format!("{name} is NaN")));
             }
             let scenario = runs.scenario(place).map_err(|error| (place, error))?;
-            Ok(End::of(&scenario, keep))
+            Ok(End::of(&scenario, keep, |run, lead| {
+                let Some(keys) = &by else { return Vec::new() };
+                let number = |path: &str| runs.number(place, path);
+                let go_on = || !cancelled.is_set();
+                let found = keys.along(&scenario, &number, run, lead, &go_on);
+                let last = run.records.len() - 1;
+                found.map_or(Vec::new(), |it| it.of_record(last).collect())
+            }))
         };
         let ends = outputs_while(0..count, &|| !cancelled.is_set(), end);
         ends.unwrap_or_default().into_iter().collect::<Result<Vec<End>, _>>()
     })?;
     let ends = ends.map_err(|(place, error)| errors::misfit_at(place, count, &error))?;
-    to_python(py, &ends, keep, on_heights)
+    let dict = to_python(py, &ends, keep, on_heights)?;
+    if let Some(keys) = &keys {
+        dict.set_item("gradient", gradients_to_python(py, keys, &ends, on_heights)?)?;
+    }
+    Ok(dict)
+}
+
+/// Derivatives with a row for each key and result, as those of settled wheels.
+fn gradients_to_python<'py>(
+    py: Python<'py>,
+    keys: &RunKeys,
+    ends: &[End],
+    on_heights: bool,
+) -> PyResult<Gradients<'py>> {
+    let names: Vec<String> = keys.names().map(str::to_owned).collect();
+    let results = RunKeys::results(on_heights);
+    // A run on a plane has none of how it stands.
+    let of = |end: &End, row: usize| {
+        let own = end.gradient.len() / names.len();
+        let (key, result) = (row / results.len(), row % results.len());
+        *end.gradient.get(key * own + result).filter(|_| result < own)?
+    };
+    let row = |row: usize| ends.iter().map(move |end| of(end, row));
+    let rows = || 0..names.len() * results.len();
+    let value = |it: Option<Derivative>| it.map_or(f64::NAN, |it| it.value);
+    let is_one_sided = |it: Option<Derivative>| it.is_some_and(Derivative::is_one_sided);
+    let values: Vec<Vec<f64>> = rows().map(|it| row(it).map(value).collect()).collect();
+    let sides: Vec<Vec<bool>> = rows().map(|it| row(it).map(is_one_sided).collect()).collect();
+    Ok((PyArray2::from_vec2(py, &values)?, PyArray2::from_vec2(py, &sides)?, names, results))
 }
 
 /// * `on_heights`: whether there is ground with heights

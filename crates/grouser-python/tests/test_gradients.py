@@ -122,3 +122,50 @@ def test_jax_differentiates_forward_and_in_reverse_batched_and_compiled() -> Non
     np.testing.assert_array_equal(pull(0.1, slips), own.drawbar_pull_n)
     with pytest.raises(gr.ParameterError, match="load_n"):
         gj.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=0.2, vary={"load_n": 20.0})
+
+
+def test_gradients_of_rollouts_are_those_of_whole_runs() -> None:
+    key, slopes = "soil.friction_angle_deg", [5.0, 15.0]
+    for simulation, tolerance in (("quasi-steady", 1e-6), ("dynamic", 1e-3)):
+        scenario = gr.Scenario(simulation=simulation, duration_s=10.0)
+        ends = gr.rollout(scenario, slope_deg=slopes, gradients=[key, "slope_deg"])
+        found = ends.gradient
+        assert found is not None and found.names == (key, "slope_deg")
+        assert found["y_m"].shape == (2, 2) and "time_s" not in found
+        step = 0.05
+        angles = [38.0 - step, 38.0 + step]
+        pair = gr.rollout(scenario, slope_deg=[[5.0], [15.0]], vary={key: angles})
+        for name in ("y_m", "yaw_deg", "energy_j"):
+            ends_of = np.asarray(getattr(pair, name))
+            reference = (ends_of[:, 1] - ends_of[:, 0]) / (2.0 * step)
+            np.testing.assert_allclose(found[name][:, 0], reference, rtol=tolerance, atol=1e-5)
+        assert found.to_xarray(["slope_deg"])["y_m"].sel(key=key).shape == (2,)
+
+
+def test_gradients_of_rollouts_are_taken_where_numbers_are_varied_and_soils_exchanged() -> None:
+    key = "soil.friction_angle_deg"
+    scenario = gr.Scenario(simulation="quasi-steady", slope_deg=8.0, duration_s=10.0)
+    soils = ["toyoura", "lunar-nominal"]
+    both = gr.rollout(scenario, soil=soils, gradients=[key]).gradient
+    varied = gr.rollout(scenario, vary={key: [30.0, 36.0]}, gradients=[key]).gradient
+    assert both is not None and varied is not None
+    for place, name in enumerate(soils):
+        alone = gr.rollout(gr.Scenario(scenario, soil=name), gradients=[key]).gradient
+        assert alone is not None
+        assert both["y_m"][place] == alone["y_m"]
+    for place, angle in enumerate((30.0, 36.0)):
+        soil = gr.Soil("toyoura", friction_angle_deg=angle)
+        alone = gr.rollout(gr.Scenario(scenario, soil=soil), gradients=[key]).gradient
+        assert alone is not None
+        np.testing.assert_allclose(varied["y_m"][place], alone["y_m"], rtol=1e-9)
+
+
+def test_runs_without_an_end_and_keys_that_are_none_have_no_derivatives() -> None:
+    key = "soil.friction_angle_deg"
+    ends = gr.rollout(slope_deg=[5.0, np.nan], duration_s=2.0, gradients=[key, "soil.pressure_sinkage.k"])
+    assert ends.gradient is not None
+    found = ends.gradient["y_m"]
+    assert np.isfinite(found[0, 0]) and np.isnan(found[1]).all() and np.isnan(found[0, 1])
+    for wrong, said in (("wheel.radius_m", "did you mean"), ("duration_s", "records")):
+        with pytest.raises(gr.ParameterError, match=said):
+            gr.rollout(slope_deg=5.0, gradients=wrong)

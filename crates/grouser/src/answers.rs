@@ -3,7 +3,7 @@
 
 pub mod design;
 pub mod forecast;
-mod gradient;
+pub mod gradient;
 pub mod heading;
 pub mod heading_map;
 pub mod learn;

@@ -4,8 +4,8 @@ use clap::builder::{NonEmptyStringValueParser, Resettable};
 use clap::{ArgGroup, Args};
 
 use super::{
-    BalanceArgs, MODEL_OR_ALL, OutputArgs, RunArgs, SettingArgs, SlideArgs, SlopeArgs, StrictArgs,
-    UncertaintyArgs, WRITTEN,
+    BalanceArgs, GradientArgs, MODEL_OR_ALL, OutputArgs, RunArgs, SettingArgs, SlideArgs,
+    SlopeArgs, StrictArgs, UncertaintyArgs, WRITTEN,
 };
 
 #[derive(Debug, Args)]
@@ -48,6 +48,8 @@ pub(crate) struct TraverseArgs {
     pub(crate) beside_yaw_deg: Option<String>,
     #[command(flatten)]
     pub(crate) uncertainty: UncertaintyArgs,
+    #[command(flatten)]
+    pub(crate) gradients: GradientArgs,
     #[command(flatten)]
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]

@@ -6,9 +6,9 @@ mod page;
 use grouser::answers;
 use grouser::answers::EVERY_MODEL;
 use grouser::contact::validity::Flag;
-use grouser::document::LoadedScenario;
 use grouser::document::columns::run::{self, RunObject};
-use grouser::document::columns::{MODEL, Quantity, TIME, X, Y, YAW, Z};
+use grouser::document::columns::{ENERGY, MODEL, Quantity, TIME, X, Y, YAW, Z};
+use grouser::document::gradient::GradientKeys;
 use grouser::document::reading::{four_digits, metres};
 use grouser::document::table::{Row, Table};
 use grouser::simulation::{Run, Scenario, Trajectory};
@@ -50,9 +50,15 @@ pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
         }
     }
     let Destinations { mut folder, animation, log, telemetry } = destinations;
-    let each = |setting| OfModel::of(args, &setting, &mut folder);
-    let all: Vec<OfModel> =
-        args.setting.each_model().into_iter().map(each).collect::<Result<_, _>>()?;
+    let mut gradients = args.gradients.keys();
+    let mut all: Vec<OfModel> = Vec::new();
+    for setting in args.setting.each_model() {
+        let of_model = OfModel::of(args, &setting, gradients.as_ref(), &mut folder)?;
+        // The numbers of the first are those of all: their rows have the same columns.
+        let keys = of_model.gradient.as_ref().map(|it| it.keys.names().map(str::to_owned));
+        gradients = keys.map(|names| GradientKeys::These(names.collect()));
+        all.push(of_model);
+    }
     if let Some(target) = animation {
         animate(args, &target, &all, folder.as_mut())?;
     }
@@ -111,7 +117,11 @@ impl OfModel {
     fn output(&self, args: &TraverseArgs, folder: Option<OutputFolder>) -> Result<(), Failure> {
         let rows = Rows::of_table(&self.rows());
         let settings = settings(args, std::slice::from_ref(self));
-        let run = RunObject { run: &self.run, scenario: &self.scenario.value };
+        let run = RunObject {
+            run: &self.run,
+            scenario: &self.scenario.value,
+            derivatives: self.gradient.as_ref().map(|it| &it.rows),
+        };
         let scenario = &self.scenario.value;
         let tables = self.band.as_ref().map(|band| {
             (run::run_band(&band.run, scenario), run::time_bands(&band.times, scenario))
@@ -133,7 +143,7 @@ impl OfModel {
         match args.output.format {
             Format::Table => {
                 let given = output::answer::given(&given(std::slice::from_ref(self)));
-                output::show(table(&self.run, &self.scenario) + self.band_table() + given)
+                output::show(table(self) + self.band_table() + given)
             }
             Format::Csv => {
                 tell_end(&self.run);
@@ -183,6 +193,9 @@ fn settings(args: &TraverseArgs, all: &[OfModel]) -> Value {
         if let [one] = all {
             settings[sampling::WEIGHTS] = answers::weights(&BandInputs::of_scenario(&one.scenario));
         }
+    }
+    if let Some(gradient) = &all[0].gradient {
+        settings["gradients"] = gradient.keys.names().collect();
     }
     add_files(&mut settings, &given(all));
     settings
@@ -256,8 +269,18 @@ fn tell_end(run: &Trajectory) {
 
 /// Some of the records with the means of their wheels, the model where nobody names one, and the
 /// outcome.
-fn table(run: &Trajectory, scenario: &LoadedScenario) -> Text {
-    let samples = run::brief(run, &scenario.value, LINES);
+fn table(of: &OfModel) -> Text {
+    let (run, scenario) = (&of.run, &of.scenario);
+    let mut samples = run::brief(run, &scenario.value, LINES);
+    let mut derivatives = String::new();
+    if let Some(gradient) = &of.gradient {
+        let keys: Vec<&str> = gradient.keys.names().collect();
+        let names = answers::gradient::brief(&[Y.name, YAW.name, ENERGY.name], &keys);
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let places = run::brief_places(run, LINES);
+        samples.columns.extend(gradient.rows.select(&names, &places).columns);
+        derivatives = gradient.lines();
+    }
     let names: Vec<&str> = samples.columns.iter().map(|(name, _)| name.as_str()).collect();
     let end = run.last();
     let simulation = method::line(run, &scenario.value);
@@ -283,6 +306,7 @@ fn table(run: &Trajectory, scenario: &LoadedScenario) -> Text {
         four_digits(end.energy.motors),
     );
     Rows::of_table(&samples).to_table(&names)
+        + derivatives
         + flag_lines(run, &scenario.value)
         + scenario.document.usual_model_line("soil")
         + outcome

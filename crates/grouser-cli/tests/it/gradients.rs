@@ -72,6 +72,29 @@ fn keys_that_do_not_act_give_none_and_those_that_lack_say_so() {
 }
 
 #[test]
+fn a_traverse_has_the_derivatives_of_its_records() {
+    let place = Place::new();
+    let line = "traverse --simulation quasi-steady --duration-s 10";
+    let found = place.json(&format!("{line} --gradients {FRICTION},slope_deg"));
+    assert_eq!(found["inputs"]["gradients"][1], "slope_deg");
+    let [less, more] =
+        [37.99, 38.01].map(|angle| place.json(&format!("{line} --set {FRICTION}={angle}")));
+    let last = found["samples"].as_array().and_then(|all| all.last()).expect("samples");
+    assert_eq!(last, &found["final"]);
+    for result in ["x_m", "y_m", "yaw_deg", "energy_j"] {
+        let [_, derivative] = with_derivative(&found["final"], result, FRICTION);
+        let reference = half_change([&less["final"], &more["final"]], result) / 0.01;
+        assert!((derivative - reference).abs() < 1e-6, "{result}: {derivative} for {reference}");
+    }
+    // Each model has a row with the same columns; the table has those that are of most interest.
+    let all = place.results(&format!("{line} --model all --gradients {FRICTION} --format csv"));
+    assert_eq!(all.lines().count(), 5, "{all}");
+    assert!(all.lines().next().is_some_and(|it| it.contains("d_y_m_d_soil.friction_angle_deg")));
+    let table = place.results(&format!("{line} --gradients {FRICTION}"));
+    assert!(table.contains("d_energy_j_d_soil.friction_angle_deg"), "{table}");
+}
+
+#[test]
 fn what_has_no_derivatives_is_refused_by_name() {
     let place = Place::new();
     for (line, words) in [
@@ -84,6 +107,9 @@ fn what_has_no_derivatives_is_refused_by_name() {
         ("wheel-test --uncertainty --gradients load_n", "derivatives"),
         ("wheel-test --trials 3 --gradients load_n", "derivatives"),
         ("heading-map --uncertainty --gradients slope_deg", "derivatives"),
+        ("traverse --uncertainty --gradients slope_deg", "derivatives"),
+        ("traverse --gradients duration_s", "records"),
+        ("traverse --gradients wheel.radius_m", "did you mean `rover.wheel_unit.wheel.radius_m`"),
     ] {
         let answer = place.line(line);
         assert_eq!(answer.code(), 2, "{line}");

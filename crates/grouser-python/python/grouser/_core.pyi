@@ -438,6 +438,7 @@ def rollout(
     varied: dict[str, Any],
     count: int,
     keep: bool,
+    gradients: Sequence[str] | None,
 ) -> dict[str, Any]: ...
 def card(
     scenario: Document,

@@ -14,6 +14,7 @@ from . import _core, _tables
 from ._arrays import Floats, broadcast, varied
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError
+from ._gradients import Gradient, Keys, keys_of, of_rows
 from ._studies import SAMPLE, columns_of, scenario_of, standing_of
 from ._wheels import Soils, names_of, soils_of
 
@@ -87,6 +88,9 @@ class Rollout(_tables.Tabular):
     records: Mapping[str, Floats] | None = None
     """With ``trajectories=True``, the records over time of each run by name (``time_s`` and the
     fields after it): arrays with one dimension more, NaN after a run's end."""
+    gradient: Gradient | None = None
+    """Derivatives of the final states, with a last axis of keys, where ``rollout`` was asked for
+    ``gradients``; else None. They are differences of whole runs."""
     inputs: Mapping[str, NDArray[Any]] = field(default_factory=dict)
     """What was asked, by name: arrays as given, which broadcast to `shape`. ``scenario`` counts the
     scenarios, if there were several; soils have their names; the yaw at the start is
@@ -172,6 +176,7 @@ def rollout(
     duration_s: ArrayLike | None = None,
     vary: Mapping[str, ArrayLike] | None = None,
     trajectories: bool = False,
+    gradients: Keys | None = None,
 ) -> Rollout:
     """Runs many scenarios at once, on all cores, without Python's lock.
 
@@ -201,6 +206,9 @@ def rollout(
         ``rover.body.mass_kg``: they broadcast with the other arguments.
     trajectories : bool
         Whether to keep the records over time, as `Rollout.records`.
+    gradients : str or sequence of str, optional
+        Keys of scenarios by whose numbers the final states are differentiated, or ``"all"``: as
+        `Rollout.gradient`, by two to four more runs for each key.
 
     Returns
     -------
@@ -244,8 +252,11 @@ def rollout(
         asked.flat,
         index.size,
         trajectories,
+        keys_of(gradients),
     )
     shape = asked.shape
+    rows = found.pop("gradient", None)
+    gradient = None if rows is None else of_rows(*rows, shape)
     outcome = np.array(found.pop("outcome"), dtype=np.str_).reshape(shape)
     message = np.array(found.pop("reason"), dtype=object).reshape(shape)
     records = found.pop("samples", None)
@@ -255,7 +266,7 @@ def rollout(
     inputs: dict[str, NDArray[Any]] = {} if places.ndim == 0 else {"scenario": places}
     inputs |= names_of(soils, soil_places)
     inputs |= {_COLUMNS.get(name, name): values for name, values in asked.given.items()}
-    return Rollout(outcome=outcome, message=message, **ends, records=records, inputs=inputs)
+    return Rollout(outcome=outcome, message=message, **ends, records=records, gradient=gradient, inputs=inputs)
 
 
 #: The keys of documents that arguments set, where they have other names.

@@ -10,7 +10,8 @@ const MOST_KEYS: usize = 3;
 /// The columns for reading of derivatives.
 ///
 /// * `results`: the results that are of most interest
-pub(super) fn brief(results: &[&str], keys: &[&str]) -> Vec<String> {
+#[must_use]
+pub fn brief(results: &[&str], keys: &[&str]) -> Vec<String> {
     if keys.len() > MOST_KEYS {
         return Vec::new();
     }
@@ -22,7 +23,8 @@ pub(super) fn brief(results: &[&str], keys: &[&str]) -> Vec<String> {
 /// why, and how many are one-sided.
 ///
 /// * `lacking`: the keys that the documents give no value
-pub(super) fn lines(rows: &Table, keys: &[&str], lacking: &[&str]) -> String {
+#[must_use]
+pub fn lines(rows: &Table, keys: &[&str], lacking: &[&str]) -> String {
     let count = rows.names().iter().filter(|name| name.starts_with("d_")).count();
     let elsewhere = (keys.len() > MOST_KEYS).then(|| {
         format!("{count} derivatives of each row, by {} keys, are in JSON and CSV\n", keys.len())
@@ -58,7 +60,7 @@ fn missing_line(rows: &Table, key: &str, is_lacking: bool) -> Option<String> {
         format!(
             "no derivative by {key}{of}: there the key cannot be changed alone, or the result has no \
              slope (no load, the steepest slope itself, a curve that ends where a wheel sinks or the \
-             rover tips over)\n"
+             rover tips over, a run that ends otherwise)\n"
         )
     })
 }

@@ -2,9 +2,11 @@
 //! written, with one model.
 
 mod heading;
+mod run;
 mod wheel;
 
 pub use self::heading::HeadingKeys;
+pub use self::run::{RunDerivatives, RunKeys};
 pub use self::wheel::{ChangedKeys, StandSetting, WheelKeys};
 
 use std::ops::RangeInclusive;

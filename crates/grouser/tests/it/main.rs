@@ -57,6 +57,7 @@ mod replay;
 mod rft;
 mod rollouts;
 mod rover;
+mod run_gradients;
 mod runs;
 mod ruts;
 mod settling;

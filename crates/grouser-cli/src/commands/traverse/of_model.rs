@@ -1,10 +1,11 @@
 //! What a wheel–soil model answers about a traverse.
 
-use grouser::document::columns::MODEL;
-use grouser::document::columns::TIME;
-use grouser::document::columns::run;
+use grouser::answers;
+use grouser::answers::AnswerError;
+use grouser::document::columns::{MODEL, TIME, gradient, run};
 use grouser::document::given_file::GivenFile;
 use grouser::document::given_to_drives;
+use grouser::document::gradient::{GradientKeys, RunKeys};
 use grouser::document::table::Table;
 use grouser::document::{LoadedScenario, escape};
 use grouser::simulation::{Run, RunError, Trajectory};
@@ -28,14 +29,24 @@ pub(super) struct OfModel {
     pub(super) scenario: LoadedScenario,
     pub(super) run: Trajectory,
     pub(super) band: Option<TraverseBand>,
+    pub(super) gradient: Option<RunGradient>,
+}
+
+/// Derivatives of a run.
+pub(super) struct RunGradient {
+    pub(super) keys: RunKeys,
+    /// A row for each record.
+    pub(super) rows: Table,
 }
 
 impl OfModel {
     /// * `setting`: with one model
+    /// * `gradients`: keys of derivatives
     /// * `folder`: takes the records until an error
     pub(super) fn of(
         args: &TraverseArgs,
         setting: &SettingArgs,
+        gradients: Option<&GradientKeys>,
         folder: &mut Option<OutputFolder>,
     ) -> Result<Self, Failure> {
         let scenario = inputs::traverse(args, setting, args.yaw_deg.as_deref())?;
@@ -52,7 +63,15 @@ impl OfModel {
         }
         let UncertaintyArgs { sampling, seed } = args.uncertainty;
         if !sampling.uncertainty {
-            return Ok(Self { scenario, run, band: None });
+            let gradient = gradients.map(|it| RunGradient::of(&scenario, &run, it)).transpose()?;
+            return Ok(Self { scenario, run, band: None, gradient });
+        }
+        if gradients.is_some() {
+            return Err(Failure::Usage(
+                "--gradients: derivatives are of the run as its documents are written, and \
+                 --uncertainty asks for samples\nhint: leave one of them out"
+                    .to_owned(),
+            ));
         }
         inputs::refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
         let samples = sampling::draw(&BandInputs::of_scenario(&scenario), sampling.samples, seed)?;
@@ -60,7 +79,7 @@ impl OfModel {
         let band = sampling::with_bar(samples.len(), |go_on| {
             TraverseBand::of(&scenario.value, &samples, &times, go_on)
         });
-        Ok(Self { scenario, run, band: Some(sampling::whole(band?)) })
+        Ok(Self { scenario, run, band: Some(sampling::whole(band?)), gradient: None })
     }
 
     pub(super) fn name(&self) -> &'static str {
@@ -69,7 +88,10 @@ impl OfModel {
 
     /// A row for each record, with the bands at its time.
     pub(super) fn rows(&self) -> Table {
-        let table = run::table(&self.run, &self.scenario.value);
+        let mut table = run::table(&self.run, &self.scenario.value);
+        if let Some(gradient) = &self.gradient {
+            table.columns.extend(gradient.rows.columns.iter().cloned());
+        }
         match &self.band {
             Some(band) => run::with_bands(table, &band.times, &self.scenario.value),
             None => table,
@@ -83,7 +105,38 @@ impl OfModel {
         if let Some(band) = &self.band {
             table = run::with_run_band(table, &band.run, scenario);
         }
+        if let Some(gradient) = &self.gradient {
+            let last = gradient.rows.rows_at(&[self.run.records.len() - 1]);
+            table.columns.extend(last.columns);
+        }
         table.with_word(MODEL, self.name())
+    }
+}
+
+impl RunGradient {
+    fn of(
+        scenario: &LoadedScenario,
+        run: &Trajectory,
+        asked_for: &GradientKeys,
+    ) -> Result<Self, Failure> {
+        let keys = RunKeys::of(scenario, asked_for).map_err(AnswerError::from)?;
+        let found = keys.along(
+            &scenario.value,
+            &|key| scenario.document.number(key),
+            run,
+            Run::to_end,
+            &|| true,
+        );
+        let on_heights = !scenario.value.ground.is_plane();
+        let rows = gradient::of_run(&keys, &sampling::whole(found), run.records.len(), on_heights);
+        Ok(Self { keys, rows })
+    }
+
+    /// What is said of them.
+    pub(super) fn lines(&self) -> String {
+        let names: Vec<&str> = self.keys.names().collect();
+        let lacking: Vec<&str> = self.keys.lacking().collect();
+        answers::gradient::lines(&self.rows, &names, &lacking)
     }
 }
 

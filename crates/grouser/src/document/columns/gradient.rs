@@ -8,7 +8,7 @@ use super::LIMIT_SLOPE;
 use super::wheel::WHEEL;
 use crate::contact::gradient::WheelDerivative;
 use crate::difference::Derivative;
-use crate::document::gradient::HeadingKeys;
+use crate::document::gradient::{HeadingKeys, RunDerivatives, RunKeys};
 
 /// The names of a row's derivatives that differ from side to side, or are of one side.
 pub const ONE_SIDED: &str = "one_sided";
@@ -32,7 +32,21 @@ pub fn with_derivatives(
     keys: &[&str],
     entry: impl Fn(usize, usize, usize) -> Entry,
 ) -> Table {
-    let rows = table.rows();
+    table.columns.extend(derivatives(table.rows(), results, keys, entry).columns);
+    table
+}
+
+/// A column for each result and key, and one of those that are one-sided.
+///
+/// * `rows`: how many there are
+/// * `entry`: that of a row, a result and a key, by their places
+fn derivatives(
+    rows: usize,
+    results: &[&str],
+    keys: &[&str],
+    entry: impl Fn(usize, usize, usize) -> Entry,
+) -> Table {
+    let mut table = Table::default();
     let mut one_sided: Vec<Vec<Cow<'static, str>>> = vec![Vec::new(); rows];
     for (key_place, key) in keys.iter().enumerate() {
         for (place, result) in results.iter().enumerate() {
@@ -90,6 +104,18 @@ pub fn of_limit(table: Table, keys: &HeadingKeys, of_limit: &[Option<Derivative>
     let names: Vec<&str> = keys.names().collect();
     with_derivatives(table, &[LIMIT_SLOPE.name], &names, |_, _, key| {
         of_limit[key].map(|it| (it.value, it.is_one_sided()))
+    })
+}
+
+/// The derivatives of a run: a row for each record.
+///
+/// * `records`: how many there are
+/// * `on_heights`: whether the ground has heights
+#[must_use]
+pub fn of_run(keys: &RunKeys, found: &RunDerivatives, records: usize, on_heights: bool) -> Table {
+    let names: Vec<&str> = keys.names().collect();
+    derivatives(records, &RunKeys::results(on_heights), &names, |record, result, key| {
+        found.at(record, result, key).map(|it| (it.value, it.is_one_sided()))
     })
 }
 

@@ -3,7 +3,7 @@
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::super::table::ColumnKind;
-use super::super::table::Table;
+use super::super::table::{Row, Table};
 use super::super::unit::{A, DEG, DEG_S, J, M, M_S, ONE, V, W};
 use super::ended::draws_ended;
 use super::flags;
@@ -405,15 +405,23 @@ fn mean(record: &Record, of: fn(&WheelRecord) -> f64) -> Option<f64> {
     (count > 0).then(|| record.wheels.iter().map(of).sum::<f64>() / count as f64)
 }
 
+/// The places of the start and of some more records up to the end.
+///
+/// * `lines`: how many besides the start, at most
+#[must_use]
+pub fn brief_places(run: &Trajectory, lines: usize) -> Vec<usize> {
+    let last = run.records.len() - 1;
+    let lines = lines.min(last);
+    (0..=lines).map(|line| line * last / lines.max(1)).collect()
+}
+
 /// The start and some more records up to the end, with the means of their wheels: for reading.
 ///
 /// * `lines`: how many besides the start, at most
 #[must_use]
 pub fn brief(run: &Trajectory, scenario: &Scenario, lines: usize) -> Table {
-    let last = run.records.len() - 1;
-    let lines = lines.min(last);
-    let rows: Vec<_> =
-        (0..=lines).map(|line| Some(&run.records[line * last / lines.max(1)])).collect();
+    let rows = brief_places(run, lines).into_iter().map(|it| Some(&run.records[it]));
+    let rows: Vec<_> = rows.collect();
     let power = RECORD.iter().position(|it| it.name == POWER.name).unwrap_or(0);
     Table::default()
         .and(END, &rows)
@@ -429,11 +437,17 @@ pub struct RunObject<'a> {
     pub run: &'a Trajectory,
     /// What was run.
     pub scenario: &'a Scenario,
+    /// Derivatives, where some are asked for: a row for each record.
+    pub derivatives: Option<&'a Table>,
 }
 
 impl Serialize for RunObject<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let record = |record| RecordObject { record, scenario: self.scenario };
+        let record = |(place, record)| RecordObject {
+            record,
+            scenario: self.scenario,
+            derivatives: self.derivatives.map(|it| it.row(place)),
+        };
         let mut map = serializer.serialize_map(None)?;
         RUN.iter().try_for_each(|column| column.write(&mut map, self.run))?;
         if self.scenario.rover.has_motors() {
@@ -444,8 +458,9 @@ impl Serialize for RunObject<'_> {
         let findings: Vec<Finding> = over.iter().map(|raised| raised.finding).collect();
         FLAGS.iter().try_for_each(|column| column.write(&mut map, &findings))?;
         map.serialize_entry("flags_raised", &Table::of(&RAISED, &over))?;
-        map.serialize_entry("final", &record(self.run.last()))?;
-        let records: Vec<RecordObject<'_>> = self.run.records.iter().map(record).collect();
+        let records: Vec<RecordObject<'_>> =
+            self.run.records.iter().enumerate().map(record).collect();
+        map.serialize_entry("final", &records.last())?;
         map.serialize_entry("samples", &records)?;
         map.end()
     }
@@ -454,6 +469,7 @@ impl Serialize for RunObject<'_> {
 struct RecordObject<'a> {
     record: &'a Record,
     scenario: &'a Scenario,
+    derivatives: Option<Row<'a>>,
 }
 
 impl Serialize for RecordObject<'_> {
@@ -465,6 +481,9 @@ impl Serialize for RecordObject<'_> {
         }
         if self.scenario.rover.has_motors() {
             ELECTRICAL_RECORD.iter().try_for_each(|column| column.write(&mut map, self.record))?;
+        }
+        if let Some(derivatives) = &self.derivatives {
+            derivatives.write(&mut map)?;
         }
         let findings = RoverOnSlope::of(self.scenario).at(self.record);
         FLAGS.iter().try_for_each(|column| column.write(&mut map, &findings))?;

@@ -1,0 +1,205 @@
+//! Derivatives of runs, by differences of whole runs.
+
+use super::{AskedKey, GradientKeys, NoSuchKey, asked};
+use crate::difference::{Derivative, StepLengths, Variable, derivatives};
+use crate::document::columns::Column;
+use crate::document::columns::run::{RECORD, STANDING};
+use crate::document::unit::{M_S, W};
+use crate::document::varied::{Key, Varied};
+use crate::document::{Described as _, LoadedScenario};
+use crate::simulation::{Approach, Record, Run, RunError, Scenario, Trajectory};
+use crate::soil::Span;
+use crate::studies::ensemble::outputs_while;
+
+/// The numbers of runs: those of their scenarios.
+#[derive(Clone, Debug)]
+pub struct RunKeys {
+    keys: Vec<AskedKey>,
+}
+
+/// The derivatives of a run's records.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunDerivatives {
+    /// By each key, those of each result of the first record, then of the next; none of a result
+    /// that a record lacks, and none at all by a key that cannot be changed alone, or with which the
+    /// run ends otherwise.
+    by_key: Vec<Option<Vec<Option<Derivative>>>>,
+    results: usize,
+}
+
+/// Numbers that say when records are made: with others there would be none at the same times.
+const TIMES: [&str; 2] = ["duration_s", "sample_interval_s"];
+
+/// Step lengths for runs that are integrated by steps of their own, whose ends scatter by some 1e-8
+/// of the way.
+const INTEGRATED: StepLengths = StepLengths { long: 3e-3, short: 1e-3, tolerance: 1e-3 };
+
+impl RunKeys {
+    /// The numbers that are asked for.
+    ///
+    /// # Errors
+    /// [`NoSuchKey`] for one that scenarios do not have, and for the times of records.
+    pub fn of(scenario: &LoadedScenario, asked_for: &GradientKeys) -> Result<Self, NoSuchKey> {
+        let varied = Varied::of(scenario.value.clone(), scenario.document.clone());
+        let names = match asked_for {
+            GradientKeys::These(names) => names.clone(),
+            GradientKeys::All => {
+                let all = scenario.document.number_keys().into_iter();
+                let acts = |key: &String| {
+                    !TIMES.contains(&&**key)
+                        && asked(key, key, &varied).is_ok_and(|it| it.key.is_some())
+                };
+                all.filter(acts).collect()
+            }
+        };
+        if let Some(key) = names.iter().find(|it| TIMES.contains(&&***it)) {
+            let reason = "it says when there are records, which are compared at the same times";
+            return Err(NoSuchKey { key: key.clone(), reason: reason.to_owned() });
+        }
+        let keys = names.iter().map(|name| asked(name, name, &varied));
+        Ok(Self { keys: keys.collect::<Result<_, _>>()? })
+    }
+
+    /// The names of the keys, in the order of derivatives.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.keys.iter().map(|key| &*key.name)
+    }
+
+    /// The keys that the document gives no value.
+    pub fn lacking(&self) -> impl Iterator<Item = &str> {
+        self.keys.iter().filter(|key| key.key.is_none()).map(|key| &*key.name)
+    }
+
+    /// The names of the results that are differentiated.
+    ///
+    /// * `on_heights`: whether the ground has heights
+    #[must_use]
+    pub fn results(on_heights: bool) -> Vec<&'static str> {
+        results(on_heights).map(|column| column.name).collect()
+    }
+
+    /// The derivatives of a run's records, by differences of whole runs.
+    ///
+    /// * `scenario`: what was run
+    /// * `number`: what its document has under a key
+    /// * `run`: what became of it
+    /// * `lead`: how it was led to its end, and others are
+    /// * `go_on`: asked before each run, from any thread; nothing is returned once it is false
+    #[must_use]
+    pub fn along(
+        &self,
+        scenario: &Scenario,
+        number: &dyn Fn(&str) -> Option<f64>,
+        run: &Trajectory,
+        lead: fn(Run) -> Result<Trajectory, RunError>,
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Option<RunDerivatives> {
+        let on_heights = !scenario.ground.is_plane();
+        let columns: Vec<&Column<Record>> = results(on_heights).collect();
+        let cells: Vec<f64> = run
+            .records
+            .iter()
+            .flat_map(|it| columns.iter().map(|column| column.number(it)))
+            .collect();
+        let kept: Vec<usize> = (0..cells.len()).filter(|cell| cells[*cell].is_finite()).collect();
+        let here: Vec<f64> = kept.iter().map(|cell| cells[*cell]).collect();
+        let sizes: Vec<f64> = kept.iter().map(|cell| size(columns[cell % columns.len()])).collect();
+        let keys: Vec<Option<Key>> =
+            self.names().map(|name| key_of(name, scenario, number)).collect();
+        let variables: Vec<Variable> = keys.iter().map(|key| variable(key.as_ref())).collect();
+        let of_point = |point: &Vec<f64>| {
+            let moved = keys.iter().zip(point).zip(&variables);
+            let moved = moved.filter(|((_, number), variable)| **number != variable.value);
+            let moved =
+                moved.filter_map(|((key, number), _)| Some((&*key.as_ref()?.path, *number)));
+            let other = Run::new(&scenario.with(moved).ok()?).and_then(lead).ok()?;
+            if !is_beside(run, &other) {
+                return None;
+            }
+            let number = |cell: &usize| {
+                columns[cell % columns.len()].number(&other.records[cell / columns.len()])
+            };
+            let found: Vec<f64> = kept.iter().map(number).collect();
+            found.iter().all(|it| it.is_finite()).then_some(found)
+        };
+        let mut was_stopped = false;
+        let mut evaluate = |points: &[Vec<f64>]| {
+            let found = outputs_while(points, go_on, of_point);
+            was_stopped |= found.is_none();
+            found.unwrap_or_else(|| vec![None; points.len()])
+        };
+        let found = derivatives(&variables, &here, &sizes, steps(scenario), &mut evaluate);
+        if was_stopped {
+            return None;
+        }
+        let in_place = |slopes: Vec<Derivative>| {
+            let mut all = vec![None; cells.len()];
+            kept.iter().zip(slopes).for_each(|(cell, slope)| all[*cell] = Some(slope));
+            all
+        };
+        let by_key = found.by_variable.into_iter().map(|it| it.map(in_place)).collect();
+        Some(RunDerivatives { by_key, results: columns.len() })
+    }
+}
+
+impl RunDerivatives {
+    /// The derivatives of a record: of each result by the first key, then by the next.
+    pub fn of_record(&self, record: usize) -> impl Iterator<Item = Option<Derivative>> {
+        let keys = 0..self.by_key.len();
+        keys.flat_map(move |key| (0..self.results).map(move |result| self.at(record, result, key)))
+    }
+
+    /// The derivative of a record's result by a key, by their places.
+    #[must_use]
+    pub fn at(&self, record: usize, result: usize, key: usize) -> Option<Derivative> {
+        self.by_key[key].as_ref()?[record * self.results + result]
+    }
+}
+
+/// What a record says beside its time, but for how far the belly is off the ground, which most
+/// rovers do not state.
+fn results(on_heights: bool) -> impl Iterator<Item = &'static Column<Record>> {
+    const ALL: (&[Column<Record>], &[Column<Record>]) =
+        (RECORD.split_at(1).1, STANDING.split_at(4).0);
+    ALL.0.iter().chain(ALL.1.iter().filter(move |_| on_heights))
+}
+
+/// What a change of a result is small against where it is near zero, in its unit.
+fn size(column: &Column<Record>) -> f64 {
+    match column.unit {
+        unit if unit == M_S => 0.01,
+        unit if unit == W => 0.1,
+        _ => 1.0,
+    }
+}
+
+/// The key of a number as it is in a scenario; nothing where that lacks it.
+fn key_of(path: &str, scenario: &Scenario, number: &dyn Fn(&str) -> Option<f64>) -> Option<Key> {
+    let (value, range) = (number(path)?, scenario.range(path)?);
+    Some(Key { path: path.to_owned(), value, range })
+}
+
+/// A variable that differences move; one that is not there goes nowhere.
+fn variable(key: Option<&Key>) -> Variable {
+    let nowhere = Variable { value: 0.0, scale: 1.0, range: Span::new(0.0, 0.0) };
+    key.map_or(nowhere, |key| {
+        let range = Span::new(*key.range.start(), *key.range.end());
+        Variable { value: key.value, scale: key.scale(), range }
+    })
+}
+
+/// Runs that follow one table of steady motions are as smooth as that.
+fn steps(scenario: &Scenario) -> StepLengths {
+    if scenario.numerics.approach == Approach::QuasiSteady && scenario.ground.is_plane() {
+        StepLengths::SETTLED
+    } else {
+        INTEGRATED
+    }
+}
+
+/// Whether another run has records at the same times.
+fn is_beside(run: &Trajectory, other: &Trajectory) -> bool {
+    let times =
+        |it: &Trajectory| it.records.iter().map(|record| record.time.to_bits()).collect::<Vec<_>>();
+    run.outcome.name() == other.outcome.name() && times(run) == times(other)
+}

@@ -1,0 +1,128 @@
+//! Derivatives of runs, against closed forms and differences of whole runs.
+
+use grouser::difference::Derivative;
+use grouser::document::gradient::{GradientKeys, RunDerivatives, RunKeys};
+use grouser::document::{LoadedScenario, Overrides, Source, read_scenario, scenario_with};
+use grouser::simulation::{Run, Trajectory};
+
+fn scenario(settings: &[&str]) -> LoadedScenario {
+    let settings: Vec<String> = settings.iter().map(|it| format!("scenario.{it}")).collect();
+    read_scenario(&Source::default_scenario(), &Overrides::parse(&settings).unwrap()).unwrap()
+}
+
+/// Its run with the derivatives by some keys.
+fn derivatives(scenario: &LoadedScenario, keys: &[&str]) -> (Trajectory, RunKeys, RunDerivatives) {
+    let asked = GradientKeys::These(keys.iter().map(|key| (*key).to_owned()).collect());
+    let keys = RunKeys::of(scenario, &asked).unwrap();
+    let run = Run::new(&scenario.value).unwrap().to_end().unwrap();
+    let number = |key: &str| scenario.document.number(key);
+    let found = keys.along(&scenario.value, &number, &run, Run::to_end, &|| true).unwrap();
+    (run, keys, found)
+}
+
+fn place(result: &str) -> usize {
+    RunKeys::results(true).iter().position(|it| *it == result).unwrap()
+}
+
+/// A rover in a steady state goes by how far its wheels turned: where it is at a time goes with
+/// speed as with time, v ∂x/∂v = t dx/dt, in every model.
+#[test]
+fn a_quasi_steady_run_goes_with_its_speed_as_with_time() {
+    for model in ["ishigami", "bekker", "small-wheel", "rft"] {
+        let scenario =
+            scenario(&["slope_deg=12", "simulation=quasi-steady", &format!("model={model}")]);
+        let (run, _, found) = derivatives(&scenario, &["drive.rim_speed_m_s"]);
+        let speed = scenario.document.number("drive.rim_speed_m_s").unwrap();
+        for (record, at) in run.records.iter().enumerate().skip(1) {
+            let along = at.state.slope_from_body() * at.state.velocity;
+            let rates = [
+                ("x_m", along.x),
+                ("y_m", along.y),
+                ("yaw_deg", at.state.yaw_rate.to_degrees()),
+                ("energy_j", at.wheels.iter().map(|wheel| wheel.power()).sum()),
+            ];
+            for (result, rate) in rates {
+                let found = found.at(record, place(result), 0).unwrap();
+                let expected = at.time * rate / speed;
+                let error = (found.value - expected).abs();
+                assert!(
+                    error < 2e-5 * (1.0 + expected.abs()),
+                    "{model} {result}: {found:?} {expected}"
+                );
+            }
+        }
+    }
+}
+
+/// The five-point difference of whole runs by a key.
+fn reference(scenario: &LoadedScenario, key: &str, share: f64, result: &str) -> f64 {
+    let value = scenario.document.number(key).unwrap();
+    let step = share * value.abs();
+    let end = |steps: f64| {
+        let changed = scenario_with(&scenario.value, [(key, value + steps * step)]).unwrap();
+        let run = Run::new(&changed).unwrap().to_end().unwrap();
+        let end = run.last();
+        match result {
+            "x_m" => end.place().x,
+            "y_m" => end.place().y,
+            "yaw_deg" => end.state.yaw.to_degrees(),
+            _ => end.energy.motors,
+        }
+    };
+    (end(-2.0) - end(2.0) + 8.0 * (end(1.0) - end(-1.0))) / (12.0 * step)
+}
+
+#[test]
+fn derivatives_of_runs_are_those_of_whole_runs() {
+    let keys = [
+        "soil.friction_angle_deg",
+        "soil.pressure_sinkage.k_phi",
+        "rover.wheel_unit.wheel.width_m",
+        "rover.mount.0.position_m.1",
+        "gravity_m_s2",
+        "slope_deg",
+    ];
+    for (simulation, share, allowed) in [("quasi-steady", 1e-3, 1e-6), ("dynamic", 6e-3, 2e-3)] {
+        let scenario =
+            scenario(&["slope_deg=10", &format!("simulation={simulation}"), "duration_s=8"]);
+        let (run, _, found) = derivatives(&scenario, &keys);
+        for (number, key) in keys.iter().enumerate() {
+            let value = scenario.document.number(key).unwrap();
+            for result in ["x_m", "y_m", "yaw_deg", "energy_j"] {
+                let Derivative { value: found, .. } =
+                    found.at(run.records.len() - 1, place(result), number).unwrap();
+                let expected = reference(&scenario, key, share, result);
+                // By how much the result changes when the number does by its own size.
+                let [found, expected] = [found, expected].map(|it| it * value);
+                let error = (found - expected).abs();
+                assert!(
+                    error < allowed * (0.1 + expected.abs()),
+                    "{simulation}, {result} by {key}: {found} {expected}"
+                );
+            }
+        }
+    }
+}
+
+/// A run that ends otherwise with the number to one side has no slope there, and says nothing.
+#[test]
+fn a_key_with_which_a_run_ends_otherwise_has_no_derivatives() {
+    let scenario = scenario(&["slope_deg=35", "duration_s=5"]);
+    let (run, _, found) = derivatives(&scenario, &["slope_deg"]);
+    assert!(!run.outcome.is_completed(), "{:?}", run.outcome);
+    assert!((0..run.records.len()).all(|record| found.at(record, 0, 0).is_none()));
+}
+
+#[test]
+fn all_numbers_of_a_scenario_are_keys_but_the_times_of_records() {
+    let scenario = scenario(&["slope_deg=10"]);
+    let keys = RunKeys::of(&scenario, &GradientKeys::All).unwrap();
+    let names: Vec<&str> = keys.names().collect();
+    for name in ["soil.cohesion_kpa", "rover.body.mass_kg", "start.yaw_deg", "drive.rim_speed_m_s"]
+    {
+        assert!(names.contains(&name), "{name} of {names:?}");
+    }
+    assert!(!names.iter().any(|it| ["duration_s", "sample_interval_s"].contains(it)));
+    let times = GradientKeys::These(vec!["duration_s".to_owned()]);
+    assert!(RunKeys::of(&scenario, &times).unwrap_err().to_string().contains("records"));
+}
