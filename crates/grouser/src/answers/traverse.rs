@@ -1,0 +1,73 @@
+//! A run over a slope or a map of heights: what became of it, and each of its records.
+
+use serde_json::{Value, json};
+
+use super::{Answer, Member, Sampling, weights};
+use crate::document::columns::run::{self, RunObject};
+use crate::document::{LoadedScenario, given_to_drives};
+use crate::simulation::{Approach, Run, RunError, Trajectory};
+use crate::studies::ensemble::samples::BandInputs;
+use crate::studies::traverse_band::TraverseBand;
+
+/// The question.
+#[derive(Clone, Copy, Debug)]
+pub struct TraverseQuestion<'q> {
+    /// What is run.
+    pub scenario: &'q LoadedScenario,
+}
+
+/// A run is asked so many times whether to go on.
+const PARTS: f64 = 50.0;
+
+impl TraverseQuestion<'_> {
+    /// The run; `None` if `go_on` was false before its end. One of steady motions is quick, and has
+    /// other last digits where it is stopped between: it is not asked.
+    ///
+    /// # Errors
+    /// [`RunError`] if it cannot be computed.
+    pub fn run(&self, go_on: &(dyn Fn() -> bool + Sync)) -> Result<Option<Trajectory>, RunError> {
+        let scenario = &self.scenario.value;
+        let mut run = Run::new(scenario)?;
+        if matches!(scenario.numerics.approach, Approach::QuasiSteady) {
+            run.run_to_end()?;
+            return Ok(Some(run.finish()));
+        }
+        while run.outcome().is_none() && run.state().time() < scenario.duration {
+            if !go_on() {
+                return Ok(None);
+            }
+            run.play(scenario.duration / PARTS)?;
+        }
+        Ok(Some(run.finish()))
+    }
+
+    /// The answer. Front ends write its page.
+    ///
+    /// * `band`: what samples make of it, with these
+    #[must_use]
+    pub fn answer(
+        &self,
+        name: &str,
+        run: &Trajectory,
+        band: Option<(&TraverseBand, Sampling)>,
+    ) -> Answer {
+        let (loaded, scenario) = (self.scenario, &self.scenario.value);
+        let mut answer = Answer::new(name, "A traverse");
+        answer.input("scenario", json!(loaded.document));
+        if let Some((_, sampling)) = band {
+            sampling.state(&mut answer);
+            answer.model_weights = Some(weights(&BandInputs::of_scenario(loaded)));
+        }
+        if let Value::Object(entries) = json!(RunObject { run, scenario }) {
+            answer.results.push(Member::Entries(entries));
+        }
+        if let Some((band, _)) = band {
+            let of_run = run::run_band(&band.run, scenario);
+            answer.results.push(Member::Row(Some("band"), of_run));
+            answer.results.push(Member::rows("bands", run::time_bands(&band.times, scenario)));
+        }
+        answer.attach("scenario.toml", loaded);
+        answer.given = given_to_drives(loaded, scenario, [run]);
+        answer
+    }
+}
