@@ -8,7 +8,9 @@ pictures it writes one of each view. The last line has the counts.
 """
 
 import json
+import math
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -16,7 +18,9 @@ from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
-VIEWS = ("heading", "wheel")
+VIEWS = ("heading", "wheel", "drive", "map")
+#: The sessions that views are looked at with, where they show little by themselves.
+SEEN = {"map": "view=map&at=10,20&from=-35,-35&to=35,35"}
 SIZES = [(1280, 720), (820, 1180)]
 THEMES = ("light", "dark")
 IMPACTS = ("serious", "critical")
@@ -41,6 +45,8 @@ class Server:
         sand = subprocess.run([self.program, "presets", "toyoura", "--kind", "soil"], capture_output=True, text=True, check=True)
         hostile = sand.stdout.replace('"Toyoura sand"', json.dumps(HOSTILE))
         Path(self.place.name, "hostile.toml").write_text(hostile, encoding="utf-8")
+        moon = ["terrain", "moon", "--ground", "highlands", "--size-m", "100", "--seed", "3", "--out", "hills.tif"]
+        subprocess.run([self.program, *moon], cwd=self.place.name, capture_output=True, check=True)
         self.process = subprocess.Popen(
             [self.program, "serve", ".", "--no-open"], cwd=self.place.name, stdout=subprocess.PIPE, text=True
         )
@@ -54,6 +60,8 @@ class Server:
 
     def run(self, command):
         """What the program prints for a command of the page, as JSON."""
+        # A folder is written once.
+        shutil.rmtree(Path(self.place.name, "map"), ignore_errors=True)
         words = command.replace("grouser ", f"'{self.program}' ", 1) + " --format json"
         done = subprocess.run(words, shell=True, cwd=self.place.name, capture_output=True, text=True, check=True)
         return json.loads(done.stdout)
@@ -108,7 +116,10 @@ def settled(page):
 
 def four(value):
     """A number as the page's tables have it."""
-    return "–" if value is None else re.sub(r"\.?0+$", "", f"{value:#.4g}") if "e" not in f"{value:.4g}" else f"{value:.4g}"
+    if value is None:
+        return "–"
+    text = f"{value:.4g}"
+    return text if "e" in text else f"{value:#.4g}".rstrip("0").rstrip(".")
 
 
 def shown(page, column):
@@ -138,7 +149,7 @@ def numbers_differ(page, server):
 def unreached(page):
     """Controls that the Tab key does not reach."""
     page.evaluate("document.activeElement.blur()")
-    wanted = """[...document.querySelectorAll('input, select, button, summary, a[href], pre[tabindex]')]
+    wanted = """[...document.querySelectorAll('input, select, button, summary, a[href], [tabindex="0"]')]
       .filter(one => one.checkVisibility() && !one.disabled)"""
     count = page.evaluate(f"{wanted}.length")
     page.evaluate("window.reached = new Set()")
@@ -148,11 +159,134 @@ def unreached(page):
     return page.evaluate(f"{wanted}.filter(one => !window.reached.has(one)).map(one => one.outerHTML.slice(0, 80))")
 
 
+def places_differ(page, server):
+    """Where the map has another number at its place than the heading on that slope."""
+    place = page.locator("#place")
+    slope = float(place.locator("[data-column='slope_deg']").inner_text())
+    # A place has the verdict of the whole degree above its slope.
+    row = server.run(f"grouser heading --soil toyoura-uncertain --slope-deg {math.ceil(slope)} --samples 200")["rows"][0]
+    flaws = []
+    verdict = place.locator(".verdict").get_attribute("class").split()[-1]
+    if verdict != row["verdict"]:
+        flaws.append(f"the verdict is {verdict}, the heading on {math.ceil(slope)}° has {row['verdict']}")
+    row = server.run(f"grouser heading --soil toyoura-uncertain --slope-deg {slope} --nominal")["rows"][0]
+    slip = float(place.locator("[data-column='slip_ratio']").inner_text())
+    if abs(slip - row["slip_ratio"]) > 0.005:
+        flaws.append(f"the slip ratio is {slip}, the heading has {row['slip_ratio']}")
+    return flaws
+
+
+def way_differs(page, server):
+    """Where the way has another number than its command."""
+    row = server.run(page.locator("#way-command").inner_text())
+    flaws = []
+    for column in ("time_s", "energy_j", "length_m", "probability_no_go", "probability_completed"):
+        number = page.locator(f"#way [data-column='{column}']").inner_text()
+        if number != four(row[column]):
+            flaws.append(f"{column} is {number}, the program has {row[column]}")
+    return flaws
+
+
+def use_map(looks, browser, server):
+    page, flaws = opened(browser, server, "view=map&at=10,20")
+    shares = server.run(page.locator("#command").inner_text())["verdicts"]
+    known = sum(shares.values()) - shares["unknown"]
+    words = page.locator("#map-words").inner_text()
+    go = f"go {round(1000 * shares['go'] / known) / 10:g} %"
+    looks.claim("the map's verdicts are the program's", [] if words.startswith(go) else [f"{words}, the program has {shares}"])
+    looks.claim("a place agrees with the heading", places_differ(page, server))
+    before = page.locator("#place caption").inner_text()
+    page.locator(".marks").focus()
+    for _ in range(4):
+        page.keyboard.press("Shift+ArrowLeft")
+    settled(page)
+    moved = [] if page.locator("#place caption").inner_text() != before else ["it stays"]
+    looks.claim("keys move the place", moved + places_differ(page, server))
+    box = page.locator(".marks").bounding_box()
+    page.get_by_role("button", name="start", exact=True).click()
+    page.mouse.click(box["x"] + 0.2 * box["width"], box["y"] + 0.65 * box["height"])
+    page.get_by_role("button", name="goal", exact=True).click()
+    page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.3 * box["height"])
+    settled(page)
+    page.wait_for_selector("#way-command", timeout=60000)
+    settled(page)
+    looks.claim("a way has the program's numbers", way_differs(page, server))
+    time = page.locator("#way [data-column='time_s']").inner_text()
+    page.get_by_label("Goal, x in m").fill("30")
+    page.get_by_label("Goal, x in m").press("Tab")
+    page.wait_for_timeout(500)
+    settled(page)
+    other = page.locator("#way [data-column='time_s']").inner_text()
+    looks.claim("a goal that moves moves the way", ["it stays"] if other == time else way_differs(page, server))
+    picture = page.locator(".picture img").get_attribute("src")
+    page.get_by_role("button", name="slip ratio").click()
+    settled(page)
+    is_other = page.locator(".picture img").get_attribute("src") != picture
+    looks.claim("a layer changes the picture", [] if is_other else ["it stays"])
+    page.get_by_role("slider", name="Course").focus()
+    page.keyboard.press("PageUp")
+    settled(page)
+    has = "--course-deg 15 " in page.locator("#command").inner_text()
+    looks.claim("the dial sets the course", [] if has else ["it does not"])
+    looks.claim("the keyboard reaches everything about a map", unreached(page))
+    looks.claim("nothing goes wrong on the map", flaws)
+    page.context.close()
+
+
+def ends_differ(page, server):
+    """Where the run ends otherwise than the program's."""
+    run = server.run(page.locator("#command").inner_text())
+    flaws = []
+    if page.locator("#outcome").inner_text().split()[-1] != run["outcome"]:
+        flaws.append(f"the outcome is {page.locator('#outcome').inner_text()}, the program has {run['outcome']}")
+    for column in ("time_s", "x_m", "y_m", "yaw_deg", "energy_j"):
+        number = page.locator(f"[data-column='final-{column}']").inner_text()
+        if number != four(run["final"][column]):
+            flaws.append(f"{column} is {number}, the program has {run['final'][column]}")
+    return flaws + records_differ(page, run, -1)
+
+
+def records_differ(page, run, place):
+    """Where the wheels have other numbers than a record of the program's."""
+    flaws = []
+    for wheel in run["samples"][place]["wheels"]:
+        for column in ("slip_ratio", "sinkage_mm", "load_n"):
+            number = page.locator(f"#now [data-column='{wheel['wheel']}-{column}']").inner_text()
+            if number != four(wheel[column]):
+                flaws.append(f"{column} of {wheel['wheel']} is {number}, the program has {wheel[column]}")
+    return flaws
+
+
+def use_drive(looks, browser, server):
+    page, flaws = opened(browser, server, "view=drive")
+    looks.claim("a run ends as the program's", ends_differ(page, server))
+    page.locator("#time").focus()
+    page.keyboard.press("Home")
+    for _ in range(7):
+        page.keyboard.press("ArrowRight")
+    run = server.run(page.locator("#command").inner_text())
+    looks.claim("keys scrub to a record", records_differ(page, run, 7))
+    page.get_by_label("Slope, in °").focus()
+    for _ in range(5):
+        page.keyboard.press("ArrowRight")
+    settled(page)
+    page.get_by_role("button", name="Play").click()
+    page.wait_for_timeout(11500)
+    ended = page.locator("#clock").inner_text()
+    looks.claim("a run plays to its end", ([] if ended == "20 s" else [f"it is at {ended}"]) + ends_differ(page, server))
+    page.locator("#ground").select_option("hills.tif")
+    settled(page)
+    looks.claim("a run on a map ends as the program's", ends_differ(page, server))
+    looks.claim("the keyboard reaches everything about a run", unreached(page))
+    looks.claim("nothing goes wrong on the way", flaws)
+    page.context.close()
+
+
 def look_at_views(looks, browser, server, axe, pictures):
     for view in VIEWS:
         for size in SIZES:
             for theme in THEMES:
-                page, flaws = opened(browser, server, f"view={view}", size, theme)
+                page, flaws = opened(browser, server, SEEN.get(view, f"view={view}"), size, theme)
                 if page.evaluate("document.documentElement.scrollWidth > document.documentElement.clientWidth"):
                     flaws.append("wider than the window")
                 if "token" in page.url:
@@ -160,7 +294,7 @@ def look_at_views(looks, browser, server, axe, pictures):
                 if pictures and (size, theme) == (SIZES[0], "light"):
                     page.screenshot(path=str(Path(pictures, f"{view}.png")))
                 page.context.close()
-                page, _ = opened(browser, server, f"view={view}", size, theme, bypass=True)
+                page, _ = opened(browser, server, SEEN.get(view, f"view={view}"), size, theme, bypass=True)
                 page.evaluate(axe)
                 flaws += page.evaluate(AXE, list(IMPACTS))
                 page.context.close()
@@ -213,6 +347,8 @@ def use(looks, browser, server):
     looks.claim("the wheel is drawn", [] if page.locator("figure img").count() == 3 else ["it is not"])
     looks.claim("the keyboard reaches everything about a wheel", unreached(page))
     page.context.close()
+    use_drive(looks, browser, server)
+    use_map(looks, browser, server)
 
 
 def main(chromium, axe, program, pictures=None):

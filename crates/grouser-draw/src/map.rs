@@ -6,7 +6,7 @@ mod picture;
 mod pixels;
 mod ways;
 
-pub use self::picture::{MapPictures, OfSeveral};
+pub use self::picture::{MapFrame, MapPictures, OfSeveral};
 pub use self::ways::{Track, ways_over_ground};
 
 use grouser_core::terrain::ElevationGrid;
@@ -77,6 +77,12 @@ impl Window {
         [size.x, size.y].map(|side| side * LENGTH / size.amax())
     }
 
+    /// Width and height of the page [mm].
+    fn picture(&self) -> [f64; 2] {
+        let [width, height] = self.size();
+        [CORNER[0] + width + RIGHT, CORNER[1] + height + BOTTOM]
+    }
+
     /// Where a place [m] is on the page.
     fn at(&self, place: Vec2) -> Place {
         let (way, size) = (place - self.south_west, self.north_east - self.south_west);
@@ -91,7 +97,7 @@ impl Window {
     fn sheet(&self, title: &str, caption: &str, [low, high]: [Vec2; 2]) -> Sheet {
         let [width, height] = self.size();
         let title = escape::line(title);
-        let size = [CORNER[0] + width + RIGHT, CORNER[1] + height + BOTTOM];
+        let size = self.picture();
         let mut sheet = Sheet::new(&title, size[0], size[1]).on(Role::Paper.on(Ground::Light));
         sheet.text(text(&title, TITLE, Role::Ink), [CORNER[0], 6.5]);
         sheet.text(text(&escape::line(caption), LETTERS, Role::Faint), [CORNER[0], 11.8]);

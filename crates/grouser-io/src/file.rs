@@ -9,6 +9,8 @@ use std::fs::{self, File, FileType, Metadata};
 use std::io::{self, Read as _};
 use std::path::{Component, Path, PathBuf};
 
+use grouser_raster::beside;
+
 /// A file that cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum FileProblem {
@@ -99,6 +101,25 @@ pub(crate) fn confined(path: &Path, within: &Path) -> Result<PathBuf, FileProble
         problem => problem,
     })?;
     if found.starts_with(within) { Ok(found) } else { Err(FileProblem::Outside) }
+}
+
+/// A map's path without links, if neither it nor what is read with it leads out of a folder, and it
+/// is a file.
+///
+/// * `within`: the folder, itself without links
+///
+/// # Errors
+/// [`FileProblem`] for a path that leads out of the folder, or to no file.
+pub fn confined_map(path: &Path, within: &Path) -> Result<PathBuf, FileProblem> {
+    let path = confined(path, within)?;
+    check_regular(&path)?;
+    check_beside(&path, within)?;
+    Ok(path)
+}
+
+/// Checks that what is read with a map does not lead out of a folder.
+pub(crate) fn check_beside(map: &Path, within: &Path) -> Result<(), FileProblem> {
+    beside(map).iter().try_for_each(|file| confined(file, within).map(drop))
 }
 
 /// A link that leads nowhere, and where it should lead.

@@ -19,7 +19,7 @@ use super::zones_file;
 use grouser_core::simulation::Scenario;
 use grouser_core::terrain::{ElevationModel, Extent, Shape};
 use grouser_core::units::Vec2;
-use grouser_raster::{CoordinateSystem, ReadOptions, Remark, beside};
+use grouser_raster::{CoordinateSystem, ReadOptions, Remark};
 
 /// Gives maps that a document names their whole paths, so that the resolved document finds them
 /// from anywhere, and ground with heights no slope beside them.
@@ -39,10 +39,8 @@ pub(crate) fn locate(tree: &mut Node) -> Result<(), DocumentError> {
             let path = path.map_err(|why| DocumentError::at(&node.origin, why.into()))?;
             if let Some(within) = &node.origin.text.beside.within {
                 // What is read with a map has to be in the folder, too.
-                for file in beside(&path) {
-                    file::confined(&file, within)
-                        .map_err(|why| DocumentError::at(&node.origin, why.into()))?;
-                }
+                file::check_beside(&path, within)
+                    .map_err(|why| DocumentError::at(&node.origin, why.into()))?;
             }
             if let Ok(path) = absolute(path) {
                 *name = path.display().to_string();

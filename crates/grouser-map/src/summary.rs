@@ -1,5 +1,6 @@
 //! What a map has in all, before it is written.
 
+use grouser::answers::map::{MapFile, VerdictCounts};
 use grouser::document::columns::map::verdict_number;
 use grouser::studies::mobility::{CellMotion, Ground, MobilityMap};
 use rayon::prelude::*;
@@ -19,14 +20,35 @@ pub struct BandSummary {
     pub mean: f64,
 }
 
-/// The summary of each band, and how many places have each verdict: unknown, go, caution, no-go,
-/// cannot tell.
+/// The file of each band, and the band's numbers in all.
+///
+/// * `path_of`: where a file of a name is
+#[must_use]
+pub fn band_files(
+    bands: &[MapColumn],
+    sums: &[BandSummary],
+    path_of: &dyn Fn(&str) -> String,
+) -> Vec<MapFile> {
+    let file = |(band, of): (&MapColumn, &BandSummary)| MapFile {
+        name: band.name,
+        unit: band.unit,
+        about: band.doc,
+        least: of.least,
+        mean: of.mean,
+        most: of.most,
+        cells: of.known,
+        path: path_of(&format!("{}.tif", band.name)),
+    };
+    bands.iter().zip(sums).map(file).collect()
+}
+
+/// The summary of each band, and how many places have each verdict.
 #[must_use]
 pub fn summaries(
     ground: Ground<'_>,
     map: &MobilityMap,
     bands: &[MapColumn],
-) -> (Vec<BandSummary>, [u64; 5]) {
+) -> (Vec<BandSummary>, VerdictCounts) {
     let grid = &ground.raster().grid;
     let of_row = |row: usize| {
         let mut all = Sums::new(bands.len());
@@ -38,7 +60,9 @@ pub fn summaries(
     // Sums of rows are added in their order, so that the means have the same bits on every machine.
     let rows: Vec<Sums> = (0..grid.rows).into_par_iter().map(of_row).collect();
     let all = rows.iter().fold(Sums::new(bands.len()), Sums::with);
-    (all.bands.iter().map(Sum::summary).collect(), all.verdicts)
+    let [unknown, go, caution, no_go, cannot_tell] = all.verdicts;
+    let verdicts = VerdictCounts { go, caution, cannot_tell, no_go, unknown };
+    (all.bands.iter().map(Sum::summary).collect(), verdicts)
 }
 
 struct Sums {

@@ -55,6 +55,22 @@ impl Raster {
         self.above(column, row).map(|above| self.base + above)
     }
 
+    /// Column and row of the point whose cell has a place [m]; none beyond the map.
+    #[must_use]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "it is not negative, and below the number of columns or rows"
+    )]
+    pub fn cell_of(&self, place: Vec2) -> Option<[usize; 2]> {
+        let grid = &self.grid;
+        let way = (place - grid.south_west).component_div(&grid.spacing);
+        let [column, row] = [way.x, way.y].map(|steps| (steps + 0.5).floor());
+        let is_inside = |step: f64, count: usize| step >= 0.0 && step < count as f64;
+        let is_there = is_inside(column, grid.columns) && is_inside(row, grid.rows);
+        is_there.then_some([column as usize, row as usize])
+    }
+
     /// How steeply the ground rises at a point to the east and to the north [m/m], between its
     /// neighbours on both sides; from the point itself where one of them is missing. None where the
     /// point's own height is missing, or both neighbours' in one direction.

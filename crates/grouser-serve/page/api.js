@@ -22,6 +22,11 @@
  * @property {string} [model]
  * @property {boolean} [states_uncertainty]
  * @property {{name: string, caption: string, svg: string}[]} [drawings]
+ * @property {{caption: string, svg: string}[]} [figures]
+ * @property {{name: string, label: string, about: string}[]} [layers]
+ * @property {Record<string, number[]>} [frame] where the ground lies on a drawing
+ * @property {string[]} [notes]
+ * @property {Record<string, string>} [files]
  */
 
 /**

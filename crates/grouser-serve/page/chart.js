@@ -1,6 +1,6 @@
 // Charts: curves, a band and the point where one is, in their own units.
 
-const NAMES = "http://www.w3.org/2000/svg";
+import { svg as made } from "./dom.js";
 
 /**
  * @param {string} name
@@ -8,10 +8,7 @@ const NAMES = "http://www.w3.org/2000/svg";
  * @param {string} [text]
  */
 function svg(name, attributes, text) {
-  const made = document.createElementNS(NAMES, name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
-  if (text !== undefined) made.textContent = text;
-  return made;
+  return made(name, attributes, text === undefined ? [] : [text]);
 }
 
 /**
@@ -28,6 +25,7 @@ function svg(name, attributes, text) {
  * @property {Curve[]} curves
  * @property {[number, number, number][]} [band] place, low and high end, which may be infinite
  * @property {[number, number]} [point]
+ * @property {boolean} [isNamed] whether each curve has a pattern of its own
  */
 
 /**
@@ -48,11 +46,22 @@ function round(low, high, most) {
   return places.map((at) => ({ at, text: at.toFixed(digits).replace("-", "−") }));
 }
 
+/** How many patterns of lines there are. */
+export const PATTERNS = 6;
+
 /**
  * Draws a chart.
  * @param {Chart} chart
  */
 export function draw(chart) {
+  return drawOver(chart).drawn;
+}
+
+/**
+ * The same, and what sets its cursor to a place.
+ * @param {Chart} chart
+ */
+export function drawOver(chart) {
   const [width, height] = [420, 250];
   const box = { left: 52, right: width - 10, top: 26, bottom: height - 38 };
   const { curves, band = [], point } = chart;
@@ -69,7 +78,7 @@ export function draw(chart) {
   drawn.append(svg("text", { class: "title", x: box.left, y: 15 }, chart.title));
   if (all.length === 0) {
     drawn.append(svg("text", { x: box.left, y: height / 2 }, "There is nothing to draw."));
-    return drawn;
+    return { drawn, cursor: () => {} };
   }
   const spread = (/** @type {number[]} */ numbers) => {
     let [low, high] = [Math.min(...numbers), Math.max(...numbers)];
@@ -99,10 +108,17 @@ export function draw(chart) {
   }
   for (const [place, { points }] of curves.entries()) {
     const path = points.map(([atX, atY]) => `${x(atX)},${y(atY)}`).join(" ");
-    drawn.append(svg("polyline", { class: place ? "curve second" : "curve", points: path }));
+    const name = chart.isNamed ? `curve of-${place % PATTERNS}` : place ? "curve second" : "curve";
+    drawn.append(svg("polyline", { class: name, points: path }));
   }
   if (point) drawn.append(svg("circle", { class: "point", cx: x(point[0]), cy: y(point[1]), r: 5.5 }));
-  return drawn;
+  const line = svg("line", { class: "cursor", y1: box.top, y2: box.bottom, visibility: "hidden" });
+  drawn.append(line);
+  const cursor = (/** @type {number} */ at) => {
+    for (const end of ["x1", "x2"]) line.setAttribute(end, String(x(at)));
+    line.setAttribute("visibility", "visible");
+  };
+  return { drawn, cursor };
 }
 
 /** @param {number} value */

@@ -16,6 +16,21 @@ export function element(name, attributes = {}, children = []) {
   return made;
 }
 
+const NAMES = "http://www.w3.org/2000/svg";
+
+/**
+ * A shape.
+ * @param {string} name
+ * @param {Record<string, string | number>} [attributes]
+ * @param {(Node | string)[]} [children]
+ */
+export function svg(name, attributes = {}, children = []) {
+  const made = document.createElementNS(NAMES, name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
+  made.append(...children);
+  return /** @type {SVGElement} */ (made);
+}
+
 /**
  * The element of an id.
  * @param {string} id

@@ -18,7 +18,7 @@ const FEW = [0, 40];
 const SLOPES = Array.from({ length: 16 }, (_, place) => 2 * place);
 
 /** Each verdict with a sign of its own: colours alone say nothing to some. */
-const VERDICTS = /** @type {Record<string, [string, string]>} */ ({
+export const VERDICTS = /** @type {Record<string, [string, string]>} */ ({
   go: ["✓", "go"], caution: ["!", "caution"], cannot_tell: ["?", "cannot tell"], no_go: ["✕", "no-go"],
 });
 

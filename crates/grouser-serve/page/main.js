@@ -2,7 +2,10 @@
 
 import { Asking, list } from "./api.js";
 import { byId, element } from "./dom.js";
+import { Dial } from "./dial.js";
+import { DriveAnswer } from "./drive.js";
 import { Card, announce, cardCommand, chartOf, exportOf } from "./heading.js";
+import { MapAnswer, offer, saidOf } from "./map.js";
 import { fromAddress, toAddress } from "./session.js";
 import { Slider, endsOf } from "./slider.js";
 import { WheelAnswer, about as aboutWheel, labelOf } from "./wheel.js";
@@ -19,9 +22,18 @@ let sliders = [];
 let cards = [];
 /** @type {WheelAnswer | undefined} */
 let wheel;
+/** @type {MapAnswer | undefined} */
+let map;
+/** @type {DriveAnswer | undefined} */
+let drive;
+/** @type {string[]} */
+let maps = [];
+/** @type {string[]} */
+let areas = [];
 /** Keys that the sliders do not have: what of a scenario makes no difference to a heading. */
 const GRAVITY = "scenario.gravity_m_s2";
 const MOST_PINNED = 2;
+const VIEWS = ["heading", "wheel", "drive", "map"];
 
 const asking = new Asking();
 const [answer, place] = [byId("answer"), byId("sliders")];
@@ -37,7 +49,7 @@ function complain(error) {
   }
   const field = key && byId(key);
   byId("session-error").textContent = error && !isPlaced ? error.message : "";
-  for (const name of ["rover", "soil", "wheel", "model"]) byId(name).removeAttribute("aria-invalid");
+  for (const name of ["dem", "rover", "soil", "wheel", "model"]) byId(name).removeAttribute("aria-invalid");
   if (error && field instanceof HTMLSelectElement) field.setAttribute("aria-invalid", "true");
 }
 
@@ -50,13 +62,15 @@ function moved() {
   waiting = requestAnimationFrame(() => {
     waiting = 0;
     if (session.view === "wheel") wheel?.ask(session);
+    else if (session.view === "map") map?.ask(session);
+    else if (session.view === "drive") drive?.ask(session);
     else cards[0]?.ask();
   });
 }
 
 /**
  * A slider of a number of the session.
- * @param {"slope" | "course" | "speed" | "load" | "slip" | "angle"} name
+ * @param {"slope" | "course" | "speed" | "load" | "slip" | "angle" | "yaw" | "duration"} name
  * @param {string} key
  * @param {string} label
  * @param {string} unit
@@ -100,15 +114,19 @@ function group(title, inside, isOpen) {
 
 /** Makes the sliders of the documents that the session names, then asks. */
 function begin() {
-  const isWheel = session.view === "wheel";
-  for (const [id, is] of Object.entries({ "view-heading": !isWheel, "view-wheel": isWheel })) {
-    if (is) byId(id).setAttribute("aria-current", "page");
+  if (!VIEWS.includes(session.view)) session.view = "heading";
+  const [isWheel, isMap, isDrive] = ["wheel", "map", "drive"].map((view) => view === session.view);
+  for (const view of VIEWS) {
+    const id = `view-${view}`;
+    if (view === session.view) byId(id).setAttribute("aria-current", "page");
     else byId(id).removeAttribute("aria-current");
   }
-  byId("rover").closest("label").hidden = isWheel;
-  byId("wheel").closest("label").hidden = !isWheel;
+  const isHidden = /** @type {Record<string, boolean>} */ ({ dem: !isMap, rover: isWheel, wheel: !isWheel, belief: isMap || isDrive });
+  for (const [id, is] of Object.entries(isHidden)) byId(id).closest("label").hidden = is;
   cards.forEach((card) => card.stop());
   wheel?.stop();
+  map?.stop();
+  drive?.stop();
   const { rover, soil } = session;
   const question = isWheel ? { soil, wheel: aboutWheel(session).wheel } : { rover, soil };
   asking.ask(isWheel ? "stand" : "scenario", question, (line) => {
@@ -129,20 +147,61 @@ function begin() {
       answer.replaceChildren(wheel.element);
     } else {
       const gravity = keys.filter((key) => key.key === GRAVITY);
-      place.replaceChildren(
-        element("h2", {}, ["Move"]),
+      const slope = isMap ? courses() : isDrive ? run() : [
         ofSession("slope", "slope_deg", "Slope", "°", [0, 40]),
         ofSession("course", "course_deg", "Course, from the contour, uphill", "°", [-90, 90]),
-        ofSession("speed", "rim_speed_m_s", "Speed of the rims, for the power", "m/s", [0.005, 0.5]),
+      ];
+      place.replaceChildren(
+        element("h2", {}, ["Move"]), ...slope,
+        ofSession("speed", "rim_speed_m_s", isDrive ? "Speed of the rims" : "Speed of the rims, for the power", "m/s", [0.005, 0.5]),
         ...gravity.map((key) => ofKey({ ...key, minimum: 0.5, maximum: 25 })),
         group(`Soil: ${names["soil"]}`, of("soil"), true), group(`Rover: ${names["rover"]}`, of("rover"), false),
       );
-      showCards();
+      if (isDrive) {
+        drive = new DriveAnswer(ended);
+        answer.replaceChildren(drive.element);
+      } else if (isMap) {
+        map = new MapAnswer(ended, () => toAddress(session, pinned), areas);
+        answer.replaceChildren(map.element);
+      } else showCards();
     }
     moved();
   }, (error) => {
     if (error) complain(error);
   });
+}
+
+/** The course of a map: one, by a dial, or the best or the worst of each place. */
+function courses() {
+  const dial = new Dial("Course, from the contour, uphill", session.course, (value) => {
+    session.course = value;
+    moved();
+  });
+  const options = { fixed: "this one", best: "the best of each place", worst: "the worst of each place" };
+  const which = element("select", { id: "which", onchange: (/** @type {any} */ event) => {
+    session.which = event.target.value;
+    dial.element.hidden = session.which !== "fixed";
+    moved();
+  } }, Object.entries(options).map(([value, text]) => element("option", { value, selected: value === session.which }, [text])));
+  dial.element.hidden = session.which !== "fixed";
+  return [element("div", { class: "slider" }, [element("label", {}, ["Course ", which])]), dial.element];
+}
+
+/** What a run starts with. */
+function run() {
+  const slope = ofSession("slope", "slope_deg", "Slope", "°", [0, 40]);
+  const options = [["", "a plane"], ...maps.map((path) => [path, path])];
+  const ground = element("select", { id: "ground", onchange: (/** @type {any} */ event) => {
+    session.ground = event.target.value;
+    slope.hidden = session.ground !== "";
+    moved();
+  } }, options.map(([value, text]) => element("option", { value, selected: value === session.ground }, [text])));
+  slope.hidden = session.ground !== "";
+  return [
+    element("div", { class: "slider" }, [element("label", {}, ["On ", ground])]), slope,
+    ofSession("yaw", "yaw_deg", "Yaw at the start, uphill, on a map from east to the left", "°", [-90, 90]),
+    ofSession("duration", "duration_s", "Length of the run", "s", [5, 120]),
+  ];
 }
 
 /** @param {Error | undefined} error */
@@ -154,6 +213,8 @@ function ended(error) {
 /** The answer in a few words, for who does not see it. */
 function said() {
   if (session.view === "wheel") return "the wheel is up to date";
+  if (session.view === "drive") return drive?.said() ?? "";
+  if (session.view === "map") return map ? saidOf(map) : "";
   const yaw = cards[0]?.yaw();
   const verdict = cards[0]?.row?.["verdict"]?.replace("_", " ") ?? "";
   return [typeof yaw === "number" ? `${yaw.toFixed(1)}° uphill` : "no heading", verdict].filter(Boolean).join(", ");
@@ -201,7 +262,12 @@ function show(view) {
 
 /** Fills what there is to choose from. */
 async function choices() {
-  const [presets, documents] = await Promise.all([list("presets"), list("documents")]);
+  const [presets, documents, files] = await Promise.all([list("presets"), list("documents"), list("files")]);
+  const paths = (/** @type {string} */ kind) => files.filter((row) => row["kind"] === kind).map((row) => row["path"]);
+  maps = paths("map");
+  offer("dem", maps);
+  session.dem ||= maps[0] ?? "";
+  areas = paths("areas");
   for (const kind of ["rover", "soil", "wheel"]) {
     const select = byId(kind);
     const option = (/** @type {string} */ value, /** @type {string} */ title) =>
@@ -218,7 +284,7 @@ async function choices() {
 
 /** Shows in the session line what the session has. */
 function reflect() {
-  for (const name of /** @type {const} */ (["rover", "soil", "wheel", "model", "belief"])) {
+  for (const name of /** @type {const} */ (["dem", "rover", "soil", "wheel", "model", "belief"])) {
     const select = /** @type {HTMLSelectElement} */ (byId(name));
     const value = session[name];
     if (value && ![...select.options].some((option) => option.value === value)) {
@@ -228,13 +294,14 @@ function reflect() {
   }
 }
 
-for (const name of /** @type {const} */ (["rover", "soil", "wheel", "model", "belief"])) {
+for (const name of /** @type {const} */ (["dem", "rover", "soil", "wheel", "model", "belief"])) {
   byId(name).addEventListener("change", (/** @type {any} */ event) => {
     session[name] = event.target.value;
     // Numbers of one document are none of another.
     const isOther = (/** @type {string} */ key) => !key.startsWith(`${name}.`);
     session.set = Object.fromEntries(Object.entries(session.set).filter(([key]) => isOther(key)));
-    if (name === "model" || name === "belief") moved();
+    if (name === "dem") session.at = session.from = session.to = "";
+    if (name === "model" || name === "belief" || name === "dem") moved();
     else begin();
   });
 }
@@ -245,8 +312,7 @@ byId("skip").addEventListener("click", (/** @type {Event} */ event) => {
   answer.focus();
   answer.scrollIntoView();
 });
-byId("view-heading").addEventListener("click", () => show("heading"));
-byId("view-wheel").addEventListener("click", () => show("wheel"));
+for (const view of VIEWS) byId(`view-${view}`).addEventListener("click", () => show(view));
 addEventListener("hashchange", () => {
   ({ own: session, pinned } = fromAddress());
   reflect();

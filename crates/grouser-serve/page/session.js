@@ -15,13 +15,26 @@
  * @property {number} load [N]
  * @property {number} slip ratio
  * @property {number} angle slip angle [°]
+ * @property {number} yaw at the start of a run [°]
+ * @property {number} duration of a run [s]
+ * @property {string} ground a map of heights that is driven on, empty for a plane
+ * @property {string} dem the map of heights
+ * @property {string} layer of the map
+ * @property {string} which course: `fixed`, `best` or `worst`
+ * @property {string} at the place that is looked at, as x,y [m]
+ * @property {string} from the start of a way
+ * @property {string} to its goal
+ * @property {string} least what the way has least of
+ * @property {string} keepout a file of areas
  * @property {Record<string, number>} set keys of documents that have another number
  */
 
 /** @type {Session} */
 const USUAL = {
   view: "heading", rover: "hakuto", soil: "toyoura-uncertain", wheel: "hakuto", model: "",
-  belief: "samples", slope: 10, course: 0, speed: 0.06, load: 17, slip: 0.2, angle: 0, set: {},
+  belief: "samples", slope: 10, course: 0, speed: 0.06, load: 17, slip: 0.2, angle: 0,
+  yaw: 0, duration: 20, ground: "", dem: "", layer: "verdict", which: "fixed", at: "", from: "", to: "", least: "time", keepout: "",
+  set: {},
 };
 
 /**

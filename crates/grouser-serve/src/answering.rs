@@ -31,14 +31,14 @@ pub(crate) async fn answer(
     let place = console.runs.place()?;
     let (send, mut rest) = mpsc::channel::<Bytes>(AHEAD);
     let (fail, failed) = oneshot::channel();
-    let folder = console.folder.clone();
+    let console = Arc::clone(console);
     drop(tokio::task::spawn_blocking(move || {
         let has_begun = Cell::new(false);
         let sent = |line: String| {
             has_begun.set(true);
             send.blocking_send((line + "\n").into()).is_ok()
         };
-        let computed = guarded(|| read(&folder, &body)?.answer(&go_on, &sent));
+        let computed = guarded(|| read(&console, &body)?.answer(&go_on, &sent));
         let computed = computed.unwrap_or_else(|panic| {
             let message = format!("this is a fault of ours: {panic}");
             Err(Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, message))

@@ -5,11 +5,17 @@ mod command;
 mod document;
 mod drawing;
 mod fields;
+mod ground;
 mod heading;
 mod heading_map;
 mod lists;
+mod map;
 mod parts;
+mod place;
+mod route;
+mod rule;
 mod staged;
+mod traverse;
 mod wheel_test;
 
 use crate::asked::Read;
@@ -20,15 +26,19 @@ pub(crate) type List = fn(&Console) -> String;
 
 /// The questions, by their paths below `/api/`: those of answers have the names of the program's
 /// commands.
-pub(crate) static QUESTIONS: [(&str, Read); 6] = [
+pub(crate) static QUESTIONS: [(&str, Read); 10] = [
     ("heading", heading::read),
     ("heading-map", heading_map::read),
     ("wheel-test", wheel_test::read),
+    ("map", map::read),
+    ("map-place", place::read),
+    ("route", route::read),
+    ("traverse", traverse::read),
     ("wheel-drawing", drawing::read),
     ("scenario", document::scenario),
     ("stand", document::stand),
 ];
 
 /// What there is to choose from, by their paths below `/api/`.
-pub(crate) static LISTS: [(&str, List); 2] =
-    [("presets", lists::presets), ("documents", lists::documents)];
+pub(crate) static LISTS: [(&str, List); 3] =
+    [("presets", lists::presets), ("documents", lists::documents), ("files", lists::files)];

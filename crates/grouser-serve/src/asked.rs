@@ -1,11 +1,11 @@
 //! A question that was read: what answers it, line by line.
 
-use crate::folder::ServedFolder;
+use crate::console::Console;
 use crate::refusal::Refusal;
 use crate::runs::GoOn;
 
 /// Reads a question.
-pub(crate) type Read = fn(&ServedFolder, &[u8]) -> Result<Question, Refusal>;
+pub(crate) type Read = fn(&Console, &[u8]) -> Result<Question, Refusal>;
 
 /// Takes a line; whether somebody reads it.
 pub(crate) type Send<'a> = &'a dyn Fn(String) -> bool;

@@ -24,7 +24,7 @@ pub(crate) const PAGE: Asset =
     Asset { path: "/", ..asset!("index.html", "text/html; charset=utf-8") };
 
 /// Everything that it loads.
-pub(crate) static ASSETS: [Asset; 9] = [
+pub(crate) static ASSETS: [Asset; 12] = [
     asset!("page.css", "text/css; charset=utf-8"),
     asset!("main.js", SCRIPT),
     asset!("api.js", SCRIPT),
@@ -34,6 +34,9 @@ pub(crate) static ASSETS: [Asset; 9] = [
     asset!("chart.js", SCRIPT),
     asset!("heading.js", SCRIPT),
     asset!("wheel.js", SCRIPT),
+    asset!("dial.js", SCRIPT),
+    asset!("drive.js", SCRIPT),
+    asset!("map.js", SCRIPT),
 ];
 
 const SCRIPT: &str = "text/javascript; charset=utf-8";

@@ -7,6 +7,7 @@ use tokio::sync::Semaphore;
 use crate::access::Access;
 use crate::folder::ServedFolder;
 use crate::limits::Limits;
+use crate::maps::KeptOfMaps;
 use crate::runs::RunPlaces;
 
 /// What all connections share.
@@ -16,5 +17,7 @@ pub(crate) struct Console {
     pub(crate) runs: RunPlaces,
     /// One list is made at a time: files are read for it.
     pub(crate) lists: Arc<Semaphore>,
+    /// What was computed of maps.
+    pub(crate) kept: KeptOfMaps,
     pub(crate) limits: Limits,
 }

@@ -4,6 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use grouser::document::file::{FileProblem, confined_map};
 use grouser::document::{self, Beside, DocumentError, Kind, Overrides, Source};
 
 /// The folder of documents, or none.
@@ -17,6 +18,19 @@ pub(crate) struct Listed {
     /// Its path in the folder.
     pub(crate) path: String,
 }
+
+/// A file of the folder that is no document.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct ListedFile {
+    /// `map` or `areas`.
+    pub(crate) kind: &'static str,
+    /// Its path in the folder.
+    pub(crate) path: String,
+}
+
+/// Ends of names, and what such files have.
+const ENDINGS: [(&str, &str); 4] =
+    [("tif", "map"), ("tiff", "map"), ("xyz", "map"), ("geojson", "areas")];
 
 /// Levels of folders that are listed.
 const DEEPEST: usize = 3;
@@ -55,13 +69,40 @@ impl ServedFolder {
         overrides.change(key, value, self.beside())
     }
 
+    /// The path of a map, or of areas, which lies in the folder with all that is read with it.
+    pub(crate) fn find_map(&self, name: &str) -> Result<PathBuf, FileProblem> {
+        confined_map(Path::new(name), self.within())
+    }
+
     /// The documents of the folder, each known by its `schema`.
     pub(crate) fn list(&self) -> Vec<Listed> {
+        let Some(root) = &self.0 else { return Vec::new() };
+        let documents = self.walk().into_iter().filter(|path| end_of(path) == "toml");
+        let known = |path: String| {
+            let source = Source::find_within(root, Kind::Scenario, &path).ok()?;
+            let kind = document::kind_of_source(&source).ok()?;
+            Some(Listed { kind, path: path.replace('\\', "/") })
+        };
+        documents.filter_map(known).collect()
+    }
+
+    /// The maps of heights and the areas of the folder.
+    pub(crate) fn list_files(&self) -> Vec<ListedFile> {
+        let known = |path: String| {
+            let end = end_of(&path);
+            let (_, kind) = ENDINGS.into_iter().find(|(ending, _)| *ending == end)?;
+            Some(ListedFile { kind, path: path.replace('\\', "/") })
+        };
+        self.walk().into_iter().filter_map(known).collect()
+    }
+
+    /// The paths of all files of the folder, in order.
+    fn walk(&self) -> Vec<String> {
         let mut found = Vec::new();
         if let Some(folder) = &self.0 {
             let mut rest = MOST;
             collect(folder, folder, DEEPEST, &mut rest, &mut found);
-            found.sort_by(|one, other| one.path.cmp(&other.path));
+            found.sort();
         }
         found
     }
@@ -72,10 +113,16 @@ impl ServedFolder {
     }
 }
 
+/// The end of a file's name.
+fn end_of(path: &str) -> String {
+    let end = Path::new(path).extension().and_then(|end| end.to_str());
+    end.unwrap_or_default().to_ascii_lowercase()
+}
+
 /// A folder that no path leads into: no file of a system has this name.
 const NOWHERE: &str = "/\u{0}";
 
-fn collect(root: &Path, folder: &Path, deep: usize, rest: &mut usize, found: &mut Vec<Listed>) {
+fn collect(root: &Path, folder: &Path, deep: usize, rest: &mut usize, found: &mut Vec<String>) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for entry in entries.flatten() {
         if *rest == 0 {
@@ -88,13 +135,9 @@ fn collect(root: &Path, folder: &Path, deep: usize, rest: &mut usize, found: &mu
         let is_hidden = entry.file_name().to_string_lossy().starts_with('.');
         if kind.is_dir() && deep > 1 && !is_hidden {
             collect(root, &path, deep - 1, rest, found);
-        } else if kind.is_file() && path.extension().is_some_and(|end| end == "toml") {
-            let Ok(inside) = path.strip_prefix(root) else { continue };
-            let Some(name) = inside.to_str() else { continue };
-            let source = Source::find_within(root, Kind::Scenario, name);
-            if let Some(kind) = source.ok().and_then(|it| document::kind_of_source(&it).ok()) {
-                found.push(Listed { kind, path: name.replace('\\', "/") });
-            }
+        } else if kind.is_file() {
+            let inside = path.strip_prefix(root).ok().and_then(Path::to_str);
+            found.extend(inside.map(str::to_owned));
         }
     }
 }

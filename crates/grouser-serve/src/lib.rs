@@ -6,7 +6,7 @@
 //! (405), and for a question whether its `Origin` is ours (403) and its body small (413) and quick
 //! (408) JSON. `connection` bounds connections and what they take, `answering` and
 //! `runs` computations, `folder`
-//! the files that may be opened. `api` makes questions of JSON; `page/` has the page.
+//! the files that may be opened; `maps` keeps what was computed of maps. `api` makes questions of JSON; `page/` has the page.
 //!
 //! It is made on `hyper` itself. What a router and layers of middleware would add are a dozen
 //! paths and one order of checks, which is best read as one function; and the limits of
@@ -30,7 +30,9 @@ mod body;
 mod connection;
 mod console;
 mod folder;
+mod kept;
 mod limits;
+mod maps;
 mod refusal;
 mod routes;
 mod runs;

@@ -14,6 +14,7 @@ use crate::connection;
 use crate::console::Console;
 use crate::folder::ServedFolder;
 use crate::limits::Limits;
+use crate::maps::KeptOfMaps;
 use crate::runs::RunPlaces;
 use crate::token::Token;
 
@@ -111,6 +112,7 @@ impl Server {
             folder,
             runs: RunPlaces::new(&settings.limits),
             lists: Arc::new(Semaphore::new(1)),
+            kept: KeptOfMaps::default(),
             limits: settings.limits,
         };
         Ok(Self { listener, runtime, console: Arc::new(console), address })

@@ -12,6 +12,7 @@ pub mod replay;
 pub mod route;
 mod samples;
 pub mod slip_from_current;
+pub mod traverse;
 pub mod validation;
 pub mod wheel_test;
 

@@ -2,20 +2,21 @@
 
 mod folder;
 mod gazebo;
-mod picture;
 
 use grouser::answers::Answer;
-use grouser::answers::map::{MadeMap, MapFile, VerdictCounts};
+use grouser::answers::map::MadeMap;
 use grouser::document::columns::map::VERDICT;
 use grouser::document::json;
 use grouser::studies::mobility::{Ground, MobilityMap};
 use grouser_draw::style::on_both_grounds;
 use grouser_draw::title_of;
-use grouser_map::{BandSummary, Look, MapColumn, keep_out, style, summaries, write_band};
+use grouser_map::{
+    BandPictures, BandSummary, KEEP_OUT_FILE, Look, MAP_PAGE, MapColumn, band_files, keep_out,
+    label, style, summaries, write_band,
+};
 use rayon::prelude::*;
 
 use self::folder::MapFolder;
-use self::picture::{Pictures, label};
 use super::sampling;
 use crate::args::MapArgs;
 use crate::failure::Failure;
@@ -23,11 +24,6 @@ use crate::inputs::{self, MapInputs};
 use crate::output;
 use crate::output::answer::{add_pictures, html, print};
 use crate::output::slide::SlideFile;
-
-/// The name of the page.
-const PAGE: &str = "map.html";
-/// The name of the areas where nobody may go.
-const KEEP_OUT: &str = "keep-out.geojson";
 
 /// A band, and its numbers in all.
 type Summed<'b> = (&'b MapColumn, &'b BandSummary);
@@ -46,17 +42,17 @@ pub(crate) fn run(args: &MapArgs) -> Result<(), Failure> {
     let folder = MapFolder::open(&args.out, args.force, &question.identity(), &inputs.raster)?;
     let map = tables(args, &inputs, ground.steepest())?;
     let bands = question.bands();
-    let (sums, [unknown, go, caution, no_go, cannot_tell]) = summaries(ground, &map, &bands);
+    let (sums, verdicts) = summaries(ground, &map, &bands);
     write(&folder, ground, &map, &bands)?;
     let summed: Vec<Summed<'_>> = bands.iter().zip(&sums).collect();
-    let files: Vec<MapFile> = summed.iter().map(|band| file(&folder, *band)).collect();
+    let files = band_files(&bands, &sums, &|name| folder.path(name));
     let areas = keep_out(ground, &map);
     let made = MadeMap {
         map: &map,
         files: &files,
-        verdicts: VerdictCounts { go, caution, cannot_tell, no_go, unknown },
-        keep_out: areas.as_ref().map(|_| folder.path(KEEP_OUT)).map_err(|why| *why),
-        page: folder.path(PAGE),
+        verdicts,
+        keep_out: areas.as_ref().map(|_| folder.path(KEEP_OUT_FILE)).map_err(|why| *why),
+        page: folder.path(MAP_PAGE),
     };
     let mut answer = question.answer("map", &made);
     let keep_out = if areas.is_ok() { " --keep-out keep-out.geojson" } else { "" };
@@ -76,7 +72,7 @@ fn finish(
     bands: &[Summed<'_>],
     (areas, slide): (Option<String>, Option<SlideFile<'_>>),
 ) -> Result<(), Failure> {
-    let drawn = Pictures::of(inputs, &args.course_deg, (ground, map));
+    let drawn = BandPictures::of(&inputs.scenario, &args.course_deg, (ground, map));
     let mut pictures = Vec::new();
     for &(band, of) in bands {
         let picture = drawn.band(band, of);
@@ -86,7 +82,7 @@ fn finish(
         pictures.push((format!("{}.svg", band.name), on_both_grounds(&picture)));
     }
     let mut output = folder.output()?;
-    output.add(PAGE, html(answer, &repeat(args, inputs), &pictures));
+    output.add(MAP_PAGE, html(answer, &repeat(args, inputs), &pictures));
     output.add("map.json", json::text(answer) + "\n");
     add_pictures(&mut output, &pictures);
     for &(band, of) in bands {
@@ -96,7 +92,7 @@ fn finish(
         gazebo::add(&mut output, inputs, texture);
     }
     if let Some(areas) = areas {
-        output.add(KEEP_OUT, areas);
+        output.add(KEEP_OUT_FILE, areas);
     }
     output.add_document("scenario.toml", &inputs.scenario);
     output.finish()?;
@@ -137,20 +133,6 @@ fn write(
     let written: Vec<Result<(), Failure>> = missing.par_iter().map(one).collect();
     bar.finish_and_clear();
     written.into_iter().collect()
-}
-
-/// The file of a band.
-fn file(folder: &MapFolder, (band, of): Summed<'_>) -> MapFile {
-    MapFile {
-        name: band.name,
-        unit: band.unit,
-        about: band.doc,
-        least: of.least,
-        mean: of.mean,
-        most: of.most,
-        cells: of.known,
-        path: folder.path(&format!("{}.tif", band.name)),
-    }
 }
 
 /// The command that gives the answer again.

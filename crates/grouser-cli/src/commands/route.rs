@@ -1,18 +1,11 @@
 //! `grouser route`: the cheapest way over a map of heights, or what a given one takes.
 
-mod geojson;
-
-use std::sync::Arc;
-
-use grouser::answers::route::Way;
-use grouser::studies::ensemble::samples::Sample;
-use grouser::studies::route::{
-    Answer as Found, COURSES, DrivenRoute, Ends, JudgedLeg, Line, Objective, Route, RouteError,
-    RouteTables,
-};
+use grouser::answers::route::{Way, WayError};
+use grouser::studies::route::{COURSES, Ends, Objective, RouteError};
 use grouser_draw::map::{Track, ways_over_ground};
 use grouser_draw::style::on_both_grounds;
 use grouser_draw::{Sheet, title_of};
+use grouser_map::way_as_geojson;
 
 use super::sampling;
 use crate::args::RouteArgs;
@@ -29,6 +22,15 @@ impl From<RouteError> for Failure {
     }
 }
 
+impl From<WayError> for Failure {
+    fn from(error: WayError) -> Self {
+        match error {
+            WayError::Route(error) => error.into(),
+            WayError::Ground(_) | WayError::Drive(_) => Self::Run(error.to_string()),
+        }
+    }
+}
+
 pub(crate) fn run(args: &RouteArgs) -> Result<(), Failure> {
     let mut folder = OutputFolder::for_args(&args.output)?;
     let slide = SlideFile::of(&args.slide, args.output.force)?;
@@ -37,7 +39,7 @@ pub(crate) fn run(args: &RouteArgs) -> Result<(), Failure> {
     let answer = inputs.question(args).answer("route", &ways);
     let mut pictures = Vec::new();
     if let Some(folder) = &mut folder {
-        folder.add("route.geojson", geojson::text(&ways[0].record, &inputs.raster.coordinates));
+        folder.add("route.geojson", way_as_geojson(&ways[0].record, &inputs.raster.coordinates));
         pictures.push(("route.svg".to_owned(), on_both_grounds(&picture(&inputs, &ways))));
     }
     if let Some(slide) = slide {
@@ -58,13 +60,18 @@ fn ways(args: &RouteArgs, inputs: &RouteInputs) -> Result<Vec<Way>, Failure> {
         inputs.study.tables(&samples, with_risk, go_on)
     });
     let tables = sampling::whole(tables?);
-    match &inputs.asked {
-        Asked::Between(ends) => wanted
-            .into_iter()
-            .map(|it| sought(args, inputs, (&tables, &samples), ends, it))
-            .collect(),
-        Asked::Along(line) => Ok(vec![given(args, inputs, (&tables, &samples), line)?]),
-    }
+    let question = inputs.question(args);
+    let one = |objective: Objective| {
+        let what = match &inputs.asked {
+            Asked::Between(_) => format!("the way of least {}", objective.name()),
+            Asked::Along(_) => "the given way".to_owned(),
+        };
+        let bar = output::waiting_line(what);
+        let found = question.way((&tables, &samples), objective, !args.no_drive, &|| true);
+        bar.finish_and_clear();
+        Ok(sampling::whole(found?))
+    };
+    wanted.into_iter().map(one).collect()
 }
 
 /// What ways are to have least of, the one that is asked for first.
@@ -72,67 +79,6 @@ fn objectives(args: &RouteArgs) -> Vec<Objective> {
     let chosen = args.minimise;
     let others = Objective::ALL.into_iter().filter(|it| args.alternatives && *it != chosen);
     std::iter::once(chosen).chain(others).collect()
-}
-
-fn sought(
-    args: &RouteArgs,
-    inputs: &RouteInputs,
-    (tables, samples): (&RouteTables, &[Sample]),
-    ends: &Ends,
-    objective: Objective,
-) -> Result<Way, Failure> {
-    let bar = output::waiting_line(format!("the way of least {}", objective.name()));
-    let asked = (inputs.ground(), ends);
-    let found = inputs.study.judged_route(tables, asked, objective, samples, &|| true);
-    bar.finish_and_clear();
-    let (found, legs) = sampling::whole(found?);
-    let route = match &found {
-        Found::Route(route) => Some(route),
-        Found::NoSafeRoute(_) => None,
-    };
-    let driven = drive(args, route, inputs)?;
-    Ok(Way::sought(objective, found, driven, &legs))
-}
-
-fn given(
-    args: &RouteArgs,
-    inputs: &RouteInputs,
-    (tables, samples): (&RouteTables, &[Sample]),
-    line: &Line,
-) -> Result<Way, Failure> {
-    let RouteInputs { study, .. } = inputs;
-    let found = study.along(tables, inputs.ground(), line)?;
-    let driven = drive(args, found.route.as_ref(), inputs)?;
-    let legs = advice(inputs, &found.seen, samples)?;
-    Ok(Way::along(line, found, &study.limits, driven, &legs))
-}
-
-/// What to do on each leg of a way, if its ground is known.
-fn advice(
-    inputs: &RouteInputs,
-    route: &Route,
-    samples: &[Sample],
-) -> Result<Vec<Option<JudgedLeg>>, Failure> {
-    let bar = output::waiting_line("advice for each leg");
-    let found = route.advice(&inputs.study.mobility, samples, &|| true);
-    bar.finish_and_clear();
-    Ok(sampling::whole(found?))
-}
-
-/// Drives a way by simulation, if there is one and that is asked for.
-fn drive(
-    args: &RouteArgs,
-    route: Option<&Route>,
-    inputs: &RouteInputs,
-) -> Result<Option<DrivenRoute>, Failure> {
-    let Some(route) = route.filter(|_| !args.no_drive) else { return Ok(None) };
-    let scenario = &inputs.scenario.value;
-    let model = inputs.raster.clone().model();
-    let model = model.map_err(|error| Failure::Run(error.to_string()))?;
-    let bar = output::waiting_line("driving the way");
-    let driven = route.drive(scenario, &Arc::new(model), inputs.study.mobility.rim_speed);
-    bar.finish_and_clear();
-    driven.map(Some).map_err(|error| Failure::Run(format!("the way cannot be driven: {error}")))
 }
 
 /// The command that gives the answer again.

@@ -3,16 +3,16 @@
 mod of_model;
 mod page;
 
-use grouser::answers;
-use grouser::answers::EVERY_MODEL;
+use grouser::answers::traverse::TraverseQuestion;
+use grouser::answers::{self, EVERY_MODEL};
 use grouser::contact::validity::Flag;
-use grouser::document::columns::run::{self, RunObject};
+use grouser::document::columns::run;
 use grouser::document::columns::{ENERGY, MODEL, Quantity, TIME, X, Y, YAW, Z};
 use grouser::document::gradient::GradientKeys;
+use grouser::document::json;
 use grouser::document::reading::{four_digits, metres};
-use grouser::document::table::{Row, Table};
+use grouser::document::table::Table;
 use grouser::simulation::{Run, Scenario, Trajectory};
-use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::traverse_band::RunBand;
 use grouser_draw::chart::Drawable;
 use grouser_draw::{Shown, title_of};
@@ -22,8 +22,8 @@ use serde_json::{Value, json};
 use self::of_model::{OfModel, RECORDS, chart, given, reason};
 use super::animation::Target;
 use super::destinations::Destinations;
-use super::{Answer, add_files, method, sampling};
-use crate::args::{TraverseArgs, UncertaintyArgs};
+use super::{Answer, add_files, method};
+use crate::args::TraverseArgs;
 use crate::failure::Failure;
 use crate::inputs;
 use crate::output::folder::OutputFolder;
@@ -116,20 +116,12 @@ fn animate(
 impl OfModel {
     fn output(&self, args: &TraverseArgs, folder: Option<OutputFolder>) -> Result<(), Failure> {
         let rows = Rows::of_table(&self.rows());
-        let settings = settings(args, std::slice::from_ref(self));
-        let run = RunObject {
-            run: &self.run,
-            scenario: &self.scenario.value,
-            derivatives: self.gradient.as_ref().map(|it| &it.rows),
-        };
-        let scenario = &self.scenario.value;
-        let tables = self.band.as_ref().map(|band| {
-            (run::run_band(&band.run, scenario), run::time_bands(&band.times, scenario))
-        });
-        let bands = tables.as_ref().map(|(run, times)| Bands { band: run.row(0), bands: times });
-        let answer = Answer::new("traverse", settings, Results { run, bands });
+        let sampling = args.uncertainty.sampling();
+        let band = self.band.as_ref().zip(sampling);
+        let question = TraverseQuestion { scenario: &self.scenario };
+        let answer = question.answer("traverse", &self.run, band, self.gradient.as_ref());
         if let Some(mut folder) = folder {
-            folder.add("traverse.json", answer.to_text());
+            folder.add("traverse.json", json::text(&answer) + "\n");
             folder.add(RECORDS, rows.to_csv()?);
             let all = std::slice::from_ref(self);
             folder.add("traverse.svg", chart(all).to_svg());
@@ -176,45 +168,22 @@ impl OfModel {
     }
 }
 
-/// The inputs of the answer.
+/// The inputs of the answer of all models.
 fn settings(args: &TraverseArgs, all: &[OfModel]) -> Value {
-    let mut settings = json!({ "scenario": all[0].scenario.document });
-    if let [_, ..] = &all[1..] {
-        settings["model"] = EVERY_MODEL.into();
-        // That of the scenario is the first of all.
-        if let Some(scenario) = settings["scenario"].as_object_mut() {
-            scenario.shift_remove("model");
-        }
+    let mut settings = json!({ "scenario": all[0].scenario.document, "model": EVERY_MODEL });
+    // That of the scenario is the first of all.
+    if let Some(scenario) = settings["scenario"].as_object_mut() {
+        scenario.shift_remove("model");
     }
-    let UncertaintyArgs { sampling, seed } = args.uncertainty;
-    if sampling.uncertainty {
-        settings["samples"] = sampling.samples.into();
-        settings["seed"] = seed.into();
-        if let [one] = all {
-            settings[sampling::WEIGHTS] = answers::weights(&BandInputs::of_scenario(&one.scenario));
-        }
+    if let Some(sampling) = args.uncertainty.sampling() {
+        settings["samples"] = sampling.count.into();
+        settings["seed"] = sampling.seed.into();
     }
     if let Some(gradient) = &all[0].gradient {
         settings["gradients"] = gradient.keys.names().collect();
     }
     add_files(&mut settings, &given(all));
     settings
-}
-
-#[derive(Serialize)]
-struct Results<'a> {
-    #[serde(flatten)]
-    run: RunObject<'a>,
-    #[serde(flatten)]
-    bands: Option<Bands<'a>>,
-}
-
-#[derive(Serialize)]
-struct Bands<'a> {
-    /// Band of the run's end and means.
-    band: Row<'a>,
-    /// Over time.
-    bands: &'a Table,
 }
 
 #[derive(Serialize)]

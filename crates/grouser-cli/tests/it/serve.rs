@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use grouser::document::json;
 use serde_json::{Value, json};
 
+use crate::maps::heights;
 use crate::program::Place;
 
 /// A server, and the address that it printed.
@@ -107,17 +108,81 @@ fn answers_are_those_of_the_commands_that_come_with_them() {
         ),
         ("wheel-test", json!({"slip_ratio": 0.3, "gradients": ["all"], "model": "small-wheel"})),
     ] {
-        let mut asked = body.clone();
-        asked["shown"] = true.into();
-        let lines = served.ask(question, &asked);
-        assert_eq!(lines.len() % 2, 0);
-        for stage in lines.chunks(2) {
-            let command = stage[1]["command"].as_str().unwrap();
-            let printed = place.shell(&format!("{command} --format json"));
-            assert!(printed.status.success(), "{command}: {}", printed.stderr);
-            let printed: Value = serde_json::from_str(&printed.stdout).unwrap();
-            assert_eq!(json::line(&printed), json::line(&stage[0]), "{command}");
-        }
+        check_is_of_its_command(&place, &served, question, &body);
+    }
+}
+
+/// The same of what lies on a map of heights, and of runs.
+#[test]
+fn maps_ways_and_runs_are_those_of_their_commands() {
+    let place = Place::new();
+    place
+        .write("soft sand.toml", crate::program::changed_preset("soil", "toyoura", "38.0", "33.0"));
+    place.write("hills.xyz", heights(|x, y| 0.12 * x + 0.4 * (0.9 * y).sin()));
+    place.write(
+        "rocks.geojson",
+        r#"{"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [[[7005, -298], [7007, -298], [7007, -296], [7005, -298]]]}}"#,
+    );
+    let served = Served::start(&place, &["."]);
+    for (question, body) in [
+        ("map", json!({"dem": "hills.xyz", "samples": 8, "soil": "toyoura-uncertain"})),
+        (
+            "map",
+            json!({
+                "dem": "./hills.xyz", "stages": [4, 6], "course_deg": "best", "missing_m": 0.25,
+                "soil": "soft sand.toml", "gravity_m_s2": "moon", "rim_speed_m_s": 0.1,
+                "go_slip_ratio": 0.2, "layers": ["course_deg", "slip_ratio"],
+            }),
+        ),
+        (
+            "route",
+            json!({"dem": "hills.xyz", "samples": 4, "from_m": [7002, -298], "to_m": [7012, -293]}),
+        ),
+        (
+            "route",
+            json!({
+                "dem": "hills.xyz", "samples": 4, "soil": "toyoura-uncertain", "keep_out": "rocks.geojson",
+                "from_m": [7002, -297], "to_m": [7011, -296.5], "minimise": "energy", "yaw_deg": 370,
+                "most_slope_deg": 25, "most_slip_ratio": 0.9, "most_no_go": 0.5, "alternatives": true,
+            }),
+        ),
+        ("traverse", json!({})),
+        (
+            "traverse",
+            json!({
+                "soil": "toyoura-uncertain", "slope_deg": 14, "yaw_deg": -3.5, "duration_s": 6.05,
+                "rim_speed_m_s": [0.05, 0.05, 0.06, 0.06], "stages": [0, 4],
+            }),
+        ),
+        (
+            "traverse",
+            json!({
+                "set": {"scenario.terrain.file": "hills.xyz"}, "duration_s": 8, "yaw_deg": 20,
+            }),
+        ),
+        (
+            "traverse",
+            json!({"slope_deg": 8, "duration_s": 3, "set": {"scenario.simulation": "quasi-steady"}}),
+        ),
+    ] {
+        check_is_of_its_command(&place, &served, question, &body);
+    }
+}
+
+/// Checks that each stage of an answer is what its command prints.
+fn check_is_of_its_command(place: &Place, served: &Served, question: &str, body: &Value) {
+    let mut asked = body.clone();
+    asked["shown"] = true.into();
+    let lines = served.ask(question, &asked);
+    assert_eq!(lines.len() % 2, 0);
+    for stage in lines.chunks(2) {
+        // A map is a folder, which is written once.
+        drop(std::fs::remove_dir_all(place.file("map")));
+        let command = stage[1]["command"].as_str().unwrap();
+        let printed = place.shell(&format!("{command} --format json"));
+        assert!(printed.status.success(), "{command}: {}", printed.stderr);
+        let printed: Value = serde_json::from_str(&printed.stdout).unwrap();
+        assert_eq!(json::line(&printed), json::line(&stage[0]), "{command}");
     }
 }
 

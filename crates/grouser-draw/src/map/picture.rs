@@ -36,6 +36,21 @@ pub struct MapPictures<'m> {
     relief: Vec<Option<f64>>,
 }
 
+/// Where the ground lies on a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapFrame {
+    /// Width and height of the picture [mm].
+    pub picture: [f64; 2],
+    /// The ground's north-western corner, from the left and from above [mm].
+    pub corner: [f64; 2],
+    /// Width and height of the ground [mm].
+    pub size: [f64; 2],
+    /// The outer corners of the ground's cells [m].
+    pub south_west: Vec2,
+    /// Likewise.
+    pub north_east: Vec2,
+}
+
 impl<'m> MapPictures<'m> {
     /// * `caption`: whose map it is
     /// * `gradient`: of the ground, by column and row of the grid; `None` where it is not known
@@ -48,6 +63,20 @@ impl<'m> MapPictures<'m> {
         let pixels = Pixels::of(grid);
         let relief = relief(&pixels, grid, gradient);
         Self { caption: caption.to_owned(), grid, pixels, relief }
+    }
+
+    /// Where the ground lies on each picture.
+    #[must_use]
+    pub fn frame(&self) -> MapFrame {
+        let window = self.window();
+        let Window { south_west, north_east, .. } = window;
+        let size = window.size();
+        MapFrame { picture: window.picture(), corner: CORNER, size, south_west, north_east }
+    }
+
+    fn window(&self) -> Window {
+        let grid = self.grid;
+        Window::new(grid, [0, 0], [grid.columns - 1, grid.rows - 1], usize::MAX)
     }
 
     /// A number of each place in colours, with their scale beside them. Ground without a number is
@@ -115,9 +144,8 @@ impl<'m> MapPictures<'m> {
     }
 
     fn sheet(&self, title: &str, colours: Vec<Option<Colour>>, note: &str) -> (Sheet, Window) {
-        let grid = self.grid;
-        let window = Window::new(grid, [0, 0], [grid.columns - 1, grid.rows - 1], usize::MAX);
-        let extent = grid.extent();
+        let window = self.window();
+        let extent = self.grid.extent();
         let corners = [extent.south_west, extent.north_east];
         let mut sheet = window.sheet(title, &self.caption, corners);
         let size = window.size();

@@ -7,15 +7,15 @@ use serde_json::{Map, Value, json};
 use super::fields::AskedFields;
 use super::parts::{ScenarioParts, StandParts};
 use crate::asked::Question;
-use crate::folder::ServedFolder;
+use crate::console::Console;
 use crate::refusal::Refusal;
 
 /// The scenario of a question about headings.
-pub(super) fn scenario(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refusal> {
+pub(super) fn scenario(console: &Console, body: &[u8]) -> Result<Question, Refusal> {
     let fields = AskedFields::of(body)?;
     let parts = ScenarioParts::of(&fields)?;
     fields.finish()?;
-    let scenario = parts.scenario(folder)?;
+    let scenario = parts.scenario(&console.folder)?;
     Ok(Question::new(move |_, send| {
         let document = &scenario.document;
         let names = ["rover", "soil"].map(|part| (part.to_owned(), document.name_of(part).into()));
@@ -34,11 +34,11 @@ pub(super) fn scenario(folder: &ServedFolder, body: &[u8]) -> Result<Question, R
 }
 
 /// The soil and the wheel of a question about a test stand.
-pub(super) fn stand(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refusal> {
+pub(super) fn stand(console: &Console, body: &[u8]) -> Result<Question, Refusal> {
     let fields = AskedFields::of(body)?;
     let parts = StandParts::of(&fields)?;
     fields.finish()?;
-    let stands = parts.stands(folder, false)?;
+    let stands = parts.stands(&console.folder, false)?;
     Ok(Question::new(move |_, send| {
         for stand in stands.into_iter().take(1) {
             let (soil, wheel) = (&stand.soil, &stand.wheel);

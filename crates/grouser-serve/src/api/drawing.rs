@@ -11,21 +11,21 @@ use serde_json::json;
 use super::fields::AskedFields;
 use super::parts::StandParts;
 use crate::asked::Question;
-use crate::folder::ServedFolder;
+use crate::console::Console;
 use crate::refusal::Refusal;
 
 /// Lighter wheels leave no trace to draw [N]; at more skid the soil is sheared without bound.
 const LOADS: std::ops::RangeInclusive<f64> = 1e-3..=*LOAD_N.end();
 const SLIPS: std::ops::RangeInclusive<f64> = -0.9..=1.0;
 
-pub(super) fn read(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refusal> {
+pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> {
     let fields = AskedFields::of(body)?;
     let load = fields.number("load_n", &LOADS)?.unwrap_or(17.0);
     let slip_ratio = fields.number("slip_ratio", &SLIPS)?.unwrap_or(0.2);
     let slip_angle = fields.number("slip_angle_deg", &SLIP_ANGLE_DEG)?.unwrap_or(0.0);
     let parts = StandParts::of(&fields)?;
     fields.finish()?;
-    let stand = parts.stands(folder, false)?.into_iter().next();
+    let stand = parts.stands(&console.folder, false)?.into_iter().next();
     let Some(stand) = stand else {
         return Err(Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, "there is no model"));
     };

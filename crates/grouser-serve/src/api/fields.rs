@@ -94,6 +94,15 @@ impl AskedFields {
         all.iter().map(|value| number(key, value, range)).collect()
     }
 
+    /// x and y of a place [m].
+    pub(super) fn place(&self, key: &'static str) -> Result<Option<[f64; 2]>, Refusal> {
+        match self.numbers(key, &(f64::MIN..=f64::MAX), &[])?[..] {
+            [] => Ok(None),
+            [x, y] => Ok(Some([x, y])),
+            _ => Err(Refusal::of_key(key, "it must be two numbers, x and y in metres")),
+        }
+    }
+
     /// Whole numbers within a range.
     pub(super) fn counts(
         &self,

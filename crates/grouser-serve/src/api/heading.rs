@@ -1,20 +1,18 @@
 //! `heading`: the heading offset that holds the contour, with its verdict.
 
 use grouser::answers::heading::HeadingQuestion;
-use grouser::answers::{Answer, AnswerError, AnswerOptions, Sampling};
+use grouser::answers::{Answer, AnswerOptions, Sampling};
 use grouser::document::gradient::GradientKeys;
-use grouser::document::study::SHARE;
 use grouser::document::{self, Kind};
 use grouser::studies::heading::Steering;
-use grouser::studies::verdict::Rule;
-use hyper::StatusCode;
 
 use super::command::CommandLine;
 use super::fields::AskedFields;
 use super::parts::ScenarioParts;
-use super::staged::{Staged, Stages};
+use super::rule;
+use super::staged::{Staged, Stages, refused};
 use crate::asked::Question;
-use crate::folder::ServedFolder;
+use crate::console::Console;
 use crate::refusal::Refusal;
 
 /// The samples of a first answer, as the program has them.
@@ -22,7 +20,7 @@ const DRAFT: u32 = 40;
 /// The slopes where nothing is said of them, as the program has them [°].
 const SLOPES: [f64; 4] = [5.0, 10.0, 15.0, 20.0];
 
-pub(super) fn read(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refusal> {
+pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> {
     let fields = AskedFields::of(body)?;
     let range = document::range(Kind::Scenario, "slope_deg").unwrap_or(0.0..=60.0);
     let slopes_deg = fields.numbers("slope_deg", &range, &SLOPES)?;
@@ -31,14 +29,14 @@ pub(super) fn read(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refus
     let steering = steering(&fields)?;
     let gradients = fields.texts("gradients")?;
     let is_nominal = !stages.has_samples();
-    let rule = rule(&fields)?;
+    let rule = rule::of(&fields)?;
     fields.finish()?;
     // What is no heading of the body has no samples, and derivatives are of the soil as written.
     let is_plain = steering == Steering::None && gradients.is_empty();
     let stages = if is_plain { stages } else { stages.without_samples() };
     let every = parts.common().has_every_model();
     let stages = stages.of_rows(("slope_deg", slopes_deg.len()), every, gradients.len())?;
-    let scenarios = parts.scenarios(folder, stages.has_samples())?;
+    let scenarios = parts.scenarios(&console.folder, stages.has_samples())?;
     let is_believed = scenarios.iter().any(|it| it.soils_of_bands().is_some());
     if !gradients.is_empty() && !is_nominal && is_believed {
         let message = "derivatives are of the soil as its document has it, with one model, and \
@@ -56,11 +54,7 @@ pub(super) fn read(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refus
     if !gradients.is_empty() {
         line.option("gradients", &gradients.join(","));
     }
-    for (name, of) in RULE {
-        if of(&rule) != of(&Rule::DEFAULT) {
-            line.option(&name.replace('_', "-"), &of(&rule).to_string());
-        }
-    }
+    rule::add_words(&rule, &mut line);
     let question = HeadingQuestion {
         scenarios,
         slopes_deg,
@@ -81,44 +75,13 @@ fn steering(fields: &AskedFields) -> Result<Steering, Refusal> {
     })
 }
 
-/// A limit of the verdicts.
-type RuleLimit = fn(&Rule) -> f64;
-
-/// The limits of the verdicts by their keys.
-const RULE: [(&str, RuleLimit); 5] = [
-    ("go_slip_ratio", |it| it.go_slip_ratio),
-    ("go_probability", |it| it.go_probability),
-    ("go_drift_m_per_m", |it| it.go_drift_m_per_m),
-    ("no_go_slip_ratio", |it| it.no_go_slip_ratio),
-    ("no_go_probability", |it| it.no_go_probability),
-];
-
-fn rule(fields: &AskedFields) -> Result<Rule, Refusal> {
-    let mut limits = [0.0; 5];
-    for ((name, usual), limit) in RULE.into_iter().zip(&mut limits) {
-        *limit = fields.number(name, &SHARE)?.unwrap_or(usual(&Rule::DEFAULT));
-    }
-    let [go_slip_ratio, go_probability, go_drift_m_per_m, no_go_slip_ratio, no_go_probability] =
-        limits;
-    let rule = Rule {
-        go_slip_ratio,
-        go_probability,
-        go_drift_m_per_m,
-        no_go_slip_ratio,
-        no_go_probability,
-    };
-    let checked = rule.check();
-    checked.map_err(|it| Refusal::new(StatusCode::UNPROCESSABLE_ENTITY, it.to_string()))?;
-    Ok(rule)
-}
-
 impl Staged for HeadingQuestion {
     fn sample(&mut self, sampling: Option<Sampling>) {
         self.sampling = sampling;
     }
 
-    fn answer(&self, options: &AnswerOptions<'_>) -> Result<Answer, AnswerError> {
-        self.answer("heading", options)
+    fn answer(&self, options: &AnswerOptions<'_>) -> Result<Answer, Refusal> {
+        self.answer("heading", options).map_err(refused)
     }
 
     fn add_samples(&self, line: &mut CommandLine, sampling: Option<Sampling>) {

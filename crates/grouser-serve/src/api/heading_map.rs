@@ -1,16 +1,16 @@
 //! `heading-map`: the heading offset over slope and course, with slip, sinkage and power.
 
 use grouser::answers::heading_map::HeadingMapQuestion;
-use grouser::answers::{Answer, AnswerError, AnswerOptions, Sampling};
+use grouser::answers::{Answer, AnswerOptions, Sampling};
 use grouser::document::study::{COURSE_DEG, MAP_SPEED_M_S};
 use grouser::document::{self, Kind};
 
 use super::command::CommandLine;
 use super::fields::AskedFields;
 use super::parts::ScenarioParts;
-use super::staged::{Staged, Stages};
+use super::staged::{Staged, Stages, refused};
 use crate::asked::Question;
-use crate::folder::ServedFolder;
+use crate::console::Console;
 use crate::refusal::Refusal;
 
 /// The slopes and courses where nothing is said of them, as the program has them [°].
@@ -20,7 +20,7 @@ const COURSES: [f64; 9] = [-60.0, -45.0, -30.0, -15.0, 0.0, 15.0, 30.0, 45.0, 60
 /// The rim speed, likewise [m/s].
 const RIM_SPEED: f64 = 0.06;
 
-pub(super) fn read(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refusal> {
+pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> {
     let fields = AskedFields::of(body)?;
     let range = document::range(Kind::Scenario, "slope_deg").unwrap_or(0.0..=60.0);
     let slopes_deg = fields.numbers("slope_deg", &range, &SLOPES)?;
@@ -31,7 +31,7 @@ pub(super) fn read(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refus
     fields.finish()?;
     let rows = slopes_deg.len() * courses_deg.len();
     let stages = stages.of_rows(("slope_deg", rows), parts.common().has_every_model(), 0)?;
-    let scenarios = parts.scenarios(folder, stages.has_samples())?;
+    let scenarios = parts.scenarios(&console.folder, stages.has_samples())?;
     let mut line = CommandLine::new("heading-map");
     parts.add_words(&mut line);
     line.numbers("slope-deg", &slopes_deg);
@@ -55,8 +55,8 @@ impl Staged for HeadingMapQuestion {
         self.sampling = sampling;
     }
 
-    fn answer(&self, options: &AnswerOptions<'_>) -> Result<Answer, AnswerError> {
-        self.answer("heading-map", options)
+    fn answer(&self, options: &AnswerOptions<'_>) -> Result<Answer, Refusal> {
+        self.answer("heading-map", options).map_err(refused)
     }
 
     fn add_samples(&self, line: &mut CommandLine, sampling: Option<Sampling>) {

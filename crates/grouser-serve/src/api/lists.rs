@@ -17,6 +17,13 @@ pub(super) fn presets(_: &Console) -> String {
     })) + "\n"
 }
 
+/// The maps of heights and the areas of the folder, by the ends of their names: kind and path of each.
+pub(super) fn files(console: &Console) -> String {
+    let files = console.folder.list_files().into_iter();
+    let rows: Vec<_> = files.map(|it| json!({ "kind": it.kind, "path": it.path })).collect();
+    json::line(&json!({ "schema": "grouser.files.v1", "rows": rows })) + "\n"
+}
+
 /// The documents of the folder: kind and path of each.
 pub(super) fn documents(console: &Console) -> String {
     let rows = console.folder.list().into_iter();

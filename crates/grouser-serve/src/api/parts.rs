@@ -36,6 +36,13 @@ pub(super) struct ScenarioParts {
     settings: CommonSettings,
 }
 
+/// What a question says of a run, beside its scenario.
+#[derive(Clone, Debug)]
+pub(super) struct RunSettings {
+    /// Keys of scenarios by those of the question, each with its numbers.
+    numbers: Vec<(&'static str, &'static str, Vec<f64>)>,
+}
+
 /// A wheel on a test stand by its parts.
 #[derive(Clone, Debug)]
 pub(super) struct StandParts {
@@ -175,6 +182,73 @@ impl CommonSettings {
 const KEYS: [&str; 6] =
     ["rover", "soil", "model", "gravity_m_s2", "load_transfer", "wheel_moments"];
 
+/// Numbers of runs: the key of a question, and that of the scenario.
+const OF_RUNS: [(&str, &str); 4] = [
+    ("slope_deg", "scenario.slope_deg"),
+    ("yaw_deg", "scenario.start.yaw_deg"),
+    ("duration_s", "scenario.duration_s"),
+    ("rim_speed_m_s", "scenario.drive.rim_speed_m_s"),
+];
+
+/// What a scenario is read for.
+#[derive(Clone, Copy)]
+enum Use<'r> {
+    /// To be shown as it is.
+    AsItIs,
+    /// For headings, whose slope and drive come from elsewhere: its own are refused.
+    Headings,
+    Run(&'r RunSettings),
+}
+
+impl RunSettings {
+    pub(super) fn of(fields: &AskedFields) -> Result<Self, Refusal> {
+        let mut numbers = Vec::new();
+        for (key, of_scenario) in OF_RUNS {
+            let given = fields.numbers(key, &(f64::MIN..=f64::MAX), &[])?;
+            // Wheels may have a speed each.
+            if given.len() > 1 && key != "rim_speed_m_s" {
+                return Err(Refusal::of_key(key, "it must be one number"));
+            }
+            if !given.is_empty() {
+                numbers.push((key, of_scenario, given));
+            }
+        }
+        Ok(Self { numbers })
+    }
+
+    fn add_to(&self, overrides: &mut Overrides, folder: &ServedFolder) -> Result<(), Refusal> {
+        for (key, of_scenario, numbers) in &self.numbers {
+            let value = match numbers[..] {
+                [one] => format!("{one:?}"),
+                _ => format!("{numbers:?}"),
+            };
+            let set = folder.set(overrides, of_scenario, &value);
+            set.map_err(|error| Refusal {
+                hint: error.hint().map(str::to_owned),
+                ..Refusal::of_key(key, error.problem().to_string())
+            })?;
+            if *key == "yaw_deg" {
+                // One yaw stands in place of the other.
+                overrides.leave_out(Kind::Scenario, &["drive", "yaw_deg"]);
+            }
+        }
+        Ok(())
+    }
+
+    /// The key of the question that an error of documents is about.
+    fn key_of(&self, error: &DocumentError) -> Option<&'static str> {
+        let place = &error.place().document;
+        let is_its = |of_scenario: &str| place.starts_with(&format!("{of_scenario} = "));
+        self.numbers.iter().find(|(_, of_scenario, _)| is_its(of_scenario)).map(|(key, ..)| *key)
+    }
+
+    pub(super) fn add_words(&self, line: &mut CommandLine) {
+        for (key, _, numbers) in &self.numbers {
+            line.numbers(&key.replace('_', "-"), numbers);
+        }
+    }
+}
+
 impl ScenarioParts {
     pub(super) fn of(fields: &AskedFields) -> Result<Self, Refusal> {
         Ok(Self {
@@ -196,7 +270,7 @@ impl ScenarioParts {
         is_sampled: bool,
     ) -> Result<Vec<LoadedScenario>, Refusal> {
         let read = |settings: &CommonSettings| {
-            let scenario = self.read(folder, settings, true)?;
+            let scenario = self.read(folder, settings, Use::Headings)?;
             if is_sampled {
                 settings.refuse_sampled(folder, scenario.uncertain.as_ref())?;
             }
@@ -207,16 +281,28 @@ impl ScenarioParts {
 
     /// The scenario as it is.
     pub(super) fn scenario(&self, folder: &ServedFolder) -> Result<LoadedScenario, Refusal> {
-        self.read(folder, &self.settings, false)
+        self.read(folder, &self.settings, Use::AsItIs)
     }
 
-    /// * `is_heading`: whether slope and drive are refused, as an answer about headings has them
-    ///   from elsewhere
+    /// The scenario of a run.
+    pub(super) fn run(
+        &self,
+        folder: &ServedFolder,
+        settings: &RunSettings,
+        is_sampled: bool,
+    ) -> Result<LoadedScenario, Refusal> {
+        let scenario = self.read(folder, &self.settings, Use::Run(settings))?;
+        if is_sampled {
+            self.settings.refuse_sampled(folder, scenario.uncertain.as_ref())?;
+        }
+        Ok(scenario)
+    }
+
     fn read(
         &self,
         folder: &ServedFolder,
         settings: &CommonSettings,
-        is_heading: bool,
+        of: Use<'_>,
     ) -> Result<LoadedScenario, Refusal> {
         let source = match &self.scenario {
             Some(name) => find("scenario", folder, Kind::Scenario, name)?,
@@ -224,8 +310,17 @@ impl ScenarioParts {
         };
         let kinds = [Kind::Scenario, Kind::Rover, Kind::Soil, Kind::Wheel];
         let mut overrides = settings.overrides(folder, &kinds)?;
-        let blamed = |error: DocumentError| settings.blamed(&error);
-        if is_heading {
+        let blamed = |error: DocumentError| {
+            let refusal = settings.blamed(&error);
+            match &of {
+                Use::Run(run) => match run.key_of(&error) {
+                    Some(key) => Refusal { key: Some(key.to_owned()), ..refusal },
+                    None => refusal,
+                },
+                _ => refusal,
+            }
+        };
+        if matches!(of, Use::Headings) {
             let unused =
                 ["slope_deg", "duration_s", "sample_interval_s", "simulation", "drive", "start"];
             let hint = "slopes are given by `slope_deg` of the question; a heading offset has no \
@@ -233,6 +328,9 @@ impl ScenarioParts {
             overrides.refuse(Kind::Scenario, &unused, hint).map_err(blamed)?;
         }
         settings.add_to(&mut overrides, folder)?;
+        if let Use::Run(run) = &of {
+            run.add_to(&mut overrides, folder)?;
+        }
         for (key, name) in [("rover", &self.rover), ("soil", &self.soil)] {
             if let Some(name) = name {
                 let key = format!("scenario.{key}");

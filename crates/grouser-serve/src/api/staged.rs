@@ -20,10 +20,15 @@ pub(super) trait Staged: 'static {
     /// Sets the samples.
     fn sample(&mut self, sampling: Option<Sampling>);
 
-    fn answer(&self, options: &AnswerOptions<'_>) -> Result<Answer, AnswerError>;
+    fn answer(&self, options: &AnswerOptions<'_>) -> Result<Answer, Refusal>;
 
     /// The words that ask the program for these samples.
     fn add_samples(&self, line: &mut CommandLine, sampling: Option<Sampling>);
+
+    /// Adds what is shown of the last answer beside its words, such as pictures.
+    fn add_shown(&self, _shown: &mut Value) -> Result<(), Refusal> {
+        Ok(())
+    }
 }
 
 /// Which samples are asked for, one after another, and what is to be shown.
@@ -87,6 +92,23 @@ impl Stages {
         self.samplings.iter().any(Option::is_some)
     }
 
+    /// Checks that each stage has samples, and that no flag is to be an error: a map, and what is
+    /// made of it, has no other answer.
+    pub(super) fn of_samples(self) -> Result<Self, Refusal> {
+        if self.samplings.iter().any(Option::is_none) {
+            return Err(Refusal::of_key("nominal", "what is made of a map is always of samples"));
+        }
+        if self.is_strict {
+            return Err(Refusal::of_key("strict", "what is made of a map has flags all the same"));
+        }
+        Ok(self)
+    }
+
+    /// The same, none of which is quick.
+    pub(super) fn in_turn(self) -> Self {
+        Self { rows: QUICK_ROWS + 1, ..self }
+    }
+
     /// The same without samples.
     pub(super) fn without_samples(self) -> Self {
         Self { samplings: vec![None], ..self }
@@ -141,7 +163,7 @@ impl Stages {
                     is_strict: self.is_strict,
                     go_on: &is_on,
                 };
-                let answer = asked.answer(&options).map_err(refused)?;
+                let answer = asked.answer(&options)?;
                 drop(turn);
                 if !go_on.is_on() {
                     return Err(refused(AnswerError::Stopped));
@@ -152,7 +174,9 @@ impl Stages {
                 if self.shows {
                     let mut line = line.clone();
                     asked.add_samples(&mut line, sampling);
-                    if !send(json::line(&shown(&answer, &line, self.draws))) {
+                    let mut shown = shown(&answer, &line, self.draws);
+                    asked.add_shown(&mut shown)?;
+                    if !send(json::line(&shown)) {
                         return Ok(());
                     }
                 }
@@ -169,11 +193,13 @@ fn shown(answer: &Answer, line: &CommandLine, draws: bool) -> Value {
         _ => None,
     });
     let documents = answer.documents.iter().map(|it| (it.file.as_str(), it.toml.as_str()));
-    let figures = answer.blocks().filter_map(|block| match block {
-        PageBlock::Figure { figure, caption, .. } if draws => {
-            Some(json!({ "caption": caption, "svg": figure.to_svg() }))
+    let figure = |caption: &str, svg: String| json!({ "caption": caption, "svg": svg });
+    let figures = answer.blocks().filter(|_| draws).flat_map(|block| match block {
+        PageBlock::Figure { figure: one, caption, .. } => vec![figure(caption, one.to_svg())],
+        PageBlock::Charts(all) => {
+            all.iter().map(|chart| figure(&chart.title, chart.to_svg())).collect()
         }
-        _ => None,
+        _ => Vec::new(),
     });
     json!({
         "schema": "grouser.shown.v1",
@@ -186,7 +212,7 @@ fn shown(answer: &Answer, line: &CommandLine, draws: bool) -> Value {
 }
 
 /// Why there is no answer.
-fn refused(error: AnswerError) -> Refusal {
+pub(super) fn refused(error: AnswerError) -> Refusal {
     match error {
         AnswerError::Stopped => {
             let message = "it was stopped before its end: it took too long, or the server ends";

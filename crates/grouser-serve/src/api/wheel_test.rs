@@ -1,7 +1,7 @@
 //! `wheel-test`: forces and sinkage of one wheel on a test stand.
 
 use grouser::answers::wheel_test::WheelTestQuestion;
-use grouser::answers::{Answer, AnswerError, AnswerOptions, Sampling};
+use grouser::answers::{Answer, AnswerOptions, Sampling};
 use grouser::document::gradient::GradientKeys;
 use grouser::document::study::{LOAD_N, SLIP_ANGLE_DEG, SLIP_RATIO};
 use grouser::studies::ensemble::samples::BandInputs;
@@ -10,9 +10,9 @@ use hyper::StatusCode;
 use super::command::CommandLine;
 use super::fields::AskedFields;
 use super::parts::{Stand, StandParts};
-use super::staged::{Staged, Stages};
+use super::staged::{Staged, Stages, refused};
 use crate::asked::Question;
-use crate::folder::ServedFolder;
+use crate::console::Console;
 use crate::refusal::Refusal;
 
 /// What is asked where nothing is said of it, as the program has it.
@@ -20,7 +20,7 @@ const LOADS: [f64; 1] = [17.0];
 const SLIPS: [f64; 10] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
 const ANGLES: [f64; 1] = [0.0];
 
-pub(super) fn read(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refusal> {
+pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> {
     let fields = AskedFields::of(body)?;
     let loads = fields.numbers("load_n", &LOAD_N, &LOADS)?;
     let slip_ratios = fields.numbers("slip_ratio", &SLIP_RATIO, &SLIPS)?;
@@ -32,7 +32,7 @@ pub(super) fn read(folder: &ServedFolder, body: &[u8]) -> Result<Question, Refus
     let rows = loads.len() * slip_ratios.len() * slip_angles_deg.len();
     let every = parts.common().has_every_model();
     let stages = stages.of_rows(("load_n", rows), every, gradients.len())?;
-    let stands = parts.stands(folder, stages.has_samples())?;
+    let stands = parts.stands(&console.folder, stages.has_samples())?;
     let mut line = CommandLine::new("wheel-test");
     parts.add_words(&mut line);
     line.numbers("load-n", &loads);
@@ -70,8 +70,8 @@ impl Staged for WheelTestQuestion {
         self.sampling = sampling;
     }
 
-    fn answer(&self, options: &AnswerOptions<'_>) -> Result<Answer, AnswerError> {
-        self.answer("wheel-test", options)
+    fn answer(&self, options: &AnswerOptions<'_>) -> Result<Answer, Refusal> {
+        self.answer("wheel-test", options).map_err(refused)
     }
 
     fn add_samples(&self, line: &mut CommandLine, sampling: Option<Sampling>) {

@@ -4,4 +4,5 @@ mod access;
 mod answers;
 mod folder;
 mod limits;
+mod map;
 mod served;

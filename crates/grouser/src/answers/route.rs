@@ -4,6 +4,7 @@ mod columns;
 mod page;
 mod profile;
 mod question;
+mod seek;
 mod way;
 
 use std::path::Path;
@@ -13,6 +14,7 @@ use serde_json::{Map, Value, json};
 
 use self::columns::{MOST_SLOPE, WAY, brief};
 pub use self::question::{Asked, RouteQuestion};
+pub use self::seek::WayError;
 pub use self::way::Way;
 use super::{Answer, Displayed, Member, findings_up_to, given_heights};
 use crate::contact::validity::Finding;

@@ -1,11 +1,11 @@
 //! What a wheel–soil model answers about a traverse.
 
-use grouser::answers;
 use grouser::answers::AnswerError;
-use grouser::document::columns::{MODEL, TIME, gradient, run};
+use grouser::answers::traverse::RunGradient;
+use grouser::document::columns::{MODEL, TIME, run};
 use grouser::document::given_file::GivenFile;
 use grouser::document::given_to_drives;
-use grouser::document::gradient::{GradientKeys, RunKeys};
+use grouser::document::gradient::GradientKeys;
 use grouser::document::table::Table;
 use grouser::document::{LoadedScenario, escape};
 use grouser::simulation::{Run, RunError, Trajectory};
@@ -32,13 +32,6 @@ pub(super) struct OfModel {
     pub(super) gradient: Option<RunGradient>,
 }
 
-/// Derivatives of a run.
-pub(super) struct RunGradient {
-    pub(super) keys: RunKeys,
-    /// A row for each record.
-    pub(super) rows: Table,
-}
-
 impl OfModel {
     /// * `setting`: with one model
     /// * `gradients`: keys of derivatives
@@ -63,7 +56,8 @@ impl OfModel {
         }
         let UncertaintyArgs { sampling, seed } = args.uncertainty;
         if !sampling.uncertainty {
-            let gradient = gradients.map(|it| RunGradient::of(&scenario, &run, it)).transpose()?;
+            let gradient = gradients.map(|it| RunGradient::of(&scenario, &run, it)).transpose();
+            let gradient = gradient.map_err(AnswerError::from)?;
             return Ok(Self { scenario, run, band: None, gradient });
         }
         if gradients.is_some() {
@@ -110,33 +104,6 @@ impl OfModel {
             table.columns.extend(last.columns);
         }
         table.with_word(MODEL, self.name())
-    }
-}
-
-impl RunGradient {
-    fn of(
-        scenario: &LoadedScenario,
-        run: &Trajectory,
-        asked_for: &GradientKeys,
-    ) -> Result<Self, Failure> {
-        let keys = RunKeys::of(scenario, asked_for).map_err(AnswerError::from)?;
-        let found = keys.along(
-            &scenario.value,
-            &|key| scenario.document.number(key),
-            run,
-            Run::to_end,
-            &|| true,
-        );
-        let on_heights = !scenario.value.ground.is_plane();
-        let rows = gradient::of_run(&keys, &sampling::whole(found), run.records.len(), on_heights);
-        Ok(Self { keys, rows })
-    }
-
-    /// What is said of them.
-    pub(super) fn lines(&self) -> String {
-        let names: Vec<&str> = self.keys.names().collect();
-        let lacking: Vec<&str> = self.keys.lacking().collect();
-        answers::gradient::lines(&self.rows, &names, &lacking)
     }
 }
 

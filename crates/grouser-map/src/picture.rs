@@ -1,13 +1,13 @@
 //! Bands in colours and as arrows, over the relief of the ground.
 
+use grouser::document::LoadedScenario;
 use grouser::document::columns::map::{HEADING, VERDICT};
 use grouser::document::columns::{COURSE, quantity};
 use grouser::studies::mobility::{Ground, MobilityMap};
 use grouser_draw::Sheet;
-use grouser_draw::map::{MapPictures, OfSeveral};
-use grouser_map::{BandSummary, Look, MapColumn};
+use grouser_draw::map::{MapFrame, MapPictures, OfSeveral};
 
-use crate::inputs::MapInputs;
+use crate::{BandSummary, Look, MapColumn};
 
 /// The worst of several verdicts by their numbers: go, caution, cannot tell, no-go.
 const WORST: OfSeveral = OfSeveral { of: worse, name: "the worst" };
@@ -15,7 +15,8 @@ const WORST: OfSeveral = OfSeveral { of: worse, name: "the worst" };
 const LARGEST: OfSeveral = OfSeveral { of: f64::max, name: "the largest" };
 
 /// What a band is called in pictures and styles.
-pub(super) fn label(band: &MapColumn) -> String {
+#[must_use]
+pub fn label(band: &MapColumn) -> String {
     let words = quantity(band.name, band.unit).label();
     match band.unit.symbol {
         "" | "-" => words,
@@ -24,19 +25,21 @@ pub(super) fn label(band: &MapColumn) -> String {
 }
 
 /// The pictures of a map's bands.
-pub(super) struct Pictures<'m> {
+pub struct BandPictures<'m> {
     ground: Ground<'m>,
     map: &'m MobilityMap,
     over_relief: MapPictures<'m>,
 }
 
-impl<'m> Pictures<'m> {
-    pub(super) fn of(
-        inputs: &MapInputs,
+impl<'m> BandPictures<'m> {
+    /// * `course`: as it was asked for, a number of degrees or a word
+    #[must_use]
+    pub fn of(
+        scenario: &LoadedScenario,
         course: &str,
         (ground, map): (Ground<'m>, &'m MobilityMap),
     ) -> Self {
-        let whose = grouser_draw::title_of(&inputs.scenario);
+        let whose = grouser_draw::title_of(scenario);
         let course = match course {
             "best" => "the best course of each place".to_owned(),
             "worst" => "the worst course of each place".to_owned(),
@@ -48,10 +51,17 @@ impl<'m> Pictures<'m> {
         Self { ground, map, over_relief }
     }
 
+    /// Where the ground lies on each picture.
+    #[must_use]
+    pub fn frame(&self) -> MapFrame {
+        self.over_relief.frame()
+    }
+
     /// A band: directions as arrows, and other numbers in colours.
     ///
     /// * `of`: its numbers in all
-    pub(super) fn band(&self, band: &MapColumn, of: &BandSummary) -> Sheet {
+    #[must_use]
+    pub fn band(&self, band: &MapColumn, of: &BandSummary) -> Sheet {
         let Self { ground, map, over_relief } = self;
         let number = |column: usize, row: usize| Some(band.number(&ground.at(map, column, row)?));
         let title = label(band);

@@ -8,7 +8,8 @@ use serde_json::{Value, json};
 /// one after the other.
 ///
 /// * `system`: of the map
-pub(super) fn text(way: &RouteRecord, system: &CoordinateSystem) -> String {
+#[must_use]
+pub fn way_as_geojson(way: &RouteRecord, system: &CoordinateSystem) -> String {
     let may_be_driven = way.reason.is_none();
     let feature = may_be_driven.then(|| {
         json!({

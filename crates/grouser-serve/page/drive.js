@@ -1,0 +1,241 @@
+// The third view: a run over a slope or a map of heights, its track from above, and every wheel on
+// one time line.
+
+import { Asking } from "./api.js";
+import { PATTERNS, drawOver } from "./chart.js";
+import { element, four, svg } from "./dom.js";
+import { about as aboutRover, exportOf } from "./heading.js";
+
+/** @typedef {import("./session.js").Session} Session */
+/** @typedef {import("./api.js").Line} Line */
+/** @typedef {import("./api.js").Row} Row */
+
+/** The charts of wheels: column, title with its unit. */
+const OF_WHEELS = /** @type {[string, string][]} */ ([
+  ["slip_ratio", "Slip ratio"], ["sinkage_mm", "Sinkage [mm]"], ["slip_angle_deg", "Slip angle [°]"],
+  ["load_n", "Load [N]"], ["drawbar_pull_n", "Drawbar pull [N]"], ["torque_nm", "Torque [N·m]"],
+]);
+
+/** What the rover is doing: column, label. */
+const OF_ROVER = /** @type {[string, string][]} */ ([
+  ["time_s", "time [s]"], ["x_m", "x [m]"], ["y_m", "y [m]"], ["z_m", "z [m]"], ["yaw_deg", "yaw [°]"],
+  ["forward_speed_m_s", "forward speed [m/s]"], ["lateral_speed_m_s", "lateral speed [m/s]"],
+  ["roll_deg", "roll [°]"], ["pitch_deg", "pitch [°]"], ["power_w", "power [W]"], ["energy_j", "work of the wheels [J]"],
+]);
+
+/** How long a play of the whole run takes [s]. */
+const PLAY = 10;
+
+/** The answer about a run. */
+export class DriveAnswer {
+  /** @param {(error: Error | undefined) => void} ended */
+  constructor(ended) {
+    this.ended = ended;
+    this.asking = new Asking();
+    /** @type {any} */
+    this.run = undefined;
+    /** The record that is shown. */
+    this.place = 0;
+    /** @type {((time: number) => void)[]} */
+    this.cursors = [];
+    /** @type {((record: Row) => void) | undefined} */
+    this.pose = undefined;
+    this.time = element("input", { type: "range", id: "time", min: 0, max: 0, step: 1, value: 0, "aria-label": "Time, in records", oninput: () => this.show(Number(/** @type {any} */ (this.time).value)) });
+    this.button = element("button", { type: "button", id: "play", onclick: () => this.play() }, ["Play"]);
+    this.clock = element("output", { id: "clock" });
+    this.outcome = element("div", { class: "card" });
+    this.now = element("div", { class: "card", id: "now" });
+    this.plan = element("figure");
+    this.figures = element("div", { class: "figures" });
+    this.names = element("p", { class: "legend", "aria-label": "Wheels" });
+    this.out = element("div");
+    this.element = element("div", {}, [
+      element("div", { class: "timeline", role: "group", "aria-label": "Time line" }, [this.button, this.time, this.clock]),
+      element("div", { class: "figures" }, [element("div", { class: "beside" }, [this.outcome, this.now]), this.plan]),
+      this.names, this.figures, this.out,
+    ]);
+    this.timer = 0;
+  }
+
+  /** @param {Session} session */
+  ask(session) {
+    this.pause();
+    this.outcome.classList.add("stale");
+    const isPlane = session.ground === "";
+    const about = aboutRover(session);
+    const question = {
+      ...about, ...(isPlane ? { slope_deg: session.slope } : {}), yaw_deg: session.yaw, duration_s: session.duration,
+      rim_speed_m_s: session.speed, shown: true,
+      set: { ...about.set, ...(isPlane ? {} : { "scenario.terrain.file": session.ground }) },
+    };
+    this.asking.ask("traverse", question, (line) => {
+      if (line.schema === "grouser.traverse.v1") this.take(line, isPlane);
+      else this.out.replaceChildren(exportOf(line, undefined));
+    }, (error) => {
+      this.outcome.classList.remove("stale");
+      if (error) {
+        this.run = undefined;
+        this.outcome.replaceChildren(element("p", { class: "number" }, ["–"]), element("p", { class: "error" }, [error.message]));
+        for (const old of [this.now, this.plan, this.figures, this.names, this.out]) old.replaceChildren();
+      }
+      this.ended(error);
+    });
+  }
+
+  stop() {
+    this.pause();
+    this.asking.stop();
+  }
+
+  /**
+   * @param {any} run
+   * @param {boolean} isPlane
+   */
+  take(run, isPlane) {
+    const { samples } = run;
+    // A run that moved a little is looked at where the last one was.
+    const before = this.run ? this.place / Math.max(1, this.run.samples.length - 1) : 1;
+    this.run = run;
+    const last = samples.length - 1;
+    this.time.setAttribute("max", String(last));
+    const isCompleted = run.outcome === "completed";
+    this.outcome.replaceChildren(
+      element("p", { class: `verdict ${isCompleted ? "go" : "no_go"}`, id: "outcome" }, [
+        element("span", { "aria-hidden": "true" }, [isCompleted ? "✓" : "✕"]), run.outcome.replace(/_/g, " "),
+      ]),
+      element("p", { class: "sentence" }, [run.reason ?? `after ${four(run.final.time_s)} s, on the soil as written, simulated as ${run.simulation.replace(/-/g, " ")}`]),
+      element("table", {}, [
+        element("caption", {}, ["At the end"]),
+        element("tbody", {}, OF_ROVER.filter(([column]) => typeof run.final[column] === "number").map(([column, label]) => element("tr", {}, [
+          element("th", { scope: "row" }, [label]), element("td", { "data-column": `final-${column}` }, [four(run.final[column])]),
+        ]))),
+      ]),
+      ...(run.flags.length ? [element("p", { class: "sentence" }, [`Outside of what was measured: ${run.flags.join(", ")}.`])] : []),
+    );
+    /** @type {string[]} */
+    const wheels = run.final.wheels.map((/** @type {Row} */ wheel) => wheel["wheel"]);
+    this.names.replaceChildren("Wheels: ", ...wheels.map((name, place) => element("span", {}, [
+      svg("svg", { viewBox: "0 0 30 8", class: "chart", "aria-hidden": "true" }, [svg("line", { class: `curve of-${place % PATTERNS}`, x1: 0, x2: 30, y1: 4, y2: 4 })]), ` ${name}`,
+    ])));
+    this.cursors = [];
+    this.figures.replaceChildren(...OF_WHEELS.map(([column, title]) => {
+      const curves = wheels.map((name, place) => ({
+        name, points: /** @type {[number, number][]} */ (samples.map((/** @type {any} */ it) => [it.time_s, it.wheels[place]?.[column]]).filter((/** @type {any} */ it) => typeof it[1] === "number")),
+      }));
+      const { drawn, cursor } = drawOver({ title, x: "time [s]", y: title, curves, isNamed: true });
+      this.cursors.push(cursor);
+      return element("figure", {}, [drawn]);
+    }));
+    this.drawPlan(samples, isPlane);
+    this.show(Math.round(before * last));
+  }
+
+  /**
+   * The track from above, with the nose's direction now and then, in one scale for both ways.
+   * @param {any[]} samples
+   * @param {boolean} isPlane
+   */
+  drawPlan(samples, isPlane) {
+    const [width, height, edge] = [420, 400, 44];
+    const ends = (/** @type {string} */ of) => [Math.min(...samples.map((it) => it[of])), Math.max(...samples.map((it) => it[of]))];
+    const [[west = 0, east = 0], [south = 0, north = 0]] = [ends("x_m"), ends("y_m")];
+    const scale = Math.min((width - 2 * edge) / Math.max(east - west, 0.1), (height - 2 * edge) / Math.max(north - south, 0.1));
+    const x = (/** @type {number} */ at) => width / 2 + (at - (west + east) / 2) * scale;
+    const y = (/** @type {number} */ at) => height / 2 - (at - (south + north) / 2) * scale;
+    const nose = (/** @type {any} */ it, /** @type {string} */ name) => svg("path", {
+      class: name, d: "M12 0L-6 -6L-3 0L-6 6Z", transform: `translate(${x(it.x_m)} ${y(it.y_m)}) rotate(${-it.yaw_deg})`,
+    });
+    const some = samples.filter((_, place) => place % Math.max(1, Math.ceil(samples.length / 9)) === 0);
+    const rover = nose(samples[0], "nose now");
+    const first = samples[0], last = samples[samples.length - 1];
+    const up = isPlane ? "y, uphill" : "y, north";
+    this.plan.replaceChildren(svg("svg", {
+      class: "chart", viewBox: `0 0 ${width} ${height}`, role: "img",
+      "aria-label": `The track from above: from x ${four(first.x_m)} m, y ${four(first.y_m)} m to x ${four(last.x_m)} m, y ${four(last.y_m)} m`,
+    }, [
+      svg("text", { class: "title", x: 10, y: 16 }, ["Track from above, with where the nose points"]),
+      svg("polyline", { class: "curve", points: samples.map((it) => `${x(it.x_m)},${y(it.y_m)}`).join(" ") }),
+      ...some.map((it) => nose(it, "nose")), rover,
+      svg("path", { class: "axis", d: `M20 ${height - 50}V${height - 16}H54` }),
+      svg("text", { x: 16, y: height - 56 }, [up]),
+      svg("text", { x: 58, y: height - 12 }, [isPlane ? "x, along the contour" : "x, east"]),
+      ...this.bar(scale, width, height),
+    ]));
+    this.pose = (it) => rover.setAttribute("transform", `translate(${x(it["x_m"])} ${y(it["y_m"])}) rotate(${-it["yaw_deg"]})`);
+  }
+
+  /**
+   * A bar of a round length.
+   * @param {number} scale
+   * @param {number} width
+   * @param {number} height
+   */
+  bar(scale, width, height) {
+    const rough = 80 / scale;
+    const ten = 10 ** Math.floor(Math.log10(rough));
+    const length = [5, 2, 1].map((it) => it * ten).find((it) => it <= rough) ?? ten;
+    const left = width - 16 - length * scale;
+    return [
+      svg("path", { class: "axis", d: `M${left} ${height - 20}v6h${length * scale}v-6` }),
+      svg("text", { x: width - 16, y: height - 24, "text-anchor": "end" }, [`${Number(length.toPrecision(2))} m`]),
+    ];
+  }
+
+  /** @param {number} place of the record */
+  show(place) {
+    const record = this.run?.samples[place];
+    if (!record) return;
+    this.place = place;
+    const time = /** @type {HTMLInputElement} */ (this.time);
+    time.value = String(place);
+    time.setAttribute("aria-valuetext", `${four(record.time_s)} s`);
+    this.clock.textContent = `${four(record.time_s)} s`;
+    this.pose?.(record);
+    for (const cursor of this.cursors) cursor(record.time_s);
+    const rover = OF_ROVER.filter(([column]) => typeof record[column] === "number").map(([column, label]) => {
+      const [name, unit = ""] = label.replace("]", "").split(" [");
+      return `${name} ${four(record[column])}${unit === "°" ? "" : " "}${unit}`;
+    });
+    this.now.replaceChildren(
+      element("table", {}, [
+        element("caption", {}, [rover.slice(0, 5).join(", ")]),
+        element("thead", {}, [element("tr", {}, [element("td"), ...OF_WHEELS.slice(0, 4).map(([, title]) => element("th", { scope: "col" }, [title]))])]),
+        element("tbody", {}, record.wheels.map((/** @type {any} */ wheel) => element("tr", {}, [
+          element("th", { scope: "row" }, [wheel.wheel]),
+          ...OF_WHEELS.slice(0, 4).map(([column]) => element("td", { "data-column": `${wheel.wheel}-${column}` }, [four(wheel[column])])),
+        ]))),
+      ]),
+    );
+  }
+
+  play() {
+    if (this.timer) {
+      this.pause();
+      return;
+    }
+    const samples = this.run?.samples;
+    if (!samples?.length) return;
+    const last = samples.length - 1;
+    const from = this.place >= last ? 0 : this.place;
+    this.button.textContent = "Pause";
+    const began = performance.now();
+    const step = () => {
+      const place = Math.min(last, from + Math.round((performance.now() - began) / 1000 / PLAY * last));
+      this.show(place);
+      if (place < last) this.timer = requestAnimationFrame(step);
+      else this.pause();
+    };
+    this.timer = requestAnimationFrame(step);
+  }
+
+  pause() {
+    cancelAnimationFrame(this.timer);
+    this.timer = 0;
+    this.button.textContent = "Play";
+  }
+
+  /** The end of the run in a few words. */
+  said() {
+    return this.run ? `${this.run.outcome.replace(/_/g, " ")} after ${four(this.run.final.time_s)} s` : "there is no run";
+  }
+}
