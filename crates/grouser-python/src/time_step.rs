@@ -18,6 +18,7 @@ use pyo3::prelude::*;
 use crate::columns::{wheel_names, wheel_row};
 use crate::descriptions::Document;
 use crate::errors;
+use crate::threads::released;
 use crate::wheels::{check, check_under, model_and_gravity};
 
 /// The key of gravity in a scenario.
@@ -145,7 +146,8 @@ impl SteppingWheels {
             soil,
             sinkage,
         });
-        let stepped = errors::caught(|| step.reaction(&stepping.collect::<Vec<_>>()))?;
+        let stepping: Vec<SteppingWheel<'_>> = stepping.collect();
+        let stepped = released(py, || step.reaction(&stepping))?;
         let results = PyArray2::zeros(py, [WHEEL.len() + 2, count], false);
         let wrenches = PyArray2::zeros(py, [count, 6], false);
         {

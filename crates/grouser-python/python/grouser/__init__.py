@@ -67,7 +67,8 @@ from ._replay import replay
 from ._rollouts import Rollout, rollout
 from ._routes import route
 from ._models import MODELS, ByModel
-from ._runs import Run, RunBatch
+from ._linear import LinearStep
+from ._runs import Run, RunBatch, RunState
 from ._slip_from_current import SlipEstimator
 from ._studies import Trajectory, TraverseBand, simulate
 from ._telemetry import ImportedTelemetry, import_telemetry
@@ -123,6 +124,7 @@ __all__ = [
     "InternalError",
     "Learner",
     "Legs",
+    "LinearStep",
     "Mission",
     "OUTCOMES",
     "OutsideDomainError",
@@ -132,6 +134,7 @@ __all__ = [
     "Rover",
     "Run",
     "RunBatch",
+    "RunState",
     "Scenario",
     "Settled",
     "SimulatedWheelTest",
