@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use grouser::document::LoadedDesign;
+use grouser::document::varied::{Key, NoNumber, Numbers as _, Varied};
 use grouser::document::{
     self, Beside, Companion, DocumentError, HeldMap, Kind, LoadedMission, LoadedRover,
     LoadedScenario, LoadedSoil, LoadedWheel, Overrides, Problem, Source, fnv_1a, map_of,
@@ -112,6 +113,19 @@ impl Document {
             _ => return None,
         };
         map_of(scenario, document)
+    }
+
+    /// A number of it, under its key.
+    pub(crate) fn number(&self, key: &str) -> PyResult<Result<Key, NoNumber>> {
+        Ok(match &self.read {
+            Read::Soil(it) => Varied::of(it.value, it.document.clone()).key(key),
+            Read::Wheel(it) => Varied::of(it.value, it.document.clone()).key(key),
+            Read::Rover(it) => Varied::of(it.value.clone(), it.document.clone()).key(key),
+            Read::Scenario(it) => Varied::of(it.value.clone(), it.document.clone()).key(key),
+            Read::Mission(_) | Read::Campaign(_) | Read::Design(_) => {
+                return Err(self.is_no("soil, wheel, rover or scenario"));
+            }
+        })
     }
 
     /// A number by which the document, with the files that it names, is told from others.
@@ -267,7 +281,8 @@ impl Document {
             return Err(errors::parameter(message, "soil", None, "a soil with uncertainty"));
         };
         let sample = |index: u64| {
-            let document = soils.draw_document(seed, index).map_err(|error| {
+            let drawn = errors::caught(|| soils.draw_document(seed, index))?;
+            let document = drawn.map_err(|error| {
                 let expected = "smaller standard deviations";
                 errors::parameter(error.to_string(), "uncertainty", None, expected)
             })?;

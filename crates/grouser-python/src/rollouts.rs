@@ -19,8 +19,8 @@ use rayon::prelude::*;
 use crate::descriptions::Document;
 use crate::errors;
 use crate::interrupt::listening;
-use crate::varied::{self, VariedKeys};
-use crate::wheels::{check_or_nan, column};
+use crate::varied::{self, KEYS, RIM_SPEED, VariedKeys};
+use crate::wheels::{check_or_nan, column, inside};
 
 /// Many runs, which share what is the same for them.
 pub(crate) struct Runs {
@@ -35,21 +35,10 @@ pub(crate) struct Runs {
     of_bases: VariedKeys,
     /// Those of the soils, where there are some in the place of the scenarios' own.
     of_soils: VariedKeys,
+    /// Why a run has a number out of its range, where those are left out; in no order.
+    outside: Vec<(usize, String)>,
     count: usize,
 }
-
-/// What may vary: the argument, and the scenario's key that it sets.
-const KEYS: [[&str; 2]; 5] = [
-    ["slope_deg", "slope_deg"],
-    ["yaw_deg", "start.yaw_deg"],
-    ["rim_speed_m_s", RIM_SPEED],
-    ["gravity_m_s2", "gravity_m_s2"],
-    ["duration_s", "duration_s"],
-];
-
-/// The key of the rims' speed. Where a drive follows Eq. 18, that number is its speed over the
-/// ground.
-const RIM_SPEED: &str = "drive.rim_speed_m_s";
 
 /// Which of some things each run has, if there are several.
 type Index<'py> = Option<PyReadonlyArray1<'py, i64>>;
@@ -64,6 +53,7 @@ impl Runs {
         soil_index: &Index<'_>,
         varied: &Bound<'_, PyDict>,
         count: usize,
+        outside_is_nan: bool,
     ) -> PyResult<Self> {
         let bases = scenarios.iter().map(|it| it.scenario()).collect::<PyResult<Vec<_>>>()?;
         let soils = soils.iter().map(|it| it.soil()).collect::<PyResult<Vec<_>>>()?;
@@ -73,7 +63,9 @@ impl Runs {
         }
         let base_of = places(scenario_index, bases.len(), count)?;
         let soil_of = places(soil_index, soils.len(), count)?;
-        let arguments = arguments_of(varied, count)?;
+        let mut outside = Vec::new();
+        let left_out = outside_is_nan.then_some(&mut outside);
+        let arguments = arguments_of(varied, count, left_out)?;
         let documents: Vec<_> = soils.iter().map(|soil| varied::parts(soil)).collect();
         let prefix = if soils.is_empty() { NO_KEY } else { "soil." };
         let of_soils = VariedKeys::taken(varied, prefix, &documents, count)?;
@@ -81,7 +73,7 @@ impl Runs {
         let of_bases = VariedKeys::taken(varied, "", &documents, count)?;
         let named = |it: &&LoadedScenario| (it.value.clone(), it.document.model().is_some());
         let usual = |it: &&LoadedSoil| (it.value, it.document.usual_model(""));
-        let runs = Self {
+        let mut runs = Self {
             bases: bases.iter().map(named).collect(),
             base_of,
             soils: soils.iter().map(usual).collect(),
@@ -89,8 +81,17 @@ impl Runs {
             varied: arguments,
             of_bases,
             of_soils,
+            outside,
             count,
         };
+        if outside_is_nan {
+            let (base_of, soil_of) = (runs.base_of.clone(), runs.soil_of.clone());
+            let at = |index: &Option<Vec<usize>>, place: usize| {
+                index.as_ref().map_or(0, |index| index[place])
+            };
+            runs.outside.extend(runs.of_bases.leave_out(|place| at(&base_of, place)));
+            runs.outside.extend(runs.of_soils.leave_out(|place| at(&soil_of, place)));
+        }
         runs.of_bases.check(|place| runs.base_at(place))?;
         runs.of_soils.check(|place| runs.soil_at(place))?;
         Ok(runs)
@@ -158,18 +159,28 @@ fn places(index: &Index<'_>, known: usize, count: usize) -> PyResult<Option<Vec<
 const NO_KEY: &str = "\0";
 
 /// The arguments among what varies, taken from it.
+///
+/// * `left_out`: takes which runs have a number out of its range, where that is no error
 fn arguments_of(
     varied: &Bound<'_, PyDict>,
     count: usize,
+    mut left_out: Option<&mut Vec<(usize, String)>>,
 ) -> PyResult<Vec<([&'static str; 2], Vec<f64>)>> {
     let mut all = Vec::new();
     for [name, key] in KEYS {
         if !varied.contains(name)? {
             continue;
         }
-        let values = varied::numbers(varied, name, count)?;
+        let mut values = varied::numbers(varied, name, count)?;
         varied.del_item(name)?;
         let allowed = range(Kind::Scenario, key).unwrap_or(f64::MIN..=f64::MAX);
+        if let Some(left_out) = &mut left_out {
+            let outside = values.iter().enumerate().filter(|(_, value)| !value.is_nan());
+            let outside = outside.filter(|(_, value)| !allowed.contains(value));
+            left_out
+                .extend(outside.map(|(place, it)| (place, errors::outside(name, *it, &allowed))));
+            values = inside(&values, &allowed, true).into_owned();
+        }
         check_or_nan(name, &values, &allowed)?;
         all.push(([name, key], values));
     }
@@ -227,6 +238,7 @@ impl End {
 /// * `soils`: in the place of the scenarios' own; none, to leave those
 /// * `varied`: an array of `count` numbers for each argument and key that varies; emptied
 /// * `keep`: whether all records are kept, beside the ends
+/// * `outside_is_nan`: whether a run with a number out of its range has failed, and is no error
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
 #[allow(clippy::needless_pass_by_value, reason = "how lists come from Python")]
@@ -239,19 +251,27 @@ pub(crate) fn rollout<'py>(
     varied: &Bound<'py, PyDict>,
     count: usize,
     keep: bool,
+    outside_is_nan: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let runs = Runs::new(&scenarios, &scenario_index, &soils, &soil_index, varied, count)?;
+    let runs =
+        Runs::new(&scenarios, &scenario_index, &soils, &soil_index, varied, count, outside_is_nan)?;
     let on_heights = runs.bases.iter().any(|(base, _)| !base.ground.is_plane());
     let ends = listening(py, move |cancelled| {
-        if let Some(misfit) = runs.first_misfit() {
+        if let Some(misfit) = runs.first_misfit().filter(|_| !outside_is_nan) {
             return Err(misfit);
         }
         let end = |place: usize| {
+            if let Some((_, why)) = runs.outside.iter().find(|(run, _)| *run == place) {
+                return Ok(End::failed(why.clone()));
+            }
             if let Some(name) = runs.missing(place) {
                 return Ok(End::failed(format!("{name} is NaN")));
             }
-            let scenario = runs.scenario(place).map_err(|error| (place, error))?;
-            Ok(End::of(&scenario, keep))
+            match runs.scenario(place) {
+                Ok(scenario) => Ok(End::of(&scenario, keep)),
+                Err(error) if outside_is_nan => Ok(End::failed(error.to_string())),
+                Err(error) => Err((place, error)),
+            }
         };
         let ends = outputs_while(0..count, &|| !cancelled.is_set(), end);
         ends.unwrap_or_default().into_iter().collect::<Result<Vec<End>, _>>()

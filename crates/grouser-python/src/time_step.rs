@@ -125,7 +125,8 @@ impl SteppingWheels {
             velocities: velocities.as_slice()?,
             with_moments,
         };
-        let (inverse_mass, free) = mechanism.response(duration_s).ok_or_else(not_finite)?;
+        let response = errors::caught(|| mechanism.response(duration_s))?;
+        let (inverse_mass, free) = response.ok_or_else(not_finite)?;
         let sinkages: Vec<f64> = wheels.iter().map(MountedWheel::sinkage).collect();
         let mut all = sinkages.iter().chain(inverse_mass.iter()).chain(free.iter());
         if !all.all(|number| number.is_finite()) {

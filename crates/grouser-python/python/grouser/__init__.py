@@ -84,7 +84,7 @@ from ._validation import (
 from ._validity import FLAGS, require_inside
 from ._wheel_speeds import WheelSpeedLimits, WheelSpeeds, wheel_speeds
 from ._wheel_test import SimulatedWheelTest, WheelTest, WheelTestBand, wheel_test
-from ._wheels import Settled, WheelForces, settle, wheel_forces
+from ._wheels import Settled, WheelForces, range_of, settle, wheel_forces
 from .campaign import Campaign
 
 __all__ = [
@@ -168,6 +168,7 @@ __all__ = [
     "learn",
     "map",
     "mission",
+    "range_of",
     "replay",
     "require_inside",
     "rollout",

@@ -69,6 +69,7 @@ __all__ = [
     "read_document_table",
     "read_document_text",
     "result_columns",
+    "range_of",
     "replay",
     "rollout",
     "routes",
@@ -388,6 +389,7 @@ def settle(
     slip_angle_deg: _Floats,
     soil_index: NDArray[np.int64] | None,
     vary: dict[str, Any],
+    outside_is_nan: bool,
 ) -> tuple[_Floats, list[str]]: ...
 def settle_gradients(
     soils: Sequence[Document],
@@ -399,6 +401,7 @@ def settle_gradients(
     soil_index: NDArray[np.int64] | None,
     vary: dict[str, Any],
     keys: Sequence[str],
+    outside_is_nan: bool,
 ) -> tuple[_Floats, NDArray[np.bool_], list[str], list[str]]: ...
 def wheel_forces(
     soils: Sequence[Document],
@@ -409,11 +412,13 @@ def wheel_forces(
     slip_angle_deg: _Floats,
     soil_index: NDArray[np.int64] | None,
     vary: dict[str, Any],
+    outside_is_nan: bool,
 ) -> tuple[_Floats, list[str]]: ...
 def flag_names(bits: _Floats) -> NDArray[np.object_]: ...
 def flags() -> list[tuple[str, str]]: ...
 def outcomes() -> list[tuple[str, str, str, str, bool]]: ...
 def panic(is_listening: bool) -> None: ...
+def range_of(document: Document, key: str) -> tuple[float, float]: ...
 def not_carried(load_n: _Floats, capacity_n: _Floats) -> list[str]: ...
 def animation(
     sources: Sequence[tuple[Document, str]], names: Sequence[str], path: os.PathLike[str]
@@ -437,6 +442,7 @@ def rollout(
     varied: dict[str, Any],
     count: int,
     keep: bool,
+    outside_is_nan: bool,
 ) -> dict[str, Any]: ...
 def card(
     scenario: Document,

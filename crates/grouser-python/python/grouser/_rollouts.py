@@ -15,7 +15,7 @@ from ._arrays import Floats, broadcast, varied
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError
 from ._studies import SAMPLE, columns_of, scenario_of, standing_of
-from ._wheels import Soils, names_of, soils_of
+from ._wheels import Outside, outside_is_nan, Soils, names_of, soils_of
 
 if TYPE_CHECKING:
     import pandas
@@ -172,6 +172,7 @@ def rollout(
     duration_s: ArrayLike | None = None,
     vary: Mapping[str, ArrayLike] | None = None,
     trajectories: bool = False,
+    outside: Outside = "raise",
 ) -> Rollout:
     """Runs many scenarios at once, on all cores, without Python's lock.
 
@@ -201,6 +202,10 @@ def rollout(
         ``rover.body.mass_kg``: they broadcast with the other arguments.
     trajectories : bool
         Whether to keep the records over time, as `Rollout.records`.
+    outside : {"raise", "nan"}
+        With ``"nan"`` a run with a number out of its range (`range_of`), or with numbers that do
+        not go together, has the outcome ``failed`` and a `Rollout.message`; by default it is an
+        error.
 
     Returns
     -------
@@ -244,6 +249,7 @@ def rollout(
         asked.flat,
         index.size,
         trajectories,
+        outside_is_nan(outside),
     )
     shape = asked.shape
     outcome = np.array(found.pop("outcome"), dtype=np.str_).reshape(shape)
