@@ -299,7 +299,7 @@ pub unsafe extern "C" fn grouser_state_read(
         let state = CoreState::from_bytes(bytes, &led.scenario).map_err(|error| {
             let status = match error {
                 BadState::Unreadable => Status::OutOfRange,
-                BadState::OtherWheels { .. } => Status::OtherScenario,
+                BadState::OtherWheels { .. } | BadState::OtherPath => Status::OtherScenario,
             };
             Failure::new(status, error.to_string())
         })?;

@@ -17,6 +17,7 @@ pub mod equations;
 mod error;
 mod integrate;
 mod leg;
+mod linearise;
 mod method;
 mod most_taken;
 mod outcome;
@@ -42,6 +43,7 @@ mod yaw;
 
 pub use controller::{CONTROL_PERIOD, Controller, Observation};
 pub use error::RunError;
+pub use linearise::{LinearStep, NoLinearStep, POSE_AND_VELOCITIES, STEP_LENGTHS};
 pub use method::Method;
 pub use outcome::{Outcome, PowerLost, StuckBecause};
 pub use outcome_kind::{InBand, OutcomeKind, OutcomeRow, Severity};

@@ -3,6 +3,8 @@
 //! A type says once which fields it has, by [`stored`], and both ways are made of that. A field
 //! that is left out does not compile.
 
+use std::collections::VecDeque;
+
 use nalgebra::{DMatrix, Matrix3, Vector2, Vector3};
 
 /// A value that can be stored as bytes.
@@ -144,6 +146,16 @@ impl<T: Stored> Stored for Vec<T> {
             all.push(T::restore(bytes)?);
         }
         Some(all)
+    }
+}
+
+impl<T: Stored + Clone> Stored for VecDeque<T> {
+    fn store(&self, bytes: &mut Vec<u8>) {
+        self.iter().cloned().collect::<Vec<T>>().store(bytes);
+    }
+
+    fn restore(bytes: &mut &[u8]) -> Option<Self> {
+        Vec::restore(bytes).map(Self::from)
     }
 }
 

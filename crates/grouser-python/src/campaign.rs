@@ -48,11 +48,11 @@ impl LoadedCampaign {
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how a list comes from Python")]
 pub(crate) fn find_campaign(study: &str, settings: Vec<String>) -> PyResult<Document> {
-    let found = Source::find(Kind::Campaign, study);
-    let read = found.and_then(|source| {
+    let read = errors::caught(|| {
+        let source = Source::find(Kind::Campaign, study)?;
         let overrides = Overrides::parse(&settings)?;
         Ok(Document::of_campaign(LoadedCampaign::read(&source, &overrides)?))
-    });
+    })?;
     read.map_err(|error| errors::of_document(&error, &[]))
 }
 

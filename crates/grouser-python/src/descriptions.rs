@@ -1,11 +1,13 @@
 //! Documents for Python: read from presets, files, texts and tables, changed, and written back.
 
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
 use grouser::document::LoadedDesign;
+use grouser::document::varied::{Key, NoNumber, Numbers as _, Varied};
 use grouser::document::{
     self, Beside, Companion, DocumentError, HeldMap, Kind, LoadedMission, LoadedRover,
-    LoadedScenario, LoadedSoil, LoadedWheel, Overrides, Problem, Source, map_of,
+    LoadedScenario, LoadedSoil, LoadedWheel, Overrides, Problem, Source, fnv_1a, map_of,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -22,6 +24,13 @@ use crate::{errors, values};
 #[pyclass(frozen, module = "grouser._core")]
 pub(crate) struct Document {
     read: Read,
+    mark: OnceLock<u64>,
+}
+
+impl From<Read> for Document {
+    fn from(read: Read) -> Self {
+        Self { read, mark: OnceLock::new() }
+    }
 }
 
 /// By its kind.
@@ -106,16 +115,45 @@ impl Document {
         map_of(scenario, document)
     }
 
+    /// A number of it, under its key.
+    pub(crate) fn number(&self, key: &str) -> PyResult<Result<Key, NoNumber>> {
+        Ok(match &self.read {
+            Read::Soil(it) => Varied::of(it.value, it.document.clone()).key(key),
+            Read::Wheel(it) => Varied::of(it.value, it.document.clone()).key(key),
+            Read::Rover(it) => Varied::of(it.value.clone(), it.document.clone()).key(key),
+            Read::Scenario(it) => Varied::of(it.value.clone(), it.document.clone()).key(key),
+            Read::Mission(_) | Read::Campaign(_) | Read::Design(_) => {
+                return Err(self.is_no("soil, wheel, rover or scenario"));
+            }
+        })
+    }
+
+    /// A number by which the document, with the files that it names, is told from others.
+    pub(crate) fn mark(&self) -> u64 {
+        *self.mark.get_or_init(|| {
+            let files = self.companions().iter();
+            let texts = files.flat_map(|it| [it.name.as_bytes(), it.content.as_bytes()]);
+            let map = self.map();
+            let model = map.iter().map(|map| &map.model);
+            let heights = model.flat_map(|model| {
+                let above = model.heights_above_base().flat_map(f32::to_le_bytes);
+                model.base().to_le_bytes().into_iter().chain(above)
+            });
+            let toml = self.resolved().to_toml();
+            fnv_1a(toml.bytes().chain(texts.flatten().copied()).chain(heights))
+        })
+    }
+
     /// A soil that was made here, with the file of its samples.
     pub(crate) fn of_soil(toml: String, companions: Vec<Companion>) -> PyResult<Self> {
         let source = Source::text_with("a calibrated soil", toml, companions);
         let read = Read::new(Kind::Soil, &source, &Overrides::none());
-        read.map(|read| Self { read }).map_err(|error| errors::of_document(&error, &[]))
+        read.map(Self::from).map_err(|error| errors::of_document(&error, &[]))
     }
 
     /// A scenario that was read here.
     pub(crate) fn of_scenario(scenario: LoadedScenario) -> Self {
-        Self { read: Read::Scenario(scenario.into()) }
+        Read::Scenario(scenario.into()).into()
     }
 
     pub(crate) fn soil(&self) -> PyResult<&LoadedSoil> {
@@ -169,7 +207,7 @@ impl Document {
     }
 
     pub(crate) fn of_campaign(campaign: LoadedCampaign) -> Self {
-        Self { read: Read::Campaign(campaign.into()) }
+        Read::Campaign(campaign.into()).into()
     }
 
     fn is_no(&self, expected: &str) -> PyErr {
@@ -243,7 +281,8 @@ impl Document {
             return Err(errors::parameter(message, "soil", None, "a soil with uncertainty"));
         };
         let sample = |index: u64| {
-            let document = soils.draw_document(seed, index).map_err(|error| {
+            let drawn = errors::caught(|| soils.draw_document(seed, index))?;
+            let document = drawn.map_err(|error| {
                 let expected = "smaller standard deviations";
                 errors::parameter(error.to_string(), "uncertainty", None, expected)
             })?;
@@ -383,7 +422,7 @@ fn read_changed(
         errors::of_document(&as_keywords(error, given), &arguments)
     })?;
     errors::warn(changes.py(), read.notes())?;
-    Ok(Document { read })
+    Ok(read.into())
 }
 
 /// An error whose hint writes the keys that were meant as Python's keywords, where the unknown one

@@ -230,6 +230,11 @@ pub(crate) fn out_of_range(
     parameter(message, name, Some(value), expected)
 }
 
+/// A sentence on a number that is not in its range.
+pub(crate) fn outside(name: &str, value: f64, range: &RangeInclusive<f64>) -> String {
+    format!("{name} is {value}, it must be from {} to {}", range.start(), range.end())
+}
+
 /// Numbers of an entry that do not go together.
 pub(crate) fn misfit_at(place: usize, count: usize, error: &ParameterError) -> PyErr {
     let ParameterError { name, value, expected } = error;

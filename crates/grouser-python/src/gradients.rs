@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use crate::columns::wheel_names;
 use crate::descriptions::Document;
-use crate::wheels::{Inputs, Stand};
+use crate::wheels::{Inputs, Stand, inside, slips};
 use crate::{errors, threads};
 
 /// Derivatives with a row for each key and result, whether each differs from side to side, the keys
@@ -26,6 +26,7 @@ pub(crate) type Gradients<'py> =
 ///
 /// * `vary`: keys of soil and wheel, and `gravity_m_s2`, with a number for each wheel; emptied
 /// * `keys`: the numbers, or `all` alone
+/// * `outside_is_nan`: as of [`settle`](crate::wheels::settle)
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
@@ -40,16 +41,19 @@ pub(crate) fn settle_gradients<'py>(
     soil_index: Option<PyReadonlyArray1<'py, i64>>,
     vary: &Bound<'py, PyDict>,
     keys: Vec<String>,
+    outside_is_nan: bool,
 ) -> PyResult<Gradients<'py>> {
+    let pressed = inside(load_n.as_slice()?, &study::LOAD_N, outside_is_nan);
+    let [slip_ratios, slip_angles_deg] = slips(&slip_ratio, &slip_angle_deg, outside_is_nan)?;
     let inputs = Inputs {
         quantity: LOAD,
-        pressed: load_n.as_slice()?,
-        slip_ratios: slip_ratio.as_slice()?,
-        slip_angles_deg: slip_angle_deg.as_slice()?,
+        pressed: &pressed,
+        slip_ratios: &slip_ratios,
+        slip_angles_deg: &slip_angles_deg,
         soils: soil_index.as_ref().map(|index| index.as_slice()).transpose()?,
     };
     let count = inputs.pressed.len();
-    let stand = Stand::new(&soils, wheel, setting, vary, count)?;
+    let mut stand = Stand::new(&soils, wheel, setting, vary, count, outside_is_nan)?;
     inputs.check(stand.soil_count(), &study::LOAD_N)?;
     stand.check(py, &inputs)?;
     let keys = keys_of(&soils, wheel, &keys)?;

@@ -67,7 +67,7 @@ impl Learner {
             None => kept.scenario().map_err(refused)?,
         };
         let slope_is_known = slope_is_known.unwrap_or(kept.slope_is_known());
-        let drive = kept.drive(&scenario, slope_is_known).map_err(refused)?;
+        let drive = errors::caught(|| kept.drive(&scenario, slope_is_known))?.map_err(refused)?;
         Ok(Self::of(scenario, slope_is_known, drive))
     }
 
@@ -154,9 +154,9 @@ impl Learner {
 
     /// A copy in which the drive is over: the records that are too few for a stretch of their own
     /// count, too.
-    fn finished(&self) -> Self {
-        let drive = self.drive().finished();
-        Self::of(self.scenario.clone(), self.slope_is_known, drive)
+    fn finished(&self) -> PyResult<Self> {
+        let drive = errors::caught(|| self.drive().finished())?;
+        Ok(Self::of(self.scenario.clone(), self.slope_is_known, drive))
     }
 
     /// All that was learnt on the way: stretches, and warnings.
@@ -218,7 +218,7 @@ impl Learner {
 
     /// What is left of the uncertainty of each key [-].
     fn narrowed(&self, samples: u32, seed: u64) -> PyResult<BTreeMap<String, f64>> {
-        let narrowed = self.drive().learner().narrowed(seed, samples);
+        let narrowed = errors::caught(|| self.drive().learner().narrowed(seed, samples))?;
         narrowed.map_err(|error| Problem::Sampling(error).raised())
     }
 
@@ -286,14 +286,15 @@ impl Learner {
 
     fn learnt_soil(&self, log: &str, samples: u32, seed: u64) -> PyResult<LearntSoil> {
         let drive = self.drive();
-        let found = LearntSoil::now(&self.scenario, &drive, (seed, samples), log);
+        let found =
+            errors::caught(|| LearntSoil::now(&self.scenario, &drive, (seed, samples), log))?;
         let found = found.map_err(|error| Problem::Sampling(error).raised())?;
         found.ok_or_else(|| nothing_to_learn("the scenario has no uncertain soil".to_owned()))
     }
 }
 
 fn learning(scenario: &LoadedScenario, slope_is_known: bool) -> PyResult<Learning> {
-    Learning::new(scenario, slope_is_known, LearnSettings::USUAL)
+    errors::caught(|| Learning::new(scenario, slope_is_known, LearnSettings::USUAL))?
         .map_err(|error| nothing_to_learn(error.to_string()))
 }
 

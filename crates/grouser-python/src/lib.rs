@@ -118,6 +118,8 @@ mod _core {
     #[pymodule_export]
     use super::validity::{flag_names, flags};
     #[pymodule_export]
+    use super::varied::range_of;
+    #[pymodule_export]
     use super::wheels::{not_carried, settle, wheel_forces};
 
     /// Gravities by name [m/s²], defaults, and the version.

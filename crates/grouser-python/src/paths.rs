@@ -4,11 +4,11 @@ use grouser::document::columns::mission::{stopped_by, why_short, why_stopped};
 use grouser::document::unit::DEG;
 use grouser::document::{Beside, Source, limited_quantity, read_limits, to_toml};
 use grouser::mission::{Cause, LegOutcome, PathRun, PathTask as Task, Route, Stop, Then};
-use grouser::simulation::{Run, RunError};
+use grouser::simulation::{BadState, Run, RunError, Scenario, State};
 use grouser::units::Vec2;
 use numpy::{PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 use toml::Table;
 
 use crate::{errors, values};
@@ -52,6 +52,28 @@ impl PathTask {
         let [heading, angle] = [heading_deg, angle_deg].map(|angle| DEG.to_si(angle));
         let route = Route::arc(radius_m, heading, angle);
         Self::of(route.map_err(|error| errors::of_parameter(&error))?, within_m, stop)
+    }
+
+    /// The one that was made [bytes](Self::content).
+    #[staticmethod]
+    fn of_content(bytes: &[u8]) -> PyResult<Self> {
+        let task = Task::from_bytes(bytes).ok_or_else(|| {
+            let message = "the bytes are no path of this version of Grouser".to_owned();
+            errors::parameter(message, "path", None, "bytes of a path")
+        })?;
+        Ok(Self { task })
+    }
+
+    /// As bytes, for other processes.
+    #[getter]
+    fn content<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, &self.task.to_bytes())
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        Ok((slf.getattr("of_content")?, (slf.get().content(slf.py()),)))
     }
 
     /// Its length [m].
@@ -133,6 +155,29 @@ impl Led {
             None => Self::Free(Box::new(run)),
             Some(task) => Self::OnPath(Box::new(PathRun::new(run, task.clone())?)),
         })
+    }
+
+    /// The one that was made [bytes](Self::to_bytes).
+    pub(crate) fn from_bytes(
+        bytes: &[u8],
+        scenario: &Scenario,
+        task: Option<&Task>,
+    ) -> Result<Self, BadState> {
+        Ok(match task {
+            None => {
+                let state = State::from_bytes(bytes, scenario)?;
+                Self::Free(Box::new(Run::resume(scenario, state)))
+            }
+            Some(task) => Self::OnPath(Box::new(PathRun::from_bytes(bytes, scenario, task)?)),
+        })
+    }
+
+    /// All that changes, as bytes.
+    pub(crate) fn to_bytes(&self) -> Vec<u8> {
+        match self {
+            Self::Free(run) => run.state().to_bytes(),
+            Self::OnPath(path) => path.to_bytes(),
+        }
     }
 
     pub(crate) fn run(&self) -> &Run {

@@ -23,8 +23,8 @@ use crate::descriptions::Document;
 use crate::errors;
 use crate::gradients::Gradients;
 use crate::interrupt::listening;
-use crate::varied::{self, VariedKeys};
-use crate::wheels::{check_or_nan, column};
+use crate::varied::{self, KEYS, RIM_SPEED, VariedKeys};
+use crate::wheels::{check_or_nan, column, inside};
 
 /// Many runs, which share what is the same for them.
 pub(crate) struct Runs {
@@ -41,21 +41,10 @@ pub(crate) struct Runs {
     of_bases: VariedKeys,
     /// Those of the soils, where there are some in the place of the scenarios' own.
     of_soils: VariedKeys,
+    /// Why a run has a number out of its range, where those are left out; in no order.
+    outside: Vec<(usize, String)>,
     count: usize,
 }
-
-/// What may vary: the argument, and the scenario's key that it sets.
-const KEYS: [[&str; 2]; 5] = [
-    ["slope_deg", "slope_deg"],
-    ["yaw_deg", "start.yaw_deg"],
-    ["rim_speed_m_s", RIM_SPEED],
-    ["gravity_m_s2", "gravity_m_s2"],
-    ["duration_s", "duration_s"],
-];
-
-/// The key of the rims' speed. Where a drive follows Eq. 18, that number is its speed over the
-/// ground.
-const RIM_SPEED: &str = "drive.rim_speed_m_s";
 
 /// Which of some things each run has, if there are several.
 type Index<'py> = Option<PyReadonlyArray1<'py, i64>>;
@@ -70,6 +59,7 @@ impl Runs {
         soil_index: &Index<'_>,
         varied: &Bound<'_, PyDict>,
         count: usize,
+        outside_is_nan: bool,
     ) -> PyResult<Self> {
         let bases = scenarios.iter().map(|it| it.scenario()).collect::<PyResult<Vec<_>>>()?;
         let soils = soils.iter().map(|it| it.soil()).collect::<PyResult<Vec<_>>>()?;
@@ -79,7 +69,9 @@ impl Runs {
         }
         let base_of = places(scenario_index, bases.len(), count)?;
         let soil_of = places(soil_index, soils.len(), count)?;
-        let arguments = arguments_of(varied, count)?;
+        let mut outside = Vec::new();
+        let left_out = outside_is_nan.then_some(&mut outside);
+        let arguments = arguments_of(varied, count, left_out)?;
         let documents: Vec<_> = soils.iter().map(|soil| varied::parts(soil)).collect();
         let prefix = if soils.is_empty() { NO_KEY } else { SOIL };
         let of_soils = VariedKeys::taken(varied, prefix, &documents, count)?;
@@ -87,7 +79,7 @@ impl Runs {
         let of_bases = VariedKeys::taken(varied, "", &documents, count)?;
         let named = |it: &&LoadedScenario| (it.value.clone(), it.document.model().is_some());
         let usual = |it: &&LoadedSoil| (it.value, it.document.usual_model(""));
-        let runs = Self {
+        let mut runs = Self {
             bases: bases.iter().map(named).collect(),
             documents: bases.iter().map(|it| it.document.clone()).collect(),
             base_of,
@@ -97,8 +89,17 @@ impl Runs {
             varied: arguments,
             of_bases,
             of_soils,
+            outside,
             count,
         };
+        if outside_is_nan {
+            let (base_of, soil_of) = (runs.base_of.clone(), runs.soil_of.clone());
+            let at = |index: &Option<Vec<usize>>, place: usize| {
+                index.as_ref().map_or(0, |index| index[place])
+            };
+            runs.outside.extend(runs.of_bases.leave_out(|place| at(&base_of, place)));
+            runs.outside.extend(runs.of_soils.leave_out(|place| at(&soil_of, place)));
+        }
         runs.of_bases.check(|place| runs.base_at(place))?;
         runs.of_soils.check(|place| runs.soil_at(place))?;
         Ok(runs)
@@ -207,18 +208,28 @@ const NO_KEY: &str = "\0";
 const SOIL: &str = "soil.";
 
 /// The arguments among what varies, taken from it.
+///
+/// * `left_out`: takes which runs have a number out of its range, where that is no error
 fn arguments_of(
     varied: &Bound<'_, PyDict>,
     count: usize,
+    mut left_out: Option<&mut Vec<(usize, String)>>,
 ) -> PyResult<Vec<([&'static str; 2], Vec<f64>)>> {
     let mut all = Vec::new();
     for [name, key] in KEYS {
         if !varied.contains(name)? {
             continue;
         }
-        let values = varied::numbers(varied, name, count)?;
+        let mut values = varied::numbers(varied, name, count)?;
         varied.del_item(name)?;
         let allowed = range(Kind::Scenario, key).unwrap_or(f64::MIN..=f64::MAX);
+        if let Some(left_out) = &mut left_out {
+            let outside = values.iter().enumerate().filter(|(_, value)| !value.is_nan());
+            let outside = outside.filter(|(_, value)| !allowed.contains(value));
+            left_out
+                .extend(outside.map(|(place, it)| (place, errors::outside(name, *it, &allowed))));
+            values = inside(&values, &allowed, true).into_owned();
+        }
         check_or_nan(name, &values, &allowed)?;
         all.push(([name, key], values));
     }
@@ -290,6 +301,7 @@ impl End {
 /// * `varied`: an array of `count` numbers for each argument and key that varies; emptied
 /// * `keep`: whether all records are kept, beside the ends
 /// * `gradients`: keys of the numbers that ends are differentiated by
+/// * `outside_is_nan`: whether a run with a number out of its range has failed, and is no error
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
 #[allow(clippy::needless_pass_by_value, reason = "how lists come from Python")]
@@ -303,8 +315,10 @@ pub(crate) fn rollout<'py>(
     count: usize,
     keep: bool,
     gradients: Option<Vec<String>>,
+    outside_is_nan: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let runs = Runs::new(&scenarios, &scenario_index, &soils, &soil_index, varied, count)?;
+    let runs =
+        Runs::new(&scenarios, &scenario_index, &soils, &soil_index, varied, count, outside_is_nan)?;
     let on_heights = runs.bases.iter().any(|(base, _)| !base.ground.is_plane());
     let keys = match (&gradients, scenarios.first()) {
         (Some(names), Some(base)) => Some(runs.gradient_keys(base.scenario()?, names)?),
@@ -312,14 +326,21 @@ pub(crate) fn rollout<'py>(
     };
     let by = keys.clone();
     let ends = listening(py, move |cancelled| {
-        if let Some(misfit) = runs.first_misfit() {
+        if let Some(misfit) = runs.first_misfit().filter(|_| !outside_is_nan) {
             return Err(misfit);
         }
         let end = |place: usize| {
+            if let Some((_, why)) = runs.outside.iter().find(|(run, _)| *run == place) {
+                return Ok(End::failed(why.clone()));
+            }
             if let Some(name) = runs.missing(place) {
                 return Ok(End::failed(format!("{name} is NaN")));
             }
-            let scenario = runs.scenario(place).map_err(|error| (place, error))?;
+            let scenario = match runs.scenario(place) {
+                Ok(scenario) => scenario,
+                Err(error) if outside_is_nan => return Ok(End::failed(error.to_string())),
+                Err(error) => return Err((place, error)),
+            };
             Ok(End::of(&scenario, keep, |run, lead| {
                 let Some(keys) = &by else { return Vec::new() };
                 let number = |path: &str| runs.number(place, path);

@@ -3,14 +3,21 @@
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use grouser::difference::Derivative;
 use grouser::document::columns::run::RECORD;
-use grouser::document::columns::{SLOPE, YAW};
-use grouser::document::{Kind, LoadedScenario, RIM_SPEED_M_S, UncertainSoil, range, scenario_with};
+use grouser::document::columns::{SLOPE, WHEEL_SPEED, YAW};
+use grouser::document::{
+    Kind, LoadedScenario, RIM_SPEED_M_S, UncertainSoil, fnv_1a, range, scenario_with,
+};
 use grouser::mission::PathTask as Task;
-use grouser::simulation::{LEAST_STEP, Run, RunError, Scenario, WheelRecord};
+use grouser::simulation::{
+    BadState, LEAST_STEP, LinearStep, NoLinearStep, POSE_AND_VELOCITIES, Run, RunError, Scenario,
+    WheelRecord,
+};
 use grouser::vehicle::Mount;
-use numpy::{PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 use rayon::prelude::*;
 
 use crate::descriptions::Document;
@@ -32,12 +39,13 @@ struct Stepped {
     nominal: Scenario,
     soils: Option<UncertainSoil>,
     task: Option<Task>,
+    fresh: Fresh,
     rover: Led,
     failure: Option<String>,
 }
 
 /// What one rover starts from besides its scenario.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Fresh {
     seed: Option<u64>,
     slope_deg: Option<f64>,
@@ -49,10 +57,19 @@ impl Stepped {
         let nominal = loaded.value.clone();
         let soils = loaded.stated_uncertainty().cloned();
         let rover = Led::new(Run::new(&nominal)?, task)?;
-        Ok(Self { nominal, soils, task: task.cloned(), rover, failure: None })
+        let (task, fresh) = (task.cloned(), Fresh::default());
+        Ok(Self { nominal, soils, task, fresh, rover, failure: None })
     }
 
     fn reset(&mut self, fresh: Fresh) -> Result<(), RunError> {
+        let run = Run::new(&self.scenario(fresh)?)?;
+        self.rover = Led::new(run, self.task.as_ref())?;
+        (self.fresh, self.failure) = (fresh, None);
+        Ok(())
+    }
+
+    /// The scenario of a rover that starts so.
+    fn scenario(&self, fresh: Fresh) -> Result<Scenario, RunError> {
         let mut scenario = self.nominal.clone();
         if let (Some(seed), Some(soils)) = (fresh.seed, &self.soils) {
             // Reading the document has checked that samples can be drawn.
@@ -62,9 +79,41 @@ impl Stepped {
         }
         let numbers = [(SLOPE.name, fresh.slope_deg), ("start.yaw_deg", fresh.yaw_deg)];
         let numbers = numbers.into_iter().filter_map(|(key, number)| Some((key, number?)));
-        let run = Run::new(&scenario_with(&scenario, numbers)?)?;
-        self.rover = Led::new(run, self.task.as_ref())?;
-        self.failure = None;
+        Ok(scenario_with(&scenario, numbers)?)
+    }
+
+    /// All that changes, as bytes.
+    ///
+    /// * `mark`: of its scenario
+    fn to_bytes(&self, mark: u64) -> Vec<u8> {
+        let Fresh { seed, slope_deg, yaw_deg } = self.fresh;
+        let [slope, yaw] = [slope_deg, yaw_deg].map(|it| it.map(f64::to_bits));
+        let start = Start { mark, seed, slope, yaw, failure: self.failure.clone() };
+        let mut bytes = serde_json::to_vec(&start).unwrap_or_default();
+        bytes.push(b'\n');
+        bytes.extend(self.rover.to_bytes());
+        let sum = fnv_1a(bytes.iter().copied());
+        bytes.extend(sum.to_le_bytes());
+        bytes
+    }
+
+    /// Sets all that changes.
+    fn restore(&mut self, mark: u64, bytes: &[u8]) -> Result<(), NotRestored> {
+        let (bytes, sum) = bytes.split_last_chunk().ok_or(BadState::Unreadable)?;
+        if fnv_1a(bytes.iter().copied()).to_le_bytes() != *sum {
+            return Err(BadState::Unreadable.into());
+        }
+        let end = bytes.iter().position(|byte| *byte == b'\n');
+        let (start, run) = bytes.split_at(end.ok_or(BadState::Unreadable)?);
+        let start: Start = serde_json::from_slice(start).map_err(|_| BadState::Unreadable)?;
+        if start.mark != mark {
+            return Err(NotRestored::OtherScenario);
+        }
+        let [slope_deg, yaw_deg] = [start.slope, start.yaw].map(|it| it.map(f64::from_bits));
+        let fresh = Fresh { seed: start.seed, slope_deg, yaw_deg };
+        let scenario = self.scenario(fresh).map_err(|_| BadState::Unreadable)?;
+        self.rover = Led::from_bytes(&run[1..], &scenario, self.task.as_ref())?;
+        (self.fresh, self.failure) = (fresh, start.failure);
         Ok(())
     }
 
@@ -91,10 +140,44 @@ impl Stepped {
     }
 }
 
+/// What the bytes of a rover begin with: what it started from besides its scenario, and why it
+/// failed.
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Start {
+    /// Of the scenario.
+    mark: u64,
+    seed: Option<u64>,
+    /// Slope and yaw [°] by their bits, which decimals would have to be read back to.
+    slope: Option<u64>,
+    yaw: Option<u64>,
+    failure: Option<String>,
+}
+
+/// Why a rover is not set to a state.
+#[derive(Debug, thiserror::Error)]
+enum NotRestored {
+    #[error("the state is of another scenario than the run's")]
+    OtherScenario,
+    #[error(transparent)]
+    Bad(#[from] BadState),
+}
+
+/// Slopes of a step: numbers of the state before and after it; slopes, a row for each number of the
+/// state before and each command; where they differ from side to side; and the names of states.
+type Slopes<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<bool>>,
+    Vec<String>,
+);
+
 /// Rovers with one number of wheels.
 #[pyclass(frozen, module = "grouser._core")]
 pub(crate) struct Simulators {
     rovers: Mutex<Vec<Stepped>>,
+    /// What they were made of, for the marks of their states.
+    documents: Vec<Py<Document>>,
     wheels: Vec<String>,
     /// ω = v/r_s of each wheel of each rover: r_s [m].
     radii: Vec<Vec<f64>>,
@@ -107,11 +190,12 @@ impl Simulators {
     #[pyo3(signature = (scenarios, path=None))]
     #[allow(clippy::needless_pass_by_value, reason = "how a list comes from Python")]
     fn new(
-        scenarios: Vec<PyRef<'_, Document>>,
-        path: Option<PyRef<'_, PathTask>>,
+        py: Python<'_>,
+        scenarios: Vec<Py<Document>>,
+        path: Option<Py<PathTask>>,
     ) -> PyResult<Self> {
-        let task = path.as_ref().map(|path| &path.task);
-        let loaded = scenarios.iter().map(|scenario| scenario.scenario());
+        let task = path.as_ref().map(|path| &path.get().task);
+        let loaded = scenarios.iter().map(|scenario| scenario.get().scenario());
         let loaded = loaded.collect::<PyResult<Vec<_>>>()?;
         let wheels = loaded.first().map_or(Vec::new(), |one| wheel_names(&one.value));
         if loaded.iter().any(|one| one.value.rover.wheel_count() != wheels.len()) {
@@ -120,10 +204,11 @@ impl Simulators {
         }
         let radii = loaded.iter().map(|one| one.value.rover.mounts().iter());
         let radii = radii.map(|each| each.map(Mount::shearing_radius).collect()).collect();
-        let rovers = loaded.into_iter().map(|one| Stepped::new(one, task));
-        let rovers = rovers.collect::<Result<_, _>>();
+        let rovers = threads::released(py, || {
+            loaded.into_iter().map(|one| Stepped::new(one, task)).collect::<Result<_, _>>()
+        })?;
         let rovers = Mutex::new(rovers.map_err(|error| errors::of_simulation(&error))?);
-        Ok(Self { rovers, wheels, radii })
+        Ok(Self { rovers, documents: scenarios, wheels, radii })
     }
 
     /// How many rovers there are.
@@ -132,9 +217,101 @@ impl Simulators {
     }
 
     /// Others that go on as these would, bit for bit.
-    fn copy(&self, py: Python<'_>) -> Self {
-        let rovers = py.detach(|| self.lock().clone());
-        Self { rovers: Mutex::new(rovers), wheels: self.wheels.clone(), radii: self.radii.clone() }
+    fn copy(&self, py: Python<'_>) -> PyResult<Self> {
+        let rovers = threads::released(py, || self.lock().clone())?;
+        let documents = self.documents.iter().map(|it| it.clone_ref(py)).collect();
+        let (wheels, radii) = (self.wheels.clone(), self.radii.clone());
+        Ok(Self { rovers: Mutex::new(rovers), documents, wheels, radii })
+    }
+
+    fn __deepcopy__(&self, py: Python<'_>, _memo: &Bound<'_, PyAny>) -> PyResult<Self> {
+        self.copy(py)
+    }
+
+    /// All that changes in each rover, as bytes.
+    fn states<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyBytes>>> {
+        let documents: Vec<&Document> = self.documents.iter().map(Py::get).collect();
+        let states: Vec<Vec<u8>> = threads::released(py, || {
+            let rovers = self.lock();
+            let each = rovers.iter().zip(&documents);
+            each.map(|(rover, document)| rover.to_bytes(document.mark())).collect()
+        })?;
+        Ok(states.iter().map(|state| PyBytes::new(py, state)).collect())
+    }
+
+    /// Sets some rovers to states; all stay as they are where one of those is refused.
+    #[allow(clippy::needless_pass_by_value, reason = "how lists come from Python")]
+    fn restore(&self, py: Python<'_>, places: Vec<usize>, states: Vec<Vec<u8>>) -> PyResult<()> {
+        if places.len() != states.len() || places.iter().any(|it| *it >= self.radii.len()) {
+            let message = "there is not one state for every rover".to_owned();
+            return Err(errors::parameter(message, "state", None, "one state for each rover"));
+        }
+        let documents: Vec<&Document> = self.documents.iter().map(Py::get).collect();
+        let done = threads::released(py, || {
+            let mut rovers = self.lock();
+            let mut restored = rovers.clone();
+            for (place, state) in places.iter().zip(&states) {
+                restored[*place].restore(documents[*place].mark(), state)?;
+            }
+            *rovers = restored;
+            Ok(())
+        })?;
+        done.map_err(|error: NotRestored| {
+            errors::parameter(error.to_string(), "state", None, "a state of the same scenario")
+        })
+    }
+
+    /// The slopes of a step of the first rover.
+    #[allow(clippy::needless_pass_by_value, reason = "how an array comes from Python")]
+    fn linear_step<'py>(
+        &self,
+        py: Python<'py>,
+        commands: PyReadonlyArray2<'py, f64>,
+        are_rim_speeds: bool,
+        dt_s: f64,
+    ) -> PyResult<Slopes<'py>> {
+        let rims = self.rim_speeds(&commands, are_rim_speeds, dt_s)?;
+        let (Some(rims), Some(radii)) = (rims.first(), self.radii.first()) else {
+            let message = "there is no rover".to_owned();
+            return Err(errors::parameter(message, "scenarios", None, "a rover"));
+        };
+        let failed = "the run has failed: it has no next step";
+        let found = threads::released(py, || {
+            let rovers = self.lock();
+            let is_sound = rovers[0].failure.is_none();
+            is_sound.then(|| rovers[0].rover.run().linear_step(rims, dt_s))
+        })?;
+        let found = found.ok_or_else(|| errors::not_found(failed))?;
+        let LinearStep { before, after, slopes } = found.map_err(|why| match why {
+            NoLinearStep::Run(error) => errors::of_simulation(&error),
+            why => errors::not_found(&why.to_string()),
+        })?;
+        // The columns of pose and velocities follow the time.
+        let body = RECORD[1..=POSE_AND_VELOCITIES].iter();
+        let body = body.map(|column| (column.name.to_owned(), column.unit.from_si(1.0)));
+        let of_wheels = |quantity: &'static str| {
+            self.wheels.iter().map(move |wheel| format!("{wheel}.{quantity}"))
+        };
+        let turning = of_wheels(WHEEL_SPEED.name).zip(radii.iter().map(|radius| 1.0 / radius));
+        let integrals = of_wheels("control_voltage_v").map(|name| (name, 1.0));
+        let (names, units): (Vec<String>, Vec<f64>) =
+            body.chain(turning).chain(integrals).take(before.len()).unzip();
+        let commands = radii.iter().map(|radius| if are_rim_speeds { 1.0 } else { 1.0 / radius });
+        let rows = slopes.iter().zip(units.iter().copied().chain(commands));
+        let rows = rows.map(|(row, unit)| {
+            let each = row.iter().zip(&units);
+            each.map(|(slope, after)| slope.times(after / unit)).collect()
+        });
+        let rows: Vec<Vec<Derivative>> = rows.collect();
+        let matrix = |rows: Vec<Vec<f64>>| PyArray2::from_vec2(py, &rows);
+        let values = rows.iter().map(|row| row.iter().map(|it| it.value).collect()).collect();
+        let one_sided: Vec<Vec<bool>> =
+            rows.iter().map(|row| row.iter().map(|it| it.is_one_sided()).collect()).collect();
+        let numbers = |state: Vec<f64>| {
+            PyArray1::from_iter(py, state.iter().zip(&units).map(|(number, unit)| number * unit))
+        };
+        let one_sided = PyArray2::from_vec2(py, &one_sided)?;
+        Ok((numbers(before), numbers(after), matrix(values)?, one_sided, names))
     }
 
     /// The names of the wheels, in the order of their mounts.
@@ -188,27 +365,12 @@ impl Simulators {
         dt_s: f64,
         active: PyReadonlyArray1<'_, bool>,
     ) -> PyResult<()> {
-        let (count, wheels) = (self.radii.len(), self.wheels.len());
-        let (commands, active) = (commands.as_array(), active.as_array());
-        if commands.dim() != (count, wheels) || active.len() != count {
-            let expected = format!("shape ({count}, {wheels}), rovers and wheels");
-            let message =
-                format!("commands have shape {:?}, it must be {expected}", commands.dim());
-            return Err(errors::parameter(message, "commands", None, expected));
+        let rims = self.rim_speeds(&commands, are_rim_speeds, dt_s)?;
+        let active: Vec<bool> = active.as_array().to_vec();
+        if active.len() != rims.len() {
+            let message = "mask is not as long as there are rovers".to_owned();
+            return Err(errors::parameter(message, "mask", None, "one value for each rover"));
         }
-        check("dt_s", &[dt_s], &(LEAST_STEP..=LONGEST_STEP))?;
-        let mut rims = Vec::with_capacity(count);
-        for (row, radii) in commands.rows().into_iter().zip(&self.radii) {
-            let mut rim_speeds = Vec::with_capacity(wheels);
-            for (command, radius) in row.iter().zip(radii) {
-                let factor = if are_rim_speeds { 1.0 } else { *radius };
-                let limit = RIM_SPEED_M_S.end() / factor;
-                check("commands", &[*command], &(-limit..=limit))?;
-                rim_speeds.push(command * factor);
-            }
-            rims.push(rim_speeds);
-        }
-        let active: Vec<bool> = active.to_vec();
         self.each(py, |rover, place| {
             // A failure is kept with its rover, and the others go on.
             let _ = active[place].then(|| rover.step(&rims[place], dt_s));
@@ -251,10 +413,10 @@ impl Simulators {
     fn statuses(
         &self,
         py: Python<'_>,
-    ) -> Vec<(Option<&'static str>, Option<String>, &'static str)> {
+    ) -> PyResult<Vec<(Option<&'static str>, Option<String>, &'static str)>> {
         let status =
             |led: &Stepped| (led.outcome(), led.message(), led.rover.run().state().method().name());
-        py.detach(|| self.lock().iter().map(status).collect())
+        threads::released(py, || self.lock().iter().map(status).collect())
     }
 
     /// A row for each rover with where it is beside its path, in the order of [`path_columns`];
@@ -274,8 +436,8 @@ impl Simulators {
     }
 
     /// What became of each rover on its path.
-    fn path_outcomes(&self, py: Python<'_>) -> Vec<PathOutcome> {
-        py.detach(|| {
+    fn path_outcomes(&self, py: Python<'_>) -> PyResult<Vec<PathOutcome>> {
+        threads::released(py, || {
             let rovers = self.lock();
             rovers.iter().filter_map(|led| led.rover.path()).map(outcome_of).collect()
         })
@@ -287,6 +449,36 @@ impl Simulators {
     /// the rovers may wait for that.
     fn lock(&self) -> MutexGuard<'_, Vec<Stepped>> {
         self.rovers.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The rim speeds of commands [m/s], a list for each rover.
+    fn rim_speeds(
+        &self,
+        commands: &PyReadonlyArray2<'_, f64>,
+        are_rim_speeds: bool,
+        dt_s: f64,
+    ) -> PyResult<Vec<Vec<f64>>> {
+        let (count, wheels) = (self.radii.len(), self.wheels.len());
+        let commands = commands.as_array();
+        if commands.dim() != (count, wheels) {
+            let expected = format!("shape ({count}, {wheels}), rovers and wheels");
+            let message =
+                format!("commands have shape {:?}, it must be {expected}", commands.dim());
+            return Err(errors::parameter(message, "commands", None, expected));
+        }
+        check("dt_s", &[dt_s], &(LEAST_STEP..=LONGEST_STEP))?;
+        let mut rims = Vec::with_capacity(count);
+        for (row, radii) in commands.rows().into_iter().zip(&self.radii) {
+            let mut rim_speeds = Vec::with_capacity(wheels);
+            for (command, radius) in row.iter().zip(radii) {
+                let factor = if are_rim_speeds { 1.0 } else { *radius };
+                let limit = RIM_SPEED_M_S.end() / factor;
+                check("commands", &[*command], &(-limit..=limit))?;
+                rim_speeds.push(command * factor);
+            }
+            rims.push(rim_speeds);
+        }
+        Ok(rims)
     }
 
     /// Applies `act` to every rover, on all cores. On Ctrl-C the remaining rovers stay as they are.

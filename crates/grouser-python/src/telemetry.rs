@@ -168,7 +168,7 @@ impl TelemetryMessages {
     fn add(&mut self, topic: &str, time_ns: i64, message: &str) -> PyResult<()> {
         let tree = serde_json::from_str(message)
             .map_err(|error| PyValueError::new_err(format!("no JSON: {error}")))?;
-        self.rows.add(topic, time_ns, &tree);
+        errors::caught(|| self.rows.add(topic, time_ns, &tree))?;
         self.drain()
     }
 
@@ -179,7 +179,7 @@ impl TelemetryMessages {
 
     /// Writes the rest: how many records there are, and what was noticed.
     fn finish(&mut self) -> PyResult<(u64, Vec<String>)> {
-        self.rows.end();
+        errors::caught(|| self.rows.end())?;
         self.drain()?;
         let records = match self.table.take() {
             Some(table) => table.finish().map_err(Failed::raised)?,

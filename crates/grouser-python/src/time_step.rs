@@ -18,6 +18,7 @@ use pyo3::prelude::*;
 use crate::columns::{wheel_names, wheel_row};
 use crate::descriptions::Document;
 use crate::errors;
+use crate::threads::released;
 use crate::wheels::{check, check_under, model_and_gravity};
 
 /// The key of gravity in a scenario.
@@ -124,7 +125,8 @@ impl SteppingWheels {
             velocities: velocities.as_slice()?,
             with_moments,
         };
-        let (inverse_mass, free) = mechanism.response(duration_s).ok_or_else(not_finite)?;
+        let response = errors::caught(|| mechanism.response(duration_s))?;
+        let (inverse_mass, free) = response.ok_or_else(not_finite)?;
         let sinkages: Vec<f64> = wheels.iter().map(MountedWheel::sinkage).collect();
         let mut all = sinkages.iter().chain(inverse_mass.iter()).chain(free.iter());
         if !all.all(|number| number.is_finite()) {
@@ -145,7 +147,8 @@ impl SteppingWheels {
             soil,
             sinkage,
         });
-        let stepped = errors::caught(|| step.reaction(&stepping.collect::<Vec<_>>()))?;
+        let stepping: Vec<SteppingWheel<'_>> = stepping.collect();
+        let stepped = released(py, || step.reaction(&stepping))?;
         let results = PyArray2::zeros(py, [WHEEL.len() + 2, count], false);
         let wrenches = PyArray2::zeros(py, [count, 6], false);
         {

@@ -1,12 +1,14 @@
 //! Numbers of documents that differ from entry to entry: keys, with an array each.
 
+use std::ops::RangeInclusive;
+
 use grouser::document::varied::{Key, NoNumber, Numbers as _, Varied};
-use grouser::document::{Described, Document, Loaded};
+use grouser::document::{Described, Document, Loaded, study};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::errors;
+use crate::{descriptions as read, errors};
 
 /// Keys of documents with a number for each entry.
 pub(crate) struct VariedKeys {
@@ -77,6 +79,27 @@ impl VariedKeys {
         Ok(())
     }
 
+    /// Sets numbers that are out of their ranges to NaN, and returns which those were: the place of
+    /// each entry, and a sentence.
+    ///
+    /// * `document_of`: as of [`check`](Self::check)
+    pub(crate) fn leave_out(
+        &mut self,
+        document_of: impl Fn(usize) -> usize,
+    ) -> Vec<(usize, String)> {
+        let mut left_out = Vec::new();
+        for VariedKey { name, keys, values } in &mut self.keys {
+            for (place, value) in values.iter_mut().enumerate() {
+                let range = &keys[document_of(place)].range;
+                if !value.is_nan() && !range.contains(value) {
+                    left_out.push((place, errors::outside(name, *value, range)));
+                    *value = f64::NAN;
+                }
+            }
+        }
+        left_out
+    }
+
     /// The keys and numbers of an entry.
     pub(crate) fn at(&self, document: usize, place: usize) -> impl Iterator<Item = (&str, f64)> {
         self.keys.iter().map(move |key| (&*key.keys[document].path, key.values[place]))
@@ -86,6 +109,48 @@ impl VariedKeys {
     pub(crate) fn missing(&self, place: usize) -> Option<&str> {
         self.keys.iter().find(|key| key.values[place].is_nan()).map(|key| &*key.name)
     }
+}
+
+/// Arguments of many runs, each with the scenario's key that it sets.
+pub(crate) const KEYS: [[&str; 2]; 5] = [
+    ["slope_deg", "slope_deg"],
+    ["yaw_deg", "start.yaw_deg"],
+    ["rim_speed_m_s", RIM_SPEED],
+    ["gravity_m_s2", "gravity_m_s2"],
+    ["duration_s", "duration_s"],
+];
+
+/// The key of the rims' speed. Where a drive follows Eq. 18, that number is its speed over the
+/// ground.
+pub(crate) const RIM_SPEED: &str = "drive.rim_speed_m_s";
+
+/// Arguments of studies that are no keys of documents, with their ranges.
+const ARGUMENTS: [(&str, RangeInclusive<f64>); 4] = [
+    ("load_n", study::LOAD_N),
+    ("slip_ratio", study::SLIP_RATIO),
+    ("slip_angle_deg", study::SLIP_ANGLE_DEG),
+    ("course_deg", study::COURSE_DEG),
+];
+
+/// The scenario's key that an argument sets; another name is a key itself.
+fn key_of_argument(name: &str) -> &str {
+    KEYS.iter().find(|[argument, _]| *argument == name).map_or(name, |[_, key]| key)
+}
+
+/// What a number may be: the least and the most.
+///
+/// * `key`: a number of the document; of a scenario also an argument of a study
+#[pyfunction]
+pub(crate) fn range_of(document: &read::Document, key: &str) -> PyResult<(f64, f64)> {
+    let is_of_studies = document.scenario().is_ok();
+    let argument = ARGUMENTS.iter().find(|(name, _)| is_of_studies && *name == key);
+    let range = if let Some((_, range)) = argument {
+        range.clone()
+    } else {
+        let key = if is_of_studies { key_of_argument(key) } else { key };
+        document.number(key)?.map_err(|error| unknown(key, &error))?.range
+    };
+    Ok((*range.start(), *range.end()))
 }
 
 /// What documents mean, and what they say.
@@ -120,6 +185,6 @@ pub(crate) fn check_taken(all: &Bound<'_, PyDict>, known: &str) -> PyResult<()> 
 
 fn unknown(name: &str, error: &NoNumber) -> PyErr {
     let hint = error.hint.as_ref().map_or_else(String::new, |hint| format!(": {hint}"));
-    let message = format!("vary: {}{hint}", error.problem);
+    let message = format!("{}{hint}", error.problem);
     errors::parameter(message, name, None, "the key of a number")
 }

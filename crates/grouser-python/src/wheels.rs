@@ -1,5 +1,6 @@
 //! Arrays of wheels: each settles by itself, and has the bits that it has alone.
 
+use std::borrow::Cow;
 use std::ops::{Range, RangeInclusive};
 use std::time::{Duration, Instant};
 
@@ -41,6 +42,8 @@ pub(crate) struct Stand {
     of_soils: VariedKeys,
     of_wheels: VariedKeys,
     gravities: Option<Vec<f64>>,
+    /// Whether a number out of its range leaves its wheel without results, and is no error.
+    outside_is_nan: bool,
 }
 
 /// What each wheel has of its own.
@@ -65,6 +68,7 @@ impl Stand {
         setting: &Document,
         vary: &Bound<'_, PyDict>,
         count: usize,
+        outside_is_nan: bool,
     ) -> PyResult<Self> {
         let loaded = soils.iter().map(|soil| soil.soil()).collect::<PyResult<Vec<_>>>()?;
         let documents: Vec<_> = loaded.iter().map(|soil| varied::parts(soil)).collect();
@@ -75,6 +79,7 @@ impl Stand {
             let gravities = varied::numbers(vary, GRAVITY, count)?;
             vary.del_item(GRAVITY)?;
             let allowed = range(Kind::Scenario, GRAVITY).unwrap_or(f64::MIN..=f64::MAX);
+            let gravities = inside(&gravities, &allowed, outside_is_nan).into_owned();
             check_or_nan(GRAVITY, &gravities, &allowed)?;
             Some(gravities)
         } else {
@@ -94,7 +99,7 @@ impl Stand {
         if of_soils.is_empty() && of_wheels.is_empty() && gravities.is_none() {
             soils.iter().try_for_each(|(soil, _)| check_under(soil, &wheel, gravity))?;
         }
-        Ok(Self { soils, wheel, gravity, of_soils, of_wheels, gravities })
+        Ok(Self { soils, wheel, gravity, of_soils, of_wheels, gravities, outside_is_nan })
     }
 
     /// How many soils there are.
@@ -183,8 +188,13 @@ impl Stand {
 
     /// Checks that the numbers that differ from wheel to wheel are in their ranges, and that those
     /// of each wheel go together.
-    pub(crate) fn check(&self, py: Python<'_>, inputs: &Inputs<'_>) -> PyResult<()> {
+    pub(crate) fn check(&mut self, py: Python<'_>, inputs: &Inputs<'_>) -> PyResult<()> {
         if !self.is_varied() {
+            return Ok(());
+        }
+        if self.outside_is_nan {
+            self.of_soils.leave_out(|place| inputs.soil_of(place));
+            self.of_wheels.leave_out(|_| 0);
             return Ok(());
         }
         self.of_soils.check(|place| inputs.soil_of(place))?;
@@ -230,6 +240,19 @@ impl Inputs<'_> {
 /// Checks that numbers are in their range; the error names the first that is not, by its place.
 pub(crate) fn check(name: &str, values: &[f64], range: &RangeInclusive<f64>) -> PyResult<()> {
     first_outside(name, values, range, |value| range.contains(value))
+}
+
+/// Numbers with NaN in the place of those that are out of range, where that is asked for; they are
+/// for [`check_or_nan`] otherwise.
+pub(crate) fn inside<'a>(
+    values: &'a [f64],
+    range: &RangeInclusive<f64>,
+    outside_is_nan: bool,
+) -> Cow<'a, [f64]> {
+    if !outside_is_nan || values.iter().all(|value| range.contains(value)) {
+        return Cow::Borrowed(values);
+    }
+    values.iter().map(|value| if range.contains(value) { *value } else { f64::NAN }).collect()
 }
 
 /// The same of numbers that may be NaN, for what has no value then.
@@ -357,7 +380,7 @@ fn evaluate(
             let mut shares = shares(cells, count, start..end, size);
             // A single wheel is settled before a thread has woken up.
             if shares.len() == 1 {
-                shares.into_iter().for_each(&compute);
+                errors::caught(|| shares.into_iter().for_each(&compute))?;
             } else {
                 threads::detached(py, || shares.par_drain(..).for_each(&compute))?;
             }
@@ -402,6 +425,8 @@ fn names(last: &'static str) -> Vec<&'static str> {
 /// that is all NaN but for the bits has an input that is.
 ///
 /// * `vary`: keys of soil and wheel, and `gravity_m_s2`, with a number for each wheel; emptied
+/// * `outside_is_nan`: whether a wheel with a number out of its range has no results, and is no
+///   error
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "arrays, as they come from Python")]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
@@ -415,15 +440,19 @@ pub(crate) fn settle<'py>(
     slip_angle_deg: PyReadonlyArray1<'py, f64>,
     soil_index: Option<PyReadonlyArray1<'py, i64>>,
     vary: &Bound<'py, PyDict>,
+    outside_is_nan: bool,
 ) -> PyResult<Answer<'py>> {
+    let pressed = inside(load_n.as_slice()?, &study::LOAD_N, outside_is_nan);
+    let [slip_ratios, slip_angles_deg] = slips(&slip_ratio, &slip_angle_deg, outside_is_nan)?;
     let inputs = Inputs {
         quantity: LOAD,
-        pressed: load_n.as_slice()?,
-        slip_ratios: slip_ratio.as_slice()?,
-        slip_angles_deg: slip_angle_deg.as_slice()?,
+        pressed: &pressed,
+        slip_ratios: &slip_ratios,
+        slip_angles_deg: &slip_angles_deg,
         soils: soil_index.as_ref().map(|index| index.as_slice()).transpose()?,
     };
-    let stand = Stand::new(&soils, wheel, setting, vary, inputs.pressed.len())?;
+    let count = inputs.pressed.len();
+    let mut stand = Stand::new(&soils, wheel, setting, vary, count, outside_is_nan)?;
     inputs.check(stand.soils.len(), &study::LOAD_N)?;
     stand.check(py, &inputs)?;
     let compute = |mut share: Share<'_>| {
@@ -462,20 +491,24 @@ pub(crate) fn wheel_forces<'py>(
     slip_angle_deg: PyReadonlyArray1<'py, f64>,
     soil_index: Option<PyReadonlyArray1<'py, i64>>,
     vary: &Bound<'py, PyDict>,
+    outside_is_nan: bool,
 ) -> PyResult<Answer<'py>> {
-    let inputs = Inputs {
-        quantity: SINKAGE,
-        pressed: sinkage_mm.as_slice()?,
-        slip_ratios: slip_ratio.as_slice()?,
-        slip_angles_deg: slip_angle_deg.as_slice()?,
-        soils: soil_index.as_ref().map(|index| index.as_slice()).transpose()?,
-    };
-    let stand = Stand::new(&soils, wheel, setting, vary, inputs.pressed.len())?;
+    let count = sinkage_mm.as_slice()?.len();
+    let mut stand = Stand::new(&soils, wheel, setting, vary, count, outside_is_nan)?;
     let depth = |wheel: &Wheel| SINKAGE.unit.from_si(wheel.shearing_radius());
     let deepest = if stand.of_wheels.is_empty() { depth(&stand.wheel) } else { f64::MAX };
+    let pressed = inside(sinkage_mm.as_slice()?, &(0.0..=deepest), outside_is_nan);
+    let [slip_ratios, slip_angles_deg] = slips(&slip_ratio, &slip_angle_deg, outside_is_nan)?;
+    let inputs = Inputs {
+        quantity: SINKAGE,
+        pressed: &pressed,
+        slip_ratios: &slip_ratios,
+        slip_angles_deg: &slip_angles_deg,
+        soils: soil_index.as_ref().map(|index| index.as_slice()).transpose()?,
+    };
     inputs.check(stand.soils.len(), &(0.0..=deepest))?;
     stand.check(py, &inputs)?;
-    if !stand.of_wheels.is_empty() {
+    if !stand.of_wheels.is_empty() && !outside_is_nan {
         for (place, sinkage) in inputs.pressed.iter().enumerate() {
             let Ok((contact, _)) = stand.contact(&inputs, place) else { continue };
             let range = 0.0..=depth(&contact.wheel);
@@ -495,7 +528,13 @@ pub(crate) fn wheel_forces<'py>(
         let given = |place: usize| inputs.pressed[place];
         for OfModel { model, places, wheels } in stand.by_model(&inputs, &mut share, given) {
             let found = forces_many(model.as_ref(), &wheels);
-            for ((place, (_, sinkage)), forces) in places.into_iter().zip(&wheels).zip(found) {
+            for ((place, (contact, sinkage)), forces) in places.into_iter().zip(&wheels).zip(found)
+            {
+                // Where that is an error, it was refused before.
+                if outside_is_nan && given(place) > depth(&contact.wheel) {
+                    share.write(place, &NO_WHEEL, given(place), &[]);
+                    continue;
+                }
                 let settled = Settled { sinkage: *sinkage, forces, evaluations: 1 };
                 // Forces at a given depth are no equilibrium: they carry no flags.
                 share.write(place, &wheel_row(&settled), given(place), &[]);
@@ -503,6 +542,18 @@ pub(crate) fn wheel_forces<'py>(
         }
     };
     Ok((evaluate(py, inputs.pressed.len(), compute)?, names("given_sinkage_mm")))
+}
+
+/// Slip ratios and slip angles, as [`inside`] their ranges.
+pub(crate) fn slips<'a>(
+    slip_ratio: &'a PyReadonlyArray1<'_, f64>,
+    slip_angle_deg: &'a PyReadonlyArray1<'_, f64>,
+    outside_is_nan: bool,
+) -> PyResult<[Cow<'a, [f64]>; 2]> {
+    Ok([
+        inside(slip_ratio.as_slice()?, &study::SLIP_RATIO, outside_is_nan),
+        inside(slip_angle_deg.as_slice()?, &study::SLIP_ANGLE_DEG, outside_is_nan),
+    ])
 }
 
 /// The library's messages for wheels that the soil does not carry.

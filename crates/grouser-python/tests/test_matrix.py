@@ -155,6 +155,20 @@ def stepped(run: gr.Scenario) -> Numbers:
     return [(rover.step(0.05, 0.5), (6,)), (copy.copy(rover).step(0.05, 0.5), (6,))]
 
 
+def restored(run: gr.Scenario) -> Numbers:
+    rover, other = (gr.Run(run, commands="rim_speed_m_s") for _ in range(2))
+    rover.step(0.05, 0.5)
+    return [(other.restore(rover.save()), (6,))]
+
+
+def linearised(run: gr.Scenario) -> Numbers:
+    rover = gr.Run(run, commands="rim_speed_m_s")
+    rover.step(0.05, 0.5)
+    linear = rover.linearise(0.05, 0.5)
+    count, wheels = len(linear.states), len(rover.wheel_names)
+    return [(linear.A, (count, count)), (linear.B, (count, wheels))]
+
+
 def campaign(run: gr.Scenario, study: str) -> gr.Campaign:
     spread = {
         "key": "soil.friction_angle_deg",
@@ -308,6 +322,9 @@ CALLS: dict[str, tuple[Callable[[gr.Scenario], Numbers], tuple[str, ...]]] = {
         "Run.reset[slope_deg]": lambda s: [(gr.Run(s).reset(slope_deg=8.0), (6,))],
         "Run.reset[yaw_deg]": lambda s: [(gr.Run(s).reset(yaw_deg=8.0, seed=1), (6,))],
         "Run.step": stepped,
+        "Run.restore": restored,
+        "Run.linearise": (linearised, ("prescribes the yaw",)),
+        "range_of": lambda s: [(gr.range_of("gravity_m_s2", s), (2,))],
         "RunBatch": lambda s: [(gr.RunBatch([s, s]).step(0.5, 0.5), (2, 6))],
         "simulate": lambda s: of_run(gr.simulate(s)),
         "simulate[slope_deg]": lambda s: of_run(gr.simulate(s, slope_deg=5.0)),
@@ -414,7 +431,7 @@ def public() -> set[str]:
 
 def test_every_public_call_is_in_the_matrix() -> None:
     calls = {name.split("[")[0] for name in CALLS}
-    methods = {"Run.reset", "Run.step"}
+    methods = {"Run.reset", "Run.step", "Run.restore", "Run.linearise"}
     assert (calls - methods) | WITHOUT_FEATURES | {"Run", "campaign.Campaign"} == public()
 
 

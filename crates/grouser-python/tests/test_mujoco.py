@@ -86,7 +86,7 @@ def test_data_of_another_model_are_refused() -> None:
         rover.soil.apply(Plane().data)
 
 
-def test_a_copy_shares_no_memory_and_others_say_what_to_do() -> None:
+def test_a_copy_shares_no_memory() -> None:
     alone, rover = Plane(), Plane()
     twin, data = copy.copy(rover.soil), mujoco.MjData(rover.model)
     expected = sinkage_mm(alone)
@@ -96,9 +96,41 @@ def test_a_copy_shares_no_memory_and_others_say_what_to_do() -> None:
         twin.step(data)
     assert rover.soil.forces.sinkage_mm.mean() == twin.forces.sinkage_mm.mean() == expected
     assert not np.shares_memory(rover.soil._state, twin._state)
-    for call in (copy.deepcopy, pickle.dumps):
-        with pytest.raises(TypeError, match=r"copy\.copy makes another.*made anew"):
-            call(rover.soil)
+
+
+def unpickled(thing: Any) -> Any:
+    return pickle.loads(pickle.dumps(thing))
+
+
+@pytest.mark.parametrize("way", [copy.deepcopy, unpickled])
+def test_a_copy_with_a_model_of_its_own_goes_on_as_the_original(way: Any) -> None:
+    rover = Plane()
+    rover.soil.step(rover.data, rover.steps(0.2))
+    twin = way(rover.soil)
+    assert twin.mj_model is not rover.model and twin.names == rover.soil.names
+    assert twin.forces.sinkage_mm.tolist() == rover.soil.forces.sinkage_mm.tolist()
+    with pytest.raises(gr.ParameterError, match=r"MjData\(contact\.mj_model\) makes its data"):
+        twin.apply(rover.data)
+    data = mujoco.MjData(twin.mj_model)
+    kind = int(mujoco.mjtState.mjSTATE_INTEGRATION)
+    state = np.zeros(mujoco.mj_stateSize(rover.model, kind))
+    mujoco.mj_getState(rover.model, rover.data, state, kind)
+    mujoco.mj_setState(twin.mj_model, data, state, kind)
+    # The models share nothing either.
+    rover.soil.step(rover.data, 100)
+    twin.step(data, 100)
+    assert data.qpos.tolist() == rover.data.qpos.tolist()
+    twin.mj_model.opt.gravity[2] = -1.62
+    assert rover.model.opt.gravity[2] != -1.62
+
+
+def test_a_ground_that_cannot_be_pickled_is_named() -> None:
+    rover = Plane()
+    wheels = {name: rover.rover.wheel for name in rover.soil.names}
+    soil = SoilContact(rover.model, soil="toyoura", wheels=wheels, ground=lambda x, y: 0.0 * x)
+    with pytest.raises(TypeError, match=r"on the ground .*<lambda> cannot be pickled"):
+        pickle.dumps(soil)
+    assert copy.deepcopy(soil).names == soil.names
 
 
 # ---- what is there, and what is not ----

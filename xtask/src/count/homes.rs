@@ -26,9 +26,11 @@ type Rule = fn(&Sources) -> usize;
 /// are those of what it wraps, and derivatives 3,100 lines, eight conversions and a dozen names; designs
 /// 1,700 lines and an answer's inputs, turns that are judged and rules of exchanges 400; FMUs and states
 /// as bytes 2,200 of 2,700 at once; the console 2,500, and two names that traits of its server ask for.
+/// States as values in Python, linearised steps and numbers out of range took 300 lines of Rust, 210 of
+/// Python, a conversion, and the four arrays of a linearised step, which is no table.
 const COUNTS: [(&str, usize, Rule); 9] = [
-    ("lines of Rust without comments and tests", 121_200, |all| all.rust.iter().map(lines).sum()),
-    ("lines of Python without comments and tests", 8_410, |all| all.python.iter().map(lines).sum()),
+    ("lines of Rust without comments and tests", 121_500, |all| all.rust.iter().map(lines).sum()),
+    ("lines of Python without comments and tests", 8_620, |all| all.python.iter().map(lines).sum()),
     ("files that name three outcomes or more as text", 1, outcome_homes),
     ("inputs of an answer written by hand (`fn settings`, `fn state`)", 19, |all| {
         all.rust_count("fn settings(") + all.rust_count("fn state(&self, answer")
@@ -36,8 +38,8 @@ const COUNTS: [(&str, usize, Rule); 9] = [
     ("records of results beside column tables (`derive(Serialize)`)", 45, |all| {
         all.rust.iter().map(|(_, text)| text.matches("Serialize)]").count()).sum()
     }),
-    ("columns of results written by hand in Python", 237, python_columns),
-    ("conversions of units above the documents", 157, conversions),
+    ("columns of results written by hand in Python", 241, python_columns),
+    ("conversions of units above the documents", 158, conversions),
     ("names of types used more than once", 202, |all| repeated(&all.type_names())),
     ("names of types used more than once in one crate", 102, |all| {
         all.type_names_by_crate().values().map(repeated).sum()

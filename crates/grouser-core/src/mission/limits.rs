@@ -4,6 +4,7 @@ use super::odometer::Odometer;
 use super::stop::{Cause, Limited, Stop, Stopped, Where};
 use crate::error::ParameterError;
 use crate::simulation::Run;
+use crate::stored::stored;
 use crate::units::Vec2;
 use crate::vehicle::{Mount, RoverState, roll_and_pitch};
 
@@ -44,6 +45,8 @@ pub struct Limits {
     start_time: f64,
     start_work: f64,
 }
+
+stored!(struct Limits { stops, odometer, last, ground, start_time, start_work });
 
 /// What a rover knows of itself at a look.
 #[derive(Clone, Copy)]

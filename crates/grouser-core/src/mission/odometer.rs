@@ -2,6 +2,8 @@
 
 use std::collections::VecDeque;
 
+use crate::stored::stored;
+
 /// Ways since a leg began, and the last metres of them.
 #[derive(Clone, Debug)]
 pub(super) struct Odometer {
@@ -23,6 +25,9 @@ struct Mark {
     /// Way of the rims, mean of all wheels [m].
     rims: f64,
 }
+
+stored!(struct Odometer { time, now, marks, remembered });
+stored!(struct Mark { down, ground, rims });
 
 impl Mark {
     fn toward(self, later: Self, share: f64) -> Self {

@@ -6,7 +6,8 @@ use super::report::LegOutcome;
 use super::route::{BesideRoute, Route};
 use super::stop::{Limited, Stop};
 use crate::error::{ParameterError, positive};
-use crate::simulation::{CONTROL_PERIOD, Run, RunError};
+use crate::simulation::{BadState, CONTROL_PERIOD, Run, RunError, Scenario, State};
+use crate::stored::{self, Stored, stored};
 use crate::units::Vec2;
 
 /// A run of a rover that is to follow a path, as far as it has come: a [`Run`] that is led by one
@@ -69,6 +70,9 @@ pub struct PathTask {
     pub stops: Vec<Stop>,
 }
 
+stored!(struct PathTask { route, within, stops });
+stored!(struct Follower { task, limits, beside, last, outcome });
+
 /// A rover as near as this beside the end of its path is past it [m]. Source: ours; far below what
 /// a rover measures.
 const CLOSE: f64 = 1e-7;
@@ -110,6 +114,39 @@ impl PathRun {
             follower.look(run);
             follower.outcome.is_some()
         })
+    }
+
+    /// The rover on its path as bytes, as [`State::to_bytes`]: [`from_bytes`](Self::from_bytes)
+    /// reads them.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let Self { run, follower } = self;
+        stored::sealed(|bytes| {
+            run.state().to_bytes().store(bytes);
+            follower.store(bytes);
+        })
+    }
+
+    /// The rover that was made [bytes](Self::to_bytes), on the same path under the same limits. It
+    /// goes on as it would, bit for bit.
+    ///
+    /// * `scenario`: as in [`State::from_bytes`]
+    ///
+    /// # Errors
+    /// [`BadState`], as [`State::from_bytes`], and for one on another path.
+    pub fn from_bytes(
+        bytes: &[u8],
+        scenario: &Scenario,
+        task: &PathTask,
+    ) -> Result<Self, BadState> {
+        let content = &mut stored::opened(bytes).ok_or(BadState::Unreadable)?;
+        let read = <(Vec<u8>, Follower)>::restore(content).filter(|_| content.is_empty());
+        let (state, follower) = read.ok_or(BadState::Unreadable)?;
+        if follower.task != *task {
+            return Err(BadState::OtherPath);
+        }
+        let run = Run::resume(scenario, State::from_bytes(&state, scenario)?);
+        Ok(Self { run, follower })
     }
 
     /// The run.
@@ -159,6 +196,22 @@ impl PathRun {
         let rover = self.run.state().rover();
         let (place, _) = self.follower.task.route.at(self.follower.beside.along + way);
         rover.slope_from_body().transpose() * (place - rover.position)
+    }
+}
+
+impl PathTask {
+    /// The path and its limits as bytes, for other processes: [`from_bytes`](Self::from_bytes)
+    /// reads them.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        stored::sealed(|bytes| self.store(bytes))
+    }
+
+    /// The path that was made [bytes](Self::to_bytes); nothing of others.
+    #[must_use]
+    pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
+        let content = &mut stored::opened(bytes)?;
+        Self::restore(content).filter(|task| content.is_empty() && task.route.has_pieces())
     }
 }
 

@@ -5,6 +5,7 @@ use super::navigator::Fix;
 use super::stop::{Stopped, Then};
 use super::yaw_watch::FellShort;
 use crate::simulation::{Outcome, OutcomeKind, Record, SAME_TIME, Trajectory};
+use crate::stored::stored;
 use crate::vehicle::RoverState;
 
 /// What became of a leg.
@@ -19,6 +20,13 @@ pub enum LegOutcome {
     /// It got stuck, slid or tipped over.
     Ended(Outcome),
 }
+
+stored!(enum LegOutcome {
+    0 => Completed,
+    1 => Stopped(stopped),
+    2 => FellShort(short),
+    3 => Ended(outcome),
+});
 
 /// What motors and battery took, of a rover whose motors are known.
 #[derive(Clone, Copy, Debug, PartialEq)]

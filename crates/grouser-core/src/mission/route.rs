@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 
 use crate::elementary::wide::{self, atan2};
 use crate::error::{ParameterError, finite, positive};
+use crate::stored::stored;
 use crate::units::Vec2;
 
 /// A path in the slope frame, from its start to its end: straight from waypoint to waypoint, or an
@@ -41,6 +42,11 @@ pub struct BesideRoute {
     /// Heading of the path there [rad], as a yaw: 0 along the contour, positive uphill.
     pub heading: f64,
 }
+
+stored!(struct Route { pieces });
+stored!(struct BesideRoute { along, cross_track, heading });
+stored!(struct Piece { shape, before, length });
+stored!(enum Shape { 0 => Straight { start, along }, 1 => Arc { centre, radius, from, side } });
 
 /// A piece of a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,6 +117,11 @@ impl Route {
         let from = atan2(-centre.y, -centre.x);
         let shape = Shape::Arc { centre, radius, from, side };
         Ok(Self { pieces: vec![Piece { shape, before: 0.0, length }] })
+    }
+
+    /// Whether there are pieces, of one that was read.
+    pub(super) fn has_pieces(&self) -> bool {
+        !self.pieces.is_empty()
     }
 
     /// Its length [m].

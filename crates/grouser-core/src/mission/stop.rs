@@ -2,6 +2,7 @@
 
 use crate::error::{ParameterError, finite, positive};
 use crate::simulation::Outcome;
+use crate::stored::stored;
 use crate::vehicle::{Mount, Rover};
 
 /// A limit on one number.
@@ -105,6 +106,29 @@ pub enum Cause {
     /// What would have become of it on the way ahead.
     Outcome(Outcome),
 }
+
+stored!(struct Stop { limited, above, over, then });
+stored!(enum Limited {
+    0 => SlipRatio,
+    1 => Drift,
+    2 => DriftPerMetre,
+    3 => Sinkage,
+    4 => SinkageDepth,
+    5 => Roll,
+    6 => Pitch,
+    7 => Torque,
+    8 => Time,
+    9 => Energy,
+    10 => OffPath,
+    11 => Current,
+    12 => Temperature,
+    13 => Discharge,
+    14 => Shortfall,
+});
+stored!(enum Then { 0 => End, 1 => NextLeg, 2 => BackOut(distance) });
+stored!(enum Kind { 0 => Command, 1 => Reactive, 2 => Predictive });
+stored!(struct Stopped { cause, kind, after });
+stored!(enum Cause { 0 => Limit { stop, value }, 1 => Outcome(outcome) });
 
 impl Stopped {
     /// What the rover does next.

@@ -5,6 +5,7 @@
 //! is no longer to be expected.
 
 use super::stop::Stopped;
+use crate::stored::stored;
 
 /// An arc falls short after so many times its own way [-]. Source: ours; with half of the turn that
 /// its wheels would give on rigid ground, usual of skid-steered rovers on sand, an arc is just
@@ -41,6 +42,9 @@ pub enum ShortBecause {
     /// It took too long.
     TooLong,
 }
+
+stored!(struct FellShort { asked, turned, because, stopped });
+stored!(enum ShortBecause { 0 => TwiceTheWay, 1 => StandsStill, 2 => TooLong });
 
 impl FellShort {
     /// Yaw that is missing [rad], not below 0.

@@ -116,6 +116,13 @@ impl Run {
         run
     }
 
+    /// Another run from here, with a changed state or scenario and without records.
+    pub(super) fn changed(&self, change: impl FnOnce(&mut State, &mut Scenario)) -> Self {
+        let (mut scenario, mut state) = (self.scenario.clone(), self.state.clone());
+        change(&mut state, &mut scenario);
+        Self::at(scenario, state, Vec::new())
+    }
+
     fn at(scenario: Scenario, state: State, records: Vec<Record>) -> Self {
         Self { scenario, state, records, now: OnceLock::new(), all: OnceLock::new() }
     }

@@ -74,6 +74,9 @@ pub enum BadState {
         /// Wheels of the scenario's rover.
         expected: usize,
     },
+    /// The state is of a rover on a path, and that is another one.
+    #[error("the state is of a rover on another path, or under other limits")]
+    OtherPath,
 }
 
 impl State {

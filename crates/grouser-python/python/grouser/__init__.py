@@ -68,7 +68,8 @@ from ._replay import replay
 from ._rollouts import Rollout, rollout
 from ._routes import route
 from ._models import MODELS, ByModel
-from ._runs import Run, RunBatch
+from ._linear import LinearStep
+from ._runs import Run, RunBatch, RunState
 from ._slip_from_current import SlipEstimator
 from ._studies import Trajectory, TraverseBand, simulate
 from ._telemetry import ImportedTelemetry, import_telemetry
@@ -84,7 +85,7 @@ from ._validation import (
 from ._validity import FLAGS, require_inside
 from ._wheel_speeds import WheelSpeedLimits, WheelSpeeds, wheel_speeds
 from ._wheel_test import SimulatedWheelTest, WheelTest, WheelTestBand, wheel_test
-from ._wheels import Settled, WheelForces, settle, wheel_forces
+from ._wheels import Settled, WheelForces, range_of, settle, wheel_forces
 from .campaign import Campaign
 
 __all__ = [
@@ -125,6 +126,7 @@ __all__ = [
     "InternalError",
     "Learner",
     "Legs",
+    "LinearStep",
     "Mission",
     "OUTCOMES",
     "OutsideDomainError",
@@ -134,6 +136,7 @@ __all__ = [
     "Rover",
     "Run",
     "RunBatch",
+    "RunState",
     "Scenario",
     "Settled",
     "SimulatedWheelTest",
@@ -167,6 +170,7 @@ __all__ = [
     "learn",
     "map",
     "mission",
+    "range_of",
     "replay",
     "require_inside",
     "rollout",

@@ -16,7 +16,7 @@ from ._descriptions import Scenario, Source
 from ._errors import ParameterError
 from ._gradients import Gradient, Keys, keys_of, of_rows
 from ._studies import SAMPLE, columns_of, scenario_of, standing_of
-from ._wheels import Soils, names_of, soils_of
+from ._wheels import Outside, outside_is_nan, Soils, names_of, soils_of
 
 if TYPE_CHECKING:
     import pandas
@@ -177,6 +177,7 @@ def rollout(
     vary: Mapping[str, ArrayLike] | None = None,
     trajectories: bool = False,
     gradients: Keys | None = None,
+    outside: Outside = "raise",
 ) -> Rollout:
     """Runs many scenarios at once, on all cores, without Python's lock.
 
@@ -209,6 +210,10 @@ def rollout(
     gradients : str or sequence of str, optional
         Keys of scenarios by whose numbers the final states are differentiated, or ``"all"``: as
         `Rollout.gradient`, by two to four more runs for each key.
+    outside : {"raise", "nan"}
+        With ``"nan"`` a run with a number out of its range (`range_of`), or with numbers that do
+        not go together, has the outcome ``failed`` and a `Rollout.message`; by default it is an
+        error.
 
     Returns
     -------
@@ -253,6 +258,7 @@ def rollout(
         index.size,
         trajectories,
         keys_of(gradients),
+        outside_is_nan(outside),
     )
     shape = asked.shape
     rows = found.pop("gradient", None)

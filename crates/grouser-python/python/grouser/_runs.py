@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, ClassVar, Literal
@@ -13,6 +14,7 @@ from . import _core
 from ._arrays import Floats, mask as mask_of, number, numbers
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError, SimulationError
+from ._linear import LinearStep
 
 #: The quantity of the commands: speeds of wheels or of their rims.
 Commands = Literal["wheel_speed_rad_s", "rim_speed_m_s"]
@@ -21,6 +23,71 @@ _SAMPLES, _WHEELS = _core.simulator_columns()
 #: Pose and velocities stand between the time and the power.
 _STATE_PLACES = range(1, _SAMPLES.index("power_w"))
 _STATE = tuple(_SAMPLES[place] for place in _STATE_PLACES)
+
+
+class RunState:
+    """All that changes in a run, as a value: `Run.restore` sets a run of the same scenario to it.
+
+    Made by `Run.save` and `RunBatch.save`. It has the rover's pose and velocities, its energies, battery and windings, what a reset
+    sampled, and what the solver knows of the motion so far: a run goes on from it bit for bit. It
+    does not change, compares by value, can be hashed and pickled, and ``bytes(state)`` are for
+    files; the same version of Grouser reads them.
+
+    Parameters
+    ----------
+    content : bytes
+        Those of another state.
+
+    Examples
+    --------
+    Two ways to go on from one place:
+
+    >>> import grouser as gr
+    >>> rover = gr.Run(slope_deg=10.0, commands="rim_speed_m_s")
+    >>> state = rover.step(0.06, 1.0)
+    >>> here = rover.save()
+    >>> left = rover.step([0.03, 0.03, 0.09, 0.09], 0.5)
+    >>> rover.restore(here).tolist() == state.tolist()
+    True
+    >>> right = rover.step([0.09, 0.09, 0.03, 0.03], 0.5)
+    >>> gr.RunState(bytes(here)) == here
+    True
+    """
+
+    __slots__ = ("_content",)
+    _content: bytes
+
+    def __init__(self, content: bytes) -> None:
+        if not isinstance(content, bytes):
+            kind = type(content).__name__
+            raise ParameterError(f"content is of type {kind}, it must be bytes", "content")
+        object.__setattr__(self, "_content", content)
+
+    def __bytes__(self) -> bytes:
+        return self._content
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError("a RunState does not change")
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, RunState):
+            return NotImplemented
+        return self._content == other._content
+
+    def __hash__(self) -> int:
+        return hash(self._content)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self._content,)
+
+    def __copy__(self) -> RunState:
+        return self
+
+    def __deepcopy__(self, memo: object) -> RunState:
+        return self
+
+    def __repr__(self) -> str:
+        return f"<RunState of {len(self._content)} bytes>"
 
 
 class RunBatch:
@@ -183,6 +250,46 @@ class RunBatch:
             self._read_states()
         return self.state
 
+    def save(self) -> tuple[RunState, ...]:
+        """All that changes in each rover, as values from which `restore` goes on."""
+        return tuple(RunState(content) for content in self._native.states())
+
+    def restore(
+        self, state: RunState | Sequence[RunState], *, mask: ArrayLike | None = None
+    ) -> Floats:
+        """Sets rovers to states, from which they go on as those did that were saved, bit for bit.
+
+        Parameters
+        ----------
+        state : RunState or sequence of RunState
+            One for all rovers, or one for each rover; of `save`, or of a `Run`.
+        mask : array_like of bool, shape (rovers,), optional
+            Which rovers; by default all.
+
+        Returns
+        -------
+        ndarray, shape (rovers, 6)
+            The `state` afterwards.
+
+        Raises
+        ------
+        ParameterError
+            For a state of another scenario, of another path, or of another version of Grouser;
+            nothing changes then.
+        """
+        count = len(self)
+        states = [state] * count if isinstance(state, RunState) else list(state)
+        if len(states) != count:
+            raise ParameterError(f"there are {len(states)} states for {count} rovers", "state")
+        for one in states:
+            if not isinstance(one, RunState):
+                kind = type(one).__name__
+                raise ParameterError(f"state is of type {kind}, it must be a RunState", "state")
+        chosen = np.flatnonzero(self._mask(mask)).tolist()
+        self._native.restore(chosen, [bytes(states[k]) for k in chosen])
+        self._read_states()
+        return self.state
+
     def _mask(self, mask: ArrayLike | None) -> NDArray[np.bool_]:
         if mask is None:
             return np.ones(len(self), dtype=np.bool_)
@@ -258,14 +365,19 @@ class RunBatch:
         twin._native = self._native.copy()
         return twin
 
-    def __deepcopy__(self, memo: object) -> RunBatch:
-        return self.__copy__()
+    def __deepcopy__(self, memo: dict[int, Any]) -> RunBatch:
+        twin = object.__new__(type(self))
+        memo[id(self)] = twin
+        twin.__dict__.update(copy.deepcopy(self.__dict__, memo))
+        return twin
 
-    def __reduce__(self) -> Any:
-        raise TypeError(
-            f"a {type(self).__name__} cannot be pickled; pickle its scenarios and commands, or use "
-            "copy.copy"
-        )
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_native": self._native.states()}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._native = self._simulators([run._document for run in self._scenarios])
+        self._native.restore(list(range(len(self._native))), state["_native"])
 
     def __repr__(self) -> str:
         ended = sum(outcome is not None for outcome in self.outcome)
@@ -276,9 +388,12 @@ class Run:
     """Step-by-step simulation of a rover: each step takes commands and returns the state after it.
 
     The motion is that of `simulate`, with the same equations and the same integrator; with the
-    commands of the scenario's drive it follows the same path. ``copy.copy`` makes another run that
-    continues as this one would, bit for bit. The scenario's duration and record interval are not
-    used; its drive turns the wheels until the first step.
+    commands of the scenario's drive it follows the same path. The scenario's duration and record
+    interval are not used; its drive turns the wheels until the first step.
+
+    Copies (``copy.copy``, ``copy.deepcopy``), a run that was pickled, also in another process, and
+    a run that is set to a state (`save`, `restore`) continue as this one would, bit for bit, and
+    share nothing with it.
 
     A run keeps its present state and no records, so that there is nothing to animate or to plot:
     keep what each step returns, as below. `Trajectory.animate` draws what a scenario's own drive
@@ -400,6 +515,15 @@ class Run:
         SimulationError
             If the motion cannot be computed.
         """
+        array = self._commands(commands)
+        failed_before = self.outcome == "failed"
+        state: Floats = self._batch.step(array, dt_s)[0]
+        if self.outcome == "failed" and not failed_before:
+            raise SimulationError(str(self.message), self.time_s)
+        return state
+
+    def _commands(self, commands: ArrayLike) -> Floats:
+        """Commands of one rover, checked."""
         wheels = len(self.wheel_names)
         array = numbers("commands", commands)
         if array.shape not in ((), (wheels,)):
@@ -408,11 +532,75 @@ class Run:
                 "each wheel",
                 "commands",
             )
-        failed_before = self.outcome == "failed"
-        state: Floats = self._batch.step(array, dt_s)[0]
-        if self.outcome == "failed" and not failed_before:
-            raise SimulationError(str(self.message), self.time_s)
-        return state
+        return array
+
+    def save(self) -> RunState:
+        """All that changes in the run, as a value from which `restore` goes on."""
+        return self._batch.save()[0]
+
+    def restore(self, state: RunState) -> Floats:
+        """Sets the run to a state, from which it goes on as the saved one did, bit for bit.
+
+        Parameters
+        ----------
+        state : RunState
+            Of `save`, of this run or another one of the same scenario.
+
+        Returns
+        -------
+        ndarray, shape (6,)
+            The `state` afterwards.
+
+        Raises
+        ------
+        ParameterError
+            For a state of another scenario or another version of Grouser; nothing changes then.
+        """
+        restored: Floats = self._batch.restore([state])[0]
+        return restored
+
+    def linearise(self, commands: ArrayLike, dt_s: float) -> LinearStep:
+        """The slopes of a step from here: of the state after it by the state before it, and by the
+        commands. The run stays where it is.
+
+        They are central differences of whole steps, by a thousandth of each number's scale: of the
+        fastest rim's speed, a shearing radius, a radian. Slopes by a tenth of that show where a
+        number has a kink. A dynamic motion is integrated within 1e-10 for them.
+
+        Parameters
+        ----------
+        commands, dt_s
+            As for `step`.
+
+        Returns
+        -------
+        LinearStep
+            The matrices, with names and units.
+
+        Raises
+        ------
+        ParameterError
+            As `step`.
+        SimulationError
+            If the run has ended; if it ends, or falls back from quasi-steady to dynamic, within the
+            step or within one with a number moved; if the motion cannot be computed; and for a
+            scenario that prescribes the yaw.
+        """
+        array = self._commands(commands)
+        rows = np.ascontiguousarray(np.broadcast_to(array, (1, len(self.wheel_names))))
+        quantity = self._batch._commands
+        are_rims = quantity == "rim_speed_m_s"
+        before, after, slopes, kinks, names = self._batch._native.linear_step(
+            rows, are_rims, number("dt_s", dt_s)
+        )
+        return LinearStep(
+            states=tuple(names),
+            commands=tuple(f"{wheel}.{quantity}" for wheel in self.wheel_names),
+            state=before,
+            next_state=after,
+            slopes=np.ascontiguousarray(slopes.T),
+            one_sided=np.ascontiguousarray(kinks.T),
+        )
 
     @property
     def state(self) -> Floats:
@@ -473,14 +661,9 @@ class Run:
 
     def __copy__(self) -> Run:
         twin = object.__new__(type(self))
-        twin._batch = self._batch.__copy__()
+        twin.__dict__.update(self.__dict__)
+        twin._batch = copy.copy(self._batch)
         return twin
-
-    def __deepcopy__(self, memo: object) -> Run:
-        return self.__copy__()
-
-    def __reduce__(self) -> Any:
-        return self._batch.__reduce__()
 
     def __repr__(self) -> str:
         state = ", ".join(f"{name}={value:.4g}" for name, value in zip(_STATE, self.state))

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, Literal, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _shown, _tables
 from ._arrays import Broadcast, Floats, broadcast, number, varied
-from ._descriptions import Scenario, Soil, Source, Wheel
+from ._descriptions import Rover, Scenario, Soil, Source, Wheel
 from ._errors import ParameterError
 from ._gradients import Gradient, Keys, keys_of, of_rows
 from ._validity import flags_of
@@ -30,6 +30,11 @@ CARRIED = 0
 SUNK_TO_AXLE = 1
 #: `Settled.status` of a wheel with an input that is NaN.
 INPUT_IS_NAN = 2
+#: `Settled.status` of a wheel with a number out of its range, with ``outside="nan"``.
+OUTSIDE = 3
+
+#: What becomes of an entry with a number out of its range.
+Outside = Literal["raise", "nan"]
 
 #: What the text of many wheels has.
 _BRIEF = ("sinkage_mm", "drawbar_pull_n", "side_force_n", "torque_nm")
@@ -152,7 +157,8 @@ class WheelForces(_tables.Tabular):
 @dataclass(frozen=True, eq=False, repr=False)
 class Settled(WheelForces):
     """Wheels at the sinkage at which the soil carries their load. A wheel that it cannot carry has
-    ``status`` 1 and NaN for all results; one with an input that is NaN has ``status`` 2 and NaN.
+    ``status`` 1 and NaN for all results; one with an input that is NaN has ``status`` 2 and NaN, and
+    with ``outside="nan"`` one with a number out of its range ``status`` 3 and NaN.
 
     Examples
     --------
@@ -168,7 +174,7 @@ class Settled(WheelForces):
     """Load [N], as asked."""
     status: NDArray[np.int8]
     """0 for a wheel that is carried, 1 for one that sinks to its axle, 2 for one with an input that
-    is NaN."""
+    is NaN, 3 for one with a number out of its range."""
     capacity_n: Floats
     """The most that the soil carries down to axle depth [N], where that is less than the load; else
     NaN."""
@@ -185,12 +191,15 @@ class Settled(WheelForces):
         sunk = self.status == SUNK_TO_AXLE
         messages[sunk] = _core.not_carried(self.load_n[sunk], self.capacity_n[sunk])
         messages[self.status == INPUT_IS_NAN] = "an input is NaN"
+        messages[self.status == OUTSIDE] = "a number is out of its range"
         return messages
 
     def _counts(self) -> str:
-        sunk, missing = (int((self.status == it).sum()) for it in (SUNK_TO_AXLE, INPUT_IS_NAN))
+        states = (SUNK_TO_AXLE, INPUT_IS_NAN, OUTSIDE)
+        sunk, missing, outside = (int((self.status == it).sum()) for it in states)
         flagged = int((self.flags != "").sum())
         counts = {"sunk to the axle": sunk, "with an input that is NaN": missing}
+        counts["with a number out of its range"] = outside
         counts["with flags"] = flagged
         found = [f"{count} {state}" for state, count in counts.items() if count]
         return f": {', '.join(found)}" if found else ""
@@ -212,6 +221,7 @@ def settle(
     model: str | None = None,
     vary: Mapping[str, ArrayLike] | None = None,
     gradients: Keys | None = None,
+    outside: Outside = "raise",
 ) -> Settled:
     """Finds the smallest sinkages at which the soil carries wheels (F_z = load), and the forces
     there.
@@ -245,6 +255,9 @@ def settle(
         Keys of numbers by which all results are differentiated, such as ``soil.cohesion_kpa``,
         ``wheel.radius_m``, ``gravity_m_s2``, ``load_n``, ``slip_ratio`` and ``slip_angle_deg``, or
         ``"all"``: the result then has a `Gradient`.
+    outside : {"raise", "nan"}
+        With ``"nan"`` a wheel with a number out of its range (`range_of`), or with numbers that do
+        not go together, has ``status`` 3 and NaN for all results; by default it is an error.
 
     Returns
     -------
@@ -276,14 +289,15 @@ def settle(
         10         0.2               0        10.2          0.9266             0     0.1888
         20         0.2               0          14           2.233             0     0.4527
     """
-    stand = _Stand(soil, wheel, gravity_m_s2, model, vary)
+    stand = _Stand(soil, wheel, gravity_m_s2, model, vary, outside)
     inputs = {"load_n": load_n, "slip_ratio": slip_ratio, "slip_angle_deg": slip_angle_deg}
     found = stand.found(_core.settle, inputs)
     keys = keys_of(gradients)
     if keys is not None:
         found["gradient"] = stand.gradient(inputs, keys)
     sunk, missing = np.isnan(found["normal_force_n"]), np.isnan(found["capacity_n"])
-    status = np.where(sunk, np.where(missing, INPUT_IS_NAN, SUNK_TO_AXLE), CARRIED)
+    status = np.where(sunk, np.where(missing, OUTSIDE, SUNK_TO_AXLE), CARRIED)
+    status[stand.missing(inputs)] = INPUT_IS_NAN
     flags = flags_of(found.pop("flag_bits"))
     return Settled(**found, status=status.astype(np.int8), flags=flags)
 
@@ -298,6 +312,7 @@ def wheel_forces(
     gravity_m_s2: ArrayLike = _core.EARTH_GRAVITY,
     model: str | None = None,
     vary: Mapping[str, ArrayLike] | None = None,
+    outside: Outside = "raise",
 ) -> WheelForces:
     """Computes the forces of the soil on wheels at given sinkages.
 
@@ -307,13 +322,14 @@ def wheel_forces(
     ----------
     sinkage_mm : array_like
         Sinkage of the grouser tips [mm], from 0 to the axle's depth.
-    soil, wheel, slip_ratio, slip_angle_deg, gravity_m_s2, model, vary
+    soil, wheel, slip_ratio, slip_angle_deg, gravity_m_s2, model, vary, outside
         As for `settle`.
 
     Returns
     -------
     WheelForces
-        A wheel with an input that is NaN has NaN for all results.
+        A wheel with an input that is NaN has NaN for all results, and with ``outside="nan"`` one
+        with a number out of its range.
 
     Raises
     ------
@@ -329,7 +345,7 @@ def wheel_forces(
     >>> bool((sunk.normal_force_n[1:] > sunk.normal_force_n[:-1]).all())
     True
     """
-    stand = _Stand(soil, wheel, gravity_m_s2, model, vary)
+    stand = _Stand(soil, wheel, gravity_m_s2, model, vary, outside)
     inputs = {"sinkage_mm": sinkage_mm, "slip_ratio": slip_ratio, "slip_angle_deg": slip_angle_deg}
     found = stand.found(_core.wheel_forces, inputs)
     del found["given_sinkage_mm"], found["flag_bits"]
@@ -346,11 +362,13 @@ class _Stand:
         gravity_m_s2: ArrayLike,
         model: str | None,
         vary: Mapping[str, ArrayLike] | None,
+        outside: Outside,
     ) -> None:
+        self._outside_is_nan = outside_is_nan(outside)
         wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
         self._vary = varied(vary, taken=("gravity_m_s2",))
         gravity = gravity_m_s2
-        if np.ndim(gravity_m_s2) > 0:
+        if np.ndim(gravity_m_s2) > 0 or self._outside_is_nan:
             self._vary["gravity_m_s2"], gravity = gravity_m_s2, _core.EARTH_GRAVITY
         self._soils, self._places = soils_of(soil)
         soils = [one._document for one in self._soils]
@@ -361,7 +379,7 @@ class _Stand:
         asked, index = self._asked(inputs)
         vary = {name: asked.flat[name] for name in self._vary}
         numbers = (asked.flat[name] for name in inputs)
-        rows, names = native(*self._documents, *numbers, index, vary)
+        rows, names = native(*self._documents, *numbers, index, vary, self._outside_is_nan)
         found = dict(zip(names, rows.reshape(len(names), *asked.shape)))
         found |= {name: asked.flat[name].reshape(asked.shape) for name in inputs}
         return {**found, "inputs": self._inputs(asked)}
@@ -372,8 +390,17 @@ class _Stand:
         vary = {name: asked.flat[name] for name in self._vary}
         numbers = (asked.flat[name] for name in inputs)
         native: Any = _core.settle_gradients
-        rows, one_sided, keys, names = native(*self._documents, *numbers, index, vary, keys)
+        rows, one_sided, keys, names = native(
+            *self._documents, *numbers, index, vary, keys, self._outside_is_nan
+        )
         return of_rows(rows, one_sided, keys, names, asked.shape)
+
+    def missing(self, inputs: Mapping[str, ArrayLike]) -> NDArray[np.bool_]:
+        """Whether a number of each wheel is NaN."""
+        asked, _ = self._asked(inputs)
+        numbers = (np.asarray(asked.flat[name]) for name in (*self._vary, *inputs))
+        missing = np.logical_or.reduce([np.isnan(it) for it in numbers])
+        return np.broadcast_to(missing.ravel(), int(np.prod(asked.shape))).reshape(asked.shape)
 
     def _asked(self, inputs: Mapping[str, ArrayLike]) -> tuple[Broadcast, Any]:
         asked = broadcast({**self._vary, **inputs}, {"soil": self._places})
@@ -381,6 +408,55 @@ class _Stand:
 
     def _inputs(self, asked: Broadcast) -> dict[str, NDArray[Any]]:
         return {**names_of(self._soils, self._places), **asked.given}
+
+
+def outside_is_nan(outside: Outside) -> bool:
+    """Whether numbers out of their ranges are no error."""
+    if outside not in ("raise", "nan"):
+        known = "'raise' or 'nan'"
+        message = f"outside is {outside!r}, it must be {known}"
+        raise ParameterError(message, "outside", None, known)
+    return outside == "nan"
+
+
+def range_of(
+    key: str, of: Soil | Wheel | Rover | Scenario | None = None
+) -> tuple[float, float]:
+    """The least and the most that a number may be, for samplers and optimisers.
+
+    Parameters
+    ----------
+    key : str
+        The key of a number: of a scenario ``slope_deg``, ``soil.cohesion_kpa`` or
+        ``rover.body.mass_kg``; and arguments of studies, as ``load_n``, ``slip_ratio`` or
+        ``yaw_deg``.
+    of : Soil, Wheel, Rover or Scenario, optional
+        The description that has the key; by default the source paper's traverse. The range of some
+        keys depends on the laws that a soil follows.
+
+    Returns
+    -------
+    (float, float)
+        Both ends; where a key must be above its lower end, that is not allowed itself.
+
+    Raises
+    ------
+    ParameterError
+        For a key that leads to no number.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> gr.range_of("slope_deg"), gr.range_of("radius_m", gr.Wheel("hakuto"))
+    ((0.0, 60.0), (0.001, 5.0))
+    """
+    description = Scenario() if of is None else of
+    if not isinstance(description, (Soil, Wheel, Rover, Scenario)):
+        kind = type(description).__name__
+        raise ParameterError(
+            f"of is of type {kind}, it must be a Soil, Wheel, Rover or Scenario", "of"
+        )
+    return _core.range_of(description._document, key)
 
 
 def names_of(soils: Sequence[Soil], places: NDArray[np.int64]) -> dict[str, NDArray[Any]]:

@@ -120,7 +120,7 @@ class _Stand:
         """Settled wheels, whose numbers are in the last axis."""
         cells = np.asarray(numbers, dtype=np.float64)
         named = {name: cells[..., place] for place, name in enumerate(self.names)}
-        settings = {name: named.pop(name) for name in _SETTINGS}
+        settings: dict[str, Any] = {name: named.pop(name) for name in _SETTINGS}
         keys = list(self.names) if gradients else None
         return _settle(
             self.soil, self.wheel, model=self.model, vary=named, gradients=keys, **settings

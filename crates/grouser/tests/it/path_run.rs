@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use grouser::mission::{
     Cause, Leg, LegOutcome, Limited, Manoeuvre, Mission, MissionRun, PathRun, PathTask, Route, Stop,
 };
-use grouser::simulation::{Approach, Numerics, Run, Scenario};
+use grouser::simulation::{Approach, BadState, Numerics, Run, Scenario};
 use grouser::units::{Vec2, deg};
 use grouser::vehicle::DriveLaw;
 
@@ -160,4 +160,28 @@ fn an_arc_is_left_at_its_side() {
     let off = (place - Vec2::new(0.0, 1.0)).norm() - 1.0;
     assert!((limit_of(path.outcome()).1 - off).abs() < 1e-12);
     assert!((path.beside().cross_track + off).abs() < 1e-12, "to the right of an arc to the left");
+}
+
+/// A rover on a path goes on from its bytes as from a clone, also once a limit has stopped it.
+#[test]
+fn a_rover_on_a_path_goes_on_from_bytes() {
+    let scenario = scenario(12.0, 0.0, Approach::Dynamic);
+    let stops = [Stop { over: 0.2, ..Stop::above(Limited::Drift, 0.02) }];
+    let mut path = on_path(&scenario, straight(0.0, 5.0), &stops);
+    for _ in 0..30 {
+        let task = PathTask::from_bytes(&path.task().to_bytes()).expect("a path");
+        assert_eq!(task, *path.task());
+        let mut other = PathRun::from_bytes(&path.to_bytes(), &scenario, &task).expect("a state");
+        for one in [&mut path, &mut other] {
+            one.step(&[SPEED; 4], 0.5).expect("a step");
+        }
+        assert_eq!(other.outcome(), path.outcome());
+        assert_eq!(other.to_bytes(), path.to_bytes());
+    }
+    assert!(path.outcome().is_some(), "it was stopped");
+    let elsewhere = PathTask { within: 0.2, ..path.task().clone() };
+    let error = PathRun::from_bytes(&path.to_bytes(), &scenario, &elsewhere).err();
+    assert_eq!(error, Some(BadState::OtherPath));
+    let error = PathRun::from_bytes(&path.run().state().to_bytes(), &scenario, path.task()).err();
+    assert_eq!(error, Some(BadState::Unreadable));
 }

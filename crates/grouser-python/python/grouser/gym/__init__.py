@@ -30,8 +30,10 @@ except ImportError as _missing:
 from ._level import ENV_ID, MAX_EPISODE_STEPS, LevelTraverseEnv, LevelTraverseVectorEnv
 from ._path import MAX_PATH_STEPS, PATH_ENV_ID, PathFollowingEnv, PathFollowingVectorEnv
 from ._rover import RoverEnv
+from ._rovers import EnvState
 
 __all__ = [
+    "EnvState",
     "LevelTraverseEnv",
     "LevelTraverseVectorEnv",
     "PathFollowingEnv",

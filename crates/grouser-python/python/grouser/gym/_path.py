@@ -80,6 +80,7 @@ class Paths(Rovers):
     """Any number of rovers that should follow a path."""
 
     batch: PathBatch
+    _changing = ("slope_deg", "parts", "beside", "ends")
 
     def __init__(
         self,

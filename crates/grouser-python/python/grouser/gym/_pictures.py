@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -20,12 +21,13 @@ class Pictures:
         self._rovers = rovers
         self._mode = mode
         self._camera: Camera | None = None
-        self._paths: list[list[tuple[float, float]]] = [[] for _ in range(len(rovers.batch))]
+        #: Where each rover was since its episode started.
+        self.paths: list[list[tuple[float, float]]] = [[] for _ in range(len(rovers.batch))]
 
     def start(self, which: NDArray[np.bool_]) -> None:
         """Forgets the paths of some rovers."""
         for k in places(which):
-            self._paths[k] = []
+            self.paths[k] = []
 
     def add(self, which: NDArray[np.bool_]) -> None:
         """Adds the places of some rovers to their paths, if there are pictures."""
@@ -33,11 +35,11 @@ class Pictures:
             return
         state = self._rovers.batch.state
         for k in places(which):
-            self._paths[k].append((float(state[k, 0]), float(state[k, 1])))
+            self.paths[k].append((float(state[k, 0]), float(state[k, 1])))
 
     def drawn(self, k: int) -> Camera:
         """The camera, with rover k before it."""
-        if not self._paths[k]:
+        if not self.paths[k]:
             raise gymnasium.error.ResetNeeded("reset the environment before it is rendered")
         batch = self._rovers.batch
         if self._camera is None:
@@ -52,8 +54,12 @@ class Pictures:
         title = f"slope {self._rovers.slope_deg[k]:.1f}°, {batch.time_s[k]:.1f} s"
         title += f", {outcome}" if outcome else ""
         yaw_deg = float(batch.state[k, batch.STATE.index("yaw_deg")])
-        self._camera.draw(np.array(self._paths[k]), yaw_deg, title)
+        self._camera.draw(np.array(self.paths[k]), yaw_deg, title)
         return self._camera
+
+    def __getstate__(self) -> dict[str, Any]:
+        # A copy opens a window of its own when it is first drawn.
+        return {**self.__dict__, "_camera": None}
 
     def close(self) -> None:
         if self._camera is not None:

@@ -3,8 +3,10 @@ reset samples, what an action turns, what is observed."""
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Mapping, Sequence
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import gymnasium
 import numpy as np
@@ -13,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from .._arrays import Floats, number, numbers
 from .._descriptions import Scenario, Soil, Source
 from .._errors import ParameterError
-from .._runs import RunBatch
+from .._runs import RunBatch, RunState
 from ._options import OPTIONS, given
 from ._start import start_of
 
@@ -29,8 +31,31 @@ _WHEEL = ("wheel_speed_rad_s", "torque_nm", "power_w")
 _WHEEL_BOUNDS = (20.0, 50.0, 100.0)
 
 
+@dataclass(frozen=True, eq=False)
+class EnvState:
+    """All that changes in an environment, as a value: ``env.restore(state)`` sets one with the same
+    scenario to it. It can be pickled.
+
+    Made by `RoverEnv.save` and that of the other environments.
+
+    Attributes
+    ----------
+    rovers : tuple of RunState
+        That of each rover.
+    memory : mapping
+        What the environment keeps beside them: random generators, slopes, counts of steps, paths
+        of pictures.
+    """
+
+    rovers: tuple[RunState, ...]
+    memory: Mapping[str, Any]
+
+
 class Rovers:
     """Any number of rovers: the common part of all environments."""
+
+    #: Attributes that steps and resets change, beside the rovers themselves.
+    _changing: ClassVar[tuple[str, ...]] = ("slope_deg",)
 
     def __init__(
         self,
@@ -90,6 +115,22 @@ class Rovers:
             seeds[k] = seeds[k] if given_seeds is None else given_seeds[k]
         self.batch.reset(seed=seeds, slope_deg=slopes, yaw_deg=yaws, mask=which)
         self.slope_deg = slopes
+
+    def save(self, memory: Mapping[str, Any]) -> EnvState:
+        """The state of an environment that keeps so much beside the rovers."""
+        own = {name: getattr(self, name) for name in self._changing}
+        return EnvState(self.batch.save(), copy.deepcopy({"own": own, **memory}))
+
+    def restore(self, state: EnvState) -> dict[str, Any]:
+        """Sets the rovers to a state, and returns what the environment keeps beside them."""
+        if not isinstance(state, EnvState):
+            kind = type(state).__name__
+            raise ParameterError(f"state is of type {kind}, it must be an EnvState", "state")
+        self.batch.restore(state.rovers)
+        memory: dict[str, Any] = copy.deepcopy(dict(state.memory))
+        for name, value in memory.pop("own").items():
+            setattr(self, name, value)
+        return memory
 
     def step(
         self, actions: ArrayLike, which: NDArray[np.bool_]

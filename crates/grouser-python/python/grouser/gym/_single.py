@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from typing import Any, ClassVar
 
 import gymnasium
@@ -10,7 +11,7 @@ import numpy as np
 from .._arrays import Floats
 from ._options import OPTIONS, options_of
 from ._pictures import Pictures, check_render_mode
-from ._rovers import Rovers
+from ._rovers import EnvState, Rovers
 
 #: Which rovers a single environment means: its one.
 ONE = np.ones(1, dtype=np.bool_)
@@ -59,6 +60,38 @@ class OneRoverEnv(gymnasium.Env[Floats, Floats]):
     def slope_deg(self) -> float:
         """The slope of the episode [°]."""
         return float(self._rovers.slope_deg[0])
+
+    def save(self) -> EnvState:
+        """All that changes in the environment, its random values included, as a value from which
+        `restore` goes on. What a subclass or a wrapper keeps is not in it; ``copy.deepcopy`` copies
+        that, too."""
+        return self._rovers.save({"random": self.np_random, "paths": self._pictures.paths})
+
+    def restore(self, state: EnvState) -> tuple[Floats, dict[str, Any]]:
+        """Sets the environment to a state, from which it goes on as the saved one did, bit for bit.
+
+        Parameters
+        ----------
+        state : EnvState
+            Of `save`, of this environment or another one with the same scenario.
+
+        Returns
+        -------
+        observation, info
+            As of `reset`.
+
+        Raises
+        ------
+        ParameterError
+            For a state of another scenario, another path, or another version of Grouser; nothing
+            changes then.
+        """
+        memory = self._rovers.restore(state)
+        self.np_random, self._pictures.paths = memory["random"], memory["paths"]
+        return self._observed(), self._rovers.info(0)
+
+    def __copy__(self) -> Any:
+        return copy.deepcopy(self)
 
     # ---- Gymnasium's ----
 

@@ -3,6 +3,7 @@ episode's end."""
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -17,7 +18,7 @@ from .._arrays import Floats, mask as mask_of
 from .._errors import ParameterError
 from ._options import OPTIONS, options_of
 from ._pictures import Pictures, check_render_mode
-from ._rovers import Rovers, places
+from ._rovers import EnvState, Rovers, places
 
 
 class ManyRoversEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
@@ -126,6 +127,41 @@ class ManyRoversEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         everyone = np.ones(self.num_envs, dtype=np.bool_)
         infos = self._infos(infos, everyone)
         return self._rovers.observations(), rewards, terminated, truncated, infos
+
+    def save(self) -> EnvState:
+        """All that changes in the environments, their random values included, as a value from which
+        `restore` goes on."""
+        memory = {"random": self._randoms, "steps": self._steps, "ended": self._ended}
+        return self._rovers.save({**memory, "paths": self._pictures.paths})
+
+    def restore(self, state: EnvState) -> tuple[Floats, dict[str, Any]]:
+        """Sets the environments to a state, from which they go on as the saved ones did, bit for
+        bit.
+
+        Parameters
+        ----------
+        state : EnvState
+            Of `save`, of as many environments with the same scenario.
+
+        Returns
+        -------
+        observations, infos
+            As of `reset`.
+
+        Raises
+        ------
+        ParameterError
+            For a state of another scenario, another path, another number of rovers, or another
+            version of Grouser; nothing changes then.
+        """
+        memory = self._rovers.restore(state)
+        self._randoms, self._pictures.paths = memory["random"], memory["paths"]
+        self._steps, self._ended = memory["steps"], memory["ended"]
+        everyone = np.ones(self.num_envs, dtype=np.bool_)
+        return self._rovers.observations(), self._infos({}, everyone)
+
+    def __copy__(self) -> Any:
+        return copy.deepcopy(self)
 
     def render(self) -> tuple[NDArray[np.uint8], ...] | None:
         """Each rover from above, with its path: an array as that of `LevelTraverseEnv.render` for

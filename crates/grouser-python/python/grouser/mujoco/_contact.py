@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -75,7 +76,9 @@ class SoilContact:
     Notes
     -----
     A `SoilContact` has working memory, so that threads must not share one: ``copy.copy`` makes
-    another for the same model. It cannot be pickled.
+    another for the same model. ``copy.deepcopy`` and ``pickle`` make one with a model of its own,
+    `mj_model`, for which ``mujoco.MjData(contact.mj_model)`` makes data and ``mujoco.mj_setState``
+    sets them. What a contact knows of the last step is in the data.
 
     Examples
     --------
@@ -121,6 +124,13 @@ class SoilContact:
         if not wheels:
             raise ParameterError("there are no wheels", "wheels")
         self._model = mj_model
+        self._settings: dict[str, Any] = {
+            "ground": ground,
+            "model": model,
+            "wheel_moments": wheel_moments,
+            "sinkage_damping_s_m": sinkage_damping_s_m,
+            "rest_speed_m_s": rest_speed_m_s,
+        }
         self._names = tuple(wheels)
         hinges = [_hinge(mj_model, name) for name in wheels]
         self._hinges = np.array(hinges)
@@ -132,6 +142,7 @@ class SoilContact:
         if check_sizes:
             check_sizes_of(mj_model, self._names, hinges, made)
         soils = _one_each(soil, len(made))
+        self._settings.update(soil=soils, wheels=dict(zip(wheels, made)))
         self._reaction = _core.SteppingWheels(
             [one._document for one in soils],
             [one._document for one in made],
@@ -161,11 +172,24 @@ class SoilContact:
         twin._take_memory()
         return twin
 
+    def __deepcopy__(self, memo: dict[int, Any]) -> SoilContact:
+        settings = {**self._settings, "ground": copy.deepcopy(self._settings["ground"], memo)}
+        own = copy.deepcopy(self._model, memo)
+        return _remade(type(self), own, settings, self._found.copy(), self._residual)
+
     def __reduce__(self) -> Any:
-        raise TypeError(
-            "a SoilContact is neither pickled nor copied with its model: copy.copy makes another for "
-            "the same model, and for another model or process it is made anew"
-        )
+        ground = self._settings["ground"]
+        if "<" in getattr(ground, "__qualname__", ""):
+            raise TypeError(
+                f"a SoilContact on the ground {ground.__qualname__} cannot be pickled: give a "
+                "function of a module as ground"
+            )
+        return _remade, (type(self), self._model, self._settings, self._found, self._residual)
+
+    @property
+    def mj_model(self) -> mujoco.MjModel:
+        """The model that its data must have."""
+        return self._model
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -215,7 +239,10 @@ class SoilContact:
         """
         model, ahead = self._model, self._ahead
         if data.model is not model:
-            message = "the data are of another model: a SoilContact is made for each model"
+            message = (
+                "the data are of another model: a SoilContact is made for each model, and "
+                "mujoco.MjData(contact.mj_model) makes its data"
+            )
             raise ParameterError(message, "data")
         mujoco.mj_getState(model, data, self._state, _STATE)
         mujoco.mj_setState(model, ahead, self._state, _STATE)
@@ -241,6 +268,15 @@ class SoilContact:
 _RK4, _HINGE = int(mujoco.mjtIntegrator.mjINT_RK4), int(mujoco.mjtJoint.mjJNT_HINGE)
 #: The state that a step depends on.
 _STATE = int(mujoco.mjtState.mjSTATE_INTEGRATION)
+
+
+def _remade(
+    kind: type[SoilContact], model: Any, settings: Any, found: Floats, residual: float
+) -> SoilContact:
+    """A contact that was pickled."""
+    contact = kind(model, **settings, check_sizes=False)
+    contact._found, contact._residual = found, residual
+    return contact
 
 
 def _one_each(soil: Any, count: int) -> list[Soil]:
