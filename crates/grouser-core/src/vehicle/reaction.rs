@@ -12,6 +12,10 @@ use crate::newton;
 use crate::soil::Soil;
 use crate::units::Vec2;
 
+/// Agreement of the moments, over weight times reach [-], where rounds that come nearer go in
+/// circles of the size to which sinkages are found.
+const NEARLY_AGREED: f64 = 1e-9;
+
 impl<'a> OnGround<'a> {
     /// The reaction on every wheel, in the mounts' order.
     ///
@@ -98,14 +102,11 @@ impl<'a> OnGround<'a> {
             let moments = load::moments(rover, stance.pull, sharing, own_moments, &[]);
             return self.settle_under(stance, moments, contacts, near);
         }
-        /// Agreement of the moments, over weight times reach [-]: well under the integrator's.
-        const AGREED: f64 = 1e-11;
         let reach = rover.load_arms().iter().map(Vec2::norm).fold(0.0, f64::max);
         let scale = rover.mass() * self.gravity * reach;
         // Where a round tips the rover over or sinks a wheel, loads may balance it all the same.
-        let in_turns = self.settle_by_rounds(stance, contacts, near, (scale, AGREED));
-        let damped =
-            |error| self.settle_by_damped_steps(stance, contacts, scale, AGREED).ok_or(error);
+        let in_turns = self.settle_by_rounds(stance, contacts, near, scale);
+        let damped = |error| self.settle_by_damped_steps(stance, contacts, scale).ok_or(error);
         in_turns.or_else(damped).or_else(|error| match error {
             ReactionError::Tipping(_) => self.settle_rocking(stance, contacts, scale).ok_or(error),
             error => Err(error),
@@ -131,8 +132,6 @@ impl<'a> OnGround<'a> {
         /// By how much the weight acts within the edge, over how far it does at rest [-].
         const WITHIN: f64 = 1e-6;
         const MOST_ROUNDS: u32 = 100;
-        /// Agreement of the moments, over weight times reach [-].
-        const AGREED: f64 = 1e-9;
         let Self { rover, sharing, own_moments, .. } = *self;
         let (polygon, weight) = (rover.support_polygon(), stance.weight);
         let at_rest = rover.centre_height() * stance.pull / weight;
@@ -151,7 +150,7 @@ impl<'a> OnGround<'a> {
             wheels = self.settle_under(stance, moments, contacts, &wheels).ok()?;
             let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
             let next = onto(load::moments(rover, stance.pull, sharing, own_moments, &forces));
-            if (next - moments).norm() <= AGREED * scale {
+            if (next - moments).norm() <= NEARLY_AGREED * scale {
                 return Some(wheels);
             }
             // Half of the way: rounds that overshoot close in, too.
@@ -162,18 +161,18 @@ impl<'a> OnGround<'a> {
 
     /// The reaction on every wheel, by rounds of loads and of the forces under them.
     ///
-    /// * `scale`, `agreed`: as those of [`settle_by_damped_steps`](Self::settle_by_damped_steps)
+    /// * `scale`: weight times reach [N·m]
     fn settle_by_rounds(
         &self,
         stance: &Stance,
         contacts: &[Contact],
         near: &[WheelReaction],
-        (scale, agreed): (f64, f64),
+        scale: f64,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let Self { rover, sharing, own_moments, .. } = *self;
         const MOST_ROUNDS: u32 = 60;
-        /// Near enough where rounds go on in circles so small.
-        const NEARLY: f64 = 1e-9;
+        /// Agreement of the moments, over weight times reach [-]: well under the integrator's.
+        const AGREED: f64 = 1e-11;
         let forces: Vec<WheelForces> = forces_of(near).copied().collect();
         let mut moments = load::moments(rover, stance.pull, sharing, own_moments, &forces);
         let mut wheels = self.settle_under(stance, moments, contacts, near)?;
@@ -183,7 +182,7 @@ impl<'a> OnGround<'a> {
             let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
             let next = load::moments(rover, stance.pull, sharing, own_moments, &forces);
             change = (next - moments).norm() / scale;
-            if change <= agreed {
+            if change <= AGREED {
                 return Ok(wheels);
             }
             let mixed = mixing.next(moments, next);
@@ -193,7 +192,7 @@ impl<'a> OnGround<'a> {
                 Err(_) => (next, self.settle_under(stance, next, contacts, &wheels)?),
             };
         }
-        if change <= NEARLY {
+        if change <= NEARLY_AGREED {
             return Ok(wheels);
         }
         let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
@@ -211,13 +210,11 @@ impl<'a> OnGround<'a> {
     /// round in circles.
     ///
     /// * `scale`: weight times reach [N·m]
-    /// * `agreed`: agreement of the moments, over that [-]
     fn settle_by_damped_steps(
         &self,
         stance: &Stance,
         contacts: &[Contact],
         scale: f64,
-        agreed: f64,
     ) -> Option<Vec<WheelReaction>> {
         let Self { rover, sharing, own_moments, .. } = *self;
         let of = |wheels: &[WheelReaction]| {
@@ -238,7 +235,8 @@ impl<'a> OnGround<'a> {
         });
         std::iter::once(of(&[])).chain(towards).find_map(|guess| {
             let guess = DVector::from_row_slice(guess.as_slice());
-            newton::damped_zero(miss, &guess, scale, agreed * scale).map(|(_, wheels)| wheels)
+            newton::damped_zero(miss, &guess, scale, NEARLY_AGREED * scale)
+                .map(|(_, wheels)| wheels)
         })
     }
 

@@ -3,7 +3,7 @@
 use grouser::difference::Derivative;
 use grouser::document::gradient::{GradientKeys, RunDerivatives, RunKeys};
 use grouser::document::{LoadedScenario, Overrides, Source, read_scenario, scenario_with};
-use grouser::simulation::{Run, Trajectory};
+use grouser::simulation::{Run, Trajectory, WheelRecord};
 
 fn scenario(settings: &[&str]) -> LoadedScenario {
     let settings: Vec<String> = settings.iter().map(|it| format!("scenario.{it}")).collect();
@@ -39,7 +39,7 @@ fn a_quasi_steady_run_goes_with_its_speed_as_with_time() {
                 ("x_m", along.x),
                 ("y_m", along.y),
                 ("yaw_deg", at.state.yaw_rate.to_degrees()),
-                ("energy_j", at.wheels.iter().map(|wheel| wheel.power()).sum()),
+                ("energy_j", at.wheels.iter().map(WheelRecord::power).sum()),
             ];
             for (result, rate) in rates {
                 let found = found.at(record, place(result), 0).unwrap();
