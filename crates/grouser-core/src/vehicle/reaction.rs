@@ -104,10 +104,11 @@ impl<'a> OnGround<'a> {
         }
         let reach = rover.load_arms().iter().map(Vec2::norm).fold(0.0, f64::max);
         let scale = rover.mass() * self.gravity * reach;
-        // Where a round tips the rover over or sinks a wheel, loads may balance it all the same.
         let in_turns = self.settle_by_rounds(stance, contacts, near, scale);
-        let damped = |error| self.settle_by_damped_steps(stance, contacts, scale).ok_or(error);
-        in_turns.or_else(damped).or_else(|error| match error {
+        in_turns.or_else(|error| match error {
+            ReactionError::Unsettled { .. } => {
+                self.settle_by_damped_steps(stance, contacts, scale).ok_or(error)
+            }
             ReactionError::Tipping(_) => self.settle_rocking(stance, contacts, scale).ok_or(error),
             error => Err(error),
         })

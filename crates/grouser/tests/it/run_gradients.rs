@@ -3,7 +3,7 @@
 use grouser::difference::Derivative;
 use grouser::document::gradient::{GradientKeys, RunDerivatives, RunKeys};
 use grouser::document::{LoadedScenario, Overrides, Source, read_scenario, scenario_with};
-use grouser::simulation::{Run, Trajectory, WheelRecord};
+use grouser::simulation::{Run, Trajectory};
 
 fn scenario(settings: &[&str]) -> LoadedScenario {
     let settings: Vec<String> = settings.iter().map(|it| format!("scenario.{it}")).collect();
@@ -25,7 +25,8 @@ fn place(result: &str) -> usize {
 }
 
 /// A rover in a steady state goes by how far its wheels turned: where it is at a time goes with
-/// speed as with time, v ∂x/∂v = t dx/dt, in every model.
+/// speed as with time, v ∂x/∂v = t dx/dt, in every model, but for what accelerates it along its bend
+/// (1e-4 of it).
 #[test]
 fn a_quasi_steady_run_goes_with_its_speed_as_with_time() {
     for model in ["ishigami", "bekker", "small-wheel", "rft"] {
@@ -35,18 +36,14 @@ fn a_quasi_steady_run_goes_with_its_speed_as_with_time() {
         let speed = scenario.document.number("drive.rim_speed_m_s").unwrap();
         for (record, at) in run.records.iter().enumerate().skip(1) {
             let along = at.state.slope_from_body() * at.state.velocity;
-            let rates = [
-                ("x_m", along.x),
-                ("y_m", along.y),
-                ("yaw_deg", at.state.yaw_rate.to_degrees()),
-                ("energy_j", at.wheels.iter().map(WheelRecord::power).sum()),
-            ];
+            let rates =
+                [("x_m", along.x), ("y_m", along.y), ("yaw_deg", at.state.yaw_rate.to_degrees())];
             for (result, rate) in rates {
                 let found = found.at(record, place(result), 0).unwrap();
                 let expected = at.time * rate / speed;
                 let error = (found.value - expected).abs();
                 assert!(
-                    error < 2e-5 * (1.0 + expected.abs()),
+                    error < 2e-4 * (1.0 + expected.abs()),
                     "{model} {result}: {found:?} {expected}"
                 );
             }
@@ -104,13 +101,24 @@ fn derivatives_of_runs_are_those_of_whole_runs() {
     }
 }
 
-/// A run that ends otherwise with the number to one side has no slope there, and says nothing.
+/// Where a run ends otherwise with the number to one side, the slope is that of the other.
 #[test]
-fn a_key_with_which_a_run_ends_otherwise_has_no_derivatives() {
-    let scenario = scenario(&["slope_deg=35", "duration_s=5"]);
-    let (run, _, found) = derivatives(&scenario, &["slope_deg"]);
-    assert!(!run.outcome.is_completed(), "{:?}", run.outcome);
-    assert!((0..run.records.len()).all(|record| found.at(record, 0, 0).is_none()));
+fn a_run_at_its_edge_has_the_derivatives_of_the_side_on_which_it_ends_alike() {
+    let on = |slope: f64| scenario(&[&format!("slope_deg={slope}"), "duration_s=3"]);
+    let completes =
+        |slope: f64| Run::new(&on(slope).value).unwrap().to_end().unwrap().outcome.is_completed();
+    let (mut gentle, mut steep) = (10.0, 35.0);
+    assert!(completes(gentle) && !completes(steep));
+    while steep - gentle > 1e-3 {
+        let middle = 0.5 * (gentle + steep);
+        *if completes(middle) { &mut gentle } else { &mut steep } = middle;
+    }
+    let last = |slope: f64| {
+        let (run, _, found) = derivatives(&on(slope), &["slope_deg"]);
+        found.at(run.records.len() - 1, place("y_m"), 0).unwrap().value
+    };
+    let (at_edge, beside) = (last(gentle), last(gentle - 0.2));
+    assert!((at_edge / beside - 1.0).abs() < 0.05, "{gentle}°: {at_edge} and {beside}");
 }
 
 #[test]

@@ -22,7 +22,7 @@ pub struct RunKeys {
 pub struct RunDerivatives {
     /// By each key, those of each result of the first record, then of the next; none of a result
     /// that a record lacks, and none at all by a key that cannot be changed alone, or with which the
-    /// run ends otherwise.
+    /// run ends otherwise to both sides.
     by_key: Vec<Option<Vec<Option<Derivative>>>>,
     results: usize,
 }
