@@ -79,7 +79,7 @@ fn beside() -> &'static Json {
         schema["properties"][soil::KNOWN] = json!({
             "type": "string",
             "enum": ["this-bed", "this-soil", "copied"],
-            "description": "How well its constants are known: measured on the bed that is driven \
+            "description": "How well the constants that are given are known: measured on the bed that is driven \
                             on (`this-bed`), on this soil elsewhere (`this-soil`), or taken from a \
                             table or a guess (`copied`).",
         });

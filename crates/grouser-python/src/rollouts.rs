@@ -1,11 +1,14 @@
 //! Many runs at once: scenarios, soils and numbers that vary from run to run.
 
+use std::collections::HashMap;
+
 use grouser::contact::Model;
 use grouser::difference::Derivative;
 use grouser::document;
 use grouser::document::columns::Column;
 use grouser::document::columns::run::{RECORD, STANDING};
 use grouser::document::gradient::{GradientKeys, RunKeys};
+use grouser::document::varied::{Numbers as _, Varied};
 use grouser::document::{
     Described as _, Kind, LoadedScenario, LoadedSoil, Misfit, range, scenario_with,
 };
@@ -42,7 +45,7 @@ pub(crate) struct Runs {
     /// Those of the soils, where there are some in the place of the scenarios' own.
     of_soils: VariedKeys,
     /// Why a run has a number out of its range, where those are left out; in no order.
-    outside: Vec<(usize, String)>,
+    outside: HashMap<usize, String>,
     count: usize,
 }
 
@@ -89,7 +92,7 @@ impl Runs {
             varied: arguments,
             of_bases,
             of_soils,
-            outside,
+            outside: outside.into_iter().collect(),
             count,
         };
         if outside_is_nan {
@@ -163,7 +166,10 @@ impl Runs {
         {
             let of_base = keys.iter().flat_map(RunKeys::names).filter(|it| !it.starts_with(SOIL));
             let of_base: Vec<String> = of_base.map(str::to_owned).collect();
-            let of_soil = soil.number_keys().into_iter().map(|key| format!("{SOIL}{key}"));
+            let soil = Varied::of(self.soils[0].0, soil.clone());
+            let of_soil = soil.document.number_keys().into_iter();
+            let of_soil = of_soil.filter(|key| soil.key(key).is_ok());
+            let of_soil = of_soil.map(|key| format!("{SOIL}{key}"));
             let names = of_base.into_iter().chain(of_soil).collect();
             keys = RunKeys::of(base, &GradientKeys::These(names));
         }
@@ -330,7 +336,7 @@ pub(crate) fn rollout<'py>(
             return Err(misfit);
         }
         let end = |place: usize| {
-            if let Some((_, why)) = runs.outside.iter().find(|(run, _)| *run == place) {
+            if let Some(why) = runs.outside.get(&place) {
                 return Ok(End::failed(why.clone()));
             }
             if let Some(name) = runs.missing(place) {

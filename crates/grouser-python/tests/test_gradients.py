@@ -169,3 +169,11 @@ def test_runs_without_an_end_and_keys_that_are_none_have_no_derivatives() -> Non
     for wrong, said in (("wheel.radius_m", "did you mean"), ("duration_s", "records")):
         with pytest.raises(gr.ParameterError, match=said):
             gr.rollout(slope_deg=5.0, gradients=wrong)
+
+
+def test_all_numbers_of_soils_that_state_their_uncertainty_are_keys() -> None:
+    scenario = gr.Scenario(simulation="quasi-steady", slope_deg=8.0, duration_s=2.0)
+    for soils in (["toyoura-uncertain"], ["toyoura-uncertain", "lunar-nominal"]):
+        found = gr.rollout(scenario, soil=soils, gradients="all").gradient
+        assert found is not None and "soil.friction_angle_deg" in found.names
+        assert not any(name.startswith("soil.uncertainty") for name in found.names)

@@ -149,6 +149,7 @@ export class MapAnswer {
       this.ended(undefined);
       return;
     }
+    if (!this.body.isConnected) this.element.replaceChildren(this.body, this.profile, this.out);
     this.body.classList.add("stale");
     const question = { ...this.ofMap(), layers: [session.layer], shown: true, stages };
     this.asking.ask("map", question, (line) => {

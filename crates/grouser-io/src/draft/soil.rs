@@ -146,7 +146,13 @@ impl Answers {
         }
         let known = self.given.get(KNOWN);
         let stated: Vec<(&str, Json)> = match known {
-            Some(known) => CONSTANTS.map(|(key, _)| (key, known.clone())).to_vec(),
+            // What nobody answered is the preset's, however well the rest is known.
+            Some(known) => {
+                let copied: Vec<&str> = self.copied_constants().collect();
+                let word =
+                    |key| if copied.contains(&key) { Json::from("copied") } else { known.clone() };
+                CONSTANTS.map(|(key, _)| (key, word(key))).to_vec()
+            }
             None => self.copied_constants().map(|key| (key, Json::from("copied"))).collect(),
         };
         if !stated.is_empty() {

@@ -37,7 +37,8 @@ class Console:
         return self._server.is_serving
 
     def stop(self) -> None:
-        """End it, and what it computes. To stop it twice is to stop it once."""
+        """End it: what it computes is stopped, or after two seconds no longer waited for. To stop it
+        twice is to stop it once."""
         self._server.stop()
 
     def __enter__(self) -> Console:

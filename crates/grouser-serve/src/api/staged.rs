@@ -137,9 +137,15 @@ impl Stages {
             );
             return Err(Refusal::of_key(key, message));
         }
+        self.check_samples_of(rows)?;
+        Ok(Self { rows: plain, ..self })
+    }
+
+    /// Checks that samples of so many rows each can be kept.
+    pub(super) fn check_samples_of(&self, rows: usize) -> Result<(), Refusal> {
         let samples = self.samplings.iter().flatten().map(|it| it.count).max().unwrap_or(1);
         if rows.saturating_mul(samples as usize) <= MOST_ROWS {
-            return Ok(Self { rows: plain, ..self });
+            return Ok(());
         }
         let message = format!(
             "{rows} rows of {samples} samples each: together they must be at most {MOST_ROWS}"

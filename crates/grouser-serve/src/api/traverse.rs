@@ -43,14 +43,17 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
         let message = "records are of one model: name one, or leave it out";
         return Err(Refusal::of_key("model", message));
     }
-    let stages = stages.of_rows(("samples", 1), false, 0)?;
     let scenario = parts.run(&console.folder, &settings, stages.has_samples())?;
+    let stages = stages.of_rows(("samples", 1), false, 0)?;
     let records = scenario.value.duration / scenario.value.numerics.sample_interval;
     if records > RECORDS {
         let message = format!("{records} records: it must be at most {RECORDS}");
         let refusal = Refusal::of_key("duration_s", message);
         return Err(refusal.with_hint("a longer `scenario.sample_interval_s` has fewer"));
     }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some thousands")]
+    // Every sample keeps where it was at each record.
+    stages.check_samples_of(records as usize + 1)?;
     if scenario.value.duration > DURATION {
         let message = format!("{} s: it must be at most {DURATION}", scenario.value.duration);
         return Err(Refusal::of_key("duration_s", message));
