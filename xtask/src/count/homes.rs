@@ -29,8 +29,8 @@ type Rule = fn(&Sources) -> usize;
 /// States as values in Python, linearised steps and numbers out of range took 300 lines of Rust, 210 of
 /// Python, a conversion, and the four arrays of a linearised step, which is no table.
 const COUNTS: [(&str, usize, Rule); 9] = [
-    ("lines of Rust without comments and tests", 121_500, |all| all.rust.iter().map(lines).sum()),
-    ("lines of Python without comments and tests", 8_620, |all| all.python.iter().map(lines).sum()),
+    ("lines of Rust without comments and tests", 123_100, |all| all.rust.iter().map(lines).sum()),
+    ("lines of Python without comments and tests", 8_680, |all| all.python.iter().map(lines).sum()),
     ("files that name three outcomes or more as text", 1, outcome_homes),
     ("inputs of an answer written by hand (`fn settings`, `fn state`)", 19, |all| {
         all.rust_count("fn settings(") + all.rust_count("fn state(&self, answer")
@@ -39,7 +39,7 @@ const COUNTS: [(&str, usize, Rule); 9] = [
         all.rust.iter().map(|(_, text)| text.matches("Serialize)]").count()).sum()
     }),
     ("columns of results written by hand in Python", 241, python_columns),
-    ("conversions of units above the documents", 158, conversions),
+    ("conversions of units above the documents", 160, conversions),
     ("names of types used more than once", 202, |all| repeated(&all.type_names())),
     ("names of types used more than once in one crate", 102, |all| {
         all.type_names_by_crate().values().map(repeated).sum()
