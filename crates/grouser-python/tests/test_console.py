@@ -6,6 +6,8 @@ import http.client
 import json
 import os
 import socket
+import subprocess
+import sys
 import threading
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -104,14 +106,24 @@ def test_a_port_that_is_taken_is_refused() -> None:
             gr.serve(port=console.port, open_browser=False)
 
 
+#: A process of its own: those of tests have threads, and to fork them is warned of.
+FORKS = """
+import os
+import grouser as gr
+
+with gr.serve(open_browser=False) as console:
+    child = os.fork()
+    if child == 0:
+        heading = gr.heading(slope_deg=10.0)
+        console.stop()
+        os._exit(0 if not console.is_serving and heading.yaw_deg > 0.0 else 1)
+    assert os.waitpid(child, 0)[1] == 0
+    assert console.is_serving
+"""
+
+
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork")
-@pytest.mark.filterwarnings("ignore::DeprecationWarning")
 def test_a_forked_process_does_not_serve_and_can_compute() -> None:
-    with gr.serve(open_browser=False) as console:
-        child = os.fork()
-        if child == 0:
-            heading = gr.heading(slope_deg=10.0)
-            console.stop()
-            os._exit(0 if not console.is_serving and heading.yaw_deg > 0.0 else 1)
-        assert os.waitpid(child, 0)[1] == 0
-        assert console.is_serving and ask(console, "/api/presets", token_of(console))[0] == 200
+    script = [sys.executable, "-W", "ignore::DeprecationWarning", "-c", FORKS]
+    ended = subprocess.run(script, capture_output=True, text=True, timeout=120)
+    assert ended.returncode == 0, ended.stderr

@@ -162,7 +162,7 @@ def test_gradients_of_rollouts_are_taken_where_numbers_are_varied_and_soils_exch
 
 def test_runs_without_an_end_and_keys_that_are_none_have_no_derivatives() -> None:
     key = "soil.friction_angle_deg"
-    ends = gr.rollout(slope_deg=[5.0, np.nan], duration_s=2.0, gradients=[key, "soil.pressure_sinkage.k"])
+    ends = gr.rollout(slope_deg=[5.0, np.nan], duration_s=2.0, gradients=[key, "soil.domain.width_m"])
     assert ends.gradient is not None
     found = ends.gradient["y_m"]
     assert np.isfinite(found[0, 0]) and np.isnan(found[1]).all() and np.isnan(found[0, 1])

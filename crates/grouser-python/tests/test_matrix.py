@@ -403,7 +403,7 @@ CALLS: dict[str, tuple[Callable[[gr.Scenario], Numbers], tuple[str, ...]]] = {
 
 #: Calls that take no soil, wheel, rover or scenario, or only what another call made of one.
 WITHOUT_FEATURES = {
-    *("ByModel", "import_telemetry", "import_wheel_tests", "require_inside", "validate_all"),
+    *("ByModel", "import_telemetry", "import_wheel_tests", "require_inside", "serve", "validate_all"),
     *("campaign.Results", "campaign.merge", "campaign.results"),
     *(f"style.{name}" for name in gr.style.__all__),
 }

@@ -13,9 +13,10 @@ from ._arrays import whole_number
 
 
 class Console:
-    """A server of the console, made by `serve`.
+    """A server of the console, in a thread of its own until `stop`, the end of a ``with`` block or
+    the end of Python.
 
-    It runs in a thread of its own until `stop`, the end of a ``with`` block or the end of Python.
+    Made by `serve`.
     """
 
     def __init__(self, server: _core.ConsoleServer) -> None:

@@ -70,7 +70,7 @@ class LinearStep:
 
     @property
     def kinks(self) -> list[tuple[str, str]]:
-        """Where `one_sided` is True: names of a number of the next state, and of the number of the
+        """Where ``one_sided`` is True: names of a number of the next state, and of the number of the
         state or the command."""
         by = (*self.states, *self.commands)
         return [(self.states[row], by[column]) for row, column in np.argwhere(self.one_sided)]

@@ -262,7 +262,10 @@ def rollout(
     )
     shape = asked.shape
     rows = found.pop("gradient", None)
-    gradient = None if rows is None else of_rows(*rows, shape)
+    gradient = None
+    if rows is not None:
+        cells, sides, keys, results = rows
+        gradient = of_rows(cells, sides, keys, results, shape)
     outcome = np.array(found.pop("outcome"), dtype=np.str_).reshape(shape)
     message = np.array(found.pop("reason"), dtype=object).reshape(shape)
     records = found.pop("samples", None)

@@ -448,7 +448,7 @@ def range_of(
     --------
     >>> import grouser as gr
     >>> gr.range_of("slope_deg"), gr.range_of("radius_m", gr.Wheel("hakuto"))
-    ((0.0, 60.0), (0.001, 5.0))
+    ((0.0, 60.0), (0.01, 1.0))
     """
     description = Scenario() if of is None else of
     if not isinstance(description, (Soil, Wheel, Rover, Scenario)):
