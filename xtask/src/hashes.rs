@@ -3,7 +3,7 @@
 
 use std::process::Command;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Result, ensure};
 
 use crate::c;
 use crate::libtest::Count;
@@ -24,9 +24,7 @@ const NOT_COMPUTED: [&str; 6] = [
 
 /// Compares the digests that the Rust library has by each instruction set, and those by C.
 pub(crate) fn check() -> Result<Count> {
-    let mut cargo = workspace::cargo();
-    cargo.args(["build", "-p", "grouser-c", "--lib", "--example", "hashes"]);
-    ensure!(cargo.status().context("cargo did not start")?.success(), "the library does not build");
+    c::build("hashes")?;
     let program = workspace::target().join("debug/examples/hashes");
     let expected = c::output(&mut Command::new(&program))?;
     print!("by the Rust library:\n{expected}");
