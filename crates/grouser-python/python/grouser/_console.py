@@ -13,8 +13,8 @@ from ._arrays import whole_number
 
 
 class Console:
-    """A server of the console, in a thread of its own until `stop`, the end of a ``with`` block or
-    the end of Python.
+    """A server of the console, in a thread of its own until it is stopped, the end of a ``with``
+    block or the end of Python.
 
     Made by `serve`.
     """
