@@ -64,7 +64,7 @@ impl PathTask {
         Ok(Self { task })
     }
 
-    /// As bytes, for other processes.
+    /// The path and its limits as bytes, for other processes.
     #[getter]
     fn content<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
         PyBytes::new(py, &self.task.to_bytes())

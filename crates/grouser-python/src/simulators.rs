@@ -144,7 +144,7 @@ impl Stepped {
 /// failed.
 #[derive(serde::Serialize, serde::Deserialize)]
 struct Start {
-    /// Of the scenario.
+    /// The scenario that the rover is of, by its number.
     mark: u64,
     seed: Option<u64>,
     /// Slope and yaw [°] by their bits, which decimals would have to be read back to.
@@ -249,11 +249,13 @@ impl Simulators {
         let documents: Vec<&Document> = self.documents.iter().map(Py::get).collect();
         let done = threads::released(py, || {
             let mut rovers = self.lock();
-            let mut restored = rovers.clone();
-            for (place, state) in places.iter().zip(&states) {
-                restored[*place].restore(documents[*place].mark(), state)?;
-            }
-            *rovers = restored;
+            let each = places.iter().zip(&states).map(|(place, state)| {
+                let mut restored = rovers[*place].clone();
+                restored.restore(documents[*place].mark(), state)?;
+                Ok(restored)
+            });
+            let restored = each.collect::<Result<Vec<Stepped>, NotRestored>>()?;
+            places.iter().zip(restored).for_each(|(place, it)| rovers[*place] = it);
             Ok(())
         })?;
         done.map_err(|error: NotRestored| {

@@ -34,7 +34,7 @@ impl Default for KeptOfMaps {
 pub(crate) struct Mapped {
     pub(crate) raster: Arc<Raster>,
     pub(crate) map: MobilityMap,
-    /// Of each band.
+    /// The least, mean and largest number of each band.
     pub(crate) sums: Vec<BandSummary>,
     pub(crate) verdicts: VerdictCounts,
     /// Where nobody may go, as GeoJSON, or why there are no such areas.

@@ -275,7 +275,9 @@ def rollout(
     inputs: dict[str, NDArray[Any]] = {} if places.ndim == 0 else {"scenario": places}
     inputs |= names_of(soils, soil_places)
     inputs |= {_COLUMNS.get(name, name): values for name, values in asked.given.items()}
-    return Rollout(outcome=outcome, message=message, **ends, records=records, gradient=gradient, inputs=inputs)
+    return Rollout(
+        outcome=outcome, message=message, **ends, records=records, gradient=gradient, inputs=inputs
+    )
 
 
 #: The keys of documents that arguments set, where they have other names.

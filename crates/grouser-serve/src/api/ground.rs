@@ -33,7 +33,7 @@ pub(super) struct GroundFields {
 
 /// A map, and who drives on it.
 pub(super) struct AskedGround {
-    /// As the question has it.
+    /// The path of the map, as the question has it.
     pub(super) dem: PathBuf,
     /// The file, without links.
     path: PathBuf,

@@ -8,7 +8,6 @@ use crate::document::unit::{M_S, W};
 use crate::document::varied::{Key, Varied};
 use crate::document::{Described as _, LoadedScenario};
 use crate::simulation::{Approach, Record, Run, RunError, Scenario, Trajectory};
-use crate::soil::Span;
 use crate::studies::ensemble::outputs_while;
 
 /// The numbers of runs: those of their scenarios.
@@ -104,14 +103,13 @@ impl RunKeys {
         let kept: Vec<usize> = (0..cells.len()).filter(|cell| cells[*cell].is_finite()).collect();
         let here: Vec<f64> = kept.iter().map(|cell| cells[*cell]).collect();
         let sizes: Vec<f64> = kept.iter().map(|cell| size(columns[cell % columns.len()])).collect();
-        let keys: Vec<Option<Key>> =
-            self.names().map(|name| key_of(name, scenario, number)).collect();
-        let variables: Vec<Variable> = keys.iter().map(|key| variable(key.as_ref())).collect();
+        let keys: Vec<AskedKey> = self.names().map(|name| key_of(name, scenario, number)).collect();
+        let variables: Vec<Variable> = keys.iter().map(|key| key.variable(None)).collect();
         let of_point = |point: &Vec<f64>| {
             let moved = keys.iter().zip(point).zip(&variables);
             let moved = moved.filter(|((_, number), variable)| **number != variable.value);
             let moved =
-                moved.filter_map(|((key, number), _)| Some((&*key.as_ref()?.path, *number)));
+                moved.filter_map(|((key, number), _)| Some((&*key.key.as_ref()?.path, *number)));
             let other = Run::new(&scenario.with(moved).ok()?).and_then(lead).ok()?;
             if !is_beside(run, &other) {
                 return None;
@@ -173,19 +171,11 @@ fn size(column: &Column<Record>) -> f64 {
     }
 }
 
-/// The key of a number as it is in a scenario; nothing where that lacks it.
-fn key_of(path: &str, scenario: &Scenario, number: &dyn Fn(&str) -> Option<f64>) -> Option<Key> {
-    let (value, range) = (number(path)?, scenario.range(path)?);
-    Some(Key { path: path.to_owned(), value, range })
-}
-
-/// A variable that differences move; one that is not there goes nowhere.
-fn variable(key: Option<&Key>) -> Variable {
-    let nowhere = Variable { value: 0.0, scale: 1.0, range: Span::new(0.0, 0.0) };
-    key.map_or(nowhere, |key| {
-        let range = Span::new(*key.range.start(), *key.range.end());
-        Variable { value: key.value, scale: key.scale(), range }
-    })
+/// A key with its number as it is in a scenario, where that has one.
+fn key_of(path: &str, scenario: &Scenario, number: &dyn Fn(&str) -> Option<f64>) -> AskedKey {
+    let found = number(path).zip(scenario.range(path));
+    let key = found.map(|(value, range)| Key { path: path.to_owned(), value, range });
+    AskedKey { name: path.to_owned(), key }
 }
 
 /// Runs that follow one table of steady motions are as smooth as that.
