@@ -5,6 +5,7 @@ pub(crate) mod answer;
 mod crossed;
 pub(crate) mod file;
 pub(crate) mod folder;
+pub(crate) mod remedy;
 pub(crate) mod rows;
 mod screen;
 pub(crate) mod slide;

@@ -232,6 +232,13 @@ impl Draft {
         }
     }
 
+    /// The tables of the preset that a soil is like which the document leaves out, as they are of
+    /// the preset's own tests: its uncertainty, its domain and so on.
+    #[must_use]
+    pub fn not_kept(&self) -> Vec<&'static str> {
+        if self.answers.kind == Kind::Soil { self.answers.not_kept() } else { Vec::new() }
+    }
+
     /// The document as TOML, with a comment for each number; what was not answered is in it with
     /// its usual value, or left out.
     ///

@@ -193,6 +193,32 @@ pub(crate) fn given(mission: &Node) -> Vec<GivenFile> {
     files.into_iter().filter(is_file).map(given).collect()
 }
 
+/// That a mission has legs of its own after those of a file.
+pub(crate) fn note_of_own(mission: &Node) -> Option<String> {
+    let legs = legs_of(mission);
+    let (text, all) = (&legs.first()?.origin.text, legs.len());
+    let of_file = legs.iter().take_while(|leg| Arc::ptr_eq(&leg.origin.text, text)).count();
+    let is_file = !Arc::ptr_eq(text, &mission.origin.text) && of_file < all;
+    is_file.then(|| {
+        format!(
+            "{}: after its {of_file} legs come those of the mission's document, {} to {all}",
+            text.label,
+            of_file + 1
+        )
+    })
+}
+
+/// Where a file of legs begins whose first geometry is a line: its name and the place [m]; `None` of
+/// a mission whose first legs are no such file's.
+pub(crate) fn start_of_line(mission: &Node) -> Option<(String, Vec2)> {
+    let text = &legs_of(mission).first()?.origin.text;
+    let json: Json = serde_json::from_str(&text.content).ok()?;
+    let (geometry, _) = *features(&json).first()?;
+    let [x, y] = [0, 1].map(|place| geometry["coordinates"][0][place].as_f64());
+    let is_line = geometry["type"] == "LineString";
+    Some((text.label.clone(), Vec2::new(x.filter(|_| is_line)?, y?)))
+}
+
 /// The legs of a mission.
 fn legs_of(mission: &Node) -> &[Node] {
     match mission.entry(LEGS).map(|entry| &entry.node.value) {

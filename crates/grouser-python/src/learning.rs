@@ -7,7 +7,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use grouser::document::LoadedScenario;
 use grouser::document::columns::Quantity;
 use grouser::document::columns::learn as columns;
-use grouser::document::learn::{KeptDrive, LearntSoil, StateError, state_text};
+use grouser::document::learn::{KeptDrive, LearntSoil, NotBelieved, StateError, state_text};
 use grouser::document::measurements::telemetry::{Cell, Odometry, TelemetryRows};
 use grouser::studies::learn::{Drive, LearnSettings, Learner as Learning, LearntSample, Lesson};
 use grouser_logs::{LogOptions, TelemetryError, TelemetryLog};
@@ -179,10 +179,15 @@ impl Learner {
         let slopes = slopes(&slope_deg)?;
         let now = self.drive().learner().clone();
         let before = learning(&self.scenario, self.slope_is_known)?;
+        let scenario = self.scenario.clone();
         let found = listening(py, move |cancelled| {
             let go_on = || !cancelled.is_set();
             let predict = |learner: &Learning| {
-                let samples = learner.samples(seed, samples).map_err(Problem::Sampling)?;
+                let believed = LearntSoil::believed(&scenario, learner, (seed, samples));
+                let (_, samples) = believed.map_err(|error| match error {
+                    NotBelieved::Soil(error) => Problem::Sampling(error),
+                    NotBelieved::Document(error) => Problem::NotFound(error.to_string()),
+                })?;
                 let band = learner.predict(&samples, &slopes, &go_on);
                 band.map_err(Problem::Parameter)
             };

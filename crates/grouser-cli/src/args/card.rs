@@ -77,6 +77,10 @@ pub(crate) struct CardArgs {
     /// the table [stop] of a mission: `mission --stop-from` reads it.
     #[arg(long, value_name = "FILE.toml")]
     pub(crate) stops: Option<PathBuf>,
+    /// The slope that the mission is on [°]: the limit of the slip is that of this slope. Without it
+    /// the lowest of all slopes stands, which a rover on a steep one passes as a rule.
+    #[arg(long, value_name = "DEG", requires = "stops")]
+    pub(crate) stops_slope_deg: Option<f64>,
     /// Replace these files, or files of the same names in that folder.
     #[arg(long, requires = "written")]
     pub(crate) force: bool,

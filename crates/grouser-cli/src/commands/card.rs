@@ -34,7 +34,7 @@ use crate::inputs::{self, CardInputs};
 use crate::output::folder::{OldFiles, OutputFolder};
 use crate::output::rows::Rows;
 use crate::output::text::Text;
-use crate::output::{self, Format, file, terminal};
+use crate::output::{self, Format, file, remedy, terminal};
 use crate::report::REPORT;
 use crate::report::answer::add_next;
 use crate::report::page::Page;
@@ -79,10 +79,10 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
     let courses = is_whole.then(|| study.courses(&card.rows, &samples, &|| true)).transpose()?;
     let courses = card_courses::table(&courses.map(sampling::whole).unwrap_or_default());
     let texts = texts::of(args, &inputs, &card);
-    let stops = stops::text(&inputs, &card, &texts);
+    let stops = stops::text(&inputs, &card, &texts, args.stops_slope_deg);
     let limits = match (&args.stops, &stops) {
         (Some(file), Some(stops)) => file::write_result(file, stops.as_bytes()),
-        (Some(_), None) => Err(stops::missing(&card)),
+        (Some(_), None) => Err(stops::missing(&card, args.stops_slope_deg)),
         (None, _) => Ok(()),
     };
     if let Some(target) = target {
@@ -333,16 +333,20 @@ impl Answers<'_> {
         let driven = CardRow::all(rows).position(CardRow::is_no_go).unwrap_or(rows.rows());
         let table = rows.rows_at(&(0..driven).collect::<Vec<_>>());
         let text = Rows::of_table(&table).to_table(&brief) + no_go_line(rows);
+        let hints = remedy::of_reasons(card.rows.iter().map(|row| row.advice.judgement.reason));
+        let hints: String = hints.into_iter().map(|hint| hint + "\n").collect();
         let scenario = &inputs.scenario;
         if scenario.stated_uncertainty().is_some() {
-            return text;
+            return text + hints;
         }
         let bands = match (card.draws, &scenario.uncertain) {
             (Some(_), Some(_)) => "bands are of priors and of the models",
             (Some(_), None) => "bands are of the models alone",
             (None, _) => "no bands",
         };
-        text + format!("no uncertainty of this soil is stated: {bands}; nobody can tell a go\n")
+        text + format!(
+            "no uncertainty of this soil is stated: {bands}; nobody can tell a go\n{hints}"
+        )
     }
 
     fn json<'a>(&'a self, steepest: &'a Table, courses: &'a Table) -> Answer<Results<'a>> {

@@ -27,7 +27,7 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
         let (has_page, is_strict) = (folder.is_some() || slide.is_some(), args.strict.strict);
         question.answer(command, &AnswerOptions { has_page, is_strict, go_on })
     })?;
-    if is_draft && slide.is_none() {
+    if question.sampling.is_some_and(sampling::are_few) {
         answer.screen.push(Displayed::Words(sampling::DRAFT_LINE.to_owned()));
     }
     let file = question.file(0);

@@ -5,22 +5,19 @@ mod cards;
 mod live;
 mod position;
 mod records;
-mod samples;
 mod slips;
 mod state_file;
 mod watch;
 
-use grouser::answers::Answer;
 use grouser::answers::learn::{LearnQuestion, LearntDrive, SOIL_FILE};
+use grouser::answers::{Answer, Sampling};
 use grouser::document::columns::learn::gross_in_words;
 use grouser::document::given_file::GivenFile;
 use grouser::document::learn::LearntSoil;
 use grouser::document::{LoadedScenario, SAMPLES_FILE, escape};
-use grouser::studies::ensemble::samples::Sample;
+use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::heading_band::HeadingBand;
-use grouser::studies::learn::{
-    Drive, LearnSettings, Learner, LearntSample, NotUsed, TelemetryRecord,
-};
+use grouser::studies::learn::{Drive, LearnSettings, Learner, NotUsed, TelemetryRecord};
 use grouser::studies::verdict::SlopeStudy;
 use grouser_draw::title_of;
 
@@ -28,7 +25,6 @@ use self::cards::Cards;
 use self::live::Live;
 use self::position::Position;
 use self::records::{Event, Records};
-use self::samples::{reaches_too_far, samples};
 use self::state_file::StateFile;
 use self::watch::LogWatch;
 use super::sampling;
@@ -81,7 +77,7 @@ pub(crate) fn run(args: &LearnArgs) -> Result<(), Failure> {
 /// no soil was learnt.
 fn check_taught(args: &LearnArgs, learner: &Learner) -> Result<(), Failure> {
     let learnt = learner.learnt();
-    if learnt.stretches > learnt.forgotten {
+    if learnt.is_something() {
         return Ok(());
     }
     let label = inputs::telemetry_label(&args.log);
@@ -107,8 +103,7 @@ fn add_soil(
 ) -> Result<(), Failure> {
     let (scenario, log) = (&question.scenario, escape::path(&args.log));
     let learnt = LearntSoil::now(scenario, drive, (args.seed, args.samples), &log);
-    let learnt = learnt.map_err(|error| reaches_too_far(&error))?;
-    let Some(learnt) = learnt else { return Ok(()) };
+    let Some(learnt) = learnt? else { return Ok(()) };
     if args.cards && learnt.soil.get("contradictions").is_some() {
         output::notes(["no cards are made of a soil that contradicts itself"]);
     } else if args.cards {
@@ -149,9 +144,10 @@ fn learn(args: &LearnArgs, question: &LearnQuestion) -> Result<(LearntDrive, f64
     let mut state = StateFile::of(args, scenario);
     let kept = state.read(args.output.force)?;
     let slopes = question.slopes();
-    let before = band(&learner, &samples(question.sampling, &learner)?, &slopes)?;
+    let samples = Sampling::draw(question.sampling, &BandInputs::of_scenario(scenario))?;
+    let before = band(&learner, &samples, &slopes)?;
     let mut drive = kept.unwrap_or_else(|| Drive::new(learner));
-    let live = Live::of(args, &before.slopes);
+    let live = Live::of(args, scenario, &before.slopes);
     let ending = drive_on(args, scenario, &mut drive, (&mut state, live), &slopes)?;
     state.keep(&drive)?;
     let drive = ending.last.map_or_else(
@@ -163,14 +159,13 @@ fn learn(args: &LearnArgs, question: &LearnQuestion) -> Result<(LearntDrive, f64
         },
     );
     let learner = drive.learner();
-    let samples = samples(question.sampling, learner)?;
+    let Sampling { seed, count } = question.sampling;
+    let (now, samples) = LearntSoil::believed(scenario, learner, (seed, count))?;
     let after = band(learner, &samples, &slopes)?;
-    let drawn: Vec<Sample> = samples.iter().map(|it| it.sample.clone()).collect();
-    let study = SlopeStudy::of(scenario);
-    let verdicts = after.slopes.iter().map(|slope| slope.advice(&study, &drawn)).collect();
+    let study = SlopeStudy::of(&now);
+    let verdicts = after.slopes.iter().map(|slope| slope.advice(&study, &samples)).collect();
     let advice = advice::of(question, &drive, (&samples, &after))?;
-    let narrowed = learner.narrowed(args.seed, args.samples);
-    let narrowed = narrowed.map_err(|error| reaches_too_far(&error))?;
+    let narrowed = learner.narrowed(args.seed, args.samples)?;
     let lost = drive.lost().sentences();
     let notes = lost.into_iter().chain(ending.notes).chain(learner.notes()).collect();
     let (given, slips) = (ending.given, None);
@@ -255,11 +250,7 @@ fn drive_on(
     }
 }
 
-fn band(
-    learner: &Learner,
-    samples: &[LearntSample],
-    slopes: &[f64],
-) -> Result<HeadingBand, Failure> {
+fn band(learner: &Learner, samples: &[Sample], slopes: &[f64]) -> Result<HeadingBand, Failure> {
     let band = sampling::with_bar(samples.len(), |go_on| learner.predict(samples, slopes, go_on));
     Ok(sampling::whole(band?))
 }

@@ -26,7 +26,7 @@ use crate::output::folder::OutputFolder;
 use crate::output::rows::Rows;
 use crate::output::slide::SlideFile;
 use crate::output::text::Text;
-use crate::output::{self, Format};
+use crate::output::{self, Format, remedy};
 use crate::report::REPORT;
 use crate::report::answer::drawing_of_ground;
 
@@ -183,9 +183,11 @@ impl Answered {
             Text::from(name + &risk) + legs + Text::from(sentences)
         });
         let blocks = Text::blocks(blocks);
-        let is_draft = self.believed.as_ref().is_some_and(|it| it.is_draft);
+        let is_draft = self.believed.as_ref().is_some_and(|it| sampling::are_few(it.sampling));
         let draft = Text::from(if is_draft { sampling::DRAFT_LINE } else { "" });
-        let draft = draft + output::answer::given(&self.given());
+        let reasons = self.believed.iter().flat_map(Believed::reasons);
+        let hints = remedy::of_reasons(reasons).into_iter().map(|hint| Text::from(hint + "\n"));
+        let draft = draft + hints.collect::<Text>() + output::answer::given(&self.given());
         if self.ways.len() == 1 {
             return blocks + draft;
         }

@@ -95,6 +95,14 @@ fn report(kind: Kind, draft: &Draft, out: &Path, is_asked: bool) -> Result<(), F
         let keys: Vec<&str> = assumed.iter().map(|it| it.key.as_str()).collect();
         text.extend(["  left to priors: ", &keys.join(", "), "\n"]);
     }
+    let not_kept = draft.not_kept();
+    if !not_kept.is_empty() {
+        text.extend([
+            "  not taken from the preset, as it is of its own tests: ",
+            &not_kept.join(", "),
+            "\n",
+        ]);
+    }
     if !unanswered.is_empty() && !is_asked {
         text.push_str(
             "hint: --set KEY=VALUE answers a question; on a terminal, without --yes, it asks (answers from a pipe \
@@ -112,7 +120,7 @@ fn next(kind: Kind, out: &Path) -> String {
     match kind {
         Kind::Rover => format!("grouser heading --rover {out}"),
         Kind::Wheel => format!("grouser wheel-test --wheel {out}"),
-        Kind::Soil => format!("grouser wheel-test --soil {out}"),
+        Kind::Soil => format!("grouser heading --soil {out} --slope-deg 5,10,15"),
         Kind::Mission => format!("grouser mission {out}"),
         _ => format!("grouser traverse {out}"),
     }

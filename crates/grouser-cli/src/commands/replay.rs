@@ -1,7 +1,8 @@
 //! `grouser replay`: a drive that was measured beside the one that is predicted.
 
-use grouser::answers::Answer;
 use grouser::answers::replay::{ROVER, ReplayQuestion};
+use grouser::answers::{Answer, Displayed};
+use grouser::document::escape;
 use grouser::studies::replay::{Replay, Replayer};
 use grouser_draw::title_of;
 use grouser_logs::TelemetryLog;
@@ -32,6 +33,18 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     let repeat =
         format!("grouser replay log.csv --scenario scenario.toml{slope}{samples}{odometry}");
     answer.next = next(&answer);
+    if has_rover(&answer) {
+        let line = match &args.output.out {
+            Some(out) => {
+                let file = escape::path(&out.join(ROVER));
+                format!("{file}: the rover with wheels of the radius that the drive points to\n")
+            }
+            None => {
+                format!("hint: --out DIR writes {ROVER}, the rover with wheels of that radius\n")
+            }
+        };
+        answer.screen.push(Displayed::Words(line));
+    }
     if let Some(slide) = slide {
         slide.write_answer(&answer, &title_of(&question.scenario))?;
     }
@@ -39,9 +52,14 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     inputs::check_share_used(log.label(), log.share_used(), &args.telemetry.log)
 }
 
+/// Whether the drive points to a changed rover.
+fn has_rover(answer: &Answer) -> bool {
+    answer.documents.iter().any(|it| it.file == ROVER)
+}
+
 /// The commands to go on with.
 fn next(answer: &Answer) -> Vec<String> {
-    let has_rover = answer.documents.iter().any(|it| it.file == ROVER);
+    let has_rover = has_rover(answer);
     let with_rover = [
         format!("grouser check {ROVER}"),
         format!("grouser replay log.csv --scenario scenario.toml --rover {ROVER} --out OTHER"),

@@ -4,11 +4,13 @@ use grouser::answers::{Answer, AnswerError, Displayed, PageBlock};
 use grouser::document::escape;
 use grouser::document::given_file::GivenFile;
 use grouser::document::json;
+use grouser::document::learn::NotBelieved;
 use grouser::document::statistics::NothingAccepted;
 use grouser::document::table::Table;
 use grouser_draw::chart::Drawable;
 
 use super::folder::OutputFolder;
+use super::remedy;
 use super::rows::Rows;
 use super::text::Text;
 use super::{Format, crossed};
@@ -116,7 +118,8 @@ pub(crate) fn text(answer: &Answer) -> Text {
         Displayed::Excerpt { table, columns, most, what } => excerpt(table, columns, *most, what),
         Displayed::Words(words) => words.into(),
     };
-    answer.screen.iter().map(shown).chain([given(&answer.given)]).collect()
+    let hints = remedy::of_answer(answer).into_iter().map(|hint| Text::from(hint + "\n"));
+    answer.screen.iter().map(shown).chain(hints).chain([given(&answer.given)]).collect()
 }
 
 /// What files gave: a line each.
@@ -144,6 +147,9 @@ pub(crate) fn html(answer: &Answer, repeat: &str, pictures: &Pictures) -> String
     let mut page = Page::new(&answer.title);
     for block in &answer.page {
         add_block(&mut page, block, pictures);
+    }
+    for hint in remedy::of_answer(answer) {
+        page.paragraph(&hint);
     }
     close(page, answer.findings.as_ref(), &answer.columns, &Basis::of(answer, repeat))
 }
@@ -185,6 +191,15 @@ impl From<AnswerError> for Failure {
             AnswerError::Empty(_) | AnswerError::Together(..) | AnswerError::Key(_) => {
                 Self::Usage(error.to_string())
             }
+        }
+    }
+}
+
+impl From<NotBelieved> for Failure {
+    fn from(error: NotBelieved) -> Self {
+        match error {
+            NotBelieved::Soil(error) => error.into(),
+            NotBelieved::Document(error) => error.into(),
         }
     }
 }

@@ -131,6 +131,15 @@ stored!(struct Stopped { cause, kind, after });
 stored!(enum Cause { 0 => Limit { stop, value }, 1 => Outcome(outcome) });
 
 impl Stopped {
+    /// The number whose limit made it stop; `None` where the way ahead did.
+    #[must_use]
+    pub fn limit(&self) -> Option<Limited> {
+        match &self.cause {
+            Cause::Limit { stop, .. } => Some(stop.limited),
+            Cause::Outcome(_) => None,
+        }
+    }
+
     /// What the rover does next.
     #[must_use]
     pub fn then(&self) -> Then {

@@ -90,11 +90,22 @@ impl Answers {
         given.unwrap_or(USUAL_PRESET).to_owned()
     }
 
-    /// The document of the preset that the soil is like, without what is of its own tests.
-    fn keys_of_preset(&self) -> Json {
+    /// The document of the preset that the soil is like.
+    fn preset(&self) -> Json {
         let text = preset(Kind::Soil, &self.like()).map_or("", |preset| preset.text);
         let text = Text { label: String::new(), content: text.to_owned(), ..Text::default() };
-        let mut keys = text::parse(&Arc::new(text)).map_or(Json::Null, |node| node.to_json());
+        text::parse(&Arc::new(text)).map_or(Json::Null, |node| node.to_json())
+    }
+
+    /// The tables of the preset that the soil does not take, as they are of its own tests.
+    pub(super) fn not_kept(&self) -> Vec<&'static str> {
+        let preset = self.preset();
+        NOT_KEPT.into_iter().filter(|table| preset.get(table).is_some()).collect()
+    }
+
+    /// The same without what is of its own tests.
+    fn keys_of_preset(&self) -> Json {
+        let mut keys = self.preset();
         if let Json::Object(keys) = &mut keys {
             let has_other_angle = self.given.contains_key(FRICTION_ANGLE);
             keys.retain(|key, _| {
@@ -136,6 +147,10 @@ impl Answers {
 
         let mut lines =
             Lines::new(Kind::Soil, "A soil of Grouser: `assumed` has what is taken from another.");
+        let not_kept = self.not_kept();
+        if !not_kept.is_empty() {
+            lines.comment(&format!("Not taken from `{like}`: {}.", not_kept.join(", ")));
+        }
         lines.plain("name", &Json::from(self.text("name")));
         lines.plain("source", &Json::from(self.text("source")));
         lines.texts("assumed", &assumed);

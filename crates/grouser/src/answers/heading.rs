@@ -140,6 +140,11 @@ impl HeadingQuestion {
         rows: &Arc<Table>,
         columns: Vec<String>,
     ) {
+        if let [OfModel { bands: Some(bands), .. }] = all
+            && bands.advice.len() > 1
+        {
+            answer.verdict(sentence(&verdict::in_words(&bands.advice)));
+        }
         for line in all.iter().flat_map(|it| {
             let lines = it.lines(self.has_several());
             lines.lines().map(sentence).collect::<Vec<_>>()

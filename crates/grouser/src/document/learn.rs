@@ -15,7 +15,8 @@ use super::{
 use crate::contact::Model;
 use crate::soil::Discrepancy;
 use crate::soil::discrepancy::{SIDE_VALUES, VALUES};
-use crate::studies::learn::{Drive, LearntSample};
+use crate::studies::ensemble::samples::{BandInputs, Sample};
+use crate::studies::learn::{Drive, Learner, LearntSample};
 use grouser_io::measurements::telemetry::day_of;
 use grouser_io::statistics::{NothingAccepted, quantile};
 use grouser_io::{SAMPLES_MODEL, SAMPLES_WEIGHT};
@@ -27,6 +28,17 @@ pub struct LearntSoil {
     pub soil: Document,
     /// The samples as CSV: the content of [`SAMPLES_FILE`].
     pub samples: String,
+}
+
+/// Why nothing can be drawn of what is believed.
+#[derive(Debug, thiserror::Error)]
+pub enum NotBelieved {
+    /// No soil is accepted.
+    #[error("the soil's uncertainty reaches too far: {0}")]
+    Soil(#[from] NothingAccepted),
+    /// The soil's document is none of the scenario.
+    #[error(transparent)]
+    Document(#[from] DocumentError),
 }
 
 /// The lists of a discrepancy: their keys, how many values they have, and where.
@@ -58,7 +70,17 @@ impl LearntSoil {
         (seed, count): (u64, u32),
         log: &str,
     ) -> Result<Option<Self>, NothingAccepted> {
-        let learner = drive.learner();
+        let day = drive.last_time().and_then(day_of);
+        Self::of_learner(scenario, drive.learner(), (seed, count), (log, day))
+    }
+
+    /// * `log`, `day`: of the drive
+    fn of_learner(
+        scenario: &LoadedScenario,
+        learner: &Learner,
+        (seed, count): (u64, u32),
+        (log, day): (&str, Option<String>),
+    ) -> Result<Option<Self>, NothingAccepted> {
         let prior = scenario.document.part(Kind::Soil, "soil").zip(scenario.uncertain.as_ref());
         let Some((document, uncertain)) = prior else { return Ok(None) };
         let models = learner.models();
@@ -72,7 +94,6 @@ impl LearntSoil {
             env!("CARGO_PKG_VERSION"),
             learner.learnt().way,
         );
-        let day = drive.last_time().and_then(day_of);
         let learnt = Self::of((&document, uncertain), &believed, &source, day);
         Ok(Some(learnt.contradicted_by(contradictions(learner))))
     }
@@ -88,6 +109,31 @@ impl LearntSoil {
             keys.insert(CONTRADICTIONS.to_owned(), json!(all));
         });
         Self { soil, ..self }
+    }
+
+    /// What a learner believes, as every study has it from the soil's document: the scenario with
+    /// this soil, and samples that are drawn from it. Where nothing was learnt these are the
+    /// scenario as it was and the learner's samples.
+    ///
+    /// * `sampling`: seed and number of the samples, and of those of each model in the document
+    ///
+    /// # Errors
+    /// [`NotBelieved`] if no soil can be drawn.
+    pub fn believed(
+        scenario: &LoadedScenario,
+        learner: &Learner,
+        sampling: (u64, u32),
+    ) -> Result<(LoadedScenario, Vec<Sample>), NotBelieved> {
+        let (seed, count) = sampling;
+        let now = || Self::of_learner(scenario, learner, sampling, ("", None));
+        let learnt = learner.learnt().is_something().then(now).transpose()?;
+        let Some(learnt) = learnt.flatten() else {
+            let samples = learner.samples(seed, count)?.into_iter().map(|it| it.sample);
+            return Ok((scenario.clone(), samples.collect()));
+        };
+        let now = learnt.in_scenario(scenario)?;
+        let samples = BandInputs::of_scenario(&now).samples(seed, count)?;
+        Ok((now, samples))
     }
 
     /// The file of samples that the document names.

@@ -1,6 +1,7 @@
 //! How probably a drive is completed, and how it ends otherwise.
 
 use super::ensemble::Probability;
+use crate::mission::Limited;
 
 /// What a drive risks: how it ends on other soils and models.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +21,8 @@ pub struct CommonEnd {
     pub leg: usize,
     /// The outcome, by its name.
     pub outcome: &'static str,
+    /// The number whose limit the rover passed, if one made it stop.
+    pub limit: Option<Limited>,
     /// So many samples end so.
     pub count: usize,
 }
@@ -29,8 +32,9 @@ pub struct CommonEnd {
 pub(super) enum SampleEnd {
     /// It completes all legs.
     Completed,
-    /// It ends in a leg, counted from 1, by an outcome.
-    In(usize, &'static str),
+    /// It ends in a leg, counted from 1, by an outcome; at the limit of a number, if one made it
+    /// stop.
+    In(usize, &'static str, Option<Limited>),
     /// It cannot be computed.
     NotComputed,
 }
@@ -42,7 +46,9 @@ impl Completion {
         let not_computed = count(SampleEnd::NotComputed);
         // Of those that are as common the one that comes first on the way.
         let failed = ends.iter().filter_map(|end| match *end {
-            SampleEnd::In(leg, outcome) => Some(CommonEnd { leg, outcome, count: count(*end) }),
+            SampleEnd::In(leg, outcome, limit) => {
+                Some(CommonEnd { leg, outcome, limit, count: count(*end) })
+            }
             _ => None,
         });
         let commonest = failed.max_by_key(|end| (end.count, std::cmp::Reverse(end.leg)));

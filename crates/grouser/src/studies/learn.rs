@@ -119,6 +119,14 @@ pub struct Learnt {
     pub not_used: BTreeMap<NotUsed, u64>,
 }
 
+impl Learnt {
+    /// Whether there is something that was learnt, and not forgotten.
+    #[must_use]
+    pub fn is_something(&self) -> bool {
+        self.stretches > self.forgotten
+    }
+}
+
 /// What one stretch taught.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Lesson {
@@ -395,12 +403,11 @@ impl Learner {
     /// If there are no samples.
     pub fn predict(
         &self,
-        samples: &[LearntSample],
+        samples: &[Sample],
         slopes: &[f64],
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<HeadingBand>, ParameterError> {
-        let samples: Vec<Sample> = samples.iter().map(|it| it.sample.clone()).collect();
-        HeadingBand::of(&self.study, &samples, slopes, go_on)
+        HeadingBand::of(&self.study, samples, slopes, go_on)
     }
 }
 

@@ -11,7 +11,8 @@ use super::verdict::{Advice, SlopeStudy, SpotTurn, SpotTurns};
 use crate::elementary::wide::{asin, atan2, sin_cos, tan};
 use crate::error::ParameterError;
 use crate::mission::{
-    Heading, Leg, LegReport, Manoeuvre, Mission, MissionError, MissionReport, MissionRun,
+    Heading, Leg, LegOutcome, LegReport, Manoeuvre, Mission, MissionError, MissionReport,
+    MissionRun,
 };
 use crate::simulation::{Approach, Integrator, Numerics, Scenario};
 use crate::units::Vec2;
@@ -259,11 +260,16 @@ fn end_of(mission: &Mission, sample: &Sample) -> Result<SampleEnd, MissionError>
     let mut run = MissionRun::new(&mission)?;
     while run.next_leg_watched(&mut |_| true)?.is_some() {}
     let report = run.finish();
-    let is_whole = report.legs.len() == mission.legs.len()
-        && report.legs.last().is_some_and(|leg| leg.outcome.is_completed());
+    let last = report.legs.last().map(|leg| &leg.outcome);
+    let is_whole =
+        report.legs.len() == mission.legs.len() && last.is_some_and(LegOutcome::is_completed);
+    let limit = match last {
+        Some(LegOutcome::Stopped(stopped)) => stopped.limit(),
+        _ => None,
+    };
     Ok(if is_whole {
         SampleEnd::Completed
     } else {
-        SampleEnd::In(report.legs.len(), report.outcome())
+        SampleEnd::In(report.legs.len(), report.outcome(), limit)
     })
 }

@@ -7,15 +7,23 @@ use grouser::document::limited_quantity;
 use grouser::document::reading::four_digits;
 use grouser::mission::Stop;
 use grouser::studies::card::Card;
-use grouser::studies::verdict::{Reason, Verdict};
+use grouser::studies::verdict::Verdict;
 
 use super::texts::Texts;
 use crate::failure::Failure;
 use crate::inputs::CardInputs;
+use crate::output::remedy;
 
 /// The file: a table that `mission --stop-from` reads, and that can be copied into a mission.
-pub(super) fn text(inputs: &CardInputs, card: &Card, texts: &Texts) -> Option<String> {
-    let found = card.stops(&inputs.rule)?;
+///
+/// * `slope_deg`: of the mission [°], if it is on one
+pub(super) fn text(
+    inputs: &CardInputs,
+    card: &Card,
+    texts: &Texts,
+    slope_deg: Option<f64>,
+) -> Option<String> {
+    let found = card.stops(&inputs.rule, slope_deg.map(|it| SLOPE.unit.to_si(it)))?;
     let shown = |slope: f64| four_digits(SLOPE.unit.as_given(slope));
     let [first, last] = [found.slopes.first()?, found.slopes.last()?].map(|it| shown(it.0));
     let mut text = format!(
@@ -24,15 +32,21 @@ pub(super) fn text(inputs: &CardInputs, card: &Card, texts: &Texts) -> Option<St
          mission, too.\n\
          # They are for slopes that are a go or a caution on the card, {first} to {last}°, and a \
          leg may have limits\n# of its own.\n#\n\
-         # slip_ratio: the lowest of the card's limits on these slopes, so that it holds on each of \
-         them:\n",
+         # slip_ratio: {which} of the card's limits on these slopes:\n",
+        which = slope_deg.map_or_else(
+            || "the lowest".to_owned(),
+            |it| format!("for a mission on {}° that", four_digits(it)),
+        ),
         title = texts.title.replace(char::is_control, " "),
     );
     for (slope, limit) in &found.slopes {
         let _ = writeln!(text, "#     {}° {}", shown(*slope), downwards(*limit));
     }
-    text += "# On one slope alone its own limit may stand.\n\
-             # drift_m_per_m: the card's limit of a go; for legs along the contour. A leg that leads \
+    if slope_deg.is_none() {
+        text += "# On a steep slope a rover passes the lowest as a rule: card --stops-slope-deg has \
+                 that of one\n# slope.\n";
+    }
+    text += "# drift_m_per_m: the card's limit of a go; for legs along the contour. A leg that leads \
              downhill\n# has drift_m_per_m = 1.0 among its own limits.\n\
              # roll_deg, pitch_deg: the steepest of these slopes.\n[stop]\n";
     found.stops.iter().for_each(|stop| text += &line(stop));
@@ -56,17 +70,17 @@ fn downwards(limit: f64) -> f64 {
 }
 
 /// A card from which there are no limits, and why.
-pub(super) fn missing(card: &Card) -> Failure {
+pub(super) fn missing(card: &Card, slope_deg: Option<f64>) -> Failure {
     let judgements = card.rows.iter().map(|row| row.advice.judgement);
     let doubt = judgements.clone().find(|it| it.verdict == Verdict::CannotTell);
     let why = doubt.or_else(|| judgements.clone().next()).map_or("", |it| it.reason.meaning());
-    let hint = match doubt.map(|it| it.reason) {
-        Some(Reason::NoStatedUncertainty) => {
-            "\nhint: a soil that states how well its numbers are known gives verdicts: `grouser new \
-             soil --set known=copied` makes one"
-        }
-        _ => "",
-    };
+    let hints = remedy::of_reasons(doubt.map(|it| it.reason).into_iter());
+    let hint: String = hints.into_iter().map(|hint| format!("\n{hint}")).collect();
+    if let (Some(slope), None) = (slope_deg.map(four_digits), doubt) {
+        return Failure::Run(format!(
+            "--stops-slope-deg {slope}: this card has no go or caution on a slope as steep"
+        ));
+    }
     Failure::Run(format!(
         "--stops: no slope of this card is a go or a caution, so that it has no limits to turn \
          back at: {why}{hint}"

@@ -1,9 +1,10 @@
 //! What to do tomorrow: headings, looks at the slip, and test drives.
 
 use grouser::answers::learn::{AdviceQuestion, LearnQuestion};
+use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::heading_band::HeadingBand;
+use grouser::studies::learn::Drive;
 use grouser::studies::learn::advice::DriveAdvice;
-use grouser::studies::learn::{Drive, LearntSample};
 
 use crate::commands::sampling;
 use crate::failure::Failure;
@@ -14,7 +15,7 @@ use crate::failure::Failure;
 pub(super) fn of(
     question: &LearnQuestion,
     drive: &Drive,
-    (samples, band): (&[LearntSample], &HeadingBand),
+    (samples, band): (&[Sample], &HeadingBand),
 ) -> Result<Option<DriveAdvice>, Failure> {
     let Some(settings) = question.advice_settings(drive) else { return Ok(None) };
     let learner = drive.learner();

@@ -6,16 +6,17 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use grouser::answers::learn::{shares, slope_in_words, warning_in_words};
+use grouser::document::LoadedScenario;
 use grouser::document::columns::TIME;
 use grouser::document::columns::learn as columns;
 use grouser::document::json;
+use grouser::document::learn::LearntSoil;
 use grouser::document::table::Table;
 use grouser::studies::heading_band::SlopeBand;
 use grouser::studies::learn::{Drive, Lesson};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use super::samples::reaches_too_far;
 use crate::args::LearnArgs;
 use crate::commands::sampling;
 use crate::failure::Failure;
@@ -27,6 +28,7 @@ use crate::output::{self, Format};
 /// of what was learnt, so that no warning waits for them.
 pub(super) struct Live<'a> {
     args: &'a LearnArgs,
+    scenario: &'a LoadedScenario,
     before: &'a [SlopeBand],
     /// When predictions were asked for last.
     asked: Option<Instant>,
@@ -46,10 +48,15 @@ struct Predicted {
 impl<'a> Live<'a> {
     /// Nothing if the log is not followed.
     ///
+    /// * `scenario`: with the soil as it is known before the drive
     /// * `before`: predictions before the drive
-    pub(super) fn of(args: &'a LearnArgs, before: &'a [SlopeBand]) -> Option<Self> {
+    pub(super) fn of(
+        args: &'a LearnArgs,
+        scenario: &'a LoadedScenario,
+        before: &'a [SlopeBand],
+    ) -> Option<Self> {
         let (asked, is_due, running) = (None, false, None);
-        args.follow.then_some(Self { args, before, asked, is_due, running })
+        args.follow.then_some(Self { args, scenario, before, asked, is_due, running })
     }
 
     /// Prints a lesson and its warnings, at once.
@@ -86,13 +93,14 @@ impl<'a> Live<'a> {
             return Ok(());
         }
         (self.asked, self.is_due) = (Some(Instant::now()), false);
+        let time = drive.last_time().unwrap_or_default();
         let (learner, slopes) = (drive.learner().clone(), slopes.to_vec());
-        let (seed, count) = (self.args.seed, self.args.samples);
-        let (time, way) = (drive.last_time().unwrap_or_default(), learner.learnt().way);
+        let (scenario, sampling) = (self.scenario.clone(), (self.args.seed, self.args.samples));
         self.running = Some(thread::spawn(move || {
-            let samples = learner.samples(seed, count).map_err(|error| reaches_too_far(&error))?;
+            let (_, samples) = LearntSoil::believed(&scenario, &learner, sampling)?;
             let band = sampling::whole(learner.predict(&samples, &slopes, &|| true)?);
-            Ok(Predicted { time, way, slopes: band.slopes, models: shares(&learner) })
+            let (slopes, models) = (band.slopes, shares(&learner));
+            Ok(Predicted { time, way: learner.learnt().way, slopes, models })
         }));
         Ok(())
     }

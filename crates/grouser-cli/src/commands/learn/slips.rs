@@ -1,11 +1,11 @@
 //! Slips from currents, by what was learnt.
 
+use grouser::answers::Sampling;
 use grouser::answers::learn::{LearnQuestion, SlipsFromCurrents};
-use grouser::studies::ensemble::samples::Sample;
+use grouser::document::learn::LearntSoil;
 use grouser::studies::learn::{Drive, motor_log};
 use grouser::studies::slip_from_current::{NoEstimator, SlipEstimator, SlipSettings};
 
-use super::samples::samples;
 use crate::commands::sampling;
 use crate::failure::Failure;
 
@@ -17,8 +17,8 @@ pub(super) fn of(
 ) -> Result<Option<SlipsFromCurrents>, Failure> {
     let scenario = &question.scenario.value;
     let Some(log) = motor_log(drive.lessons(), &scenario.rover) else { return Ok(None) };
-    let drawn = samples(question.sampling, drive.learner())?;
-    let drawn: Vec<Sample> = drawn.into_iter().map(|it| it.sample).collect();
+    let Sampling { seed, count } = question.sampling;
+    let (_, drawn) = LearntSoil::believed(&question.scenario, drive.learner(), (seed, count))?;
     let estimator = match SlipEstimator::new(scenario, drawn, SlipSettings::USUAL) {
         Ok(estimator) => estimator,
         Err(NoEstimator::NoMotor) => return Ok(None),

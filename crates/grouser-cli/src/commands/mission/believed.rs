@@ -9,7 +9,7 @@ use grouser::mission::{Manoeuvre, Mission};
 use grouser::studies::completion::Completion;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
-use grouser::studies::verdict::{Advice, Rule, SlopeStudy};
+use grouser::studies::verdict::{Advice, Reason, Rule, SlopeStudy};
 use serde_json::Value;
 
 use crate::args::MissionArgs;
@@ -24,8 +24,6 @@ const NOT_ADVISED: &str = "Not advised on, backward, crabbing or over several so
 pub(super) struct Believed {
     pub(super) sampling: Sampling,
     pub(super) rule: Rule,
-    /// Whether nobody said how many samples there are to be.
-    pub(super) is_draft: bool,
     /// Name, samples and models, as JSON has them.
     pub(super) belief: Value,
     ways: Vec<(Completion, Vec<Option<Advice>>)>,
@@ -52,8 +50,7 @@ impl Believed {
             Ok((whole(risk), whole(advice)))
         });
         let ways = all.collect::<Result<_, Failure>>()?;
-        let is_draft = args.belief.samples.is_none();
-        Ok(Self { sampling, rule, is_draft, belief: sampling.belief(&scenario), ways })
+        Ok(Self { sampling, rule, belief: sampling.belief(&scenario), ways })
     }
 
     /// What one of the missions risks.
@@ -62,7 +59,14 @@ impl Believed {
         (risk, advice)
     }
 
-    /// Sentences on a mission: the whole first, then each leg that has advice, and which have none.
+    /// The reasons of all verdicts.
+    pub(super) fn reasons(&self) -> impl Iterator<Item = Reason> {
+        let all = self.ways.iter().flat_map(|(_, advice)| advice.iter().flatten());
+        all.map(|advice| advice.judgement.reason)
+    }
+
+    /// Sentences on a mission: the whole first, then each leg that has advice, and which have none:
+    /// those that it is not made for, and those that were not begun.
     pub(super) fn sentences(&self, place: usize, way: &DrivenMission) -> Vec<String> {
         let (risk, advice) = self.way(place);
         let legs = || way.legs.iter().zip(advice);
@@ -71,7 +75,17 @@ impl Believed {
         let others = legs().filter(|(leg, advice)| advice.is_none() && moves(leg));
         let others: Vec<String> = others.map(|(leg, _)| leg.number.to_string()).collect();
         let others = (!others.is_empty()).then(|| format!("{NOT_ADVISED}{}.", others.join(", ")));
-        [in_words(risk, "")].into_iter().chain(advised).chain(others).collect()
+        let begun = way.legs.len();
+        let not_begun = (begun < way.planned).then(|| {
+            let later = match way.planned - begun {
+                1 => format!("leg {}", way.planned),
+                _ => format!("legs {} to {}", begun + 1, way.planned),
+            };
+            format!(
+                "Not advised on, as the drive on the soil as written ends in leg {begun}: {later}."
+            )
+        });
+        [in_words(risk, "")].into_iter().chain(advised).chain(others).chain(not_begun).collect()
     }
 
     /// The leg with the worst verdict, and of several the one on which the rover most often gets

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use super::question::LearntDrive;
 use crate::document::columns::learn::{contradiction_in_words, sentence};
+use crate::document::columns::verdict::in_words;
 use crate::document::columns::{SLIP_RATIO, SLOPE, YAW};
 use crate::document::reading::four_digits;
 use crate::document::table::Table;
 use crate::studies::learn::{Learner, Warning};
-use crate::studies::verdict::{Advice, Judgement, Verdict};
 
 /// The wheel–soil models with their shares [-], by their names.
 #[must_use]
@@ -80,24 +80,10 @@ pub(super) fn lines(found: &LearntDrive) -> Vec<String> {
     let contradictions = learner.contradictions();
     let contradictions =
         contradictions.iter().map(|it| format!("warning: {}", contradiction_in_words(it)));
-    [verdicts(&found.verdicts), whole, narrowed]
+    [in_words(&found.verdicts), whole, narrowed]
         .into_iter()
         .chain(warnings)
         .chain(contradictions)
         .chain(notes)
         .collect()
-}
-
-/// What to do on each slope, and why.
-fn verdicts(all: &[Advice]) -> String {
-    let words = all.iter().map(|advice| {
-        let slope = four_digits(SLOPE.unit.as_given(advice.slope));
-        let Judgement { verdict, reason } = advice.judgement;
-        let why = match verdict {
-            Verdict::Go => String::new(),
-            _ => format!(" ({})", reason.meaning()),
-        };
-        format!("{slope}° {}{why}", verdict.name().replace('_', " "))
-    });
-    words.collect::<Vec<_>>().join("; ")
 }

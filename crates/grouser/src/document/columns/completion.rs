@@ -1,15 +1,19 @@
 //! How probably a drive is completed, and how it ends otherwise.
 
+use super::super::limited_quantity;
 use super::super::reading::{capitalised, four_digits};
 use super::{Column, PROBABILITY_COMPLETED, text, whole};
 use crate::studies::completion::Completion;
 
 /// What a drive risks.
-pub const RISK: [Column<Completion>; 5] = [
+pub const RISK: [Column<Completion>; 6] = [
     PROBABILITY_COMPLETED
         .probability("Share of the samples that complete all legs", |it| Some(it.completed)),
     text("commonest_end", "The commonest end of the others, by its name", |it| {
         it.commonest.as_ref().map(|end| end.outcome.to_owned())
+    }),
+    text("commonest_end_limit", "The number at whose limit they stop, if they do", |it| {
+        Some(limited_quantity(it.commonest.as_ref()?.limit?).name.to_owned())
     }),
     whole("commonest_end_leg", "The leg in which they end so, from 1", |it| {
         it.commonest.as_ref().map(|end| end.leg)
@@ -32,9 +36,12 @@ pub fn in_words(risk: &Completion, place: &str) -> String {
     let (low, high) = completed.interval();
     let end = risk.commonest.as_ref().map_or_else(String::new, |end| {
         format!(
-            "; it ends most often in leg {}{place}: {}, in {} of {}",
+            "; it ends most often in leg {}{place}: {}{}, in {} of {}",
             end.leg,
             end.outcome.replace(['-', '_'], " "),
+            end.limit.map_or_else(String::new, |it| {
+                format!(" at the limit of {}", limited_quantity(it).name)
+            }),
             end.count,
             completed.trials
         )

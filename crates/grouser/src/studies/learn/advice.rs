@@ -23,7 +23,7 @@ pub use self::soil_ahead::SoilAhead;
 use self::soil_ahead::SoilWay;
 use self::test_drive::Planner;
 pub use self::test_drive::{TestCost, TestDrive, TestDrives, TestSettings};
-use super::{Learner, LearntSample};
+use super::Learner;
 use crate::error::ParameterError;
 use crate::studies::ensemble::samples::Sample;
 use crate::studies::heading_band::HeadingBand;
@@ -128,24 +128,23 @@ impl AdviceSettings {
 impl Learner {
     /// What to do on the slopes of a prediction.
     ///
-    /// * `samples`, `band`: of [`samples`](Self::samples) and [`predict`](Self::predict)
+    /// * `samples`, `band`: of what is believed now, and of [`predict`](Self::predict)
     /// * `go_on`: asked often, from any thread; without it there is no result
     ///
     /// # Errors
     /// [`NoAdvice`] for a setting out of range, and if no soil can be drawn.
     pub fn advice(
         &self,
-        samples: &[LearntSample],
+        samples: &[Sample],
         band: &HeadingBand,
         settings: &AdviceSettings,
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<DriveAdvice>, NoAdvice> {
         settings.check()?;
-        let samples: Vec<Sample> = samples.iter().map(|it| it.sample.clone()).collect();
         let mut slopes = Vec::new();
         for band in &band.slopes {
             let limits = &settings.limits;
-            let heading = HeadingAdvice::on_slope(&self.study, &samples, band, limits, go_on);
+            let heading = HeadingAdvice::on_slope(&self.study, samples, band, limits, go_on);
             let Some(heading) = heading else { return Ok(None) };
             let Some(advice) = self.slope_advice(heading, settings, go_on)? else {
                 return Ok(None);
@@ -160,7 +159,7 @@ impl Learner {
             tests: &settings.tests,
         };
         let ahead: Vec<f64> = band.slopes.iter().map(|it| it.slope).collect();
-        let tests = planner.plan(&samples, &ahead, go_on);
+        let tests = planner.plan(samples, &ahead, go_on);
         Ok(tests.map(|tests| DriveAdvice { slopes, tests, cost: settings.tests.cost }))
     }
 

@@ -44,7 +44,8 @@ impl RouteRisk {
         let each: Vec<SampleEnd> = ends.iter().map(named).collect();
         let completion = Completion::of(&each);
         let end = completion.commonest.as_ref().and_then(|commonest| {
-            let is_so = |end: &&End| end.named() == SampleEnd::In(commonest.leg, commonest.outcome);
+            let common = SampleEnd::In(commonest.leg, commonest.outcome, commonest.limit);
+            let is_so = |end: &&End| end.named() == common;
             let mut same: Vec<&End> = ends.iter().flatten().filter(is_so).collect();
             same.sort_by(|one, other| one.along.total_cmp(&other.along));
             let middle = same.get((same.len().max(1) - 1) / 2)?;
@@ -57,7 +58,8 @@ impl RouteRisk {
 impl End {
     /// By its leg and danger; not computed where the search for a heading gave up.
     fn named(&self) -> SampleEnd {
-        self.danger.map_or(SampleEnd::NotComputed, |danger| SampleEnd::In(self.leg, danger.name()))
+        let of = |danger: Danger| SampleEnd::In(self.leg, danger.name(), None);
+        self.danger.map_or(SampleEnd::NotComputed, of)
     }
 }
 

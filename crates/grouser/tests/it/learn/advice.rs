@@ -6,6 +6,7 @@ use grouser::mission::{
 };
 use grouser::simulation::{Approach, Numerics};
 use grouser::studies::ensemble::Probability;
+use grouser::studies::ensemble::samples::Sample;
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::learn::advice::{
     AdviceSettings, Check, CheckSettings, DriveAdvice, SoilAhead, TestCost, TestDrive,
@@ -48,9 +49,13 @@ fn settings() -> AdviceSettings {
     AdviceSettings { checks: CheckSettings { ways: 250, ..usual.checks }, ..usual }
 }
 
+fn samples(learner: &Learner, seed: u64) -> Vec<Sample> {
+    learner.samples(seed, 40).unwrap().into_iter().map(|it| it.sample).collect()
+}
+
 fn advice(learner: &Learner, slopes_deg: &[f64], settings: &AdviceSettings) -> DriveAdvice {
     let slopes: Vec<f64> = slopes_deg.iter().map(|slope| deg(*slope)).collect();
-    let samples = learner.samples(settings.seed, 40).unwrap();
+    let samples = samples(learner, settings.seed);
     let band = learner.predict(&samples, &slopes, &|| true).unwrap().unwrap();
     learner.advice(&samples, &band, settings, &|| true).unwrap().expect("not stopped")
 }
@@ -215,7 +220,7 @@ fn driven(prior: &LoadedScenario, drive: &TestDrive, truth: u32) -> Option<Learn
     Some(learner)
 }
 
-fn truth_seed(truth: &grouser::studies::ensemble::samples::Sample) -> u64 {
+fn truth_seed(truth: &Sample) -> u64 {
     truth.soil.friction_angle.to_bits()
 }
 
@@ -223,7 +228,7 @@ fn truth_seed(truth: &grouser::studies::ensemble::samples::Sample) -> u64 {
 /// that before.
 fn narrowed(prior: &LoadedScenario, drive: &TestDrive, count: u32) -> f64 {
     let width = |learner: &Learner| {
-        let samples = learner.samples(5, 40).unwrap();
+        let samples = samples(learner, 5);
         let found = learner.predict(&samples, &[deg(8.0)], &|| true).unwrap().unwrap();
         let yaw = found.slopes[0].yaw.expect("samples");
         // The upper end may be above every number: what is wide below the median is so above it.
