@@ -9,6 +9,8 @@ use grouser_raster::zones::geojson::compare_system;
 use grouser_raster::{CoordinateSystem, Fault};
 use serde_json::Value as Json;
 
+use super::describe::run::TERRAIN;
+use super::describe::terrain::{FILE, START};
 use super::error::{DocumentError, Problem};
 use super::given_file::{FileContent, GivenFile};
 use super::lines::{cells, check_count, lines};
@@ -20,6 +22,7 @@ use super::tree::{Entry, Node, Origin, Text, Value};
 const LEGS: &str = "leg";
 
 /// Puts the legs of the file that a mission names before its own, so that it names none any more.
+/// Over a map, a mission that has no place to start at gets that at which a line begins.
 pub(crate) fn put_in(mission: &mut Node) -> Result<(), DocumentError> {
     let Some(entry) = mission.entry(LEGS_FROM) else { return Ok(()) };
     // What is no text is for the check to report.
@@ -37,6 +40,16 @@ pub(crate) fn put_in(mission: &mut Node) -> Result<(), DocumentError> {
         None => {
             let node = Node { value: Value::List(legs), origin };
             entries.push(Entry { key: LEGS.to_owned(), key_origin, node });
+        }
+    }
+    let line = start_of_line(mission);
+    if let Some((start, Value::Table(terrain))) =
+        line.zip(mission.entry_mut(TERRAIN).map(|it| &mut it.node.value))
+    {
+        let has = |key: &str| terrain.iter().any(|entry| entry.key == key);
+        if has(FILE) && !has(START) {
+            let key_origin = start.origin.clone();
+            terrain.push(Entry { key: START.to_owned(), key_origin, node: start });
         }
     }
     Ok(())
@@ -193,30 +206,38 @@ pub(crate) fn given(mission: &Node) -> Vec<GivenFile> {
     files.into_iter().filter(is_file).map(given).collect()
 }
 
-/// That a mission has legs of its own after those of a file.
-pub(crate) fn note_of_own(mission: &Node) -> Option<String> {
+/// What a mission does with the legs of a file, where that is not all that it does: it starts where
+/// their line does, and has legs of its own after them.
+pub(crate) fn notes(mission: &Node) -> Vec<String> {
     let legs = legs_of(mission);
-    let (text, all) = (&legs.first()?.origin.text, legs.len());
-    let of_file = legs.iter().take_while(|leg| Arc::ptr_eq(&leg.origin.text, text)).count();
-    let is_file = !Arc::ptr_eq(text, &mission.origin.text) && of_file < all;
-    is_file.then(|| {
-        format!(
-            "{}: after its {of_file} legs come those of the mission's document, {} to {all}",
-            text.label,
-            of_file + 1
-        )
-    })
+    let Some(text) = legs.first().map(|leg| &leg.origin.text) else { return Vec::new() };
+    if Arc::ptr_eq(text, &mission.origin.text) {
+        return Vec::new();
+    }
+    let (name, all) = (&text.label, legs.len());
+    let is_of_file = |leg: &&Node| Arc::ptr_eq(&leg.origin.text, text);
+    let of_file = legs.iter().take_while(is_of_file).count();
+    let own = (of_file < all).then(|| {
+        let first = of_file + 1;
+        format!("{name}: after its {of_file} legs come the mission's own, {first} to {all}")
+    });
+    let start = mission.entry(TERRAIN).and_then(|entry| entry.node.entry(START));
+    let start = start.map(|entry| &entry.node).filter(is_of_file).map(|place| {
+        format!("{name}: the rover starts where its line does, at {}", place.to_json())
+    });
+    start.into_iter().chain(own).collect()
 }
 
-/// Where a file of legs begins whose first geometry is a line: its name and the place [m]; `None` of
-/// a mission whose first legs are no such file's.
-pub(crate) fn start_of_line(mission: &Node) -> Option<(String, Vec2)> {
-    let text = &legs_of(mission).first()?.origin.text;
-    let json: Json = serde_json::from_str(&text.content).ok()?;
+/// Where a file of legs begins whose first geometry is a line; `None` of a mission whose first legs
+/// are no such file's.
+fn start_of_line(mission: &Node) -> Option<Node> {
+    let origin = &legs_of(mission).first()?.origin;
+    let json: Json = serde_json::from_str(&origin.text.content).ok()?;
     let (geometry, _) = *features(&json).first()?;
     let [x, y] = [0, 1].map(|place| geometry["coordinates"][0][place].as_f64());
-    let is_line = geometry["type"] == "LineString";
-    Some((text.label.clone(), Vec2::new(x.filter(|_| is_line)?, y?)))
+    let node = |value: Value| Node { value, origin: origin.clone() };
+    let place = vec![node(Value::Float(x?)), node(Value::Float(y?))];
+    (geometry["type"] == "LineString").then(|| node(Value::List(place)))
 }
 
 /// The legs of a mission.

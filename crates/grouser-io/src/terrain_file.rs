@@ -94,14 +94,7 @@ pub(crate) fn read(
         notes.extend(legs_file::compare_systems(tree, system)?);
     }
     if document.get(&key(START)).is_none() {
-        let (line, middle) = (legs_file::start_of_line(tree), middle(model.extent()));
-        notes.extend(line.as_ref().map(|(file, start)| {
-            format!(
-                "{file}: the rover starts where its line does, at x {} m, y {} m",
-                start.x, start.y
-            )
-        }));
-        ground.start = line.map_or(middle, |(_, start)| start);
+        ground.start = middle(model.extent());
     }
     let heights = given_heights(path, &model);
     ground.shape = Shape::Map(model);

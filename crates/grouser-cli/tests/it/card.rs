@@ -81,6 +81,16 @@ fn a_mission_reads_the_limits_of_a_card() {
     assert_eq!(mission["outcome"], "completed");
     let over = "mission m.toml --nominal --slope-deg 25 --set mission.leg.0.yaw_deg=0";
     assert_eq!(place.json(over)["outcome"], "stopped");
+    // A mission on one slope has that slope's limit of the slip.
+    let slope = number(&driven[1]["slope_deg"]);
+    place.json(&format!("{UNCERTAIN} --stops one.toml --stops-slope-deg {slope}"));
+    place.json("mission m.toml --nominal --set mission.stop_from=one.toml --out one");
+    let own = number(&driven[1]["slip_limit"]);
+    let one = place.read("one/mission.toml");
+    let line = format!("above = {}", (own * 1e4 + 1e-6).floor() / 1e4);
+    assert!(own > lowest && one.contains(&line), "{line}: {one}");
+    let steep = place.line(&format!("{UNCERTAIN} --stops two.toml --stops-slope-deg 60"));
+    assert!(steep.stderr.contains("--stops-slope-deg 60: this card has no go"), "{}", steep.stderr);
     let answer = place.line(&format!("{UNCERTAIN} --stops stops.toml"));
     assert_eq!(answer.code(), 2, "it is not replaced: {}", answer.stderr);
     let unknown = place.line("card --samples 2 --stops none.toml");

@@ -80,9 +80,16 @@ fn other_commands_believe_what_was_learnt() {
             let [one, other] = [one, other].map(|it| number(&it[key]));
             assert!((one - other).abs() < 1e-6, "{key}: {one} {other}");
         }
-        for key in ["verdict", "reason"] {
-            assert_eq!(one["advice"][key], other["advice"][key]);
-        }
+        assert_eq!(one["advice"], other["advice"]);
+    }
+    // What was learnt states how uncertain it is, even if what was believed before did not.
+    let bare = learn.replace("toyoura-uncertain", "toyoura").replace("today", "bare");
+    let (learnt_of_bare, soil) = (place.json(&bare), "bare/soil.toml");
+    let found_of_bare = place.json(&heading.replace("today/soil.toml", soil));
+    let pairs = learnt_of_bare["predictions"].as_array().unwrap().iter();
+    for (one, other) in pairs.zip(found_of_bare["rows"].as_array().unwrap()) {
+        assert_eq!(one["advice"], other["advice"]);
+        assert_ne!(one["advice"]["reason"], "no_stated_uncertainty");
     }
     place.write("idle.csv", "time_s,roll_deg,pitch_deg,vo_dx_m\n0,8,0,\n1,8,0,0\n");
     let idle = place.line(

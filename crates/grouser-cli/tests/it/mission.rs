@@ -226,6 +226,24 @@ fn limits_are_numbers_and_come_from_files() {
     let set = "--set mission.stop.sinkage_mm=80 --set mission.stop.drift_m_per_m=0.9";
     let gone = place.json(&format!("mission plain.toml --nominal --stop-from stops.toml {set}"));
     assert_eq!(gone["legs"][0]["outcome"], "completed");
+    // What a mission risks names the limit, and the legs that the soil as written does not reach.
+    let legs = "[[leg]]\ndrive_m = 1.0\n".repeat(3);
+    place.write(
+        "three.toml",
+        begins(&format!("slope_deg = 10.0\n[stop]\nslip_ratio = 0.01\n{legs}")),
+    );
+    let line = "mission three.toml --samples 4 --simulation quasi-steady";
+    let risk = place.json(line);
+    assert_eq!(risk["commonest_end"], "stopped", "{risk}");
+    assert_eq!(risk["commonest_end_limit"], "slip_ratio");
+    let text = place.results(line);
+    for words in [
+        "in leg 1: stopped at the limit of slip_ratio, in ",
+        "Not advised on, as the drive on the soil as written ends in leg 1: legs 2 to 3.",
+        "\nhint: a soil that states how well its numbers are known gives verdicts",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
 }
 
 #[test]

@@ -19,6 +19,17 @@ fn a_rover_from_flags_passes_the_check_and_drives() {
     assert!(heading.contains("  ok"), "{heading}");
 }
 
+/// A soil like a preset is not the preset: what is of its own tests is left out, and named.
+#[test]
+fn what_is_not_taken_from_a_preset_is_said() {
+    let place = Place::new();
+    let text = place.results("new soil --yes --set like=toyoura-uncertain");
+    let line = "not taken from the preset, as it is of its own tests: domain, uncertainty\n";
+    assert!(text.contains(line), "{text}");
+    let document = place.read("my-soil.toml");
+    assert!(document.contains("# Not taken from `toyoura-uncertain`: domain, uncertainty.\n"));
+}
+
 /// Without a terminal nothing is asked; every next command runs.
 #[test]
 fn every_kind_passes_the_check_and_its_next_command_runs() {

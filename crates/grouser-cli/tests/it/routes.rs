@@ -82,6 +82,22 @@ fn a_route_goes_around_and_can_be_driven() {
     let rows = legs["legs"].as_array().or(legs["rows"].as_array()).expect("legs");
     let last = rows.last().expect("a leg");
     assert!((number(&last["x_m"]) - 7003.0).abs() < 0.2, "{last}");
+    // A mission that names no start starts where the line does, and so does its repetition.
+    let terrain = "[terrain]\nfile = \"ridge.xyz\"\n";
+    place.write("plain.toml", format!("schema = \"mission/1\"\n{terrain}[[leg]]\nwait_s = 1.0\n"));
+    let plain = place.line(
+        "mission plain.toml --nominal --legs-from short/route.geojson --simulation quasi-steady \
+         --out plain --format json",
+    );
+    for words in ["the rover starts where its line does, at [7002.0,-298.0]", "the mission's own"] {
+        assert!(plain.stderr.contains(words), "{}", plain.stderr);
+    }
+    let plain: Value = serde_json::from_str(&plain.stdout).expect("JSON");
+    let legs_of = |answer: &Value| answer["legs"].as_array().expect("legs").clone();
+    assert_eq!(legs_of(&plain).len(), rows.len() + 1);
+    assert_eq!(legs_of(&plain)[..rows.len()], rows[..]);
+    let again = place.json("mission plain/mission.toml --nominal --simulation quasi-steady");
+    assert_eq!(legs_of(&again), legs_of(&plain));
     // The same way again as a line to check takes the same.
     let back = place.json("route ridge.xyz --along short/route.geojson --samples 2 --out back");
     assert_eq!((&back["status"], &back["minimise"]), (&json!("safe"), &Value::Null));

@@ -180,7 +180,7 @@ impl Described for Plan {
     fn fetch(&mut self, document: &Document, tree: &Node) -> Result<NamedFiles, DocumentError> {
         let mut files = self.scenario.fetch(document, tree)?;
         files.given.extend(legs_file::given(tree));
-        files.notes.extend(legs_file::note_of_own(tree));
+        files.notes.extend(legs_file::notes(tree));
         Ok(files)
     }
 
