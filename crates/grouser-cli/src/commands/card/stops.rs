@@ -23,7 +23,7 @@ pub(super) fn text(
     texts: &Texts,
     slope_deg: Option<f64>,
 ) -> Option<String> {
-    let found = card.stops(&inputs.rule, slope_deg.map(|it| SLOPE.unit.to_si(it)))?;
+    let found = card.stops(&inputs.rule, slope_deg.and_then(|it| SLOPE.in_si(&[it]).pop()))?;
     let shown = |slope: f64| four_digits(SLOPE.unit.as_given(slope));
     let [first, last] = [found.slopes.first()?, found.slopes.last()?].map(|it| shown(it.0));
     let mut text = format!(
