@@ -57,22 +57,28 @@ const TYPES: &str = "mypy>=1.10";
 const YAML: &str = "pyyaml>=6";
 /// What knows the form of `CITATION.cff`.
 const CITATION: &str = "check-jsonschema>=0.33";
-/// An extra that only `ci --full` installs: its package is larger than all others together, and
-/// starting its workers takes longest of all tests. Without it those tests are skipped.
-const HEAVY: &str = "ray";
+/// Extras that only `ci --full` installs: each package is larger than all others together, and
+/// starting Ray's workers takes longest of all tests. Without them those tests are skipped.
+const HEAVY: [&str; 2] = ["ray", "torch"];
+/// The module whose examples need one of them.
+const NEEDS_HEAVY: &str = "--ignore-glob=*/grouser/torch.py";
 
 /// Builds the wheel, installs it, and counts the tests of the package: pytest's, the examples of
-/// its docstrings, and its types. `Extent::Full` tests the extra `ray` too, and the lower bounds of
+/// its docstrings, and its types. `Extent::Full` tests the heavy extras too, and the lower bounds of
 /// all.
 pub(crate) fn check(extent: Extent) -> Result<Count> {
     let python = installed()?;
     if extent == Extent::Full {
-        let heavy = requirements()?.into_iter().filter(|one| one.extra == HEAVY);
+        let heavy = requirements()?.into_iter().filter(|one| HEAVY.contains(&&*one.extra));
         install(&python, &heavy.map(|one| one.text).collect::<Vec<_>>())?;
     }
     let program = workspace::build_program()?;
     let mut count = pytest(&python, &program, &["-n", "2", "--dist", "loadfile", "tests"])?;
-    count += pytest(&python, &program, &["--doctest-modules", "--pyargs", "grouser"])?;
+    let mut examples = vec!["--doctest-modules", "--pyargs", "grouser"];
+    if extent != Extent::Full {
+        examples.push(NEEDS_HEAVY);
+    }
+    count += pytest(&python, &program, &examples)?;
     count += types(&python, &["-m", "mypy.stubtest", "grouser._core"])?;
     count += types(&python, &["-m", "mypy", "--strict", "tests/user_script.py"])?;
     // The package's own half; what it draws and tabulates with need not be typed.
@@ -138,7 +144,7 @@ pub(crate) fn environment() -> Result<PathBuf> {
 
 fn make_environment() -> Result<PathBuf> {
     let python = made(&folder().join("environment"))?;
-    let required = requirements()?.into_iter().filter(|one| one.extra != HEAVY);
+    let required = requirements()?.into_iter().filter(|one| !HEAVY.contains(&&*one.extra));
     let mut needed: Vec<String> = required.map(|one| one.text).collect();
     needed.extend([BUILDING, TYPES, FMUS, YAML, CITATION].map(String::from));
     needed.extend(TESTING.map(String::from));

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import inspect
 import re
 from collections.abc import Callable, Iterator
@@ -17,6 +18,8 @@ def members() -> Iterator[tuple[str, Any]]:
     modules: list[tuple[str, Any]] = [("", gr), ("campaign.", gr.campaign), ("style.", gr.style)]
     for name in ("gym", "jax", "mujoco"):
         modules.append((f"{name}.", pytest.importorskip(f"grouser.{name}")))
+    if importlib.util.find_spec("torch"):
+        modules.append(("torch.", importlib.import_module("grouser.torch")))
     for prefix, module in modules:
         for name in module.__all__:
             thing = getattr(module, name)

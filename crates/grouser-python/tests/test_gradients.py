@@ -1,4 +1,4 @@
-"""Derivatives of settled wheels and headings, from Python and through JAX."""
+"""Derivatives of settled wheels and headings, from Python and through JAX and PyTorch."""
 
 from __future__ import annotations
 
@@ -122,6 +122,42 @@ def test_jax_differentiates_forward_and_in_reverse_batched_and_compiled() -> Non
     np.testing.assert_array_equal(pull(0.1, slips), own.drawbar_pull_n)
     with pytest.raises(gr.ParameterError, match="load_n"):
         gj.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=0.2, vary={"load_n": 20.0})
+
+
+@pytest.mark.filterwarnings("ignore:.torch.jit.*is deprecated")  # PyTorch's own, of itself
+def test_torch_differentiates_forward_and_in_reverse_batched_and_by_functions() -> None:
+    torch = pytest.importorskip("torch")
+    import grouser.torch as gt
+
+    def pull(radius: Any, slip: Any) -> Any:
+        vary = {"wheel.radius_m": radius}
+        found = gt.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=slip, vary=vary)
+        return found["drawbar_pull_n"]
+
+    slips = np.array([0.1, 0.2, 0.4])
+    own = gr.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=slips, gradients=[KEYS[0], KEYS[3]])
+    assert own.gradient is not None
+    numbers = (torch.full((3,), 0.1, dtype=torch.float64), torch.from_numpy(slips))
+    leaves = [it.clone().requires_grad_() for it in numbers]
+    found = pull(*leaves)
+    np.testing.assert_array_equal(found.detach().numpy(), own.drawbar_pull_n)
+    in_reverse = torch.autograd.grad(found.sum(), leaves, create_graph=True)
+    with pytest.raises(NotImplementedError, match="first derivatives"):
+        torch.autograd.grad(in_reverse[1].sum(), leaves)
+    by_functions = torch.func.vmap(torch.func.grad(pull, argnums=(0, 1)))(*numbers)
+    for place in range(2):
+        expected = own.gradient["drawbar_pull_n"][:, place]
+        change = tuple(torch.full((3,), float(it == place), dtype=torch.float64) for it in range(2))
+        _, forward = torch.func.jvp(pull, numbers, change)
+        for derivatives in (in_reverse[place].detach(), by_functions[place], forward):
+            np.testing.assert_allclose(derivatives.numpy(), expected, rtol=1e-12)
+    # Wheels settle to a share of 1e-11: differences over 1e-4 err by 1e-7.
+    torch.autograd.gradcheck(pull, leaves, eps=1e-4, rtol=1e-4, check_forward_ad=True)
+    single = torch.tensor(0.2, requires_grad=True)
+    pull(0.1, single).backward()
+    assert single.grad is not None and single.grad.dtype == torch.float32
+    with pytest.raises(gr.ParameterError, match="load_n"):
+        gt.settle("toyoura", "hakuto", load_n=17.0, slip_ratio=0.2, vary={"load_n": 20.0})
 
 
 def test_gradients_of_rollouts_are_those_of_whole_runs() -> None:

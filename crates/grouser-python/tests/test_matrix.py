@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import copy
 import dataclasses
+import importlib.util
 import inspect
 import json
 import tempfile
@@ -22,6 +23,12 @@ import grouser as gr
 gym = pytest.importorskip("grouser.gym")
 jax = pytest.importorskip("grouser.jax")
 mujoco = pytest.importorskip("grouser.mujoco")
+#: Not everyone who runs the tests has PyTorch.
+TORCH = (
+    {"torch.": importlib.import_module("grouser.torch")}
+    if importlib.util.find_spec("torch")
+    else {}
+)
 
 #: Numbers of an answer, each with the shape that they must have.
 Numbers = list[tuple[Any, tuple[int, ...]]]
@@ -397,6 +404,10 @@ CALLS: dict[str, tuple[Callable[[gr.Scenario], Numbers], tuple[str, ...]]] = {
         "mujoco.SoilContact": contact,
         "mujoco.rover_xml": lambda s: same(mujoco.rover_xml(s.rover).count("<motor"), 0),
         "jax.settle": lambda s: one_wheel(s, jax.settle, load_n=17.0),
+        **{
+            f"{prefix}settle": lambda s, it=it: one_wheel(s, it.settle, load_n=17.0)
+            for prefix, it in TORCH.items()
+        },
     }.items()
 }
 
@@ -412,7 +423,7 @@ WITHOUT_FEATURES = {
 def public() -> set[str]:
     """Every public call by its name: what raises and what a call returns is none."""
     modules = {"": gr, "campaign.": gr.campaign, "style.": gr.style}
-    modules |= {"gym.": gym, "jax.": jax, "mujoco.": mujoco}
+    modules |= {"gym.": gym, "jax.": jax, "mujoco.": mujoco, **TORCH}
     found = {
         prefix + name: getattr(it, name) for prefix, it in modules.items() for name in it.__all__
     }

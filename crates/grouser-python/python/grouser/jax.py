@@ -27,17 +27,10 @@ import jax.numpy as jnp
 import numpy as np
 
 from . import _core
-from . import settle as _settle
 from ._descriptions import Soil, Source, Wheel
-from ._errors import ParameterError
-from ._tables import COLUMNS
+from ._stands import RESULTS, Stand, numbers_of
 
 __all__ = ["settle"]
-
-#: What a settled wheel has.
-_RESULTS = COLUMNS["wheel"]
-#: Arguments that are no keys of documents.
-_SETTINGS = ("load_n", "slip_ratio", "slip_angle_deg", "gravity_m_s2")
 
 
 def settle(
@@ -90,63 +83,21 @@ def settle(
     >>> round(float(jax.grad(sinkage)(0.08)) / 1e3, 3)
     -0.022
     """
-    own = set(_SETTINGS).intersection(vary or {})
-    if own:
-        name = min(own)
-        raise ParameterError(f"vary has the key {name!r}, which is an argument of its own", "vary")
-    values = {
-        "load_n": load_n,
-        "slip_ratio": slip_ratio,
-        "slip_angle_deg": slip_angle_deg,
-        "gravity_m_s2": gravity_m_s2,
-        **(vary or {}),
-    }
+    values = numbers_of(load_n, slip_ratio, slip_angle_deg, gravity_m_s2, vary)
     numbers = jnp.broadcast_arrays(*(jnp.asarray(it, dtype=float) for it in values.values()))
-    found = _settled(_Stand(soil, wheel, model, tuple(values)), jnp.stack(numbers, axis=-1))
-    return {name: found[..., place] for place, name in enumerate(_RESULTS)}
-
-
-class _Stand:
-    """What of a call is no number: documents, model, and the names of the numbers."""
-
-    def __init__(
-        self, soil: Soil | Source, wheel: Wheel | Source, model: str | None, names: tuple[str, ...]
-    ) -> None:
-        self.soil = soil if isinstance(soil, Soil) else Soil(soil)
-        self.wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
-        self.model, self.names = model, names
-
-    def call(self, numbers: Any, gradients: bool) -> Any:
-        """Settled wheels, whose numbers are in the last axis."""
-        cells = np.asarray(numbers, dtype=np.float64)
-        named = {name: cells[..., place] for place, name in enumerate(self.names)}
-        settings: dict[str, Any] = {name: named.pop(name) for name in _SETTINGS}
-        keys = list(self.names) if gradients else None
-        return _settle(
-            self.soil, self.wheel, model=self.model, vary=named, gradients=keys, **settings
-        )
-
-    def results(self, numbers: Any) -> Any:
-        """Results in the last axis."""
-        found = self.call(numbers, gradients=False)
-        return np.stack([getattr(found, name) for name in _RESULTS], axis=-1)
-
-    def jacobians(self, numbers: Any) -> Any:
-        """Results in the axis before the last, numbers in the last."""
-        found = self.call(numbers, gradients=True).gradient
-        assert found is not None
-        return np.stack([found[name] for name in _RESULTS], axis=-2)
+    found = _settled(Stand(soil, wheel, model, tuple(values)), jnp.stack(numbers, axis=-1))
+    return {name: found[..., place] for place, name in enumerate(RESULTS)}
 
 
 @partial(jax.custom_jvp, nondiff_argnums=(0,))
-def _settled(stand: _Stand, numbers: Any) -> Any:
-    return _call(stand.results, numbers, (len(_RESULTS),))
+def _settled(stand: Stand, numbers: Any) -> Any:
+    return _call(stand.results, numbers, (len(RESULTS),))
 
 
 @_settled.defjvp
-def _settled_jvp(stand: _Stand, primals: Any, tangents: Any) -> Any:
+def _settled_jvp(stand: Stand, primals: Any, tangents: Any) -> Any:
     (numbers,), (change,) = primals, tangents
-    jacobian = _call(stand.jacobians, numbers, (len(_RESULTS), len(stand.names)))
+    jacobian = _call(stand.jacobians, numbers, (len(RESULTS), len(stand.names)))
     return _settled(stand, numbers), jnp.einsum("...rk,...k->...r", jacobian, change)
 
 

@@ -16,8 +16,8 @@ use grouser::studies::calibration::posterior::Advanced;
 use grouser::studies::calibration::wheel_test::{Discrepancies, Setup};
 use grouser::studies::calibration::{
     Calibration, CalibrationError, Channel, Experiment, Fit, FitSettings, Observation, Parameter,
-    ParameterSpace, PlateCurve, PlateLaw, PlateTest, PosteriorState, Resolution, SamplerSettings,
-    Scale, WheelTestExperiment, handed_on,
+    ParameterSpace, Place, PlateCurve, PlateLaw, PlateTest, PosteriorState, Resolution,
+    SamplerSettings, Scale, WheelTestExperiment, handed_on,
 };
 use grouser::studies::measurement::{Cell, PerQuantity, Quantity, Reading, Trial, WheelTests};
 use grouser::units::{EARTH_GRAVITY, deg};
@@ -526,6 +526,87 @@ fn a_synthetic_wheel_test_is_recovered() {
         assert!((found - truth).abs() < 4.0 * deviation, "{found} instead of {truth}");
         // And that says something.
         assert!(deviation / truth < 0.15, "{truth} to {deviation}");
+    }
+}
+
+/// Where a strong soil carries the wheels, and where a weak one does not: there a wheel is predicted
+/// as a whole.
+#[test]
+fn differences_of_predictions_beside_a_point_are_those_of_whole_ones() {
+    /// Central differences over this share of a value [-]: whole predictions repeat to 1e-11.
+    const SHARE: f64 = 1e-4;
+    let weak = [2.0, 0.02, 0.6];
+    for model in [Model::Ishigami, Model::SmallWheel, Model::Bekker, Model::Rft] {
+        for values in [TRUTH, weak] {
+            let setup = Setup { model: &model, ..setup() };
+            let tests = wheel_tests(1, 1.0);
+            let experiment = WheelTestExperiment::new(&tests, setup).expect("a test series");
+            let beside: Vec<Vec<f64>> = (0..values.len())
+                .flat_map(|axis| [1.0 - SHARE, 1.0 + SHARE].map(|share| (axis, share)))
+                .map(|(axis, share)| {
+                    let mut point = values.to_vec();
+                    point[axis] *= share;
+                    point
+                })
+                .collect();
+            let whole = |point: &Vec<f64>| {
+                let mut predictions = vec![0.0; experiment.observations().len()];
+                experiment.predict(point, &mut predictions).expect("a sand");
+                predictions
+            };
+            let expected: Vec<Vec<f64>> = beside.iter().map(whole).collect();
+            let found = experiment.predict_beside(&values, &beside);
+            for (found, expected) in found.chunks(2).zip(expected.chunks(2)) {
+                let [below, above] = [0, 1].map(|side| found[side].as_ref().expect("a sand"));
+                for (place, read) in experiment.observations().iter().enumerate() {
+                    let slope = (above[place] - below[place]) / (2.0 * SHARE);
+                    let truth = (expected[1][place] - expected[0][place]) / (2.0 * SHARE);
+                    let size = truth.abs() + expected[0][place].abs() + 0.01 * read.value.abs();
+                    let error = (slope - truth).abs() / size;
+                    assert!(error < 1e-4, "{model:?}, {place}: {slope} instead of {truth}");
+                }
+            }
+        }
+    }
+}
+
+/// An experiment without its shorter way to predictions beside a point.
+struct PredictedAsAWhole<'a>(&'a WheelTestExperiment<'a>);
+
+impl Experiment for PredictedAsAWhole<'_> {
+    fn channels(&self) -> &[Channel] {
+        self.0.channels()
+    }
+
+    fn observations(&self) -> &[Observation] {
+        self.0.observations()
+    }
+
+    fn places(&self) -> &[Place] {
+        self.0.places()
+    }
+
+    fn predict(&self, values: &[f64], predictions: &mut [f64]) -> Result<(), ParameterError> {
+        self.0.predict(values, predictions)
+    }
+}
+
+#[test]
+fn fits_by_derivatives_end_where_fits_by_whole_predictions_do() {
+    let tests = wheel_tests(1, 1.0);
+    let experiment = WheelTestExperiment::new(&tests, setup()).expect("a test series");
+    let whole = PredictedAsAWhole(&experiment);
+    let of = |experiment: &dyn Experiment| {
+        let calibration = Calibration::new(experiment, sand_space()).expect("a problem");
+        let fit = fit(&calibration);
+        let deviations = fit.deviations(calibration.space());
+        (fit, deviations)
+    };
+    let ((one, deviations), (other, others)) = (of(&experiment), of(&whole));
+    for place in 0..TRUTH.len() {
+        let apart = (one.values[place] - other.values[place]).abs();
+        assert!(apart < 1e-3 * deviations[place], "{:?} and {:?}", one.values, other.values);
+        assert!((deviations[place] / others[place] - 1.0).abs() < 1e-3);
     }
 }
 

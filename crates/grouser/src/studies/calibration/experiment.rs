@@ -1,5 +1,7 @@
 //! Measurements, and a model that predicts them from parameters.
 
+use rayon::prelude::*;
+
 use super::parameter::{Parameter, Scale};
 use crate::error::ParameterError;
 use crate::studies::measurement::Quantity;
@@ -99,6 +101,23 @@ pub trait Experiment: Sync {
     /// # Errors
     /// [`ParameterError`] if the values are no valid soil: the search turns away from them.
     fn predict(&self, values: &[f64], predictions: &mut [f64]) -> Result<(), ParameterError>;
+
+    /// Predictions beside a point, whose differences are derivatives: to first order in the distance
+    /// from it; none where the values are no valid soil. Each point is predicted as a whole, unless
+    /// an experiment has a shorter way.
+    ///
+    /// * `values`: the point
+    /// * `beside`: points next to it; itself too, whose prediction the others are to be compared
+    ///   with
+    fn predict_beside(&self, values: &[f64], beside: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
+        let _ = values;
+        let whole = |one: &Vec<f64>| {
+            let mut predictions = vec![0.0; self.observations().len()];
+            self.predict(one, &mut predictions).ok()?;
+            Some(predictions)
+        };
+        beside.par_iter().map(whole).collect()
+    }
 }
 
 /// A discrepancy below this share of the trials' scatter is not distinguishable from zero [-].

@@ -289,9 +289,9 @@ struct Weighted<'a> {
 }
 
 /// Step of the difference quotients in a coordinate [-], in which parameters change by about their
-/// own range. Predictions repeat to 1e-12 or so: the quotient errs by about 1e-5 of itself, by its
-/// length more than by roundings.
-const STEP: f64 = 1e-5;
+/// own range. Predictions beside a point repeat to 1e-12 or better: the quotient errs by about 1e-6
+/// of itself, by its length as much as by roundings.
+const STEP: f64 = 1e-6;
 
 impl<'a> Weighted<'a> {
     fn new(calibration: &'a Calibration<'a>, discrepancies: &[f64]) -> Self {
@@ -329,10 +329,10 @@ impl<'a> Weighted<'a> {
     }
 }
 
-impl Residuals for Weighted<'_> {
-    fn at(&self, coordinates: &[f64]) -> Option<Vec<f64>> {
+impl Weighted<'_> {
+    /// The residuals at a point with these predictions.
+    fn of_predictions(&self, coordinates: &[f64], predictions: &[f64]) -> Option<Vec<f64>> {
         let calibration = self.calibration;
-        let predictions = calibration.predictions(&calibration.space.values(coordinates))?;
         let observations = calibration.experiment.observations();
         let beyond: Vec<f64> = match self.purpose {
             Purpose::LeastSquares => {
@@ -340,7 +340,7 @@ impl Residuals for Weighted<'_> {
                 pairs.map(|(observation, prediction)| prediction - observation.value).collect()
             }
             Purpose::Posterior => {
-                let residuals = calibration.errors.residuals(observations, &predictions);
+                let residuals = calibration.errors.residuals(observations, predictions);
                 residuals.into_iter().map(|residual| -residual).collect()
             }
         };
@@ -350,17 +350,35 @@ impl Residuals for Weighted<'_> {
         }
         residuals.iter().all(|residual| residual.is_finite()).then_some(residuals)
     }
+}
+
+impl Residuals for Weighted<'_> {
+    fn at(&self, coordinates: &[f64]) -> Option<Vec<f64>> {
+        let calibration = self.calibration;
+        let predictions = calibration.predictions(&calibration.space.values(coordinates))?;
+        self.of_predictions(coordinates, &predictions)
+    }
 
     fn jacobian_at(&self, coordinates: &[f64]) -> Option<Vec<Vec<f64>>> {
-        let here = self.at(coordinates)?;
-        let column = |axis: usize| {
+        let Calibration { experiment, space, .. } = self.calibration;
+        let moved = |axis: usize| {
             let mut point = coordinates.to_vec();
             point[axis] += STEP;
-            let step = point[axis] - coordinates[axis];
-            let quotient = |(there, here): (f64, &f64)| (there - here) / step;
-            Some(self.at(&point)?.into_iter().zip(&here).map(quotient).collect())
+            point
         };
-        (0..coordinates.len()).into_par_iter().map(column).collect()
+        let points: Vec<Vec<f64>> =
+            std::iter::once(coordinates.to_vec()).chain((0..space.len()).map(moved)).collect();
+        let values: Vec<Vec<f64>> = points.iter().map(|point| space.values(point)).collect();
+        let beside = experiment.predict_beside(&values[0], &values);
+        let each = points.iter().zip(&beside);
+        let mut residuals =
+            each.map(|(point, predictions)| self.of_predictions(point, predictions.as_ref()?));
+        let here = residuals.next()??;
+        let column = |(axis, there): (usize, Option<Vec<f64>>)| {
+            let step = points[axis + 1][axis] - coordinates[axis];
+            Some(there?.iter().zip(&here).map(|(there, here)| (there - here) / step).collect())
+        };
+        residuals.enumerate().map(column).collect()
     }
 }
 

@@ -1,10 +1,14 @@
 //! Single-wheel tests as an experiment: predicts the forces and the sinkage of every cell of a test
 //! series.
 
+use rayon::prelude::*;
+
 use super::experiment::{Channel, Experiment, Measure, Observation, Place, Regime, Site};
 use super::scatter::{self, Repeats};
 use crate::contact::discrepancy::sense_of_rolling;
-use crate::contact::{Contact, Model, SettleError, Settled, Slip, settle, settle_many};
+use crate::contact::{
+    Contact, Model, SettleError, Settled, Slip, forces_many, settle, settle_many,
+};
 use crate::elementary::wide::{ln, sin};
 use crate::error::{ParameterError, finite, not_negative};
 use crate::soil::Soil;
@@ -55,6 +59,35 @@ pub struct WheelTestExperiment<'a> {
 struct Run {
     slip: Slip,
     load: f64,
+}
+
+/// A run that has settled in some soil.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct SettledRun {
+    load: f64,
+    /// None where the soil does not carry the load, or there is none.
+    slope: Option<SinkingSlope>,
+}
+
+/// What a wheel's readings do as it sinks on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct SinkingSlope {
+    /// Where it has settled [m].
+    sinkage: f64,
+    /// ∂F_z/∂h [N/m].
+    stiffness: f64,
+    /// The derivative of each reading by the sinkage.
+    slopes: PerQuantity<f64>,
+}
+
+/// How far a wheel sinks for the differences of its forces, over its sinkage [-].
+const SINKING: f64 = 1e-5;
+
+/// Wheels at given sinkages, settled or not.
+fn forces_at(model: &Model, wheels: &[(Contact, f64)]) -> Vec<Settled> {
+    let forces = forces_many(model.as_ref(), wheels);
+    let each = wheels.iter().zip(forces);
+    each.map(|(&(_, sinkage), forces)| Settled { sinkage, forces, evaluations: 0 }).collect()
 }
 
 /// What a wheel is tested with, and what for.
@@ -180,10 +213,19 @@ impl<'a> WheelTestExperiment<'a> {
         let wheels: Vec<(Contact, f64)> =
             runs.map(|run| (self.contact(soil, run.slip), run.load)).collect();
         let settled = settle_many(self.setup.model.as_ref(), &wheels);
-        let mut readings = wheels
+        let readings = wheels
             .iter()
             .zip(settled)
             .map(|((contact, load), result)| self.read(contact, *load, result));
+        self.means(cells, readings)
+    }
+
+    /// The mean of each cell's readings, which follow each other run by run.
+    fn means(
+        &self,
+        cells: &[usize],
+        mut readings: impl Iterator<Item = PerQuantity<f64>>,
+    ) -> Vec<PerQuantity<f64>> {
         let mean = |&cell: &usize| {
             let count = self.runs[cell].len();
             let here: Vec<PerQuantity<f64>> = readings.by_ref().take(count).collect();
@@ -192,6 +234,64 @@ impl<'a> WheelTestExperiment<'a> {
             })
         };
         cells.iter().map(mean).collect()
+    }
+
+    /// The runs in a soil, settled, with what their forces do there as they sink.
+    fn settled_runs(&self, soil: &Soil) -> Vec<SettledRun> {
+        let runs = self.runs.iter().flatten();
+        let wheels: Vec<(Contact, f64)> =
+            runs.map(|run| (self.contact(soil, run.slip), run.load)).collect();
+        let settled = settle_many(self.setup.model.as_ref(), &wheels);
+        let found: Vec<Option<f64>> =
+            settled.into_iter().map(|it| Some(it.ok()?.sinkage)).collect();
+        let at = |share: f64| {
+            let sunk = wheels.iter().zip(&found).filter_map(|((contact, _), sinkage)| {
+                let sinkage = (*sinkage)? * share;
+                Some((*contact, sinkage))
+            });
+            forces_at(self.setup.model, &sunk.collect::<Vec<_>>()).into_iter()
+        };
+        let (mut above, mut below) = (at(1.0 - SINKING), at(1.0 + SINKING));
+        let run = |((_, load), sinkage): (&(Contact, f64), &Option<f64>)| {
+            let slope = sinkage.and_then(|sinkage| {
+                let (above, below) = (above.next()?, below.next()?);
+                let way = 2.0 * SINKING * sinkage;
+                let stiffness = (below.forces.normal_force - above.forces.normal_force) / way;
+                let slopes = PerQuantity::from_fn(|it| (it.of(&below) - it.of(&above)) / way);
+                (stiffness > 0.0).then_some(SinkingSlope { sinkage, stiffness, slopes })
+            });
+            SettledRun { load: *load, slope }
+        };
+        wheels.iter().zip(&found).map(run).collect()
+    }
+
+    /// What the stand would read in a soil next to the one in which runs have settled: no wheel is
+    /// settled again, but sinks on by as much as the load asks for. One that did not settle is read
+    /// as a whole.
+    fn cell_readings_beside(&self, settled: &[SettledRun], soil: &Soil) -> Vec<PerQuantity<f64>> {
+        let slips = || self.runs.iter().flatten().map(|run| run.slip);
+        let sunk = slips().zip(settled).filter_map(|(slip, run)| {
+            let slope = run.slope.as_ref()?;
+            Some((self.contact(soil, slip), slope.sinkage))
+        });
+        let mut forces = forces_at(self.setup.model, &sunk.collect::<Vec<_>>()).into_iter();
+        let readings = slips().zip(settled).map(|(slip, run)| match &run.slope {
+            Some(slope) => forces.next().map_or_else(PerQuantity::default, |there| {
+                let sinking = (run.load - there.forces.normal_force) / slope.stiffness;
+                PerQuantity::from_fn(|it| it.of(&there) + slope.slopes[it] * sinking)
+            }),
+            None => self.readings(soil, slip, run.load),
+        });
+        let every: Vec<usize> = (0..self.runs.len()).collect();
+        self.means(&every, readings)
+    }
+
+    /// The predictions of the observations by what the stand reads in each cell.
+    fn observed<'r>(
+        &'r self,
+        cells: &'r [PerQuantity<f64>],
+    ) -> impl Iterator<Item = f64> + use<'r, 'a> {
+        self.sources.iter().map(|&(quantity, cell)| cells[cell][quantity])
     }
 
     /// Makes all observations anew.
@@ -367,9 +467,24 @@ impl Experiment for WheelTestExperiment<'_> {
         soil.check()?;
         let every: Vec<usize> = (0..self.runs.len()).collect();
         let cells = self.cell_readings(&soil, &every);
-        for (prediction, &(quantity, cell)) in predictions.iter_mut().zip(&self.sources) {
-            *prediction = cells[cell][quantity];
+        for (prediction, found) in predictions.iter_mut().zip(self.observed(&cells)) {
+            *prediction = found;
         }
         Ok(())
+    }
+
+    fn predict_beside(&self, values: &[f64], beside: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
+        let soil = |values: &[f64]| {
+            let soil = self.soil(values).ok()?;
+            soil.check().ok()?;
+            Some(soil)
+        };
+        let Some(here) = soil(values) else { return vec![None; beside.len()] };
+        let settled = self.settled_runs(&here);
+        let one = |values: &Vec<f64>| {
+            let cells = self.cell_readings_beside(&settled, &soil(values)?);
+            Some(self.observed(&cells).collect())
+        };
+        beside.par_iter().map(one).collect()
     }
 }
