@@ -58,7 +58,7 @@ pub(crate) fn replay<'py>(
     let slope = loaded.value.ground.plane_slope().filter(|_| slope_is_known);
     let options = LogOptions::default().with_odometry(odometry_named(how.0.as_deref())?);
     let options = options.with_most_unpacked(bytes(how.1));
-    let label = path.display().to_string();
+    let (label, is_file) = (path.display().to_string(), text.is_none());
     let found =
         threads::detached(py, || -> Result<(Replay, Vec<String>, Vec<GivenFile>), NoReplay> {
             let mut replayer = Replayer::new(&loaded.value, slope);
@@ -75,7 +75,8 @@ pub(crate) fn replay<'py>(
             }
             let replay = replayer.finish(&samples, &|| true).map_err(NoReplay::Nothing)?;
             let Some(replay) = replay else { unreachable!("it was not stopped") };
-            Ok((replay, log.notes(), log.given()))
+            let given = if is_file { log.given() } else { Vec::new() };
+            Ok((replay, log.notes(), given))
         })?;
     let (replay, mut notes, mut given) = found.map_err(|error| match error {
         NoReplay::Telemetry(error) => errors::of_telemetry(&error),
