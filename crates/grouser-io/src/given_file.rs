@@ -40,6 +40,12 @@ pub enum FileContent {
     Way,
     /// Legs of a mission.
     Legs,
+    /// Limits of a mission; those count that it does not have itself.
+    Stops,
+    /// Samples of a soil, in rows.
+    Samples,
+    /// A mapping of telemetry, in readings; those that find a topic or a column count.
+    Mapping,
     /// Tests of a wheel, in rows.
     WheelTests,
     /// A rover on slopes, in rows.
@@ -64,6 +70,9 @@ impl FileContent {
             Self::KeepOut => "areas to keep out of",
             Self::Way => "a way",
             Self::Legs => "legs",
+            Self::Stops => "limits",
+            Self::Samples => "samples of a soil",
+            Self::Mapping => "a mapping of telemetry",
             Self::WheelTests => "wheel tests",
             Self::SlopeTests => "a rover on slopes",
             Self::PlateTests => "plate tests",
@@ -81,8 +90,10 @@ impl FileContent {
             Self::Zones | Self::KeepOut => "areas",
             Self::Way => "places",
             Self::Legs => "legs",
-            Self::MotorLog => "readings",
-            Self::WheelTests
+            Self::Stops => "limits",
+            Self::MotorLog | Self::Mapping => "readings",
+            Self::Samples
+            | Self::WheelTests
             | Self::SlopeTests
             | Self::PlateTests
             | Self::ShearTests

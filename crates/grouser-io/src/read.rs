@@ -165,12 +165,12 @@ pub(crate) fn understood<V: Described>(
         key => document.part(Kind::Soil, key),
     });
     let assumed = soil.as_ref().map_or_else(Vec::new, priors::assumed);
-    let (value, NamedFiles { given, notes }) = V::read(&document, &tree)?;
+    let (value, NamedFiles { mut given, notes }) = V::read(&document, &tree)?;
     let mut companions = Vec::new();
     let uncertain = match kind.soil_key() {
         Some(key) => {
             let soil = tree.entry(key).map_or(&tree, |entry| &entry.node);
-            uncertain_soil::read(&mut document, key, soil, &mut companions)?
+            uncertain_soil::read(&mut document, key, soil, (&mut companions, &mut given))?
         }
         None => None,
     };

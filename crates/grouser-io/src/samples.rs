@@ -7,6 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::error::{DocumentError, Problem};
+use super::given_file::{FileContent, GivenFile};
 use super::lines::{cells, check_count, lines};
 use super::source::read_file;
 use super::tree::{Origin, Text};
@@ -86,6 +87,12 @@ impl SampleTable {
     /// * `label`: what messages call it
     pub fn of_text(label: String, content: String) -> Result<Self, DocumentError> {
         Self::parse(Arc::new(Text { label, content, ..Text::default() }))
+    }
+
+    /// What it gave.
+    pub(super) fn given(&self) -> GivenFile {
+        let rows = self.rows.len() as u64;
+        GivenFile::new(self.text.label.clone(), FileContent::Samples, rows, rows)
     }
 
     fn parse(text: Arc<Text>) -> Result<Self, DocumentError> {

@@ -1,9 +1,12 @@
 //! Limits of a mission that stand in a file of their own: a table `[stop]`, as `grouser card
 //! --stops` writes it.
 
+use std::sync::Arc;
+
 use serde_json::Value as Json;
 
 use super::error::{DocumentError, Problem};
+use super::given_file::{FileContent, GivenFile};
 use super::legs_file;
 use super::mission::STOP_FROM;
 use super::text::parse;
@@ -47,6 +50,20 @@ fn read(name: &str, named: &Node) -> Result<Entry, DocumentError> {
         DocumentError::at(&tree.origin, problem)
             .with_hint("a file of limits has one table, [stop]".to_owned())
     })
+}
+
+/// What the file of a mission's limits gave; nothing where none of them counts, or there is no file.
+pub(crate) fn given(mission: &Node) -> Option<GivenFile> {
+    let limits = mission.entry(STOP)?.node.entries();
+    let of_file = |limit: &Entry| {
+        let text = &limit.node.origin.text;
+        let file: Json = toml::from_str(&text.content).ok()?;
+        let all = file[STOP].as_object().filter(|all| all.contains_key(&limit.key))?.len();
+        (!Arc::ptr_eq(text, &mission.origin.text)).then(|| (text.label.clone(), all as u64))
+    };
+    let found: Vec<(String, u64)> = limits.iter().filter_map(of_file).collect();
+    let (file, there) = found.first()?.clone();
+    Some(GivenFile::new(file, FileContent::Stops, there, found.len() as u64))
 }
 
 /// A limit of a file that a mission has itself, with another number.

@@ -361,15 +361,7 @@ fn column_of(written: &str, at: &At<'_>) -> Result<&'static LogColumn, DocumentE
 
 /// The size of a unit in SI, if it measures what the column holds.
 fn size_of(unit: &str, column: &LogColumn, at: &At<'_>) -> Result<f64, DocumentError> {
-    let dimension = match column.unit.symbol {
-        "m" | "mm" => Dimension::Length,
-        "°" => Dimension::Angle,
-        "rad/s" => Dimension::AngularSpeed,
-        "N·m" => Dimension::Moment,
-        "A" => Dimension::Current,
-        _ => Dimension::Text,
-    };
-    dimension.size_of(unit).map_err(|known| {
+    column.dimension().size_of(unit).map_err(|known| {
         at.not_allowed(unit, format!("a unit of `{}`: {}", column.name, known.join(", ")))
     })
 }

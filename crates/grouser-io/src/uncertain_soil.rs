@@ -9,6 +9,7 @@ use super::describe::uncertainty::UNCERTAINTY;
 use super::document::Document;
 use super::error::{DocumentError, Problem};
 use super::field::Inner as _;
+use super::given_file::GivenFile;
 use super::kind::Kind;
 use super::priors::{stated_by_priors, without_priors_of};
 use super::samples::{MODEL, RowsOfModel};
@@ -211,7 +212,7 @@ pub(crate) fn read(
     document: &mut Document,
     place: &str,
     tree: &Node,
-    companions: &mut Vec<Companion>,
+    (companions, given): (&mut Vec<Companion>, &mut Vec<GivenFile>),
 ) -> Result<Option<UncertainSoil>, DocumentError> {
     let soil =
         if place.is_empty() { Some(document.clone()) } else { document.part(Kind::Soil, place) };
@@ -259,6 +260,7 @@ pub(crate) fn read(
                 *samples = name.clone().into();
             }
         });
+        given.push(table.given());
         companions.push(Companion { name, content: table.into_content() });
     }
     Ok(Some(soils))

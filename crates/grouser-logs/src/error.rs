@@ -92,10 +92,10 @@ pub enum Problem {
     /// A table that is read by a mapping, of whose columns none has the time.
     #[error("none of its columns is known as the time, and the mapping names none: {}", listed(.0))]
     NoTime(Vec<String>),
-    /// A choice of topics without a mapping, or a mapping for Parquet.
+    /// A choice of topics without a mapping.
     #[error(
-        "this is a table, which is read by the names of its columns; a mapping is for tables in CSV \
-         and for logs of messages, and chooses topics"
+        "this is a table, which is read by the names of its columns; with a mapping, topics can be \
+         chosen"
     )]
     NoMessages,
     /// A file of Parquet that is damaged, or written in a way that is not read.
@@ -139,7 +139,7 @@ impl TelemetryError {
                     .to_owned(),
             ),
             Problem::OverBudget(_) => Some(
-                "--max-unpacked-mib N reads more, if it is meant so; or unpack it first, such as \
+                "a larger `max_unpacked_mib` reads more, if it is meant so; or unpack it first, such as \
                  by `mcap decompress LOG -o UNPACKED`"
                     .to_owned(),
             ),

@@ -22,6 +22,8 @@ use crate::mapping::topic::Topic;
 pub struct Mapping {
     /// What messages call it.
     pub(crate) label: String,
+    /// Whether it is no built-in one.
+    pub(crate) is_file: bool,
     pub(crate) rules: TelemetryMapping,
 }
 
@@ -62,7 +64,8 @@ impl Mapping {
             }
             _ => error,
         });
-        Ok(Self { label, rules: read?.value })
+        let is_file = !matches!(source, Source::Preset(_));
+        Ok(Self { label, is_file, rules: read?.value })
     }
 
     /// The first built-in mapping that reads a log; nothing if none knows one of its topics.

@@ -9,6 +9,7 @@ pub(crate) mod writer;
 use std::cell::Cell;
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek as _};
+use std::iter;
 use std::path::Path;
 use std::rc::Rc;
 
@@ -20,11 +21,12 @@ use grouser_io::measurements::telemetry::{
 };
 use grouser_io::{escape, file};
 
-use self::mapped::MappedTable;
+use self::mapped::{MappedTable, Rows};
 use self::mcap::McapLog;
 use self::options::LogOptions;
-use self::parquet::ParquetLog;
+use self::parquet::{ParquetCells, ParquetLog};
 use crate::error::{OverBudget, Problem, TelemetryError};
+use crate::mapping::messages::MessageRows;
 use crate::mcap::format::MAGIC;
 
 /// How a file that is packed by gzip begins.
@@ -37,9 +39,9 @@ pub struct TelemetryLog {
 }
 
 enum Source {
-    Csv { reader: TelemetryReader<'static, LastByte>, ended_in_row: Rc<Cell<bool>> },
+    Csv { reader: Box<TelemetryReader<'static, LastByte>>, ended_in_row: Rc<Cell<bool>> },
     Mapped { table: Box<MappedTable<LastByte>>, ended_in_row: Rc<Cell<bool>> },
-    Parquet(ParquetLog),
+    Parquet(Box<ParquetLog>),
     Mcap(Box<McapLog>),
 }
 
@@ -47,7 +49,7 @@ impl TelemetryLog {
     /// Opens a file; its first bytes say what it is.
     ///
     /// * `rover`: the rover that was driven, for the names of its wheels
-    /// * `options`: how it is read; of CSV a mapping says which columns are which, as it says of
+    /// * `options`: how it is read; of a table a mapping says which columns are which, as it says of
     ///   the fields of messages
     ///
     /// # Errors
@@ -74,11 +76,7 @@ impl TelemetryLog {
             return Ok(Self { label, source: Source::Mcap(Box::new(log)) });
         }
         if start.starts_with(parquet::MAGIC) {
-            if options.is_of_messages() {
-                return Err(TelemetryError::new(&label, Problem::NoMessages));
-            }
-            let log = ParquetLog::new(&label, file, rover, options.odometry)?;
-            return Ok(Self { label, source: Source::Parquet(log) });
+            return Self::of_parquet(&label, file, rover, options);
         }
         let source: Box<dyn Read> = if start.starts_with(GZIP) {
             let budget = options.budget(&file).map_err(of_disk)?;
@@ -105,16 +103,31 @@ impl TelemetryLog {
         rover: &Rover,
         options: &LogOptions,
     ) -> Result<Self, TelemetryError> {
-        let Some(mapping) = &options.mapping else {
-            return if options.topics.is_empty() {
-                Self::of_csv(label, source, rover, options)
-            } else {
-                Err(TelemetryError::new(label, Problem::NoMessages))
-            };
+        let Some(mapping) = options.mapping_of_table(label)? else {
+            return Self::of_csv(label, source, rover, options);
         };
         let (source, ended_in_row) = LastByte::of(source);
-        let table = Box::new(MappedTable::new(label, source, mapping, rover, options)?);
+        let rows = Rows::of_csv(label, source)?;
+        let table = Box::new(MappedTable::new(label, rows, mapping, rover, options)?);
         Ok(Self { label: label.to_owned(), source: Source::Mapped { table, ended_in_row } })
+    }
+
+    fn of_parquet(
+        label: &str,
+        file: File,
+        rover: &Rover,
+        options: &LogOptions,
+    ) -> Result<Self, TelemetryError> {
+        let mapping = options.mapping_of_table(label)?;
+        let cells = ParquetCells::new(label, file)?;
+        let source = if let Some(mapping) = mapping {
+            let rows = Rows::Parquet(Box::new(cells.with_numbers()));
+            let table = Box::new(MappedTable::new(label, rows, mapping, rover, options)?);
+            Source::Mapped { table, ended_in_row: Rc::default() }
+        } else {
+            Source::Parquet(Box::new(ParquetLog::new(cells, rover, options.odometry)?))
+        };
+        Ok(Self { label: label.to_owned(), source })
     }
 
     /// Reads CSV as it comes, such as from standard input.
@@ -132,7 +145,7 @@ impl TelemetryLog {
     ) -> Result<Self, TelemetryError> {
         let (source, ended_in_row) = LastByte::of(source);
         let reader = TelemetryReader::new(label.to_owned(), source, rover)?;
-        let reader = reader.measured_by(options.odometry.unwrap_or(Odometry::Visual));
+        let reader = Box::new(reader.measured_by(options.odometry.unwrap_or(Odometry::Visual)));
         Ok(Self { label: label.to_owned(), source: Source::Csv { reader, ended_in_row } })
     }
 
@@ -179,26 +192,22 @@ impl TelemetryLog {
         self.table().lost()
     }
 
-    /// What it gave so far.
+    /// What it gave so far, and what a mapping of the user's did.
     #[must_use]
-    pub fn given(&self) -> GivenFile {
-        let given = self.table().given(self.label());
-        let unread = match &self.source {
-            Source::Parquet(log) => log.unread(),
-            Source::Csv { .. } | Source::Mapped { .. } | Source::Mcap(_) => 0,
-        };
-        GivenFile { there: given.there + unread, ..given }
+    pub fn given(&self) -> Vec<GivenFile> {
+        let log = self.table().given(self.label());
+        let unread = self.parquet().map_or(0, ParquetCells::unread);
+        let log = GivenFile { there: log.there + unread, ..log };
+        let mapping = self.messages().and_then(MessageRows::given_mapping).cloned();
+        iter::once(log).chain(mapping).collect()
     }
 
     /// The share of its rows, or readings, that was used so far [-].
     #[must_use]
     pub fn share_used(&self) -> f64 {
-        match &self.source {
-            Source::Csv { reader, .. } => reader.rows().share_used(),
-            Source::Mapped { table, .. } => table.share_used(),
-            Source::Parquet(log) => log.share_used(),
-            Source::Mcap(log) => log.share_used(),
-        }
+        let rows = || self.table().share_used();
+        let of_read = self.messages().map_or_else(rows, MessageRows::share_used);
+        self.parquet().map_or(of_read, |cells| cells.share_used(of_read))
     }
 
     /// What was left out so far, and what is not used: a sentence each.
@@ -213,7 +222,7 @@ impl TelemetryLog {
         let of_kind = match &self.source {
             Source::Csv { .. } => Vec::new(),
             Source::Mapped { table, .. } => table.notes(),
-            Source::Parquet(log) => log.notes(),
+            Source::Parquet(log) => log.cells().notes(),
             Source::Mcap(log) => log.notes(),
         };
         let table = self.table();
@@ -225,9 +234,27 @@ impl TelemetryLog {
     fn table(&self) -> &TelemetryRows {
         match &self.source {
             Source::Csv { reader, .. } => reader.rows(),
-            Source::Mapped { table, .. } => table.rows(),
+            Source::Mapped { table, .. } => table.messages().rows(),
             Source::Parquet(log) => log.rows(),
-            Source::Mcap(log) => log.rows(),
+            Source::Mcap(log) => log.messages().rows(),
+        }
+    }
+
+    /// The messages that become records, of what is read by a mapping.
+    fn messages(&self) -> Option<&MessageRows> {
+        match &self.source {
+            Source::Csv { .. } | Source::Parquet(_) => None,
+            Source::Mapped { table, .. } => Some(table.messages()),
+            Source::Mcap(log) => Some(log.messages()),
+        }
+    }
+
+    /// The file of Parquet that it is, if it is one.
+    fn parquet(&self) -> Option<&ParquetCells> {
+        match &self.source {
+            Source::Csv { .. } | Source::Mcap(_) => None,
+            Source::Mapped { table, .. } => table.parquet(),
+            Source::Parquet(log) => Some(log.cells()),
         }
     }
 }
@@ -251,7 +278,8 @@ struct Unpacked<R> {
 impl<R: Read> Read for Unpacked<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let count = self.source.read(buffer)?;
-        let over = || io::Error::other(format!("{}; --max-unpacked-mib N reads more", self.budget));
+        let over =
+            || io::Error::other(format!("{}; a larger `max_unpacked_mib` reads more", self.budget));
         self.rest = self.rest.checked_sub(count as u64).ok_or_else(over)?;
         Ok(count)
     }

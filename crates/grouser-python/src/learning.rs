@@ -7,6 +7,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use grouser::document::LoadedScenario;
 use grouser::document::columns::Quantity;
 use grouser::document::columns::learn as columns;
+use grouser::document::given_file::GivenFile;
 use grouser::document::learn::{KeptDrive, LearntSoil, NotBelieved, StateError, state_text};
 use grouser::document::measurements::telemetry::{Cell, Odometry, TelemetryRows};
 use grouser::studies::learn::{Drive, LearnSettings, Learner as Learning, LearntSample, Lesson};
@@ -19,7 +20,7 @@ use crate::columns::table_to_python;
 use crate::descriptions::Document;
 use crate::interrupt::listening;
 use crate::studies::{Problem, SAMPLES, slopes, wheel_names};
-use crate::telemetry::odometry_named;
+use crate::telemetry::{bytes, files, odometry_named};
 use crate::wheels::check;
 use crate::{errors, threads};
 
@@ -29,9 +30,16 @@ pub(crate) struct Learner {
     scenario: LoadedScenario,
     slope_is_known: bool,
     drive: Mutex<Drive>,
-    /// What there is to say of the telemetry that was taken last, besides what was left out of its
-    /// rows.
-    notes_of_source: Mutex<Vec<String>>,
+    source: Mutex<OfSource>,
+}
+
+/// What there is to say of telemetry that was taken.
+#[derive(Clone, Default)]
+struct OfSource {
+    /// Of the last, besides what was left out of its rows.
+    notes: Vec<String>,
+    /// What logs and their mappings gave.
+    given: Vec<GivenFile>,
 }
 
 /// Tables of what was learnt: stretches, and warnings.
@@ -102,7 +110,7 @@ impl Learner {
         let odometry = odometry_named(odometry)?.unwrap_or(Odometry::Visual);
         let last_time = self.drive().last_time();
         let rover = &self.scenario.value.rover;
-        let rows = TelemetryRows::new("the telemetry", names, rover).map_err(|error| {
+        let rows = TelemetryRows::new("the telemetry", &names, rover).map_err(|error| {
             errors::parameter(error.to_string(), "telemetry", None, "columns of telemetry")
         })?;
         let mut rows = rows.after(last_time).measured_by(odometry);
@@ -132,8 +140,11 @@ impl Learner {
         py: Python<'py>,
         log: PathBuf,
         odometry: Option<&str>,
+        max_unpacked_mib: Option<u64>,
     ) -> PyResult<Taught<'py>> {
-        let options = LogOptions::default().with_odometry(odometry_named(odometry)?);
+        let options = LogOptions::default()
+            .with_odometry(odometry_named(odometry)?)
+            .with_most_unpacked(bytes(max_unpacked_mib));
         let lessons = threads::detached(py, || {
             let rover = &self.scenario.value.rover;
             let mut source = TelemetryLog::open(&log, rover, &options)?;
@@ -147,6 +158,7 @@ impl Learner {
             }
             drive.note_lost(before.and(source.lost()));
             self.note(source.notes_of_source());
+            self.source().given.extend(source.given());
             Ok::<_, TelemetryError>(lessons)
         })?;
         taught(py, &lessons.map_err(|error| errors::of_telemetry(&error))?)
@@ -156,7 +168,13 @@ impl Learner {
     /// count, too.
     fn finished(&self) -> PyResult<Self> {
         let drive = errors::caught(|| self.drive().finished())?;
-        Ok(Self::of(self.scenario.clone(), self.slope_is_known, drive))
+        let source = Mutex::new(self.source().clone());
+        Ok(Self { source, ..Self::of(self.scenario.clone(), self.slope_is_known, drive) })
+    }
+
+    /// What logs and the files of documents gave.
+    fn files(&self) -> String {
+        files(&[&self.source().given[..], &self.scenario.given].concat())
     }
 
     /// All that was learnt on the way: stretches, and warnings.
@@ -250,7 +268,7 @@ impl Learner {
     /// What was left out of the telemetry, and why stretches taught nothing, a sentence each.
     fn notes(&self) -> Vec<String> {
         let drive = self.drive();
-        let of_source = self.notes_of_source.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let of_source = self.source().notes.clone();
         let lost = drive.lost().sentences();
         lost.into_iter().chain(of_source).chain(drive.learner().notes()).collect()
     }
@@ -273,20 +291,19 @@ impl Learner {
 
 impl Learner {
     fn of(scenario: LoadedScenario, slope_is_known: bool, drive: Drive) -> Self {
-        Self {
-            scenario,
-            slope_is_known,
-            drive: Mutex::new(drive),
-            notes_of_source: Mutex::default(),
-        }
+        Self { scenario, slope_is_known, drive: Mutex::new(drive), source: Mutex::default() }
     }
 
     fn drive(&self) -> MutexGuard<'_, Drive> {
         self.drive.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    fn source(&self) -> MutexGuard<'_, OfSource> {
+        self.source.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     fn note(&self, notes: Vec<String>) {
-        *self.notes_of_source.lock().unwrap_or_else(PoisonError::into_inner) = notes;
+        self.source().notes = notes;
     }
 
     fn learnt_soil(&self, log: &str, samples: u32, seed: u64) -> PyResult<LearntSoil> {

@@ -5,6 +5,7 @@ use std::io::Cursor;
 use std::path::PathBuf;
 
 use grouser::document::columns::replay as columns;
+use grouser::document::given_file::GivenFile;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::replay::{NothingToReplay, Replay, Replayer};
 use grouser_logs::{LogOptions, TelemetryError, TelemetryLog};
@@ -14,7 +15,7 @@ use pyo3::types::PyDict;
 use crate::columns::table_to_python;
 use crate::descriptions::Document;
 use crate::studies::Problem;
-use crate::telemetry::odometry_named;
+use crate::telemetry::{HowRead, bytes, files, odometry_named};
 use crate::{errors, threads};
 
 /// Why there is no replay.
@@ -23,23 +24,24 @@ enum NoReplay {
     Nothing(NothingToReplay),
 }
 
-/// Tables over time, of channels and of findings; what the differences point to, notes, and the
-/// names of the wheels.
+/// Tables over time, of channels and of findings; what the differences point to, notes, the names of
+/// the wheels, and what files gave.
 type Replayed<'py> = (
     (Bound<'py, PyDict>, Bound<'py, PyDict>, Bound<'py, PyDict>),
     Vec<String>,
     Vec<String>,
     Vec<String>,
+    String,
 );
 
 /// * `path`: of the telemetry, or what messages call its text
 /// * `text`: CSV, in place of the file's
 /// * `slope_is_known`: whether the scenario's slope is that of the drive
 /// * `sampling`: how many samples of soil and model, 0 to take both as known, and their seed
-/// * `odometry`: what measured ways and rotations, if that is stated
+/// * `how`: how the log is read
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
-#[pyo3(signature = (scenario, path, text, slope_is_known, sampling, odometry=None))]
+#[pyo3(signature = (scenario, path, text, slope_is_known, sampling, how=(None, None)))]
 pub(crate) fn replay<'py>(
     py: Python<'py>,
     scenario: &Document,
@@ -47,33 +49,36 @@ pub(crate) fn replay<'py>(
     text: Option<String>,
     slope_is_known: bool,
     sampling: (u32, u64),
-    odometry: Option<&str>,
+    how: HowRead,
 ) -> PyResult<Replayed<'py>> {
     let (loaded, (count, seed)) = (scenario.scenario()?, sampling);
     let inputs = BandInputs::of_scenario(loaded);
     let samples = threads::detached(py, || inputs.samples(seed, count))?;
     let samples = samples.map_err(|error| Problem::Sampling(error).raised())?;
     let slope = loaded.value.ground.plane_slope().filter(|_| slope_is_known);
-    let options = LogOptions::default().with_odometry(odometry_named(odometry)?);
-    let label = path.display().to_string();
-    let found = threads::detached(py, || -> Result<(Replay, Vec<String>), NoReplay> {
-        let mut replayer = Replayer::new(&loaded.value, slope);
-        let rover = &loaded.value.rover;
-        let log = match text {
-            Some(text) => {
-                TelemetryLog::of_table(&label, Box::new(Cursor::new(text)), rover, &options)
+    let options = LogOptions::default().with_odometry(odometry_named(how.0.as_deref())?);
+    let options = options.with_most_unpacked(bytes(how.1));
+    let (label, is_file) = (path.display().to_string(), text.is_none());
+    let found =
+        threads::detached(py, || -> Result<(Replay, Vec<String>, Vec<GivenFile>), NoReplay> {
+            let mut replayer = Replayer::new(&loaded.value, slope);
+            let rover = &loaded.value.rover;
+            let log = match text {
+                Some(text) => {
+                    TelemetryLog::of_table(&label, Box::new(Cursor::new(text)), rover, &options)
+                }
+                None => TelemetryLog::open(&path, rover, &options),
+            };
+            let mut log = log.map_err(NoReplay::Telemetry)?;
+            while let Some(record) = log.next_record().map_err(NoReplay::Telemetry)? {
+                replayer.update(record);
             }
-            None => TelemetryLog::open(&path, rover, &options),
-        };
-        let mut log = log.map_err(NoReplay::Telemetry)?;
-        while let Some(record) = log.next_record().map_err(NoReplay::Telemetry)? {
-            replayer.update(record);
-        }
-        let replay = replayer.finish(&samples, &|| true).map_err(NoReplay::Nothing)?;
-        let Some(replay) = replay else { unreachable!("it was not stopped") };
-        Ok((replay, log.notes()))
-    })?;
-    let (replay, mut notes) = found.map_err(|error| match error {
+            let replay = replayer.finish(&samples, &|| true).map_err(NoReplay::Nothing)?;
+            let Some(replay) = replay else { unreachable!("it was not stopped") };
+            let given = if is_file { log.given() } else { Vec::new() };
+            Ok((replay, log.notes(), given))
+        })?;
+    let (replay, mut notes, mut given) = found.map_err(|error| match error {
         NoReplay::Telemetry(error) => errors::of_telemetry(&error),
         NoReplay::Nothing(error) => {
             errors::parameter(error.to_string(), "log", None, "telemetry with wheel speeds")
@@ -87,5 +92,6 @@ pub(crate) fn replay<'py>(
         table_to_python(py, columns::findings(&replay))?,
     );
     let wheels = rover.mounts().iter().map(|mount| mount.name.clone()).collect();
-    Ok((tables, columns::sentences(&replay), notes, wheels))
+    given.extend(loaded.given.iter().cloned());
+    Ok((tables, columns::sentences(&replay), notes, wheels, files(&given)))
 }

@@ -2,9 +2,11 @@
 
 use std::fs::File;
 use std::io::BufWriter;
+use std::iter;
 use std::path::{Path, PathBuf};
 
 use grouser::document::escape;
+use grouser::document::given_file::GivenFile;
 use grouser::document::measurements::telemetry::{Odometry, TelemetryRecord};
 use grouser::vehicle::Rover;
 use grouser_logs::{
@@ -20,7 +22,12 @@ use crate::interrupt::listening;
 /// Names of topics by the types of their messages.
 type Choices = Vec<(String, String)>;
 
-/// Converts a log that the library reads: how many records there are, and what was noticed.
+/// How a log is read: what measured ways and rotations, and the most that is unpacked [MiB], each if
+/// it is stated.
+pub(crate) type HowRead = (Option<String>, Option<u64>);
+
+/// Converts a log that the library reads: how many records there are, what was noticed, and what its
+/// files gave.
 ///
 /// * `out`: the file that is written, Parquet by its suffix, or else CSV
 /// * `mapping`: a file, or the name of a built-in one
@@ -33,20 +40,32 @@ pub(crate) fn import_telemetry(
     rover: &Document,
     mapping: Option<PathBuf>,
     choices: Choices,
-    odometry: Option<&str>,
-) -> PyResult<(u64, Vec<String>)> {
+    how: HowRead,
+) -> PyResult<(u64, Vec<String>, String)> {
     let rover = rover.scenario()?.value.rover.clone();
-    let odometry = odometry_named(odometry)?;
-    let convert = move || -> Result<(u64, Vec<String>), Failed> {
-        let options = log_options(mapping.as_deref(), choices, odometry)?;
+    let (odometry, budget) = (odometry_named(how.0.as_deref())?, bytes(how.1));
+    let convert = move || -> Result<(u64, Vec<String>, String), Failed> {
+        let options =
+            log_options(mapping.as_deref(), choices, odometry)?.with_most_unpacked(budget);
         let mut log = TelemetryLog::open(&log, &rover, &options)?;
         let mut table = Table::create(out, &rover)?;
         while let Some(record) = log.next_record()? {
             table.write(&record)?;
         }
-        Ok((table.finish()?, log.notes()))
+        Ok((table.finish()?, log.notes(), files(&log.given())))
     };
     listening(py, move |_| convert())?.map_err(Failed::raised)
+}
+
+/// The most that is unpacked of a packed log [bytes], if it is stated.
+pub(crate) fn bytes(mebibytes: Option<u64>) -> Option<u64> {
+    mebibytes.map(|it| it << 20)
+}
+
+/// What files gave, as JSON has it.
+pub(crate) fn files(given: &[GivenFile]) -> String {
+    // What has numbers and texts alone can be written.
+    serde_json::to_string(given).unwrap_or_default()
 }
 
 /// What measured ways and rotations, by its name.
@@ -125,6 +144,7 @@ impl Table {
 /// Messages that Python decodes, on their way into a table.
 #[pyclass(module = "grouser._core")]
 pub(crate) struct TelemetryMessages {
+    label: String,
     rows: MessageRows,
     table: Option<Table>,
 }
@@ -151,7 +171,8 @@ impl TelemetryMessages {
             let topic = |(name, message)| Topic { name, message, encoding: None };
             let topics: Vec<Topic> = topics.into_iter().map(topic).collect();
             let rows = MessageRows::new(label, &topics, rover, &options)?;
-            Ok(Self { rows, table: Some(Table::create(out, rover)?) })
+            let label = label.to_owned();
+            Ok(Self { label, rows, table: Some(Table::create(out, rover)?) })
         };
         begin().map_err(Failed::raised)
     }
@@ -177,8 +198,8 @@ impl TelemetryMessages {
         self.rows.damaged_message();
     }
 
-    /// Writes the rest: how many records there are, and what was noticed.
-    fn finish(&mut self) -> PyResult<(u64, Vec<String>)> {
+    /// Writes the rest: how many records there are, what was noticed, and what log and mapping gave.
+    fn finish(&mut self) -> PyResult<(u64, Vec<String>, String)> {
         errors::caught(|| self.rows.end())?;
         self.drain()?;
         let records = match self.table.take() {
@@ -187,7 +208,11 @@ impl TelemetryMessages {
         };
         let lost = self.rows.rows().lost().sentences();
         let odometry = self.rows.rows().sentence_of_odometry();
-        Ok((records, self.rows.notes().into_iter().chain(odometry).chain(lost).collect()))
+        let notes = self.rows.notes().into_iter().chain(odometry).chain(lost).collect();
+        let log = self.rows.rows().given(&self.label);
+        let given: Vec<GivenFile> =
+            iter::once(log).chain(self.rows.given_mapping().cloned()).collect();
+        Ok((records, notes, files(&given)))
     }
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import gzip
 import math
 import subprocess
 import sys
@@ -302,3 +303,30 @@ def test_the_module_is_a_command(tmp_path: Path) -> None:
     assert "1 cells of `roll_deg`" in done.stderr and "2 records of telemetry" in done.stderr
     again = subprocess.run(command, capture_output=True, text=True, check=False)
     assert again.returncode == 2 and again.stderr.startswith("error: ")
+
+
+def test_logs_say_what_they_gave_and_have_a_budget(tmp_path: Path) -> None:
+    run = gr.simulate(rover="hakuto", slope_deg=8.0, duration_s=20.0, simulation="quasi-steady")
+    text = run.to_pandas().to_csv(index=False)
+    rows = len(text.splitlines()) - 1
+    log = tmp_path / "drive.csv.gz"
+    with gzip.open(log, "wt") as file:
+        file.write(text + "x,\n")
+    of_log = {"content": "telemetry", "counted": "rows", "there": rows + 1, "used": rows}
+    prior = {"prior": "toyoura-uncertain", "rover": "hakuto", "model": "ishigami"}
+    learner = gr.learn(log, slope_deg=8.0, **prior)
+    replayed = gr.replay(log, rover="hakuto", slope_deg=8.0, model="ishigami")
+    imported = gr.import_telemetry(log, tmp_path / "out.csv", rover="hakuto")
+    for files in (learner.files, replayed.attrs["files"], imported.files):
+        [found] = files
+        assert found == {"file": str(log), **of_log}
+    # Zeros are packed to a thousandth of their size.
+    large = tmp_path / "large.csv.gz"
+    with gzip.open(large, "wt") as file:
+        file.write(text)
+        file.write(("0" * 9_999 + "\n") * 200)
+    with pytest.raises(gr.GrouserError, match="`max_unpacked_mib` reads more"):
+        gr.learn(large, max_unpacked_mib=1, slope_deg=8.0, **prior)
+    assert gr.learn(large, max_unpacked_mib=8, slope_deg=8.0, **prior).learnt["records"] > 0
+    with pytest.raises(gr.ParameterError, match="max_unpacked_mib"):
+        gr.learn(log, max_unpacked_mib=-1, **prior)

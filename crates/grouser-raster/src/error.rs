@@ -78,7 +78,7 @@ pub enum Fault {
     UnknownFormat,
     /// More cells than are read.
     #[error(
-        "has {columns} × {rows} cells, and at most {limit} are read of it\nhint: cut out the area of the drive: gdal_translate -projwin WEST NORTH EAST SOUTH IN OUT.tif; --max-cells of map and route reads more"
+        "has {columns} × {rows} cells, and at most {limit} are read of it\nhint: cut out the area of the drive: gdal_translate -projwin WEST NORTH EAST SOUTH IN OUT.tif"
     )]
     TooLarge {
         /// Cells in a row.

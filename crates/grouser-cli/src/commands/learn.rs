@@ -180,8 +180,8 @@ struct Ended {
     notes: Vec<String>,
     /// The record of a last row that may not be whole: it counts, but what is kept ends before it.
     last: Option<TelemetryRecord>,
-    /// What it gave; nothing where nobody knows.
-    given: Option<GivenFile>,
+    /// What it and its mapping gave; nothing where nobody knows.
+    given: Vec<GivenFile>,
     /// The share of the log that was used [-].
     share_used: f64,
 }

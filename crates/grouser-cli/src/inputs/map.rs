@@ -8,7 +8,7 @@ use grouser::document::{self, LoadedScenario, escape};
 use grouser::studies::mobility::{CourseChoice, Ground};
 use grouser::studies::verdict::SlopeStudy;
 use grouser_raster::zones::geojson::compare_system_of;
-use grouser_raster::{Raster, RasterError, ReadOptions};
+use grouser_raster::{Fault, Raster, RasterError, ReadOptions};
 
 use super::card::{rim_speed, rule};
 use super::{balanced, check_numbers, refuse_sampled_keys};
@@ -65,7 +65,10 @@ pub(super) fn dem(
     missing: Option<f64>,
 ) -> Result<Raster, Failure> {
     let options = ReadOptions { cells, missing, ..ReadOptions::default() };
-    let raster = grouser_raster::read(path, &options)?;
+    let raster = grouser_raster::read(path, &options).map_err(|error| match error.fault {
+        Fault::TooLarge { .. } => Failure::Usage(format!("{error}; or --max-cells N reads more")),
+        _ => error.into(),
+    })?;
     output::notes(raster.remarks.iter().map(|remark| {
         let text = remark.in_words(|height| format!("`--missing-m {height}`"));
         format!("{}: {}", escape::path(path), escape::line(&text))
@@ -86,7 +89,7 @@ pub(super) fn check_system(file: &Path, map: &Raster) -> Result<(), Failure> {
 impl From<RasterError> for Failure {
     fn from(error: RasterError) -> Self {
         match error.fault {
-            grouser_raster::Fault::Disk(_) => Self::Run(error.to_string()),
+            Fault::Disk(_) => Self::Run(error.to_string()),
             _ => Self::Usage(error.to_string()),
         }
     }

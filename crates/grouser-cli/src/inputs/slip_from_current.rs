@@ -76,7 +76,7 @@ pub(crate) fn slip_from_current(args: &SlipFromCurrentArgs) -> Result<SlipInputs
         of_telemetry(args, &choice, &scenario.value.rover)?
     } else {
         let log = read_motor_log(&label, &bytes, &choice, &scenario.value.rover)?;
-        let given = log.given(&label);
+        let given = vec![log.given(&label)];
         (log, given, Vec::new())
     };
     let one = |numbers: &Option<Numbers>| numbers.as_ref().map(|it| it.0[0]);
@@ -98,7 +98,7 @@ fn of_telemetry(
     args: &SlipFromCurrentArgs,
     choice: &LogChoice,
     rover: &Rover,
-) -> Result<(MotorLog, GivenFile, Vec<String>), Failure> {
+) -> Result<(MotorLog, Vec<GivenFile>, Vec<String>), Failure> {
     let mut telemetry = telemetry_without_way(&args.log, &args.log_args, rover)?;
     let mut log = MotorLogOfTelemetry::default();
     let most = choice.limits.rows;

@@ -18,11 +18,9 @@ const STANDARD_INPUT: &str = "-";
 
 impl From<TelemetryError> for Failure {
     fn from(error: TelemetryError) -> Self {
-        if error.is_environment() {
-            Self::Run(error.to_string())
-        } else {
-            Self::Usage(error.to_string())
-        }
+        let budget = ("a larger `max_unpacked_mib` reads", "--max-unpacked-mib N reads");
+        let message = error.to_string().replacen(budget.0, budget.1, 1);
+        if error.is_environment() { Self::Run(message) } else { Self::Usage(message) }
     }
 }
 

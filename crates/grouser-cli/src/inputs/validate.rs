@@ -117,7 +117,9 @@ pub(crate) fn drive_validation(
                 for note in log.notes() {
                     notes.add(&name, note);
                 }
-                given.push(GivenFile { file: name, ..log.given() });
+                let mut files = log.given().into_iter();
+                given.extend(files.next().map(|log| GivenFile { file: name, ..log }));
+                given.extend(files.filter(|it| !given.contains(it)).collect::<Vec<_>>());
                 drives.push(drive);
             }
             Err(error) => {

@@ -135,3 +135,37 @@ fn logs_and_tests_say_how_many_rows_count() {
     let text = place.line(fit).stdout;
     assert!(text.contains("plates.csv: plate tests, 6 of 7 rows"), "{text}");
 }
+
+/// Samples that a soil names, limits of a mission that are not its own, and a mapping: each has its
+/// line.
+#[test]
+fn files_that_documents_and_options_name_say_what_they_gave() {
+    let place = place();
+    let soil = place.results("presets toyoura --kind soil");
+    place.write("soil.toml", soil + "[uncertainty]\nsamples = \"samples.csv\"\n");
+    place.write("samples.csv", "friction_angle_deg,exit.ratio\n38,1.0\n37,0.9\n36.5,0.95\n");
+    let samples = given("samples.csv", "samples of a soil", "rows", [3, 3]);
+    let heading = place.json("heading --soil soil.toml --slope-deg 5");
+    assert_eq!(files(&heading), std::slice::from_ref(&samples));
+
+    let mission = "schema = \"mission/1\"\nname = \"m\"\nstop_from = \"stops.toml\"\n[stop]\nroll_deg = 20.0\n\
+                   [[leg]]\ndrive_m = 0.1\nspeed_m_s = 0.05\n";
+    place.write("stopped.toml", mission);
+    place.write("stops.toml", "[stop]\nroll_deg = 10.0\nslip_ratio = 0.9\n");
+    let driven = place.json("mission stopped.toml --nominal");
+    assert_eq!(files(&driven), [given("stops.toml", "limits", "limits", [2, 1])]);
+
+    let line = "traverse --rover hakuto --slope-deg 5 --duration-s 20 --mcap drive.mcap";
+    assert_eq!(place.line(line).code(), 0);
+    let mapping = place.results("import-telemetry --print-mapping grouser");
+    let readings = mapping.matches("[[reading]]").count() as u64 + 1;
+    let unknown =
+        "\n[[reading]]\ntopic = \"/nowhere\"\nfield = \"x\"\ncolumn = \"x_m\"\noptional = true\n";
+    place.write("ours.toml", mapping + unknown);
+    let replay = place.json("replay drive.mcap --soil toyoura --mapping ours.toml");
+    // A run without motors has no topics of currents; nobody has that of the reading added.
+    let found = &files(&replay)[1];
+    let used = found["used"].as_u64().expect("a count");
+    assert!((1..readings).contains(&used), "{found}");
+    assert_eq!(*found, given("ours.toml", "a mapping of telemetry", "readings", [readings, used]));
+}

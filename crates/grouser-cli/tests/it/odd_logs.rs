@@ -29,6 +29,45 @@ fn with_times(text: &str, time: impl Fn(f64) -> String) -> String {
     format!("{header}\n{}", rows.lines().map(row).collect::<String>())
 }
 
+/// The table with its units below the names, in others: milliseconds, millimetres, radians and rpm.
+fn with_units_below(text: &str) -> String {
+    const UNITS: [(&str, &str, f64); 6] = [
+        ("time_s", "ms", 1e3),
+        ("_rad_s", "rpm", 30.0 / std::f64::consts::PI),
+        ("_deg", "rad", std::f64::consts::PI / 180.0),
+        ("_nm", "N·m", 1.0),
+        ("_mm", "mm", 1.0),
+        ("_m", "mm", 1e3),
+    ];
+    let unit = |name: &str| UNITS.into_iter().find(|(ending, ..)| name.contains(ending));
+    let scaled =
+        with_cells(text, |name, number| unit(name).map(|(.., factor)| factor * number(name)));
+    let (header, rows) = scaled.split_once('\n').expect("a header");
+    let bare = |name: &str| match unit(name) {
+        Some(("time_s", ..)) => "t".to_owned(),
+        Some((ending, ..)) => name.replacen(ending, "", 1),
+        None => name.to_owned(),
+    };
+    let names: Vec<String> = header.split(',').map(bare).collect();
+    let units = header.split(',').map(|name| unit(name).map_or("", |(_, unit, _)| unit));
+    format!("{}\n{}\n{rows}", names.join(","), units.collect::<Vec<_>>().join(","))
+}
+
+#[test]
+fn units_that_a_column_cannot_have_are_refused_by_its_name() {
+    let place = Place::new();
+    for (table, part) in [
+        ("t,roll\ns,m\n0,1\n", "`roll` has m below its name, which must be one of deg, rad"),
+        ("time_s,roll_deg\ns,rad\n0,1\n", "`roll_deg` has rad below its name"),
+        ("t,roll\nfortnights,deg\n0,1\n", "`t` has fortnights below its name"),
+    ] {
+        place.write("drive.csv", table);
+        let answer = place.line("learn drive.csv --prior toyoura-uncertain");
+        assert_eq!(answer.code(), 2, "{table}");
+        assert!(answer.stderr.contains(part), "{}", answer.stderr);
+    }
+}
+
 #[test]
 fn a_table_is_read_however_it_is_written() {
     let (place, text) = drive();
@@ -43,6 +82,7 @@ fn a_table_is_read_however_it_is_written() {
         ("tabs", text.replace(',', "\t")),
         ("comments", format!("# a drive in sand, by hand\n#\n{text}# the end\n")),
         ("behind", format!("# {text}")),
+        ("units", with_units_below(&text)),
         ("dates", with_times(&text, date)),
         ("nanoseconds", with_times(&text, |time| format!("{:.0}", (epoch + time) * 1e9))),
         ("milliseconds", with_times(&text, |time| format!("{:.0}", (epoch + time) * 1e3))),

@@ -41,6 +41,33 @@ fn a_drive_teaches_the_same_from_mcap_csv_and_parquet() {
     assert_eq!(rows(&printed), rows(&place.read("drive.csv")));
 }
 
+/// A table in Parquet is read by the mapping that reads the same one in CSV.
+#[test]
+fn parquet_is_read_by_a_mapping_as_csv_is() {
+    let place = Place::new();
+    place.results(&format!("{RUN} --telemetry drive.csv"));
+    imported(&place, "drive.csv --rover hakuto --out drive.parquet");
+    let reading = |column: &str, unit: &str| {
+        format!(
+            "[[reading]]\ntopic = \"/\"\nfield = \"{column}\"\nunit = \"{unit}\"\ncolumn = \"{column}\"\n"
+        )
+    };
+    let columns = [("roll_deg", "rad"), ("pitch_deg", "deg"), ("vo_dx_m", "mm")];
+    let readings: String =
+        columns.into_iter().map(|(column, unit)| reading(column, unit)).collect();
+    let head = "schema = \"telemetry-mapping/1\"\nname = \"ours\"\nodometry = \"fused\"\n";
+    place.write("ours.toml", head.to_owned() + &readings);
+    let [csv, parquet] = ["drive.csv", "drive.parquet"]
+        .map(|log| imported(&place, &format!("{log} --rover hakuto --mapping ours.toml")));
+    let cells = |text: &str| -> Vec<f64> {
+        text.lines().skip(1).flat_map(|it| it.split(',')).filter_map(|it| it.parse().ok()).collect()
+    };
+    let (one, other) = (cells(&csv), cells(&parquet));
+    assert!(one.len() > 100 && one.len() == other.len(), "{} {}", one.len(), other.len());
+    // Parquet has the angles in all their digits.
+    assert!(one.iter().zip(&other).all(|(one, other)| (one - other).abs() < 1e-6));
+}
+
 #[test]
 fn what_cannot_be_imported_says_what_to_do() {
     let place = Place::new();

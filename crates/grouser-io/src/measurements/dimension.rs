@@ -71,6 +71,11 @@ const UNITS: [(&str, Dimension, f64); 42] = [
     ("1", Dimension::Share, 1.0),
 ];
 
+/// Whether a name is that of a unit.
+pub(super) fn is_unit(name: &str) -> bool {
+    UNITS.iter().any(|(unit, ..)| *unit == name)
+}
+
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 impl Dimension {

@@ -86,6 +86,16 @@ pub enum MeasurementProblem {
         /// The column.
         column: &'static str,
     },
+    /// A unit below the name of a column that the column cannot have.
+    #[error("`{column}` has {unit} below its name, which must be one of {}", known.join(", "))]
+    UnknownUnit {
+        /// The column.
+        column: Box<str>,
+        /// What stands below it.
+        unit: Box<str>,
+        /// The units that may.
+        known: Box<[&'static str]>,
+    },
     /// A wheel that the rover does not have.
     #[error("`{name}` is no wheel of the rover: its wheels are {}", wheels.join(", "))]
     UnknownWheel {

@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use super::super::columns::Quantity;
 use super::super::unit::Unit;
+use super::dimension::Dimension;
 
 /// A column that is known.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +19,27 @@ pub struct LogColumn {
     pub unit: Unit,
     /// What its values may be, in its own unit.
     pub range: RangeInclusive<f64>,
+}
+
+impl LogColumn {
+    /// What its unit measures; text where that is none of a sensor.
+    #[must_use]
+    pub fn dimension(&self) -> Dimension {
+        match self.unit.symbol {
+            "m" | "mm" => Dimension::Length,
+            "°" => Dimension::Angle,
+            "rad/s" => Dimension::AngularSpeed,
+            "N·m" => Dimension::Moment,
+            "A" => Dimension::Current,
+            _ => Dimension::Text,
+        }
+    }
+
+    /// Its name without the unit.
+    pub(super) fn base(&self) -> &'static str {
+        let units = ["_rad_s", "_deg", "_mm", "_nm", "_m", "_a"];
+        units.iter().find_map(|unit| self.name.strip_suffix(unit)).unwrap_or(self.name)
+    }
 }
 
 pub(super) const fn column(

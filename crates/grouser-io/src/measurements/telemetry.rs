@@ -15,6 +15,7 @@ mod frozen;
 mod odometry;
 mod reader;
 mod rows;
+mod units;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

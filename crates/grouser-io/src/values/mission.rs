@@ -7,6 +7,7 @@ use super::super::field::Inner;
 use super::super::given_file::NamedFiles;
 use super::super::legs_file;
 use super::super::mission::{LegKeys, Plan, limited_quantity};
+use super::super::stop_file;
 use super::super::terrain_file;
 use super::super::tree::Node;
 use super::super::unit::DEG;
@@ -179,7 +180,7 @@ impl Described for Plan {
 
     fn fetch(&mut self, document: &Document, tree: &Node) -> Result<NamedFiles, DocumentError> {
         let mut files = self.scenario.fetch(document, tree)?;
-        files.given.extend(legs_file::given(tree));
+        files.given.extend(legs_file::given(tree).into_iter().chain(stop_file::given(tree)));
         files.notes.extend(legs_file::notes(tree));
         Ok(files)
     }

@@ -3,17 +3,18 @@
 use std::collections::HashMap;
 
 use grouser_core::vehicle::Rover;
+use grouser_io::given_file::{FileContent, GivenFile};
 use grouser_io::measurements::telemetry::{
     Cell, FORWARD, LEFTWARD, Odometry, ROTATION, TelemetryRecord, TelemetryRows,
 };
-use grouser_io::telemetry_mapping::{Axes, FieldPath, Found, PoseColumn, PoseOf, RowRule};
+use grouser_io::telemetry_mapping::{Axes, FieldPath, Found, PoseColumn, PoseOf, Reading, RowRule};
 use serde_json::Value;
 
 use crate::error::{Problem, TelemetryError};
 use crate::mapping::Mapping;
 use crate::mapping::clock::{Clock, When};
 use crate::mapping::merge::{Merge, Readings};
-use crate::mapping::plan::{NumberField, Plan, Planned, PlannedReading};
+use crate::mapping::plan::{NumberField, Plan, Planned, PlannedReading, WheelNames};
 use crate::mapping::pose::{Frames, Pose, Rotation};
 use crate::mapping::topic::Topic;
 use crate::mapping::turning::{Angle, Turned};
@@ -23,6 +24,8 @@ use crate::telemetry::options::LogOptions;
 pub struct MessageRows {
     plan: Plan,
     mapping: String,
+    /// What a mapping of the user's gave.
+    given: Option<GivenFile>,
     /// The readings of each topic.
     by_topic: HashMap<String, Vec<usize>>,
     clock: Clock,
@@ -89,7 +92,7 @@ impl MessageRows {
             let problem = Problem::OdometryNotStated { topic, mapping };
             return Err(TelemetryError::new(label, problem));
         }
-        let table = TelemetryRows::new(&mapping.label, plan.columns.clone(), rover)?
+        let table = TelemetryRows::new(&mapping.label, &plan.columns, rover)?
             .measured_by(stated.unwrap_or(Odometry::Visual));
         let mut by_topic: HashMap<String, Vec<usize>> = HashMap::new();
         for (place, reading) in plan.readings.iter().enumerate() {
@@ -105,9 +108,28 @@ impl MessageRows {
         let turning = Turned::new(plan.angles.iter().map(|(_, wrap)| *wrap).collect());
         let merge = Merge::new(plan.window, plan.rows.clone(), ways, turning);
         let (last, last_angles) = (vec![None; plan.poses], vec![None; plan.angles.len()]);
+        let given = given(mapping, topics, rover);
         let mapping = mapping.rules.name.clone();
         let (clock, frames, counts) = (Clock::default(), Frames::default(), Counts::default());
-        Ok(Self { plan, mapping, by_topic, clock, merge, table, frames, last, last_angles, counts })
+        Ok(Self {
+            plan,
+            mapping,
+            given,
+            by_topic,
+            clock,
+            merge,
+            table,
+            frames,
+            last,
+            last_angles,
+            counts,
+        })
+    }
+
+    /// What the mapping gave, if it is a file.
+    #[must_use]
+    pub fn given_mapping(&self) -> Option<&GivenFile> {
+        self.given.as_ref()
     }
 
     /// Whether messages of a topic are read.
@@ -167,6 +189,11 @@ impl MessageRows {
     /// Counts a row of a table that cannot be read.
     pub(crate) fn damaged_row(&mut self) {
         self.table.damaged_row();
+    }
+
+    /// Rows of a table are lost, and how far the rover went over them.
+    pub(crate) fn lose_way(&mut self) {
+        self.table.lose_way();
     }
 
     /// Counts a row of a table that has no time.
@@ -320,6 +347,24 @@ fn numbers_of(pose: &Pose, last: Option<&Pose>, axes: Axes) -> impl Fn(PoseColum
         PoseColumn::X => position.map(|it| it.x),
         PoseColumn::Y => position.map(|it| it.y),
     }
+}
+
+/// What a mapping gave: of its readings those that read a topic count.
+fn given(mapping: &Mapping, topics: &[Topic], rover: &Rover) -> Option<GivenFile> {
+    let any = [WheelNames::any()];
+    let wheels: Vec<WheelNames> = rover.mounts().iter().map(WheelNames::of).collect();
+    let readings = &mapping.rules.readings;
+    let is_read = |reading: &&Reading| {
+        let wheels = if reading.is_of_wheels() { &wheels[..] } else { &any };
+        let reads = |topic: &Topic| {
+            wheels.iter().any(|it| it.is_read(reading, &topic.name, &topic.message))
+        };
+        topics.iter().any(reads)
+    };
+    let (there, used) = (readings.len(), readings.iter().filter(is_read).count());
+    let file =
+        || GivenFile::new(mapping.label.clone(), FileContent::Mapping, there as u64, used as u64);
+    mapping.is_file.then(file)
 }
 
 /// A message with what it is read by.

@@ -34,6 +34,20 @@ impl Wire {
     }
 }
 
+/// The kind of CDR that a message says it is in, if it is none that is read: as the header before
+/// it has it. Source: "DDS-XTYPES" 1.3, table 60.
+pub(crate) fn kind_not_read(message: &[u8]) -> Option<String> {
+    let [0, kind, _, _, ..] = *message else { return None };
+    let name = match kind {
+        0 | 1 | 6 | 7 => return None,
+        2 | 3 => "CDR with parameters (PL_CDR)",
+        8 | 9 => "CDR with delimiters (D_CDR2)",
+        10 | 11 => "CDR of the second version with parameters (PL_CDR2)",
+        _ => return Some(format!("CDR of the unknown kind {kind}")),
+    };
+    Some(name.to_owned())
+}
+
 /// A type of messages with all that it needs.
 #[derive(Clone, Debug)]
 pub(crate) struct RosDescription {
@@ -48,6 +62,10 @@ impl RosDescription {
     /// * `name`: of the messages, with its package
     pub(crate) fn read(schema: &[u8], name: &str, wire: Wire) -> Option<Self> {
         Some(Self { types: types::read(str::from_utf8(schema).ok()?, name)?, wire })
+    }
+
+    pub(crate) fn is_cdr(&self) -> bool {
+        self.wire == Wire::Cdr
     }
 
     /// Decodes a message as a tree; `None` if it is invalid.
@@ -74,6 +92,9 @@ impl RosDescription {
     }
 
     fn field(&self, field: &RosField, bytes: &mut Bytes<'_>, depth: usize) -> Option<Value> {
+        if field.count != Count::One && !matches!(field.holds, Holds::Primitive(_)) {
+            bytes.skip_size_of_list()?;
+        }
         let count = match field.count {
             Count::One => return self.value(field.holds, bytes, depth),
             Count::Fixed(count) => count,
@@ -107,20 +128,22 @@ struct Bytes<'m> {
     at: usize,
     wire: Wire,
     is_big_endian: bool,
+    /// Whether it is CDR of the second version.
+    is_second: bool,
     /// Values that may follow.
     values: usize,
 }
 
 impl<'m> Bytes<'m> {
     fn of(message: &'m [u8], wire: Wire) -> Option<Self> {
-        let (all, is_big_endian) = match (wire, message) {
-            (Wire::First, all) => (all, false),
-            // The other kinds of CDR, with parameters or of the second version, lay out otherwise.
-            (Wire::Cdr, [0, order @ (0 | 1), _, _, all @ ..]) => (all, *order == 0),
+        let (all, is_big_endian, is_second) = match (wire, message) {
+            (Wire::First, all) => (all, false, false),
+            (Wire::Cdr, [0, order @ (0 | 1), _, _, all @ ..]) => (all, *order == 0, false),
+            (Wire::Cdr, [0, order @ (6 | 7), _, _, all @ ..]) => (all, *order == 6, true),
             (Wire::Cdr, _) => return None,
         };
         let values = MOST_VALUES.min(EMPTY_VALUES + DEEPEST * all.len());
-        Some(Self { all, at: 0, wire, is_big_endian, values })
+        Some(Self { all, at: 0, wire, is_big_endian, is_second, values })
     }
 
     fn rest(&self) -> usize {
@@ -134,7 +157,9 @@ impl<'m> Bytes<'m> {
 
     /// The bytes of a number, the least first.
     fn take<const N: usize>(&mut self) -> Option<[u8; N]> {
-        let at = if self.wire == Wire::Cdr { self.at.next_multiple_of(N) } else { self.at };
+        // The second version aligns nothing to more than four bytes.
+        let alignment = if self.is_second { N.min(4) } else { N };
+        let at = if self.wire == Wire::Cdr { self.at.next_multiple_of(alignment) } else { self.at };
         let mut bytes = *self.all.get(at..)?.first_chunk::<N>()?;
         self.at = at + N;
         if self.is_big_endian {
@@ -146,6 +171,11 @@ impl<'m> Bytes<'m> {
     fn skip(&mut self, count: usize) -> Option<()> {
         self.at = self.at.checked_add(count).filter(|at| *at <= self.all.len())?;
         Some(())
+    }
+
+    /// The bytes of a list of what is no number, which stand before it in the second version.
+    fn skip_size_of_list(&mut self) -> Option<()> {
+        if self.is_second { self.take::<4>().map(|_| ()) } else { Some(()) }
     }
 
     fn count(&mut self) -> Option<usize> {

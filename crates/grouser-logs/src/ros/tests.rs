@@ -4,7 +4,8 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
-use super::decode::{RosDescription, Wire};
+use super::decode::{RosDescription, Wire, kind_not_read};
+use super::types::has_wide_texts;
 
 /// A state of joints as ROS 2 describes it, with what else a type may have.
 const SCHEMA: &str = "\
@@ -41,11 +42,14 @@ MSG: ours/Unused
 struct Cdr {
     bytes: Vec<u8>,
     is_big_endian: bool,
+    /// Whether it is CDR of the second version.
+    is_second: bool,
 }
 
 impl Cdr {
     fn put(&mut self, mut number: Vec<u8>) {
-        while !(self.bytes.len() - 4).is_multiple_of(number.len()) {
+        let alignment = if self.is_second { number.len().min(4) } else { number.len() };
+        while !(self.bytes.len() - 4).is_multiple_of(alignment) {
             self.bytes.push(0xee);
         }
         if self.is_big_endian {
@@ -56,6 +60,13 @@ impl Cdr {
 
     fn put_count(&mut self, count: u32) {
         self.put(count.to_le_bytes().to_vec());
+    }
+
+    /// The size of a list of what is no number, which the second version has before it [bytes].
+    fn put_size(&mut self, size: u32) {
+        if self.is_second {
+            self.put_count(size);
+        }
     }
 
     fn put_double(&mut self, number: f64) {
@@ -75,12 +86,18 @@ impl Cdr {
 }
 
 fn message(is_big_endian: bool) -> Vec<u8> {
-    let header = vec![0, u8::from(!is_big_endian), 0, 0];
-    let mut out = Cdr { bytes: header, is_big_endian };
+    message_of(is_big_endian, false)
+}
+
+fn message_of(is_big_endian: bool, is_second: bool) -> Vec<u8> {
+    let kind = if is_second { 6 } else { 0 };
+    let header = vec![0, kind + u8::from(!is_big_endian), 0, 0];
+    let mut out = Cdr { bytes: header, is_big_endian, is_second };
     out.put((-3_i32).to_le_bytes().to_vec());
     out.put_count(500);
     out.put_text("odom");
     out.put(vec![1]);
+    out.put_size(26);
     out.put_count(2);
     for name in ["left", "right"] {
         out.put_text(name);
@@ -96,6 +113,7 @@ fn message(is_big_endian: bool) -> Vec<u8> {
     out.bytes.extend([1, 2, 3]);
     out.put_text("");
     out.put_turn((-7, 1.5));
+    out.put_size(16);
     out.put_count(1);
     out.put_turn((8, 2.5));
     out.put(i64::MIN.to_le_bytes().to_vec());
@@ -135,6 +153,21 @@ fn a_message_of_either_byte_order_is_its_tree() {
     let mut second = message(false);
     second[1] = 7;
     assert_eq!(description.decode(&second), None);
+    for is_big_endian in [false, true] {
+        assert_eq!(description.decode(&message_of(is_big_endian, true)), Some(tree()));
+    }
+}
+
+/// Other kinds of CDR are named, so that a log of them is not taken for a damaged one.
+#[test]
+fn kinds_of_cdr_that_are_not_read_are_named() {
+    let kind = |kind: u8| kind_not_read(&[0, kind, 0, 0, 1]);
+    assert!([0, 1, 6, 7].into_iter().all(|it| kind(it).is_none()));
+    assert!(kind(3).is_some_and(|it| it.contains("PL_CDR")));
+    assert!(kind(9).is_some_and(|it| it.contains("D_CDR2")));
+    assert_eq!(kind_not_read(&[1, 1, 0, 0]), None, "no header");
+    assert!(has_wide_texts(b"float64 a\nwstring<=4 b  # wide"));
+    assert!(!has_wide_texts(b"string a # no wstring b"));
 }
 
 #[test]

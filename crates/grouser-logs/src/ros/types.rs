@@ -103,6 +103,14 @@ pub(super) fn read(text: &str, name: &str) -> Option<Vec<Fields>> {
     written.iter().map(fields).collect()
 }
 
+/// Whether a schema has texts of wide characters, whose size is the compiler's.
+pub(crate) fn has_wide_texts(text: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(text);
+    text.lines()
+        .filter_map(|line| declaration(line.trim()))
+        .any(|(kind, _)| kind.starts_with("wstring"))
+}
+
 /// The name of a type as fields of other packages have it.
 fn plain(name: &str) -> String {
     name.replacen("/msg/", "/", 1)

@@ -8,9 +8,7 @@ use std::collections::BTreeSet;
 use std::io::Read;
 
 use grouser_core::vehicle::Rover;
-use grouser_io::measurements::telemetry::{
-    Cell, CellReader, NextRow, TelemetryRecord, TelemetryRows, TimeColumn,
-};
+use grouser_io::measurements::telemetry::{Cell, CellReader, NextRow, TelemetryRecord, TimeColumn};
 use grouser_io::telemetry_mapping::{FieldPath, Found, PoseOf, Reading, What};
 use serde_json::{Map, Value};
 
@@ -20,13 +18,18 @@ use crate::mapping::messages::{MessageRows, stamp};
 use crate::mapping::plan::WheelNames;
 use crate::mapping::topic::Topic;
 use crate::telemetry::options::LogOptions;
+use crate::telemetry::parquet::ParquetCells;
 
 /// Parts of a column's name, at most; no message is deeper.
 const DEEPEST: usize = 32;
 
-/// A table in CSV, record by record.
+/// Whose units count.
+const OWN_UNITS: &str =
+    "units stand below the names of the columns, and are not used: the mapping says its own";
+
+/// A table, record by record.
 pub(crate) struct MappedTable<R> {
-    reader: CellReader<'static, R>,
+    reader: Rows<R>,
     columns: Columns,
     /// Topics that are read, each with the parts of its name.
     topics: Vec<(String, Vec<String>)>,
@@ -39,15 +42,60 @@ pub(crate) struct MappedTable<R> {
     is_read: bool,
 }
 
+/// Rows of cells.
+pub(crate) enum Rows<R> {
+    Csv(Box<CellReader<'static, R>>),
+    Parquet(Box<ParquetCells>),
+}
+
+/// What comes next of them.
+enum Next<'r> {
+    /// Cells, and whether rows before them are lost.
+    Cells(&'r [Cell], bool),
+    Damaged,
+    End,
+}
+
+impl<R: Read> Rows<R> {
+    pub(crate) fn of_csv(label: &str, source: R) -> Result<Self, TelemetryError> {
+        Ok(Self::Csv(Box::new(CellReader::new(label.to_owned(), source)?)))
+    }
+
+    fn names(&self) -> &[String] {
+        match self {
+            Self::Csv(reader) => reader.names(),
+            Self::Parquet(cells) => cells.names(),
+        }
+    }
+
+    /// Whether units stand below the names.
+    fn has_units(&self) -> bool {
+        matches!(self, Self::Csv(reader) if reader.units().is_some())
+    }
+
+    fn next_row(&mut self) -> Result<Next<'_>, TelemetryError> {
+        Ok(match self {
+            Self::Csv(reader) => match reader.next_row()? {
+                NextRow::Cells(cells) => Next::Cells(cells, false),
+                NextRow::Damaged => Next::Damaged,
+                NextRow::End => Next::End,
+            },
+            Self::Parquet(cells) => match cells.next_row()? {
+                Some((cells, has_lost)) => Next::Cells(cells, has_lost),
+                None => Next::End,
+            },
+        })
+    }
+}
+
 impl<R: Read> MappedTable<R> {
     pub(crate) fn new(
         label: &str,
-        source: R,
+        reader: Rows<R>,
         mapping: &Mapping,
         rover: &Rover,
         options: &LogOptions,
     ) -> Result<Self, TelemetryError> {
-        let reader = CellReader::new(label.to_owned(), source)?;
         let columns = Columns::of(reader.names());
         let found = Fitting::of(&columns, mapping, rover);
         let failed = |problem| TelemetryError::new(label, problem);
@@ -80,12 +128,15 @@ impl<R: Read> MappedTable<R> {
                 return Ok(None);
             }
             match self.reader.next_row()? {
-                NextRow::Damaged => self.rows.damaged_row(),
-                NextRow::End => {
+                Next::Damaged => self.rows.damaged_row(),
+                Next::End => {
                     self.is_read = true;
                     self.rows.end();
                 }
-                NextRow::Cells(cells) => {
+                Next::Cells(cells, has_lost) => {
+                    if has_lost {
+                        self.rows.lose_way();
+                    }
                     let tree = self.columns.tree(cells);
                     let time = self.time.and_then(|it| it.seconds(cells)).map(|it| it * 1e9);
                     self.add(time, &tree);
@@ -121,16 +172,22 @@ impl<R: Read> MappedTable<R> {
         }
     }
 
-    pub(crate) fn rows(&self) -> &TelemetryRows {
-        self.rows.rows()
+    pub(crate) fn messages(&self) -> &MessageRows {
+        &self.rows
     }
 
-    pub(crate) fn share_used(&self) -> f64 {
-        self.rows.share_used()
+    /// The file of Parquet that it is, if it is one.
+    pub(crate) fn parquet(&self) -> Option<&ParquetCells> {
+        match &self.reader {
+            Rows::Csv(_) => None,
+            Rows::Parquet(cells) => Some(cells),
+        }
     }
 
     pub(crate) fn notes(&self) -> Vec<String> {
-        self.rows.notes().into_iter().chain(self.missing.clone()).collect()
+        let of_file = self.parquet().map(ParquetCells::notes).into_iter().flatten();
+        let units = self.reader.has_units().then(|| OWN_UNITS.to_owned());
+        of_file.chain(self.rows.notes()).chain(self.missing.clone()).chain(units).collect()
     }
 }
 

@@ -6,7 +6,7 @@ use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::rc::Rc;
 
 use grouser_core::vehicle::Rover;
-use grouser_io::measurements::telemetry::{TelemetryRecord, TelemetryRows};
+use grouser_io::measurements::telemetry::TelemetryRecord;
 use serde_json::Value;
 
 use crate::error::{Problem, TelemetryError};
@@ -18,7 +18,8 @@ use crate::mcap::format::{
 use crate::mcap::order::Chronological;
 use crate::mcap::read::{Known, Messages, OverBudget, known_of};
 use crate::protobuf::decode::Description;
-use crate::ros::decode::{RosDescription, Wire};
+use crate::ros::decode::{RosDescription, Wire, kind_not_read};
+use crate::ros::types::has_wide_texts;
 use crate::telemetry::options::LogOptions;
 
 /// An MCAP log, record by record.
@@ -32,6 +33,8 @@ pub(crate) struct McapLog {
     descriptions: HashMap<u16, Option<Rc<OfSchema>>>,
     /// Messages whose channel the log does not describe.
     without_channel: u64,
+    /// Messages of kinds of CDR that are not read, with the first of these kinds.
+    of_other_kind: Option<(u64, String)>,
     is_read: bool,
 }
 
@@ -59,6 +62,10 @@ impl OfSchema {
         }
         let wire = Wire::of(encoding, &schema.encoding)?;
         RosDescription::read(data, name, wire).map(Self::Ros)
+    }
+
+    fn is_cdr(&self) -> bool {
+        matches!(self, Self::Ros(description) if description.is_cdr())
     }
 
     fn decode(&self, message: &[u8]) -> Option<Value> {
@@ -92,6 +99,7 @@ impl McapLog {
             decoders,
             descriptions,
             without_channel: 0,
+            of_other_kind: None,
             is_read: false,
         })
     }
@@ -138,16 +146,19 @@ impl McapLog {
         };
         match (tree, i64::try_from(message.log_time)) {
             (Some(tree), Ok(time)) => self.rows.add(topic, time, &tree),
+            (None, _) => {
+                let is_of_ros = matches!(decoder, Decoder::OfSchema(_, it) if it.is_cdr());
+                match kind_not_read(data).filter(|_| is_of_ros) {
+                    Some(kind) => self.of_other_kind.get_or_insert((0, kind)).0 += 1,
+                    None => self.rows.damaged_message(),
+                }
+            }
             _ => self.rows.damaged_message(),
         }
     }
 
-    pub(crate) fn rows(&self) -> &TelemetryRows {
-        self.rows.rows()
-    }
-
-    pub(crate) fn share_used(&self) -> f64 {
-        self.rows.share_used()
+    pub(crate) fn messages(&self) -> &MessageRows {
+        &self.rows
     }
 
     pub(crate) fn notes(&self) -> Vec<String> {
@@ -156,7 +167,10 @@ impl McapLog {
             format!("{count} messages are of channels that the log does not describe, and left out")
         });
         let damage = self.messages.messages().damage.sentences().into_iter();
-        damage.chain(lost).chain(self.rows.notes()).collect()
+        let other = self.of_other_kind.as_ref().map(|(count, kind)| {
+            format!("{count} messages are encoded as {kind}, which is not read here, and left out")
+        });
+        damage.chain(lost).chain(other).chain(self.rows.notes()).collect()
     }
 }
 
@@ -218,6 +232,9 @@ fn encoding(channel: &Channel, schema: Option<&Schema>) -> String {
     let messages = &channel.encoding;
     let by = schema.filter(|it| !it.data.is_empty()).map_or("", |it| &it.encoding);
     let is_of_ros = matches!(messages.as_str(), "cdr" | "ros1");
+    if is_of_ros && schema.is_some_and(|it| has_wide_texts(&it.data)) {
+        return format!("{messages} with wide texts (wstring)");
+    }
     match (is_of_ros && Wire::of(messages, by).is_none(), by) {
         (false, _) => messages.clone(),
         (true, "") => format!("{messages} without a schema"),

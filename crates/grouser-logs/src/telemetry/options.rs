@@ -5,6 +5,7 @@ use std::io;
 
 use grouser_io::measurements::telemetry::Odometry;
 
+use crate::error::{Problem, TelemetryError};
 use crate::mapping::Mapping;
 use crate::mapping::plan::TopicChoices;
 use crate::mcap::read::OverBudget;
@@ -13,7 +14,7 @@ use crate::mcap::read::OverBudget;
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct LogOptions {
-    /// Which fields of messages, or columns of CSV, are which columns of telemetry; without it the
+    /// Which fields of messages, or columns of a table, are which columns of telemetry; without it the
     /// built-in one that fits messages, and the names of a table's columns.
     pub mapping: Option<Mapping>,
     /// Of such a log, the topic that is meant where several fit.
@@ -50,13 +51,19 @@ impl LogOptions {
         Self { most_unpacked, ..self }
     }
 
+    /// The mapping by which a table is read, if it is read by one.
+    ///
+    /// # Errors
+    /// [`Problem::NoMessages`] for topics without a mapping: no column has one by its name alone.
+    pub(crate) fn mapping_of_table(&self, label: &str) -> Result<Option<&Mapping>, TelemetryError> {
+        if self.mapping.is_none() && !self.topics.is_empty() {
+            return Err(TelemetryError::new(label, Problem::NoMessages));
+        }
+        Ok(self.mapping.as_ref())
+    }
+
     /// How much of a log is read.
     pub(crate) fn budget(&self, file: &File) -> io::Result<OverBudget> {
         Ok(OverBudget { length: file.metadata()?.len(), allowed: self.most_unpacked })
-    }
-
-    /// Whether it says anything that only a log of messages has.
-    pub(crate) fn is_of_messages(&self) -> bool {
-        self.mapping.is_some() || !self.topics.is_empty()
     }
 }

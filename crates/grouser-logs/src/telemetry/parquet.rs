@@ -26,14 +26,15 @@ pub(crate) const MAGIC: &[u8] = b"PAR1";
 /// So many rows are read at a time.
 const BATCH: usize = 1024;
 
-/// A file of Parquet, record by record.
-pub(crate) struct ParquetLog {
+/// A file of Parquet, row by row.
+pub(crate) struct ParquetCells {
     label: String,
     file: Arc<Bounded>,
     about: Arc<ParquetMetaData>,
+    /// The names of its columns.
+    names: Vec<String>,
     /// Places of the columns that are read.
     read: Vec<usize>,
-    table: TelemetryRows,
     /// The group of rows that is read next.
     next_group: usize,
     group: Option<Group>,
@@ -41,9 +42,19 @@ pub(crate) struct ParquetLog {
     batch: Vec<Vec<Cell>>,
     at: usize,
     in_batch: usize,
+    row: Vec<Cell>,
+    rows: u64,
     /// Rows that a group has no cells for, since it is damaged.
     unread: u64,
     why_unread: Option<String>,
+    /// Whether some of them lie before the next row.
+    has_lost: bool,
+}
+
+/// A file of Parquet whose columns are those of telemetry, record by record.
+pub(crate) struct ParquetLog {
+    cells: ParquetCells,
+    table: TelemetryRows,
 }
 
 /// Calls the library, which panics on some damaged files.
@@ -69,58 +80,101 @@ enum Scale {
 
 impl ParquetLog {
     pub(crate) fn new(
-        label: &str,
-        file: File,
+        mut cells: ParquetCells,
         rover: &Rover,
         odometry: Option<Odometry>,
     ) -> Result<Self, TelemetryError> {
+        let table = TelemetryRows::new(&cells.label, &cells.names, rover)?
+            .measured_by(odometry.unwrap_or(Odometry::Visual));
+        cells.read.retain(|place| table.is_used(*place));
+        for place in &cells.read {
+            cells.check(*place).map_err(|why| cells.failure(why))?;
+        }
+        Ok(Self { cells, table })
+    }
+
+    pub(crate) fn next_record(&mut self) -> Result<Option<TelemetryRecord>, TelemetryError> {
+        loop {
+            let Some((cells, has_lost)) = self.cells.next_row()? else { return Ok(None) };
+            if has_lost {
+                self.table.lose_way();
+            }
+            if let Some(record) = self.table.record(cells.iter().copied()) {
+                return Ok(Some(record));
+            }
+        }
+    }
+
+    pub(crate) fn rows(&self) -> &TelemetryRows {
+        &self.table
+    }
+
+    pub(crate) fn cells(&self) -> &ParquetCells {
+        &self.cells
+    }
+}
+
+impl ParquetCells {
+    pub(crate) fn new(label: &str, file: File) -> Result<Self, TelemetryError> {
         let failed = |error: ParquetError| of_parquet(label, &error);
         let file = Bounded::new(file).map_err(failed)?;
         let about = checked(|| ParquetMetaDataReader::new().parse_and_finish(&file));
         let about = about.map_err(failed)?;
         let columns = about.file_metadata().schema_descr().columns();
         // A column inside another is not a column of the table.
-        let name = |it: &Arc<ColumnDescriptor>| it.path().string();
-        let names: Vec<String> = columns.iter().map(name).collect();
-        let table = TelemetryRows::new(label, names.clone(), rover)?
-            .measured_by(odometry.unwrap_or(Odometry::Visual));
-        let read: Vec<usize> = (0..names.len()).filter(|place| table.is_used(*place)).collect();
-        for place in &read {
-            check_column(&columns[*place])
-                .map_err(|why| TelemetryError::new(label, Problem::Parquet(why)))?;
-        }
-        let batch = vec![Vec::with_capacity(BATCH); names.len()];
+        let names: Vec<String> = columns.iter().map(|it| it.path().string()).collect();
         Ok(Self {
             label: label.to_owned(),
             file: Arc::new(file),
+            read: (0..names.len()).collect(),
+            batch: vec![Vec::with_capacity(BATCH); names.len()],
+            names,
             about: Arc::new(about),
-            read,
-            table,
             next_group: 0,
             group: None,
-            batch,
             at: 0,
             in_batch: 0,
+            row: Vec::new(),
+            rows: 0,
             unread: 0,
             why_unread: None,
+            has_lost: false,
         })
     }
 
-    pub(crate) fn next_record(&mut self) -> Result<Option<TelemetryRecord>, TelemetryError> {
-        loop {
-            while self.at < self.in_batch {
-                let at = self.at;
-                self.at += 1;
-                let cells =
-                    self.batch.iter().map(|cells| cells.get(at).copied().unwrap_or(Cell::Gap));
-                if let Some(record) = self.table.record(cells) {
-                    return Ok(Some(record));
-                }
-            }
-            if !self.fill()? {
-                return Ok(None);
-            }
+    /// Leaves out what has no number or text in each row.
+    pub(crate) fn with_numbers(mut self) -> Self {
+        let mut read = std::mem::take(&mut self.read);
+        read.retain(|place| self.check(*place).is_ok());
+        Self { read, ..self }
+    }
+
+    pub(crate) fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The next row, if there is one, and whether damaged ones are before it.
+    pub(crate) fn next_row(&mut self) -> Result<Option<(&[Cell], bool)>, TelemetryError> {
+        if self.at >= self.in_batch && !self.fill()? {
+            return Ok(None);
         }
+        let at = self.at;
+        self.at += 1;
+        self.rows += 1;
+        self.row.clear();
+        let cell = |cells: &Vec<Cell>| cells.get(at).copied().unwrap_or(Cell::Gap);
+        self.row.extend(self.batch.iter().map(cell));
+        Ok(Some((&self.row, std::mem::take(&mut self.has_lost))))
+    }
+
+    /// # Errors
+    /// A sentence, for a column that has no number or text in each row.
+    fn check(&self, place: usize) -> Result<(), String> {
+        check_column(&self.about.file_metadata().schema_descr().columns()[place])
+    }
+
+    fn failure(&self, why: String) -> TelemetryError {
+        TelemetryError::new(&self.label, Problem::Parquet(why))
     }
 
     /// Reads the next batch; whether there is one.
@@ -133,9 +187,7 @@ impl ParquetLog {
             let Some(mut group) = group else {
                 // Where nothing could be read, the file is damaged, not short.
                 return match &self.why_unread {
-                    Some(why) if self.table.rows() == 0 => {
-                        Err(TelemetryError::new(&self.label, Problem::Parquet(why.clone())))
-                    }
+                    Some(why) if self.rows == 0 => Err(self.failure(why.clone())),
                     _ => Ok(false),
                 };
             };
@@ -181,12 +233,8 @@ impl ParquetLog {
 
     fn lose(&mut self, rows: usize, error: &ParquetError) {
         self.unread += rows as u64;
-        self.table.lose_way();
+        self.has_lost = true;
         self.why_unread.get_or_insert_with(|| error.to_string());
-    }
-
-    pub(crate) fn rows(&self) -> &TelemetryRows {
-        &self.table
     }
 
     /// Damaged rows so far.
@@ -194,10 +242,9 @@ impl ParquetLog {
         self.unread
     }
 
-    /// The share of its rows that was used so far; damaged ones are not.
-    pub(crate) fn share_used(&self) -> f64 {
-        let read = self.table.rows() as f64;
-        let of_read = self.table.share_used();
+    /// The share of its rows that was used so far, of that of those that could be read.
+    pub(crate) fn share_used(&self, of_read: f64) -> f64 {
+        let read = self.rows as f64;
         if read == 0.0 { of_read } else { of_read * read / (read + self.unread as f64) }
     }
 

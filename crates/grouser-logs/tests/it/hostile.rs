@@ -167,7 +167,7 @@ fn a_packed_table_is_read_within_its_budget() {
     assert_eq!(count(Some(table.len() as u64)).unwrap(), 40_000);
     let refused = count(Some(table.len() as u64 - 1)).unwrap_err().to_string();
     assert!(refused.contains("unpack to more than 0 MiB"), "{refused}");
-    assert!(refused.contains("--max-unpacked-mib"), "{refused}");
+    assert!(refused.contains("`max_unpacked_mib`"), "{refused}");
 
     let bytes = log(Packed::Zstd);
     fs::write(&path, &bytes).unwrap();

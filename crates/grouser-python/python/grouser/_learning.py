@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
@@ -18,6 +19,7 @@ from ._card import card as _card
 from ._descriptions import Rover, Scenario, Soil, Source
 from ._errors import ParameterError
 from ._studies import scenario_of
+from ._telemetry import budget_of
 
 if TYPE_CHECKING:
     import pandas
@@ -138,7 +140,11 @@ class Learner:
         return _lessons(self._native.update(list(columns), list(columns.values()), odometry))
 
     def update_log(
-        self, log: str | os.PathLike[str], *, odometry: str | None = None
+        self,
+        log: str | os.PathLike[str],
+        *,
+        odometry: str | None = None,
+        max_unpacked_mib: int | None = None,
     ) -> list[dict[str, Any]]:
         """Takes the records of a log that come after what it has; returns as `update`.
 
@@ -150,8 +156,12 @@ class Learner:
             What measured ways and rotations, in place of what a mapping says: ``"visual"``,
             ``"wheels"`` (which show no slip, and are left out), ``"fused"`` with wheels, or
             ``"motion-capture"``.
+        max_unpacked_mib : int, optional
+            The most that is unpacked of a packed log [MiB], in place of 256 and 64 for each of its
+            own.
         """
-        return _lessons(self._native.update_log(os.fspath(log), odometry))
+        budget = budget_of(max_unpacked_mib)
+        return _lessons(self._native.update_log(os.fspath(log), odometry, budget))
 
     def stream(self, records: Iterable[Telemetry]) -> Iterator[dict[str, Any]]:
         """Takes record after record, and gives each lesson as soon as it is learnt.
@@ -219,6 +229,12 @@ class Learner:
     def models(self) -> dict[str, float]:
         """The wheel–soil models with their shares [-]."""
         return self._native.models()
+
+    @property
+    def files(self) -> tuple[dict[str, Any], ...]:
+        """What logs, and files that documents name, gave: ``file``, ``content``, ``counted``,
+        ``there`` and ``used``, as ``inputs.files`` of the program's answers has them."""
+        return tuple(json.loads(self._native.files()))
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -375,6 +391,7 @@ def learn(
     rover: Rover | Source | None = None,
     slope_deg: float | None = None,
     odometry: str | None = None,
+    max_unpacked_mib: int | None = None,
     **changes: Any,
 ) -> Learner:
     """Learns from a whole drive, as the program's ``grouser learn`` does.
@@ -389,6 +406,8 @@ def learn(
         What measured ways and rotations, in place of what a mapping says: ``"visual"``,
         ``"wheels"`` (which show no slip, and are left out), ``"fused"`` with wheels, or
         ``"motion-capture"``.
+    max_unpacked_mib : int, optional
+        The most that is unpacked of a packed log [MiB], in place of 256 and 64 for each of its own.
 
     Returns
     -------
@@ -407,7 +426,7 @@ def learn(
     """
     learner = Learner(scenario, prior=prior, rover=rover, slope_deg=slope_deg, **changes)
     if isinstance(log, (str, os.PathLike)):
-        learner.update_log(log, odometry=odometry)
+        learner.update_log(log, odometry=odometry, max_unpacked_mib=max_unpacked_mib)
     else:
         learner.update(log, odometry=odometry)
     return learner.finished()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -17,6 +18,7 @@ from ._arrays import whole_number
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError
 from ._studies import scenario_of
+from ._telemetry import budget_of
 
 if TYPE_CHECKING:
     import pandas
@@ -35,6 +37,7 @@ def replay(
     *,
     slope_deg: float | None = None,
     odometry: str | None = None,
+    max_unpacked_mib: int | None = None,
     uncertainty: bool = False,
     samples: int = 200,
     seed: int = 1,
@@ -58,6 +61,8 @@ def replay(
         What measured ways and rotations, in place of what a mapping says: ``"visual"``,
         ``"wheels"`` (which show no slip, and are left out), ``"fused"`` with wheels, or
         ``"motion-capture"``.
+    max_unpacked_mib : int, optional
+        The most that is unpacked of a packed log [MiB], in place of 256 and 64 for each of its own.
     uncertainty : bool
         Whether bands are added over samples of the soil, as its document says, and of the
         wheel–soil model, where none is asked for by ``model``.
@@ -73,7 +78,8 @@ def replay(
         the quantity's own name, ``residual_…`` (measured less predicted), and with ``uncertainty``
         the quantiles ``…_p2_5``, ``…_p50`` and ``…_p97_5``; ``torque_nm`` and ``sinkage_mm`` over
         ``wheel``, too. Its ``attrs`` have ``points_to``, sentences on what the differences point
-        to, ``findings`` and ``channels``, a mapping for each row of these tables, and ``notes``.
+        to, ``findings`` and ``channels``, a mapping for each row of these tables, ``notes``,
+        and ``files``, what the log and the files of documents gave.
 
     Raises
     ------
@@ -108,8 +114,9 @@ def replay(
     path, text = _source(log)
     known = slope_deg is not None
     drawn = count if uncertainty else 0
-    tables, points_to, notes, wheels = _core.replay(
-        run._document, path, text, known, (drawn, whole_number("seed", seed)), odometry
+    sampling, budget = (drawn, whole_number("seed", seed)), budget_of(max_unpacked_mib)
+    tables, points_to, notes, wheels, files = _core.replay(
+        run._document, path, text, known, sampling, (odometry, budget)
     )
     over_time, channels, findings = tables
     attrs = {
@@ -117,6 +124,7 @@ def replay(
         "findings": _rows(findings),
         "channels": _rows(channels),
         "notes": notes,
+        "files": json.loads(files),
     }
     return _dataset(over_time, wheels, attrs)
 

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
+from ._arrays import whole_number
 from ._errors import DocumentError, DocumentNotFoundError, ParameterError
 from ._studies import scenario_of
 
@@ -36,6 +37,9 @@ class ImportedTelemetry:
     """Its rows."""
     notes: tuple[str, ...]
     """What of the log was left out, and why."""
+    files: tuple[dict[str, Any], ...]
+    """What the log, and a mapping of your own, gave: ``file``, ``content``, ``counted``, ``there``
+    and ``used``, as ``inputs.files`` of the program's answers has them."""
 
 
 def import_telemetry(
@@ -46,6 +50,7 @@ def import_telemetry(
     rover: Any = None,
     topics: Mapping[str, str] | None = None,
     odometry: str | None = None,
+    max_unpacked_mib: int | None = None,
     force: bool = False,
 ) -> ImportedTelemetry:
     """Converts a log of a drive to the telemetry that ``grouser learn`` reads.
@@ -75,6 +80,8 @@ def import_telemetry(
         What measured ways and rotations, in place of what a mapping says: ``"visual"``,
         ``"wheels"`` (which show no slip, and are left out), ``"fused"`` with wheels, or
         ``"motion-capture"``.
+    max_unpacked_mib : int, optional
+        The most that is unpacked of a packed log [MiB], in place of 256 and 64 for each of its own.
     force : bool
         Whether a file that is there is replaced.
 
@@ -103,6 +110,8 @@ def import_telemetry(
     >>> found = gr.import_telemetry(log, out)
     >>> found.records, found.notes
     (3, ('1 cells of `roll_deg` are no numbers within its range, and count as gaps',))
+    >>> found.files[0]["there"], found.files[0]["used"]
+    (3, 3)
     >>> folder.cleanup()
     """
     log, out = Path(log), Path(out)
@@ -112,9 +121,17 @@ def import_telemetry(
     choices = [(str(what), str(topic)) for what, topic in (topics or {}).items()]
     path = None if mapping is None else os.fspath(mapping)
     settings = (scenario._document, path, choices, odometry)
+    budget = budget_of(max_unpacked_mib)
     with _beside(out) as new:
-        records, notes = _converted(log, new, *settings)
-    return ImportedTelemetry(out, records, tuple(notes))
+        records, notes, files = _converted(log, new, *settings, budget)
+    return ImportedTelemetry(out, records, tuple(notes), tuple(json.loads(files)))
+
+
+def budget_of(max_unpacked_mib: int | None) -> int | None:
+    """The budget of a packed log [MiB], checked."""
+    if max_unpacked_mib is None:
+        return None
+    return whole_number("max_unpacked_mib", max_unpacked_mib, most=1 << 20)
 
 
 @contextmanager
@@ -133,12 +150,14 @@ def _converted(
     mapping: str | None,
     choices: list[tuple[str, str]],
     odometry: str | None,
-) -> tuple[int, list[str]]:
+    max_unpacked_mib: int | None,
+) -> tuple[int, list[str], str]:
     if not log.exists():
         raise DocumentNotFoundError(f"{log}: there is no such file", str(log))
     if not _is_bag(log):
         try:
-            return _core.import_telemetry(log, out, rover, mapping, choices, odometry)
+            settings = (rover, mapping, choices, (odometry, max_unpacked_mib))
+            return _core.import_telemetry(log, out, *settings)
         except DocumentError as error:
             # Messages of ROS whose types are described in IDL, or nowhere, in an MCAP log.
             if error.key != "encoding":
@@ -160,7 +179,7 @@ def _converted_bag(
     mapping: str | None,
     choices: list[tuple[str, str]],
     odometry: str | None,
-) -> tuple[int, list[str]]:
+) -> tuple[int, list[str], str]:
     try:
         from rosbags.highlevel import AnyReader, AnyReaderError
         from rosbags.typesys import Stores, get_typestore

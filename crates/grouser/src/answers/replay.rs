@@ -56,14 +56,14 @@ impl ReplayQuestion {
     /// The answer.
     ///
     /// * `replay`: the log, replayed with the scenario and the samples
-    /// * `given`: what the log gave
+    /// * `given`: what the log and its mapping gave
     /// * `notes`: on what of it was left out
     #[must_use]
     pub fn answer(
         &self,
         name: &str,
         replay: &Replay,
-        given: GivenFile,
+        given: Vec<GivenFile>,
         notes: Vec<String>,
     ) -> Answer {
         let rover = &self.scenario.value.rover;
@@ -92,7 +92,7 @@ impl ReplayQuestion {
             Displayed::Rows(Arc::clone(&found.findings), findings),
             Displayed::Words(format!("\n{lines}")),
         ];
-        answer.given.push(given);
+        answer.given.extend(given);
         answer.attach("scenario.toml", &self.scenario);
         self.page(&mut answer, &found);
         if let Some(changed) = self.changed_rover(replay) {

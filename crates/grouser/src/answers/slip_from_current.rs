@@ -27,7 +27,7 @@ pub struct SlipQuestion {
     /// The log's name.
     pub log: String,
     /// What it gave.
-    pub given: GivenFile,
+    pub given: Vec<GivenFile>,
     /// Columns of the log that are not read.
     pub ignored: Vec<String>,
     /// The scenario of rover, soil and slope.
@@ -73,7 +73,7 @@ impl SlipQuestion {
         answer.tables =
             vec![(name.to_owned(), Arc::clone(&rows)), ("wheels".into(), Arc::clone(&wheels))];
         screen(&mut answer, &rows, &wheels, &notes);
-        answer.given.push(self.given.clone());
+        answer.given.extend(self.given.iter().cloned());
         answer.attach("scenario.toml", &self.scenario);
         self.page(&mut answer, (&rows, &wheels), notes);
         answer

@@ -10,6 +10,7 @@ mod coverage;
 #[allow(dead_code, reason = "the example uses all of it")]
 #[path = "../../examples/learning/drive.rs"]
 pub(crate) mod drive;
+mod drives;
 #[allow(dead_code, reason = "the example uses all of it")]
 #[path = "../../examples/learning/entrapment.rs"]
 mod entrapment;

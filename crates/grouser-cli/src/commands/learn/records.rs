@@ -41,8 +41,8 @@ pub(super) struct Ending {
     /// What else there is to say of it.
     pub(super) notes: Vec<String>,
     pub(super) rows: u64,
-    /// What it gave; nothing where nobody knows.
-    pub(super) given: Option<GivenFile>,
+    /// What it and its mapping gave; nothing where nobody knows.
+    pub(super) given: Vec<GivenFile>,
     /// The share of the log that was used [-].
     pub(super) share_used: f64,
 }
@@ -50,7 +50,8 @@ pub(super) struct Ending {
 impl Ending {
     /// Where nothing is known of it.
     fn of_nothing() -> Self {
-        Self { lost: Lost::default(), notes: Vec::new(), rows: 0, given: None, share_used: 1.0 }
+        let (notes, given) = (Vec::new(), Vec::new());
+        Self { lost: Lost::default(), notes, rows: 0, given, share_used: 1.0 }
     }
 }
 
@@ -98,6 +99,6 @@ fn read(mut log: TelemetryLog, sender: &SyncSender<Event>) -> Result<Event, Fail
         }
     }
     let (lost, notes) = (log.lost().clone(), log.notes_of_source());
-    let (rows, given, share_used) = (log.rows(), Some(log.given()), log.share_used());
+    let (rows, given, share_used) = (log.rows(), log.given(), log.share_used());
     Ok(Event::End(Ending { lost, notes, rows, given, share_used }))
 }

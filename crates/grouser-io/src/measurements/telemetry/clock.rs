@@ -35,6 +35,9 @@ pub(super) const OTHER_TIMES: [(&str, Option<TimeUnit>); 9] = [
     ("__time", None),
 ];
 
+/// Endings of the names of such columns, which are units.
+pub(super) const TIME_UNITS: [&str; 4] = ["s", "ms", "us", "ns"];
+
 impl TimeUnit {
     /// The unit in which a number is a time between 1973 and 2286; seconds for any other number.
     /// None of these is a time in seconds that a log has.

@@ -11,6 +11,7 @@ use super::super::limits::Limits;
 use super::super::row::name_of;
 use super::super::table::{Dialect, LookedAt, Table};
 use super::rows::{Cell, TelemetryRows};
+use super::units::units_of;
 use super::{Odometry, TelemetryRecord};
 
 /// Rows of a table in CSV, whatever they mean.
@@ -18,7 +19,11 @@ pub struct CellReader<'a, R> {
     table: Table<'a, LookedAt<R>>,
     dialect: Dialect,
     names: Vec<String>,
+    /// Units of the columns, of a table that has them below its header.
+    units: Option<Vec<String>>,
     row: StringRecord,
+    /// The first row, until it is asked for.
+    first: Option<Result<bool, MeasurementError>>,
     cells: Vec<Cell>,
 }
 
@@ -34,7 +39,7 @@ pub enum NextRow<'r> {
 }
 
 impl<'a, R: Read> CellReader<'a, R> {
-    /// Reads the header.
+    /// Reads the header, and the row of units below it, if there is one.
     ///
     /// * `label`: what messages call the source
     ///
@@ -44,7 +49,11 @@ impl<'a, R: Read> CellReader<'a, R> {
         let limits = Limits { rows: usize::MAX };
         let (mut table, dialect) = Table::of_any_dialect(label, source, limits)?;
         let names = table.header()?.iter().map(name_of).collect();
-        Ok(Self { table, dialect, names, row: StringRecord::new(), cells: Vec::new() })
+        let mut row = StringRecord::new();
+        let mut first = Some(table.next_row(&mut row));
+        let units = if matches!(first, Some(Ok(true))) { units_of(&row) } else { None };
+        first = first.filter(|_| units.is_none());
+        Ok(Self { table, dialect, names, units, row, first, cells: Vec::new() })
     }
 
     /// The names of the columns.
@@ -53,12 +62,19 @@ impl<'a, R: Read> CellReader<'a, R> {
         &self.names
     }
 
+    /// The units below the names of the columns, where the table has such a row.
+    #[must_use]
+    pub fn units(&self) -> Option<&[String]> {
+        self.units.as_deref()
+    }
+
     /// The next row.
     ///
     /// # Errors
     /// [`MeasurementError`] where reading fails, or a row is too long to be one.
     pub fn next_row(&mut self) -> Result<NextRow<'_>, MeasurementError> {
-        match self.table.next_row(&mut self.row) {
+        let first = self.first.take();
+        match first.unwrap_or_else(|| self.table.next_row(&mut self.row)) {
             Ok(true) => {}
             Ok(false) => return Ok(NextRow::End),
             Err(error) if matches!(error.problem(), Problem::NotCsv(_)) => {
@@ -94,7 +110,8 @@ impl<'a, R: Read> TelemetryReader<'a, R> {
     ///
     /// # Errors
     /// [`MeasurementError`] for a source without a header, without the time, with a column twice,
-    /// or with the column of a wheel that the rover does not have.
+    /// with a unit below a column that it cannot have, or with the column of a wheel that the rover
+    /// does not have.
     pub fn new(
         label: impl Into<Cow<'a, str>>,
         source: R,
@@ -102,7 +119,8 @@ impl<'a, R: Read> TelemetryReader<'a, R> {
     ) -> Result<Self, MeasurementError> {
         let label = label.into();
         let cells = CellReader::new(label.clone(), source)?;
-        let rows = TelemetryRows::new(&label, cells.names().to_vec(), rover)?;
+        let units = cells.units().unwrap_or_default();
+        let rows = TelemetryRows::in_units(&label, cells.names(), units, rover)?;
         Ok(Self { cells, rows })
     }
 

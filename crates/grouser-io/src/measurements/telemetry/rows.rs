@@ -4,6 +4,8 @@
 //! Ways and rotations are since the row before. A row that is left out hands its own on to the next
 //! record, or marks that one's as incomplete: as no way at all they would be slip.
 
+use std::iter;
+
 use grouser_core::vehicle::Rover;
 
 use super::super::super::check::nearest;
@@ -14,6 +16,7 @@ use super::super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::super::log_column::LogColumn;
 use super::clock::{OTHER_TIMES, TimeUnit, seconds_of_date};
 use super::frozen::Frozen;
+use super::units::{OfUnit, column_in};
 use super::{
     COLUMNS, FORWARD, LEFTWARD, Lost, OF_ROVER, OF_WHEEL, OTHER_NAMES, Odometry, ROTATION,
     TelemetryRecord, WheelTelemetry,
@@ -41,6 +44,14 @@ impl Cell {
         }
         let number = text.parse().ok().or_else(|| seconds_of_date(text));
         number.map_or(Self::Damaged, Self::of_number)
+    }
+
+    /// The same in another unit.
+    fn times(self, factor: f64) -> Self {
+        match self {
+            Self::Number(number) => Self::Number(factor * number),
+            other => other,
+        }
     }
 
     /// A cell of a table of numbers, where NaN is a gap.
@@ -107,8 +118,18 @@ impl TelemetryRows {
     /// # Errors
     /// [`MeasurementError`] for columns without the time, with a column twice, or with the column
     /// of a wheel that the rover does not have.
-    pub fn new(label: &str, names: Vec<String>, rover: &Rover) -> Result<Self, MeasurementError> {
-        let header = Header::new(label, names, rover)?;
+    pub fn new(label: &str, names: &[String], rover: &Rover) -> Result<Self, MeasurementError> {
+        Self::in_units(label, names, &[], rover)
+    }
+
+    /// The same with the units below the names, none where a table has no such row.
+    pub(super) fn in_units(
+        label: &str,
+        names: &[String],
+        units: &[String],
+        rover: &Rover,
+    ) -> Result<Self, MeasurementError> {
+        let header = Header::new(label, names, units, rover)?;
         let (carried, lost) = (Moved::default(), Lost::default());
         let time_unit = header.time_unit;
         let odometry = Odometry::Visual;
@@ -291,6 +312,8 @@ struct KnownColumn {
     column: &'static LogColumn,
     wheel: Option<usize>,
     place: Place,
+    /// What a number is of one in the column's unit [-].
+    factor: f64,
 }
 
 /// The header, understood.
@@ -305,11 +328,24 @@ struct Header {
 }
 
 impl Header {
-    fn new(label: &str, names: Vec<String>, rover: &Rover) -> Result<Self, MeasurementError> {
+    fn new(
+        label: &str,
+        names: &[String],
+        units: &[String],
+        rover: &Rover,
+    ) -> Result<Self, MeasurementError> {
         if names.iter().all(String::is_empty) {
             return Err(MeasurementError::whole(label, Problem::NoHeader));
         }
         let wheels: Vec<&str> = rover.mounts().iter().map(|mount| mount.name.as_str()).collect();
+        let units = units.iter().map(String::as_str).chain(iter::repeat(""));
+        let columns = names.iter().zip(units).map(|(name, unit)| {
+            let own = known(name, &wheels).ok().flatten();
+            let own = COLUMNS.iter().find(|it| own.is_some_and(|(name, _)| name == it.name));
+            column_in(name, unit, own).map_err(|why| MeasurementError::at(label, 2, why))
+        });
+        let columns = columns.collect::<Result<Vec<_>, _>>()?;
+        let names: Vec<String> = columns.iter().map(|it| it.name.clone()).collect();
         let (time_name, time_unit) = time_of(&names);
         let mut header = Self {
             columns: Vec::new(),
@@ -318,8 +354,8 @@ impl Header {
             time_name,
             time_unit,
         };
-        for name in names {
-            header.add(label, name, &wheels)?;
+        for column in columns {
+            header.add(label, column, &wheels)?;
         }
         let known = || header.columns.iter().flatten();
         if known().any(|known| known.column.name == TIME.name) {
@@ -340,7 +376,12 @@ impl Header {
         Problem::NoKnownColumn { there: self.unused.clone(), sought: sought.collect() }
     }
 
-    fn add(&mut self, label: &str, name: String, wheels: &[&str]) -> Result<(), MeasurementError> {
+    fn add(
+        &mut self,
+        label: &str,
+        OfUnit { name, factor }: OfUnit,
+        wheels: &[&str],
+    ) -> Result<(), MeasurementError> {
         let failed = |problem| MeasurementError::at(label, 1, problem);
         let is_time = name == self.time_name;
         let known = if is_time { Ok(Some((TIME.name, None))) } else { known(&name, wheels) };
@@ -362,7 +403,7 @@ impl Header {
         let found = known.and_then(|(column, wheel)| {
             let column = COLUMNS.iter().find(|it| it.name == column)?;
             let place = Place::of(column, wheel)?;
-            Some(KnownColumn { name: name.clone(), column, wheel, place })
+            Some(KnownColumn { name: name.clone(), column, wheel, place, factor })
         });
         if found.is_none() && !name.is_empty() {
             self.unused.push(name);
@@ -386,7 +427,7 @@ impl Header {
             let (Some(known), false) = (known, cell == Cell::Gap) else { continue };
             let is_time = matches!(known.place, Place::Time);
             let cell = if is_time { in_seconds(cell, self.time_unit, time_unit) } else { cell };
-            let number = match cell {
+            let number = match cell.times(known.factor) {
                 Cell::Number(number) if known.column.range.contains(&number) => number,
                 _ => {
                     lost.cell(&known.name);

@@ -51,7 +51,7 @@ pub struct LearntDrive {
     /// known, or where nobody asks for it.
     pub slips: Option<SlipsFromCurrents>,
     /// What the log gave; nothing where nobody knows.
-    pub given: Option<GivenFile>,
+    pub given: Vec<GivenFile>,
     /// What was left out of the telemetry, a sentence each.
     pub notes: Vec<String>,
 }
