@@ -218,8 +218,11 @@ pub(crate) fn notes(mission: &Node) -> Vec<String> {
     let is_of_file = |leg: &&Node| Arc::ptr_eq(&leg.origin.text, text);
     let of_file = legs.iter().take_while(is_of_file).count();
     let own = (of_file < all).then(|| {
-        let first = of_file + 1;
-        format!("{name}: after its {of_file} legs come the mission's own, {first} to {all}")
+        let own = match all - of_file {
+            1 => format!("the mission's own, {all}"),
+            _ => format!("the mission's own, {} to {all}", of_file + 1),
+        };
+        format!("{name}: after its {of_file} legs come {own}")
     });
     let start = mission.entry(TERRAIN).and_then(|entry| entry.node.entry(START));
     let start = start.map(|entry| &entry.node).filter(is_of_file).map(|place| {

@@ -88,6 +88,8 @@ pub enum Problem {
         sought: Vec<String>,
         /// The columns.
         columns: Vec<String>,
+        /// A built-in mapping that reads them, as .
+        other: Option<String>,
     },
     /// A table that is read by a mapping, of whose columns none has the time.
     #[error("none of its columns is known as the time, and the mapping names none: {}", listed(.0))]
@@ -115,6 +117,9 @@ impl TelemetryError {
             Problem::NothingMapped { .. } => Some(
                 "--mapping FILE.toml says which topics and fields are which columns".to_owned(),
             ),
+            Problem::NoColumnMapped { other: Some(other), .. } => {
+                Some(format!("the built-in {other} reads them"))
+            }
             Problem::NoColumnMapped { .. } => Some(
                 "a reading with `topic = \"/odom\"` and `field = \"pose.x\"` reads the column \
                  /odom/pose/x, one with `topic = \"/\"` and `field = \"x\"` the column x; --mapping \

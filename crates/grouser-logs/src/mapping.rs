@@ -68,11 +68,15 @@ impl Mapping {
         Ok(Self { label, is_file, rules: read?.value })
     }
 
+    /// The built-in mappings.
+    pub(crate) fn built_in() -> impl Iterator<Item = Self> {
+        let built_in = presets(Kind::TelemetryMapping).map(Source::Preset);
+        built_in.filter_map(|source| Self::read(&source).ok())
+    }
+
     /// The first built-in mapping that reads a log; nothing if none knows one of its topics.
     pub(crate) fn for_topics(topics: &[Topic]) -> Option<Self> {
-        let built_in = presets(Kind::TelemetryMapping).map(Source::Preset);
-        let mut mappings = built_in.filter_map(|source| Self::read(&source).ok());
-        mappings.find(|mapping| {
+        Self::built_in().find(|mapping| {
             let mut readings = mapping.rules.readings.iter();
             readings.any(|it| topics.iter().any(|topic| it.reads(&topic.name, &topic.message, "*")))
         })

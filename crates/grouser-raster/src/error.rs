@@ -63,6 +63,11 @@ pub enum Fault {
     /// A device, or a pipe, which has no end.
     #[error("is no file, but a device or a pipe\nhint: write what comes from it to a file first")]
     NoFile,
+    /// Points whose places are longitude and latitude.
+    #[error(
+        "has x and y that look like degrees of longitude and latitude: all points lie within a metre, and a hundred times as far from 0\nhint: places in metres are needed, as gdalwarp -t_srs EPSG:CODE makes them of a grid"
+    )]
+    PointsInDegrees,
     /// Nothing is in it.
     #[error("is empty\nhint: copy or download it again")]
     Empty,
@@ -308,7 +313,7 @@ pub enum Fault {
     },
     /// A coordinate system of longitude and latitude.
     #[error(
-        "has coordinates in degrees of longitude and latitude (its system is {name}), and a rover needs metres\nhint: ogr2ogr -t_srs SYSTEM_OF_THE_MAP OUT.geojson IN.geojson"
+        "has coordinates in degrees of longitude and latitude (its system is {name}), and a rover needs metres\nhint: ogr2ogr -t_srs EPSG:CODE OUT.geojson IN.geojson, with the code of the map's system, or of the place's UTM zone where there is no map"
     )]
     SystemInDegrees {
         /// The system's name.
@@ -326,7 +331,7 @@ pub enum Fault {
     },
     /// Numbers that are longitude and latitude.
     #[error(
-        "has coordinates that look like degrees of longitude and latitude: all are within ±360 and ±90, and none is where the rover drives\nhint: ogr2ogr -t_srs SYSTEM_OF_THE_MAP OUT.geojson IN.geojson"
+        "has coordinates that look like degrees of longitude and latitude: all are within ±360 and ±90, and none is where the rover drives\nhint: ogr2ogr -t_srs EPSG:CODE OUT.geojson IN.geojson, with the code of the map's system, or of the place's UTM zone where there is no map; places in metres so near to each other have the name of their system as `crs`"
     )]
     ZonesInDegrees,
     /// Zones of another place.

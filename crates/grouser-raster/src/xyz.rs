@@ -18,6 +18,7 @@ use grouser_core::units::Vec2;
 
 use crate::error::{Fault, RasterError};
 use crate::heights::{Heights, checked_cells};
+use crate::zones::are_degrees;
 use crate::{CELLS, CoordinateSystem, Raster, ReadOptions, Remark, RowOrder};
 use axis::Axis;
 use header::{TextColumns, words};
@@ -86,6 +87,9 @@ pub fn decode(text: impl BufRead, options: &ReadOptions) -> Result<Raster, Fault
         south_west: Vec2::new(columns.first, rows.first),
         spacing: Vec2::new(columns.spacing, rows.spacing),
     };
+    if are_degrees(&grid.extent()) {
+        return Err(Fault::PointsInDegrees);
+    }
     let mut raster = heights.raster(grid, RowOrder::SouthFirst, CoordinateSystem::default())?;
     raster.remarks.extend(points.remarks);
     Ok(raster)

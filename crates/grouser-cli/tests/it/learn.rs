@@ -98,6 +98,10 @@ fn other_commands_believe_what_was_learnt() {
     );
     assert!(idle.code() == 1 && idle.stderr.contains("nothing was learnt"), "{}", idle.stderr);
     assert!(!place.file("tomorrow/soil.toml").exists(), "what was believed is in today/soil.toml");
+    let idle_text = place
+        .line("learn idle.csv --prior today/soil.toml --rover hakuto --slope-deg 8 --samples 4");
+    let words = "nothing was learnt; by what was known before: 5° ";
+    assert!(idle_text.stdout.contains(words), "{}", idle_text.stdout);
     let again: serde_json::Value = serde_json::from_str(&idle.stdout).expect("JSON");
     let pairs = again["predictions"].as_array().unwrap().iter();
     for (one, other) in pairs.zip(learnt["predictions"].as_array().unwrap()) {

@@ -140,7 +140,13 @@ fn legs_come_from_files_and_the_folder_repeats_them() {
         "m.toml",
         begins("slope_deg = 3.0\nlegs_from = \"legs.csv\"\n[[leg]]\nwait_s = 1.0\n"),
     );
-    let answer = place.json("mission m.toml --nominal");
+    let line = place.line("mission m.toml --nominal --format json");
+    assert!(
+        line.stderr.contains("after its 2 legs come the mission's own, 3\n"),
+        "{}",
+        line.stderr
+    );
+    let answer: Value = serde_json::from_str(&line.stdout).expect("JSON");
     let legs = answer["legs"].as_array().expect("legs");
     let what: Vec<&str> = legs.iter().filter_map(|leg| leg["manoeuvre"].as_str()).collect();
     assert_eq!(what, ["drive 0.3 m", "go to 0.6, 0.05 m", "wait 1 s"]);

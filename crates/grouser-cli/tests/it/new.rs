@@ -24,10 +24,13 @@ fn a_rover_from_flags_passes_the_check_and_drives() {
 fn what_is_not_taken_from_a_preset_is_said() {
     let place = Place::new();
     let text = place.results("new soil --yes --set like=toyoura-uncertain");
-    let line = "not taken from the preset, as it is of its own tests: domain, uncertainty\n";
+    let line =
+        "not taken from the preset, as it is of its own tests: domain, uncertainty, priors\n";
     assert!(text.contains(line), "{text}");
     let document = place.read("my-soil.toml");
-    assert!(document.contains("# Not taken from `toyoura-uncertain`: domain, uncertainty.\n"));
+    assert!(
+        document.contains("# Not taken from `toyoura-uncertain`: domain, uncertainty, priors.\n")
+    );
 }
 
 /// Without a terminal nothing is asked; every next command runs.

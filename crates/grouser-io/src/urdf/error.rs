@@ -108,7 +108,7 @@ pub enum UrdfError {
         /// The link.
         link: String,
         /// What it has instead.
-        found: &'static str,
+        found: String,
     },
     /// Two links of one wheel.
     #[error(

@@ -43,7 +43,7 @@ pub(super) struct Rim {
     /// Where radius and width are from, in words; none for one cylinder.
     pub(super) note: Option<String>,
     /// What its shapes are where they do not tell radius and width.
-    pub(super) lacks: &'static str,
+    pub(super) lacks: String,
 }
 
 impl LinkShape {
@@ -141,18 +141,25 @@ pub(super) fn rim(
         width: options.wheel_width.or(largest.map(|it| it.0.1)),
         centre: largest.map_or_else(somewhere, |it| it.0.2),
         note: note.filter(|_| options.wheel_radius.is_none()),
-        lacks: lacks(&shapes),
+        lacks: lacks(&shapes, meshes),
     })
 }
 
-fn lacks(shapes: &[&LinkShape]) -> &'static str {
-    match shapes.first().map(|it| &it.kind) {
+fn lacks(shapes: &[&LinkShape], meshes: &Meshes<'_>) -> String {
+    let what = match shapes.first().map(|it| &it.kind) {
         None => "it has no geometry",
         Some(RimForm::Cylinder { .. }) => "the axis of its cylinder is not across the rover",
         Some(RimForm::Sphere { .. }) => "its geometry is a sphere, which has no width",
         Some(RimForm::Box) => "its geometry is a box",
-        Some(RimForm::Mesh { .. }) => "its geometry is a mesh that is not there, or not round",
-    }
+        Some(RimForm::Mesh { file, .. }) => {
+            let why = match meshes(file) {
+                Some(_) => "is not round across the rover, or of no known form",
+                None => "was not found",
+            };
+            return format!("its geometry is a mesh, {file}, which {why}");
+        }
+    };
+    what.to_owned()
 }
 
 /// Whether a shape is a sphere or a cylinder, as casters and skids are.

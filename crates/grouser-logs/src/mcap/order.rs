@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 
-use crate::mcap::format::{ChunkIndex, MAGIC, Message};
+use crate::mcap::format::{ChunkIndex, DataEnd, MAGIC, Message, Record};
 use crate::mcap::read::{Known, Messages, OverBudget};
 
 /// What waits for its turn at the most [bytes]; more is passed on before.
@@ -44,7 +44,9 @@ impl Chronological {
         let begins = chunks.iter().map(|it| it.first).collect();
         let source: Box<dyn Read> = match &chunks[..] {
             [] => Box::new(BufReader::new(file)),
-            _ => Box::new(ChunksOf { file, chunks, next: 0, rest: MAGIC.to_vec() }),
+            _ => {
+                Box::new(ChunksOf { file, chunks, next: 0, rest: MAGIC.to_vec(), has_ended: false })
+            }
         };
         let messages = Messages::new(source, budget)?;
         Ok(messages.map(|messages| Self {
@@ -117,6 +119,9 @@ fn to_be_sorted(mut chunks: Vec<ChunkIndex>) -> Vec<ChunkIndex> {
     chunks
 }
 
+/// The record after all data, without a check sum.
+const END: [u8; 13] = [DataEnd::OPCODE, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+
 /// A file that has nothing but some chunks.
 struct ChunksOf {
     file: File,
@@ -124,6 +129,8 @@ struct ChunksOf {
     next: usize,
     /// What is read next.
     rest: Vec<u8>,
+    /// Whether the record that ends a file is part of it.
+    has_ended: bool,
 }
 
 impl Read for ChunksOf {
@@ -131,7 +138,13 @@ impl Read for ChunksOf {
         /// A chunk is read in parts of this size [bytes].
         const PART: u64 = 1 << 20;
         while self.rest.is_empty() {
-            let Some(chunk) = self.chunks.get_mut(self.next) else { return Ok(0) };
+            let Some(chunk) = self.chunks.get_mut(self.next) else {
+                if self.has_ended {
+                    return Ok(0);
+                }
+                (self.has_ended, self.rest) = (true, END.to_vec());
+                continue;
+            };
             let part = chunk.length.min(PART);
             self.file.seek(SeekFrom::Start(chunk.start))?;
             (&self.file).take(part).read_to_end(&mut self.rest)?;

@@ -102,7 +102,12 @@ impl<R: Read> MappedTable<R> {
         let (names, sought) = (reader.names().to_vec(), found.missing);
         if found.topics.is_empty() {
             let mapping = mapping.rules.name.clone();
-            return Err(failed(Problem::NoColumnMapped { mapping, sought, columns: names }));
+            let other = Mapping::built_in().find(|other| {
+                let found = Fitting::of(&columns, other, rover);
+                !found.topics.is_empty() && found.missing.is_empty()
+            });
+            let other = other.map(|it| it.label);
+            return Err(failed(Problem::NoColumnMapped { mapping, sought, columns: names, other }));
         }
         let (time, own_time) = (TimeColumn::of(&names), mapping.rules.time.clone());
         if time.is_none() && own_time.is_none() {

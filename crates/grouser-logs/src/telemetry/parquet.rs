@@ -60,7 +60,7 @@ pub(crate) struct ParquetLog {
 /// Calls the library, which panics on some damaged files.
 fn checked<T>(call: impl FnOnce() -> ParquetResult<T>) -> ParquetResult<T> {
     guarded(call).unwrap_or_else(|why| {
-        Err(ParquetError::General(format!("the reader of Parquet gave up: {why}")))
+        Err(ParquetError::General(format!("it is damaged: copy it again ({why})")))
     })
 }
 

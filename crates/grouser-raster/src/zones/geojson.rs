@@ -92,6 +92,7 @@ pub fn compare_system_of(
 }
 
 fn bytes_of(path: &Path) -> Result<Vec<u8>, Fault> {
+    start_of(path)?;
     let mut bytes = Vec::new();
     File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
     Ok(bytes)

@@ -31,7 +31,7 @@ pub fn check_places(system: Option<&str>, places: &Extent) -> Result<(), Fault> 
 
 /// Whether places are degrees of longitude and latitude rather than metres from a start: less than
 /// a metre across, and a hundred times as far away. Source: ours.
-fn are_degrees(places: &Extent) -> bool {
+pub(crate) fn are_degrees(places: &Extent) -> bool {
     let size = places.north_east - places.south_west;
     let across = size.x.max(size.y);
     let middle = places.south_west + 0.5 * size;

@@ -4,10 +4,9 @@ use super::super::{Answer, meanings};
 use super::figures;
 use super::question::{LearnQuestion, LearntDrive};
 use super::tables::DriveTables;
-use super::words::{lines, slope_in_words};
+use super::words::{lines, slope_in_words, verdicts};
 use crate::document::columns::advice::{SLOPE_COLUMNS, TEST_COLUMNS};
 use crate::document::columns::learn::{LESSON_COLUMNS, PREDICTION_COLUMNS, WARNING_COLUMNS, brief};
-use crate::document::columns::verdict::in_words;
 use crate::document::reading::sentence;
 
 impl LearnQuestion {
@@ -16,7 +15,7 @@ impl LearnQuestion {
         let predictions = &tables.predictions;
         let slopes = (0..predictions.rows()).filter_map(|row| slope_in_words(predictions, row));
         let slopes: Vec<String> = slopes.collect();
-        answer.verdict(sentence(&in_words(&found.verdicts)));
+        answer.verdict(sentence(&verdicts(found)));
         answer.verdict(format!("To hold the contour: {}.", slopes.join("; ")));
         let document = &self.scenario.document;
         answer.list([

@@ -80,10 +80,20 @@ pub(super) fn lines(found: &LearntDrive) -> Vec<String> {
     let contradictions = learner.contradictions();
     let contradictions =
         contradictions.iter().map(|it| format!("warning: {}", contradiction_in_words(it)));
-    [in_words(&found.verdicts), whole, narrowed]
+    [verdicts(found), whole, narrowed]
         .into_iter()
         .chain(warnings)
         .chain(contradictions)
         .chain(notes)
         .collect()
+}
+
+/// What to do on each slope; by what was known before, where nothing was learnt.
+pub(super) fn verdicts(found: &LearntDrive) -> String {
+    let words = in_words(&found.verdicts);
+    if found.drive.learner().learnt().is_something() {
+        words
+    } else {
+        format!("nothing was learnt; by what was known before: {words}")
+    }
 }
