@@ -40,6 +40,7 @@
 
 mod advice;
 mod coordinate_system;
+mod degrees;
 mod error;
 pub mod geotiff;
 mod heights;

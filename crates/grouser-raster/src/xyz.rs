@@ -16,9 +16,9 @@ use std::path::Path;
 use grouser_core::terrain::ElevationGrid;
 use grouser_core::units::Vec2;
 
+use crate::degrees::are_degrees;
 use crate::error::{Fault, RasterError};
 use crate::heights::{Heights, checked_cells};
-use crate::zones::are_degrees;
 use crate::{CELLS, CoordinateSystem, Raster, ReadOptions, Remark, RowOrder};
 use axis::Axis;
 use header::{TextColumns, words};

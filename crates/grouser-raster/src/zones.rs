@@ -29,7 +29,6 @@ mod places;
 
 pub use key::ZoneKey;
 pub use map::{ZoneCounts, ZoneMap};
-pub(crate) use places::are_degrees;
 pub use places::check_places;
 
 use std::path::Path;

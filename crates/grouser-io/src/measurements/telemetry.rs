@@ -10,6 +10,7 @@
 //! row without a time of its own is left out. [`Lost`] counts all of that. Memory does not grow
 //! with the length of the log.
 
+mod cell;
 mod clock;
 mod frozen;
 mod odometry;
@@ -29,10 +30,11 @@ use super::super::columns::{
 };
 use super::super::unit::{A, DEG, M, NM};
 use super::log_column::{LogColumn, column};
+pub use cell::Cell;
 pub use clock::{TimeUnit, day_of};
 pub use odometry::Odometry;
 pub use reader::{CellReader, NextRow, TelemetryReader};
-pub use rows::{Cell, TelemetryRows, TimeColumn, is_same_wheel};
+pub use rows::{TelemetryRows, TimeColumn, is_same_wheel};
 
 /// Way along the body's x since the last one, by visual odometry.
 pub const FORWARD: Quantity = quantity("vo_dx_m", M);

@@ -6,7 +6,8 @@ use grouser_core::terrain::{ElevationGrid, Extent, SoilZones, ZonePolygon};
 use grouser_core::units::Vec2;
 
 use super::key::ZoneKey;
-use super::places::{check_places, may_be_degrees};
+use super::places::check_places;
+use crate::degrees::may_be_degrees;
 use crate::error::Fault;
 
 /// Zones as a file has them.

@@ -3,16 +3,9 @@
 use grouser_core::terrain::Extent;
 
 use crate::CoordinateSystem;
+use crate::degrees::are_degrees;
 use crate::error::Fault;
 use crate::remark::Remark;
-
-/// Whether places could be degrees of longitude and latitude.
-pub(super) fn may_be_degrees(places: &Extent) -> bool {
-    places.south_west.x >= -360.0
-        && places.north_east.x <= 360.0
-        && places.south_west.y >= -90.0
-        && places.north_east.y <= 90.0
-}
 
 /// Checks that places of a file of GeoJSON are metres, not degrees of longitude and latitude.
 ///
@@ -27,16 +20,6 @@ pub fn check_places(system: Option<&str>, places: &Extent) -> Result<(), Fault> 
         None if are_degrees(places) => Err(Fault::ZonesInDegrees),
         _ => Ok(()),
     }
-}
-
-/// Whether places are degrees of longitude and latitude rather than metres from a start: less than
-/// a metre across, and a hundred times as far away. Source: ours.
-pub(crate) fn are_degrees(places: &Extent) -> bool {
-    let size = places.north_east - places.south_west;
-    let across = size.x.max(size.y);
-    let middle = places.south_west + 0.5 * size;
-    let is_small_and_far = across > 0.0 && across < 1.0 && middle.norm() > 100.0 * across;
-    may_be_degrees(places) && is_small_and_far
 }
 
 /// Compares the system that a file of GeoJSON names with that of the map that it is for; a remark

@@ -10,7 +10,8 @@ use super::super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::super::limits::Limits;
 use super::super::row::name_of;
 use super::super::table::{Dialect, LookedAt, Table};
-use super::rows::{Cell, TelemetryRows};
+use super::cell::Cell;
+use super::rows::TelemetryRows;
 use super::units::units_of;
 use super::{Odometry, TelemetryRecord};
 

@@ -10,56 +10,17 @@ use grouser_core::vehicle::Rover;
 
 use super::super::super::check::nearest;
 use super::super::super::columns::{TIME, X, Y};
-use super::super::super::escape;
 use super::super::super::given_file::{FileContent, GivenFile};
 use super::super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::super::log_column::LogColumn;
-use super::clock::{OTHER_TIMES, TimeUnit, seconds_of_date};
+use super::cell::Cell;
+use super::clock::{OTHER_TIMES, TimeUnit};
 use super::frozen::Frozen;
 use super::units::{OfUnit, column_in};
 use super::{
     COLUMNS, FORWARD, LEFTWARD, Lost, OF_ROVER, OF_WHEEL, OTHER_NAMES, Odometry, ROTATION,
     TelemetryRecord, WheelTelemetry,
 };
-
-/// A cell of a row, whatever its source.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Cell {
-    /// Nothing was read.
-    Gap,
-    /// A number in the unit of its column.
-    Number(f64),
-    /// Something that is no number.
-    Damaged,
-}
-
-impl Cell {
-    /// A cell of a table of texts; NaN stands for a gap in many logs, and a date with its time of
-    /// day is one in seconds since 1970.
-    #[must_use]
-    pub fn of_text(text: &str) -> Self {
-        let text = escape::plain(text);
-        if text.is_empty() {
-            return Self::Gap;
-        }
-        let number = text.parse().ok().or_else(|| seconds_of_date(text));
-        number.map_or(Self::Damaged, Self::of_number)
-    }
-
-    /// The same in another unit.
-    fn times(self, factor: f64) -> Self {
-        match self {
-            Self::Number(number) => Self::Number(factor * number),
-            other => other,
-        }
-    }
-
-    /// A cell of a table of numbers, where NaN is a gap.
-    #[must_use]
-    pub fn of_number(number: f64) -> Self {
-        if number.is_nan() { Self::Gap } else { Self::Number(number) }
-    }
-}
 
 /// Rows with named columns, which become records in the order in which they come.
 #[derive(Clone, Debug)]

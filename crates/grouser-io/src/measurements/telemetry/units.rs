@@ -6,8 +6,8 @@ use super::super::dimension::is_unit;
 use super::super::error::MeasurementProblem as Problem;
 use super::super::log_column::LogColumn;
 use super::COLUMNS;
+use super::cell::Cell;
 use super::clock::{OTHER_TIMES, TIME_UNITS};
-use super::rows::Cell;
 
 /// What the row of units makes of a column.
 #[derive(Clone, Debug, PartialEq)]
