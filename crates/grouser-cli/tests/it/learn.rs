@@ -182,6 +182,20 @@ fn what_taught_nothing_is_said() {
     {
         assert!(text.contains(part), "{part} in\n{text}");
     }
+    // Times in milliseconds from 0 are seconds that no motion is known between.
+    let log = place.read("log.csv");
+    let slow = log.lines().enumerate().map(|(row, line)| match line.split_once(',') {
+        Some((time, rest)) if row > 0 => {
+            format!("{},{rest}\n", 1e3 * time.parse::<f64>().expect("a time"))
+        }
+        _ => format!("{line}\n"),
+    });
+    place.write("slow.csv", slow.collect::<String>());
+    let answer = place.line(&COMMAND.replace("log.csv", "slow.csv"));
+    assert_eq!(answer.code(), 1, "{}", answer.stdout);
+    for part in ["more than 5 s apart", "`time_ms`"] {
+        assert!(answer.stderr.contains(part), "{part} in\n{}", answer.stderr);
+    }
 }
 
 #[test]

@@ -57,14 +57,22 @@ pub enum NotUsed {
     Standing,
     /// The wheels turn in different directions, or change their speeds.
     Manoeuvre,
+    /// Its records are farther apart in time than the motion is known in between.
+    Apart,
     /// The rover tips, or no soil that is believed possible carries it.
     NotCarried,
 }
 
 impl NotUsed {
     /// All of them.
-    pub const ALL: [Self; 5] =
-        [Self::NoAttitude, Self::NoMotion, Self::Standing, Self::Manoeuvre, Self::NotCarried];
+    pub const ALL: [Self; 6] = [
+        Self::NoAttitude,
+        Self::NoMotion,
+        Self::Standing,
+        Self::Manoeuvre,
+        Self::Apart,
+        Self::NotCarried,
+    ];
 
     /// One word.
     pub(super) const fn name(self) -> &'static str {
@@ -73,6 +81,7 @@ impl NotUsed {
             Self::NoMotion => "no-motion",
             Self::Standing => "standing",
             Self::Manoeuvre => "manoeuvre",
+            Self::Apart => "apart",
             Self::NotCarried => "not-carried",
         }
     }
@@ -85,6 +94,10 @@ impl NotUsed {
             Self::NoMotion => "there is no way by odometry or fixes, nor a torque or a sinkage",
             Self::Standing => "the wheels stand",
             Self::Manoeuvre => "the wheels turn in different directions, or change their speeds",
+            Self::Apart => {
+                "records are more than 5 s apart, between which nobody knows the motion (times in \
+                 milliseconds are `time_ms`)"
+            }
             Self::NotCarried => {
                 "the rover would tip there, or sink to its axles in every soil that is believed \
                  possible"
@@ -128,6 +141,9 @@ impl SeenMotion {
     /// What can be learnt from a stretch.
     pub(super) fn of(stretch: &Stretch, rover: &Rover) -> Result<Self, NotUsed> {
         let [slope, yaw] = steady_attitude(stretch)?;
+        if stretch.way <= 0.0 {
+            return Err(NotUsed::Apart);
+        }
         let rims = &stretch.rim_speeds;
         let fastest = rims.iter().map(|it| it.abs()).fold(0.0, f64::max);
         let [forward, leftward] = stretch.velocity;
