@@ -2,6 +2,7 @@
 
 use grouser::answers::slip_from_current::SlipQuestion;
 use grouser::document::escape;
+use grouser::studies::slip_from_current::{SlipEstimate, SlipStatus};
 
 use super::sampling;
 use crate::args::SlipFromCurrentArgs;
@@ -17,12 +18,33 @@ pub(crate) fn run(args: &SlipFromCurrentArgs) -> Result<(), Failure> {
     let SlipInputs { question, estimator, log, notes, bytes } = inputs::slip_from_current(args)?;
     let found =
         sampling::with_bar(estimator.log_steps(&log), |go_on| estimator.of_log(&log, go_on));
-    let answer = question.answer("slip-from-current", &log, &sampling::whole(found));
+    let found = sampling::whole(found);
+    let answer = question.answer("slip-from-current", &log, &found);
     output::notes(notes.iter().map(|note| escape::line(note)));
     if let Some(folder) = &mut folder {
         folder.add("log.csv", bytes);
     }
-    give(&answer, &repeat(args, &question), folder, args.output.format)
+    give(&answer, &repeat(args, &question), folder, args.output.format)?;
+    check_some(&found)
+}
+
+/// Checks that some readings tell a slip, or that wheels stand.
+fn check_some(found: &[Vec<Option<SlipEstimate>>]) -> Result<(), Failure> {
+    let all = || found.iter().flatten().flatten().map(|it| it.status);
+    let tells = [SlipStatus::Ok, SlipStatus::IllPosed, SlipStatus::Standing];
+    let count = |status: SlipStatus| all().filter(|it| *it == status).count();
+    let commonest = SlipStatus::ALL.into_iter().max_by_key(|status| count(*status));
+    match commonest.filter(|_| !all().any(|it| tells.contains(&it))) {
+        Some(why) if count(why) > 0 => Err(Failure::Run(format!(
+            "no reading tells a slip: {} of {} are `{}`: {}\nhint: currents are in A, speeds in \
+             rad/s at the wheel",
+            count(why),
+            all().count(),
+            why.name(),
+            why.meaning()
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// The command that gives the answer again.

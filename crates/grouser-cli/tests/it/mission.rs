@@ -159,6 +159,12 @@ fn legs_come_from_files_and_the_folder_repeats_them() {
     let again = place.json("mission out/mission.toml --nominal");
     assert_eq!(again["legs"], answer["legs"]);
     place.write("empty.toml", begins("slope_deg = 3.0\n"));
+    let of_map = r#"{"type": "LineString", "coordinates": [[500000, 5400000], [500010, 5400000]]}"#;
+    place.write("utm.geojson", of_map);
+    let far = check_is_refusal(&place.line("mission empty.toml --legs-from utm.geojson"), 2);
+    for part in ["leg 1 goes to x 500000 m, y 5400000 m, 5423 km away", "need the map"] {
+        assert!(far.contains(part), "{part}: {far}");
+    }
     let places = place.json("mission empty.toml --nominal --legs-from legs.geojson");
     assert_eq!(places["legs"][1]["manoeuvre"], "go to 0.6, 0.05 m");
 }

@@ -128,7 +128,7 @@ fn check_legs(legs: &[LegKeys], within: &str, rover: &Rover) -> Result<(), Misfi
 ///
 /// * `within`: the key under which its legs stand
 fn check_places(mission: &Mission, ground: &Ground, within: &str) -> Result<(), Misfit> {
-    let Shape::Map(map) = &ground.shape else { return Ok(()) };
+    let Shape::Map(map) = &ground.shape else { return check_distances(mission, within) };
     let on_map = |at: Vec2| terrain_file::contains(map.extent(), at);
     for (number, leg) in mission.legs.iter().enumerate() {
         let Manoeuvre::Goto { place, .. } = leg.manoeuvre else { continue };
@@ -142,6 +142,26 @@ fn check_places(mission: &Mission, ground: &Ground, within: &str) -> Result<(), 
         if on_map(Vec2::new(place.y, place.x)) {
             hint += ": x and y are exchanged?";
         }
+        return Err(Misfit::new(format!("{within}.{number}.goto"), problem).with_hint(hint));
+    }
+    Ok(())
+}
+
+/// Checks that the places of a mission without a map are no coordinates of one.
+///
+/// * `within`: the key under which its legs stand
+fn check_distances(mission: &Mission, within: &str) -> Result<(), Misfit> {
+    /// No rover drives so far in a mission [m].
+    const FARTHEST: f64 = 1e5;
+    for (number, leg) in mission.legs.iter().enumerate() {
+        let Manoeuvre::Goto { place, .. } = leg.manoeuvre else { continue };
+        if place.norm() <= FARTHEST {
+            continue;
+        }
+        let kilometres = (1e-3 * place.norm()).round();
+        let what = format!("goes to x {} m, y {} m, {kilometres} km away", place.x, place.y);
+        let problem = Problem::Leg { number: number + 1, what };
+        let hint = "places are from where the mission starts; those of a map need the map";
         return Err(Misfit::new(format!("{within}.{number}.goto"), problem).with_hint(hint));
     }
     Ok(())
