@@ -105,17 +105,12 @@ impl<'a> OnGround<'a> {
         let reach = rover.load_arms().iter().map(Vec2::norm).fold(0.0, f64::max);
         let scale = rover.mass() * self.gravity * reach;
         let in_turns = self.settle_by_rounds(stance, contacts, near, scale);
-        in_turns.or_else(|error| {
-            if !matches!(error, ReactionError::Unsettled { .. } | ReactionError::Tipping(_)) {
-                return Err(error);
+        in_turns.or_else(|error| match error {
+            ReactionError::Unsettled { .. } => {
+                self.settle_by_damped_steps(stance, contacts, scale).ok_or(error)
             }
-            // Rounds that overshoot leave the wheels where steps do not.
-            let found = self.settle_by_damped_steps(stance, contacts, scale, &|it| it);
-            let rocking = || match error {
-                ReactionError::Tipping(_) => self.settle_rocking(stance, contacts, scale),
-                _ => None,
-            };
-            found.map(Ok).or_else(rocking).unwrap_or(Err(error))
+            ReactionError::Tipping(_) => self.settle_rocking(stance, contacts, scale, error),
+            error => Err(error),
         })
     }
 
@@ -123,16 +118,21 @@ impl<'a> OnGround<'a> {
     /// would tip over: wheels whose speed is set anew pull with all their friction for the
     /// hundredths of a second until the ground moves below them with that speed. In that time a
     /// rover turns by far less than it takes to fall: its weight acts on the edge that it would
-    /// tip over, and what is left of the moments rocks it. `None` of a rover that does not stand
-    /// firmly.
+    /// tip over, and what is left of the moments rocks it.
     ///
     /// * `scale`: weight times reach [N·m]
+    /// * `tipping`: of a rover that does not stand firmly, or whose loads are not found
+    ///
+    /// # Errors
+    /// That, or [`ReactionError::Wheel`] for a wheel that sinks to its axle under what it carries on
+    /// the edge.
     fn settle_rocking(
         &self,
         stance: &Stance,
         contacts: &[Contact],
         scale: f64,
-    ) -> Option<Result<Vec<WheelReaction>, ReactionError>> {
+        tipping: ReactionError,
+    ) -> Result<Vec<WheelReaction>, ReactionError> {
         /// How far within its wheels a rover stands firmly, over its reach [-]: farther than forces
         /// that move it steadily shift where its weight acts.
         const FIRMLY: f64 = 0.2;
@@ -144,7 +144,7 @@ impl<'a> OnGround<'a> {
         let at_rest = rover.centre_height() * stance.pull / weight;
         let reach = scale / (rover.mass() * self.gravity);
         if polygon.margin(at_rest) < FIRMLY * reach {
-            return None;
+            return Err(tipping);
         }
         let onto = |moments: Vec2| {
             let foot = moments / weight;
@@ -153,24 +153,17 @@ impl<'a> OnGround<'a> {
         };
         let mut moments = onto(load::moments(rover, stance.pull, sharing, own_moments, &[]));
         let mut wheels: Vec<WheelReaction> = Vec::new();
-        let mut change = f64::INFINITY;
         for _ in 0..MOST_ROUNDS {
-            wheels = match self.settle_under(stance, moments, contacts, &wheels) {
-                Ok(wheels) => wheels,
-                Err(error) => return Some(Err(error)),
-            };
+            wheels = self.settle_under(stance, moments, contacts, &wheels)?;
             let forces: Vec<WheelForces> = forces_of(&wheels).copied().collect();
             let next = onto(load::moments(rover, stance.pull, sharing, own_moments, &forces));
-            change = (next - moments).norm() / scale;
-            if change <= NEARLY_AGREED {
-                return Some(Ok(wheels));
+            if (next - moments).norm() <= NEARLY_AGREED * scale {
+                return Ok(wheels);
             }
             // Half of the way: rounds that overshoot close in, too.
             moments = moments.lerp(&next, 0.5);
         }
-        let wheel = rover.mounts()[0].name.clone();
-        let unsettled = ReactionError::Unsettled { wheel, rounds: MOST_ROUNDS, change };
-        Some(self.settle_by_damped_steps(stance, contacts, scale, &onto).ok_or(unsettled))
+        Err(tipping)
     }
 
     /// The reaction on every wheel, by rounds of loads and of the forces under them.
@@ -224,18 +217,16 @@ impl<'a> OnGround<'a> {
     /// round in circles.
     ///
     /// * `scale`: weight times reach [N·m]
-    /// * `onto`: what becomes of the moments of all wheels
     fn settle_by_damped_steps(
         &self,
         stance: &Stance,
         contacts: &[Contact],
         scale: f64,
-        onto: &dyn Fn(Vec2) -> Vec2,
     ) -> Option<Vec<WheelReaction>> {
         let Self { rover, sharing, own_moments, .. } = *self;
         let of = |wheels: &[WheelReaction]| {
             let forces: Vec<WheelForces> = forces_of(wheels).copied().collect();
-            onto(load::moments(rover, stance.pull, sharing, own_moments, &forces))
+            load::moments(rover, stance.pull, sharing, own_moments, &forces)
         };
         let miss = |moments: &DVector<f64>| {
             let moments = Vec2::new(moments[0], moments[1]);
