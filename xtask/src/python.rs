@@ -61,7 +61,7 @@ const CITATION: &str = "check-jsonschema>=0.33";
 /// starting Ray's workers takes longest of all tests. Without them those tests are skipped.
 const HEAVY: [&str; 2] = ["ray", "torch"];
 /// The module whose examples need one of them.
-const NEEDS_HEAVY: &str = "--ignore-glob=*/grouser/torch.py";
+const NEEDS_HEAVY: &str = "--ignore-glob=/*/grouser/torch.py";
 
 /// Builds the wheel, installs it, and counts the tests of the package: pytest's, the examples of
 /// its docstrings, and its types. `Extent::Full` tests the heavy extras too, and the lower bounds of

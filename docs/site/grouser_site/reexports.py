@@ -26,7 +26,8 @@ def gather(app) -> None:
         whole = ModuleAnalyzer.for_module(package.__name__)
         whole.analyze()
         for module in pkgutil.iter_modules(package.__path__):
-            if module.name in ("_core", "__main__"):
+            # PyTorch is not installed for a page that a sentence stands for.
+            if module.name in ("_core", "__main__", "torch"):
                 continue
             part = ModuleAnalyzer.for_module(f"{package.__name__}.{module.name}")
             part.analyze()

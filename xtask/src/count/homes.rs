@@ -28,10 +28,10 @@ type Rule = fn(&Sources) -> usize;
 /// as bytes 2,200 of 2,700 at once; the console 2,500, and two names that traits of its server ask for.
 /// States as values in Python, linearised steps and numbers out of range took 300 lines of Rust, 210 of
 /// Python, a conversion, and the four arrays of a linearised step, which is no table. What files gave,
-/// rows of units, Parquet by mappings, derivatives through PyTorch, and hints took 800 of Rust and 100
+/// rows of units, Parquet by mappings, derivatives through PyTorch, and hints took 900 of Rust and 100
 /// of Python.
 const COUNTS: [(&str, usize, Rule); 9] = [
-    ("lines of Rust without comments and tests", 123_900, |all| all.rust.iter().map(lines).sum()),
+    ("lines of Rust without comments and tests", 124_000, |all| all.rust.iter().map(lines).sum()),
     ("lines of Python without comments and tests", 8_780, |all| all.python.iter().map(lines).sum()),
     ("files that name three outcomes or more as text", 1, outcome_homes),
     ("inputs of an answer written by hand (`fn settings`, `fn state`)", 19, |all| {

@@ -513,7 +513,7 @@ def replay(
     text: str | None,
     slope_is_known: bool,
     sampling: tuple[int, int],
-    how: tuple[str | None, int | None] = (None, None),
+    how: tuple[str | None, int | None] = ...,
 ) -> tuple[
     tuple[dict[str, Any], dict[str, Any], dict[str, Any]], list[str], list[str], list[str], str
 ]: ...

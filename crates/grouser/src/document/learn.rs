@@ -112,8 +112,8 @@ impl LearntSoil {
     }
 
     /// What a learner believes, as every study has it from the soil's document: the scenario with
-    /// this soil, and samples that are drawn from it. Where nothing was learnt these are the
-    /// scenario as it was and the learner's samples.
+    /// this soil, and samples that are drawn from it. Where nothing was learnt the
+    /// scenario is as it was.
     ///
     /// * `sampling`: seed and number of the samples, and of those of each model in the document
     ///
@@ -127,11 +127,10 @@ impl LearntSoil {
         let (seed, count) = sampling;
         let now = || Self::of_learner(scenario, learner, sampling, ("", None));
         let learnt = learner.learnt().is_something().then(now).transpose()?;
-        let Some(learnt) = learnt.flatten() else {
-            let samples = learner.samples(seed, count)?.into_iter().map(|it| it.sample);
-            return Ok((scenario.clone(), samples.collect()));
+        let now = match learnt.flatten() {
+            Some(learnt) => learnt.in_scenario(scenario)?,
+            None => scenario.clone(),
         };
-        let now = learnt.in_scenario(scenario)?;
         let samples = BandInputs::of_scenario(&now).samples(seed, count)?;
         Ok((now, samples))
     }
