@@ -31,7 +31,7 @@ pub(crate) fn draw_if_uncertain(
 
 /// Whether verdicts over so many samples may move.
 pub(crate) fn are_few(Sampling { count, .. }: Sampling) -> bool {
-    /// Of so many the 95 % interval of a share of .2 is .13 to .29.
+    /// Enough samples: with so many the 95 % interval of a share of .2 is .13 to .29.
     const ENOUGH: u32 = 100;
     count < ENOUGH
 }

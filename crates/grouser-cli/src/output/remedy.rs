@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use grouser::answers::{Answer, Member};
+use grouser::document::columns::verdict::REASON;
 use grouser::document::table::Table;
 use grouser::studies::verdict::Reason;
 
@@ -29,7 +30,7 @@ pub(crate) fn of_reasons(reasons: impl Iterator<Item = Reason>) -> Vec<String> {
     lines.into_iter().map(|line| format!("hint: {line}")).collect()
 }
 
-/// The same of the verdicts of an answer.
+/// A line for each reason of an answer's verdicts that something can be done about.
 pub(super) fn of_answer(answer: &Answer) -> Vec<String> {
     let tables = answer.results.iter().flat_map(|member| match member {
         Member::Rows(_, table) => vec![&**table],
@@ -41,6 +42,6 @@ pub(super) fn of_answer(answer: &Answer) -> Vec<String> {
 }
 
 fn reasons(table: &Table) -> impl Iterator<Item = Reason> {
-    let names = table.texts("reason").iter().flatten();
+    let names = table.texts(REASON).iter().flatten();
     names.filter_map(|name| Reason::ALL.into_iter().find(|reason| reason.name() == name))
 }

@@ -103,7 +103,7 @@ impl Answers {
         NOT_KEPT.into_iter().filter(|table| preset.get(table).is_some()).collect()
     }
 
-    /// The same without what is of its own tests.
+    /// The document of that preset without what is of its own tests.
     fn keys_of_preset(&self) -> Json {
         let mut keys = self.preset();
         if let Json::Object(keys) = &mut keys {

@@ -166,7 +166,7 @@ pub(super) const OF_OPPOSING_SIDE_FORCES: &str = "longitudinal_force_n";
 /// Whether a column has the time, so that rows are samples of runs and no trials.
 pub(super) fn is_of_time(name: &str) -> bool {
     const TIMES: [&str; 7] = ["time", "t", "timestamp", "stamp", "elapsed", "seconds", "sample"];
-    /// Of a second, behind such a name.
+    /// Units of the time, behind such a name.
     const UNITS: [&str; 4] = ["_s", "_ms", "_us", "_ns"];
     let name = name.to_ascii_lowercase();
     let bare = UNITS.into_iter().find_map(|unit| name.strip_suffix(unit));

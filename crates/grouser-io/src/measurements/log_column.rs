@@ -22,7 +22,7 @@ pub struct LogColumn {
 }
 
 impl LogColumn {
-    /// What its unit measures; text where that is none of a sensor.
+    /// What the column's unit measures; text where no sensor measures it.
     #[must_use]
     pub fn dimension(&self) -> Dimension {
         match self.unit.symbol {

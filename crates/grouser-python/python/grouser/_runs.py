@@ -29,8 +29,8 @@ class RunState:
     """All that changes in a run, as a value: `Run.restore` sets a run of the same scenario to it.
 
     Made by `Run.save` and `RunBatch.save`. It has the rover's pose and velocities, its energies,
-    battery and windings, what a reset sampled, and what the solver knows of the motion so far: a run goes on from it bit for bit. It
-    does not change, compares by value, can be hashed and pickled, and ``bytes(state)`` are for
+    battery and windings, what a reset sampled, and what the solver knows of the motion so far: a
+    run goes on from it bit for bit. It does not change, compares by value, can be hashed and pickled, and ``bytes(state)`` are for
     files; the same version of Grouser reads them.
 
     Parameters

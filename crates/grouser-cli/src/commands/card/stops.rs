@@ -74,13 +74,13 @@ pub(super) fn missing(card: &Card, slope_deg: Option<f64>) -> Failure {
     let judgements = card.rows.iter().map(|row| row.advice.judgement);
     let doubt = judgements.clone().find(|it| it.verdict == Verdict::CannotTell);
     let why = doubt.or_else(|| judgements.clone().next()).map_or("", |it| it.reason.meaning());
-    let hints = remedy::of_reasons(doubt.map(|it| it.reason).into_iter());
-    let hint: String = hints.into_iter().map(|hint| format!("\n{hint}")).collect();
     if let (Some(slope), None) = (slope_deg.map(four_digits), doubt) {
         return Failure::Run(format!(
             "--stops-slope-deg {slope}: this card has no go or caution on a slope as steep"
         ));
     }
+    let hints = remedy::of_reasons(doubt.map(|it| it.reason).into_iter());
+    let hint: String = hints.into_iter().map(|hint| format!("\n{hint}")).collect();
     Failure::Run(format!(
         "--stops: no slope of this card is a go or a caution, so that it has no limits to turn \
          back at: {why}{hint}"

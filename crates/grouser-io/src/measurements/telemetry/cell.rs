@@ -27,7 +27,7 @@ impl Cell {
         number.map_or(Self::Damaged, Self::of_number)
     }
 
-    /// The same in another unit.
+    /// The cell in another unit, which is so many of its own.
     pub(super) fn times(self, factor: f64) -> Self {
         match self {
             Self::Number(number) => Self::Number(factor * number),

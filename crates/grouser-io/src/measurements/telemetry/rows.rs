@@ -83,7 +83,7 @@ impl TelemetryRows {
         Self::in_units(label, names, &[], rover)
     }
 
-    /// The same with the units below the names, none where a table has no such row.
+    /// The header of a table with the units below its names; none where a table has no such row.
     pub(super) fn in_units(
         label: &str,
         names: &[String],
