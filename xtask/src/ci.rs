@@ -41,7 +41,7 @@ enum Take {
 
 /// All of them, the quick ones first. Those up to the documentation, the figures and the wheel
 /// share one build.
-const STEPS: [Step; 23] = {
+const STEPS: [Step; 24] = {
     use Take::{Beside, Here, Last};
     const fn step(name: &'static str, budget: f64, take: Take) -> Step {
         Step { name, budget, asks: &[], is_long: false, take }
@@ -70,6 +70,7 @@ const STEPS: [Step; 23] = {
         step("schemas", 2.0, Here(|_| schema::check().map(Count::one))),
         step("figures", 280.0, Here(|_| figures::check().map(Count::one))),
         step("fuzz", 150.0, Here(|extent| fuzz::check(&fuzz::Plan::of(extent)))),
+        step("meaning", 60.0, Here(fuzz::meaning::check)),
         Step { asks: OF_C, ..step("c", 250.0, Here(|_| c::check())) },
         Step { asks: OF_C, ..step("hashes", 15.0, Here(|_| hashes::check())) },
         Step { asks: PACKED, ..step("packages", 20.0, Here(packages::check)) },

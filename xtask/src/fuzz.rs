@@ -10,6 +10,7 @@
 //! number; its folder is kept below `target/fuzz`.
 
 mod maps;
+pub(crate) mod meaning;
 mod mutation;
 mod subjects;
 mod verdict;

@@ -58,6 +58,7 @@ cargo xtask CHORE
                       was measured as it is
   fuzz [--cases N] [--seed N] [--only N] [--program FILE]
                       damaged and hostile input for every command, under limits of memory and time
+  fuzz --meaning      logs that mean something else, for `learn`; writes the table of docs/guide/telemetry.md
   hashes              compare digests of wheels, a traverse and a mission by each instruction set and by C
   instructions [--check]
                       count the instructions of the units of work anew (valgrind), or only compare
@@ -116,6 +117,7 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["figures"] => figures::write(true)?,
         ["figures", "--made"] => figures::write(false)?,
         ["figures", "--check"] => figures::check()?,
+        ["fuzz", "--meaning"] => good(fuzz::meaning::write()?),
         ["fuzz", options @ ..] => {
             let count = fuzz::check(&fuzz::Plan::parse(options)?)?;
             println!("{count}");

@@ -21,7 +21,6 @@ mod learn_on_the_way;
 mod logs;
 mod make_terrain;
 mod maps;
-mod meaning;
 mod mission;
 mod models;
 mod motors;

@@ -41,6 +41,8 @@ pub(crate) struct Drive {
     study: HeadingStudy,
     ground: Option<Ground>,
     time: f64,
+    /// Whether its wheels' sinkages are read.
+    pub(crate) reads_sinkages: bool,
     pub(crate) records: Vec<TelemetryRecord>,
 }
 
@@ -92,7 +94,7 @@ impl Drive {
     /// On an even plane.
     pub(crate) fn new(prior: &LoadedScenario, truth: &Sample) -> Self {
         let study = HeadingStudy::of(&prior.value).of_sample(truth);
-        Self { study, ground: None, time: 0.0, records: Vec::new() }
+        Self { study, ground: None, time: 0.0, reads_sinkages: false, records: Vec::new() }
     }
 
     /// On ground that is as uneven as a learner takes it to be.
@@ -181,6 +183,7 @@ impl Drive {
             WheelTelemetry {
                 speed: Some(RIM_SPEED / mount.shearing_radius()),
                 torque: Some(torque * (1.0 + share) + added),
+                sinkage: self.reads_sinkages.then_some(wheel.settled.sinkage),
                 ..WheelTelemetry::default()
             }
         });

@@ -10,9 +10,11 @@
 //! | `entrapment` | how far ahead entrapment is called |
 //! | `alarms` | how often something is warned of on a soil that stays the same |
 //! | `cost` | what an update costs |
+//! | `drives` | nothing: it writes the telemetry of drives without a fault into a folder |
 //!
 //! ```sh
 //! cargo run --release -p grouser --example learning -- STUDY [REPEATS [SEED]]
+//! cargo run --release -p grouser --example learning -- drives FOLDER [DRIVES]
 //! ```
 
 mod alarms;
@@ -20,10 +22,12 @@ mod change;
 mod cost;
 mod coverage;
 mod drive;
+mod drives;
 mod entrapment;
 mod heading;
 
 use std::error::Error;
+use std::path::Path;
 
 use grouser::document::LoadedScenario;
 use grouser::studies::learn::WarningKind;
@@ -40,6 +44,11 @@ const SEED: u64 = 2027;
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let study = arguments.next().unwrap_or_default();
+    if study == "drives" {
+        let folder = arguments.next().ok_or("give a folder")?;
+        let count = arguments.next().map_or(Ok(20), |it| it.parse())?;
+        return drives::write(Path::new(&folder), count);
+    }
     let repeats = arguments.next().map(|it| it.parse()).transpose()?;
     let seed = arguments.next().map(|it| it.parse()).transpose()?.unwrap_or(SEED);
     let prior = sand("ishigami");
@@ -53,7 +62,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         "cost" => cost(&trial),
         _ => {
             return Err(
-                "give a study: coverage, heading, change, entrapment, alarms or cost".into()
+                "give a study: coverage, heading, change, entrapment, alarms, cost or drives"
+                    .into(),
             );
         }
     }

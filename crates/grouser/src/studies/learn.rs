@@ -34,6 +34,7 @@ mod information;
 mod middle;
 mod motion;
 mod noise;
+mod one_sided;
 mod passed;
 mod settings;
 mod state;
@@ -61,6 +62,7 @@ pub use self::motion::NotUsed;
 use self::motion::{Expected, SeenMotion};
 pub(super) use self::motion::{ODOMETRY, SHALLOWEST, steady_attitude, steered};
 pub use self::noise::ModelNoise;
+pub use self::one_sided::OneSided;
 pub use self::settings::LearnSettings;
 pub(super) use self::stretch::{GAP, Gatherer};
 pub use self::stretch::{Reading, Stretch};
@@ -231,6 +233,7 @@ impl Learner {
             self.bank.forget();
             self.change = SoilChange::default();
             self.watch.believed(None);
+            self.watch.forget_sides();
             self.learnt.forgotten = self.learnt.stretches;
         }
         let warning = |fault| Warning {
@@ -258,6 +261,12 @@ impl Learner {
         self.bank.best(&self.settings).contradictions()
     }
 
+    /// What stays on one side of what is expected, whatever is learnt, and by how many standard
+    /// deviations.
+    pub fn on_one_side(&self) -> impl Iterator<Item = (OneSided, f64)> {
+        self.watch.on_one_side()
+    }
+
     /// Warnings that no lesson has.
     fn take_pending(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.pending)
@@ -275,7 +284,7 @@ impl Learner {
         taught: &Taught,
     ) -> (f64, Vec<Warning>) {
         let (study, patch) = (&self.study, self.settings.noise.way);
-        let Taken { passed, push, .. } = &taught.taken;
+        let Taken { passed, push, surprise, .. } = &taught.taken;
         let filter = taught.filter as u64;
         let expected = before.expected(study, motion);
         let slip_and_drift = expected.as_ref().map(|it| motion.expected_slip_and_drift(it));
@@ -297,6 +306,7 @@ impl Learner {
             noise: self.settings.noise,
             filter,
             push: push.as_ref(),
+            scores: surprise.scores.as_slice(),
             is_another_soil: self.change.look(filter, passed.clone(), patch),
             deep_slope: &|steeper| deep_slope(study, before, motion, steeper),
             holds_against: &|| before.holds_against(study, motion, DEEP),

@@ -377,7 +377,9 @@ impl Replayer {
     ///
     /// * `gross`: what is left out
     fn findings(&self, motions: &[Motion], gross: &GrossFaults) -> (Vec<Finding>, usize) {
-        let has_attitude = gross.found().iter().all(|it| it.suspect != Suspect::Attitude);
+        let is_of_attitude =
+            |it: &GrossFault| matches!(it.suspect, Suspect::Attitude | Suspect::StillAttitude);
+        let has_attitude = !gross.found().iter().any(is_of_attitude);
         let stretch = |kept: &Kept| {
             let mut stretch = kept.stretch.clone();
             gross.leave_out(&mut stretch);

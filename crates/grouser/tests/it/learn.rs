@@ -15,12 +15,16 @@ mod drives;
 #[path = "../../examples/learning/entrapment.rs"]
 mod entrapment;
 #[allow(dead_code, reason = "the example uses all of it")]
+#[path = "../../examples/learning/drives.rs"]
+mod faultless;
+#[allow(dead_code, reason = "the example uses all of it")]
 #[path = "../../examples/learning/heading.rs"]
 mod heading;
 
 use grouser::document::LoadedScenario;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
-use grouser::studies::learn::{Suspect, WarningKind};
+use grouser::studies::learn::{Evidence, OneSided, Suspect, TelemetryRecord, WarningKind};
+use grouser::studies::simulated_telemetry::SensorModels;
 
 use grouser_io::measurements::telemetry::{TelemetryReader, csv_header, csv_line};
 
@@ -251,4 +255,75 @@ fn angles_are_checked_against_the_pull() {
             "{turned:?}"
         );
     }
+}
+
+/// What is said of an uneven drive up a slope whose records are changed.
+fn said_of(prior: &LoadedScenario, change: impl Fn(usize, &mut TelemetryRecord)) -> Vec<Evidence> {
+    let mut drive = Drive::uneven(prior, &truths(prior, 77, 1)[0], 4);
+    for leg in [(6.0, 8.0, 0.8), (9.0, 5.0, 1.6)] {
+        drive.leg(leg).expect("the rover moves");
+    }
+    let mut learner = learner(prior);
+    let mut said = Vec::new();
+    for (place, mut record) in drive.seen(SensorModels::USUAL, 4).into_iter().enumerate() {
+        change(place, &mut record);
+        let lesson = learner.update(record);
+        said.extend(lesson.into_iter().flat_map(|it| it.warnings).map(|it| it.evidence));
+    }
+    said.extend(learner.gross_faults().iter().map(|it| Evidence::Gross(*it)));
+    said
+}
+
+/// Wheels by each other's names, and ways to the side by another sign, are on one side of whatever
+/// soil is learnt.
+#[test]
+fn what_no_soil_explains_is_named() {
+    let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
+    let of = |change: fn(usize, &mut TelemetryRecord)| -> Vec<OneSided> {
+        let said = said_of(&prior, change).into_iter();
+        said.filter_map(|it| match it {
+            Evidence::OneSided { what, .. } => Some(what),
+            _ => None,
+        })
+        .collect()
+    };
+    assert_eq!(of(|_, _| ()), []);
+    // The wheels are front left, rear left, rear right, front right.
+    let front = of(|_, it| {
+        it.wheels.swap(0, 1);
+        it.wheels.swap(2, 3);
+    });
+    assert_eq!(front, [OneSided::FrontTorques]);
+    assert_eq!(of(|_, it| it.wheels.reverse()), [OneSided::LeftTorques]);
+}
+
+/// Ways that are lost, with their rows or as 0, and an attitude that nobody measures.
+#[test]
+fn lost_ways_and_still_attitudes_are_named() {
+    let prior = scenario(&[PRIOR, "scenario.model=ishigami"]);
+    let of = |change: fn(usize, &mut TelemetryRecord)| -> Vec<Suspect> {
+        let said = said_of(&prior, change).into_iter();
+        said.filter_map(|it| match it {
+            Evidence::Gross(fault) => Some(fault.suspect),
+            _ => None,
+        })
+        .collect()
+    };
+    let is_only =
+        |found: &[Suspect], suspect| !found.is_empty() && found.iter().all(|it| *it == suspect);
+    assert_eq!(of(|_, _| ()), []);
+    let zeros = of(|place, it| {
+        if place * 7919 % 101 < 10 {
+            it.displacement = [Some(0.0); 2];
+        }
+    });
+    assert!(is_only(&zeros, Suspect::LostWays), "{zeros:?}");
+    let level = of(|_, it| (it.roll, it.pitch) = (Some(0.0), Some(0.0)));
+    assert!(is_only(&level, Suspect::StillAttitude), "{level:?}");
+    // Cameras of one picture a second have ways of 0 in between that are no loss.
+    let seldom = of(|place, it| {
+        let sum = it.displacement.map(|it| it.map(|it| 10.0 * it));
+        it.displacement = if place % 10 == 9 { sum } else { [Some(0.0); 2] };
+    });
+    assert_eq!(seldom, []);
 }

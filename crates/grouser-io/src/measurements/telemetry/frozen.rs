@@ -1,5 +1,7 @@
-//! Channels that stay exactly as they are while others of their kind change: what a sensor that no
-//! longer measures leaves behind.
+//! Channels that stay exactly as they are while others of their kind change, or after they scattered:
+//! what a sensor that no longer measures leaves behind.
+
+use std::collections::VecDeque;
 
 use super::super::super::columns::{PITCH, ROLL, SINKAGE, WHEEL_SPEED};
 use super::super::log_column::LogColumn;
@@ -24,6 +26,8 @@ struct FrozenChannel {
     rows: u64,
     /// Different numbers of the others meanwhile.
     others: Vec<f64>,
+    /// The last numbers before, each another than the one before it.
+    before: VecDeque<f64>,
 }
 
 impl Frozen {
@@ -49,13 +53,49 @@ impl Frozen {
         }
         let channel = &mut self.0[place];
         if channel.number != number {
-            channel.others.clear();
-            (channel.number, channel.rows) = (number, 0);
+            channel.change_to(number);
         }
         channel.rows += 1;
         // A wheel may stand, and a rover go straight on.
         let may_stay = !channel.is_judged || (number == 0.0 && kind == STANDING);
-        channel.rows > ROWS && channel.others.len() >= OTHERS && !may_stay
+        let is_still = channel.rows > ROWS && !may_stay;
+        is_still && (channel.others.len() >= OTHERS || (number != 0.0 && channel.scattered()))
+    }
+}
+
+impl FrozenChannel {
+    /// Numbers that are remembered.
+    const BEFORE: usize = 20;
+
+    fn change_to(&mut self, number: f64) {
+        self.others.clear();
+        if self.number.is_finite() {
+            self.before.push_back(self.number);
+        }
+        if self.before.len() > Self::BEFORE {
+            self.before.pop_front();
+        }
+        (self.number, self.rows) = (number, 0);
+    }
+
+    /// Whether it went up and down before, and took many numbers: what settles, or is rounded
+    /// coarsely, does not.
+    fn scattered(&self) -> bool {
+        /// Changes of direction among those remembered.
+        const TURNS: usize = 6;
+        /// Less is rounding of the computer that simulated it, over the number [-].
+        const CHANGE: f64 = 1e-4;
+        let changes: Vec<f64> =
+            self.before.iter().zip(self.before.iter().skip(1)).map(|(a, b)| b - a).collect();
+        let is_change = |it: &&[f64]| {
+            it[0] * it[1] < 0.0 && it.iter().all(|it| it.abs() > CHANGE * self.number.abs())
+        };
+        let turns = changes.windows(2).filter(is_change).count();
+        let is_new = |(place, number): &(usize, &f64)| {
+            !self.before.iter().take(*place).any(|it| it == *number)
+        };
+        let different = self.before.iter().enumerate().filter(is_new).count();
+        turns >= TURNS && different >= OTHERS
     }
 }
 
@@ -73,4 +113,29 @@ fn kind_of(column: &str) -> Option<u8> {
         &[FORWARD.name, LEFTWARD.name, ROTATION.name],
     ];
     (0..).zip(kinds).find(|(_, names)| names.contains(&column)).map(|(kind, _)| kind)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::COLUMNS;
+    use super::*;
+
+    /// The row in which the way forward counts as frozen, of 600 rows.
+    fn frozen_at(way: impl Fn(u32) -> f64) -> Option<u32> {
+        let forward = COLUMNS.iter().find(|it| it.name == FORWARD.name);
+        let mut frozen = Frozen::of(std::iter::once(forward));
+        (0..600).find(|row| frozen.is_frozen_with(0, way(*row)))
+    }
+
+    /// What scattered and then stays is frozen; what settles, what is rounded coarsely and what comes
+    /// to stand is not.
+    #[test]
+    fn a_channel_that_scattered_and_stays_is_frozen() {
+        let scatter = |row: u32| 0.006 + 1e-4 * f64::from(row * 7919 % 101);
+        assert_eq!(frozen_at(|row| scatter(row.min(200))), Some(300));
+        assert_eq!(frozen_at(scatter), None);
+        assert_eq!(frozen_at(|row| 0.006 * (1.0 - 0.5_f64.powi(row.min(40).cast_signed()))), None);
+        assert_eq!(frozen_at(|row| (200.0 * scatter(row.min(200))).round() / 200.0), None);
+        assert_eq!(frozen_at(|row| if row < 200 { scatter(row) } else { 0.0 }), None);
+    }
 }

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::studies::heading_band::SlopeBand;
 use crate::studies::learn::{
-    Contradiction, Evidence, GrossFault, Learner, Lesson, Suspect, Warning,
+    Contradiction, Evidence, GrossFault, Learner, Lesson, OneSided, Suspect, Warning,
 };
 
 /// The yaw as it was predicted before the drive.
@@ -171,6 +171,7 @@ pub fn sentence(evidence: &Evidence) -> String {
             degrees(*by_attitude)
         ),
         Evidence::Gross(fault) => gross_in_words(fault),
+        Evidence::OneSided { what, deviations } => one_sided_in_words(*what, *deviations),
         Evidence::Outrun { slip_ratio } => format!(
             "odometry has the rover faster than its wheels turn, by a slip ratio of \
              {slip_ratio:.2}: its scale, or a wheel speed, is wrong"
@@ -182,13 +183,46 @@ pub fn sentence(evidence: &Evidence) -> String {
     }
 }
 
-/// What contradicts itself in what was learnt, a sentence each: gross faults of the telemetry, and
-/// numbers of the soil that are far off their priors.
+/// Readings that stay on one side of what is expected, in words.
+fn one_sided_in_words(what: OneSided, deviations: f64) -> String {
+    let size = deviations.abs();
+    let [above, below] = if deviations > 0.0 { ["above", "below"] } else { ["below", "above"] };
+    let of_torques = |one: &str, other: &str, causes: &str| {
+        format!(
+            "torques of the wheels {one} stay {above} what the soil learnt so far expects, those \
+             {other} {below} it, by {size:.1} standard deviations on the mean: {causes}"
+        )
+    };
+    match what {
+        OneSided::FrontTorques => of_torques(
+            "in front",
+            "in the rear",
+            "their names may be exchanged, or the centre of mass, or the pitch, be another",
+        ),
+        OneSided::LeftTorques => of_torques(
+            "on the left",
+            "on the right",
+            "their names may be exchanged, or the centre of mass, or the roll, be another",
+        ),
+        OneSided::Leftward => {
+            let side = if deviations > 0.0 { "left" } else { "right" };
+            format!(
+                "the ways to the side stay farther to the {side} than the soil learnt so far \
+                 expects, by {size:.1} standard deviations on the mean: their sign, the mounting of \
+                 what measures them, or the roll may be another"
+            )
+        }
+    }
+}
+
+/// What contradicts itself in what was learnt, a sentence each: gross faults of the telemetry,
+/// readings that no soil explains, and numbers of the soil that are far off their priors.
 #[must_use]
 pub fn contradictions(learner: &Learner) -> Vec<String> {
     let of_soil = learner.contradictions();
     let gross = learner.gross_faults().iter().map(gross_in_words);
-    gross.chain(of_soil.iter().map(contradiction_in_words)).collect()
+    let one_sided = learner.on_one_side().map(|(what, it)| one_sided_in_words(what, it));
+    gross.chain(one_sided).chain(of_soil.iter().map(contradiction_in_words)).collect()
 }
 
 /// A number that is far off its prior, in words.
@@ -223,6 +257,11 @@ pub fn gross_in_words(fault: &GrossFault) -> String {
                     are lost with their ways, which would pass for slip; ways are left out"
                 .to_owned();
         }
+        Suspect::StillAttitude => {
+            return "still-attitude: roll and pitch stay exactly the same while the ways scatter: no \
+                    sensor measures them; they are left out"
+                .to_owned();
+        }
         Suspect::Torque => ("torques, or currents,", "what the rover's weight and slope need"),
         Suspect::Speed => ("ways by odometry", "those of the wheels"),
         Suspect::Attitude => ("roll and pitch", "what the wheels' torques and the ground allow"),
@@ -230,14 +269,19 @@ pub fn gross_in_words(fault: &GrossFault) -> String {
         Suspect::Sinkage => ("sinkages", "what wheels of this radius have"),
     };
     let name = fault.suspect.name();
+    let left_out = if fault.is_of_wheel_speeds() {
+        "one of both is wrong, so that nothing is learnt, and what was warned of before may be wrong"
+    } else {
+        "they are left out"
+    };
     if fault.factor < 0.0 {
-        return format!("{name}: {what} have another sign than {beside}; they are left out");
+        return format!("{name}: {what} have another sign than {beside}; {left_out}");
     }
     let times = number_of_times(fault.factor);
     let unit = fault.unit().map_or_else(String::new, |(factor, unit)| {
         format!(", as {unit} are: a factor of {}", number_of_times(factor))
     });
-    format!("{name}: {what} are {times} times {beside}{unit}; they are left out")
+    format!("{name}: {what} are {times} times {beside}{unit}; {left_out}")
 }
 
 /// A factor, in three digits or as a share of one.

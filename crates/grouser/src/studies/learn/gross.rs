@@ -7,6 +7,9 @@
 //! can be of one rover. Each looks both ways. Limits are wide: a fault that they find is no matter
 //! of degree.
 
+mod by_record;
+
+use self::by_record::ByRecord;
 use super::archive::{Archive, items, numbers};
 use super::motion::{NotUsed, steady_attitude};
 use super::stretch::{GAP, Reading, Stretch};
@@ -34,6 +37,8 @@ pub enum Suspect {
     Speed,
     /// Roll and pitch.
     Attitude,
+    /// Roll and pitch that stay exactly the same: no sensor measures them.
+    StillAttitude,
     /// The rotation by odometry over the change of yaw.
     Turning,
     /// Sinkages.
@@ -47,6 +52,9 @@ pub enum Suspect {
 /// One radian [°], and one turn in a minute [rad/s], the other way round.
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 const TURNS_PER_MINUTE: f64 = 30.0 / std::f64::consts::PI;
+/// Millimetres, and centimetres, of a metre.
+const MM: f64 = 1000.0;
+const CM: f64 = 100.0;
 
 /// Factors with what makes them.
 type Units = &'static [(f64, &'static str)];
@@ -56,7 +64,7 @@ const ANGLES: Units =
 
 impl Suspect {
     /// All of them, each with one word and the factors that it is known by.
-    pub(super) const ALL: [(&'static str, Self, Units); 8] = [
+    pub(super) const ALL: [(&'static str, Self, Units); 9] = [
         ("wheel-odometry", Self::WheelOdometry, &[]),
         (
             "torque",
@@ -71,9 +79,9 @@ impl Suspect {
             "speed",
             Self::Speed,
             &[
-                (1000.0, "ways in mm taken for m"),
-                (100.0, "ways in cm taken for m"),
-                (1e-3, "ways in m taken for mm"),
+                (MM, "ways in mm taken for m"),
+                (CM, "ways in cm taken for m"),
+                (1.0 / MM, "ways in m taken for mm"),
                 (1.0 / TURNS_PER_MINUTE, "wheel speeds in rpm taken for rad/s"),
                 (TURNS_PER_MINUTE, "wheel speeds in rad/s taken for rpm"),
                 (1.0 / DEGREES, "wheel speeds in °/s taken for rad/s"),
@@ -81,6 +89,7 @@ impl Suspect {
             ],
         ),
         ("attitude", Self::Attitude, ANGLES),
+        ("still-attitude", Self::StillAttitude, &[]),
         ("turning", Self::Turning, ANGLES),
         ("sinkage", Self::Sinkage, &[(1000.0, "µm taken for mm"), (1e-3, "m taken for mm")]),
         ("drift", Self::Drift, &[]),
@@ -110,8 +119,21 @@ impl GrossFault {
         nearest.filter(|(factor, _)| distance(*factor) < NEAR)
     }
 
+    /// Whether wheel speeds may be wrong, and with them the way that all readings are over: where
+    /// ways and wheel speeds disagree, and it is no unit of ways.
+    #[must_use]
+    pub fn is_of_wheel_speeds(&self) -> bool {
+        let is_of_ways = |(factor, _): (f64, _)| [MM, CM, 1.0 / MM].contains(&factor);
+        self.suspect == Suspect::Speed && !self.unit().is_some_and(is_of_ways)
+    }
+
     /// Leaves out of a stretch what the fault is of.
     fn leave_out(&self, stretch: &mut Stretch) {
+        if self.is_of_wheel_speeds() {
+            stretch.torques.fill(None);
+            stretch.currents.fill(None);
+            stretch.sinkages.fill(None);
+        }
         match self.suspect {
             Suspect::WheelOdometry | Suspect::Speed | Suspect::Drift | Suspect::LostWays => {
                 (stretch.velocity, stretch.yaw_rate) = ([None; 2], None);
@@ -121,7 +143,7 @@ impl GrossFault {
                 stretch.torques.fill(None);
                 stretch.currents.fill(None);
             }
-            Suspect::Attitude => stretch.attitude = None,
+            Suspect::Attitude | Suspect::StillAttitude => stretch.attitude = None,
             Suspect::Sinkage => stretch.sinkages.fill(None),
         }
     }
@@ -135,15 +157,10 @@ pub(in crate::studies) struct GrossFaults {
     pull: StraightLine,
     /// The change of yaw over the rotation by odometry between stretches [rad].
     turn: StraightLine,
-    /// Way forward over the time since the last one [m, s].
-    ways: StraightLine,
     sums: SumsOfPairs,
     /// Middle of the last stretch [s], its yaw and yaw rate [rad, rad/s].
     last: Option<[f64; 3]>,
-    /// The first times between ways, in their order by size [s].
-    times: Vec<f64>,
-    /// When a way was last read [s].
-    last_way: Option<f64>,
+    records: ByRecord,
 }
 
 /// SumsOfPairs over the rims' way of what was read, in multiples of weight, radius and rim speed.
@@ -217,9 +234,23 @@ impl StraightLine {
         self.yy += y * y;
     }
 
+    fn walk(&mut self, name: &str, archive: &mut dyn Archive) {
+        let Self { count, x, y, xx, xy, yy } = self;
+        archive.group(name);
+        let names = ["count", "x", "y", "xx", "xy", "yy"];
+        let sums = [count, x, y, xx, xy, yy];
+        names.into_iter().zip(sums).for_each(|(name, value)| archive.number(name, value));
+        archive.end();
+    }
+
     /// Whether x moves by more than `least` on the root of the mean square.
     fn moves(&self, least: f64) -> bool {
         self.xx / self.count - (self.x / self.count).powi(2) > least * least
+    }
+
+    /// The root of the mean square of x.
+    fn size_of_x(&self) -> f64 {
+        (self.xx / self.count).sqrt()
     }
 
     /// What y rises by for each x, where it goes with x and moves by more than `least` on the root
@@ -273,7 +304,8 @@ impl GrossFaults {
             self.turning(),
             self.sinkage(),
             self.drift(),
-            self.lost_ways(),
+            self.records.lost_ways(),
+            self.records.still_attitude(),
         ];
         let mut new = Vec::new();
         for fault in all.into_iter().flatten() {
@@ -286,35 +318,9 @@ impl GrossFaults {
         new
     }
 
-    /// Looks at the way that a record has since the last one.
+    /// Looks at a record, before it is part of a stretch.
     pub(in crate::studies) fn read(&mut self, record: &TelemetryRecord) {
-        if record.is_way_incomplete {
-            self.last_way = None;
-        }
-        let Some(way) = record.displacement[0] else { return };
-        let since = self.last_way.replace(record.time).map(|last| record.time - last);
-        if let Some(since) = since.filter(|since| *since <= GAP) {
-            self.take_way(since, way.abs());
-        }
-    }
-
-    /// Takes a way that is as long as usual ones in time, or nearly twice as long and more: times
-    /// that scatter tell nothing. Neither does a way that is wrong by far.
-    fn take_way(&mut self, since: f64, way: f64) {
-        /// Times by which the usual one is known, and its place among them: most may be long.
-        const FIRST: usize = 21;
-        const PLACE: usize = 5;
-        if self.times.len() < FIRST {
-            self.times.push(since);
-            self.times.sort_by(f64::total_cmp);
-            return;
-        }
-        let over_usual = since / self.times[PLACE].max(f64::MIN_POSITIVE);
-        let mean = self.ways.y / self.ways.count.max(1.0);
-        let is_usual = (0.8..1.2).contains(&over_usual) || over_usual > 1.8;
-        if is_usual && (self.ways.count < 10.0 || way < 4.0 * mean) {
-            self.ways.add(since, way);
-        }
+        self.records.read(record);
     }
 
     /// What was found.
@@ -400,11 +406,12 @@ impl GrossFaults {
         /// The thrust rises by the weight for each sine of the slope, and by somewhat more where the
         /// wheels sink: by less than this [-].
         const STEEP: f64 = 8.0;
-        let slope = self.sums.slope.over(WAY)?;
         self.sums.thrust.over(WAY).filter(|it| is_of_soil(*it))?;
         let rise = self.pull.rise(MOVES)?;
-        // Angles that are 57 times as large have to be slopes on which rovers drive.
-        if rise > STEEP && slope * DEGREES < STEEPEST {
+        // Angles that are 57 times as large have to be slopes on which rovers drive; one of roll and
+        // pitch may be right.
+        let along = self.pull.size_of_x();
+        if rise > STEEP && along * DEGREES < STEEPEST {
             return fault(1.0 / rise);
         }
         (rise < -0.5 && self.pull.moves(MOVES))
@@ -518,26 +525,6 @@ impl GrossFaults {
         is_fault.then_some(GrossFault { suspect: Suspect::Drift, factor: -1.0 })
     }
 
-    fn lost_ways(&self) -> Option<GrossFault> {
-        /// Fewer ways tell little.
-        const FEW: f64 = 60.0;
-        /// Times that scatter by less than this over their mean do not, either [-].
-        const SCATTERS: f64 = 0.2;
-        /// Ways grow in proportion to the time: by more than this of it [-].
-        const GROWS: f64 = 0.4;
-        let StraightLine { count, x, y, xx, xy, .. } = self.ways;
-        if count < FEW || y <= 0.0 {
-            return None;
-        }
-        let (time, way) = (x / count, y / count);
-        let variance = xx / count - time * time;
-        if variance < (SCATTERS * time).powi(2) {
-            return None;
-        }
-        let grows = (xy / count - time * way) / variance * time / way;
-        (grows < GROWS).then_some(GrossFault { suspect: Suspect::LostWays, factor: grows })
-    }
-
     fn sinkage(&self) -> Option<GrossFault> {
         /// Sinkages over the radius that a wheel rolls with [-].
         const SINKAGES: [f64; 2] = [5e-4, 1.0];
@@ -550,18 +537,11 @@ impl GrossFaults {
 
     /// Writes or reads what it has seen.
     pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
-        let Self { found, pull, turn, ways, sums, last, times, last_way } = self;
+        let Self { found, pull, turn, sums, last, records } = self;
         let blank = || GrossFault { suspect: Suspect::Torque, factor: 1.0 };
         items(archive, "found", found, blank, GrossFault::walk);
-        for (name, line) in [("pull", pull), ("turn", turn), ("ways", ways)] {
-            archive.group(name);
-            let StraightLine { count, x, y, xx, xy, yy } = line;
-            let names = ["count", "x", "y", "xx", "xy", "yy"];
-            names.into_iter().zip([count, x, y, xx, xy, yy]).for_each(|(name, value)| {
-                archive.number(name, value);
-            });
-            archive.end();
-        }
+        pull.walk("pull", archive);
+        turn.walk("turn", archive);
         archive.group("sums");
         for (name, mean) in sums.all() {
             archive.number(&format!("{name}_way"), &mut mean.way);
@@ -571,8 +551,7 @@ impl GrossFaults {
         let mut of_last = last.map(|it| it.to_vec()).unwrap_or_default();
         numbers(archive, "last", &mut of_last);
         *last = of_last.try_into().ok();
-        numbers(archive, "times", times);
-        archive.maybe("last_way", last_way);
+        records.walk(archive);
     }
 }
 

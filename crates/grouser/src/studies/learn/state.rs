@@ -9,6 +9,7 @@ use super::archive::{Archive, items, maybes, numbers};
 use super::gross::{GrossFault, Suspect};
 use super::information::InformationByKind;
 use super::motion::NotUsed;
+use super::one_sided::OneSided;
 use super::stretch::{Reading, Stretch};
 use super::warnings::{Evidence, Warning, WarningKind};
 use super::{Learner, Learnt, Lesson};
@@ -180,7 +181,7 @@ impl Warning {
 
 impl Evidence {
     /// One of each, to read into.
-    fn all() -> [Self; 9] {
+    fn all() -> [Self; 10] {
         let zero = 0.0;
         [
             Self::Strange { slip_ratio: zero, expected: zero, drift: zero, expected_drift: zero },
@@ -191,6 +192,7 @@ impl Evidence {
             Self::Contradiction { reported: zero, by_attitude: zero },
             Self::Outrun { slip_ratio: zero },
             Self::Idle { wheel: String::new(), share: zero },
+            Self::OneSided { what: OneSided::Leftward, deviations: zero },
             Self::Gross(GrossFault { suspect: Suspect::Torque, factor: zero }),
         ]
     }
@@ -205,6 +207,7 @@ impl Evidence {
             Self::Contradiction { .. } => "contradiction",
             Self::Outrun { .. } => "outrun",
             Self::Idle { .. } => "idle",
+            Self::OneSided { .. } => "one-sided",
             Self::Gross(_) => "gross",
         }
     }
@@ -243,6 +246,15 @@ impl Evidence {
                 archive.number("by_attitude", by_attitude);
             }
             Self::Gross(fault) => fault.walk(archive),
+            Self::OneSided { what, deviations } => {
+                let mut name = what.name().to_owned();
+                archive.word("what", &mut name);
+                match OneSided::ALL.into_iter().find(|it| it.name() == name) {
+                    Some(known) => *what = known,
+                    None => archive.refuse("what"),
+                }
+                archive.number("deviations", deviations);
+            }
             Self::Idle { wheel, share } => {
                 archive.word("wheel", wheel);
                 archive.number("share", share);

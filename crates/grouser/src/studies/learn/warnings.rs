@@ -3,6 +3,7 @@
 
 use super::archive::Archive;
 use super::gross::GrossFault;
+use super::one_sided::OneSided;
 
 /// Something that an operator should know.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,6 +77,13 @@ pub enum Evidence {
     Outrun {
         /// The slip ratio that it makes [-].
         slip_ratio: f64,
+    },
+    /// Readings that stay on one side of what is expected.
+    OneSided {
+        /// What they are.
+        what: OneSided,
+        /// How far, on the mean [standard deviations].
+        deviations: f64,
     },
     /// A wheel with a small share of the others' torque.
     Idle {

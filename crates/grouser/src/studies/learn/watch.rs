@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 
 use super::archive::{Archive, items, numbers};
 use super::noise::ModelNoise;
+use super::one_sided::{OneSided, OneSides};
 use super::stretch::Stretch;
 use super::trail::{Past, Trail, Trend};
 use super::unexplained::Push;
@@ -37,6 +38,8 @@ pub(super) struct Seen<'a> {
     pub(super) filter: u64,
     /// The force that would explain the motion on the soil that was learnt so far.
     pub(super) push: Option<&'a Push>,
+    /// How far each number of the observation is from what was expected [standard deviations].
+    pub(super) scores: &'a [f64],
     /// Whether the soil was just found to be another.
     pub(super) is_another_soil: bool,
     /// The slope on which the wheels' slip reaches [`DEEP`] on this course [rad], by what was
@@ -65,6 +68,7 @@ pub(super) struct Watch {
     contradicted: f64,
     /// The rims' way over which odometry is faster than the wheels [m].
     outrun: f64,
+    one_sides: OneSides,
 }
 
 /// Slip at which a rover is as good as stuck [-].
@@ -104,7 +108,8 @@ impl Watch {
             self.outrunning(seen),
         ];
         let idle = self.idle_wheels(seen, rover);
-        found.into_iter().flatten().chain(idle).collect()
+        let one_sided = self.one_sided(seen, rover);
+        found.into_iter().flatten().chain(idle).chain(one_sided).collect()
     }
 
     fn remember(&mut self, seen: &Seen<'_>) {
@@ -281,6 +286,33 @@ impl Watch {
         self.raise(WarningKind::LyingSensor, 1, [None; 2], evidence)
     }
 
+    /// Readings that stay on one side of what is expected. On another soil they begin anew.
+    fn one_sided(&mut self, seen: &Seen<'_>, rover: &Rover) -> Vec<Warning> {
+        if seen.is_another_soil {
+            self.forget_sides();
+            return Vec::new();
+        }
+        self.one_sides.add(seen.stretch, seen.scores, rover);
+        let found: Vec<_> = self.one_sides.found().collect();
+        let warn = |(what, deviations)| {
+            // Two causes are other warnings'.
+            let which = 2 + what as usize;
+            let evidence = Evidence::OneSided { what, deviations };
+            self.raise(WarningKind::LyingSensor, which, [None; 2], evidence)
+        };
+        found.into_iter().filter_map(warn).collect()
+    }
+
+    /// What stays on one side of what is expected, and by how many standard deviations.
+    pub(super) fn on_one_side(&self) -> impl Iterator<Item = (OneSided, f64)> {
+        self.one_sides.found()
+    }
+
+    /// Forgets on which side of what is expected readings were.
+    pub(super) fn forget_sides(&mut self) {
+        self.one_sides = OneSides::default();
+    }
+
     /// Wheels that have much less torque than the others, where the soil would not have it so.
     fn idle_wheels(&mut self, seen: &Seen<'_>, rover: &Rover) -> Vec<Warning> {
         /// Share of the others' torque below which a wheel counts as idle [-].
@@ -315,7 +347,11 @@ impl Watch {
 impl Watch {
     /// Writes or reads what it has seen.
     pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
-        let Self { way, trail, learnt, filter, causes, idle, contradicted, outrun } = self;
+        let Self { way, trail, learnt, filter, causes, idle, contradicted, outrun, one_sides } =
+            self;
+        archive.group("one_sides");
+        one_sides.walk(archive);
+        archive.end();
         archive.number("way", way);
         archive.number("learnt", learnt);
         archive.number("contradicted", contradicted);

@@ -1,69 +1,10 @@
-//! Drives without a fault, of every rover: on level ground, on one slope and over several.
+//! What is said of drives without a fault: nothing.
 
-use grouser::document::{Kind, LoadedScenario, presets};
-use grouser::studies::learn::{self, TelemetryRecord};
-use grouser::studies::simulated_telemetry::SensorModels;
+use grouser::document::LoadedScenario;
+use grouser::studies::learn;
 
-use super::PRIOR;
-use super::coverage::LEGS;
-use super::drive::{Drive, Leg, learner, scenario};
-
-/// Where a drive goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Course {
-    Level,
-    OneSlope,
-    Slopes,
-}
-
-impl Course {
-    fn legs(self) -> Vec<Leg> {
-        match self {
-            Self::Level => vec![(0.0, 0.0, 2.0)],
-            Self::OneSlope => vec![(8.0, 5.0, 2.0)],
-            Self::Slopes => LEGS.to_vec(),
-        }
-    }
-}
-
-fn number_of_rovers() -> u64 {
-    presets(Kind::Rover).count() as u64
-}
-
-/// The rover of a drive on a soil of which little is known.
-pub(super) fn prior(number: u64) -> LoadedScenario {
-    let mut rovers = (0..number_of_rovers()).zip(presets(Kind::Rover));
-    let rover = rovers.find(|(place, _)| *place == number % number_of_rovers());
-    let rover = format!("scenario.rover={}", rover.expect("a rover").1.name);
-    scenario(&[PRIOR, "scenario.model=ishigami", &rover])
-}
-
-/// A drive on a soil of the prior, over ground that is uneven; nothing where the rover cannot move.
-pub(super) fn drive(prior: &LoadedScenario, course: Course, number: u64) -> Option<Drive> {
-    /// Over so much time a rover may have turned unseen [s].
-    const PAUSE: f64 = 60.0;
-    let mut truth = super::truths(prior, 1000 + number, 1).remove(0);
-    // A discrepancy would pull a rover that no wheel drives, and no real ground does.
-    truth.soil.discrepancy = None;
-    let truth = &truth;
-    let begin = || Drive::uneven(prior, truth, number);
-    let (mut drive, mut begun) = (begin(), 0.0);
-    for leg in course.legs() {
-        let mut part = begin();
-        part.leg(leg)?;
-        let end = begun + part.time();
-        let later =
-            part.records.into_iter().map(|it| TelemetryRecord { time: begun + it.time, ..it });
-        drive.records.extend(later);
-        begun = end + PAUSE;
-    }
-    Some(drive)
-}
-
-/// What usual instruments make of it.
-pub(super) fn seen(drive: &Drive, number: u64) -> Vec<TelemetryRecord> {
-    drive.seen(SensorModels::USUAL, number)
-}
+use super::drive::{Drive, learner};
+use super::faultless::{Course, drive, prior, seen};
 
 /// What is wrong with what was learnt from a drive: warnings, gross faults, contradictions, or that
 /// it taught nothing.
@@ -86,11 +27,7 @@ fn warned(drives: u64) -> (u64, Vec<String>) {
     let (mut taken, mut found) = (0, Vec::new());
     for number in 0..drives {
         let prior = prior(number);
-        let course = match number / number_of_rovers() % 3 {
-            0 => Course::OneSlope,
-            1 => Course::Level,
-            _ => Course::Slopes,
-        };
+        let course = Course::of(number);
         // On a soil that is too weak for the rover there is no drive.
         let Some(drive) = drive(&prior, course, number) else { continue };
         taken += 1;
