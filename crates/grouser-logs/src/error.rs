@@ -9,6 +9,7 @@ use grouser_io::measurements::telemetry::Odometry;
 use grouser_io::{DocumentError, escape};
 
 pub use crate::mcap::read::OverBudget;
+pub use crate::telemetry::other_kind::OtherKind;
 
 /// Why telemetry could not be read: the file, and what is wrong with it.
 #[derive(Debug)]
@@ -106,9 +107,9 @@ pub enum Problem {
     /// A log that unpacks to more than a log of its size may.
     #[error("{0}")]
     OverBudget(OverBudget),
-    /// A log of another kind.
-    #[error("this is {0}, which is not read here")]
-    OtherKind(&'static str),
+    /// A log, or a table, of another kind.
+    #[error("this is {}, which is not read here", .0.name())]
+    OtherKind(OtherKind),
 }
 
 impl TelemetryError {
@@ -138,6 +139,9 @@ impl TelemetryError {
                     "--odometry KIND, `odometry = \"KIND\"` in a mapping, or odometry=KIND in \
                      Python says it; KIND is one of {names}"
                 ))
+            }
+            Problem::OtherKind(kind) if let Some(line) = kind.to_parquet() => {
+                Some(format!("Parquet is read, and Python makes it: python -c \"{line}\""))
             }
             Problem::Encoding { .. } | Problem::OtherKind(_) => Some(
                 "Python converts it: python -m grouser import-telemetry LOG --out drive.csv"

@@ -3,6 +3,7 @@
 mod mapped;
 mod mcap;
 pub(crate) mod options;
+pub(crate) mod other_kind;
 mod parquet;
 pub(crate) mod writer;
 
@@ -24,6 +25,7 @@ use grouser_io::{escape, file};
 use self::mapped::{MappedTable, Rows};
 use self::mcap::McapLog;
 use self::options::LogOptions;
+use self::other_kind::OtherKind;
 use self::parquet::{ParquetCells, ParquetLog};
 use crate::error::{OverBudget, Problem, TelemetryError};
 use crate::mapping::messages::MessageRows;
@@ -66,9 +68,7 @@ impl TelemetryLog {
             let source = Box::new(BufReader::new(io::Cursor::new(start).chain(file)));
             return Self::of_table(&label, source, rover, options);
         }
-        let bags: [(&[u8], &str); 2] =
-            [(b"#ROSBAG V", "a bag of ROS 1"), (b"SQLite format 3", "a bag of ROS 2 in SQLite")];
-        if let Some((_, kind)) = bags.iter().find(|(magic, _)| start.starts_with(magic)) {
+        if let Some(kind) = OtherKind::of(&start) {
             return Err(TelemetryError::new(&label, Problem::OtherKind(kind)));
         }
         if start.starts_with(&MAGIC) {

@@ -187,10 +187,11 @@ pub(crate) fn of_telemetry(error: &TelemetryError) -> PyErr {
         }
         _ => {
             // Python's own half decodes these.
-            let is_encoded = matches!(
-                error.problem(),
-                TelemetryProblem::Encoding { .. } | TelemetryProblem::OtherKind(_)
-            );
+            let is_encoded = match error.problem() {
+                TelemetryProblem::Encoding { .. } => true,
+                TelemetryProblem::OtherKind(kind) => kind.to_parquet().is_none(),
+                _ => false,
+            };
             let key = is_encoded.then(|| "encoding".to_owned());
             let (place, value) = (None::<u64>, None::<f64>);
             let expected = None::<String>;

@@ -72,6 +72,7 @@ fn parquet_is_read_by_a_mapping_as_csv_is() {
 fn what_cannot_be_imported_says_what_to_do() {
     let place = Place::new();
     place.write("bag.db3", b"SQLite format 3\0");
+    place.write("drive.feather", b"ARROW1\0\0\xff\xff\xff\xff");
     place.write("drive.csv", "time_s,roll_deg\n1,2\n");
     place.write("empty.csv", "time_s,roll_deg\n");
     place.write("wrong.toml", "schema = \"telemetry-mapping/1\"\nname = \"x\"\nreading = []\n");
@@ -93,6 +94,7 @@ fn what_cannot_be_imported_says_what_to_do() {
         ("import-telemetry empty.csv", "has no rows of telemetry"),
         ("import-telemetry --print-mapping none", "it is one of grouser, ros, foxglove"),
         ("learn bag.db3 --prior toyoura-uncertain", "python -m grouser import-telemetry"),
+        ("replay drive.feather", "pandas.read_feather('LOG').to_parquet('drive.parquet')"),
     ] {
         let answer = place.line(line);
         assert_eq!(answer.code(), 2, "{line}: {}", answer.stderr);

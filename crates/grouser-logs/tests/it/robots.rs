@@ -217,11 +217,19 @@ fn what_cannot_be_meant_is_an_error_that_names_the_choices() {
         check("/imu", "sensor_msgs/msg/Imu", ("cdr", "ros2idl"), part);
     }
     check("/imu", "sensor_msgs/Imu", ("cbor", ""), "/imu are encoded as cbor; JSON, Protocol");
-    for (start, part) in
-        [(&b"#ROSBAG V2.0\n"[..], "a bag of ROS 1"), (b"SQLite format 3\0", "a bag of ROS 2")]
-    {
+    for (start, part, way_out) in [
+        (&b"#ROSBAG V2.0\n"[..], "a bag of ROS 1", "python -m grouser"),
+        (b"SQLite format 3\0", "a bag of ROS 2", "python -m grouser"),
+        (
+            b"ARROW1\0\0\xff\xff\xff\xff",
+            "a file of Arrow (Feather)",
+            "read_feather('LOG').to_parquet",
+        ),
+        (b"\xff\xff\xff\xff\x10\x01\0\0", "a stream of Arrow", "open_stream(open('LOG', 'rb'))"),
+        (b"FEA1\0\0\0\0", "Feather, version 1", "read_feather('LOG').to_parquet"),
+    ] {
         let error = read(start, None).unwrap_err().to_string();
-        assert!(error.contains(part) && error.contains("python -m grouser"), "{error}");
+        assert!(error.contains(part) && error.contains(way_out), "{error}");
     }
 }
 
