@@ -5,10 +5,11 @@ use std::io;
 
 use grouser_io::file::FileProblem;
 use grouser_io::measurements::MeasurementError;
-use grouser_io::measurements::telemetry::Odometry;
 use grouser_io::{DocumentError, escape};
 
 pub use crate::mcap::read::OverBudget;
+#[cfg(doc)]
+use crate::telemetry::options::LogOptions;
 pub use crate::telemetry::other_kind::OtherKind;
 
 /// Why telemetry could not be read: the file, and what is wrong with it.
@@ -17,7 +18,30 @@ pub struct TelemetryError {
     /// What messages call the file.
     label: String,
     problem: Box<Problem>,
-    hint: Option<String>,
+}
+
+/// What a caller may do about a [`Problem`]. Each program has names of its own for what it asks for,
+/// and words it by them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Remedy<'e> {
+    /// A mapping that says which topics and fields are which columns: [`LogOptions::mapping`].
+    Mapping,
+    /// The same for a table, whose columns are topics with fields.
+    MappingOfTable,
+    /// The built-in mapping that reads them, by what messages call it.
+    BuiltInMapping(&'e str),
+    /// A mapping whose `time` names the column.
+    TimeOfMapping,
+    /// A choice of what the mapping calls so, such as this topic: [`LogOptions::topics`].
+    Topic(&'e str, &'e str),
+    /// A statement of what measured the way, by an option ([`LogOptions::odometry`]) or a mapping.
+    Odometry,
+    /// The package for Python decodes such a log.
+    ConvertByPython,
+    /// This line of Python makes Parquet of a table `LOG`.
+    Parquet(&'static str),
+    /// More of the log may be unpacked: [`LogOptions::most_unpacked`].
+    Budget,
 }
 
 /// What is wrong.
@@ -89,7 +113,7 @@ pub enum Problem {
         sought: Vec<String>,
         /// The columns.
         columns: Vec<String>,
-        /// A built-in mapping that reads them, as .
+        /// A built-in mapping that reads them, as messages call it.
         other: Option<String>,
     },
     /// A table that is read by a mapping, of whose columns none has the time.
@@ -107,6 +131,25 @@ pub enum Problem {
     /// A log that unpacks to more than a log of its size may.
     #[error("{0}")]
     OverBudget(OverBudget),
+    /// A folder without a log.
+    #[error("this is a folder in which no file's name ends with .mcap")]
+    NoLogInFolder,
+    /// One of several files, of which no row can be used.
+    #[error("has no rows of telemetry")]
+    NoRows,
+    /// A file of a drive that goes on when the next has begun.
+    #[error(
+        "goes on to {ends} s, and {next} begins at {begins} s: files of one drive follow one \
+         another, by one clock"
+    )]
+    Overlap {
+        /// The next file.
+        next: String,
+        /// A time of this file [s] that is not before the start of the next.
+        ends: f64,
+        /// The first time of the next [s].
+        begins: f64,
+    },
     /// A log, or a table, of another kind.
     #[error("this is {}, which is not read here", .0.name())]
     OtherKind(OtherKind),
@@ -114,47 +157,26 @@ pub enum Problem {
 
 impl TelemetryError {
     pub(crate) fn new(label: &str, problem: Problem) -> Self {
-        let hint = match &problem {
-            Problem::NothingMapped { .. } => Some(
-                "--mapping FILE.toml says which topics and fields are which columns".to_owned(),
-            ),
-            Problem::NoColumnMapped { other: Some(other), .. } => {
-                Some(format!("the built-in {other} reads them"))
+        Self { label: label.to_owned(), problem: Box::new(problem) }
+    }
+
+    /// What the caller may do about it, if anything.
+    #[must_use]
+    pub fn remedy(&self) -> Option<Remedy<'_>> {
+        Some(match &*self.problem {
+            Problem::NothingMapped { .. } => Remedy::Mapping,
+            Problem::NoColumnMapped { other: Some(other), .. } => Remedy::BuiltInMapping(other),
+            Problem::NoColumnMapped { .. } => Remedy::MappingOfTable,
+            Problem::NoTime(_) => Remedy::TimeOfMapping,
+            Problem::Ambiguous { what, topics } => Remedy::Topic(what, topics.first()?),
+            Problem::OdometryNotStated { .. } => Remedy::Odometry,
+            Problem::OtherKind(kind) => {
+                kind.to_parquet().map_or(Remedy::ConvertByPython, Remedy::Parquet)
             }
-            Problem::NoColumnMapped { .. } => Some(
-                "a reading with `topic = \"/odom\"` and `field = \"pose.x\"` reads the column \
-                 /odom/pose/x, one with `topic = \"/\"` and `field = \"x\"` the column x; --mapping \
-                 FILE.toml has such readings"
-                    .to_owned(),
-            ),
-            Problem::NoTime(_) => {
-                Some("`time = \"t\"` in the mapping says that it is the column t".to_owned())
-            }
-            Problem::Ambiguous { what, topics } => topics
-                .first()
-                .map(|topic| format!("say which is meant, such as by --topic {what}={topic}")),
-            Problem::OdometryNotStated { .. } => {
-                let names = Odometry::ALL.map(|(name, ..)| name).join(", ");
-                Some(format!(
-                    "--odometry KIND, `odometry = \"KIND\"` in a mapping, or odometry=KIND in \
-                     Python says it; KIND is one of {names}"
-                ))
-            }
-            Problem::OtherKind(kind) if let Some(line) = kind.to_parquet() => {
-                Some(format!("Parquet is read, and Python makes it: python -c \"{line}\""))
-            }
-            Problem::Encoding { .. } | Problem::OtherKind(_) => Some(
-                "Python converts it: python -m grouser import-telemetry LOG --out drive.csv"
-                    .to_owned(),
-            ),
-            Problem::OverBudget(_) => Some(
-                "a larger `max_unpacked_mib` reads more, if it is meant so; or unpack it first, such as \
-                 by `mcap decompress LOG -o UNPACKED`"
-                    .to_owned(),
-            ),
-            _ => None,
-        };
-        Self { label: label.to_owned(), problem: Box::new(problem), hint }
+            Problem::Encoding { .. } => Remedy::ConvertByPython,
+            Problem::OverBudget(_) => Remedy::Budget,
+            _ => return None,
+        })
     }
 
     /// What messages call the file.
@@ -206,7 +228,7 @@ impl From<DocumentError> for TelemetryError {
 
 impl fmt::Display for TelemetryError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        /// Characters of a problem or a hint: a log may have a thousand topics.
+        /// Characters of a problem: a log may have a thousand topics.
         const LONGEST: usize = 2000;
         // Errors of tables and documents have their lines and their own hints.
         match &*self.problem {
@@ -215,11 +237,7 @@ impl fmt::Display for TelemetryError {
             _ => {}
         }
         let problem = escape::short_line(&self.problem.to_string(), LONGEST);
-        write!(f, "{}: {problem}", escape::line(&self.label))?;
-        match &self.hint {
-            Some(hint) => write!(f, "\nhint: {}", escape::short_line(hint, LONGEST)),
-            None => Ok(()),
-        }
+        write!(f, "{}: {problem}", escape::line(&self.label))
     }
 }
 
