@@ -135,6 +135,7 @@ fn a_drive_may_be_several_files() {
     let joined = imported(&place, "b.csv a.csv c.csv --rover hakuto");
     assert_eq!(joined.lines().count(), table.lines().count());
     // A folder of MCAP needs nothing that says what is in it.
+    std::fs::create_dir(place.file("bag")).expect("a folder");
     place.write("bag/drive_0.mcap", std::fs::read(place.file("drive.mcap")).expect("it is there"));
     let [log, folder] =
         ["drive.mcap", "bag"].map(|log| imported(&place, &format!("{log} --rover hakuto")));
