@@ -5,11 +5,10 @@ use std::io;
 
 use grouser_io::file::FileProblem;
 use grouser_io::measurements::MeasurementError;
+use grouser_io::measurements::telemetry::Odometry;
 use grouser_io::{DocumentError, escape};
 
 pub use crate::mcap::read::OverBudget;
-#[cfg(doc)]
-use crate::telemetry::options::LogOptions;
 pub use crate::telemetry::other_kind::OtherKind;
 
 /// Why telemetry could not be read: the file, and what is wrong with it.
@@ -20,11 +19,10 @@ pub struct TelemetryError {
     problem: Box<Problem>,
 }
 
-/// What a caller may do about a [`Problem`]. Each program has names of its own for what it asks for,
-/// and words it by them.
+/// What a caller may do about a [`Problem`]; [`words`](Self::words) has it in a sentence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Remedy<'e> {
-    /// A mapping that says which topics and fields are which columns: [`LogOptions::mapping`].
+    /// A mapping that says which topics and fields are which columns.
     Mapping,
     /// The same for a table, whose columns are topics with fields.
     MappingOfTable,
@@ -32,16 +30,71 @@ pub enum Remedy<'e> {
     BuiltInMapping(&'e str),
     /// A mapping whose `time` names the column.
     TimeOfMapping,
-    /// A choice of what the mapping calls so, such as this topic: [`LogOptions::topics`].
+    /// A choice of what the mapping calls so, such as this topic.
     Topic(&'e str, &'e str),
-    /// A statement of what measured the way, by an option ([`LogOptions::odometry`]) or a mapping.
+    /// A statement of what measured the way, by an option or a mapping.
     Odometry,
     /// The package for Python decodes such a log.
-    ConvertByPython,
+    Python,
     /// This line of Python makes Parquet of a table `LOG`.
     Parquet(&'static str),
-    /// More of the log may be unpacked: [`LogOptions::most_unpacked`].
+    /// More of the log may be unpacked.
     Budget,
+}
+
+/// What a program calls what its user may ask for, each as the subject of a sentence.
+pub struct OptionNames {
+    /// A mapping in a file.
+    pub mapping: &'static str,
+    /// A choice of a topic: of what the mapping calls it, and the topic.
+    pub topic: fn(&str, &str) -> String,
+    /// A statement of what measured the way, as `KIND`.
+    pub odometry: &'static str,
+    /// The most that is unpacked.
+    pub budget: &'static str,
+    /// How the package for Python converts a log.
+    pub python: &'static str,
+}
+
+/// Characters of a problem or a remedy: a log may have a thousand topics.
+const LONGEST: usize = 2000;
+
+impl Remedy<'_> {
+    /// A sentence without its full stop.
+    #[must_use]
+    pub fn words(self, names: &OptionNames) -> String {
+        let OptionNames { mapping, odometry, budget, python, .. } = names;
+        let words = match self {
+            Self::Mapping => format!("{mapping} says which topics and fields are which columns"),
+            Self::MappingOfTable => format!(
+                "a reading with `topic = \"/odom\"` and `field = \"pose.x\"` reads the column \
+                 /odom/pose/x, one with `topic = \"/\"` and `field = \"x\"` the column x; {mapping} \
+                 has such readings"
+            ),
+            Self::BuiltInMapping(name) => format!("the built-in {name} reads them"),
+            Self::TimeOfMapping => {
+                "`time = \"t\"` in the mapping says that it is the column t".to_owned()
+            }
+            Self::Topic(what, topic) => {
+                format!("say which is meant, such as by {}", (names.topic)(what, topic))
+            }
+            Self::Odometry => {
+                let kinds = Odometry::ALL.map(|(name, ..)| name).join(", ");
+                format!(
+                    "{odometry}, or `odometry = \"KIND\"` in a mapping, says it; KIND is one of {kinds}"
+                )
+            }
+            Self::Python => format!("Python converts it: {python}"),
+            Self::Parquet(line) => {
+                format!("Parquet is read, and Python makes it: python -c \"{line}\"")
+            }
+            Self::Budget => format!(
+                "{budget} reads more, if it is meant so; or unpack it first, such as by `mcap \
+                 decompress LOG -o UNPACKED`"
+            ),
+        };
+        escape::short_line(&words, LONGEST)
+    }
 }
 
 /// What is wrong.
@@ -151,13 +204,19 @@ pub enum Problem {
         begins: f64,
     },
     /// A log, or a table, of another kind.
-    #[error("this is {}, which is not read here", .0.name())]
+    #[error("this is {}, which is not read here", .0.name)]
     OtherKind(OtherKind),
 }
 
 impl TelemetryError {
     pub(crate) fn new(label: &str, problem: Problem) -> Self {
         Self { label: label.to_owned(), problem: Box::new(problem) }
+    }
+
+    /// Why reading failed: the disk, or a budget that was over.
+    pub(crate) fn of_reading(label: &str, error: io::Error) -> Self {
+        let over = error.get_ref().and_then(|it| it.downcast_ref::<OverBudget>()).copied();
+        Self::new(label, over.map_or(Problem::Unreadable(error), Problem::OverBudget))
     }
 
     /// What the caller may do about it, if anything.
@@ -170,10 +229,8 @@ impl TelemetryError {
             Problem::NoTime(_) => Remedy::TimeOfMapping,
             Problem::Ambiguous { what, topics } => Remedy::Topic(what, topics.first()?),
             Problem::OdometryNotStated { .. } => Remedy::Odometry,
-            Problem::OtherKind(kind) => {
-                kind.to_parquet().map_or(Remedy::ConvertByPython, Remedy::Parquet)
-            }
-            Problem::Encoding { .. } => Remedy::ConvertByPython,
+            Problem::OtherKind(kind) => kind.to_parquet.map_or(Remedy::Python, Remedy::Parquet),
+            Problem::Encoding { .. } => Remedy::Python,
             Problem::OverBudget(_) => Remedy::Budget,
             _ => return None,
         })
@@ -228,8 +285,6 @@ impl From<DocumentError> for TelemetryError {
 
 impl fmt::Display for TelemetryError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        /// Characters of a problem: a log may have a thousand topics.
-        const LONGEST: usize = 2000;
         // Errors of tables and documents have their lines and their own hints.
         match &*self.problem {
             Problem::Table(error) => return error.fmt(f),

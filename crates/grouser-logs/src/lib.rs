@@ -76,7 +76,7 @@ mod ros;
 mod run_log;
 mod telemetry;
 
-pub use error::{OtherKind, OverBudget, Problem, Remedy, TelemetryError};
+pub use error::{OptionNames, OtherKind, OverBudget, Problem, Remedy, TelemetryError};
 pub use foxglove::Level;
 pub use mapping::Mapping;
 pub use mapping::messages::MessageRows;

@@ -30,9 +30,10 @@ use crate::error::{Problem, TelemetryError};
 /// log, and of others each after the one before.
 pub struct TelemetryLog {
     label: String,
-    part: LogPart,
-    /// What was read to its end.
-    before: Before,
+    /// Parts that were read, and last the one that is.
+    parts: Vec<LogPart>,
+    /// What was left out of all but the last.
+    lost_before: Lost,
     later: VecDeque<Later>,
     /// Whether the next way may lack some since the file before.
     is_after_border: bool,
@@ -46,16 +47,6 @@ struct Later {
     begins: f64,
     rover: Rover,
     options: LogOptions,
-}
-
-/// Parts that were read to their ends.
-#[derive(Default)]
-struct Before {
-    lost: Lost,
-    given: Vec<GivenFile>,
-    notes: Vec<(String, Vec<String>)>,
-    rows: u64,
-    rows_used: f64,
 }
 
 impl TelemetryLog {
@@ -122,7 +113,8 @@ impl TelemetryLog {
     }
 
     fn of_part(label: String, part: LogPart, later: VecDeque<Later>) -> Self {
-        Self { label, part, later, before: Before::default(), is_after_border: false }
+        let lost_before = Lost::default();
+        Self { label, parts: vec![part], lost_before, later, is_after_border: false }
     }
 
     /// What messages call files of a drive.
@@ -144,64 +136,75 @@ impl TelemetryLog {
     /// the next has begun.
     pub fn next_record(&mut self) -> Result<Option<TelemetryRecord>, TelemetryError> {
         loop {
-            if let Some(mut record) = self.part.next_record()? {
-                if let Some(next) = self.later.front().filter(|it| record.time >= it.begins) {
-                    let (next, begins) = (next.label.clone(), next.begins);
-                    let problem = Problem::Overlap { next, ends: record.time, begins };
-                    return Err(TelemetryError::new(self.part.label(), problem));
-                }
-                if self.is_after_border {
-                    record.is_way_incomplete = true;
-                    let has_way = record.displacement.iter().any(Option::is_some);
-                    self.is_after_border = !has_way && record.rotation.is_none();
-                }
-                return Ok(Some(record));
+            let part = self.last_mut();
+            let Some(mut record) = part.next_record()? else {
+                let Some(next) = self.later.pop_front() else { return Ok(None) };
+                self.lost_before = self.lost();
+                self.parts.push(next.open()?);
+                self.is_after_border = true;
+                continue;
+            };
+            if let Some(next) = self.later.front().filter(|it| record.time >= it.begins) {
+                let (next, begins) = (next.label.clone(), next.begins);
+                let problem = Problem::Overlap { next, ends: record.time, begins };
+                return Err(TelemetryError::new(self.last().label(), problem));
             }
-            let Some(next) = self.later.pop_front() else { return Ok(None) };
-            let ended = std::mem::replace(&mut self.part, next.open()?);
-            self.before.add(&ended);
-            self.is_after_border = true;
+            if self.is_after_border {
+                record.is_way_incomplete = true;
+                let has_way = record.displacement.iter().any(Option::is_some);
+                self.is_after_border = !has_way && record.rotation.is_none();
+            }
+            return Ok(Some(record));
         }
+    }
+
+    fn last(&self) -> &LogPart {
+        &self.parts[self.parts.len() - 1]
+    }
+
+    fn last_mut(&mut self) -> &mut LogPart {
+        let last = self.parts.len() - 1;
+        &mut self.parts[last]
     }
 
     /// How many rows were read so far.
     #[must_use]
     pub fn rows(&self) -> u64 {
-        self.before.rows + self.part.rows()
+        self.parts.iter().map(LogPart::rows).sum()
     }
 
     /// Whether the row of the last record has its end: the last row of CSV that is being written
     /// may not.
     #[must_use]
     pub fn is_whole(&self) -> bool {
-        !self.later.is_empty() || self.part.is_whole()
+        !self.later.is_empty() || self.last().is_whole()
     }
 
     /// What was left out of its rows so far.
     #[must_use]
     pub fn lost(&self) -> Lost {
-        self.before.lost.and(self.part.lost())
+        self.lost_before.and(self.last().lost())
     }
 
     /// What its files gave so far, and what a mapping of the user's did.
     #[must_use]
     pub fn given(&self) -> Vec<GivenFile> {
-        let mut given = self.before.given.clone();
-        // A mapping reads the same of files that are alike.
-        let new: Vec<GivenFile> =
-            self.part.given().into_iter().filter(|it| !given.contains(it)).collect();
-        given.extend(new);
+        let mut given = Vec::new();
+        for file in self.parts.iter().flat_map(LogPart::given) {
+            // A mapping reads the same of files that are alike.
+            if !given.contains(&file) {
+                given.push(file);
+            }
+        }
         given
     }
 
     /// The share of its rows, or readings, that was used so far [-].
     #[must_use]
     pub fn share_used(&self) -> f64 {
-        let (rows, share) = (self.part.rows() as f64, self.part.share_used());
-        if self.before.rows == 0 {
-            return share;
-        }
-        (self.before.rows_used + rows * share) / (self.before.rows as f64 + rows)
+        let rows: f64 = self.parts.iter().map(|it| it.rows() as f64).sum();
+        let used = self.parts.iter().map(|it| it.rows() as f64 * it.share_used());
+        if rows == 0.0 { self.last().share_used() } else { used.sum::<f64>() / rows }
     }
 
     /// What was left out so far, and what is not used: a sentence each.
@@ -213,34 +216,12 @@ impl TelemetryLog {
     /// The same without what was left out of its rows, which is [`lost`](Self::lost).
     #[must_use]
     pub fn notes_of_source(&self) -> Vec<String> {
-        let last = (self.part.label().to_owned(), self.part.notes_of_source());
-        if self.before.notes.is_empty() {
-            return last.1;
-        }
-        let parts: Vec<_> = self.before.notes.iter().chain([&last]).collect();
-        let mut sentences: Vec<String> = Vec::new();
-        for (label, notes) in &parts {
-            for note in notes {
-                let is_of_all = parts.iter().all(|(_, all)| all.contains(note));
-                let sentence = if is_of_all { note.clone() } else { format!("{label}: {note}") };
-                if !sentences.contains(&sentence) {
-                    sentences.push(sentence);
-                }
-            }
-        }
-        sentences
-    }
-}
-
-impl Before {
-    fn add(&mut self, part: &LogPart) {
-        self.lost = self.lost.and(part.lost());
-        let new: Vec<GivenFile> =
-            part.given().into_iter().filter(|it| !self.given.contains(it)).collect();
-        self.given.extend(new);
-        self.notes.push((part.label().to_owned(), part.notes_of_source()));
-        self.rows += part.rows();
-        self.rows_used += part.rows() as f64 * part.share_used();
+        let all: Vec<_> = self.parts.iter().map(|it| (it.label(), it.notes_of_source())).collect();
+        let is_of_all = |note: &String| all.iter().all(|(_, notes)| notes.contains(note));
+        let of_one = all.iter().flat_map(|(label, notes)| {
+            notes.iter().filter(|it| !is_of_all(it)).map(move |it| format!("{label}: {it}"))
+        });
+        all[0].1.iter().filter(|it| is_of_all(it)).cloned().chain(of_one).collect()
     }
 }
 
@@ -293,7 +274,7 @@ fn logs_in(folder: &Path) -> Result<Vec<PathBuf>, TelemetryError> {
     all.retain(|it| has_ending(it, "mcap"));
     match (all.is_empty(), has_bag) {
         (false, _) => Ok(all),
-        (true, true) => Err(failed(Problem::OtherKind(OtherKind::Ros2Bag))),
+        (true, true) => Err(failed(Problem::OtherKind(OtherKind::ROS_2))),
         (true, false) => Err(failed(Problem::NoLogInFolder)),
     }
 }

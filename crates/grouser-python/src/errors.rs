@@ -7,15 +7,14 @@ use std::io::ErrorKind;
 use std::ops::RangeInclusive;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use grouser::document::measurements::telemetry::Odometry;
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::ranking::RankingError;
-use grouser::document::{DocumentError, Problem, escape};
+use grouser::document::{DocumentError, Problem};
 use grouser::error::ParameterError;
 use grouser::mission::MissionError;
 use grouser::simulation::RunError;
 use grouser::studies::calibration::CalibrationError;
-use grouser_logs::{Problem as TelemetryProblem, Remedy, TelemetryError};
+use grouser_logs::{OptionNames, Problem as TelemetryProblem, Remedy, TelemetryError};
 use grouser_raster::{Fault, RasterError};
 use grouser_store::StoreError;
 use pyo3::exceptions::{PyTypeError, PyUserWarning};
@@ -173,49 +172,19 @@ pub(crate) fn of_measurements(error: &MeasurementError, file: &str) -> PyErr {
     }
 }
 
-/// What may be done about telemetry, by the arguments of the package.
-fn telemetry_hint(remedy: Remedy<'_>) -> String {
-    match remedy {
-        Remedy::Mapping => {
-            "mapping=\"FILE.toml\" of import_telemetry (--mapping of its command) says which topics and \
-             fields are which columns"
-                .to_owned()
-        }
-        Remedy::MappingOfTable => {
-            "a reading with `topic = \"/odom\"` and `field = \"pose.x\"` reads the column \
-             /odom/pose/x, one with `topic = \"/\"` and `field = \"x\"` the column x; mapping= has a \
-             file with such readings"
-                .to_owned()
-        }
-        Remedy::BuiltInMapping(name) => format!("the built-in {name} reads them"),
-        Remedy::TimeOfMapping => {
-            "`time = \"t\"` in the mapping says that it is the column t".to_owned()
-        }
-        Remedy::Topic(what, topic) => format!(
-            "say which is meant, such as by topics={{\"{what}\": \"{topic}\"}} of import_telemetry, \
-             --topic {what}={topic} of its command",
-            what = escape::line(what),
-            topic = escape::line(topic)
-        ),
-        Remedy::Odometry => format!(
-            "odometry=KIND (--odometry KIND of the command), or `odometry = \"KIND\"` in a mapping, \
-             says it; KIND is one of {}",
-            Odometry::ALL.map(|(name, ..)| name).join(", ")
-        ),
-        Remedy::ConvertByPython => {
-            "import_telemetry converts it, by the package rosbags: pip install 'grouser[ros]'".to_owned()
-        }
-        Remedy::Parquet(line) => format!("Parquet is read, and this line makes it: {line}"),
-        Remedy::Budget => {
-            "a larger `max_unpacked_mib` reads more, if it is meant so; or unpack it first".to_owned()
-        }
-    }
-}
+/// The arguments by which the package is asked.
+const ARGUMENTS: OptionNames = OptionNames {
+    mapping: "mapping=\"FILE.toml\" of import_telemetry",
+    topic: |what, topic| format!("topics={{\"{what}\": \"{topic}\"}} of import_telemetry"),
+    odometry: "odometry=KIND",
+    budget: "a larger `max_unpacked_mib`",
+    python: "import_telemetry(LOG, \"drive.csv\"), with the package rosbags",
+};
 
 /// Telemetry that cannot be read.
 pub(crate) fn of_telemetry(error: &TelemetryError) -> PyErr {
-    let hint = error.remedy().map(|it| format!("\nhint: {}", telemetry_hint(it)));
-    let message = format!("{error}{}", hint.unwrap_or_default());
+    let hint = error.remedy().map(|it| format!("\nhint: {}", it.words(&ARGUMENTS)));
+    let message = error.to_string() + &hint.unwrap_or_default();
     let file = error.label().to_owned();
     match error.problem() {
         TelemetryProblem::Table(error) => of_measurements(error, &file),
@@ -229,11 +198,7 @@ pub(crate) fn of_telemetry(error: &TelemetryError) -> PyErr {
         }
         _ => {
             // Python's own half decodes these.
-            let is_encoded = match error.problem() {
-                TelemetryProblem::Encoding { .. } => true,
-                TelemetryProblem::OtherKind(kind) => kind.to_parquet().is_none(),
-                _ => false,
-            };
+            let is_encoded = error.remedy() == Some(Remedy::Python);
             let key = is_encoded.then(|| "encoding".to_owned());
             let (place, value) = (None::<u64>, None::<f64>);
             let expected = None::<String>;

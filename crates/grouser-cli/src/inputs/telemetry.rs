@@ -4,9 +4,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use grouser::document::measurements::telemetry::Odometry;
-use grouser::document::{self, Kind, Overrides, Source, escape};
+use grouser::document::{self, Kind, Overrides, Source};
 use grouser::vehicle::Rover;
-use grouser_logs::{LogOptions, Mapping, Remedy, TelemetryError, TelemetryLog};
+use grouser_logs::{LogOptions, Mapping, OptionNames, TelemetryError, TelemetryLog};
 
 use super::flag_source;
 use super::follow::Following;
@@ -16,51 +16,20 @@ use crate::failure::Failure;
 /// The name of standard input among files.
 const STANDARD_INPUT: &str = "-";
 
+/// The options by which the program is asked.
+const OPTIONS: OptionNames = OptionNames {
+    mapping: "--mapping FILE.toml",
+    topic: |what, topic| format!("--topic {what}={topic}"),
+    odometry: "--odometry KIND",
+    budget: "--max-unpacked-mib N",
+    python: "python -m grouser import-telemetry LOG --out drive.csv",
+};
+
 impl From<TelemetryError> for Failure {
     fn from(error: TelemetryError) -> Self {
-        let hint = error.remedy().map(|it| format!("\nhint: {}", hint(it))).unwrap_or_default();
-        let message = format!("{error}{hint}");
+        let hint = error.remedy().map(|it| format!("\nhint: {}", it.words(&OPTIONS)));
+        let message = error.to_string() + &hint.unwrap_or_default();
         if error.is_environment() { Self::Run(message) } else { Self::Usage(message) }
-    }
-}
-
-/// What may be done, by the options of the program.
-fn hint(remedy: Remedy<'_>) -> String {
-    match remedy {
-        Remedy::Mapping => {
-            "--mapping FILE.toml says which topics and fields are which columns".to_owned()
-        }
-        Remedy::MappingOfTable => {
-            "a reading with `topic = \"/odom\"` and `field = \"pose.x\"` reads the column \
-             /odom/pose/x, one with `topic = \"/\"` and `field = \"x\"` the column x; --mapping \
-             FILE.toml has such readings"
-                .to_owned()
-        }
-        Remedy::BuiltInMapping(name) => format!("the built-in {name} reads them"),
-        Remedy::TimeOfMapping => {
-            "`time = \"t\"` in the mapping says that it is the column t".to_owned()
-        }
-        Remedy::Topic(what, topic) => {
-            format!(
-                "say which is meant, such as by --topic {}",
-                escape::line(&format!("{what}={topic}"))
-            )
-        }
-        Remedy::Odometry => format!(
-            "--odometry KIND, or `odometry = \"KIND\"` in a mapping, says it; KIND is one of {}",
-            Odometry::ALL.map(|(name, ..)| name).join(", ")
-        ),
-        Remedy::ConvertByPython => {
-            "Python converts it: python -m grouser import-telemetry LOG --out drive.csv".to_owned()
-        }
-        Remedy::Parquet(line) => {
-            format!("Parquet is read, and Python makes it: python -c \"{line}\"")
-        }
-        Remedy::Budget => {
-            "--max-unpacked-mib N reads more, if it is meant so; or unpack it first, such \
-                           as by `mcap decompress LOG -o UNPACKED`"
-                .to_owned()
-        }
     }
 }
 

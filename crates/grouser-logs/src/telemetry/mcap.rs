@@ -15,12 +15,12 @@ use grouser_io::measurements::telemetry::TelemetryRecord;
 use serde_json::Value;
 
 pub(crate) use self::file::McapFile;
-use crate::error::{Problem, TelemetryError};
+use crate::error::TelemetryError;
 use crate::mapping::messages::MessageRows;
 use crate::mapping::topic::Topic;
 use crate::mcap::format::{Message, Schema};
 use crate::mcap::order::Chronological;
-use crate::mcap::read::{Known, OverBudget};
+use crate::mcap::read::Known;
 use crate::protobuf::decode::Description;
 use crate::ros::decode::{RosDescription, Wire, kind_not_read};
 use crate::telemetry::options::LogOptions;
@@ -131,7 +131,8 @@ impl McapLog {
                 return Ok(None);
             }
             let message = self.next_message();
-            let message = message.map_err(|error| failure(&self.files[self.at].label, error))?;
+            let message = message
+                .map_err(|error| TelemetryError::of_reading(&self.files[self.at].label, error))?;
             if let Some((message, data)) = message {
                 self.add(&message, &data);
             } else if !self.next_file()? {
@@ -254,10 +255,4 @@ fn decoder(
     let read = || OfSchema::read(&channel.encoding, schema?).map(Rc::new);
     let described = descriptions.entry(channel.schema).or_insert_with(read).clone();
     Some(described.map_or(Decoder::Unknown, |it| Decoder::OfSchema(channel.topic.clone(), it)))
-}
-
-/// Why a log cannot be read on.
-fn failure(label: &str, error: io::Error) -> TelemetryError {
-    let over = error.get_ref().and_then(|it| it.downcast_ref::<OverBudget>()).copied();
-    TelemetryError::new(label, over.map_or(Problem::Unreadable(error), Problem::OverBudget))
 }

@@ -90,7 +90,7 @@ impl LogPart {
             let source = Box::new(BufReader::new(io::Cursor::new(start).chain(file)));
             return Self::of_table(&label, source, rover, options);
         }
-        if let Some(kind) = OtherKind::of(&start) {
+        if let Some(kind) = OtherKind::beginning_with(&start) {
             return Err(TelemetryError::new(&label, Problem::OtherKind(kind)));
         }
         if start.starts_with(&MAGIC) {

@@ -207,7 +207,7 @@ fn what_cannot_be_meant_is_an_error_that_names_the_choices() {
         assert!(error.to_string().contains(part), "{error}");
         assert_eq!(error.remedy(), Some(remedy));
     };
-    let by_python = Remedy::ConvertByPython;
+    let by_python = Remedy::Python;
     check(
         "/lidar",
         "sensor_msgs/PointCloud2",

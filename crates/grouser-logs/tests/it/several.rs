@@ -179,6 +179,6 @@ fn a_file_or_a_folder_that_gives_nothing_is_named() {
     }
     files.write("drive_0.db3", b"SQLite format 3\0");
     let error = read_all(&[folder]).unwrap_err();
-    assert_eq!(error.remedy(), Some(Remedy::ConvertByPython), "{error}");
+    assert_eq!(error.remedy(), Some(Remedy::Python), "{error}");
     assert_eq!(TelemetryLog::label_of(&[table.clone(), table]).matches("and 1 more").count(), 1);
 }

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 
 use grouser_io::{escape, file};
 
-use super::failure;
 use crate::error::{Problem, TelemetryError};
 use crate::mapping::topic::Topic;
 use crate::mcap::format::{
@@ -41,7 +40,7 @@ impl McapFile {
         is_one_of_several: bool,
     ) -> Result<Self, TelemetryError> {
         let label = escape::path(path);
-        let failed = |error| failure(&label, error);
+        let failed = |error| TelemetryError::of_reading(&label, error);
         let mut file =
             file::open(path).map_err(|problem| TelemetryError::new(&label, problem.into()))?;
         let budget = options.budget(&file).map_err(failed)?;
@@ -58,9 +57,9 @@ impl McapFile {
         let opened = file::open(&self.path);
         let file = opened.map_err(|problem| TelemetryError::new(&self.label, problem.into()))?;
         let messages = Chronological::new(file, std::mem::take(&mut self.chunks), self.budget);
-        let messages = messages.map_err(|error| failure(&self.label, error))?;
         let changed = || io::Error::other("the file changed while it was read");
-        messages.ok_or_else(|| failure(&self.label, changed()))
+        let messages = messages.and_then(|it| it.ok_or_else(changed));
+        messages.map_err(|error| TelemetryError::of_reading(&self.label, error))
     }
 
     /// Puts files in the order of their messages.
