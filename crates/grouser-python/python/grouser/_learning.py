@@ -7,7 +7,7 @@ import os
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -427,9 +427,9 @@ def learn(
     """
     learner = Learner(scenario, prior=prior, rover=rover, slope_deg=slope_deg, **changes)
     if files_of(log) is not None:
-        learner.update_log(log, odometry=odometry, max_unpacked_mib=max_unpacked_mib)
+        learner.update_log(cast(Any, log), odometry=odometry, max_unpacked_mib=max_unpacked_mib)
     else:
-        learner.update(log, odometry=odometry)
+        learner.update(cast(Any, log), odometry=odometry)
     return learner.finished()
 
 

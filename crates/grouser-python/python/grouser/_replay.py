@@ -125,7 +125,7 @@ def replay(
     return _dataset(over_time, wheels, attrs)
 
 
-def _source(log: Log) -> tuple[list[str], str | None]:
+def _source(log: Any) -> tuple[list[str], str | None]:
     """The files, or the text of a table in their place."""
     files = files_of(log)
     if files is not None:
