@@ -187,6 +187,9 @@ pub enum Problem {
     /// A folder without a log.
     #[error("this is a folder in which no file's name ends with .mcap")]
     NoLogInFolder,
+    /// One of several that is a pipe, say.
+    #[error("is no file, but a pipe, say: several files are looked into before they are read")]
+    NotAmongSeveral,
     /// One of several files, of which no row can be used.
     #[error("has no rows of telemetry")]
     NoRows,

@@ -252,6 +252,10 @@ fn parts_of(paths: &[PathBuf]) -> Result<Vec<PartFiles>, TelemetryError> {
             files.push(path.clone());
         }
     }
+    let is_stream = |it: &&PathBuf| fs::metadata(it).is_ok_and(|it| !it.is_file());
+    if let (true, Some(path)) = (files.len() > 1, files.iter().find(is_stream)) {
+        return Err(TelemetryError::new(&escape::path(path), Problem::NotAmongSeveral));
+    }
     if files.len() > 1 && files.iter().all(|it| is_mcap(it)) {
         return Ok(vec![PartFiles::Mcap(files)]);
     }

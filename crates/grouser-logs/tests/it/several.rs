@@ -182,3 +182,14 @@ fn a_file_or_a_folder_that_gives_nothing_is_named() {
     assert_eq!(error.remedy(), Some(Remedy::Python), "{error}");
     assert_eq!(TelemetryLog::label_of(&[table.clone(), table]).matches("and 1 more").count(), 1);
 }
+
+/// A pipe would be at another place once it was looked into.
+#[test]
+#[cfg(unix)]
+fn what_can_be_read_once_is_none_of_several() {
+    let files = Files::new();
+    let table = files.write("a.csv", "time_s,roll_deg\n1,2\n");
+    let error = read_all(&[table, PathBuf::from("/dev/null")]).unwrap_err();
+    assert!(matches!(error.problem(), Problem::NotAmongSeveral), "{error}");
+    assert_eq!(error.label(), "/dev/null");
+}
