@@ -9,6 +9,7 @@ use grouser_io::measurements::telemetry::Odometry;
 use grouser_io::{DocumentError, escape};
 
 pub use crate::mcap::read::OverBudget;
+pub use crate::telemetry::other_kind::OtherKind;
 
 /// Why telemetry could not be read: the file, and what is wrong with it.
 #[derive(Debug)]
@@ -16,7 +17,84 @@ pub struct TelemetryError {
     /// What messages call the file.
     label: String,
     problem: Box<Problem>,
-    hint: Option<String>,
+}
+
+/// What a caller may do about a [`Problem`]; [`words`](Self::words) has it in a sentence.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Remedy<'e> {
+    /// A mapping that says which topics and fields are which columns.
+    Mapping,
+    /// The same for a table, whose columns are topics with fields.
+    MappingOfTable,
+    /// The built-in mapping that reads them, by what messages call it.
+    BuiltInMapping(&'e str),
+    /// A mapping whose `time` names the column.
+    TimeOfMapping,
+    /// A choice of what the mapping calls so, such as this topic.
+    Topic(&'e str, &'e str),
+    /// A statement of what measured the way, by an option or a mapping.
+    Odometry,
+    /// The package for Python decodes such a log.
+    Python,
+    /// This line of Python makes Parquet of a table `LOG`.
+    Parquet(&'static str),
+    /// More of the log may be unpacked.
+    Budget,
+}
+
+/// What a program calls what its user may ask for, each as the subject of a sentence.
+pub struct OptionNames {
+    /// A mapping in a file.
+    pub mapping: &'static str,
+    /// A choice of a topic: of what the mapping calls it, and the topic.
+    pub topic: fn(&str, &str) -> String,
+    /// A statement of what measured the way, as `KIND`.
+    pub odometry: &'static str,
+    /// The most that is unpacked.
+    pub budget: &'static str,
+    /// How the package for Python converts a log.
+    pub python: &'static str,
+}
+
+/// Characters of a problem or a remedy: a log may have a thousand topics.
+const LONGEST: usize = 2000;
+
+impl Remedy<'_> {
+    /// A sentence without its full stop.
+    #[must_use]
+    pub fn words(self, names: &OptionNames) -> String {
+        let OptionNames { mapping, odometry, budget, python, .. } = names;
+        let words = match self {
+            Self::Mapping => format!("{mapping} says which topics and fields are which columns"),
+            Self::MappingOfTable => format!(
+                "a reading with `topic = \"/odom\"` and `field = \"pose.x\"` reads the column \
+                 /odom/pose/x, one with `topic = \"/\"` and `field = \"x\"` the column x; {mapping} \
+                 has such readings"
+            ),
+            Self::BuiltInMapping(name) => format!("the built-in {name} reads them"),
+            Self::TimeOfMapping => {
+                "`time = \"t\"` in the mapping says that it is the column t".to_owned()
+            }
+            Self::Topic(what, topic) => {
+                format!("say which is meant, such as by {}", (names.topic)(what, topic))
+            }
+            Self::Odometry => {
+                let kinds = Odometry::ALL.map(|(name, ..)| name).join(", ");
+                format!(
+                    "{odometry}, or `odometry = \"KIND\"` in a mapping, says it; KIND is one of {kinds}"
+                )
+            }
+            Self::Python => format!("Python converts it: {python}"),
+            Self::Parquet(line) => {
+                format!("Parquet is read, and Python makes it: python -c \"{line}\"")
+            }
+            Self::Budget => format!(
+                "{budget} reads more, if it is meant so; or unpack it first, such as by `mcap \
+                 decompress LOG -o UNPACKED`"
+            ),
+        };
+        escape::short_line(&words, LONGEST)
+    }
 }
 
 /// What is wrong.
@@ -88,7 +166,7 @@ pub enum Problem {
         sought: Vec<String>,
         /// The columns.
         columns: Vec<String>,
-        /// A built-in mapping that reads them, as .
+        /// A built-in mapping that reads them, as messages call it.
         other: Option<String>,
     },
     /// A table that is read by a mapping, of whose columns none has the time.
@@ -106,51 +184,59 @@ pub enum Problem {
     /// A log that unpacks to more than a log of its size may.
     #[error("{0}")]
     OverBudget(OverBudget),
-    /// A log of another kind.
-    #[error("this is {0}, which is not read here")]
-    OtherKind(&'static str),
+    /// A folder without a log.
+    #[error("this is a folder in which no file's name ends with .mcap")]
+    NoLogInFolder,
+    /// One of several that is a pipe, say.
+    #[error("is no file, but a pipe, say: several files are looked into before they are read")]
+    NotAmongSeveral,
+    /// One of several files, of which no row can be used.
+    #[error("has no rows of telemetry")]
+    NoRows,
+    /// A file of a drive that goes on when the next has begun.
+    #[error(
+        "goes on to {ends} s, and {next} begins at {begins} s: files of one drive follow one \
+         another, by one clock"
+    )]
+    Overlap {
+        /// The next file.
+        next: String,
+        /// A time of this file [s] that is not before the start of the next.
+        ends: f64,
+        /// The first time of the next [s].
+        begins: f64,
+    },
+    /// A log, or a table, of another kind.
+    #[error("this is {}, which is not read here", .0.name)]
+    OtherKind(OtherKind),
 }
 
 impl TelemetryError {
     pub(crate) fn new(label: &str, problem: Problem) -> Self {
-        let hint = match &problem {
-            Problem::NothingMapped { .. } => Some(
-                "--mapping FILE.toml says which topics and fields are which columns".to_owned(),
-            ),
-            Problem::NoColumnMapped { other: Some(other), .. } => {
-                Some(format!("the built-in {other} reads them"))
-            }
-            Problem::NoColumnMapped { .. } => Some(
-                "a reading with `topic = \"/odom\"` and `field = \"pose.x\"` reads the column \
-                 /odom/pose/x, one with `topic = \"/\"` and `field = \"x\"` the column x; --mapping \
-                 FILE.toml has such readings"
-                    .to_owned(),
-            ),
-            Problem::NoTime(_) => {
-                Some("`time = \"t\"` in the mapping says that it is the column t".to_owned())
-            }
-            Problem::Ambiguous { what, topics } => topics
-                .first()
-                .map(|topic| format!("say which is meant, such as by --topic {what}={topic}")),
-            Problem::OdometryNotStated { .. } => {
-                let names = Odometry::ALL.map(|(name, ..)| name).join(", ");
-                Some(format!(
-                    "--odometry KIND, `odometry = \"KIND\"` in a mapping, or odometry=KIND in \
-                     Python says it; KIND is one of {names}"
-                ))
-            }
-            Problem::Encoding { .. } | Problem::OtherKind(_) => Some(
-                "Python converts it: python -m grouser import-telemetry LOG --out drive.csv"
-                    .to_owned(),
-            ),
-            Problem::OverBudget(_) => Some(
-                "a larger `max_unpacked_mib` reads more, if it is meant so; or unpack it first, such as \
-                 by `mcap decompress LOG -o UNPACKED`"
-                    .to_owned(),
-            ),
-            _ => None,
-        };
-        Self { label: label.to_owned(), problem: Box::new(problem), hint }
+        Self { label: label.to_owned(), problem: Box::new(problem) }
+    }
+
+    /// Why reading failed: the disk, or a budget that was over.
+    pub(crate) fn of_reading(label: &str, error: io::Error) -> Self {
+        let over = error.get_ref().and_then(|it| it.downcast_ref::<OverBudget>()).copied();
+        Self::new(label, over.map_or(Problem::Unreadable(error), Problem::OverBudget))
+    }
+
+    /// What the caller may do about it, if anything.
+    #[must_use]
+    pub fn remedy(&self) -> Option<Remedy<'_>> {
+        Some(match &*self.problem {
+            Problem::NothingMapped { .. } => Remedy::Mapping,
+            Problem::NoColumnMapped { other: Some(other), .. } => Remedy::BuiltInMapping(other),
+            Problem::NoColumnMapped { .. } => Remedy::MappingOfTable,
+            Problem::NoTime(_) => Remedy::TimeOfMapping,
+            Problem::Ambiguous { what, topics } => Remedy::Topic(what, topics.first()?),
+            Problem::OdometryNotStated { .. } => Remedy::Odometry,
+            Problem::OtherKind(kind) => kind.to_parquet.map_or(Remedy::Python, Remedy::Parquet),
+            Problem::Encoding { .. } => Remedy::Python,
+            Problem::OverBudget(_) => Remedy::Budget,
+            _ => return None,
+        })
     }
 
     /// What messages call the file.
@@ -202,8 +288,6 @@ impl From<DocumentError> for TelemetryError {
 
 impl fmt::Display for TelemetryError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        /// Characters of a problem or a hint: a log may have a thousand topics.
-        const LONGEST: usize = 2000;
         // Errors of tables and documents have their lines and their own hints.
         match &*self.problem {
             Problem::Table(error) => return error.fmt(f),
@@ -211,11 +295,7 @@ impl fmt::Display for TelemetryError {
             _ => {}
         }
         let problem = escape::short_line(&self.problem.to_string(), LONGEST);
-        write!(f, "{}: {problem}", escape::line(&self.label))?;
-        match &self.hint {
-            Some(hint) => write!(f, "\nhint: {}", escape::short_line(hint, LONGEST)),
-            None => Ok(()),
-        }
+        write!(f, "{}: {problem}", escape::line(&self.label))
     }
 }
 

@@ -5,7 +5,7 @@
 //! |---|---|
 //! | a run or a mission as MCAP, for Foxglove and Rerun | [`Log`] |
 //! | a replayed drive as MCAP, measured beside predicted | [`write_replay`] |
-//! | telemetry of a drive from CSV, Parquet or MCAP | [`TelemetryLog`] |
+//! | telemetry of a drive from CSV, Parquet or MCAP, of one file or several | [`TelemetryLog`] |
 //! | messages that somebody else decodes, as telemetry | [`MessageRows`] |
 //! | telemetry as CSV or Parquet | [`TelemetryWriter`] |
 //!
@@ -76,7 +76,7 @@ mod ros;
 mod run_log;
 mod telemetry;
 
-pub use error::{OverBudget, Problem, TelemetryError};
+pub use error::{OptionNames, OtherKind, OverBudget, Problem, Remedy, TelemetryError};
 pub use foxglove::Level;
 pub use mapping::Mapping;
 pub use mapping::messages::MessageRows;

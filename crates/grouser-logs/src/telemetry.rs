@@ -3,50 +3,54 @@
 mod mapped;
 mod mcap;
 pub(crate) mod options;
+pub(crate) mod other_kind;
 mod parquet;
+mod part;
 pub(crate) mod writer;
 
-use std::cell::Cell;
-use std::fs::File;
-use std::io::{self, BufReader, Read, Seek as _};
-use std::iter;
-use std::path::Path;
-use std::rc::Rc;
+use std::collections::VecDeque;
+use std::fs;
+use std::io::Read;
+use std::path::{Path, PathBuf};
 
-use flate2::read::MultiGzDecoder;
 use grouser_core::vehicle::Rover;
+use grouser_io::escape;
+use grouser_io::file::FileProblem;
 use grouser_io::given_file::GivenFile;
-use grouser_io::measurements::telemetry::{
-    Lost, Odometry, TelemetryReader, TelemetryRecord, TelemetryRows,
-};
-use grouser_io::{escape, file};
+use grouser_io::measurements::telemetry::{Lost, TelemetryRecord};
 
-use self::mapped::{MappedTable, Rows};
-use self::mcap::McapLog;
 use self::options::LogOptions;
-use self::parquet::{ParquetCells, ParquetLog};
-use crate::error::{OverBudget, Problem, TelemetryError};
-use crate::mapping::messages::MessageRows;
-use crate::mcap::format::MAGIC;
-
-/// How a file that is packed by gzip begins.
-const GZIP: &[u8] = &[0x1f, 0x8b];
+use self::other_kind::OtherKind;
+use self::part::{LogPart, PartFiles, is_mcap, label_of};
+use crate::error::{Problem, TelemetryError};
 
 /// Telemetry of a drive, opened.
+///
+/// It may be of several files, which follow one another by one clock: files of MCAP are read as one
+/// log, and of others each after the one before.
 pub struct TelemetryLog {
     label: String,
-    source: Source,
+    /// Parts that were read, and last the one that is.
+    parts: Vec<LogPart>,
+    /// What was left out of all but the last.
+    lost_before: Lost,
+    later: VecDeque<Later>,
+    /// Whether the next way may lack some since the file before.
+    is_after_border: bool,
 }
 
-enum Source {
-    Csv { reader: Box<TelemetryReader<'static, LastByte>>, ended_in_row: Rc<Cell<bool>> },
-    Mapped { table: Box<MappedTable<LastByte>>, ended_in_row: Rc<Cell<bool>> },
-    Parquet(Box<ParquetLog>),
-    Mcap(Box<McapLog>),
+/// A part that is read later.
+struct Later {
+    files: PartFiles,
+    label: String,
+    /// Time of its first record [s].
+    begins: f64,
+    rover: Rover,
+    options: LogOptions,
 }
 
 impl TelemetryLog {
-    /// Opens a file; its first bytes say what it is.
+    /// Opens a file, whose first bytes say what it is, or a folder of MCAP files.
     ///
     /// * `rover`: the rover that was driven, for the names of its wheels
     /// * `options`: how it is read; of a table a mapping says which columns are which, as it says of
@@ -56,36 +60,37 @@ impl TelemetryLog {
     /// [`TelemetryError`] for a file that cannot be opened, or is no telemetry of this rover; with
     /// [`Problem::Ambiguous`] another call can make the choice.
     pub fn open(path: &Path, rover: &Rover, options: &LogOptions) -> Result<Self, TelemetryError> {
-        let label = escape::path(path);
-        let of_disk = |error| TelemetryError::new(&label, Problem::Unreadable(error));
-        let mut file =
-            file::open(path).map_err(|problem| TelemetryError::new(&label, problem.into()))?;
-        let start = first_bytes(&mut file).map_err(of_disk)?;
-        // What is a pipe cannot be sought in.
-        if file.rewind().is_err() {
-            let source = Box::new(BufReader::new(io::Cursor::new(start).chain(file)));
-            return Self::of_table(&label, source, rover, options);
+        Self::open_all(&[path.to_owned()], rover, options)
+    }
+
+    /// Opens files of one drive, in any order.
+    ///
+    /// * `paths`: one or more, each as [`open`](Self::open) has it
+    /// * `rover`, `options`: as there
+    ///
+    /// # Errors
+    /// As [`open`](Self::open), and [`Problem::NoRows`] for one of several that has none; that files
+    /// overlap may be found only while they are read.
+    pub fn open_all(
+        paths: &[PathBuf],
+        rover: &Rover,
+        options: &LogOptions,
+    ) -> Result<Self, TelemetryError> {
+        let label = Self::label_of(paths);
+        let mut parts = parts_of(paths)?;
+        if let [files] = &parts[..] {
+            let part = LogPart::open(files, rover, options)?;
+            return Ok(Self::of_part(label, part, VecDeque::new()));
         }
-        let bags: [(&[u8], &str); 2] =
-            [(b"#ROSBAG V", "a bag of ROS 1"), (b"SQLite format 3", "a bag of ROS 2 in SQLite")];
-        if let Some((_, kind)) = bags.iter().find(|(magic, _)| start.starts_with(magic)) {
-            return Err(TelemetryError::new(&label, Problem::OtherKind(kind)));
-        }
-        if start.starts_with(&MAGIC) {
-            let log = McapLog::new(&label, file, rover, options)?;
-            return Ok(Self { label, source: Source::Mcap(Box::new(log)) });
-        }
-        if start.starts_with(parquet::MAGIC) {
-            return Self::of_parquet(&label, file, rover, options);
-        }
-        let source: Box<dyn Read> = if start.starts_with(GZIP) {
-            let budget = options.budget(&file).map_err(of_disk)?;
-            let source = MultiGzDecoder::new(BufReader::new(file));
-            Box::new(Unpacked { source, rest: budget.most_unpacked(), budget })
-        } else {
-            Box::new(BufReader::new(file))
+        let later = |files: PartFiles| Later::look(files, rover, options);
+        let mut later = parts.drain(..).map(later).collect::<Result<Vec<_>, _>>()?;
+        later.sort_by(|one, other| one.begins.total_cmp(&other.begins));
+        let mut later = VecDeque::from(later);
+        let Some(first) = later.pop_front() else {
+            return Err(TelemetryError::new(&label, FileProblem::NoSuchFile.into()));
         };
-        Self::of_table(&label, source, rover, options)
+        let part = first.open()?;
+        Ok(Self::of_part(label, part, later))
     }
 
     /// Reads CSV as it comes, whose columns are fields of messages by a mapping, or else those of
@@ -103,50 +108,19 @@ impl TelemetryLog {
         rover: &Rover,
         options: &LogOptions,
     ) -> Result<Self, TelemetryError> {
-        let Some(mapping) = options.mapping_of_table(label)? else {
-            return Self::of_csv(label, source, rover, options);
-        };
-        let (source, ended_in_row) = LastByte::of(source);
-        let rows = Rows::of_csv(label, source)?;
-        let table = Box::new(MappedTable::new(label, rows, mapping, rover, options)?);
-        Ok(Self { label: label.to_owned(), source: Source::Mapped { table, ended_in_row } })
+        let part = LogPart::of_table(label, source, rover, options)?;
+        Ok(Self::of_part(label.to_owned(), part, VecDeque::new()))
     }
 
-    fn of_parquet(
-        label: &str,
-        file: File,
-        rover: &Rover,
-        options: &LogOptions,
-    ) -> Result<Self, TelemetryError> {
-        let mapping = options.mapping_of_table(label)?;
-        let cells = ParquetCells::new(label, file)?;
-        let source = if let Some(mapping) = mapping {
-            let rows = Rows::Parquet(Box::new(cells.with_numbers()));
-            let table = Box::new(MappedTable::new(label, rows, mapping, rover, options)?);
-            Source::Mapped { table, ended_in_row: Rc::default() }
-        } else {
-            Source::Parquet(Box::new(ParquetLog::new(cells, rover, options.odometry)?))
-        };
-        Ok(Self { label: label.to_owned(), source })
+    fn of_part(label: String, part: LogPart, later: VecDeque<Later>) -> Self {
+        let lost_before = Lost::default();
+        Self { label, parts: vec![part], lost_before, later, is_after_border: false }
     }
 
-    /// Reads CSV as it comes, such as from standard input.
-    ///
-    /// * `label`: what messages call the source
-    /// * `options`: a mapping and choices of topics have no meaning here
-    ///
-    /// # Errors
-    /// [`TelemetryError`] for a header that is no telemetry of this rover.
-    fn of_csv(
-        label: &str,
-        source: Box<dyn Read>,
-        rover: &Rover,
-        options: &LogOptions,
-    ) -> Result<Self, TelemetryError> {
-        let (source, ended_in_row) = LastByte::of(source);
-        let reader = TelemetryReader::new(label.to_owned(), source, rover)?;
-        let reader = Box::new(reader.measured_by(options.odometry.unwrap_or(Odometry::Visual)));
-        Ok(Self { label: label.to_owned(), source: Source::Csv { reader, ended_in_row } })
+    /// What messages call files of a drive.
+    #[must_use]
+    pub fn label_of(paths: &[PathBuf]) -> String {
+        label_of(paths)
     }
 
     /// What messages call it.
@@ -158,56 +132,79 @@ impl TelemetryLog {
     /// The next record, if there is one; times rise from record to record.
     ///
     /// # Errors
-    /// [`TelemetryError`] where reading fails, or what comes cannot be telemetry.
+    /// [`TelemetryError`] where reading fails, what comes cannot be telemetry, or a file goes on when
+    /// the next has begun.
     pub fn next_record(&mut self) -> Result<Option<TelemetryRecord>, TelemetryError> {
-        match &mut self.source {
-            Source::Csv { reader, .. } => Ok(reader.next_record()?),
-            Source::Mapped { table, .. } => table.next_record(),
-            Source::Parquet(log) => log.next_record(),
-            Source::Mcap(log) => log.next_record(),
+        loop {
+            let part = self.last_mut();
+            let Some(mut record) = part.next_record()? else {
+                let Some(next) = self.later.pop_front() else { return Ok(None) };
+                self.lost_before = self.lost();
+                self.parts.push(next.open()?);
+                self.is_after_border = true;
+                continue;
+            };
+            if let Some(next) = self.later.front().filter(|it| record.time >= it.begins) {
+                let (next, begins) = (next.label.clone(), next.begins);
+                let problem = Problem::Overlap { next, ends: record.time, begins };
+                return Err(TelemetryError::new(self.last().label(), problem));
+            }
+            if self.is_after_border {
+                record.is_way_incomplete = true;
+                let has_way = record.displacement.iter().any(Option::is_some);
+                self.is_after_border = !has_way && record.rotation.is_none();
+            }
+            return Ok(Some(record));
         }
+    }
+
+    fn last(&self) -> &LogPart {
+        &self.parts[self.parts.len() - 1]
+    }
+
+    fn last_mut(&mut self) -> &mut LogPart {
+        let last = self.parts.len() - 1;
+        &mut self.parts[last]
     }
 
     /// How many rows were read so far.
     #[must_use]
     pub fn rows(&self) -> u64 {
-        self.table().rows()
+        self.parts.iter().map(LogPart::rows).sum()
     }
 
     /// Whether the row of the last record has its end: the last row of CSV that is being written
     /// may not.
     #[must_use]
     pub fn is_whole(&self) -> bool {
-        match &self.source {
-            Source::Csv { ended_in_row, .. } | Source::Mapped { ended_in_row, .. } => {
-                !ended_in_row.get()
-            }
-            Source::Parquet(_) | Source::Mcap(_) => true,
-        }
+        !self.later.is_empty() || self.last().is_whole()
     }
 
     /// What was left out of its rows so far.
     #[must_use]
-    pub fn lost(&self) -> &Lost {
-        self.table().lost()
+    pub fn lost(&self) -> Lost {
+        self.lost_before.and(self.last().lost())
     }
 
-    /// What it gave so far, and what a mapping of the user's did.
+    /// What its files gave so far, and what a mapping of the user's did.
     #[must_use]
     pub fn given(&self) -> Vec<GivenFile> {
-        let log = self.table().given(self.label());
-        let unread = self.parquet().map_or(0, ParquetCells::unread);
-        let log = GivenFile { there: log.there + unread, ..log };
-        let mapping = self.messages().and_then(MessageRows::given_mapping).cloned();
-        iter::once(log).chain(mapping).collect()
+        let mut given = Vec::new();
+        for file in self.parts.iter().flat_map(LogPart::given) {
+            // A mapping reads the same of files that are alike.
+            if !given.contains(&file) {
+                given.push(file);
+            }
+        }
+        given
     }
 
     /// The share of its rows, or readings, that was used so far [-].
     #[must_use]
     pub fn share_used(&self) -> f64 {
-        let rows = || self.table().share_used();
-        let of_read = self.messages().map_or_else(rows, MessageRows::share_used);
-        self.parquet().map_or(of_read, |cells| cells.share_used(of_read))
+        let rows: f64 = self.parts.iter().map(|it| it.rows() as f64).sum();
+        let used = self.parts.iter().map(|it| it.rows() as f64 * it.share_used());
+        if rows == 0.0 { self.last().share_used() } else { used.sum::<f64>() / rows }
     }
 
     /// What was left out so far, and what is not used: a sentence each.
@@ -219,97 +216,69 @@ impl TelemetryLog {
     /// The same without what was left out of its rows, which is [`lost`](Self::lost).
     #[must_use]
     pub fn notes_of_source(&self) -> Vec<String> {
-        let of_kind = match &self.source {
-            Source::Csv { .. } => Vec::new(),
-            Source::Mapped { table, .. } => table.notes(),
-            Source::Parquet(log) => log.cells().notes(),
-            Source::Mcap(log) => log.notes(),
+        let all: Vec<_> = self.parts.iter().map(|it| (it.label(), it.notes_of_source())).collect();
+        let is_of_all = |note: &String| all.iter().all(|(_, notes)| notes.contains(note));
+        let of_one = all.iter().flat_map(|(label, notes)| {
+            notes.iter().filter(|it| !is_of_all(it)).map(move |it| format!("{label}: {it}"))
+        });
+        all[0].1.iter().filter(|it| is_of_all(it)).cloned().chain(of_one).collect()
+    }
+}
+
+impl Later {
+    /// Reads the first record of a part.
+    fn look(files: PartFiles, rover: &Rover, options: &LogOptions) -> Result<Self, TelemetryError> {
+        let mut part = LogPart::open(&files, rover, options)?;
+        let label = part.label().to_owned();
+        let Some(record) = part.next_record()? else {
+            return Err(TelemetryError::new(&label, Problem::NoRows));
         };
-        let table = self.table();
-        let of_table =
-            [table.sentence_of_odometry(), table.sentence_of_time(), table.sentence_of_unused()];
-        of_kind.into_iter().chain(of_table.into_iter().flatten()).collect()
+        let (rover, options) = (rover.clone(), options.clone());
+        Ok(Self { files, label, begins: record.time, rover, options })
     }
 
-    fn table(&self) -> &TelemetryRows {
-        match &self.source {
-            Source::Csv { reader, .. } => reader.rows(),
-            Source::Mapped { table, .. } => table.messages().rows(),
-            Source::Parquet(log) => log.rows(),
-            Source::Mcap(log) => log.messages().rows(),
+    fn open(&self) -> Result<LogPart, TelemetryError> {
+        LogPart::open(&self.files, &self.rover, &self.options)
+    }
+}
+
+/// The parts of a log: files of MCAP are one part, if there are no others.
+fn parts_of(paths: &[PathBuf]) -> Result<Vec<PartFiles>, TelemetryError> {
+    let mut files = Vec::new();
+    for path in paths {
+        if path.is_dir() {
+            files.extend(logs_in(path)?);
+        } else {
+            files.push(path.clone());
         }
     }
-
-    /// The messages that become records, of what is read by a mapping.
-    fn messages(&self) -> Option<&MessageRows> {
-        match &self.source {
-            Source::Csv { .. } | Source::Parquet(_) => None,
-            Source::Mapped { table, .. } => Some(table.messages()),
-            Source::Mcap(log) => Some(log.messages()),
-        }
+    let is_stream = |it: &&PathBuf| fs::metadata(it).is_ok_and(|it| !it.is_file());
+    if let (true, Some(path)) = (files.len() > 1, files.iter().find(is_stream)) {
+        return Err(TelemetryError::new(&escape::path(path), Problem::NotAmongSeveral));
     }
-
-    /// The file of Parquet that it is, if it is one.
-    fn parquet(&self) -> Option<&ParquetCells> {
-        match &self.source {
-            Source::Csv { .. } | Source::Mcap(_) => None,
-            Source::Mapped { table, .. } => table.parquet(),
-            Source::Parquet(log) => Some(log.cells()),
-        }
+    if files.len() > 1 && files.iter().all(|it| is_mcap(it)) {
+        return Ok(vec![PartFiles::Mcap(files)]);
     }
+    Ok(files.into_iter().map(PartFiles::One).collect())
 }
 
-/// Reads as many bytes as show what a file is, or all that it has.
-fn first_bytes(file: &mut File) -> io::Result<Vec<u8>> {
-    const ENOUGH: u64 = 16;
-    let mut start = Vec::new();
-    file.take(ENOUGH).read_to_end(&mut start)?;
-    Ok(start)
-}
-
-/// What a source unpacks to, within a budget.
-struct Unpacked<R> {
-    source: R,
-    /// What is left of the budget [bytes].
-    rest: u64,
-    budget: OverBudget,
-}
-
-impl<R: Read> Read for Unpacked<R> {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let count = self.source.read(buffer)?;
-        let over =
-            || io::Error::other(format!("{}; a larger `max_unpacked_mib` reads more", self.budget));
-        self.rest = self.rest.checked_sub(count as u64).ok_or_else(over)?;
-        Ok(count)
+/// The files of MCAP in a folder, as recorders part a log, by their names.
+fn logs_in(folder: &Path) -> Result<Vec<PathBuf>, TelemetryError> {
+    let failed = |problem| TelemetryError::new(&escape::path(folder), problem);
+    let of_disk = |error| failed(Problem::Unreadable(error));
+    let mut all = Vec::new();
+    for entry in fs::read_dir(folder).map_err(of_disk)? {
+        all.push(entry.map_err(of_disk)?.path());
     }
-}
-
-/// Notices whether a source ends within a row.
-struct LastByte {
-    source: Box<dyn Read>,
-    last: u8,
-    ended_in_row: Rc<Cell<bool>>,
-}
-
-impl LastByte {
-    /// The source, and whether it ended within a row.
-    fn of(source: Box<dyn Read>) -> (Self, Rc<Cell<bool>>) {
-        let ended_in_row = Rc::new(Cell::new(false));
-        (Self { source, last: b'\n', ended_in_row: ended_in_row.clone() }, ended_in_row)
-    }
-}
-
-impl Read for LastByte {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let count = self.source.read(buffer)?;
-        match buffer[..count].last() {
-            Some(last) => self.last = *last,
-            None if !buffer.is_empty() => {
-                self.ended_in_row.set(!matches!(self.last, b'\n' | b'\r'));
-            }
-            None => {}
-        }
-        Ok(count)
+    all.sort();
+    let has_ending = |it: &PathBuf, ending: &str| {
+        it.extension().is_some_and(|it| it.eq_ignore_ascii_case(ending))
+    };
+    let has_bag = all.iter().any(|it| has_ending(it, "db3"));
+    all.retain(|it| has_ending(it, "mcap"));
+    match (all.is_empty(), has_bag) {
+        (false, _) => Ok(all),
+        (true, true) => Err(failed(Problem::OtherKind(OtherKind::ROS_2))),
+        (true, false) => Err(failed(Problem::NoLogInFolder)),
     }
 }

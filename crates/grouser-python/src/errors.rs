@@ -14,7 +14,7 @@ use grouser::error::ParameterError;
 use grouser::mission::MissionError;
 use grouser::simulation::RunError;
 use grouser::studies::calibration::CalibrationError;
-use grouser_logs::{Problem as TelemetryProblem, TelemetryError};
+use grouser_logs::{OptionNames, Problem as TelemetryProblem, Remedy, TelemetryError};
 use grouser_raster::{Fault, RasterError};
 use grouser_store::StoreError;
 use pyo3::exceptions::{PyTypeError, PyUserWarning};
@@ -172,9 +172,20 @@ pub(crate) fn of_measurements(error: &MeasurementError, file: &str) -> PyErr {
     }
 }
 
+/// The arguments by which the package is asked.
+const ARGUMENTS: OptionNames = OptionNames {
+    mapping: "mapping=\"FILE.toml\" of import_telemetry",
+    topic: |what, topic| format!("topics={{\"{what}\": \"{topic}\"}} of import_telemetry"),
+    odometry: "odometry=KIND",
+    budget: "a larger `max_unpacked_mib`",
+    python: "import_telemetry(LOG, \"drive.csv\"), with the package rosbags",
+};
+
 /// Telemetry that cannot be read.
 pub(crate) fn of_telemetry(error: &TelemetryError) -> PyErr {
-    let (message, file) = (error.to_string(), error.label().to_owned());
+    let hint = error.remedy().map(|it| format!("\nhint: {}", it.words(&ARGUMENTS)));
+    let message = error.to_string() + &hint.unwrap_or_default();
+    let file = error.label().to_owned();
     match error.problem() {
         TelemetryProblem::Table(error) => of_measurements(error, &file),
         TelemetryProblem::Document(error) => of_document(error, &[]),
@@ -187,10 +198,7 @@ pub(crate) fn of_telemetry(error: &TelemetryError) -> PyErr {
         }
         _ => {
             // Python's own half decodes these.
-            let is_encoded = matches!(
-                error.problem(),
-                TelemetryProblem::Encoding { .. } | TelemetryProblem::OtherKind(_)
-            );
+            let is_encoded = error.remedy() == Some(Remedy::Python);
             let key = is_encoded.then(|| "encoding".to_owned());
             let (place, value) = (None::<u64>, None::<f64>);
             let expected = None::<String>;

@@ -134,11 +134,13 @@ impl Learner {
     }
 
     /// Takes all records of a log that come after those that were taken; what they taught.
-    #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
+    ///
+    /// * `logs`: files of one drive
+    #[allow(clippy::needless_pass_by_value, reason = "how paths come from Python")]
     fn update_log<'py>(
         &self,
         py: Python<'py>,
-        log: PathBuf,
+        logs: Vec<PathBuf>,
         odometry: Option<&str>,
         max_unpacked_mib: Option<u64>,
     ) -> PyResult<Taught<'py>> {
@@ -147,7 +149,7 @@ impl Learner {
             .with_most_unpacked(bytes(max_unpacked_mib));
         let lessons = threads::detached(py, || {
             let rover = &self.scenario.value.rover;
-            let mut source = TelemetryLog::open(&log, rover, &options)?;
+            let mut source = TelemetryLog::open_all(&logs, rover, &options)?;
             let mut drive = self.drive();
             let (last_time, before) = (drive.last_time(), drive.lost().clone());
             let mut lessons = Vec::new();
@@ -156,7 +158,7 @@ impl Learner {
                     lessons.extend(drive.update(record).cloned());
                 }
             }
-            drive.note_lost(before.and(source.lost()));
+            drive.note_lost(before.and(&source.lost()));
             self.note(source.notes_of_source());
             self.source().given.extend(source.given());
             Ok::<_, TelemetryError>(lessons)

@@ -18,6 +18,9 @@ use crate::studies::Problem;
 use crate::telemetry::{HowRead, bytes, files, odometry_named};
 use crate::{errors, threads};
 
+/// What messages call telemetry that is no file.
+const LABEL: &str = "log";
+
 /// Why there is no replay.
 enum NoReplay {
     Telemetry(TelemetryError),
@@ -34,18 +37,18 @@ type Replayed<'py> = (
     String,
 );
 
-/// * `path`: of the telemetry, or what messages call its text
+/// * `paths`: files of the telemetry; none for a text
 /// * `text`: CSV, in place of the file's
 /// * `slope_is_known`: whether the scenario's slope is that of the drive
 /// * `sampling`: how many samples of soil and model, 0 to take both as known, and their seed
 /// * `how`: how the log is read
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
-#[pyo3(signature = (scenario, path, text, slope_is_known, sampling, how=(None, None)))]
+#[allow(clippy::needless_pass_by_value, reason = "how paths come from Python")]
+#[pyo3(signature = (scenario, paths, text, slope_is_known, sampling, how=(None, None)))]
 pub(crate) fn replay<'py>(
     py: Python<'py>,
     scenario: &Document,
-    path: PathBuf,
+    paths: Vec<PathBuf>,
     text: Option<String>,
     slope_is_known: bool,
     sampling: (u32, u64),
@@ -58,16 +61,16 @@ pub(crate) fn replay<'py>(
     let slope = loaded.value.ground.plane_slope().filter(|_| slope_is_known);
     let options = LogOptions::default().with_odometry(odometry_named(how.0.as_deref())?);
     let options = options.with_most_unpacked(bytes(how.1));
-    let (label, is_file) = (path.display().to_string(), text.is_none());
+    let is_file = text.is_none();
     let found =
         threads::detached(py, || -> Result<(Replay, Vec<String>, Vec<GivenFile>), NoReplay> {
             let mut replayer = Replayer::new(&loaded.value, slope);
             let rover = &loaded.value.rover;
             let log = match text {
                 Some(text) => {
-                    TelemetryLog::of_table(&label, Box::new(Cursor::new(text)), rover, &options)
+                    TelemetryLog::of_table(LABEL, Box::new(Cursor::new(text)), rover, &options)
                 }
-                None => TelemetryLog::open(&path, rover, &options),
+                None => TelemetryLog::open_all(&paths, rover, &options),
             };
             let mut log = log.map_err(NoReplay::Telemetry)?;
             while let Some(record) = log.next_record().map_err(NoReplay::Telemetry)? {

@@ -29,13 +29,14 @@ pub(crate) type HowRead = (Option<String>, Option<u64>);
 /// Converts a log that the library reads: how many records there are, what was noticed, and what its
 /// files gave.
 ///
+/// * `logs`: files of one drive
 /// * `out`: the file that is written, Parquet by its suffix, or else CSV
 /// * `mapping`: a file, or the name of a built-in one
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how paths and lists come from Python")]
 pub(crate) fn import_telemetry(
     py: Python<'_>,
-    log: PathBuf,
+    logs: Vec<PathBuf>,
     out: PathBuf,
     rover: &Document,
     mapping: Option<PathBuf>,
@@ -47,7 +48,7 @@ pub(crate) fn import_telemetry(
     let convert = move || -> Result<(u64, Vec<String>, String), Failed> {
         let options =
             log_options(mapping.as_deref(), choices, odometry)?.with_most_unpacked(budget);
-        let mut log = TelemetryLog::open(&log, &rover, &options)?;
+        let mut log = TelemetryLog::open_all(&logs, &rover, &options)?;
         let mut table = Table::create(out, &rover)?;
         while let Some(record) = log.next_record()? {
             table.write(&record)?;

@@ -127,7 +127,7 @@ def test_bags_of_ros_are_telemetry(kind: str, tmp_path: Path) -> None:
         if kind == "mcap file":
             (bag,) = bag.glob("*.mcap")
     out = tmp_path / "drive.csv"
-    with pytest.raises(gr.DocumentError, match="odometry=KIND in Python"):
+    with pytest.raises(gr.DocumentError, match="hint: odometry=KIND"):
         gr.import_telemetry(bag, out, rover="hakuto")
     found = gr.import_telemetry(bag, out, rover="hakuto", odometry="visual")
     check_drive(rows_of(out))
@@ -303,6 +303,27 @@ def test_the_module_is_a_command(tmp_path: Path) -> None:
     assert "1 cells of `roll_deg`" in done.stderr and "2 records of telemetry" in done.stderr
     again = subprocess.run(command, capture_output=True, text=True, check=False)
     assert again.returncode == 2 and again.stderr.startswith("error: ")
+
+
+def test_files_of_one_drive_are_a_log(tmp_path: Path) -> None:
+    run = gr.simulate(rover="hakuto", slope_deg=8.0, duration_s=20.0, simulation="quasi-steady")
+    header, *rows = run.to_pandas().to_csv(index=False).splitlines()
+    half = len(rows) // 2
+    parts = [tmp_path / "first.csv", tmp_path / "second.csv"]
+    for path, part in zip(parts, (rows[:half], rows[half:])):
+        path.write_text("\n".join([header, *part]) + "\n")
+    settings = {"rover": "hakuto", "slope_deg": 8.0, "model": "ishigami"}
+    learner = gr.learn(parts[::-1], prior="toyoura-uncertain", **settings)
+    replayed = gr.replay(parts[::-1], **settings)
+    imported = gr.import_telemetry(parts[::-1], tmp_path / "out.csv", rover="hakuto")
+    for files in (learner.files, replayed.attrs["files"], imported.files):
+        gave = [(it["file"], it["used"]) for it in files]
+        assert gave == [(str(parts[0]), half), (str(parts[1]), len(rows) - half)]
+    with pytest.raises(gr.DocumentError, match=r"first.csv: goes on to .*second.csv begins"):
+        (tmp_path / "second.csv").write_text("\n".join([header, *rows[half - 2 :]]) + "\n")
+        gr.learn(parts, prior="toyoura-uncertain", **settings)
+    with pytest.raises(gr.DocumentError, match="no file's name ends with .mcap"):
+        gr.replay(tmp_path)
 
 
 def test_logs_say_what_they_gave_and_have_a_budget(tmp_path: Path) -> None:

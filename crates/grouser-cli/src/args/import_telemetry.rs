@@ -16,16 +16,16 @@ use super::TelemetryArgs;
                   docs/guide/telemetry.md has the reference of mappings."
 )]
 pub(crate) struct ImportTelemetryArgs {
-    /// The log: MCAP, Parquet or CSV.
+    /// The log: MCAP, Parquet or CSV; several files of one drive, or a folder of MCAP files.
     #[arg(value_name = "LOG", required_unless_present = "print_mapping")]
-    pub(crate) log: Option<PathBuf>,
+    pub(crate) logs: Vec<PathBuf>,
     /// The rover that was driven: a preset or a file. Without it the rover of the default scenario.
     #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new())]
     pub(crate) rover: Option<String>,
     #[command(flatten)]
     pub(crate) telemetry: TelemetryArgs,
     /// Print a built-in mapping, to start from: `grouser`, `ros` or `foxglove`.
-    #[arg(long, value_name = "NAME", conflicts_with = "log")]
+    #[arg(long, value_name = "NAME", conflicts_with = "logs")]
     pub(crate) print_mapping: Option<String>,
     /// The file to write, Parquet if its name ends with `.parquet`, or else CSV; without it CSV is
     /// printed.

@@ -23,12 +23,12 @@ use crate::list::{self, Numbers};
 #[command(group(ArgGroup::new("written").args(["out", "slide"]).multiple(true)))]
 pub(crate) struct LearnArgs {
     /// Telemetry of the drive: MCAP, or a table (`telemetry/1`) of CSV or Parquet, `-` for CSV from
-    /// standard input. Its columns are `time_s`, and any of `roll_deg`, `pitch_deg`, `yaw_deg`,
+    /// standard input; several files of one drive, or a folder of MCAP files. Its columns are `time_s`, and any of `roll_deg`, `pitch_deg`, `yaw_deg`,
     /// `wheel_speed_rad_s_WHEEL`, `wheel_torque_nm_WHEEL` or `motor_current_a_WHEEL`,
     /// `steering_deg_WHEEL`, `sinkage_mm_WHEEL`, `vo_dx_m`, `vo_dy_m`, `vo_dyaw_deg`, `x_m`, `y_m`;
     /// empty cells are gaps.
-    #[arg(value_name = "LOG|-")]
-    pub(crate) log: PathBuf,
+    #[arg(value_name = "LOG|-", required = true)]
+    pub(crate) logs: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) telemetry: TelemetryArgs,
     /// What is known of the soil before the drive: a preset or a file that says how uncertain it

@@ -24,10 +24,10 @@ use super::{
 #[command(group(ArgGroup::new("written").args(["out", "slide"]).multiple(true)))]
 pub(crate) struct ReplayArgs {
     /// Telemetry of the drive (`telemetry/1` as CSV or Parquet, or MCAP), or `-` to read CSV from
-    /// standard input: `time_s`, `wheel_speed_rad_s_WHEEL`, and any of the other columns that
+    /// standard input; several files of one drive, or a folder of MCAP files: `time_s`, `wheel_speed_rad_s_WHEEL`, and any of the other columns that
     /// `learn` reads; empty cells are gaps.
-    #[arg(value_name = "LOG|-")]
-    pub(crate) log: PathBuf,
+    #[arg(value_name = "LOG|-", required = true)]
+    pub(crate) logs: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) telemetry: TelemetryArgs,
     #[command(flatten)]

@@ -19,12 +19,11 @@ pub(crate) fn run(args: &ImportTelemetryArgs) -> Result<(), Failure> {
     if let Some(name) = &args.print_mapping {
         return print_mapping(name);
     }
-    let Some(path) = &args.log else { return Ok(()) };
     if let Some(out) = &args.out {
         file::check_new(out, args.force)?;
     }
     let rover = inputs::driven_rover(args.rover.as_deref())?;
-    let mut log = opened(args, path, &rover)?;
+    let mut log = opened(args, &rover)?;
     match &args.out {
         Some(out) => file::write_by(out, |writer| {
             let failed = |error| Failure::at("cannot write", out)(error);
@@ -58,14 +57,14 @@ fn print_mapping(name: &str) -> Result<(), Failure> {
 }
 
 /// The log, after questions on what is ambiguous in it, where somebody can answer.
-fn opened(args: &ImportTelemetryArgs, path: &Path, rover: &Rover) -> Result<TelemetryLog, Failure> {
+fn opened(args: &ImportTelemetryArgs, rover: &Rover) -> Result<TelemetryLog, Failure> {
     if !stdin().is_terminal() {
-        return inputs::telemetry(path, &args.telemetry, rover, None);
+        return inputs::telemetry(&args.logs, &args.telemetry, rover, None);
     }
     let mut options =
         inputs::log_options(&args.telemetry.log)?.with_odometry(args.telemetry.odometry());
     loop {
-        let error = match TelemetryLog::open(path, rover, &options) {
+        let error = match TelemetryLog::open_all(&args.logs, rover, &options) {
             Ok(log) => return Ok(log),
             Err(error) => error,
         };

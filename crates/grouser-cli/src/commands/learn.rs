@@ -14,12 +14,13 @@ use grouser::answers::{Answer, Sampling};
 use grouser::document::columns::learn::gross_in_words;
 use grouser::document::given_file::GivenFile;
 use grouser::document::learn::LearntSoil;
-use grouser::document::{LoadedScenario, SAMPLES_FILE, escape};
+use grouser::document::{LoadedScenario, SAMPLES_FILE};
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::heading_band::HeadingBand;
 use grouser::studies::learn::{Drive, LearnSettings, Learner, NotUsed, TelemetryRecord};
 use grouser::studies::verdict::SlopeStudy;
 use grouser_draw::title_of;
+use grouser_logs::TelemetryLog;
 
 use self::cards::Cards;
 use self::live::Live;
@@ -69,7 +70,7 @@ pub(crate) fn run(args: &LearnArgs) -> Result<(), Failure> {
         give(&answer, &repeat, folder, args.output.format)?;
     }
     taught?;
-    let label = inputs::telemetry_label(&args.log);
+    let label = inputs::telemetry_label(&args.logs);
     inputs::check_share_used(&label, share_used, &args.telemetry.log)
 }
 
@@ -80,7 +81,7 @@ fn check_taught(args: &LearnArgs, learner: &Learner) -> Result<(), Failure> {
     if learnt.is_something() {
         return Ok(());
     }
-    let label = inputs::telemetry_label(&args.log);
+    let label = inputs::telemetry_label(&args.logs);
     let notes = learner.notes();
     let gross = learner.gross_faults().first().map(gross_in_words);
     let why = gross.as_ref().or(notes.first());
@@ -101,7 +102,7 @@ fn add_soil(
     (question, drive): (&LearnQuestion, &Drive),
     answer: &mut Answer,
 ) -> Result<(), Failure> {
-    let (scenario, log) = (&question.scenario, escape::path(&args.log));
+    let (scenario, log) = (&question.scenario, TelemetryLog::label_of(&args.logs));
     let learnt = LearntSoil::now(scenario, drive, (args.seed, args.samples), &log);
     let Some(learnt) = learnt? else { return Ok(()) };
     if args.cards && learnt.soil.get("contradictions").is_some() {
@@ -200,12 +201,12 @@ fn drive_on(
     if args.follow {
         interrupt::handle_ctrl_c();
     }
-    let label = inputs::telemetry_label(&args.log);
-    let is_stream = inputs::is_standard_input(&args.log);
+    let label = inputs::telemetry_label(&args.logs);
+    let is_stream = inputs::is_standard_input(&args.logs);
     let mut position = Position::after(drive, &label, is_stream);
-    let (log, how, rover) =
-        (args.log.clone(), args.telemetry.clone(), scenario.value.rover.clone());
-    let open = move || inputs::telemetry(&log, &how, &rover, following);
+    let (logs, how, rover) =
+        (args.logs.clone(), args.telemetry.clone(), scenario.value.rover.clone());
+    let open = move || inputs::telemetry(&logs, &how, &rover, following);
     let records = Records::of(open, args.follow);
     let mut last = None;
     loop {

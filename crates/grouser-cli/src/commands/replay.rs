@@ -77,7 +77,7 @@ fn replay(args: &ReplayArgs, question: &ReplayQuestion) -> Result<(Replay, Telem
     };
     let slope = scenario.ground.plane_slope().filter(|_| question.has_slope);
     let mut replayer = Replayer::new(scenario, slope);
-    let mut log = inputs::telemetry(&args.log, &args.telemetry, &scenario.rover, None)?;
+    let mut log = inputs::telemetry(&args.logs, &args.telemetry, &scenario.rover, None)?;
     while let Some(record) = log.next_record()? {
         replayer.update(record);
     }

@@ -4,6 +4,7 @@ use grouser::answers::Sampling;
 use grouser::answers::learn::{LearnQuestion, SOIL_FILE};
 use grouser::document::{self, escape};
 
+use super::telemetry::log_name;
 use super::{advice, balanced_overrides, check_numbers, refuse_sampled_keys, scenario_source};
 use crate::args::LearnArgs;
 use crate::failure::Failure;
@@ -23,7 +24,7 @@ pub(crate) fn learn(args: &LearnArgs) -> Result<LearnQuestion, Failure> {
     refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
     let advice = advice(&args.advice, &scenario)?;
     Ok(LearnQuestion {
-        log: args.log.display().to_string(),
+        log: log_name(&args.logs),
         scenario,
         has_slope: args.slope_deg.is_some(),
         slopes_deg: args.predict_slope_deg.0.clone(),

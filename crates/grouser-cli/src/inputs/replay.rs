@@ -3,6 +3,7 @@
 use grouser::answers::replay::ReplayQuestion;
 use grouser::document;
 
+use super::telemetry::log_name;
 use super::{balanced_overrides, refuse_sampled_keys, scenario_source};
 use crate::args::ReplayArgs;
 use crate::failure::Failure;
@@ -22,6 +23,6 @@ pub(crate) fn replay(args: &ReplayArgs) -> Result<ReplayQuestion, Failure> {
     if sampling.is_some() {
         refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
     }
-    let (log, has_slope) = (args.log.display().to_string(), args.slope_deg.is_some());
+    let (log, has_slope) = (log_name(&args.logs), args.slope_deg.is_some());
     Ok(ReplayQuestion { log, scenario, has_slope, sampling })
 }

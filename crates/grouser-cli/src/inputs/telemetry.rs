@@ -1,12 +1,12 @@
 //! Telemetry of a drive, from a file of any kind or from standard input.
 
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use grouser::document::measurements::telemetry::Odometry;
-use grouser::document::{self, Kind, Overrides, Source, escape};
+use grouser::document::{self, Kind, Overrides, Source};
 use grouser::vehicle::Rover;
-use grouser_logs::{LogOptions, Mapping, TelemetryError, TelemetryLog};
+use grouser_logs::{LogOptions, Mapping, OptionNames, TelemetryError, TelemetryLog};
 
 use super::flag_source;
 use super::follow::Following;
@@ -16,28 +16,36 @@ use crate::failure::Failure;
 /// The name of standard input among files.
 const STANDARD_INPUT: &str = "-";
 
+/// The options by which the program is asked.
+const OPTIONS: OptionNames = OptionNames {
+    mapping: "--mapping FILE.toml",
+    topic: |what, topic| format!("--topic {what}={topic}"),
+    odometry: "--odometry KIND",
+    budget: "--max-unpacked-mib N",
+    python: "python -m grouser import-telemetry LOG --out drive.csv",
+};
+
 impl From<TelemetryError> for Failure {
     fn from(error: TelemetryError) -> Self {
-        let budget = ("a larger `max_unpacked_mib` reads", "--max-unpacked-mib N reads");
-        let message = error.to_string().replacen(budget.0, budget.1, 1);
+        let hint = error.remedy().map(|it| format!("\nhint: {}", it.words(&OPTIONS)));
+        let message = error.to_string() + &hint.unwrap_or_default();
         if error.is_environment() { Self::Run(message) } else { Self::Usage(message) }
     }
 }
 
 /// A log, opened: its records and notes come from the same value.
 ///
-/// * `path`: a file, or `-` for CSV from standard input
+/// * `paths`: files of one drive, or `-` alone for CSV from standard input
 /// * `rover`: the rover that was driven
 /// * `following`: whether rows that are added to a file of CSV are read, too
 pub(crate) fn telemetry(
-    path: &Path,
+    paths: &[PathBuf],
     args: &TelemetryArgs,
     rover: &Rover,
     following: Option<Following>,
 ) -> Result<TelemetryLog, Failure> {
-    let label = telemetry_label(path);
     let options = log_options(&args.log)?.with_odometry(args.odometry());
-    read(path, &label, &options, rover, following)
+    read(paths, &options, rover, following)
 }
 
 /// A log whose ways nobody looks at, whatever measured them.
@@ -47,24 +55,45 @@ pub(crate) fn telemetry_without_way(
     rover: &Rover,
 ) -> Result<TelemetryLog, Failure> {
     let options = log_options(args)?.with_odometry(Some(Odometry::Visual));
-    read(path, &telemetry_label(path), &options, rover, None)
+    read(&[path.to_owned()], &options, rover, None)
 }
 
 fn read(
-    path: &Path,
-    label: &str,
+    paths: &[PathBuf],
     options: &LogOptions,
     rover: &Rover,
     following: Option<Following>,
 ) -> Result<TelemetryLog, Failure> {
-    if is_standard_input(path) {
-        return Ok(TelemetryLog::of_table(label, Box::new(io::stdin().lock()), rover, options)?);
+    check_several(paths, following.is_some())?;
+    let label = telemetry_label(paths);
+    if is_standard_input(paths) {
+        return Ok(TelemetryLog::of_table(&label, Box::new(io::stdin().lock()), rover, options)?);
     }
-    if let Some(following) = following {
+    if let (Some(following), [path]) = (following, paths) {
         let source = Box::new(following.open(path)?);
-        return Ok(TelemetryLog::of_table(label, source, rover, options)?);
+        return Ok(TelemetryLog::of_table(&label, source, rover, options)?);
     }
-    Ok(TelemetryLog::open(path, rover, options)?)
+    Ok(TelemetryLog::open_all(paths, rover, options)?)
+}
+
+/// Checks that what is one log alone is not among several.
+fn check_several(paths: &[PathBuf], is_followed: bool) -> Result<(), Failure> {
+    if paths.len() < 2 {
+        return Ok(());
+    }
+    let label = telemetry_label(paths);
+    if is_followed {
+        return Err(Failure::Usage(format!(
+            "--follow: {label}: one log is followed, the one that grows\nhint: learn from the others \
+             first, or leave --follow out"
+        )));
+    }
+    if paths.iter().any(|it| it == Path::new(STANDARD_INPUT)) {
+        return Err(Failure::Usage(format!(
+            "{label}: standard input (-) is a log alone, and no one of several files"
+        )));
+    }
+    Ok(())
 }
 
 /// Less of a log than this is too little to rely on without a word [-]. Source: ours.
@@ -85,13 +114,20 @@ pub(crate) fn check_share_used(label: &str, share: f64, args: &LogArgs) -> Resul
 }
 
 /// What messages call a log.
-pub(crate) fn telemetry_label(path: &Path) -> String {
-    if is_standard_input(path) { "standard input".to_owned() } else { escape::path(path) }
+pub(crate) fn telemetry_label(paths: &[PathBuf]) -> String {
+    let is_stream = is_standard_input(paths);
+    if is_stream { "standard input".to_owned() } else { TelemetryLog::label_of(paths) }
+}
+
+/// What an answer calls a log: all of its files.
+pub(crate) fn log_name(paths: &[PathBuf]) -> String {
+    let names: Vec<String> = paths.iter().map(|it| it.display().to_string()).collect();
+    names.join(", ")
 }
 
 /// Whether a log comes from standard input.
-pub(crate) fn is_standard_input(path: &Path) -> bool {
-    path == Path::new(STANDARD_INPUT)
+pub(crate) fn is_standard_input(paths: &[PathBuf]) -> bool {
+    matches!(paths, [path] if path == Path::new(STANDARD_INPUT))
 }
 
 /// How a log is read.

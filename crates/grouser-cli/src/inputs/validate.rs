@@ -172,7 +172,7 @@ fn drive(
     args: &ValidateArgs,
     scenario: &LoadedScenario,
 ) -> Result<(RecordedDrive, TelemetryLog), Failure> {
-    let mut log = telemetry(path, &args.telemetry, &scenario.value.rover, None)?;
+    let mut log = telemetry(&[path.to_owned()], &args.telemetry, &scenario.value.rover, None)?;
     let mut recorder = DriveRecorder::new(&scenario.value);
     while let Some(record) = log.next_record()? {
         recorder.update(record);

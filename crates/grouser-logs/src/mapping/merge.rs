@@ -150,6 +150,11 @@ impl Merge {
         self.has_lost_ways |= readings.cells.iter().any(is_way);
     }
 
+    /// The latest time of which there was a reading [ns].
+    pub(crate) fn newest(&self) -> Option<i64> {
+        self.newest
+    }
+
     /// The share of the readings that were not left out; 1 before the first.
     pub(crate) fn share_used(&self) -> f64 {
         let left_out = self.late + self.leaps;

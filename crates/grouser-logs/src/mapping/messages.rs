@@ -261,6 +261,16 @@ impl MessageRows {
         cells
     }
 
+    /// How much later a message may come than others of its time [ns].
+    pub(crate) fn window(&self) -> u64 {
+        u64::try_from(self.plan.window).unwrap_or(0)
+    }
+
+    /// The latest time of which there was a reading [ns].
+    pub(crate) fn newest(&self) -> Option<i64> {
+        self.merge.newest()
+    }
+
     /// The rows so far, with what was lost of them.
     #[must_use]
     pub fn rows(&self) -> &TelemetryRows {

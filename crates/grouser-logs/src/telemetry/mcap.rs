@@ -1,36 +1,45 @@
 //! Telemetry of MCAP logs, whose messages are JSON, Protocol Buffers or those of ROS.
+//!
+//! A log may be several files, as recorders part them: their messages are read one after the other,
+//! and become rows as those of one file do.
+
+mod file;
 
 use std::collections::HashMap;
-use std::fs::File;
-use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::io;
 use std::rc::Rc;
 
 use grouser_core::vehicle::Rover;
+use grouser_io::given_file::{FileContent, GivenFile};
 use grouser_io::measurements::telemetry::TelemetryRecord;
 use serde_json::Value;
 
-use crate::error::{Problem, TelemetryError};
+pub(crate) use self::file::McapFile;
+use crate::error::TelemetryError;
 use crate::mapping::messages::MessageRows;
 use crate::mapping::topic::Topic;
-use crate::mcap::format::{
-    Channel, ChunkIndex, Footer, Head, MAGIC, Message, Part as _, Record as _, Schema,
-};
+use crate::mcap::format::{Message, Schema};
 use crate::mcap::order::Chronological;
-use crate::mcap::read::{Known, Messages, OverBudget, known_of};
+use crate::mcap::read::Known;
 use crate::protobuf::decode::Description;
 use crate::ros::decode::{RosDescription, Wire, kind_not_read};
-use crate::ros::types::has_wide_texts;
 use crate::telemetry::options::LogOptions;
 
 /// An MCAP log, record by record.
 pub(crate) struct McapLog {
-    label: String,
+    /// All files, in the order of their messages, and the one that is read.
+    files: Vec<McapFile>,
+    at: usize,
     messages: Chronological,
     rows: MessageRows,
     /// How messages of a channel are decoded; nothing for channels that are not read.
     decoders: HashMap<u16, Option<Decoder>>,
     /// Types that were read already, by their schemas' numbers.
     descriptions: HashMap<u16, Option<Rc<OfSchema>>>,
+    /// What each file gave, in their order, and the time up to which rows are its own [s].
+    gave: Vec<(GivenFile, f64)>,
+    /// Sentences on the damage of files that were read to their ends.
+    damage: Vec<String>,
     /// Messages whose channel the log does not describe.
     without_channel: u64,
     /// Messages of kinds of CDR that are not read, with the first of these kinds.
@@ -77,27 +86,34 @@ impl OfSchema {
 }
 
 impl McapLog {
+    /// * `files`: one or more, in any order
     pub(crate) fn new(
         label: &str,
-        mut file: File,
+        mut files: Vec<McapFile>,
         rover: &Rover,
         options: &LogOptions,
     ) -> Result<Self, TelemetryError> {
-        let failed = |error| failure(label, error);
-        let budget = options.budget(&file).map_err(failed)?;
-        let (known, chunks) = contents(&mut file, budget).map_err(failed)?;
-        let rows = MessageRows::new(label, &topics(&known), rover, options)?;
-        let messages = Chronological::new(file, chunks, budget).map_err(failed)?;
-        let messages = messages
-            .ok_or_else(|| failed(io::Error::other("the file changed while it was read")))?;
+        let mut topics: Vec<Topic> = Vec::new();
+        for topic in files.iter_mut().flat_map(|file| std::mem::take(&mut file.topics)) {
+            if !topics.contains(&topic) {
+                topics.push(topic);
+            }
+        }
+        let rows = MessageRows::new(label, &topics, rover, options)?;
+        McapFile::sort(&mut files, rows.window())?;
+        let none = |it: &McapFile| GivenFile::new(it.label.clone(), FileContent::Telemetry, 0, 0);
+        let gave = files.iter().map(|it| (none(it), f64::INFINITY)).collect();
+        let messages = files[0].messages()?;
         let (decoders, descriptions) = (HashMap::new(), HashMap::new());
-        let label = label.to_owned();
         Ok(Self {
-            label,
+            files,
+            at: 0,
             messages,
             rows,
             decoders,
             descriptions,
+            gave,
+            damage: Vec::new(),
             without_channel: 0,
             of_other_kind: None,
             is_read: false,
@@ -107,18 +123,65 @@ impl McapLog {
     pub(crate) fn next_record(&mut self) -> Result<Option<TelemetryRecord>, TelemetryError> {
         loop {
             if let Some(record) = self.rows.next_record() {
+                self.count(record.time);
                 return Ok(Some(record));
             }
             if self.is_read {
+                self.count(f64::INFINITY);
                 return Ok(None);
             }
-            let message = self.next_message().map_err(|error| failure(&self.label, error))?;
+            let message = self.next_message();
+            let message = message
+                .map_err(|error| TelemetryError::of_reading(&self.files[self.at].label, error))?;
             if let Some((message, data)) = message {
                 self.add(&message, &data);
-            } else {
+            } else if !self.next_file()? {
                 self.is_read = true;
                 self.rows.end();
             }
+        }
+    }
+
+    /// Goes on with the next file, if there is one.
+    fn next_file(&mut self) -> Result<bool, TelemetryError> {
+        let file = &self.files[self.at];
+        let recorded = file.span.map(|[_, last]| last as f64);
+        let newest = self.rows.newest().map(|it| it as f64).or(recorded);
+        let damage = self.damage_of_file();
+        if self.at + 1 == self.files.len() {
+            return Ok(false);
+        }
+        self.gave[self.at].1 = newest.map_or(f64::NEG_INFINITY, |it| it / 1e9);
+        self.damage.extend(damage);
+        self.at += 1;
+        // Channels and schemas have numbers of their own in each file.
+        (self.decoders, self.descriptions) = (HashMap::new(), HashMap::new());
+        self.messages = self.files[self.at].messages()?;
+        Ok(true)
+    }
+
+    /// Counts the rows since the last record for the file that they are of.
+    ///
+    /// * `time`: of the last of them [s]
+    fn count(&mut self, time: f64) {
+        let all = self.rows.rows().given("");
+        let sum = |of: fn(&GivenFile) -> u64| self.gave.iter().map(|(it, _)| of(it)).sum::<u64>();
+        let (there, used) = (all.there - sum(|it| it.there), all.used - sum(|it| it.used));
+        let own = self.gave.iter().position(|(_, until)| time <= *until).unwrap_or(self.at);
+        let gave = &mut self.gave[own.min(self.at)].0;
+        (gave.there, gave.used) = (gave.there + there, gave.used + used);
+    }
+
+    /// What each file gave.
+    pub(crate) fn given(&self) -> impl Iterator<Item = GivenFile> {
+        self.gave.iter().map(|(it, _)| it.clone())
+    }
+
+    fn damage_of_file(&self) -> Vec<String> {
+        let sentences = self.messages.messages().damage.sentences();
+        match &self.files[..] {
+            [_] => sentences,
+            files => sentences.iter().map(|it| format!("{}: {it}", files[self.at].label)).collect(),
         }
     }
 
@@ -166,7 +229,7 @@ impl McapLog {
         let lost = (count > 0).then(|| {
             format!("{count} messages are of channels that the log does not describe, and left out")
         });
-        let damage = self.messages.messages().damage.sentences().into_iter();
+        let damage = self.damage.iter().cloned().chain(self.damage_of_file());
         let other = self.of_other_kind.as_ref().map(|(count, kind)| {
             format!("{count} messages are encoded as {kind}, which is not read here, and left out")
         });
@@ -192,89 +255,4 @@ fn decoder(
     let read = || OfSchema::read(&channel.encoding, schema?).map(Rc::new);
     let described = descriptions.entry(channel.schema).or_insert_with(read).clone();
     Some(described.map_or(Decoder::Unknown, |it| Decoder::OfSchema(channel.topic.clone(), it)))
-}
-
-/// Why a log cannot be read on.
-fn failure(label: &str, error: io::Error) -> TelemetryError {
-    let over = error.get_ref().and_then(|it| it.downcast_ref::<OverBudget>()).copied();
-    TelemetryError::new(label, over.map_or(Problem::Unreadable(error), Problem::OverBudget))
-}
-
-/// What a log has, and where its chunks are: from the index at its end, or, without one, from all
-/// that is there.
-fn contents(file: &mut File, budget: OverBudget) -> io::Result<(Known, Vec<ChunkIndex>)> {
-    match indexed(file)? {
-        Some(found) => Ok(found),
-        None => Ok((scanned(file, budget)?, Vec::new())),
-    }
-}
-
-/// The topics of a log.
-fn topics(known: &Known) -> Vec<Topic> {
-    let mut topics = Vec::new();
-    for channel in known.channels.values() {
-        let schema = known.schemas.get(&channel.schema);
-        let topic = Topic {
-            name: channel.topic.clone(),
-            message: schema.map(|it| it.name.clone()).unwrap_or_default(),
-            encoding: Some(encoding(channel, schema)),
-        };
-        if !topics.contains(&topic) {
-            topics.push(topic);
-        }
-    }
-    topics.sort_by(|one, other| one.name.cmp(&other.name));
-    topics
-}
-
-/// How messages of a channel are encoded, and how described where that is not read here.
-fn encoding(channel: &Channel, schema: Option<&Schema>) -> String {
-    let messages = &channel.encoding;
-    let by = schema.filter(|it| !it.data.is_empty()).map_or("", |it| &it.encoding);
-    let is_of_ros = matches!(messages.as_str(), "cdr" | "ros1");
-    if is_of_ros && schema.is_some_and(|it| has_wide_texts(&it.data)) {
-        return format!("{messages} with wide texts (wstring)");
-    }
-    match (is_of_ros && Wire::of(messages, by).is_none(), by) {
-        (false, _) => messages.clone(),
-        (true, "") => format!("{messages} without a schema"),
-        (true, _) => format!("{messages} with a schema in {by}"),
-    }
-}
-
-/// Channels, schemas and chunks of the index; nothing without a whole one.
-fn indexed(file: &mut File) -> io::Result<Option<(Known, Vec<ChunkIndex>)>> {
-    /// The footer's record with the magic behind it [bytes].
-    const END: u64 = (Head::SIZE + Footer::SIZE + MAGIC.len()) as u64;
-    /// The largest index that is read.
-    const MOST: u64 = 256 << 20;
-    let size = file.metadata()?.len();
-    let Some(start) = size.checked_sub(END) else { return Ok(None) };
-    file.seek(SeekFrom::Start(start))?;
-    let mut end = Vec::new();
-    file.take(END).read_to_end(&mut end)?;
-    let mut rest = &end[..];
-    let is_footer = Head::take(&mut rest).is_some_and(|head| head.opcode == Footer::OPCODE);
-    let footer = Footer::take(&mut rest).filter(|_| is_footer && rest == MAGIC);
-    let summary = footer.map(|it| it.summary).filter(|summary| (1..start).contains(summary));
-    let Some(summary) = summary else { return Ok(None) };
-    if start - summary > MOST {
-        return Ok(None);
-    }
-    file.seek(SeekFrom::Start(summary))?;
-    let known = known_of(BufReader::new(&*file).take(start - summary))?;
-    let is_within = |chunk: &ChunkIndex| {
-        chunk.start.checked_add(chunk.length).is_some_and(|end| end <= summary)
-    };
-    Ok(known.filter(|(known, chunks)| !known.channels.is_empty() && chunks.iter().all(is_within)))
-}
-
-/// Channels and schemas of all chunks.
-fn scanned(file: &mut File, budget: OverBudget) -> io::Result<Known> {
-    file.rewind()?;
-    let Some(mut messages) = Messages::new(BufReader::new(&*file), budget)? else {
-        return Ok(Known::default());
-    };
-    while messages.next_message(|_, _| false)?.is_some() {}
-    Ok(messages.known)
 }

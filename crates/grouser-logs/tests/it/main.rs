@@ -8,6 +8,7 @@ mod format;
 mod hostile;
 mod robots;
 mod runs;
+mod several;
 mod tables;
 #[expect(dead_code, reason = "the crate uses all of it")]
 #[path = "../../src/protobuf/wire.rs"]
@@ -20,7 +21,9 @@ use std::path::Path;
 use grouser::document::measurements::telemetry::{Odometry, TelemetryRecord, WheelTelemetry};
 use grouser::vehicle::Rover;
 use grouser_core::paper;
-use grouser_logs::{LogOptions, Mapping, TelemetryError, TelemetryLog, TopicChoices};
+use grouser_logs::{
+    LogOptions, Mapping, Problem, Remedy, TelemetryError, TelemetryLog, TopicChoices,
+};
 use tempfile::TempDir;
 
 /// All records of a log, and its notes.

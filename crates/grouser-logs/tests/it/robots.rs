@@ -194,34 +194,45 @@ fn what_cannot_be_meant_is_an_error_that_names_the_choices() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("log.mcap");
     fs::write(&path, log.finish()).unwrap();
-    let error = read_file(&path, None, &[]).unwrap_err().to_string();
-    for part in ["/imu/left, /imu/right", "hint", "--topic sensor_msgs/Imu=/imu/left"] {
-        assert!(error.contains(part), "{error}");
-    }
+    let error = read_file(&path, None, &[]).unwrap_err();
+    assert!(error.to_string().contains("/imu/left, /imu/right"), "{error}");
+    assert_eq!(error.remedy(), Some(Remedy::Topic("sensor_msgs/Imu", "/imu/left")));
     let (records, _) = read_file(&path, None, &[("sensor_msgs/Imu", "/imu/right")]).unwrap();
     assert!((records[0].roll.unwrap() - 4_f64.to_radians()).abs() < 1e-12);
 
-    let check = |topic: &str, message: &str, (encoding, schema), part: &str| {
+    let check = |topic: &str, message: &str, (encoding, schema), part: &str, remedy| {
         let mut log = Container::begin(Packed::Not);
         log.channel_of(topic, message, encoding, (schema, "module ours {};"));
-        let error = read(&log.finish(), None).unwrap_err().to_string();
-        assert!(error.contains(part), "{error}");
+        let error = read(&log.finish(), None).unwrap_err();
+        assert!(error.to_string().contains(part), "{error}");
+        assert_eq!(error.remedy(), Some(remedy));
     };
+    let by_python = Remedy::Python;
     check(
         "/lidar",
         "sensor_msgs/PointCloud2",
         ("json", "jsonschema"),
         "none of its topics, which are /lidar (sensor_msgs/PointCloud2)",
+        Remedy::Mapping,
     );
-    for part in ["/imu are encoded as cdr with a schema in ros2idl", "python -m grouser"] {
-        check("/imu", "sensor_msgs/msg/Imu", ("cdr", "ros2idl"), part);
-    }
-    check("/imu", "sensor_msgs/Imu", ("cbor", ""), "/imu are encoded as cbor; JSON, Protocol");
-    for (start, part) in
-        [(&b"#ROSBAG V2.0\n"[..], "a bag of ROS 1"), (b"SQLite format 3\0", "a bag of ROS 2")]
-    {
-        let error = read(start, None).unwrap_err().to_string();
-        assert!(error.contains(part) && error.contains("python -m grouser"), "{error}");
+    let idl = "/imu are encoded as cdr with a schema in ros2idl";
+    check("/imu", "sensor_msgs/msg/Imu", ("cdr", "ros2idl"), idl, by_python);
+    let cbor = "/imu are encoded as cbor; JSON, Protocol";
+    check("/imu", "sensor_msgs/Imu", ("cbor", ""), cbor, by_python);
+    for (start, part, line) in [
+        (&b"#ROSBAG V2.0\n"[..], "a bag of ROS 1", None),
+        (b"SQLite format 3\0", "a bag of ROS 2", None),
+        (b"ARROW1\0\0\xff\xff\xff\xff", "a file of Arrow (Feather)", Some("read_feather('LOG')")),
+        (b"\xff\xff\xff\xff\x10\x01\0\0", "a stream of Arrow", Some("open_stream(open('LOG'")),
+        (b"FEA1\0\0\0\0", "Feather, version 1", Some("read_feather('LOG')")),
+    ] {
+        let error = read(start, None).unwrap_err();
+        assert!(error.to_string().contains(part), "{error}");
+        let is_meant = match error.remedy() {
+            Some(Remedy::Parquet(found)) => line.is_some_and(|part| found.contains(part)),
+            found => found == Some(by_python) && line.is_none(),
+        };
+        assert!(is_meant, "{error}: {:?}", error.remedy());
     }
 }
 
@@ -403,10 +414,11 @@ fn odometry_is_stated_or_refused() {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("log.mcap");
     fs::write(&path, robot(Packed::Not).finish()).unwrap();
-    let error = read_measured(&path, None, &[], None).unwrap_err().to_string();
-    for part in ["/odom", "mapping ros", "--odometry KIND", "`odometry = \"KIND\"`", "fused"] {
-        assert!(error.contains(part), "{error}");
+    let error = read_measured(&path, None, &[], None).unwrap_err();
+    for part in ["/odom", "mapping ros"] {
+        assert!(error.to_string().contains(part), "{error}");
     }
+    assert_eq!(error.remedy(), Some(Remedy::Odometry));
     let moves = |records: &[TelemetryRecord]| {
         records.iter().any(|it| it.displacement[0].is_some() || it.rotation.is_some())
     };

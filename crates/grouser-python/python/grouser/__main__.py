@@ -29,7 +29,9 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
         description="Converts a bag of ROS 1 or ROS 2, or a log of MCAP, Parquet or CSV, to the "
         "telemetry that `grouser learn` reads.",
     )
-    command.add_argument("log", metavar="LOG", help="the bag or the log")
+    command.add_argument(
+        "log", metavar="LOG", nargs="+", help="the bag or the log; several files of one drive"
+    )
     command.add_argument(
         "--out", required=True, metavar="FILE", help="the file to write: .csv or .parquet"
     )

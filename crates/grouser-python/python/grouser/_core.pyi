@@ -286,7 +286,7 @@ class Learner:
         self, names: Sequence[str], values: Sequence[_Floats], odometry: str | None
     ) -> _Taught: ...
     def update_log(
-        self, log: str, odometry: str | None, max_unpacked_mib: int | None
+        self, logs: Sequence[str], odometry: str | None, max_unpacked_mib: int | None
     ) -> _Taught: ...
     def files(self) -> str: ...
     def finished(self) -> Learner: ...
@@ -384,7 +384,7 @@ def import_wheel_tests(
     slip_definition: str,
 ) -> tuple[str, list[str], list[str]]: ...
 def import_telemetry(
-    log: str | os.PathLike[str],
+    logs: Sequence[str],
     out: str | os.PathLike[str],
     rover: Document,
     mapping: str | os.PathLike[str] | None,
@@ -509,7 +509,7 @@ def mobility_map(
 ) -> tuple[list[tuple[str, str, str, Any]], _Floats, _Floats, dict[str, Any]]: ...
 def replay(
     scenario: Document,
-    path: str | os.PathLike[str],
+    paths: Sequence[str],
     text: str | None,
     slope_is_known: bool,
     sampling: tuple[int, int],

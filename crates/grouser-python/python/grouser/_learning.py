@@ -7,7 +7,7 @@ import os
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,7 +19,7 @@ from ._card import card as _card
 from ._descriptions import Rover, Scenario, Soil, Source
 from ._errors import ParameterError
 from ._studies import scenario_of
-from ._telemetry import budget_of
+from ._telemetry import Files, budget_of, files_of
 
 if TYPE_CHECKING:
     import pandas
@@ -141,7 +141,7 @@ class Learner:
 
     def update_log(
         self,
-        log: str | os.PathLike[str],
+        log: Files,
         *,
         odometry: str | None = None,
         max_unpacked_mib: int | None = None,
@@ -150,8 +150,9 @@ class Learner:
 
         Parameters
         ----------
-        log : str or path
-            The log, a CSV file.
+        log : str or path, or a list of them
+            The log: CSV, Parquet or MCAP; files of one drive in any order, or a folder of MCAP
+            files.
         odometry : str, optional
             What measured ways and rotations, in place of what a mapping says: ``"visual"``,
             ``"wheels"`` (which show no slip, and are left out), ``"fused"`` with wheels, or
@@ -161,7 +162,7 @@ class Learner:
             own.
         """
         budget = budget_of(max_unpacked_mib)
-        return _lessons(self._native.update_log(os.fspath(log), odometry, budget))
+        return _lessons(self._native.update_log(files_of(log) or [], odometry, budget))
 
     def stream(self, records: Iterable[Telemetry]) -> Iterator[dict[str, Any]]:
         """Takes record after record, and gives each lesson as soon as it is learnt.
@@ -383,7 +384,7 @@ class Learner:
 
 
 def learn(
-    log: str | os.PathLike[str] | Telemetry,
+    log: Files | Telemetry,
     scenario: Scenario | Source | None = None,
     /,
     *,
@@ -398,8 +399,8 @@ def learn(
 
     Parameters
     ----------
-    log : path, or telemetry as of `Learner.update`
-        The drive.
+    log : path, list of paths, or telemetry as of `Learner.update`
+        The drive; several files as of `Learner.update_log`.
     scenario, prior, rover, slope_deg, **changes
         As of `Learner`.
     odometry : str, optional
@@ -425,10 +426,10 @@ def learn(
     (True, True)
     """
     learner = Learner(scenario, prior=prior, rover=rover, slope_deg=slope_deg, **changes)
-    if isinstance(log, (str, os.PathLike)):
-        learner.update_log(log, odometry=odometry, max_unpacked_mib=max_unpacked_mib)
+    if files_of(log) is not None:
+        learner.update_log(cast(Any, log), odometry=odometry, max_unpacked_mib=max_unpacked_mib)
     else:
-        learner.update(log, odometry=odometry)
+        learner.update(cast(Any, log), odometry=odometry)
     return learner.finished()
 
 

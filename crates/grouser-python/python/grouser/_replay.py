@@ -5,9 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
-import os
 from collections.abc import Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
@@ -18,16 +16,14 @@ from ._arrays import whole_number
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError
 from ._studies import scenario_of
-from ._telemetry import budget_of
+from ._telemetry import Files, budget_of, files_of
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
-#: A file of telemetry, or its columns.
-Log = Union[str, "os.PathLike[str]", Mapping[str, ArrayLike], "pandas.DataFrame"]
-#: What messages call telemetry that is no file.
-_LABEL = "log"
+#: A file of telemetry, or several of one drive, or its columns.
+Log = Union[Files, Mapping[str, ArrayLike], "pandas.DataFrame"]
 
 
 def replay(
@@ -49,8 +45,8 @@ def replay(
 
     Parameters
     ----------
-    log : path, mapping of arrays, or pandas.DataFrame
-        Telemetry: a CSV file, or its columns by name (``time_s``, ``wheel_speed_rad_s_WHEEL``,
+    log : path, list of paths, mapping of arrays, or pandas.DataFrame
+        Telemetry: a file of CSV, Parquet or MCAP, files of one drive, or columns by name (``time_s``, ``wheel_speed_rad_s_WHEEL``,
         ``roll_deg``, ``vo_dx_m``, …); NaN where nothing was read.
     scenario : Scenario, name, path or mapping, optional
         Its rover, soil, gravity, model and load transfer are used.
@@ -111,12 +107,12 @@ def replay(
     if count < 2:
         raise ParameterError(f"samples is {count}, it must be from 2 to 100000", "samples")
     run = scenario_of(scenario, changes)
-    path, text = _source(log)
+    paths, text = _source(log)
     known = slope_deg is not None
     drawn = count if uncertainty else 0
     sampling, budget = (drawn, whole_number("seed", seed)), budget_of(max_unpacked_mib)
     tables, points_to, notes, wheels, files = _core.replay(
-        run._document, path, text, known, sampling, (odometry, budget)
+        run._document, paths, text, known, sampling, (odometry, budget)
     )
     over_time, channels, findings = tables
     attrs = {
@@ -129,15 +125,11 @@ def replay(
     return _dataset(over_time, wheels, attrs)
 
 
-def _source(log: Log) -> tuple[Path, str | None]:
-    """The file, or the text of a table in its place."""
-    if isinstance(log, (str, os.PathLike)):
-        path = Path(log)
-        if not path.is_file():
-            from ._errors import DocumentNotFoundError
-
-            raise DocumentNotFoundError(f"{path}: there is no such file of telemetry", str(path), None)
-        return path, None
+def _source(log: Any) -> tuple[list[str], str | None]:
+    """The files, or the text of a table in their place."""
+    files = files_of(log)
+    if files is not None:
+        return files, None
     names = [str(name) for name in log]
     columns = [np.asarray(log[name], dtype=float) for name in log]
     lengths = {column.shape for column in columns}
@@ -149,7 +141,7 @@ def _source(log: Log) -> tuple[Path, str | None]:
     writer.writerow(names)
     cells = [["" if np.isnan(value) else repr(float(value)) for value in column] for column in columns]
     writer.writerows(zip(*cells))
-    return Path(_LABEL), text.getvalue()
+    return [], text.getvalue()
 
 
 def _rows(table: Mapping[str, Any]) -> list[dict[str, Any]]:

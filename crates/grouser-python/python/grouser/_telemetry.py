@@ -7,11 +7,11 @@ import json
 import math
 import os
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Union
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from . import _core
 from ._arrays import whole_number
 from ._errors import DocumentError, DocumentNotFoundError, ParameterError
 from ._studies import scenario_of
+
+#: A file, or several of one drive.
+Files = Union[str, "os.PathLike[str]", Sequence[Union[str, "os.PathLike[str]"]]]
 
 #: How files begin whose messages this package decodes by `rosbags`.
 _BAGS = (b"#ROSBAG V", b"SQLite format 3")
@@ -43,7 +46,7 @@ class ImportedTelemetry:
 
 
 def import_telemetry(
-    log: str | os.PathLike[str],
+    log: Files,
     out: str | os.PathLike[str],
     mapping: str | os.PathLike[str] | None = None,
     *,
@@ -61,9 +64,9 @@ def import_telemetry(
 
     Parameters
     ----------
-    log : str or path
+    log : str or path, or a list of them
         A ``.bag`` of ROS 1, the folder or the file of a bag of ROS 2, or a log of MCAP, Parquet or
-        CSV.
+        CSV; of these several files of one drive, too, or a folder of MCAP files.
     out : str or path
         The file to write: Parquet if its name ends with ``.parquet``, or else CSV.
     mapping : str or path, optional
@@ -114,7 +117,7 @@ def import_telemetry(
     (3, 3)
     >>> folder.cleanup()
     """
-    log, out = Path(log), Path(out)
+    logs, out = [Path(it) for it in files_of(log) or []], Path(out)
     if out.exists() and not force:
         raise ParameterError(f"{out} exists already: force=True replaces it", "out")
     scenario = scenario_of(None, {} if rover is None else {"rover": rover})
@@ -123,8 +126,16 @@ def import_telemetry(
     settings = (scenario._document, path, choices, odometry)
     budget = budget_of(max_unpacked_mib)
     with _beside(out) as new:
-        records, notes, files = _converted(log, new, *settings, budget)
+        records, notes, files = _converted(logs, new, *settings, budget)
     return ImportedTelemetry(out, records, tuple(notes), tuple(json.loads(files)))
+
+
+def files_of(log: Any) -> list[str] | None:
+    """The paths of a log; nothing of what is no file and no list of files."""
+    files = log if isinstance(log, (list, tuple)) else [log]
+    if not files or not all(isinstance(it, (str, os.PathLike)) for it in files):
+        return None
+    return [os.fspath(it) for it in files]
 
 
 def budget_of(max_unpacked_mib: int | None) -> int | None:
@@ -144,7 +155,7 @@ def _beside(out: Path) -> Iterator[Path]:
 
 
 def _converted(
-    log: Path,
+    logs: list[Path],
     out: Path,
     rover: _core.Document,
     mapping: str | None,
@@ -152,22 +163,23 @@ def _converted(
     odometry: str | None,
     max_unpacked_mib: int | None,
 ) -> tuple[int, list[str], str]:
-    if not log.exists():
-        raise DocumentNotFoundError(f"{log}: there is no such file", str(log))
-    if not _is_bag(log):
+    for log in logs:
+        if not log.exists():
+            raise DocumentNotFoundError(f"{log}: there is no such file", str(log))
+    if len(logs) != 1 or not _is_bag(logs[0]):
         try:
             settings = (rover, mapping, choices, (odometry, max_unpacked_mib))
-            return _core.import_telemetry(log, out, *settings)
+            return _core.import_telemetry([str(it) for it in logs], out, *settings)
         except DocumentError as error:
             # Messages of ROS whose types are described in IDL, or nowhere, in an MCAP log.
-            if error.key != "encoding":
+            if error.key != "encoding" or len(logs) != 1:
                 raise
-    return _converted_bag(log, out, rover, mapping, choices, odometry)
+    return _converted_bag(logs[0], out, rover, mapping, choices, odometry)
 
 
 def _is_bag(log: Path) -> bool:
     if log.is_dir():
-        return True
+        return not any(it.suffix.lower() == ".mcap" for it in log.iterdir())
     with log.open("rb") as file:
         return file.read(16).startswith(_BAGS)
 

@@ -93,12 +93,12 @@ impl Records {
 /// Sends all records; what comes after the last.
 fn read(mut log: TelemetryLog, sender: &SyncSender<Event>) -> Result<Event, Failure> {
     while let Some(record) = log.next_record()? {
-        let event = Event::Record { record, is_whole: log.is_whole(), lost: log.lost().clone() };
+        let event = Event::Record { record, is_whole: log.is_whole(), lost: log.lost() };
         if sender.send(event).is_err() {
             break;
         }
     }
-    let (lost, notes) = (log.lost().clone(), log.notes_of_source());
+    let (lost, notes) = (log.lost(), log.notes_of_source());
     let (rows, given, share_used) = (log.rows(), log.given(), log.share_used());
     Ok(Event::End(Ending { lost, notes, rows, given, share_used }))
 }
