@@ -7,7 +7,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use grouser::document::{Kind, present_names};
 
 /// Words of the library's messages, and the same with the program's flags.
-const WORDS: [(&str, &str); 13] = [
+const WORDS: [(&str, &str); 12] = [
     ("by the setting soil.", "by --set soil."),
     ("for instance soil.cohesion_kpa", "for instance --set soil.cohesion_kpa"),
     ("choose by the condition wheel=", "choose with --where wheel="),
@@ -15,8 +15,7 @@ const WORDS: [(&str, &str); 13] = [
     ("an import with the delimiter ", "`grouser import` with --delimiter "),
     ("an import turns files", "`grouser import` turns files"),
     ("are decimals written with a comma?", "are decimals written with a comma? --decimal-comma"),
-    ("are fields parted by semicolons?", "are fields parted by semicolons? --delimiter ';'"),
-    ("are fields parted by tabs?", "are fields parted by tabs? --delimiter tab"),
+    ("are fields parted by the delimiter ", "are fields parted by another? --delimiter "),
     ("does the header stand further down?", "does the header stand further down? --skip-lines N"),
     ("say which of them is which of ours", "say which is which: --column load_n=THEIRS"),
     (

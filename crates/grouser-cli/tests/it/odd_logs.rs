@@ -53,6 +53,52 @@ fn with_units_below(text: &str) -> String {
     format!("{}\n{}\n{rows}", names.join(","), units.collect::<Vec<_>>().join(","))
 }
 
+/// The table with a word in each cell that is empty.
+fn without_gaps(text: &str) -> String {
+    let cell = |cell: &str| if cell.is_empty() { "nan" } else { cell }.to_owned();
+    let line = |line: &str| line.split(',').map(cell).collect::<Vec<_>>().join(",") + "\n";
+    text.lines().map(line).collect()
+}
+
+/// Times in which no drive goes on: what they are is said.
+#[test]
+fn times_of_other_orders_and_clocks_are_named() {
+    let (place, text) = drive();
+    let date =
+        |time: f64| format!("29/11/2026 10:{:02}:{:06.3}", (time / 60.0).floor(), time % 60.0);
+    place.write("day.csv", with_times(&text, date));
+    let (header, rows) = text.split_once('\n').expect("a header");
+    let falling: String = rows.lines().rev().map(|line| format!("{line}\n")).collect();
+    place.write("newest.csv", format!("{header}\n{falling}"));
+    for (log, code, part) in
+        [("day.csv", 2, "hint: ISO 8601 is read"), ("newest.csv", 1, "sorted newest first")]
+    {
+        let answer = place.line(&format!("learn {log} {LEARN}"));
+        let said = answer.stdout.clone() + &answer.stderr;
+        assert!(answer.code() == code && said.contains(part), "{log}: {said}");
+    }
+    let rounded = with_times(&text, |time| format!("{:.1}", (5.0 * time).floor() / 5.0));
+    place.write("rounded.csv", rounded);
+    let answer = place.line("import-telemetry rounded.csv --out rounded.parquet");
+    assert!(answer.code() == 0 && answer.stderr.contains("rounded to 0.2 s"), "{}", answer.stderr);
+}
+
+/// Motors of one side that are mounted the other way round turn no rover on the spot.
+#[test]
+fn mirrored_sides_are_named_and_no_replay_succeeds() {
+    let (place, text) = drive();
+    let front = times(&text, "wheel_speed_rad_s_front-right", -1.0);
+    place.write("mirrored.csv", times(&front, "wheel_speed_rad_s_rear-right", -1.0));
+    for command in
+        [format!("learn mirrored.csv {LEARN}"), "replay mirrored.csv --soil toyoura".to_owned()]
+    {
+        let answer = place.line(&command);
+        let said = answer.stdout.clone() + &answer.stderr;
+        assert_eq!(answer.code(), 1, "{command}: {said}");
+        assert!(said.contains("all wheels of the right side turn backward"), "{command}: {said}");
+    }
+}
+
 #[test]
 fn units_that_a_column_cannot_have_are_refused_by_its_name() {
     let place = Place::new();
@@ -80,6 +126,8 @@ fn a_table_is_read_however_it_is_written() {
     for (name, table) in [
         ("semicolons", text.replace('.', "|").replace(',', ";").replace('|', ",")),
         ("tabs", text.replace(',', "\t")),
+        ("bars", text.replace(',', " | ")),
+        ("spaces", without_gaps(&text).replace(',', "  ")),
         ("comments", format!("# a drive in sand, by hand\n#\n{text}# the end\n")),
         ("behind", format!("# {text}")),
         ("units", with_units_below(&text)),
