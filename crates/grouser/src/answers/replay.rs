@@ -202,11 +202,12 @@ impl Found<'_> {
         let work = self.replay.energy.map(|work| {
             let [measured, predicted] = work.map(|it| four_digits(ENERGY.unit.from_si(it)));
             let unit = ENERGY.unit.symbol;
-            let is_of_work = |it: &GrossFault| matches!(it.suspect, Suspect::Torque | Suspect::Speed);
+            let is_of_work =
+                |it: &GrossFault| matches!(it.suspect, Suspect::Torque | Suspect::Speed);
             let has_fault = self.replay.gross_faults.iter().any(is_of_work);
-            let fault = if has_fault { " with the fault that is found" } else { "" };
+            let fault = if has_fault { ", with the fault that is found," } else { "," };
             format!(
-                "work of the wheels: measured{fault} {measured} {unit}, predicted {predicted} {unit}"
+                "work of the wheels: measured {measured} {unit}{fault} predicted {predicted} {unit}"
             )
         });
         let stretches = counted(stretches as u64, "stretch", "stretches");

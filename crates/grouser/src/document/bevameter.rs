@@ -118,7 +118,7 @@ impl<'a, R: Read> Rows<'a, R> {
         /// Noise over the highest stress [-]. Source: ours; offsets of load cells are a few per cent.
         const NOISE: f64 = 0.1;
         let (lowest, line) = self.lowest;
-        let least = -NOISE * self.highest;
+        let least = 0.0 - NOISE * self.highest;
         let known = self.columns.iter().find(|it| it.name == column);
         let Some(known) = known.filter(|_| lowest < least) else { return Ok(()) };
         let [value, least] = [lowest, least].map(|it| known.unit.from_si(it));

@@ -403,8 +403,11 @@ pub fn notes(replay: &Replay) -> Vec<String> {
     }
     if replay.taken.outliers > 0 {
         let outliers = replay.taken.outliers;
-        let readings = counted(outliers, "reading", "readings");
-        notes.push(format!("left out: {readings} far from those around"));
+        notes.push(counted(
+            outliers,
+            "reading far from those around it is left out",
+            "readings far from those around them are left out",
+        ));
     }
     let starts = replay.free_run.starts.len();
     if starts > 1 {
