@@ -15,7 +15,7 @@ const WORDS: [(&str, &str); 14] = [
     ("an import with the delimiter ", "`grouser import` with --delimiter "),
     ("an import turns files", "`grouser import` turns files"),
     ("are decimals written with a comma?", "are decimals written with a comma? --decimal-comma"),
-    ("are fields parted by the delimiter ", "are fields parted by another? --delimiter "),
+    ("are fields parted by the delimiter ", "are fields parted otherwise, as by --delimiter "),
     ("does the header stand further down?", "does the header stand further down? --skip-lines N"),
     ("say which of them is which of ours", "say which is which: --column load_n=THEIRS"),
     (
