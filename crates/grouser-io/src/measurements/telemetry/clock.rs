@@ -100,7 +100,9 @@ pub(super) fn is_other_date(text: &str) -> bool {
         parts().count() >= least && parts().take(least).all(is_number)
     };
     let day = text.split([' ', 'T', ',']).next().unwrap_or_default();
-    let is_day = |mark: char| has_parts(day, mark, 3) || day.matches(mark).count() == 2;
+    // Months may have names, but for points: those stand in numbers, too.
+    let has_two = |mark: char| mark != '.' && day.matches(mark).count() == 2;
+    let is_day = |mark: char| has_parts(day, mark, 3) || has_two(mark);
     let is_clock = |it: &str| has_parts(it, ':', 2);
     let has_digit = text.bytes().any(|it| it.is_ascii_digit());
     has_digit && (['/', '-', '.'].into_iter().any(is_day) || text.split([' ', 'T']).any(is_clock))
