@@ -7,7 +7,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 use grouser::document::{Kind, present_names};
 
 /// Words of the library's messages, and the same with the program's flags.
-const WORDS: [(&str, &str); 13] = [
+const WORDS: [(&str, &str); 14] = [
     ("by the setting soil.", "by --set soil."),
     ("for instance soil.cohesion_kpa", "for instance --set soil.cohesion_kpa"),
     ("choose by the condition wheel=", "choose with --where wheel="),
@@ -15,8 +15,7 @@ const WORDS: [(&str, &str); 13] = [
     ("an import with the delimiter ", "`grouser import` with --delimiter "),
     ("an import turns files", "`grouser import` turns files"),
     ("are decimals written with a comma?", "are decimals written with a comma? --decimal-comma"),
-    ("are fields parted by semicolons?", "are fields parted by semicolons? --delimiter ';'"),
-    ("are fields parted by tabs?", "are fields parted by tabs? --delimiter tab"),
+    ("are fields parted by the delimiter ", "are fields parted otherwise, as by --delimiter "),
     ("does the header stand further down?", "does the header stand further down? --skip-lines N"),
     ("say which of them is which of ours", "say which is which: --column load_n=THEIRS"),
     (
@@ -24,6 +23,25 @@ const WORDS: [(&str, &str); 13] = [
         "`grouser presets NAME` prints a document to start from",
     ),
     ("another speed or a rolling start", "another --rim-speed-m-s or a rolling start"),
+    ("without them the load transfer is ", "without them --load-transfer is "),
+    (
+        "let it start elsewhere, or with a larger `belly_clearance_m`",
+        "let it start elsewhere (--start-x-m and --start-y-m), or with a larger clearance (--set \
+         rover.belly_clearance_m=M)",
+    ),
+];
+
+/// Flags that set keys, words of messages about these keys, and what who typed the flag knows.
+const OF_FLAGS: [(&str, &str, &str); 5] = [
+    ("--start-x-m", "x of `terrain.start_m`", "x of the start"),
+    ("--start-x-m", "y of `terrain.start_m`", "y of the start"),
+    ("--ground-speed-m-s", "unknown key `drive.ground_speed_m_s`", "this drive has no such speed"),
+    (
+        "--reference-slip-ratio",
+        "unknown key `drive.reference_slip_ratio`",
+        "this drive has no such slip ratio",
+    ),
+    ("--rim-speed-m-s", "unknown key `drive.rim_speed_m_s`", "this drive has no such speed"),
 ];
 
 /// The option of some commands alone that others are asked for, too.
@@ -37,7 +55,22 @@ pub(crate) fn with_flags(message: &str) -> String {
         (library, format!("for instance --set {kind}.KEY=VALUE, or --{kind} NAME"))
     });
     let all = words.into_iter().chain(kinds);
-    all.fold(message.to_owned(), |text, (library, program)| text.replace(&library, &program))
+    let text =
+        all.fold(message.to_owned(), |text, (library, program)| text.replace(&library, &program));
+    let is_of = |flag: &str, key: &str| text.starts_with(flag) && text.contains(key);
+    match OF_FLAGS.into_iter().find(|(flag, key, _)| is_of(flag, key)) {
+        Some((_, key, known)) => {
+            text.replace(key, known).replace("it goes with law = ", "it goes with --drive ")
+        }
+        None => text,
+    }
+}
+
+/// A note of the library on the file of `--terrain`, with a flag in place of its key.
+///
+/// * `kind`: of the document that the flag changes
+pub(crate) fn of_terrain(note: &str, kind: Kind) -> String {
+    note.replace("`terrain.missing_m` = ", &format!("--set {kind}.terrain.missing_m="))
 }
 
 /// Puts the present option in place of what the parser takes for similar, where an option is
@@ -117,5 +150,11 @@ mod tests {
         assert_eq!(with_flags(message), message);
         let message = "for instance wheel.KEY=VALUE, or another wheel by its name";
         assert_eq!(with_flags(message), "for instance --set wheel.KEY=VALUE, or --wheel NAME");
+        let message = "--ground-speed-m-s 1: unknown key `drive.ground_speed_m_s`\nhint: it goes \
+                       with law = \"eq18\"";
+        let known = "this drive has no such speed\nhint: it goes with --drive \"eq18\"";
+        assert_eq!(with_flags(message), format!("--ground-speed-m-s 1: {known}"));
+        let note = of_terrain("missing heights? `terrain.missing_m` = -9 takes", Kind::Mission);
+        assert_eq!(note, "missing heights? --set mission.terrain.missing_m=-9 takes");
     }
 }

@@ -21,7 +21,7 @@ use std::ops::RangeInclusive;
 use grouser::document::LoadedDesign;
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::{
-    self, DocumentError, Kind, LoadedScenario, Overrides, Source, UncertainSoil,
+    self, DocumentError, Kind, LoadedScenario, Overrides, Source, UncertainSoil, escape,
 };
 
 pub(crate) use self::advice::advice;
@@ -46,6 +46,7 @@ use crate::args::{
 };
 use crate::failure::Failure;
 use crate::list::{self, Numbers};
+use crate::{hints, output};
 
 impl From<DocumentError> for Failure {
     fn from(error: DocumentError) -> Self {
@@ -231,6 +232,15 @@ fn run_settings(
         overrides.flag("--slope-deg", &format!("{kind}.slope_deg"), slope)?;
     }
     terrain_settings(overrides, kind, &slope.terrain)
+}
+
+/// Prints the notes on a document, with flags where one set its terrain.
+fn print_notes(kind: Kind, notes: &[String], terrain: &TerrainArgs) {
+    let note = |note: &String| match terrain.terrain {
+        Some(_) => hints::of_terrain(&escape::line(note), kind),
+        None => escape::line(note).into_owned(),
+    };
+    output::notes(notes.iter().map(note));
 }
 
 /// The flags of ground with heights, which stands in place of a document's ground.

@@ -2,7 +2,7 @@
 
 /// A parameter that no soil, wheel or rover can have.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{name} is {value}, it must be {expected}")]
+#[error("{name} is {}, it must be {expected}", rounded(*value))]
 pub struct ParameterError {
     /// The parameter, in the words of the documentation.
     pub name: String,
@@ -18,6 +18,11 @@ impl ParameterError {
     pub fn new(name: impl Into<String>, value: f64, expected: &'static str) -> Self {
         Self { name: name.into(), value, expected }
     }
+}
+
+/// The value without what rounding left: what was given in degrees has sixteen digits in radians.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.8e}").parse().unwrap_or(value)
 }
 
 /// Finite and above zero, as masses, lengths and stiffnesses are.

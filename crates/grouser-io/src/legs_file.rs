@@ -78,7 +78,9 @@ fn read(name: &str, origin: &Origin) -> Result<Vec<Node>, DocumentError> {
     let ends_in =
         |end: &str| Path::new(name).extension().is_some_and(|it| it.eq_ignore_ascii_case(end));
     if ends_in("csv") {
-        of_csv(&text)
+        let legs = of_csv(&text)?;
+        check_places(&text, None, &legs)?;
+        Ok(legs)
     } else if ends_in("geojson") || ends_in("json") {
         of_geojson(&text)
     } else {
@@ -147,7 +149,7 @@ fn of_geojson(text: &Arc<Text>) -> Result<Vec<Node>, DocumentError> {
     let fault = |what: String| DocumentError::whole(&text.label, Problem::NoLegs(what));
     let json: Json =
         serde_json::from_str(&text.content).map_err(|error| fault(format!("no JSON: {error}")))?;
-    let (mut legs, mut all) = (Vec::new(), Vec::new());
+    let mut legs = Vec::new();
     for (geometry, properties) in features(&json) {
         let places: Vec<&Json> = match geometry["type"].as_str() {
             Some("Point") => vec![&geometry["coordinates"]],
@@ -165,22 +167,38 @@ fn of_geojson(text: &Arc<Text>) -> Result<Vec<Node>, DocumentError> {
             let [Some(x), Some(y)] = [place[0].as_f64(), place[1].as_f64()] else {
                 return Err(fault(format!("{place} is no place: two numbers are, x and y")));
             };
-            all.push(Vec2::new(x, y));
             legs.push(waypoint(text, [x, y], properties));
         }
     }
     if legs.is_empty() {
         return Err(fault("it has no features".to_owned()));
     }
+    check_places(text, json["crs"]["properties"]["name"].as_str(), &legs)?;
+    Ok(legs)
+}
+
+/// Checks that places to go to are metres, not degrees.
+///
+/// * `system`: the name of their coordinate system, if the file has one
+fn check_places(text: &Text, system: Option<&str>, legs: &[Node]) -> Result<(), DocumentError> {
+    let all: Vec<Vec2> = legs
+        .iter()
+        .filter_map(|leg| {
+            let goto = &leg.entry("goto")?.node;
+            let [x, y] = ["x_m", "y_m"].map(|key| match goto.entry(key)?.node.value {
+                Value::Float(number) => Some(number),
+                _ => None,
+            });
+            Some(Vec2::new(x?, y?))
+        })
+        .collect();
     let least = |of: fn(&Vec2) -> f64| all.iter().map(of).fold(f64::INFINITY, f64::min);
     let most = |of: fn(&Vec2) -> f64| all.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
     let extent = Extent {
         south_west: Vec2::new(least(|it| it.x), least(|it| it.y)),
         north_east: Vec2::new(most(|it| it.x), most(|it| it.y)),
     };
-    let system = json["crs"]["properties"]["name"].as_str();
-    grouser_raster::check_places(system, &extent).map_err(|found| in_legs(text, &found))?;
-    Ok(legs)
+    grouser_raster::check_places(system, &extent).map_err(|found| in_legs(text, &found))
 }
 
 /// What is wrong with a file of places.

@@ -25,6 +25,12 @@ pub fn joined(names: &[Value]) -> String {
     names.join(BETWEEN_NAMES)
 }
 
+/// So many of something: `1 row`, `2 rows`.
+#[must_use]
+pub fn counted(count: u64, one: &str, more: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { more })
+}
+
 /// A row as `load_n 17, slip_ratio 0.2`.
 #[must_use]
 pub fn row_in_words(row: &Row<'_>) -> String {

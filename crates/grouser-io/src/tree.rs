@@ -216,8 +216,9 @@ impl From<Vec<Companion>> for Beside {
     }
 }
 
-/// A number as messages write it: without hundreds of zeros.
+/// A number as messages write it: without hundreds of zeros, and without what rounding left.
 pub(crate) fn number(value: f64) -> String {
+    let value: f64 = format!("{value:.8e}").parse().unwrap_or(value);
     let size = value.abs();
     let is_short = size == 0.0 || (1e-5..1e9).contains(&size) || !size.is_finite();
     if is_short { format!("{value}") } else { format!("{value:e}") }
@@ -231,6 +232,9 @@ mod tests {
     fn huge_numbers_stay_short() {
         assert_eq!(number(1e300), "1e300");
         assert_eq!(number(-0.06), "-0.06");
+        assert_eq!(number(0.1 + 0.2), "0.3");
+        assert_eq!(number(f64::NAN), "NaN");
+        assert_eq!(number(f64::INFINITY), "inf");
         assert_eq!(number(86_400.0), "86400");
     }
 }

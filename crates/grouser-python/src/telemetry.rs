@@ -209,7 +209,9 @@ impl TelemetryMessages {
         };
         let lost = self.rows.rows().lost().sentences();
         let odometry = self.rows.rows().sentence_of_odometry();
-        let notes = self.rows.notes().into_iter().chain(odometry).chain(lost).collect();
+        let times = self.rows.rows().sentence_of_times();
+        let notes =
+            self.rows.notes().into_iter().chain(odometry).chain(lost).chain(times).collect();
         let log = self.rows.rows().given(&self.label);
         let given: Vec<GivenFile> =
             iter::once(log).chain(self.rows.given_mapping().cloned()).collect();

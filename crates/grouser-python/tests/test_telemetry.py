@@ -300,7 +300,7 @@ def test_the_module_is_a_command(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "grouser", "import-telemetry", str(log), "--out", str(out)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (0, "")
-    assert "1 cells of `roll_deg`" in done.stderr and "2 records of telemetry" in done.stderr
+    assert "1 cell of `roll_deg`" in done.stderr and "2 records of telemetry" in done.stderr
     again = subprocess.run(command, capture_output=True, text=True, check=False)
     assert again.returncode == 2 and again.stderr.startswith("error: ")
 

@@ -11,11 +11,13 @@ pub(crate) fn may_be_degrees(places: &Extent) -> bool {
 }
 
 /// Whether places are degrees of longitude and latitude rather than metres from a start: less than
-/// a metre across, and a hundred times as far away. Source: ours.
+/// a metre across and a hundred times as far away, or all within a millimetre, as those near 0°, 0°
+/// are. Source: ours.
 pub(crate) fn are_degrees(places: &Extent) -> bool {
     let size = places.north_east - places.south_west;
     let across = size.x.max(size.y);
     let middle = places.south_west + 0.5 * size;
-    let is_small_and_far = across > 0.0 && across < 1.0 && middle.norm() > 100.0 * across;
-    may_be_degrees(places) && is_small_and_far
+    let is_small = across > 0.0 && across < 1.0;
+    let is_far = middle.norm() > 100.0 * across;
+    may_be_degrees(places) && is_small && (is_far || across < 1e-3)
 }

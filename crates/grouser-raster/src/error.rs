@@ -11,7 +11,7 @@ use crate::zones::key::{ZoneKey, listed};
 
 /// A file that cannot be used.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: {fault}", file.display())]
+#[error("{}: {}", file.display(), of_file(fault, file))]
 pub struct RasterError {
     /// The file.
     pub file: PathBuf,
@@ -23,6 +23,36 @@ pub struct RasterError {
 impl RasterError {
     pub(crate) fn new(file: &Path, fault: Fault) -> Self {
         Self { file: file.to_owned(), fault }
+    }
+}
+
+/// What is wrong, with the file's name in the command of the hint.
+fn of_file(fault: &Fault, file: &Path) -> String {
+    let (fault, name) = (fault.to_string(), file.display().to_string());
+    // Other names would need quotes, and those of shells differ.
+    let is_plain = name.chars().all(|it| it.is_ascii_alphanumeric() || "/._-".contains(it));
+    if !is_plain {
+        return fault;
+    }
+    ["IN.tif", "IN.geojson"].into_iter().fold(fault, |text, of| text.replace(of, &name))
+}
+
+/// The metres in one of a unit, as gdal_calc has them.
+fn metres_in(unit: &str) -> &'static str {
+    let unit = unit.to_lowercase();
+    let is_one = |names: &[&str]| names.iter().any(|name| unit == *name);
+    if unit.contains("survey") && unit.contains('f') || is_one(&["ftus"]) {
+        "1200/3937"
+    } else if is_one(&["ft", "foot", "feet", "international foot"]) {
+        "0.3048"
+    } else if is_one(&["km", "kilometre", "kilometer"]) {
+        "1000"
+    } else if is_one(&["cm", "centimetre", "centimeter"]) {
+        "0.01"
+    } else if is_one(&["mm", "millimetre", "millimeter"]) {
+        "0.001"
+    } else {
+        "METRES_IN_ONE"
     }
 }
 
@@ -153,7 +183,8 @@ pub enum Fault {
     },
     /// Heights in feet and the like.
     #[error(
-        "its heights are in {unit}, and a rover needs metres\nhint: gdal_calc.py -A IN.tif --outfile=OUT.tif --type=Float32 --calc=\"A*METRES_IN_ONE\""
+        "its heights are in {unit}, and a rover needs metres\nhint: gdal_calc.py -A IN.tif --outfile=OUT.tif --type=Float32 --calc=\"A*{}\"",
+        metres_in(unit)
     )]
     HeightUnit {
         /// The unit.

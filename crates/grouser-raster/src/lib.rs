@@ -66,4 +66,6 @@ pub use raster::Raster;
 pub use read::read;
 pub use remark::Remark;
 pub use zones::geojson::read_line_string;
-pub use zones::{ZoneKey, ZoneMap, check_places, read_areas, read_zones, zone_names};
+pub use zones::{
+    ZoneKey, ZoneMap, check_places, check_places_on, read_areas, read_zones, zone_names,
+};

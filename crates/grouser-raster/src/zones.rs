@@ -29,7 +29,7 @@ mod places;
 
 pub use key::ZoneKey;
 pub use map::{ZoneCounts, ZoneMap};
-pub use places::check_places;
+pub use places::{check_places, check_places_on};
 
 use std::path::Path;
 

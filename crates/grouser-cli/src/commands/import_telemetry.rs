@@ -6,6 +6,7 @@ use std::io::{BufReader, IsTerminal as _, Write, stderr, stdin};
 use std::path::Path;
 
 use grouser::document::measurements::telemetry::numbers;
+use grouser::document::reading::counted;
 use grouser::document::{self, Kind, escape};
 use grouser::vehicle::Rover;
 use grouser_logs::{Problem, TelemetryLog, TelemetryWriter};
@@ -103,6 +104,7 @@ fn convert(
     }
     writer.finish().map_err(&failed)?;
     output::notes(log.notes().iter().map(|note| escape::line(note)));
-    output::message(&format!("{records} records of telemetry"));
+    let records = counted(records, "record", "records");
+    output::message(&format!("{records} of telemetry"));
     Ok(())
 }

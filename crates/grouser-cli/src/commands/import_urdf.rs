@@ -100,15 +100,19 @@ fn with_flags(error: &UrdfError) -> String {
     let hint = match error {
         UrdfError::NoWheels { along: 2.., .. } => "\nhint: --forward y, or --forward -y",
         UrdfError::NoWheels { .. } => {
-            "\nhint: --wheels '*wheel*' names those that are wheels, --wheel-radius-m and \
-             --wheel-width-m give what their shapes do not tell"
+            "\nhint: --wheels LINK names one that is a wheel, and can be repeated; * stands for any \
+             letters; --wheel-radius-m and --wheel-width-m give what their shapes do not tell"
         }
-        UrdfError::TooManyWheels { .. } => "\nhint: --wheels '*wheel*' names those that are wheels",
+        UrdfError::TooManyWheels { .. } => {
+            "\nhint: --wheels LINK names one that is a wheel, and can be repeated; * stands for any \
+             letters"
+        }
         UrdfError::NoRim { .. } => "\nhint: --wheel-radius-m R --wheel-width-m B",
         UrdfError::Differential(_) => {
             "\nhint: --differential says that there is one, --rigid takes rockers as they stand"
         }
         UrdfError::TurnTogether(..)
+        | UrdfError::TurnUnequally { .. }
         | UrdfError::Askew(_)
         | UrdfError::TooManyJoints(_)
         | UrdfError::Sides(..)

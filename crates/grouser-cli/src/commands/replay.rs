@@ -49,7 +49,21 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
         slide.write_answer(&answer, &title_of(&question.scenario))?;
     }
     give(&answer, &repeat, folder, args.output.format)?;
+    check_predicted(log.label(), &replay)?;
     inputs::check_share_used(log.label(), log.share_used(), &args.telemetry.log)
+}
+
+/// Checks that a stretch could be predicted: without one nothing of the drive was compared.
+fn check_predicted(label: &str, replay: &Replay) -> Result<(), Failure> {
+    let all: u64 = replay.not_predicted.values().sum();
+    let most = replay.not_predicted.iter().max_by_key(|(_, count)| **count);
+    match most.filter(|_| all >= replay.stretches.len() as u64) {
+        None => Ok(()),
+        Some((why, _)) => Err(Failure::Run(format!(
+            "{label}: no stretch could be predicted, and nothing is compared: {}",
+            why.meaning()
+        ))),
+    }
 }
 
 /// Whether the drive points to a changed rover.

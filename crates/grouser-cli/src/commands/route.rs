@@ -1,6 +1,7 @@
 //! `grouser route`: the cheapest way over a map of heights, or what a given one takes.
 
 use grouser::answers::route::{Way, WayError};
+use grouser::document::escape;
 use grouser::studies::route::{COURSES, Ends, Objective, RouteError};
 use grouser_draw::map::{Track, ways_over_ground};
 use grouser_draw::style::on_both_grounds;
@@ -52,7 +53,13 @@ pub(crate) fn run(args: &RouteArgs) -> Result<(), Failure> {
 /// The way that is asked for, and its alternatives.
 fn ways(args: &RouteArgs, inputs: &RouteInputs) -> Result<Vec<Way>, Failure> {
     // Places off the map are refused before the tables, which take a while.
-    inputs.asked.check(inputs.ground())?;
+    let checked = inputs.asked.check(inputs.ground()).map_err(Failure::from);
+    checked.map_err(|failure| match (&args.along, failure) {
+        (Some(file), Failure::Usage(what)) => {
+            Failure::Usage(format!("{}: {what}", escape::path(file)))
+        }
+        (_, failure) => failure,
+    })?;
     let samples = sampling::draw_if_uncertain(&inputs.scenario, args.samples, args.seed)?;
     let wanted = objectives(args);
     let with_risk = args.along.is_none() && wanted.contains(&Objective::Risk);

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use grouser::document::{self, Kind, LoadedMission, Overrides, Overruled, escape};
 
-use super::{flag_source, run_settings, scenario_settings};
+use super::{flag_source, print_notes, run_settings, scenario_settings};
 use crate::args::{BalanceArgs, MissionArgs};
 use crate::failure::Failure;
 use crate::output;
@@ -27,7 +27,7 @@ pub(crate) fn read(args: &MissionArgs) -> Result<LoadedMission, Failure> {
     }
     overrides.check_kinds(&[Kind::Mission, Kind::Rover, Kind::Soil, Kind::Wheel])?;
     let mission = document::read_mission(&source, &overrides)?;
-    output::notes(mission.notes.iter().map(|note| escape::line(note)));
+    print_notes(Kind::Mission, &mission.notes, &args.slope.terrain);
     if let Some(file) = &args.stop_from {
         note_overruled(Path::new(file), &mission, &args.setting.settings);
     }

@@ -11,9 +11,10 @@ use grouser::document::{LoadedScenario, escape, study};
 use grouser::studies::mobility::Ground;
 use grouser::studies::route::{Ends, Limits, Line, LineError, RouteStudy};
 use grouser::studies::verdict::SlopeStudy;
+use grouser::terrain::Extent;
 use grouser::units::Vec2;
-use grouser_raster::Raster;
 use grouser_raster::zones::ZoneCounts;
+use grouser_raster::{Raster, RasterError};
 
 use super::card::{rim_speed, rule};
 use super::map::{check_system, dem};
@@ -81,10 +82,21 @@ pub(crate) fn route(args: &RouteArgs) -> Result<RouteInputs, Failure> {
     }
     if let (Some(file), Asked::Along(line)) = (&args.along, &asked) {
         // Places off the map are refused before anything is computed.
+        let extent = extent_of(line.places());
+        let on_ground = grouser_raster::check_places_on(&raster.grid.extent(), &extent);
+        on_ground.map_err(|fault| RasterError { file: file.clone(), fault })?;
         let places = line.places().len() as u64;
         given.push(GivenFile::new(name(file), FileContent::Way, places, places));
     }
     Ok(RouteInputs { scenario, study, asked, raster, given })
+}
+
+/// What places span.
+fn extent_of(places: &[Vec2]) -> Extent {
+    let first = places.first().copied().unwrap_or_default();
+    let low = places.iter().fold(first, |low, it| low.inf(it));
+    let high = places.iter().fold(first, |high, it| high.sup(it));
+    Extent { south_west: low, north_east: high }
 }
 
 fn asked(args: &RouteArgs) -> Result<Asked, Failure> {

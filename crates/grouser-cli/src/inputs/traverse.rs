@@ -1,12 +1,11 @@
 //! The inputs of a traverse.
 
-use grouser::document::{self, Kind, LoadedScenario, Overrides, escape};
+use grouser::document::{self, Kind, LoadedScenario, Overrides};
 
-use super::{run_settings, scenario_settings, scenario_source};
+use super::{print_notes, run_settings, scenario_settings, scenario_source};
 use crate::args::{SettingArgs, TraverseArgs};
 use crate::failure::Failure;
 use crate::list::{self, Numbers};
-use crate::output;
 
 /// The scenario of a traverse.
 ///
@@ -63,7 +62,7 @@ pub(crate) fn traverse(
     }
     overrides.check_kinds(&[Kind::Scenario, Kind::Rover, Kind::Soil, Kind::Wheel])?;
     let scenario = document::read_scenario(&source, &overrides)?;
-    output::notes(scenario.notes.iter().map(|note| escape::line(note)));
+    print_notes(Kind::Scenario, &scenario.notes, &args.slope.terrain);
     Ok(scenario)
 }
 

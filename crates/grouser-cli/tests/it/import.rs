@@ -185,7 +185,7 @@ fn urdf_that_is_no_rover_is_refused() {
     for (line, expected) in [
         ("import-urdf none.urdf", "no such file"),
         ("import-urdf bytes.urdf", "not a text"),
-        ("import-urdf arm.urdf", "--wheels '*wheel*'"),
+        ("import-urdf arm.urdf", "--wheels LINK"),
         ("import-urdf arm.urdf --wheel-radius-m 0", "above 0"),
         ("import-urdf arm.urdf --rigid --differential", "cannot be used with"),
         ("import-urdf arm.urdf --wheels tyre", "no link is called tyre"),

@@ -53,6 +53,52 @@ fn with_units_below(text: &str) -> String {
     format!("{}\n{}\n{rows}", names.join(","), units.collect::<Vec<_>>().join(","))
 }
 
+/// The table with a word in each cell that is empty.
+fn without_gaps(text: &str) -> String {
+    let cell = |cell: &str| if cell.is_empty() { "nan" } else { cell }.to_owned();
+    let line = |line: &str| line.split(',').map(cell).collect::<Vec<_>>().join(",") + "\n";
+    text.lines().map(line).collect()
+}
+
+/// Times in which no drive goes on: what they are is said.
+#[test]
+fn times_of_other_orders_and_clocks_are_named() {
+    let (place, text) = drive();
+    let date =
+        |time: f64| format!("29/11/2026 10:{:02}:{:06.3}", (time / 60.0).floor(), time % 60.0);
+    place.write("day.csv", with_times(&text, date));
+    let (header, rows) = text.split_once('\n').expect("a header");
+    let falling: String = rows.lines().rev().map(|line| format!("{line}\n")).collect();
+    place.write("newest.csv", format!("{header}\n{falling}"));
+    for (log, code, part) in
+        [("day.csv", 2, "hint: ISO 8601 is read"), ("newest.csv", 1, "sorted newest first")]
+    {
+        let answer = place.line(&format!("learn {log} {LEARN}"));
+        let said = answer.stdout.clone() + &answer.stderr;
+        assert!(answer.code() == code && said.contains(part), "{log}: {said}");
+    }
+    let rounded = with_times(&text, |time| format!("{:.1}", (5.0 * time).floor() / 5.0));
+    place.write("rounded.csv", rounded);
+    let answer = place.line("import-telemetry rounded.csv --out rounded.parquet");
+    assert!(answer.code() == 0 && answer.stderr.contains("rounded to 0.2 s"), "{}", answer.stderr);
+}
+
+/// Motors of one side that are mounted the other way round turn no rover on the spot.
+#[test]
+fn mirrored_sides_are_named_and_no_replay_succeeds() {
+    let (place, text) = drive();
+    let front = times(&text, "wheel_speed_rad_s_front-right", -1.0);
+    place.write("mirrored.csv", times(&front, "wheel_speed_rad_s_rear-right", -1.0));
+    for command in
+        [format!("learn mirrored.csv {LEARN}"), "replay mirrored.csv --soil toyoura".to_owned()]
+    {
+        let answer = place.line(&command);
+        let said = answer.stdout.clone() + &answer.stderr;
+        assert_eq!(answer.code(), 1, "{command}: {said}");
+        assert!(said.contains("all wheels of the right side turn backward"), "{command}: {said}");
+    }
+}
+
 #[test]
 fn units_that_a_column_cannot_have_are_refused_by_its_name() {
     let place = Place::new();
@@ -80,6 +126,8 @@ fn a_table_is_read_however_it_is_written() {
     for (name, table) in [
         ("semicolons", text.replace('.', "|").replace(',', ";").replace('|', ",")),
         ("tabs", text.replace(',', "\t")),
+        ("bars", text.replace(',', " | ")),
+        ("spaces", without_gaps(&text).replace(',', "  ")),
         ("comments", format!("# a drive in sand, by hand\n#\n{text}# the end\n")),
         ("behind", format!("# {text}")),
         ("units", with_units_below(&text)),
@@ -241,6 +289,68 @@ fn degrees_are_not_taken_for_metres() {
     let metres = "\"crs\":{\"type\":\"name\",\"properties\":{\"name\":\"EPSG:32632\"}},";
     place.write("way.geojson", way(metres));
     assert_eq!(place.line(mission).code(), 0, "{}", place.line(mission).stderr);
+}
+
+/// A way in degrees, or on another map, is refused by the name of its file; and who types flags is
+/// answered in flags.
+#[test]
+fn messages_name_files_and_flags_that_were_given() {
+    let place = Place::new();
+    let ground = |west: f64, south: f64, height: &dyn Fn(usize, usize) -> f64| -> String {
+        let rows = (0..12).flat_map(|row| (0..12).map(move |column| (row, column)));
+        rows.map(|(row, column)| {
+            let [x, y] = [west + column as f64, south + row as f64];
+            format!("{x} {y} {}\n", height(row, column))
+        })
+        .collect()
+    };
+    place.write("far.xyz", ground(500_000.0, 5_400_000.0, &|_, _| 0.0));
+    place.write("void.xyz", ground(0.0, 0.0, &|row, _| if row == 11 { -9999.0 } else { 0.0 }));
+    let line = |x: f64| {
+        format!("{{\"type\":\"LineString\",\"coordinates\":[[{x},49.0],[{},49.1]]}}", x + 0.1)
+    };
+    place.write("degrees.geojson", line(8.4));
+    place.write("elsewhere.geojson", line(1000.0));
+    let parts = "--rover hakuto --soil toyoura";
+    for (way, part) in [("degrees", "look like degrees"), ("elsewhere", "is not on the map")] {
+        let answer =
+            place.line(&format!("route far.xyz {parts} --samples 2 --along {way}.geojson"));
+        let says = |part: &str| answer.stderr.contains(part);
+        assert_eq!(answer.code(), 2, "{way}");
+        assert!(says(&format!("error: {way}.geojson: ")) && says(part), "{}", answer.stderr);
+    }
+    let run = format!("traverse {parts} --duration-s 0.5 --simulation quasi-steady");
+    for (flags, part) in [
+        ("--terrain void.xyz", "? --set scenario.terrain.missing_m=-9999 takes them as such"),
+        ("--terrain far.xyz --start-x-m 5 --start-y-m 5", "x of the start, on a map from 500000"),
+        ("--ground-speed-m-s 0.1", "hint: it goes with --drive \"eq18"),
+    ] {
+        let answer = place.line(&format!("{run} {flags}"));
+        assert!(answer.stderr.contains(part), "{flags}: {}", answer.stderr);
+    }
+}
+
+/// How a mission ends is its result, whatever it is.
+#[test]
+fn a_mission_that_ends_early_has_succeeded_as_a_command() {
+    let place = Place::new();
+    let arc = "arc = { radius_m = 0.5, angle_deg = 90.0 }";
+    let mission = |slope: f64| {
+        format!(
+            "schema = \"mission/1\"\nname = \"arc\"\nrover = \"hakuto\"\nsoil = \"toyoura\"\nslope_deg = \
+             {slope:.1}\n[[leg]]\n{arc}\n"
+        )
+    };
+    let mut outcomes = Vec::new();
+    for slope in [0.0, 12.0, 16.0, 24.0] {
+        place.write("arc.toml", mission(slope));
+        let answer = place.line("mission arc.toml --nominal --format json");
+        assert_eq!(answer.code(), 0, "{slope}: {}", answer.stderr);
+        let answer: serde_json::Value = serde_json::from_str(&answer.stdout).expect("JSON");
+        outcomes.push(answer["outcome"].to_string());
+    }
+    outcomes.dedup();
+    assert!(outcomes.len() > 1, "{outcomes:?}");
 }
 
 /// A table whose cells are others.

@@ -295,7 +295,8 @@ fn lines_that_are_none_are_refused_with_a_reason() {
         ("nothing", feature(Value::Null), "its feature has no geometry"),
         ("two lines", two, "it has 2 features, and one line is one way"),
         ("no line", none, "it has no feature"),
-        ("elsewhere", line(json!([[2, 3], [4, 5]])), "the line is not on the map"),
+        ("elsewhere", line(json!([[2000, 3], [2004, 5]])), "the line is not on the map"),
+        ("degrees by their numbers", line(json!([[2, 3], [4, 5]])), "look like degrees"),
         ("too long", line(json!([[7002, -298], [1e300, -298]])), "cells of the map long"),
         ("degrees", degrees, "has coordinates in degrees"),
     ] {

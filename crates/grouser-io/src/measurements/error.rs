@@ -158,6 +158,14 @@ pub enum MeasurementProblem {
         /// What stands there.
         value: String,
     },
+    /// A time that is written as another clock has it.
+    #[error("`{column}` is '{text}', a date or a time of day that is not written in ISO 8601")]
+    OtherDate {
+        /// The column.
+        column: String,
+        /// What stands there.
+        text: String,
+    },
     /// A value that must be there.
     #[error("`{column}` has no value: {why}")]
     MissingValue {

@@ -264,8 +264,7 @@ fn plan(
     }
     let nameless = names.iter().filter(|name| name.is_empty()).count();
     let hint = match other_delimiter(&names) {
-        Some((';', _)) => "are fields parted by semicolons?".to_owned(),
-        Some(_) => "are fields parted by tabs?".to_owned(),
+        Some(delimiter) => format!("are fields parted by the delimiter {delimiter}?"),
         None if 2 * nameless > names.len() => "does the header stand further down?".to_owned(),
         None => format!("its columns are {}; say which of them is which of ours", names.join(", ")),
     };

@@ -334,7 +334,8 @@ impl<'a> Header<'a> {
             Some(format!("is `{name}` meant as `{meant}`?"))
         });
         let problem = Problem::MissingColumn { what, expected: names.join(", ") };
-        MeasurementError::at(self.label, 1, problem).with_hint(near)
+        MeasurementError::at(self.label, 1, problem)
+            .with_hint(table::delimiter_hint(&self.names).or(near))
     }
 
     /// The place of a wheel with a motor among the rover's mounts.

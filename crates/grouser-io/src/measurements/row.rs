@@ -102,7 +102,7 @@ impl<'a> Header<'a> {
 
     /// How to correct a header that lacks some columns.
     fn hint_of_missing(&self, meanings: &[Meaning]) -> String {
-        if let Some((_, delimiter)) = other_delimiter(&self.names) {
+        if let Some(delimiter) = other_delimiter(&self.names) {
             return format!(
                 "fields are parted by commas here; an import with the delimiter {delimiter} makes \
                  it so"

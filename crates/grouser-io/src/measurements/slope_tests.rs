@@ -208,7 +208,8 @@ impl<'a> Header<'a> {
                 let meant = nearest(name, all.iter().map(|it| it.name))?;
                 Some(format!("is `{name}` meant as `{meant}`?"))
             });
-            failed(Problem::MissingColumn { what, expected: expected.join(", ") }).with_hint(near)
+            let hint = table::delimiter_hint(&names).or(near);
+            failed(Problem::MissingColumn { what, expected: expected.join(", ") }).with_hint(hint)
         };
         if !has(SLOPE) {
             return Err(missing("the slope", &[SLOPE]));

@@ -85,7 +85,13 @@ impl<'a, R: Read> Table<'a, R> {
     }
 
     fn too_large(&self, line: u64, excess: Excess) -> MeasurementError {
-        MeasurementError::at(&self.label, line, MeasurementProblem::TooLarge(excess))
+        self.failed(line, MeasurementProblem::TooLarge(excess))
+    }
+
+    /// An error in a line of it.
+    #[must_use]
+    pub fn failed(&self, line: u64, problem: MeasurementProblem) -> MeasurementError {
+        MeasurementError::at(&self.label, line, problem)
     }
 }
 
@@ -120,8 +126,9 @@ impl<'a, R: Read> Table<'a, LookedAt<R>> {
         let dialect = dialect_of(&mut start);
         let mut builder = csv::ReaderBuilder::new();
         builder.delimiter(dialect.delimiter).trim(csv::Trim::All).comment(Some(b'#'));
-        let source = io::Cursor::new(start).chain(source);
-        let source = LineEnds { longest_row: Limits::LONGEST_ROW, ..LineEnds::of(source, limits) };
+        let source = LineEnds::of(io::Cursor::new(start).chain(source), limits);
+        let spaces = (dialect.delimiter == b' ').then_some(false);
+        let source = LineEnds { longest_row: Limits::LONGEST_ROW, spaces, ..source };
         Ok((Self { label, reader: builder.from_reader(source), limits, rows: 0 }, dialect))
     }
 }
@@ -167,7 +174,11 @@ fn dialect_of(start: &mut [u8]) -> Dialect {
     let parted = |delimiter: u8| header.contains(&delimiter);
     let by_words = words.map(delimiter_of).filter(|delimiter| parted(*delimiter));
     let delimiter = by_words.unwrap_or_else(|| delimiter_of(header));
-    let cells = |line: &[u8]| line.split(|byte| *byte == delimiter).count();
+    let cells = |line: &[u8]| {
+        let line = line.trim_ascii_start().strip_prefix(b"#").unwrap_or(line).trim_ascii();
+        let cells = line.split(|byte| *byte == delimiter);
+        cells.filter(|cell| delimiter != b' ' || !cell.is_empty()).count()
+    };
     let behind = words.filter(|line| cells(line) == cells(header));
     let mark = behind.and_then(|line| {
         let offset = line.as_ptr() as usize - start.as_ptr() as usize;
@@ -181,9 +192,17 @@ fn dialect_of(start: &mut [u8]) -> Dialect {
 
 /// What parts the fields of a header.
 fn delimiter_of(header: &[u8]) -> u8 {
+    let header = header.trim_ascii();
     let count = |delimiter: u8| header.split(|byte| *byte == delimiter).count();
-    let others = [b';', b'\t'].into_iter().max_by_key(|it| count(*it)).unwrap_or(b';');
-    if count(others) > count(b',') { others } else { b',' }
+    let others = [b';', b'\t', b'|'].into_iter().max_by_key(|it| count(*it)).unwrap_or(b';');
+    if count(others) > count(b',') {
+        others
+    } else if count(b',') == 1 && header.contains(&b' ') {
+        // Only where nothing else parts fields: names may have spaces.
+        b' '
+    } else {
+        b','
+    }
 }
 
 fn is_line_end(byte: u8) -> bool {
@@ -204,6 +223,9 @@ fn is_comment(line: &[u8]) -> bool {
 pub struct LineEnds<R> {
     source: R,
     after_return: bool,
+    /// Where spaces in a row are one, and those at the ends of a line none: whether one stands
+    /// before the next byte, if the line goes on.
+    spaces: Option<bool>,
     in_line: bool,
     /// Bytes that were read from the source, and that were passed on.
     read: u64,
@@ -219,6 +241,7 @@ impl<R> LineEnds<R> {
         Self {
             source,
             after_return: false,
+            spaces: None,
             in_line: false,
             read: 0,
             passed: 0,
@@ -251,7 +274,8 @@ impl<R: Read> Read for LineEnds<R> {
         }
         self.check()?;
         loop {
-            let count = self.source.read(buffer)?;
+            let start = usize::from(self.spaces == Some(true));
+            let count = self.source.read(&mut buffer[start..])?;
             if count == 0 {
                 // The last line ends, too.
                 buffer[0] = b'\n';
@@ -260,11 +284,19 @@ impl<R: Read> Read for LineEnds<R> {
             self.read += count as u64;
             self.check()?;
             let mut kept = 0;
-            for place in 0..count {
+            for place in start..start + count {
                 let byte = buffer[place];
                 let is_second = byte == b'\n' && self.after_return;
                 self.after_return = byte == b'\r';
-                if !is_second {
+                if self.spaces.is_some() && byte == b' ' {
+                    self.spaces = Some(self.in_line);
+                } else if !is_second {
+                    let spaces = self.spaces.map(|_| false);
+                    let before = std::mem::replace(&mut self.spaces, spaces);
+                    if before == Some(true) && !is_line_end(byte) {
+                        buffer[kept] = b' ';
+                        kept += 1;
+                    }
                     buffer[kept] = if self.after_return { b'\n' } else { byte };
                     self.in_line = buffer[kept] != b'\n';
                     kept += 1;
@@ -279,12 +311,21 @@ impl<R: Read> Read for LineEnds<R> {
     }
 }
 
-/// What parts the fields of a header that was read as a single one: the character, and how
-/// `--delimiter` calls it.
+/// What parts the fields of a header that was read as a single one, as `--delimiter` calls it.
 #[must_use]
-pub fn other_delimiter(header: &[String]) -> Option<(char, &'static str)> {
+pub fn other_delimiter(header: &[String]) -> Option<&'static str> {
     let [only] = header else { return None };
-    [(';', "';'"), ('\t', "tab")].into_iter().find(|(character, _)| only.contains(*character))
+    let others = [(';', "';'"), ('\t', "tab"), ('|', "'|'"), (' ', "' '")];
+    others.into_iter().find(|(it, _)| only.contains(*it)).map(|(_, name)| name)
+}
+
+/// What to do about such a header, where a reader takes commas alone.
+#[must_use]
+pub fn delimiter_hint(header: &[String]) -> Option<String> {
+    let found = other_delimiter(header)?;
+    Some(format!(
+        "part the fields with commas in place of {found}, and write decimals with a point"
+    ))
 }
 
 #[cfg(test)]
@@ -332,6 +373,9 @@ mod tests {
             ("# of a drive, in sand\n\na\tb\n1\t2\n", b'\t', ["a", "b"]),
             ("# a,b\n1,2\n", b',', ["a", "b"]),
             ("# of a drive\n# a;b\n1,5;2e-3\n", b';', ["a", "b"]),
+            ("a | b\n1 | 2\n", b'|', ["a", "b"]),
+            ("  a   b\r\n  1  2 \r\n", b' ', ["a", "b"]),
+            ("# a b\n1.0 2.0\n", b' ', ["a", "b"]),
             ("\u{feff}a;b", b';', ["a", "b"]),
         ] {
             for slow in [false, true] {

@@ -16,6 +16,7 @@ mod frozen;
 mod odometry;
 mod reader;
 mod rows;
+mod sides;
 mod units;
 
 use std::collections::BTreeMap;
@@ -28,6 +29,7 @@ use super::super::columns::{
     CURRENT, PITCH, Quantity, ROLL, SINKAGE, STEERING, TIME, TORQUE, WHEEL_SPEED, X, Y, YAW,
     quantity,
 };
+use super::super::reading::counted;
 use super::super::unit::{A, DEG, M, NM};
 use super::log_column::{LogColumn, column};
 pub use cell::Cell;
@@ -184,23 +186,28 @@ impl Lost {
             (self.rows_out_of_order, "whose time is not after that of the row before"),
         ];
         let rows = rows.into_iter().filter(|(count, _)| *count > 0);
-        let rows = rows.map(|(count, why)| format!("{count} rows {why} are left out"));
-        let cells = self.cells.iter().map(|(column, count)| {
-            format!(
+        let rows = rows.map(|(count, why)| match count {
+            1 => format!("1 row {why} is left out"),
+            _ => format!("{count} rows {why} are left out"),
+        });
+        let cells = self.cells.iter().map(|(column, count)| match count {
+            1 => format!("1 cell of `{column}` is no number within its range, and counts as a gap"),
+            _ => format!(
                 "{count} cells of `{column}` are no numbers within its range, and count as gaps"
-            )
+            ),
         });
         let frozen = self.frozen.iter().map(|(column, count)| {
+            let cells = counted(*count, "cell", "cells");
             format!(
-                "{count} cells of `{column}` stay exactly the same while others of their kind \
+                "{cells} of `{column}` in a row have exactly one value while others of their kind \
                  change, as those of a frozen channel, and count as gaps"
             )
         });
         let torques = (self.rows_without_torque > 0).then(|| {
+            let rows = counted(self.rows_without_torque, "row has", "rows have");
             format!(
-                "{} rows have torques, or currents, of exactly 0 on all wheels while they turn, \
-                 which no sensor measures, and which count as gaps",
-                self.rows_without_torque
+                "{rows} torques, or currents, of exactly 0 on all wheels while they turn, which no \
+                 sensor measures, and which count as gaps"
             )
         });
         rows.chain(cells).chain(frozen).chain(torques).collect()
@@ -404,6 +411,62 @@ mod tests {
         assert_eq!(lost.sentences().len(), 2, "{:?}", lost.sentences());
         let rounded = rows(&|row| format!("3.25,{},0.5,0.5,0.1,0.1", changing(row).round()));
         assert!(all(rounded.as_bytes()).unwrap().1.is_nothing());
+    }
+
+    /// Times that fall from row to row are those of a file sorted newest first; equal ones are
+    /// rounded, and their rows count.
+    #[test]
+    fn times_that_fall_or_are_rounded_are_named_so() {
+        let sentence = |times: &mut dyn Iterator<Item = f64>| {
+            let rows: String =
+                times.enumerate().map(|(row, it)| format!("{it},0.{row}\n")).collect();
+            let text = format!("time_s,vo_dx_m\n{rows}");
+            let mut reader = TelemetryReader::new("log.csv", text.as_bytes(), &rover()).unwrap();
+            while reader.next_record().unwrap().is_some() {}
+            (reader.rows().sentence_of_times(), reader.rows().share_used())
+        };
+        let (falls, used) = sentence(&mut (0..9).rev().map(f64::from));
+        assert!(falls.unwrap().contains("newest first") && used < 0.2);
+        let (rounded, used) = sentence(&mut (0..9).map(|it| f64::from(it / 3) / 5.0));
+        let rounded = rounded.unwrap();
+        assert!(rounded.contains("6 of 9 rows") && rounded.contains("to 0.2 s"), "{rounded}");
+        assert!((used - 1.0).abs() < 1e-12);
+        let (own, _) = sentence(&mut (0..9).map(f64::from));
+        assert_eq!(own, None);
+    }
+
+    /// Motors of one side that are mounted the other way round, and a turn on the spot.
+    #[test]
+    fn mirrored_sides_are_named() {
+        let sentence = |rotation: f64| {
+            let row = |time: u32| format!("{time},0.1,{rotation},0.9,-1,1,-0.9\n");
+            let names = ["front-left", "front-right", "rear-left", "rear-right"];
+            let names = names.map(|it| format!("wheel_speed_rad_s_{it}")).join(",");
+            let rows: String = (0..30).map(row).collect();
+            let text = format!("time_s,vo_dx_m,vo_dyaw_deg,{names}\n{rows}");
+            let mut reader = TelemetryReader::new("log.csv", text.as_bytes(), &rover()).unwrap();
+            while reader.next_record().unwrap().is_some() {}
+            reader.rows().sentence_of_sides()
+        };
+        let found = sentence(0.1).unwrap();
+        assert!(
+            found.starts_with("all wheels of the right side turn backward in 30 of"),
+            "{found}"
+        );
+        assert_eq!(sentence(10.0), None);
+    }
+
+    /// A day first, or a time of day alone, is no time that is guessed at.
+    #[test]
+    fn dates_of_other_clocks_are_refused() {
+        for date in ["29/11/2026 10:00:00", "10:00:00.5", "2026-11-29"] {
+            let error = all(format!("time_s,roll_deg\n{date},1\n").as_bytes()).unwrap_err();
+            let error = error.to_string();
+            assert!(error.contains(date) && error.contains("hint: ISO 8601"), "{error}");
+        }
+        // After the first it is damage.
+        let (found, lost) = all(b"time_s,roll_deg\n1,1\n29/11/2026,1\n").unwrap();
+        assert_eq!((found.len(), lost.rows_without_time), (1, 1));
     }
 
     #[test]

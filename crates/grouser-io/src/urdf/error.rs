@@ -93,12 +93,14 @@ pub enum UrdfError {
         most: usize,
     },
     /// A pattern that no link has.
-    #[error("no link is called {pattern}\nhint: the links are {links}")]
+    #[error("no link is called {pattern}{}\nhint: the links are {links}", of_joints(joints))]
     NoSuchWheel {
         /// The pattern, as it was given.
         pattern: String,
         /// The links there are.
         links: String,
+        /// Joints that are called so, each with the link that it leads to.
+        joints: Vec<[String; 2]>,
     },
     /// A wheel without radius and width.
     #[error(
@@ -147,6 +149,37 @@ pub enum UrdfError {
          no body between them\nhint: a differential's <mimic> has the other sign"
     )]
     TurnTogether(String, String),
+    /// Rockers that turn against each other, and one farther than the other.
+    #[error(
+        "joint {right} turns {ratio:.3} times as far as joint {left}, and against it, by their \
+         <mimic>: a differential turns both equally far\nhint: a differential's <mimic> has the \
+         multiplier -1"
+    )]
+    TurnUnequally {
+        /// The joint of the left side.
+        left: String,
+        /// The joint of the right side.
+        right: String,
+        /// How far the right one turns for a turn of the left one [-].
+        ratio: f64,
+    },
+    /// Lengths in another unit than masses.
+    #[error(
+        "wheel {link} has a radius of {radius} m, a width of {width} m and a mass of {mass} kg, and \
+         so is lighter than air: its lengths look like millimetres\nhint: URDF has metres: divide \
+         all xyz, radius, length and size by 1000 and moments of inertia by 10⁶, or give a mesh in \
+         millimetres its scale=\"0.001 0.001 0.001\""
+    )]
+    Millimetres {
+        /// Its link.
+        link: String,
+        /// [m]
+        radius: f64,
+        /// [m]
+        width: f64,
+        /// [kg]
+        mass: f64,
+    },
     /// Sides that differ.
     #[error(
         "{0} are not alike on both sides: joints {1} and {2} turn about axes at different places"
@@ -163,6 +196,15 @@ pub enum UrdfError {
         "all links are wheels, or none of the others has a mass\nhint: give the body's link an <inertial>"
     )]
     NoBody,
+}
+
+/// Joints that are called as a link was thought to be.
+fn of_joints(joints: &[[String; 2]]) -> String {
+    let Some([joint, link]) = joints.first() else { return String::new() };
+    let more = if joints.len() > 1 { ", and so are others" } else { "" };
+    format!(
+        ": joint {joint}, which leads to link {link}, is called so{more}, and links are named here"
+    )
 }
 
 /// What helps where wheels roll along x.

@@ -35,6 +35,7 @@ impl Wheel {
         meshes: &Meshes<'_>,
         notes: &mut Vec<String>,
     ) -> Result<Vec<Self>, UrdfError> {
+        check_named(robot, &options.passive)?;
         let links = if options.wheels.is_empty() {
             guessed(robot, options, meshes, notes)?
         } else {
@@ -178,7 +179,7 @@ fn guessed(
     let others: Vec<&str> =
         found.iter().map(|it| name(it.link)).filter(|it| !names.contains(it)).collect();
     if !others.is_empty() {
-        notes.push(format!("no wheels: {}, which roll as well", others.join(", ")));
+        notes.push(format!("not taken as wheels, though they roll: {}", others.join(", ")));
     }
     Ok(in_pairs.iter().map(|it| it.link).collect())
 }
@@ -243,13 +244,20 @@ fn rolls(robot: &Robot, link: usize) -> bool {
     }
 }
 
+/// Checks that each pattern is that of a link.
+fn check_named(robot: &Robot, patterns: &[String]) -> Result<(), UrdfError> {
+    let is_of_none = |it: &&String| !robot.links.iter().any(|link| fits(it, &link.name));
+    let Some(pattern) = patterns.iter().find(is_of_none) else { return Ok(()) };
+    let joints = robot.links.iter().filter_map(|link| {
+        let joint = &link.joint.as_ref()?.name;
+        fits(pattern, joint).then(|| [joint.clone(), link.name.clone()])
+    });
+    let (joints, links) = (joints.collect(), link_names(robot));
+    Err(UrdfError::NoSuchWheel { pattern: pattern.clone(), links, joints })
+}
+
 fn named(robot: &Robot, patterns: &[String]) -> Result<Vec<usize>, UrdfError> {
-    for pattern in patterns {
-        if !robot.links.iter().any(|link| fits(pattern, &link.name)) {
-            let links = link_names(robot);
-            return Err(UrdfError::NoSuchWheel { pattern: pattern.clone(), links });
-        }
-    }
+    check_named(robot, patterns)?;
     let is_meant = |link: &usize| patterns.iter().any(|it| fits(it, &robot.links[*link].name));
     Ok((0..robot.links.len()).filter(is_meant).collect())
 }

@@ -1,6 +1,6 @@
 //! A rover's document of links that are known as wheels and body.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write as _;
 
 use nalgebra::{Matrix3, Vector3};
@@ -230,6 +230,12 @@ fn mount(
     if together.mass <= 0.0 {
         let what = format!("link {name}, a wheel,");
         return Err(UrdfError::Lacks { what, lacks: "mass: give it an <inertial>" });
+    }
+    /// Of air on Earth [kg/m³]: every wheel is heavier.
+    const AIR: f64 = 1.2;
+    let (radius, width, mass) = (wheel.radius, wheel.width, together.mass);
+    if mass < AIR * PI * radius * radius * width {
+        return Err(UrdfError::Millimetres { link: name.clone(), radius, width, mass });
     }
     let steering = wheel.steered.map(|link| {
         let limits = robot.links[link].joint.as_ref().and_then(|joint| joint.limits);

@@ -65,9 +65,14 @@ fn check_differential(
     rockers: [usize; 2],
     is_stated: bool,
 ) -> Result<(), UrdfError> {
+    /// How far a ratio is from that of equal turns, where rounding made it [-]. Source: ours.
+    const EQUAL: f64 = 0.01;
     let [left, right] = rockers.map(|link| joint_name(robot, link));
     match ratio(robot, rockers) {
         Some(ratio) if ratio > 0.0 => Err(UrdfError::TurnTogether(left, right)),
+        Some(ratio) if (ratio + 1.0).abs() > EQUAL => {
+            Err(UrdfError::TurnUnequally { left, right, ratio: -ratio })
+        }
         None if !is_stated => Err(UrdfError::Differential(left)),
         _ => Ok(()),
     }

@@ -374,7 +374,10 @@ fn wheels_reach_the_ground_and_come_in_pairs() {
     let names: Vec<&str> = rover.wheels.iter().map(|it| &*it.link).collect();
     assert_eq!(names, ["fl", "fr", "rl", "rr"]);
     assert!(
-        rover.notes.iter().any(|it| it == "no wheels: drum_front, drum_back, which roll as well")
+        rover
+            .notes
+            .iter()
+            .any(|it| it == "not taken as wheels, though they roll: drum_front, drum_back")
     );
     let arms: String = [("reel_left", 0.3), ("reel_right", -0.3)]
         .iter()
@@ -474,6 +477,9 @@ fn a_mimic_between_rockers_is_a_differential() {
             "{refused}"
         );
     }
+    let half = rockers(" multiplier=\"-0.5\"", "0 1 0");
+    let refused = import(&half, &UrdfOptions::default()).expect_err("unequal").to_string();
+    assert!(refused.contains("right_rocker_joint turns 0.500 times as far"), "{refused}");
     let rigid = UrdfOptions { is_rigid: true, ..UrdfOptions::default() };
     let rover = read(&rockers("", "0 1 0"), &rigid).expect("rigid").value;
     assert!(rover.suspension().is_none() && rover.mounts().len() == 4);
@@ -502,6 +508,10 @@ fn springs_and_placeholders_are_said() {
             && doubts[1].contains("fl and 3 others"),
         "{notes:?}"
     );
+    let points = cart(CYLINDER, "")
+        .replace("ixx=\"0.1\" iyy=\"0.2\" izz=\"0.3\"", "ixx=\"1e-9\" iyy=\"1e-9\" izz=\"1e-9\"");
+    let notes = found(&points, &UrdfOptions::default()).notes;
+    assert_eq!(notes.iter().filter(|it| it.contains("far smaller than")).count(), 2, "{notes:?}");
     let light = cart(CYLINDER, "").replace(
         "ixx=\"0.1\" iyy=\"0.2\" izz=\"0.3\"",
         "ixx=\"0.002\" iyy=\"0.003\" izz=\"0.002\"",
@@ -509,6 +519,22 @@ fn springs_and_placeholders_are_said() {
     assert!(
         !found(&light, &UrdfOptions::default()).notes.iter().any(|it| it.contains("placeholder"))
     );
+}
+
+/// Names of joints are no names of links, and lengths in millimetres are none in metres.
+#[test]
+fn other_names_and_units_are_named() {
+    let passive = UrdfOptions { passive: vec!["caster".to_owned()], ..UrdfOptions::default() };
+    let joints = UrdfOptions { wheels: vec!["*_joint".to_owned()], ..UrdfOptions::default() };
+    let large = CYLINDER.replace("0.1\"", "100\"").replace("0.08", "80");
+    for (text, options, expected) in [
+        (cart(CYLINDER, ""), passive, "no link is called caster\nhint: the links are body, fl"),
+        (cart(CYLINDER, ""), joints, "joint fl_joint, which leads to link fl, is called so"),
+        (cart(&large, ""), UrdfOptions::default(), "look like millimetres"),
+    ] {
+        let refused = import(&text, &options).expect_err(expected).to_string();
+        assert!(refused.contains(expected), "{refused}");
+    }
 }
 
 /// Masses without an inertia are uniform bodies, and rigid rovers stand on one plane.

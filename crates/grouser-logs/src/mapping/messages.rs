@@ -287,7 +287,8 @@ impl MessageRows {
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         let columns = self.plan.columns.len() - 1;
-        let mut notes = vec![format!("the mapping '{}' looks for {columns} columns", self.mapping)];
+        let mut notes =
+            vec![format!("the mapping '{}' has {columns} columns of telemetry", self.mapping)];
         let Counts { without_stamp, with_stamp, outside, damaged, .. } = self.counts;
         if without_stamp > 0 && with_stamp > 0 {
             notes.push(format!(

@@ -240,8 +240,13 @@ impl LogPart {
             Source::Mcap(log) => log.notes(),
         };
         let table = self.table();
-        let of_table =
-            [table.sentence_of_odometry(), table.sentence_of_time(), table.sentence_of_unused()];
+        let of_table = [
+            table.sentence_of_odometry(),
+            table.sentence_of_time(),
+            table.sentence_of_times(),
+            table.sentence_of_sides(),
+            table.sentence_of_unused(),
+        ];
         of_kind.into_iter().chain(of_table.into_iter().flatten()).collect()
     }
 

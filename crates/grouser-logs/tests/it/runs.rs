@@ -61,7 +61,11 @@ fn a_log_of_our_own_is_telemetry() {
     log.append(&run.records).unwrap();
     let bytes = log.finish().unwrap();
     let (records, notes) = read(&bytes, None).unwrap();
-    assert_eq!(notes, ["the mapping 'logs of Grouser' looks for 25 columns"], "none is lost");
+    assert_eq!(
+        notes,
+        ["the mapping 'logs of Grouser' has 25 columns of telemetry"],
+        "none is lost"
+    );
     let truth = truth(&run, &scenario);
     assert_eq!(records.len(), truth.len());
     for ((found, expected), record) in records.iter().zip(&truth).zip(&run.records) {

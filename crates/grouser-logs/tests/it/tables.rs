@@ -123,7 +123,7 @@ fn what_is_damaged_of_a_mapped_table_is_counted() {
     let reading = "[[reading]]\ntopic = \"/\"\nfield = \"angle\"\ncolumn = \"pitch_deg\"\n";
     let (records, notes) = read(table.as_bytes(), Some(&mapping(reading))).unwrap();
     assert_eq!(records.iter().map(|it| it.time).collect::<Vec<_>>(), [1.0, 3.0]);
-    for part in ["1 rows without a time", "1 rows with another number of cells"] {
+    for part in ["1 row without a time", "1 row with another number of cells"] {
         assert!(notes.iter().any(|it| it.contains(part)), "{part}: {notes:?}");
     }
 }

@@ -112,7 +112,7 @@ def import_telemetry(
     ...     _ = file.write("time_s,roll_deg\\n0.0,1.5\\n0.5,oops\\n1.0,1.6\\n")
     >>> found = gr.import_telemetry(log, out)
     >>> found.records, found.notes
-    (3, ('1 cells of `roll_deg` are no numbers within its range, and count as gaps',))
+    (3, ('1 cell of `roll_deg` is no number within its range, and counts as a gap',))
     >>> found.files[0]["there"], found.files[0]["used"]
     (3, 3)
     >>> folder.cleanup()

@@ -175,7 +175,7 @@ fn span(places: impl Iterator<Item = Vec2>) -> Option<[Vec2; 2]> {
     })
 }
 
-fn lie_apart([low, high]: [Vec2; 2], ground: &Extent) -> bool {
+pub(super) fn lie_apart([low, high]: [Vec2; 2], ground: &Extent) -> bool {
     low.x > ground.north_east.x
         || low.y > ground.north_east.y
         || high.x < ground.south_west.x

@@ -2,8 +2,9 @@
 
 use grouser_core::terrain::Extent;
 
+use super::map::lie_apart;
 use crate::CoordinateSystem;
-use crate::degrees::are_degrees;
+use crate::degrees::{are_degrees, may_be_degrees};
 use crate::error::Fault;
 use crate::remark::Remark;
 
@@ -15,11 +16,30 @@ use crate::remark::Remark;
 /// # Errors
 /// [`Fault`] for a system of degrees, and for numbers that look like degrees in a file without one.
 pub fn check_places(system: Option<&str>, places: &Extent) -> Result<(), Fault> {
+    /// Codes of the EPSG register among which those of degrees are, and few of metres.
+    const GEOGRAPHIC: std::ops::Range<u32> = 4000..5000;
+    let is_geographic = |name| epsg(name).is_some_and(|code| GEOGRAPHIC.contains(&code));
     match system {
-        Some(name) if is_in_degrees(name) => Err(Fault::SystemInDegrees { name: shown(name) }),
+        Some(name) if is_in_degrees(name) || (is_geographic(name) && may_be_degrees(places)) => {
+            Err(Fault::SystemInDegrees { name: shown(name) })
+        }
         None if are_degrees(places) => Err(Fault::ZonesInDegrees),
         _ => Ok(()),
     }
+}
+
+/// Checks that places which all lie off the ground are not degrees: those of ground that lies where
+/// no degrees are.
+///
+/// # Errors
+/// [`Fault::ZonesInDegrees`] if they are.
+pub fn check_places_on(ground: &Extent, places: &Extent) -> Result<(), Fault> {
+    let is_apart = lie_apart([places.south_west, places.north_east], ground);
+    let is_elsewhere = is_apart && may_be_degrees(places) && !may_be_degrees(ground);
+    if is_elsewhere || (is_apart && are_degrees(places)) {
+        return Err(Fault::ZonesInDegrees);
+    }
+    Ok(())
 }
 
 /// Compares the system that a file of GeoJSON names with that of the map that it is for; a remark

@@ -85,9 +85,9 @@ fn what_is_no_map_in_metres_is_refused_with_the_command_that_helps() {
     for (name, words) in [
         ("degrees-earth.tif", &["degrees", "gdalwarp -t_srs \"EPSG:32632\" -tr 30.9 30.9"][..]),
         ("degrees-moon.tif", &["+proj=stere +lat_0=-89.4", "+R=1737400 ", "-tr 29.6 29.6"]),
-        ("rotated.tif", &["rotated", "gdalwarp -r cubic IN.tif OUT.tif"]),
+        ("rotated.tif", &["rotated", "gdalwarp -r cubic ", "rotated.tif OUT.tif"]),
         ("feet.tif", &["coordinates are in US survey feet", "gdalwarp", "+units=m"]),
-        ("heights-in-feet.tif", &["heights are in ft", "gdal_calc.py"]),
+        ("heights-in-feet.tif", &["heights are in ft", "gdal_calc.py", "\"A*0.3048\""]),
         ("three-bands.tif", &["3 bands", "gdal_translate -b 1"]),
         ("complex.tif", &["complex numbers", "-ot Float32"]),
         ("big-endian-lerc-i16.tif", &["LERC in a big-endian file", "gdal_translate"]),

@@ -266,3 +266,27 @@ fn hostile_geojson_is_refused() {
     // Names steer no terminal and fill no screen.
     refused(&format!(r#"{{"type":"\u001b[31m{}"}}"#, "x".repeat(9999)), "is of type [31mxxx");
 }
+
+/// Degrees are known by ground that lies elsewhere, by how near places are to each other, and by the
+/// code of a system; metres of a small map are none.
+#[test]
+fn degrees_are_known_by_places_and_by_systems() {
+    let extent = |[x, y]: [f64; 2], size: f64| Extent {
+        south_west: Vec2::new(x, y),
+        north_east: Vec2::new(x + size, y + size),
+    };
+    let ground = extent([500_000.0, 5_400_000.0], 100.0);
+    let legs = extent([8.4, 49.0], 2.0);
+    assert!(grouser_raster::check_places_on(&ground, &legs).is_err());
+    assert!(grouser_raster::check_places_on(&ground, &ground).is_ok());
+    assert!(grouser_raster::check_places_on(&extent([0.0, 0.0], 50.0), &legs).is_ok());
+    for (system, places, is_metres) in [
+        (None, extent([0.00001, 0.00002], 0.00002), false),
+        (None, extent([0.0, 0.0], 0.5), true),
+        (Some("urn:ogc:def:crs:EPSG::4258"), legs, false),
+        (Some("urn:ogc:def:crs:EPSG::32632"), legs, true),
+    ] {
+        let found = grouser_raster::check_places(system, &places);
+        assert_eq!(found.is_ok(), is_metres, "{system:?} {places:?}");
+    }
+}

@@ -15,9 +15,10 @@ use crate::document::columns::replay::{
 use crate::document::columns::{ENERGY, SLOPE, TIME};
 use crate::document::figure::{BAND_COLOUR, Chart, Series, Style, axis};
 use crate::document::given_file::GivenFile;
-use crate::document::reading::{capitalised, four_digits, sentence};
+use crate::document::reading::{capitalised, counted, four_digits, sentence};
 use crate::document::table::Table;
 use crate::studies::ensemble::samples::BandInputs;
+use crate::studies::learn::{GrossFault, Suspect};
 use crate::studies::replay::{Channel, Prediction, Replay};
 use crate::vehicle::Rover;
 
@@ -201,9 +202,16 @@ impl Found<'_> {
         let work = self.replay.energy.map(|work| {
             let [measured, predicted] = work.map(|it| four_digits(ENERGY.unit.from_si(it)));
             let unit = ENERGY.unit.symbol;
-            format!("work of the wheels: measured {measured} {unit}, predicted {predicted} {unit}")
+            let is_of_work =
+                |it: &GrossFault| matches!(it.suspect, Suspect::Torque | Suspect::Speed);
+            let has_fault = self.replay.gross_faults.iter().any(is_of_work);
+            let fault = if has_fault { ", with the fault that is found," } else { "," };
+            format!(
+                "work of the wheels: measured {measured} {unit}{fault} predicted {predicted} {unit}"
+            )
         });
-        let compared = format!("replayed {stretches} stretches of {records} records");
+        let stretches = counted(stretches as u64, "stretch", "stretches");
+        let compared = format!("replayed {stretches} of {}", counted(records, "record", "records"));
         [compared].into_iter().chain(work).collect()
     }
 

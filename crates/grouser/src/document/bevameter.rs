@@ -5,8 +5,8 @@ use std::io::Read;
 
 use super::escape;
 use super::given_file::{FileContent, GivenFile};
-use super::measurements::bevameter_columns::REPEAT;
-use super::measurements::table::{Table, other_delimiter};
+use super::measurements::bevameter_columns::{PLATE_DIAMETER, REPEAT};
+use super::measurements::table::{Table, delimiter_hint};
 use super::measurements::{Column, Limits, MeasurementError, MeasurementProblem as Problem};
 use super::unit::MM;
 
@@ -17,6 +17,9 @@ pub(super) struct Rows<'a, R> {
     header: Vec<String>,
     columns: &'static [Column],
     record: csv::StringRecord,
+    /// The lowest stress below zero, with its line, and the highest above it [Pa].
+    lowest: (f64, u64),
+    highest: f64,
 }
 
 impl<'a, R: Read> Rows<'a, R> {
@@ -35,7 +38,8 @@ impl<'a, R: Read> Rows<'a, R> {
         if header.iter().all(String::is_empty) {
             return Err(MeasurementError::whole(label, Problem::NoHeader));
         }
-        let rows = Self { label, table, header, columns, record: csv::StringRecord::new() };
+        let record = csv::StringRecord::new();
+        let rows = Self { label, table, header, columns, record, lowest: (0.0, 0), highest: 0.0 };
         let known = columns.iter().map(|column| column.name);
         let mut twice = known.filter(|name| rows.places(name).count() > 1);
         if let Some(name) = twice.next() {
@@ -57,12 +61,15 @@ impl<'a, R: Read> Rows<'a, R> {
             (None, _) => {
                 let names: Vec<String> = group.iter().map(|name| format!("`{name}`")).collect();
                 let problem = Problem::MissingColumn { what, expected: names.join(" or ") };
-                let hint = match other_delimiter(&self.header) {
-                    Some(_) => {
-                        "part the fields with commas, and write decimals with a point".into()
-                    }
-                    None => format!("the columns are {}", self.header.join(", ")),
+                let of_round = if group.contains(&PLATE_DIAMETER) {
+                    "; `plate_width_mm` is the smaller side of a rectangular plate, a round one has \
+                     its diameter or its radius"
+                } else {
+                    ""
                 };
+                let hint = delimiter_hint(&self.header).unwrap_or_else(|| {
+                    format!("the file's columns are {}{of_round}", self.header.join(", "))
+                });
                 Err(self.of_header(problem).with_hint(hint))
             }
         }
@@ -90,9 +97,36 @@ impl<'a, R: Read> Rows<'a, R> {
         Ok(there_is_one)
     }
 
+    fn line(&self) -> u64 {
+        self.record.position().map_or(0, csv::Position::line)
+    }
+
     fn of_row(&self, problem: Problem) -> MeasurementError {
-        let line = self.record.position().map_or(0, csv::Position::line);
-        MeasurementError::at(self.label, line, problem)
+        MeasurementError::at(self.label, self.line(), problem)
+    }
+
+    /// Looks at a stress of the row that counts [Pa].
+    pub(super) fn see_stress(&mut self, stress: f64) {
+        self.highest = self.highest.max(stress);
+        if stress < self.lowest.0 {
+            self.lowest = (stress, self.line());
+        }
+    }
+
+    /// Checks that no stress was farther below zero than noise about it is.
+    pub(super) fn check_signs(&self, column: &str) -> Result<(), MeasurementError> {
+        /// Noise over the highest stress [-]. Source: ours; offsets of load cells are a few per cent.
+        const NOISE: f64 = 0.1;
+        let (lowest, line) = self.lowest;
+        let least = 0.0 - NOISE * self.highest;
+        let known = self.columns.iter().find(|it| it.name == column);
+        let Some(known) = known.filter(|_| lowest < least) else { return Ok(()) };
+        let [value, least] = [lowest, least].map(|it| known.unit.from_si(it));
+        let most = *known.range.end();
+        let problem = Problem::OutOfRange { column: column.to_owned(), value, least, most };
+        let hint = "soil resists with stresses above zero, and noise is a tenth of the highest at \
+                    most: is the sign another, or is this the way back?";
+        Err(MeasurementError::at(self.label, line, problem).with_hint(hint.to_owned()))
     }
 
     /// What stands in a column of the row; nothing where the column is not there.

@@ -5,8 +5,9 @@
 //! `pressure_kpa`; where they are known, `pressure_std_kpa`, and `repeat`, which tells curves of
 //! one plate apart. Other columns are not used.
 //!
-//! Noise about zero is data: pressures below zero are kept. Rows with a sinkage below zero, before
-//! the plate met the soil, have no place in a law of sinkage and are left out.
+//! Noise about zero is data: pressures below zero are kept, and refused where they are no noise.
+//! Rows with a sinkage below zero, before the plate met the soil, have no place in a law of sinkage
+//! and are left out.
 
 use std::io::Read;
 use std::path::Path;
@@ -74,6 +75,7 @@ pub fn read_from(
             before_contact += 1;
             continue;
         }
+        rows.see_stress(pressure);
         let repeat = rows.repeat();
         let mut known = curves.iter_mut().zip(&repeats);
         let same = known.find(|(curve, of)| curve.width == width && *of == repeat);
@@ -87,6 +89,7 @@ pub fn read_from(
     if curves.is_empty() {
         return Err(rows.no_rows());
     }
+    rows.check_signs(PRESSURE)?;
     let mut notes = rows.unused_notes();
     notes.extend(left_out_note(before_contact, "their sinkage is below zero, before contact"));
     notes.extend(doubts(&curves));
@@ -166,6 +169,10 @@ mod tests {
             (format!("{HEADER}\n0.05,1,2\n"), ["plates.csv:2: ", "in millimetres"]),
             (format!("{HEADER}\n50,1,\n"), ["plates.csv:2: ", "must be a number"]),
             (format!("{HEADER}\n50,1,nan\n"), ["plates.csv:2: ", "`pressure_kpa`"]),
+            (format!("{HEADER}\n50,1,-2\n50,2,-4\n"), ["plates.csv:3: ", "sign another"]),
+            (format!("{HEADER}\n50,1,20\n50,2,-4\n"), ["csv:3: `pressure_kpa` is -4", "-2 to"]),
+            (HEADER.replace("width", "size"), ["plate_size_mm, sink", "a round one has its dia"]),
+            (HEADER.replace(',', "|"), ["plates.csv:1: ", "in place of '|'"]),
             (format!("{HEADER},sinkage_mm\n50,1,2,3\n"), ["plates.csv:1: ", "twice"]),
         ] {
             let message = refusal(&text);

@@ -74,6 +74,7 @@ pub fn read_from(
             before_contact += 1;
             continue;
         }
+        rows.see_stress(value);
         let repeat = rows.repeat();
         let is_same = |test: &&mut Growing| {
             let first = test.first_normal_stress;
@@ -95,6 +96,7 @@ pub fn read_from(
     if tests.is_empty() {
         return Err(rows.no_rows());
     }
+    rows.check_signs(SHEAR_STRESS)?;
     let curve = |test: Growing| ShearCurve {
         normal_stress: test.normal_stresses / test.points.len() as f64,
         points: test.points,

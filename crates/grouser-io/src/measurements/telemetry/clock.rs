@@ -91,9 +91,44 @@ pub(super) fn seconds_of_date(text: &str) -> Option<f64> {
     Some(date.timestamp() as f64 + f64::from(date.timestamp_subsec_nanos()) / 1e9)
 }
 
+/// Whether a text is a date or a time of day, as clocks show them, and none that is read: which of
+/// its numbers is the day cannot be known.
+pub(super) fn is_other_date(text: &str) -> bool {
+    let has_parts = |text: &str, mark: char, least: usize| {
+        let parts = || text.split(mark);
+        let is_number = |it: &str| !it.is_empty() && it.bytes().all(|byte| byte.is_ascii_digit());
+        parts().count() >= least && parts().take(least).all(is_number)
+    };
+    let day = text.split([' ', 'T', ',']).next().unwrap_or_default();
+    // Months may have names, but for points: those stand in numbers, too.
+    let has_two = |mark: char| mark != '.' && day.matches(mark).count() == 2;
+    let is_day = |mark: char| has_parts(day, mark, 3) || has_two(mark);
+    let is_clock = |it: &str| has_parts(it, ':', 2);
+    let has_digit = text.bytes().any(|it| it.is_ascii_digit());
+    has_digit && (['/', '-', '.'].into_iter().any(is_day) || text.split([' ', 'T']).any(is_clock))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn dates_of_other_clocks_are_known_as_such() {
+        for text in [
+            "29/11/2026 10:00:00",
+            "29.11.2026",
+            "11-29-2026T10:00",
+            "29-Nov-2026 10:00:00",
+            "2026/11/29 10:00:00.5",
+            "10:23:45.125",
+            "Nov 29 10:23:45",
+        ] {
+            assert!(is_other_date(text) && seconds_of_date(text).is_none(), "{text}");
+        }
+        for text in ["", "soon", "x1", "1,5", "12.5.", "a:b", "--", "1e5x"] {
+            assert!(!is_other_date(text), "{text}");
+        }
+    }
 
     #[test]
     fn dates_are_seconds_since_1970() {

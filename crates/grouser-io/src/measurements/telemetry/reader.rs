@@ -6,12 +6,14 @@ use std::io::Read;
 use csv::StringRecord;
 use grouser_core::vehicle::Rover;
 
-use super::super::error::{MeasurementError, MeasurementProblem as Problem};
+use super::super::super::escape;
+use super::super::error::{MeasurementError, MeasurementProblem as Problem, QUOTED};
 use super::super::limits::Limits;
 use super::super::row::name_of;
 use super::super::table::{Dialect, LookedAt, Table};
 use super::cell::Cell;
-use super::rows::TelemetryRows;
+use super::clock::is_other_date;
+use super::rows::{TelemetryRows, TimeColumn};
 use super::units::units_of;
 use super::{Odometry, TelemetryRecord};
 
@@ -22,6 +24,8 @@ pub struct CellReader<'a, R> {
     names: Vec<String>,
     /// Units of the columns, of a table that has them below its header.
     units: Option<Vec<String>>,
+    /// The column of the time, until one was read.
+    time: Option<TimeColumn>,
     row: StringRecord,
     /// The first row, until it is asked for.
     first: Option<Result<bool, MeasurementError>>,
@@ -49,12 +53,13 @@ impl<'a, R: Read> CellReader<'a, R> {
     pub fn new(label: impl Into<Cow<'a, str>>, source: R) -> Result<Self, MeasurementError> {
         let limits = Limits { rows: usize::MAX };
         let (mut table, dialect) = Table::of_any_dialect(label, source, limits)?;
-        let names = table.header()?.iter().map(name_of).collect();
+        let names: Vec<String> = table.header()?.iter().map(name_of).collect();
+        let time = TimeColumn::of(&names);
         let mut row = StringRecord::new();
         let mut first = Some(table.next_row(&mut row));
         let units = if matches!(first, Some(Ok(true))) { units_of(&row) } else { None };
         first = first.filter(|_| units.is_none());
-        Ok(Self { table, dialect, names, units, row, first, cells: Vec::new() })
+        Ok(Self { table, dialect, names, units, time, row, first, cells: Vec::new() })
     }
 
     /// The names of the columns.
@@ -93,7 +98,25 @@ impl<'a, R: Read> CellReader<'a, R> {
         };
         self.cells.clear();
         self.cells.extend(self.row.iter().map(cell));
+        self.check_date()?;
         Ok(NextRow::Cells(&self.cells))
+    }
+
+    /// Checks that the first time is none that another clock wrote; later ones are damage.
+    fn check_date(&mut self) -> Result<(), MeasurementError> {
+        let Some(time) = self.time else { return Ok(()) };
+        let text = self.row.get(time.place()).unwrap_or_default();
+        if time.seconds(&self.cells).is_some() {
+            self.time = None;
+        } else if is_other_date(text) {
+            let line = self.row.position().map_or(0, csv::Position::line);
+            let (column, text) =
+                (self.names[time.place()].clone(), escape::short_line(text, QUOTED));
+            let problem = Problem::OtherDate { column, text };
+            let hint = "ISO 8601 is read, 2026-11-29T10:00:00.5Z, and seconds as a number";
+            return Err(self.table.failed(line, problem).with_hint(hint.to_owned()));
+        }
+        Ok(())
     }
 }
 

@@ -11,11 +11,13 @@ use grouser_core::vehicle::Rover;
 use super::super::super::check::nearest;
 use super::super::super::columns::{TIME, X, Y};
 use super::super::super::given_file::{FileContent, GivenFile};
+use super::super::super::reading::four_digits;
 use super::super::error::{MeasurementError, MeasurementProblem as Problem};
 use super::super::log_column::LogColumn;
 use super::cell::Cell;
 use super::clock::{OTHER_TIMES, TimeUnit};
 use super::frozen::Frozen;
+use super::sides::Sides;
 use super::units::{OfUnit, column_in};
 use super::{
     COLUMNS, FORWARD, LEFTWARD, Lost, OF_ROVER, OF_WHEEL, OTHER_NAMES, Odometry, ROTATION,
@@ -35,6 +37,21 @@ pub struct TelemetryRows {
     time_unit: Option<TimeUnit>,
     rows: u64,
     lost: Lost,
+    times: Times,
+    sides: Sides,
+}
+
+/// How times follow each other.
+#[derive(Clone, Copy, Debug, Default)]
+struct Times {
+    /// Of the row before [s].
+    last: Option<f64>,
+    /// Rows with a time before that of the row before them.
+    backward: u64,
+    /// Rows with the time of the row before, whose ways belong to the next record.
+    joined: u64,
+    /// The least that times of records are apart [s].
+    step: Option<f64>,
 }
 
 /// How far a rover moved over some rows.
@@ -96,7 +113,8 @@ impl TelemetryRows {
         let odometry = Odometry::Visual;
         let columns = header.columns.iter().map(|it| it.as_ref().map(|it| it.column));
         let frozen = Frozen::of(columns);
-        Ok(Self { header, odometry, frozen, last: None, carried, time_unit, rows: 0, lost })
+        let (last, times, sides) = (None, Times::default(), Sides::of(rover));
+        Ok(Self { header, odometry, frozen, last, carried, time_unit, rows: 0, lost, times, sides })
     }
 
     /// The same, gone on with after the record of a time: rows that do not come after it are out of
@@ -156,6 +174,35 @@ impl TelemetryRows {
             .then(|| format!("times of `{name}` are read as {}", unit.name()))
     }
 
+    /// A sentence on times that are rounded, or that run backward; nothing where each row has its
+    /// own, after that of the row before.
+    #[must_use]
+    pub fn sentence_of_times(&self) -> Option<String> {
+        let Times { backward, joined, step, .. } = self.times;
+        let name = &self.header.time_name;
+        let (rows, out_of_order) = (self.rows, self.lost.rows_out_of_order);
+        // Rows that leap back once go on forward from there.
+        if backward > 2 && 10 * backward >= 9 * out_of_order {
+            return Some(format!(
+                "times of `{name}` run backward, in {backward} of {rows} rows, as in a file that is \
+                 sorted newest first: sort its rows by `{name}`"
+            ));
+        }
+        let step = step.map_or_else(String::new, |it| format!(" to {} s", four_digits(it)));
+        (joined > 0).then(|| {
+            format!(
+                "{joined} of {rows} rows have the time of the row before, as where times are rounded\
+                 {step}: their ways are added to those of the next record"
+            )
+        })
+    }
+
+    /// A sentence on wheels of one side that turn backward on a way ahead.
+    #[must_use]
+    pub fn sentence_of_sides(&self) -> Option<String> {
+        self.sides.sentence()
+    }
+
     /// How many rows were read so far.
     #[must_use]
     pub fn rows(&self) -> u64 {
@@ -211,6 +258,7 @@ impl TelemetryRows {
         let seen = (&mut self.lost, &mut self.frozen, &mut self.time_unit);
         let (time, mut record) = self.header.record(cells, seen);
         self.lost.rows_without_torque += u64::from(record.leave_out_zero_torques());
+        self.sides.see(&record);
         if self.odometry == Odometry::Wheels {
             record.leave_out_motion();
         }
@@ -221,15 +269,23 @@ impl TelemetryRows {
             return None;
         };
         record.time = time;
+        let is_backward = self.times.last.replace(time).is_some_and(|last| time < last);
+        self.times.backward += u64::from(is_backward);
         if let Some(last) = self.last.as_ref().filter(|last| time <= last.time) {
-            self.lost.rows_out_of_order += 1;
             // A row of the same time as the last belongs to the way after it, where times were
             // rounded; one that comes too late, or twice, belongs nobody knows where.
             let is_next = time == last.time && record != *last;
-            self.carried =
-                if is_next { moved } else { Moved { is_incomplete: true, ..self.carried } };
+            if is_next {
+                self.times.joined += 1;
+                self.carried = moved;
+            } else {
+                self.lost.rows_out_of_order += 1;
+                self.carried.is_incomplete = true;
+            }
             return None;
         }
+        let since = self.last.as_ref().map(|last| time - last.time);
+        self.times.step = [self.times.step, since].into_iter().flatten().reduce(f64::min);
         self.last = Some(record.clone());
         moved.give_to(&mut record);
         // What is incomplete stays so until a way is read.
@@ -426,6 +482,12 @@ impl TimeColumn {
         let (name, unit) = time_of(names);
         let place = names.iter().position(|it| *it == name)?;
         Some(Self { place, unit })
+    }
+
+    /// Its place among all columns.
+    #[must_use]
+    pub(super) fn place(self) -> usize {
+        self.place
     }
 
     /// The time of a row [s]; nothing where there is none.

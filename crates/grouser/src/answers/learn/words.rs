@@ -6,7 +6,7 @@ use super::question::LearntDrive;
 use crate::document::columns::learn::{contradiction_in_words, sentence};
 use crate::document::columns::verdict::in_words;
 use crate::document::columns::{SLIP_RATIO, SLOPE, YAW};
-use crate::document::reading::four_digits;
+use crate::document::reading::{counted, four_digits};
 use crate::document::table::Table;
 use crate::studies::learn::{Learner, Warning};
 
@@ -62,10 +62,10 @@ pub(super) fn lines(found: &LearntDrive) -> Vec<String> {
     let models: Vec<String> =
         models.iter().map(|(name, share)| format!("{name} {:.0} %", 100.0 * share)).collect();
     let whole = format!(
-        "learnt from {} stretches, {} m of the wheels' way, in {} records; models: {}",
-        learnt.stretches,
+        "learnt from {}, {} m of the wheels' way, in {}; models: {}",
+        counted(learnt.stretches, "stretch", "stretches"),
         four_digits(learnt.way),
-        learnt.records,
+        counted(learnt.records, "record", "records"),
         models.join(", ")
     );
     let narrowed: Vec<String> = found

@@ -15,7 +15,7 @@ use crate::document::columns::drives::{
 use crate::document::columns::{MODEL, Quantity, SLOPE, YAW, advice::RIM_SPEED};
 use crate::document::figure::{Chart, Series, Style};
 use crate::document::given_file::GivenFile;
-use crate::document::reading::{capitalised, sentence};
+use crate::document::reading::{capitalised, counted, sentence};
 use crate::document::table::Table;
 use crate::document::validation::ErrorsRecord;
 use crate::soil::SmallWheel;
@@ -131,8 +131,13 @@ impl DriveValidationQuestion {
         let names: Vec<&str> = models.iter().map(Model::name).collect();
         let sentences = vec![self.verdict(&validation, best)];
         let left_out = validation.not_compared.iter();
-        let left_out = left_out
-            .map(|(why, count)| format!("{count} stretches not compared: {}", why.meaning()));
+        let left_out = left_out.map(|(why, count)| {
+            format!(
+                "{} not compared: {}",
+                counted(*count as u64, "stretch", "stretches"),
+                why.meaning()
+            )
+        });
         Ok(JudgedDrives {
             quantities,
             cells: Arc::new(cells(&validation, &names)),

@@ -213,8 +213,8 @@ pub fn fit_notes(fit: &Fit) -> Vec<String> {
     let agreeing = fit.searches.iter().filter(|search| search.agrees).count();
     if fit.searches.len() > 1 && agreeing < 2 {
         notes.push(format!(
-            "of {} searches from different starts none agrees with the best: there may be a \
-             better fit; narrow the bounds, or fit fewer keys",
+            "of {} searches from different starts one alone comes to the best fit: there may be a \
+             better one; narrow the bounds, or fit fewer keys",
             fit.searches.len()
         ));
     }

@@ -1,6 +1,7 @@
 //! A drive that was replayed: every channel over time, how far measured and predicted are apart,
 //! and what that points to.
 
+use super::super::reading::counted;
 use super::super::table::Table;
 use super::super::unit::{DEG, ONE, Unit};
 use super::learn::gross_in_words;
@@ -282,9 +283,11 @@ pub fn sentences(replay: &Replay) -> Vec<String> {
     let gross: Vec<String> = replay.gross_faults.iter().map(gross_in_words).collect();
     let of_differences = differences_in_words(replay);
     let has_gross = !gross.is_empty();
+    // What is left out for its fault leaves causes as uncertain as before: that was said of it.
+    let says_more = |it: &String| it != NOTHING && !it.starts_with(CANNOT_TELL);
     gross
         .into_iter()
-        .chain(of_differences.into_iter().filter(|it| !has_gross || it != NOTHING))
+        .chain(of_differences.into_iter().filter(|it| !has_gross || says_more(it)))
         .collect()
 }
 
@@ -292,9 +295,12 @@ pub fn sentences(replay: &Replay) -> Vec<String> {
 const NOTHING: &str =
     "the differences are within the noise of instruments and model, and point to nothing";
 
+/// How sentences begin on what this drive says nothing of.
+const CANNOT_TELL: &str = "cannot tell";
+
 fn differences_in_words(replay: &Replay) -> Vec<String> {
     if replay.explained_stretches == 0 {
-        return vec!["cannot tell: no stretch could be predicted".to_owned()];
+        return vec![format!("{CANNOT_TELL}: no stretch could be predicted")];
     }
     let is_pointed_to = |it: &Finding| {
         matches!(it.verdict, Attribution::PointsTo | Attribution::Underdetermined(_))
@@ -308,13 +314,13 @@ fn differences_in_words(replay: &Replay) -> Vec<String> {
     const UNCERTAIN: &str = "what was read on this drive leaves them as uncertain as before";
     if hidden.len() == Cause::ALL.len() {
         let why = missing_readings(replay).unwrap_or_else(|| UNCERTAIN.to_owned());
-        return vec![format!("cannot tell: {why}")];
+        return vec![format!("{CANNOT_TELL}: {why}")];
     }
     if sentences.is_empty() {
         sentences.push(NOTHING.to_owned());
     }
     if !hidden.is_empty() {
-        sentences.push(format!("cannot tell of {}: {UNCERTAIN}", hidden.join(", ")));
+        sentences.push(format!("{CANNOT_TELL} of {}: {UNCERTAIN}", hidden.join(", ")));
     }
     sentences
 }
@@ -365,7 +371,8 @@ fn sentence(replay: &Replay, cause: Cause) -> String {
         cause.name(),
         cause.meaning(),
         numbers.join(", "),
-        100.0 * share
+        // Without the sign that rounding leaves of less than nothing.
+        (100.0 * share).round() + 0.0
     )
 }
 
@@ -391,11 +398,16 @@ pub fn notes(replay: &Replay) -> Vec<String> {
         notes.push(format!("the drive is long: one of {every} stretches is compared"));
     }
     for (why, count) in &replay.not_predicted {
-        notes.push(format!("{count} stretches have no prescribed motion: {}", why.meaning()));
+        let stretches = counted(*count, "stretch has", "stretches have");
+        notes.push(format!("{stretches} no prescribed motion: {}", why.meaning()));
     }
     if replay.taken.outliers > 0 {
         let outliers = replay.taken.outliers;
-        notes.push(format!("{outliers} readings far from those around them are left out"));
+        notes.push(counted(
+            outliers,
+            "reading far from those around it is left out",
+            "readings far from those around them are left out",
+        ));
     }
     let starts = replay.free_run.starts.len();
     if starts > 1 {

@@ -70,7 +70,8 @@ pub struct Search {
 }
 
 /// Searches whose cost exceeds the best one's by less than this agree with it: by half a unit,
-/// their parameters are as likely to within a factor of 1.6.
+/// their parameters are as likely to within a factor of 1.6. Where the weights make the errors too
+/// small, as the cost over the half of the number of observations says, by as much more.
 const AS_LOW: f64 = 0.5;
 
 /// Rounds of weights: each δ changes by less than a percent after four.
@@ -161,12 +162,14 @@ impl Calibration<'_> {
     }
 
     fn searches(&self, starts: &[Vec<f64>], minima: &[Minimum], lowest: f64) -> Vec<Search> {
+        let expected = 0.5 * self.experiment.observations().len() as f64;
+        let as_low = AS_LOW * (lowest / expected).max(1.0);
         let each = starts.iter().zip(minima);
         each.map(|(start, minimum)| Search {
             start: self.space.values(start),
             end: self.space.values(&minimum.coordinates),
             cost: minimum.cost,
-            agrees: minimum.cost < lowest + AS_LOW,
+            agrees: minimum.cost < lowest + as_low,
         })
         .collect()
     }
