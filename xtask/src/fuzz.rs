@@ -9,8 +9,10 @@
 //! Case *i* depends on the seed and *i* alone, so that one that fails can be run again by its
 //! number; its folder is kept below `target/fuzz`.
 
+mod damage;
 mod maps;
 mod mutation;
+pub(crate) mod readers;
 mod subjects;
 mod verdict;
 

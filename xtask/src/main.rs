@@ -58,6 +58,8 @@ cargo xtask CHORE
                       was measured as it is
   fuzz [--cases N] [--seed N] [--only N] [--program FILE]
                       damaged and hostile input for every command, under limits of memory and time
+  fuzz readers [--cases N] [--seed N] [--only N]
+                      damaged files for every reader, in one process
   hashes              compare digests of wheels, a traverse and a mission by each instruction set and by C
   instructions [--check]
                       count the instructions of the units of work anew (valgrind), or only compare
@@ -116,6 +118,9 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["figures"] => figures::write(true)?,
         ["figures", "--made"] => figures::write(false)?,
         ["figures", "--check"] => figures::check()?,
+        ["fuzz", "readers", options @ ..] => {
+            good(fuzz::readers::check(fuzz::readers::Plan::parse(options)?)?)
+        }
         ["fuzz", options @ ..] => {
             let count = fuzz::check(&fuzz::Plan::parse(options)?)?;
             println!("{count}");

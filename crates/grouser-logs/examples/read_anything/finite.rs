@@ -1,0 +1,43 @@
+//! Looks for numbers that are not finite.
+
+use std::fmt::Debug;
+
+use crate::readers::Outcome;
+
+/// What was read, if all its numbers are finite; texts in it may say what they like.
+pub(crate) fn finite(read: &impl Debug) -> Outcome {
+    let shown = format!("{read:?}");
+    // The pieces outside of quotation marks, between which a mark after a backslash is a character.
+    let mut is_text = false;
+    for (place, piece) in pieces(&shown) {
+        if !is_text
+            && let Some(word) = piece.split(|c: char| !c.is_alphanumeric()).find(is_not_finite)
+        {
+            let start = shown[..place].char_indices().rev().nth(80).map_or(0, |(at, _)| at);
+            return Outcome::NotFinite(format!("{word} after …{}", &shown[start..place]));
+        }
+        is_text = !is_text;
+    }
+    Outcome::Read
+}
+
+fn is_not_finite(word: &&str) -> bool {
+    matches!(*word, "NaN" | "inf")
+}
+
+/// The pieces of a text between quotation marks, each with where it starts.
+fn pieces(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let mut ends = Vec::new();
+    let mut is_escaped = false;
+    for (place, byte) in text.bytes().enumerate() {
+        match byte {
+            _ if is_escaped => is_escaped = false,
+            b'\\' => is_escaped = true,
+            b'"' => ends.push(place),
+            _ => {}
+        }
+    }
+    let starts = std::iter::once(0).chain(ends.clone().into_iter().map(|end| end + 1));
+    let ends = ends.into_iter().chain([text.len()]);
+    starts.zip(ends).map(|(start, end)| (start, &text[start..end])).collect::<Vec<_>>().into_iter()
+}
