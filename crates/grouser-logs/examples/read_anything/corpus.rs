@@ -23,6 +23,7 @@ pub(crate) const PLACES: &str = case!("places.geojson");
 pub(crate) const LINE: &str = case!("line.geojson");
 pub(crate) const ZONES: &str = case!("zones.geojson");
 pub(crate) const POINTS: &str = case!("points.xyz");
+pub(crate) const POINTS_OF_CLASSES: &str = case!("classes.xyz");
 pub(crate) const WHEEL_TESTS: &str = case!("wheel_tests.csv");
 pub(crate) const SLOPE_TESTS: &str = case!("climbs.csv");
 pub(crate) const PLATE_TESTS: &str = case!("plates.csv");
@@ -67,21 +68,28 @@ pub(crate) fn stl() -> Vec<Vec<u8>> {
     vec![bytes, (text + "endsolid wheel\n").into_bytes()]
 }
 
-/// Heights as NumPy writes them: five rows of four, and the same of eight bytes in the other order.
+/// Heights as NumPy writes them, in bytes of either order.
 pub(crate) fn arrays() -> Vec<Vec<u8>> {
-    let array = |kind: &str, is_fortran: &str, cell: fn(u8) -> Vec<u8>| {
-        let header =
-            format!("{{'descr': '{kind}', 'fortran_order': {is_fortran}, 'shape': (5, 4), }}\n");
-        let mut array = b"\x93NUMPY\x01\0".to_vec();
-        array.extend([u8::try_from(header.len()).unwrap_or_default(), 0]);
-        array.extend(header.into_bytes());
-        array.extend((0..20).flat_map(cell));
-        array
-    };
     vec![
         array("<f4", "False", |cell| (0.05 * f32::from(cell)).to_le_bytes().to_vec()),
         array(">f8", "True", |cell| (0.05 * f64::from(cell)).to_be_bytes().to_vec()),
     ]
+}
+
+/// Class numbers as NumPy writes them.
+pub(crate) fn array_of_classes() -> Vec<u8> {
+    array("|u1", "False", |cell| vec![cell % 3])
+}
+
+/// Five rows of four.
+fn array(kind: &str, is_fortran: &str, cell: fn(u8) -> Vec<u8>) -> Vec<u8> {
+    let header =
+        format!("{{'descr': '{kind}', 'fortran_order': {is_fortran}, 'shape': (5, 4), }}\n");
+    let mut array = b"\x93NUMPY\x01\0".to_vec();
+    array.extend([u8::try_from(header.len()).unwrap_or_default(), 0]);
+    array.extend(header.into_bytes());
+    array.extend((0..20).flat_map(cell));
+    array
 }
 
 const SECOND: u64 = 1_000_000_000;

@@ -10,19 +10,22 @@ pub(crate) fn finite(read: &impl Debug) -> Outcome {
     // The pieces outside of quotation marks, between which a mark after a backslash is a character.
     let mut is_text = false;
     for (place, piece) in pieces(&shown) {
-        if !is_text
-            && let Some(word) = piece.split(|c: char| !c.is_alphanumeric()).find(is_not_finite)
-        {
-            let start = shown[..place].char_indices().rev().nth(80).map_or(0, |(at, _)| at);
-            return Outcome::NotFinite(format!("{word} after …{}", &shown[start..place]));
+        let is_found = |at: &usize| !is_text && is_not_finite(&piece[*at..]);
+        let mut starts = piece.match_indices(['N', 'i']).map(|(at, _)| at);
+        if let Some(at) = starts.find(is_found).map(|at| place + at) {
+            let start = shown[..at].char_indices().rev().nth(80).map_or(0, |(start, _)| start);
+            let around: String = shown[start..].chars().take(120).collect();
+            return Outcome::Wrong(format!("not finite: {around}"));
         }
         is_text = !is_text;
     }
     Outcome::Read
 }
 
-fn is_not_finite(word: &&str) -> bool {
-    matches!(*word, "NaN" | "inf")
+/// Whether a text begins with such a number, and no longer word.
+fn is_not_finite(text: &str) -> bool {
+    let rest = ["NaN", "inf"].into_iter().find_map(|word| text.strip_prefix(word));
+    rest.is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
 }
 
 /// The pieces of a text between quotation marks, each with where it starts.

@@ -91,6 +91,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     fs::create_dir_all(&plan.folder)?;
     panic::set_hook(Box::new(|about| PANIC.set(about.to_string().replace('\n', " "))));
     let readers = readers::all()?;
+    check_whole(&readers)?;
     let (tallies, findings) = run(&plan, &readers)?;
     report::print(&readers, &tallies);
     for Finding { case, reader, fault } in &findings {
@@ -98,6 +99,23 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     }
     println!("{} cases, seed {}: {} with a fault", plan.cases, plan.seed, findings.len());
     Ok(if findings.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+/// Checks that every reader reads some of its files as long as they are whole: behind a refusal
+/// there is nothing to find.
+fn check_whole(readers: &[Reader]) -> Result<(), Box<dyn Error>> {
+    let stage = Stage::new()?;
+    for Reader { name, files, read, .. } in readers {
+        let refusal = |file: &Vec<u8>| match read(file, &stage) {
+            Outcome::Read => None,
+            Outcome::Refused(why) | Outcome::Wrong(why) => Some(why),
+        };
+        let refusals: Option<Vec<String>> = files.iter().map(refusal).collect();
+        if let Some(why) = refusals.as_ref().and_then(|it| it.first()) {
+            return Err(format!("{name}: no file is read, the first since {why}").into());
+        }
+    }
+    Ok(())
 }
 
 /// Runs the cases of a plan on all cores; how each reader fared, and what was found.
@@ -186,7 +204,7 @@ fn try_case(plan: &Plan, readers: &[Reader], stage: &Stage, case: u64) -> Tried 
     let mut is_read = false;
     let fault = match outcome {
         Err(_) => Some(format!("panic: {}", PANIC.take())),
-        Ok(Outcome::NotFinite(what)) => Some(format!("read, and not finite: {what}")),
+        Ok(Outcome::Wrong(what)) => Some(format!("what was read is {what}")),
         Ok(outcome) => {
             is_read = matches!(outcome, Outcome::Read);
             too_much(taken)

@@ -6,6 +6,7 @@ mod rasters;
 mod tables;
 
 use std::error::Error;
+use std::fmt::{Debug, Display};
 use std::fs::OpenOptions;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
@@ -19,10 +20,10 @@ use tempfile::TempDir;
 pub(crate) enum Outcome {
     /// Something was read.
     Read,
-    /// It was refused.
-    Refused,
-    /// Something was read whose numbers are not finite.
-    NotFinite(String),
+    /// It was refused, for this reason.
+    Refused(String),
+    /// Something was read that should not be, such as a number that is not finite.
+    Wrong(String),
 }
 
 /// A reader.
@@ -96,20 +97,21 @@ impl Stage {
 }
 
 /// What was read, if anything; its numbers are not looked at.
-fn any<T, E>(read: &Result<T, E>) -> Outcome {
-    if read.is_ok() { Outcome::Read } else { Outcome::Refused }
+fn any<T, E: Display>(read: &Result<T, E>) -> Outcome {
+    match read {
+        Ok(_) => Outcome::Read,
+        Err(error) => refused(error),
+    }
 }
 
-/// What was read, if anything, and whether its numbers are finite; a refusal has its message made.
-fn finite<T: std::fmt::Debug, E: std::fmt::Display>(read: &Result<T, E>) -> Outcome {
+/// What was read, if anything, and whether its numbers are finite.
+fn finite<T: Debug, E: Display>(read: &Result<T, E>) -> Outcome {
     match read {
         Ok(read) => crate::finite::finite(read),
         Err(error) => refused(error),
     }
 }
 
-/// A refusal whose message can be made.
-fn refused(error: &impl std::fmt::Display) -> Outcome {
-    let _ = std::hint::black_box(error.to_string());
-    Outcome::Refused
+fn refused(error: &impl Display) -> Outcome {
+    Outcome::Refused(error.to_string())
 }

@@ -21,6 +21,8 @@ const MASKED: &str = "mask-beside.tif";
 
 pub(super) fn all() -> Result<Vec<Reader>, Box<dyn Error>> {
     let points = vec![corpus::POINTS.into()];
+    let mut of_zones = vec![fs::read(crate::beside(MAPS).join("classes-palette-u8.tif"))?];
+    of_zones.extend([corpus::array_of_classes(), corpus::POINTS_OF_CLASSES.into()]);
     let mask = fs::read(crate::beside(MAPS).join(format!("{MASKED}.msk")))?;
     Ok(vec![
         Reader::new("GeoTIFF", 20, maps()?, |bytes, _| {
@@ -35,7 +37,7 @@ pub(super) fn all() -> Result<Vec<Reader>, Box<dyn Error>> {
             let read = read(&stage.file("map", bytes), &ReadOptions::default());
             heights(read.map_err(|error| error.fault))
         }),
-        Reader::new("zones, raster", 10, any_format()?, |bytes, stage| {
+        Reader::new("zones, raster", 10, of_zones, |bytes, stage| {
             zones(read_zones(&stage.file("zones", bytes), &placed(), None))
         }),
         Reader::new("zones, GeoJSON", 10, vec![corpus::ZONES.into()], |bytes, stage| {
@@ -102,11 +104,11 @@ fn heights(read: Result<Raster, Fault>) -> Outcome {
     };
     let Raster { grid, base, heights, .. } = &raster;
     assert_eq!(heights.len(), grid.columns * grid.rows, "as many heights as points");
-    if let fault @ Outcome::NotFinite(_) = crate::finite::finite(&(grid, base)) {
+    if let fault @ Outcome::Wrong(_) = crate::finite::finite(&(grid, base)) {
         return fault;
     }
     if heights.iter().any(|height| height.is_infinite()) {
-        return Outcome::NotFinite("a height".to_owned());
+        return Outcome::Wrong("not finite: a height".to_owned());
     }
     super::any(&raster.model())
 }
@@ -117,7 +119,7 @@ fn zones<E: std::fmt::Display>(read: Result<ZoneMap, E>) -> Outcome {
         Ok(map) => map,
         Err(error) => return refused(&error),
     };
-    if let fault @ Outcome::NotFinite(_) = crate::finite::finite(&map.extent()) {
+    if let fault @ Outcome::Wrong(_) = crate::finite::finite(&map.extent()) {
         return fault;
     }
     let legend: Vec<_> = map.keys().iter().map(|key| (key.clone(), None)).collect();

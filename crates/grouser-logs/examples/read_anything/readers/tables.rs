@@ -78,11 +78,12 @@ fn others(bytes: &[u8]) -> Outcome {
 /// A robot, and the rover that its document says it is.
 fn robot(bytes: &[u8], mesh: Option<&[u8]>) -> Outcome {
     let meshes = |_: &str| mesh.map(<[u8]>::to_vec);
-    let found = match import(bytes, &UrdfOptions::default(), &meshes) {
+    let options = UrdfOptions { has_differential: true, ..UrdfOptions::default() };
+    let found = match import(bytes, &options, &meshes) {
         Ok(found) => found,
         Err(error) => return refused(&error),
     };
-    if let fault @ Outcome::NotFinite(_) = crate::finite::finite(&found.wheels) {
+    if let fault @ Outcome::Wrong(_) = crate::finite::finite(&found.wheels) {
         return fault;
     }
     super::any(&read_rover(&Source::text("a robot", found.toml), &Overrides::none()))
