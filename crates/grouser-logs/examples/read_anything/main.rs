@@ -70,6 +70,13 @@ struct Plan {
     cases: u64,
 }
 
+impl Plan {
+    /// Keeps what a case reads.
+    fn keep(&self, case: u64, input: &[u8]) {
+        let _ = fs::write(self.folder.join(format!("case-{case}")), input);
+    }
+}
+
 /// A case that found a fault.
 struct Finding {
     case: u64,
@@ -143,7 +150,7 @@ fn run(plan: &Plan, readers: &[Reader]) -> Result<(Vec<Tally>, Vec<Finding>), Bo
             tallies[tried.reader].add(&tried);
             if let Some(fault) = tried.fault {
                 let reader = readers[tried.reader].name;
-                let _ = fs::write(plan.folder.join(format!("case-{case}")), &tried.input);
+                plan.keep(case, &tried.input);
                 lock().push(Finding { case, reader, fault });
             }
         }
@@ -199,6 +206,10 @@ fn try_case(plan: &Plan, readers: &[Reader], stage: &Stage, case: u64) -> Tried 
     let mut dice = Rng::with_seed(plan.seed ^ case.wrapping_mul(0x9e37_79b9_7f4a_7c15));
     let (place, input) = input(readers, &mut dice);
     let reader = &readers[place];
+    if plan.cases == 1 {
+        // Reading it may end the process.
+        plan.keep(case, &input);
+    }
     let read = || panic::catch_unwind(AssertUnwindSafe(|| (reader.read)(&input, stage)));
     let (outcome, taken) = measured(read);
     let mut is_read = false;
@@ -229,6 +240,8 @@ fn too_much(taken: Taken) -> Option<String> {
 fn input(readers: &[Reader], dice: &mut Rng) -> (usize, Vec<u8>) {
     /// Most cases are no longer than this, so that there can be many [bytes].
     const SHORT: usize = 1 << 13;
+    /// One of so many is long.
+    const LONG: u16 = 1 << 2;
     let shares: u32 = readers.iter().map(|reader| reader.share).sum();
     let mut rest = dice.u32(..shares);
     let is_it = |reader: &Reader| match rest.checked_sub(reader.share) {
@@ -245,14 +258,25 @@ fn input(readers: &[Reader], dice: &mut Rng) -> (usize, Vec<u8>) {
     for _ in 0..=dice.usize(..4) / 2 {
         damage::damage(&mut input, dice);
     }
-    // What was cut in the middle of a character is text no more.
-    if dice.u8(..32) > 0 {
+    if dice.u16(..LONG) == 0 {
+        grow(&mut input, dice);
+    } else {
         input.truncate(short);
     }
     if let Some(mend) = mend.filter(|_| dice.bool()) {
         mend(&mut input);
     }
     (place, input)
+}
+
+/// Repeats some bytes, or some lines, of a content until it is long: what is nested then is nested
+/// deeply, and what costs the square of a length shows.
+fn grow(content: &mut Vec<u8>, dice: &mut Rng) {
+    let start = dice.usize(..=content.len());
+    let end = (start + (1 << dice.u8(..10))).min(content.len());
+    let piece = content[start..end].to_vec();
+    let times = (1_usize << dice.u8(12..20)) / piece.len().max(1);
+    content.splice(start..start, piece.repeat(times));
 }
 
 /// Where files of this repository are that tests of other crates have.
