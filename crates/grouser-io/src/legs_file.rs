@@ -318,7 +318,7 @@ mod tests {
         let legs = Companion { name: "legs.csv".to_owned(), content };
         let mission = "schema = \"mission/1\"\nname = \"one\"\nlegs_from = \"legs.csv\"\n";
         let source = Source::text_with("a mission", mission, vec![legs]);
-        let error = read_mission(&source, &Overrides::none()).err().expect("it is refused");
+        let error = read_mission(&source, &Overrides::none()).expect_err("it is refused");
         assert!(matches!(error.problem(), Problem::TooDeep { .. }), "{error}");
     }
 }
