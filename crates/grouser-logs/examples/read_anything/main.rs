@@ -241,7 +241,7 @@ fn input(readers: &[Reader], dice: &mut Rng) -> (usize, Vec<u8>) {
     /// Most cases are no longer than this, so that there can be many [bytes].
     const SHORT: usize = 1 << 13;
     /// One of so many is long.
-    const LONG: u16 = 1 << 2;
+    const LONG: u16 = 1 << 6;
     let shares: u32 = readers.iter().map(|reader| reader.share).sum();
     let mut rest = dice.u32(..shares);
     let is_it = |reader: &Reader| match rest.checked_sub(reader.share) {
