@@ -9,9 +9,11 @@
 //! Case *i* depends on the seed and *i* alone, so that one that fails can be run again by its
 //! number; its folder is kept below `target/fuzz`.
 
+mod damage;
 mod maps;
 pub(crate) mod meaning;
 mod mutation;
+pub(crate) mod readers;
 mod subjects;
 mod verdict;
 

@@ -59,6 +59,8 @@ cargo xtask CHORE
   fuzz [--cases N] [--seed N] [--only N] [--program FILE]
                       damaged and hostile input for every command, under limits of memory and time
   fuzz --meaning      logs that mean something else, for `learn`; writes the table of docs/guide/telemetry.md
+  fuzz readers [--cases N] [--seed N] [--only N]
+                      damaged files for every reader, in one process
   hashes              compare digests of wheels, a traverse and a mission by each instruction set and by C
   instructions [--check]
                       count the instructions of the units of work anew (valgrind), or only compare
@@ -118,6 +120,9 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
         ["figures", "--made"] => figures::write(false)?,
         ["figures", "--check"] => figures::check()?,
         ["fuzz", "--meaning"] => good(fuzz::meaning::write()?),
+        ["fuzz", "readers", options @ ..] => {
+            good(fuzz::readers::check(fuzz::readers::Plan::parse(options)?)?)
+        }
         ["fuzz", options @ ..] => {
             let count = fuzz::check(&fuzz::Plan::parse(options)?)?;
             println!("{count}");

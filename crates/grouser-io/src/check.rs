@@ -76,9 +76,14 @@ pub fn nearest<'w>(word: &str, words: impl IntoIterator<Item = &'w str>) -> Opti
     /// Likeness (Jaro and Winkler) above which a word counts as a misspelling [-]. Source: ours;
     /// `cohesion` finds `cohesion_kpa`, `sand` does not find `sine`.
     const ALIKE: f64 = 0.8;
+    /// A longer word is none of ours; comparing takes a time of its length [bytes].
+    const LONGEST: usize = 100;
     let words: Vec<_> = words.into_iter().collect();
     if let Some(present) = words.iter().find(|known| is_now(word, known)) {
         return Some(present);
+    }
+    if word.len() > LONGEST {
+        return None;
     }
     let word = word.to_lowercase();
     words
@@ -611,5 +616,12 @@ mod tests {
         ] {
             assert_eq!(nearest(word, keys), meant, "{word}");
         }
+    }
+
+    #[test]
+    fn a_word_longer_than_any_of_ours_is_none_of_them() {
+        let names = ["cohesion_kpa", "friction_angle_deg"];
+        assert_eq!(nearest("cohesion", names), Some("cohesion_kpa"));
+        assert_eq!(nearest(&format!("cohesion_kp{}", "a".repeat(1 << 20)), names), None);
     }
 }

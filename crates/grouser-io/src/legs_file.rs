@@ -16,6 +16,7 @@ use super::given_file::{FileContent, GivenFile};
 use super::lines::{cells, check_count, lines};
 use super::mission::LEGS_FROM;
 use super::source::{LARGEST_FILE, read_file};
+use super::text::DEEPEST;
 use super::tree::{Entry, Node, Origin, Text, Value};
 
 /// The key of a mission under which its legs stand.
@@ -97,6 +98,9 @@ fn of_csv(text: &Arc<Text>) -> Result<Vec<Node>, DocumentError> {
         return Err(DocumentError::whole(&text.label, Problem::NoLegs("it is empty".to_owned())));
     };
     let keys: Vec<&str> = cells(header).map(|(_, key)| key).collect();
+    if keys.iter().any(|key| key.split('.').count() > DEEPEST) {
+        return Err(DocumentError::whole(&text.label, Problem::TooDeep { limit: DEEPEST }));
+    }
     rows.iter().map(|(from, line)| row(text, &keys, *from, line)).collect()
 }
 
@@ -319,4 +323,20 @@ fn waypoint(text: &Arc<Text>, [x, y]: [f64; 2], properties: &Json) -> Node {
         put(&mut leg, key, node(value));
     }
     leg
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Companion, Overrides, Source, read_mission};
+
+    #[test]
+    fn a_key_of_many_dots_cannot_nest_until_the_stack_is_full() {
+        let content = format!("drive_m,stop{}\n1.0,2.0\n", ".a".repeat(200_000));
+        let legs = Companion { name: "legs.csv".to_owned(), content };
+        let mission = "schema = \"mission/1\"\nname = \"one\"\nlegs_from = \"legs.csv\"\n";
+        let source = Source::text_with("a mission", mission, vec![legs]);
+        let error = read_mission(&source, &Overrides::none()).expect_err("it is refused");
+        assert!(matches!(error.problem(), Problem::TooDeep { .. }), "{error}");
+    }
 }

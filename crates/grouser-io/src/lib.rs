@@ -115,6 +115,7 @@ pub use source::{LARGEST_FILE, Source};
 pub use stop_file::{Overruled, overruled};
 pub use telemetry_mapping::read_telemetry_mapping;
 pub use terrain_file::{map_of, read_map};
+pub use text::nests_too_deep;
 pub use tree::{Beside, Companion, Entry, HeldMap, Node, Origin};
 pub use uncertain_soil::{SAMPLES_FILE, UncertainSoil, stated_of, without_uncertainty};
 pub use unit::{UNITS, Unit, unit_of};

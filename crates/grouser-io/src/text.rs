@@ -5,20 +5,54 @@ use std::sync::Arc;
 
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
+use toml_parser::lexer::TokenKind;
 
 use super::error::{DocumentError, Problem};
 use super::tree::{Entry, Node, Origin, Text, Value};
 
 /// Tables and lists may be nested this deep. Ours are five deep: a mount's position in a rover
 /// in a scenario.
-const DEEPEST: usize = 16;
+pub(crate) const DEEPEST: usize = 16;
+/// Brackets that may be open at a place. The parser counts them and gives up at 80, but where one
+/// opens in place of a key it loses count, and follows the text until the stack has no room.
+const MOST_OPEN: usize = 64;
+
+/// Whether brackets of a TOML text are open so deep that the parser must not be given it.
+#[must_use]
+pub fn nests_too_deep(toml: &str) -> bool {
+    too_deep(toml).is_some()
+}
+
+/// The first bracket that is open too deep.
+fn too_deep(toml: &str) -> Option<Range<usize>> {
+    use TokenKind::{LeftCurlyBracket, LeftSquareBracket, RightCurlyBracket, RightSquareBracket};
+    let mut open = Vec::new();
+    for token in toml_parser::Source::new(toml).lex() {
+        let kind = token.kind();
+        match kind {
+            LeftSquareBracket | LeftCurlyBracket => open.push(kind),
+            // What closes another bracket closes nothing.
+            RightSquareBracket => drop(open.pop_if(|it| *it == LeftSquareBracket)),
+            RightCurlyBracket => drop(open.pop_if(|it| *it == LeftCurlyBracket)),
+            _ => {}
+        }
+        if open.len() > MOST_OPEN {
+            return Some(token.span().start()..token.span().end());
+        }
+    }
+    None
+}
 
 /// The tree of a TOML text.
 ///
-/// The parser gives up at 80 brackets and at 80 dots, which together can nest a few thousand
-/// tables: little enough for any stack. Our own limit is far below.
+/// Beside brackets, dots nest tables: the parser gives up at 80, which together can nest a few
+/// thousand, little enough for any stack. Our own limit is far below.
 pub(crate) fn parse(text: &Arc<Text>) -> Result<Node, DocumentError> {
     let whole = Origin { text: text.clone(), span: 0..0 };
+    if let Some(span) = too_deep(&text.content) {
+        let origin = Origin { text: text.clone(), span };
+        return Err(DocumentError::at(&origin, Problem::TooDeep { limit: DEEPEST }));
+    }
     let document = DeTable::parse(&text.content).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
         let line = text.line_around(span.start);
@@ -156,5 +190,19 @@ mod tests {
             let span = tree.origin_of(path).span.clone();
             assert_eq!(&content[span], written, "{path}");
         }
+    }
+
+    /// Nested, not closed, and closed by the wrong bracket; in texts and notes brackets mean nothing.
+    #[test]
+    fn a_text_cannot_nest_until_the_stack_is_full() {
+        for line in ["a = {{b = 1}\n", "{", "a = [", "[{=", "a = {]b = [}", "a.b = {\n"] {
+            let content = format!("a = {}", line.repeat(60_000));
+            let text = Arc::new(Text { content, ..Text::default() });
+            let error = parse(&text).expect_err(line);
+            assert!(matches!(error.problem(), Problem::TooDeep { .. }), "{line:?}: {error}");
+        }
+        let brackets = "[{".repeat(1_000);
+        let texts = format!("a = \"{brackets}\" # {brackets}\nb = '''{brackets}'''\n");
+        assert_eq!(tree(&texts).entries().len(), 2);
     }
 }

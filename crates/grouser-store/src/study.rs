@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use std::ops::Range;
 
 use grouser::document::campaign::{Campaign, Column};
+use grouser::document::nests_too_deep;
 use sha2::{Digest as _, Sha256};
 
 use crate::identity::{ColumnRecord, Identity};
@@ -120,7 +121,9 @@ pub fn difference(theirs: &str, ours: &str) -> String {
 /// The values of a document by their dotted keys, as TOML writes them.
 fn flat(text: &str) -> BTreeMap<String, String> {
     let mut values = BTreeMap::new();
-    if let Ok(table) = text.parse::<toml::Table>() {
+    if !nests_too_deep(text)
+        && let Ok(table) = text.parse::<toml::Table>()
+    {
         flatten("", &toml::Value::Table(table), &mut values);
     }
     values

@@ -26,16 +26,7 @@ const DOCUMENTS: [(&str, &str); 4] = [
          soil_file = \"zones.geojson\"\n[[terrain.zone]]\nname = \"crust\"\nsoil = \"soil.toml\"\n\
          [[terrain.zone]]\nclass = 4\nsoil = \"clay\"\n",
     ),
-    (
-        "zones.geojson",
-        "{\"type\": \"FeatureCollection\", \"features\": [\n\
-         {\"type\": \"Feature\", \"properties\": {\"soil\": \"crust\", \"age\": 3.5}, \"geometry\": {\"type\": \"Polygon\",\n\
-         \"coordinates\": [[[-9, -9], [0.19, -9], [0.19, 9], [-9, 9], [-9, -9]], [[-1, -1], [-0.2, -1], [-0.2, 0.5], [-1, -1]]]}},\n\
-         {\"type\": \"Feature\", \"properties\": {\"soil\": \"grc-1\"}, \"geometry\": {\"type\": \"MultiPolygon\",\n\
-         \"coordinates\": [[[[0.1, 0.1], [2.5, 0.1, 7], [2.5, 3e0], [0.1, 0.1]]]]}},\n\
-         {\"type\": \"Feature\", \"properties\": {\"soil\": 4}, \"geometry\": {\"type\": \"Polygon\",\n\
-         \"coordinates\": [[[5, 5], [6, 5], [6, 6], [5, 5]]]}}]}\n",
-    ),
+    ("zones.geojson", include_str!("corpus/zones.geojson")),
     (
         "mission.toml",
         "schema = \"mission/1\"\nname = \"over a map\"\nsimulation = \"quasi-steady\"\n[terrain]\nfile = \"map.xyz\"\n\

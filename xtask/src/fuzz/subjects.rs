@@ -323,7 +323,7 @@ fn documents(program: &Path) -> Result<Vec<(String, Vec<u8>)>> {
     const WRITTEN: [(&str, &str); 13] = [
         (
             "scenario.toml",
-            "schema = \"scenario/1\"\nname = \"a run\"\nrover = \"rover.toml\"\nsoil = \"soil.toml\"\nslope_deg = 10.0\nduration_s = 1.0\n[drive]\nlaw = \"constant\"\nspeed_m_s = [0.06, 0.06, 0.05, 0.05]\n[start]\nyaw_deg = 5.0\n",
+            "schema = \"scenario/1\"\nname = \"a run\"\nrover = \"rover.toml\"\nsoil = \"soil.toml\"\nslope_deg = 10.0\nduration_s = 1.0\n[drive]\nlaw = \"constant\"\nrim_speed_m_s = [0.06, 0.06, 0.05, 0.05]\n[start]\nyaw_deg = 5.0\n",
         ),
         (
             "campaign.toml",
@@ -337,27 +337,18 @@ fn documents(program: &Path) -> Result<Vec<(String, Vec<u8>)>> {
             "set.toml",
             "schema = \"data-set/1\"\nname = \"our stand\"\nsource = \"simulated\"\nfile = \"test.csv\"\n[[case]]\nname = \"all\"\nwheel = \"wheel.toml\"\nsoils = [\"soil.toml\", \"toyoura\"]\n",
         ),
-        (
-            "climbs.csv",
-            "slope_deg,course_deg,slip_ratio,yaw_deg,trial,status\n0,90,0.05,90,1,ok\n10,90,0.2,90,1,ok\n10,90,0.22,90,2,ok\n10,0,0.1,5,1,ok\n",
-        ),
+        ("climbs.csv", include_str!("corpus/climbs.csv")),
         (
             "climbs.toml",
             "schema = \"data-set/1\"\nname = \"our climbs\"\nsource = \"simulated\"\nfile = \"climbs.csv\"\n[[case]]\nname = \"all\"\nrover = \"rover.toml\"\nsoils = [\"soil.toml\", \"toyoura\"]\nfitted = [\"toyoura\"]\n",
         ),
-        ("robot.urdf", include_str!("robot.urdf")),
-        ("samples.csv", "friction_angle_deg,exit.ratio\n38,1.0\n37,0.9\n36.5,0.95\n"),
-        ("sampled.toml", SAMPLED),
+        ("robot.urdf", include_str!("corpus/robot.urdf")),
+        ("samples.csv", include_str!("corpus/samples.csv")),
+        ("sampled.toml", include_str!("corpus/sampled.toml")),
         ("yaws.csv", "slope_deg,measured,yaw_deg\n5,first run,3.31\n10,second run,5.51\n"),
-        (
-            "plates.csv",
-            "plate_width_mm,sinkage_mm,pressure_kpa\n50,5,8\n50,10,19\n50,20,45\n80,5,9\n80,10,20\n80,20,47\n",
-        ),
-        (
-            "shear.csv",
-            "normal_stress_kpa,shear_displacement_mm,shear_stress_kpa,repeat\n10,5,2.3,a\n10,40,5.7,a\n20,5,4.5,a\n20,40,11,a\n20,5,4.6,b\n20,40,11.4,b\n",
-        ),
-        ("lab.csv", "W;slip;z;note\n17,5;10;1,25;first\n17,5;20;1,31;second\n18;40;1,5;third\n"),
+        ("plates.csv", include_str!("corpus/plates.csv")),
+        ("shear.csv", include_str!("corpus/shear.csv")),
+        ("lab.csv", include_str!("corpus/lab.csv")),
     ];
     let folder = tempfile::tempdir()?;
     let made = PRINTED
@@ -391,9 +382,3 @@ fn drive() -> String {
                   wheel_speed_rad_s_rear-right,wheel_torque_nm_front-left,rear-right.torque_nm\n";
     header.to_owned() + &(0..40).map(row).collect::<String>()
 }
-
-/// A soil whose uncertainty is a table of samples.
-const SAMPLED: &str = "schema = \"soil/1\"\nname = \"sampled sand\"\ncohesion_kpa = 0.0\nfriction_angle_deg = 38.0\ndensity_kg_m3 = 1490.0\n\
-    [pressure_sinkage]\nlaw = \"reece\"\nk_c = 0.0\nk_phi = 122.7\nn = 1.703\n[stress_peak]\na0 = 0.4\na1 = 0.15\n\
-    [shear]\nlaw = \"anisotropic\"\nlongitudinal_m = 0.036\nlongitudinal_per_rad_m = 0.043\nlateral_m = 0.013\nlateral_per_rad_m = 0.02\n\
-    [exit]\nratio = 1.0\n[bulldozing]\nlaw = \"sine\"\n[uncertainty]\nsamples = \"samples.csv\"\n";

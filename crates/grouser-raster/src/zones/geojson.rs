@@ -161,8 +161,11 @@ fn check_area(ring: &[Vec2]) -> Result<(), String> {
         ));
     }
     match crossing::crossing(ring) {
-        Some(at) => Err(format!("its edge crosses itself near x {}, y {}", at.x, at.y)),
-        None => Ok(()),
+        Ok(Some(at)) => Err(format!("its edge crosses itself near x {}, y {}", at.x, at.y)),
+        Ok(None) => Ok(()),
+        Err(crossing::Tangled) => Err("its edge runs over the same places too often to follow\n\
+             hint: ogr2ogr -makevalid OUT.geojson IN.geojson untangles it"
+            .to_owned()),
     }
 }
 

@@ -2,14 +2,24 @@
 
 use grouser_core::units::Vec2;
 
+/// More edges lie beside each other than are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Tangled;
+
 /// A place where the edge of a ring crosses itself, if it does.
 ///
 /// Edges are looked at from the west to the east, each beside those that reach as far east as it
 /// begins.
 ///
 /// * `ring`: its corners, each once
-pub(super) fn crossing(ring: &[Vec2]) -> Option<Vec2> {
+///
+/// # Errors
+/// [`Tangled`] for an edge that runs over the same places again and again.
+pub(super) fn crossing(ring: &[Vec2]) -> Result<Option<Vec2>, Tangled> {
+    /// Pairs of edges that are compared, for each and of all: of a coast some dozens are for each.
+    const PAIRS: [usize; 2] = [500, 20_000_000];
     let count = ring.len();
+    let mut rest = PAIRS[0].saturating_mul(count).saturating_add(PAIRS[1]);
     let edge = |place: usize| (ring[place], ring[(place + 1) % count]);
     let west = |place: &usize| {
         let (one, other) = edge(*place);
@@ -24,6 +34,7 @@ pub(super) fn crossing(ring: &[Vec2]) -> Option<Vec2> {
             let (from, to) = edge(*other);
             from.x.max(to.x) >= begins
         });
+        rest = rest.checked_sub(near.len()).ok_or(Tangled)?;
         for other in &near {
             let apart = place.abs_diff(*other);
             // Neighbours share a corner.
@@ -31,12 +42,12 @@ pub(super) fn crossing(ring: &[Vec2]) -> Option<Vec2> {
                 && apart < count - 1
                 && let Some(at) = common(edge(place), edge(*other))
             {
-                return Some(at);
+                return Ok(Some(at));
             }
         }
         near.push(place);
     }
-    None
+    Ok(None)
 }
 
 /// Where two edges cross; one that only touches the other does not.
@@ -62,16 +73,24 @@ mod tests {
     #[test]
     fn a_bow_tie_crosses_itself_and_a_star_with_dents_does_not() {
         let tie = ring(&[(0.0, 0.0), (4.0, 4.0), (4.0, 0.0), (0.0, 4.0)]);
-        assert_eq!(crossing(&tie), Some(Vec2::new(2.0, 2.0)));
+        assert_eq!(crossing(&tie), Ok(Some(Vec2::new(2.0, 2.0))));
         let star: Vec<Vec2> = (0..2000)
             .map(|place| {
                 let (sin, cos) = (f64::from(place) * std::f64::consts::TAU / 2000.0).sin_cos();
                 (if place % 2 == 0 { 5.0 } else { 3.0 }) * Vec2::new(cos, sin)
             })
             .collect();
-        assert_eq!(crossing(&star), None);
+        assert_eq!(crossing(&star), Ok(None));
         let mut crossed = star;
         crossed.swap(700, 704);
-        assert!(crossing(&crossed).is_some());
+        assert!(crossing(&crossed).is_ok_and(|at| at.is_some()));
+    }
+
+    /// A ring that goes round and round over the same three corners.
+    #[test]
+    fn an_edge_that_runs_over_itself_ever_again_is_refused() {
+        let corners = [(0.0, 0.0), (4.0, 0.0), (0.0, 4.0)];
+        let ring = ring(&corners.repeat(7_000));
+        assert_eq!(crossing(&ring), Err(Tangled));
     }
 }
