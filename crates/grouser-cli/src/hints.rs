@@ -70,7 +70,11 @@ pub(crate) fn with_flags(message: &str) -> String {
 ///
 /// * `kind`: of the document that the flag changes
 pub(crate) fn of_terrain(note: &str, kind: Kind) -> String {
-    note.replace("`terrain.missing_m` = ", &format!("--set {kind}.terrain.missing_m="))
+    let Some((before, rest)) = note.split_once("`terrain.missing_m` = ") else {
+        return note.to_owned();
+    };
+    let (height, rest) = rest.split_once(' ').unwrap_or((rest, ""));
+    format!("{before}`--set {kind}.terrain.missing_m={height}` {rest}")
 }
 
 /// Puts the present option in place of what the parser takes for similar, where an option is
@@ -155,6 +159,6 @@ mod tests {
         let known = "this drive has no such speed\nhint: it goes with --drive \"eq18\"";
         assert_eq!(with_flags(message), format!("--ground-speed-m-s 1: {known}"));
         let note = of_terrain("missing heights? `terrain.missing_m` = -9 takes", Kind::Mission);
-        assert_eq!(note, "missing heights? --set mission.terrain.missing_m=-9 takes");
+        assert_eq!(note, "missing heights? `--set mission.terrain.missing_m=-9` takes");
     }
 }

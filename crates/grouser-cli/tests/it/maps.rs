@@ -85,7 +85,8 @@ fn what_is_odd_about_heights_is_said_with_the_flag_that_helps() {
     assert_eq!((&json["verdicts"]["no_go"], &json["verdicts"]["unknown"]), (&0.into(), &9.into()));
     let quick = "--duration-s 1 --simulation quasi-steady";
     let driven = place.line(&format!("traverse --terrain void.xyz {quick}"));
-    assert!(driven.stderr.contains(&format!("{note}`terrain.missing_m`")), "{}", driven.stderr);
+    let flag = "`--set scenario.terrain.missing_m=-9999`";
+    assert!(driven.stderr.contains(&format!("{note}{flag}")), "{}", driven.stderr);
     place.write(
         "many.toml",
         "schema = \"campaign/1\"\nname = \"many\"\nstudy = \"traverse\"\nruns = 2\n\

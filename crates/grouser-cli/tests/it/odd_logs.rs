@@ -321,7 +321,7 @@ fn messages_name_files_and_flags_that_were_given() {
     }
     let run = format!("traverse {parts} --duration-s 0.5 --simulation quasi-steady");
     for (flags, part) in [
-        ("--terrain void.xyz", "? --set scenario.terrain.missing_m=-9999 takes them as such"),
+        ("--terrain void.xyz", "? `--set scenario.terrain.missing_m=-9999` takes them as such"),
         ("--terrain far.xyz --start-x-m 5 --start-y-m 5", "x of the start, on a map from 500000"),
         ("--ground-speed-m-s 0.1", "hint: it goes with --drive \"eq18"),
     ] {
