@@ -133,6 +133,9 @@ impl DataSetCase {
     }
 }
 
+/// Documents that the parts of a data set may name: each is read anew, which takes a millisecond.
+const MOST_NAMED: usize = 200;
+
 /// Reads a data set with the wheels and soils that it names; the measurements themselves are read
 /// by [`measurements::read`](crate::measurements::read).
 ///
@@ -151,6 +154,12 @@ pub fn read_data_set(
     };
     let sections = document.get("case").cloned().unwrap_or_default();
     let sections: Vec<CaseSection> = serde_json::from_value(sections).unwrap_or_default();
+    let named: usize = sections.iter().map(|section| section.soils.len() + 1).sum();
+    if named > MOST_NAMED {
+        let problem = Problem::Conflict("its parts name more than 200 soils, wheels and rovers");
+        return Err(DocumentError::at(tree.origin_of("case"), problem)
+            .with_hint("several data sets may have the same file".to_owned()));
+    }
     let Common { file, gravity } = common;
     let cases = sections.iter().zip(nodes).map(|(section, node)| {
         let case = section.read(node)?;
@@ -218,5 +227,24 @@ impl CaseSection {
             soils: self.soils.iter().enumerate().map(soil).collect::<Result<_, DocumentError>>()?,
             fitted: self.fitted.iter().map(fitted).collect::<Result<_, _>>()?,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_data_set_that_names_documents_without_end_is_refused() {
+        let part = "[[case]]\nname = \"all\"\nwheel = \"hakuto\"\nsoils = [\"toyoura\"]\n";
+        let text = |parts: usize| {
+            let head =
+                "schema = \"data-set/1\"\nname = \"one\"\nsource = \"ours\"\nfile = \"a.csv\"\n";
+            Source::text("a data set", head.to_owned() + &part.repeat(parts))
+        };
+        let read = |parts: usize| read_data_set(&text(parts), &Overrides::none());
+        assert!(read(3).is_ok());
+        let error = read(1_000).expect_err("it names 2000 documents").to_string();
+        assert!(error.contains("name more than 200"), "{error}");
     }
 }

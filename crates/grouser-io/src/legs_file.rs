@@ -56,6 +56,20 @@ pub(crate) fn put_in(mission: &mut Node) -> Result<(), DocumentError> {
     Ok(())
 }
 
+/// Checks that a mission has no more legs than a rover drives in its life: each takes some kilobytes.
+pub(crate) fn check_legs(mission: &Node) -> Result<(), DocumentError> {
+    const MOST: usize = 20_000;
+    match mission.entry(LEGS) {
+        Some(Entry { key_origin, node: Node { value: Value::List(legs), .. }, .. })
+            if legs.len() > MOST =>
+        {
+            let problem = Problem::Conflict("a mission has at most 20000 legs");
+            Err(DocumentError::at(key_origin, problem))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// The text of a file that a mission names.
 ///
 /// * `origin`: where it is named
@@ -330,13 +344,22 @@ mod tests {
     use super::*;
     use crate::{Companion, Overrides, Source, read_mission};
 
-    #[test]
-    fn a_key_of_many_dots_cannot_nest_until_the_stack_is_full() {
-        let content = format!("drive_m,stop{}\n1.0,2.0\n", ".a".repeat(200_000));
+    fn refusal(content: String) -> DocumentError {
         let legs = Companion { name: "legs.csv".to_owned(), content };
         let mission = "schema = \"mission/1\"\nname = \"one\"\nlegs_from = \"legs.csv\"\n";
         let source = Source::text_with("a mission", mission, vec![legs]);
-        let error = read_mission(&source, &Overrides::none()).expect_err("it is refused");
+        read_mission(&source, &Overrides::none()).expect_err("it is refused")
+    }
+
+    #[test]
+    fn a_key_of_many_dots_cannot_nest_until_the_stack_is_full() {
+        let error = refusal(format!("drive_m,stop{}\n1.0,2.0\n", ".a".repeat(200_000)));
         assert!(matches!(error.problem(), Problem::TooDeep { .. }), "{error}");
+    }
+
+    #[test]
+    fn more_legs_than_a_rover_drives_are_refused() {
+        let error = refusal(format!("drive_m\n{}", "1.0\n".repeat(100_000)));
+        assert!(error.to_string().contains("at most 20000 legs"), "{error}");
     }
 }

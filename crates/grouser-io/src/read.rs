@@ -251,6 +251,7 @@ fn complete(
     }
     if kind == Kind::Mission {
         legs_file::put_in(tree)?;
+        legs_file::check_legs(tree)?;
         stop_file::put_in(tree)?;
     }
     if matches!(kind, Kind::Scenario | Kind::Mission) {
