@@ -6,7 +6,7 @@ use grouser_core::terrain::{ElevationGrid, Extent, SoilZones, ZonePolygon};
 use grouser_core::units::Vec2;
 
 use super::key::ZoneKey;
-use super::places::check_places;
+use super::places::{check_places, lie_apart};
 use crate::degrees::may_be_degrees;
 use crate::error::Fault;
 
@@ -173,13 +173,6 @@ fn span(places: impl Iterator<Item = Vec2>) -> Option<[Vec2; 2]> {
         let [low, high] = span.unwrap_or([place, place]);
         Some([low.inf(&place), high.sup(&place)])
     })
-}
-
-pub(super) fn lie_apart([low, high]: [Vec2; 2], ground: &Extent) -> bool {
-    low.x > ground.north_east.x
-        || low.y > ground.north_east.y
-        || high.x < ground.south_west.x
-        || high.y < ground.south_west.y
 }
 
 /// Checks that there are no more zones than can be distinguished.

@@ -1,8 +1,8 @@
 //! Whether places of GeoJSON are metres of a map, or of another one, or degrees.
 
 use grouser_core::terrain::Extent;
+use grouser_core::units::Vec2;
 
-use super::map::lie_apart;
 use crate::CoordinateSystem;
 use crate::degrees::{are_degrees, may_be_degrees};
 use crate::error::Fault;
@@ -40,6 +40,14 @@ pub fn check_places_on(ground: &Extent, places: &Extent) -> Result<(), Fault> {
         return Err(Fault::ZonesInDegrees);
     }
     Ok(())
+}
+
+/// Whether what lies between two corners does not touch the ground.
+pub(super) fn lie_apart([low, high]: [Vec2; 2], ground: &Extent) -> bool {
+    low.x > ground.north_east.x
+        || low.y > ground.north_east.y
+        || high.x < ground.south_west.x
+        || high.y < ground.south_west.y
 }
 
 /// Compares the system that a file of GeoJSON names with that of the map that it is for; a remark

@@ -22,6 +22,7 @@
 pub mod advice;
 mod archive;
 mod bank;
+mod by_record;
 mod change;
 mod contradiction;
 mod currents;
@@ -38,6 +39,7 @@ mod one_sided;
 mod passed;
 mod settings;
 mod state;
+mod straight_line;
 mod stretch;
 mod trail;
 mod unexplained;

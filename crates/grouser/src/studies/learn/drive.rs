@@ -6,6 +6,7 @@ use super::warnings::Warning;
 use super::{Learner, Lesson, NotUsed, TelemetryRecord, WheelTelemetry};
 use grouser_io::fnv_1a;
 use grouser_io::measurements::telemetry::Lost;
+use grouser_io::reading::counted;
 
 /// Lessons that are kept at most: of a longer drive every n-th.
 const MOST_LESSONS: usize = 5000;
@@ -68,7 +69,8 @@ impl Learner {
     pub fn notes(&self) -> Vec<String> {
         let sentence = |why: NotUsed| {
             let count = self.learnt.not_used.get(&why)?;
-            Some(format!("{count} stretches taught nothing: {}", why.meaning()))
+            let stretches = counted(*count, "stretch", "stretches");
+            Some(format!("{stretches} taught nothing: {}", why.meaning()))
         };
         let outliers = self.learnt.outliers;
         let left_out = (outliers > 0)

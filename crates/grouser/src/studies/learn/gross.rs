@@ -7,11 +7,10 @@
 //! can be of one rover. Each looks both ways. Limits are wide: a fault that they find is no matter
 //! of degree.
 
-mod by_record;
-
-use self::by_record::ByRecord;
 use super::archive::{Archive, items, numbers};
+use super::by_record::ByRecord;
 use super::motion::{NotUsed, steady_attitude};
+use super::straight_line::StraightLine;
 use super::stretch::{GAP, Reading, Stretch};
 use crate::elementary::wide::{cos, hypot, ln, sin};
 use crate::vehicle::Rover;
@@ -213,62 +212,6 @@ impl RunningMean {
     }
 }
 
-/// SumsOfPairs of a straight line.
-#[derive(Clone, Copy, Debug, Default)]
-struct StraightLine {
-    count: f64,
-    x: f64,
-    y: f64,
-    xx: f64,
-    xy: f64,
-    yy: f64,
-}
-
-impl StraightLine {
-    fn add(&mut self, x: f64, y: f64) {
-        self.count += 1.0;
-        self.x += x;
-        self.y += y;
-        self.xx += x * x;
-        self.xy += x * y;
-        self.yy += y * y;
-    }
-
-    fn walk(&mut self, name: &str, archive: &mut dyn Archive) {
-        let Self { count, x, y, xx, xy, yy } = self;
-        archive.group(name);
-        let names = ["count", "x", "y", "xx", "xy", "yy"];
-        let sums = [count, x, y, xx, xy, yy];
-        names.into_iter().zip(sums).for_each(|(name, value)| archive.number(name, value));
-        archive.end();
-    }
-
-    /// Whether x moves by more than `least` on the root of the mean square.
-    fn moves(&self, least: f64) -> bool {
-        self.xx / self.count - (self.x / self.count).powi(2) > least * least
-    }
-
-    /// The root of the mean square of x.
-    fn size_of_x(&self) -> f64 {
-        (self.xx / self.count).sqrt()
-    }
-
-    /// What y rises by for each x, where it goes with x and moves by more than `least` on the root
-    /// of the mean square.
-    fn rise(&self, least: f64) -> Option<f64> {
-        /// Fewer points say little.
-        const FEW: f64 = 5.0;
-        /// Share of the squares that the line explains [-].
-        const GOES_WITH: f64 = 0.6;
-        let of =
-            |sum: f64, one: f64, other: f64| sum / self.count - one * other / self.count.powi(2);
-        let xx = of(self.xx, self.x, self.x);
-        let (xy, yy) = (of(self.xy, self.x, self.y), of(self.yy, self.y, self.y));
-        let is_seen = self.count >= FEW && xx > 0.0 && yy > least * least;
-        (is_seen && xy * xy > GOES_WITH * xx * yy).then(|| xy / xx)
-    }
-}
-
 /// So much of the rims' way is looked at before anything is said [m].
 const WAY: f64 = 0.3;
 /// Thrusts over the weight that no wheel on soil exceeds, or rolls with less than: even on hard
@@ -304,8 +247,8 @@ impl GrossFaults {
             self.turning(),
             self.sinkage(),
             self.drift(),
-            self.records.lost_ways(),
-            self.records.still_attitude(),
+            self.lost_ways(),
+            self.still_attitude(),
         ];
         let mut new = Vec::new();
         for fault in all.into_iter().flatten() {
@@ -523,6 +466,16 @@ impl GrossFaults {
         const UPHILL: f64 = 0.04;
         let is_fault = self.sums.uphill.over(WAY)? > UPHILL;
         is_fault.then_some(GrossFault { suspect: Suspect::Drift, factor: -1.0 })
+    }
+
+    fn lost_ways(&self) -> Option<GrossFault> {
+        let factor = self.records.share_of_ways()?;
+        Some(GrossFault { suspect: Suspect::LostWays, factor })
+    }
+
+    fn still_attitude(&self) -> Option<GrossFault> {
+        let fault = GrossFault { suspect: Suspect::StillAttitude, factor: 0.0 };
+        self.records.is_attitude_still().then_some(fault)
     }
 
     fn sinkage(&self) -> Option<GrossFault> {

@@ -1,9 +1,9 @@
-//! Gross faults that records show before they are stretches: ways that are lost, and an attitude
-//! that no sensor measures.
+//! What records show before they are stretches: ways that are lost, and an attitude that no sensor
+//! measures.
 
-use super::super::archive::{Archive, numbers};
-use super::super::stretch::GAP;
-use super::{GrossFault, StraightLine, Suspect};
+use super::archive::{Archive, numbers};
+use super::straight_line::StraightLine;
+use super::stretch::GAP;
 use grouser_io::measurements::telemetry::TelemetryRecord;
 
 /// What records have shown so far.
@@ -89,10 +89,10 @@ impl ByRecord {
         }
     }
 
-    /// Whether ways are lost with the rows, or the readings, that had them.
-    pub(super) fn lost_ways(&self) -> Option<GrossFault> {
-        let share = self.zeros.lost().or_else(|| self.growth())?;
-        Some(GrossFault { suspect: Suspect::LostWays, factor: share })
+    /// The share of the ways that is left, where some are lost with the rows, or the readings, that
+    /// had them [-].
+    pub(super) fn share_of_ways(&self) -> Option<f64> {
+        self.zeros.lost().or_else(|| self.growth())
     }
 
     /// Ways that do not grow with the time since the last one: by which share of it they do.
@@ -117,12 +117,11 @@ impl ByRecord {
     }
 
     /// Whether roll and pitch are no readings.
-    pub(super) fn still_attitude(&self) -> Option<GrossFault> {
+    pub(super) fn is_attitude_still(&self) -> bool {
         /// Records with one attitude, and ways that turned around meanwhile.
         const LONG: f64 = 60.0;
         const SCATTER: f64 = 15.0;
-        let is_still = self.still.records >= LONG && self.still.turns >= SCATTER;
-        is_still.then_some(GrossFault { suspect: Suspect::StillAttitude, factor: 0.0 })
+        self.still.records >= LONG && self.still.turns >= SCATTER
     }
 
     pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
