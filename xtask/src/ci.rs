@@ -71,7 +71,7 @@ const STEPS: [Step; 25] = {
         step("figures", 280.0, Here(|_| figures::check().map(Count::one))),
         step("fuzz", 150.0, Here(|extent| fuzz::check(&fuzz::Plan::of(extent)))),
         step("meaning", 60.0, Here(fuzz::meaning::check)),
-        step("readers", 30.0, Here(|extent| fuzz::readers::check(fuzz::readers::Plan::of(extent)))),
+        step("readers", 60.0, Here(|extent| fuzz::readers::check(fuzz::readers::Plan::of(extent)))),
         Step { asks: OF_C, ..step("c", 250.0, Here(|_| c::check())) },
         Step { asks: OF_C, ..step("hashes", 15.0, Here(|_| hashes::check())) },
         Step { asks: PACKED, ..step("packages", 20.0, Here(packages::check)) },
