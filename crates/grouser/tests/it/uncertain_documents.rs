@@ -383,7 +383,7 @@ fn wrong_samples_say_what_where_and_how_to_mend_it() {
             "together",
             "pressure_sinkage.n,pressure_sinkage.n_per_slip\n1.7,0.1\n2.9,0.3\n".to_owned(),
             ":3:1",
-            "at a slip ratio of 1 is 3.1999",
+            "at a slip ratio of 1 is 3.2, it must be",
         ),
     ] {
         let error = read_sampled(name, samples).expect_err(name).to_string();

@@ -29,13 +29,14 @@ impl OneSided {
     }
 }
 
-/// Means of scores over stretches, by [`OneSided::ALL`].
+/// Means of scores over the way, by [`OneSided::ALL`].
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct OneSides([Mean; 3]);
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Mean {
-    count: f64,
+    /// Over this way of the rims [m].
+    way: f64,
     sum: f64,
 }
 
@@ -44,7 +45,14 @@ impl OneSides {
     ///
     /// * `scores`: how far velocities, then torques that were read, are from what was expected
     ///   [standard deviations]
-    pub(super) fn add(&mut self, stretch: &Stretch, scores: &[f64], rover: &Rover) {
+    /// * `all_wheels_pull`: a wheel that does not is one side of its own
+    pub(super) fn add(
+        &mut self,
+        stretch: &Stretch,
+        scores: &[f64],
+        rover: &Rover,
+        all_wheels_pull: bool,
+    ) {
         /// Velocities come before torques.
         const MOTION: usize = 3;
         let [front, left, leftward] = &mut self.0;
@@ -53,29 +61,37 @@ impl OneSides {
         let places = |place: fn(&crate::vehicle::Mount) -> f64| -> Vec<f64> {
             rover.mounts().iter().map(place).collect()
         };
-        front.add(contrast(&torques, &places(|it| it.position.x)));
-        left.add(contrast(&torques, &places(|it| it.position.y)));
-        leftward.add(stretch.velocity[1].and_then(|_| scores.get(1).copied()));
+        if all_wheels_pull {
+            front.add(stretch.way, contrast(&torques, &places(|it| it.position.x)));
+            left.add(stretch.way, contrast(&torques, &places(|it| it.position.y)));
+        }
+        let across = stretch.velocity[1].and_then(|_| scores.get(1).copied());
+        leftward.add(stretch.way, across);
     }
 
     /// What is on one side, with its mean score.
     pub(super) fn found(&self) -> impl Iterator<Item = (OneSided, f64)> {
-        /// Fewer stretches tell little.
-        const FEW: f64 = 12.0;
-        /// More than a right rover on a right soil has: 90 drives of all rovers had 0.31 and 0.52 at
-        /// the most [standard deviations].
-        const MOST: [f64; 3] = [0.7, 0.7, 0.75];
-        let means = OneSided::ALL.into_iter().zip(self.0).zip(MOST);
-        means.filter_map(|((what, mean), most)| {
-            let score = mean.sum / mean.count;
-            (mean.count >= FEW && score.abs() > most).then_some((what, score))
+        /// Less of the way tells little [m].
+        const WAY: f64 = 1.2;
+        /// What is left over of a right soil is the same over so much of the way [m]; means over many
+        /// such patches are smaller than this, and than that over their root [standard deviations].
+        /// 90 drives of all rovers had 0.31 and 0.62 of torques, and 0.52 and 1.04 of ways to the
+        /// side, at the most.
+        const PATCH: f64 = 0.5;
+        const MEAN: f64 = 0.5;
+        const OVER_ROOT: [f64; 3] = [1.4, 1.4, 1.7];
+        let means = OneSided::ALL.into_iter().zip(self.0).zip(OVER_ROOT);
+        means.filter_map(|((what, Mean { way, sum }), most)| {
+            let score = sum / way;
+            let is_large = score.abs() > MEAN.max(most / (way / PATCH).sqrt());
+            (way >= WAY && is_large).then_some((what, score))
         })
     }
 
     pub(super) fn walk(&mut self, archive: &mut dyn Archive) {
         for (what, mean) in OneSided::ALL.into_iter().zip(&mut self.0) {
             archive.group(what.name());
-            archive.number("count", &mut mean.count);
+            archive.number("way", &mut mean.way);
             archive.number("sum", &mut mean.sum);
             archive.end();
         }
@@ -83,10 +99,10 @@ impl OneSides {
 }
 
 impl Mean {
-    fn add(&mut self, score: Option<f64>) {
+    fn add(&mut self, way: f64, score: Option<f64>) {
         if let Some(score) = score {
-            self.count += 1.0;
-            self.sum += score;
+            self.way += way;
+            self.sum += way * score;
         }
     }
 }

@@ -292,7 +292,8 @@ impl Watch {
             self.forget_sides();
             return Vec::new();
         }
-        self.one_sides.add(seen.stretch, seen.scores, rover);
+        let all_pull = self.idle.iter().all(|it| *it == 0.0);
+        self.one_sides.add(seen.stretch, seen.scores, rover, all_pull);
         let found: Vec<_> = self.one_sides.found().collect();
         let warn = |(what, deviations)| {
             // Two causes are other warnings'.
