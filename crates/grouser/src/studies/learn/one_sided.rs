@@ -100,9 +100,12 @@ impl OneSides {
 
 impl Mean {
     fn add(&mut self, way: f64, score: Option<f64>) {
+        /// On the first stretches of another soil scores are larger, and are no side: no more counts
+        /// [standard deviations].
+        const MOST: f64 = 2.0;
         if let Some(score) = score {
             self.way += way;
-            self.sum += way * score;
+            self.sum += way * score.clamp(-MOST, MOST);
         }
     }
 }
