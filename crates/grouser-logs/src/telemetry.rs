@@ -1,5 +1,6 @@
 //! A log of any kind, record by record.
 
+mod arrow;
 mod mapped;
 mod mcap;
 pub(crate) mod options;

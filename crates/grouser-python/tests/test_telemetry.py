@@ -280,6 +280,34 @@ def test_parquet_of_pyarrow_is_telemetry(compression: str, version: str, tmp_pat
     assert columns["roll_deg"] == [row["roll_deg"] for row in rows]
 
 
+@pytest.mark.parametrize("compression", ["uncompressed", "lz4", "zstd", "stream"])
+def test_arrow_of_pyarrow_is_telemetry(compression: str, tmp_path: Path) -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    from pyarrow import feather, ipc
+
+    count = 5000
+    milliseconds = np.arange(count) * 100
+    table = pyarrow.table(
+        {
+            "time_s": pyarrow.array(milliseconds, pyarrow.timestamp("ms")),
+            "roll_deg": pyarrow.array(np.where(np.arange(count) % 7 == 0, np.nan, 1.5)),
+            "remark": pyarrow.array(["one, two"] * count),
+        }
+    )
+    log, out = tmp_path / "log.arrow", tmp_path / "out.csv"
+    if compression == "stream":
+        with ipc.new_stream(log, table.schema) as writer:
+            writer.write_table(table, max_chunksize=700)
+    else:
+        feather.write_feather(table, log, compression, chunksize=1500)
+    found = gr.import_telemetry(log, out, rover="hakuto")
+    assert found.records == count
+    assert found.notes == ("columns not used: remark",)
+    rows = rows_of(out)
+    assert [row["time_s"] for row in rows] == pytest.approx(milliseconds / 1000)
+    assert rows[7]["roll_deg"] is None and rows[8]["roll_deg"] == pytest.approx(1.5)
+
+
 def test_what_cannot_be_imported_is_an_error_of_ours(tmp_path: Path) -> None:
     log, out = tmp_path / "log.csv", tmp_path / "out.csv"
     log.write_text("time_s,roll_deg\n1,2\n")

@@ -72,7 +72,8 @@ fn parquet_is_read_by_a_mapping_as_csv_is() {
 fn what_cannot_be_imported_says_what_to_do() {
     let place = Place::new();
     place.write("bag.db3", b"SQLite format 3\0");
-    place.write("drive.feather", b"ARROW1\0\0\xff\xff\xff\xff");
+    place.write("drive.feather", b"FEA1\0\0\0\0");
+    place.write("drive.arrow", b"ARROW1\0\0\xff\xff\xff\xff");
     place.write("drive.csv", "time_s,roll_deg\n1,2\n");
     place.write("empty.csv", "time_s,roll_deg\n");
     place.write("wrong.toml", "schema = \"telemetry-mapping/1\"\nname = \"x\"\nreading = []\n");
@@ -94,6 +95,7 @@ fn what_cannot_be_imported_says_what_to_do() {
         ("import-telemetry empty.csv", "has no rows of telemetry"),
         ("import-telemetry --print-mapping none", "it is one of grouser, ros, foxglove"),
         ("learn bag.db3 --prior toyoura-uncertain", "python -m grouser import-telemetry"),
+        ("replay drive.arrow", "no Arrow that can be read: it has no description of its columns"),
         ("replay drive.feather", "pandas.read_feather('LOG').to_parquet('drive.parquet')"),
     ] {
         let answer = place.line(line);

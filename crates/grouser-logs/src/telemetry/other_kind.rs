@@ -11,8 +11,6 @@ pub struct OtherKind {
 }
 
 const FEATHER: &str = "import pandas; pandas.read_feather('LOG').to_parquet('drive.parquet')";
-const STREAM: &str = "import pyarrow; pyarrow.ipc.open_stream(open('LOG', 'rb')).read_pandas()\
-                      .to_parquet('drive.parquet')";
 
 impl OtherKind {
     /// A bag of ROS 2.
@@ -24,14 +22,9 @@ impl OtherKind {
 
     /// What a file is that begins so, if it is one of these.
     pub(super) fn beginning_with(start: &[u8]) -> Option<Self> {
-        // What each message of a stream of Arrow begins with, before its length. Source: Arrow,
-        // *Serialization and Interprocess Communication*.
-        const CONTINUATION: &[u8] = &[0xff; 4];
-        let all: [(&[u8], Self); 5] = [
+        let all: [(&[u8], Self); 3] = [
             (b"#ROSBAG V", Self::of("a bag of ROS 1", None)),
             (b"SQLite format 3", Self::ROS_2),
-            (b"ARROW1", Self::of("a file of Arrow (Feather)", Some(FEATHER))),
-            (CONTINUATION, Self::of("a stream of Arrow", Some(STREAM))),
             (b"FEA1", Self::of("a file of Feather, version 1", Some(FEATHER))),
         ];
         all.into_iter().find(|(magic, _)| start.starts_with(magic)).map(|(_, kind)| kind)

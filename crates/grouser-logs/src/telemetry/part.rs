@@ -14,6 +14,7 @@ use grouser_io::measurements::telemetry::{
 };
 use grouser_io::{escape, file};
 
+use super::arrow::{self, ArrowText};
 use super::mapped::{MappedTable, Rows};
 use super::mcap::{McapFile, McapLog};
 use super::options::LogOptions;
@@ -99,16 +100,32 @@ impl LogPart {
         if start.starts_with(parquet::MAGIC) {
             return Self::of_parquet(&label, file, rover, options);
         }
-        if !start.starts_with(GZIP) {
+        let is_file = start.starts_with(arrow::MAGIC);
+        if !is_file && !start.starts_with(arrow::CONTINUATION) && !start.starts_with(GZIP) {
             return Self::of_table(&label, Box::new(BufReader::new(file)), rover, options);
         }
         let budget = options.budget(&file).map_err(of_disk)?;
+        let file = BufReader::new(file);
+        let source: Box<dyn Read> = if start.starts_with(GZIP) {
+            Box::new(MultiGzDecoder::new(file))
+        } else {
+            Box::new(ArrowText::new(file, is_file).map_err(of_disk)?)
+        };
+        Self::of_unpacked(&label, (source, budget), rover, options)
+    }
+
+    /// Reads CSV that something is unpacked to, within a budget.
+    fn of_unpacked(
+        label: &str,
+        (source, budget): (Box<dyn Read>, OverBudget),
+        rover: &Rover,
+        options: &LogOptions,
+    ) -> Result<Self, TelemetryError> {
         let over = Rc::new(Cell::new(None));
-        let unpacked = MultiGzDecoder::new(BufReader::new(file));
         let rest = budget.most_unpacked();
-        let source = Box::new(Unpacked { source: unpacked, rest, budget, over: over.clone() });
-        let part = Self::of_table(&label, source, rover, options);
-        let part = part.map_err(|error| over_budget(&label, &over, error))?;
+        let source = Box::new(Unpacked { source, rest, budget, over: over.clone() });
+        let part = Self::of_table(label, source, rover, options);
+        let part = part.map_err(|error| over_budget(label, &over, error))?;
         Ok(Self { over, ..part })
     }
 

@@ -1,6 +1,7 @@
 //! Logs of every kind, read as telemetry. Logs that the libraries of others write are read in
 //! `crates/grouser-python/tests/test_telemetry.py`.
 
+mod arrow;
 mod container;
 #[expect(dead_code, reason = "the crate uses all of it")]
 #[path = "../../src/mcap/format.rs"]

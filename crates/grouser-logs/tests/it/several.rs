@@ -153,7 +153,7 @@ fn tables_follow_one_another_and_the_way_between_them_is_not_known() {
     let is_known: Vec<bool> = records.iter().map(|it| !it.is_way_incomplete).collect();
     assert_eq!(is_known, [true, true, false, false, true]);
     assert_eq!(gave(&given), [("first.csv".to_owned(), 2), ("later.csv".to_owned(), 3)]);
-    for part in ["1 cells of `roll_deg`", "later.csv: columns not used: extra"] {
+    for part in ["1 cell of `roll_deg`", "later.csv: columns not used: extra"] {
         assert!(notes.iter().any(|it| it.contains(part)), "{part}: {notes:?}");
     }
     // A log of messages after a table, by the clock of both.
