@@ -24,7 +24,7 @@ pub struct TelemetryError {
 pub enum Remedy<'e> {
     /// A mapping that says which topics and fields are which columns.
     Mapping,
-    /// The same for a table, whose columns are topics with fields.
+    /// A mapping of a table, whose columns are topics with fields.
     MappingOfTable,
     /// The built-in mapping that reads them, by what messages call it.
     BuiltInMapping(&'e str),
@@ -178,9 +178,9 @@ pub enum Problem {
          chosen"
     )]
     NoMessages,
-    /// A file of Parquet that is damaged, or written in a way that is not read.
+    /// A file of Parquet or Arrow that is damaged, or written in a way that is not read.
     #[error("{0}")]
-    Parquet(String),
+    Damaged(String),
     /// A log that unpacks to more than a log of its size may.
     #[error("{0}")]
     OverBudget(OverBudget),
@@ -216,10 +216,15 @@ impl TelemetryError {
         Self { label: label.to_owned(), problem: Box::new(problem) }
     }
 
-    /// Why reading failed: the disk, or a budget that was over.
+    /// Why reading failed: the disk, a budget that was over, or what the file has.
     pub(crate) fn of_reading(label: &str, error: io::Error) -> Self {
         let over = error.get_ref().and_then(|it| it.downcast_ref::<OverBudget>()).copied();
-        Self::new(label, over.map_or(Problem::Unreadable(error), Problem::OverBudget))
+        let problem = match (over, error.kind()) {
+            (Some(over), _) => Problem::OverBudget(over),
+            (None, io::ErrorKind::InvalidData) => Problem::Damaged(error.to_string()),
+            (None, _) => Problem::Unreadable(error),
+        };
+        Self::new(label, problem)
     }
 
     /// What the caller may do about it, if anything.

@@ -41,6 +41,9 @@ pub enum MeasurementProblem {
     /// The disk, or permission for it, failed.
     #[error("cannot be read: {0}")]
     Unreadable(String),
+    /// What is packed in it is damaged.
+    #[error("{0}")]
+    Damaged(String),
     /// More than is read.
     #[error("{0}")]
     TooLarge(Excess),
@@ -275,6 +278,9 @@ impl MeasurementError {
                 Self::whole(file, MeasurementProblem::TooLarge(*excess))
             }
             Some(excess) => Self::at(file, line, MeasurementProblem::TooLarge(*excess)),
+            None if error.kind() == io::ErrorKind::InvalidData => {
+                Self::whole(file, MeasurementProblem::Damaged(error.to_string()))
+            }
             None => Self::whole(file, MeasurementProblem::Unreadable(error.to_string())),
         }
     }

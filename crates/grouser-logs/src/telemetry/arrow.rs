@@ -16,7 +16,7 @@ use self::flatbuffer::FlatTable;
 
 /// How a file begins, with what fills it up to eight bytes.
 pub(super) const MAGIC: &[u8] = b"ARROW1";
-const BEGINNING: usize = 8;
+const BEGINNING: u64 = 8;
 /// What each message begins with.
 pub(super) const CONTINUATION: &[u8] = &[0xff; 4];
 /// No message has a larger description, and no batch more bytes, however often it says so.
@@ -50,8 +50,7 @@ impl<R: Read> ArrowText<R> {
     /// Those of the source, and of what is no Arrow of columns with one value in each row.
     pub(super) fn new(mut source: R, is_file: bool) -> io::Result<Self> {
         if is_file {
-            let mut start = [0; BEGINNING];
-            source.read_exact(&mut start)?;
+            exactly(&mut source, BEGINNING, BEGINNING)?;
         }
         let message = ArrowMessage::read(&mut source)?;
         let message = message.ok_or_else(|| damage("it has no description of its columns"))?;

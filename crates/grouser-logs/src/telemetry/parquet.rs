@@ -174,7 +174,7 @@ impl ParquetCells {
     }
 
     fn failure(&self, why: String) -> TelemetryError {
-        TelemetryError::new(&self.label, Problem::Parquet(why))
+        TelemetryError::new(&self.label, Problem::Damaged(why))
     }
 
     /// Reads the next batch; whether there is one.
@@ -267,7 +267,7 @@ impl Group {
 }
 
 fn of_parquet(label: &str, error: &ParquetError) -> TelemetryError {
-    TelemetryError::new(label, Problem::Parquet(format!("no Parquet that can be read: {error}")))
+    TelemetryError::new(label, Problem::Damaged(format!("no Parquet that can be read: {error}")))
 }
 
 /// # Errors

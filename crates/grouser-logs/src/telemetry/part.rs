@@ -109,7 +109,8 @@ impl LogPart {
         let source: Box<dyn Read> = if start.starts_with(GZIP) {
             Box::new(MultiGzDecoder::new(file))
         } else {
-            Box::new(ArrowText::new(file, is_file).map_err(of_disk)?)
+            let text = ArrowText::new(file, is_file);
+            Box::new(text.map_err(|error| TelemetryError::of_reading(&label, error))?)
         };
         Self::of_unpacked(&label, (source, budget), rover, options)
     }
