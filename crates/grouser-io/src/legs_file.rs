@@ -210,12 +210,7 @@ fn check_places(text: &Text, system: Option<&str>, legs: &[Node]) -> Result<(), 
             Some(Vec2::new(x?, y?))
         })
         .collect();
-    let least = |of: fn(&Vec2) -> f64| all.iter().map(of).fold(f64::INFINITY, f64::min);
-    let most = |of: fn(&Vec2) -> f64| all.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
-    let extent = Extent {
-        south_west: Vec2::new(least(|it| it.x), least(|it| it.y)),
-        north_east: Vec2::new(most(|it| it.x), most(|it| it.y)),
-    };
+    let Some(extent) = Extent::around(&all) else { return Ok(()) };
     grouser_raster::check_places(system, &extent).map_err(|found| in_legs(text, &found))
 }
 

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use grouser_core::terrain::zones::MOST_SOILS;
 use grouser_core::terrain::{ElevationError, Extent, ZonesError};
 
+use crate::length::metres_in;
 use crate::remark::scale;
 use crate::zones::key::{ZoneKey, listed};
 
@@ -35,25 +36,6 @@ fn of_file(fault: &Fault, file: &Path) -> String {
         return fault;
     }
     ["IN.tif", "IN.geojson"].into_iter().fold(fault, |text, of| text.replace(of, &name))
-}
-
-/// The metres in one of a unit, as gdal_calc has them.
-fn metres_in(unit: &str) -> &'static str {
-    let unit = unit.to_lowercase();
-    let is_one = |names: &[&str]| names.iter().any(|name| unit == *name);
-    if unit.contains("survey") && unit.contains('f') || is_one(&["ftus"]) {
-        "1200/3937"
-    } else if is_one(&["ft", "foot", "feet", "international foot"]) {
-        "0.3048"
-    } else if is_one(&["km", "kilometre", "kilometer"]) {
-        "1000"
-    } else if is_one(&["cm", "centimetre", "centimeter"]) {
-        "0.01"
-    } else if is_one(&["mm", "millimetre", "millimeter"]) {
-        "0.001"
-    } else {
-        "METRES_IN_ONE"
-    }
 }
 
 impl Fault {

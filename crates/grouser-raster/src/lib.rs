@@ -44,6 +44,7 @@ mod degrees;
 mod error;
 pub mod geotiff;
 mod heights;
+mod length;
 mod meaning;
 pub mod npy;
 mod options;

@@ -5,6 +5,7 @@ use grouser_core::units::Vec2;
 use crate::advice::{self, MappedBody};
 use crate::coordinate_system::{CoordinateSystem, METRE, key};
 use crate::error::Fault;
+use crate::length::{name_of_code, name_of_size};
 use crate::projection::Projection;
 use crate::remark::Remark;
 
@@ -59,7 +60,7 @@ fn check_heights(text: &str) -> Result<(), Fault> {
     let (name, rest) = unit.split_once('"').unwrap_or((unit, ""));
     let size = rest.trim_start_matches(',').split([',', ']']).next().unwrap_or_default();
     match size.trim().parse::<f64>() {
-        Ok(size) if size != 1.0 => Err(Fault::HeightUnit { unit: unit_of(size, name) }),
+        Ok(size) if size != 1.0 => Err(Fault::HeightUnit { unit: name_of_size(size, name) }),
         _ => Ok(()),
     }
 }
@@ -89,7 +90,7 @@ pub(crate) fn check_keys(
     }
     match system.number(key::VERTICAL_UNIT) {
         None | Some(0 | METRE) => check_registered_heights(system)?,
-        Some(code) => return Err(Fault::HeightUnit { unit: unit_name(code) }),
+        Some(code) => return Err(Fault::HeightUnit { unit: name_of_code(code) }),
     }
     for id in [key::CITATION, key::PROJECTED_CITATION] {
         system.text_of(id).map_or(Ok(()), |text| check_heights(&text))?;
@@ -148,7 +149,7 @@ fn check(
         return Err(Fault::Degrees { command: advice::projection(site.middle, &body, size) });
     }
     if (projection.unit() - 1.0).abs() > 1e-9 {
-        return Err(Fault::Unit { unit: unit_of(projection.unit(), "") });
+        return Err(Fault::Unit { unit: name_of_size(projection.unit(), "") });
     }
     let (Some(factors), Some(place)) =
         (projection.scale(site.middle), projection.place(site.middle))
@@ -175,42 +176,8 @@ fn foreign_unit(system: &CoordinateSystem) -> Option<String> {
         None | Some(0 | METRE) => None,
         Some(key::USER_DEFINED) => {
             let size = system.linear_unit().unwrap_or(1.0);
-            (size != 1.0).then(|| unit_of(size, ""))
+            (size != 1.0).then(|| name_of_size(size, ""))
         }
-        Some(code) => Some(unit_name(code)),
-    }
-}
-
-/// A unit by its code in the EPSG register.
-fn unit_name(code: u16) -> String {
-    match code {
-        1025 => "millimetres".into(),
-        1033 => "centimetres".into(),
-        9002 => "feet".into(),
-        9003 => "US survey feet".into(),
-        9036 => "kilometres".into(),
-        code => format!("a unit with the code EPSG:{code}"),
-    }
-}
-
-/// A unit by its length [m].
-///
-/// * `own`: its name, for one that is not known here
-fn unit_of(size: f64, own: &str) -> String {
-    const KNOWN: [(f64, &str); 5] = [
-        (0.001, "millimetres"),
-        (0.01, "centimetres"),
-        (0.3048, "feet"),
-        (1200.0 / 3937.0, "US survey feet"),
-        (1000.0, "kilometres"),
-    ];
-    let known = KNOWN.iter().find(|(length, _)| (size / length - 1.0).abs() < 1e-7);
-    match known {
-        Some((_, name)) => (*name).to_owned(),
-        None if own.is_empty() => format!("units of {size} m"),
-        None => {
-            let own: String = own.chars().filter(|c| !c.is_control()).take(40).collect();
-            format!("{own} ({size} m)")
-        }
+        Some(code) => Some(name_of_code(code)),
     }
 }

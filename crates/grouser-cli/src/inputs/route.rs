@@ -82,21 +82,14 @@ pub(crate) fn route(args: &RouteArgs) -> Result<RouteInputs, Failure> {
     }
     if let (Some(file), Asked::Along(line)) = (&args.along, &asked) {
         // Places off the map are refused before anything is computed.
-        let extent = extent_of(line.places());
-        let on_ground = grouser_raster::check_places_on(&raster.grid.extent(), &extent);
-        on_ground.map_err(|fault| RasterError { file: file.clone(), fault })?;
+        if let Some(extent) = Extent::around(line.places()) {
+            let on_ground = grouser_raster::check_places_on(&raster.grid.extent(), &extent);
+            on_ground.map_err(|fault| RasterError { file: file.clone(), fault })?;
+        }
         let places = line.places().len() as u64;
         given.push(GivenFile::new(name(file), FileContent::Way, places, places));
     }
     Ok(RouteInputs { scenario, study, asked, raster, given })
-}
-
-/// What places span.
-fn extent_of(places: &[Vec2]) -> Extent {
-    let first = places.first().copied().unwrap_or_default();
-    let low = places.iter().fold(first, |low, it| low.inf(it));
-    let high = places.iter().fold(first, |high, it| high.sup(it));
-    Extent { south_west: low, north_east: high }
 }
 
 fn asked(args: &RouteArgs) -> Result<Asked, Failure> {

@@ -6,7 +6,7 @@ use grouser_core::terrain::{ElevationGrid, Extent, SoilZones, ZonePolygon};
 use grouser_core::units::Vec2;
 
 use super::key::ZoneKey;
-use super::places::{check_places, lie_apart};
+use super::places::check_places;
 use crate::degrees::may_be_degrees;
 use crate::error::Fault;
 
@@ -48,8 +48,7 @@ impl ZoneMap {
         keys.sort();
         keys.dedup();
         check_count(&keys)?;
-        let extent = span(polygons.iter().flat_map(|(_, rings)| rings.iter().flatten().copied()));
-        let extent = extent.map(|[south_west, north_east]| Extent { south_west, north_east });
+        let extent = Extent::around(polygons.iter().flat_map(|(_, rings)| rings.iter().flatten()));
         let number = |key: &ZoneKey| keys.binary_search(key).unwrap_or(keys.len());
         let polygons = polygons
             .into_iter()
@@ -84,21 +83,22 @@ impl ZoneMap {
     /// * `ground`: without an end, if it has none
     #[must_use]
     pub fn counts(&self, ground: Option<&Extent>) -> ZoneCounts {
-        let is_on = |low: Vec2, high: Vec2| ground.is_none_or(|it| !lie_apart([low, high], it));
+        let is_on = |it: &Extent| ground.is_none_or(|ground| !it.is_apart_from(ground));
         let (there, used) = match &self.shape {
             Shape::Cells(grid, cells) => {
                 let is_used = |(place, zone): &(usize, &u8)| {
                     let (column, row) = (place % grid.columns, place / grid.columns);
                     let offset = Vec2::new(column as f64, row as f64);
                     let at = grid.south_west + grid.spacing.component_mul(&offset);
-                    **zone != NO_ZONE && is_on(at - 0.5 * grid.spacing, at + 0.5 * grid.spacing)
+                    let half = 0.5 * grid.spacing;
+                    let cell = Extent { south_west: at - half, north_east: at + half };
+                    **zone != NO_ZONE && is_on(&cell)
                 };
                 (cells.len(), cells.iter().enumerate().filter(is_used).count())
             }
             Shape::Polygons(polygons, _) => {
                 let is_used = |polygon: &&ZonePolygon| {
-                    let span = span(polygon.rings.iter().flatten().copied());
-                    span.is_some_and(|[low, high]| is_on(low, high))
+                    Extent::around(polygon.rings.iter().flatten()).is_some_and(|it| is_on(&it))
                 };
                 (polygons.len(), polygons.iter().filter(is_used).count())
             }
@@ -165,14 +165,6 @@ impl ZoneMap {
             Fault::Elsewhere { zones, ground: *ground }
         })
     }
-}
-
-/// The smallest and the largest coordinates of places; none where there is no place.
-fn span(places: impl Iterator<Item = Vec2>) -> Option<[Vec2; 2]> {
-    places.fold(None, |span, place| {
-        let [low, high] = span.unwrap_or([place, place]);
-        Some([low.inf(&place), high.sup(&place)])
-    })
 }
 
 /// Checks that there are no more zones than can be distinguished.

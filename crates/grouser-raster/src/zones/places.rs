@@ -1,7 +1,6 @@
 //! Whether places of GeoJSON are metres of a map, or of another one, or degrees.
 
 use grouser_core::terrain::Extent;
-use grouser_core::units::Vec2;
 
 use crate::CoordinateSystem;
 use crate::degrees::{are_degrees, may_be_degrees};
@@ -34,20 +33,12 @@ pub fn check_places(system: Option<&str>, places: &Extent) -> Result<(), Fault> 
 /// # Errors
 /// [`Fault::ZonesInDegrees`] if they are.
 pub fn check_places_on(ground: &Extent, places: &Extent) -> Result<(), Fault> {
-    let is_apart = lie_apart([places.south_west, places.north_east], ground);
+    let is_apart = places.is_apart_from(ground);
     let is_elsewhere = is_apart && may_be_degrees(places) && !may_be_degrees(ground);
     if is_elsewhere || (is_apart && are_degrees(places)) {
         return Err(Fault::ZonesInDegrees);
     }
     Ok(())
-}
-
-/// Whether what lies between two corners does not touch the ground.
-pub(super) fn lie_apart([low, high]: [Vec2; 2], ground: &Extent) -> bool {
-    low.x > ground.north_east.x
-        || low.y > ground.north_east.y
-        || high.x < ground.south_west.x
-        || high.y < ground.south_west.y
 }
 
 /// Compares the system that a file of GeoJSON names with that of the map that it is for; a remark

@@ -26,6 +26,25 @@ pub struct Extent {
 }
 
 impl Extent {
+    /// The smallest rectangle that has all places [m]; none where there is no place.
+    #[must_use]
+    pub fn around<'p>(places: impl IntoIterator<Item = &'p Vec2>) -> Option<Self> {
+        places.into_iter().fold(None, |extent: Option<Self>, place| {
+            let Self { south_west, north_east } =
+                extent.unwrap_or(Self { south_west: *place, north_east: *place });
+            Some(Self { south_west: south_west.inf(place), north_east: north_east.sup(place) })
+        })
+    }
+
+    /// Whether nothing of it is inside the other, or on its edge.
+    #[must_use]
+    pub fn is_apart_from(&self, other: &Self) -> bool {
+        self.south_west.x > other.north_east.x
+            || self.south_west.y > other.north_east.y
+            || self.north_east.x < other.south_west.x
+            || self.north_east.y < other.south_west.y
+    }
+
     /// Whether a place is inside, or on its edge.
     #[must_use]
     pub fn contains(&self, at: Vec2) -> bool {

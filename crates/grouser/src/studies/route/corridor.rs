@@ -4,6 +4,7 @@ use super::answer::{LineError, RouteError};
 use super::moves::MOVES;
 use super::search::slope_at;
 use crate::studies::mobility::Ground;
+use crate::terrain::Extent;
 use crate::units::Vec2;
 
 /// The most pieces that a line is cut into.
@@ -51,15 +52,9 @@ impl Corridor<'_> {
     /// looked at.
     pub(super) fn check(&self, places: &[Vec2]) -> Result<(), RouteError> {
         let extent = self.ground.raster().grid.extent();
-        let corners = [extent.south_west, extent.north_east];
-        let low = places.iter().fold(places[0], |one, other| one.inf(other));
-        let high = places.iter().fold(places[0], |one, other| one.sup(other));
-        if high.x < corners[0].x
-            || high.y < corners[0].y
-            || low.x > corners[1].x
-            || low.y > corners[1].y
-        {
-            return Err(LineError::Elsewhere { line: [low, high], corners }.into());
+        if let Some(line) = Extent::around(places).filter(|it| it.is_apart_from(&extent)) {
+            let [line, corners] = [line, extent].map(|it| [it.south_west, it.north_east]);
+            return Err(LineError::Elsewhere { line, corners }.into());
         }
         let cells =
             places.windows(2).map(|pair| (self.cells(pair[1]) - self.cells(pair[0])).amax());
