@@ -21,10 +21,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
-use std::thread;
 
 use anyhow::{Context, Result, bail};
 
+use crate::cores;
 use crate::extent::Extent;
 use crate::libtest::Count;
 use crate::workspace;
@@ -146,25 +146,17 @@ pub(crate) fn check(plan: &Plan) -> Result<Count> {
 fn run(program: &Path, subjects: &[Subject], plan: &Plan, kept: &Path) -> Result<Vec<Finding>> {
     let next = AtomicU64::new(plan.first);
     let findings = Mutex::new(Vec::new());
-    let workers = thread::available_parallelism().map_or(1, usize::from);
     let lock = || findings.lock().unwrap_or_else(PoisonError::into_inner);
-    thread::scope(|scope| {
-        let worker = || -> Result<()> {
-            loop {
-                let case = next.fetch_add(1, Ordering::Relaxed);
-                if case >= plan.first + plan.cases || lock().len() >= ENOUGH {
-                    return Ok(());
-                }
-                if let Some(finding) = try_case(program, subjects, plan, case, kept)? {
-                    lock().push(finding);
-                }
+    cores::on_each(|| {
+        loop {
+            let case = next.fetch_add(1, Ordering::Relaxed);
+            if case >= plan.first + plan.cases || lock().len() >= ENOUGH {
+                return Ok(());
             }
-        };
-        let handles: Vec<_> = (0..workers).map(|_| scope.spawn(worker)).collect();
-        handles.into_iter().try_for_each(|handle| match handle.join() {
-            Ok(done) => done,
-            Err(_) => bail!("a worker of the fuzzer panicked"),
-        })
+            if let Some(finding) = try_case(program, subjects, plan, case, kept)? {
+                lock().push(finding);
+            }
+        }
     })?;
     Ok(findings.into_inner().unwrap_or_else(PoisonError::into_inner))
 }

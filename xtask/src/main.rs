@@ -6,6 +6,7 @@ mod c;
 mod changed;
 mod ci;
 mod cited;
+mod cores;
 mod costs;
 mod count;
 mod cpu;

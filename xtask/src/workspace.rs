@@ -114,6 +114,16 @@ pub(crate) fn build(program: &str, profile: Profile) -> Result<PathBuf> {
     Ok(target().join(folder).join(format!("{program}{}", std::env::consts::EXE_SUFFIX)))
 }
 
+/// Builds an example as a build of all tests does, and returns its path: alone it would choose other
+/// features of the libraries that it shares with them.
+pub(crate) fn build_example(name: &str) -> Result<PathBuf> {
+    let mut command = linting_cargo();
+    let status = command.args(["build", "--workspace", "--example", name]).status();
+    ensure!(status.context("cargo did not start")?.success(), "`{name}` does not build");
+    let file = format!("{name}{}", std::env::consts::EXE_SUFFIX);
+    Ok(target().join("debug/examples").join(file))
+}
+
 /// The folder that cargo builds into.
 pub(crate) fn target() -> PathBuf {
     let folder =

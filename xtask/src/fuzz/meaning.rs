@@ -14,14 +14,13 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-use std::thread;
 
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::Value;
 
 use crate::extent::Extent;
 use crate::libtest::Count;
-use crate::{markers, workspace};
+use crate::{cores, markers, workspace};
 use faults::Fault;
 use table::Table;
 
@@ -130,20 +129,12 @@ fn examine(numbers: &[usize]) -> Result<Outcomes> {
         .collect();
     let outcomes = Mutex::new(vec![vec![None; drives.len()]; faults.len()]);
     let next = AtomicUsize::new(0);
-    let worker = || -> Result<()> {
+    cores::on_each(|| {
         while let Some((fault, drive)) = cases.get(next.fetch_add(1, Ordering::Relaxed)) {
             let outcome = outcome(&program, &faults[*fault], &drives[*drive])?;
             outcomes.lock().unwrap_or_else(PoisonError::into_inner)[*fault][*drive] = outcome;
         }
         Ok(())
-    };
-    thread::scope(|scope| {
-        let workers = thread::available_parallelism().map_or(1, usize::from);
-        let handles: Vec<_> = (0..workers).map(|_| scope.spawn(worker)).collect();
-        handles.into_iter().try_for_each(|handle| match handle.join() {
-            Ok(done) => done,
-            Err(_) => bail!("a worker panicked"),
-        })
     })?;
     let outcomes = outcomes.into_inner().unwrap_or_else(PoisonError::into_inner);
     Ok(faults.iter().map(|it| it.name).zip(outcomes).collect())
@@ -151,13 +142,9 @@ fn examine(numbers: &[usize]) -> Result<Outcomes> {
 
 /// Writes the drives, and learns from each as it is.
 fn drives(program: &Path, folder: &Path, numbers: &[usize]) -> Result<Vec<Drive>> {
-    let status = workspace::linting_cargo()
-        .args(["build", "-q", "--workspace", "--example", "learning"])
-        .status()
-        .context("cargo did not start")?;
-    ensure!(status.success(), "the example `learning` does not build");
+    let program = workspace::build_example("learning")?;
     let last = numbers.iter().max().map_or(0, |last| last + 1);
-    let written = Command::new(workspace::target().join("debug/examples/learning"))
+    let written = Command::new(program)
         .arg("drives")
         .arg(folder)
         .arg(last.to_string())

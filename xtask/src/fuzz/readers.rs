@@ -52,7 +52,7 @@ impl Plan {
 
 /// Tries the readers of this checkout.
 pub(crate) fn check(plan: Plan) -> Result<Count> {
-    let program = build()?;
+    let program = workspace::build_example(PROGRAM)?;
     let kept = workspace::target().join("fuzz/readers");
     let _ = fs::remove_dir_all(&kept);
     let mut readers = Command::new(program);
@@ -70,17 +70,6 @@ pub(crate) fn check(plan: Plan) -> Result<Count> {
         );
     }
     Ok(Count::one(status.success()))
-}
-
-/// Builds the program, as a build of all tests does: alone it would choose other features of the
-/// libraries that it shares with them.
-fn build() -> Result<PathBuf> {
-    let mut command = workspace::linting_cargo();
-    command.args(["build", "--workspace", "--example", PROGRAM]);
-    let status = command.status().context("cargo did not start")?;
-    ensure!(status.success(), "`{PROGRAM}` does not build");
-    let name = format!("{PROGRAM}{}", std::env::consts::EXE_SUFFIX);
-    Ok(workspace::target().join("debug/examples").join(name))
 }
 
 /// The case that each thread was at.
