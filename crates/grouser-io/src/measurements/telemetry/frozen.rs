@@ -28,6 +28,8 @@ struct FrozenChannel {
     others: Vec<f64>,
     /// The last numbers before, each another than the one before it.
     before: VecDeque<f64>,
+    /// Whether those scattered, known once the number has stayed for long.
+    scattered: bool,
 }
 
 impl Frozen {
@@ -56,10 +58,13 @@ impl Frozen {
             channel.change_to(number);
         }
         channel.rows += 1;
+        if channel.rows == ROWS + 1 {
+            channel.scattered = channel.has_scattered();
+        }
         // A wheel may stand, and a rover go straight on.
         let may_stay = !channel.is_judged || (number == 0.0 && kind == STANDING);
         let is_still = channel.rows > ROWS && !may_stay;
-        is_still && (channel.others.len() >= OTHERS || (number != 0.0 && channel.scattered()))
+        is_still && (channel.others.len() >= OTHERS || (number != 0.0 && channel.scattered))
     }
 }
 
@@ -75,12 +80,12 @@ impl FrozenChannel {
         if self.before.len() > Self::BEFORE {
             self.before.pop_front();
         }
-        (self.number, self.rows) = (number, 0);
+        (self.number, self.rows, self.scattered) = (number, 0, false);
     }
 
     /// Whether it went up and down before, and took many numbers: what settles, or is rounded
     /// coarsely, does not.
-    fn scattered(&self) -> bool {
+    fn has_scattered(&self) -> bool {
         /// Changes of direction among those remembered.
         const TURNS: usize = 6;
         /// Less is rounding of the computer that simulated it, over the number [-].

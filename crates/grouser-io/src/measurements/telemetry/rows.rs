@@ -44,7 +44,7 @@ pub struct TelemetryRows {
 /// How times follow each other.
 #[derive(Clone, Copy, Debug, Default)]
 struct Times {
-    /// Of the row before [s].
+    /// The time of the row before [s].
     last: Option<f64>,
     /// Rows with a time before that of the row before them.
     backward: u64,

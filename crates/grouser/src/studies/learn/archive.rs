@@ -45,6 +45,14 @@ pub(super) fn items<T>(
     archive.end();
 }
 
+/// Numbers by their names.
+pub(super) fn named<const COUNT: usize>(
+    archive: &mut dyn Archive,
+    numbers: [(&str, &mut f64); COUNT],
+) {
+    numbers.into_iter().for_each(|(name, value)| archive.number(name, value));
+}
+
 /// A list of numbers.
 pub(super) fn numbers(archive: &mut dyn Archive, name: &str, values: &mut Vec<f64>) {
     list(archive, name, values, |archive, value| archive.number("", value));

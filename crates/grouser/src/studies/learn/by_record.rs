@@ -1,7 +1,7 @@
 //! What records show before they are stretches: ways that are lost, and an attitude that no sensor
 //! measures.
 
-use super::archive::{Archive, numbers};
+use super::archive::{Archive, named, numbers};
 use super::straight_line::StraightLine;
 use super::stretch::GAP;
 use grouser_io::measurements::telemetry::TelemetryRecord;
@@ -40,7 +40,8 @@ struct Zeros {
 #[derive(Clone, Debug, Default)]
 struct Still {
     /// Roll and pitch [rad], since so many records, over which ways turned around so often.
-    at: Vec<f64>,
+    roll: Option<f64>,
+    pitch: Option<f64>,
     records: f64,
     turns: f64,
     /// The last way, and its last change [m].
@@ -131,17 +132,15 @@ impl ByRecord {
         archive.maybe("last_way", last_way);
         archive.group("zeros");
         let Zeros { none, some, small, behind, way, way_behind, different, was_none } = zeros;
-        let counts = [none, some, small, behind, way, way_behind, was_none];
-        let names = ["none", "some", "small", "behind", "way", "way_behind", "was_none"];
-        names.into_iter().zip(counts).for_each(|(name, value)| archive.number(name, value));
+        named(archive, [("none", none), ("some", some), ("small", small), ("behind", behind)]);
+        named(archive, [("way", way), ("way_behind", way_behind), ("was_none", was_none)]);
         numbers(archive, "different", different);
         archive.end();
         archive.group("still");
-        let Still { at, records, turns, way, change } = still;
-        numbers(archive, "at", at);
-        let sums = [records, turns, way, change];
-        let names = ["records", "turns", "way", "change"];
-        names.into_iter().zip(sums).for_each(|(name, value)| archive.number(name, value));
+        let Still { roll, pitch, records, turns, way, change } = still;
+        archive.maybe("roll", roll);
+        archive.maybe("pitch", pitch);
+        named(archive, [("records", records), ("turns", turns), ("way", way), ("change", change)]);
         archive.end();
     }
 }
@@ -194,10 +193,10 @@ impl Still {
     fn read(&mut self, record: &TelemetryRecord) {
         /// A change that is no rounding of the computer's, over the way [-].
         const CHANGE: f64 = 1e-4;
-        if let (Some(roll), Some(pitch)) = (record.roll, record.pitch) {
-            if self.at != [roll, pitch] {
+        if record.roll.is_some() && record.pitch.is_some() {
+            if (self.roll, self.pitch) != (record.roll, record.pitch) {
                 (self.records, self.turns) = (0.0, 0.0);
-                self.at = vec![roll, pitch];
+                (self.roll, self.pitch) = (record.roll, record.pitch);
             }
             self.records += 1.0;
         }

@@ -5,7 +5,7 @@
 //! their place. What follows from the scenario is not part of the state. An exhaustive pattern in
 //! each walk leaves no field out.
 
-use super::archive::{Archive, items, maybes, numbers};
+use super::archive::{Archive, items, maybes, named, numbers};
 use super::gross::{GrossFault, Suspect};
 use super::information::InformationByKind;
 use super::motion::NotUsed;
@@ -91,9 +91,8 @@ impl Lesson {
         archive.number("expected_slip", expected_slip);
         archive.number("information", information);
         let InformationByKind { along, across, turning, torque, sinkage } = by_kind;
-        let names = ["along", "across", "turning", "torque", "sinkage"];
-        let all = [along, across, turning, torque, sinkage];
-        names.into_iter().zip(all).for_each(|(name, value)| archive.number(name, value));
+        named(archive, [("along", along), ("across", across), ("turning", turning)]);
+        named(archive, [("torque", torque), ("sinkage", sinkage)]);
         numbers(archive, "scores", scores);
         items(archive, "warnings", warnings, Warning::blank, Warning::walk);
         archive.group("stretch");

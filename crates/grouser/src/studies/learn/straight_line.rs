@@ -1,6 +1,6 @@
 //! Sums of pairs of numbers, for a straight line through them.
 
-use super::archive::Archive;
+use super::archive::{Archive, named};
 
 /// Sums of pairs.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,9 +26,8 @@ impl StraightLine {
     pub(super) fn walk(&mut self, name: &str, archive: &mut dyn Archive) {
         let Self { count, x, y, xx, xy, yy } = self;
         archive.group(name);
-        let names = ["count", "x", "y", "xx", "xy", "yy"];
-        let sums = [count, x, y, xx, xy, yy];
-        names.into_iter().zip(sums).for_each(|(name, value)| archive.number(name, value));
+        let sums = [("count", count), ("x", x), ("y", y), ("xx", xx), ("xy", xy), ("yy", yy)];
+        named(archive, sums);
         archive.end();
     }
 

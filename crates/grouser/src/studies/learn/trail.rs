@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 
-use super::archive::{Archive, items};
+use super::archive::{Archive, items, named};
 use crate::elementary::wide::cos;
 
 /// The last stretches.
@@ -143,20 +143,10 @@ impl Past {
             weakness_variance,
         } = self;
         archive.maybe("weakness", weakness);
-        let all =
-            [time, way, ground, slip_ratio, strain, strain_variance, slope, yaw, weakness_variance];
-        let names = [
-            "time",
-            "way",
-            "ground",
-            "slip_ratio",
-            "strain",
-            "strain_variance",
-            "slope",
-            "yaw",
-            "weakness_variance",
-        ];
-        names.into_iter().zip(all).for_each(|(name, value)| archive.number(name, value));
+        named(archive, [("time", time), ("way", way), ("ground", ground)]);
+        named(archive, [("slip_ratio", slip_ratio), ("strain", strain)]);
+        named(archive, [("strain_variance", strain_variance), ("slope", slope), ("yaw", yaw)]);
+        named(archive, [("weakness_variance", weakness_variance)]);
     }
 }
 
