@@ -5,7 +5,7 @@
 //! |---|---|
 //! | a run or a mission as MCAP, for Foxglove and Rerun | [`Log`] |
 //! | a replayed drive as MCAP, measured beside predicted | [`write_replay`] |
-//! | telemetry of a drive from CSV, Parquet or MCAP, of one file or several | [`TelemetryLog`] |
+//! | telemetry of a drive from CSV, Parquet, Arrow or MCAP, of one file or several | [`TelemetryLog`] |
 //! | messages that somebody else decodes, as telemetry | [`MessageRows`] |
 //! | telemetry as CSV or Parquet | [`TelemetryWriter`] |
 //!

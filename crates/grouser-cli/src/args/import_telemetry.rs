@@ -16,7 +16,7 @@ use super::TelemetryArgs;
                   docs/guide/telemetry.md has the reference of mappings."
 )]
 pub(crate) struct ImportTelemetryArgs {
-    /// The log: MCAP, Parquet or CSV; several files of one drive, or a folder of MCAP files.
+    /// The log: MCAP, Parquet, Arrow or CSV; several files of one drive, or a folder of MCAP files.
     #[arg(value_name = "LOG", required_unless_present = "print_mapping")]
     pub(crate) logs: Vec<PathBuf>,
     /// The rover that was driven: a preset or a file. Without it the rover of the default scenario.

@@ -22,11 +22,11 @@ use crate::list::{self, Numbers};
 #[command(mut_arg("force", |force| force.requires(Resettable::Reset).requires("written")))]
 #[command(group(ArgGroup::new("written").args(["out", "slide"]).multiple(true)))]
 pub(crate) struct LearnArgs {
-    /// Telemetry of the drive: MCAP, or a table (`telemetry/1`) of CSV or Parquet, `-` for CSV from
-    /// standard input; several files of one drive, or a folder of MCAP files. Its columns are `time_s`, and any of `roll_deg`, `pitch_deg`, `yaw_deg`,
-    /// `wheel_speed_rad_s_WHEEL`, `wheel_torque_nm_WHEEL` or `motor_current_a_WHEEL`,
-    /// `steering_deg_WHEEL`, `sinkage_mm_WHEEL`, `vo_dx_m`, `vo_dy_m`, `vo_dyaw_deg`, `x_m`, `y_m`;
-    /// empty cells are gaps.
+    /// Telemetry of the drive: MCAP, or a table (`telemetry/1`) of CSV, Parquet or Arrow, `-` for CSV
+    /// from standard input; several files of one drive, or a folder of MCAP files. Its columns are
+    /// `time_s`, and any of `roll_deg`, `pitch_deg`, `yaw_deg`, `wheel_speed_rad_s_WHEEL`,
+    /// `wheel_torque_nm_WHEEL` or `motor_current_a_WHEEL`, `steering_deg_WHEEL`, `sinkage_mm_WHEEL`,
+    /// `vo_dx_m`, `vo_dy_m`, `vo_dyaw_deg`, `x_m`, `y_m`; empty cells are gaps.
     #[arg(value_name = "LOG|-", required = true)]
     pub(crate) logs: Vec<PathBuf>,
     #[command(flatten)]

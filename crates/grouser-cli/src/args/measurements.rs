@@ -45,7 +45,7 @@ pub(crate) struct ValidateArgs {
     /// columns). Without a wheel or rover: every model is ranked on the data set.
     #[arg(long, value_name = "NAME|FILE.csv", required_unless_present_any = ["all", "drives"])]
     pub(crate) data: Option<PathBuf>,
-    /// Telemetry of drives instead: every log below a folder (CSV, Parquet or MCAP, read as `replay`
+    /// Telemetry of drives instead: every log below a folder (CSV, Parquet, Arrow or MCAP, read as `replay`
     /// reads one), predicted by every model from its wheel speeds and attitudes alone. A data set
     /// of slopes by its name stands for its drives.
     #[arg(long, value_name = "DIR|NAME")]

@@ -23,9 +23,10 @@ use super::{
 #[command(mut_arg("force", |force| force.requires(Resettable::Reset).requires("written")))]
 #[command(group(ArgGroup::new("written").args(["out", "slide"]).multiple(true)))]
 pub(crate) struct ReplayArgs {
-    /// Telemetry of the drive (`telemetry/1` as CSV or Parquet, or MCAP), or `-` to read CSV from
-    /// standard input; several files of one drive, or a folder of MCAP files: `time_s`, `wheel_speed_rad_s_WHEEL`, and any of the other columns that
-    /// `learn` reads; empty cells are gaps.
+    /// Telemetry of the drive (`telemetry/1` as CSV, Parquet or Arrow, or MCAP), or `-` to read CSV
+    /// from standard input; several files of one drive, or a folder of MCAP files: `time_s`,
+    /// `wheel_speed_rad_s_WHEEL`, and any of the other columns that `learn` reads; empty cells are
+    /// gaps.
     #[arg(value_name = "LOG|-", required = true)]
     pub(crate) logs: Vec<PathBuf>,
     #[command(flatten)]

@@ -23,7 +23,7 @@ pub(crate) struct SlipFromCurrentArgs {
     /// The log: CSV with `time_s`, and `current_a` and `wheel_speed_rad_s` of each wheel, as
     /// `front-left.current_a` or in rows with the name in `wheel`. It may have `load_n`,
     /// `slip_angle_deg`, `steering_deg`, `slope_deg`, `yaw_deg`, `course_deg`, and `slip_ratio`
-    /// measured by other means. Or telemetry as `learn` reads it (CSV, Parquet, MCAP), with
+    /// measured by other means. Or telemetry as `learn` reads it (CSV, Parquet, Arrow, MCAP), with
     /// `motor_current_a_WHEEL`.
     #[arg(value_name = "LOG")]
     pub(crate) log: PathBuf,

@@ -181,7 +181,7 @@ fn drive(
 }
 
 /// What the names of logs end with.
-const LOGS: [&str; 4] = ["csv", "gz", "parquet", "mcap"];
+const LOGS: [&str; 7] = ["csv", "gz", "parquet", "arrow", "arrows", "feather", "mcap"];
 
 /// The logs below a folder, by their paths.
 fn logs_below(folder: &Path) -> Result<Vec<PathBuf>, Failure> {

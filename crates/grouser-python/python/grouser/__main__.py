@@ -26,8 +26,8 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
     command = commands.add_parser(
         "import-telemetry",
         help="convert a log of a drive to telemetry",
-        description="Converts a bag of ROS 1 or ROS 2, or a log of MCAP, Parquet or CSV, to the "
-        "telemetry that `grouser learn` reads.",
+        description="Converts a bag of ROS 1 or ROS 2, or a log of MCAP, Parquet, Arrow or CSV, to "
+        "the telemetry that `grouser learn` reads.",
     )
     command.add_argument(
         "log", metavar="LOG", nargs="+", help="the bag or the log; several files of one drive"

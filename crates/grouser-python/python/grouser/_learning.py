@@ -151,8 +151,8 @@ class Learner:
         Parameters
         ----------
         log : str or path, or a list of them
-            The log: CSV, Parquet or MCAP; files of one drive in any order, or a folder of MCAP
-            files.
+            The log: CSV, Parquet, Arrow or MCAP; files of one drive in any order, or a folder of
+            MCAP files.
         odometry : str, optional
             What measured ways and rotations, in place of what a mapping says: ``"visual"``,
             ``"wheels"`` (which show no slip, and are left out), ``"fused"`` with wheels, or

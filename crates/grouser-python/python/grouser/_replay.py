@@ -46,8 +46,8 @@ def replay(
     Parameters
     ----------
     log : path, list of paths, mapping of arrays, or pandas.DataFrame
-        Telemetry: a file of CSV, Parquet or MCAP, files of one drive, or columns by name (``time_s``, ``wheel_speed_rad_s_WHEEL``,
-        ``roll_deg``, ``vo_dx_m``, …); NaN where nothing was read.
+        Telemetry: a file of CSV, Parquet, Arrow or MCAP, files of one drive, or columns by name
+        (``time_s``, ``wheel_speed_rad_s_WHEEL``, ``roll_deg``, ``vo_dx_m``, …); NaN where nothing was read.
     scenario : Scenario, name, path or mapping, optional
         Its rover, soil, gravity, model and load transfer are used.
     slope_deg : float, optional

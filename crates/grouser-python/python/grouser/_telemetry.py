@@ -65,8 +65,8 @@ def import_telemetry(
     Parameters
     ----------
     log : str or path, or a list of them
-        A ``.bag`` of ROS 1, the folder or the file of a bag of ROS 2, or a log of MCAP, Parquet or
-        CSV; of these several files of one drive, too, or a folder of MCAP files.
+        A ``.bag`` of ROS 1, the folder or the file of a bag of ROS 2, or a log of MCAP, Parquet,
+        Arrow or CSV; of these several files of one drive, too, or a folder of MCAP files.
     out : str or path
         The file to write: Parquet if its name ends with ``.parquet``, or else CSV.
     mapping : str or path, optional
