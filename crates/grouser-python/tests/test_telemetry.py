@@ -241,6 +241,17 @@ def test_mcap_of_its_own_writer_is_telemetry(
     assert printed.stdout.decode() == out.read_text()
 
 
+def imported(log: Path, out: Path, milliseconds: Any) -> list[dict[str, float | None]]:
+    """The rows of a log with these times, no roll in every seventh row, and a remark."""
+    found = gr.import_telemetry(log, out, rover="hakuto")
+    assert found.records == len(milliseconds)
+    assert found.notes == ("columns not used: remark",)
+    rows = rows_of(out)
+    assert [row["time_s"] for row in rows] == pytest.approx(milliseconds / 1000)
+    assert rows[7]["roll_deg"] is None and rows[8]["roll_deg"] == pytest.approx(1.5)
+    return rows
+
+
 @pytest.mark.parametrize("compression", ["none", "snappy", "gzip", "zstd"])
 @pytest.mark.parametrize("version", ["1.0", "2.0"])
 def test_parquet_of_pyarrow_is_telemetry(compression: str, version: str, tmp_path: Path) -> None:
@@ -264,12 +275,7 @@ def test_parquet_of_pyarrow_is_telemetry(compression: str, version: str, tmp_pat
     parquet.write_table(
         table, log, compression=compression, data_page_version=version, row_group_size=1500
     )
-    found = gr.import_telemetry(log, out, rover="hakuto")
-    assert found.records == count
-    assert found.notes == ("columns not used: remark",)
-    rows = rows_of(out)
-    assert [row["time_s"] for row in rows] == pytest.approx(milliseconds / 1000)
-    assert rows[7]["roll_deg"] is None and rows[8]["roll_deg"] == pytest.approx(1.5)
+    rows = imported(log, out, milliseconds)
     assert [row["x_m"] for row in rows[:3]] == [0.0, 0.125, 0.25]
     assert rows[13]["pitch_deg"] == pytest.approx(3.0) and rows[13][WHEEL] == 0.5
     # What is written as Parquet is read by others.
@@ -300,12 +306,7 @@ def test_arrow_of_pyarrow_is_telemetry(compression: str, tmp_path: Path) -> None
             writer.write_table(table, max_chunksize=700)
     else:
         feather.write_feather(table, log, compression, chunksize=1500)
-    found = gr.import_telemetry(log, out, rover="hakuto")
-    assert found.records == count
-    assert found.notes == ("columns not used: remark",)
-    rows = rows_of(out)
-    assert [row["time_s"] for row in rows] == pytest.approx(milliseconds / 1000)
-    assert rows[7]["roll_deg"] is None and rows[8]["roll_deg"] == pytest.approx(1.5)
+    imported(log, out, milliseconds)
 
 
 def test_what_cannot_be_imported_is_an_error_of_ours(tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ use crate::program::{Place, number};
 use crate::telemetry::{LEARN, RUN};
 
 /// A drive as a table, in a place.
-pub(crate) fn drive() -> (Place, String) {
+fn drive() -> (Place, String) {
     let place = Place::new();
     place.results(&format!("{RUN} --telemetry drive.csv"));
     let text = place.read("drive.csv");
@@ -356,10 +356,7 @@ fn a_mission_that_ends_early_has_succeeded_as_a_command() {
 /// A table whose cells are others.
 ///
 /// * `cell`: of each row, by the name of a column, what it becomes; nothing to leave it
-pub(crate) fn with_cells(
-    text: &str,
-    cell: impl Fn(&str, &dyn Fn(&str) -> f64) -> Option<f64>,
-) -> String {
+fn with_cells(text: &str, cell: impl Fn(&str, &dyn Fn(&str) -> f64) -> Option<f64>) -> String {
     let (header, rows) = text.split_once('\n').expect("a header");
     let names: Vec<&str> = header.split(',').collect();
     let row = |line: &str| {
@@ -382,12 +379,12 @@ pub(crate) fn with_cells(
 }
 
 /// The same with each column of a name that begins so multiplied.
-pub(crate) fn times(text: &str, column: &str, factor: f64) -> String {
+fn times(text: &str, column: &str, factor: f64) -> String {
     with_cells(text, |name, number| name.starts_with(column).then(|| factor * number(name)))
 }
 
 /// The drive with odometry that is the turning of its wheels.
-pub(crate) fn by_wheels(text: &str) -> String {
+fn by_wheels(text: &str) -> String {
     /// Rims of the preset at the tips of their grousers [m].
     const RADIUS: f64 = 0.11;
     let wheels = ["front-left", "front-right", "rear-left", "rear-right"];

@@ -231,7 +231,7 @@ fn mount(
         let what = format!("link {name}, a wheel,");
         return Err(UrdfError::Lacks { what, lacks: "mass: give it an <inertial>" });
     }
-    /// Of air on Earth [kg/m³]: every wheel is heavier.
+    /// The density of air on Earth [kg/m³]: every wheel is heavier.
     const AIR: f64 = 1.2;
     let (radius, width, mass) = (wheel.radius, wheel.width, together.mass);
     if mass < AIR * PI * radius * radius * width {

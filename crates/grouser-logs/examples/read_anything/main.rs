@@ -202,7 +202,7 @@ struct Tried {
 }
 
 fn try_case(plan: &Plan, readers: &[Reader], stage: &Stage, case: u64) -> Tried {
-    // As of the program's cases: those of two seeds have nothing in common.
+    // The cases of two seeds have nothing in common, as those of the program.
     let mut dice = Rng::with_seed(plan.seed ^ case.wrapping_mul(0x9e37_79b9_7f4a_7c15));
     let (place, input) = input(readers, &mut dice);
     let reader = &readers[place];

@@ -65,7 +65,7 @@ pub(crate) fn all() -> Result<Vec<Reader>, Box<dyn Error>> {
 pub(crate) struct Stage {
     folder: TempDir,
     rover: Rover,
-    /// The same with motors.
+    /// A rover like that, with motors.
     motors: Rover,
 }
 

@@ -101,7 +101,7 @@ fn drives() -> Result<[Vec<u8>; 3], Box<dyn Error>> {
 /// An MCAP log without check sums: zero stands for none there.
 fn without_sums(log: &mut [u8]) {
     const MAGIC: usize = 8;
-    /// Of records with a sum: their kind, and where in them it is.
+    /// The kinds of records that have a sum, with the sum's place in each.
     const SUMS: [(u8, usize); 3] = [(0x02, 16), (0x06, 24), (0x0f, 0)];
     let mut at = MAGIC;
     while let Some(head) = log.get(at..at + 9) {

@@ -270,7 +270,8 @@ pub fn gross_in_words(fault: &GrossFault) -> String {
     };
     let name = fault.suspect.name();
     let left_out = if fault.is_of_wheel_speeds() {
-        "one of both is wrong, so that nothing is learnt, and what was warned of before may be wrong"
+        "one of both is wrong, so that nothing that rests on either is used, and what was warned of \
+         before may be wrong"
     } else {
         "they are left out"
     };
