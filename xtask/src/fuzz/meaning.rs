@@ -142,9 +142,9 @@ fn examine(numbers: &[usize]) -> Result<Outcomes> {
 
 /// Writes the drives, and learns from each as it is.
 fn drives(program: &Path, folder: &Path, numbers: &[usize]) -> Result<Vec<Drive>> {
-    let program = workspace::build_example("learning")?;
+    let example = workspace::build_example("learning")?;
     let last = numbers.iter().max().map_or(0, |last| last + 1);
-    let written = Command::new(program)
+    let written = Command::new(example)
         .arg("drives")
         .arg(folder)
         .arg(last.to_string())

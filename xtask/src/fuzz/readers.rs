@@ -1,10 +1,10 @@
 //! Damaged files for every reader, in one process: `crates/grouser-logs/examples/read_anything`.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, bail};
 
 use crate::extent::Extent;
 use crate::libtest::Count;

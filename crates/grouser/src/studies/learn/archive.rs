@@ -50,7 +50,9 @@ pub(super) fn named<const COUNT: usize>(
     archive: &mut dyn Archive,
     numbers: [(&str, &mut f64); COUNT],
 ) {
-    numbers.into_iter().for_each(|(name, value)| archive.number(name, value));
+    for (name, value) in numbers {
+        archive.number(name, value);
+    }
 }
 
 /// A list of numbers.
