@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 
-use crate::projection::Projection;
 use crate::wkt;
 
 /// What a file's coordinates refer to: its keys as they are, and a name to show.
@@ -106,33 +105,12 @@ impl CoordinateSystem {
         Self { directory, doubles, text }
     }
 
-    /// A text from which other programs know the system: its code, else its well-known text, else
-    /// the words of PROJ; none where no formula is known.
-    #[must_use]
-    pub fn to_text(&self) -> Option<String> {
-        let of_code = self.epsg().map(|code| format!("EPSG:{code}"));
-        of_code.or_else(|| self.well_known_text()).or_else(|| Projection::words_of(self))
-    }
-
     /// The text that ArcGIS leaves among the names.
     pub(crate) fn well_known_text(&self) -> Option<String> {
         [key::PROJECTED_CITATION, key::CITATION].into_iter().find_map(|id| {
             let text = self.text_of(id)?;
             Some(text.strip_prefix(BEFORE_TEXT)?.trim_end_matches('|').to_owned())
         })
-    }
-
-    /// Whether two systems give a place the same coordinates; nothing where that is not known.
-    #[must_use]
-    pub fn is_same(&self, other: &Self) -> Option<bool> {
-        if let Some((one, other)) = self.epsg().zip(other.epsg()) {
-            return Some(one == other);
-        }
-        if self == other {
-            return Some(true);
-        }
-        let [one, other] = [Projection::of_keys(self)?, Projection::of_keys(other)?];
-        Some(one.is_like(&other))
     }
 
     /// A stereographic projection of the Moon about a place, in metres.

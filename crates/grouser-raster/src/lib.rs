@@ -1,7 +1,7 @@
 //! Elevation models, and zones of soil, from files: GeoTIFF, NumPy arrays, xyz text and GeoJSON.
 //!
 //! [`read`] tells the format by the content, and gives a [`Raster`]: heights at the points of a
-//! grid, with the file's coordinate system, which is carried along and not interpreted.
+//! grid, with the file's coordinate system, which is checked and carried along.
 //! [`Raster::model`] makes the [`ElevationModel`](grouser_core::terrain::ElevationModel) of it that
 //! a rover drives on.
 //!

@@ -126,6 +126,29 @@ impl Projection {
     }
 }
 
+impl CoordinateSystem {
+    /// A text from which other programs know the system: its code, else its well-known text, else
+    /// the words of PROJ; none where no formula is known.
+    #[must_use]
+    pub fn to_text(&self) -> Option<String> {
+        let of_code = self.epsg().map(|code| format!("EPSG:{code}"));
+        of_code.or_else(|| self.well_known_text()).or_else(|| Projection::words_of(self))
+    }
+
+    /// Whether two systems give a place the same coordinates; nothing where that is not known.
+    #[must_use]
+    pub fn is_same(&self, other: &Self) -> Option<bool> {
+        if let Some((one, other)) = self.epsg().zip(other.epsg()) {
+            return Some(one == other);
+        }
+        if self == other {
+            return Some(true);
+        }
+        let [one, other] = [Projection::of_keys(self)?, Projection::of_keys(other)?];
+        Some(one.is_like(&other))
+    }
+}
+
 /// A definition without what leads from its datum to that of others, which needs files and changes
 /// no length that matters.
 fn on_own_datum(definition: &str) -> String {

@@ -4,7 +4,7 @@ use grouser_core::terrain::lunar::LunarModel;
 use grouser_core::terrain::{ElevationError, ElevationGrid, ElevationModel, Extent};
 use grouser_core::units::Vec2;
 
-use crate::{CoordinateSystem, MapFrame, Remark};
+use crate::{CoordinateSystem, Remark};
 
 /// Heights at the points of a grid, with the coordinate system of their file.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,12 +23,6 @@ pub struct Raster {
 }
 
 impl Raster {
-    /// The map that places of other files may be for.
-    #[must_use]
-    pub fn frame(&self) -> MapFrame<'_> {
-        MapFrame { system: Some(&self.coordinates), extent: self.grid.extent() }
-    }
-
     /// What it spans, and how far apart its points are, in words.
     #[must_use]
     pub fn spans(&self) -> String {

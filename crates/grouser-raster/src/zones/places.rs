@@ -2,12 +2,12 @@
 
 use grouser_core::terrain::Extent;
 
-use crate::CoordinateSystem;
 use crate::coordinate_system::code_of;
 use crate::degrees::{are_degrees, may_be_degrees};
 use crate::error::Fault;
 use crate::projection::Projection;
 use crate::remark::Remark;
+use crate::{CoordinateSystem, Raster};
 
 /// Checks that places of a file of GeoJSON are metres, not degrees of longitude and latitude.
 ///
@@ -45,6 +45,14 @@ pub struct MapFrame<'m> {
     pub system: Option<&'m CoordinateSystem>,
     /// What it spans.
     pub extent: Extent,
+}
+
+impl Raster {
+    /// The map that places of other files may be for.
+    #[must_use]
+    pub fn frame(&self) -> MapFrame<'_> {
+        MapFrame { system: Some(&self.coordinates), extent: self.grid.extent() }
+    }
 }
 
 /// The system that the places of a file are in.
