@@ -86,8 +86,7 @@ impl CoordinateSystem {
         const PROJECTED: u16 = 1;
         let mut keys = Keys::default();
         keys.whole(key::MODEL, PROJECTED);
-        let projected = || wkt::part(text, &["PROJCS", "PROJCRS", "PROJECTEDCRS"]);
-        if let Some(code) = code_of(text).or_else(|| wkt::epsg(projected()?)) {
+        if let Some(code) = code_of_text(text) {
             keys.whole(key::PROJECTED, code);
         } else if text.len() < LONGEST && !text.is_empty() {
             keys.whole(key::PROJECTED, key::USER_DEFINED);
@@ -252,6 +251,12 @@ const BEFORE_TEXT: &str = "ESRI PE String = ";
 pub(crate) fn code_of(name: &str) -> Option<u16> {
     let (register, code) = name.rsplit_once(':')?;
     register.to_uppercase().contains("EPSG").then(|| code.parse().ok())?
+}
+
+/// The code that a text has for its projected system: well-known text, or a name as above.
+pub(crate) fn code_of_text(text: &str) -> Option<u16> {
+    let projected = || wkt::part(text, &["PROJCS", "PROJCRS", "PROJECTEDCRS"]);
+    code_of(text).or_else(|| wkt::epsg(projected()?))
 }
 
 /// Keys in the making, in ascending order of their identities.

@@ -5,7 +5,7 @@ use grouser_core::elementary::wide::sin_cos;
 use grouser_core::units::{Vec2, Vec3};
 use proj4rs::Proj;
 
-use crate::coordinate_system::{CoordinateSystem, code_of, key};
+use crate::coordinate_system::{CoordinateSystem, code_of_text, key};
 
 /// A system of coordinates whose formulas are known.
 pub(crate) struct Projection {
@@ -34,8 +34,9 @@ impl Projection {
         if text.starts_with('+') {
             return Self::of(text);
         }
-        if !text.contains('[') {
-            return Self::registered(code_of(text)?);
+        // A code goes before formulas, which texts of web Mercator's have for another body.
+        if let Some(registered) = code_of_text(text).and_then(Self::registered) {
+            return Some(registered);
         }
         let of = |text: &str| Self::of(&proj4wkt::wkt_to_projstring(text).ok()?);
         // ArcGIS puts a system of heights behind that of coordinates.
