@@ -92,11 +92,15 @@ impl LinkShape {
             RimForm::Mesh { file, scale } => {
                 let [low, high] = mesh::extent(file, &meshes(file)?)?;
                 let (low, high) = (low.component_mul(scale), high.component_mul(scale));
-                let size = placed.rotation * (high - low);
+                let size = (high - low).abs();
                 let middle = placed * nalgebra::Point3::from(0.5 * (low + high));
-                let (one, other) = (size.x.abs(), size.z.abs());
+                // In the mesh's frame, in which a wheel may have turned by any angle.
+                let axle = placed.inverse_transform_vector(&Vector3::y());
+                let along = axle.iamax();
+                let (one, other) = (size[(along + 1) % 3], size[(along + 2) % 3]);
                 let is_round = (one - other).abs() <= 0.1 * one.max(other);
-                is_round.then_some((0.25 * (one + other), size.y.abs(), middle.coords))
+                let is_wheel = is_round && axle[along].abs() > ALONG;
+                is_wheel.then_some((0.25 * (one + other), size[along], middle.coords))
             }
         }
     }

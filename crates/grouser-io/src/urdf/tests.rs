@@ -1,5 +1,7 @@
 //! Robots whose rovers are known, and invalid texts.
 
+mod kinds;
+
 use std::fmt::Write as _;
 
 use super::{Forward, UrdfError, UrdfOptions, UrdfRover};
