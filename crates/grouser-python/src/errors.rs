@@ -128,7 +128,14 @@ pub(crate) fn of_urdf(error: &UrdfError, file: &str) -> PyErr {
     let none = None::<String>;
     let file = file.to_owned();
     classes::DocumentError::new_err((
-        message, file, None::<usize>, None::<usize>, none.clone(), None::<f64>, none, hint,
+        message,
+        file,
+        None::<usize>,
+        None::<usize>,
+        none.clone(),
+        None::<f64>,
+        none,
+        hint,
     ))
 }
 

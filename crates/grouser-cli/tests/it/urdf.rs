@@ -120,7 +120,8 @@ fn kinds_that_are_rovers() {
     let sized = "--wheel-radius-m 0.1 --wheel-width-m 0.08";
     let mast = link("mast", 0.3, 0.001, "")
         + &joint("mast_joint", "fixed", ["body", "mast"], "0.1 0 0.3", "<axis xyz=\"0 0 0\"/>");
-    let undeclared = "<gazebo><sensor:camera name=\"c\"><update>1</update></sensor:camera></gazebo>";
+    let undeclared =
+        "<gazebo><sensor:camera name=\"c\"><update>1</update></sensor:camera></gazebo>";
     let placeholder = cart(&wheel, "").replace("0.002", "1").replace("\"0.2\"", "\"1\"");
     let turned = cart(&wheel.replace("1.5707963 0 0", "0 1.5707963 0"), "")
         .replace(AXIS, "<axis xyz=\"1 0 0\"/>");

@@ -196,12 +196,16 @@ fn guessed(
         found.push(Rolling { link, rim: rim(robot, link, options, meshes)? });
     }
     found.retain(|it| !robot.links[it.link].shapes.is_empty() || options.wheel_radius.is_some());
+    let carrying = carrying(robot, &found);
+    found.retain(|it| !carrying[it.link]);
     let name = |link: usize| &*robot.links[link].name;
     let names_of = |all: &[Rolling]| all.iter().map(|it| name(it.link)).collect::<Vec<_>>();
     let (casters, found): (Vec<_>, Vec<_>) = found.into_iter().partition(|it| is_caster(robot, it));
     if !casters.is_empty() {
         let names = names_of(&casters).join(", ");
-        notes.push(format!("casters, by their names or as they trail, and no driven wheels: {names}"));
+        notes.push(format!(
+            "casters, by their names or as they trail, and no driven wheels: {names}"
+        ));
     }
     let in_pairs = in_pairs(&on_ground(&found));
     if in_pairs.is_empty() {
@@ -226,13 +230,25 @@ fn guessed(
     Ok(in_pairs.iter().map(|it| it.link).collect())
 }
 
+/// Whether each link carries one of some that roll, as rockers, arms and legs do.
+fn carrying(robot: &Robot, rolling: &[Rolling]) -> Vec<bool> {
+    let mut carrying = vec![false; robot.links.len()];
+    for above in rolling.iter().flat_map(|it| robot.up_from(it.link).skip(1)) {
+        carrying[above] = true;
+    }
+    carrying
+}
+
 /// Whether a wheel is a caster: it is called so, or what holds it turns freely about an upright axis
 /// which it trails.
 fn is_caster(robot: &Robot, wheel: &Rolling) -> bool {
     /// Over a radius, how far casters trail their axes at least [-]. Source: ours.
     const TRAIL: f64 = 0.15;
-    robot.up_from(wheel.link).any(|link| {
-        let names = format!("{} {}", robot.links[link].name, joint_name(robot, link)).to_lowercase();
+    /// Links from a caster's wheel to what it turns on.
+    const NEAR: usize = 4;
+    robot.up_from(wheel.link).take(NEAR).any(|link| {
+        let names =
+            format!("{} {}", robot.links[link].name, joint_name(robot, link)).to_lowercase();
         let trail = (robot.links[link].pivot().x - wheel.rim.centre.x).abs();
         let is_free = kind(robot, link) == "continuous" && is_upright(robot, link);
         let trails = is_free && trail > TRAIL * wheel.rim.radius.unwrap_or(0.0);
@@ -302,10 +318,13 @@ fn in_pairs(found: &[Rolling]) -> Vec<Rolling> {
         is_opposite && is_level && (a.y + b.y - 2.0 * middle).abs() <= ALIKE * across
     };
     let has_partner = |it: &Rolling| found.iter().any(|other| is_partner(it, other));
-    let is_pair = found.iter().filter(|it| has_partner(it)).count() == 2;
+    let is_paired: Vec<bool> = found.iter().map(has_partner).collect();
+    let is_pair = is_paired.iter().filter(|it| **it).count() == 2;
     let reach = found.iter().map(|it| (it.rim.centre.y - middle).abs()).fold(0.0, f64::max);
     let is_middle = |it: &Rolling| (it.rim.centre.y - middle).abs() <= 2.0 * ALIKE * reach;
-    found.iter().filter(|it| has_partner(it) || is_pair && is_middle(it)).cloned().collect()
+    let all = found.iter().zip(is_paired);
+    let those = all.filter(|(it, is_paired)| *is_paired || is_pair && is_middle(it));
+    those.map(|(it, _)| it.clone()).collect()
 }
 
 /// Whether a link rolls: without end, or with limits of some turns.

@@ -131,7 +131,8 @@ fn corners(source: Node<'_, '_>) -> Option<Vec<Point3<f64>>> {
 fn placed(element: Node<'_, '_>) -> Option<Matrix4<f64>> {
     let nodes = element.ancestors().filter(|it| it.tag_name().name() == "node");
     let own = |node: Node<'_, '_>| {
-        node.children().try_fold(Matrix4::<f64>::identity(), |place, it| Some(place * transform(it)?))
+        node.children()
+            .try_fold(Matrix4::<f64>::identity(), |place, it| Some(place * transform(it)?))
     };
     nodes.map(own).try_fold(Matrix4::<f64>::identity(), |inner, outer| Some(outer? * inner))
 }

@@ -61,6 +61,7 @@ impl Found {
         if body.mass <= 0.0 {
             return Err(UrdfError::NoBody);
         }
+        check_mass("the body, all links that are no wheels".to_owned(), body.mass)?;
         if off_diagonal(&body.inertia) > 0.05 {
             notes.push(
                 "the body's products of inertia are left out: the rover's axes are taken as \
@@ -147,6 +148,15 @@ impl Unit {
     }
 }
 
+/// Checks a mass [kg] by what documents have.
+fn check_mass(what: String, mass: f64) -> Result<(), UrdfError> {
+    if (0.01..=1e5).contains(&mass) {
+        return Ok(());
+    }
+    let (written, expected) = (shown(mass), "0.01 to 100000 kg");
+    Err(UrdfError::Number { what, attribute: "mass", written, expected })
+}
+
 /// Why an inertia is that of no body, in words.
 fn is_no_inertia(it: &Together) -> Option<&'static str> {
     let [x, y, z] = diagonal(&it.inertia);
@@ -222,9 +232,8 @@ fn lopsided(wheels: &[Wheel], body: &Together) -> Option<String> {
     const ASIDE: f64 = 0.1;
     let ends = |axis: usize| {
         let places = wheels.iter().map(|it| it.centre[axis] - body.centre[axis]);
-        places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], it| {
-            [low.min(it), high.max(it)]
-        })
+        places
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], it| [low.min(it), high.max(it)])
     };
     let ([rear, front], [right, left]) = (ends(0), ends(1));
     let middle = 0.5 * (left + right);
@@ -278,6 +287,7 @@ fn mount(
     if mass < AIR * PI * radius * radius * width {
         return Err(UrdfError::Millimetres { link: name.clone(), radius, width, mass });
     }
+    check_mass(format!("link {name}, a wheel"), mass)?;
     let steering = wheel.steered.map(|link| {
         let limits = robot.links[link].joint.as_ref().and_then(|joint| joint.limits);
         let axis = robot.links[link].pivot() - wheel.centre;

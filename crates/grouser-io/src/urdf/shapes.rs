@@ -140,12 +140,15 @@ pub(super) fn rim(
         RimForm::Sphere { radius } => Some(radius),
         _ => None,
     });
+    let radius = options.wheel_radius.or(largest.map(|it| it.0.0)).or(sphere);
+    let width = options.wheel_width.or(largest.map(|it| it.0.1));
+    let is_known = radius.is_some() && width.is_some();
     Ok(Rim {
-        radius: options.wheel_radius.or(largest.map(|it| it.0.0)).or(sphere),
-        width: options.wheel_width.or(largest.map(|it| it.0.1)),
+        radius,
+        width,
         centre: largest.map_or_else(somewhere, |it| it.0.2),
         note: note.filter(|_| options.wheel_radius.is_none()),
-        lacks: lacks(&shapes, meshes),
+        lacks: if is_known { String::new() } else { lacks(&shapes, meshes) },
     })
 }
 

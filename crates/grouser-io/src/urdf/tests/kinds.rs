@@ -54,10 +54,8 @@ fn casters_trail_or_are_called_so() {
     // A wheel that is steered all round, as those of some robots are, stands below its axis.
     let rover = default(&on_forks(0.0, "fork"));
     assert_eq!(rover.wheels.iter().filter(|it| it.steered_by.is_some()).count(), 2);
-    let four = cart(CYLINDER, "").replace(
-        "</robot>",
-        &(wheel("caster", "continuous", [-0.3, 0.0, -0.1]) + "</robot>"),
-    );
+    let four = cart(CYLINDER, "")
+        .replace("</robot>", &(wheel("caster", "continuous", [-0.3, 0.0, -0.1]) + "</robot>"));
     let rover = default(&four);
     assert_eq!(links(&rover), ["fl", "fr", "rl", "rr"]);
     check_says(&rover, "no driven wheels: caster");
@@ -80,6 +78,17 @@ fn tracks_are_refused_by_name() {
     assert!(matches!(import(&text, &named), Err(UrdfError::NoSuchWheel { .. })));
     let named = UrdfOptions { wheels: vec!["f*".into(), "r*".into()], ..UrdfOptions::default() };
     assert_eq!(found(&text, &named).wheels.len(), 4);
+}
+
+/// Rockers that turn without end, and reach as low as wheels do, carry wheels and are none.
+#[test]
+fn what_carries_wheels_is_none() {
+    let text = rockers(" multiplier=\"-1\"", "0 1 0").replace("revolute", "continuous");
+    let low = CYLINDER.replace("<origin", "<origin xyz=\"0 0 -0.1\"");
+    let [left, right] = ["left", "right"].map(|it| format!("<link name=\"{it}_rocker\">"));
+    let shaped = |text: String, link: &str| text.replacen(link, &format!("{link}{low}"), 1);
+    let text = shaped(shaped(text, &left), &right);
+    assert_eq!(links(&default(&text)), ["left_front", "left_rear", "right_front", "right_rear"]);
 }
 
 /// Two pairs that do not match are not three wheels.
@@ -110,13 +119,18 @@ fn a_single_wheel_is_in_the_middle() {
 #[test]
 fn joints_whose_limits_are_one_angle_stand_still() {
     let locked = "<limit lower=\"0\" upper=\"0\" effort=\"9\" velocity=\"1\"/></joint>";
-    let text = rockers("", "0 1 0")
-        .replace("<mimic joint=\"left_rocker_joint\"/></joint>", "</joint>")
-        .split_inclusive("</joint>")
-        .map(|part| {
-            if part.contains("revolute") { part.replace("</joint>", locked) } else { part.into() }
-        })
-        .collect::<String>();
+    let text =
+        rockers("", "0 1 0")
+            .replace("<mimic joint=\"left_rocker_joint\"/></joint>", "</joint>")
+            .split_inclusive("</joint>")
+            .map(|part| {
+                if part.contains("revolute") {
+                    part.replace("</joint>", locked)
+                } else {
+                    part.into()
+                }
+            })
+            .collect::<String>();
     let rover = default(&text);
     assert!(rover.wheels.iter().all(|it| it.hangs_on.is_empty()), "{:?}", rover.wheels);
     check_says(&rover, "joint left_rocker_joint cannot turn by its limits");
@@ -166,6 +180,8 @@ fn inertias_of_no_body_are_estimated() {
     let text = cart(CYLINDER, "").replacen("ixx=\"0.1\"", "ixx=\"5\"", 1);
     check_says(&default(&text), "the body's inertia is that of no body");
     read(&text, &UrdfOptions::default()).expect("a rover");
+    let light = refused(&cart(CYLINDER, "").replacen("\"0.5\"", "\"0.005\"", 1)).to_string();
+    assert!(light.contains("link fl, a wheel: mass is \"0.005\""), "{light}");
 }
 
 #[test]
@@ -186,7 +202,10 @@ fn expressions_of_xacro_in_numbers_are_named() {
     for written in ["$(optenv IMU 0 0 1)", "${x} 0 0"] {
         let text = cart(CYLINDER, "").replacen("0.2 0.2 -0.1", written, 1);
         let refused = refused(&text).to_string();
-        assert!(refused.contains("joint fl_joint: xyz") && refused.contains("xacro FILE"), "{refused}");
+        assert!(
+            refused.contains("joint fl_joint: xyz") && refused.contains("xacro FILE"),
+            "{refused}"
+        );
     }
 }
 
