@@ -7,8 +7,10 @@ use std::io::ErrorKind;
 use std::ops::RangeInclusive;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use grouser::document::file::FileProblem;
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::ranking::RankingError;
+use grouser::document::urdf::UrdfError;
 use grouser::document::{DocumentError, Problem};
 use grouser::error::ParameterError;
 use grouser::mission::MissionError;
@@ -117,6 +119,35 @@ fn facts(problem: &Problem) -> Facts {
         _ => (None, None, None),
     };
     Facts { key, value, expected }
+}
+
+/// URDF that is no rover.
+pub(crate) fn of_urdf(error: &UrdfError, file: &str) -> PyErr {
+    let message = format!("{file}: {error}");
+    let hint = message.split_once("\nhint: ").map(|(_, hint)| hint.to_owned());
+    let none = None::<String>;
+    let file = file.to_owned();
+    classes::DocumentError::new_err((
+        message,
+        file,
+        None::<usize>,
+        None::<usize>,
+        none.clone(),
+        None::<f64>,
+        none,
+        hint,
+    ))
+}
+
+/// A file that is not there, or cannot be read.
+pub(crate) fn unread(error: &FileProblem, file: &str) -> PyErr {
+    let message = format!("{file}: {error}");
+    match error {
+        FileProblem::NoSuchFile | FileProblem::BrokenLink { .. } => {
+            classes::DocumentNotFoundError::new_err((message, file.to_owned(), None::<String>))
+        }
+        _ => classes::DocumentUnreadableError::new_err((message, file.to_owned())),
+    }
 }
 
 /// A file of heights or areas that cannot be used.

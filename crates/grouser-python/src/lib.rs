@@ -40,6 +40,7 @@ mod telemetry;
 mod terrain;
 mod threads;
 mod time_step;
+mod urdf;
 mod validation;
 mod validity;
 mod values;
@@ -113,6 +114,8 @@ mod _core {
     use super::terrain::{Terrain, check_system};
     #[pymodule_export]
     use super::time_step::SteppingWheels;
+    #[pymodule_export]
+    use super::urdf::rover_of_urdf;
     #[pymodule_export]
     use super::validation::{validate, validate_all, validate_slopes};
     #[pymodule_export]

@@ -74,6 +74,7 @@ __all__ = [
     "replay",
     "rollout",
     "routes",
+    "rover_of_urdf",
     "seal_manifest",
     "settle",
     "settle_gradients",
@@ -394,6 +395,13 @@ def import_telemetry(
 def meant_keys(kind: str, name: str) -> list[str]: ...
 def present_names(name: str) -> list[str]: ...
 def presets(kind: str) -> list[tuple[str, str, str]]: ...
+def rover_of_urdf(
+    path: str | os.PathLike[str],
+    named: tuple[list[str], list[str]],
+    sizes: tuple[float | None, float | None],
+    forward: str,
+    has: tuple[bool, bool],
+) -> Document: ...
 def to_toml(label: str, table: dict[str, Any]) -> str: ...
 def settle(
     soils: Sequence[Document],
