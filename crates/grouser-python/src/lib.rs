@@ -111,7 +111,7 @@ mod _core {
     #[pymodule_export]
     use super::telemetry::{TelemetryMessages, import_telemetry};
     #[pymodule_export]
-    use super::terrain::{Terrain, check_system};
+    use super::terrain::{Terrain, check_height_unit};
     #[pymodule_export]
     use super::time_step::SteppingWheels;
     #[pymodule_export]

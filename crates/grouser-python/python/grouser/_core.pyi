@@ -42,7 +42,7 @@ __all__ = [
     "card_rule",
     "check_document",
     "check_shard",
-    "check_system",
+    "check_height_unit",
     "design",
     "drive_mission",
     "find_campaign",
@@ -105,6 +105,7 @@ SINKAGE_DAMPING_S_M: float
 REST_SPEED_M_S: float
 
 _Floats = NDArray[np.float64]
+_SystemKeys = tuple[list[int], list[float], str]
 _Reading = tuple[Sequence[float] | None, int | None, float | None]
 _Data = str | os.PathLike[str] | tuple[str, str]
 
@@ -141,6 +142,7 @@ class Terrain:
         south_west_m: Sequence[float],
         spacing_m: Sequence[float],
         north_first: bool,
+        crs: str | None,
     ) -> Terrain: ...
     @staticmethod
     def from_file(path: str | os.PathLike[str], reading: _Reading) -> Terrain: ...
@@ -161,12 +163,21 @@ class Terrain:
         south_west_m: Sequence[float],
         spacing_m: Sequence[float],
         heights: NDArray[np.float32],
+        system: _SystemKeys | None,
     ) -> Terrain: ...
     def parts(
         self,
     ) -> tuple[
-        str, _Reading | None, float, list[float], list[float], NDArray[np.float32]
+        str,
+        _Reading | None,
+        float,
+        list[float],
+        list[float],
+        NDArray[np.float32],
+        _SystemKeys | None,
     ]: ...
+    @property
+    def crs(self) -> str | None: ...
     @property
     def extent(self) -> list[float]: ...
     @property
@@ -362,7 +373,7 @@ def result_columns() -> dict[str, list[tuple[str, str | None, str]]]: ...
 def arrow_stream(
     columns: Sequence[tuple[str, str | None, Any]], notes: dict[str, str]
 ) -> object: ...
-def check_system(name: str, text: str, middle: Sequence[float], cell: float) -> None: ...
+def check_height_unit(unit: str) -> None: ...
 def find_document(kind: str, name: str, changes: dict[str, Any]) -> Document: ...
 def read_document_file(
     kind: str, path: str | os.PathLike[str], changes: dict[str, Any]
