@@ -14,7 +14,9 @@ use grouser::error::ParameterError;
 use grouser::mission::MissionError;
 use grouser::simulation::RunError;
 use grouser::studies::calibration::CalibrationError;
-use grouser_logs::{OptionNames, Problem as TelemetryProblem, Remedy, TelemetryError};
+use grouser_logs::{
+    DriveFolderError, OptionNames, Problem as TelemetryProblem, Remedy, TelemetryError,
+};
 use grouser_raster::{Fault, RasterError};
 use grouser_store::StoreError;
 use pyo3::exceptions::{PyTypeError, PyUserWarning};
@@ -204,6 +206,20 @@ pub(crate) fn of_telemetry(error: &TelemetryError) -> PyErr {
             let expected = None::<String>;
             classes::DocumentError::new_err((message, file, place, place, key, value, expected))
         }
+    }
+}
+
+pub(crate) fn of_drives(error: DriveFolderError) -> PyErr {
+    let message = error.to_string();
+    match error {
+        DriveFolderError::Log(error) => of_telemetry(&error),
+        DriveFolderError::NoFolder(folder) => {
+            classes::DocumentNotFoundError::new_err((message, folder, None::<String>))
+        }
+        DriveFolderError::Unreadable { folder, .. } => {
+            classes::DocumentUnreadableError::new_err((message, folder))
+        }
+        _ => parameter(message, "folder", None, "a folder with a log of each drive"),
     }
 }
 

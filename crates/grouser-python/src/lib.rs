@@ -114,7 +114,7 @@ mod _core {
     #[pymodule_export]
     use super::time_step::SteppingWheels;
     #[pymodule_export]
-    use super::validation::{validate, validate_all, validate_slopes};
+    use super::validation::{validate, validate_all, validate_drives, validate_slopes};
     #[pymodule_export]
     use super::validity::{flag_names, flags};
     #[pymodule_export]
