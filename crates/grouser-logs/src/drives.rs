@@ -76,7 +76,7 @@ impl DriveFolder {
     ) -> Result<Self, DriveFolderError> {
         let (mut found, mut notes) = (Self::default(), Notes::default());
         let (mut first_error, mut rows, mut used) = (None, 0.0, 0.0);
-        for files in logs_of_drives(logs_below(folder)?, options) {
+        for files in logs_of_drives(&logs_below(folder)?, options) {
             let name = name_of(&files, folder);
             match drive(&files, &name, scenario, options) {
                 Ok((drive, log)) => {
@@ -173,7 +173,7 @@ fn logs_below(folder: &Path) -> Result<Vec<PathBuf>, DriveFolderError> {
 /// The files of each drive.
 ///
 /// * `logs`: folder by folder
-fn logs_of_drives(logs: Vec<PathBuf>, options: &LogOptions) -> Vec<Vec<PathBuf>> {
+fn logs_of_drives(logs: &[PathBuf], options: &LogOptions) -> Vec<Vec<PathBuf>> {
     let mut drives = Vec::new();
     for of_folder in logs.chunk_by(|one, other| one.parent() == other.parent()) {
         let is_mcap =

@@ -9,7 +9,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::ranking::RankingError;
-use grouser::document::{DocumentError, Problem};
+use grouser::document::{DocumentError, Problem, escape};
 use grouser::error::ParameterError;
 use grouser::mission::MissionError;
 use grouser::simulation::RunError;
@@ -213,11 +213,13 @@ pub(crate) fn of_drives(error: DriveFolderError) -> PyErr {
     let message = error.to_string();
     match error {
         DriveFolderError::Log(error) => of_telemetry(&error),
-        DriveFolderError::NoFolder(folder) => {
-            classes::DocumentNotFoundError::new_err((message, folder, None::<String>))
-        }
+        DriveFolderError::NoFolder(folder) => classes::DocumentNotFoundError::new_err((
+            message,
+            escape::path(&folder),
+            None::<String>,
+        )),
         DriveFolderError::Unreadable { folder, .. } => {
-            classes::DocumentUnreadableError::new_err((message, folder))
+            classes::DocumentUnreadableError::new_err((message, escape::path(&folder)))
         }
         _ => parameter(message, "folder", None, "a folder with a log of each drive"),
     }

@@ -167,8 +167,9 @@ pub(super) fn table(
         let noise = [0, 1, 2].map(|axis| about(axis, normal(ATTITUDE)));
         let turn = after(of_slope, about(2, state.yaw));
         let [w, x, y, z] = noise.into_iter().fold(turn, after);
-        let of_wheels = |of: &dyn Fn(usize) -> f64| wheels.iter().map(|it| of(*it)).collect();
-        let speeds: Vec<f64> = of_wheels(&|it| record.wheels[it].wheel_speed);
+        let of_wheels =
+            |of: &dyn Fn(usize) -> f64| -> Vec<f64> { wheels.iter().map(|it| of(*it)).collect() };
+        let speeds = of_wheels(&|it| record.wheels[it].wheel_speed);
         let speeds: Vec<f64> = speeds.iter().map(|it| it + normal(WHEEL_SPEED)).collect();
         for (angle, speed) in angles.iter_mut().zip(&speeds) {
             *angle += (record.time - before) * speed;
