@@ -232,7 +232,7 @@ def judged(run: gr.Scenario) -> Numbers:
     log = drive(run, run.rover)
     rows = [",".join(log), *(",".join(map(str, row)) for row in zip(*log.values()))]
     (folder / "drive.csv").write_text("\n".join(rows) + "\n")
-    found = gr.validate_drives(folder, run.soil, run.rover, model=run.model)
+    found = gr.validate_drives(folder, run.soil, run.rover)
     return [(found.cells["slip_ratio"], (len(found.cells["model"]),))]
 
 
