@@ -42,4 +42,4 @@ with open(out, "w") as file:
         course = math.asin(max(-1.0, min(1.0, ahead * math.sin(pitch) / math.sin(slope))))
         # Rows of one slope and one course repeat each other.
         slope, course = (s * round(math.degrees(it) / s) for it, s in ((slope, 2.5), (course, 15)))
-        print(slope, course, round(1.0 - ways[1] / ways[0], 5), sep=",", file=file)
+        print(slope, course, round((ways[0] - ways[1]) / max(ways), 5), sep=",", file=file)

@@ -113,7 +113,7 @@ def test_a_twin_of_the_positions_on_mars_ranks_the_model_that_made_it_first(tmp_
         at = {"frame": "ROVER", "site": site + 1, "pose": 0, "sol": site, "yaw": compass}
         at |= {"roll": math.degrees(roll), "pitch": math.degrees(pitch)}
         for step in range(12):
-            for rows, way in zip(steps, (1.0, 1.0 - slip)):
+            for rows, way in zip(steps, (1.0, 1.0 - slip if slip > 0.0 else 1.0 / (1.0 + slip))):
                 here = [round(step * way * it, 3) for it in (north, east, -math.sin(pitch))]
                 place = dict(zip(("landing_x", "landing_y", "landing_z"), here))
                 rows.append({**at, **place, "drive": 2 * step, "sclk": 4e8 + 1e4 * site + 40 * step})
@@ -125,7 +125,7 @@ def test_a_twin_of_the_positions_on_mars_ranks_the_model_that_made_it_first(tmp_
     converted("places.py", *names, tmp_path / "steps.csv")
     (tmp_path / "mars.toml").write_text(
         'schema = "data-set/1"\nname = "twin"\nsource = "simulated"\nfile = "steps.csv"\n'
-        'gravity_m_s2 = "mars"\n[[case]]\nname = "steps"\nrover = "curiosity"\n'
+        'gravity_m_s2 = 3.71\n[[case]]\nname = "steps"\nrover = "curiosity"\n'
         'soils = ["mars-regolith"]\n'
     )
     best = next(row for row in gr.validate_all(tmp_path).rows if row["rank"] == 1)
