@@ -11,12 +11,14 @@ use grouser::document::file::FileProblem;
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::ranking::RankingError;
 use grouser::document::urdf::UrdfError;
-use grouser::document::{DocumentError, Problem};
+use grouser::document::{DocumentError, Problem, escape};
 use grouser::error::ParameterError;
 use grouser::mission::MissionError;
 use grouser::simulation::RunError;
 use grouser::studies::calibration::CalibrationError;
-use grouser_logs::{OptionNames, Problem as TelemetryProblem, Remedy, TelemetryError};
+use grouser_logs::{
+    DriveFolderError, OptionNames, Problem as TelemetryProblem, Remedy, TelemetryError,
+};
 use grouser_raster::{Fault, RasterError};
 use grouser_store::StoreError;
 use pyo3::exceptions::{PyTypeError, PyUserWarning};
@@ -235,6 +237,22 @@ pub(crate) fn of_telemetry(error: &TelemetryError) -> PyErr {
             let expected = None::<String>;
             classes::DocumentError::new_err((message, file, place, place, key, value, expected))
         }
+    }
+}
+
+pub(crate) fn of_drives(error: DriveFolderError) -> PyErr {
+    let message = error.to_string();
+    match error {
+        DriveFolderError::Log(error) => of_telemetry(&error),
+        DriveFolderError::NoFolder(folder) => classes::DocumentNotFoundError::new_err((
+            message,
+            escape::path(&folder),
+            None::<String>,
+        )),
+        DriveFolderError::Unreadable { folder, .. } => {
+            classes::DocumentUnreadableError::new_err((message, escape::path(&folder)))
+        }
+        _ => parameter(message, "folder", None, "a folder with a log of each drive"),
     }
 }
 

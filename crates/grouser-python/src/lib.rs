@@ -117,7 +117,7 @@ mod _core {
     #[pymodule_export]
     use super::urdf::rover_of_urdf;
     #[pymodule_export]
-    use super::validation::{validate, validate_all, validate_slopes};
+    use super::validation::{validate, validate_all, validate_drives, validate_slopes};
     #[pymodule_export]
     use super::validity::{flag_names, flags};
     #[pymodule_export]

@@ -89,6 +89,7 @@ __all__ = [
     "unit_of",
     "validate",
     "validate_all",
+    "validate_drives",
     "validate_slopes",
     "wheel_forces",
     "wheel_speeds",
@@ -577,6 +578,13 @@ def validate_slopes(
     data: _Data, scenario: Document, conditions: Sequence[str]
 ) -> dict[str, Any]: ...
 def validate_all(folder: str | os.PathLike[str] | None) -> dict[str, Any]: ...
+def validate_drives(
+    folder: str | os.PathLike[str],
+    scenario: Document,
+    mapping: str | os.PathLike[str] | None,
+    choices: Sequence[tuple[str, str]],
+    how: tuple[str | None, int | None],
+) -> tuple[dict[str, Any], dict[str, dict[str, Any]], str]: ...
 def calibrate_wheel_tests(
     data: _Data,
     soil: Document,
