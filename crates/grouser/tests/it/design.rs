@@ -1,6 +1,6 @@
 //! Designs: closed forms, random designs that are worse, probabilities, and what has none.
 
-use grouser::answers::AnswerError;
+use grouser::answers::{AnswerError, AnswerOptions};
 use grouser::answers::design::DesignQuestion;
 use grouser::document::design::Measure;
 use grouser::document::{DocumentError, Kind, LoadedDesign, Overrides, Source, read_design};
@@ -181,7 +181,7 @@ fn a_limit_on_an_uncertain_soil_is_kept_by_the_share_that_is_asked_for() {
 fn a_trade_off_leads_from_one_least_to_the_other() {
     let study = DesignStudy::of(read(&[]).expect("a preset").value, false, 1);
     let [first, second] = [Measure::EnergyPerMetre, Measure::WheelMass];
-    let designs = study.trade_off([first, second], 5).expect("designs");
+    let designs = study.trade_off([first, second], 5, &|| true).expect("designs");
     assert_eq!(designs.len(), 5);
     for pair in designs.windows(2) {
         assert!(measure(&pair[0], first) <= measure(&pair[1], first) + 1e-6, "{pair:?}");
@@ -215,18 +215,24 @@ fn what_has_no_design_says_which_limit_and_how_far() {
         trade: None,
         by_models: Vec::new(),
     };
-    let why = |settings: &[&str]| match question(settings).answer("design") {
+    let why = |settings: &[&str]| match question(settings).answer("design", &AnswerOptions::ROWS) {
         Err(AnswerError::Design(why)) => why,
         other => panic!("{other:?}"),
     };
     let steep = why(&["design.subject_to.limit_slope_deg.at_least=35"]);
-    assert!(steep.contains("limit_slope_deg ≥ 35 where it has 2"), "{steep}");
-    assert!(steep.contains("the ground itself stands to 31.01°"), "{steep}");
+    assert!(steep.contains("crosses 35° of this soil: the ground's own limit is 31.01°"), "{steep}");
+    assert!(steep.contains("subject_to.limit_slope_deg"), "{steep}");
+    let between = why(&["design.subject_to.limit_slope_deg.at_least=30"]);
+    assert!(between.contains("limit_slope_deg ≥ 30 where it has 2"), "{between}");
+    assert!(between.contains("radius_m is the most that it may be"), "{between}");
     let shallow = why(&["design.subject_to.sinkage_ratio.at_most=0.01"]);
     assert!(shallow.contains("sinkage_ratio ≤ 0.01"), "{shallow}");
-    let constant =
-        study_of("minimise = \"wheel_mass_kg\"\n[free]\n\"rover.body.mass_kg\" = [3.0, 5.0]\n");
-    assert_eq!(constant.design().map(drop), Err(NoDesign::Constant));
+    let text = "schema = \"design/1\"\nminimise = \"wheel_mass_kg\"\n[free]\n\
+                \"rover.body.mass_kg\" = [3.0, 5.0]\n";
+    let constant = DesignQuestion { task: read_text(text).expect("a design"), ..question(&[]) };
+    let constant = constant.answer("design", &AnswerOptions::ROWS).map(drop);
+    let Err(AnswerError::Design(constant)) = constant else { panic!("{constant:?}") };
+    assert!(constant.contains("does not depend on any number that is free (rover.body.mass_kg)"));
 }
 
 #[test]
