@@ -683,8 +683,9 @@ impl<'a> DesignSearch<'a> {
     fn certificate(&self, best: &Minimum, starts: usize, agreed: usize) -> Certificate {
         /// How far away, over the bounds [-].
         const AWAY: f64 = 0.01;
-        /// Better by less than this is rounding, over the aim's size [-].
-        const ROUNDING: f64 = 1e-6;
+        /// Better by less than this is rounding, over the aim's size; and where searches among samples
+        /// end [-].
+        const ROUNDING: [f64; 2] = [1e-6, 1e-3];
         /// Designs in all directions; fewer where each is measured by samples.
         const DIRECTIONS: [usize; 2] = [60, 20];
         let along = (0..self.free()).flat_map(|axis| {
@@ -694,12 +695,13 @@ impl<'a> DesignSearch<'a> {
         });
         let along = along.map(Iterator::collect::<Vec<f64>>);
         let shares: Vec<Vec<f64>> = along.chain(spread(self.free()).take(DIRECTIONS[usize::from(self.is_sampled())])).collect();
+        let rounding = ROUNDING[usize::from(self.is_sampled())];
         let is_better = |share: &&Vec<f64>| {
             let moved = best.point.iter().zip(*share);
             let moved = moved.map(|(it, share)| (it + AWAY * (2.0 * share - 1.0)).clamp(0.0, 1.0));
             let outcome = self.outcome(&moved.collect::<Vec<f64>>());
             outcome.is_some_and(|outcome| {
-                outcome[0] < best.objective - ROUNDING && outcome[1..].iter().all(|it| *it <= 0.0)
+                outcome[0] < best.objective - rounding && outcome[1..].iter().all(|it| *it <= 0.0)
             })
         };
         let better = shares.par_iter().filter(is_better).count();

@@ -91,7 +91,6 @@ impl MeasuredGround {
         curve.findings(self.slope, &curve.at(self.slope))
     }
 
-
     /// What each sample measures of the rover with other numbers; nothing where it does not move.
     pub(super) fn measures(&self, numbers: &[(String, f64)]) -> Vec<Option<Measures>> {
         let numbers = numbers.iter().map(|(key, value)| (&**key, *value));
