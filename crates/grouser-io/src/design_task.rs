@@ -415,7 +415,7 @@ fn check_motors(
     }
     let problem = Problem::Conflict("a current is asked for, and no motor of the rover is known");
     Err(DocumentError::at(tree.origin_of(&path), problem).with_hint(
-        "give it one: rover.motor = \"maxon-re-25\" under [choose], in a list".to_owned(),
+        "give it one, under [choose]: rover.motor = [\"maxon-re-25\"]".to_owned(),
     ))
 }
 
