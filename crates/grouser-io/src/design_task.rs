@@ -133,7 +133,12 @@ fn with_files(
         for (key, node) in entries_of(other) {
             let file = beside(&candidates[0].grounds[place + 1], &key, node, place);
             if let Some(file) = file {
-                replace(keys.get_mut("also").and_then(|it| it.get_mut(place)), &key, None, &file.name);
+                replace(
+                    keys.get_mut("also").and_then(|it| it.get_mut(place)),
+                    &key,
+                    None,
+                    &file.name,
+                );
                 files.push(file);
             }
         }
@@ -414,9 +419,8 @@ fn check_motors(
         return Ok(());
     }
     let problem = Problem::Conflict("a current is asked for, and no motor of the rover is known");
-    Err(DocumentError::at(tree.origin_of(&path), problem).with_hint(
-        "give it one, under [choose]: rover.motor = [\"maxon-re-25\"]".to_owned(),
-    ))
+    Err(DocumentError::at(tree.origin_of(&path), problem)
+        .with_hint("give it one, under [choose]: rover.motor = [\"maxon-re-25\"]".to_owned()))
 }
 
 /// Checks that limits leave room.

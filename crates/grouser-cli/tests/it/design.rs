@@ -112,7 +112,11 @@ fn what_cannot_be_is_refused_in_words() {
         }
     };
     let steep = "design.subject_to.limit_slope_deg.at_least=35";
-    ends(&format!("{LIGHTER} --set {steep}"), 1, &["35° of this soil", "subject_to.limit_slope_deg", "31.01°"]);
+    ends(
+        &format!("{LIGHTER} --set {steep}"),
+        1,
+        &["35° of this soil", "subject_to.limit_slope_deg", "31.01°"],
+    );
     ends(&format!("{LIGHTER} --trade wheel_mass_kg"), 2, &["two measures"]);
     ends(&format!("{LIGHTER} --trade wheel_mass_kg,mass"), 2, &["energy_j_per_m"]);
     ends(&format!("{LIGHTER} --nominal --seed 2"), 2, &["--seed"]);

@@ -92,7 +92,8 @@ fn from_behind(pen: &mut Pen, shape: &WheelShape, [x, hub]: Place, layout: &Layo
     let (wheel, reach) = (&shape.wheel, reach(shape, layout));
     let (half, rim) = (layout.scale * wheel.width / 2.0, layout.scale * wheel.radius);
     let corners = |high: f64| {
-        [[-half, -high], [half, -high], [half, high], [-half, high]].map(|[dx, dy]| [x + dx, hub + dy])
+        [[-half, -high], [half, -high], [half, high], [-half, high]]
+            .map(|[dx, dy]| [x + dx, hub + dy])
     };
     pen.outlined(corners(rim), Role::Paper, Role::Rim);
     let Some(grousers) = wheel.grousers else { return };

@@ -2,8 +2,8 @@
 
 use super::super::design::{DesignAim, DesignSettings, LimitEnds, Measure};
 use super::super::field::{
-    A, At, DEG, Field, Fill, J_PER_M, KG, Keyed, Keyword, M, NM, ONE, Shape, Table, Unit, field, list,
-    note, number, table, word, words,
+    A, At, DEG, Field, Fill, J_PER_M, KG, Keyed, Keyword, M, NM, ONE, Shape, Table, Unit, field,
+    list, note, number, table, word, words,
 };
 use super::about::{assumed, gravity, model, notes, purpose, schema, source};
 use super::run::{OfScenario, Run, SLOPE};

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value, json};
 
-use super::{Answer, AnswerError, AnswerOptions, Attached, Displayed, Member, check_flags, meanings};
+use super::{
+    Answer, AnswerError, AnswerOptions, Attached, Displayed, Member, check_flags, meanings,
+};
 use crate::contact::Model;
 use crate::contact::validity::Finding;
 use crate::document::columns::design::{self as columns, CHOSEN, DesignRow, MODEL, ROW, SHARE};
@@ -194,12 +196,7 @@ impl DesignQuestion {
     }
 
     /// What is said of the design.
-    fn lines(
-        &self,
-        design: &BestDesign,
-        rows: &[DesignRow],
-        findings: &[Finding],
-    ) -> Vec<String> {
+    fn lines(&self, design: &BestDesign, rows: &[DesignRow], findings: &[Finding]) -> Vec<String> {
         let task = &self.task.value;
         let numbers = self.numbers_in_words(design.candidate, &design.values);
         let aim = self.aim();
@@ -279,7 +276,8 @@ impl DesignQuestion {
         let chosen = &self.task.value.candidates[design.candidate].chosen;
         let differs = |row: &&DesignRow| {
             let pairs = row.values.iter().zip(&design.values).zip(free);
-            let mut moved = pairs.map(|((one, other), (_, ends))| (one - other) / (ends[1] - ends[0]));
+            let mut moved =
+                pairs.map(|((one, other), (_, ends))| (one - other) / (ends[1] - ends[0]));
             row.values.is_empty() || row.chosen != *chosen || moved.any(|it| it.abs() > APART)
         };
         let by_others: Vec<&DesignRow> = rows.iter().filter(|it| it.name == FOUND_BY_IT).collect();
@@ -480,7 +478,10 @@ fn drawn(study: &DesignStudy, design: &BestDesign, traded: [Measure; 2]) -> Opti
 fn domain_line(findings: &[Finding]) -> Option<String> {
     let all: Vec<String> = findings.iter().map(flags::in_words).collect();
     (!all.is_empty()).then(|| {
-        format!("The design lies outside what its model and soil were tested for: {}.", all.join("; "))
+        format!(
+            "The design lies outside what its model and soil were tested for: {}.",
+            all.join("; ")
+        )
     })
 }
 

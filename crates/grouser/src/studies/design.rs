@@ -576,7 +576,8 @@ impl<'a> DesignSearch<'a> {
     /// The aim, over its size.
     fn aim(&self, measured: &[Vec<Measures>]) -> f64 {
         let of = |measure: Measure| measure.unit().from_si(Moments::of(&measured[0], measure).mean);
-        let weights = Measure::ALL.into_iter().zip(self.sought.weights).filter(|(_, it)| **it != 0.0);
+        let weights =
+            Measure::ALL.into_iter().zip(self.sought.weights).filter(|(_, it)| **it != 0.0);
         weights.map(|(measure, weight)| weight * of(measure)).sum::<f64>() / self.aim_size
     }
 
@@ -694,8 +695,9 @@ impl<'a> DesignSearch<'a> {
             })
         });
         let along = along.map(Iterator::collect::<Vec<f64>>);
-        let shares: Vec<Vec<f64>> = along.chain(spread(self.free()).take(DIRECTIONS[usize::from(self.is_sampled())])).collect();
-        let rounding = ROUNDING[usize::from(self.is_sampled())];
+        let cost = usize::from(self.is_sampled());
+        let (directions, rounding) = (DIRECTIONS[cost], ROUNDING[cost]);
+        let shares: Vec<Vec<f64>> = along.chain(spread(self.free()).take(directions)).collect();
         let is_better = |share: &&Vec<f64>| {
             let moved = best.point.iter().zip(*share);
             let moved = moved.map(|(it, share)| (it + AWAY * (2.0 * share - 1.0)).clamp(0.0, 1.0));
@@ -851,9 +853,8 @@ impl Smooth for DesignSearch<'_> {
             let mut evaluate =
                 |points: &[Vec<f64>]| points.par_iter().map(|it| self.outcome(it)).collect();
             let found = derivatives(&variables, here, &sizes, StepLengths::SETTLED, &mut evaluate);
-            let slopes = |by: Vec<Derivative>| -> Vec<f64> {
-                by.into_iter().map(|it| it.value).collect()
-            };
+            let slopes =
+                |by: Vec<Derivative>| -> Vec<f64> { by.into_iter().map(|it| it.value).collect() };
             found.by_variable.into_iter().map(|by| by.map(slopes)).collect::<Option<_>>()?
         };
         let gradient = |result: usize| -> Vec<f64> { by.iter().map(|of| of[result]).collect() };

@@ -155,8 +155,8 @@ fn a_current_is_that_of_the_largest_torque() {
     let motor = rover.mounts()[0].unit.motor.expect("a motor");
     let torque = measure(&found, Measure::Torque);
     // Uphill every wheel drives: T = N η (k i − τ_f).
-    let current = (torque / (motor.gear_ratio * motor.efficiency) + motor.friction)
-        / motor.torque_constant;
+    let current =
+        (torque / (motor.gear_ratio * motor.efficiency) + motor.friction) / motor.torque_constant;
     assert!((measure(&found, Measure::Current) - current).abs() < 1e-9 * current, "{found:?}");
     assert_eq!(found.objective, measure(&found, Measure::Current));
     assert_eq!(measure(&found, Measure::BrakingTorque), 0.0);
@@ -303,7 +303,10 @@ fn what_has_no_design_says_which_limit_and_how_far() {
         other => panic!("{other:?}"),
     };
     let steep = why(&["design.subject_to.limit_slope_deg.at_least=35"]);
-    assert!(steep.contains("crosses 35° of this soil: the ground's own limit is 31.01°"), "{steep}");
+    assert!(
+        steep.contains("crosses 35° of this soil: the ground's own limit is 31.01°"),
+        "{steep}"
+    );
     assert!(steep.contains("subject_to.limit_slope_deg"), "{steep}");
     let between = why(&["design.subject_to.limit_slope_deg.at_least=30"]);
     assert!(between.contains("limit_slope_deg ≥ 30 where it has 2"), "{between}");

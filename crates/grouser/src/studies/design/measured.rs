@@ -130,9 +130,8 @@ impl MeasuredGround {
         let torques = heading.wheels.iter().map(|it| it.settled.forces.torque);
         let motors = study.rover.mounts().iter().zip(torques.clone());
         // Only the sense of a wheel's speed acts on the current.
-        let currents = motors.filter_map(|(mount, torque)| {
-            Some(electrical(mount, torque, FORWARD)?.current.abs())
-        });
+        let currents = motors
+            .filter_map(|(mount, torque)| Some(electrical(mount, torque, FORWARD)?.current.abs()));
         let mut measures = of_rover;
         let mut set = |measure: Measure, value: f64| measures[measure.place()] = value;
         set(Measure::LimitSlope, limit);
