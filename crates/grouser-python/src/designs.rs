@@ -1,7 +1,7 @@
 //! Designs: which numbers of a rover are the best.
 
-use grouser::answers::AnswerError;
 use grouser::answers::design::DesignQuestion;
+use grouser::answers::{AnswerError, AnswerOptions};
 use grouser::document::design::Measure;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -37,7 +37,10 @@ pub(crate) fn design<'py>(
         trade: trade.transpose()?,
         by_models: Vec::new(),
     };
-    let found = listening(py, move |_| question.answer("design"))?;
+    let found = listening(py, move |cancelled| {
+        let go_on = || !cancelled.is_set();
+        question.answer("design", &AnswerOptions { go_on: &go_on, ..AnswerOptions::ROWS })
+    })?;
     let answer = found.map_err(|error| match error {
         AnswerError::Parameter(error) => errors::of_parameter(&error),
         other => errors::parameter(other.to_string(), "design", None, "a design within its limits"),
