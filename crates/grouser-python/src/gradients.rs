@@ -24,6 +24,9 @@ use crate::{errors, threads};
 pub(crate) type Gradients<'py> =
     (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<bool>>, Vec<String>, Vec<&'static str>);
 
+/// Wheels between two checks for signals: they take a small part of a second.
+const BATCH: usize = 1024;
+
 /// The derivatives of settled wheels by numbers of their documents and settings: rows of all
 /// results by the first key, then by the next; NaN where there is none.
 ///
@@ -61,10 +64,14 @@ pub(crate) fn settle_gradients<'py>(
     stand.check(py, &inputs)?;
     let keys = keys_of(&soils, wheel, &keys)?;
     let names: Vec<String> = keys[0].names().map(str::to_owned).collect();
-    let places = (0..count).into_par_iter();
     let of_wheel = |place| of_wheel(&stand, &inputs, &keys, place);
-    let found: Vec<_> = threads::detached(py, || places.map(of_wheel).collect())?;
-    py.check_signals()?;
+    let mut found: Vec<_> = Vec::with_capacity(count);
+    while found.len() < count {
+        let places = found.len()..count.min(found.len() + BATCH);
+        let batch = || places.into_par_iter().map(&of_wheel).collect::<Vec<_>>();
+        found.extend(threads::detached(py, batch)?);
+        py.check_signals()?;
+    }
     let rows = names.len() * WHEEL.len();
     let values = PyArray2::<f64>::zeros(py, [rows, count], false);
     let one_sided = PyArray2::<bool>::zeros(py, [rows, count], false);
