@@ -28,7 +28,7 @@ const LINE: f64 = 4.2;
 const BELOW: f64 = 3.0;
 
 /// How a row of wheels lies on its sheet [mm], and its scale [mm/m].
-struct Layout {
+struct RowOfWheels {
     column: f64,
     scale: f64,
     /// Height of the hubs in the two views.
@@ -37,7 +37,7 @@ struct Layout {
     bottoms: [f64; 2],
 }
 
-impl Layout {
+impl RowOfWheels {
     fn of(row: &WheelRow) -> Self {
         let most = |of: fn(&Wheel) -> f64| {
             row.wheels.iter().map(|it| of(&it.wheel)).fold(f64::MIN_POSITIVE, f64::max)
@@ -54,7 +54,7 @@ impl Layout {
 }
 
 pub(crate) fn sheet(row: &WheelRow) -> Sheet {
-    let layout = Layout::of(row);
+    let layout = RowOfWheels::of(row);
     let lines = row.wheels.iter().map(|it| it.lines.len()).max().unwrap_or_default();
     let texts = layout.bottoms[1] + LINE;
     let height = texts + LINE * lines as f64 + EDGE;
@@ -74,12 +74,12 @@ pub(crate) fn sheet(row: &WheelRow) -> Sheet {
     pen.sheet
 }
 
-fn reach(shape: &WheelShape, layout: &Layout) -> f64 {
+fn reach(shape: &WheelShape, layout: &RowOfWheels) -> f64 {
     layout.scale * shape.wheel.shearing_radius()
 }
 
 /// The soil around a wheel, up to its level.
-fn soil(pen: &mut Pen, shape: &WheelShape, [x, hub]: Place, layout: &Layout, bottom: f64) {
+fn soil(pen: &mut Pen, shape: &WheelShape, [x, hub]: Place, layout: &RowOfWheels, bottom: f64) {
     let half = 0.5 * layout.column;
     let level = hub + reach(shape, layout) - layout.scale * shape.sinkage;
     let [left, right] = [x - half, x + half];
@@ -88,7 +88,7 @@ fn soil(pen: &mut Pen, shape: &WheelShape, [x, hub]: Place, layout: &Layout, bot
 }
 
 /// The rim as wide as it is, and the grousers that are seen from behind.
-fn from_behind(pen: &mut Pen, shape: &WheelShape, [x, hub]: Place, layout: &Layout) {
+fn from_behind(pen: &mut Pen, shape: &WheelShape, [x, hub]: Place, layout: &RowOfWheels) {
     let (wheel, reach) = (&shape.wheel, reach(shape, layout));
     let (half, rim) = (layout.scale * wheel.width / 2.0, layout.scale * wheel.radius);
     let corners = |high: f64| {

@@ -263,7 +263,7 @@ fn a_search_ends_with_its_patience() {
     };
     let start = [0.02, 4_000.0, 250.0];
     let end = minimise(&law, &start, 2);
-    let cost = |at: &[f64]| super::half_square(&law.at(at).expect("residuals"));
+    let cost = |at: &[f64]| super::half_square(&law.at(at).expect("residuals").residuals);
     assert!(!end.converged);
     assert!((end.cost / cost(&end.coordinates) - 1.0).abs() < 1e-15);
     assert!(end.cost < cost(&start));
