@@ -1,10 +1,13 @@
-//! Derivatives of settled wheels, for whole arrays.
+//! Derivatives of settled wheels and of runs, for whole arrays.
 
 use grouser::contact::gradient::WheelDerivative;
 use grouser::contact::settle;
+use grouser::difference::Derivative;
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{LOAD, SLIP_ANGLE};
-use grouser::document::gradient::{ChangedKeys, GradientKeys, StandSetting, WheelKeys};
+use grouser::document::gradient::{
+    ChangedKeys, GradientKeys, NoSuchKey, RunKeys, StandSetting, WheelKeys,
+};
 use grouser::document::study;
 use numpy::{PyArray2, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -20,6 +23,9 @@ use crate::{errors, threads};
 /// and the results.
 pub(crate) type Gradients<'py> =
     (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<bool>>, Vec<String>, Vec<&'static str>);
+
+/// Wheels between two checks for signals: they take a small part of a second.
+const BATCH: usize = 1024;
 
 /// The derivatives of settled wheels by numbers of their documents and settings: rows of all
 /// results by the first key, then by the next; NaN where there is none.
@@ -58,10 +64,14 @@ pub(crate) fn settle_gradients<'py>(
     stand.check(py, &inputs)?;
     let keys = keys_of(&soils, wheel, &keys)?;
     let names: Vec<String> = keys[0].names().map(str::to_owned).collect();
-    let places = (0..count).into_par_iter();
     let of_wheel = |place| of_wheel(&stand, &inputs, &keys, place);
-    let found: Vec<_> = threads::detached(py, || places.map(of_wheel).collect())?;
-    py.check_signals()?;
+    let mut found: Vec<_> = Vec::with_capacity(count);
+    while found.len() < count {
+        let places = found.len()..count.min(found.len() + BATCH);
+        let batch = || places.into_par_iter().map(&of_wheel).collect::<Vec<_>>();
+        found.extend(threads::detached(py, batch)?);
+        py.check_signals()?;
+    }
     let rows = names.len() * WHEEL.len();
     let values = PyArray2::<f64>::zeros(py, [rows, count], false);
     let one_sided = PyArray2::<bool>::zeros(py, [rows, count], false);
@@ -82,6 +92,38 @@ pub(crate) fn settle_gradients<'py>(
     Ok((values, one_sided, names, wheel_names().collect()))
 }
 
+#[allow(clippy::needless_pass_by_value, reason = "how errors are mapped")]
+pub(crate) fn no_such_key(error: NoSuchKey) -> PyErr {
+    errors::parameter(error.to_string(), "gradients", None, "the key of a number")
+}
+
+/// Derivatives of records of runs.
+///
+/// * `on_heights`: whether some ground has heights
+/// * `count`: how many records there are
+/// * `of`: that of a record by a key and of a result, by their places
+pub(crate) fn of_records<'py>(
+    py: Python<'py>,
+    keys: &RunKeys,
+    on_heights: bool,
+    count: usize,
+    of: impl Fn(usize, usize, usize) -> Option<Derivative>,
+) -> PyResult<Gradients<'py>> {
+    let names: Vec<String> = keys.names().map(str::to_owned).collect();
+    let results = RunKeys::results(on_heights);
+    let row = |row: usize| {
+        let (key, result) = (row / results.len(), row % results.len());
+        (0..count).map(|record| of(record, key, result)).collect::<Vec<_>>()
+    };
+    let rows: Vec<Vec<Option<Derivative>>> = (0..names.len() * results.len()).map(row).collect();
+    let value = |it: &Option<Derivative>| it.map_or(f64::NAN, |it| it.value);
+    let is_one_sided = |it: &Option<Derivative>| it.is_some_and(Derivative::is_one_sided);
+    let values: Vec<Vec<f64>> = rows.iter().map(|it| it.iter().map(value).collect()).collect();
+    let sides: Vec<Vec<bool>> =
+        rows.iter().map(|it| it.iter().map(is_one_sided).collect()).collect();
+    Ok((PyArray2::from_vec2(py, &values)?, PyArray2::from_vec2(py, &sides)?, names, results))
+}
+
 /// The keys in each of the soils; `all` are those of the first.
 fn keys_of(
     soils: &[PyRef<'_, Document>],
@@ -91,9 +133,7 @@ fn keys_of(
     let mut asked_for = GradientKeys::of(keys);
     let mut found = Vec::new();
     for soil in soils {
-        let keys = WheelKeys::of(soil.soil()?, wheel.wheel()?, &asked_for).map_err(|error| {
-            errors::parameter(error.to_string(), "gradients", None, "the key of a number")
-        })?;
+        let keys = WheelKeys::of(soil.soil()?, wheel.wheel()?, &asked_for).map_err(no_such_key)?;
         asked_for = GradientKeys::These(keys.names().map(str::to_owned).collect());
         found.push(keys);
     }

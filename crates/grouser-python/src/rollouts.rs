@@ -24,7 +24,7 @@ use rayon::prelude::*;
 
 use crate::descriptions::Document;
 use crate::errors;
-use crate::gradients::Gradients;
+use crate::gradients::{no_such_key, of_records};
 use crate::interrupt::listening;
 use crate::varied::{self, KEYS, RIM_SPEED, VariedKeys};
 use crate::wheels::{check_or_nan, column, inside};
@@ -173,9 +173,7 @@ impl Runs {
             let names = of_base.into_iter().chain(of_soil).collect();
             keys = RunKeys::of(base, &GradientKeys::These(names));
         }
-        keys.map_err(|error| {
-            errors::parameter(error.to_string(), "gradients", None, "the key of a number")
-        })
+        keys.map_err(no_such_key)
     }
 
     /// The first number of a run that is NaN.
@@ -362,33 +360,15 @@ pub(crate) fn rollout<'py>(
     let ends = ends.map_err(|(place, error)| errors::misfit_at(place, count, &error))?;
     let dict = to_python(py, &ends, keep, on_heights)?;
     if let Some(keys) = &keys {
-        dict.set_item("gradient", gradients_to_python(py, keys, &ends, on_heights)?)?;
+        // A run on a plane has none of how it stands.
+        let of = |end: usize, key: usize, result: usize| {
+            let gradient = &ends[end].gradient;
+            let own = gradient.len() / keys.names().count();
+            *gradient.get(key * own + result).filter(|_| result < own)?
+        };
+        dict.set_item("gradient", of_records(py, keys, on_heights, ends.len(), of)?)?;
     }
     Ok(dict)
-}
-
-/// Derivatives with a row for each key and result, as those of settled wheels.
-fn gradients_to_python<'py>(
-    py: Python<'py>,
-    keys: &RunKeys,
-    ends: &[End],
-    on_heights: bool,
-) -> PyResult<Gradients<'py>> {
-    let names: Vec<String> = keys.names().map(str::to_owned).collect();
-    let results = RunKeys::results(on_heights);
-    // A run on a plane has none of how it stands.
-    let of = |end: &End, row: usize| {
-        let own = end.gradient.len() / names.len();
-        let (key, result) = (row / results.len(), row % results.len());
-        *end.gradient.get(key * own + result).filter(|_| result < own)?
-    };
-    let row = |row: usize| ends.iter().map(move |end| of(end, row));
-    let rows = || 0..names.len() * results.len();
-    let value = |it: Option<Derivative>| it.map_or(f64::NAN, |it| it.value);
-    let is_one_sided = |it: Option<Derivative>| it.is_some_and(Derivative::is_one_sided);
-    let values: Vec<Vec<f64>> = rows().map(|it| row(it).map(value).collect()).collect();
-    let sides: Vec<Vec<bool>> = rows().map(|it| row(it).map(is_one_sided).collect()).collect();
-    Ok((PyArray2::from_vec2(py, &values)?, PyArray2::from_vec2(py, &sides)?, names, results))
 }
 
 /// * `on_heights`: whether there is ground with heights

@@ -14,6 +14,7 @@ use grouser::simulation::{
     BadState, LEAST_STEP, LinearStep, NoLinearStep, POSE_AND_VELOCITIES, Run, RunError, Scenario,
     WheelRecord,
 };
+use grouser::studies::ensemble::outputs_while;
 use grouser::vehicle::Mount;
 use numpy::{PyArray1, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -22,6 +23,7 @@ use rayon::prelude::*;
 
 use crate::descriptions::Document;
 use crate::errors;
+use crate::interrupt::listening;
 use crate::paths::{BESIDE, Led, PathOutcome, PathTask, beside, outcome_of};
 use crate::studies::{wheel_names, wheel_sample_columns};
 use crate::threads;
@@ -273,7 +275,7 @@ impl Simulators {
         dt_s: f64,
     ) -> PyResult<Slopes<'py>> {
         let rims = self.rim_speeds(&commands, are_rim_speeds, dt_s)?;
-        let (Some(rims), Some(radii)) = (rims.first(), self.radii.first()) else {
+        let Some(rims) = rims.first() else {
             let message = "there is no rover".to_owned();
             return Err(errors::parameter(message, "scenarios", None, "a rover"));
         };
@@ -288,17 +290,8 @@ impl Simulators {
             NoLinearStep::Run(error) => errors::of_simulation(&error),
             why => errors::not_found(&why.to_string()),
         })?;
-        // The columns of pose and velocities follow the time.
-        let body = RECORD[1..=POSE_AND_VELOCITIES].iter();
-        let body = body.map(|column| (column.name.to_owned(), column.unit.from_si(1.0)));
-        let of_wheels = |quantity: &'static str| {
-            self.wheels.iter().map(move |wheel| format!("{wheel}.{quantity}"))
-        };
-        let turning = of_wheels(WHEEL_SPEED.name).zip(radii.iter().map(|radius| 1.0 / radius));
-        let integrals = of_wheels("control_voltage_v").map(|name| (name, 1.0));
-        let (names, units): (Vec<String>, Vec<f64>) =
-            body.chain(turning).chain(integrals).take(before.len()).unzip();
-        let commands = radii.iter().map(|radius| if are_rim_speeds { 1.0 } else { 1.0 / radius });
+        let (names, units) = self.numbers(before.len());
+        let commands = self.commands(are_rim_speeds);
         let rows = slopes.iter().zip(units.iter().copied().chain(commands));
         let rows = rows.map(|(row, unit)| {
             let each = row.iter().zip(&units);
@@ -314,6 +307,59 @@ impl Simulators {
         };
         let one_sided = PyArray2::from_vec2(py, &one_sided)?;
         Ok((numbers(before), numbers(after), matrix(values)?, one_sided, names))
+    }
+
+    /// The numbers of the first rover's state as steps are linearised by them, and their names.
+    fn state_numbers<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Vec<String>)> {
+        let numbers = threads::released(py, || self.lock()[0].rover.run().numbers())?;
+        let (names, units) = self.numbers(numbers.len());
+        let numbers = numbers.iter().zip(&units).map(|(number, unit)| number * unit);
+        Ok((PyArray1::from_iter(py, numbers), names))
+    }
+
+    /// States of the first rover after steps from others, integrated as precisely as for slopes: a
+    /// row for each step, with the numbers of the state after it, then its slopes where they are
+    /// wanted, each number's by the state and the commands. NaN where the run ends or falls back
+    /// within a step, or within one beside it.
+    ///
+    /// * `points`: a row for each step, with the numbers of the state before it, then the commands
+    #[allow(clippy::needless_pass_by_value, reason = "how an array comes from Python")]
+    fn precise_steps<'py>(
+        &self,
+        py: Python<'py>,
+        points: PyReadonlyArray2<'py, f64>,
+        are_rim_speeds: bool,
+        dt_s: f64,
+        has_slopes: bool,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        check("dt_s", &[dt_s], &(LEAST_STEP..=LONGEST_STEP))?;
+        let run = threads::released(py, || self.lock()[0].rover.run().clone())?;
+        let states = run.numbers().len();
+        let (_, mut units) = self.numbers(states);
+        units.extend(self.commands(are_rim_speeds));
+        let rows = points.as_array();
+        let rows: Vec<Vec<f64>> = rows.rows().into_iter().map(|row| row.to_vec()).collect();
+        for row in &rows {
+            if row.len() != units.len() {
+                let message = format!("there are {} numbers for {}", row.len(), units.len());
+                return Err(errors::parameter(message, "state", None, "states and commands"));
+            }
+            rims_of(&row[states..], &self.radii[0], are_rim_speeds)?;
+        }
+        let width = if has_slopes { states * units.len() } else { states };
+        let row = move |numbers: &Vec<f64>| {
+            let found = precise_step(&run, numbers, (states, &units), dt_s, has_slopes);
+            found.map(|it| it.unwrap_or_else(|| vec![f64::NAN; width]))
+        };
+        let found = listening(py, move |cancelled| {
+            let found = outputs_while(&rows, &|| !cancelled.is_set(), row);
+            found.unwrap_or_default().into_iter().collect::<Result<Vec<_>, _>>()
+        })?;
+        let found: Vec<Vec<f64>> = found.map_err(|why| errors::not_found(&why.to_string()))?;
+        Ok(PyArray2::from_vec2(py, &found)?)
     }
 
     /// The names of the wheels, in the order of their mounts.
@@ -471,16 +517,31 @@ impl Simulators {
         check("dt_s", &[dt_s], &(LEAST_STEP..=LONGEST_STEP))?;
         let mut rims = Vec::with_capacity(count);
         for (row, radii) in commands.rows().into_iter().zip(&self.radii) {
-            let mut rim_speeds = Vec::with_capacity(wheels);
-            for (command, radius) in row.iter().zip(radii) {
-                let factor = if are_rim_speeds { 1.0 } else { *radius };
-                let limit = RIM_SPEED_M_S.end() / factor;
-                check("commands", &[*command], &(-limit..=limit))?;
-                rim_speeds.push(command * factor);
-            }
-            rims.push(rim_speeds);
+            rims.push(rims_of(&row.to_vec(), radii, are_rim_speeds)?);
         }
         Ok(rims)
+    }
+
+    /// Names of the numbers of a linearised state, and each one's size in SI's unit.
+    ///
+    /// * `states`: how many there are
+    fn numbers(&self, states: usize) -> (Vec<String>, Vec<f64>) {
+        // The columns of pose and velocities follow the time.
+        let body = RECORD[1..=POSE_AND_VELOCITIES].iter();
+        let body = body.map(|column| (column.name.to_owned(), column.unit.from_si(1.0)));
+        let of_wheels = |quantity: &'static str| {
+            self.wheels.iter().map(move |wheel| format!("{wheel}.{quantity}"))
+        };
+        let radii = self.radii.iter().take(1).flatten();
+        let turning = of_wheels(WHEEL_SPEED.name).zip(radii.map(|radius| 1.0 / radius));
+        let integrals = of_wheels("control_voltage_v").map(|name| (name, 1.0));
+        body.chain(turning).chain(integrals).take(states).unzip()
+    }
+
+    /// The commands of the first rover's wheels for a metre per second of their rims.
+    fn commands(&self, are_rim_speeds: bool) -> impl Iterator<Item = f64> {
+        let radii = self.radii.iter().take(1).flatten();
+        radii.map(move |radius| if are_rim_speeds { 1.0 } else { 1.0 / radius })
     }
 
     /// Applies `act` to every rover, on all cores. On Ctrl-C the remaining rovers stay as they are.
@@ -508,6 +569,54 @@ impl Simulators {
             start += BATCH;
         }
         result.map_err(|error| errors::of_simulation(&error))
+    }
+}
+
+/// The rim speeds of one rover's commands [m/s].
+fn rims_of(commands: &[f64], radii: &[f64], are_rim_speeds: bool) -> PyResult<Vec<f64>> {
+    let rim_speed = |(command, radius): (&f64, &f64)| {
+        let factor = if are_rim_speeds { 1.0 } else { *radius };
+        let limit = RIM_SPEED_M_S.end() / factor;
+        check("commands", &[*command], &(-limit..=limit))?;
+        Ok(command * factor)
+    };
+    commands.iter().zip(radii).map(rim_speed).collect()
+}
+
+/// The state after a step, or its slopes; none where the run ends within it.
+///
+/// * `numbers`: the state before, then the commands
+/// * `states`, `units`: how many numbers belong to the state, and the size of each in SI's unit
+///
+/// # Errors
+/// [`NoLinearStep`] where no step of the run has any.
+fn precise_step(
+    run: &Run,
+    numbers: &[f64],
+    (states, units): (usize, &[f64]),
+    span: f64,
+    has_slopes: bool,
+) -> Result<Option<Vec<f64>>, NoLinearStep> {
+    if !numbers.iter().all(|it| it.is_finite()) {
+        return Ok(None);
+    }
+    let before: Vec<f64> = numbers.iter().zip(units).map(|(it, unit)| it / unit).collect();
+    let (state, rims) = before.split_at(states);
+    let found = if has_slopes {
+        run.linear_step_from(state, rims, span).map(|step| {
+            let of = |(after, unit): (usize, &f64)| {
+                let by = step.slopes.iter().zip(units);
+                by.map(|(by, own)| by[after].value * unit / own).collect::<Vec<_>>()
+            };
+            units[..states].iter().enumerate().flat_map(of).collect()
+        })
+    } else {
+        let after = run.precise_step_from(state, rims, span);
+        after.map(|it| it.iter().zip(units).map(|(it, unit)| it * unit).collect())
+    };
+    match found {
+        Err(why @ NoLinearStep::PrescribedYaw) => Err(why),
+        found => Ok(found.ok()),
     }
 }
 

@@ -12,7 +12,7 @@ use grouser::document::columns::run::{
 use grouser::document::columns::wheel::WHEEL;
 use grouser::document::columns::{self, COURSE, LOAD, SINKAGE, SLIP_ANGLE, SLIP_RATIO, SLOPE};
 use grouser::document::forecast as words;
-use grouser::document::gradient::GradientKeys;
+use grouser::document::gradient::{GradientKeys, RunKeys};
 use grouser::document::learn::contradiction;
 use grouser::document::simulated_test::{NOISE, TRIALS};
 use grouser::document::study::{self, COURSE_DEG, MAP_SPEED_M_S, SHARE};
@@ -42,18 +42,43 @@ use pyo3::types::PyDict;
 use crate::columns::table_to_python;
 use crate::descriptions::Document;
 use crate::errors;
+use crate::gradients::{no_such_key, of_records};
 use crate::interrupt::listening;
 use crate::validation::record_to_python;
 use crate::wheels::{check, column, model_and_gravity};
 
 /// A run from its start to its end.
+///
+/// * `gradients`: keys of the numbers that its records are differentiated by
 #[pyfunction]
-pub(crate) fn simulate<'py>(py: Python<'py>, scenario: &Document) -> PyResult<Bound<'py, PyDict>> {
-    let scenario = scenario.scenario()?.value.clone();
-    let names = wheel_names(&scenario);
-    let (found, scenario) = listening(py, move |_| (run(&scenario), scenario))?;
+#[pyo3(signature = (scenario, gradients=None))]
+#[allow(clippy::needless_pass_by_value, reason = "how lists come from Python")]
+pub(crate) fn simulate<'py>(
+    py: Python<'py>,
+    scenario: &Document,
+    gradients: Option<Vec<String>>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let loaded = scenario.scenario()?;
+    let names = wheel_names(&loaded.value);
+    let keys = gradients.map(|names| RunKeys::of(loaded, &GradientKeys::of(&names)));
+    let keys = keys.transpose().map_err(no_such_key)?;
+    let (scenario, document, by) = (loaded.value.clone(), loaded.document.clone(), keys.clone());
+    let (found, slopes, scenario) = listening(py, move |cancelled| {
+        let found = run(&scenario);
+        let slopes = by.zip(found.as_ref().ok()).and_then(|(keys, run)| {
+            let (number, go_on) = (|key: &str| document.number(key), || !cancelled.is_set());
+            keys.along(&scenario, &number, run, Run::to_end, &go_on)
+        });
+        (found, slopes, scenario)
+    })?;
     let run = found.map_err(|error| errors::of_simulation(&error))?;
-    trajectory_to_python(py, &run, &scenario, &names)
+    let dict = trajectory_to_python(py, &run, &scenario, &names)?;
+    if let (Some(keys), Some(slopes)) = (keys, slopes) {
+        let of = |record: usize, key: usize, result: usize| slopes.at(record, result, key);
+        let on_heights = !scenario.ground.is_plane();
+        dict.set_item("gradient", of_records(py, &keys, on_heights, run.records.len(), of)?)?;
+    }
+    Ok(dict)
 }
 
 pub(crate) fn run(scenario: &Scenario) -> Result<Trajectory, RunError> {
@@ -469,6 +494,7 @@ pub(crate) fn card<'py>(
     let study = SlopeStudy::of(scenario).with_uphill(uphill);
     let study = SlopeStudy { rim_speed, rule, holds_heading, ..study };
     let inputs = BandInputs::of_scenario(scenario);
+    let loaded = scenario.clone();
     let found = listening(py, move |cancelled| {
         let go_on = || !cancelled.is_set();
         let sampling = Sampling { count: samples, seed };
@@ -476,15 +502,17 @@ pub(crate) fn card<'py>(
         let card = study.card(&samples, &slopes, &go_on).map_err(Problem::Parameter)?;
         let Some(card) = card else { return Ok(None) };
         let courses = study.courses(&card.rows, &samples, &go_on).map_err(Problem::Parameter)?;
-        Ok(courses.map(|courses| (card, courses)))
+        let steepest = columns::card::steepest(&card, &loaded, &study, uphill);
+        Ok(courses.map(|courses| (card, courses, steepest)))
     })?;
-    let Some((card, courses)) = found.map_err(|problem: Problem| problem.raised())? else {
+    let Some((card, courses, steepest)) = found.map_err(|problem: Problem| problem.raised())?
+    else {
         return Ok((PyDict::new(py), PyDict::new(py), py.None().into_bound(py)));
     };
     Ok((
         table_to_python(py, columns::card::table(&card))?,
         table_to_python(py, columns::card_courses::table(&courses))?,
-        record_to_python(py, &Some(columns::card::steepest(&card).row(0)))?,
+        record_to_python(py, &Some(steepest.row(0)))?,
     ))
 }
 

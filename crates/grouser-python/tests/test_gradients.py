@@ -213,3 +213,143 @@ def test_all_numbers_of_soils_that_state_their_uncertainty_are_keys() -> None:
         found = gr.rollout(scenario, soil=soils, gradients="all").gradient
         assert found is not None and "soil.friction_angle_deg" in found.names
         assert not any(name.startswith("soil.uncertainty") for name in found.names)
+
+
+def test_gradients_of_runs_are_those_of_the_programs_records() -> None:
+    key, step = "soil.friction_angle_deg", 0.05
+    keys: dict[str, Any] = {"simulation": "quasi-steady", "slope_deg": 12.0, "duration_s": 10.0}
+    run = gr.simulate(gradients=[key, "slope_deg"], **keys)
+    found = run.gradient
+    assert found is not None and found.names == (key, "slope_deg")
+    assert found["y_m"].shape == (len(run.time_s), 2)
+    less, more = (
+        gr.simulate(soil=gr.Soil("toyoura", friction_angle_deg=38.0 + by), **keys)
+        for by in (-step, step)
+    )
+    for name in ("y_m", "yaw_deg", "energy_j"):
+        reference = (getattr(more, name) - getattr(less, name)) / (2.0 * step)
+        np.testing.assert_allclose(found[name][:, 0], reference, rtol=1e-5, atol=1e-6)
+    data = found.to_xarray(["time_s"])
+    assert data["y_m"].dims == ("time_s", "key")
+    each = gr.simulate(model="all", gradients=key, **keys)
+    assert all(it.gradient is not None for it in each.values())
+    with pytest.raises(gr.ParameterError, match="as its documents are written"):
+        gr.simulate(gradients=key, uncertainty=True, **keys)
+    with pytest.raises(gr.ParameterError, match="did you mean"):
+        gr.simulate(gradients="soil.frction_angle_deg", **keys)
+
+
+def begun(**changes: Any) -> gr.Run:
+    rover = gr.Run(commands="rim_speed_m_s", **{"slope_deg": 10.0, **changes})
+    rover.step(ARC, 2.0)
+    return rover
+
+
+#: Left wheels first: an arc to the left.
+ARC = np.array([0.05, 0.05, 0.07, 0.07])
+
+
+@pytest.mark.parametrize("simulation", ["dynamic", "quasi-steady"])
+def test_jax_differentiates_control_steps(simulation: str) -> None:
+    jax = pytest.importorskip("jax")
+    jax.config.update("jax_enable_x64", True)
+    from jax.test_util import check_grads
+
+    import grouser.jax as gj
+
+    rover = begun(simulation=simulation)
+    here, linear = rover.save(), rover.linearise(ARC, 0.5)
+
+    def after(state: Any, commands: Any) -> Any:
+        return gj.step(rover, commands, 0.5, state=state)
+
+    np.testing.assert_allclose(after(rover.state, ARC), linear.next_state, rtol=1e-9)
+    for jacobian in (jax.jacfwd, jax.jit(jax.jacrev(after, argnums=(0, 1)))):
+        found = jacobian(after, argnums=(0, 1)) if jacobian is jax.jacfwd else jacobian
+        by_state, by_commands = found(rover.state, ARC)
+        np.testing.assert_allclose(by_state, linear.A, rtol=1e-9, atol=1e-12)
+        np.testing.assert_allclose(by_commands, linear.B, rtol=1e-9, atol=1e-12)
+    # Steps are integrated within 1e-10, slopes of 0.1 mm/s within 1e-4 of what they are.
+    check_grads(lambda u: after(rover.state, u)[:3], (ARC,), order=1, eps=1e-5, rtol=1e-3)
+    commands = ARC * np.array([[1.0], [0.9], [1.1]])
+    batched = jax.vmap(lambda u: jax.grad(lambda v: after(rover.state, v)[0])(u))(commands)
+    assert batched.shape == (3, 4)
+    np.testing.assert_allclose(batched[0], linear.B[0], rtol=1e-9)
+    np.testing.assert_array_equal(gj.step(rover, commands, 0.5)[0], after(rover.state, ARC))
+    assert rover.save() == here
+
+    # Two steps, one after the other: the chain rule.
+    def twice(commands: Any) -> Any:
+        return gj.step(rover, commands, 0.5, state=after(rover.state, commands))[0]
+
+    step = 1e-5 * np.eye(4)[0]
+    reference = (twice(ARC + step) - twice(ARC - step)) / 2e-5
+    np.testing.assert_allclose(jax.grad(twice)(ARC)[0], reference, rtol=1e-3)
+
+
+def test_steps_have_the_numbers_of_wheels_that_follow_their_motors() -> None:
+    pytest.importorskip("jax")
+    import grouser.jax as gj
+
+    motor = {
+        "resistance_ohm": 10.0,
+        "torque_constant_nm_a": 0.01,
+        "gear_ratio": 250.0,
+        "gear_efficiency": 0.6,
+        "control": {"gain_v_s_rad": 0.5, "integral_v_rad": 5.0, "voltage_limit_v": 8.0},
+    }
+    rover = begun(rover=gr.Rover("hakuto", motor=motor))
+    linear = rover.linearise(ARC, 0.1)
+    np.testing.assert_allclose(gj.step(rover, ARC, 0.1), linear.next_state, rtol=1e-6)
+
+
+def test_steps_refuse_by_name_and_are_nan_where_the_run_ends() -> None:
+    pytest.importorskip("jax")
+    import grouser.jax as gj
+
+    rover = begun()
+    for state, commands, said in (
+        (np.zeros(5), ARC, r"state has shape \(5,\)"),
+        (np.zeros((3, 6)), np.zeros((2, 4)), "commands has shape"),
+        (None, np.zeros(3), r"commands has shape \(3,\)"),
+    ):
+        with pytest.raises(gr.ParameterError, match=said):
+            gj.step(rover, commands, 0.5, state=state)
+    with pytest.raises(gr.ParameterError, match="run"):
+        gj.step(gr.Scenario(), ARC, 0.5)  # type: ignore[arg-type]
+    steep = gr.Run(slope_deg=35.0, commands="rim_speed_m_s")
+    assert np.isnan(gj.step(steep, 0.06, 60.0)).all()
+    steep.step(0.06, 60.0)
+    with pytest.raises(gr.SimulationError, match="has ended"):
+        gj.step(steep, 0.06, 0.5)
+
+
+@pytest.mark.filterwarnings("ignore:.torch.jit.*is deprecated")  # PyTorch's own, of itself
+def test_torch_differentiates_control_steps() -> None:
+    torch = pytest.importorskip("torch")
+    import grouser.torch as gt
+
+    rover = begun()
+    linear = rover.linearise(ARC, 0.5)
+    state, commands = (torch.tensor(it, requires_grad=True) for it in (rover.state, ARC))
+    found = gt.step(rover, commands, 0.5, state=state)
+    np.testing.assert_allclose(found.detach().numpy(), linear.next_state, rtol=1e-9)
+    for row in range(6):
+        by_state, by_commands = torch.autograd.grad(found[row], (state, commands), retain_graph=True)
+        np.testing.assert_allclose(by_state.numpy(), linear.A[row], rtol=1e-9, atol=1e-12)
+        np.testing.assert_allclose(by_commands.numpy(), linear.B[row], rtol=1e-9, atol=1e-12)
+
+    def place(u: Any) -> Any:
+        return gt.step(rover, u, 0.5)[:3]
+
+    torch.autograd.gradcheck(place, (commands,), eps=1e-5, atol=1e-3, rtol=1e-3)
+    forward = torch.func.jacfwd(place)(commands.detach())
+    np.testing.assert_allclose(forward.numpy(), linear.B[:3], rtol=1e-9)
+
+
+def test_the_card_says_what_friction_is_worth() -> None:
+    key = "d_limit_slope_deg_d_soil.friction_angle_deg"
+    card = gr.card(slope_deg=[5.0], samples=2)
+    level = gr.heading(slope_deg=[5.0], gradients="soil.friction_angle_deg", nominal=True)
+    assert level.gradient is not None
+    assert card.steepest[key] == pytest.approx(level.gradient["limit_slope_deg"][0], rel=1e-9)

@@ -18,9 +18,16 @@ CALLS = {
         "",
         "gr.heading(soil='toyoura-uncertain', slope_deg=10, samples=100_000)",
     ),
+    "design": (
+        "",
+        "gr.design('design-climbing-wheels', trade=('energy_j_per_m', 'wheel_mass_kg'))",
+    ),
     "wheel_speeds": ("", "gr.wheel_speeds(slope_deg=np.linspace(0, 20, 5_000_000))"),
     "heading_map": ("", "gr.heading_map(course_deg=np.linspace(-60, 60, 200_000))"),
     "settle": ("", "gr.settle('toyoura', 'hakuto', load_n=np.full(4_000_000, 17.0), slip_ratio=0.2, model='rft')"),
+    "settle, gradients": ("", "gr.settle('toyoura', 'hakuto', load_n=np.full(2_000_000, 17.0), slip_ratio=0.2, gradients='all')"),
+    "simulate, gradients": ("", "gr.simulate(duration_s=2000, gradients='all')"),
+    "heading, gradients": ("", "gr.heading(slope_deg=np.linspace(1, 15, 1_000_000), gradients='all')"),
     "calibrate": (
         "gr.wheel_test(load_n=20, slip_ratio=[0.1, 0.3, 0.5], trials=3).to_pandas()"
         ".to_csv('test.csv', index=False)",

@@ -146,6 +146,10 @@ def of_run(run: gr.Trajectory) -> Numbers:
     return [(rover, (4, count)), (run.wheel["sinkage_mm"], (count, wheels))]
 
 
+def of_slopes(found: Any) -> Numbers:
+    return [(found[name], found["x_m"].shape) for name in ("x_m", "y_m", "energy_j")]
+
+
 def of_ends(ends: gr.Rollout, shape: tuple[int, ...]) -> Numbers:
     assert "failed" not in ends.outcome
     return [(ends.x_m, shape), (ends.energy_j, shape)]
@@ -174,6 +178,13 @@ def linearised(run: gr.Scenario) -> Numbers:
     linear = rover.linearise(0.05, 0.5)
     count, wheels = len(linear.states), len(rover.wheel_names)
     return [(linear.A, (count, count)), (linear.B, (count, wheels))]
+
+
+def one_step(run: gr.Scenario, module: Any) -> Numbers:
+    rover = gr.Run(run, commands="rim_speed_m_s")
+    rover.step(0.05, 0.5)
+    found = np.asarray(module.step(rover, 0.05, 0.5))
+    return [(found, (6 if len(found) == 6 else 6 + 2 * len(rover.wheel_names),))]
 
 
 def campaign(run: gr.Scenario, study: str) -> gr.Campaign:
@@ -224,6 +235,16 @@ def streamed(run: gr.Scenario) -> Numbers:
 def replayed(run: gr.Scenario) -> Numbers:
     found = gr.replay(drive(run, run.rover), run)
     return [(found.forward_speed_m_s.values, (found.sizes["time_s"],))]
+
+
+def judged(run: gr.Scenario) -> Numbers:
+    folder = Path(FOLDER.name) / f"drives-{len(run.rover.mount)}"
+    folder.mkdir(exist_ok=True)
+    log = drive(run, run.rover)
+    rows = [",".join(log), *(",".join(map(str, row)) for row in zip(*log.values()))]
+    (folder / "drive.csv").write_text("\n".join(rows) + "\n")
+    found = gr.validate_drives(folder, run.soil, run.rover)
+    return [(found.cells["slip_ratio"], (len(found.cells["model"]),))]
 
 
 def slip_read(run: gr.Scenario) -> Numbers:
@@ -335,6 +356,12 @@ CALLS: dict[str, tuple[Callable[[gr.Scenario], Numbers], tuple[str, ...]]] = {
         "RunBatch": lambda s: [(gr.RunBatch([s, s]).step(0.5, 0.5), (2, 6))],
         "simulate": lambda s: of_run(gr.simulate(s)),
         "simulate[slope_deg]": lambda s: of_run(gr.simulate(s, slope_deg=5.0)),
+        "simulate[gradients]": lambda s: of_slopes(
+            gr.simulate(s, gradients=["soil.friction_angle_deg"]).gradient
+        ),
+        "rollout[gradients]": lambda s: of_slopes(
+            gr.rollout(s, rim_speed_m_s=[0.05], gradients=["soil.friction_angle_deg"]).gradient
+        ),
         "simulate[uncertainty]": lambda s: of_run(gr.simulate(s, uncertainty=True, samples=2)),
         "rollout[slope_deg]": lambda s: of_ends(gr.rollout(s, slope_deg=[4.0, 8.0]), (2,)),
         "rollout[yaw_deg]": lambda s: of_ends(gr.rollout(s, yaw_deg=[4.0, 8.0]), (2,)),
@@ -383,6 +410,7 @@ CALLS: dict[str, tuple[Callable[[gr.Scenario], Numbers], tuple[str, ...]]] = {
         "validate_slopes": lambda s: same(
             len(gr.validate_slopes("hakuto-slope", s.soil, s.rover).to_pandas()) > 0, True
         ),
+        "validate_drives": judged,
         "learn": learnt,
         "Learner": streamed,
         "replay": replayed,
@@ -404,8 +432,13 @@ CALLS: dict[str, tuple[Callable[[gr.Scenario], Numbers], tuple[str, ...]]] = {
         "mujoco.SoilContact": contact,
         "mujoco.rover_xml": lambda s: same(mujoco.rover_xml(s.rover).count("<motor"), 0),
         "jax.settle": lambda s: one_wheel(s, jax.settle, load_n=17.0),
+        "jax.step": (lambda s: one_step(s, jax), ("prescribes the yaw",)),
         **{
             f"{prefix}settle": lambda s, it=it: one_wheel(s, it.settle, load_n=17.0)
+            for prefix, it in TORCH.items()
+        },
+        **{
+            f"{prefix}step": (lambda s, it=it: one_step(s, it), ("prescribes the yaw",))
             for prefix, it in TORCH.items()
         },
     }.items()

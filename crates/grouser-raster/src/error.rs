@@ -30,26 +30,26 @@ impl RasterError {
 
 /// What is wrong inside of a file, and what helps.
 #[derive(Debug)]
-pub struct Flaw {
+pub struct InnerFault {
     /// What is wrong.
     pub problem: String,
     /// What to do about it, with the name of the file.
     pub hint: Option<fn(&str) -> String>,
 }
 
-impl Flaw {
+impl InnerFault {
     pub(crate) fn with_hint(problem: String, hint: fn(&str) -> String) -> Self {
         Self { problem, hint: Some(hint) }
     }
 }
 
-impl From<String> for Flaw {
+impl From<String> for InnerFault {
     fn from(problem: String) -> Self {
         Self { problem, hint: None }
     }
 }
 
-impl fmt::Display for Flaw {
+impl fmt::Display for InnerFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.problem)
     }
@@ -212,7 +212,7 @@ pub enum Fault {
         /// Its number, from 1.
         line: usize,
         /// What is wrong with it.
-        flaw: Flaw,
+        flaw: InnerFault,
     },
     /// Points that do not make a grid.
     #[error(
@@ -278,7 +278,7 @@ pub enum Fault {
         /// Which.
         number: usize,
         /// What is wrong with it.
-        flaw: Flaw,
+        flaw: InnerFault,
     },
     /// A feature that is no area.
     #[error("has no area in feature {number}, counted from 1: {flaw}")]
@@ -286,7 +286,7 @@ pub enum Fault {
         /// Which.
         number: usize,
         /// What is wrong with it.
-        flaw: Flaw,
+        flaw: InnerFault,
     },
     /// A geometry by itself where areas are expected, or something else.
     #[error("is of type {kind}, and areas are polygons of a Feature or a FeatureCollection")]
@@ -301,7 +301,7 @@ pub enum Fault {
     #[error("has no line to drive along: {flaw}")]
     NoLine {
         /// What is wrong with it.
-        flaw: Flaw,
+        flaw: InnerFault,
     },
     /// A coordinate system of longitude and latitude.
     #[error(

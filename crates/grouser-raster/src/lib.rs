@@ -61,7 +61,7 @@ pub mod zones;
 pub use advice::Warp;
 pub use coordinate_system::{CoordinateSystem, GeoKeys};
 pub use degrees::check_grid;
-pub use error::{Fault, Flaw, RasterError};
+pub use error::{Fault, InnerFault, RasterError};
 pub use geotiff::beside::beside;
 pub use geotiff::metadata::check_unit;
 pub use heights::BEYOND;

@@ -16,7 +16,7 @@ use std::path::Path;
 use grouser_core::terrain::ElevationGrid;
 use grouser_core::units::Vec2;
 
-use crate::error::{Fault, Flaw, RasterError};
+use crate::error::{Fault, InnerFault, RasterError};
 use crate::heights::{Heights, checked_cells};
 use crate::{CELLS, CoordinateSystem, Raster, ReadOptions, Remark, RowOrder};
 use axis::Axis;
@@ -169,7 +169,7 @@ impl TextPoints {
                 format!("all points have the {axis} of this one: they make a line, not a grid")
                     .into()
             }
-            axis::Irregular::Between { spacing, .. } => Flaw::with_hint(
+            axis::Irregular::Between { spacing, .. } => InnerFault::with_hint(
                 format!(
                     "its {axis} is not on the grid of the other points, which are {spacing} m apart"
                 ),

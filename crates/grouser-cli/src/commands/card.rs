@@ -70,6 +70,7 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
         args,
         inputs: &inputs,
         card: &card,
+        steepest: card::steepest(&card, &inputs.scenario, &study, uphill(args)),
         beside: card::beside(&rows, &measured),
         advice: advice(&rows),
         rows,
@@ -78,7 +79,7 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
     let is_whole = target.is_some() || args.format == Format::Json;
     let courses = is_whole.then(|| study.courses(&card.rows, &samples, &|| true)).transpose()?;
     let courses = card_courses::table(&courses.map(sampling::whole).unwrap_or_default());
-    let texts = texts::of(args, &inputs, &card);
+    let texts = texts::of(args, &inputs, &card, &answers.steepest);
     let stops = stops::text(&inputs, &card, &texts, args.stops_slope_deg);
     let limits = match (&args.stops, &stops) {
         (Some(file), Some(stops)) => file::write_result(file, stops.as_bytes()),
@@ -97,7 +98,7 @@ pub(crate) fn run(args: &CardArgs) -> Result<(), Failure> {
     match args.format {
         Format::Table => output::show(answers.table()),
         Format::Csv => output::print(&Rows::of_table(&answers.rows).to_csv()?),
-        Format::Json => output::print_json(&answers.json(&card::steepest(&card), &courses)),
+        Format::Json => output::print_json(&answers.json(&courses)),
     }?;
     // A card without limits is one nevertheless.
     limits
@@ -121,17 +122,21 @@ impl Pages {
         let courses = sampling::whole(study.courses(&card.rows, &samples, &|| true)?);
         let courses = card_courses::table(&courses);
         let picture = Picture::of(&inputs.scenario.value.rover, args.uphill);
-        let texts = texts::of(&args, &inputs, &card);
+        let steepest = card::steepest(&card, &inputs.scenario, &study, uphill(&args));
+        let texts = texts::of(&args, &inputs, &card, &steepest);
         let sheets = [layout::draw(&texts, &picture, &rows), second::draw(&texts, &rows, &courses)];
         Ok(Self { card, sheets })
     }
 }
 
 fn study(args: &CardArgs, inputs: &CardInputs) -> SlopeStudy {
-    let uphill = if args.uphill == SideChoice::Right { Side::Right } else { Side::Left };
     let (rim_speed, rule) = (inputs.rim_speed, inputs.rule);
-    let study = SlopeStudy::of(&inputs.scenario).with_uphill(uphill);
+    let study = SlopeStudy::of(&inputs.scenario).with_uphill(uphill(args));
     SlopeStudy { rim_speed, rule, holds_heading: args.holds_heading, ..study }
+}
+
+fn uphill(args: &CardArgs) -> Side {
+    if args.uphill == SideChoice::Right { Side::Right } else { Side::Left }
 }
 
 fn compute(
@@ -312,6 +317,8 @@ struct Answers<'a> {
     args: &'a CardArgs,
     inputs: &'a CardInputs,
     card: &'a Card,
+    /// The steepest slope, and what numbers are worth there: one row.
+    steepest: Table,
     rows: Table,
     /// The advice of each row.
     advice: Table,
@@ -349,8 +356,8 @@ impl Answers<'_> {
         )
     }
 
-    fn json<'a>(&'a self, steepest: &'a Table, courses: &'a Table) -> Answer<Results<'a>> {
-        let Self { args, inputs, card, rows, advice, beside, drives } = self;
+    fn json<'a>(&'a self, courses: &'a Table) -> Answer<Results<'a>> {
+        let Self { args, inputs, card, steepest, rows, advice, beside, drives } = self;
         let rows = WithObject { rows, name: ADVICE_OBJECT, of: advice };
         let measured = (beside.rows() > 0).then_some(beside);
         let drives = drives.as_ref();
@@ -408,8 +415,7 @@ impl<'a> Target<'a> {
             }
         }
         folder.add(REPORT, report(answers, courses, sheets, stops.is_some()));
-        let steepest = card::steepest(answers.card);
-        folder.add("card.json", answers.json(&steepest, courses).to_text());
+        folder.add("card.json", answers.json(courses).to_text());
         folder.add("card.csv", Rows::of_table(&answers.rows).to_csv()?);
         folder.add("courses.csv", Rows::of_table(courses).to_csv()?);
         if let Some(stops) = stops {

@@ -23,7 +23,8 @@ pub(crate) fn run(command: &str, args: &HeadingArgs) -> Result<(), Failure> {
         // Nobody shows a draft to others.
         sampling.count = CardArgs::SAMPLES;
     }
-    let mut answer = sampling::with_bar(question.samples(), |go_on| {
+    let what = sampling::what(question.gradients.as_ref(), "slopes");
+    let mut answer = sampling::with_bar_of(what, question.samples(), |go_on| {
         let (has_page, is_strict) = (folder.is_some() || slide.is_some(), args.strict.strict);
         question.answer(command, &AnswerOptions { has_page, is_strict, go_on })
     })?;

@@ -15,7 +15,8 @@ use crate::output::folder::OutputFolder;
 pub(crate) fn run(command: &str, args: &HeadingMapArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
     let question = inputs::heading_map(args)?;
-    let answer = sampling::with_bar(question.samples(), |go_on| {
+    let what = sampling::what(question.gradients.as_ref(), "courses");
+    let answer = sampling::with_bar_of(what, question.samples(), |go_on| {
         let (has_page, is_strict) = (folder.is_some(), args.strict.strict);
         question.answer(command, &AnswerOptions { has_page, is_strict, go_on })
     })?;

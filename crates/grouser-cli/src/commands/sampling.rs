@@ -51,11 +51,20 @@ pub(crate) fn with_bar<T>(
     samples: usize,
     compute: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T,
 ) -> T {
+    with_bar_of("samples", samples, compute)
+}
+
+/// The same of something else than samples.
+pub(crate) fn with_bar_of<T>(
+    what: &'static str,
+    samples: usize,
+    compute: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T,
+) -> T {
     if samples == 0 {
         return compute(&|| true);
     }
     let bar = output::progress_bar(samples as u64);
-    bar.set_message("samples");
+    bar.set_message(what);
     let found = compute(&|| {
         // What comes after the samples is asked for, too, and is little.
         bar.set_position((bar.position() + 1).min(samples as u64));
@@ -63,6 +72,11 @@ pub(crate) fn with_bar<T>(
     });
     bar.finish_and_clear();
     found
+}
+
+/// What a bar counts: these where derivatives are asked for, samples otherwise.
+pub(crate) fn what(gradients: Option<&GradientKeys>, these: &'static str) -> &'static str {
+    if gradients.is_some() { these } else { "samples" }
 }
 
 /// The flags that ask for the same samples again, after a blank; nothing where none are asked for.

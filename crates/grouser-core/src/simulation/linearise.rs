@@ -82,20 +82,46 @@ impl Run {
     /// [`NoLinearStep`] where the step, or one of those beside it, ends the run, falls back, or
     /// cannot be computed.
     pub fn linear_step(&self, rim_speeds: &[f64], span: f64) -> Result<LinearStep, NoLinearStep> {
-        if self.scenario().yaw.is_some() {
-            return Err(NoLinearStep::PrescribedYaw);
-        }
-        if let Some(outcome) = self.outcome() {
-            return Err(ended(outcome));
-        }
-        let precise = self.changed(|state, scenario| {
-            if let Integrator::Adaptive { tolerance } = &mut scenario.numerics.integrator {
-                *tolerance = tolerance.min(TOLERANCE);
-            }
-            // What was not steady before may be now, and is asked beside it, too.
-            state.approach = scenario.numerics.approach;
-        });
-        let before = numbers_of(self.state());
+        self.linear_step_from(&self.numbers(), rim_speeds, span)
+    }
+
+    /// The numbers of the state now, in the order of a [`LinearStep`].
+    #[must_use]
+    pub fn numbers(&self) -> Vec<f64> {
+        numbers_of(self.state())
+    }
+
+    /// The state after a step from another one than now, integrated as precisely as for its
+    /// [slopes](Self::linear_step_from).
+    ///
+    /// * `before`: in the order of [`numbers`](Self::numbers)
+    ///
+    /// # Errors
+    /// [`NoLinearStep`] where the step ends the run, falls back, or cannot be computed.
+    pub fn precise_step_from(
+        &self,
+        before: &[f64],
+        rim_speeds: &[f64],
+        span: f64,
+    ) -> Result<Vec<f64>, NoLinearStep> {
+        let here = [before, rim_speeds].concat();
+        self.precise()?.stepped_from(&here, before.len(), span)
+    }
+
+    /// The slopes of a [step](Self::linear_step) from another state than now.
+    ///
+    /// * `before`: in the order of [`numbers`](Self::numbers)
+    ///
+    /// # Errors
+    /// As [`linear_step`](Self::linear_step).
+    pub fn linear_step_from(
+        &self,
+        before: &[f64],
+        rim_speeds: &[f64],
+        span: f64,
+    ) -> Result<LinearStep, NoLinearStep> {
+        let precise = self.precise()?;
+        let before = before.to_vec();
         let here: Vec<f64> = before.iter().chain(rim_speeds).copied().collect();
         let stepped = |point: &[f64]| precise.stepped_from(point, before.len(), span);
         let after = stepped(&here)?;
@@ -123,6 +149,23 @@ impl Run {
         // Where no point was refused, each variable was moved to both sides.
         let slopes = found.by_variable.into_iter().flatten().collect();
         Ok(LinearStep { before, after, slopes })
+    }
+
+    /// The run, integrated precisely enough for differences of its steps.
+    fn precise(&self) -> Result<Self, NoLinearStep> {
+        if self.scenario().yaw.is_some() {
+            return Err(NoLinearStep::PrescribedYaw);
+        }
+        if let Some(outcome) = self.outcome() {
+            return Err(ended(outcome));
+        }
+        Ok(self.changed(|state, scenario| {
+            if let Integrator::Adaptive { tolerance } = &mut scenario.numerics.integrator {
+                *tolerance = tolerance.min(TOLERANCE);
+            }
+            // What was not steady before may be now, and is asked beside it, too.
+            state.approach = scenario.numerics.approach;
+        }))
     }
 
     /// The numbers of the state after a step from others.

@@ -93,7 +93,8 @@ class Card(_tables.Tabular):
     """The second page: other courses, to get there and to get out."""
     steepest: Mapping[str, Any]
     """Number of samples (``draws``), and the steepest slope on which a heading holds the contour,
-    with its band."""
+    with its band; and ``d_limit_slope_deg_d_<key>``, what the friction angle, the cohesion and the
+    body's mass are worth there on the soil as written."""
 
     def _table(self) -> Mapping[str, Any]:
         return self.columns

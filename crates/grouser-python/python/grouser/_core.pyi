@@ -74,6 +74,7 @@ __all__ = [
     "replay",
     "rollout",
     "routes",
+    "rover_of_urdf",
     "seal_manifest",
     "settle",
     "settle_gradients",
@@ -88,6 +89,7 @@ __all__ = [
     "unit_of",
     "validate",
     "validate_all",
+    "validate_drives",
     "validate_slopes",
     "wheel_forces",
     "wheel_speeds",
@@ -345,6 +347,10 @@ class Simulators:
     def linear_step(
         self, commands: _Floats, are_rim_speeds: bool, dt_s: float
     ) -> tuple[_Floats, _Floats, _Floats, NDArray[np.bool_], list[str]]: ...
+    def state_numbers(self) -> tuple[_Floats, list[str]]: ...
+    def precise_steps(
+        self, points: _Floats, are_rim_speeds: bool, dt_s: float, has_slopes: bool
+    ) -> _Floats: ...
     @property
     def wheel_names(self) -> list[str]: ...
     def reset(
@@ -405,6 +411,13 @@ def import_telemetry(
 def meant_keys(kind: str, name: str) -> list[str]: ...
 def present_names(name: str) -> list[str]: ...
 def presets(kind: str) -> list[tuple[str, str, str]]: ...
+def rover_of_urdf(
+    path: str | os.PathLike[str],
+    named: tuple[list[str], list[str]],
+    sizes: tuple[float | None, float | None],
+    forward: str,
+    has: tuple[bool, bool],
+) -> Document: ...
 def to_toml(label: str, table: dict[str, Any]) -> str: ...
 def settle(
     soils: Sequence[Document],
@@ -453,7 +466,7 @@ def spread_labels(
     wanted: Sequence[float], heights: Sequence[float], room: tuple[float, float]
 ) -> list[float]: ...
 def style_colours(dark: bool) -> dict[str, list[str]]: ...
-def simulate(scenario: Document) -> dict[str, Any]: ...
+def simulate(scenario: Document, gradients: Sequence[str] | None = None) -> dict[str, Any]: ...
 def design(
     design: Document, is_nominal: bool, seed: int, trade: tuple[str, str] | None
 ) -> tuple[dict[str, Any], dict[str, dict[str, Any]], str]: ...
@@ -569,6 +582,13 @@ def validate_slopes(
     data: _Data, scenario: Document, conditions: Sequence[str]
 ) -> dict[str, Any]: ...
 def validate_all(folder: str | os.PathLike[str] | None) -> dict[str, Any]: ...
+def validate_drives(
+    folder: str | os.PathLike[str],
+    scenario: Document,
+    mapping: str | os.PathLike[str] | None,
+    choices: Sequence[tuple[str, str]],
+    how: tuple[str | None, int | None],
+) -> tuple[dict[str, Any], dict[str, dict[str, Any]], str]: ...
 def calibrate_wheel_tests(
     data: _Data,
     soil: Document,

@@ -14,6 +14,8 @@ from . import _core, _tables
 from ._animations import Animation
 from ._arrays import Floats, whole_number
 from ._descriptions import Mission, Scenario, Soil, Source
+from ._errors import ParameterError
+from ._gradients import Gradient, Keys, keys_of, of_rows
 from ._models import ByModel, each_model
 
 if TYPE_CHECKING:
@@ -221,6 +223,9 @@ class Trajectory(_tables.Tabular):
     motor is known."""
     band: TraverseBand | None = None
     """The same over samples of soil and model, with ``uncertainty=True``; else None."""
+    gradient: Gradient | None = None
+    """Derivatives of the records, with a last axis of keys, where `simulate` was asked for
+    ``gradients``; else None. They are differences of whole runs."""
     mission: Mission | None = None
     """The mission that was driven; None for a run of `simulate`."""
     alternative: str = ""
@@ -337,6 +342,7 @@ def simulate(
     uncertainty: bool = ...,
     samples: int = ...,
     seed: int = ...,
+    gradients: Keys | None = ...,
     **changes: Any,
 ) -> ByModel[Trajectory]: ...
 
@@ -350,6 +356,7 @@ def simulate(
     uncertainty: bool = ...,
     samples: int = ...,
     seed: int = ...,
+    gradients: Keys | None = ...,
     **changes: Any,
 ) -> Trajectory: ...
 
@@ -362,6 +369,7 @@ def simulate(
     uncertainty: bool = False,
     samples: int = 200,
     seed: int = 1,
+    gradients: Keys | None = None,
     **changes: Any,
 ) -> Trajectory | ByModel[Trajectory]:
     """Simulates a rover from its start to its end.
@@ -382,6 +390,10 @@ def simulate(
         Number of samples, 2 to 100000.
     seed : int
         Seed of the samples: the same seed gives the same soils and models.
+    gradients : str or sequence of str, optional
+        Keys of scenarios by whose numbers the records are differentiated, or ``"all"``: as
+        `Trajectory.gradient`, by two to four more runs for each key. They are those of the run as
+        its documents are written.
     **changes
         Keys of the scenario with other values: ``slope_deg=15.0``, ``soil="toyoura"``.
 
@@ -403,20 +415,34 @@ def simulate(
     >>> run = gr.simulate(slope_deg=10.0, duration_s=5.0)
     >>> run.outcome, bool(run.y_m[-1] < 0.0)
     ('completed', True)
+    >>> run = gr.simulate(slope_deg=10.0, duration_s=5.0, gradients=["slope_deg"])
+    >>> by_slope = run.gradient.to_xarray(["time_s"]).y_m.sel(key="slope_deg")
+    >>> by_slope.dims, bool(by_slope[-1] < 0.0)                     # the steeper, the lower
+    (('time_s',), True)
     """
+    if uncertainty and gradients is not None:
+        raise ParameterError(
+            "gradients are of the run as its documents are written, uncertainty=True asks for "
+            "samples: leave one of them out",
+            "gradients",
+        )
     if model == "all":
-        settings: dict[str, Any] = {"uncertainty": uncertainty, "samples": samples, "seed": seed}
+        settings: dict[str, Any] = {
+            "uncertainty": uncertainty, "samples": samples, "seed": seed, "gradients": gradients
+        }
         return each_model(lambda name: simulate(scenario, model=name, **settings, **changes))
     changes = changes if model is None else {**changes, "model": model}
     run = scenario_of(scenario, changes)
-    found = _core.simulate(run._document)
+    found = _core.simulate(run._document, keys_of(gradients))
     band = None
     if uncertainty:
         drawn = whole_number("seed", seed), whole_number("samples", samples, most=2**32 - 1)
         times, means = _core.simulate_band(run._document, *drawn)
         times["ended_early"] = np.array(times["ended_early"], dtype=object)
         band = TraverseBand(run=means, **times)
-    return trajectory_of(found, scenario=run, band=band)
+    rows = found.get("gradient")
+    gradient = None if rows is None else of_rows(*rows, (len(found["flags"]),))
+    return trajectory_of(found, scenario=run, band=band, gradient=gradient)
 
 
 def trajectory_of(found: Mapping[str, Any], **inputs: Any) -> Trajectory:

@@ -1,5 +1,5 @@
-"""Settled wheels as a function that PyTorch differentiates: forward and in reverse, batched, and
-under ``torch.func``.
+"""Settled wheels and control steps as functions that PyTorch differentiates: forward and in reverse,
+batched, and under ``torch.func``.
 
 What is computed is of 64 bits, whatever numbers come in; their gradients come back in their own
 precision, on their own device. There are first derivatives only.
@@ -28,9 +28,10 @@ import torch
 
 from . import _core
 from ._descriptions import Soil, Source, Wheel
-from ._stands import RESULTS, Stand, numbers_of
+from ._runs import Run
+from ._stands import RESULTS, Stand, Step, numbers_of
 
-__all__ = ["settle"]
+__all__ = ["settle", "step"]
 
 
 def settle(
@@ -79,48 +80,109 @@ def settle(
     -0.022
     """
     values = numbers_of(load_n, slip_ratio, slip_angle_deg, gravity_m_s2, vary)
-    tensors = (it for it in values.values() if isinstance(it, torch.Tensor))
-    device = next((it.device for it in tensors), None)
-    cells = (torch.as_tensor(it, dtype=torch.float64, device=device) for it in values.values())
-    numbers = torch.stack(torch.broadcast_tensors(*cells), dim=-1)
-    found = _Settled.apply(Stand(soil, wheel, model, tuple(values)), numbers)
+    numbers = torch.stack(torch.broadcast_tensors(*_tensors(*values.values())), dim=-1)
+    found = _Computed.apply(Stand(soil, wheel, model, tuple(values)), numbers)
     return {name: found[..., place] for place, name in enumerate(RESULTS)}
 
 
-class _Settled(torch.autograd.Function):
+def step(run: Run, commands: Any, dt_s: float, *, state: Any = None) -> Any:
+    """The state of a rover after a control step, as `grouser.Run.step` makes it.
+
+    The step is integrated within 1e-10, as `grouser.Run.linearise` does it: its derivatives are
+    differences of whole steps, and good to 1e-4 of them.
+
+    Parameters
+    ----------
+    run : Run
+        The rover: where it is now counts, and stays as it is. Batteries, windings and what else is
+        no number of the state are its own.
+    commands : array_like, shape (), (wheels,) or (..., wheels)
+        Speeds in the quantity of the run's ``commands`` [rad/s or m/s].
+    dt_s : float
+        Duration of the step [s], from 1e-6 to 86400.
+    state : array_like, shape (states,) or (..., states), optional
+        The state before the step, with the numbers of `grouser.LinearStep.states`: pose and
+        velocities in the order of `grouser.Run.STATE`; for a rover whose motors' speed depends on
+        their load, those of the wheels. By default the run's own. Leading axes broadcast with those
+        of the commands.
+
+    Returns
+    -------
+    torch.Tensor, shape (states,) or (..., states)
+        The state afterwards; differentiable by the state before and by the commands. NaN where the
+        run ends within the step, or falls back from quasi-steady to dynamic; its derivatives are
+        where it does so within a step beside it.
+
+    Raises
+    ------
+    ParameterError
+        For shapes that do not go together, and a duration out of its range.
+    SimulationError
+        If the run has ended.
+
+    Examples
+    --------
+    How far does a rover turn in a second for each cm/s by which its right rims turn faster?
+
+    >>> import torch
+    >>> import grouser.torch as gt
+    >>> import grouser as gr
+    >>> rover = gr.Run(slope_deg=10.0, commands="rim_speed_m_s")
+    >>> moved = rover.step(0.06, 2.0)
+    >>> def yaw(faster):
+    ...     commands = 0.06 + 0.01 * faster * torch.tensor([0.0, 0.0, 1.0, 1.0])
+    ...     return gt.step(rover, commands, 1.0)[rover.STATE.index("yaw_deg")]
+    >>> 0.2 < float(torch.func.grad(yaw)(torch.tensor(0.0))) < 2.0
+    True
+    """
+    of = Step(run, dt_s)
+    before, commands = _tensors(of.state if state is None else state, commands)
+    shapes = of.shapes(before, commands)
+    parts = [torch.broadcast_to(it, shape) for it, shape in zip((before, commands), shapes)]
+    return _Computed.apply(of, torch.cat(parts, dim=-1))
+
+
+def _tensors(*values: Any) -> list[Any]:
+    """Numbers as tensors of 64 bits, on the device of those that are some."""
+    tensors = (it for it in values if isinstance(it, torch.Tensor))
+    device = next((it.device for it in tensors), None)
+    return [torch.as_tensor(it, dtype=torch.float64, device=device) for it in values]
+
+
+class _Computed(torch.autograd.Function):
     """Results in the last axis, of numbers in the last axis."""
 
     @staticmethod
-    def forward(stand: Stand, numbers: Any) -> Any:
-        return _call(stand.results, numbers)
+    def forward(of: Stand | Step, numbers: Any) -> Any:
+        return _call(of.results, numbers)
 
     @staticmethod
     def setup_context(ctx: Any, inputs: Any, output: Any) -> None:
-        ctx.stand, numbers = inputs
+        ctx.of, numbers = inputs
         ctx.save_for_backward(numbers)
         ctx.save_for_forward(numbers)
 
     @staticmethod
     def backward(ctx: Any, change: Any) -> Any:
-        jacobian = _Jacobian.apply(ctx.stand, *ctx.saved_tensors)
+        jacobian = _Jacobian.apply(ctx.of, *ctx.saved_tensors)
         return None, torch.einsum("...rk,...r->...k", jacobian, change)
 
     @staticmethod
     def jvp(ctx: Any, _: Any, change: Any) -> Any:
-        jacobian = _Jacobian.apply(ctx.stand, *ctx.saved_tensors)
+        jacobian = _Jacobian.apply(ctx.of, *ctx.saved_tensors)
         return torch.einsum("...rk,...k->...r", jacobian, change)
 
     @staticmethod
-    def vmap(_: Any, dims: Any, stand: Stand, numbers: Any) -> Any:
-        return _Settled.apply(stand, numbers.movedim(dims[1], 0)), 0
+    def vmap(_: Any, dims: Any, of: Stand | Step, numbers: Any) -> Any:
+        return _Computed.apply(of, numbers.movedim(dims[1], 0)), 0
 
 
 class _Jacobian(torch.autograd.Function):
     """Results in the axis before the last, numbers in the last."""
 
     @staticmethod
-    def forward(stand: Stand, numbers: Any) -> Any:
-        return _call(stand.jacobians, numbers)
+    def forward(of: Stand | Step, numbers: Any) -> Any:
+        return _call(of.jacobians, numbers)
 
     @staticmethod
     def setup_context(ctx: Any, inputs: Any, output: Any) -> None:
@@ -128,11 +190,11 @@ class _Jacobian(torch.autograd.Function):
 
     @staticmethod
     def backward(ctx: Any, change: Any) -> Any:
-        raise NotImplementedError("settled wheels have first derivatives only")
+        raise NotImplementedError("settled wheels and steps have first derivatives only")
 
     @staticmethod
-    def vmap(_: Any, dims: Any, stand: Stand, numbers: Any) -> Any:
-        return _Jacobian.apply(stand, numbers.movedim(dims[1], 0)), 0
+    def vmap(_: Any, dims: Any, of: Stand | Step, numbers: Any) -> Any:
+        return _Jacobian.apply(of, numbers.movedim(dims[1], 0)), 0
 
 
 def _call(native: Callable[[Any], Any], numbers: Any) -> Any:

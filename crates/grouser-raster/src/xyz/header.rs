@@ -1,6 +1,6 @@
 //! Names of columns: which of them are x, y and z.
 
-use crate::error::Flaw;
+use crate::error::InnerFault;
 use crate::remark::Remark;
 
 /// Names that the places and the heights have, in small letters and without a unit.
@@ -64,7 +64,7 @@ fn parts(name: &str) -> (String, Option<String>) {
 impl TextColumns {
     /// * `names`: of the first line, if there are any
     /// * `count`: of the words of the first point
-    pub(super) fn of(names: Option<Vec<String>>, count: usize) -> Result<Self, Flaw> {
+    pub(super) fn of(names: Option<Vec<String>>, count: usize) -> Result<Self, InnerFault> {
         if let Some(names) = names.filter(|names| names.len() == count) {
             return Self::named(&names);
         }
@@ -72,7 +72,7 @@ impl TextColumns {
         Ok(Self { of: [0, 1, 2], height: None, unused })
     }
 
-    fn named(names: &[String]) -> Result<Self, Flaw> {
+    fn named(names: &[String]) -> Result<Self, InnerFault> {
         let known: Vec<(String, Option<String>)> = names.iter().map(|name| parts(name)).collect();
         let shown = || listed(names);
         if let Some(at) = known.iter().position(|(name, _)| DEGREES.contains(&&**name)) {
@@ -81,7 +81,7 @@ impl TextColumns {
                 shown_name(&names[at]),
                 shown()
             );
-            return Err(Flaw::with_hint(problem, |_| "gdalwarp projects a grid".to_owned()));
+            return Err(InnerFault::with_hint(problem, |_| "gdalwarp projects a grid".to_owned()));
         }
         let column = |of: &[&str]| known.iter().position(|(name, _)| of.contains(&&**name));
         let (x, y, z) = (column(&X), column(&Y), column(&Z));

@@ -22,7 +22,7 @@ use super::key::ZoneKey;
 use super::map::ZoneMap;
 use super::places::{PlacesSystem, is_in_degrees, shown};
 use crate::CoordinateSystem;
-use crate::error::{Fault, Flaw};
+use crate::error::{Fault, InnerFault};
 use crate::read::start_of;
 use crate::remark::Remark;
 
@@ -91,7 +91,7 @@ pub fn decode(bytes: &[u8]) -> Result<ZoneMap, Fault> {
     let mut polygons = Vec::new();
     let (features, system) = features_of(bytes)?;
     for (number, feature) in (1..).zip(features) {
-        let fault = |flaw: Flaw| Fault::Feature { number, flaw };
+        let fault = |flaw: InnerFault| Fault::Feature { number, flaw };
         let key = key_of(&feature).map_err(fault)?;
         for rings in polygons_of(feature.geometry).map_err(|problem| fault(problem.into()))? {
             polygons.push((key.clone(), rings));
@@ -112,7 +112,7 @@ pub fn decode_areas(bytes: &[u8]) -> Result<ZoneMap, Fault> {
         other => other,
     })?;
     for (number, feature) in (1..).zip(features) {
-        let fault = |flaw: Flaw| Fault::Area { number, flaw };
+        let fault = |flaw: InnerFault| Fault::Area { number, flaw };
         for rings in polygons_of(feature.geometry).map_err(|problem| fault(problem.into()))? {
             if rings.is_empty() {
                 return Err(fault("a polygon of it has no ring".to_owned().into()));
@@ -128,7 +128,7 @@ pub fn decode_areas(bytes: &[u8]) -> Result<ZoneMap, Fault> {
 }
 
 /// Checks that a ring has an area and that its edge does not cross itself.
-fn check_area(ring: &[Vec2]) -> Result<(), Flaw> {
+fn check_area(ring: &[Vec2]) -> Result<(), InnerFault> {
     /// Farther away no map has places [m].
     const FARTHEST: f64 = 1e9;
     if let Some(far) = ring.iter().find(|at| at.x.abs().max(at.y.abs()) > FARTHEST) {
@@ -145,7 +145,7 @@ fn check_area(ring: &[Vec2]) -> Result<(), Flaw> {
             "its corners lie on a line through x {}, y {}, and a line has no inside",
             ring[0].x, ring[0].y
         );
-        return Err(Flaw::with_hint(problem, |file| {
+        return Err(InnerFault::with_hint(problem, |file| {
             format!(
                 "ogr2ogr -dialect SQLite -sql \"SELECT ST_Buffer(geometry, METRES) FROM LAYER\" \
                  OUT.geojson {file} makes an area of it"
@@ -155,7 +155,7 @@ fn check_area(ring: &[Vec2]) -> Result<(), Flaw> {
     match crossing::crossing(ring) {
         Ok(Some(at)) => Err(format!("its edge crosses itself near x {}, y {}", at.x, at.y).into()),
         Ok(None) => Ok(()),
-        Err(crossing::Tangled) => Err(Flaw::with_hint(
+        Err(crossing::Tangled) => Err(InnerFault::with_hint(
             "its edge runs over the same places too often to follow".to_owned(),
             |file| format!("ogr2ogr -makevalid OUT.geojson {file} untangles it"),
         )),
@@ -199,9 +199,9 @@ impl PlacesSystem {
 }
 
 /// What a feature calls its soil.
-fn key_of(feature: &Feature) -> Result<ZoneKey, Flaw> {
+fn key_of(feature: &Feature) -> Result<ZoneKey, InnerFault> {
     let unnamed = |problem: &str| {
-        Flaw::with_hint(problem.to_owned(), |file| {
+        InnerFault::with_hint(problem.to_owned(), |file| {
             format!(
                 "ogr2ogr -sql \"SELECT *, UNIT AS soil FROM LAYER\" OUT.geojson {file} makes it of a \
                  property UNIT"

@@ -1,7 +1,13 @@
 //! What answers say of derivatives.
 
-use crate::document::columns::gradient::{ONE_SIDED, name};
+use std::sync::Arc;
+
+use serde_json::json;
+
+use super::{Answer, Member};
+use crate::document::columns::gradient::{ONE_SIDED, by_key, name};
 use crate::document::columns::{OK, STATUS};
+use crate::document::reading::sentence;
 use crate::document::table::Table;
 
 /// Derivatives by more keys than this are too many columns for reading.
@@ -39,6 +45,34 @@ pub fn lines(rows: &Table, keys: &[&str], lacking: &[&str]) -> String {
         )
     });
     elsewhere.into_iter().chain(missing).chain(one_sided).collect()
+}
+
+/// The same lines in JSON, as `notes`; nothing where nothing is said.
+pub(super) fn notes(lines: &str) -> Option<Member> {
+    let notes: Vec<&str> = lines.lines().collect();
+    (!notes.is_empty()).then(|| Member::Value("notes", json!(notes)))
+}
+
+/// A page's table of what each number is worth in each row.
+///
+/// * `settings`: columns that say which row it is
+/// * `lines`: what is said below it
+pub(super) fn page(
+    answer: &mut Answer,
+    rows: &Table,
+    [settings, results, keys]: [&[&str]; 3],
+    lines: &str,
+) {
+    if keys.is_empty() {
+        return;
+    }
+    let places: Vec<usize> = (0..rows.rows()).collect();
+    let table = Arc::new(by_key(rows, &places, settings, results, keys));
+    let names = table.columns.iter().map(|(name, _)| name.clone()).collect();
+    answer.folded("What a number is worth", |answer| {
+        answer.rows("Change of each result for one unit of each number", &table, names);
+        answer.list(lines.lines().map(sentence));
+    });
 }
 
 /// Why rows that have results have no derivatives by a key.

@@ -18,8 +18,9 @@ use super::{
 use crate::contact::validity::Finding;
 use crate::document::columns::heading::{self, held, steered};
 use crate::document::columns::verdict::{self, ADVICE_OBJECT};
-use crate::document::columns::{MODEL, SLOPE, wheel_speeds};
+use crate::document::columns::{ENERGY_PER_METRE, MODEL, SLIP_RATIO, SLOPE, wheel_speeds};
 use crate::document::figure::by_unit;
+use crate::document::gradient::HeadingKeys;
 use crate::document::reading::sentence;
 use crate::document::table::Table;
 use crate::studies::ensemble::samples::BandInputs;
@@ -60,6 +61,7 @@ impl HeadingQuestion {
         answer.tables.push((name.to_owned(), Arc::clone(&rows)));
         let lines: String = all.iter().map(|it| it.lines(self.has_several())).collect();
         let derivatives: String = all.iter().map(OfModel::gradient_lines).collect();
+        answer.results.extend(gradient::notes(&derivatives));
         let words = lines + &self.model_lines() + &derivatives;
         answer.screen =
             vec![Displayed::Rows(Arc::clone(&rows), columns.clone()), Displayed::Words(words)];
@@ -68,6 +70,10 @@ impl HeadingQuestion {
         }
         if options.has_page {
             self.page(&mut answer, &all, &rows, columns);
+            let names: Vec<&str> = all[0].keys.iter().flat_map(HeadingKeys::names).collect();
+            let results =
+                [heading::turned(self.steering).name, SLIP_RATIO.name, ENERGY_PER_METRE.name];
+            gradient::page(&mut answer, &rows, [&[SLOPE.name], &results, &names], &derivatives);
         }
         Ok(answer)
     }

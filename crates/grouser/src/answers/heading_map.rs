@@ -46,7 +46,8 @@ impl HeadingMapQuestion {
     #[must_use]
     pub fn samples(&self) -> usize {
         let each = self.scenarios.len() * self.courses_deg.len();
-        self.sampling.map_or(0, |it| it.count as usize * each)
+        let derivatives = self.gradients.as_ref().map_or(0, |_| each);
+        self.sampling.map_or(derivatives, |it| it.count as usize * each)
     }
 
     /// The answer.
@@ -88,6 +89,7 @@ impl HeadingMapQuestion {
         });
         let brief = gradient::brief(&[YAW.name], &names);
         let derivatives = gradient::lines(&table, &names, &lacking);
+        answer.results.extend(gradient::notes(&derivatives));
         let crossed = Displayed::Crossed {
             table: Arc::clone(&table),
             columns: [self.brief(), brief].concat(),
@@ -99,6 +101,8 @@ impl HeadingMapQuestion {
         }
         if options.has_page {
             self.page(&mut answer, &map, &table);
+            let (settings, results) = ([COURSE.name, SLOPE.name], [YAW.name, SLIP_RATIO.name]);
+            gradient::page(&mut answer, &table, [&settings, &results, &names], &derivatives);
         }
         Ok(answer)
     }
@@ -141,7 +145,7 @@ impl HeadingMapQuestion {
             table = heading::map_with_bands(table, &bands.ok_or(AnswerError::Stopped)?);
         }
         if let Some(asked_for) = &self.gradients {
-            table = self.with_derivatives(table, studies, map, asked_for)?;
+            table = self.with_derivatives(table, studies, map, asked_for, options)?;
         }
         if self.has_every_model {
             let rows = self.scenarios.iter().flat_map(|scenario| {
@@ -161,10 +165,14 @@ impl HeadingMapQuestion {
         studies: &[HeadingStudy],
         map: &HeadingMap,
         asked_for: &GradientKeys,
+        options: &AnswerOptions<'_>,
     ) -> Result<Table, AnswerError> {
         let first = HeadingKeys::of(&self.scenarios[0], Steering::None, asked_for)?;
         let names = GradientKeys::These(first.names().map(str::to_owned).collect());
         let of_row = |row: &HeadingRow| -> Result<Vec<RowDerivatives>, AnswerError> {
+            if !(options.go_on)() {
+                return Err(AnswerError::Stopped);
+            }
             let keys = HeadingKeys::of(&self.scenarios[row.study], Steering::None, &names)?;
             let curve = studies[row.study].curve_on(row.course)?;
             let limit = keys.of_limit(&curve);

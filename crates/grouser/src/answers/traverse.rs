@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::{Answer, Member, Sampling, gradient, weights};
 use crate::document::columns;
 use crate::document::columns::run::{self, RunObject};
-use crate::document::gradient::{GradientKeys, NoSuchKey, RunKeys};
+use crate::document::gradient::RunKeys;
 use crate::document::table::Table;
 use crate::document::{LoadedScenario, given_to_drives};
 use crate::simulation::{Approach, Run, RunError, Trajectory};
@@ -29,22 +29,28 @@ pub struct RunGradient {
 }
 
 impl RunGradient {
-    /// Those of a run that was led to its end.
-    ///
-    /// # Errors
-    /// [`NoSuchKey`] for keys that scenarios do not have.
+    /// Those of a run that was led to its end; `None` if `go_on` was false before all runs beside
+    /// it were.
+    #[must_use]
     pub fn of(
         scenario: &LoadedScenario,
         run: &Trajectory,
-        asked_for: &GradientKeys,
-    ) -> Result<Self, NoSuchKey> {
-        let keys = RunKeys::of(scenario, asked_for)?;
+        keys: RunKeys,
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Self> {
         let number = |key: &str| scenario.document.number(key);
-        let found = keys.along(&scenario.value, &number, run, Run::to_end, &|| true);
+        let found = keys.along(&scenario.value, &number, run, Run::to_end, go_on)?;
         let on_heights = !scenario.value.ground.is_plane();
-        let rows =
-            found.map(|it| columns::gradient::of_run(&keys, &it, run.records.len(), on_heights));
-        Ok(Self { keys, rows: rows.unwrap_or_default() })
+        let rows = columns::gradient::of_run(&keys, &found, run.records.len(), on_heights);
+        Some(Self { keys, rows })
+    }
+
+    /// Those of the last record: a row for each key, with the results in columns.
+    #[must_use]
+    pub fn of_the_end(&self, results: &[&str]) -> Table {
+        let keys: Vec<&str> = self.keys.names().collect();
+        let last = self.rows.rows().saturating_sub(1);
+        columns::gradient::by_key(&self.rows, &[last], &[], results, &keys)
     }
 
     /// What is said of them.
@@ -107,6 +113,7 @@ impl TraverseQuestion<'_> {
         if let Value::Object(entries) = json!(RunObject { run, scenario, derivatives }) {
             answer.results.push(Member::Entries(entries));
         }
+        answer.results.extend(gradient.and_then(|it| gradient::notes(&it.lines())));
         if let Some((band, _)) = band {
             let of_run = run::run_band(&band.run, scenario);
             answer.results.push(Member::Row(Some("band"), of_run));

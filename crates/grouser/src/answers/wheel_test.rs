@@ -111,6 +111,7 @@ impl WheelTestQuestion {
         let rows = Arc::new(rows);
         self.state(&mut answer);
         answer.results.push(Member::rows("rows", Arc::clone(&rows)));
+        answer.results.extend(gradient::notes(&derivatives));
         answer.tables.push((name.to_owned(), Arc::clone(&rows)));
         answer.screen = vec![
             Displayed::Rows(Arc::clone(&rows), brief),
@@ -120,6 +121,9 @@ impl WheelTestQuestion {
         answer.attach("wheel.toml", &self.wheel);
         if options.has_page {
             self.page(&mut answer, &rows);
+            let settings = [LOAD.name, SLIP_ANGLE.name, SLIP_RATIO.name];
+            let results = [SINKAGE.name, DRAWBAR_PULL.name, TORQUE.name];
+            gradient::page(&mut answer, &rows, [&settings, &results, &names], &derivatives);
         }
         Ok(answer)
     }

@@ -555,7 +555,7 @@ fn differences_of_predictions_beside_a_point_are_those_of_whole_ones() {
                 predictions
             };
             let expected: Vec<Vec<f64>> = beside.iter().map(whole).collect();
-            let found = experiment.predict_beside(&values, &beside);
+            let found = experiment.predict_beside(&values, &[], &beside);
             for (found, expected) in found.chunks(2).zip(expected.chunks(2)) {
                 let [below, above] = [0, 1].map(|side| found[side].as_ref().expect("a sand"));
                 for (place, read) in experiment.observations().iter().enumerate() {

@@ -1,11 +1,17 @@
 //! Derivatives of a settled wheel, of headings and of the steepest slope, against differences of
 //! the whole answers.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use grouser::contact::gradient::{ChangeableWheel, WheelDerivative, gradient};
-use grouser::contact::{Contact, Model, Settled, Slip, settle};
+use grouser::contact::{
+    Contact, Ishigami, Model, Settled, Slip, WheelForces, WheelSoilModel, settle,
+};
 use grouser::difference::Variable;
-use grouser::document::gradient::{GradientKeys, HeadingKeys};
-use grouser::document::{Overrides, Source, read_scenario};
+use grouser::document::gradient::{
+    ChangedKeys, GradientKeys, HeadingKeys, StandSetting, WheelKeys,
+};
+use grouser::document::{Kind, Overrides, Source, read_scenario, read_soil, read_wheel};
 use grouser::soil::{PressureSinkage, SmallWheel, Soil, Span};
 use grouser::studies::heading::{HeadingStudy, Steering};
 use grouser::units::deg;
@@ -355,6 +361,7 @@ const HEADING_KEYS: [&str; 8] = [
 /// against differences of whole curves.
 #[test]
 fn derivatives_of_headings_are_those_of_whole_curves() {
+    let mut worst = 0.0_f64;
     for model in ["ishigami", "bekker", "small-wheel", "rft"] {
         let overrides = Overrides::parse(&[format!("scenario.model={model}")]).unwrap();
         let scenario = read_scenario(&Source::default_scenario(), &overrides).unwrap();
@@ -366,25 +373,25 @@ fn derivatives_of_headings_are_those_of_whole_curves() {
         let of_limit = keys.of_limit(&curve);
         for (place, key) in HEADING_KEYS.iter().enumerate() {
             let value = scenario.document.number(key).unwrap();
-            let step = 3e-4 * value.abs();
+            let step = 1e-3 * value.abs();
             let of = |changed: f64| {
                 let changed = grouser::document::scenario_with(&scenario.value, [(*key, changed)]);
                 let curve = HeadingStudy::of(&changed.unwrap()).curve().unwrap();
                 let [low, middle, high] = slopes.map(|slope| curve.at(slope).unwrap().yaw);
                 [low, middle, high, curve.limit().unwrap().0].map(f64::to_degrees)
             };
-            let [lowest, lower, higher, highest] =
-                [-2.0, -1.0, 1.0, 2.0].map(|it| of(value + it * step));
-            // The five-point difference.
+            let ends = [1.0, 2.0, 3.0].map(|it| [of(value - it * step), of(value + it * step)]);
+            // The six-point difference.
             let reference = |place: usize| {
-                let ends = lowest[place] - highest[place];
-                (ends + 8.0 * (higher[place] - lower[place])) / (12.0 * step)
+                let [near, middle, far] = ends.map(|[below, above]| above[place] - below[place]);
+                (45.0 * near - 9.0 * middle + far) / (60.0 * step)
             };
-            let size = |reference: f64| 1e-5 * (reference.abs() + 10.0 / value.abs());
+            let size = |reference: f64| 1e-6 * (reference.abs() + 10.0 / value.abs());
             for (at, slope) in slopes.iter().enumerate() {
                 let found = keys.on_slope(&curve, *slope)[place].as_ref().unwrap()[0];
                 let reference = reference(at);
                 let error = (found.value - reference).abs();
+                worst = worst.max(error / size(reference));
                 assert!(
                     error < size(reference),
                     "{model}, {key}, {:.1}°: {found:?} for {reference}",
@@ -407,6 +414,74 @@ fn derivatives_of_headings_are_those_of_whole_curves() {
         let reference = (yaw(0.01) - yaw(-0.01)) / 0.02;
         assert!((by_slope - reference).abs() < 1e-5, "{model}: {by_slope} for {reference}");
     }
+    println!("headings: worst {worst:.2} of 1e-6");
+}
+
+/// Ishigami's model, which counts how often all forces of a wheel are computed.
+struct Counted(&'static AtomicUsize);
+
+impl WheelSoilModel for Counted {
+    fn forces(&self, contact: &Contact, sinkage: f64) -> WheelForces {
+        self.0.fetch_add(1, Ordering::Relaxed);
+        Ishigami::DEFAULT.forces(contact, sinkage)
+    }
+}
+
+/// How often something computes all forces of a wheel.
+fn count_of<T>(counter: &AtomicUsize, work: impl FnOnce() -> T) -> (T, usize) {
+    let before = counter.load(Ordering::Relaxed);
+    let done = work();
+    (done, counter.load(Ordering::Relaxed) - before)
+}
+
+/// By 17 numbers of a wheel's documents and setting, in at most 40 evaluations of its forces, and at
+/// most ten times what one settling takes.
+#[test]
+fn seventeen_derivatives_of_a_wheel_take_forty_forces() {
+    static FORCES: AtomicUsize = AtomicUsize::new(0);
+    let model = Model::own(Counted(&FORCES));
+    let none = Overrides::none();
+    let soil = read_soil(&Source::find(Kind::Soil, "cmu-direct90-smooth").unwrap(), &none).unwrap();
+    let wheel = read_wheel(&Source::find(Kind::Wheel, "hakuto").unwrap(), &none).unwrap();
+    let all = WheelKeys::of(&soil, &wheel, &GradientKeys::All).unwrap();
+    let names: Vec<String> = all.names().take(14).map(String::from).collect();
+    let settings = ["load_n", "slip_ratio", "slip_angle_deg"].map(String::from);
+    let asked = GradientKeys::These([&names[..], &settings[..]].concat());
+    let keys = WheelKeys::of(&soil, &wheel, &asked).unwrap();
+    assert_eq!(keys.names().count(), 17);
+    let setting = StandSetting { gravity: 9.81, load: 17.0, slip_ratio: 0.2, slip_angle: 0.1 };
+    let slip = Slip::on_test_stand(setting.slip_ratio, setting.slip_angle);
+    let contact = Contact { soil: soil.value, wheel: wheel.value, slip, gravity: setting.gravity };
+    let (settled, settling) =
+        count_of(&FORCES, || settle(model.as_ref(), &contact, setting.load).unwrap());
+    let (found, forces) =
+        count_of(&FORCES, || keys.of_wheel(&model, &setting, &ChangedKeys::default(), &settled));
+    assert!(found.iter().all(Option::is_some));
+    assert!(forces <= 40, "{forces} forces");
+    assert!(forces <= 10 * settling, "{forces} forces, {settling} for settling");
+}
+
+/// A curve of headings with its derivatives by 20 numbers takes at most ten times the forces that
+/// the curve alone takes.
+#[test]
+fn a_curve_of_headings_has_twenty_derivatives_for_ten_curves() {
+    static FORCES: AtomicUsize = AtomicUsize::new(0);
+    let mut scenario = read_scenario(&Source::default_scenario(), &Overrides::none()).unwrap();
+    scenario.value.model = Model::own(Counted(&FORCES));
+    let all = HeadingKeys::of(&scenario, Steering::None, &GradientKeys::All).unwrap();
+    let names: Vec<String> = all.names().take(20).map(String::from).collect();
+    let keys =
+        HeadingKeys::of(&scenario, Steering::None, &GradientKeys::These(names.clone())).unwrap();
+    assert_eq!(names.len(), 20);
+    let (curve, alone) = count_of(&FORCES, || HeadingStudy::of(&scenario.value).curve().unwrap());
+    let ((), more) = count_of(&FORCES, || {
+        for slope in [5.0, 10.0, 15.0, 20.0] {
+            assert!(keys.on_slope(&curve, deg(slope)).iter().any(Option::is_some));
+        }
+        assert!(keys.of_limit(&curve).iter().any(Option::is_some));
+    });
+    println!("20 derivatives of a curve: {:.1} curves", 1.0 + more as f64 / alone as f64);
+    assert!(alone + more <= 10 * alone, "{more} forces beside {alone}");
 }
 
 fn heading_keys(keys: &[&str]) -> (HeadingKeys, grouser::document::LoadedScenario) {

@@ -1,9 +1,10 @@
 //! Derivatives of runs, against closed forms and differences of whole runs.
 
 use grouser::difference::Derivative;
+use grouser::document::columns::run::{RECORD, STANDING};
 use grouser::document::gradient::{GradientKeys, RunDerivatives, RunKeys};
 use grouser::document::{LoadedScenario, Overrides, Source, read_scenario, scenario_with};
-use grouser::simulation::{Run, Trajectory};
+use grouser::simulation::{Record, Run, Scenario, Trajectory};
 
 fn scenario(settings: &[&str]) -> LoadedScenario {
     let settings: Vec<String> = settings.iter().map(|it| format!("scenario.{it}")).collect();
@@ -49,6 +50,108 @@ fn a_quasi_steady_run_goes_with_its_speed_as_with_time() {
             }
         }
     }
+}
+
+/// A result of a record, in its column's unit.
+fn number(result: &str, record: &Record) -> f64 {
+    let mut all = RECORD.iter().chain(&STANDING);
+    all.find(|column| column.name == result).unwrap().number(record)
+}
+
+/// A scenario of text.
+fn of_text(text: &str) -> LoadedScenario {
+    let text = format!("schema = \"scenario/1\"\n{text}");
+    read_scenario(&Source::text("a test's", text), &Overrides::none()).unwrap()
+}
+
+/// The six-point difference of some result by a key.
+fn six_points(
+    scenario: &LoadedScenario,
+    key: &str,
+    step: f64,
+    result: impl Fn(&Scenario) -> f64,
+) -> f64 {
+    const WEIGHTS: [(f64, f64); 6] =
+        [(-3.0, -1.0), (-2.0, 9.0), (-1.0, -45.0), (1.0, 45.0), (2.0, -9.0), (3.0, 1.0)];
+    let value = scenario.document.number(key).unwrap();
+    let at = |steps: f64| {
+        result(&scenario_with(&scenario.value, [(key, value + steps * step)]).unwrap())
+    };
+    WEIGHTS.iter().map(|(steps, weight)| weight * at(*steps)).sum::<f64>() / (60.0 * step)
+}
+
+/// How a rover stands on ground with heights, rigid and on rockers: its first record, to 1e-6 of
+/// what the result changes by when the number does by its own size.
+#[test]
+fn derivatives_of_standing_on_ground_with_heights_are_those_of_whole_standings() {
+    const RIPPLE: &str = "simulation = \"quasi-steady\"\nduration_s = 0.5\n\
+         terrain = { surface = \"ripple\", amplitude_m = 0.05, wavelength_m = 2.0, start_m = [0.4, 3.0] }\n";
+    let keys = [
+        "soil.friction_angle_deg",
+        "soil.pressure_sinkage.k_phi",
+        "rover.wheel_unit.wheel.radius_m",
+        "rover.body.mass_kg",
+        "gravity_m_s2",
+        "terrain.amplitude_m",
+        "start.yaw_deg",
+    ];
+    let mut worst = 0.0_f64;
+    for rover in ["hakuto", "hakuto-rockers"] {
+        let scenario = of_text(&format!("rover = \"{rover}\"\n{RIPPLE}[start]\nyaw_deg = 20.0\n"));
+        let (_, asked, found) = derivatives(&scenario, &keys);
+        for (place_of_key, key) in asked.names().enumerate() {
+            let value = scenario.document.number(key).unwrap();
+            for (result, column) in RunKeys::results(true).into_iter().enumerate() {
+                if !["z_m", "roll_deg", "pitch_deg", "stability_margin_deg"].contains(&column) {
+                    continue;
+                }
+                let standing =
+                    |scenario: &Scenario| number(column, Run::new(scenario).unwrap().now());
+                let expected = six_points(&scenario, key, 1e-3 * value.abs(), standing);
+                let found = found.at(0, result, place_of_key).unwrap();
+                let error = ((found.value - expected) * value).abs();
+                let size = 1.0 + (expected * value).abs();
+                worst = worst.max(error / size);
+                assert!(error < 1e-6 * size, "{rover}, {column} by {key}: {found:?} {expected}");
+            }
+        }
+    }
+    println!("standing: worst {worst:.1e}");
+}
+
+/// Where motors meet the soil their speeds and currents balance: the steady motion of wheels that
+/// their motors turn, to 1e-6.
+#[test]
+fn derivatives_of_wheels_that_motors_turn_are_those_of_whole_runs() {
+    const MOTOR: &str = "[rover.motor]\nresistance_ohm = 10.0\ntorque_constant_nm_a = 0.01\n\
+         gear_ratio = 250.0\ngear_efficiency = 0.6\n\
+         control = { gain_v_s_rad = 0.5, integral_v_rad = 5.0, voltage_limit_v = 8.0 }\n";
+    let scenario = of_text(&format!(
+        "rover = {{ from = \"hakuto\" }}\nsimulation = \"quasi-steady\"\nslope_deg = 12.0\nduration_s = 10.0\n{MOTOR}"
+    ));
+    let keys = [
+        "soil.friction_angle_deg",
+        "rover.motor.resistance_ohm",
+        "rover.body.mass_kg",
+        "slope_deg",
+    ];
+    let (run, _, found) = derivatives(&scenario, &keys);
+    let mut worst = 0.0_f64;
+    for (place_of_key, key) in keys.iter().enumerate() {
+        let value = scenario.document.number(key).unwrap();
+        for result in ["x_m", "y_m", "yaw_deg", "energy_j"] {
+            let end = |scenario: &Scenario| {
+                number(result, Run::new(scenario).unwrap().to_end().unwrap().last())
+            };
+            let expected = six_points(&scenario, key, 1e-3 * value.abs(), end);
+            let found = found.at(run.records.len() - 1, place(result), place_of_key).unwrap();
+            let error = ((found.value - expected) * value).abs();
+            let size = 1.0 + (expected * value).abs();
+            worst = worst.max(error / size);
+            assert!(error < 1e-6 * size, "{result} by {key}: {found:?} {expected}");
+        }
+    }
+    println!("motors: worst {worst:.1e}");
 }
 
 /// The five-point difference of whole runs by a key.

@@ -2,9 +2,10 @@
 
 use grouser::contact::Model;
 use grouser::contact::validity::Flag;
-use grouser::document::columns::SLOPE;
+use grouser::document::columns::{LIMIT_SLOPE, SLOPE, card, gradient};
 use grouser::document::learn::contradictions_of_soil;
 use grouser::document::reading::{four_digits, rounded_down};
+use grouser::document::table::Table;
 use grouser::soil::SlopeStability;
 use grouser::studies::card::{Card, CardRow};
 use grouser::studies::ensemble::samples::BandInputs;
@@ -46,7 +47,8 @@ pub(super) enum Date {
     NotStated,
 }
 
-pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Texts {
+/// * `steepest`: the row of the steepest slope, with what numbers are worth
+pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card, steepest: &Table) -> Texts {
     let document = &inputs.scenario.document;
     let rover = document.text("rover.name").unwrap_or("unnamed rover");
     let soil = document.text("soil.name").unwrap_or("unnamed soil");
@@ -60,7 +62,7 @@ pub(super) fn of(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Texts {
         has_bands: card.draws.is_some(),
         legend: legend(card.draws, args.holds_heading),
         rule: rule(args, inputs, card),
-        facts: facts(args, inputs, card),
+        facts: facts(args, inputs, card, steepest),
         holds_for: holds_for(args.holds_heading),
         leaves_out: "rocks, ripples, layers, slopes that change, starts, stops and turns; what \
                      no model of the bands knows comes on top: a real rover scatters by more."
@@ -301,7 +303,12 @@ fn model(inputs: &CardInputs) -> String {
     }
 }
 
-fn facts(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Vec<(&'static str, String)> {
+fn facts(
+    args: &CardArgs,
+    inputs: &CardInputs,
+    card: &Card,
+    steepest: &Table,
+) -> Vec<(&'static str, String)> {
     let scenario = &inputs.scenario;
     let (document, value) = (&scenario.document, &scenario.value);
     let source = document.text("soil.source").unwrap_or("not stated");
@@ -313,6 +320,7 @@ fn facts(args: &CardArgs, inputs: &CardInputs, card: &Card) -> Vec<(&'static str
             format!("{} wheels, {} kg", value.rover.wheel_count(), four_digits(value.rover.mass())),
         ),
         ("Steepest slope", limit(card)),
+        ("Worth of it", worth(steepest)),
         ("Power", power(card)),
         ("Models say", other_models(inputs, card)),
         (
@@ -352,6 +360,24 @@ fn power(card: &Card) -> String {
     }
     let most = upwards(most, 2);
     format!("mechanical, of all wheels: up to {most} W; what motors and electronics draw is more")
+}
+
+/// What numbers are worth, in the steepest slope.
+fn worth(steepest: &Table) -> String {
+    // Changes that a laboratory would call different soils, or a rover a different load.
+    const CHANGES: [(f64, &str); 3] =
+        [(1.0, "1° of friction angle"), (0.1, "0.1 kPa of cohesion"), (1.0, "1 kg of body")];
+    let one = |(key, (change, words)): (&str, (f64, &str))| {
+        let name = gradient::name(LIMIT_SLOPE.name, key);
+        let slope = change * (*steepest.numbers(&name).first()?)?;
+        let slope = (slope * 100.0).round() / 100.0;
+        Some(format!("{words} is worth {}°", four_digits(slope)).replace('-', "−"))
+    };
+    let all: Vec<String> = card::WORTH.into_iter().zip(CHANGES).filter_map(one).collect();
+    if all.is_empty() {
+        return "not known: what ends it has no slope".to_owned();
+    }
+    format!("{}; for the soil as written, nominally", all.join(", "))
 }
 
 /// The headings of the models on the soil as written, on the steepest slope that is driven.

@@ -5,7 +5,7 @@ use grouser::answers::traverse::RunGradient;
 use grouser::document::columns::{MODEL, TIME, run};
 use grouser::document::given_file::GivenFile;
 use grouser::document::given_to_drives;
-use grouser::document::gradient::GradientKeys;
+use grouser::document::gradient::{GradientKeys, RunKeys};
 use grouser::document::table::Table;
 use grouser::document::{LoadedScenario, escape};
 use grouser::simulation::{Run, RunError, Trajectory};
@@ -56,8 +56,12 @@ impl OfModel {
         }
         let UncertaintyArgs { sampling, seed } = args.uncertainty;
         if !sampling.uncertainty {
-            let gradient = gradients.map(|it| RunGradient::of(&scenario, &run, it)).transpose();
-            let gradient = gradient.map_err(AnswerError::from)?;
+            let keys = gradients.map(|it| RunKeys::of(&scenario, it)).transpose();
+            let gradient = keys.map_err(AnswerError::from)?.map(|keys| {
+                sampling::with_bar_of("runs", keys.runs(), |go_on| {
+                    sampling::whole(RunGradient::of(&scenario, &run, keys, go_on))
+                })
+            });
             return Ok(Self { scenario, run, band: None, gradient });
         }
         if gradients.is_some() {

@@ -3,9 +3,11 @@
 use grouser::answers::EVERY_MODEL;
 use grouser::contact::validity::Finding;
 use grouser::document::columns::run::{self, STANDING_BAND, TIME_BAND};
-use grouser::document::columns::{Column, MODEL, Quantity, SINKAGE, SLIP_RATIO, TIME, X, Y, YAW};
+use grouser::document::columns::{
+    Column, ENERGY, MODEL, Quantity, SINKAGE, SLIP_RATIO, TIME, X, Y, YAW,
+};
 use grouser::document::figure::axis;
-use grouser::document::reading::{capitalised, four_digits, metres};
+use grouser::document::reading::{self, capitalised, four_digits, metres};
 use grouser::document::table::Table;
 use grouser::studies::drive::Drive;
 use grouser::studies::traverse_band::Ends;
@@ -105,7 +107,21 @@ fn channels(page: &mut Page, of: &OfModel) {
         let columns = TIME_BAND[1..].iter().chain(&STANDING_BAND);
         page.charts(&columns.filter_map(|column| band(&table, column)).collect::<Vec<_>>());
     }
+    derivatives(page, of);
     over_time(page, "", &table, &of.scenario.value);
+}
+
+/// What each number is worth at the end of a run.
+fn derivatives(page: &mut Page, of: &OfModel) {
+    let Some(gradient) = &of.gradient else { return };
+    let results = [X, Y, YAW, ENERGY].map(|it| it.name);
+    let table = gradient.of_the_end(&results);
+    let names: Vec<String> = table.columns.iter().map(|(name, _)| name.clone()).collect();
+    page.heading("What a number is worth");
+    page.rows("Change of the end for one unit of each number", &table, &names);
+    for line in gradient.lines().lines() {
+        page.paragraph(&reading::sentence(line));
+    }
 }
 
 /// What becomes of the samples that ended early, and when bands are over fewer samples from then
@@ -153,6 +169,10 @@ fn of_models(page: &mut Page, all: &[OfModel]) {
         let axes = (axis(TIME), axis(quantity));
         Chart::new(capitalised(&quantity.label()), axes, series.collect())
     };
+    for of_model in all.iter().filter(|it| it.gradient.is_some()) {
+        page.heading(of_model.name());
+        derivatives(page, of_model);
+    }
     page.folded("Over time, by model", |page| {
         page.charts(&[X, Y, YAW, SLIP_RATIO, SINKAGE].map(of));
     });
@@ -161,7 +181,8 @@ fn of_models(page: &mut Page, all: &[OfModel]) {
 fn basis(args: &TraverseArgs, all: &[OfModel]) -> Basis {
     let model = if all.len() > 1 { format!(" --model {EVERY_MODEL}") } else { String::new() };
     let samples = sampling::flags(args.uncertainty.sampling());
-    let repeat = format!("grouser traverse scenario.toml{model}{samples}");
+    let gradients = sampling::gradient_flag(args.gradients.keys().as_ref());
+    let repeat = format!("grouser traverse scenario.toml{model}{samples}{gradients}");
     let next = [
         "grouser heading scenario.toml --slope-deg LIST --out HEADINGS",
         "grouser traverse scenario.toml --uncertainty --out WITH-BANDS",

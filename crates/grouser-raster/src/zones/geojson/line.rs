@@ -7,7 +7,7 @@ use grouser_core::units::Vec2;
 
 use super::syntax::{Coordinates, Feature, Geometry, Root};
 use super::{bytes_of, compare_system, features_in, root_of, starts_so};
-use crate::error::{Fault, Flaw, RasterError};
+use crate::error::{Fault, InnerFault, RasterError};
 use crate::remark::Remark;
 use crate::zones::places::{MapFrame, check_places_on, shown};
 
@@ -54,7 +54,7 @@ pub fn decode_line_string(bytes: &[u8]) -> Result<Vec<Vec2>, Fault> {
         return Err(Fault::GeoJson { problem });
     }
     let root = root_of(bytes)?;
-    let no_line = |flaw: Flaw| Fault::NoLine { flaw };
+    let no_line = |flaw: InnerFault| Fault::NoLine { flaw };
     let mut features = match root.kind.as_str() {
         "FeatureCollection" | "Feature" => features_in(root)?,
         _ => vec![alone(root)],
@@ -62,7 +62,7 @@ pub fn decode_line_string(bytes: &[u8]) -> Result<Vec<Vec2>, Fault> {
     match features.len() {
         0 => Err(no_line("it has no feature".to_owned().into())),
         1 => line_of(features.remove(0).geometry).map_err(|it| no_line(it.into())),
-        count => Err(no_line(Flaw::with_hint(
+        count => Err(no_line(InnerFault::with_hint(
             format!("it has {count} features, and one line is one way"),
             |file| format!("ogr2ogr -where CONDITION OUT.geojson {file} keeps one of them"),
         ))),

@@ -53,7 +53,11 @@ impl<'q> OfModel<'q> {
         let keys = question.gradients.as_ref();
         let keys = keys.map(|it| HeadingKeys::of(scenario, question.steering, it)).transpose()?;
         if let Some(keys) = &keys {
-            let rows: Vec<_> = slopes.iter().map(|slope| keys.on_slope(&curve, *slope)).collect();
+            let on_slope = |slope: &f64| {
+                let go_on = (options.go_on)();
+                go_on.then(|| keys.on_slope(&curve, *slope)).ok_or(AnswerError::Stopped)
+            };
+            let rows = slopes.iter().map(on_slope).collect::<Result<Vec<_>, _>>()?;
             table = gradient::of_headings(table, keys, &rows);
             limit = gradient::of_limit(limit, keys, &keys.of_limit(&curve));
         }

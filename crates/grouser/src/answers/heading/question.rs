@@ -35,7 +35,9 @@ impl HeadingQuestion {
     /// [`AnswerOptions::go_on`]: super::super::AnswerOptions::go_on
     #[must_use]
     pub fn samples(&self) -> usize {
-        self.sampling.map_or(0, |it| it.count as usize * self.scenarios.len())
+        let derivatives = self.gradients.as_ref().map_or(0, |_| self.slopes_deg.len());
+        let each = self.sampling.map_or(derivatives, |it| it.count as usize);
+        each * self.scenarios.len()
     }
 
     /// Checks that there is something to answer, and that its parts have an answer together.

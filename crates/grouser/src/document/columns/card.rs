@@ -4,6 +4,7 @@
 use super::super::table::{Table, Values};
 use super::super::unit::{DEG, DEG_PER_M, M, M_PER_M, ONE};
 use super::flags::{self, FLAGS};
+use super::gradient;
 use super::heading::{DRAWS, DRAWS_LEVEL};
 use super::verdict::ADVICE;
 pub use super::verdict::{
@@ -14,8 +15,10 @@ use super::{
     CURRENT, Column, LIMIT_SLOPE, OK, PITCH, POWER, PROBABILITY_LEVEL, Quantity, ROLL, SINKAGE,
     SLIP_RATIO, SLOPE, STATUS, TORQUE, YAW, quantity, text, whole,
 };
+use crate::document::LoadedScenario;
+use crate::document::gradient::{GradientKeys, HeadingKeys};
 use crate::studies::card::{Card, CardRow};
-use crate::studies::verdict::{Advice, Driven, DrivenMotion};
+use crate::studies::verdict::{Advice, Driven, DrivenMotion, Side, SlopeStudy};
 
 /// Drift at yaw 0.
 pub const DRIFT: Quantity = quantity("downhill_m_per_m", M_PER_M);
@@ -218,9 +221,15 @@ fn brief_of_driven() -> impl Iterator<Item = String> {
     names.into_iter().chain([drift])
 }
 
-/// How many samples the card has, and the steepest slope: one row.
+/// The numbers that the card says what they are worth: the ground's strength, and the rover's mass.
+pub const WORTH: [&str; 3] = ["soil.friction_angle_deg", "soil.cohesion_kpa", "rover.body.mass_kg"];
+
+/// How many samples the card has, and the steepest slope: one row. It has what [`WORTH`] numbers
+/// are worth, too: derivatives of the steepest slope on the soil as written, by its own model.
+///
+/// * `study`, `uphill`: what the card is of
 #[must_use]
-pub fn steepest(card: &Card) -> Table {
+pub fn steepest(card: &Card, scenario: &LoadedScenario, study: &SlopeStudy, uphill: Side) -> Table {
     const LIMIT: [Column<Card>; 3] = [
         whole(DRAWS, "All samples", |it| it.draws),
         LIMIT_SLOPE.maybe("The steepest slope on which a heading holds the contour", |it| {
@@ -228,7 +237,16 @@ pub fn steepest(card: &Card) -> Table {
         }),
         LIMIT_SLOPE.band("The same over the samples", |it| it.limit_band),
     ];
-    Table::of(&LIMIT, std::slice::from_ref(card))
+    let table = Table::of(&LIMIT, std::slice::from_ref(card));
+    let asked = GradientKeys::These(WORTH.map(str::to_owned).into());
+    let keys = HeadingKeys::of(scenario, study.heading.steering, &asked);
+    match (keys, study.heading.curve()) {
+        (Ok(keys), Ok(curve)) => {
+            let keys = keys.with_uphill(uphill);
+            gradient::of_limit(table, &keys, &keys.of_limit(&curve))
+        }
+        _ => table,
+    }
 }
 
 /// A measured yaw, in degrees.

@@ -19,6 +19,36 @@ pub fn name(result: &str, key: &str) -> String {
     format!("d_{result}_d_{key}")
 }
 
+/// The column of keys, where each has a row.
+pub const KEY: &str = "key";
+
+/// The derivatives of some rows with a row for each of them and key, and a column for each result,
+/// called `d_<result>`.
+///
+/// * `settings`: columns that say which row it is
+#[must_use]
+pub fn by_key(
+    table: &Table,
+    rows: &[usize],
+    settings: &[&str],
+    results: &[&str],
+    keys: &[&str],
+) -> Table {
+    let number = |name: &str, row: usize| table.numbers(name).get(row).copied().flatten();
+    let each = || keys.iter().flat_map(|key| rows.iter().map(move |row| (*key, *row)));
+    let names = each().map(|(key, _)| Some(key.to_owned())).collect();
+    let setting = |it: &&str| {
+        ((*it).to_owned(), Values::Float(each().map(|(_, row)| number(it, row)).collect()))
+    };
+    let of = |result: &&str| {
+        let numbers = each().map(|(key, row)| number(&name(result, key), row));
+        (format!("d_{result}"), Values::Float(numbers.collect()))
+    };
+    let columns = std::iter::once((KEY.to_owned(), Values::Text(names)));
+    let columns = columns.chain(settings.iter().map(setting));
+    Table { columns: columns.chain(results.iter().map(of)).collect() }
+}
+
 /// A derivative in a table: its value, and whether it is one-sided; nothing where there is none.
 pub type Entry = Option<(f64, bool)>;
 

@@ -12,6 +12,7 @@ use crate::simulation::Scenario;
 use crate::studies::heading::{
     ChangeableStudy, HeadingCurve, HeadingDerivatives, HeadingOffset, HeadingStudy, Steering,
 };
+use crate::studies::verdict::Side;
 use crate::units::STEEPEST_SLOPE;
 use crate::vehicle::Rover;
 
@@ -20,6 +21,7 @@ use crate::vehicle::Rover;
 pub struct HeadingKeys {
     scenario: Varied<Scenario>,
     steering: Steering,
+    uphill: Side,
     keys: Vec<(AskedKey, HeadingPlace)>,
 }
 
@@ -46,13 +48,19 @@ impl HeadingKeys {
     ) -> Result<Self, NoSuchKey> {
         let document = scenario.document.clone();
         let scenario = Varied::of(scenario.value.clone(), document);
-        let mut keys = Self { scenario, steering, keys: Vec::new() };
+        let mut keys = Self { scenario, steering, uphill: Side::Left, keys: Vec::new() };
         let names = match asked_for {
             GradientKeys::These(names) => names.clone(),
             GradientKeys::All => keys.all(),
         };
         keys.keys = names.iter().map(|name| keys.key(name)).collect::<Result<_, _>>()?;
         Ok(keys)
+    }
+
+    /// The same of curves with this side uphill, which is the left one otherwise.
+    #[must_use]
+    pub fn with_uphill(self, uphill: Side) -> Self {
+        Self { uphill, ..self }
     }
 
     /// The names of the keys, in the order of derivatives.
@@ -160,7 +168,10 @@ impl HeadingKeys {
             }
         }
         let scenario = self.scenario.value.with(changed).ok()?;
-        let study = HeadingStudy { steering: self.steering, ..HeadingStudy::of(&scenario) };
+        let mut study = HeadingStudy { steering: self.steering, ..HeadingStudy::of(&scenario) };
+        if self.uphill == Side::Right {
+            study.rover = study.rover.mirrored();
+        }
         Some((study, COURSE.unit.to_si(course)))
     }
 

@@ -77,7 +77,15 @@ impl RunKeys {
         results(on_heights).map(|column| column.name).collect()
     }
 
-    /// The derivatives of a run's records, by differences of whole runs.
+    /// How many runs their derivatives ask to go on with, where nothing bends: whole ones, and as
+    /// many that only begin.
+    #[must_use]
+    pub fn runs(&self) -> usize {
+        4 * (self.keys.len() + 1)
+    }
+
+    /// The derivatives of a run's records, by differences of whole runs; of the first one, how the
+    /// rover stands and sets off, by shorter ones of that record alone.
     ///
     /// * `scenario`: what was run
     /// * `number`: what its document has under a key
@@ -93,50 +101,102 @@ impl RunKeys {
         lead: fn(Run) -> Result<Trajectory, RunError>,
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Option<RunDerivatives> {
-        let on_heights = !scenario.ground.is_plane();
-        let columns: Vec<&Column<Record>> = results(on_heights).collect();
-        let cells: Vec<f64> = run
-            .records
-            .iter()
-            .flat_map(|it| columns.iter().map(|column| column.number(it)))
-            .collect();
-        let kept: Vec<usize> = (0..cells.len()).filter(|cell| cells[*cell].is_finite()).collect();
-        let here: Vec<f64> = kept.iter().map(|cell| cells[*cell]).collect();
-        let sizes: Vec<f64> = kept.iter().map(|cell| size(columns[cell % columns.len()])).collect();
-        let keys: Vec<AskedKey> = self.names().map(|name| key_of(name, scenario, number)).collect();
-        let variables: Vec<Variable> = keys.iter().map(|key| key.variable(None)).collect();
+        let beside = Beside::of(self, scenario, number, run);
+        let lengths = steps(scenario);
         let of_point = |point: &Vec<f64>| {
-            let moved = keys.iter().zip(point).zip(&variables);
-            let moved = moved.filter(|((_, number), variable)| **number != variable.value);
-            let moved =
-                moved.filter_map(|((key, number), _)| Some((&*key.key.as_ref()?.path, *number)));
-            let other = Run::new(&scenario.with(moved).ok()?).and_then(lead).ok()?;
-            if !is_beside(run, &other) {
-                return None;
+            let other = Run::new(&beside.changed(point)?).and_then(lead).ok()?;
+            if is_beside(run, &other) {
+                beside.numbers(&other.records, beside.kept.len())
+            } else {
+                None
             }
-            let number = |cell: &usize| {
-                columns[cell % columns.len()].number(&other.records[cell / columns.len()])
-            };
-            let found: Vec<f64> = kept.iter().map(number).collect();
-            found.iter().all(|it| it.is_finite()).then_some(found)
         };
+        let mut found = beside.derivatives(beside.kept.len(), lengths, go_on, of_point)?;
+        // Nothing is integrated before the first record: how the rover stands is exact.
+        let first = beside.kept.iter().take_while(|cell| **cell < beside.columns.len()).count();
+        let begun = |point: &Vec<f64>| {
+            let start = Run::new(&beside.changed(point)?).ok()?;
+            beside.numbers(std::slice::from_ref(start.now()), first)
+        };
+        let start = beside.derivatives(first, StepLengths::SETTLED, go_on, begun)?;
+        for (all, own) in found.iter_mut().zip(start) {
+            all.iter_mut().zip(own).for_each(|(all, own)| all[..first].copy_from_slice(&own));
+        }
+        let in_place = |slopes: Vec<Derivative>| {
+            let mut all = vec![None; run.records.len() * beside.columns.len()];
+            beside.kept.iter().zip(slopes).for_each(|(cell, slope)| all[*cell] = Some(slope));
+            all
+        };
+        let by_key = found.into_iter().map(|it| it.map(in_place)).collect();
+        Some(RunDerivatives { by_key, results: beside.columns.len() })
+    }
+}
+
+/// A run, and others beside it.
+struct Beside<'a> {
+    scenario: &'a Scenario,
+    keys: Vec<AskedKey>,
+    variables: Vec<Variable>,
+    columns: Vec<&'static Column<Record>>,
+    /// Places of the numbers that the run has, record by record.
+    kept: Vec<usize>,
+    /// These numbers.
+    here: Vec<f64>,
+}
+
+impl<'a> Beside<'a> {
+    fn of(
+        keys: &RunKeys,
+        scenario: &'a Scenario,
+        number: &dyn Fn(&str) -> Option<f64>,
+        run: &Trajectory,
+    ) -> Self {
+        let columns: Vec<&Column<Record>> = results(!scenario.ground.is_plane()).collect();
+        let numbers = |record| columns.iter().map(move |column| column.number(record));
+        let cells: Vec<f64> = run.records.iter().flat_map(numbers).collect();
+        let kept: Vec<usize> = (0..cells.len()).filter(|cell| cells[*cell].is_finite()).collect();
+        let here = kept.iter().map(|cell| cells[*cell]).collect();
+        let keys: Vec<AskedKey> = keys.names().map(|it| key_of(it, scenario, number)).collect();
+        let variables = keys.iter().map(|key| key.variable(None)).collect();
+        Self { scenario, keys, variables, columns, kept, here }
+    }
+
+    /// The scenario with other numbers.
+    fn changed(&self, point: &[f64]) -> Option<Scenario> {
+        let moved = self.keys.iter().zip(point).zip(&self.variables);
+        let moved = moved.filter(|((_, number), variable)| **number != variable.value);
+        let moved =
+            moved.filter_map(|((key, number), _)| Some((&*key.key.as_ref()?.path, *number)));
+        self.scenario.with(moved).ok()
+    }
+
+    /// The first of the run's numbers in other records, where all are there.
+    fn numbers(&self, records: &[Record], count: usize) -> Option<Vec<f64>> {
+        let each = self.columns.len();
+        let number = |cell: &usize| self.columns[cell % each].number(&records[cell / each]);
+        let found: Vec<f64> = self.kept[..count].iter().map(number).collect();
+        found.iter().all(|it| it.is_finite()).then_some(found)
+    }
+
+    /// The derivatives of the first of the run's numbers; nothing if `go_on` was false on the way.
+    fn derivatives(
+        &self,
+        count: usize,
+        lengths: StepLengths,
+        go_on: &(dyn Fn() -> bool + Sync),
+        of_point: impl Fn(&Vec<f64>) -> Option<Vec<f64>> + Sync + Send,
+    ) -> Option<Vec<Option<Vec<Derivative>>>> {
+        let size = |cell: &usize| size(self.columns[cell % self.columns.len()]);
+        let sizes: Vec<f64> = self.kept[..count].iter().map(size).collect();
         let mut was_stopped = false;
         let mut evaluate = |points: &[Vec<f64>]| {
-            let found = outputs_while(points, go_on, of_point);
+            let found = outputs_while(points, go_on, &of_point);
             was_stopped |= found.is_none();
             found.unwrap_or_else(|| vec![None; points.len()])
         };
-        let found = derivatives(&variables, &here, &sizes, steps(scenario), &mut evaluate);
-        if was_stopped {
-            return None;
-        }
-        let in_place = |slopes: Vec<Derivative>| {
-            let mut all = vec![None; cells.len()];
-            kept.iter().zip(slopes).for_each(|(cell, slope)| all[*cell] = Some(slope));
-            all
-        };
-        let by_key = found.by_variable.into_iter().map(|it| it.map(in_place)).collect();
-        Some(RunDerivatives { by_key, results: columns.len() })
+        let here = &self.here[..count];
+        let found = derivatives(&self.variables, here, &sizes, lengths, &mut evaluate);
+        (!was_stopped).then_some(found.by_variable)
     }
 }
 

@@ -1,7 +1,8 @@
 //! Proposes the next runs: those that reduce the uncertainty of a prediction most.
 //!
-//! Posterior samples give the covariance of a prediction and the outcome of a future run. Taking
-//! that as linear and normal, an outcome y with noise N shrinks the prediction's variance by
+//! Posterior samples give the covariance of a prediction and the outcome of a future run; without
+//! them the Fisher information of the fit does, by derivatives at the settled sinkages. Taking that
+//! as linear and normal, an outcome y with noise N shrinks the prediction's variance by
 //!
 //! ```text
 //! Σ_ty (Σ_yy + N)⁻¹ Σ_yt
@@ -11,10 +12,10 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use super::Experiment as _;
 use super::diagnostics::covariance_of;
 use super::solution::Solution;
 use super::wheel_test::WheelTestExperiment;
+use super::{Calibration, Experiment as _};
 use crate::contact::Slip;
 use crate::studies::ensemble::outputs;
 use crate::studies::measurement::{PerQuantity, Quantity};
@@ -54,19 +55,50 @@ pub struct Aim {
 const DESIGN_SAMPLES: usize = 200;
 
 impl Aim {
-    /// The runs to make next, the best first; none without samples.
+    /// The runs to make next, the best first.
+    ///
+    /// * `calibration`: of the experiment
     #[must_use]
     pub fn proposals(
         &self,
+        calibration: &Calibration,
         experiment: &WheelTestExperiment,
         solution: &Solution,
     ) -> Vec<Proposal> {
-        let Some(posterior) = &solution.posterior else { return Vec::new() };
         let noise = noise(experiment, &solution.fit.discrepancies);
-        let rows = posterior.samples.thinned(DESIGN_SAMPLES);
         let (target, candidates) = (&self.target, &self.candidates);
-        Outlook::of_wheel_test(experiment, &rows, target, candidates, &noise).propose(self.count)
+        if let Some(posterior) = &solution.posterior {
+            let rows = posterior.samples.thinned(DESIGN_SAMPLES);
+            let outlook = Outlook::of_wheel_test(experiment, &rows, target, candidates, &noise);
+            return outlook.propose(self.count);
+        }
+        let (mode, covariance) = calibration.mode_near(&solution.fit);
+        let settings: Vec<(Slip, f64)> = std::iter::once(&target.setting)
+            .chain(candidates)
+            .map(|it| (Slip::on_test_stand(it.slip_ratio, it.slip_angle), it.load))
+            .collect();
+        let values = |coordinates: &[f64]| calibration.space().values(coordinates);
+        let Some(slopes) = experiment.slopes_at(&settings, &mode, &values) else {
+            return Vec::new();
+        };
+        let measured = measured(&noise);
+        let outcomes =
+            (1..settings.len()).flat_map(|it| measured.iter().map(move |one| (it, *one)));
+        let rows: Vec<(usize, Quantity)> =
+            std::iter::once((0, target.quantity)).chain(outcomes).collect();
+        let jacobian = DMatrix::from_fn(rows.len(), mode.len(), |row, axis| {
+            let (setting, quantity) = rows[row];
+            slopes[axis][setting][quantity]
+        });
+        let covariance = &jacobian * covariance * jacobian.transpose();
+        let noise: Vec<f64> = measured.iter().filter_map(|&it| noise[it]).collect();
+        propose(covariance, candidates.len(), &noise, self.count)
     }
+}
+
+/// The quantities that a run would measure.
+fn measured(noise: &PerQuantity<Option<f64>>) -> Vec<Quantity> {
+    Quantity::ALL.into_iter().filter(|&quantity| noise[quantity].is_some()).collect()
 }
 
 /// Deviations of a new reading from the model: mean scatter and model discrepancy.
@@ -117,8 +149,7 @@ impl Outlook {
         candidates: &[Setting],
         noise: &PerQuantity<Option<f64>>,
     ) -> Self {
-        let measured: Vec<Quantity> =
-            Quantity::ALL.into_iter().filter(|&quantity| noise[quantity].is_some()).collect();
+        let measured = measured(noise);
         let one_sample = |row: &&[f64]| {
             let soil = experiment.soil(row).ok()?;
             let at = |setting: &Setting| {
@@ -148,28 +179,10 @@ impl Outlook {
     /// A run may be proposed again, as a repetition.
     #[must_use]
     pub fn propose(&self, count: usize) -> Vec<Proposal> {
-        let each = self.noise.len();
-        if each == 0 || self.prediction.len() < 2 {
+        if self.prediction.len() < 2 {
             return Vec::new();
         }
-        let mut covariance = self.joint_covariance();
-        let noise = DMatrix::from_diagonal(&DVector::from_iterator(
-            each,
-            self.noise.iter().map(|deviation| deviation * deviation),
-        ));
-        let mut proposals = Vec::new();
-        for _ in 0..count {
-            let before = covariance[(0, 0)].max(0.0).sqrt();
-            let gain = |candidate| gain_of_prediction(&covariance, candidate, &noise);
-            let gains: Vec<f64> = (0..self.outcomes.len()).map(gain).collect();
-            // The first of equals: `max_by` would take the last.
-            let best = (0..gains.len()).rev().max_by(|&i, &j| gains[i].total_cmp(&gains[j]));
-            let Some(candidate) = best else { break };
-            covariance -= gain_of_all(&covariance, candidate, &noise);
-            let after = covariance[(0, 0)].max(0.0).sqrt();
-            proposals.push(Proposal { candidate, before, after });
-        }
-        proposals
+        propose(self.joint_covariance(), self.outcomes.len(), &self.noise, count)
     }
 
     /// Covariance of the prediction, first, and of all outcomes, candidate by candidate.
@@ -181,6 +194,36 @@ impl Outlook {
         let rows: Vec<Vec<f64>> = (0..self.prediction.len()).map(row).collect();
         covariance_of(&rows.iter().map(Vec::as_slice).collect::<Vec<_>>())
     }
+}
+
+/// The candidates that would shrink a prediction's deviation the most, one after the other.
+///
+/// * `covariance`: of the prediction, first, and of all outcomes, candidate by candidate
+/// * `noise`: deviations of the measured outcomes
+fn propose(
+    mut covariance: DMatrix<f64>,
+    candidates: usize,
+    noise: &[f64],
+    count: usize,
+) -> Vec<Proposal> {
+    let mut proposals = Vec::new();
+    if noise.is_empty() {
+        return proposals;
+    }
+    let variances = noise.iter().map(|deviation| deviation * deviation);
+    let noise = DMatrix::from_diagonal(&DVector::from_iterator(noise.len(), variances));
+    for _ in 0..count {
+        let before = covariance[(0, 0)].max(0.0).sqrt();
+        let gain = |candidate| gain_of_prediction(&covariance, candidate, &noise);
+        let gains: Vec<f64> = (0..candidates).map(gain).collect();
+        // The first of equals: `max_by` would take the last.
+        let best = (0..gains.len()).rev().max_by(|&i, &j| gains[i].total_cmp(&gains[j]));
+        let Some(candidate) = best else { break };
+        covariance -= gain_of_all(&covariance, candidate, &noise);
+        let after = covariance[(0, 0)].max(0.0).sqrt();
+        proposals.push(Proposal { candidate, before, after });
+    }
+    proposals
 }
 
 /// How a run would lower the prediction's variance.

@@ -102,15 +102,35 @@ pub trait Experiment: Sync {
     /// [`ParameterError`] if the values are no valid soil: the search turns away from them.
     fn predict(&self, values: &[f64], predictions: &mut [f64]) -> Result<(), ParameterError>;
 
+    /// The same, and what [`predict_beside`](Self::predict_beside) starts from there, if from
+    /// anything.
+    ///
+    /// # Errors
+    /// As [`predict`](Self::predict).
+    fn predict_and_keep(
+        &self,
+        values: &[f64],
+        predictions: &mut [f64],
+    ) -> Result<Vec<f64>, ParameterError> {
+        self.predict(values, predictions)?;
+        Ok(Vec::new())
+    }
+
     /// Predictions beside a point, whose differences are derivatives: to first order in the distance
     /// from it; none where the values are no valid soil. Each point is predicted as a whole, unless
     /// an experiment has a shorter way.
     ///
     /// * `values`: the point
+    /// * `kept`: what a prediction there has [kept](Self::predict_and_keep); nothing to seek it
     /// * `beside`: points next to it; itself too, whose prediction the others are to be compared
     ///   with
-    fn predict_beside(&self, values: &[f64], beside: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
-        let _ = values;
+    fn predict_beside(
+        &self,
+        values: &[f64],
+        kept: &[f64],
+        beside: &[Vec<f64>],
+    ) -> Vec<Option<Vec<f64>>> {
+        let _ = (values, kept);
         let whole = |one: &Vec<f64>| {
             let mut predictions = vec![0.0; self.observations().len()];
             self.predict(one, &mut predictions).ok()?;

@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::errors::Whitener;
-use super::least_squares::{Minimum, Residuals, minimise};
+use super::least_squares::{Evaluated, Minimum, Residuals, minimise};
 use super::parameter::{ParameterSpace, coordinate_of};
 use super::{Calibration, CalibrationError};
 use crate::elementary::wide::{ln, powi};
@@ -315,7 +315,8 @@ impl<'a> Weighted<'a> {
 
     /// Half the sum of squares; infinite where there are no predictions.
     fn cost(&self, coordinates: &[f64]) -> f64 {
-        let half_squares = |residuals: Vec<f64>| 0.5 * residuals.iter().map(|r| r * r).sum::<f64>();
+        let half_squares =
+            |found: Evaluated| 0.5 * found.residuals.iter().map(|r| r * r).sum::<f64>();
         self.at(coordinates).map_or(f64::INFINITY, half_squares)
     }
 
@@ -324,7 +325,7 @@ impl<'a> Weighted<'a> {
         let dimension = coordinates.len();
         let prior_alone =
             || DMatrix::identity(dimension, dimension) * super::parameter::COORDINATE_VARIANCE;
-        let Some(columns) = self.jacobian_at(coordinates) else { return prior_alone() };
+        let Some(columns) = self.jacobian_at(coordinates, &[]) else { return prior_alone() };
         let rows = columns.first().map_or(0, Vec::len);
         let jacobian = DMatrix::from_iterator(rows, dimension, columns.into_iter().flatten());
         let precision = jacobian.transpose() * jacobian;
@@ -356,13 +357,15 @@ impl Weighted<'_> {
 }
 
 impl Residuals for Weighted<'_> {
-    fn at(&self, coordinates: &[f64]) -> Option<Vec<f64>> {
-        let calibration = self.calibration;
-        let predictions = calibration.predictions(&calibration.space.values(coordinates))?;
-        self.of_predictions(coordinates, &predictions)
+    fn at(&self, coordinates: &[f64]) -> Option<Evaluated> {
+        let Calibration { experiment, space, .. } = self.calibration;
+        let mut predictions = vec![0.0; experiment.observations().len()];
+        let values = space.values(coordinates);
+        let kept = experiment.predict_and_keep(&values, &mut predictions).ok()?;
+        Some(Evaluated { residuals: self.of_predictions(coordinates, &predictions)?, kept })
     }
 
-    fn jacobian_at(&self, coordinates: &[f64]) -> Option<Vec<Vec<f64>>> {
+    fn jacobian_at(&self, coordinates: &[f64], kept: &[f64]) -> Option<Vec<Vec<f64>>> {
         let Calibration { experiment, space, .. } = self.calibration;
         let moved = |axis: usize| {
             let mut point = coordinates.to_vec();
@@ -372,7 +375,7 @@ impl Residuals for Weighted<'_> {
         let points: Vec<Vec<f64>> =
             std::iter::once(coordinates.to_vec()).chain((0..space.len()).map(moved)).collect();
         let values: Vec<Vec<f64>> = points.iter().map(|point| space.values(point)).collect();
-        let beside = experiment.predict_beside(&values[0], &values);
+        let beside = experiment.predict_beside(&values[0], kept, &values);
         let each = points.iter().zip(&beside);
         let mut residuals =
             each.map(|(point, predictions)| self.of_predictions(point, predictions.as_ref()?));

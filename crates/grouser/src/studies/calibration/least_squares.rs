@@ -9,11 +9,22 @@ mod certified;
 
 /// Residuals as a function of coordinates, with their Jacobian.
 pub(super) trait Residuals {
-    /// The residuals at a point; `None` where there are none.
-    fn at(&self, coordinates: &[f64]) -> Option<Vec<f64>>;
+    /// The residuals at a point, and what their derivatives there start from; `None` where there
+    /// are none.
+    fn at(&self, coordinates: &[f64]) -> Option<Evaluated>;
 
     /// Their derivatives, column by column: one column for each coordinate.
-    fn jacobian_at(&self, coordinates: &[f64]) -> Option<Vec<Vec<f64>>>;
+    ///
+    /// * `kept`: of the residuals there
+    fn jacobian_at(&self, coordinates: &[f64], kept: &[f64]) -> Option<Vec<Vec<f64>>>;
+}
+
+/// Residuals at a point.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Evaluated {
+    pub(super) residuals: Vec<f64>,
+    /// What was found on the way, and need not be sought again.
+    pub(super) kept: Vec<f64>,
 }
 
 /// Where the search ended.
@@ -41,7 +52,8 @@ pub(super) fn minimise(residuals: &dyn Residuals, start: &[f64], patience: usize
     let Some(first) = residuals.at(start) else { return nowhere };
     let mut search = Search {
         residuals,
-        rows: first.len(),
+        rows: first.residuals.len(),
+        kept: Vec::new(),
         first: Some(first),
         left: patience * (start.len() + 1),
         config: MPConfig {
@@ -83,7 +95,9 @@ struct Search<'a> {
     residuals: &'a dyn Residuals,
     rows: usize,
     /// The residuals at the start, until the library asks for them.
-    first: Option<Vec<f64>>,
+    first: Option<Evaluated>,
+    /// What the last point's residuals have kept: that of the last step, where it was accepted.
+    kept: Vec<f64>,
     /// Evaluations that are left.
     left: usize,
     config: MPConfig,
@@ -111,7 +125,10 @@ impl MPFitter for Search<'_> {
     fn eval(&mut self, coordinates: &[f64], residuals: &mut [f64]) -> MPResult<()> {
         self.left = self.left.checked_sub(1).ok_or(MPError::Eval)?;
         match self.first.take().or_else(|| self.residuals.at(coordinates)) {
-            Some(found) => residuals.copy_from_slice(&found),
+            Some(found) => {
+                residuals.copy_from_slice(&found.residuals);
+                self.kept = found.kept;
+            }
             None => residuals.fill(NO_RESIDUAL),
         }
         self.evaluated = half_square(residuals);
@@ -130,7 +147,7 @@ impl MPFitter for Search<'_> {
         if self.left == 0 {
             return Err(MPError::Eval);
         }
-        let found = self.residuals.jacobian_at(coordinates).ok_or(MPError::Eval)?;
+        let found = self.residuals.jacobian_at(coordinates, &self.kept).ok_or(MPError::Eval)?;
         for (column, found) in columns.iter_mut().zip(found) {
             *column = Some(found);
         }

@@ -209,15 +209,23 @@ impl<'a> WheelTestExperiment<'a> {
     /// What the stand would read in some cells, in each the mean over its runs.
     #[must_use]
     pub fn cell_readings(&self, soil: &Soil, cells: &[usize]) -> Vec<PerQuantity<f64>> {
+        self.cells_settled(soil, cells).0
+    }
+
+    /// The same, with the sinkage of each run [m], NaN where it has not settled.
+    fn cells_settled(&self, soil: &Soil, cells: &[usize]) -> (Vec<PerQuantity<f64>>, Vec<f64>) {
         let runs = cells.iter().flat_map(|&cell| &self.runs[cell]);
         let wheels: Vec<(Contact, f64)> =
             runs.map(|run| (self.contact(soil, run.slip), run.load)).collect();
         let settled = settle_many(self.setup.model.as_ref(), &wheels);
+        let sinkage =
+            |result: &Result<Settled, _>| result.as_ref().map_or(f64::NAN, |it| it.sinkage);
+        let sinkages = settled.iter().map(sinkage).collect();
         let readings = wheels
             .iter()
             .zip(settled)
             .map(|((contact, load), result)| self.read(contact, *load, result));
-        self.means(cells, readings)
+        (self.means(cells, readings), sinkages)
     }
 
     /// The mean of each cell's readings, which follow each other run by run.
@@ -237,13 +245,18 @@ impl<'a> WheelTestExperiment<'a> {
     }
 
     /// The runs in a soil, settled, with what their forces do there as they sink.
-    fn settled_runs(&self, soil: &Soil) -> Vec<SettledRun> {
+    ///
+    /// * `kept`: the sinkages at which they have settled, where those are known
+    fn settled_runs(&self, soil: &Soil, kept: &[f64]) -> Vec<SettledRun> {
         let runs = self.runs.iter().flatten();
         let wheels: Vec<(Contact, f64)> =
             runs.map(|run| (self.contact(soil, run.slip), run.load)).collect();
-        let settled = settle_many(self.setup.model.as_ref(), &wheels);
-        let found: Vec<Option<f64>> =
-            settled.into_iter().map(|it| Some(it.ok()?.sinkage)).collect();
+        let found: Vec<Option<f64>> = if kept.len() == wheels.len() {
+            kept.iter().map(|sinkage| (!sinkage.is_nan()).then_some(*sinkage)).collect()
+        } else {
+            let settled = settle_many(self.setup.model.as_ref(), &wheels);
+            settled.into_iter().map(|it| Some(it.ok()?.sinkage)).collect()
+        };
         let at = |share: f64| {
             let sunk = wheels.iter().zip(&found).filter_map(|((contact, _), sinkage)| {
                 let sinkage = (*sinkage)? * share;
@@ -284,6 +297,41 @@ impl<'a> WheelTestExperiment<'a> {
         });
         let every: Vec<usize> = (0..self.runs.len()).collect();
         self.means(&every, readings)
+    }
+
+    /// How what the stand would read at some settings changes with each number of a point: a list
+    /// over the settings for each number, by differences at the settled sinkages. None where the
+    /// point is no soil.
+    ///
+    /// * `settings`: motions and loads [N]
+    /// * `values`: of the parameters at a point
+    pub(super) fn slopes_at(
+        &self,
+        settings: &[(Slip, f64)],
+        point: &[f64],
+        values: &dyn Fn(&[f64]) -> Vec<f64>,
+    ) -> Option<Vec<Vec<PerQuantity<f64>>>> {
+        /// Source: ours; coordinates are of order 1, and forces exact but for rounding.
+        const STEP: f64 = 1e-5;
+        let run = |&(slip, load): &(Slip, f64)| vec![Run { slip, load }];
+        let (channels, observations, sources, places) = Default::default();
+        let (tests, setup) = (self.tests.clone(), self.setup);
+        let runs = settings.iter().map(run).collect();
+        let at = Self { tests, setup, channels, observations, sources, places, runs };
+        let settled = at.settled_runs(&at.soil(&values(point)).ok()?, &[]);
+        let slopes = |axis: usize| {
+            let beside = |by: f64| {
+                let mut there = point.to_vec();
+                there[axis] += by;
+                Some(at.cell_readings_beside(&settled, &at.soil(&values(&there)).ok()?))
+            };
+            let pairs = beside(-STEP)?.into_iter().zip(beside(STEP)?);
+            let slope = |(below, above): (PerQuantity<f64>, PerQuantity<f64>)| {
+                PerQuantity::from_fn(|it| (above[it] - below[it]) / (2.0 * STEP))
+            };
+            Some(pairs.map(slope).collect())
+        };
+        (0..point.len()).map(slopes).collect()
     }
 
     /// The predictions of the observations by what the stand reads in each cell.
@@ -463,24 +511,38 @@ impl Experiment for WheelTestExperiment<'_> {
     }
 
     fn predict(&self, values: &[f64], predictions: &mut [f64]) -> Result<(), ParameterError> {
+        self.predict_and_keep(values, predictions).map(drop)
+    }
+
+    /// Keeps the sinkages of all runs [m], NaN where one has not settled.
+    fn predict_and_keep(
+        &self,
+        values: &[f64],
+        predictions: &mut [f64],
+    ) -> Result<Vec<f64>, ParameterError> {
         let soil = self.soil(values)?;
         soil.check()?;
         let every: Vec<usize> = (0..self.runs.len()).collect();
-        let cells = self.cell_readings(&soil, &every);
+        let (cells, sinkages) = self.cells_settled(&soil, &every);
         for (prediction, found) in predictions.iter_mut().zip(self.observed(&cells)) {
             *prediction = found;
         }
-        Ok(())
+        Ok(sinkages)
     }
 
-    fn predict_beside(&self, values: &[f64], beside: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
+    fn predict_beside(
+        &self,
+        values: &[f64],
+        kept: &[f64],
+        beside: &[Vec<f64>],
+    ) -> Vec<Option<Vec<f64>>> {
         let soil = |values: &[f64]| {
             let soil = self.soil(values).ok()?;
             soil.check().ok()?;
             Some(soil)
         };
         let Some(here) = soil(values) else { return vec![None; beside.len()] };
-        let settled = self.settled_runs(&here);
+        let settled = self.settled_runs(&here, kept);
         let one = |values: &Vec<f64>| {
             let cells = self.cell_readings_beside(&settled, &soil(values)?);
             Some(self.observed(&cells).collect())

@@ -3,7 +3,7 @@
 //! Source: NIST, Statistical Reference Datasets, Nonlinear Regression: data, starts and certified
 //! values of Misra1a, Thurber, MGH09, MGH10 and Rat43.
 
-use super::{Minimum, Residuals, minimise};
+use super::{Evaluated, Minimum, Residuals, minimise};
 use crate::elementary::{exp, pow};
 
 /// A regression: y = f(b, x), from two starts to the certified parameters.
@@ -17,19 +17,20 @@ struct Regression {
 }
 
 impl Residuals for Regression {
-    fn at(&self, b: &[f64]) -> Option<Vec<f64>> {
+    fn at(&self, b: &[f64]) -> Option<Evaluated> {
         let residuals: Vec<f64> = self.points.iter().map(|&(x, y)| (self.law)(b, x) - y).collect();
-        residuals.iter().all(|residual| residual.is_finite()).then_some(residuals)
+        let is_finite = residuals.iter().all(|residual| residual.is_finite());
+        is_finite.then_some(Evaluated { residuals, kept: Vec::new() })
     }
 
     /// Central differences, good to about 1e-10 of the derivatives.
-    fn jacobian_at(&self, b: &[f64]) -> Option<Vec<Vec<f64>>> {
+    fn jacobian_at(&self, b: &[f64], _: &[f64]) -> Option<Vec<Vec<f64>>> {
         let column = |axis: usize| {
             let step = 1e-5 * b[axis].abs();
             let moved = |by: f64| {
                 let mut there = b.to_vec();
                 there[axis] += by;
-                self.at(&there)
+                self.at(&there).map(|it| it.residuals)
             };
             let (ahead, behind) = (moved(step)?, moved(-step)?);
             Some(ahead.iter().zip(&behind).map(|(a, b)| (a - b) / (2.0 * step)).collect())
@@ -233,11 +234,11 @@ fn rat43_is_found_from_both_starts() {
 struct EndsAtOne;
 
 impl Residuals for EndsAtOne {
-    fn at(&self, x: &[f64]) -> Option<Vec<f64>> {
-        (x[0] > 1.0).then(|| vec![x[0] - 3.0])
+    fn at(&self, x: &[f64]) -> Option<Evaluated> {
+        (x[0] > 1.0).then(|| Evaluated { residuals: vec![x[0] - 3.0], kept: Vec::new() })
     }
 
-    fn jacobian_at(&self, _: &[f64]) -> Option<Vec<Vec<f64>>> {
+    fn jacobian_at(&self, _: &[f64], _: &[f64]) -> Option<Vec<Vec<f64>>> {
         Some(vec![vec![0.1]])
     }
 }
@@ -262,7 +263,7 @@ fn a_search_ends_with_its_patience() {
     };
     let start = [0.02, 4_000.0, 250.0];
     let end = minimise(&law, &start, 2);
-    let cost = |at: &[f64]| super::half_square(&law.at(at).expect("residuals"));
+    let cost = |at: &[f64]| super::half_square(&law.at(at).expect("residuals").residuals);
     assert!(!end.converged);
     assert!((end.cost / cost(&end.coordinates) - 1.0).abs() < 1e-15);
     assert!(end.cost < cost(&start));
