@@ -107,6 +107,32 @@ typedef enum GrouserCarried {
   GROUSER_CARRIED_SUNK_TO_AXLE = 1,
 } GrouserCarried;
 
+// Wheels that another engine moves: never changed, so that any number of threads may use them at
+// once.
+typedef struct GrouserSteppingWheels {
+  // The handle's number; 0 is no handle.
+  uint64_t id;
+} GrouserSteppingWheels;
+
+// A field of heights over x and y of a frame of its own, bilinear between its points; beyond its
+// edges it goes on as high as there.
+typedef struct GrouserGroundField {
+  // Points along x, two or more.
+  size_t columns;
+  // Points along y, two or more.
+  size_t rows;
+  // Heights in rows along x, one after the other along y: rows times columns.
+  const float *heights;
+  // What a height of 1 means.
+  double unit_m;
+  // Half of its size along x and y.
+  double half_size_m[2];
+  // Its middle in the world.
+  double origin_m[3];
+  // Its axes in the world, as columns of a matrix, row by row.
+  double axes[9];
+} GrouserGroundField;
+
 // A rover on its way through a mission; it is for one thread at a time.
 typedef struct GrouserMission {
   // The handle's number; 0 is no handle.
@@ -238,13 +264,6 @@ typedef struct GrouserWheelTest {
   uint64_t id;
 } GrouserWheelTest;
 
-// Wheels that another engine moves: never changed, so that any number of threads may use them at
-// once.
-typedef struct GrouserSteppingWheels {
-  // The handle's number; 0 is no handle.
-  uint64_t id;
-} GrouserSteppingWheels;
-
 // A step of another engine.
 typedef struct GrouserEngineStep {
   // Its length.
@@ -305,6 +324,16 @@ typedef struct GrouserMechanismState {
   bool with_moments;
 } GrouserMechanismState;
 
+// How large a wheel is.
+typedef struct GrouserWheelSize {
+  // Radius of the rim, without grousers.
+  double rim_radius_m;
+  // Radius of the grousers' tips, over which speeds of rims are taken.
+  double shearing_radius_m;
+  // Width.
+  double width_m;
+} GrouserWheelSize;
+
 // A wheel that was asked for the sinkage at which the soil carries its load.
 typedef struct GrouserSettled {
   // Whether it does.
@@ -318,6 +347,21 @@ typedef struct GrouserSettled {
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
+
+// The plane under each wheel on a field of heights: the least-squares plane through nine points of
+// its footprint, as long as its shearing radius and as wide as the wheel.
+//
+// count: of the wheels, as many as the handle has.
+// hubs_m, axles: of each wheel, in the axes of the world, an axle as a unit vector to the left: 3
+// count numbers each.
+// normals: of the planes, 3 count numbers; hub_heights_m: of the hubs above them, count.
+enum GrouserStatus grouser_planes_on_field(struct GrouserSteppingWheels wheels,
+                                           const struct GrouserGroundField *field,
+                                           size_t count,
+                                           const double *hubs_m,
+                                           const double *axles,
+                                           double *normals,
+                                           double *hub_heights_m);
 
 // Makes a mission, at its start.
 //
@@ -497,8 +541,9 @@ enum GrouserStatus grouser_wheel_test_new(const char *soil,
 // Frees a wheel test.
 enum GrouserStatus grouser_wheel_test_free(struct GrouserWheelTest test);
 
-// The shearing radius of the wheel, over which speeds of rims are taken, into out_m.
-enum GrouserStatus grouser_wheel_test_shearing_radius(struct GrouserWheelTest test, double *out_m);
+// How large the wheel is, into out.
+enum GrouserStatus grouser_wheel_test_size(struct GrouserWheelTest test,
+                                           struct GrouserWheelSize *out);
 
 // The sinkages at which wheels carry their loads, and the forces there.
 //

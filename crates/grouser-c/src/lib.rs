@@ -10,6 +10,7 @@
 //! |---|---|
 //! | [`wheel_test`] | a wheel on a soil: forces and sinkage of arrays of wheels |
 //! | [`time_step`] | the soil's reaction over a time step of another engine |
+//! | [`ground`] | the planes under the wheels of another engine |
 //! | [`run`] | a rover step by step, its state saved and restored |
 //! | [`mission`] | a mission leg by leg |
 //! | [`values`] | the structs that C reads |
@@ -27,6 +28,7 @@
 )]
 
 mod documents;
+pub mod ground;
 mod handles;
 pub mod mission;
 mod pointers;

@@ -6,6 +6,7 @@ use grouser_core::contact::mechanism::{self, Mechanism};
 use grouser_core::contact::{self, SteppingWheel, TimeStep};
 use grouser_core::error::positive;
 use grouser_core::units::Vec3;
+use grouser_core::wheel::Wheel;
 use nalgebra::{DMatrix, DVector};
 
 use crate::handles;
@@ -24,7 +25,7 @@ pub struct SteppingWheels {
 }
 
 /// What [`SteppingWheels`] stand for.
-struct Wheels {
+pub(crate) struct Wheels {
     each: Vec<Arc<WheelOnSoil>>,
     damping: f64,
     rest_speed: f64,
@@ -229,15 +230,29 @@ pub unsafe extern "C" fn grouser_mechanism_step(
 }
 
 impl Wheels {
-    /// Checks that a step is one, of these wheels.
-    fn check(&self, count: usize, step: EngineStep) -> Result<(), Failure> {
+    /// Checks that there are as many wheels as a caller has.
+    pub(crate) fn check_count(&self, count: usize) -> Result<(), Failure> {
         if count != self.each.len() {
             return Err(wrong_size("the array of wheels", count, self.each.len()));
         }
+        Ok(())
+    }
+
+    /// The wheels, which are as large as they are.
+    pub(crate) fn sizes(&self) -> impl Iterator<Item = Wheel> {
+        self.each.iter().map(|of| of.wheel)
+    }
+
+    /// Checks that a step is one, of these wheels, on soils that bear them under its gravity.
+    fn check(&self, count: usize, step: EngineStep) -> Result<(), Failure> {
+        self.check_count(count)?;
         finite("duration_s", step.duration_s)?;
         finite("gravity_m_s2", step.gravity_m_s2)?;
         positive("duration_s", step.duration_s)?;
         positive("gravity_m_s2", step.gravity_m_s2)?;
+        for of in &self.each {
+            of.soil.check_under(&of.wheel, step.gravity_m_s2)?;
+        }
         Ok(())
     }
 

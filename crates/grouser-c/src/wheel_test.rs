@@ -85,16 +85,30 @@ pub extern "C" fn grouser_wheel_test_free(test: WheelTest) -> Status {
     guarded(|| handles::remove::<WheelOnSoil>(test.id))
 }
 
-/// The shearing radius of the wheel, over which speeds of rims are taken, into out_m.
+/// How large a wheel is.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WheelSize {
+    /// Radius of the rim, without grousers.
+    pub rim_radius_m: f64,
+    /// Radius of the grousers' tips, over which speeds of rims are taken.
+    pub shearing_radius_m: f64,
+    /// Width.
+    pub width_m: f64,
+}
+
+/// How large the wheel is, into out.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn grouser_wheel_test_shearing_radius(
-    test: WheelTest,
-    out_m: *mut f64,
-) -> Status {
+pub unsafe extern "C" fn grouser_wheel_test_size(test: WheelTest, out: *mut WheelSize) -> Status {
     guarded(|| {
         let test = handles::get::<WheelOnSoil>(test.id)?;
+        let wheel = &test.wheel;
         // SAFETY: the caller's pointer is as the header says.
-        unsafe { place("out_m", out_m) }?.write(test.wheel.shearing_radius());
+        unsafe { place("out", out) }?.write(WheelSize {
+            rim_radius_m: wheel.radius,
+            shearing_radius_m: wheel.shearing_radius(),
+            width_m: wheel.width,
+        });
         Ok(())
     })
 }

@@ -184,6 +184,43 @@ static void wrong_steps(void) {
   expect("their end", grouser_stepping_wheels_free(wheels), GROUSER_STATUS_OK, "");
 }
 
+static void wrong_ground(void) {
+  const float flat[4] = {0.0f};
+  const double hub[3] = {0.0, 0.0, 0.1}, axle[3] = {0.0, 1.0, 0.0}, no_number[3] = {NAN, 0.0, 0.0};
+  double normal[3], height[1];
+  GrouserGroundField field = {2, 2, flat, 1.0, {1.0, 1.0}, {0.0}, {1.0, 0, 0, 0, 1.0, 0, 0, 0, 1.0}};
+  GrouserSteppingWheels wheels;
+  GrouserWheelSize size;
+  expect("no place for a size", grouser_wheel_test_size(test, NULL), GROUSER_STATUS_NULL_POINTER,
+         "out");
+  expect("a size", grouser_wheel_test_size(test, &size), GROUSER_STATUS_OK, "");
+  expect("wheels", grouser_stepping_wheels_new(1, &test, 5.0, 1e-4, &wheels), GROUSER_STATUS_OK, "");
+  expect("a plane", grouser_planes_on_field(wheels, &field, 1, hub, axle, normal, height),
+         GROUSER_STATUS_OK, "");
+  expect("its height", height[0] == 0.1 && normal[2] == 1.0 ? GROUSER_STATUS_OK : 99,
+         GROUSER_STATUS_OK, "");
+  expect("no field", grouser_planes_on_field(wheels, NULL, 1, hub, axle, normal, height),
+         GROUSER_STATUS_NULL_POINTER, "field");
+  expect("planes of two wheels", grouser_planes_on_field(wheels, &field, 2, hub, axle, normal, height),
+         GROUSER_STATUS_WRONG_SIZE, "1");
+  expect("a hub nowhere", grouser_planes_on_field(wheels, &field, 1, no_number, axle, normal, height),
+         GROUSER_STATUS_NOT_FINITE, "hubs_m");
+  field.rows = 1;
+  expect("a row alone", grouser_planes_on_field(wheels, &field, 1, hub, axle, normal, height),
+         GROUSER_STATUS_OUT_OF_RANGE, "two rows");
+  field.rows = (size_t)-1;
+  expect("endless rows", grouser_planes_on_field(wheels, &field, 1, hub, axle, normal, height),
+         GROUSER_STATUS_WRONG_SIZE, "field");
+  field.rows = 2;
+  field.half_size_m[1] = 0.0;
+  expect("a field of no size", grouser_planes_on_field(wheels, &field, 1, hub, axle, normal, height),
+         GROUSER_STATUS_OUT_OF_RANGE, "no size");
+  field.unit_m = NAN;
+  expect("a unit that is NaN", grouser_planes_on_field(wheels, &field, 1, hub, axle, normal, height),
+         GROUSER_STATUS_NOT_FINITE, "field");
+  expect("their end", grouser_stepping_wheels_free(wheels), GROUSER_STATUS_OK, "");
+}
+
 static void two_threads(void) {
   pthread_t threads[2];
   expect("a shared run", grouser_run_new("schema = \"scenario/1\"\nname = \"a\"\n", NULL, &shared),
@@ -205,6 +242,7 @@ int main(void) {
   wrong_numbers();
   wrong_runs();
   wrong_steps();
+  wrong_ground();
   two_threads();
   expect("its end", grouser_wheel_test_free(test), GROUSER_STATUS_OK, "");
   printf("%d uses, %d failures\n", uses, failures);

@@ -17,7 +17,7 @@ pub mod surface;
 pub mod zones;
 
 pub use elevation::{ElevationError, ElevationGrid, ElevationModel, Extent};
-pub use footprint::Footprint;
+pub use footprint::{Footprint, GroundFrame};
 pub use ground::{Ground, Lie, OwnTerrain, Shape};
 pub use height_field::HeightField;
 pub use plane::Plane;

@@ -30,6 +30,7 @@ pub(crate) use self::colour_bar::colour_bar;
 use self::axis::Axis;
 use self::frame::{Frame, LINE, height_below, height_beside, lines, width_beside, write};
 use self::panel::{Panel, Weight};
+use crate::drawings;
 use crate::sheet::Sheet;
 use crate::style::{Ground, Role, on_both_grounds};
 
@@ -64,6 +65,7 @@ impl Drawable for Figure {
             Self::HeatMap(map) => map.sheet(),
             Self::Bars(bars) => bars.sheet(),
             Self::Grid(grid) => grid.sheet(),
+            Self::Wheels(wheels) => drawings::wheels_in_a_row(wheels),
         }
     }
 }

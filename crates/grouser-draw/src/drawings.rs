@@ -9,10 +9,12 @@ mod shear;
 mod slope;
 mod subject;
 mod wheel;
+mod wheels;
 
 use crate::sheet::Sheet;
 
 pub use subject::{Crossing, WheelInSoil};
+pub(crate) use wheels::sheet as wheels_in_a_row;
 
 use crate::style::on_both_grounds;
 

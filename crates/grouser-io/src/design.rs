@@ -1,7 +1,7 @@
 //! The settings of a design's document: what is measured, what is to be least, what is limited.
 
 use super::columns::{ENERGY_PER_METRE, LIMIT_SLOPE, SLIP_RATIO, TORQUE};
-use super::unit::{DEG, J_PER_M, KG, M, NM, ONE, Unit};
+use super::unit::{A, DEG, J_PER_M, KG, M, NM, ONE, Unit};
 use grouser_core::simulation::Scenario;
 
 /// What is measured of a design.
@@ -19,6 +19,10 @@ pub enum Measure {
     Crab,
     /// The largest torque of a wheel.
     Torque,
+    /// The largest torque with which a wheel brakes.
+    BrakingTorque,
+    /// The largest current of a motor.
+    Current,
     /// The slope on which the rover at rest tips over, whatever its yaw.
     TippingSlope,
     /// Width of the rover over its wheels.
@@ -64,7 +68,7 @@ impl LimitEnds {
 
 impl Measure {
     /// How many there are.
-    pub const COUNT: usize = 9;
+    pub const COUNT: usize = 11;
 
     /// All of them.
     pub const ALL: [Self; Self::COUNT] = [
@@ -74,6 +78,8 @@ impl Measure {
         Self::EnergyPerMetre,
         Self::Crab,
         Self::Torque,
+        Self::BrakingTorque,
+        Self::Current,
         Self::TippingSlope,
         Self::Width,
         Self::WheelMass,
@@ -89,6 +95,8 @@ impl Measure {
             Self::EnergyPerMetre => ENERGY_PER_METRE.name,
             Self::Crab => "crab_deg",
             Self::Torque => TORQUE.name,
+            Self::BrakingTorque => "braking_torque_nm",
+            Self::Current => "current_a",
             Self::TippingSlope => "tipping_slope_deg",
             Self::Width => "width_m",
             Self::WheelMass => "wheel_mass_kg",
@@ -104,7 +112,11 @@ impl Measure {
             Self::SlipRatio => "Slip ratio of the wheels without its sign, |s|.",
             Self::EnergyPerMetre => "Work of the wheels per metre of way.",
             Self::Crab => "Crab angle that holds the course, without its sign.",
-            Self::Torque => "The largest torque of a wheel.",
+            Self::Torque => "The largest torque of a wheel, driving or braking.",
+            Self::BrakingTorque => {
+                "The largest torque with which a wheel brakes; 0 where all drive."
+            }
+            Self::Current => "The largest current of a motor that is known, driving or braking.",
             Self::TippingSlope => {
                 "The slope on which the rover at rest tips over, at its worst yaw."
             }
@@ -129,7 +141,8 @@ impl Measure {
             Self::LimitSlope | Self::Crab | Self::TippingSlope => DEG,
             Self::SinkageRatio | Self::SlipRatio => ONE,
             Self::EnergyPerMetre => J_PER_M,
-            Self::Torque => NM,
+            Self::Torque | Self::BrakingTorque => NM,
+            Self::Current => A,
             Self::Width => M,
             Self::WheelMass => KG,
         }

@@ -12,10 +12,11 @@ use super::field::{Inner as _, keyed};
 use super::kind::Kind;
 use super::loaded::Loaded;
 use super::overrides::Overrides;
+use super::presets::preset;
 use super::priors;
 use super::read::{Written, understood, written};
 use super::source::Source;
-use super::tree::{Entry, Node, Value};
+use super::tree::{Companion, Entry, Node, Value};
 use super::unit::DEG;
 use super::varied::{Key, Numbers as _, Varied};
 use grouser_core::contact::Model;
@@ -81,17 +82,97 @@ pub fn read_design(source: &Source, overrides: &Overrides) -> Result<LoadedDesig
     let settings = settings_of(&document);
     let weights = weights_of(&settings, &tree)?;
     check_limits(&settings.limits, &tree)?;
+    check_slope(&settings.limits, &document, &tree)?;
     let free = free(&document, &tree)?;
     check_choices(&free, &tree)?;
     let mut candidates = Vec::new();
     for choice in choices(&tree) {
         candidates.push(candidate(source, overrides, &tree, &choice, &free)?);
     }
+    check_motors(&settings, &candidates, &tree)?;
     let soil = document.part(Kind::Soil, "soil");
     let assumed = soil.as_ref().map_or_else(Vec::new, priors::assumed);
+    let (document, companions) = with_files(&document, &tree, &candidates);
     let DesignSettings { limits, probability, .. } = settings;
     let value = DesignTask { candidates, free, weights, limits, probability };
-    Ok(Loaded { assumptions, assumed, ..Loaded::of(document, value) })
+    Ok(Loaded { assumptions, assumed, companions, ..Loaded::of(document, value) })
+}
+
+/// The document with names of files that lie beside it, and these files: what is chosen from a list,
+/// or for another ground, stands in it as a name.
+fn with_files(
+    document: &Document,
+    tree: &Node,
+    candidates: &[RoverChoice],
+) -> (Document, Vec<Companion>) {
+    let grounds = || candidates.iter().flat_map(|it| &it.grounds);
+    // Those of uncertain soils have their names in the soils.
+    let mut files: Vec<Companion> = Vec::new();
+    for file in grounds().flat_map(|it| &it.scenario.companions) {
+        if !files.contains(file) {
+            files.push(file.clone());
+        }
+    }
+    let mut keys = document.keys().clone();
+    let chosen = tree.entry("choose").into_iter().flat_map(|it| entries_of(&it.node));
+    for (key, values) in chosen {
+        let Value::List(all) = &values.value else { continue };
+        for (place, node) in all.iter().enumerate() {
+            let is_its = |it: &&RoverChoice| it.chosen.contains(&(key.clone(), node.to_json()));
+            let ground = candidates.iter().find(is_its).map(|it| &it.grounds[0]);
+            if let Some(file) = ground.and_then(|it| beside(it, &key, node, place)) {
+                replace(keys.get_mut("choose"), &key, Some(place), &file.name);
+                files.push(file);
+            }
+        }
+    }
+    let Some(Value::List(others)) = tree.entry("also").map(|entry| &entry.node.value) else {
+        return (Document::of(Kind::Design, &keys), files);
+    };
+    for (place, other) in others.iter().enumerate() {
+        for (key, node) in entries_of(other) {
+            let file = beside(&candidates[0].grounds[place + 1], &key, node, place);
+            if let Some(file) = file {
+                replace(
+                    keys.get_mut("also").and_then(|it| it.get_mut(place)),
+                    &key,
+                    None,
+                    &file.name,
+                );
+                files.push(file);
+            }
+        }
+    }
+    (Document::of(Kind::Design, &keys), files)
+}
+
+/// The file of a part of a ground's rover or soil that a text under a key names; nothing of a preset,
+/// or of what is no part.
+///
+/// * `place`: of the text among others, which makes names of files differ
+fn beside(ground: &DesignGround, key: &str, node: &Node, place: usize) -> Option<Companion> {
+    let Value::String(name) = &node.value else { return None };
+    let last = key.rsplit('.').next().unwrap_or(key);
+    let kind = [Kind::Rover, Kind::Wheel, Kind::Motor, Kind::Soil].into_iter();
+    let kind = kind.zip(["rover", "wheel", "motor", "soil"]).find(|(_, name)| *name == last)?.0;
+    if preset(kind, name).is_some() {
+        return None;
+    }
+    let part = ground.scenario.document.part(kind, key)?;
+    let key = key.replace('.', "-");
+    Some(Companion { name: format!("{key}-{}.toml", place + 1), content: part.to_toml() })
+}
+
+/// Puts a file's name under a key of a table; where that has a list, at a place of it.
+fn replace(table: Option<&mut Json>, key: &str, place: Option<usize>, name: &str) {
+    let named = table.and_then(|it| it.get_mut(key));
+    let named = match place {
+        Some(place) => named.and_then(|it| it.get_mut(place)),
+        None => named,
+    };
+    if let Some(named) = named {
+        *named = Json::from(name);
+    }
 }
 
 fn settings_of(document: &Document) -> DesignSettings {
@@ -299,13 +380,57 @@ fn free_key(
     Ok(key)
 }
 
+/// Checks that every slope is crossed that is measured on.
+fn check_slope(
+    limits: &[LimitEnds; Measure::COUNT],
+    document: &Document,
+    tree: &Node,
+) -> Result<(), DocumentError> {
+    let most = limits[Measure::LimitSlope.place()].most;
+    let slope = DEG.to_si(document.number(SLOPE.name).unwrap_or_default());
+    if most >= slope {
+        return Ok(());
+    }
+    let problem = Problem::Conflict("`at_most` is below `slope_deg`, which is to be crossed");
+    let path = format!("subject_to.{}", Measure::LimitSlope.name());
+    Err(DocumentError::at(tree.origin_of(&path), problem)
+        .with_hint("raise `at_most`, or lower `slope_deg`".to_owned()))
+}
+
+/// Checks that every rover has motors where their current is asked for.
+fn check_motors(
+    settings: &DesignSettings,
+    candidates: &[RoverChoice],
+    tree: &Node,
+) -> Result<(), DocumentError> {
+    let current = Measure::Current;
+    let ends = settings.limits[current.place()];
+    let path = if ends != LimitEnds::NONE {
+        format!("subject_to.{}", current.name())
+    } else if settings.aim == DesignAim::One(current) {
+        "minimise".to_owned()
+    } else if settings.weights[current.place()] != 0.0 {
+        format!("weights.{}", current.name())
+    } else {
+        return Ok(());
+    };
+    let lacks = |it: &RoverChoice| !it.grounds[0].scenario.value.rover.has_motors();
+    if !candidates.iter().any(lacks) {
+        return Ok(());
+    }
+    let problem = Problem::Conflict("a current is asked for, and no motor of the rover is known");
+    Err(DocumentError::at(tree.origin_of(&path), problem)
+        .with_hint("give it one, under [choose]: rover.motor = [\"maxon-re-25\"]".to_owned()))
+}
+
 /// Checks that limits leave room.
 fn check_limits(limits: &[LimitEnds; Measure::COUNT], tree: &Node) -> Result<(), DocumentError> {
     for (measure, LimitEnds { least, most }) in Measure::ALL.into_iter().zip(limits) {
         if least > most {
             let problem = Problem::Conflict("`at_least` is above `at_most`: nothing can be both");
             let path = format!("subject_to.{}", measure.name());
-            return Err(DocumentError::at(tree.origin_of(&path), problem));
+            return Err(DocumentError::at(tree.origin_of(&path), problem)
+                .with_hint("lower `at_least`, raise `at_most`, or leave one out".to_owned()));
         }
     }
     Ok(())

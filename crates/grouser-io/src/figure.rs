@@ -12,6 +12,8 @@
 mod over;
 mod series;
 
+use grouser_core::wheel::Wheel;
+
 pub use self::over::{axis, by_part, by_unit};
 pub use self::series::{BAND_COLOUR, Series, Style};
 
@@ -26,6 +28,8 @@ pub enum Figure {
     Bars(Bars),
     /// Small charts side by side.
     Grid(Grid),
+    /// Wheels side by side.
+    Wheels(WheelRow),
 }
 
 /// A chart: axes and series.
@@ -120,6 +124,26 @@ pub struct Grid {
     pub cells: Vec<Vec<Option<Chart>>>,
 }
 
+/// Wheels in their soil beside each other, to one scale, from their sides and from behind.
+#[derive(Clone, Debug)]
+pub struct WheelRow {
+    /// What they show.
+    pub title: String,
+    /// From the left.
+    pub wheels: Vec<WheelShape>,
+}
+
+/// A wheel that is drawn.
+#[derive(Clone, Debug)]
+pub struct WheelShape {
+    /// The wheel.
+    pub wheel: Wheel,
+    /// Its sinkage [m].
+    pub sinkage: f64,
+    /// What is said of it, a line each.
+    pub lines: Vec<String>,
+}
+
 impl From<Chart> for Figure {
     fn from(chart: Chart) -> Self {
         Self::Chart(chart)
@@ -135,6 +159,12 @@ impl From<HeatMap> for Figure {
 impl From<Bars> for Figure {
     fn from(bars: Bars) -> Self {
         Self::Bars(bars)
+    }
+}
+
+impl From<WheelRow> for Figure {
+    fn from(wheels: WheelRow) -> Self {
+        Self::Wheels(wheels)
     }
 }
 

@@ -216,7 +216,7 @@ fn check_places(text: &Text, system: Option<&str>, legs: &[Node]) -> Result<(), 
 
 /// What is wrong with a file of places.
 fn in_legs(text: &Text, fault: &Fault) -> DocumentError {
-    let (what, hint) = fault.in_parts("file");
+    let (what, hint) = fault.in_parts("file", Some(Path::new(&text.label)));
     DocumentError::whole(&text.label, Problem::NoLegs(what)).with_hint(hint)
 }
 

@@ -192,4 +192,5 @@ static PRESETS: &[Preset] = &[
     preset!(TelemetryMapping, "mappings", "foxglove"),
     preset!(TelemetryMapping, "mappings", "mines"),
     preset!(TelemetryMapping, "mappings", "enav"),
+    preset!(TelemetryMapping, "mappings", "baseprod"),
 ];

@@ -1,6 +1,8 @@
 //! Rasters that the terrain of scenarios and missions names: how they are to be read, and what is
 //! wrong with them.
 
+use std::path::Path;
+
 use super::describe::run::TERRAIN;
 use super::describe::terrain::{BAND, CELL_SIZE, MISSING, SOUTH_WEST};
 use super::document::Document;
@@ -38,7 +40,7 @@ pub(crate) fn options(document: &Document) -> ReadOptions {
 /// A fault of a file, with the keys that help.
 ///
 /// * `what`: the file has
-pub(crate) fn found(what: &str, fault: &Fault) -> Found {
+pub(crate) fn found(what: &str, file: &Path, fault: &Fault) -> Found {
     let own_hint = match fault {
         Fault::NotPlaced | Fault::NotReferenced => Some(
             "give `terrain.cell_size_m`, and `terrain.south_west_m` if its south-western point is \
@@ -51,6 +53,6 @@ pub(crate) fn found(what: &str, fault: &Fault) -> Found {
         let problem = Problem::Unreadable { kind: error.kind(), message: error.to_string() };
         return (problem, None);
     }
-    let (problem, hint) = fault.in_parts(what);
+    let (problem, hint) = fault.in_parts(what, Some(file));
     (Problem::NoTerrain(problem), own_hint.map(str::to_owned).or(hint))
 }

@@ -12,6 +12,7 @@ use super::describe;
 use super::document::Document;
 use super::error::{DocumentError, Place, Problem};
 use super::given_file::NamedFiles;
+use super::gravity;
 use super::kind::{EACH, Kind, PRIORS_KEY, Part};
 use super::legs_file;
 use super::loaded::Loaded;
@@ -246,6 +247,7 @@ fn complete(
     overrides.apply(kind, tree)?;
     // What was set may be in thousands as well.
     describe::rows(kind).read_thousands(tree);
+    gravity::read_words(tree);
     if kind == Kind::Motor {
         base::take(tree)?;
     }

@@ -1,6 +1,5 @@
 //! Maps of heights that scenarios and missions name.
 
-use std::iter;
 use std::mem::take;
 use std::path::{Path, absolute};
 use std::sync::Arc;
@@ -70,7 +69,8 @@ pub(crate) fn read(
         return Ok(NamedFiles::default());
     }
     let Some(path) = document.text(&key(FILE)) else {
-        let given = zones_file::read(ground, document, tree)?.into_iter().collect();
+        let zones = zones_file::read(ground, document, tree, None)?;
+        let given = zones.into_iter().map(|(given, _)| given).collect();
         return Ok(NamedFiles { given, notes: Vec::new() });
     };
     let fault = |key_of: &str, (problem, hint)| {
@@ -86,11 +86,6 @@ pub(crate) fn read(
         (Arc::new(model), Some(system), remarks.iter().map(note).collect())
     };
     if let Some(system) = &system {
-        if let Some(zones) = document.text(&key(SOIL_FILE)) {
-            let remark = zones_file::compare_system(Path::new(zones), system);
-            let remark = remark.map_err(|found| fault(SOIL_FILE, found))?;
-            notes.extend(remark.map(|remark| format!("{}: {remark}", name_of(zones))));
-        }
         notes.extend(legs_file::compare_systems(tree, system)?);
     }
     if document.get(&key(START)).is_none() {
@@ -98,8 +93,12 @@ pub(crate) fn read(
     }
     let heights = given_heights(path, &model);
     ground.shape = Shape::Map(model);
-    let zones = zones_file::read(ground, document, tree)?;
-    Ok(NamedFiles { given: iter::once(heights).chain(zones).collect(), notes })
+    let mut given = vec![heights];
+    if let Some((zones, remark)) = zones_file::read(ground, document, tree, system.as_ref())? {
+        notes.extend(remark.map(|remark| format!("{}: {remark}", name_of(&zones.file))));
+        given.push(zones);
+    }
+    Ok(NamedFiles { given, notes })
 }
 
 /// What a map of heights gave.
@@ -174,9 +173,9 @@ fn map(path: &Path, options: &ReadOptions) -> Result<Map, Found> {
     // Neither a device nor a pipe is waited for.
     file::check_regular(path).map_err(|problem| (Problem::from(problem), None))?;
     let mut raster =
-        grouser_raster::read(path, options).map_err(|error| found("map", &error.fault))?;
+        grouser_raster::read(path, options).map_err(|error| found("map", path, &error.fault))?;
     let (remarks, system) = (take(&mut raster.remarks), take(&mut raster.coordinates));
-    let model = raster.model().map_err(|error| found("map", &error.into()))?;
+    let model = raster.model().map_err(|error| found("map", path, &error.into()))?;
     Ok(Map { model, remarks, system })
 }
 

@@ -25,6 +25,7 @@ use std::borrow::Cow;
 
 pub use error::UrdfError;
 pub use found::FoundWheel;
+pub use mesh::meshes_beside;
 pub use options::{Forward, UrdfOptions};
 pub use shapes::Meshes;
 

@@ -15,10 +15,11 @@ use super::presets::preset;
 use super::raster_file::{Found, found, key, options};
 use super::tree::{Entry, Node, Origin, Value};
 use grouser_core::soil::Soil;
-use grouser_core::terrain::{Extent, Ground, Shape, SoilZones};
+use grouser_core::terrain::{Ground, Shape, SoilZones};
 use grouser_raster::zones::ZoneCounts;
-use grouser_raster::zones::geojson::compare_system_of;
-use grouser_raster::{CoordinateSystem, ReadOptions, Remark, ZoneKey, read_zones, zone_names};
+use grouser_raster::{
+    CoordinateSystem, Fault, MapFrame, ReadOptions, Remark, ZoneKey, read_zones, zone_names,
+};
 
 /// Gives each name of a file's zones that the legend does not have, and that is a preset's, a row
 /// with that preset: the document has then all soils of the run.
@@ -65,14 +66,16 @@ fn row(name: &str, origin: &Origin) -> Node {
 }
 
 /// Reads the zones that a document names, if it names some, and puts them into its ground; what
-/// their file gave.
+/// their file gave, and what is to be remarked about it.
 ///
 /// * `tree`: the document as it was written
+/// * `system`: of the map, if that is not known to be that of the zones
 pub(crate) fn read(
     ground: &mut Ground,
     document: &Document,
     tree: &Node,
-) -> Result<Option<GivenFile>, DocumentError> {
+    system: Option<&CoordinateSystem>,
+) -> Result<Option<(GivenFile, Option<Remark>)>, DocumentError> {
     let rows = document.get(&key(LEGEND)).and_then(Json::as_array);
     let rows: &[Json] = rows.map_or(&[], Vec::as_slice);
     let Some(path) = document.text(&key(FILE)) else {
@@ -101,16 +104,16 @@ pub(crate) fn read(
         }
         legend.push((of, has_soil.then_some(number)));
     }
-    let extent = match &ground.shape {
-        Shape::Map(model) => Some(model.extent()),
+    let map = match &ground.shape {
+        Shape::Map(model) => Some(MapFrame { system, extent: model.extent() }),
         Shape::Plane(_) | Shape::Formula(_) | Shape::Own(_) => None,
     };
-    let zones = zones(Path::new(path), &options(document), extent, &legend, soils);
-    let (zones, given) = zones.map_err(|(problem, hint)| {
+    let zones = zones(Path::new(path), &options(document), map, &legend, soils);
+    let (zones, given, remark) = zones.map_err(|(problem, hint)| {
         DocumentError::at(tree.origin_of(&key(FILE)), problem).with_hint(hint)
     })?;
     ground.zones = Some(Arc::new(zones));
-    Ok(Some(given))
+    Ok(Some((given, remark)))
 }
 
 /// What a row of the legend is of; none if it does not say, or says both.
@@ -120,32 +123,27 @@ fn zone_key(row: &Json) -> Option<ZoneKey> {
     class.xor(name)
 }
 
-/// Compares the system that a file of zones names with that of the map.
-pub(crate) fn compare_system(path: &Path, map: &CoordinateSystem) -> Result<Option<Remark>, Found> {
-    file::check_regular(path).map_err(|problem| (Problem::from(problem), None))?;
-    compare_system_of(path, map).map_err(|error| found("file of zones", &error.fault))
-}
-
 fn zones(
     path: &Path,
     options: &ReadOptions,
-    ground: Option<Extent>,
+    on: Option<MapFrame<'_>>,
     legend: &[(ZoneKey, Option<usize>)],
     soils: Vec<Soil>,
-) -> Result<(SoilZones, GivenFile), Found> {
+) -> Result<(SoilZones, GivenFile, Option<Remark>), Found> {
     file::check_regular(path).map_err(|problem| (Problem::from(problem), None))?;
     // A band, and the height that stands for a missing one, are those of the map.
     let options = ReadOptions { band: None, missing: None, ..*options };
-    let map = read_zones(path, &options, ground.as_ref());
-    let map = map.map_err(|error| found("file of zones", &error.fault))?;
+    let fault = |fault: &Fault| found("file of zones", path, fault);
+    let map = read_zones(path, &options, on.as_ref());
+    let (map, remark) = map.map_err(|error| fault(&error.fault))?;
     let hint =
         "a row `[[terrain.zone]]` has `class` or `name`, and `soil`; names of presets need none";
-    let ZoneCounts { there, used } = map.counts(ground.as_ref());
+    let ZoneCounts { there, used } = map.counts(on.map(|it| it.extent).as_ref());
     let content = if map.is_raster() { FileContent::ZoneCells } else { FileContent::Zones };
     let given = GivenFile::new(path.display().to_string(), content, there, used);
-    let zones = map.with_legend(legend, soils).map_err(|fault| {
-        let (problem, own) = found("file of zones", &fault);
+    let zones = map.with_legend(legend, soils).map_err(|it| {
+        let (problem, own) = fault(&it);
         (problem, own.or_else(|| Some(hint.to_owned())))
     })?;
-    Ok((zones, given))
+    Ok((zones, given, remark))
 }

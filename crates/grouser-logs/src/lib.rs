@@ -6,6 +6,7 @@
 //! | a run or a mission as MCAP, for Foxglove and Rerun | [`Log`] |
 //! | a replayed drive as MCAP, measured beside predicted | [`write_replay`] |
 //! | telemetry of a drive from CSV, Parquet, Arrow or MCAP, of one file or several | [`TelemetryLog`] |
+//! | the drives of a folder, for [`drive_validation`](grouser::studies::drive_validation) | [`DriveFolder`] |
 //! | messages that somebody else decodes, as telemetry | [`MessageRows`] |
 //! | telemetry as CSV or Parquet | [`TelemetryWriter`] |
 //!
@@ -66,6 +67,7 @@
 //! columns of telemetry. What was damaged, late or not used is counted, and [notes](TelemetryLog::notes) say so. Memory does not
 //! grow with the log.
 
+mod drives;
 mod error;
 mod foxglove;
 mod mapping;
@@ -76,6 +78,7 @@ mod ros;
 mod run_log;
 mod telemetry;
 
+pub use drives::{DriveFolder, DriveFolderError};
 pub use error::{OptionNames, OtherKind, OverBudget, Problem, Remedy, TelemetryError};
 pub use foxglove::Level;
 pub use mapping::Mapping;

@@ -2,7 +2,7 @@
 
 mod arrow;
 mod mapped;
-mod mcap;
+pub(crate) mod mcap;
 pub(crate) mod options;
 pub(crate) mod other_kind;
 mod parquet;

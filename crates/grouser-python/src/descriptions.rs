@@ -206,6 +206,10 @@ impl Document {
         }
     }
 
+    pub(crate) fn of_rover(rover: LoadedRover) -> Self {
+        Read::Rover(rover.into()).into()
+    }
+
     pub(crate) fn of_campaign(campaign: LoadedCampaign) -> Self {
         Read::Campaign(campaign.into()).into()
     }

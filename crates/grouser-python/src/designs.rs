@@ -1,18 +1,15 @@
 //! Designs: which numbers of a rover are the best.
 
 use grouser::answers::design::DesignQuestion;
-use grouser::answers::{AnswerError, Member};
+use grouser::answers::{AnswerError, AnswerOptions};
 use grouser::document::design::Measure;
-use grouser::document::table::Table;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use serde_json::{Map, Value};
 
-use crate::columns::table_to_python;
 use crate::descriptions::Document;
 use crate::errors;
 use crate::interrupt::listening;
-use crate::validation::record_to_python;
+use crate::validation::results_to_python;
 
 /// What was found, without tables; the tables by their names; and the rover as TOML.
 type FoundDesign<'py> = (Bound<'py, PyAny>, Bound<'py, PyDict>, String);
@@ -40,24 +37,18 @@ pub(crate) fn design<'py>(
         trade: trade.transpose()?,
         by_models: Vec::new(),
     };
-    let found = listening(py, move |_| question.answer("design"))?;
+    let found = listening(py, move |cancelled| {
+        let go_on = || !cancelled.is_set();
+        question.answer("design", &AnswerOptions { go_on: &go_on, ..AnswerOptions::ROWS })
+    })?;
     let answer = found.map_err(|error| match error {
         AnswerError::Parameter(error) => errors::of_parameter(&error),
         other => errors::parameter(other.to_string(), "design", None, "a design within its limits"),
     })?;
-    let (mut record, tables) = (Map::new(), PyDict::new(py));
-    for member in answer.results {
-        match member {
-            Member::Value(name, value) => drop(record.insert(name.to_owned(), value)),
-            Member::Rows(name, rows) => {
-                tables.set_item(name, table_to_python(py, Table::clone(&rows))?)?;
-            }
-            Member::Row(..) | Member::With(..) | Member::Entries(_) => {}
-        }
-    }
+    let (record, tables) = results_to_python(py, answer.results)?;
     let rover = answer.documents.iter().find(|it| it.file == "rover.toml");
     let rover = rover.map(|it| it.toml.clone()).unwrap_or_default();
-    Ok((record_to_python(py, &Value::Object(record))?, tables, rover))
+    Ok((record, tables, rover))
 }
 
 fn measure(name: &str) -> PyResult<Measure> {

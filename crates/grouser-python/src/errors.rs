@@ -7,14 +7,18 @@ use std::io::ErrorKind;
 use std::ops::RangeInclusive;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use grouser::document::file::FileProblem;
 use grouser::document::measurements::{MeasurementError, MeasurementProblem};
 use grouser::document::ranking::RankingError;
-use grouser::document::{DocumentError, Problem};
+use grouser::document::urdf::UrdfError;
+use grouser::document::{DocumentError, Problem, escape};
 use grouser::error::ParameterError;
 use grouser::mission::MissionError;
 use grouser::simulation::RunError;
 use grouser::studies::calibration::CalibrationError;
-use grouser_logs::{OptionNames, Problem as TelemetryProblem, Remedy, TelemetryError};
+use grouser_logs::{
+    DriveFolderError, OptionNames, Problem as TelemetryProblem, Remedy, TelemetryError,
+};
 use grouser_raster::{Fault, RasterError};
 use grouser_store::StoreError;
 use pyo3::exceptions::{PyTypeError, PyUserWarning};
@@ -119,6 +123,35 @@ fn facts(problem: &Problem) -> Facts {
     Facts { key, value, expected }
 }
 
+/// URDF that is no rover.
+pub(crate) fn of_urdf(error: &UrdfError, file: &str) -> PyErr {
+    let message = format!("{file}: {error}");
+    let hint = message.split_once("\nhint: ").map(|(_, hint)| hint.to_owned());
+    let none = None::<String>;
+    let file = file.to_owned();
+    classes::DocumentError::new_err((
+        message,
+        file,
+        None::<usize>,
+        None::<usize>,
+        none.clone(),
+        None::<f64>,
+        none,
+        hint,
+    ))
+}
+
+/// A file that is not there, or cannot be read.
+pub(crate) fn unread(error: &FileProblem, file: &str) -> PyErr {
+    let message = format!("{file}: {error}");
+    match error {
+        FileProblem::NoSuchFile | FileProblem::BrokenLink { .. } => {
+            classes::DocumentNotFoundError::new_err((message, file.to_owned(), None::<String>))
+        }
+        _ => classes::DocumentUnreadableError::new_err((message, file.to_owned())),
+    }
+}
+
 /// A file of heights or areas that cannot be used.
 pub(crate) fn of_raster(error: &RasterError) -> PyErr {
     let (message, file) = (error.to_string(), error.file.display().to_string());
@@ -204,6 +237,22 @@ pub(crate) fn of_telemetry(error: &TelemetryError) -> PyErr {
             let expected = None::<String>;
             classes::DocumentError::new_err((message, file, place, place, key, value, expected))
         }
+    }
+}
+
+pub(crate) fn of_drives(error: DriveFolderError) -> PyErr {
+    let message = error.to_string();
+    match error {
+        DriveFolderError::Log(error) => of_telemetry(&error),
+        DriveFolderError::NoFolder(folder) => classes::DocumentNotFoundError::new_err((
+            message,
+            escape::path(&folder),
+            None::<String>,
+        )),
+        DriveFolderError::Unreadable { folder, .. } => {
+            classes::DocumentUnreadableError::new_err((message, escape::path(&folder)))
+        }
+        _ => parameter(message, "folder", None, "a folder with a log of each drive"),
     }
 }
 

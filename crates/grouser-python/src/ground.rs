@@ -1,9 +1,8 @@
 //! The planes under wheels on uneven ground, for engines of rigid bodies.
 
 use grouser::terrain::footprint::POINTS;
-use grouser::terrain::{Footprint, HeightField, Patch};
+use grouser::terrain::{Footprint, GroundFrame, HeightField};
 use grouser::units::{Vec2, Vec3};
-use nalgebra::Matrix3;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
@@ -46,7 +45,7 @@ impl Footprints {
         hubs: PyReadonlyArray2<'py, f64>,
         axles: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Points<'py>> {
-        let wheels = self.wheels(&Frame::new(origin, axes), &hubs, &axles)?;
+        let wheels = self.wheels(&GroundFrame::new(origin, axes), &hubs, &axles)?;
         let points: Vec<_> =
             wheels.iter().map(|(footprint, hub)| footprint.points(hub.xy())).collect();
         let rows = |axis: usize| {
@@ -77,12 +76,15 @@ impl Footprints {
                 format!("the heights have shape {:?}, it must be {expected}", heights.dim());
             return Err(errors::parameter(message, "ground", None, expected));
         }
-        let frame = Frame::new(origin, axes);
+        let frame = GroundFrame::new(origin, axes);
         let wheels = self.wheels(&frame, &hubs, &axles)?;
-        let fits = wheels.iter().enumerate().map(|(place, (footprint, hub))| {
-            (footprint.fit(&std::array::from_fn(|point| heights[(place, point)])), *hub)
-        });
-        frame.planes(py, fits)
+        planes(
+            py,
+            wheels.iter().enumerate().map(|(place, (footprint, hub))| {
+                let heights = std::array::from_fn(|point| heights[(place, point)]);
+                frame.plane(footprint.fit(&heights), *hub)
+            }),
+        )
     }
 
     /// The same on a height field.
@@ -108,13 +110,9 @@ impl Footprints {
             let message = "the height field has fewer than two rows or columns".to_owned();
             return Err(errors::parameter(message, "ground", None, "two rows and columns or more"));
         };
-        let frame = Frame::new(origin, axes);
+        let frame = GroundFrame::new(origin, axes);
         let wheels = self.wheels(&frame, &hubs, &axles)?;
-        let fits = wheels.iter().map(|(footprint, hub)| {
-            let heights = footprint.points(hub.xy()).map(|point| field.height(point));
-            (footprint.fit(&heights), *hub)
-        });
-        frame.planes(py, fits)
+        planes(py, wheels.iter().map(|(footprint, hub)| frame.plane_on(&field, *footprint, *hub)))
     }
 }
 
@@ -122,7 +120,7 @@ impl Footprints {
     /// The footprint of each wheel and its hub, in the ground's frame.
     fn wheels(
         &self,
-        frame: &Frame,
+        frame: &GroundFrame,
         hubs: &PyReadonlyArray2<'_, f64>,
         axles: &PyReadonlyArray2<'_, f64>,
     ) -> PyResult<Vec<(Footprint, Vec3)>> {
@@ -135,35 +133,18 @@ impl Footprints {
         let wheels = self.sizes.iter().enumerate().map(|(place, &(radius, width))| {
             let [hub, axle] = [hubs, axles]
                 .map(|all| Vec3::new(all[(place, 0)], all[(place, 1)], all[(place, 2)]));
-            let footprint = Footprint::of_wheel(frame.axes.tr_mul(&axle), radius, width);
-            (footprint, frame.axes.tr_mul(&(hub - frame.origin)))
+            frame.footprint(hub, axle, radius, width)
         });
         Ok(wheels.collect())
     }
 }
 
-/// The ground's frame in the world.
-struct Frame {
-    origin: Vec3,
-    axes: Matrix3<f64>,
-}
-
-impl Frame {
-    fn new(origin: [f64; 3], axes: [f64; 9]) -> Self {
-        Self { origin: origin.into(), axes: Matrix3::from_row_slice(&axes) }
-    }
-
-    /// Planes and hubs of this frame, as the world sees them.
-    fn planes<'py>(
-        &self,
-        py: Python<'py>,
-        fits: impl Iterator<Item = (Patch, Vec3)>,
-    ) -> PyResult<Planes<'py>> {
-        let planes = fits.map(|(fit, hub)| {
-            let normal = self.axes * fit.normal;
-            (vec![normal.x, normal.y, normal.z], (hub.z - fit.height) * fit.normal.z)
-        });
-        let (normals, distances): (Vec<Vec<f64>>, Vec<f64>) = planes.unzip();
-        Ok((PyArray2::from_vec2(py, &normals)?, PyArray1::from_vec(py, distances)))
-    }
+/// Normals and distances as arrays.
+fn planes<'py>(
+    py: Python<'py>,
+    planes: impl Iterator<Item = (Vec3, f64)>,
+) -> PyResult<Planes<'py>> {
+    let rows = planes.map(|(normal, distance)| (normal.as_slice().to_vec(), distance));
+    let (normals, distances): (Vec<Vec<f64>>, Vec<f64>) = rows.unzip();
+    Ok((PyArray2::from_vec2(py, &normals)?, PyArray1::from_vec(py, distances)))
 }

@@ -40,6 +40,7 @@ mod telemetry;
 mod terrain;
 mod threads;
 mod time_step;
+mod urdf;
 mod validation;
 mod validity;
 mod values;
@@ -110,11 +111,13 @@ mod _core {
     #[pymodule_export]
     use super::telemetry::{TelemetryMessages, import_telemetry};
     #[pymodule_export]
-    use super::terrain::{Terrain, check_system};
+    use super::terrain::{Terrain, check_height_unit};
     #[pymodule_export]
     use super::time_step::SteppingWheels;
     #[pymodule_export]
-    use super::validation::{validate, validate_all, validate_slopes};
+    use super::urdf::rover_of_urdf;
+    #[pymodule_export]
+    use super::validation::{validate, validate_all, validate_drives, validate_slopes};
     #[pymodule_export]
     use super::validity::{flag_names, flags};
     #[pymodule_export]

@@ -9,7 +9,7 @@ use grouser::document::table::Table;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::mobility::{CellMotion, CourseChoice, Ground, MobilityMap, MobilityTable};
 use grouser::studies::verdict::SlopeStudy;
-use grouser_raster::{CoordinateSystem, Raster};
+use grouser_raster::Raster;
 use numpy::{PyArray1, PyArrayMethods as _};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -89,14 +89,14 @@ pub(crate) fn mobility_map<'py>(
     ))
 }
 
-/// Heights with nothing else.
+/// Heights with the system of their coordinates.
 pub(crate) fn raster_of(terrain: &Terrain) -> Raster {
     let model = &terrain.map.model;
     Raster {
         grid: *model.grid(),
         base: model.base(),
         heights: model.heights_above_base().collect(),
-        coordinates: CoordinateSystem::default(),
+        coordinates: terrain.map.system.clone().unwrap_or_default(),
         remarks: Vec::new(),
     }
 }

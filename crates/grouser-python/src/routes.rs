@@ -17,8 +17,7 @@ use grouser::studies::route::{
 };
 use grouser::studies::verdict::SlopeStudy;
 use grouser::units::Vec2;
-use grouser_raster::Raster;
-use grouser_raster::zones::geojson::compare_system_of;
+use grouser_raster::{MapFrame, Raster};
 use pyo3::prelude::*;
 
 use crate::descriptions::Document;
@@ -66,9 +65,9 @@ pub(crate) fn routes<'py>(
     check("samples", &[f64::from(task.samples)], &SAMPLES)?;
     let loaded = scenario.scenario()?;
     let raster = raster_of(terrain);
-    compare_systems(py, &task, terrain)?;
-    let study = study(&task, SlopeStudy::of(loaded), &raster)?;
-    let line = line(&task)?;
+    let frame = MapFrame { system: terrain.map.system.as_ref(), extent: raster.grid.extent() };
+    let study = study(py, &task, SlopeStudy::of(loaded), &frame)?;
+    let line = line(py, &task, &frame)?;
     let objectives =
         task.minimise.iter().map(|it| objective(it)).collect::<PyResult<Vec<Objective>>>()?;
     let (inputs, scenario) = (BandInputs::of_scenario(loaded), loaded.value.clone());
@@ -163,11 +162,14 @@ impl Task {
 }
 
 /// The line to drive along, if one is given.
-fn line(task: &Task) -> PyResult<Option<Line>> {
+fn line(py: Python<'_>, task: &Task, map: &MapFrame<'_>) -> PyResult<Option<Line>> {
     let places = match (&task.along, &task.along_file) {
         (Some(places), _) => places.iter().map(|place| Vec2::from(*place)).collect(),
         (None, Some(file)) => {
-            grouser_raster::read_line_string(file).map_err(|error| errors::of_raster(&error))?
+            let read = grouser_raster::read_line_string(file, map);
+            let (places, remark) = read.map_err(|error| errors::of_raster(&error))?;
+            errors::warn(py, remark)?;
+            places
         }
         (None, None) => return Ok(None),
     };
@@ -178,18 +180,13 @@ fn of_line(error: &LineError) -> PyErr {
     errors::parameter(error.to_string(), "along", None, "a line on the map")
 }
 
-/// Compares the systems that files of places name with that of the map, if it is a file's.
-fn compare_systems(py: Python<'_>, task: &Task, terrain: &Terrain) -> PyResult<()> {
-    let Some(system) = &terrain.map.system else { return Ok(()) };
-    for file in task.keep_out.iter().chain(&task.along_file) {
-        let remark = compare_system_of(file, system).map_err(|error| errors::of_raster(&error))?;
-        errors::warn(py, remark)?;
-    }
-    Ok(())
-}
-
 /// The study with its limits.
-fn study(task: &Task, mut mobility: SlopeStudy, raster: &Raster) -> PyResult<RouteStudy> {
+fn study(
+    py: Python<'_>,
+    task: &Task,
+    mut mobility: SlopeStudy,
+    map: &MapFrame<'_>,
+) -> PyResult<RouteStudy> {
     let checked = |name: &str, value: Option<f64>, range| match value {
         Some(value) => check(name, &[value], range).map(|()| Some(value)),
         None => Ok(None),
@@ -209,13 +206,11 @@ fn study(task: &Task, mut mobility: SlopeStudy, raster: &Raster) -> PyResult<Rou
         limits.most_no_go = share;
     }
     let study = RouteStudy { mobility, limits, keep_out: None };
-    match &task.keep_out {
-        Some(file) => study
-            .keeping_out_of(file, &raster.grid.extent())
-            .map(|(study, _)| study)
-            .map_err(|error| errors::of_raster(&error)),
-        None => Ok(study),
-    }
+    let Some(file) = &task.keep_out else { return Ok(study) };
+    let found = study.keeping_out_of(file, map);
+    let (study, _, remark) = found.map_err(|error| errors::of_raster(&error))?;
+    errors::warn(py, remark)?;
+    Ok(study)
 }
 
 fn objective(name: &str) -> PyResult<Objective> {

@@ -20,7 +20,7 @@ use crate::errors;
 use crate::interrupt::listening;
 
 /// Names of topics by the types of their messages.
-type Choices = Vec<(String, String)>;
+pub(crate) type Choices = Vec<(String, String)>;
 
 /// How a log is read: what measured ways and rotations, and the most that is unpacked [MiB], each if
 /// it is stated.
@@ -81,7 +81,10 @@ pub(crate) fn odometry_named(name: Option<&str>) -> PyResult<Option<Odometry>> {
     found.map(Some)
 }
 
-fn log_options(
+/// How a log is read.
+///
+/// * `mapping`: a file, or the name of a built-in one
+pub(crate) fn log_options(
     mapping: Option<&Path>,
     choices: Choices,
     odometry: Option<Odometry>,

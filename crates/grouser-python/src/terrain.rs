@@ -10,7 +10,9 @@ use grouser::terrain::elevation::{above, round_base};
 use grouser::terrain::lunar::{LunarGround, LunarModel, LunarSite};
 use grouser::terrain::{ElevationGrid, ElevationModel, Extent};
 use grouser::units::{Vec2, Vec3};
-use grouser_raster::{MapSite, remarks};
+use grouser_raster::{
+    CoordinateSystem, Fault, GeoKeys, MapSite, check_grid, check_system, remarks,
+};
 use numpy::{
     PyArray1, PyArray2, PyArrayMethods as _, PyReadonlyArray1, PyReadonlyArray2,
     PyUntypedArrayMethods as _,
@@ -21,23 +23,36 @@ use toml::{Table, Value};
 use crate::errors;
 use crate::threads::released;
 
-/// Checks the coordinate system of a map that has no file.
+/// The coordinate system of a map that has no file, which is checked.
 ///
-/// * `name`: of the argument with the map
-/// * `text`: the system as well-known text
-/// * `middle`, `cell`: x and y of its middle, and the distance of its rows, in the system's units
-#[pyfunction]
-pub(crate) fn check_system(
+/// * `text`: the system as well-known text, or as a code
+fn system_of(
     py: Python<'_>,
-    name: &str,
-    text: &str,
-    middle: [f64; 2],
-    cell: f64,
-) -> PyResult<()> {
-    let found = grouser_raster::check_system(text, MapSite { middle: middle.into(), cell });
-    let expected = "coordinates and heights in metres";
-    let remark = found.map_err(|fault| errors::parameter(fault.of("map"), name, None, expected))?;
-    errors::warn(py, remark)
+    text: Option<&str>,
+    grid: &ElevationGrid,
+) -> PyResult<CoordinateSystem> {
+    let Extent { south_west, north_east } = grid.extent();
+    let size = north_east - south_west;
+    let site = MapSite { middle: south_west + 0.5 * size, cell: grid.spacing.y, size };
+    let found = match text {
+        Some(text) => check_system(text, site),
+        None => check_grid(grid).map(|()| None),
+    };
+    errors::warn(py, found.map_err(|fault| of_map(&fault))?)?;
+    Ok(text.map(CoordinateSystem::of_text).unwrap_or_default())
+}
+
+/// A map without a file that is no map in metres.
+fn of_map(fault: &Fault) -> PyErr {
+    let (problem, hint) = fault.in_parts("map", None);
+    let message = hint.into_iter().fold(problem, |all, hint| format!("{all}\nhint: {hint}"));
+    errors::parameter(message, "heights_m", None, "coordinates and heights in metres")
+}
+
+/// Checks the unit that heights are stated in.
+#[pyfunction]
+pub(crate) fn check_height_unit(unit: &str) -> PyResult<()> {
+    grouser_raster::check_unit(unit).map_err(|fault| of_map(&fault))
 }
 
 /// A map of heights.
@@ -50,8 +65,19 @@ pub(crate) struct Terrain {
 /// band; and the height that stands for a missing one [m].
 type Reading = (Option<[f64; 3]>, Option<usize>, Option<f64>);
 /// A map as numbers: its name, how its file was read, base [m], place of the first point and
-/// distances of neighbours [m], and heights above the base [m] in rows from south to north.
-type Parts<'py> = (String, Option<Reading>, f64, [f64; 2], [f64; 2], Bound<'py, PyArray2<f32>>);
+/// distances of neighbours [m], heights above the base [m] in rows from south to north, and the system
+/// of the coordinates.
+type Parts<'py> = (
+    String,
+    Option<Reading>,
+    f64,
+    [f64; 2],
+    [f64; 2],
+    Bound<'py, PyArray2<f32>>,
+    Option<SystemKeys>,
+);
+/// A system of coordinates as its keys: whole numbers, real ones and text.
+type SystemKeys = (Vec<u16>, Vec<f64>, String);
 
 #[pymethods]
 impl Terrain {
@@ -59,6 +85,7 @@ impl Terrain {
     /// * `south_west_m`: the point farthest to the south and west
     /// * `spacing_m`: distance between neighbours along x and y
     /// * `north_first`: whether the first row is the northern one
+    /// * `crs`: the system of the coordinates, as well-known text or as a code
     #[new]
     #[allow(clippy::needless_pass_by_value, reason = "how an array comes from Python")]
     fn new(
@@ -67,10 +94,12 @@ impl Terrain {
         south_west_m: [f64; 2],
         spacing_m: [f64; 2],
         north_first: bool,
+        crs: Option<&str>,
     ) -> PyResult<Self> {
         let heights = heights.as_array();
         let (rows, columns) = heights.dim();
         let grid = grid(rows, columns, south_west_m, spacing_m);
+        let system = system_of(py, crs, &grid)?;
         let model = released(py, || {
             let row = |from_south: usize| {
                 heights.row(if north_first { rows - 1 - from_south } else { from_south })
@@ -88,7 +117,7 @@ impl Terrain {
         let model = model.map_err(|error| refused(&error.to_string()))?;
         let above: Vec<f32> = model.heights_above_base().collect();
         errors::warn(py, remarks(model.grid(), model.base(), &above))?;
-        Ok(Self::of_model(model))
+        Ok(Self::of_model(model, system))
     }
 
     /// Reads a file.
@@ -144,7 +173,8 @@ impl Terrain {
             Ok(ElevationModel::above_base(grid, base, kept))
         })?;
         let model = made.map_err(|error: ParameterError| errors::of_parameter(&error))?;
-        model.map(Self::of_model).map_err(|error| refused(&error.to_string()))
+        let of_model = |model| Self::of_model(model, CoordinateSystem::default());
+        model.map(of_model).map_err(|error| refused(&error.to_string()))
     }
 
     /// The map that [`parts`](Self::parts) are of.
@@ -157,6 +187,7 @@ impl Terrain {
         south_west_m: [f64; 2],
         spacing_m: [f64; 2],
         heights: PyReadonlyArray2<'_, f32>,
+        system: Option<SystemKeys>,
     ) -> PyResult<Self> {
         let heights = heights.as_array();
         let (rows, columns) = heights.dim();
@@ -165,7 +196,9 @@ impl Terrain {
         let model = ElevationModel::above_base(grid, base, heights)
             .map_err(|error| refused(&error.to_string()))?;
         let (model, options) = (Arc::new(model), reading.map(options));
-        Ok(Self { map: HeldMap { name, model, options, system: None } })
+        let of_keys =
+            |(directory, doubles, text)| CoordinateSystem::of_keys(directory, doubles, text);
+        Ok(Self { map: HeldMap { name, model, options, system: system.map(of_keys) } })
     }
 
     /// What the map is made of.
@@ -179,7 +212,11 @@ impl Terrain {
             (placement.map(place), band, missing)
         });
         let name = self.map.name.clone();
-        Ok((name, reading, model.base(), south_west.into(), spacing.into(), heights))
+        let system = self.map.system.as_ref().map(|system| {
+            let GeoKeys { directory, doubles, text } = system.keys();
+            (directory.to_vec(), doubles.to_vec(), text.to_owned())
+        });
+        Ok((name, reading, model.base(), south_west.into(), spacing.into(), heights, system))
     }
 
     /// x and y of its outermost points: of those to the west and south, and of those to the east
@@ -201,6 +238,12 @@ impl Terrain {
     #[getter]
     fn spacing(&self) -> [f64; 2] {
         self.map.model.grid().spacing.into()
+    }
+
+    /// The system of the coordinates as text; none where it is not known.
+    #[getter]
+    fn crs(&self) -> Option<String> {
+        self.map.system.as_ref()?.to_text()
     }
 
     /// The number of points whose height is missing.
@@ -282,9 +325,10 @@ impl Terrain {
         Self { map }
     }
 
-    fn of_model(model: ElevationModel) -> Self {
+    fn of_model(model: ElevationModel, system: CoordinateSystem) -> Self {
         let name = format!("heights-{:016x}", fingerprint(&model));
-        Self { map: HeldMap { name, model: Arc::new(model), options: None, system: None } }
+        let (model, system) = (Arc::new(model), Some(system));
+        Self { map: HeldMap { name, model, options: None, system } }
     }
 
     /// The table of a document that names the map.

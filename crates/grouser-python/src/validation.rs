@@ -2,21 +2,27 @@
 
 use std::path::PathBuf;
 
+use grouser::answers::Member;
+use grouser::answers::validation::DriveValidationQuestion;
 use grouser::document::columns::{fit, slope};
 use grouser::document::measurements::{Choice, Condition, Limits, Measurements};
 use grouser::document::ranking::{RankingError, rank_all};
+use grouser::document::table::Table;
 use grouser::document::validation::{GroupRecord, ReferenceRecord, SlopeErrorsRecord};
 use grouser::studies::heading::HeadingStudy;
 use grouser::studies::slope_validation::SlopeValidationStudy;
 use grouser::studies::validation::{Validation, ValidationStudy};
+use grouser_logs::DriveFolder;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use serde::Serialize;
+use serde_json::{Map, Value};
 
 use crate::columns::table_to_python;
 use crate::descriptions::Document;
 use crate::interrupt::listening;
 use crate::measurements::Data;
+use crate::telemetry::{Choices, HowRead, bytes, files, log_options, odometry_named};
 use crate::wheels::{check_under, model_and_gravity};
 use crate::{errors, values};
 
@@ -122,6 +128,60 @@ pub(crate) fn validate_all(py: Python<'_>, folder: Option<PathBuf>) -> PyResult<
     let ranked = listening(py, move |_| rank_all(folder.as_deref(), Limits::default()))?;
     let ranked = ranked.map_err(|error| errors::of_ranking(&error))?;
     record_to_python(py, &ranked)
+}
+
+/// Every model on the drives of a folder: values, tables by their names, and what files gave.
+///
+/// * `scenario`: its rover, soil, gravity and load transfer are used, and its model, if it names one
+/// * `mapping`: a file, or the name of a built-in one
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value, reason = "how paths and lists come from Python")]
+pub(crate) fn validate_drives<'py>(
+    py: Python<'py>,
+    folder: PathBuf,
+    scenario: &Document,
+    mapping: Option<PathBuf>,
+    choices: Choices,
+    how: HowRead,
+) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyDict>, String)> {
+    let scenario = scenario.scenario()?.clone();
+    let odometry = odometry_named(how.0.as_deref())?;
+    let options = log_options(mapping.as_deref(), choices, odometry);
+    let options = options.map_err(|error| errors::of_telemetry(&error))?;
+    let options = options.with_most_unpacked(bytes(how.1));
+    let found = listening(py, move |_| {
+        let read = DriveFolder::read(&folder, &scenario.value, &options);
+        read.map(|DriveFolder { drives, given, notes, .. }| {
+            let folder = folder.display().to_string();
+            let given_files = files(&given);
+            let question = DriveValidationQuestion { folder, scenario, drives, given, notes };
+            (question.answer("validate"), given_files)
+        })
+    })?;
+    let (answer, given) = found.map_err(errors::of_drives)?;
+    let answer = answer.map_err(|error| {
+        errors::parameter(error.to_string(), "folder", None, "drives with stretches to compare")
+    })?;
+    let (record, tables) = results_to_python(py, answer.results)?;
+    Ok((record, tables, given))
+}
+
+/// Values and tables of an answer, each by its name.
+pub(crate) fn results_to_python(
+    py: Python<'_>,
+    results: Vec<Member>,
+) -> PyResult<(Bound<'_, PyAny>, Bound<'_, PyDict>)> {
+    let (mut record, tables) = (Map::new(), PyDict::new(py));
+    for member in results {
+        match member {
+            Member::Value(name, value) => drop(record.insert(name.to_owned(), value)),
+            Member::Rows(name, rows) => {
+                tables.set_item(name, table_to_python(py, Table::clone(&rows))?)?;
+            }
+            Member::Row(..) | Member::With(..) | Member::Entries(_) => {}
+        }
+    }
+    Ok((record_to_python(py, &Value::Object(record))?, tables))
 }
 
 /// A record as a dictionary.

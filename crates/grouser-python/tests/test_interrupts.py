@@ -18,6 +18,10 @@ CALLS = {
         "",
         "gr.heading(soil='toyoura-uncertain', slope_deg=10, samples=100_000)",
     ),
+    "design": (
+        "",
+        "gr.design('design-climbing-wheels', trade=('energy_j_per_m', 'wheel_mass_kg'))",
+    ),
     "wheel_speeds": ("", "gr.wheel_speeds(slope_deg=np.linspace(0, 20, 5_000_000))"),
     "heading_map": ("", "gr.heading_map(course_deg=np.linspace(-60, 60, 200_000))"),
     "settle": ("", "gr.settle('toyoura', 'hakuto', load_n=np.full(4_000_000, 17.0), slip_ratio=0.2, model='rft')"),

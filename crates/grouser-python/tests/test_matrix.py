@@ -237,6 +237,16 @@ def replayed(run: gr.Scenario) -> Numbers:
     return [(found.forward_speed_m_s.values, (found.sizes["time_s"],))]
 
 
+def judged(run: gr.Scenario) -> Numbers:
+    folder = Path(FOLDER.name) / f"drives-{len(run.rover.mount)}"
+    folder.mkdir(exist_ok=True)
+    log = drive(run, run.rover)
+    rows = [",".join(log), *(",".join(map(str, row)) for row in zip(*log.values()))]
+    (folder / "drive.csv").write_text("\n".join(rows) + "\n")
+    found = gr.validate_drives(folder, run.soil, run.rover)
+    return [(found.cells["slip_ratio"], (len(found.cells["model"]),))]
+
+
 def slip_read(run: gr.Scenario) -> Numbers:
     names = gr.SlipEstimator(run).wheel_names
     found = gr.SlipEstimator(run).estimate(np.full(len(names), 0.03), np.full(len(names), 0.55))
@@ -400,6 +410,7 @@ CALLS: dict[str, tuple[Callable[[gr.Scenario], Numbers], tuple[str, ...]]] = {
         "validate_slopes": lambda s: same(
             len(gr.validate_slopes("hakuto-slope", s.soil, s.rover).to_pandas()) > 0, True
         ),
+        "validate_drives": judged,
         "learn": learnt,
         "Learner": streamed,
         "replay": replayed,

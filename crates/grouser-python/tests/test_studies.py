@@ -30,6 +30,17 @@ def test_a_run_has_its_samples_and_its_wheels() -> None:
     assert gr.Scenario.from_toml(data.attrs["scenario"]) == run.scenario
 
 
+def test_a_rover_that_was_found_is_a_rover() -> None:
+    """What a design says of it is what other studies measure, and the design itself is read again."""
+    found = gr.design("design-lighter-wheels", trade=("energy_j_per_m", "wheel_mass_kg"))
+    heading = gr.heading(rover=found.rover, slope_deg=10.0, nominal=True)
+    assert heading.limit_slope_deg == pytest.approx(found.designs["limit_slope_deg"][1], abs=1e-9)
+    assert found.trade is not None and found.trade["wheel_mass_kg"].shape == (9,)
+    assert found.designs["flags"][1] == [] or "radius-outside" not in found.designs["flags"][1]
+    again = gr.design(gr.Design.from_toml(gr.Design("design-lighter-wheels").to_toml()))
+    assert again.design == found.design and again.objective == found.objective
+
+
 def test_what_a_rover_does_is_an_outcome() -> None:
     run = gr.simulate(slope_deg=40.0)
     assert run.outcome == "sliding" and run.message

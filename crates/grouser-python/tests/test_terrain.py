@@ -431,6 +431,8 @@ def test_an_array_of_xarray_that_is_no_map_in_metres_is_refused() -> None:
     with pytest.raises(gr.ParameterError, match="from_xarray"):
         gr.Terrain(array(), cell_size_m=1.0)
     with pytest.raises(gr.ParameterError, match="rename"):
+        gr.Terrain.from_xarray(array().rename(x="easting", y="northing"))
+    with pytest.raises(gr.ParameterError, match="degrees of longitude"):
         gr.Terrain.from_xarray(array().rename(x="lon", y="lat"))
     with pytest.raises(gr.ParameterError, match="evenly"):
         gr.Terrain.from_xarray(array().isel(x=[0, 1, 3, 4]))

@@ -51,12 +51,32 @@ impl MappedBody {
     }
 }
 
-/// `gdalwarp` with a projection for a place: the zone of UTM on Earth, else a stereographic one of
-/// the body.
+/// What a grid is to be projected to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Warp {
+    /// The system, as PROJ has it.
+    target: String,
+    /// The size of a cell [m].
+    size: Option<f64>,
+}
+
+impl Warp {
+    /// The command of GDAL that does it.
+    ///
+    /// * `input`: the file with the grid
+    #[must_use]
+    pub fn command(&self, input: &str) -> String {
+        let size = self.size.map_or("CELL_SIZE_IN_METRES".to_owned(), rounded);
+        let target = &self.target;
+        format!("gdalwarp -t_srs \"{target}\" -tr {size} {size} -r cubic {input} OUT.tif")
+    }
+}
+
+/// A projection for a place: the zone of UTM on Earth, else a stereographic one of the body.
 ///
 /// * `place`: longitude, positive to the east, and latitude [°]
 /// * `size`: of a cell [m]
-pub(crate) fn projection(place: Vec2, body: &MappedBody, size: Option<f64>) -> String {
+pub(crate) fn projection(place: Vec2, body: &MappedBody, size: Option<f64>) -> Warp {
     let (longitude, latitude) = (place.x, place.y.clamp(-90.0, 90.0));
     let target = match body {
         MappedBody::Earth => on_earth(longitude, latitude),
@@ -68,8 +88,7 @@ pub(crate) fn projection(place: Vec2, body: &MappedBody, size: Option<f64>) -> S
         }
         MappedBody::Unknown => stereographic(longitude, latitude, "+R=RADIUS_IN_METRES"),
     };
-    let size = size.map_or("CELL_SIZE_IN_METRES".to_owned(), rounded);
-    format!("gdalwarp -t_srs \"{target}\" -tr {size} {size} -r cubic IN.tif OUT.tif")
+    Warp { target, size }
 }
 
 /// The zone of UTM, or the usual projection of a pole.
@@ -114,10 +133,10 @@ mod tests {
     use super::*;
 
     fn command(directory: &[u16], doubles: &[f64], middle: (f64, f64), cell: f64) -> String {
-        let system = CoordinateSystem::new(directory.to_vec(), doubles.to_vec(), String::new());
+        let system = CoordinateSystem::of_keys(directory.to_vec(), doubles.to_vec(), String::new());
         let body = MappedBody::of_keys(&system);
         let size = body.degree().map(|degree| cell * degree);
-        projection(Vec2::new(middle.0, middle.1), &body, size)
+        projection(Vec2::new(middle.0, middle.1), &body, size).command("IN.tif")
     }
 
     #[test]

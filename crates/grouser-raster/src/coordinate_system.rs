@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use crate::wkt;
+
 /// What a file's coordinates refer to: its keys as they are, and a name to show.
 ///
 /// Systems of the Moon and of Mars that no register has pass through as well.
@@ -72,8 +74,43 @@ pub(crate) mod key {
 }
 
 impl CoordinateSystem {
-    pub(crate) fn new(directory: Vec<u16>, doubles: Vec<f64>, text: String) -> Self {
+    /// The system that a text describes: well-known text, or a code such as `EPSG:32633`.
+    ///
+    /// Without a code of the EPSG register, the text itself is among the keys, where ArcGIS writes
+    /// it and GDAL reads it.
+    #[must_use]
+    pub fn of_text(text: &str) -> Self {
+        /// A text that a key can hold [bytes].
+        const LONGEST: usize = 60_000;
+        /// Codes of the standard's register.
+        const PROJECTED: u16 = 1;
+        let mut keys = Keys::default();
+        keys.whole(key::MODEL, PROJECTED);
+        let projected = || wkt::part(text, &["PROJCS", "PROJCRS", "PROJECTEDCRS"]);
+        if let Some(code) = code_of(text).or_else(|| wkt::epsg(projected()?)) {
+            keys.whole(key::PROJECTED, code);
+        } else if text.len() < LONGEST && !text.is_empty() {
+            keys.whole(key::PROJECTED, key::USER_DEFINED);
+            let text = text.replace(['|', '\n'], " ");
+            keys.words(key::PROJECTED_CITATION, &format!("{BEFORE_TEXT}{text}"));
+        } else {
+            return Self::default();
+        }
+        keys.system()
+    }
+
+    /// The system of keys as they were.
+    #[must_use]
+    pub fn of_keys(directory: Vec<u16>, doubles: Vec<f64>, text: String) -> Self {
         Self { directory, doubles, text }
+    }
+
+    /// The text that ArcGIS leaves among the names.
+    pub(crate) fn well_known_text(&self) -> Option<String> {
+        [key::PROJECTED_CITATION, key::CITATION].into_iter().find_map(|id| {
+            let text = self.text_of(id)?;
+            Some(text.strip_prefix(BEFORE_TEXT)?.trim_end_matches('|').to_owned())
+        })
     }
 
     /// A stereographic projection of the Moon about a place, in metres.
@@ -150,10 +187,11 @@ impl CoordinateSystem {
         let own = [key::PROJECTED_CITATION, key::CITATION, key::GEODETIC_CITATION];
         // Some citations are lists such as `GCS Name = Moon 2000|Datum = …`, those of ArcGIS texts
         // such as `ESRI PE String = PROJCS["Moon 2000",…`.
+        let ends = ["CS[\"", "CRS[\""];
         let of_list = |text: String| {
             let name = text.split('|').next().unwrap_or_default();
             let name = name.split_once("Name = ").map_or(name, |(_, name)| name);
-            let quoted = name.split_once("CS[\"").and_then(|(_, rest)| rest.split('"').next());
+            let quoted = ends.iter().find_map(|end| name.split_once(*end)?.1.split('"').next());
             quoted.unwrap_or(name).trim().to_owned()
         };
         let mut own = own.into_iter().filter_map(|id| self.words(id)).map(of_list);
@@ -207,6 +245,15 @@ impl CoordinateSystem {
     }
 }
 
+/// What ArcGIS puts before the text of a system.
+const BEFORE_TEXT: &str = "ESRI PE String = ";
+
+/// The code of a name such as `EPSG:32633` or `urn:ogc:def:crs:EPSG::32633`.
+pub(crate) fn code_of(name: &str) -> Option<u16> {
+    let (register, code) = name.rsplit_once(':')?;
+    register.to_uppercase().contains("EPSG").then(|| code.parse().ok())?
+}
+
 /// Keys in the making, in ascending order of their identities.
 #[derive(Default)]
 struct Keys {
@@ -238,7 +285,7 @@ impl Keys {
         let mut directory = VERSION.to_vec();
         directory.push(short(self.entries.len()));
         directory.extend(self.entries.iter().flatten());
-        CoordinateSystem::new(directory, self.doubles, self.text)
+        CoordinateSystem::of_keys(directory, self.doubles, self.text)
     }
 }
 
@@ -254,7 +301,7 @@ mod tests {
     fn name(text: &str, epsg: u16) -> String {
         let count = u16::try_from(text.len()).expect("short");
         let directory = [1, 1, 0, 2, key::CITATION, TEXT, count, 0, key::PROJECTED, 0, 1, epsg];
-        CoordinateSystem::new(directory.to_vec(), Vec::new(), text.to_owned()).name()
+        CoordinateSystem::of_keys(directory.to_vec(), Vec::new(), text.to_owned()).name()
     }
 
     #[test]
@@ -275,7 +322,7 @@ mod tests {
     fn keys_that_lead_nowhere_are_none() {
         let directory =
             [1, 1, 0, 9, key::CITATION, TEXT, 99, 3, key::SEMI_MAJOR_AXIS, DOUBLES, 1, 7];
-        let system = CoordinateSystem::new(directory.to_vec(), vec![1.0], "abcd".into());
+        let system = CoordinateSystem::of_keys(directory.to_vec(), vec![1.0], "abcd".into());
         assert_eq!(system.words(key::CITATION).as_deref(), Some("d"));
         assert_eq!(
             (system.real(key::SEMI_MAJOR_AXIS), system.number(key::PROJECTED)),

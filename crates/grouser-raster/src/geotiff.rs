@@ -9,7 +9,7 @@
 
 mod affine;
 pub(crate) mod beside;
-mod metadata;
+pub(crate) mod metadata;
 mod reference;
 
 use std::path::Path;
@@ -107,10 +107,9 @@ fn raster_of(
     check_order(tiff, ifd)?;
     let layout = ifd.raster_layout()?;
     let band = chosen_band(layout.samples_per_pixel, options)?;
-    let coordinates = coordinate_system(ifd);
     let notes = &beside.notes;
     let georeference = Georeference {
-        system: &coordinates,
+        system: coordinate_system(ifd),
         beside,
         scale: reals(ifd, tag::PIXEL_SCALE),
         tiepoint: reals(ifd, tag::TIEPOINT),
@@ -145,7 +144,7 @@ fn raster_of(
     };
     let mut heights = Heights::new(cells, options.content);
     reading.read(&mut heights, (layout.sample_format, layout.bits_per_sample))?;
-    let mut raster = heights.raster(placed.grid, placed.order, coordinates)?;
+    let mut raster = heights.raster(placed.grid, placed.order, placed.system)?;
     raster.remarks.extend(placed.remark);
     Ok(raster)
 }
@@ -216,7 +215,7 @@ fn check_samples(ifd: &Ifd, content: Content) -> Result<(), Fault> {
 fn coordinate_system(ifd: &Ifd) -> CoordinateSystem {
     let directory = ifd.tag(DIRECTORY).and_then(|tag| tag.value.as_u16_slice());
     let text = text(ifd, TEXT).unwrap_or_default().to_owned();
-    CoordinateSystem::new(directory.unwrap_or_default().to_vec(), reals(ifd, DOUBLES), text)
+    CoordinateSystem::of_keys(directory.unwrap_or_default().to_vec(), reals(ifd, DOUBLES), text)
 }
 
 fn reals(ifd: &Ifd, code: u16) -> Vec<f64> {

@@ -3,6 +3,7 @@
 use grouser_core::terrain::elevation::{above, round_base};
 use grouser_core::terrain::{ElevationError, ElevationGrid};
 
+use crate::degrees::check_grid;
 use crate::error::Fault;
 use crate::{Content, CoordinateSystem, Raster, RowOrder, remarks};
 
@@ -73,6 +74,9 @@ impl Heights {
         let Some(base) = self.base else {
             return Err(ElevationError::NothingKnown { points: self.above.len() }.into());
         };
+        if !coordinates.is_known() {
+            check_grid(&grid)?;
+        }
         if order == RowOrder::NorthFirst {
             turn_over(&mut self.above, grid.columns);
         }

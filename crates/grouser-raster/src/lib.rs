@@ -1,7 +1,7 @@
 //! Elevation models, and zones of soil, from files: GeoTIFF, NumPy arrays, xyz text and GeoJSON.
 //!
 //! [`read`] tells the format by the content, and gives a [`Raster`]: heights at the points of a
-//! grid, with the file's coordinate system, which is carried along and not interpreted.
+//! grid, with the file's coordinate system, which is checked and carried along.
 //! [`Raster::model`] makes the [`ElevationModel`](grouser_core::terrain::ElevationModel) of it that
 //! a rover drives on.
 //!
@@ -44,6 +44,7 @@ mod degrees;
 mod error;
 pub mod geotiff;
 mod heights;
+mod hint;
 mod length;
 mod meaning;
 pub mod npy;
@@ -53,12 +54,16 @@ mod projection;
 mod raster;
 mod read;
 mod remark;
+mod wkt;
 pub mod xyz;
 pub mod zones;
 
+pub use advice::Warp;
 pub use coordinate_system::{CoordinateSystem, GeoKeys};
-pub use error::{Fault, RasterError};
+pub use degrees::check_grid;
+pub use error::{Fault, Flaw, RasterError};
 pub use geotiff::beside::beside;
+pub use geotiff::metadata::check_unit;
 pub use heights::BEYOND;
 pub use meaning::{MapSite, check_system};
 pub use options::{CELLS, Content, Placement, ReadOptions, RowOrder};
@@ -68,5 +73,5 @@ pub use read::read;
 pub use remark::Remark;
 pub use zones::geojson::read_line_string;
 pub use zones::{
-    ZoneKey, ZoneMap, check_places, check_places_on, read_areas, read_zones, zone_names,
+    MapFrame, ZoneKey, ZoneMap, check_places, check_places_on, read_areas, read_zones, zone_names,
 };

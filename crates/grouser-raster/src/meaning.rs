@@ -2,12 +2,13 @@
 
 use grouser_core::units::Vec2;
 
-use crate::advice::{self, MappedBody};
+use crate::advice::{self, MappedBody, Warp};
 use crate::coordinate_system::{CoordinateSystem, METRE, key};
 use crate::error::Fault;
 use crate::length::{name_of_code, name_of_size};
 use crate::projection::Projection;
 use crate::remark::Remark;
+use crate::wkt::{inside, part, values};
 
 /// The middle of a map, and its cells, in units of its coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -16,10 +17,12 @@ pub struct MapSite {
     pub middle: Vec2,
     /// Distance of neighbours to the north.
     pub cell: f64,
+    /// What it spans to the east and to the north.
+    pub size: Vec2,
 }
 
 /// Checks a system of coordinates that a text describes (well-known text of the first or second
-/// edition, as rasterio and xarray have it): projected, in metres, heights too, and about as long as
+/// edition, as rasterio and xarray have it; a code such as `EPSG:32633`, words of PROJ): projected, in metres, heights too, and about as long as
 /// the ground.
 ///
 /// ```
@@ -27,40 +30,57 @@ pub struct MapSite {
 /// use grouser_raster::{Fault, MapSite, check_system};
 ///
 /// let degrees = r#"GEOGCS["Moon",DATUM["Moon",SPHEROID["Moon",1737400,0]],PRIMEM["0",0],UNIT["degree",0.0174532925199433]]"#;
-/// let site = MapSite { middle: Vec2::new(120.0, -89.0), cell: 0.001 };
+/// let site = MapSite { middle: Vec2::new(120.0, -89.0), cell: 0.001, size: Vec2::zeros() };
 /// assert!(matches!(check_system(degrees, site), Err(Fault::Degrees { .. })));
 /// ```
 ///
 /// # Errors
 /// [`Fault`] for degrees, other units, depths, and a map far larger or smaller than its ground.
 pub fn check_system(text: &str, site: MapSite) -> Result<Option<Remark>, Fault> {
-    if ["GEOCCS[", "Cartesian"].iter().any(|it| text.contains(it)) && !text.contains("PROJC") {
+    let of_places = part(text, &PROJECTED_PARTS).or(part(text, &LOCAL_PARTS));
+    let is_cartesian = ["GEOCCS[", "Cartesian"].iter().any(|it| text.contains(it));
+    if is_cartesian && of_places.is_none() {
         return Err(Fault::Geocentric);
     }
     check_heights(text)?;
-    let projection = Projection::of_wkt(text);
-    if projection.is_none() && text.starts_with("GEOG") {
-        let command = advice::projection(site.middle, &MappedBody::Unknown, None);
-        return Err(Fault::Degrees { command });
+    let projection = Projection::of_text(text);
+    let is_projected = projection.is_some() || part(text, &PROJECTED_PARTS).is_some();
+    if !is_projected && part(text, &["GEOGCS", "GEOGCRS", "GEODCRS", "GEODETICCRS"]).is_some() {
+        let warp = advice::projection(site.middle, &MappedBody::Unknown, None);
+        return Err(Fault::Degrees { warp });
     }
-    let name = text.split('"').nth(1).unwrap_or_default();
+    // Of other systems nothing but the unit is known.
+    let unit = of_places.filter(|_| projection.is_none()).and_then(unit_of);
+    if let Some((name, size)) = unit.filter(|(_, size)| *size != 1.0) {
+        return Err(Fault::Unit { unit: name_of_size(size, name) });
+    }
+    let name = text.split('"').nth(1).unwrap_or(text);
     check(projection.as_ref(), name, site)
+}
+
+/// What texts call systems of a projection, and those of a site of its own.
+const PROJECTED_PARTS: [&str; 3] = ["PROJCS", "PROJCRS", "PROJECTEDCRS"];
+const LOCAL_PARTS: [&str; 4] = ["LOCAL_CS", "LOCALCS", "ENGCRS", "ENGINEERINGCRS"];
+
+/// The name and the length [m] of the unit that a system of places has.
+fn unit_of(system: &str) -> Option<(&str, f64)> {
+    const UNITS: [&str; 2] = ["UNIT", "LENGTHUNIT"];
+    let of_axis = || inside(inside(system, &["AXIS"])?, &UNITS);
+    let mut unit = values(inside(system, &UNITS).or_else(of_axis)?);
+    Some((unit.next()?, unit.next()?.parse().ok()?))
 }
 
 /// Checks the system of heights that a text describes, if it does.
 fn check_heights(text: &str) -> Result<(), Fault> {
-    const STARTS: [&str; 4] = ["VERT_CS[", "VERTCRS[", "VERTICALCRS[", "VERTCS["];
-    let Some(heights) = STARTS.iter().find_map(|start| Some(text.split_once(start)?.1)) else {
-        return Ok(());
-    };
+    const HEIGHTS: [&str; 4] = ["VERT_CS", "VERTCRS", "VERTICALCRS", "VERTCS"];
+    let Some(heights) = part(text, &HEIGHTS) else { return Ok(()) };
     if [",down", ",DOWN", "\"Direction\",-1"].iter().any(|it| heights.contains(it)) {
         return Err(Fault::Depths);
     }
-    let Some((_, unit)) = heights.split_once("UNIT[\"") else { return Ok(()) };
-    let (name, rest) = unit.split_once('"').unwrap_or((unit, ""));
-    let size = rest.trim_start_matches(',').split([',', ']']).next().unwrap_or_default();
-    match size.trim().parse::<f64>() {
-        Ok(size) if size != 1.0 => Err(Fault::HeightUnit { unit: name_of_size(size, name) }),
+    match unit_of(heights) {
+        Some((name, size)) if size != 1.0 => {
+            Err(Fault::HeightUnit { unit: name_of_size(size, name) })
+        }
         _ => Ok(()),
     }
 }
@@ -83,7 +103,7 @@ pub(crate) fn check_keys(
     if model != Some(PROJECTED) && !is_projected && has_degrees {
         let body = MappedBody::of_keys(system);
         let size = body.degree().map(|degree| site.cell * degree);
-        return Err(Fault::Degrees { command: advice::projection(site.middle, &body, size) });
+        return Err(Fault::Degrees { warp: advice::projection(site.middle, &body, size) });
     }
     if let Some(unit) = foreign_unit(system) {
         return Err(Fault::Unit { unit });
@@ -136,8 +156,13 @@ fn check(
     name: &str,
     site: MapSite,
 ) -> Result<Option<Remark>, Fault> {
-    /// How far the map's scale may be from 1 before a note says so, and before the map is refused
-    /// [-]: a slope of 20° is wrong by a tenth of a degree, and by one.
+    /// How far the scale may be from 1 anywhere on the map before a note says so, and at its middle
+    /// before the map is refused [-]: a slope of 20° is wrong by a tenth of a degree, and by one.
+    ///
+    /// The scale changes by tan φ / R for a metre to the north on Mercator's map, and by half of the
+    /// sine of the way from the middle over R on stereographic ones: by less than 0.5 % over maps
+    /// of 10 km that are not refused, so that it is one number for most maps, and a range for those
+    /// of hundreds of kilometres.
     const TOLD: f64 = 0.005;
     const REFUSED: f64 = 0.05;
     let Some(projection) = projection else {
@@ -146,7 +171,7 @@ fn check(
     let body = MappedBody::of_axes(projection.axes());
     if projection.is_in_degrees() {
         let size = body.degree().map(|degree| site.cell * degree);
-        return Err(Fault::Degrees { command: advice::projection(site.middle, &body, size) });
+        return Err(Fault::Degrees { warp: advice::projection(site.middle, &body, size) });
     }
     if (projection.unit() - 1.0).abs() > 1e-9 {
         return Err(Fault::Unit { unit: name_of_size(projection.unit(), "") });
@@ -156,13 +181,25 @@ fn check(
     else {
         return Ok(Some(Remark::UnknownScale { system: name.to_owned() }));
     };
-    let off = factors.map(|factor| (factor - 1.0).abs()).into_iter().fold(0.0, f64::max);
-    if off > REFUSED {
+    let off = |factors: [f64; 2]| (factors[0] - 1.0).abs().max((factors[1] - 1.0).abs());
+    if off(factors) > REFUSED {
         let size = Some(site.cell / factors[1]);
-        let degrees = place.map(f64::to_degrees);
-        return Err(Fault::Scale { factors, command: advice::projection(degrees, &body, size) });
+        let warp: Warp = advice::projection(place.map(f64::to_degrees), &body, size);
+        return Err(Fault::Scale { factors, warp });
     }
-    Ok((off > TOLD).then_some(Remark::Scale { factors }))
+    let over_map = over_map(projection, site, factors);
+    Ok((off(over_map) > TOLD).then_some(Remark::Scale { factors, over_map }))
+}
+
+/// The least and the greatest scale of a map at its middle, corners and sides, where it is known
+/// [-].
+///
+/// * `factors`: at its middle
+fn over_map(projection: &Projection, site: MapSite, factors: [f64; 2]) -> [f64; 2] {
+    const STEPS: [f64; 3] = [-0.5, 0.0, 0.5];
+    let all = STEPS.into_iter().flat_map(|x| STEPS.map(|y| Vec2::new(x, y)));
+    let scales = all.filter_map(|it| projection.scale(site.middle + it.component_mul(&site.size)));
+    scales.fold(factors, |[least, most], [low, high]| [least.min(low), most.max(high)])
 }
 
 /// Values of the key `GTModelTypeGeoKey`.

@@ -5,7 +5,7 @@ use grouser_core::elementary::wide::sin_cos;
 use grouser_core::units::{Vec2, Vec3};
 use proj4rs::Proj;
 
-use crate::coordinate_system::{CoordinateSystem, key};
+use crate::coordinate_system::{CoordinateSystem, code_of, key};
 
 /// A system of coordinates whose formulas are known.
 pub(crate) struct Projection {
@@ -16,31 +16,56 @@ impl Projection {
     /// The projection that keys of GeoTIFF describe: by its code in the register, by its method and
     /// parameters, or by the text that ArcGIS leaves among the names.
     pub(crate) fn of_keys(system: &CoordinateSystem) -> Option<Self> {
-        /// What ArcGIS puts before the text of a system.
-        const TEXT: &str = "ESRI PE String = ";
         if let Some(code) = system.epsg() {
             return Self::registered(code);
         }
-        let of_text =
-            |id: u16| Self::of_wkt(system.text_of(id)?.strip_prefix(TEXT)?.trim_end_matches('|'));
-        let of_text = || [key::PROJECTED_CITATION, key::CITATION].into_iter().find_map(of_text);
+        let of_text = || Self::of_text(&system.well_known_text()?);
         by_method(system).and_then(|definition| Self::of(&definition)).or_else(of_text)
     }
 
-    /// The projection that a well-known text of the first or second edition describes.
-    pub(crate) fn of_wkt(text: &str) -> Option<Self> {
+    /// The same as words of PROJ 4, of keys with a method and parameters.
+    pub(crate) fn words_of(system: &CoordinateSystem) -> Option<String> {
+        by_method(system).map(|words| words.split_whitespace().collect::<Vec<_>>().join(" "))
+    }
+
+    /// The projection that a text describes: well-known text of the first or second edition, a code
+    /// of the register, or words of PROJ 4.
+    pub(crate) fn of_text(text: &str) -> Option<Self> {
+        if text.starts_with('+') {
+            return Self::of(text);
+        }
+        if !text.contains('[') {
+            return Self::registered(code_of(text)?);
+        }
         let of = |text: &str| Self::of(&proj4wkt::wkt_to_projstring(text).ok()?);
         // ArcGIS puts a system of heights behind that of coordinates.
         of(text).or_else(|| of(text.split_once(",VERTCS[")?.0))
     }
 
-    fn registered(code: u16) -> Option<Self> {
+    pub(crate) fn registered(code: u16) -> Option<Self> {
         Self::of(crs_definitions::from_code(code)?.proj4)
     }
 
     /// * `definition`: in the words of PROJ 4
     fn of(definition: &str) -> Option<Self> {
         Some(Self { proj: Proj::from_proj_string(&on_own_datum(definition)).ok()? })
+    }
+
+    /// Whether both give places of the body the same coordinates, to a centimetre.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        /// Coordinates of which every system of a site has some: about the origin, and where zones
+        /// have their middles.
+        const PLACES: [[f64; 2]; 5] =
+            [[0.0, 0.0], [1e4, 2e4], [5e5, 1e6], [5e5, 5.2e6], [-2e5, -3e5]];
+        const NEAR: f64 = 0.01;
+        let is_alike =
+            |at: [f64; 2]| match (self.on_body(Vec2::from(at)), other.on_body(Vec2::from(at))) {
+                (Some(one), Some(other)) => Some((one - other).norm() < NEAR),
+                (None, None) => None,
+                _ => Some(false),
+            };
+        let found: Vec<bool> = PLACES.into_iter().filter_map(is_alike).collect();
+        !found.is_empty() && found.into_iter().all(|it| it)
     }
 
     /// Whether its coordinates are longitude and latitude.
@@ -98,6 +123,29 @@ impl Projection {
         let normal = major / (1.0 - squared * sin_north * sin_north).sqrt();
         let out = normal * cos_north;
         Some(Vec3::new(out * cos_east, out * sin_east, normal * (1.0 - squared) * sin_north))
+    }
+}
+
+impl CoordinateSystem {
+    /// A text from which other programs know the system: its code, else its well-known text, else
+    /// the words of PROJ; none where no formula is known.
+    #[must_use]
+    pub fn to_text(&self) -> Option<String> {
+        let of_code = self.epsg().map(|code| format!("EPSG:{code}"));
+        of_code.or_else(|| self.well_known_text()).or_else(|| Projection::words_of(self))
+    }
+
+    /// Whether two systems give a place the same coordinates; nothing where that is not known.
+    #[must_use]
+    pub fn is_same(&self, other: &Self) -> Option<bool> {
+        if let Some((one, other)) = self.epsg().zip(other.epsg()) {
+            return Some(one == other);
+        }
+        if self == other {
+            return Some(true);
+        }
+        let [one, other] = [Projection::of_keys(self)?, Projection::of_keys(other)?];
+        Some(one.is_like(&other))
     }
 }
 

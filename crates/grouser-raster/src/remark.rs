@@ -13,6 +13,8 @@ pub enum Remark {
         /// Metres on the map of a metre on the ground at the map's middle, in the direction where it
         /// is least and where it is most [-].
         factors: [f64; 2],
+        /// The least and the greatest over the map [-].
+        over_map: [f64; 2],
     },
     /// Nothing says how large the ground is on the map.
     UnknownScale {
@@ -91,14 +93,24 @@ pub(crate) fn scale(factors: [f64; 2]) -> String {
     }
 }
 
+/// What a scale is in other places of the map, where that is something else.
+fn elsewhere(factors: [f64; 2], over_map: [f64; 2]) -> String {
+    /// A difference that slopes of 20° show by a tenth of a degree [-].
+    const SHOWN: f64 = 0.005;
+    let is_like = (0..2).all(|end| (factors[end] - over_map[end]).abs() < SHOWN);
+    let [least, most] = over_map;
+    if is_like { String::new() } else { format!(", and {least:.3} to {most:.3} m over all of it") }
+}
+
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Scale { factors } => write!(
+            Self::Scale { factors, over_map } => write!(
                 f,
-                "a metre of the ground has {} on the map at its middle: slopes and ways are wrong by \
-                 as much",
-                scale(*factors)
+                "a metre of the ground has {} on the map at its middle{}: slopes and ways are wrong \
+                 by as much",
+                scale(*factors),
+                elsewhere(*factors, *over_map)
             ),
             Self::UnknownScale { system } => write!(
                 f,

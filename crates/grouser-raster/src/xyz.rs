@@ -16,8 +16,7 @@ use std::path::Path;
 use grouser_core::terrain::ElevationGrid;
 use grouser_core::units::Vec2;
 
-use crate::degrees::are_degrees;
-use crate::error::{Fault, RasterError};
+use crate::error::{Fault, Flaw, RasterError};
 use crate::heights::{Heights, checked_cells};
 use crate::{CELLS, CoordinateSystem, Raster, ReadOptions, Remark, RowOrder};
 use axis::Axis;
@@ -73,8 +72,8 @@ pub fn decode(text: impl BufRead, options: &ReadOptions) -> Result<Raster, Fault
         let (column, row) = (columns.index(points.x[at]), rows.index(points.y[at]));
         let cell = row * across + column;
         if (taken[cell / 64] >> (cell % 64)) & 1 == 1 {
-            let problem = "this point was there before: each has one height".into();
-            return Err(Fault::Line { line: points.line(at), problem });
+            let problem = "this point was there before: each has one height".to_owned();
+            return Err(Fault::Line { line: points.line(at), flaw: problem.into() });
         }
         taken[cell / 64] |= 1 << (cell % 64);
         if Some(*z) != options.missing {
@@ -87,9 +86,6 @@ pub fn decode(text: impl BufRead, options: &ReadOptions) -> Result<Raster, Fault
         south_west: Vec2::new(columns.first, rows.first),
         spacing: Vec2::new(columns.spacing, rows.spacing),
     };
-    if are_degrees(&grid.extent()) {
-        return Err(Fault::PointsInDegrees);
-    }
     let mut raster = heights.raster(grid, RowOrder::SouthFirst, CoordinateSystem::default())?;
     raster.remarks.extend(points.remarks);
     Ok(raster)
@@ -119,7 +115,8 @@ impl TextPoints {
             if text.by_ref().take(LONGEST + 1).read_until(b'\n', &mut line)? == 0 {
                 break;
             }
-            let fault = |problem: String| Fault::Line { line: number as usize, problem };
+            let fault =
+                |problem: String| Fault::Line { line: number as usize, flaw: problem.into() };
             if line.len() as u64 > LONGEST {
                 return Err(fault(format!("it is longer than {LONGEST} bytes")));
             }
@@ -137,7 +134,7 @@ impl TextPoints {
             }
             if columns.is_none() {
                 let found = TextColumns::of(first.take(), words.len())
-                    .map_err(|problem| Fault::Line { line: 1, problem })?;
+                    .map_err(|flaw| Fault::Line { line: 1, flaw })?;
                 points.remarks.extend(found.remark());
                 columns = Some(found);
             }
@@ -167,18 +164,22 @@ impl TextPoints {
 
     /// What is wrong along one axis, with the line where it shows.
     fn fault(&self, axis: &str, fault: &axis::Irregular) -> Fault {
-        let problem = match fault {
+        let flaw = match fault {
             axis::Irregular::OneValue => {
                 format!("all points have the {axis} of this one: they make a line, not a grid")
+                    .into()
             }
-            axis::Irregular::Between { spacing, .. } => format!(
-                "its {axis} is not on the grid of the other points, which are {spacing} m apart\nhint: gdal_grid makes a grid of scattered points"
+            axis::Irregular::Between { spacing, .. } => Flaw::with_hint(
+                format!(
+                    "its {axis} is not on the grid of the other points, which are {spacing} m apart"
+                ),
+                |_| "gdal_grid makes a grid of scattered points".to_owned(),
             ),
         };
         let point = match fault {
             axis::Irregular::OneValue => 0,
             axis::Irregular::Between { point, .. } => *point,
         };
-        Fault::Line { line: self.line(point), problem }
+        Fault::Line { line: self.line(point), flaw }
     }
 }

@@ -29,15 +29,13 @@ mod places;
 
 pub use key::ZoneKey;
 pub use map::{ZoneCounts, ZoneMap};
-pub use places::{check_places, check_places_on};
+pub use places::{MapFrame, check_places, check_places_on};
 
 use std::path::Path;
 
-use grouser_core::terrain::Extent;
-
 use crate::error::{Fault, RasterError};
 use crate::read::start_of;
-use crate::{Content, ReadOptions, read};
+use crate::{Content, ReadOptions, Remark, read};
 
 /// The names of a file's zones; none of a raster, whose zones have numbers.
 ///
@@ -58,39 +56,43 @@ pub fn zone_names(path: &Path) -> Result<Vec<String>, RasterError> {
 }
 
 /// Reads areas, such as those to keep out of, from GeoJSON: polygons with any properties, all of
-/// them the zone of class 0.
+/// them the zone of class 0; and what is to be remarked about their system.
 ///
-/// * `ground`: the extent of the heights that they are for
+/// * `ground`: the map that they are for
 ///
 /// # Errors
-/// [`RasterError`] with the file's name; also for a polygon whose edge crosses itself, and for
-/// areas none of which lies on the ground.
-pub fn read_areas(path: &Path, ground: &Extent) -> Result<ZoneMap, RasterError> {
+/// [`RasterError`] with the file's name; also for a polygon whose edge crosses itself, for areas of
+/// another system, and for areas none of which lies on the ground.
+pub fn read_areas(
+    path: &Path,
+    ground: &MapFrame<'_>,
+) -> Result<(ZoneMap, Option<Remark>), RasterError> {
     let areas = || {
         if !geojson::starts_so(&start_of(path)?) {
             let problem = "it does not begin with an object".to_owned();
             return Err(Fault::GeoJson { problem });
         }
         let map = geojson::read_areas(path)?;
-        map.check_place(Some(ground))?;
-        Ok(map)
+        let remark = map.check_place(Some(ground))?;
+        Ok((map, remark))
     };
     areas().map_err(|fault: Fault| RasterError::new(path, fault))
 }
 
-/// Reads zones from a file of any format, which its content tells.
+/// Reads zones from a file of any format, which its content tells; and what is to be remarked about
+/// their system.
 ///
 /// * `options`: of a raster
-/// * `ground`: the extent of the heights that the zones are for, if that is known
+/// * `ground`: the map that the zones are for, if there is one
 ///
 /// # Errors
-/// [`RasterError`] with the file's name, and what to do; also for zones none of which lies on the
-/// ground.
+/// [`RasterError`] with the file's name, and what to do; also for zones of another system than the
+/// map's, and for zones none of which lies on it.
 pub fn read_zones(
     path: &Path,
     options: &ReadOptions,
-    ground: Option<&Extent>,
-) -> Result<ZoneMap, RasterError> {
+    ground: Option<&MapFrame<'_>>,
+) -> Result<(ZoneMap, Option<Remark>), RasterError> {
     let zones = || {
         let map = if geojson::starts_so(&start_of(path)?) {
             geojson::read(path)?
@@ -98,8 +100,8 @@ pub fn read_zones(
             let options = ReadOptions { content: Content::Classes, ..*options };
             classes::of(&read(path, &options).map_err(|error| error.fault)?)?
         };
-        map.check_place(ground)?;
-        Ok(map)
+        let remark = map.check_place(ground)?;
+        Ok((map, remark))
     };
     zones().map_err(|fault: Fault| RasterError::new(path, fault))
 }

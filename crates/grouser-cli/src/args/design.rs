@@ -4,7 +4,7 @@ use clap::Args;
 use clap::builder::NonEmptyStringValueParser;
 use grouser::document::design::Measure;
 
-use super::{BalanceArgs, MODEL_OR_ALL, OutputArgs, SettingArgs};
+use super::{BalanceArgs, MODEL_OR_ALL, OutputArgs, SettingArgs, StrictArgs};
 use crate::list;
 
 #[derive(Debug, Args)]
@@ -33,6 +33,8 @@ pub(crate) struct DesignArgs {
     pub(crate) balance: BalanceArgs,
     #[command(flatten)]
     pub(crate) setting: SettingArgs,
+    #[command(flatten)]
+    pub(crate) strict: StrictArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
 }

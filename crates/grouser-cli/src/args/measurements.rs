@@ -46,8 +46,9 @@ pub(crate) struct ValidateArgs {
     #[arg(long, value_name = "NAME|FILE.csv", required_unless_present_any = ["all", "drives"])]
     pub(crate) data: Option<PathBuf>,
     /// Telemetry of drives instead: every log below a folder (CSV, Parquet, Arrow or MCAP, read as `replay`
-    /// reads one), predicted by every model from its wheel speeds and attitudes alone. A data set
-    /// of slopes by its name stands for its drives.
+    /// reads one; files of MCAP in one folder that share no topic are one drive), predicted by every
+    /// model from its wheel speeds and attitudes alone. A data set of slopes by its name stands for
+    /// its drives.
     #[arg(long, value_name = "DIR|NAME")]
     pub(crate) drives: Option<PathBuf>,
     /// The wheel that was tested: a preset or a file.

@@ -21,8 +21,9 @@ pub(crate) struct TelemetryArgs {
 #[derive(Clone, Debug, Args)]
 pub(crate) struct LogArgs {
     /// Which topics and fields of a log of messages (MCAP), or columns of a table (CSV), are which
-    /// columns of telemetry: a file or one of `grouser`, `ros`, `foxglove`, `mines`, `enav`; without
-    /// it the one of these that fits, for messages, and the names of a table's columns.
+    /// columns of telemetry: a file or one of `grouser`, `ros`, `foxglove`, `mines`, `enav`,
+    /// `baseprod`; without it the one of these that fits, for messages, and the names of a table's
+    /// columns.
     #[arg(long, value_name = "FILE|NAME")]
     pub(crate) mapping: Option<PathBuf>,
     /// The topic that is meant where several have what a mapping reads; can be repeated.

@@ -1,14 +1,17 @@
 //! `grouser design`: numbers of a rover that are the best under limits.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use grouser::answers::AnswerOptions;
 use grouser::answers::design::DesignQuestion;
 use grouser::document::LoadedDesign;
 use grouser::document::design::Measure;
 
 use crate::args::{DesignArgs, SettingArgs};
 use crate::failure::Failure;
-use crate::inputs;
 use crate::output::answer::give;
 use crate::output::folder::OutputFolder;
+use crate::{inputs, output};
 
 pub(crate) fn run(args: &DesignArgs) -> Result<(), Failure> {
     let folder = OutputFolder::for_args(&args.output)?;
@@ -20,9 +23,25 @@ pub(crate) fn run(args: &DesignArgs) -> Result<(), Failure> {
     let (task, by_models) = tasks(args)?;
     let (is_nominal, seed) = (args.nominal, args.seed.unwrap_or(1));
     let question = DesignQuestion { task, is_nominal, seed, trade, by_models };
-    let mut answer = question.answer("design")?;
+    let mut answer = with_count(|go_on| {
+        let (has_page, is_strict) = (folder.is_some(), args.strict.strict);
+        question.answer("design", &AnswerOptions { has_page, is_strict, go_on })
+    })?;
     answer.next = vec!["grouser heading --rover rover.toml".to_owned()];
     give(&answer, &repeat(args), folder, args.output.format)
+}
+
+/// Searches with a line that counts the designs that were measured: nobody knows how many it takes.
+/// Ctrl-C ends the program.
+fn with_count<T>(search: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T) -> T {
+    let (line, count) = (output::waiting_line("designs measured"), AtomicU64::new(0));
+    let found = search(&|| {
+        let count = count.fetch_add(1, Ordering::Relaxed) + 1;
+        line.set_message(format!("{count} designs measured"));
+        true
+    });
+    line.finish_and_clear();
+    found
 }
 
 /// Two measures that may be traded.

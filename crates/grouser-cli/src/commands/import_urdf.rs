@@ -1,7 +1,5 @@
 //! `grouser import-urdf`: a rover's document of the robot that ROS knows.
 
-use std::path::{Path, PathBuf};
-
 use grouser::document::reading::four_digits;
 use grouser::document::urdf::{self, FoundWheel, UrdfError, UrdfOptions};
 use grouser::document::{self, Overrides, Source, escape};
@@ -14,8 +12,6 @@ use crate::output::{self, file};
 
 /// The largest file [bytes]: meshes stand in files of their own.
 const LARGEST: u64 = 16 << 20;
-/// The largest mesh [bytes].
-const LARGEST_MESH: u64 = 64 << 20;
 
 pub(crate) fn run(args: &ImportUrdfArgs) -> Result<(), Failure> {
     if let Some(out) = &args.out {
@@ -24,11 +20,7 @@ pub(crate) fn run(args: &ImportUrdfArgs) -> Result<(), Failure> {
     let name = escape::path(&args.file);
     let refused = |what: String| Failure::Usage(format!("{name}: {what}"));
     let bytes = document::file::read(&args.file, LARGEST).map_err(|it| refused(it.to_string()))?;
-    let mesh = |mesh: &str| {
-        let places = places_of_mesh(&args.file, mesh);
-        places.iter().find_map(|place| document::file::read(place, LARGEST_MESH).ok())
-    };
-    let found = urdf::import(bytes, &options(args), &mesh)
+    let found = urdf::import(bytes, &options(args), &urdf::meshes_beside(&args.file))
         .map_err(|error| refused(escape::visible(&with_flags(&error)).into_owned()))?;
     let source = Source::text(format!("the rover of {name}"), found.toml.clone());
     document::read_rover(&source, &Overrides::none())?;
@@ -77,24 +69,6 @@ fn table(wheels: &[FoundWheel]) -> Text {
     aligned(&header.map(str::to_owned), &rows)
 }
 
-/// Where a mesh may be: as ROS finds it by its package, and beside the URDF and in folders above it.
-fn places_of_mesh(urdf: &Path, mesh: &str) -> Vec<PathBuf> {
-    /// How far above.
-    const ABOVE: usize = 4;
-    if let Some(path) = mesh.strip_prefix("file://") {
-        return vec![PathBuf::from(path)];
-    }
-    let in_package = ["package://", "model://"].iter().find_map(|it| mesh.strip_prefix(it));
-    let whole = in_package.unwrap_or(mesh);
-    let within = in_package.and_then(|it| it.split_once('/')).map(|(_, within)| within);
-    let folder = urdf.parent().unwrap_or(Path::new(""));
-    let above = folder.ancestors().take(ABOVE);
-    let names = move |folder: &Path| {
-        [Some(whole), within].into_iter().flatten().map(|it| folder.join(it)).collect::<Vec<_>>()
-    };
-    above.flat_map(names).collect()
-}
-
 /// An error with the flags that help.
 fn with_flags(error: &UrdfError) -> String {
     let hint = match error {
@@ -103,7 +77,7 @@ fn with_flags(error: &UrdfError) -> String {
             "\nhint: --wheels LINK names one that is a wheel, and can be repeated; * stands for any \
              letters; --wheel-radius-m and --wheel-width-m give what their shapes do not tell"
         }
-        UrdfError::TooManyWheels { .. } => {
+        UrdfError::TooManyWheels { .. } | UrdfError::Tracks { .. } => {
             "\nhint: --wheels LINK names one that is a wheel, and can be repeated; * stands for any \
              letters"
         }

@@ -7,8 +7,7 @@ use grouser::answers::map::MapQuestion;
 use grouser::document::{self, LoadedScenario, escape};
 use grouser::studies::mobility::{CourseChoice, Ground};
 use grouser::studies::verdict::SlopeStudy;
-use grouser_raster::zones::geojson::compare_system_of;
-use grouser_raster::{Fault, Raster, RasterError, ReadOptions};
+use grouser_raster::{Fault, Raster, RasterError, ReadOptions, Remark};
 
 use super::card::{rim_speed, rule};
 use super::{balanced, check_numbers, refuse_sampled_keys};
@@ -76,14 +75,11 @@ pub(super) fn dem(
     Ok(raster)
 }
 
-/// Checks that places of GeoJSON are in the system of the map that they are for, and says where that
-/// cannot be done.
-pub(super) fn check_system(file: &Path, map: &Raster) -> Result<(), Failure> {
-    let remark = compare_system_of(file, &map.coordinates)?;
+/// Says what is to be remarked about a file of places.
+pub(super) fn note(file: &Path, remark: Option<&Remark>) {
     output::notes(
         remark.map(|it| format!("{}: {}", escape::path(file), escape::line(&it.to_string()))),
     );
-    Ok(())
 }
 
 impl From<RasterError> for Failure {

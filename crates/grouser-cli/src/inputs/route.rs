@@ -11,13 +11,12 @@ use grouser::document::{LoadedScenario, escape, study};
 use grouser::studies::mobility::Ground;
 use grouser::studies::route::{Ends, Limits, Line, LineError, RouteStudy};
 use grouser::studies::verdict::SlopeStudy;
-use grouser::terrain::Extent;
 use grouser::units::Vec2;
+use grouser_raster::Raster;
 use grouser_raster::zones::ZoneCounts;
-use grouser_raster::{Raster, RasterError};
 
 use super::card::{rim_speed, rule};
-use super::map::{check_system, dem};
+use super::map::{dem, note};
 use super::{balanced, refuse_sampled_keys, single};
 use crate::args::RouteArgs;
 use crate::failure::Failure;
@@ -56,7 +55,6 @@ impl RouteInputs {
 }
 
 pub(crate) fn route(args: &RouteArgs) -> Result<RouteInputs, Failure> {
-    let asked = asked(args)?;
     let (rover, soil) = (args.parts.rover.as_ref(), args.parts.soil.as_ref());
     let (setting, balance) = (&args.setting, &args.balance);
     let scenario = balanced("route", args.scenario.as_deref(), rover, soil, setting, balance)?;
@@ -69,30 +67,24 @@ pub(crate) fn route(args: &RouteArgs) -> Result<RouteInputs, Failure> {
     let limits = limits(args, &mobility)?;
     let raster = dem(&args.dem, args.max_cells, args.missing_m)?;
     let mut study = RouteStudy { mobility, limits, keep_out: None };
-    for file in args.keep_out.iter().chain(&args.along) {
-        check_system(file, &raster)?;
-    }
+    let asked = asked(args, &raster)?;
     let mut given = Vec::new();
     let name = |file: &Path| file.display().to_string();
     if let Some(file) = &args.keep_out {
-        let (with_areas, ZoneCounts { there, used }) =
-            study.keeping_out_of(file, &raster.grid.extent())?;
+        let (with_areas, ZoneCounts { there, used }, remark) =
+            study.keeping_out_of(file, &raster.frame())?;
+        note(file, remark.as_ref());
         study = with_areas;
         given.push(GivenFile::new(name(file), FileContent::KeepOut, there, used));
     }
     if let (Some(file), Asked::Along(line)) = (&args.along, &asked) {
-        // Places off the map are refused before anything is computed.
-        if let Some(extent) = Extent::around(line.places()) {
-            let on_ground = grouser_raster::check_places_on(&raster.grid.extent(), &extent);
-            on_ground.map_err(|fault| RasterError { file: file.clone(), fault })?;
-        }
         let places = line.places().len() as u64;
         given.push(GivenFile::new(name(file), FileContent::Way, places, places));
     }
     Ok(RouteInputs { scenario, study, asked, raster, given })
 }
 
-fn asked(args: &RouteArgs) -> Result<Asked, Failure> {
+fn asked(args: &RouteArgs, raster: &Raster) -> Result<Asked, Failure> {
     let yaw = match &args.yaw_deg {
         Some(yaw) => {
             let yaw = single("--yaw-deg", yaw, &study::START_YAW_DEG)?;
@@ -101,7 +93,8 @@ fn asked(args: &RouteArgs) -> Result<Asked, Failure> {
         None => None,
     };
     if let Some(file) = &args.along {
-        let places = grouser_raster::read_line_string(file)?;
+        let (places, remark) = grouser_raster::read_line_string(file, &raster.frame())?;
+        note(file, remark.as_ref());
         let line = Line::through(places, yaw);
         let named = |error: LineError| Failure::Usage(format!("{}: {error}", escape::path(file)));
         return line.map(Asked::Along).map_err(named);

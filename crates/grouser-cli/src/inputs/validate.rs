@@ -1,17 +1,15 @@
 //! The inputs of validations: measured tests or recorded drives, and what predicts them.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use grouser::answers::validation::{
     DriveValidationQuestion, SlopeValidationQuestion, ValidationQuestion,
 };
-use grouser::document::given_file::GivenFile;
 use grouser::document::measurements::{self, Choice};
-use grouser::document::{Kind, LoadedScenario, Source, escape, presets};
-use grouser::studies::drive_validation::{DriveRecorder, RecordedDrive};
-use grouser_logs::TelemetryLog;
+use grouser::document::{Kind, LoadedScenario, Source, presets};
+use grouser_logs::{DriveFolder, DriveFolderError};
 
-use super::{StandInputs, balanced, stand, telemetry};
+use super::{StandInputs, balanced, log_options, stand};
 use crate::args::{BalanceArgs, SettingArgs, ValidateArgs};
 use crate::failure::Failure;
 
@@ -105,119 +103,27 @@ pub(crate) fn drive_validation(
         ));
     };
     let scenario = on_slopes(rover, soil, &args.setting)?;
-    let logs = logs_below(folder)?;
-    let (mut drives, mut notes, mut first_error) = (Vec::new(), Notes::default(), None);
-    let (mut given, mut rows, mut used) = (Vec::new(), 0.0, 0.0);
-    for path in &logs {
-        let name = path.strip_prefix(folder).unwrap_or(path).to_string_lossy().into_owned();
-        match drive(path, &name, args, &scenario) {
-            Ok((drive, log)) => {
-                rows += drive.records as f64;
-                used += log.share_used() * drive.records as f64;
-                for note in log.notes() {
-                    notes.add(&name, note);
-                }
-                let mut files = log.given().into_iter();
-                given.extend(files.next().map(|log| GivenFile { file: name, ..log }));
-                given.extend(files.filter(|it| !given.contains(it)).collect::<Vec<_>>());
-                drives.push(drive);
-            }
-            Err(error) => {
-                notes.add(&name, left_out(&error, path));
-                first_error = first_error.or(Some(error));
-            }
-        }
-    }
-    if let (true, Some(error)) = (drives.is_empty(), first_error) {
-        return Err(error);
-    }
-    let (folder, notes) = (folder.display().to_string(), notes.sentences());
-    let share = if rows > 0.0 { used / rows } else { 1.0 };
-    Ok((DriveValidationQuestion { folder, scenario, drives, given, notes }, share))
+    let options = log_options(&args.telemetry.log)?.with_odometry(args.telemetry.odometry());
+    let DriveFolder { drives, given, notes, share_used, .. } =
+        DriveFolder::read(folder, &scenario.value, &options)?;
+    let folder = folder.display().to_string();
+    Ok((DriveValidationQuestion { folder, scenario, drives, given, notes }, share_used))
 }
 
-/// Why a log is left out, without its name, which stands before every note.
-fn left_out(error: &Failure, path: &Path) -> String {
-    let text = error.to_string();
-    let why = text.lines().next().unwrap_or_default();
-    let after = why.strip_prefix(&escape::path(path)).and_then(|it| it.split_once(": "));
-    format!("left out: {}", after.map_or(why, |(_, why)| why))
-}
-
-/// Notes on logs: what is the same of many is one note.
-#[derive(Default)]
-struct Notes(Vec<(String, String, usize)>);
-
-impl Notes {
-    fn add(&mut self, log: &str, note: String) {
-        match self.0.iter_mut().find(|(_, known, _)| *known == note) {
-            Some((.., more)) => *more += 1,
-            None => self.0.push((log.to_owned(), note, 0)),
-        }
-    }
-
-    fn sentences(self) -> Vec<String> {
-        let sentence = |(log, note, more): (String, String, usize)| match more {
-            0 => format!("{log}: {note}"),
-            more => format!("{log} and {more} more: {note}"),
+impl From<DriveFolderError> for Failure {
+    fn from(error: DriveFolderError) -> Self {
+        let hint = match error {
+            DriveFolderError::Log(error) => return error.into(),
+            DriveFolderError::Unreadable { folder, error } => {
+                return Self::at("cannot look into", &folder)(error);
+            }
+            DriveFolderError::NoFolder(_) => {
+                let names: Vec<&str> = presets(Kind::DataSet).map(|it| it.name).collect();
+                let names = names.join(", ");
+                format!("a folder has a log of each drive; data sets by name are {names}")
+            }
+            _ => format!("names of logs end with .{}", DriveFolder::ENDINGS.join(", .")),
         };
-        self.0.into_iter().map(sentence).collect()
+        Self::Usage(format!("--drives {error}\nhint: {hint}"))
     }
-}
-
-/// A drive, and its log, read to its end.
-fn drive(
-    path: &Path,
-    name: &str,
-    args: &ValidateArgs,
-    scenario: &LoadedScenario,
-) -> Result<(RecordedDrive, TelemetryLog), Failure> {
-    let mut log = telemetry(&[path.to_owned()], &args.telemetry, &scenario.value.rover, None)?;
-    let mut recorder = DriveRecorder::new(&scenario.value);
-    while let Some(record) = log.next_record()? {
-        recorder.update(record);
-    }
-    Ok((recorder.finish(name.to_owned()), log))
-}
-
-/// What the names of logs end with.
-const LOGS: [&str; 7] = ["csv", "gz", "parquet", "arrow", "arrows", "feather", "mcap"];
-
-/// The logs below a folder, by their paths.
-fn logs_below(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    if !folder.is_dir() {
-        let names: Vec<&str> = presets(Kind::DataSet).map(|it| it.name).collect();
-        return Err(Failure::Usage(format!(
-            "--drives {}: there is no such folder\nhint: a folder has a log of each drive; data \
-             sets by name are {}",
-            escape::path(folder),
-            names.join(", ")
-        )));
-    }
-    let (mut logs, mut folders, mut others) = (Vec::new(), vec![folder.to_owned()], 0);
-    while let Some(folder) = folders.pop() {
-        let unreadable = || Failure::at("cannot look into", &folder);
-        for entry in std::fs::read_dir(&folder).map_err(unreadable())? {
-            let entry = entry.map_err(unreadable())?;
-            let ending = entry.path().extension().map(|it| it.to_string_lossy().to_lowercase());
-            // A link to a folder may lead back here.
-            if entry.file_type().map_err(unreadable())?.is_dir() {
-                folders.push(entry.path());
-            } else if ending.is_some_and(|it| LOGS.contains(&it.as_str())) {
-                logs.push(entry.path());
-            } else {
-                others += 1;
-            }
-        }
-    }
-    logs.sort();
-    if logs.is_empty() {
-        return Err(Failure::Usage(format!(
-            "--drives {}: no log in it or below, among {others} files\nhint: names of logs end with \
-             .{}",
-            escape::path(folder),
-            LOGS.join(", .")
-        )));
-    }
-    Ok(logs)
 }

@@ -42,8 +42,63 @@ fn two_measures_are_traded_and_other_models_choose_for_themselves() {
         column(&found["trade"], "wheel_mass_kg").into_iter().map(number).collect();
     assert_eq!(masses.len(), 9);
     assert!(masses.windows(2).all(|pair| pair[0] >= pair[1] - 1e-6), "{masses:?}");
+    assert!(column(&found["designs"], "flags").iter().all(|flags| flags.is_array()));
     let rows = column(&found["designs"], "row");
     assert_eq!(rows.iter().filter(|row| **row == "found by it").count(), 3, "{rows:?}");
+}
+
+#[test]
+fn wheels_are_drawn_along_the_trade_off() {
+    let place = Place::new();
+    place.results(&format!("{LIGHTER} --trade energy_j_per_m,wheel_mass_kg --out found"));
+    let (drawing, page) = (place.read("found/wheels.svg"), place.read("found/report.html"));
+    let table = place.read("found/trade.csv");
+    assert_eq!(table.lines().count(), 10, "{table}");
+    // Each wheel says how wide it is.
+    assert_eq!(drawing.matches(" mm</text>").count(), 9 * 3, "{drawing}");
+    assert!(page.contains("The first wheel of each design along the trade-off"), "{page}");
+    assert!(page.contains("Checked on the soil as written"), "{page}");
+}
+
+#[test]
+fn a_design_that_names_files_is_repeated_from_its_folder() {
+    let place = Place::new();
+    place.write("own-rover.toml", place.results("presets hakuto"));
+    place.write("own-soil.toml", place.results("presets toyoura"));
+    place.write(
+        "task.toml",
+        "schema = \"design/1\"\nminimise = \"wheel_mass_kg\"\n\
+         [free]\n\"rover.wheel_unit.wheel.radius_m\" = [0.06, 0.16]\n\
+         [subject_to]\nsinkage_ratio = { at_most = 0.15 }\n\
+         [choose]\nrover = [\"own-rover.toml\", \"hakuto-flight\"]\n\
+         [[also]]\nsoil = \"own-soil.toml\"\ngravity_m_s2 = \"moon\"\n",
+    );
+    let found = place.json("design task.toml --out found");
+    let again = place.json("design found/design.toml");
+    for key in ["objective", "constraints", "certificate"] {
+        assert_eq!(again[key], found[key], "{key}");
+    }
+    // All commands take the rover.
+    for line in [
+        "heading --rover found/rover.toml --slope-deg 5 --nominal",
+        "card --rover found/rover.toml --out card --samples 8",
+        "check found/rover.toml",
+    ] {
+        assert_eq!(place.line(line).code(), 0, "{line}");
+    }
+}
+
+#[test]
+fn a_design_outside_of_domains_is_said_to_be() {
+    let place = Place::new();
+    let narrow = "--set design.free.rover.wheel_unit.wheel.radius_m=[0.06,0.08] \
+                  --set design.subject_to.sinkage_ratio.at_most=0.3 \
+                  --set design.subject_to.limit_slope_deg.at_least=10";
+    let words = place.results(&format!("{LIGHTER} {narrow}"));
+    assert!(words.contains("outside what its model and soil were tested for: "), "{words}");
+    assert!(words.contains("radius-outside: "), "{words}");
+    let strict = place.line(&format!("{LIGHTER} {narrow} --strict"));
+    assert!(strict.code() != 0 && strict.stderr.contains("radius-outside"), "{}", strict.stderr);
 }
 
 #[test]
@@ -57,7 +112,11 @@ fn what_cannot_be_is_refused_in_words() {
         }
     };
     let steep = "design.subject_to.limit_slope_deg.at_least=35";
-    ends(&format!("{LIGHTER} --set {steep}"), 1, &["limit_slope_deg ≥ 35", RADIUS, "31.01°"]);
+    ends(
+        &format!("{LIGHTER} --set {steep}"),
+        1,
+        &["35° of this soil", "subject_to.limit_slope_deg", "31.01°"],
+    );
     ends(&format!("{LIGHTER} --trade wheel_mass_kg"), 2, &["two measures"]);
     ends(&format!("{LIGHTER} --trade wheel_mass_kg,mass"), 2, &["energy_j_per_m"]);
     ends(&format!("{LIGHTER} --nominal --seed 2"), 2, &["--seed"]);

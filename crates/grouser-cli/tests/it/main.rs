@@ -41,6 +41,7 @@ mod soil_zones;
 mod telemetry;
 mod terminal;
 mod terrain;
+mod urdf;
 mod validate;
 mod validity;
 mod withdrawn_names;

@@ -107,6 +107,26 @@ fn what_is_odd_about_heights_is_said_with_the_flag_that_helps() {
     assert!(refused.contains("column lon is in degrees"), "{refused}");
 }
 
+/// A system that stands in notes beside the map is that of the files that are written.
+#[test]
+fn the_system_beside_a_map_is_written_with_its_bands() {
+    let place = Place::new();
+    let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("../grouser-raster/tests/fixtures");
+    fs::copy(fixtures.join("no-place.tif"), place.file("site.tif")).expect("a copy");
+    let place_of = "<GeoTransform>500000, 2, 0, 20000, 0, -2</GeoTransform>";
+    for (text, code) in [("EPSG:32633", Some(32633)), (SITE, None)] {
+        let system = text.replace('"', "&quot;");
+        let notes = format!("<PAMDataset><SRS>{system}</SRS>{place_of}</PAMDataset>");
+        place.write("site.tif.aux.xml", notes);
+        let map = place.json("map site.tif --samples 2 --out map --force");
+        let written = band(&map, &place, "slope_deg").coordinates;
+        assert_eq!((written.epsg(), written.to_text().as_deref()), (code, Some(text)));
+    }
+}
+
+/// A system of a site, without a code.
+const SITE: &str = r#"PROJCS["site",GEOGCS["Moon",DATUM["Moon",SPHEROID["Moon",1737400,0]],PRIMEM["0",0],UNIT["degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],PARAMETER["central_meridian",15],PARAMETER["scale_factor",1],PARAMETER["false_easting",500000],PARAMETER["false_northing",0],UNIT["metre",1]]"#;
+
 /// A map of hills has all its files, in the coordinates of the heights; places without a height
 /// have no number.
 #[test]

@@ -1,6 +1,9 @@
 //! Zones of soil on ground with heights: from classes and polygons, with their legend, in runs,
 //! missions and campaigns.
 
+use std::fs;
+use std::path::Path;
+
 use serde_json::Value;
 
 use crate::bad_input::check_is_refusal;
@@ -144,6 +147,42 @@ fn the_guide_s_example_drives_over_three_soils() {
     let set = "--set scenario.terrain.zone.0.soil.friction_angle_deg=10";
     let weaker = place.json(&format!("{line} {set}").replace("--out run", ""));
     assert!((number(&weaker["final"]["x_m"]) - number(&run["final"]["x_m"])).abs() > 1e-3);
+}
+
+/// A raster of classes is in the system of the map, or refused by both names.
+#[test]
+fn classes_of_another_system_than_the_maps_are_refused() {
+    let place = Place::new();
+    let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("../grouser-raster/tests/fixtures");
+    let copy =
+        |from: &str, to: &str| fs::copy(fixtures.join(from), place.file(to)).expect("a copy");
+    copy("tiled-deflate-f32.tif", "map.tif");
+    copy("classes-palette-u8.tif", "classes.tif");
+    let head = "schema = \"scenario/1\"\nname = \"zones\"\nduration_s = 1.0\n[terrain]\n";
+    let classes = grouser_raster::read_zones(
+        &place.file("classes.tif"),
+        &grouser_raster::ReadOptions::default(),
+        None,
+    )
+    .expect("classes")
+    .0;
+    let rows: String = classes
+        .keys()
+        .iter()
+        .map(|class| format!("[[terrain.zone]]\nclass = {class}\nsoil = \"grc-1\"\n"))
+        .collect();
+    place.write(
+        "zones.toml",
+        format!("{head}file = \"map.tif\"\nsoil_file = \"classes.tif\"\nstart_m = [500012.0, 5200020.0]\n{rows}"),
+    );
+    let line = "traverse zones.toml --simulation quasi-steady";
+    let own = place.line(line);
+    assert_eq!((own.code(), own.stderr.contains("not looked at")), (0, false), "{}", own.stderr);
+    place.write("classes.tif.aux.xml", "<PAMDataset><SRS>EPSG:32632</SRS></PAMDataset>");
+    let refused = check_is_refusal(&place.line(line), 2);
+    let systems = "coordinates of the system EPSG:32632, and the map those of EPSG:32633";
+    assert!(refused.contains(systems), "{refused}");
+    assert!(refused.contains("hint: gdalwarp -r near -t_srs EPSG:32633 "), "{refused}");
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! The plane under a wheel on uneven ground.
 
-use super::Patch;
+use nalgebra::Matrix3;
+
+use super::{HeightField, Patch};
 use crate::units::{Vec2, Vec3};
 
 /// How far ground counts for a wheel: a rectangle about the point below its hub, level.
@@ -81,6 +83,62 @@ impl Footprint {
         let uphill = along * self.forward + aside * self.left();
         let normal = Vec3::new(-uphill.x, -uphill.y, 1.0).normalize();
         Patch { height: mean, normal }
+    }
+}
+
+/// A frame in which ground is a height over x and y, as the world of another engine has it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroundFrame {
+    origin: Vec3,
+    axes: Matrix3<f64>,
+}
+
+impl GroundFrame {
+    /// The frame of a ground.
+    ///
+    /// * `origin`: in the world [m]
+    /// * `axes`: as columns of a matrix, row by row
+    #[must_use]
+    pub fn new(origin: [f64; 3], axes: [f64; 9]) -> Self {
+        Self { origin: origin.into(), axes: Matrix3::from_row_slice(&axes) }
+    }
+
+    /// The footprint of a wheel, and its hub, in this frame.
+    ///
+    /// * `hub`, `axle`: in the world
+    /// * `shearing_radius`, `width`: of the wheel [m]
+    #[must_use]
+    pub fn footprint(
+        &self,
+        hub: Vec3,
+        axle: Vec3,
+        shearing_radius: f64,
+        width: f64,
+    ) -> (Footprint, Vec3) {
+        let footprint = Footprint::of_wheel(self.axes.tr_mul(&axle), shearing_radius, width);
+        (footprint, self.axes.tr_mul(&(hub - self.origin)))
+    }
+
+    /// A plane as the world sees it: its normal, and a hub's distance from it [m].
+    ///
+    /// * `fit`, `hub`: in this frame
+    #[must_use]
+    pub fn plane(&self, fit: Patch, hub: Vec3) -> (Vec3, f64) {
+        (self.axes * fit.normal, (hub.z - fit.height) * fit.normal.z)
+    }
+
+    /// The plane under a wheel on a height field, as the world sees it.
+    ///
+    /// * `footprint`, `hub`: in this frame
+    #[must_use]
+    pub fn plane_on(
+        &self,
+        field: &HeightField<'_>,
+        footprint: Footprint,
+        hub: Vec3,
+    ) -> (Vec3, f64) {
+        let heights = footprint.points(hub.xy()).map(|point| field.height(point));
+        self.plane(footprint.fit(&heights), hub)
     }
 }
 

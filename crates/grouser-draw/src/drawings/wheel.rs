@@ -3,6 +3,7 @@
 use crate::sheet::{Anchor, Place, Sheet};
 use grouser_core::contact::stress::{RimStress, StressField};
 use grouser_core::elementary::wide;
+use grouser_core::wheel::Wheel;
 
 use super::pen::{Pen, arc, around, circle, degrees};
 use super::subject::WheelInSoil;
@@ -53,21 +54,30 @@ fn ground(pen: &mut Pen, field: &StressField, wheel: &WheelInSoil<'_>) {
 fn rim(pen: &mut Pen, wheel: &WheelInSoil<'_>) {
     let shape = &wheel.contact.wheel;
     let inner = RADIUS * shape.radius / shape.shearing_radius();
-    if let Some(grousers) = shape.grousers {
-        for bar in 0..grousers.count {
-            let angle = std::f64::consts::TAU * f64::from(bar) / f64::from(grousers.count);
-            let ends = [inner, RADIUS].map(|radius| around(HUB, radius, angle));
-            pen.line(ends, Role::Grouser, 0.5);
-        }
-    }
-    pen.outlined(circle(HUB, inner), Role::Paper, Role::Rim);
-    pen.area(circle(HUB, 0.9), Role::Ink);
+    from_its_side(pen, shape, HUB, RADIUS, 0.9);
     // The sense of rotation.
     let turn = [3.6, 2.65];
     pen.arc(HUB, 0.8 * inner, turn, Role::Ink);
     let tip = around(HUB, 0.8 * inner, turn[1]);
     pen.arrow(around(HUB, 0.8 * inner, turn[1] + 0.12), tip, Role::Ink, 0.3);
     pen.symbol("ω", "", [HUB[0], HUB[1] - 0.8 * inner + 5.0], Anchor::Middle, Role::Ink);
+}
+
+/// A wheel with its grousers and its hub.
+///
+/// * `reach`: its shearing radius on paper [mm]
+/// * `dot`: radius of the hub on paper [mm]
+pub(super) fn from_its_side(pen: &mut Pen, shape: &Wheel, hub: Place, reach: f64, dot: f64) {
+    let inner = reach * shape.radius / shape.shearing_radius();
+    if let Some(grousers) = shape.grousers {
+        for bar in 0..grousers.count {
+            let angle = std::f64::consts::TAU * f64::from(bar) / f64::from(grousers.count);
+            let ends = [inner, reach].map(|radius| around(hub, radius, angle));
+            pen.line(ends, Role::Grouser, 0.5);
+        }
+    }
+    pen.outlined(circle(hub, inner), Role::Paper, Role::Rim);
+    pen.area(circle(hub, dot), Role::Ink);
 }
 
 fn stresses(pen: &mut Pen, field: &StressField) {

@@ -2,8 +2,8 @@
 
 use super::super::design::{DesignAim, DesignSettings, LimitEnds, Measure};
 use super::super::field::{
-    At, DEG, Field, Fill, J_PER_M, KG, Keyed, Keyword, M, NM, ONE, Shape, Table, Unit, field, list,
-    note, number, table, word, words,
+    A, At, DEG, Field, Fill, J_PER_M, KG, Keyed, Keyword, M, NM, ONE, Shape, Table, Unit, field,
+    list, note, number, table, word, words,
 };
 use super::about::{assumed, gravity, model, notes, purpose, schema, source};
 use super::run::{OfScenario, Run, SLOPE};
@@ -69,6 +69,7 @@ const MINIMISE: &[Keyword<DesignSettings>] = &[
     least(Measure::SinkageRatio, |all| all.aim = DesignAim::One(Measure::SinkageRatio)),
     least(Measure::Crab, |all| all.aim = DesignAim::One(Measure::Crab)),
     least(Measure::Torque, |all| all.aim = DesignAim::One(Measure::Torque)),
+    least(Measure::Current, |all| all.aim = DesignAim::One(Measure::Current)),
     word("weighted_sum", "The sum of measures with their `weights`.", |all| {
         all.aim = DesignAim::WeightedSum;
     }),
@@ -106,6 +107,7 @@ static WEIGHTS: Table<DesignSettings> = Table {
         }),
         weight(Measure::Crab, |all| Some(&mut all.weights[Measure::Crab.place()])),
         weight(Measure::Torque, |all| Some(&mut all.weights[Measure::Torque.place()])),
+        weight(Measure::Current, |all| Some(&mut all.weights[Measure::Current.place()])),
         weight(Measure::WheelMass, |all| Some(&mut all.weights[Measure::WheelMass.place()])),
     ],
 };
@@ -127,6 +129,8 @@ static LIMITS: Table<DesignSettings> = Table {
         limit(Measure::EnergyPerMetre, &ENERGY),
         limit(Measure::Crab, &CRAB),
         limit(Measure::Torque, &TORQUE),
+        limit(Measure::BrakingTorque, &BRAKING_TORQUE),
+        limit(Measure::Current, &CURRENT),
         limit(Measure::TippingSlope, &TIPPING_SLOPE),
         limit(Measure::Width, &WIDTH),
         limit(Measure::WheelMass, &WHEEL_MASS),
@@ -152,6 +156,10 @@ static CRAB: At<DesignSettings, LimitEnds> =
     At { inner: &ANGLE, at: |all| &mut all.limits[Measure::Crab.place()] };
 static TORQUE: At<DesignSettings, LimitEnds> =
     At { inner: &MOMENT, at: |all| &mut all.limits[Measure::Torque.place()] };
+static BRAKING_TORQUE: At<DesignSettings, LimitEnds> =
+    At { inner: &MOMENT, at: |all| &mut all.limits[Measure::BrakingTorque.place()] };
+static CURRENT: At<DesignSettings, LimitEnds> =
+    At { inner: &AMPERES, at: |all| &mut all.limits[Measure::Current.place()] };
 static TIPPING_SLOPE: At<DesignSettings, LimitEnds> =
     At { inner: &ANGLE, at: |all| &mut all.limits[Measure::TippingSlope.place()] };
 static WIDTH: At<DesignSettings, LimitEnds> =
@@ -163,6 +171,7 @@ static ANGLE: Table<LimitEnds> = Table { doc: ENDS, fields: &[at_least(DEG), at_
 static RATIO: Table<LimitEnds> = Table { doc: ENDS, fields: &[at_least(ONE), at_most(ONE)] };
 static WORK: Table<LimitEnds> = Table { doc: ENDS, fields: &[at_least(J_PER_M), at_most(J_PER_M)] };
 static MOMENT: Table<LimitEnds> = Table { doc: ENDS, fields: &[at_least(NM), at_most(NM)] };
+static AMPERES: Table<LimitEnds> = Table { doc: ENDS, fields: &[at_least(A), at_most(A)] };
 static LENGTH: Table<LimitEnds> = Table { doc: ENDS, fields: &[at_least(M), at_most(M)] };
 static MASS: Table<LimitEnds> = Table { doc: ENDS, fields: &[at_least(KG), at_most(KG)] };
 

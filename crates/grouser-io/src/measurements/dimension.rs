@@ -79,13 +79,32 @@ pub(super) fn is_unit(name: &str) -> bool {
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 impl Dimension {
-    /// The size of a unit in SI.
+    /// The size of a unit in SI. Products may be written with a dot of any kind, a star, a space or
+    /// a hyphen, in either order: `kgf·cm`, `kgf cm`, `cm.kgf`.
     ///
     /// # Errors
     /// The names of the units that measure this, where the name is not one of them.
     pub fn size_of(self, unit: &str) -> Result<f64, Vec<&'static str>> {
         let fitting = UNITS.iter().filter(|(_, of, _)| *of == self);
-        let found = fitting.clone().find(|(name, ..)| *name == unit);
+        let dotted = unit.replace(['·', '⋅', '*', ' ', '-'], ".");
+        let turned = dotted.split_once('.').map(|(first, second)| format!("{second}.{first}"));
+        let is_it = |name: &str| name == unit || name == dotted || turned.as_deref() == Some(name);
+        let found = fitting.clone().find(|(name, ..)| is_it(name));
         found.map(|(_, _, size)| *size).ok_or_else(|| fitting.map(|(name, ..)| *name).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_are_written_in_many_ways() {
+        for name in ["kgf.cm", "kgf·cm", "kgf*cm", "kgf cm", "kgf-cm", "cm·kgf"] {
+            assert_eq!(Dimension::Moment.size_of(name), Ok(9.806_65e-2), "{name}");
+        }
+        assert_eq!(Dimension::Moment.size_of("in·lbf"), Dimension::Moment.size_of("lbf.in"));
+        assert_eq!(Dimension::Moment.size_of("N·m"), Ok(1.0));
+        assert!(Dimension::Force.size_of("kgf.cm").is_err());
     }
 }

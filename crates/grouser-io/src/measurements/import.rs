@@ -8,7 +8,7 @@ use super::super::check::nearest;
 use super::super::escape;
 use super::bevameter_columns::{PLATE_COLUMNS, SHEAR_COLUMNS};
 use super::columns::{self, COLUMNS, Column, Meaning};
-use super::dimension::Dimension;
+use super::dimension::{Dimension, is_unit};
 use super::error::{MeasurementError, MeasurementProblem as Problem, QUOTED};
 use super::limits::Limits;
 use super::row::name_of;
@@ -115,7 +115,8 @@ fn known(name: &str) -> Option<&'static Column> {
 impl Mapping {
     /// Reads `ours=theirs`, `ours=theirs:unit` or, with the other sign, `ours=-theirs:unit`.
     ///
-    /// Without a unit their column is in the unit of our column's name.
+    /// Without a unit their column is in the one that its name ends with in brackets, `W [kgf]`, else
+    /// in that of our column's name.
     ///
     /// # Errors
     /// A sentence: not written so, no such column of ours, a unit of something else.
@@ -140,12 +141,23 @@ impl Mapping {
             Some((name, unit)) => {
                 (name.trim(), size_of(unit.trim(), column)? / column.unit.to_si(1.0))
             }
-            None => (theirs, 1.0),
+            None => (theirs, own_unit(theirs, column)?),
         };
         if theirs.is_empty() {
             return Err(format!("'{text}' names no column of the file"));
         }
         Ok(Self { column, theirs: theirs.to_owned(), factor: sign * size })
+    }
+}
+
+/// The factor to ours from the unit in brackets at the end of a name, if there is one.
+fn own_unit(theirs: &str, column: &Column) -> Result<f64, String> {
+    let inside = theirs.strip_suffix([']', ')']).and_then(|it| it.rsplit_once(['[', '(']));
+    let unit = inside.map(|(_, unit)| unit.trim()).filter(|_| dimension(column) != Dimension::Text);
+    match unit.map(|unit| (size_of(unit, column), is_unit(unit))) {
+        Some((Ok(size), _)) => Ok(size / column.unit.to_si(1.0)),
+        Some((Err(other), true)) => Err(other),
+        _ => Ok(1.0),
     }
 }
 
@@ -367,6 +379,11 @@ mod tests {
     fn a_value_that_is_wrong_has_its_line() {
         let text = "Laboratory\r\n2026\r\nW\r\n20\r\nx\r\n";
         let layout = Layout { skipped_lines: 2, ..Layout::default() };
+        let factor = |text: &str| Mapping::parse(text).map(|it| it.factor);
+        assert_eq!(factor("load_n=W [kgf]"), Ok(9.806_65));
+        assert_eq!(factor("torque_nm=-T (kgf·cm)"), Ok(-9.806_65e-2));
+        assert_eq!(factor("load_n=W [scale 2]"), Ok(1.0));
+        assert!(factor("load_n=T [Nm]").is_err_and(|it| it.contains("'Nm' is not a unit")));
         let mapping = Mapping::parse("load_n=W").unwrap();
         let error = import("a.csv", text.as_bytes(), &[mapping], &layout).unwrap_err();
         assert_eq!(error.line(), Some(5));

@@ -62,7 +62,8 @@ pub enum UrdfError {
     /// No wheels.
     #[error(
         "no wheels were found: nothing with a shape rolls without end (type continuous) about an \
-         axis across the rover, with a partner on the other side; the links are {links}{}",
+         axis across the rover, with a partner on the other side{}; the links are {links}{}",
+        about_others(askew),
         forward(*along)
     )]
     NoWheels {
@@ -70,6 +71,19 @@ pub enum UrdfError {
         links: String,
         /// How many roll about axes along the rover.
         along: usize,
+        /// Those that roll about axes neither along nor across it.
+        askew: Vec<String>,
+    },
+    /// Sprockets and rollers of tracks.
+    #[error(
+        "looks like a tracked vehicle, or one with legs: beside what is on the ground ({wheels}), \
+         {rollers} roll without end in pairs; tracks and legs are not known here, wheels are"
+    )]
+    Tracks {
+        /// What is on the ground.
+        wheels: String,
+        /// What else rolls.
+        rollers: String,
     },
     /// Fewer wheels than a rover stands on.
     #[error(
@@ -205,6 +219,13 @@ fn of_joints(joints: &[[String; 2]]) -> String {
     format!(
         ": joint {joint}, which leads to link {link}, is called so{more}, and links are named here"
     )
+}
+
+/// What rolls about axes that no wheels have.
+fn about_others(askew: &[String]) -> String {
+    let Some(first) = askew.first() else { return String::new() };
+    let more = if askew.len() > 1 { " and others roll" } else { " rolls" };
+    format!(" ({first}{more} about an axis neither across nor along it)")
 }
 
 /// What helps where wheels roll along x.

@@ -44,13 +44,15 @@ impl Wheel {
         if links.len() > MOST {
             return Err(UrdfError::TooManyWheels { count: links.len(), most: MOST });
         }
+        check_count(robot, &links)?;
         let of = |link: usize| {
             let wheel = Self::of(robot, link, options, meshes)?;
             notes.extend(wheel.1.map(|note| format!("link {}: {note}", robot.links[link].name)));
-            note_sliding(robot, &wheel.0, notes);
+            note_still(robot, &wheel.0, options, notes);
             Ok(wheel.0)
         };
         let wheels: Vec<Self> = links.into_iter().map(of).collect::<Result<_, _>>()?;
+        check_types(robot, &wheels)?;
         for (number, wheel) in wheels.iter().enumerate() {
             if let Some(other) = wheels[..number].iter().find(|it| it.turned == wheel.turned) {
                 let [one, two] =
@@ -58,7 +60,6 @@ impl Wheel {
                 return Err(UrdfError::OneWheelTwice(one, two));
             }
         }
-        check_count(robot, &wheels)?;
         Ok(wheels)
     }
 
@@ -78,7 +79,7 @@ impl Wheel {
         let turned = moving.next().filter(|it| is_across(robot, *it));
         let turned = turned.ok_or_else(|| UrdfError::DoesNotRoll(name.clone()))?;
         let (mut steered, mut hinges) = (None, Vec::new());
-        for above in moving {
+        for above in moving.filter(|it| !is_locked(robot, *it, options)) {
             if is_across(robot, above) {
                 hinges.insert(0, above);
             } else if is_upright(robot, above) && steered.is_none() && hinges.is_empty() {
@@ -107,25 +108,58 @@ fn rim(
     shapes::rim(&link.shapes, &link.frame, options, meshes)
 }
 
-/// Says that what slides between a wheel and the body is taken as it stands.
-fn note_sliding(robot: &Robot, wheel: &Wheel, notes: &mut Vec<String>) {
-    for sliding in robot.up_from(wheel.turned).filter(|it| kind(robot, *it) == "prismatic") {
-        let joint = joint_name(robot, sliding);
-        notes.push(format!(
-            "joint {joint} slides, as springs do: the rover is taken as rigid, and this joint as it \
-             stands at zero"
-        ));
+/// Whether a joint between a wheel and the body cannot turn: its limits are one angle. Where a
+/// caller speaks of rockers, such limits are placeholders.
+fn is_locked(robot: &Robot, link: usize, options: &UrdfOptions) -> bool {
+    let limits = robot.links[link].joint.as_ref().and_then(|joint| joint.limits);
+    let is_hinge = options.has_differential && is_across(robot, link);
+    !is_hinge && limits.is_some_and(|[low, high]| high <= low)
+}
+
+/// Says that what slides between a wheel and the body, or is locked, is taken as it stands.
+fn note_still(robot: &Robot, wheel: &Wheel, options: &UrdfOptions, notes: &mut Vec<String>) {
+    for above in robot.up_from(wheel.turned).skip(1) {
+        let joint = joint_name(robot, above);
+        let note = if kind(robot, above) == "prismatic" {
+            format!(
+                "joint {joint} slides, as springs do: the rover is taken as rigid, and this joint \
+                 as it stands at zero"
+            )
+        } else if is_turned(robot, above) && is_locked(robot, above, options) {
+            format!("joint {joint} cannot turn by its limits: it is taken as it stands at zero")
+        } else {
+            continue;
+        };
+        if !notes.contains(&note) {
+            notes.push(note);
+        }
     }
 }
 
+/// Checks the types of the joints that wheels hang on: what carries the whole robot may float.
+fn check_types(robot: &Robot, wheels: &[Wheel]) -> Result<(), UrdfError> {
+    const KNOWN: [&str; 4] = ["fixed", "continuous", "revolute", "prismatic"];
+    let carries_all = |link: usize| {
+        let is_above = |wheel: &Wheel| robot.up_from(wheel.turned).any(|it| it == link);
+        ["floating", "planar"].contains(&kind(robot, link)) && wheels.iter().all(is_above)
+    };
+    let above = wheels.iter().flat_map(|wheel| robot.up_from(wheel.turned));
+    let mut jointed = above.filter(|it| robot.links[*it].joint.is_some());
+    let unknown = jointed.find(|it| !KNOWN.contains(&kind(robot, *it)) && !carries_all(*it));
+    unknown.map_or(Ok(()), |link| {
+        let (joint, kind) = (joint_name(robot, link), kind(robot, link).to_owned());
+        Err(UrdfError::JointType { joint, kind })
+    })
+}
+
 /// Checks that there are as many wheels as a rover stands on.
-fn check_count(robot: &Robot, wheels: &[Wheel]) -> Result<(), UrdfError> {
+fn check_count(robot: &Robot, wheels: &[usize]) -> Result<(), UrdfError> {
     const LEAST: usize = 3;
     if wheels.len() >= LEAST {
         return Ok(());
     }
-    let names = wheels.iter().map(|wheel| robot.links[wheel.link].name.clone());
-    let is_wheel = |link: usize| wheels.iter().any(|wheel| wheel.link == link);
+    let names = wheels.iter().map(|wheel| robot.links[*wheel].name.clone());
+    let is_wheel = |link: usize| wheels.contains(&link);
     let beside = (0..robot.links.len())
         .filter(|link| !is_wheel(*link) && robot.links[*link].parent.is_some());
     let beside = beside.filter_map(|link| {
@@ -162,16 +196,28 @@ fn guessed(
         found.push(Rolling { link, rim: rim(robot, link, options, meshes)? });
     }
     found.retain(|it| !robot.links[it.link].shapes.is_empty() || options.wheel_radius.is_some());
-    let on_ground = on_ground(&found);
-    let in_pairs = in_pairs(&on_ground);
+    let carrying = carrying(robot, &found);
+    found.retain(|it| !carrying[it.link]);
+    let name = |link: usize| &*robot.links[link].name;
+    let names_of = |all: &[Rolling]| all.iter().map(|it| name(it.link)).collect::<Vec<_>>();
+    let (casters, found): (Vec<_>, Vec<_>) = found.into_iter().partition(|it| is_caster(robot, it));
+    if !casters.is_empty() {
+        let names = names_of(&casters).join(", ");
+        notes.push(format!(
+            "casters, by their names or as they trail, and no driven wheels: {names}"
+        ));
+    }
+    let in_pairs = in_pairs(&on_ground(&found));
     if in_pairs.is_empty() {
+        let askew = rolling(|robot, link| !is_across(robot, link) && !is_along(robot, link));
         return Err(UrdfError::NoWheels {
             links: link_names(robot),
             along: rolling(is_along).len(),
+            askew: askew.into_iter().map(|it| name(it).to_owned()).collect(),
         });
     }
-    let name = |link: usize| &*robot.links[link].name;
-    let names: Vec<&str> = in_pairs.iter().map(|it| name(it.link)).collect();
+    check_tracks(robot, &found, &in_pairs)?;
+    let names = names_of(&in_pairs);
     notes.push(format!(
         "wheels: {}, which roll about axes across the rover, reach the ground and come in pairs",
         names.join(", ")
@@ -182,6 +228,48 @@ fn guessed(
         notes.push(format!("not taken as wheels, though they roll: {}", others.join(", ")));
     }
     Ok(in_pairs.iter().map(|it| it.link).collect())
+}
+
+/// Whether each link carries one of some that roll, as rockers, arms and legs do.
+fn carrying(robot: &Robot, rolling: &[Rolling]) -> Vec<bool> {
+    let mut carrying = vec![false; robot.links.len()];
+    for above in rolling.iter().flat_map(|it| robot.up_from(it.link).skip(1)) {
+        carrying[above] = true;
+    }
+    carrying
+}
+
+/// Whether a wheel is a caster: it is called so, or what holds it turns freely about an upright axis
+/// which it trails.
+fn is_caster(robot: &Robot, wheel: &Rolling) -> bool {
+    /// Over a radius, how far casters trail their axes at least [-]. Source: ours.
+    const TRAIL: f64 = 0.15;
+    /// Links from a caster's wheel to what it turns on.
+    const NEAR: usize = 4;
+    robot.up_from(wheel.link).take(NEAR).any(|link| {
+        let names =
+            format!("{} {}", robot.links[link].name, joint_name(robot, link)).to_lowercase();
+        let trail = (robot.links[link].pivot().x - wheel.rim.centre.x).abs();
+        let is_free = kind(robot, link) == "continuous" && is_upright(robot, link);
+        let trails = is_free && trail > TRAIL * wheel.rim.radius.unwrap_or(0.0);
+        trails || names.contains("caster") || names.contains("castor")
+    })
+}
+
+/// Refuses tracks: above the wheels on the ground their sprockets and rollers roll in pairs.
+fn check_tracks(robot: &Robot, found: &[Rolling], wheels: &[Rolling]) -> Result<(), UrdfError> {
+    /// The fewest that look like tracks. Source: ours; a sprocket and an idler on each side.
+    const LEAST: usize = 4;
+    let is_above = |it: &&Rolling| wheels.iter().all(|wheel| wheel.link != it.link);
+    let above: Vec<Rolling> = found.iter().filter(is_above).cloned().collect();
+    let rollers = in_pairs(&above);
+    if rollers.len() < LEAST {
+        return Ok(());
+    }
+    let names = |all: &[Rolling]| {
+        all.iter().map(|it| robot.links[it.link].name.clone()).collect::<Vec<_>>().join(", ")
+    };
+    Err(UrdfError::Tracks { wheels: names(wheels), rollers: names(&rollers) })
 }
 
 /// A link that rolls about an axis across the rover.
@@ -229,9 +317,14 @@ fn in_pairs(found: &[Rolling]) -> Vec<Rolling> {
         let is_level = (a.x - b.x).abs().max((a.z - b.z).abs()) <= ALIKE * across;
         is_opposite && is_level && (a.y + b.y - 2.0 * middle).abs() <= ALIKE * across
     };
-    let has_partner = |it: &&Rolling| found.iter().any(|other| is_partner(it, other));
-    let paired: Vec<Rolling> = found.iter().filter(has_partner).cloned().collect();
-    if paired.len() == 2 { found.to_vec() } else { paired }
+    let has_partner = |it: &Rolling| found.iter().any(|other| is_partner(it, other));
+    let is_paired: Vec<bool> = found.iter().map(has_partner).collect();
+    let is_pair = is_paired.iter().filter(|it| **it).count() == 2;
+    let reach = found.iter().map(|it| (it.rim.centre.y - middle).abs()).fold(0.0, f64::max);
+    let is_middle = |it: &Rolling| (it.rim.centre.y - middle).abs() <= 2.0 * ALIKE * reach;
+    let all = found.iter().zip(is_paired);
+    let those = all.filter(|(it, is_paired)| *is_paired || is_pair && is_middle(it));
+    those.map(|(it, _)| it.clone()).collect()
 }
 
 /// Whether a link rolls: without end, or with limits of some turns.

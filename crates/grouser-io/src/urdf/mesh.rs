@@ -1,7 +1,41 @@
-//! How far meshes reach: STL, Wavefront OBJ and COLLADA.
+//! How far meshes reach: STL, Wavefront OBJ and COLLADA; and where they are.
 
-use nalgebra::Vector3;
+use std::path::{Path, PathBuf};
+
+use nalgebra::{Matrix4, Point3, Unit, Vector3};
 use roxmltree::{Document, Node};
+
+use crate::file;
+
+/// The largest mesh [bytes].
+const LARGEST: u64 = 64 << 20;
+
+/// Looks up meshes in the folders that they are in beside a file of URDF, and above it.
+pub fn meshes_beside(urdf: &Path) -> impl Fn(&str) -> Option<Vec<u8>> + '_ {
+    move |mesh| places(urdf, mesh).iter().find_map(|place| file::read(place, LARGEST).ok())
+}
+
+/// Where a mesh may be: as ROS finds it by its package, and beside the URDF and in folders above it.
+fn places(urdf: &Path, mesh: &str) -> Vec<PathBuf> {
+    /// How far above.
+    const ABOVE: usize = 4;
+    let mesh = mesh.strip_prefix("file://").unwrap_or(mesh);
+    // What xacro did not expand, and simulators do.
+    let found = mesh.strip_prefix("$(find ").map(|it| it.replacen(')', "", 1));
+    let mesh = found.map_or(mesh.to_owned(), |it| format!("package://{it}"));
+    let mesh = &*mesh;
+    let in_package = ["package://", "model://"].iter().find_map(|it| mesh.strip_prefix(it));
+    let whole = in_package.unwrap_or(mesh);
+    let within = in_package.and_then(|it| it.split_once('/')).map(|(_, within)| within);
+    // The folders above one that is open have no names in its path.
+    let urdf = std::path::absolute(urdf).unwrap_or(urdf.to_owned());
+    let folder = urdf.parent().unwrap_or(Path::new(""));
+    let above = folder.ancestors().take(ABOVE);
+    let names = move |folder: &Path| {
+        [Some(whole), within].into_iter().flatten().map(|it| folder.join(it)).collect::<Vec<_>>()
+    };
+    above.flat_map(names).collect()
+}
 
 /// The least and the largest coordinates of a mesh, in its frame [m]; none of a format that is not
 /// read.
@@ -56,46 +90,76 @@ fn stl(bytes: &[u8], add: &mut impl FnMut(Vector3<f64>)) -> Option<()> {
     Some(())
 }
 
-/// Positions of all meshes, in metres. Nodes that move or turn them are not followed: with one
-/// there is no extent.
+/// Positions of all meshes where the nodes of the scene put them, in metres; without a scene they
+/// stand as they are.
 fn collada(text: &str, add: &mut impl FnMut(Vector3<f64>)) -> Option<()> {
     let document = Document::parse(text).ok()?;
     let all = |tag: &'static str| {
         document.descendants().filter(move |node| node.tag_name().name() == tag)
     };
-    if ["matrix", "translate", "rotate", "scale"].into_iter().flat_map(all).any(|it| moves(it)) {
-        return None;
-    }
     let unit = all("unit").next().and_then(|it| it.attribute("meter")?.parse().ok()).unwrap_or(1.0);
     let up = all("up_axis").next().and_then(|it| it.text()).unwrap_or("Y_UP").trim();
+    let by_id = |tag, of: &str| {
+        let id = of.strip_prefix('#')?;
+        all(tag).find(|it| it.attribute("id") == Some(id))
+    };
+    let instance = |it: Node<'_, '_>| Some((placed(it)?, by_id("geometry", it.attribute("url")?)?));
+    let mut meshes = all("instance_geometry").map(instance).collect::<Option<Vec<_>>>()?;
+    if meshes.is_empty() {
+        meshes.push((Matrix4::<f64>::identity(), document.root()));
+    }
     let is_position = |node: &Node<'_, '_>| node.attribute("semantic") == Some("POSITION");
-    for input in all("input").filter(is_position) {
-        let source = input.attribute("source")?.strip_prefix('#')?;
-        let source = all("source").find(|it| it.attribute("id") == Some(source))?;
-        let values = source.descendants().find(|it| it.tag_name().name() == "float_array")?;
-        let numbers: Vec<f64> =
-            values.text()?.split_whitespace().map(str::parse).collect::<Result<_, _>>().ok()?;
-        for at in numbers.chunks_exact(3) {
-            let [x, y, z] = [at[0], at[1], at[2]].map(|it| unit * it);
-            add(if up == "Z_UP" { Vector3::new(x, y, z) } else { Vector3::new(x, -z, y) });
+    for (place, mesh) in meshes {
+        for input in mesh.descendants().filter(is_position) {
+            for at in corners(by_id("source", input.attribute("source")?)?)? {
+                let at = unit * place.transform_point(&at).coords;
+                add(if up == "Z_UP" { at } else { Vector3::new(at.x, -at.z, at.y) });
+            }
         }
     }
     Some(())
 }
 
-/// Whether a transform is one.
-fn moves(node: Node<'_, '_>) -> bool {
-    let numbers: Option<Vec<f64>> =
-        node.text().map(|text| text.split_whitespace().filter_map(|it| it.parse().ok()).collect());
-    let numbers = numbers.unwrap_or_default();
-    let nothing: &[f64] = match node.tag_name().name() {
-        "matrix" => &[1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1., 0., 0., 0., 0., 1.],
-        "scale" => &[1., 1., 1.],
-        "translate" => &[0., 0., 0.],
-        // An axis and an angle.
-        _ => return numbers.last().is_none_or(|angle| *angle != 0.0),
+/// The points of a source of COLLADA.
+fn corners(source: Node<'_, '_>) -> Option<Vec<Point3<f64>>> {
+    let values = source.descendants().find(|it| it.tag_name().name() == "float_array")?;
+    let numbers = numbers(values)?;
+    Some(numbers.chunks_exact(3).map(|at| Point3::new(at[0], at[1], at[2])).collect())
+}
+
+/// Where the nodes that an element stands in put it.
+fn placed(element: Node<'_, '_>) -> Option<Matrix4<f64>> {
+    let nodes = element.ancestors().filter(|it| it.tag_name().name() == "node");
+    let own = |node: Node<'_, '_>| {
+        node.children()
+            .try_fold(Matrix4::<f64>::identity(), |place, it| Some(place * transform(it)?))
     };
-    numbers != nothing
+    nodes.map(own).try_fold(Matrix4::<f64>::identity(), |inner, outer| Some(outer? * inner))
+}
+
+/// The transform that an element is; none of a kind that is not read, or with other numbers.
+fn transform(node: Node<'_, '_>) -> Option<Matrix4<f64>> {
+    let tag = node.tag_name().name();
+    if !["matrix", "translate", "rotate", "scale", "lookat", "skew"].contains(&tag) {
+        return Some(Matrix4::<f64>::identity());
+    }
+    let numbers = numbers(node)?;
+    let first = || Some(Vector3::from_column_slice(numbers.get(..3)?));
+    match tag {
+        "matrix" => Some(Matrix4::from_row_slice(numbers.get(..16)?)),
+        "translate" => Some(Matrix4::new_translation(&first()?)),
+        "scale" => Some(Matrix4::new_nonuniform_scaling(&first()?)),
+        "rotate" => {
+            let axis = Unit::try_new(first()?, 1e-9)?;
+            Some(Matrix4::from_axis_angle(&axis, numbers.get(3)?.to_radians()))
+        }
+        _ => None,
+    }
+}
+
+/// The numbers in an element.
+fn numbers(node: Node<'_, '_>) -> Option<Vec<f64>> {
+    node.text()?.split_whitespace().map(|it| it.parse().ok()).collect()
 }
 
 #[cfg(test)]
@@ -146,9 +210,28 @@ mod tests {
         };
         check("a.dae", text("Z_UP", "").as_bytes(), [0.0, 0.01, 0.02], [0.3, 0.4, 0.5]);
         check("a.dae", text("Y_UP", "").as_bytes(), [0.0, -0.5, 0.01], [0.3, -0.02, 0.4]);
+    }
+
+    /// As drawing programs write them: with a camera and a light, the mesh in a node in a node.
+    #[test]
+    fn collada_has_scenes() {
+        let text = |inner: &str| {
+            format!(
+                "<COLLADA><asset><up_axis>Z_UP</up_axis></asset><geometry id=\"wheel\"><mesh>\
+                 <source id=\"p\"><float_array count=\"6\">0 1 2 30 40 50</float_array></source>\
+                 <vertices><input semantic=\"POSITION\" source=\"#p\"/></vertices></mesh></geometry>\
+                 <visual_scene><node><matrix>9 0 0 9 0 9 0 9 0 0 9 9 0 0 0 1</matrix>\
+                 <instance_camera url=\"#c\"/></node><node><scale>0.1 0.1 0.1</scale><node>{inner}\
+                 <instance_geometry url=\"#wheel\"/></node></node></visual_scene></COLLADA>"
+            )
+        };
         let still = "<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix>";
-        check("a.dae", text("Z_UP", still).as_bytes(), [0.0, 0.01, 0.02], [0.3, 0.4, 0.5]);
-        let turned = "<rotate>0 1 0 90</rotate>";
-        assert_eq!(extent("a.dae", text("Z_UP", turned).as_bytes()), None);
+        check("a.dae", text(still).as_bytes(), [0.0, 0.1, 0.2], [3.0, 4.0, 5.0]);
+        // A quarter about x: y to z, and z to -y; then one to the left.
+        let turned = "<translate>0 10 0</translate><rotate>1 0 0 90</rotate>";
+        check("a.dae", text(turned).as_bytes(), [0.0, -4.0, 0.1], [3.0, 0.8, 4.0]);
+        for odd in ["<lookat>1 2 3</lookat>", "<matrix>1 2</matrix>", "<rotate>0 0 0 9</rotate>"] {
+            assert_eq!(extent("a.dae", text(odd).as_bytes()), None, "{odd}");
+        }
     }
 }

@@ -61,6 +61,7 @@ impl Found {
         if body.mass <= 0.0 {
             return Err(UrdfError::NoBody);
         }
+        check_mass("the body, all links that are no wheels".to_owned(), body.mass)?;
         if off_diagonal(&body.inertia) > 0.05 {
             notes.push(
                 "the body's products of inertia are left out: the rover's axes are taken as \
@@ -70,17 +71,15 @@ impl Found {
         }
         let mut wheels = wheels;
         let suspension = Suspension::of(robot, &wheels, &body, options)?;
-        if suspension.is_none() {
-            notes.extend(level(&mut wheels));
-        }
+        notes.extend(level(&mut wheels));
         let mounts = wheels
             .iter()
             .map(|wheel| mount(robot, wheel, &body, &mut notes))
             .collect::<Result<Vec<_>, _>>()?;
         let mut body = body;
-        if diagonal(&body.inertia).into_iter().any(|it| it <= 0.0) {
+        if let Some(why) = is_no_inertia(&body) {
             body.inertia = of_box(&body, &wheels);
-            notes.push("the body's inertia is not stated: it is that of a uniform box".to_owned());
+            notes.push(format!("the body's inertia {why}: it is taken as that of a uniform box"));
         }
         notes.extend(doubts(robot, &wheels, &body));
         if options.is_rigid {
@@ -149,6 +148,27 @@ impl Unit {
     }
 }
 
+/// Checks a mass [kg] by what documents have.
+fn check_mass(what: String, mass: f64) -> Result<(), UrdfError> {
+    if (0.01..=1e5).contains(&mass) {
+        return Ok(());
+    }
+    let (written, expected) = (shown(mass), "0.01 to 100000 kg");
+    Err(UrdfError::Number { what, attribute: "mass", written, expected })
+}
+
+/// Why an inertia is that of no body, in words.
+fn is_no_inertia(it: &Together) -> Option<&'static str> {
+    let [x, y, z] = diagonal(&it.inertia);
+    if it.inertia.norm() == 0.0 {
+        return Some("is not stated");
+    }
+    let most = x.max(y).max(z);
+    // A flat body has both alike.
+    let is_of_a_body = x.min(y).min(z) > 0.0 && most <= (x + y + z - most) * (1.0 + 1e-9);
+    (!is_of_a_body).then_some("is that of no body (a moment is above the two others together)")
+}
+
 /// The inertia of a uniform cylinder [kg m²].
 fn of_cylinder(mass: f64, wheel: &Wheel) -> [f64; 3] {
     let (square, width) = (wheel.radius * wheel.radius, wheel.width);
@@ -156,7 +176,7 @@ fn of_cylinder(mass: f64, wheel: &Wheel) -> [f64; 3] {
     [across, 0.5 * mass * square, across]
 }
 
-/// Puts the wheels of a rigid rover on one plane, and says so.
+/// Puts the wheels on one plane, and says so.
 fn level(wheels: &mut [Wheel]) -> Option<String> {
     let bottom = |wheel: &Wheel| wheel.centre.z - wheel.radius;
     let ground = wheels.iter().map(bottom).sum::<f64>() / wheels.len() as f64;
@@ -201,7 +221,37 @@ fn doubts(robot: &Robot, wheels: &[Wheel], body: &Together) -> Vec<String> {
         let parts = (0..robot.links.len()).filter(|link| is_part[*link]);
         (&*robot.links[wheel.link].name, Together::of(robot, parts), wheel.radius)
     });
-    placeholders((body, reach), of_wheels)
+    let mut all = placeholders((body, reach), of_wheels);
+    all.extend(lopsided(wheels, body));
+    all
+}
+
+/// Says that the body's centre of mass is to one side of its wheels, or not between them.
+fn lopsided(wheels: &[Wheel], body: &Together) -> Option<String> {
+    /// Over the distance between the sides, as far as robots are symmetric [-]. Source: ours.
+    const ASIDE: f64 = 0.1;
+    let ends = |axis: usize| {
+        let places = wheels.iter().map(|it| it.centre[axis] - body.centre[axis]);
+        places
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], it| [low.min(it), high.max(it)])
+    };
+    let ([rear, front], [right, left]) = (ends(0), ends(1));
+    let middle = 0.5 * (left + right);
+    if rear > 0.0 || front < 0.0 {
+        let which = if rear > 0.0 { "behind" } else { "before" };
+        return Some(format!(
+            "the body's centre of mass is {which} all wheels: the rover tips over, unless a mass or \
+             its place is wrong"
+        ));
+    }
+    let side = if middle > 0.0 { "right" } else { "left" };
+    (middle.abs() > ASIDE * (left - right)).then(|| {
+        format!(
+            "the body's centre of mass is {} m to the {side} of the middle between the wheels, as \
+             the <inertial> of its links have it: is that so?",
+            four_digits(middle.abs())
+        )
+    })
 }
 
 fn found_wheel(robot: &Robot, wheel: &Wheel, body: &Together) -> FoundWheel {
@@ -237,6 +287,7 @@ fn mount(
     if mass < AIR * PI * radius * radius * width {
         return Err(UrdfError::Millimetres { link: name.clone(), radius, width, mass });
     }
+    check_mass(format!("link {name}, a wheel"), mass)?;
     let steering = wheel.steered.map(|link| {
         let limits = robot.links[link].joint.as_ref().and_then(|joint| joint.limits);
         let axis = robot.links[link].pivot() - wheel.centre;
@@ -255,11 +306,13 @@ fn mount(
         });
         (limit, [axis.x, axis.y])
     });
+    // Zero is at an end of what it turns: no rover steers so.
+    let steering = steering.filter(|(limit, _)| *limit > 0.0);
     let mut inertia = diagonal(&together.inertia_about(wheel.centre));
-    if together.inertia.norm() == 0.0 {
+    if let Some(why) = is_no_inertia(&together) {
         inertia = of_cylinder(together.mass, wheel);
         notes.push(format!(
-            "link {name}: its inertia is not stated: it is that of a uniform cylinder"
+            "link {name}: its inertia {why}: it is taken as that of a uniform cylinder"
         ));
     }
     let unit = Unit { mass: together.mass, inertia, radius: wheel.radius, width: wheel.width };

@@ -92,11 +92,15 @@ impl LinkShape {
             RimForm::Mesh { file, scale } => {
                 let [low, high] = mesh::extent(file, &meshes(file)?)?;
                 let (low, high) = (low.component_mul(scale), high.component_mul(scale));
-                let size = placed.rotation * (high - low);
+                let size = (high - low).abs();
                 let middle = placed * nalgebra::Point3::from(0.5 * (low + high));
-                let (one, other) = (size.x.abs(), size.z.abs());
+                // In the mesh's frame, in which a wheel may have turned by any angle.
+                let axle = placed.inverse_transform_vector(&Vector3::y());
+                let along = axle.iamax();
+                let (one, other) = (size[(along + 1) % 3], size[(along + 2) % 3]);
                 let is_round = (one - other).abs() <= 0.1 * one.max(other);
-                is_round.then_some((0.25 * (one + other), size.y.abs(), middle.coords))
+                let is_wheel = is_round && axle[along].abs() > ALONG;
+                is_wheel.then_some((0.25 * (one + other), size[along], middle.coords))
             }
         }
     }
@@ -136,12 +140,15 @@ pub(super) fn rim(
         RimForm::Sphere { radius } => Some(radius),
         _ => None,
     });
+    let radius = options.wheel_radius.or(largest.map(|it| it.0.0)).or(sphere);
+    let width = options.wheel_width.or(largest.map(|it| it.0.1));
+    let is_known = radius.is_some() && width.is_some();
     Ok(Rim {
-        radius: options.wheel_radius.or(largest.map(|it| it.0.0)).or(sphere),
-        width: options.wheel_width.or(largest.map(|it| it.0.1)),
+        radius,
+        width,
         centre: largest.map_or_else(somewhere, |it| it.0.2),
         note: note.filter(|_| options.wheel_radius.is_none()),
-        lacks: lacks(&shapes, meshes),
+        lacks: if is_known { String::new() } else { lacks(&shapes, meshes) },
     })
 }
 

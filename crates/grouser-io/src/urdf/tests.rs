@@ -1,5 +1,7 @@
 //! Robots whose rovers are known, and invalid texts.
 
+mod kinds;
+
 use std::fmt::Write as _;
 
 use super::{Forward, UrdfError, UrdfOptions, UrdfRover};
@@ -175,8 +177,11 @@ fn robots_that_are_no_rovers_are_refused() {
         ),
         (
             six.replace("<cylinder radius=\"0.15\" length=\"0.1\"/>", "<mesh filename=\"x\"/>"),
-            UrdfOptions { wheels: vec!["left_front".into()], ..with_differential() },
-            "link left_front is a wheel, but its geometry is a mesh",
+            UrdfOptions {
+                wheels: vec!["*front".into(), "*middle".into(), "*rear".into()],
+                ..with_differential()
+            },
+            "link left_rear is a wheel, but its geometry is a mesh",
         ),
         (
             six.replace("xyz=\"0 -1 0\"", "xyz=\"1 0 0\""),

@@ -44,7 +44,7 @@ pub(super) struct Joint {
     origin: Isometry3<f64>,
     /// In the joint's frame, a unit vector.
     axis: Vector3<f64>,
-    /// How far it turns, down to and up to [rad].
+    /// How far it turns, down to and up to [rad]; none where neither is stated.
     pub(super) limits: Option<[f64; 2]>,
     /// The joint that it turns with, and how far it turns for a turn of that.
     pub(super) mimic: Option<(String, f64)>,
@@ -250,20 +250,8 @@ fn joint(node: Node<'_, '_>) -> Result<Joint, UrdfError> {
         written: "0 0 0".to_owned(),
         expected: "a direction",
     })?;
-    const KINDS: [&str; 4] = ["fixed", "continuous", "revolute", "prismatic"];
-    if !KINDS.contains(&&*kind) {
-        return Err(UrdfError::JointType { joint: name, kind });
-    }
     let limits = match child(node, "limit") {
-        Some(limit) if kind == "revolute" => {
-            let end = |name| {
-                if !limit.has_attribute(name) {
-                    return Ok(0.0);
-                }
-                number(limit, &what, name, |_| true, "an angle in rad")
-            };
-            Some([end("lower")?, end("upper")?])
-        }
+        Some(limit) if kind == "revolute" => limits(limit, &what)?,
         _ => None,
     };
     let mimic = child(node, "mimic").map(|mimic| {
@@ -277,4 +265,21 @@ fn joint(node: Node<'_, '_>) -> Result<Joint, UrdfError> {
     let mimic = mimic.transpose()?;
     let (parent, child) = (end("parent")?, end("child")?);
     Ok(Joint { name, kind, parent, child, origin: origin(node, &what)?, axis, limits, mimic })
+}
+
+/// How far a joint turns [rad]; what has no end may be written as the largest of numbers.
+fn limits(node: Node<'_, '_>, what: &str) -> Result<Option<[f64; 2]>, UrdfError> {
+    /// More turns than a joint is led through [rad].
+    const NO_END: f64 = 1e6;
+    let is_endless = |name| {
+        let end = node.attribute(name).and_then(|it| it.trim().parse::<f64>().ok());
+        end.filter(|it| it.abs() >= NO_END).map(|it| NO_END.copysign(it))
+    };
+    let end = |name| match is_endless(name) {
+        Some(end) => Ok(end),
+        None if node.has_attribute(name) => number(node, what, name, |_| true, "an angle in rad"),
+        None => Ok(0.0),
+    };
+    let is_stated = ["lower", "upper"].iter().any(|name| node.has_attribute(*name));
+    Ok(if is_stated { Some([end("lower")?, end("upper")?]) } else { None })
 }

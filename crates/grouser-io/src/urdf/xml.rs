@@ -17,6 +17,16 @@ pub(super) fn attribute<'a>(
     node.attribute(name).ok_or_else(|| UrdfError::Lacks { what: what.to_owned(), lacks: name })
 }
 
+/// What is expected: where xacro's expressions stand, what writes their values.
+fn or_xacro(written: &str, expected: &'static str) -> &'static str {
+    let is_expression = written.contains("${") || written.contains("$(");
+    if is_expression {
+        "a number\nhint: that is xacro: xacro FILE > FILE.urdf writes numbers for ${…} and $(…)"
+    } else {
+        expected
+    }
+}
+
 pub(super) fn number(
     node: Node<'_, '_>,
     what: &str,
@@ -29,7 +39,8 @@ pub(super) fn number(
     let written = attribute(node, what, name)?;
     let number = written.trim().parse().ok();
     number.filter(|it: &f64| it.abs() <= LARGEST && may_be(*it)).ok_or_else(|| {
-        let (what, written) = (what.to_owned(), written.chars().take(40).collect());
+        let (what, written) = (what.to_owned(), written.chars().take(40).collect::<String>());
+        let expected = or_xacro(&written, expected);
         UrdfError::Number { what, attribute: name, written, expected }
     })
 }
@@ -52,7 +63,7 @@ pub(super) fn triple(
             what: what.to_owned(),
             attribute: name,
             written: written.chars().take(40).collect(),
-            expected: "three numbers",
+            expected: or_xacro(written, "three numbers"),
         }),
     }
 }

@@ -1,7 +1,7 @@
 //! Telemetry of MCAP logs, whose messages are JSON, Protocol Buffers or those of ROS.
 //!
 //! A log may be several files, as recorders part them: their messages are read one after the other,
-//! and become rows as those of one file do.
+//! and become rows as those of one file do. Files of one sensor each are read side by side.
 
 mod file;
 
@@ -27,15 +27,11 @@ use crate::telemetry::options::LogOptions;
 
 /// An MCAP log, record by record.
 pub(crate) struct McapLog {
-    /// All files, in the order of their messages, and the one that is read.
+    /// All files, in the order of their messages.
     files: Vec<McapFile>,
-    at: usize,
-    messages: Chronological,
+    /// Those that are read: one, or all where each is of one sensor.
+    opened: Vec<Opened>,
     rows: MessageRows,
-    /// How messages of a channel are decoded; nothing for channels that are not read.
-    decoders: HashMap<u16, Option<Decoder>>,
-    /// Types that were read already, by their schemas' numbers.
-    descriptions: HashMap<u16, Option<Rc<OfSchema>>>,
     /// What each file gave, in their order, and the time up to which rows are its own [s].
     gave: Vec<(GivenFile, f64)>,
     /// Sentences on the damage of files that were read to their ends.
@@ -45,6 +41,19 @@ pub(crate) struct McapLog {
     /// Messages of kinds of CDR that are not read, with the first of these kinds.
     of_other_kind: Option<(u64, String)>,
     is_read: bool,
+}
+
+/// A file that is read.
+struct Opened {
+    /// Its place among the files.
+    at: usize,
+    messages: Chronological,
+    /// How messages of a channel are decoded; nothing for channels that are not read.
+    decoders: HashMap<u16, Option<Decoder>>,
+    /// Types that were read already, by their schemas' numbers.
+    descriptions: HashMap<u16, Option<Rc<OfSchema>>>,
+    /// The next message, where it had to be looked at, and its content.
+    next: Option<(Message, Vec<u8>)>,
 }
 
 #[derive(Clone, Debug)]
@@ -85,6 +94,34 @@ impl OfSchema {
     }
 }
 
+impl Opened {
+    /// Opens the file of a place. Channels and schemas have numbers of their own in each.
+    fn new(files: &mut [McapFile], at: usize) -> Result<Self, TelemetryError> {
+        let messages = files[at].messages()?;
+        let (decoders, descriptions) = (HashMap::new(), HashMap::new());
+        Ok(Self { at, messages, decoders, descriptions, next: None })
+    }
+
+    /// Its next message on a channel that is read.
+    fn next_message(
+        &mut self,
+        rows: &MessageRows,
+        without_channel: &mut u64,
+    ) -> io::Result<Option<(Message, Vec<u8>)>> {
+        let Self { messages, decoders, descriptions, .. } = self;
+        messages.next_message(|known, channel| {
+            if !known.channels.contains_key(&channel) {
+                *without_channel += 1;
+                return false;
+            }
+            let decoder = decoders
+                .entry(channel)
+                .or_insert_with(|| decoder(known, channel, rows, descriptions));
+            decoder.is_some()
+        })
+    }
+}
+
 impl McapLog {
     /// * `files`: one or more, in any order
     pub(crate) fn new(
@@ -94,24 +131,21 @@ impl McapLog {
         options: &LogOptions,
     ) -> Result<Self, TelemetryError> {
         let mut topics: Vec<Topic> = Vec::new();
-        for topic in files.iter_mut().flat_map(|file| std::mem::take(&mut file.topics)) {
-            if !topics.contains(&topic) {
-                topics.push(topic);
+        for topic in files.iter().flat_map(|file| &file.topics) {
+            if !topics.contains(topic) {
+                topics.push(topic.clone());
             }
         }
         let rows = MessageRows::new(label, &topics, rover, options)?;
-        McapFile::sort(&mut files, rows.window())?;
+        let is_side_by_side = McapFile::sort(&mut files, rows.window())?;
         let none = |it: &McapFile| GivenFile::new(it.label.clone(), FileContent::Telemetry, 0, 0);
         let gave = files.iter().map(|it| (none(it), f64::INFINITY)).collect();
-        let messages = files[0].messages()?;
-        let (decoders, descriptions) = (HashMap::new(), HashMap::new());
+        let count = if is_side_by_side { files.len() } else { 1 };
+        let opened = (0..count).map(|at| Opened::new(&mut files, at)).collect::<Result<_, _>>()?;
         Ok(Self {
             files,
-            at: 0,
-            messages,
+            opened,
             rows,
-            decoders,
-            descriptions,
             gave,
             damage: Vec::new(),
             without_channel: 0,
@@ -130,11 +164,8 @@ impl McapLog {
                 self.count(f64::INFINITY);
                 return Ok(None);
             }
-            let message = self.next_message();
-            let message = message
-                .map_err(|error| TelemetryError::of_reading(&self.files[self.at].label, error))?;
-            if let Some((message, data)) = message {
-                self.add(&message, &data);
+            if let Some((place, message, data)) = self.next_message()? {
+                self.add(place, &message, &data);
             } else if !self.next_file()? {
                 self.is_read = true;
                 self.rows.end();
@@ -144,20 +175,21 @@ impl McapLog {
 
     /// Goes on with the next file, if there is one.
     fn next_file(&mut self) -> Result<bool, TelemetryError> {
-        let file = &self.files[self.at];
-        let recorded = file.span.map(|[_, last]| last as f64);
+        let at = self.at();
+        let recorded = self.files[at].span.map(|[_, last]| last as f64);
         let newest = self.rows.newest().map(|it| it as f64).or(recorded);
-        let damage = self.damage_of_file();
-        if self.at + 1 == self.files.len() {
+        if at + 1 == self.files.len() {
             return Ok(false);
         }
-        self.gave[self.at].1 = newest.map_or(f64::NEG_INFINITY, |it| it / 1e9);
-        self.damage.extend(damage);
-        self.at += 1;
-        // Channels and schemas have numbers of their own in each file.
-        (self.decoders, self.descriptions) = (HashMap::new(), HashMap::new());
-        self.messages = self.files[self.at].messages()?;
+        self.gave[at].1 = newest.map_or(f64::NEG_INFINITY, |it| it / 1e9);
+        self.damage.extend(self.damage_of_opened());
+        self.opened = vec![Opened::new(&mut self.files, at + 1)?];
         Ok(true)
+    }
+
+    /// The place of the last file that is read.
+    fn at(&self) -> usize {
+        self.opened.last().map_or(0, |it| it.at)
     }
 
     /// Counts the rows since the last record for the file that they are of.
@@ -167,8 +199,9 @@ impl McapLog {
         let all = self.rows.rows().given("");
         let sum = |of: fn(&GivenFile) -> u64| self.gave.iter().map(|(it, _)| of(it)).sum::<u64>();
         let (there, used) = (all.there - sum(|it| it.there), all.used - sum(|it| it.used));
-        let own = self.gave.iter().position(|(_, until)| time <= *until).unwrap_or(self.at);
-        let gave = &mut self.gave[own.min(self.at)].0;
+        let own = self.gave.iter().position(|(_, until)| time <= *until).unwrap_or(self.at());
+        let at = own.min(self.at());
+        let gave = &mut self.gave[at].0;
         (gave.there, gave.used) = (gave.there + there, gave.used + used);
     }
 
@@ -177,30 +210,33 @@ impl McapLog {
         self.gave.iter().map(|(it, _)| it.clone())
     }
 
-    fn damage_of_file(&self) -> Vec<String> {
-        let sentences = self.messages.messages().damage.sentences();
-        match &self.files[..] {
-            [_] => sentences,
-            files => sentences.iter().map(|it| format!("{}: {it}", files[self.at].label)).collect(),
+    fn damage_of_opened(&self) -> Vec<String> {
+        let of = |opened: &Opened| {
+            let sentences = opened.messages.messages().damage.sentences();
+            let label = &self.files[opened.at].label;
+            let is_alone = self.files.len() == 1;
+            let named = move |it: String| if is_alone { it } else { format!("{label}: {it}") };
+            sentences.into_iter().map(named).collect::<Vec<_>>()
+        };
+        self.opened.iter().flat_map(of).collect()
+    }
+
+    /// The earliest message of the files that are read, with the place of its file among them.
+    fn next_message(&mut self) -> Result<Option<(usize, Message, Vec<u8>)>, TelemetryError> {
+        let Self { files, opened, rows, without_channel, .. } = self;
+        for it in opened.iter_mut().filter(|it| it.next.is_none()) {
+            let next = it.next_message(rows, without_channel);
+            it.next =
+                next.map_err(|error| TelemetryError::of_reading(&files[it.at].label, error))?;
         }
+        let time = |it: &Opened| it.next.as_ref().map(|(message, _)| message.log_time);
+        let times = opened.iter().enumerate().filter_map(|(place, it)| Some((time(it)?, place)));
+        let Some((_, place)) = times.min() else { return Ok(None) };
+        Ok(opened[place].next.take().map(|(message, data)| (place, message, data)))
     }
 
-    fn next_message(&mut self) -> io::Result<Option<(Message, Vec<u8>)>> {
-        let Self { messages, rows, decoders, descriptions, without_channel, .. } = self;
-        messages.next_message(|known, channel| {
-            if !known.channels.contains_key(&channel) {
-                *without_channel += 1;
-                return false;
-            }
-            let decoder = decoders
-                .entry(channel)
-                .or_insert_with(|| decoder(known, channel, rows, descriptions));
-            decoder.is_some()
-        })
-    }
-
-    fn add(&mut self, message: &Message, data: &[u8]) {
-        let decoder = self.decoders.get(&message.channel).and_then(Option::as_ref);
+    fn add(&mut self, place: usize, message: &Message, data: &[u8]) {
+        let decoder = self.opened[place].decoders.get(&message.channel).and_then(Option::as_ref);
         let Some(decoder) = decoder else { return };
         let (topic, tree) = match decoder {
             Decoder::Json(topic) => (topic, serde_json::from_slice::<Value>(data).ok()),
@@ -229,7 +265,7 @@ impl McapLog {
         let lost = (count > 0).then(|| {
             format!("{count} messages are of channels that the log does not describe, and left out")
         });
-        let damage = self.damage.iter().cloned().chain(self.damage_of_file());
+        let damage = self.damage.iter().cloned().chain(self.damage_of_opened());
         let other = self.of_other_kind.as_ref().map(|(count, kind)| {
             format!("{count} messages are encoded as {kind}, which is not read here, and left out")
         });

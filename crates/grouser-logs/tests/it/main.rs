@@ -23,7 +23,7 @@ use grouser::document::measurements::telemetry::{Odometry, TelemetryRecord, Whee
 use grouser::vehicle::Rover;
 use grouser_core::paper;
 use grouser_logs::{
-    LogOptions, Mapping, Problem, Remedy, TelemetryError, TelemetryLog, TopicChoices,
+    DriveFolder, LogOptions, Mapping, Problem, Remedy, TelemetryError, TelemetryLog, TopicChoices,
 };
 use tempfile::TempDir;
 

@@ -24,13 +24,21 @@ enum End {
 
 /// Odometry and joints of a rover that goes ever faster, over some of its messages.
 fn mcap(steps: Range<u32>, end: End) -> Vec<u8> {
+    mcap_of(["/odom", "/joint_states"], steps, end)
+}
+
+/// The same of some of their topics.
+fn mcap_of<const N: usize>(topics: [&str; N], steps: Range<u32>, end: End) -> Vec<u8> {
     let mut log = Container::begin(Packed::Zstd);
     // Each file numbers its channels as it likes.
     if steps.start > 0 {
         log.channel("/camera", "sensor_msgs/msg/Image");
     }
-    let odometry = log.channel("/odom", "nav_msgs/msg/Odometry");
-    let joints = log.channel("/joint_states", "sensor_msgs/msg/JointState");
+    let mut channel = |topic: &str, message: &str| {
+        if topics.contains(&topic) { log.channel(topic, message) } else { u16::MAX }
+    };
+    let odometry = channel("/odom", "nav_msgs/msg/Odometry");
+    let joints = channel("/joint_states", "sensor_msgs/msg/JointState");
     for step in steps {
         let time = START + STEP * u64::from(step);
         let stamp = json!({"sec": time / 1_000_000_000, "nanosec": time % 1_000_000_000});
@@ -39,9 +47,13 @@ fn mcap(steps: Range<u32>, end: End) -> Vec<u8> {
         let orientation = json!({"x": 0.1, "y": 0.0, "z": 0.0, "w": 0.99_f64.sqrt()});
         let pose = json!({"position": {"x": x, "y": 0.0, "z": 0.0}, "orientation": orientation});
         let message = json!({"header": header, "pose": {"pose": pose}});
-        log.message(odometry, time, message.to_string().as_bytes());
+        if topics.contains(&"/odom") {
+            log.message(odometry, time, message.to_string().as_bytes());
+        }
         let message = json!({"header": header, "name": ["front_left"], "velocity": [speed]});
-        log.message(joints, time, message.to_string().as_bytes());
+        if topics.contains(&"/joint_states") {
+            log.message(joints, time, message.to_string().as_bytes());
+        }
         if step % 7 == 6 {
             log.end_chunk();
         }
@@ -109,6 +121,34 @@ fn mcap_in_parts_is_the_log_that_it_was() {
         let is_cut = |it: &String| it.contains("drive_1.mcap: the log ends at byte");
         assert!(notes.iter().any(is_cut), "{notes:?}");
     }
+}
+
+/// Recorders of one sensor each write at the same time: their files are read side by side, and are one
+/// drive of a folder of drives; what shares a topic with another is a drive alone.
+#[test]
+fn files_of_one_sensor_each_are_one_drive() {
+    let files = Files::new();
+    let (whole, ..) = read_all(&[files.write("whole", mcap(0..120, End::Whole))]).unwrap();
+    let folder = files.0.path().join("drive");
+    fs::create_dir(&folder).unwrap();
+    for end in [End::Whole, End::Indexed, End::Cut] {
+        let sensor = |name: &str, topic: &str| {
+            files.write(&format!("drive/{name}.mcap"), mcap_of([topic], 0..120, end))
+        };
+        let sensors = [sensor("wheels", "/joint_states"), sensor("cameras", "/odom")];
+        for paths in [vec![folder.clone()], sensors.to_vec()] {
+            let (records, ..) = read_all(&paths).unwrap();
+            assert!(records == whole, "{records:?}");
+        }
+    }
+    let scenario = paper::traverse().unwrap();
+    let options = LogOptions::default().with_odometry(Some(Odometry::Visual));
+    let drives = || DriveFolder::read(files.0.path(), &scenario, &options).unwrap().drives;
+    let found: Vec<(String, usize)> =
+        drives().into_iter().map(|it| (it.name, it.records)).collect();
+    assert_eq!(found, [("drive".to_owned(), 120)]);
+    files.write("drive/again.mcap", mcap_of(["/odom"], 0..20, End::Whole));
+    assert_eq!(drives().len(), 3);
 }
 
 /// Files of one drive follow one another; a recorder may part a log within the mapping's window.

@@ -75,11 +75,13 @@ from ._studies import Trajectory, TraverseBand, simulate
 from ._telemetry import ImportedTelemetry, import_telemetry
 from ._terrain import Terrain
 from ._validation import (
+    DriveValidation,
     Ranking,
     SlopeValidation,
     Validation,
     validate,
     validate_all,
+    validate_drives,
     validate_slopes,
 )
 from ._validity import FLAGS, require_inside
@@ -89,6 +91,7 @@ from ._wheels import Settled, WheelForces, range_of, settle, wheel_forces
 from .campaign import Campaign
 
 __all__ = [
+    "DriveValidation",
     "EARTH_GRAVITY",
     "MARS_GRAVITY",
     "MODELS",
@@ -181,6 +184,7 @@ __all__ = [
     "style",
     "validate",
     "validate_all",
+    "validate_drives",
     "validate_slopes",
     "wheel_forces",
     "wheel_speeds",

@@ -42,7 +42,7 @@ __all__ = [
     "card_rule",
     "check_document",
     "check_shard",
-    "check_system",
+    "check_height_unit",
     "design",
     "drive_mission",
     "find_campaign",
@@ -74,6 +74,7 @@ __all__ = [
     "replay",
     "rollout",
     "routes",
+    "rover_of_urdf",
     "seal_manifest",
     "settle",
     "settle_gradients",
@@ -88,6 +89,7 @@ __all__ = [
     "unit_of",
     "validate",
     "validate_all",
+    "validate_drives",
     "validate_slopes",
     "wheel_forces",
     "wheel_speeds",
@@ -104,6 +106,7 @@ SINKAGE_DAMPING_S_M: float
 REST_SPEED_M_S: float
 
 _Floats = NDArray[np.float64]
+_SystemKeys = tuple[list[int], list[float], str]
 _Reading = tuple[Sequence[float] | None, int | None, float | None]
 _Data = str | os.PathLike[str] | tuple[str, str]
 
@@ -140,6 +143,7 @@ class Terrain:
         south_west_m: Sequence[float],
         spacing_m: Sequence[float],
         north_first: bool,
+        crs: str | None,
     ) -> Terrain: ...
     @staticmethod
     def from_file(path: str | os.PathLike[str], reading: _Reading) -> Terrain: ...
@@ -160,12 +164,21 @@ class Terrain:
         south_west_m: Sequence[float],
         spacing_m: Sequence[float],
         heights: NDArray[np.float32],
+        system: _SystemKeys | None,
     ) -> Terrain: ...
     def parts(
         self,
     ) -> tuple[
-        str, _Reading | None, float, list[float], list[float], NDArray[np.float32]
+        str,
+        _Reading | None,
+        float,
+        list[float],
+        list[float],
+        NDArray[np.float32],
+        _SystemKeys | None,
     ]: ...
+    @property
+    def crs(self) -> str | None: ...
     @property
     def extent(self) -> list[float]: ...
     @property
@@ -365,7 +378,7 @@ def result_columns() -> dict[str, list[tuple[str, str | None, str]]]: ...
 def arrow_stream(
     columns: Sequence[tuple[str, str | None, Any]], notes: dict[str, str]
 ) -> object: ...
-def check_system(name: str, text: str, middle: Sequence[float], cell: float) -> None: ...
+def check_height_unit(unit: str) -> None: ...
 def find_document(kind: str, name: str, changes: dict[str, Any]) -> Document: ...
 def read_document_file(
     kind: str, path: str | os.PathLike[str], changes: dict[str, Any]
@@ -398,6 +411,13 @@ def import_telemetry(
 def meant_keys(kind: str, name: str) -> list[str]: ...
 def present_names(name: str) -> list[str]: ...
 def presets(kind: str) -> list[tuple[str, str, str]]: ...
+def rover_of_urdf(
+    path: str | os.PathLike[str],
+    named: tuple[list[str], list[str]],
+    sizes: tuple[float | None, float | None],
+    forward: str,
+    has: tuple[bool, bool],
+) -> Document: ...
 def to_toml(label: str, table: dict[str, Any]) -> str: ...
 def settle(
     soils: Sequence[Document],
@@ -562,6 +582,13 @@ def validate_slopes(
     data: _Data, scenario: Document, conditions: Sequence[str]
 ) -> dict[str, Any]: ...
 def validate_all(folder: str | os.PathLike[str] | None) -> dict[str, Any]: ...
+def validate_drives(
+    folder: str | os.PathLike[str],
+    scenario: Document,
+    mapping: str | os.PathLike[str] | None,
+    choices: Sequence[tuple[str, str]],
+    how: tuple[str | None, int | None],
+) -> tuple[dict[str, Any], dict[str, dict[str, Any]], str]: ...
 def calibrate_wheel_tests(
     data: _Data,
     soil: Document,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, Union
@@ -409,6 +409,74 @@ class Rover(_Description, _keys.RoverKeys):
     def wheel(self) -> Wheel:
         """The wheel of every mount that has no other."""
         return Wheel(self._items["wheel_unit"]["wheel"])
+
+    @classmethod
+    def from_urdf(
+        cls,
+        path: str | os.PathLike[str],
+        /,
+        *,
+        wheels: Sequence[str] = (),
+        passive: Sequence[str] = (),
+        wheel_radius_m: float | None = None,
+        wheel_width_m: float | None = None,
+        forward: str = "x",
+        differential: bool = False,
+        rigid: bool = False,
+    ) -> Rover:
+        """The rover of a URDF file, as the program's ``import-urdf`` makes it: what was taken for
+        granted on the way stands in ``assumptions``.
+
+        Parameters
+        ----------
+        path : str or path
+            The file: of xacro, what ``xacro FILE`` prints. Meshes of wheels are looked for beside
+            it and in the folders above.
+        wheels : sequence of str
+            Links that are wheels, with ``*`` for any letters. Without any they are guessed.
+        passive : sequence of str
+            Links that roll and are no driven wheels.
+        wheel_radius_m, wheel_width_m : float, optional
+            Size of the wheels [m], where their shapes do not tell it, or another.
+        forward : {"x", "y", "-x", "-y"}
+            Which way of the root link is forward.
+        differential : bool
+            A differential joins the rockers of both sides, where no ``<mimic>`` says so.
+        rigid : bool
+            Joints of the suspension are taken as they stand.
+
+        Raises
+        ------
+        DocumentError
+            For a file that is no rover; the message names links and joints.
+        ParameterError
+            For a size or a way forward that is invalid.
+
+        Examples
+        --------
+        >>> import grouser as gr
+        >>> rover = gr.Rover.from_urdf("cart.urdf", passive=["*drum*"])  # doctest: +SKIP
+        >>> gr.simulate(rover=rover, duration_s=5.0).outcome  # doctest: +SKIP
+        'completed'
+        """
+        for name, size in (("wheel_radius_m", wheel_radius_m), ("wheel_width_m", wheel_width_m)):
+            if size is not None and not 0.0 < size <= 10.0:
+                raise ParameterError(f"{name} is {size}, it must be above 0 and up to 10", name)
+        if differential and rigid:
+            raise ParameterError("a rigid rover has no differential", "rigid")
+        if wheels and passive:
+            raise ParameterError("passive goes with guessed wheels, not with wheels", "passive")
+        made = cls.__new__(cls)
+        made._take(
+            _core.rover_of_urdf(
+                path,
+                (list(wheels), list(passive)),
+                (wheel_radius_m, wheel_width_m),
+                forward,
+                (differential, rigid),
+            )
+        )
+        return made
 
 
 class _OnGround(_Description):

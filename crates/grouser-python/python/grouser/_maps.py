@@ -8,7 +8,7 @@ from . import _core, _tables
 from ._arrays import number, whole_number
 from ._descriptions import Scenario, Source
 from ._studies import scenario_of
-from ._terrain import Terrain, native_of
+from ._terrain import Terrain, carried, native_of
 from ._verdicts import ADVICE
 
 if TYPE_CHECKING:
@@ -105,4 +105,4 @@ def map(
     }
     variables |= _tables.described("advice_slope_deg", ADVICE, about.pop("advice"), "advice_")
     notes = {"course_deg": course_deg, "samples": samples, "seed": seed, **about}
-    return xarray.Dataset(variables, coords=coordinates, attrs=notes)
+    return carried(xarray.Dataset(variables, coords=coordinates, attrs=notes), terrain)

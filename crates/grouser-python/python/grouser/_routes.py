@@ -13,7 +13,7 @@ from ._arrays import number, numbers, whole_number
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError
 from ._studies import scenario_of
-from ._terrain import Terrain, native_of
+from ._terrain import Terrain, carried, native_of
 from ._verdicts import ADVICE
 
 if TYPE_CHECKING:
@@ -228,8 +228,8 @@ def route(
     found = _core.routes(run._document, ground, task)
     notes = {"samples": samples, "seed": seed}
     if along is not None:
-        return _line_dataset(found[0], notes)
-    ways = {way["minimise"]: _dataset(way, notes) for way in found}
+        return carried(_line_dataset(found[0], notes), terrain)
+    ways = {way["minimise"]: carried(_dataset(way, notes), terrain) for way in found}
     return ways if alternatives else ways[minimise]
 
 

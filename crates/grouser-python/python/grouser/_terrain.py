@@ -14,6 +14,7 @@ from ._arrays import Floats, number, numbers, whole_number
 from ._errors import ParameterError
 
 if TYPE_CHECKING:
+    import xarray
     from matplotlib.axes import Axes
 
 #: Which row of an array comes first.
@@ -42,16 +43,22 @@ class Terrain:
     rows : {"north-first", "south-first"}
         Which row comes first: the northern one, as in pictures, rasterio and GeoTIFF, or the
         southern one, as in plots with their origin below.
+    crs : str or object with ``to_wkt``, optional
+        The system of the coordinates: well-known text, a code such as ``"EPSG:32633"``, or what
+        rasterio and pyproj have. Files of places are compared with it, and maps and ways carry it.
 
     Raises
     ------
     ParameterError
-        If the heights are no grid, if all are missing, or for values that are not finite.
+        If the heights are no grid, if all are missing, for values that are not finite or are no
+        real numbers, for coordinates in degrees or other units, and for a map far larger or smaller
+        than its ground.
 
     Warns
     -----
     UserWarning
-        Of heights that no ground has: voids that nobody declared, steps, spikes.
+        Of heights that no ground has: voids that nobody declared, steps, spikes; and of a
+        projection that is larger or smaller than the ground.
 
     Examples
     --------
@@ -88,6 +95,7 @@ class Terrain:
         cell_size_m: float | Sequence[float],
         south_west_m: Sequence[float] = (0.0, 0.0),
         rows: Rows = "north-first",
+        crs: Any = None,
     ) -> None:
         if rows not in ("north-first", "south-first"):
             raise ParameterError(
@@ -98,14 +106,21 @@ class Terrain:
                 "heights_m is a DataArray: Terrain.from_xarray takes its coordinates too",
                 "heights_m",
             )
-        heights = np.ma.filled(np.ma.asarray(heights_m).astype(np.float64), np.nan)
+        given = np.ma.asarray(heights_m)
+        if given.dtype.kind not in "biuf" and given.dtype != object:
+            raise ParameterError(
+                f"heights_m has numbers of type {given.dtype}, they must be real: heights in metres",
+                "heights_m",
+            )
+        heights = np.ma.filled(given.astype(np.float64), np.nan)
         if heights.ndim != 2:
             raise ParameterError(
                 f"heights_m has shape {heights.shape}, it must have two axes, rows and columns",
                 "heights_m",
             )
         corner, cell = _pair("south_west_m", south_west_m), _pair("cell_size_m", cell_size_m)
-        self._native = _core.Terrain(heights, corner, cell, rows == "north-first")
+        text = _text_of(crs)
+        self._native = _core.Terrain(heights, corner, cell, rows == "north-first", text)
 
     @classmethod
     def _of(cls, native: _core.Terrain) -> Terrain:
@@ -213,40 +228,45 @@ class Terrain:
         return cls._of(_core.Terrain.lunar(*sizes, ground, share, largest, at_random))
 
     @classmethod
-    def from_rasterio(cls, dataset: Any, *, band: int = 1) -> Terrain:
+    def from_rasterio(cls, dataset: Any, *, band: int | None = None) -> Terrain:
         """The map of an open dataset of rasterio, with its transform, its missing heights, and its
-        scale and offset.
+        scale and offset. It is refused where `from_file` refuses the file.
 
         Parameters
         ----------
         dataset : rasterio.DatasetReader
             The dataset, in metres of a projection and not rotated.
-        band : int
-            Which band has the heights, from 1.
+        band : int, optional
+            Which band has the heights, from 1; needed where there are several.
 
         Raises
         ------
         ParameterError
             For coordinates in degrees or other units, a map far larger or smaller than its ground,
-            and a transform that is rotated, sheared or mirrored, with what helps.
+            cells that are colours, several bands of which none is chosen, a dataset without a
+            place, and a transform that is rotated, sheared or mirrored, with what helps.
 
         Examples
         --------
         Made with rasterio as ``gr.Terrain.from_rasterio(rasterio.open("site.tif"))``.
         """
-        place = whole_number("band", band) - 1
-        _check_heights_unit("dataset", (getattr(dataset, "units", None) or {place: None})[place])
+        place = _band_of(dataset, band) - 1
+        _check_heights_unit((getattr(dataset, "units", None) or {place: None})[place])
         a, b, c, d, e, f = tuple(dataset.transform)[:6]
+        if (a, b, c, d, e, f) == (1.0, 0.0, 0.0, 0.0, 1.0, 0.0) and not dataset.crs:
+            raise ParameterError(
+                "the dataset has no georeference: nothing says where it lies and how large its "
+                "cells are; Terrain(dataset.read(1), cell_size_m=…, south_west_m=…) does",
+                "dataset",
+            )
         if b or d or a <= 0.0 or not e:
             raise ParameterError(
                 "the transform of the dataset is rotated, sheared or mirrored: "
                 "`gdalwarp -r cubic IN.tif OUT.tif` writes a north-up file",
                 "dataset",
             )
-        heights = np.ma.asarray(dataset.read(band, masked=True))
-        rows, columns = heights.shape
-        middle = (c + 0.5 * columns * a, f + 0.5 * rows * e)
-        _check_system("dataset", dataset.crs, middle, abs(e))
+        heights = np.ma.asarray(dataset.read(place + 1, masked=True))
+        rows, _ = heights.shape
         scale = (getattr(dataset, "scales", None) or {place: 1.0})[place]
         offset = (getattr(dataset, "offsets", None) or {place: 0.0})[place]
         # A transform is of the cells' corners, a map of their middles.
@@ -256,6 +276,7 @@ class Terrain:
             cell_size_m=(a, abs(e)),
             south_west_m=(c + 0.5 * a, lowest),
             rows="north-first" if e < 0.0 else "south-first",
+            crs=dataset.crs,
         )
 
     @classmethod
@@ -263,7 +284,8 @@ class Terrain:
         """The map of a DataArray over ``y`` and ``x``, with the conventions of rioxarray: the
         coordinates are the middles of cells [m], and run either way along ``y``.
 
-        Missing are NaN and the ``nodata`` of its accessor ``rio``, or its attribute ``_FillValue``.
+        Missing are NaN and the ``nodata`` of its accessor ``rio``, or its attributes ``_FillValue``
+        and ``missing_value``; a mask that a file has counts where it is opened with ``masked=True``.
 
         Parameters
         ----------
@@ -281,6 +303,7 @@ class Terrain:
         Made as ``gr.Terrain.from_xarray(rioxarray.open_rasterio("site.tif"))``.
         """
         array = heights_m
+        _check_no_degrees(array)
         for dim in array.dims:
             if dim not in ("y", "x") and array.sizes[dim] == 1:
                 array = array.isel({dim: 0})
@@ -291,23 +314,21 @@ class Terrain:
                 "heights_m",
             )
         array = array.transpose("y", "x")
-        _check_heights_unit("heights_m", array.attrs.get("units"))
+        _check_heights_unit(array.attrs.get("units"))
         (west, east), (first, last) = _ends("x", array), _ends("y", array)
         if east < west:
             array, (west, east) = array.isel(x=slice(None, None, -1)), (east, west)
         rows, columns = array.shape
-        middle, cell = (0.5 * (west + east), 0.5 * (first + last)), abs(last - first) / (rows - 1)
-        _check_system("heights_m", _system_of(array), middle, cell)
-        heights = np.ma.masked_invalid(np.asarray(array.values, dtype=np.float64))
-        nodata = _nodata_of(array)
-        if nodata is not None:
-            heights = np.ma.masked_equal(heights, nodata)
+        heights = np.ma.masked_invalid(np.asarray(array.values))
+        for nodata in _nodata_of(array):
+            heights = np.ma.masked_where(heights == nodata, heights)
         scale, offset = (array.attrs.get(it) for it in ("scale_factor", "add_offset"))
         return cls(
             _scaled(heights, scale, offset),
-            cell_size_m=((east - west) / (columns - 1), cell),
+            cell_size_m=((east - west) / (columns - 1), abs(last - first) / (rows - 1)),
             south_west_m=(west, min(first, last)),
             rows="south-first" if last > first else "north-first",
+            crs=_system_of(array),
         )
 
     @property
@@ -328,6 +349,12 @@ class Terrain:
         return east, north
 
     @property
+    def crs(self) -> str | None:
+        """The system of the coordinates, for other programs: its code (``"EPSG:32633"``), well-known
+        text or the words of PROJ; None where it is not known."""
+        return self._native.crs
+
+    @property
     def missing_count(self) -> int:
         """Number of points whose height is missing."""
         return self._native.missing
@@ -336,7 +363,7 @@ class Terrain:
     def heights_m(self) -> Floats:
         """Heights at the points [m], shape (rows, columns), rows from south to north; NaN where
         they are missing; a copy."""
-        _, _, base, _, _, above = self._native.parts()
+        _, _, base, _, _, above, _ = self._native.parts()
         return base + above.astype(np.float64)
 
     def height_m(self, x_m: ArrayLike, y_m: ArrayLike) -> Any:
@@ -481,26 +508,61 @@ def _scaled(heights: NDArray[Any], scale: float | None, offset: float | None) ->
     return scaled
 
 
-def _check_system(name: str, system: Any, middle: Sequence[float], cell: float) -> None:
-    """Checks that coordinates are in metres, as far as a coordinate system says so."""
-    text = system.to_wkt() if hasattr(system, "to_wkt") else str(system or "")
-    if text:
-        _core.check_system(name, text, middle, cell)
+def _text_of(crs: Any) -> str | None:
+    """A coordinate system as text; None without one."""
+    if not crs:
+        return None
+    return str(crs.to_wkt() if hasattr(crs, "to_wkt") else crs)
 
 
-def _check_heights_unit(name: str, unit: object) -> None:
-    """Checks that heights are in metres, as far as a unit is stated."""
-    if unit and str(unit).lower() not in ("m", "metre", "meter", "metres", "meters"):
+def _band_of(dataset: Any, band: int | None) -> int:
+    """Which band of a dataset has the heights, from 1."""
+    count = int(getattr(dataset, "count", 1))
+    if band is None and count > 1:
         raise ParameterError(
-            f"the heights are in {unit!r}, they must be in metres", name, None, "heights in metres"
+            f"the dataset has {count} bands, and one of them has the heights: `band` says which",
+            "band",
+        )
+    chosen = 1 if band is None else whole_number("band", band)
+    if not 1 <= chosen <= count:
+        raise ParameterError(
+            f"the dataset has no band {chosen}: it has {count}, counted from 1", "band"
+        )
+    colours = getattr(dataset, "colorinterp", None)
+    if colours is not None and colours[chosen - 1].name == "palette":
+        raise ParameterError("the dataset's cells are numbers of colours, not heights", "dataset")
+    return chosen
+
+
+def _check_heights_unit(unit: object) -> None:
+    """Checks that heights are in metres, as far as a unit is stated."""
+    if unit:
+        _core.check_height_unit(str(unit))
+
+
+def _check_no_degrees(array: Any) -> None:
+    """Checks that the coordinates of an array are no degrees, by their names and units."""
+    for name, values in array.coords.items():
+        units = str(values.attrs.get("units", ""))
+        if name not in array.dims or not (
+            units.startswith("degree") or name in ("lon", "lat", "longitude", "latitude")
+        ):
+            continue
+        raise ParameterError(
+            f"the coordinates {name} are degrees of longitude and latitude, and a rover needs "
+            "metres: `.rio.reproject(array.rio.estimate_utm_crs())` projects them",
+            "heights_m",
         )
 
 
 def _ends(dim: str, array: Any) -> tuple[float, float]:
     """The first and the last coordinate along a dimension [m], which are evenly spaced."""
     places = np.asarray(array[dim].values, dtype=np.float64)
-    if str(array[dim].attrs.get("units", "")).startswith("degree"):
-        _core.check_system(dim, "GEOGCS", (0.0, 0.0), 0.0)
+    units = str(array[dim].attrs.get("units") or "m").lower()
+    if units not in ("m", "metre", "meter", "metres", "meters"):
+        raise ParameterError(
+            f"the coordinates {dim} are in {units!r}, and a rover needs metres", "heights_m"
+        )
     if len(places) < 2:
         raise ParameterError(
             f"there are {len(places)} places along {dim}, two or more are needed", dim
@@ -519,14 +581,23 @@ def _system_of(array: Any) -> Any:
     accessor = getattr(array, "rio", None)
     if accessor is not None:
         return accessor.crs
-    mapping: Mapping[str, Any] = array.coords
-    return mapping["spatial_ref"].attrs.get("crs_wkt") if "spatial_ref" in mapping else None
+    name = array.encoding.get("grid_mapping") or array.attrs.get("grid_mapping") or "spatial_ref"
+    if name not in array.coords:
+        return None
+    attributes: Mapping[str, Any] = array.coords[name].attrs
+    return attributes.get("crs_wkt") or attributes.get("spatial_ref")
 
 
-def _nodata_of(array: Any) -> float | None:
-    """What stands for missing heights; None where nothing does."""
+def _nodata_of(array: Any) -> list[float]:
+    """What stands for missing heights."""
     accessor = getattr(array, "rio", None)
-    value = None if accessor is None else accessor.nodata
-    if value is None:
-        value = array.attrs.get("_FillValue")
-    return None if value is None else float(value)
+    values = [None if accessor is None else accessor.nodata]
+    values += [array.attrs.get(name) for name in ("_FillValue", "missing_value")]
+    return [float(value) for value in values if value is not None]
+
+
+def carried(data: xarray.Dataset, terrain: Terrain) -> xarray.Dataset:
+    """A dataset over places of a map, with the map's coordinate system as rioxarray reads it."""
+    if terrain.crs is None:
+        return data
+    return data.assign_coords(spatial_ref=((), 0, {"spatial_ref": terrain.crs}))

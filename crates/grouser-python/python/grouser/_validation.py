@@ -1,7 +1,9 @@
-"""Errors of wheel–soil models against measured wheel tests, and rovers measured on slopes."""
+"""Errors of wheel–soil models against measured wheel tests, and rovers measured on slopes and over
+drives."""
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,6 +15,7 @@ from . import _core, _tables
 from ._descriptions import Rover, Soil, Source, Wheel
 from ._measurements import Data, rows_of
 from ._studies import scenario_of
+from ._telemetry import budget_of
 from ._wheels import setting
 
 if TYPE_CHECKING:
@@ -252,6 +255,152 @@ def validate_slopes(
     found = _core.validate_slopes(rows_of(data), scenario._document, conditions)
     found["yardsticks"], found["notes"] = tuple(found["yardsticks"]), tuple(found["notes"])
     return SlopeValidation(**found)
+
+
+@dataclass(frozen=True, eq=False)
+class DriveValidation(_tables.Tabular):
+    """Every wheel–soil model beside recorded drives, with the names of ``grouser validate
+    --drives``.
+
+    Made by `validate_drives`, which has an example.
+    """
+
+    judged_on: str
+    """The set on which models are ranked: ``test``, or ``training`` where the hash puts no drive
+    into the test set."""
+    sentences: tuple[str, ...]
+    """What was found."""
+    rows: Mapping[str, Any]
+    """Columns over predictions, sets and quantities: ``rank`` (of models), ``prediction``,
+    ``split``, ``score`` (0 is perfect), ``quantity``, ``quantity_score``, ``rmse``, ``bias``,
+    ``repeatability`` (the standard deviation between drives that repeat each other) and others."""
+    cells: Mapping[str, Any]
+    """Columns over models and cells, which are stretches of like conditions: ``model``, ``split``,
+    ``slope_deg``, ``yaw_deg``, ``turn_radius_m``, ``rim_speed_m_s``, ``trials``, and for each of
+    ``slip_ratio``, ``drift_m_per_m``, ``yaw_rate_deg_s`` and ``power_w`` what was measured
+    (``measured_…``) and what the model predicts."""
+    drives: Mapping[str, Any]
+    """Columns over drives: ``drive``, ``split`` and others."""
+    compared_stretches: int
+    """How many stretches were compared."""
+    notes: tuple[str, ...]
+    """Remarks on the logs, and what was not compared."""
+    files: tuple[Mapping[str, Any], ...]
+    """What each log gave: ``file``, ``content``, and how many rows were ``there`` and ``used``."""
+
+    @property
+    def models(self) -> tuple[str, ...]:
+        """The models by their rank on the set that they are judged on."""
+        rank = np.asarray(self.rows["rank"], dtype=float)
+        judged = np.asarray(self.rows["split"]) == self.judged_on
+        ranked = {r: name for r, name, on in zip(rank, self.rows["prediction"], judged) if on}
+        return tuple(str(ranked[r]) for r in sorted(ranked) if np.isfinite(r))
+
+    def _table(self) -> Mapping[str, Any]:
+        return self.cells
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each cell with each model."""
+        return _tables.frame(self._table())
+
+    def plot(self, axes: Axes | None = None, *, name: str = "slip_ratio", **style: Any) -> Axes:
+        """Plots what each model predicts over what was measured, a dot for each cell.
+
+        Parameters
+        ----------
+        axes : matplotlib axes, optional
+            Axes to plot on; by default those of a new figure.
+        name : str
+            The quantity.
+        **style
+            Arguments of the drawing functions of matplotlib.
+        """
+        axes = _tables.axes_or_new(axes)
+        measured, predicted = self.cells[f"measured_{name}"], self.cells[name]
+        for model in self.models:
+            own = np.asarray(self.cells["model"]) == model
+            named = {"ls": "", "marker": ".", "label": model, **style}
+            axes.plot(measured[own], predicted[own], **named)
+        low, high = np.nanmin([measured, predicted]), np.nanmax([measured, predicted])
+        axes.plot([low, high], [low, high], color="grey", lw=0.8)
+        axes.set_xlabel(f"measured {_tables.label(name)}")
+        axes.set_ylabel(f"predicted {_tables.label(name)}")
+        return axes
+
+    def __repr__(self) -> str:
+        count = len(self.drives["drive"])
+        return f"<DriveValidation of {count} drives, {self.compared_stretches} stretches>"
+
+
+def validate_drives(
+    folder: str | os.PathLike[str],
+    soil: Soil | Source,
+    rover: Rover | Source,
+    *,
+    mapping: str | os.PathLike[str] | None = None,
+    topics: Mapping[str, str] | None = None,
+    odometry: str | None = None,
+    max_unpacked_mib: int | None = None,
+    **changes: Any,
+) -> DriveValidation:
+    """Ranks every wheel–soil model on the recorded drives of a folder, which each predicts from
+    wheel speeds, steering angles and attitudes alone. The numbers are those of ``grouser validate
+    --drives``; ``docs/guide/data.md`` explains them.
+
+    Parameters
+    ----------
+    folder : str or path
+        A folder with a log of each drive, in folders of any depth: CSV, Parquet, Arrow or MCAP.
+    soil, rover
+        The soil, of which an uncertain one predicts with its nominal values, and the rover that was
+        driven.
+    mapping, topics, odometry, max_unpacked_mib
+        As for `import_telemetry`; ``"mines"``, ``"enav"`` and ``"baseprod"`` are layouts of public
+        data sets.
+    **changes
+        Keys of the scenario with other values, such as ``gravity_m_s2``, or ``model`` for that one
+        alone.
+
+    Returns
+    -------
+    DriveValidation
+
+    Raises
+    ------
+    DocumentError
+        For a log that cannot be used, where no other can.
+    DocumentNotFoundError, ParameterError
+        As `heading`, for a folder that is not there or has no log, and for drives without a
+        stretch that can be compared.
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> import grouser as gr
+    >>> folder = tempfile.TemporaryDirectory()
+    >>> for slope_deg in (4.0, 8.0, 12.0):                   # the program writes such logs as well
+    ...     run = gr.simulate(slope_deg=slope_deg, model="ishigami", duration_s=60.0)
+    ...     log = {"time_s": run.time_s, "x_m": run.x_m, "y_m": run.y_m, "yaw_deg": run.yaw_deg}
+    ...     log["roll_deg"] = slope_deg + 0.0 * run.time_s    # along the contour
+    ...     for k, name in enumerate(run.wheel_names):
+    ...         log[f"wheel_speed_rad_s_{name}"] = run.wheel["wheel_speed_rad_s"][:, k]
+    ...     rows = [",".join(log), *(",".join(map(str, row)) for row in zip(*log.values()))]
+    ...     with open(os.path.join(folder.name, f"{slope_deg}.csv"), "w") as file:
+    ...         _ = file.write("\n".join(rows) + "\n")
+    >>> found = gr.validate_drives(folder.name, "toyoura", "hakuto")
+    >>> found.models[0], len(found.drives["drive"])
+    ('ishigami', 3)
+    >>> folder.cleanup()
+    """
+    scenario = scenario_of(None, {"soil": soil, "rover": rover, **changes})
+    choices = [(str(what), str(topic)) for what, topic in (topics or {}).items()]
+    path = None if mapping is None else os.fspath(mapping)
+    how = (odometry, budget_of(max_unpacked_mib))
+    found, tables, files = _core.validate_drives(
+        os.fspath(folder), scenario._document, path, choices, how
+    )
+    words = {name: tuple(found.pop(name)) for name in ("sentences", "notes")}
+    return DriveValidation(**found, **tables, **words, files=tuple(json.loads(files)))
 
 
 @dataclass(frozen=True, eq=False)

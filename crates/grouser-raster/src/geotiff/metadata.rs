@@ -45,7 +45,12 @@ pub(super) fn scaling(text: Option<&str>, band: usize) -> Result<Scaling, Fault>
 }
 
 /// Checks that heights are in metres.
-pub(super) fn check_unit(unit: &str) -> Result<(), Fault> {
+///
+/// * `unit`: the name of their unit; nothing where none is stated
+///
+/// # Errors
+/// [`Fault::HeightUnit`] for another one.
+pub fn check_unit(unit: &str) -> Result<(), Fault> {
     const METRES: [&str; 6] = ["", "m", "metre", "meter", "metres", "meters"];
     if METRES.contains(&unit.to_lowercase().as_str()) {
         return Ok(());

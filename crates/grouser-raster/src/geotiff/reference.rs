@@ -13,7 +13,8 @@ use crate::{Placement, RowOrder};
 
 /// What a file says of its place.
 pub(super) struct Georeference<'s> {
-    pub(super) system: &'s CoordinateSystem,
+    /// The system of the file itself.
+    pub(super) system: CoordinateSystem,
     /// What lies beside the file.
     pub(super) beside: &'s Sidecars,
     /// Size of a cell: `ModelPixelScaleTag`.
@@ -29,6 +30,8 @@ pub(super) struct PlacedGrid {
     pub(super) grid: ElevationGrid,
     /// Which row comes first.
     pub(super) order: RowOrder,
+    /// The system of its coordinates.
+    pub(super) system: CoordinateSystem,
     /// What is odd about the system of their coordinates.
     pub(super) remark: Option<Remark>,
 }
@@ -38,7 +41,7 @@ impl Georeference<'_> {
     ///
     /// * `placement`: for files that do not say so themselves
     pub(super) fn grid(
-        &self,
+        self,
         columns: usize,
         rows: usize,
         placement: Option<Placement>,
@@ -47,14 +50,15 @@ impl Georeference<'_> {
         let Some(affine) = self.beside.notes.place.or_else(own).filter(Affine::is_regular) else {
             let placement = placement.ok_or(Fault::NotReferenced)?;
             let (grid, order) = (placement.grid(columns, rows), placement.rows);
-            return Ok(PlacedGrid { grid, order, remark: None });
+            return Ok(PlacedGrid { grid, order, system: self.system, remark: None });
         };
         let middle = affine.middle(0.5 * (columns as f64 - 1.0), 0.5 * (rows as f64 - 1.0));
-        let site = MapSite { middle, cell: affine.d.abs() };
-        let remark = match &self.beside.notes.system {
-            Some(text) => check_system(text, site)?,
-            None => check_keys(self.system, site)?,
-        };
+        let size = Vec2::new(columns as f64 * affine.a.abs(), rows as f64 * affine.d.abs());
+        let site = MapSite { middle, cell: affine.d.abs(), size };
+        let noted = self.beside.notes.system.as_deref();
+        let remark =
+            noted.map_or_else(|| check_keys(&self.system, site), |it| check_system(it, site))?;
+        let system = noted.map_or(self.system, CoordinateSystem::of_text);
         // What the rounding of sines may leave of a rotation by nothing [-].
         const LEVEL: f64 = 1e-9;
         let Affine { a, b, c, d, .. } = affine;
@@ -66,7 +70,7 @@ impl Georeference<'_> {
         let south_west = affine.middle(0.0, southern);
         let spacing = Vec2::new(a, d.abs());
         let grid = ElevationGrid { columns, rows, south_west, spacing };
-        Ok(PlacedGrid { grid, order, remark })
+        Ok(PlacedGrid { grid, order, system, remark })
     }
 
     /// The place of the cells, by tiepoint and scale, else by the matrix, as GDAL takes them.

@@ -1,5 +1,6 @@
 //! Names of columns: which of them are x, y and z.
 
+use crate::error::Flaw;
 use crate::remark::Remark;
 
 /// Names that the places and the heights have, in small letters and without a unit.
@@ -63,7 +64,7 @@ fn parts(name: &str) -> (String, Option<String>) {
 impl TextColumns {
     /// * `names`: of the first line, if there are any
     /// * `count`: of the words of the first point
-    pub(super) fn of(names: Option<Vec<String>>, count: usize) -> Result<Self, String> {
+    pub(super) fn of(names: Option<Vec<String>>, count: usize) -> Result<Self, Flaw> {
         if let Some(names) = names.filter(|names| names.len() == count) {
             return Self::named(&names);
         }
@@ -71,16 +72,16 @@ impl TextColumns {
         Ok(Self { of: [0, 1, 2], height: None, unused })
     }
 
-    fn named(names: &[String]) -> Result<Self, String> {
+    fn named(names: &[String]) -> Result<Self, Flaw> {
         let known: Vec<(String, Option<String>)> = names.iter().map(|name| parts(name)).collect();
         let shown = || listed(names);
         if let Some(at) = known.iter().position(|(name, _)| DEGREES.contains(&&**name)) {
-            return Err(format!(
-                "column {} is in degrees, and a rover needs metres: the columns are {}\nhint: \
-                 gdalwarp projects a grid",
+            let problem = format!(
+                "column {} is in degrees, and a rover needs metres: the columns are {}",
                 shown_name(&names[at]),
                 shown()
-            ));
+            );
+            return Err(Flaw::with_hint(problem, |_| "gdalwarp projects a grid".to_owned()));
         }
         let column = |of: &[&str]| known.iter().position(|(name, _)| of.contains(&&**name));
         let (x, y, z) = (column(&X), column(&Y), column(&Z));
@@ -94,14 +95,14 @@ impl TextColumns {
                 shown()
             )
         };
-        let (Some(x), Some(y)) = (x, y) else { return Err(sought()) };
+        let (Some(x), Some(y)) = (x, y) else { return Err(sought().into()) };
         let others = rest(&[x, y]);
         let z_or_only = z.or(if let [only] = others[..] { Some(only) } else { None });
         let z_column = z_or_only.ok_or_else(sought)?;
         for column in [Some(x), Some(y), z].into_iter().flatten() {
             if let Some(unit) = known[column].1.as_deref().filter(|it| !METRES.contains(it)) {
                 let name = shown_name(&names[column]);
-                return Err(format!("column {name} is in {unit}, and a rover needs metres"));
+                return Err(format!("column {name} is in {unit}, and a rover needs metres").into());
             }
         }
         let unused = rest(&[x, y, z_column]).into_iter().map(|it| shown_name(&names[it])).collect();

@@ -27,7 +27,7 @@ pub(super) fn of(raster: &Raster) -> Result<ZoneMap, Fault> {
         keys.binary_search(&class).ok().and_then(|at| u8::try_from(at).ok()).unwrap_or(NO_ZONE)
     };
     let cells = raster.heights.iter().map(number).collect();
-    Ok(ZoneMap::of_cells(keys_of(&keys), raster.grid, cells))
+    Ok(ZoneMap::of_cells(keys_of(&keys), raster.grid, cells, raster.coordinates.clone()))
 }
 
 fn keys_of(classes: &[i64]) -> Vec<ZoneKey> {

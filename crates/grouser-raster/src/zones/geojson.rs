@@ -20,9 +20,9 @@ use grouser_core::units::Vec2;
 use self::syntax::{Coordinates, Feature, Geometry, Root};
 use super::key::ZoneKey;
 use super::map::ZoneMap;
-use super::places::{compare, is_in_degrees, shown};
+use super::places::{PlacesSystem, is_in_degrees, shown};
 use crate::CoordinateSystem;
-use crate::error::{Fault, RasterError};
+use crate::error::{Fault, Flaw};
 use crate::read::start_of;
 use crate::remark::Remark;
 
@@ -73,22 +73,7 @@ pub fn compare_system(bytes: &[u8], map: &CoordinateSystem) -> Result<Option<Rem
     let Some(root) = starts_so(bytes).then(|| root_of(bytes).ok()).flatten() else {
         return Ok(None);
     };
-    compare(root.system(), map)
-}
-
-/// The same for a file.
-///
-/// # Errors
-/// [`RasterError`] with the file's name, also where it cannot be read.
-pub fn compare_system_of(
-    path: &Path,
-    map: &CoordinateSystem,
-) -> Result<Option<Remark>, RasterError> {
-    let remark = || {
-        let is_one = starts_so(&start_of(path)?);
-        if is_one { compare_system(&bytes_of(path)?, map) } else { Ok(None) }
-    };
-    remark().map_err(|fault: Fault| RasterError::new(path, fault))
+    PlacesSystem::of_root(&root).compare(map)
 }
 
 fn bytes_of(path: &Path) -> Result<Vec<u8>, Fault> {
@@ -104,14 +89,15 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>, Fault> {
 /// [`Fault`] if it has no polygons with soils.
 pub fn decode(bytes: &[u8]) -> Result<ZoneMap, Fault> {
     let mut polygons = Vec::new();
-    for (number, feature) in (1..).zip(features_of(bytes)?) {
-        let fault = |problem: String| Fault::Feature { number, problem };
+    let (features, system) = features_of(bytes)?;
+    for (number, feature) in (1..).zip(features) {
+        let fault = |flaw: Flaw| Fault::Feature { number, flaw };
         let key = key_of(&feature).map_err(fault)?;
-        for rings in polygons_of(feature.geometry).map_err(fault)? {
+        for rings in polygons_of(feature.geometry).map_err(|problem| fault(problem.into()))? {
             polygons.push((key.clone(), rings));
         }
     }
-    ZoneMap::of_polygons(polygons)
+    ZoneMap::of_polygons(polygons, system)
 }
 
 /// Reads areas as a file of GeoJSON holds them, whatever their properties: all are one zone, of
@@ -121,15 +107,15 @@ pub fn decode(bytes: &[u8]) -> Result<ZoneMap, Fault> {
 /// [`Fault`] if there are no polygons, or the edge of one crosses itself.
 pub fn decode_areas(bytes: &[u8]) -> Result<ZoneMap, Fault> {
     let mut polygons = Vec::new();
-    let features = features_of(bytes).map_err(|fault| match fault {
+    let (features, system) = features_of(bytes).map_err(|fault| match fault {
         Fault::NoFeatures { kind } => Fault::NoAreaFeatures { kind },
         other => other,
     })?;
     for (number, feature) in (1..).zip(features) {
-        let fault = |problem: String| Fault::Area { number, problem };
-        for rings in polygons_of(feature.geometry).map_err(fault)? {
+        let fault = |flaw: Flaw| Fault::Area { number, flaw };
+        for rings in polygons_of(feature.geometry).map_err(|problem| fault(problem.into()))? {
             if rings.is_empty() {
-                return Err(fault("a polygon of it has no ring".to_owned()));
+                return Err(fault("a polygon of it has no ring".to_owned().into()));
             }
             rings.iter().try_for_each(|ring| check_area(ring)).map_err(fault)?;
             polygons.push((ZoneKey::Class(0), rings));
@@ -138,40 +124,49 @@ pub fn decode_areas(bytes: &[u8]) -> Result<ZoneMap, Fault> {
     if polygons.is_empty() {
         return Err(Fault::NoAreas);
     }
-    ZoneMap::of_polygons(polygons)
+    ZoneMap::of_polygons(polygons, system)
 }
 
 /// Checks that a ring has an area and that its edge does not cross itself.
-fn check_area(ring: &[Vec2]) -> Result<(), String> {
+fn check_area(ring: &[Vec2]) -> Result<(), Flaw> {
     /// Farther away no map has places [m].
     const FARTHEST: f64 = 1e9;
     if let Some(far) = ring.iter().find(|at| at.x.abs().max(at.y.abs()) > FARTHEST) {
         return Err(format!(
             "its corner x {:e}, y {:e} is beyond every map in metres",
             far.x, far.y
-        ));
+        )
+        .into());
     }
     let sides = || ring.windows(2).map(|pair| pair[1] - pair[0]);
     let first = sides().find(|side| side.norm() > 0.0).unwrap_or_default();
     if ring.iter().all(|at| first.perp(&(at - ring[0])) == 0.0) {
-        return Err(format!(
-            "its corners lie on a line through x {}, y {}, and a line has no inside\nhint: ogr2ogr -dialect SQLite -sql \
-             \"SELECT ST_Buffer(geometry, METRES) FROM LAYER\" OUT.geojson IN.geojson makes an area of it",
+        let problem = format!(
+            "its corners lie on a line through x {}, y {}, and a line has no inside",
             ring[0].x, ring[0].y
-        ));
+        );
+        return Err(Flaw::with_hint(problem, |file| {
+            format!(
+                "ogr2ogr -dialect SQLite -sql \"SELECT ST_Buffer(geometry, METRES) FROM LAYER\" \
+                 OUT.geojson {file} makes an area of it"
+            )
+        }));
     }
     match crossing::crossing(ring) {
-        Ok(Some(at)) => Err(format!("its edge crosses itself near x {}, y {}", at.x, at.y)),
+        Ok(Some(at)) => Err(format!("its edge crosses itself near x {}, y {}", at.x, at.y).into()),
         Ok(None) => Ok(()),
-        Err(crossing::Tangled) => Err("its edge runs over the same places too often to follow\n\
-             hint: ogr2ogr -makevalid OUT.geojson IN.geojson untangles it"
-            .to_owned()),
+        Err(crossing::Tangled) => Err(Flaw::with_hint(
+            "its edge runs over the same places too often to follow".to_owned(),
+            |file| format!("ogr2ogr -makevalid OUT.geojson {file} untangles it"),
+        )),
     }
 }
 
-/// The features of a file.
-fn features_of(bytes: &[u8]) -> Result<Vec<Feature>, Fault> {
-    features_in(root_of(bytes)?)
+/// The features of a file, and the system of their places.
+fn features_of(bytes: &[u8]) -> Result<(Vec<Feature>, PlacesSystem), Fault> {
+    let root = root_of(bytes)?;
+    let system = PlacesSystem::of_root(&root);
+    Ok((features_in(root)?, system))
 }
 
 /// The outermost object of a file in metres.
@@ -196,16 +191,29 @@ fn features_in(root: Root) -> Result<Vec<Feature>, Fault> {
     }
 }
 
+impl PlacesSystem {
+    /// The system that a file of GeoJSON names.
+    fn of_root(root: &Root) -> Self {
+        Self::Named(root.system().map(shown))
+    }
+}
+
 /// What a feature calls its soil.
-fn key_of(feature: &Feature) -> Result<ZoneKey, String> {
-    const WANTED: &str = "hint: ogr2ogr -sql \"SELECT *, UNIT AS soil FROM LAYER\" OUT.geojson IN \
-                          makes it of a property UNIT";
+fn key_of(feature: &Feature) -> Result<ZoneKey, Flaw> {
+    let unnamed = |problem: &str| {
+        Flaw::with_hint(problem.to_owned(), |file| {
+            format!(
+                "ogr2ogr -sql \"SELECT *, UNIT AS soil FROM LAYER\" OUT.geojson {file} makes it of a \
+                 property UNIT"
+            )
+        })
+    };
     match feature.properties.as_ref().and_then(|properties| properties.soil.as_ref()) {
         Some(syntax::Soil::Key(key)) => Ok(key.clone()),
         Some(syntax::Soil::Other) => {
-            Err(format!("its property \"soil\" is neither a text nor a whole number\n{WANTED}"))
+            Err(unnamed("its property \"soil\" is neither a text nor a whole number"))
         }
-        None => Err(format!("it has no property \"soil\"\n{WANTED}")),
+        None => Err(unnamed("it has no property \"soil\"")),
     }
 }
 

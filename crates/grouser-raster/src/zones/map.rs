@@ -6,9 +6,10 @@ use grouser_core::terrain::{ElevationGrid, Extent, SoilZones, ZonePolygon};
 use grouser_core::units::Vec2;
 
 use super::key::ZoneKey;
-use super::places::check_places;
+use super::places::{MapFrame, PlacesSystem, check_places};
 use crate::degrees::may_be_degrees;
 use crate::error::Fault;
+use crate::{CoordinateSystem, Remark};
 
 /// Zones as a file has them.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +17,7 @@ pub struct ZoneMap {
     /// Ascending.
     keys: Vec<ZoneKey>,
     shape: Shape,
+    system: PlacesSystem,
 }
 
 /// How many zones there are: cells of a raster that have one, or areas.
@@ -38,12 +40,20 @@ enum Shape {
 impl ZoneMap {
     /// * `keys`: ascending
     /// * `cells`: the number of each cell's key, or [`NO_ZONE`]
-    pub(super) fn of_cells(keys: Vec<ZoneKey>, grid: ElevationGrid, cells: Vec<u8>) -> Self {
-        Self { keys, shape: Shape::Cells(grid, cells) }
+    pub(super) fn of_cells(
+        keys: Vec<ZoneKey>,
+        grid: ElevationGrid,
+        cells: Vec<u8>,
+        system: CoordinateSystem,
+    ) -> Self {
+        Self { keys, shape: Shape::Cells(grid, cells), system: PlacesSystem::OfGrid(system) }
     }
 
     /// * `polygons`: each with its key
-    pub(super) fn of_polygons(polygons: Vec<(ZoneKey, Vec<Vec<Vec2>>)>) -> Result<Self, Fault> {
+    pub(super) fn of_polygons(
+        polygons: Vec<(ZoneKey, Vec<Vec<Vec2>>)>,
+        system: PlacesSystem,
+    ) -> Result<Self, Fault> {
         let mut keys: Vec<ZoneKey> = polygons.iter().map(|(key, _)| key.clone()).collect();
         keys.sort();
         keys.dedup();
@@ -54,7 +64,7 @@ impl ZoneMap {
             .into_iter()
             .map(|(key, rings)| ZonePolygon { soil: Some(number(&key)), rings })
             .collect();
-        Ok(Self { keys, shape: Shape::Polygons(polygons, extent) })
+        Ok(Self { keys, shape: Shape::Polygons(polygons, extent), system })
     }
 
     /// All that the file calls its zones, ascending.
@@ -149,15 +159,17 @@ impl ZoneMap {
         })
     }
 
-    /// Checks that some of the zones lie on the ground that they are for.
-    pub(super) fn check_place(&self, ground: Option<&Extent>) -> Result<(), Fault> {
-        let Some(zones) = self.extent() else { return Ok(()) };
-        let Some(ground) = ground else {
+    /// Checks that the zones are in the system of the map that they are for, and that some of them
+    /// lie on it; a remark where nobody can compare the systems.
+    pub(super) fn check_place(&self, map: Option<&MapFrame<'_>>) -> Result<Option<Remark>, Fault> {
+        let Some(MapFrame { system, extent: ground }) = map else {
             // Ground by a formula has no end.
-            return check_places(None, &zones);
+            return self.extent().map_or(Ok(()), |it| check_places(None, &it)).map(|()| None);
         };
+        let remark = system.map_or(Ok(None), |system| self.system.compare(system))?;
+        let Some(zones) = self.extent() else { return Ok(remark) };
         if self.counts(Some(ground)).used > 0 {
-            return Ok(());
+            return Ok(remark);
         }
         Err(if may_be_degrees(&zones) {
             Fault::ZonesInDegrees

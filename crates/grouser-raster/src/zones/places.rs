@@ -2,10 +2,12 @@
 
 use grouser_core::terrain::Extent;
 
-use crate::CoordinateSystem;
+use crate::coordinate_system::code_of;
 use crate::degrees::{are_degrees, may_be_degrees};
 use crate::error::Fault;
+use crate::projection::Projection;
 use crate::remark::Remark;
+use crate::{CoordinateSystem, Raster};
 
 /// Checks that places of a file of GeoJSON are metres, not degrees of longitude and latitude.
 ///
@@ -15,13 +17,8 @@ use crate::remark::Remark;
 /// # Errors
 /// [`Fault`] for a system of degrees, and for numbers that look like degrees in a file without one.
 pub fn check_places(system: Option<&str>, places: &Extent) -> Result<(), Fault> {
-    /// Codes of the EPSG register among which those of degrees are, and few of metres.
-    const GEOGRAPHIC: std::ops::Range<u32> = 4000..5000;
-    let is_geographic = |name| epsg(name).is_some_and(|code| GEOGRAPHIC.contains(&code));
     match system {
-        Some(name) if is_in_degrees(name) || (is_geographic(name) && may_be_degrees(places)) => {
-            Err(Fault::SystemInDegrees { name: shown(name) })
-        }
+        Some(name) if is_in_degrees(name) => Err(Fault::SystemInDegrees { name: shown(name) }),
         None if are_degrees(places) => Err(Fault::ZonesInDegrees),
         _ => Ok(()),
     }
@@ -41,47 +38,82 @@ pub fn check_places_on(ground: &Extent, places: &Extent) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Compares the system that a file of GeoJSON names with that of the map that it is for; a remark
-/// where one of them alone has a code.
-///
-/// # Errors
-/// [`Fault::OtherSystem`] where the two have different codes.
-pub(super) fn compare(
-    system: Option<&str>,
-    map: &CoordinateSystem,
-) -> Result<Option<Remark>, Fault> {
-    let (name, of_map) = (system.map(shown), map.name());
-    let codes = system.and_then(epsg).zip(map.epsg().map(u32::from));
-    let is_same = match codes {
-        Some((one, other)) => one == other,
+/// A map that places of a file are for.
+#[derive(Clone, Copy, Debug)]
+pub struct MapFrame<'m> {
+    /// The system of its coordinates; nothing where the file was compared with it before.
+    pub system: Option<&'m CoordinateSystem>,
+    /// What it spans.
+    pub extent: Extent,
+}
+
+impl Raster {
+    /// The map that places of other files may be for.
+    #[must_use]
+    pub fn frame(&self) -> MapFrame<'_> {
+        MapFrame { system: Some(&self.coordinates), extent: self.grid.extent() }
+    }
+}
+
+/// The system that the places of a file are in.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum PlacesSystem {
+    /// The name of it, if the file has one.
+    Named(Option<String>),
+    /// That of a grid.
+    OfGrid(CoordinateSystem),
+}
+
+impl PlacesSystem {
+    /// Compares it with that of the map that the places are for; a remark where nobody can.
+    ///
+    /// # Errors
+    /// [`Fault::OtherSystem`] where it is another one.
+    pub(super) fn compare(&self, map: &CoordinateSystem) -> Result<Option<Remark>, Fault> {
+        let of_map = map.name();
+        let (name, own) = match self {
+            Self::Named(Some(name)) if *name == of_map => return Ok(None),
+            Self::Named(name) => {
+                let code = name.as_deref().filter(|it| code_of(it).is_some());
+                (name.clone(), code.map(CoordinateSystem::of_text))
+            }
+            Self::OfGrid(system) if system.is_known() => {
+                (Some(system.name()), Some(system.clone()))
+            }
+            Self::OfGrid(_) => (None, None),
+        };
         // GeoJSON has no name for a system without a code.
-        None => name.as_ref() == Some(&of_map) || (name.is_none() && map.epsg().is_none()),
-    };
-    match (name, codes) {
-        _ if is_same => Ok(None),
-        (Some(name), Some((_, code))) => {
-            Err(Fault::OtherSystem { name, map: format!("EPSG:{code}") })
+        if name.is_none() && map.epsg().is_none() {
+            return Ok(None);
         }
-        (places, _) => {
-            let map = if map.is_known() { of_map } else { "none".to_owned() };
-            Ok(Some(Remark::SystemNotCompared { places, map }))
+        match own.as_ref().and_then(|own| own.is_same(map)) {
+            Some(true) => Ok(None),
+            Some(false) => {
+                let map_name = map.epsg().map_or(of_map, |code| format!("EPSG:{code}"));
+                let target = map.to_text().unwrap_or_else(|| "SYSTEM_OF_THE_MAP".to_owned());
+                let name = own
+                    .and_then(|own| own.epsg())
+                    .map_or(name.unwrap_or_default(), |code| format!("EPSG:{code}"));
+                let is_grid = matches!(self, Self::OfGrid(_));
+                Err(Fault::OtherSystem { name, map: map_name, target, is_grid })
+            }
+            None => {
+                let map = if map.is_known() { of_map } else { "none".to_owned() };
+                Ok(Some(Remark::SystemNotCompared { places: name, map }))
+            }
         }
     }
 }
 
-/// The code in the EPSG register that a name of a system ends with.
-fn epsg(name: &str) -> Option<u32> {
-    let (register, code) = name.rsplit_once(':')?;
-    register.to_uppercase().contains("EPSG").then(|| code.parse().ok())?
-}
-
 /// Whether a coordinate system of that name has degrees.
 pub(super) fn is_in_degrees(name: &str) -> bool {
-    // The standard's own, that of GPS, and those of IAU bodies, whose codes of longitude and
-    // latitude end in two zeros.
+    // The standard's own, those of the register, and those of IAU bodies, whose codes of longitude
+    // and latitude end in two zeros.
+    let registered = code_of(name).and_then(Projection::registered);
     let name = name.to_uppercase();
     let of_body = name.contains("IAU") && name.ends_with("00");
-    of_body || ["CRS84", "CRS:84", ":4326", ":4979"].iter().any(|one| name.ends_with(one))
+    let of_standard = ["CRS84", "CRS:84"].iter().any(|one| name.ends_with(one));
+    of_body || of_standard || registered.is_some_and(|it| it.is_in_degrees())
 }
 
 /// A word of the file, fit to be shown.

@@ -174,10 +174,10 @@ fn a_header_that_promises_too_much_is_refused() {
     };
     let small = decode(16_000, 16_000, None);
     assert!(matches!(small, Fault::TooLarge { limit: 0x100_0000, .. }), "{small}");
-    assert!(small.to_string().contains("gdal_translate -projwin"), "{small}");
+    assert!(small.hint(None).is_some_and(|it| it.contains("gdal_translate -projwin")), "{small}");
     let huge = decode(1_000_000, 1_000_000, None);
     assert!(matches!(huge, Fault::TooLarge { .. }), "{huge}");
-    assert!(huge.to_string().contains("gdal_translate -projwin"), "{huge}");
+    assert!(huge.hint(None).is_some_and(|it| it.contains("gdal_translate -projwin")), "{huge}");
     let long = decode(16_000, 16_000, Some(1 << 28));
     assert!(matches!(long, Fault::Truncated { promised: 1_024_000_000, .. }), "{long}");
     let options = ReadOptions { cells: Some(5), ..ReadOptions::default() };
@@ -219,7 +219,7 @@ fn files_that_are_not_there_or_empty_are_refused() {
         ("empty.tif", &b""[..], "is empty"),
         ("short.tif", b"II*\0", "gdal_translate"),
         ("other.tif", b"\x89PNG\0\0\0", "is none of GeoTIFF, .npy and xyz"),
-        ("DTEEC.IMG", b"PDS_VERSION_ID = PDS3\r\n", "gdal_translate -of GTiff IN OUT.tif"),
+        ("DTEEC.IMG", b"PDS_VERSION_ID = PDS3\r\n", "DTEEC.IMG OUT.tif"),
     ] {
         std::fs::write(folder.path().join(name), content).expect("written");
         let text = read(name).expect_err("refused").to_string();

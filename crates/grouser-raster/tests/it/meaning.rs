@@ -162,7 +162,8 @@ fn what_lies_beside_a_file_is_read() {
 #[test]
 fn systems_of_texts_are_checked() {
     const UTM: &str = r#"PROJCS["UTM 33",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],PARAMETER["central_meridian",15],PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],PARAMETER["false_northing",0],UNIT["metre",1]]"#;
-    let site = MapSite { middle: Vec2::new(500_000.0, 6_000_000.0), cell: 2.0 };
+    let site =
+        MapSite { middle: Vec2::new(500_000.0, 6_000_000.0), cell: 2.0, size: Vec2::new(1e3, 1e3) };
     assert_eq!(check_system(UTM, site).unwrap(), None);
     let with = |heights: &str| check_system(&format!("COMPD_CS[\"both\",{UTM},{heights}]"), site);
     let feet = with(
@@ -182,21 +183,68 @@ fn systems_of_texts_are_checked() {
     let feet = UTM.replace(r#"UNIT["metre",1]"#, r#"UNIT["foot",0.3048]"#);
     assert!(matches!(check_system(&feet, site), Err(Fault::Unit { unit }) if unit == "feet"));
     // Far from its meridian the same projection is larger than the ground: 0.9996 cosh(x/R).
-    let east = MapSite { middle: Vec2::new(1_300_000.0, 6_000_000.0), cell: 2.0 };
-    let Ok(Some(Remark::Scale { factors })) = check_system(UTM, east) else { panic!("a remark") };
+    let east = MapSite {
+        middle: Vec2::new(1_300_000.0, 6_000_000.0),
+        cell: 2.0,
+        size: Vec2::new(1e3, 1e3),
+    };
+    let Ok(Some(Remark::Scale { factors, .. })) = check_system(UTM, east) else {
+        panic!("a remark")
+    };
     assert!(
         (factors[0] - 1.0074).abs() < 2e-4 && (factors[1] - factors[0]).abs() < 1e-6,
         "{factors:?}"
     );
     let mercator = UTM.replace("Transverse_Mercator", "Mercator_1SP").replace("15]", "0]");
-    let north = MapSite { middle: Vec2::new(500_000.0, 8_400_000.0), cell: 2.0 };
-    let Err(Fault::Scale { factors, command }) = check_system(&mercator, north) else {
+    let north =
+        MapSite { middle: Vec2::new(500_000.0, 8_400_000.0), cell: 2.0, size: Vec2::new(1e3, 1e3) };
+    let Err(Fault::Scale { factors, warp }) = check_system(&mercator, north) else {
         panic!("refused")
     };
+    let command = warp.command("IN.tif");
     assert!((factors[0] - 2.0).abs() < 0.02, "{factors:?}");
     assert!(command.contains("EPSG:326") && command.contains("-tr 0.99"), "{command}");
     let unknown = check_system("LOCAL_CS[\"site\"]", site).unwrap();
     assert_eq!(unknown, Some(Remark::UnknownScale { system: "site".into() }));
+    // Of a system without a formula the unit still counts, and degrees below heights are degrees.
+    for feet in [
+        r#"LOCAL_CS["site",UNIT["foot",0.3048],AXIS["x",EAST],AXIS["y",NORTH]]"#,
+        r#"ENGCRS["site",EDATUM["x"],CS[Cartesian,2],AXIS["x",east,LENGTHUNIT["foot",0.3048]],AXIS["y",north,LENGTHUNIT["foot",0.3048]]]"#,
+    ] {
+        let fault = check_system(feet, site);
+        assert!(matches!(&fault, Err(Fault::Unit { unit }) if unit == "feet"), "{fault:?}");
+    }
+    let degrees = r#"COMPD_CS["both",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],VERT_CS["EGM96",VERT_DATUM["x",2005],UNIT["metre",1],AXIS["Up",UP]]]"#;
+    let tile =
+        MapSite { middle: Vec2::new(10.5, 46.5), cell: 1.0 / 3600.0, size: Vec2::new(1.0, 1.0) };
+    for text in [degrees, "EPSG:4326", "+proj=longlat +a=3396190 +b=3376200"] {
+        let fault = check_system(text, tile);
+        assert!(matches!(fault, Err(Fault::Degrees { .. })), "{text}: {fault:?}");
+    }
+}
+
+/// A map of hundreds of kilometres has another scale at its edge: measured on a stereographic map of
+/// the Moon's south pole, k = 1 + (r / 2R)², and on Mercator's at 15° N, k = 1 / cos φ.
+#[test]
+fn a_scale_that_varies_over_the_map_is_said() {
+    let pole = "+proj=stere +lat_0=-90 +R=1737400";
+    let scale = |text: &str, middle: Vec2, side: f64| {
+        let site = MapSite { middle, cell: 100.0, size: Vec2::new(side, side) };
+        check_system(text, site).expect("it is not refused")
+    };
+    assert_eq!(scale(pole, Vec2::zeros(), 100_000.0), None);
+    let remark = scale(pole, Vec2::zeros(), 600_000.0).expect("a remark");
+    let Remark::Scale { factors, over_map } = &remark else { panic!("{remark}") };
+    let corner: f64 = 300_000.0 * 2.0_f64.sqrt() / (2.0 * 1_737_400.0);
+    assert!((factors[1] - 1.0).abs() < 1e-6 && (over_map[0] - 1.0).abs() < 1e-6);
+    assert!((over_map[1] - (1.0 + corner * corner)).abs() < 1e-4, "{over_map:?}");
+    let words = "1.000 m on the map at its middle, and 1.000 to 1.015 m over all of it";
+    assert!(remark.to_string().contains(words), "{remark}");
+    let north = Vec2::new(0.0, 1_689_200.0);
+    for (side, varies) in [(10_000.0, false), (100_000.0, false), (400_000.0, true)] {
+        let remark = scale("+proj=merc +R=6378137", north, side).expect("it is 1.035");
+        assert_eq!(remark.to_string().contains("over all of it"), varies, "{side}: {remark}");
+    }
 }
 
 /// Files of GDAL whose meaning is not that of their numbers.
@@ -204,7 +252,8 @@ fn systems_of_texts_are_checked() {
 fn files_that_mean_something_else_are_refused_or_applied() {
     let fault = |name: &str| read(&ground::fixture(name), &ReadOptions::default()).unwrap_err();
     for name in ["mercator-60.tif", "mercator-60-arcgis.tif"] {
-        let Fault::Scale { factors, command } = fault(name).fault else { panic!("{name}") };
+        let Fault::Scale { factors, warp } = fault(name).fault else { panic!("{name}") };
+        let command = warp.command("IN.tif");
         assert!((factors[0] - 2.0).abs() < 0.01, "{name}: {factors:?}");
         assert!(command.contains("EPSG:32633"), "{name}: {command}");
         let text = fault(name).to_string();
@@ -217,7 +266,7 @@ fn files_that_mean_something_else_are_refused_or_applied() {
     assert!(matches!(&feet, Fault::HeightUnit { unit } if unit == "US survey feet"), "{feet}");
     // 7° from where the projection is true a note is enough.
     let polar = opened(&ground::fixture("polar-63.tif"));
-    let [Remark::Scale { factors }] = polar.remarks[..] else { panic!("{:?}", polar.remarks) };
+    let [Remark::Scale { factors, .. }] = polar.remarks[..] else { panic!("{:?}", polar.remarks) };
     assert!(factors[0] > 1.005 && factors[1] < 1.05, "{factors:?}");
     let masked = opened(&ground::fixture("mask-beside.tif"));
     let missing = masked.heights.iter().filter(|height| height.is_nan()).count();

@@ -8,9 +8,9 @@ fn decode(text: &str) -> Result<Raster, Fault> {
 /// The line and the words of a refusal.
 fn refused(text: &str, line: usize, words: &str) {
     match decode(text) {
-        Err(Fault::Line { line: found, problem }) => {
-            assert_eq!(found, line, "{problem}");
-            assert!(problem.contains(words), "{problem}");
+        Err(Fault::Line { line: found, flaw }) => {
+            assert_eq!(found, line, "{flaw}");
+            assert!(flaw.problem.contains(words), "{flaw}");
         }
         other => panic!("{other:?}"),
     }

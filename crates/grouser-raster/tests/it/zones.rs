@@ -6,7 +6,7 @@ use grouser_core::terrain::Extent;
 use grouser_core::units::{Vec2, deg};
 use grouser_raster::zones::geojson;
 use grouser_raster::{
-    Content, CoordinateSystem, Fault, ReadOptions, ZoneKey, ZoneMap, read, read_zones,
+    Content, CoordinateSystem, Fault, MapFrame, ReadOptions, ZoneKey, ZoneMap, read, read_zones,
 };
 
 use crate::ground::fixture;
@@ -25,7 +25,9 @@ fn from_text(name: &str, text: &str) -> Result<ZoneMap, Fault> {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join(name);
     fs::write(&file, text).expect("written");
-    read_zones(&file, &ReadOptions::default(), None).map_err(|error| error.fault)
+    read_zones(&file, &ReadOptions::default(), None)
+        .map(|(map, _)| map)
+        .map_err(|error| error.fault)
 }
 
 /// A feature of a soil, by the rings of its polygon.
@@ -44,7 +46,8 @@ const SQUARE: &str = "[[[0,0],[90.5,0],[90.5,500],[0,500],[0,0]]]";
 /// Cells of a palette are classes, their nodata is no zone.
 #[test]
 fn a_geotiff_of_classes_has_zones() {
-    let map = read_zones(&fixture("classes-palette-u8.tif"), &ReadOptions::default(), None);
+    let map = read_zones(&fixture("classes-palette-u8.tif"), &ReadOptions::default(), None)
+        .map(|(map, _)| map);
     let map = map.expect("zones");
     assert_eq!(map.keys(), [ZoneKey::Class(3), ZoneKey::Class(7)]);
     let legend =
@@ -127,7 +130,7 @@ fn coordinates_that_are_no_metres_of_the_map_are_refused() {
     for degrees in ["urn:ogc:def:crs:OGC:1.3:CRS84", "urn:ogc:def:crs:EPSG::4326", "IAU_2015:30100"]
     {
         let fault = with_system(degrees).expect_err("degrees");
-        assert!(fault.to_string().contains("-t_srs"), "{fault}");
+        assert!(fault.hint(None).is_some_and(|it| it.contains("-t_srs")), "{fault}");
     }
     for metres in ["urn:ogc:def:crs:EPSG::32633", "IAU_2015:30135"] {
         assert!(with_system(metres).is_ok(), "{metres}");
@@ -138,7 +141,8 @@ fn coordinates_that_are_no_metres_of_the_map_are_refused() {
     let fault = |rings: &str, ground: (f64, f64)| {
         fs::write(&file, feature("\"a\"", rings)).expect("written");
         let south_west = Vec2::new(ground.0, ground.1);
-        let ground = Extent { south_west, north_east: south_west + Vec2::new(100.0, 100.0) };
+        let extent = Extent { south_west, north_east: south_west + Vec2::new(100.0, 100.0) };
+        let ground = MapFrame { system: None, extent };
         read_zones(&file, &ReadOptions::default(), Some(&ground)).map(|_| ())
     };
     let degrees = "[[[10.1,46.2],[10.2,46.2],[10.2,46.3],[10.1,46.2]]]";
@@ -160,13 +164,16 @@ fn the_system_that_places_name_is_that_of_the_map() {
         raster.coordinates
     };
     let [utm_33, moon] = ["tiled-deflate-f32.tif", "moon-cog-deflate-f32.tif"].map(map);
+    let arcgis = CoordinateSystem::of_text(&UTM_33.replace(",AUTHORITY[\"EPSG\",\"32633\"]]", "]"));
     let compared = |name: Option<&str>, map: &CoordinateSystem| {
         let crs = name.map_or_else(String::new, |name| {
             format!(r#""crs": {{"type": "name", "properties": {{"name": "{name}"}}}},"#)
         });
         let text = format!(r#"{{"type": "FeatureCollection", {crs} "features": []}}"#);
         let found = geojson::compare_system(text.as_bytes(), map);
-        found.map(|remark| remark.map(|it| it.to_string())).map_err(|fault| fault.in_parts("file"))
+        found
+            .map(|remark| remark.map(|it| it.to_string()))
+            .map_err(|fault| fault.in_parts("file", None))
     };
     for same in ["urn:ogc:def:crs:EPSG::32633", "EPSG:32633", "WGS 84 / UTM zone 33N"] {
         assert_eq!(compared(Some(same), &utm_33), Ok(None));
@@ -174,9 +181,15 @@ fn the_system_that_places_name_is_that_of_the_map() {
     let (sentence, hint) = compared(Some("EPSG:32632"), &utm_33).expect_err("another zone");
     assert!(sentence.contains("EPSG:32632") && sentence.contains("EPSG:32633"), "{sentence}");
     assert_eq!(hint.as_deref(), Some("ogr2ogr -t_srs EPSG:32633 OUT.geojson IN.geojson"));
+    // Systems without a code are compared by their formulas.
+    assert_eq!(compared(Some("EPSG:32633"), &arcgis), Ok(None));
+    for other in [&arcgis, &moon] {
+        let (sentence, _) = compared(Some("EPSG:32632"), other).expect_err("another system");
+        assert!(sentence.contains("coordinates of the system EPSG:32632"), "{sentence}");
+    }
     for (name, map, words) in [
         (None, &utm_33, "it names none, and the map WGS 84 / UTM zone 33N"),
-        (Some("EPSG:32632"), &moon, "it names EPSG:32632, and the map"),
+        (Some("IAU_2015:30135"), &moon, "it names IAU_2015:30135, and the map"),
         (Some("IAU_2015:30135"), &CoordinateSystem::default(), "and the map none"),
     ] {
         let remark = compared(name, map).expect("it is not refused").expect("a remark");
@@ -186,6 +199,51 @@ fn the_system_that_places_name_is_that_of_the_map() {
         assert_eq!(compared(None, nameless), Ok(None));
     }
     assert_eq!(geojson::compare_system(b"0 0 1\n", &utm_33).expect("text"), None);
+}
+
+/// UTM 33 as rasterio has it.
+const UTM_33: &str = r#"PROJCS["WGS 84 / UTM zone 33N",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433],AUTHORITY["EPSG","4326"]],PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],PARAMETER["central_meridian",15],PARAMETER["scale_factor",0.9996],PARAMETER["false_easting",500000],PARAMETER["false_northing",0],UNIT["metre",1],AUTHORITY["EPSG","32633"]]"#;
+
+/// Texts become codes, or keys from which the same text comes back.
+#[test]
+fn systems_of_texts_are_those_of_keys() {
+    let of_code = CoordinateSystem::of_text(UTM_33);
+    assert_eq!((of_code.epsg(), of_code.to_text().as_deref()), (Some(32633), Some("EPSG:32633")));
+    let own = UTM_33.replace(",AUTHORITY[\"EPSG\",\"32633\"]]", "]");
+    let of_own = CoordinateSystem::of_text(&own);
+    assert_eq!((of_own.epsg(), of_own.to_text()), (None, Some(own)));
+    assert_eq!(of_own.name(), "WGS 84 / UTM zone 33N");
+    assert_eq!(of_own.is_same(&of_code), Some(true));
+    assert_eq!(of_own.is_same(&CoordinateSystem::of_text("EPSG:32632")), Some(false));
+    assert_eq!(of_own.is_same(&CoordinateSystem::of_text("LOCAL_CS[\"site\"]")), None);
+    let moon = read(&fixture("moon-cog-deflate-f32.tif"), &ReadOptions::default()).expect("a map");
+    let words = moon.coordinates.to_text().expect("its method is known");
+    assert!(words.starts_with("+proj=stere") && words.contains("=1737400"), "{words}");
+    assert_eq!(moon.coordinates.is_same(&CoordinateSystem::of_text(&words)), Some(true));
+    assert_eq!(moon.coordinates.is_same(&of_code), Some(false));
+}
+
+/// Classes of the map's system, of another one, and of none.
+#[test]
+fn classes_are_in_the_system_of_the_map() {
+    let classes = read(&fixture("classes-palette-u8.tif"), &options_of_classes()).expect("classes");
+    let on = |system: &CoordinateSystem| {
+        let frame = MapFrame { system: Some(system), extent: classes.grid.extent() };
+        read_zones(&fixture("classes-palette-u8.tif"), &ReadOptions::default(), Some(&frame))
+            .map(|(_, remark)| remark)
+            .map_err(|error| (error.fault.to_string(), error.fault.hint(Some(&error.file))))
+    };
+    assert_eq!(on(&classes.coordinates), Ok(None));
+    let other = CoordinateSystem::of_text("EPSG:32610");
+    let (problem, hint) = on(&other).expect_err("another system");
+    assert!(problem.contains("and the map those of EPSG:32610"), "{problem}");
+    assert!(hint.expect("a command").starts_with("gdalwarp -r near -t_srs EPSG:32610 "));
+    let unknown = on(&CoordinateSystem::of_text("LOCAL_CS[\"site\"]")).expect("not refused");
+    assert!(unknown.expect("a remark").to_string().contains("was not looked at"));
+}
+
+fn options_of_classes() -> ReadOptions {
+    ReadOptions { content: Content::Classes, ..ReadOptions::default() }
 }
 
 /// Class numbers jump as no heights do, and nothing is odd about that.

@@ -101,7 +101,7 @@ impl AskedGround {
             let options =
                 ReadOptions { cells: Some(CELLS), missing: self.missing, ..ReadOptions::default() };
             grouser_raster::read(&self.path, &options).map_err(|error| {
-                let (message, hint) = error.fault.in_parts("map");
+                let (message, hint) = error.fault.in_parts("map", Some(&error.file));
                 Refusal { hint, ..Refusal::of_key("dem", message) }
             })
         })

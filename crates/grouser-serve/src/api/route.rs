@@ -15,7 +15,6 @@ use grouser::studies::route::{COURSES, Ends, Limits, Objective, RouteError, Rout
 use grouser::units::Vec2;
 use grouser_map::way_as_geojson;
 use grouser_raster::zones::ZoneCounts;
-use grouser_raster::zones::geojson::compare_system_of;
 use grouser_raster::{Raster, RasterError};
 use hyper::StatusCode;
 use serde_json::{Value, json};
@@ -130,13 +129,12 @@ impl RouteAsked {
         let mut remarks = remarks(raster);
         let Some((name, file)) = &self.keep_out else { return Ok((study, Vec::new(), remarks)) };
         let of_areas = |error: RasterError| {
-            let (message, hint) = error.fault.in_parts("file of areas");
+            let (message, hint) = error.fault.in_parts("file of areas", Some(&error.file));
             Refusal { hint, ..Refusal::of_key("keep_out", message) }
         };
-        let remark = compare_system_of(file, &raster.coordinates).map_err(of_areas)?;
+        let (study, counts, remark) =
+            study.keeping_out_of(file, &raster.frame()).map_err(of_areas)?;
         remarks.extend(remark.map(|it| it.to_string()));
-        let (study, counts) =
-            study.keeping_out_of(file, &raster.grid.extent()).map_err(of_areas)?;
         let ZoneCounts { there, used } = counts;
         Ok((study, vec![GivenFile::new(shown(name), FileContent::KeepOut, there, used)], remarks))
     }

@@ -4,12 +4,15 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value, json};
 
-use super::{Answer, AnswerError, Attached, Displayed, Member, meanings};
+use super::{
+    Answer, AnswerError, AnswerOptions, Attached, Displayed, Member, check_flags, meanings,
+};
 use crate::contact::Model;
+use crate::contact::validity::Finding;
 use crate::document::columns::design::{self as columns, CHOSEN, DesignRow, MODEL, ROW, SHARE};
-use crate::document::columns::{COURSE, SLOPE};
+use crate::document::columns::{COURSE, SLOPE, flags};
 use crate::document::design::Measure;
-use crate::document::figure::{Chart, Series, Style};
+use crate::document::figure::{Chart, Series, Style, WheelRow, WheelShape};
 use crate::document::reading::four_digits;
 use crate::document::table::Table;
 use crate::document::unit::ONE;
@@ -36,6 +39,10 @@ pub struct DesignQuestion {
 
 /// What a row is called that is of the design.
 const FOUND: &str = "found";
+/// What a row is called that is of what another model finds.
+const FOUND_BY_IT: &str = "found by it";
+/// The file of the task.
+const TASK: &str = "design.toml";
 /// Designs along a trade-off.
 const TRADE_POINTS: usize = 9;
 
@@ -43,16 +50,25 @@ impl DesignQuestion {
     /// The answer.
     ///
     /// # Errors
-    /// [`AnswerError::Design`] where there is no design.
-    pub fn answer(&self, name: &str) -> Result<Answer, AnswerError> {
+    /// [`AnswerError::Design`] where there is no design, [`AnswerError::OutsideDomain`] where no flag
+    /// is accepted, and [`AnswerError::Stopped`].
+    pub fn answer(&self, name: &str, options: &AnswerOptions<'_>) -> Result<Answer, AnswerError> {
+        self.check_trade()?;
         let study = DesignStudy::of(self.task.value.clone(), self.is_nominal, self.seed);
-        let why_none = |none: NoDesign| AnswerError::Design(self.why_none(&none));
-        let design = study.design().map_err(why_none)?;
-        let trade = self.trade.map(|measures| study.trade_off(measures, TRADE_POINTS));
-        let trade = trade.transpose().map_err(why_none)?;
-        let rows = self.rows(&study, &design);
+        let why_none = |none: NoDesign| match none {
+            NoDesign::Stopped => AnswerError::Stopped,
+            _ => AnswerError::Design(self.why_none(&none)),
+        };
+        let design = study.design_while(options.go_on).map_err(why_none)?;
+        let trade_off = |measures| study.trade_off(measures, TRADE_POINTS, options.go_on);
+        let trade = self.trade.map(trade_off).transpose().map_err(why_none)?;
+        let findings = study.findings(design.candidate, &design.values, None);
+        let rows = self.rows(&study, &design, options);
         let (limits, designs) = (columns::limits(&design.kept), self.table(&rows));
         let (limits, designs) = (Arc::new(limits), Arc::new(designs));
+        if options.is_strict {
+            check_flags([&*findings], &designs.rows_at(&[1]), &[ROW, MODEL])?;
+        }
         let mut answer = Answer::new(name, "A design");
         self.state(&mut answer, &study);
         answer.results = vec![
@@ -73,7 +89,7 @@ impl DesignQuestion {
             (name.to_owned(), Arc::clone(&designs)),
             ("constraints".into(), Arc::clone(&limits)),
         ];
-        let lines = self.lines(&design, &rows);
+        let lines = self.lines(&design, &rows, &findings);
         let brief = brief(&study.task);
         answer.screen = vec![
             Displayed::Words(lines.join("\n") + "\n\n"),
@@ -95,11 +111,12 @@ impl DesignQuestion {
             brief.clone(),
         );
         if let (Some(trade), Some(measures)) = (trade, self.trade) {
-            self.add_trade(&mut answer, &trade, measures, &brief);
+            self.add_trade(&mut answer, &study, &trade, measures, &brief);
         }
+        answer.findings = Some(findings);
         answer.columns = meanings(columns::LIMITS);
         answer.columns.extend(meanings(columns::DESIGNS));
-        answer.attach("design.toml", &self.task);
+        answer.attach(TASK, &self.task);
         answer.documents.push(self.rover(&design));
         Ok(answer)
     }
@@ -138,7 +155,12 @@ impl DesignQuestion {
     }
 
     /// The rover as given, and as found by its model and by the others.
-    fn rows(&self, study: &DesignStudy, design: &BestDesign) -> Vec<DesignRow> {
+    fn rows(
+        &self,
+        study: &DesignStudy,
+        design: &BestDesign,
+        options: &AnswerOptions<'_>,
+    ) -> Vec<DesignRow> {
         let task = &self.task.value;
         let row = |name: &str, place: usize, model: &Model, values: &[f64]| DesignRow {
             name: name.to_owned(),
@@ -146,6 +168,7 @@ impl DesignQuestion {
             chosen: task.candidates[place].chosen.clone(),
             values: values.to_vec(),
             measures: study.nominal_measures(place, values, model),
+            findings: study.findings(place, values, Some(model)),
         };
         let found = design.candidate;
         let (given, own) = (task.model(0), task.model(found));
@@ -159,9 +182,9 @@ impl DesignQuestion {
         rows.extend(self.by_models.iter().map(|task| {
             let study = DesignStudy::of(task.value.clone(), self.is_nominal, self.seed);
             let model = task.value.model(0);
-            match study.design() {
-                Ok(by) => row("found by it", by.candidate, model, &by.values),
-                Err(_) => DesignRow { measures: None, ..row("found by it", found, model, &[]) },
+            match study.design_while(options.go_on) {
+                Ok(by) => row(FOUND_BY_IT, by.candidate, model, &by.values),
+                Err(_) => DesignRow { measures: None, ..row(FOUND_BY_IT, found, model, &[]) },
             }
         }));
         rows
@@ -173,7 +196,7 @@ impl DesignQuestion {
     }
 
     /// What is said of the design.
-    fn lines(&self, design: &BestDesign, rows: &[DesignRow]) -> Vec<String> {
+    fn lines(&self, design: &BestDesign, rows: &[DesignRow], findings: &[Finding]) -> Vec<String> {
         let task = &self.task.value;
         let numbers = self.numbers_in_words(design.candidate, &design.values);
         let aim = self.aim();
@@ -192,6 +215,8 @@ impl DesignQuestion {
         lines.extend(self.ends_line(design));
         lines.extend(design.kept.iter().filter_map(|kept| short_line(kept, task.probability)));
         lines.extend(models_line(design, rows));
+        lines.extend(self.choices_line(design, rows));
+        lines.extend(domain_line(findings));
         if design.certificate.better > 0 {
             lines.push("It is not the least: designs near it are better.".to_owned());
         }
@@ -234,19 +259,53 @@ impl DesignQuestion {
         };
         (kept.price > 0.0).then(|| {
             format!(
-                "{} holds it back: loosened by {by}, it is worth {} of {}.",
+                "{} holds it back: {by} {} would save {} of {}.",
                 limit_in_words(&kept.limit),
+                if kept.limit.side == LimitSide::AtMost { "more" } else { "less" },
                 four_digits(price),
                 self.aim()
             )
         })
     }
 
+    /// What each of the other models chooses, where they were asked.
+    fn choices_line(&self, design: &BestDesign, rows: &[DesignRow]) -> Option<String> {
+        /// Choices that differ by less, over the bounds, are one [-].
+        const APART: f64 = 0.01;
+        let free = &self.task.value.free;
+        let chosen = &self.task.value.candidates[design.candidate].chosen;
+        let differs = |row: &&DesignRow| {
+            let pairs = row.values.iter().zip(&design.values).zip(free);
+            let mut moved =
+                pairs.map(|((one, other), (_, ends))| (one - other) / (ends[1] - ends[0]));
+            row.values.is_empty() || row.chosen != *chosen || moved.any(|it| it.abs() > APART)
+        };
+        let by_others: Vec<&DesignRow> = rows.iter().filter(|it| it.name == FOUND_BY_IT).collect();
+        let of = |row: &DesignRow| {
+            let numbers = free.iter().zip(&row.values);
+            let numbers = numbers.map(|((key, _), it)| format!("{key} = {}", four_digits(*it)));
+            let numbers: Vec<String> = numbers.collect();
+            let none = "no design".to_owned();
+            format!("{}: {}", row.model, if numbers.is_empty() { none } else { numbers.join(", ") })
+        };
+        let others = by_others.iter().copied().filter(differs).map(of).collect::<Vec<_>>();
+        (!by_others.is_empty()).then(|| match &others[..] {
+            [] => "The choice does not change with the model.".to_owned(),
+            _ => format!("The choice changes with the model: {}.", others.join("; ")),
+        })
+    }
+
     /// Which numbers lie at an end of what they may be.
     fn ends_line(&self, design: &BestDesign) -> Option<String> {
+        let at_end = self.at_ends(&design.values);
+        (!at_end.is_empty()).then(|| format!("Bounds hold it back, too: {}.", at_end.join(", ")))
+    }
+
+    /// The numbers at an end of what they may be, in words.
+    fn at_ends(&self, values: &[f64]) -> Vec<String> {
         /// Nearer to an end than this, over the bounds, is at it [-].
         const AT_END: f64 = 1e-6;
-        let pairs = self.task.value.free.iter().zip(&design.values);
+        let pairs = self.task.value.free.iter().zip(values);
         let at_end = pairs.filter_map(|((key, [least, most]), value)| {
             let near = AT_END * (most - least);
             let end = if value - least < near {
@@ -258,14 +317,27 @@ impl DesignQuestion {
             };
             Some(format!("{key} is {end} that it may be"))
         });
-        let at_end: Vec<String> = at_end.collect();
-        (!at_end.is_empty()).then(|| format!("Bounds hold it back, too: {}.", at_end.join(", ")))
+        at_end.collect()
+    }
+
+    /// Checks that every rover has what is traded.
+    fn check_trade(&self) -> Result<(), AnswerError> {
+        let is_traded = self.trade.iter().flatten().any(|it| *it == Measure::Current);
+        let mut rovers = self.task.value.candidates.iter().map(|it| &it.grounds[0].scenario.value);
+        if is_traded && rovers.any(|it| !it.rover.has_motors()) {
+            return Err(AnswerError::Design(format!(
+                "{} is traded, and no motor of the rover is known: give it one, rover.motor",
+                Measure::Current.name()
+            )));
+        }
+        Ok(())
     }
 
     /// Designs between the least of one measure and of another.
     fn add_trade(
         &self,
         answer: &mut Answer,
+        study: &DesignStudy,
         trade: &[BestDesign],
         [first, second]: [Measure; 2],
         brief: &[String],
@@ -276,6 +348,7 @@ impl DesignQuestion {
             chosen: self.task.value.candidates[design.candidate].chosen.clone(),
             values: design.values.clone(),
             measures: Some(design.measures),
+            findings: study.findings(design.candidate, &design.values, None),
         };
         let rows: Vec<DesignRow> = trade.iter().map(row).collect();
         let table = Arc::new(self.table(&rows));
@@ -288,6 +361,9 @@ impl DesignQuestion {
         let chart =
             Chart::new("What one is worth in the other", (of(second), of(first)), vec![line]);
         answer.charts(vec![chart]);
+        let wheels = trade.iter().filter_map(|it| drawn(study, it, [first, second])).collect();
+        let title = format!("From the best {} to the best {}", first.name(), second.name());
+        answer.figure(Some("wheels"), WheelRow { title, wheels }, WHEELS_CAPTION);
         let skipped = [ROW, MODEL, first.name(), second.name()];
         let own = brief.iter().filter(|it| !skipped.contains(&&***it)).cloned();
         let traded = [first, second].map(|it| it.name().to_owned());
@@ -317,29 +393,101 @@ impl DesignQuestion {
         }
     }
 
+    fn keys(&self) -> String {
+        self.task.value.free.iter().map(|(key, _)| &**key).collect::<Vec<_>>().join(", ")
+    }
+
     /// Why there is no design, in words that name the task's keys.
     #[must_use]
     pub fn why_none(&self, none: &NoDesign) -> String {
-        let NoDesign::Unreachable(nearest) = none else { return none.to_string() };
-        let Nearest { candidate, values, missed, ground_limit } = &**nearest;
-        let missed = missed.iter().map(|(limit, value)| {
-            let unit = limit.measure.unit();
-            let has = four_digits(unit.from_si(*value));
-            let own = match limit.measure {
-                Measure::LimitSlope if limit.bound > *ground_limit => format!(
-                    " (the ground itself stands to {}° only)",
-                    four_digits(ground_limit.to_degrees())
-                ),
-                _ => String::new(),
-            };
-            format!("{} where it has {has}{own}", limit_in_words(limit))
+        match none {
+            NoDesign::Unreachable(nearest) => self.why_missed(none, nearest),
+            NoDesign::BeyondGround { limit, stands } => format!(
+                "no wheel within these bounds crosses {}° of this soil{}: the ground's own limit is \
+                 {}°; ask for less (`{}`), or on another soil",
+                four_digits(limit.bound.to_degrees()),
+                on_ground(limit),
+                four_digits(stands.to_degrees()),
+                if limit.bound > self.task.value.candidates[0].grounds[limit.ground].slope {
+                    "subject_to.limit_slope_deg"
+                } else {
+                    "slope_deg"
+                },
+            ),
+            NoDesign::Constant => format!(
+                "{} does not depend on any number that is free ({}): free one that acts on it, or \
+                 minimise another measure",
+                self.aim(),
+                self.keys()
+            ),
+            NoDesign::NothingMoves => format!(
+                "{none}: other bounds of {}, or another soil or gravity, may have one",
+                self.keys()
+            ),
+            NoDesign::NotFound | NoDesign::NoSample(_) | NoDesign::Stopped => none.to_string(),
+        }
+    }
+
+    /// Which limits the nearest design misses, and what to change.
+    fn why_missed(&self, none: &NoDesign, nearest: &Nearest) -> String {
+        let Nearest { candidate, values, missed } = nearest;
+        let each = missed.iter().map(|(limit, value)| {
+            let has = four_digits(limit.measure.unit().from_si(*value));
+            format!("{} where it has {has}", limit_in_words(limit))
         });
+        let ends = self.at_ends(values);
+        let ends = if ends.is_empty() {
+            String::new()
+        } else {
+            format!(", or widen the bounds that hold it back ({})", ends.join(", "))
+        };
         format!(
-            "{none}: the nearest, with {}, misses {}",
+            "{none}: the nearest, with {}, misses {}; loosen that{ends}",
             self.numbers_in_words(*candidate, values),
-            missed.collect::<Vec<_>>().join(" and ")
+            each.collect::<Vec<_>>().join(" and ")
         )
     }
+}
+
+/// What the drawing of wheels shows.
+const WHEELS_CAPTION: &str = "The first wheel of each design along the trade-off, to one scale, from \
+                              its side and from behind, as deep in the soil as the deepest wheel.";
+
+/// A design's first wheel.
+///
+/// * `traded`: the measures that are traded
+fn drawn(study: &DesignStudy, design: &BestDesign, traded: [Measure; 2]) -> Option<WheelShape> {
+    let rover = study.rover(design)?;
+    let wheel = rover.mounts().first()?.unit.wheel;
+    let sinkage = design.measures[Measure::SinkageRatio.place()] * wheel.shearing_radius();
+    let measured = traded.map(|measure| {
+        let unit = measure.unit();
+        let value = four_digits(unit.from_si(design.measures[measure.place()]));
+        if unit == ONE { value } else { format!("{value} {}", unit.symbol) }
+    });
+    let millimetres = |letter: &str, size: f64| format!("{letter} {:.0} mm", 1e3 * size);
+    let mut lines = measured.to_vec();
+    lines.extend([millimetres("r", wheel.radius), millimetres("b", wheel.width)]);
+    if let Some(grousers) = wheel.grousers {
+        lines.push(format!("{} × {:.0} mm", grousers.count, 1e3 * grousers.height));
+    }
+    Some(WheelShape { wheel, sinkage, lines })
+}
+
+/// A sentence on flags.
+fn domain_line(findings: &[Finding]) -> Option<String> {
+    let all: Vec<String> = findings.iter().map(flags::in_words).collect();
+    (!all.is_empty()).then(|| {
+        format!(
+            "The design lies outside what its model and soil were tested for: {}.",
+            all.join("; ")
+        )
+    })
+}
+
+/// On which ground, where it is not the first.
+fn on_ground(limit: &DesignLimit) -> String {
+    if limit.ground == 0 { String::new() } else { format!(" on ground {}", limit.ground + 1) }
 }
 
 /// Which other models say that the design misses a limit.
@@ -365,9 +513,7 @@ fn limit_in_words(limit: &DesignLimit) -> String {
         LimitSide::AtMost => "≤",
     };
     let bound = four_digits(limit.measure.unit().from_si(limit.bound));
-    let place =
-        if limit.ground == 0 { String::new() } else { format!(" on ground {}", limit.ground + 1) };
-    format!("{} {sign} {bound}{place}", limit.measure.name())
+    format!("{} {sign} {bound}{}", limit.measure.name(), on_ground(limit))
 }
 
 /// A sentence on a limit that fewer fresh samples keep than are to.

@@ -16,12 +16,16 @@
 //! A wheel that grows gets heavier by a rule: it is of one sheet, rim and grousers, whose mass per
 //! area is that of the rover's own wheel. What its mass adds to the load counts.
 //!
+//! Samples make each design forty times as dear, so that a search among them starts where the least is
+//! without them, and two others only show whether it is the least.
+//!
 //! A design that does not cross the slope is measured where its curve ends, and that it crosses the
 //! slope is a limit like others: a search that starts below may climb.
 
 mod measured;
 mod slsqp;
 
+use grouser_io::Described as _;
 use grouser_io::design::Measure;
 use grouser_io::design_task::{DesignTask, RoverChoice};
 use grouser_io::statistics::NothingAccepted;
@@ -30,11 +34,16 @@ use rayon::prelude::*;
 
 use self::measured::MeasuredGround;
 pub use self::measured::Measures;
-use self::slsqp::{Minimum, PointValues, Smooth};
+use self::slsqp::{Effort, Minimum, Smooth};
 use crate::contact::Model;
-use crate::difference::{StepLengths, Variable, derivatives};
+use crate::contact::validity::Finding;
+use crate::difference::{Derivative, StepLengths, Variable, derivatives};
 use crate::soil::Span;
 use crate::studies::ensemble::design::{self as points, Sampling};
+use crate::vehicle::Rover;
+
+/// Asked before each design that is measured, from any thread, whether to go on.
+pub type GoOn<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// The least of an aim under limits.
 #[derive(Clone, Debug)]
@@ -134,6 +143,17 @@ pub enum NoDesign {
     /// The aim does not depend on what is free.
     #[error("the aim does not depend on any number that is free")]
     Constant,
+    /// A slope is to be crossed that is steeper than the ground itself stands.
+    #[error("no rover crosses a slope on which the ground itself does not stand")]
+    BeyondGround {
+        /// The limit.
+        limit: DesignLimit,
+        /// The steepest slope on which that ground stands by its own strength [rad].
+        stands: f64,
+    },
+    /// It was stopped on the way.
+    #[error("the search for a design was stopped before its end")]
+    Stopped,
     /// No soil can be drawn.
     #[error(transparent)]
     NoSample(#[from] NothingAccepted),
@@ -148,17 +168,15 @@ pub struct Nearest {
     pub values: Vec<f64>,
     /// Limits that it misses, and what it has, in SI.
     pub missed: Vec<(DesignLimit, f64)>,
-    /// The steepest slope on which the first ground stands by its own strength [rad].
-    pub ground_limit: f64,
 }
 
 /// What a change of a measure is small against, in its unit: aims and limits are counted in it.
 const fn size(measure: Measure) -> f64 {
     match measure {
         Measure::LimitSlope | Measure::Crab | Measure::TippingSlope => 5.0,
-        Measure::SinkageRatio | Measure::SlipRatio | Measure::Width => 0.1,
+        Measure::SinkageRatio | Measure::SlipRatio | Measure::Width | Measure::Current => 0.1,
         Measure::EnergyPerMetre => 10.0,
-        Measure::Torque | Measure::WheelMass => 1.0,
+        Measure::Torque | Measure::BrakingTorque | Measure::WheelMass => 1.0,
     }
 }
 
@@ -229,37 +247,86 @@ impl DesignStudy {
     /// # Errors
     /// [`NoDesign`] where no design moves, none keeps all limits, or no soil can be drawn.
     pub fn design(&self) -> Result<BestDesign, NoDesign> {
-        self.least(&self.task.weights, None)
+        self.design_while(&|| true)
+    }
+
+    /// The same, as long as it is to go on.
+    ///
+    /// # Errors
+    /// The same as [`design`](Self::design), and [`NoDesign::Stopped`].
+    pub fn design_while(&self, go_on: GoOn<'_>) -> Result<BestDesign, NoDesign> {
+        self.least(&Sought { weights: &self.task.weights, extra: None, near: None, go_on })
     }
 
     /// The designs between the best of one measure and the best of another: each has the best of the
     /// first with no worse than so much of the second.
     ///
     /// # Errors
-    /// The same as [`design`](Self::design), where one of the two ends has none.
+    /// The same as [`design_while`](Self::design_while), where one of the two ends has none.
     pub fn trade_off(
         &self,
         measures: [Measure; 2],
         count: usize,
+        go_on: GoOn<'_>,
     ) -> Result<Vec<BestDesign>, NoDesign> {
         let weights = measures.map(|measure| {
             let mut weights = [0.0; Measure::COUNT];
             weights[measure.place()] = if measure.is_to_be_large() { -1.0 } else { 1.0 };
             weights
         });
-        let ends = [self.least(&weights[0], None)?, self.least(&weights[1], None)?];
+        let of = |weights| Sought { weights, extra: None, near: None, go_on };
+        let [first, last] = [self.least(&of(&weights[0]))?, self.least(&of(&weights[1]))?];
         let second = measures[1];
         let side = if second.is_to_be_large() { LimitSide::AtLeast } else { LimitSide::AtMost };
-        let [from, to] = [&ends[0], &ends[1]].map(|end| end.measures[second.place()]);
-        let between = (1..count.saturating_sub(1)).into_par_iter().filter_map(|number| {
+        let [from, to] = [&first, &last].map(|end| end.measures[second.place()]);
+        let mut designs = vec![first];
+        for number in 1..count.saturating_sub(1) {
             let share = number as f64 / (count - 1) as f64;
             let bound = from + share * (to - from);
-            let limit = DesignLimit { ground: 0, measure: second, side, bound };
-            self.least(&weights[0], Some(limit)).ok()
-        });
-        let between: Vec<BestDesign> = between.collect();
-        let [first, last] = ends;
-        Ok(std::iter::once(first).chain(between).chain([last]).collect())
+            let extra = Some(DesignLimit { ground: 0, measure: second, side, bound });
+            match self.least(&Sought { extra, near: designs.last(), ..of(&weights[0]) }) {
+                Ok(design) => designs.push(design),
+                Err(NoDesign::Stopped) => return Err(NoDesign::Stopped),
+                Err(_) => {}
+            }
+        }
+        designs.push(last);
+        Ok(designs)
+    }
+
+    /// The rover with the numbers of a design.
+    #[must_use]
+    pub fn rover(&self, design: &BestDesign) -> Option<Rover> {
+        let ground = self.task.candidates[design.candidate].grounds.first()?;
+        let numbers = design.numbers.iter().map(|(key, value)| (&**key, *value));
+        Some(ground.scenario.value.with(numbers).ok()?.rover)
+    }
+
+    /// Where a rover with other numbers is outside of what models and soils were tested for: on each
+    /// ground, on the soil as its document has it, each flag once.
+    ///
+    /// * `model`: instead of each ground's own
+    #[must_use]
+    pub fn findings(
+        &self,
+        candidate: usize,
+        values: &[f64],
+        model: Option<&Model>,
+    ) -> Vec<Finding> {
+        let candidate = &self.task.candidates[candidate];
+        let Some(numbers) = measured::numbers(&self.task.free, candidate, values) else {
+            return Vec::new();
+        };
+        let grounds = candidate.grounds.iter().map(MeasuredGround::nominal);
+        let mut found: Vec<Finding> = grounds
+            .flat_map(|ground| match model {
+                Some(model) => ground.with_model(model).findings(&numbers),
+                None => ground.findings(&numbers),
+            })
+            .collect();
+        found.sort_by_key(|finding| finding.flag);
+        found.dedup_by_key(|finding| finding.flag);
+        found
     }
 
     /// What a rover measures with other numbers, by a model and the soils as documents have them;
@@ -278,15 +345,18 @@ impl DesignStudy {
     }
 
     /// The best of the rovers that may be chosen.
-    fn least(&self, weights: &[f64], extra: Option<DesignLimit>) -> Result<BestDesign, NoDesign> {
+    fn least(&self, sought: &Sought<'_>) -> Result<BestDesign, NoDesign> {
         let (mut best, mut none): (Option<BestDesign>, Vec<NoDesign>) = (None, Vec::new());
         for place in 0..self.task.candidates.len() {
-            match DesignSearch::of(self, place, weights, extra)?.design() {
+            match DesignSearch::of(self, place, sought, self.is_nominal)?.design() {
                 Ok(design) if best.as_ref().is_none_or(|it| design.objective < it.objective) => {
                     best = Some(design);
                 }
                 Ok(_) => {}
                 Err(why) => none.push(why),
+            }
+            if !(sought.go_on)() {
+                return Err(NoDesign::Stopped);
             }
         }
         let nearer = |one: &NoDesign| match one {
@@ -303,13 +373,24 @@ impl DesignStudy {
     }
 }
 
+/// What a search is for.
+#[derive(Clone, Copy)]
+struct Sought<'a> {
+    /// The weights of the aim, each over one in its unit.
+    weights: &'a [f64],
+    /// A limit beside those that are stated.
+    extra: Option<DesignLimit>,
+    /// A design that may lie near the least.
+    near: Option<&'a BestDesign>,
+    go_on: GoOn<'a>,
+}
+
 /// A search over the numbers of one rover.
 struct DesignSearch<'a> {
     study: &'a DesignStudy,
     place: usize,
     candidate: &'a RoverChoice,
-    /// The weights of the aim, each over one in its unit.
-    weights: &'a [f64],
+    sought: &'a Sought<'a>,
     /// What the aim is counted in.
     aim_size: f64,
     limits: Vec<DesignLimit>,
@@ -346,76 +427,128 @@ impl<'a> DesignSearch<'a> {
     fn of(
         study: &'a DesignStudy,
         place: usize,
-        weights: &'a [f64],
-        extra: Option<DesignLimit>,
+        sought: &'a Sought<'a>,
+        is_nominal: bool,
     ) -> Result<Self, NoDesign> {
         let candidate = &study.task.candidates[place];
         let grounds = candidate.grounds.iter().map(|there| {
-            if study.is_nominal {
+            if is_nominal {
                 return Ok(MeasuredGround::nominal(there));
             }
             MeasuredGround::drawn(there, study.seed, DesignStudy::SAMPLES)
         });
         let grounds = grounds.collect::<Result<Vec<MeasuredGround>, NothingAccepted>>()?;
-        let sizes = Measure::ALL.into_iter().zip(weights);
+        let sizes = Measure::ALL.into_iter().zip(sought.weights);
         let aim_size = sizes.map(|(measure, weight)| weight.abs() * size(measure)).sum();
         let own = limits_of(&study.task, candidate);
         let stated = own.len();
-        let limits: Vec<DesignLimit> = own.into_iter().chain(extra).collect();
+        let limits: Vec<DesignLimit> = own.into_iter().chain(sought.extra).collect();
         let score = |limit: &DesignLimit| {
             let is_uncertain = grounds[limit.ground].is_uncertain();
             if is_uncertain { normal_score(study.task.probability) } else { 0.0 }
         };
         // What is traded is bounded by its mean.
-        let scores = limits[..stated].iter().map(score).chain(extra.map(|_| 0.0)).collect();
-        Ok(Self { study, place, candidate, weights, aim_size, limits, stated, scores, grounds })
+        let scores = limits[..stated].iter().map(score).chain(sought.extra.map(|_| 0.0)).collect();
+        Ok(Self { study, place, candidate, sought, aim_size, limits, stated, scores, grounds })
     }
 
-    fn design(mut self) -> Result<BestDesign, NoDesign> {
-        /// How often what samples say of a limit is looked up again.
-        const LOOKS: usize = 4;
+    /// Whether each design is measured by samples.
+    fn is_sampled(&self) -> bool {
+        self.grounds.iter().any(MeasuredGround::is_uncertain)
+    }
+
+    fn effort(&self) -> Effort {
+        if self.is_sampled() { Effort::SAMPLED } else { Effort::SMOOTH }
+    }
+
+    fn design(self) -> Result<BestDesign, NoDesign> {
+        self.check_ground()?;
         let starts = self.starts();
         self.check_aim(&starts)?;
-        let (mut best, mut agreed) = self.search(&starts, starts.len())?;
-        for _ in 0..LOOKS {
-            if !self.look_up_scores(&best) {
-                break;
-            }
-            let started: Vec<Vec<f64>> = [vec![best.point.clone()], starts.clone()].concat();
-            (best, agreed) = self.search(&started, starts.len())?;
+        if self.is_sampled() {
+            return self.design_by_samples(&starts);
         }
+        let (best, agreed) = self.search(&starts)?;
         let certificate = self.certificate(&best, starts.len(), agreed);
         self.found(&best, certificate)
     }
 
-    /// The least that searches come to, and how many of the last come to it.
-    fn search(&self, starts: &[Vec<f64>], last: usize) -> Result<(Minimum, usize), NoDesign> {
+    /// The design where soils are uncertain.
+    fn design_by_samples(mut self, starts: &[Vec<f64>]) -> Result<BestDesign, NoDesign> {
+        /// How often what samples say of a limit is looked up again.
+        const LOOKS: usize = 4;
+        /// Searches that only show whether it is the least.
+        const OTHERS: usize = 2;
+        let (mut best, _) = self.search(&[self.without_samples(starts)?])?;
+        for _ in 0..LOOKS {
+            if !self.look_up_scores(&best) {
+                break;
+            }
+            (best, _) = self.search(std::slice::from_ref(&best.point))?;
+        }
+        let is_alone = self.sought.near.is_none();
+        let others: &[Vec<f64>] = if is_alone { &starts[starts.len() - OTHERS..] } else { &[] };
+        let all = [std::slice::from_ref(&best.point), others].concat();
+        let (best, agreed) = self.search(&all)?;
+        let certificate = self.certificate(&best, all.len(), agreed);
+        self.found(&best, certificate)
+    }
+
+    /// Where the least is without samples, or what is nearest to keeping limits there.
+    fn without_samples(&self, starts: &[Vec<f64>]) -> Result<Vec<f64>, NoDesign> {
+        if let Some(near) = self.near() {
+            return Ok(near);
+        }
+        let nominal = DesignSearch::of(self.study, self.place, self.sought, true)?;
+        match nominal.search(starts) {
+            Ok((best, _)) => Ok(best.point),
+            Err(NoDesign::Unreachable(nearest)) => Ok(self.point(&nearest.values)),
+            Err(NoDesign::Stopped) => Err(NoDesign::Stopped),
+            Err(_) => Ok(starts[0].clone()),
+        }
+    }
+
+    /// The least that searches come to, and how many come to it.
+    fn search(&self, starts: &[Vec<f64>]) -> Result<(Minimum, usize), NoDesign> {
+        let effort = self.effort();
         let from = |start: &Vec<f64>| {
-            let found = slsqp::minimum(self, start);
+            let found = slsqp::minimum(self, start, effort);
             // One that cannot keep its limits from there is led to where they are kept first.
             let nearest = || self.nearest(start).filter(|it| it.excess == 0.0);
-            found.or_else(|| slsqp::minimum(self, &nearest()?.point))
+            found.or_else(|| slsqp::minimum(self, &nearest()?.point, effort))
         };
         let found: Vec<Option<Minimum>> = starts.par_iter().map(from).collect();
         let best =
             found.iter().flatten().min_by(|one, other| one.objective.total_cmp(&other.objective));
         let Some(best) = best.cloned() else { return Err(self.why_none(starts)) };
+        let apart = if self.is_sampled() { AGREED_BY_SAMPLES } else { AGREED };
         let agrees = |it: &&Minimum| {
-            (it.objective - best.objective).abs() <= AGREED * best.objective.abs().max(1.0)
+            (it.objective - best.objective).abs() <= apart * best.objective.abs().max(1.0)
         };
-        let agreed = found[starts.len() - last..].iter().flatten().filter(agrees).count();
+        let agreed = found.iter().flatten().filter(agrees).count();
         Ok((best, agreed))
     }
 
-    /// Where searches start: the rover's own numbers, then points spread over the bounds.
+    /// Where searches start: a design that may be near, the rover's own numbers, then points spread
+    /// over the bounds.
     fn starts(&self) -> Vec<Vec<f64>> {
         /// Searches from points that are spread.
         const SPREAD: usize = 4;
+        let own = self.point(&self.candidate.given);
+        self.near().into_iter().chain([own]).chain(spread(self.free()).take(SPREAD)).collect()
+    }
+
+    /// The design that may be near, if it is one of this rover.
+    fn near(&self) -> Option<Vec<f64>> {
+        let near = self.sought.near.filter(|it| it.candidate == self.place)?;
+        Some(self.point(&near.values))
+    }
+
+    /// The point of the unit cube that has some free numbers, or the next to them.
+    fn point(&self, values: &[f64]) -> Vec<f64> {
         let ends = self.study.task.free.iter().map(|(_, ends)| ends);
-        let share = |(given, [least, most]): (&f64, &[f64; 2])| (given - least) / (most - least);
-        let own = self.candidate.given.iter().zip(ends).map(share);
-        let own: Vec<f64> = own.map(|share| share.clamp(0.0, 1.0)).collect();
-        std::iter::once(own).chain(spread(self.free()).take(SPREAD)).collect()
+        let share = |(value, [least, most]): (&f64, &[f64; 2])| (value - least) / (most - least);
+        values.iter().zip(ends).map(share).map(|share| share.clamp(0.0, 1.0)).collect()
     }
 
     /// The free numbers at a point of the unit cube, in their keys' units.
@@ -427,6 +560,9 @@ impl<'a> DesignSearch<'a> {
     /// What every sample measures on every ground; nothing where the numbers are no rover, or where too
     /// few samples move.
     fn measured(&self, point: &[f64]) -> Option<Vec<Vec<Measures>>> {
+        if !(self.sought.go_on)() {
+            return None;
+        }
         let values = self.values(point);
         let numbers = measured::numbers(&self.study.task.free, self.candidate, &values)?;
         let of_ground = |ground: &MeasuredGround| {
@@ -440,7 +576,8 @@ impl<'a> DesignSearch<'a> {
     /// The aim, over its size.
     fn aim(&self, measured: &[Vec<Measures>]) -> f64 {
         let of = |measure: Measure| measure.unit().from_si(Moments::of(&measured[0], measure).mean);
-        let weights = Measure::ALL.into_iter().zip(self.weights).filter(|(_, it)| **it != 0.0);
+        let weights =
+            Measure::ALL.into_iter().zip(self.sought.weights).filter(|(_, it)| **it != 0.0);
         weights.map(|(measure, weight)| weight * of(measure)).sum::<f64>() / self.aim_size
     }
 
@@ -467,7 +604,7 @@ impl<'a> DesignSearch<'a> {
     /// asked for; whether any has changed.
     fn look_up_scores(&mut self, best: &Minimum) -> bool {
         /// What is exact enough, over a measure's size [-].
-        const EXACT: f64 = 1e-3;
+        const EXACT: f64 = 2e-3;
         let Some(measured) = self.measured(&best.point) else { return false };
         let (mut scores, mut has_changed) = (self.scores.clone(), false);
         for (place, limit) in self.limits[..self.stated].iter().enumerate() {
@@ -547,27 +684,43 @@ impl<'a> DesignSearch<'a> {
     fn certificate(&self, best: &Minimum, starts: usize, agreed: usize) -> Certificate {
         /// How far away, over the bounds [-].
         const AWAY: f64 = 0.01;
-        /// Better by less than this is rounding, over the aim's size [-].
-        const ROUNDING: f64 = 1e-6;
-        /// Designs in all directions.
-        const DIRECTIONS: usize = 60;
+        /// Better by less than this is rounding, over the aim's size; and where searches among samples
+        /// end [-].
+        const ROUNDING: [f64; 2] = [1e-6, 1e-3];
+        /// Designs in all directions; fewer where each is measured by samples.
+        const DIRECTIONS: [usize; 2] = [60, 20];
         let along = (0..self.free()).flat_map(|axis| {
             [0.0, 1.0].map(move |side| {
                 (0..self.free()).map(move |it| if it == axis { side } else { 0.5 })
             })
         });
         let along = along.map(Iterator::collect::<Vec<f64>>);
-        let shares: Vec<Vec<f64>> = along.chain(spread(self.free()).take(DIRECTIONS)).collect();
+        let cost = usize::from(self.is_sampled());
+        let (directions, rounding) = (DIRECTIONS[cost], ROUNDING[cost]);
+        let shares: Vec<Vec<f64>> = along.chain(spread(self.free()).take(directions)).collect();
         let is_better = |share: &&Vec<f64>| {
             let moved = best.point.iter().zip(*share);
             let moved = moved.map(|(it, share)| (it + AWAY * (2.0 * share - 1.0)).clamp(0.0, 1.0));
             let outcome = self.outcome(&moved.collect::<Vec<f64>>());
             outcome.is_some_and(|outcome| {
-                outcome[0] < best.objective - ROUNDING && outcome[1..].iter().all(|it| *it <= 0.0)
+                outcome[0] < best.objective - rounding && outcome[1..].iter().all(|it| *it <= 0.0)
             })
         };
         let better = shares.par_iter().filter(is_better).count();
         Certificate { starts, agreed, probes: shares.len(), better }
+    }
+
+    /// Checks that every ground stands where a slope is to be crossed: whatever the rover, none
+    /// crosses another.
+    fn check_ground(&self) -> Result<(), NoDesign> {
+        let to_cross = |it: &&DesignLimit| it.is_of_slope() && it.side == LimitSide::AtLeast;
+        for limit in self.limits.iter().filter(to_cross) {
+            let stands = self.grounds[limit.ground].strength();
+            if limit.bound > stands {
+                return Err(NoDesign::BeyondGround { limit: *limit, stands });
+            }
+        }
+        Ok(())
     }
 
     /// Whether what is free acts on the aim at any start.
@@ -600,14 +753,18 @@ impl<'a> DesignSearch<'a> {
         let elastic = Elastic { search: self, is_meant, most: 2.0 * worst.max(1.0) };
         let mut point = start.to_vec();
         point.push(worst / elastic.most);
-        let found = slsqp::minimum(&elastic, &point)?;
+        let found = slsqp::minimum(&elastic, &point, self.effort())?;
         // What is missed by less than the search is exact to is kept.
-        let excess = if found.objective < 1e-6 { 0.0 } else { found.objective };
+        let exact = 1000.0 * self.effort().accuracy;
+        let excess = if found.objective < exact { 0.0 } else { found.objective };
         Some(NearestPoint { point: found.point[..self.free()].to_vec(), excess, is_meant })
     }
 
     /// Why no search found a design: which limits the nearest one misses.
     fn why_none(&self, starts: &[Vec<f64>]) -> NoDesign {
+        if !(self.sought.go_on)() {
+            return NoDesign::Stopped;
+        }
         let nearest: Vec<NearestPoint> =
             starts.par_iter().filter_map(|start| self.nearest(start)).collect();
         let crosses = |it: &&NearestPoint| self.limits.iter().all(it.is_meant);
@@ -630,13 +787,14 @@ impl<'a> DesignSearch<'a> {
             candidate: self.place,
             values: self.values(&nearest.point),
             missed,
-            ground_limit: self.grounds[0].strength(),
         }))
     }
 }
 
 /// Searches that differ by less came to one design [-].
 const AGREED: f64 = 1e-4;
+/// The same of means over samples, whose kinks end searches early [-].
+const AGREED_BY_SAMPLES: f64 = 1e-3;
 
 /// The limits on every ground; that the slope is crossed is one, unless a stricter one is stated.
 fn limits_of(task: &DesignTask, candidate: &RoverChoice) -> Vec<DesignLimit> {
@@ -680,26 +838,44 @@ impl Smooth for DesignSearch<'_> {
         self.limits.len()
     }
 
-    fn at(&self, point: &[f64]) -> Option<PointValues> {
-        let here = self.outcome(point)?;
-        let variable =
-            |value: &f64| Variable { value: *value, scale: 1.0, range: Span::new(0.0, 1.0) };
-        let variables: Vec<Variable> = point.iter().map(variable).collect();
-        let sizes = vec![1.0; here.len()];
-        let mut evaluate =
-            |points: &[Vec<f64>]| points.par_iter().map(|it| self.outcome(it)).collect();
-        let found = derivatives(&variables, &here, &sizes, StepLengths::SETTLED, &mut evaluate);
-        let by: Vec<Vec<f64>> = found
-            .by_variable
-            .into_iter()
-            .map(|by| Some(by?.into_iter().map(|it| it.value).collect()))
-            .collect::<Option<_>>()?;
-        let gradient = |result: usize| by.iter().map(|of| of[result]).collect();
-        Some(PointValues {
-            objective: here[0],
-            gradients: (0..here.len()).map(gradient).collect(),
-            constraints: here[1..].to_vec(),
-        })
+    fn results(&self, point: &[f64]) -> Option<Vec<f64>> {
+        self.outcome(point)
+    }
+
+    fn gradients(&self, point: &[f64], here: &[f64]) -> Option<Vec<Vec<f64>>> {
+        let by = if self.is_sampled() {
+            self.differences(point, here)?
+        } else {
+            let variable =
+                |value: &f64| Variable { value: *value, scale: 1.0, range: Span::new(0.0, 1.0) };
+            let variables: Vec<Variable> = point.iter().map(variable).collect();
+            let sizes = vec![1.0; here.len()];
+            let mut evaluate =
+                |points: &[Vec<f64>]| points.par_iter().map(|it| self.outcome(it)).collect();
+            let found = derivatives(&variables, here, &sizes, StepLengths::SETTLED, &mut evaluate);
+            let slopes =
+                |by: Vec<Derivative>| -> Vec<f64> { by.into_iter().map(|it| it.value).collect() };
+            found.by_variable.into_iter().map(|by| by.map(slopes)).collect::<Option<_>>()?
+        };
+        let gradient = |result: usize| -> Vec<f64> { by.iter().map(|of| of[result]).collect() };
+        Some((0..here.len()).map(gradient).collect())
+    }
+}
+
+impl DesignSearch<'_> {
+    /// Derivatives by each free number, to one side: means over samples have kinks everywhere, of
+    /// which none counts for much.
+    fn differences(&self, point: &[f64], here: &[f64]) -> Option<Vec<Vec<f64>>> {
+        /// The step, over the bounds [-].
+        const STEP: f64 = 1e-4;
+        let by = |axis: usize| -> Option<Vec<f64>> {
+            let step = if point[axis] + STEP > 1.0 { -STEP } else { STEP };
+            let mut moved = point.to_vec();
+            moved[axis] += step;
+            let there = self.outcome(&moved)?;
+            Some(there.iter().zip(here).map(|(there, here)| (there - here) / step).collect())
+        };
+        (0..self.free()).into_par_iter().map(by).collect()
     }
 }
 
@@ -730,26 +906,32 @@ impl Smooth for Elastic<'_> {
         self.search.constraints()
     }
 
-    fn at(&self, point: &[f64]) -> Option<PointValues> {
+    fn results(&self, point: &[f64]) -> Option<Vec<f64>> {
         let (share, own) = point.split_last()?;
         let slack = share * self.most;
-        let mut values = self.search.at(own)?;
-        values.objective = slack;
-        let [aim, limits @ ..] = &mut values.gradients[..] else { return None };
+        let limits = self.search.limits.iter();
+        let excesses = self.search.outcome(own)?.split_off(1).into_iter().zip(limits);
+        // What is not meant is kept, whatever the point.
+        let constraint = |(excess, limit): (f64, &DesignLimit)| {
+            if (self.is_meant)(limit) { excess - slack } else { -1.0 }
+        };
+        Some(std::iter::once(slack).chain(excesses.map(constraint)).collect())
+    }
+
+    fn gradients(&self, point: &[f64], _: &[f64]) -> Option<Vec<Vec<f64>>> {
+        let own = &point[..self.search.free()];
+        let here = self.search.outcome(own)?;
+        let mut gradients = self.search.gradients(own, &here)?;
+        let [aim, limits @ ..] = &mut gradients[..] else { return None };
         aim.fill(0.0);
         aim.push(self.most);
-        let constraints = values.constraints.iter_mut().zip(limits);
-        for (limit, (constraint, gradient)) in self.search.limits.iter().zip(constraints) {
-            if (self.is_meant)(limit) {
-                *constraint -= slack;
-                gradient.push(-self.most);
-            } else {
-                // Kept, whatever the point.
-                *constraint = -1.0;
+        for (limit, gradient) in self.search.limits.iter().zip(limits) {
+            let is_meant = (self.is_meant)(limit);
+            if !is_meant {
                 gradient.fill(0.0);
-                gradient.push(0.0);
             }
+            gradient.push(if is_meant { -self.most } else { 0.0 });
         }
-        Some(values)
+        Some(gradients)
     }
 }

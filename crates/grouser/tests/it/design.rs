@@ -1,10 +1,14 @@
 //! Designs: closed forms, random designs that are worse, probabilities, and what has none.
 
-use grouser::answers::AnswerError;
+use std::sync::atomic::{AtomicU32, Ordering};
+
 use grouser::answers::design::DesignQuestion;
+use grouser::answers::{AnswerError, AnswerOptions};
+use grouser::contact::validity::Flag;
 use grouser::document::design::Measure;
 use grouser::document::{DocumentError, Kind, LoadedDesign, Overrides, Source, read_design};
 use grouser::studies::design::{BestDesign, DesignStudy, NoDesign};
+use grouser::units::{MARS_GRAVITY, MOON_GRAVITY};
 
 const LIGHTER: &str = "design-lighter-wheels";
 
@@ -140,6 +144,85 @@ fn a_chosen_wheel_weighs_what_the_same_wheel_weighs_that_is_free() {
 }
 
 #[test]
+fn a_current_is_that_of_the_largest_torque() {
+    let study = study_of(
+        "minimise = \"current_a\"\ncourse_deg = 90.0\n\
+         [free]\n\"rover.wheel_unit.wheel.radius_m\" = [0.08, 0.12]\n\
+         [choose]\nrover.motor = [\"maxon-re-30\", \"maxon-re-25\"]\n",
+    );
+    let found = study.design().expect("a design");
+    let rover = study.rover(&found).expect("a rover");
+    let motor = rover.mounts()[0].unit.motor.expect("a motor");
+    let torque = measure(&found, Measure::Torque);
+    // Uphill every wheel drives: T = N η (k i − τ_f).
+    let current =
+        (torque / (motor.gear_ratio * motor.efficiency) + motor.friction) / motor.torque_constant;
+    assert!((measure(&found, Measure::Current) - current).abs() < 1e-9 * current, "{found:?}");
+    assert_eq!(found.objective, measure(&found, Measure::Current));
+    assert_eq!(measure(&found, Measure::BrakingTorque), 0.0);
+}
+
+#[test]
+fn wheels_brake_downhill() {
+    let body = "minimise = \"wheel_mass_kg\"\nslope_deg = 20.0\ncourse_deg = -90.0\n\
+                [free]\n\"rover.wheel_unit.wheel.radius_m\" = [0.08, 0.16]\n";
+    let of = |more: &str| {
+        let text = format!("schema = \"design/1\"\n{body}{more}");
+        let study = DesignStudy::of(read_text(&text).expect("a design").value, false, 1);
+        study.design().expect("a design")
+    };
+    let free = of("");
+    let braking = measure(&free, Measure::BrakingTorque);
+    assert!(braking > 0.0 && braking == measure(&free, Measure::Torque), "{free:?}");
+    let more = format!("[subject_to]\nbraking_torque_nm = {{ at_least = {} }}\n", 1.1 * braking);
+    let limited = of(&more);
+    assert!((measure(&limited, Measure::BrakingTorque) / braking - 1.1).abs() < 1e-6);
+    assert!(limited.objective > free.objective, "{limited:?}");
+}
+
+#[test]
+fn a_gravity_is_a_number_or_a_word() {
+    let body = "minimise = \"wheel_mass_kg\"\n\
+                [free]\n\"rover.wheel_unit.wheel.radius_m\" = [0.06, 0.16]\n\
+                [[also]]\ngravity_m_s2 = ";
+    let gravities = |word: &str| {
+        let study = study_of(&format!("gravity_m_s2 = \"mars\"\n{body}{word}\n"));
+        let grounds = study.task.candidates[0].grounds.iter();
+        grounds.map(|it| it.scenario.value.gravity).collect::<Vec<f64>>()
+    };
+    assert_eq!(gravities("\"moon\""), [MARS_GRAVITY, MOON_GRAVITY]);
+    assert_eq!(gravities("1.5"), [MARS_GRAVITY, 1.5]);
+}
+
+#[test]
+fn a_design_beyond_its_models_domain_says_so() {
+    let study = study_of(
+        "minimise = \"wheel_mass_kg\"\nmodel = \"ishigami\"\n\
+         [free]\n\"rover.wheel_unit.wheel.radius_m\" = [0.06, 0.16]\n",
+    );
+    let of = |radius: f64| study.findings(0, &[radius], None);
+    let is_too_small = |radius: f64| of(radius).iter().any(|it| it.flag == Flag::RadiusOutside);
+    // Ishigami's wheels were of 0.09 m and more.
+    assert!(is_too_small(0.07) && !is_too_small(0.1), "{:?}", of(0.1));
+    assert_eq!(study.design().expect("a design").values, [0.06]);
+}
+
+#[test]
+fn a_search_is_stopped_on_its_way() {
+    let study = study_of(
+        "minimise = \"wheel_mass_kg\"\nsoil = \"toyoura-uncertain\"\n\
+         [free]\n\"rover.wheel_unit.wheel.radius_m\" = [0.06, 0.16]\n",
+    );
+    for most in [0, 3, 40] {
+        let measured = AtomicU32::new(0);
+        let go_on = || measured.fetch_add(1, Ordering::Relaxed) < most;
+        assert_eq!(study.design_while(&go_on).map(drop), Err(NoDesign::Stopped), "{most}");
+        // What was asked of other threads before they were stopped.
+        assert!(measured.into_inner() < most + 200, "{most}");
+    }
+}
+
+#[test]
 fn limits_hold_on_every_ground() {
     let body = "minimise = \"wheel_mass_kg\"\n\
                 [free]\n\"rover.wheel_unit.wheel.radius_m\" = [0.06, 0.16]\n\
@@ -181,7 +264,7 @@ fn a_limit_on_an_uncertain_soil_is_kept_by_the_share_that_is_asked_for() {
 fn a_trade_off_leads_from_one_least_to_the_other() {
     let study = DesignStudy::of(read(&[]).expect("a preset").value, false, 1);
     let [first, second] = [Measure::EnergyPerMetre, Measure::WheelMass];
-    let designs = study.trade_off([first, second], 5).expect("designs");
+    let designs = study.trade_off([first, second], 5, &|| true).expect("designs");
     assert_eq!(designs.len(), 5);
     for pair in designs.windows(2) {
         assert!(measure(&pair[0], first) <= measure(&pair[1], first) + 1e-6, "{pair:?}");
@@ -215,18 +298,27 @@ fn what_has_no_design_says_which_limit_and_how_far() {
         trade: None,
         by_models: Vec::new(),
     };
-    let why = |settings: &[&str]| match question(settings).answer("design") {
+    let why = |settings: &[&str]| match question(settings).answer("design", &AnswerOptions::ROWS) {
         Err(AnswerError::Design(why)) => why,
         other => panic!("{other:?}"),
     };
     let steep = why(&["design.subject_to.limit_slope_deg.at_least=35"]);
-    assert!(steep.contains("limit_slope_deg ≥ 35 where it has 2"), "{steep}");
-    assert!(steep.contains("the ground itself stands to 31.01°"), "{steep}");
+    assert!(
+        steep.contains("crosses 35° of this soil: the ground's own limit is 31.01°"),
+        "{steep}"
+    );
+    assert!(steep.contains("subject_to.limit_slope_deg"), "{steep}");
+    let between = why(&["design.subject_to.limit_slope_deg.at_least=30"]);
+    assert!(between.contains("limit_slope_deg ≥ 30 where it has 2"), "{between}");
+    assert!(between.contains("radius_m is the most that it may be"), "{between}");
     let shallow = why(&["design.subject_to.sinkage_ratio.at_most=0.01"]);
     assert!(shallow.contains("sinkage_ratio ≤ 0.01"), "{shallow}");
-    let constant =
-        study_of("minimise = \"wheel_mass_kg\"\n[free]\n\"rover.body.mass_kg\" = [3.0, 5.0]\n");
-    assert_eq!(constant.design().map(drop), Err(NoDesign::Constant));
+    let text = "schema = \"design/1\"\nminimise = \"wheel_mass_kg\"\n[free]\n\
+                \"rover.body.mass_kg\" = [3.0, 5.0]\n";
+    let constant = DesignQuestion { task: read_text(text).expect("a design"), ..question(&[]) };
+    let constant = constant.answer("design", &AnswerOptions::ROWS).map(drop);
+    let Err(AnswerError::Design(constant)) = constant else { panic!("{constant:?}") };
+    assert!(constant.contains("does not depend on any number that is free (rover.body.mass_kg)"));
 }
 
 #[test]
@@ -247,6 +339,27 @@ fn documents_that_say_nothing_that_can_be_are_refused_where_they_say_it() {
                  slip_ratio = {{ at_least = 0.5, at_most = 0.2 }}"
             ),
             "`at_least` is above `at_most`",
+        ),
+        (
+            format!(
+                "slope_deg = 10.0\n{mass}\"rover.wheel_unit.wheel.radius_m\" = [0.1, 0.2]\n\
+                 [subject_to]\nlimit_slope_deg = {{ at_most = 8.0 }}"
+            ),
+            "which is to be crossed",
+        ),
+        (
+            format!(
+                "{mass}\"rover.wheel_unit.wheel.radius_m\" = [0.1, 0.2]\n\
+                 [subject_to]\ncurrent_a = {{ at_most = 1.0 }}"
+            ),
+            "no motor of the rover is known",
+        ),
+        (
+            format!(
+                "{mass}\"rover.wheel_unit.wheel.radius_m\" = [0.1, 0.2]\n\
+                 [subject_to]\nsinkage_rato = {{ at_most = 1.0 }}"
+            ),
+            "did you mean `sinkage_ratio`?",
         ),
         (
             "minimise = \"weighted_sum\"\n[free]\n\

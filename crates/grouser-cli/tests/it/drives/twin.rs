@@ -7,15 +7,13 @@ use grouser::simulation::{Outcome, Run, Scenario};
 use grouser::studies::ensemble::samples::Sample;
 use grouser::terrain::Ground;
 use grouser::units::deg;
+use grouser::vehicle::Rover;
 use grouser::vehicle::drive::DriveLaw;
 
 /// Slope and yaw [°], radius of the turn to the left, none straight on [m], and speed [m/s].
 pub(super) type Trial = (f64, f64, Option<f64>, f64);
 
-/// How far it goes [m].
-const WAY: f64 = 1.5;
-/// Standard deviations of motion capture [m], [rad], and of the wheels' speeds [rad/s].
-const POSITION: f64 = 2e-4;
+/// Standard deviations of attitudes [rad], and of the wheels' speeds [rad/s].
 const ATTITUDE: f64 = 1e-3;
 const WHEEL_SPEED: f64 = 5e-3;
 /// Front left, front right, back left, back right.
@@ -38,6 +36,7 @@ const ENAV: &str = "__time,/global_odometry_utm/pose/pose/position/x,\
 pub(super) enum Layout {
     Mines,
     Enav,
+    Baseprod,
 }
 
 impl Layout {
@@ -46,13 +45,54 @@ impl Layout {
         match self {
             Self::Mines => "mines",
             Self::Enav => "enav",
+            Self::Baseprod => "baseprod",
         }
     }
 
-    fn header(self) -> &'static str {
+    /// A rover with its wheels: four that are not steered, or six of which most are.
+    pub(super) fn rover(self) -> &'static str {
         match self {
-            Self::Mines => MINES,
-            Self::Enav => ENAV,
+            Self::Mines | Self::Enav => "hakuto",
+            Self::Baseprod => "sojourner",
+        }
+    }
+
+    /// How far a trial goes [m], and what a position scatters by [m]: motion capture in a hall, a
+    /// filter of cameras that is taken for as good, satellites in the field.
+    fn way(self) -> (f64, f64) {
+        match self {
+            Self::Mines | Self::Enav => (1.5, 2e-4),
+            Self::Baseprod => (4.0, 3e-3),
+        }
+    }
+
+    /// Between two rows [s].
+    fn interval(self) -> f64 {
+        match self {
+            Self::Mines | Self::Enav => 0.1,
+            Self::Baseprod => 0.5,
+        }
+    }
+
+    /// The wheels that its columns are of, in their order.
+    fn wheels(self, rover: &Rover) -> Vec<String> {
+        match self {
+            Self::Mines | Self::Enav => WHEELS.map(str::to_owned).to_vec(),
+            Self::Baseprod => rover.mounts().iter().map(|it| it.name.clone()).collect(),
+        }
+    }
+
+    fn header(self, wheels: &[String]) -> String {
+        let of_wheels = |column: &str| -> String {
+            wheels.iter().map(|wheel| format!(",{column}/{wheel}")).collect()
+        };
+        match self {
+            Self::Mines => MINES.to_owned(),
+            Self::Enav => ENAV.to_owned(),
+            Self::Baseprod => {
+                let pose = "time_s,pos_x,pos_y,pos_z,quat_x,quat_y,quat_z,quat_w";
+                format!("{pose}{}{}\n", of_wheels("drive"), of_wheels("steer"))
+            }
         }
     }
 }
@@ -99,8 +139,9 @@ pub(super) fn table(
     scenario.model = truth.model.clone();
     scenario.ground = Ground::plane(truth.soil, deg(slope));
     scenario.start.yaw = deg(yaw);
-    scenario.duration = WAY / speed;
-    scenario.numerics.sample_interval = 0.1;
+    let (way, scatter) = layout.way();
+    scenario.duration = way / speed;
+    scenario.numerics.sample_interval = layout.interval();
     let curvature = radius.map_or(0.0, f64::recip);
     let rims = scenario.rover.mounts().iter().map(|it| speed * (1.0 - curvature * it.position.y));
     scenario.drive = DriveLaw::ConstantEach(rims.collect());
@@ -112,30 +153,36 @@ pub(super) fn table(
         turned(after(about(0, deg(slope)), about(2, deg(yaw))), [1.0, 0.0, 0.0]);
     let of_slope = after(about(2, -leftward.atan2(forward)), about(0, deg(slope)));
     let place = |name: &str| scenario.rover.mounts().iter().position(|it| it.name == name);
-    let wheels = WHEELS.map(|name| place(name).expect("the rover has it"));
+    let names = layout.wheels(&scenario.rover);
+    let wheels: Vec<usize> =
+        names.iter().map(|name| place(name).expect("the rover has it")).collect();
     let mut random = generator(seed, 0xD1 << 56);
     let mut normal = |deviation: f64| deviation * standard_normal(&mut random);
-    let (mut table, mut angles, mut before) = (layout.header().to_owned(), [0.0; 4], 0.0);
+    let (mut table, mut angles) = (layout.header(&names), vec![0.0; wheels.len()]);
+    let mut before = 0.0;
     for record in &run.records {
         let state = &record.state;
         let place = turned(of_slope, [state.position.x, state.position.y, 0.0]);
-        let place = place.map(|it| it + normal(POSITION));
+        let place = place.map(|it| it + normal(scatter));
         let noise = [0, 1, 2].map(|axis| about(axis, normal(ATTITUDE)));
         let turn = after(of_slope, about(2, state.yaw));
         let [w, x, y, z] = noise.into_iter().fold(turn, after);
-        let speeds = wheels.map(|wheel| record.wheels[wheel].wheel_speed + normal(WHEEL_SPEED));
-        for (angle, speed) in angles.iter_mut().zip(speeds) {
+        let of_wheels =
+            |of: &dyn Fn(usize) -> f64| -> Vec<f64> { wheels.iter().map(|it| of(*it)).collect() };
+        let speeds = of_wheels(&|it| record.wheels[it].wheel_speed);
+        let speeds: Vec<f64> = speeds.iter().map(|it| it + normal(WHEEL_SPEED)).collect();
+        for (angle, speed) in angles.iter_mut().zip(&speeds) {
             *angle += (record.time - before) * speed;
         }
         before = record.time;
-        let currents =
-            wheels.map(|it| 512.0 + 40.0 * record.wheels[it].reaction.settled.forces.torque);
         let rest = match layout {
-            Layout::Enav => speeds.to_vec(),
+            Layout::Enav => speeds,
             Layout::Mines => {
-                let (all, unread) = ([angles, angles, speeds, currents], [0.0; 6]);
-                unread.into_iter().chain(all.into_iter().flatten()).collect()
+                let torque = |it: usize| record.wheels[it].reaction.settled.forces.torque;
+                let currents = of_wheels(&|it| 512.0 + 40.0 * torque(it));
+                [vec![0.0; 6], angles.clone(), angles.clone(), speeds, currents].concat()
             }
+            Layout::Baseprod => [angles.clone(), vec![0.0; wheels.len()]].concat(),
         };
         write!(table, "{}", record.time).expect("a text is written");
         for number in place.into_iter().chain([x, y, z, w]).chain(rest) {

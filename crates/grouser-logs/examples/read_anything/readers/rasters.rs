@@ -7,8 +7,8 @@ use grouser_core::terrain::Extent;
 use grouser_core::units::Vec2;
 use grouser_raster::zones::{ZoneMap, geojson};
 use grouser_raster::{
-    Fault, Placement, Raster, ReadOptions, geotiff, npy, read, read_areas, read_line_string,
-    read_zones, xyz, zone_names,
+    CoordinateSystem, Fault, MapFrame, Placement, Raster, ReadOptions, Remark, geotiff, npy, read,
+    read_areas, read_line_string, read_zones, xyz, zone_names,
 };
 
 use super::{Outcome, Reader, Stage, finite, refused};
@@ -48,17 +48,25 @@ pub(super) fn all() -> Result<Vec<Reader>, Box<dyn Error>> {
             zones(read_zones(&path, &ReadOptions::default(), None))
         }),
         Reader::new("areas", 10, vec![corpus::ZONES.into()], |bytes, stage| {
-            let [south_west, north_east] = [-1e3, 1e3].map(|it| Vec2::new(it, it));
-            let ground = Extent { south_west, north_east };
-            zones(read_areas(&stage.file("areas.geojson", bytes), &ground))
+            zones(read_areas(
+                &stage.file("areas.geojson", bytes),
+                &site(&CoordinateSystem::default()),
+            ))
         }),
         Reader::new("line", 10, vec![corpus::LINE.into()], |bytes, stage| {
-            finite(&read_line_string(&stage.file("line.geojson", bytes)))
+            let file = stage.file("line.geojson", bytes);
+            finite(&read_line_string(&file, &site(&CoordinateSystem::default())))
         }),
         Reader::new("coordinate system", 10, vec![corpus::ZONES.into()], |bytes, _| {
-            finite(&geojson::compare_system(bytes, &grouser_raster::CoordinateSystem::default()))
+            finite(&geojson::compare_system(bytes, &CoordinateSystem::default()))
         }),
     ])
+}
+
+/// A map of two kilometres.
+fn site(system: &CoordinateSystem) -> MapFrame<'_> {
+    let [south_west, north_east] = [-1e3, 1e3].map(|it| Vec2::new(it, it));
+    MapFrame { system: Some(system), extent: Extent { south_west, north_east } }
 }
 
 /// All maps of the tests, sorted.
@@ -114,9 +122,9 @@ fn heights(read: Result<Raster, Fault>) -> Outcome {
 }
 
 /// What becomes of zones: each key a soil of its own, or the scenario's.
-fn zones<E: std::fmt::Display>(read: Result<ZoneMap, E>) -> Outcome {
+fn zones<E: std::fmt::Display>(read: Result<(ZoneMap, Option<Remark>), E>) -> Outcome {
     let map = match read {
-        Ok(map) => map,
+        Ok((map, _)) => map,
         Err(error) => return refused(&error),
     };
     if let fault @ Outcome::Wrong(_) = crate::finite::finite(&map.extent()) {

@@ -1,5 +1,6 @@
 //! A file of MCAP before its messages are read: its topics, its chunks, and from when to when it is.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -62,26 +63,45 @@ impl McapFile {
         messages.map_err(|error| TelemetryError::of_reading(&self.label, error))
     }
 
-    /// Puts files in the order of their messages.
+    /// Puts files in the order of their messages; whether they are to be read side by side, as files
+    /// of one sensor each are.
     ///
     /// * `overlap`: by how much one may go on while the next has begun [ns]
     ///
     /// # Errors
-    /// [`Problem::Overlap`] where one goes on for longer.
-    pub(super) fn sort(files: &mut [Self], overlap: u64) -> Result<(), TelemetryError> {
+    /// [`Problem::Overlap`] where one goes on for longer, and some have a topic in common.
+    pub(super) fn sort(files: &mut [Self], overlap: u64) -> Result<bool, TelemetryError> {
         // What has no messages comes last.
         files.sort_by_key(|it| (it.span.is_none(), it.span));
         for pair in files.windows(2) {
             let (Some([_, ends]), Some([begins, _])) = (pair[0].span, pair[1].span) else { break };
             if ends > begins.saturating_add(overlap) {
+                if have_own_topics(files) {
+                    return Ok(true);
+                }
                 let [ends, begins] = [ends, begins].map(|time| time as f64 / 1e9);
                 let next = pair[1].label.clone();
                 let problem = Problem::Overlap { next, ends, begins };
                 return Err(TelemetryError::new(&pair[0].label, problem));
             }
         }
-        Ok(())
+        Ok(false)
     }
+
+    /// Whether files have no topic in common, as where each is of one sensor; not where one cannot be
+    /// looked into.
+    pub(crate) fn share_no_topic(paths: &[PathBuf], options: &LogOptions) -> bool {
+        let files = paths.iter().map(|path| Self::look(path, options, false));
+        files.collect::<Result<Vec<_>, _>>().is_ok_and(|files| have_own_topics(&files))
+    }
+}
+
+fn have_own_topics(files: &[McapFile]) -> bool {
+    let mut known = BTreeSet::new();
+    files.iter().all(|file| {
+        let own: BTreeSet<&str> = file.topics.iter().map(|it| it.name.as_str()).collect();
+        own.into_iter().all(|topic| known.insert(topic))
+    })
 }
 
 /// What a log has, and where its chunks are: from the index at its end, or, without one, from all

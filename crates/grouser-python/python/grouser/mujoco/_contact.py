@@ -260,7 +260,7 @@ class SoilContact:
             ahead.qvel,
             ahead.xfrc_applied[self._bodies],
             self._moments,
-            float(np.linalg.norm(model.opt.gravity)),
+            mujoco.mju_norm3(model.opt.gravity),
         )
         data.xfrc_applied[self._bodies] = wrenches
 

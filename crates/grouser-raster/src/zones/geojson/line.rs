@@ -2,21 +2,37 @@
 
 use std::path::Path;
 
+use grouser_core::terrain::Extent;
 use grouser_core::units::Vec2;
 
 use super::syntax::{Coordinates, Feature, Geometry, Root};
-use super::{bytes_of, features_in, root_of, starts_so};
-use crate::error::{Fault, RasterError};
-use crate::zones::places::shown;
+use super::{bytes_of, compare_system, features_in, root_of, starts_so};
+use crate::error::{Fault, Flaw, RasterError};
+use crate::remark::Remark;
+use crate::zones::places::{MapFrame, check_places_on, shown};
 
 /// Reads the line of a file: the places of its only `LineString`, which may stand by itself or in a
-/// Feature or FeatureCollection. Heights in it are passed over, and so are properties.
+/// Feature or FeatureCollection. Heights in it are passed over, and so are properties. Also what is
+/// to be remarked about their system.
+///
+/// * `map`: that the line is on
 ///
 /// # Errors
 /// [`RasterError`] with the file's name, if it has no line, several, other geometries or invalid
-/// places.
-pub fn read_line_string(path: &Path) -> Result<Vec<Vec2>, RasterError> {
-    let line = || decode_line_string(&bytes_of(path)?);
+/// places, and for places of another system, or in degrees.
+pub fn read_line_string(
+    path: &Path,
+    map: &MapFrame<'_>,
+) -> Result<(Vec<Vec2>, Option<Remark>), RasterError> {
+    let line = || {
+        let bytes = bytes_of(path)?;
+        let line = decode_line_string(&bytes)?;
+        let remark = map.system.map_or(Ok(None), |system| compare_system(&bytes, system))?;
+        if let Some(places) = Extent::around(&line) {
+            check_places_on(&map.extent, &places)?;
+        }
+        Ok((line, remark))
+    };
     line().map_err(|fault: Fault| RasterError::new(path, fault))
 }
 
@@ -38,17 +54,17 @@ pub fn decode_line_string(bytes: &[u8]) -> Result<Vec<Vec2>, Fault> {
         return Err(Fault::GeoJson { problem });
     }
     let root = root_of(bytes)?;
-    let no_line = |problem: String| Fault::NoLine { problem };
+    let no_line = |flaw: Flaw| Fault::NoLine { flaw };
     let mut features = match root.kind.as_str() {
         "FeatureCollection" | "Feature" => features_in(root)?,
         _ => vec![alone(root)],
     };
     match features.len() {
-        0 => Err(no_line("it has no feature".to_owned())),
-        1 => line_of(features.remove(0).geometry).map_err(no_line),
-        count => Err(no_line(format!(
-            "it has {count} features, and one line is one way\nhint: ogr2ogr -where CONDITION OUT.geojson IN.geojson keeps \
-             one of them"
+        0 => Err(no_line("it has no feature".to_owned().into())),
+        1 => line_of(features.remove(0).geometry).map_err(|it| no_line(it.into())),
+        count => Err(no_line(Flaw::with_hint(
+            format!("it has {count} features, and one line is one way"),
+            |file| format!("ogr2ogr -where CONDITION OUT.geojson {file} keeps one of them"),
         ))),
     }
 }

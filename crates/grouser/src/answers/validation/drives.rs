@@ -143,9 +143,20 @@ impl DriveValidationQuestion {
             cells: Arc::new(cells(&validation, &names)),
             drives: Arc::new(drives(&self.drives)),
             sentences,
-            notes: self.notes.iter().cloned().chain(left_out).collect(),
+            notes: self.notes.iter().cloned().chain(self.nominal()).chain(left_out).collect(),
             validation,
         })
+    }
+
+    /// That the soil is uncertain, and what of it predicts.
+    fn nominal(&self) -> Option<String> {
+        let uncertain = self.scenario.uncertain.as_ref()?;
+        let keys: Vec<&str> = uncertain.sampled_keys().collect();
+        Some(format!(
+            "the soil is uncertain ({}): its nominal values predict here, so that what a model misses \
+             is its own error and theirs",
+            keys.join(", ")
+        ))
     }
 
     /// Which model comes nearest, or that none does.

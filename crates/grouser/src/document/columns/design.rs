@@ -5,7 +5,8 @@ use serde_json::Value as Json;
 use super::super::design::Measure;
 use super::super::table::{Table, Values};
 use super::super::unit::ONE;
-use super::{Column, number, text, whole};
+use super::{Column, flags, number, text, whole};
+use crate::contact::validity::Finding;
 use crate::studies::design::{KeptLimit, Measures};
 
 /// What a row is of.
@@ -54,6 +55,8 @@ pub struct DesignRow {
     pub values: Vec<f64>,
     /// What is measured of it; nothing where it does not move.
     pub measures: Option<Measures>,
+    /// Where it is outside of what its model and the soils were tested for.
+    pub findings: Vec<Finding>,
 }
 
 impl DesignRow {
@@ -78,9 +81,12 @@ pub const DESIGNS: &[Column<DesignRow>] = &[
     measured(Measure::EnergyPerMetre, |it| it.measure(Measure::EnergyPerMetre)),
     measured(Measure::Crab, |it| it.measure(Measure::Crab)),
     measured(Measure::Torque, |it| it.measure(Measure::Torque)),
+    measured(Measure::BrakingTorque, |it| it.measure(Measure::BrakingTorque)),
+    measured(Measure::Current, |it| it.measure(Measure::Current)),
     measured(Measure::TippingSlope, |it| it.measure(Measure::TippingSlope)),
     measured(Measure::Width, |it| it.measure(Measure::Width)),
     measured(Measure::WheelMass, |it| it.measure(Measure::WheelMass)),
+    flags::flags(|it| flags::names(&it.findings)),
 ];
 
 const fn measured(measure: Measure, of: fn(&DesignRow) -> Option<f64>) -> Column<DesignRow> {

@@ -9,7 +9,9 @@ use grouser_io::statistics::NothingAccepted;
 use rayon::prelude::*;
 
 use crate::contact::Model;
+use crate::contact::validity::Finding;
 use crate::simulation::Scenario;
+use crate::simulation::power::electrical;
 use crate::studies::ensemble::models::Question;
 use crate::studies::ensemble::samples::{BandInputs, Sample};
 use crate::studies::heading::{HeadingStudy, LimitedBy};
@@ -69,9 +71,24 @@ impl MeasuredGround {
         self.samples.len()
     }
 
-    /// The steepest slope on which the ground stands by its own strength [rad].
+    /// The steepest slope on which the ground stands by its own strength [rad], the strongest where
+    /// it is uncertain.
     pub(super) fn strength(&self) -> f64 {
-        HeadingStudy::of(&self.scenario).ground_limit()
+        let own = HeadingStudy::of(&self.scenario);
+        let of_soil = |sample: &Sample| HeadingStudy { soil: sample.soil, ..own.clone() };
+        self.samples.iter().map(|it| of_soil(it).ground_limit()).fold(0.0, f64::max)
+    }
+
+    /// The flags of the rover with other numbers in its first soil and model.
+    pub(super) fn findings(&self, numbers: &[(String, f64)]) -> Vec<Finding> {
+        let numbers = numbers.iter().map(|(key, value)| (&**key, *value));
+        let (Ok(scenario), [sample, ..]) = (self.scenario.with(numbers), &self.samples[..]) else {
+            return Vec::new();
+        };
+        let Ok(curve) = study(&scenario, sample).curve_on(self.course) else {
+            return Vec::new();
+        };
+        curve.findings(self.slope, &curve.at(self.slope))
     }
 
     /// What each sample measures of the rover with other numbers; nothing where it does not move.
@@ -81,14 +98,7 @@ impl MeasuredGround {
             return vec![None; self.samples.len()];
         };
         let of_rover = of_rover(&scenario);
-        let of_sample = |sample: &Sample| {
-            let study = HeadingStudy {
-                soil: sample.soil,
-                model: sample.model.clone(),
-                ..HeadingStudy::of(&scenario)
-            };
-            self.measures_of(&study, of_rover)
-        };
+        let of_sample = |it: &Sample| self.measures_of(&study(&scenario, it), of_rover);
         self.samples.par_iter().map(of_sample).collect()
     }
 
@@ -107,6 +117,8 @@ impl MeasuredGround {
     fn measures_of(&self, study: &HeadingStudy, of_rover: Measures) -> Option<Measures> {
         /// Short of a curve's end, which has no slope [-].
         const SHORT_OF_END: f64 = 1.0 - 1e-6;
+        /// Any speed of wheels forward [rad/s].
+        const FORWARD: f64 = 1.0;
         let curve = study.curve_on(self.course).ok()?;
         let (limit, _) = curve.limit().ok()?;
         if curve.limited_by() == Some(LimitedBy::NotFound) {
@@ -115,7 +127,11 @@ impl MeasuredGround {
         let heading = curve.at(self.slope.min(SHORT_OF_END * limit)).ok()?;
         let wheels = study.rover.mounts().iter().zip(&heading.wheels);
         let sinkages = wheels.map(|(mount, it)| it.settled.sinkage / mount.shearing_radius());
-        let torques = heading.wheels.iter().map(|it| it.settled.forces.torque.abs());
+        let torques = heading.wheels.iter().map(|it| it.settled.forces.torque);
+        let motors = study.rover.mounts().iter().zip(torques.clone());
+        // Only the sense of a wheel's speed acts on the current.
+        let currents = motors
+            .filter_map(|(mount, torque)| Some(electrical(mount, torque, FORWARD)?.current.abs()));
         let mut measures = of_rover;
         let mut set = |measure: Measure, value: f64| measures[measure.place()] = value;
         set(Measure::LimitSlope, limit);
@@ -123,9 +139,18 @@ impl MeasuredGround {
         set(Measure::SlipRatio, heading.slip_ratio.abs());
         set(Measure::EnergyPerMetre, heading.energy_per_metre(&study.rover));
         set(Measure::Crab, heading.crab().abs());
-        set(Measure::Torque, torques.fold(0.0, f64::max));
+        set(Measure::Torque, torques.clone().map(f64::abs).fold(0.0, f64::max));
+        set(Measure::BrakingTorque, torques.map(|it| -it).fold(0.0, f64::max));
+        // Of motors that nobody knows there is none.
+        set(Measure::Current, currents.reduce(f64::max).unwrap_or(f64::NAN));
         Some(measures)
     }
+}
+
+/// The headings of a rover on a sample's soil by its model.
+fn study(scenario: &Scenario, sample: &Sample) -> HeadingStudy {
+    let Sample { soil, model } = sample.clone();
+    HeadingStudy { soil, model, ..HeadingStudy::of(scenario) }
 }
 
 /// What is measured of a rover alone, wherever it drives.

@@ -11,25 +11,32 @@ use basin::{
     SelectedFirstOrderState, Slsqp, State, TerminationCode,
 };
 
-/// The objective and the constraints at a point, with their derivatives.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct PointValues {
-    /// What is to be least.
-    pub(super) objective: f64,
-    /// What must not be above 0.
-    pub(super) constraints: Vec<f64>,
-    /// Derivatives of the objective, then of each constraint.
-    pub(super) gradients: Vec<Vec<f64>>,
-}
-
 /// A smooth problem over the unit cube.
 pub(super) trait Smooth {
     /// How many numbers are free.
     fn free(&self) -> usize;
     /// How many constraints there are.
     fn constraints(&self) -> usize;
-    /// The values at a point; none where there are none.
-    fn at(&self, point: &[f64]) -> Option<PointValues>;
+    /// What is to be least at a point, then what must not be above 0; none where there are none.
+    fn results(&self, point: &[f64]) -> Option<Vec<f64>>;
+    /// The derivatives of each of these results by all free numbers.
+    fn gradients(&self, point: &[f64], results: &[f64]) -> Option<Vec<Vec<f64>>>;
+}
+
+/// How long a search goes on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Effort {
+    /// What objective and constraints are to be exact to.
+    pub(super) accuracy: f64,
+    /// Iterations after which a search is given up.
+    pub(super) most_steps: u64,
+}
+
+impl Effort {
+    /// For values that are smooth but for a few kinks.
+    pub(super) const SMOOTH: Self = Self { accuracy: 1e-9, most_steps: 200 };
+    /// For means over samples, each with kinks of its own.
+    pub(super) const SAMPLED: Self = Self { accuracy: 1e-5, most_steps: 40 };
 }
 
 /// A constrained minimum.
@@ -43,26 +50,22 @@ pub(super) struct Minimum {
     pub(super) multipliers: Vec<f64>,
 }
 
-/// What objective and constraints are exact to.
-const ACCURACY: f64 = 1e-9;
-/// A constraint that is missed by less is kept.
-const KEPT: f64 = 1e-7;
-/// Iterations after which a search is given up.
-const MOST_STEPS: u64 = 200;
-
 /// The minimum to which a search from a start leads; nothing where it gives up.
-pub(super) fn minimum(problem: &dyn Smooth, start: &[f64]) -> Option<Minimum> {
+pub(super) fn minimum(problem: &dyn Smooth, start: &[f64], effort: Effort) -> Option<Minimum> {
+    let Effort { accuracy, most_steps } = effort;
+    // A constraint that is missed by less is kept.
+    let kept = 100.0 * accuracy;
     let count = problem.free();
     let (low, high) = (vec![0.0; count], vec![1.0; count]);
     let adapted = Adapted { problem, low, high, last: RefCell::default() };
-    let solver = Slsqp::new().with_absolute_accuracy_tolerance(ACCURACY);
+    let solver = Slsqp::new().with_absolute_accuracy_tolerance(accuracy);
     let state = SelectedFirstOrderState::new(start.to_vec());
     let found =
-        Executor::new(adapted, solver, state).max_iter(MOST_STEPS).run_with_solver().ok()?;
+        Executor::new(adapted, solver, state).max_iter(most_steps).run_with_solver().ok()?;
     let point = found.state.param().clone();
     // Near a minimum, steps end where values are no longer exact: whether it is one is looked at
     // by the designs around it.
-    let keeps = || problem.at(&point).is_some_and(|it| it.constraints.iter().all(|it| *it < KEPT));
+    let keeps = || problem.results(&point).is_some_and(|it| it[1..].iter().all(|it| *it < kept));
     if found.report.code() != TerminationCode::SolverConverged && !keeps() {
         return None;
     }
@@ -73,33 +76,45 @@ pub(super) fn minimum(problem: &dyn Smooth, start: &[f64]) -> Option<Minimum> {
     })
 }
 
-/// The problem as the library wants it. It asks for values and derivatives one after the other at
-/// one point, where they are computed together.
+/// The problem as the library wants it. It asks for the values at one point one after the other, and
+/// for derivatives only at points that it goes on from.
 struct Adapted<'a> {
     problem: &'a dyn Smooth,
     low: Vec<f64>,
     high: Vec<f64>,
-    last: RefCell<Option<(Vec<f64>, PointValues)>>,
+    last: RefCell<Option<Known>>,
+}
+
+/// What is known at a point.
+struct Known {
+    point: Vec<f64>,
+    values: Vec<f64>,
+    gradients: Option<Vec<Vec<f64>>>,
 }
 
 impl Adapted<'_> {
-    fn values<T>(&self, point: &[f64], of: impl FnOnce(&PointValues) -> T) -> T {
+    fn values<T>(&self, point: &[f64], of: impl FnOnce(&[f64]) -> T) -> T {
         let mut last = self.last.borrow_mut();
-        if last.as_ref().is_none_or(|(known, _)| known != point) {
-            let values = self.problem.at(point).unwrap_or_else(|| self.nothing());
-            *last = Some((point.to_vec(), values));
-        }
-        of(&last.as_ref().expect("it was set").1)
+        of(&self.known(&mut last, point).values)
     }
 
-    /// What stands for no values: no step is taken to where they are not finite.
-    fn nothing(&self) -> PointValues {
-        let (free, constraints) = (self.problem.free(), self.problem.constraints());
-        PointValues {
-            objective: f64::NAN,
-            constraints: vec![f64::NAN; constraints],
-            gradients: vec![vec![f64::NAN; free]; constraints + 1],
+    fn gradients<T>(&self, point: &[f64], of: impl FnOnce(&[Vec<f64>]) -> T) -> T {
+        let mut last = self.last.borrow_mut();
+        let known = self.known(&mut last, point);
+        let found = || self.problem.gradients(point, &known.values);
+        // What stands for none: no step is taken to where they are not finite.
+        let none = || vec![vec![f64::NAN; self.problem.free()]; self.problem.constraints() + 1];
+        let gradients = known.gradients.take().or_else(found).unwrap_or_else(none);
+        of(known.gradients.insert(gradients))
+    }
+
+    fn known<'k>(&self, last: &'k mut Option<Known>, point: &[f64]) -> &'k mut Known {
+        if last.as_ref().is_none_or(|it| it.point != point) {
+            let none = || vec![f64::NAN; self.problem.constraints() + 1];
+            let values = self.problem.results(point).unwrap_or_else(none);
+            *last = Some(Known { point: point.to_vec(), values, gradients: None });
         }
+        last.as_mut().expect("it was set")
     }
 }
 
@@ -125,7 +140,7 @@ impl CostFunction for Adapted<'_> {
     type Error = Infallible;
 
     fn cost(&self, point: &Vec<f64>) -> Result<f64, Infallible> {
-        Ok(self.values(point, |it| it.objective))
+        Ok(self.values(point, |it| it[0]))
     }
 }
 
@@ -133,7 +148,7 @@ impl Gradient for Adapted<'_> {
     type Gradient = Vec<f64>;
 
     fn gradient(&self, point: &Vec<f64>) -> Result<Vec<f64>, Infallible> {
-        Ok(self.values(point, |it| it.gradients[0].clone()))
+        Ok(self.gradients(point, |it| it[0].clone()))
     }
 }
 
@@ -146,7 +161,7 @@ impl NonlinearInequalityValues for Adapted<'_> {
         &self,
         point: &Vec<f64>,
     ) -> Result<Vec<f64>, ConstraintSolveError<Infallible>> {
-        Ok(self.values(point, |it| it.constraints.clone()))
+        Ok(self.values(point, |it| it[1..].to_vec()))
     }
 }
 
@@ -159,7 +174,7 @@ impl ConstraintJacobian for Adapted<'_> {
         &self,
         point: &Vec<f64>,
     ) -> Result<DenseMatrix, ConstraintSolveError<Infallible>> {
-        let rows = self.values(point, |it| it.gradients[1..].concat());
+        let rows = self.gradients(point, |it| it[1..].concat());
         Ok(DenseMatrix::from_row_slice(self.problem.constraints(), self.problem.free(), &rows))
     }
 }
@@ -167,6 +182,10 @@ impl ConstraintJacobian for Adapted<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn minimum(problem: &dyn Smooth, start: &[f64]) -> Option<Minimum> {
+        super::minimum(problem, start, Effort::SMOOTH)
+    }
 
     /// A rectangle of least boundary with an area of at least 1/4, no wider than it may be: x + y
     /// with 1/4 − x y ≤ 0 and x − most ≤ 0.
@@ -183,13 +202,13 @@ mod tests {
             2
         }
 
-        fn at(&self, point: &[f64]) -> Option<PointValues> {
+        fn results(&self, point: &[f64]) -> Option<Vec<f64>> {
             let [x, y] = [point[0], point[1]];
-            Some(PointValues {
-                objective: x + y,
-                constraints: vec![0.25 - x * y, x - self.most],
-                gradients: vec![vec![1.0, 1.0], vec![-y, -x], vec![1.0, 0.0]],
-            })
+            Some(vec![x + y, 0.25 - x * y, x - self.most])
+        }
+
+        fn gradients(&self, point: &[f64], _: &[f64]) -> Option<Vec<Vec<f64>>> {
+            Some(vec![vec![1.0, 1.0], vec![-point[1], -point[0]], vec![1.0, 0.0]])
         }
     }
 
@@ -256,20 +275,20 @@ mod tests {
             1
         }
 
-        fn at(&self, point: &[f64]) -> Option<PointValues> {
+        fn results(&self, point: &[f64]) -> Option<Vec<f64>> {
             let size = |share: f64| 0.01 + 0.99 * share;
-            let of = |r: f64, b: f64| self.outcome([size(r), size(b)]);
-            let (here, step) = (of(point[0], point[1]), 1e-6);
+            Some(self.outcome([size(point[0]), size(point[1])]).into())
+        }
+
+        fn gradients(&self, point: &[f64], _: &[f64]) -> Option<Vec<Vec<f64>>> {
+            const STEP: f64 = 1e-6;
+            let at = |r: f64, b: f64| self.results(&[point[0] + r, point[1] + b]);
             let by = |r: f64, b: f64| {
-                let (up, down) = (of(point[0] + r, point[1] + b), of(point[0] - r, point[1] - b));
-                [0, 1].map(|it| (up[it] - down[it]) / (2.0 * step))
+                let (up, down) = (at(r, b)?, at(-r, -b)?);
+                Some([0, 1].map(|it| (up[it] - down[it]) / (2.0 * STEP)))
             };
-            let (by_radius, by_width) = (by(step, 0.0), by(0.0, step));
-            Some(PointValues {
-                objective: here[0],
-                constraints: vec![here[1]],
-                gradients: vec![vec![by_radius[0], by_width[0]], vec![by_radius[1], by_width[1]]],
-            })
+            let (by_radius, by_width) = (by(STEP, 0.0)?, by(0.0, STEP)?);
+            Some(vec![vec![by_radius[0], by_width[0]], vec![by_radius[1], by_width[1]]])
         }
     }
 

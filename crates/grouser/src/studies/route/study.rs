@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use grouser_raster::zones::{ZoneCounts, ZoneKey};
-use grouser_raster::{RasterError, read_areas};
+use grouser_raster::{MapFrame, RasterError, Remark, read_areas};
 
 use crate::studies::verdict::SlopeStudy;
-use crate::terrain::{Extent, SoilZones};
+use crate::terrain::SoilZones;
 use crate::units::STEEPEST_SLOPE;
 
 /// A sample that is stuck on a metre counts as so much way on top [m]. Source: ours; the order of
@@ -67,25 +67,25 @@ pub struct RouteStudy {
 }
 
 impl RouteStudy {
-    /// The study with areas that ways are to keep out of: the polygons of a file of GeoJSON; and
-    /// how many there are, and lie on the ground.
+    /// The study with areas that ways are to keep out of: the polygons of a file of GeoJSON; how
+    /// many there are, and lie on the ground; and what is to be remarked about their system.
     ///
-    /// * `ground`: the extent of the heights
+    /// * `ground`: the map of heights
     ///
     /// # Errors
-    /// [`RasterError`] if the file has no such polygons on this ground.
+    /// [`RasterError`] if the file has no such polygons on this ground, or is in another system.
     pub fn keeping_out_of(
         self,
         file: &Path,
-        ground: &Extent,
-    ) -> Result<(Self, ZoneCounts), RasterError> {
-        let map = read_areas(file, ground)?;
-        let counts = map.counts(Some(ground));
+        ground: &MapFrame<'_>,
+    ) -> Result<(Self, ZoneCounts, Option<Remark>), RasterError> {
+        let (map, remark) = read_areas(file, ground)?;
+        let counts = map.counts(Some(&ground.extent));
         // That there is a zone is all that counts.
         let legend = [(ZoneKey::Class(0), Some(0))];
         let zones = map.with_legend(&legend, vec![self.mobility.heading.soil]);
         let zones = zones.map_err(|fault| RasterError { file: file.to_owned(), fault })?;
-        Ok((Self { keep_out: Some(zones), ..self }, counts))
+        Ok((Self { keep_out: Some(zones), ..self }, counts, remark))
     }
 }
 
