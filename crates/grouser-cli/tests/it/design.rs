@@ -5,7 +5,6 @@ use serde_json::{Value, json};
 use crate::program::{Place, number};
 
 const LIGHTER: &str = "design design-lighter-wheels";
-const RADIUS: &str = "rover.wheel_unit.wheel.radius_m";
 
 /// A column of an answer's rows.
 fn column<'a>(rows: &'a Value, name: &str) -> Vec<&'a Value> {
