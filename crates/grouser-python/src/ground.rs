@@ -140,10 +140,7 @@ impl Footprints {
 }
 
 /// Normals and distances as arrays.
-fn planes<'py>(
-    py: Python<'py>,
-    planes: impl Iterator<Item = (Vec3, f64)>,
-) -> PyResult<Planes<'py>> {
+fn planes(py: Python<'_>, planes: impl Iterator<Item = (Vec3, f64)>) -> PyResult<Planes<'_>> {
     let rows = planes.map(|(normal, distance)| (normal.as_slice().to_vec(), distance));
     let (normals, distances): (Vec<Vec<f64>>, Vec<f64>) = rows.unzip();
     Ok((PyArray2::from_vec2(py, &normals)?, PyArray1::from_vec(py, distances)))
