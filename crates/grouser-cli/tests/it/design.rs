@@ -62,7 +62,7 @@ fn wheels_are_drawn_along_the_trade_off() {
 #[test]
 fn a_design_that_names_files_is_repeated_from_its_folder() {
     let place = Place::new();
-    place.write("own-rover.toml", place.results("presets hakuto"));
+    place.write("own-rover.toml", place.results("presets hakuto --kind rover"));
     place.write("own-soil.toml", place.results("presets toyoura"));
     place.write(
         "task.toml",
