@@ -343,7 +343,7 @@ def validate_drives(
     max_unpacked_mib: int | None = None,
     **changes: Any,
 ) -> DriveValidation:
-    """Ranks every wheel–soil model on the recorded drives of a folder, which each predicts from
+    r"""Ranks every wheel–soil model on the recorded drives of a folder, which each predicts from
     wheel speeds, steering angles and attitudes alone. The numbers are those of ``grouser validate
     --drives``; ``docs/guide/data.md`` explains them.
 
