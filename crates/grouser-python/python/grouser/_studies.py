@@ -440,7 +440,7 @@ def simulate(
         times, means = _core.simulate_band(run._document, *drawn)
         times["ended_early"] = np.array(times["ended_early"], dtype=object)
         band = TraverseBand(run=means, **times)
-    rows = found.get("gradient")
+    rows: Any = found.get("gradient")
     gradient = None if rows is None else of_rows(*rows, (len(found["flags"]),))
     return trajectory_of(found, scenario=run, band=band, gradient=gradient)
 

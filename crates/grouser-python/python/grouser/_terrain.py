@@ -106,7 +106,7 @@ class Terrain:
                 "heights_m is a DataArray: Terrain.from_xarray takes its coordinates too",
                 "heights_m",
             )
-        given = np.ma.asarray(heights_m)
+        given: Any = np.ma.asarray(heights_m)
         if given.dtype.kind not in "biuf" and given.dtype != object:
             raise ParameterError(
                 f"heights_m has numbers of type {given.dtype}, they must be real: heights in metres",

@@ -400,7 +400,8 @@ def validate_drives(
         os.fspath(folder), scenario._document, path, choices, how
     )
     words = {name: tuple(found.pop(name)) for name in ("sentences", "notes")}
-    return DriveValidation(**found, **tables, **words, files=tuple(json.loads(files)))
+    named: dict[str, Any] = {**found, **tables, **words}
+    return DriveValidation(**named, files=tuple(json.loads(files)))
 
 
 @dataclass(frozen=True, eq=False)
