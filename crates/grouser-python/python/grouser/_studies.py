@@ -441,7 +441,7 @@ def simulate(
         times["ended_early"] = np.array(times["ended_early"], dtype=object)
         band = TraverseBand(run=means, **times)
     rows: Any = found.get("gradient")
-    gradient = None if rows is None else of_rows(*rows, (len(found["flags"]),))
+    gradient = None if rows is None else of_rows(*rows, shape=(len(found["flags"]),))
     return trajectory_of(found, scenario=run, band=band, gradient=gradient)
 
 
