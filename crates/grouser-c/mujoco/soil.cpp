@@ -26,8 +26,8 @@ constexpr char kName[] = "grouser.soil";
 /* What an instance is given. */
 constexpr const char* kAttributes[] = {
     "soil",    "wheel",         "wheels",               "ground",
-    "model",   "changes",       "wheel_moments",        "sinkage_damping_s_m",
-    "rest_speed_m_s",           "check_sizes",
+    "changes", "wheel_moments", "sinkage_damping_s_m",  "rest_speed_m_s",
+    "check_sizes",
 };
 constexpr int kAttributeCount = sizeof kAttributes / sizeof *kAttributes;
 
@@ -287,8 +287,8 @@ Soil::Soil(const mjModel* m, int instance) {
       refuse("there are two instances of %s: one may have all wheels of a model", kName);
     }
   }
-  if (m->opt.integrator == mjINT_RK4) {
-    refuse("the model's integrator is RK4, it must be Euler, implicit or implicitfast");
+  if (m->opt.integrator != mjINT_IMPLICIT && m->opt.integrator != mjINT_IMPLICITFAST) {
+    refuse("the model's integrator must be implicit or implicitfast");
   }
   try {
     read(m, instance);
@@ -305,8 +305,6 @@ void Soil::read(const mjModel* m, int instance) {
   const auto names = words(m, instance, "wheels", 0);
   const size_t count = names.size();
   const auto soils = words(m, instance, "soil", count), kinds = words(m, instance, "wheel", count);
-  const std::string model = attribute(m, instance, "model");
-  const std::string setting = "schema = \"scenario/1\"\nname = \"plugin\"\nmodel = \"" + model + "\"\n";
   std::string changes = attribute(m, instance, "changes");
   for (char& character : changes) {
     character = character == ';' ? '\n' : character;
@@ -319,8 +317,7 @@ void Soil::read(const mjModel* m, int instance) {
     check_contact_is_off(m, bodies_[k], names[k], ground_);
     GrouserWheelTest test;
     GrouserWheelSize size;
-    check(grouser_wheel_test_new(soils[k].c_str(), kinds[k].c_str(),
-                                 model.empty() ? nullptr : setting.c_str(),
+    check(grouser_wheel_test_new(soils[k].c_str(), kinds[k].c_str(), nullptr,
                                  changes.empty() ? nullptr : changes.c_str(), &test));
     tests.push_back(test);
     check(grouser_wheel_test_size(test, &size));
@@ -439,15 +436,9 @@ void Soil::take_inertia(const mjModel* m) {
 #else
   mj_fullM(m, inertia_.data(), ahead_->qM);
 #endif
-  if (m->opt.integrator != mjINT_EULER) {
-    for (int row = 0; row < nv; row++) {
-      for (int k = m->D_rowadr[row]; k < m->D_rowadr[row] + m->D_rownnz[row]; k++) {
-        inertia_[static_cast<size_t>(row) * nv + m->D_colind[k]] -= duration * ahead_->qDeriv[k];
-      }
-    }
-  } else if (!(m->opt.disableflags & mjDSBL_EULERDAMP)) {
-    for (int row = 0; row < nv; row++) {
-      inertia_[static_cast<size_t>(row) * (nv + 1)] += duration * m->dof_damping[row];
+  for (int row = 0; row < nv; row++) {
+    for (int k = m->D_rowadr[row]; k < m->D_rowadr[row] + m->D_rownnz[row]; k++) {
+      inertia_[static_cast<size_t>(row) * nv + m->D_colind[k]] -= duration * ahead_->qDeriv[k];
     }
   }
 }

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -81,7 +80,7 @@ def drive(model: Any, data: Any, steps: int, apply: Any = None) -> list[list[flo
 # ---- bits ----
 
 
-@pytest.mark.parametrize("integrator", ["Euler", "implicit", "implicitfast"])
+@pytest.mark.parametrize("integrator", ["implicit", "implicitfast"])
 @pytest.mark.parametrize("ground", ["plane", "field"])
 def test_it_has_the_bits_of_the_python_contact(ground: str, integrator: str) -> None:
     xml = plain_xml(ground, slope_deg=8.0, yaw_deg=20.0)
@@ -105,7 +104,6 @@ def test_it_has_the_bits_of_the_python_contact(ground: str, integrator: str) -> 
 @pytest.mark.parametrize(
     "changes, options",
     [
-        ({"model": "bekker"}, {"model": "bekker"}),
         ({"changes": "soil.cohesion_kpa=2; wheel.grousers.count=20"}, {}),
         ({"wheel_moments": "neglected"}, {"wheel_moments": "neglected"}),
         ({"soil": "toyoura toyoura toyoura lunar-nominal"}, {}),
@@ -196,41 +194,32 @@ def test_rollouts_by_threads_are_steps() -> None:
 
 
 @pytest.mark.parametrize(
-    "changes, sentence",
+    "changes",
     [
-        ({"soil": "toyura"}, "toyoura"),
-        ({"wheels": "body"}, "one hinge"),
-        ({"wheels": "nobody"}, 'no body "nobody"'),
-        ({"wheels": ""}, "there is no wheels"),
-        ({"soil": "toyoura toyoura"}, "soil names 2 for 4 wheels"),
-        ({"ground": "floor"}, 'no geom "floor"'),
-        ({"model": "becker"}, "bekker"),
-        ({"wheel_moments": "some"}, '"included" or "neglected"'),
-        ({"rest_speed_m_s": "slow"}, "must be a number"),
-        ({"rest_speed_m_s": "0"}, "rest_speed_m_s"),
-        ({"changes": "soil.cohesion=1"}, "cohesion_kpa"),
-        ({"wheel": "sojourner"}, "have a radius of"),
+        {"soil": "toyura"},
+        {"wheels": "body"},
+        {"wheels": "nobody"},
+        {"wheels": ""},
+        {"soil": "toyoura toyoura"},
+        {"ground": "floor"},
+        {"wheel_moments": "some"},
+        {"rest_speed_m_s": "slow"},
+        {"rest_speed_m_s": "0"},
+        {"changes": "soil.cohesion=1"},
+        {"wheel": "sojourner"},
     ],
 )
-def test_what_is_wrong_is_said(
-    changes: dict[str, str], sentence: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    # The engine writes warnings of plugins into a file of its own.
-    monkeypatch.chdir(tmp_path)
+def test_what_is_wrong_is_refused(changes: dict[str, str]) -> None:
     with pytest.raises(Exception, match="plugin"):
         plugged(**changes)
-    assert sentence in (tmp_path / "MUJOCO_LOG.TXT").read_text()
 
 
-def test_an_integrator_and_a_contact_that_cannot_be_are_refused(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
+def test_an_integrator_and_a_contact_that_cannot_be_are_refused() -> None:
     xml = with_plugin(plain_xml())
     fourth = re.sub(r'integrator="\w+"', 'integrator="RK4"', xml)
+    euler = re.sub(r'integrator="\w+"', 'integrator="Euler"', xml)
     touching = xml.replace('contype="0" conaffinity="0"', 'contype="1" conaffinity="1"')
-    for wrong, sentence in ((fourth, "RK4"), (touching, "own contact")):
+    for wrong in (fourth, euler, touching):
         assert wrong != xml
         with pytest.raises(Exception, match="plugin"):
             mujoco.MjData(mujoco.MjModel.from_xml_string(wrong))
-        assert sentence in (tmp_path / "MUJOCO_LOG.TXT").read_text()
