@@ -441,7 +441,10 @@ def simulate(
         times["ended_early"] = np.array(times["ended_early"], dtype=object)
         band = TraverseBand(run=means, **times)
     rows: Any = found.get("gradient")
-    gradient = None if rows is None else of_rows(*rows, shape=(len(found["flags"]),))
+    gradient = None
+    if rows is not None:
+        values, one_sided, keys, names = rows
+        gradient = of_rows(values, one_sided, keys, names, (len(found["flags"]),))
     return trajectory_of(found, scenario=run, band=band, gradient=gradient)
 
 
