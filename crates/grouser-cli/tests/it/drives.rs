@@ -270,7 +270,7 @@ fn the_hidden_soil_is_within_its_band() {
 #[test]
 #[ignore = "minutes: a hundred drives of each layout"]
 fn the_hidden_soil_is_within_its_band_in_90_of_100_drives() {
-    for layout in [Layout::Mines, Layout::Enav, Layout::Baseprod] {
+    for layout in [Layout::Mines, Layout::Enav] {
         let held = held(layout, 100);
         println!("{}: {held:#?}", layout.mapping());
         check_held(&held, 90);
