@@ -134,6 +134,10 @@ fn balanced_overrides(
             }
         },
     )?;
+    if command == "validate" {
+        let why = "slopes are those of the rows, or of the attitudes in a log, and its soil is one";
+        overrides.refuse(Kind::Scenario, &["terrain"], why)?;
+    }
     scenario_settings(&mut overrides, Kind::Scenario, setting, balance)?;
     for (flag, key, value) in
         [("--rover", "scenario.rover", rover), ("--soil", "scenario.soil", soil)]

@@ -153,8 +153,11 @@ fn an_uncertain_soil_predicts_by_its_nominal_values() {
     let place = Place::new();
     twin(&place, Layout::Mines, &["scenario.model=ishigami"]);
     let answer = place.json(&JUDGE.replace("toyoura", "toyoura-uncertain"));
-    let is_it =
-        |note: &Value| note.as_str().is_some_and(|it| it.contains("nominal values predict"));
+    let is_it = |note: &Value| {
+        note.as_str().is_some_and(|it| {
+            it.contains("friction_angle_deg") && it.contains("nominal values predict")
+        })
+    };
     assert!(answer["notes"].as_array().expect("notes").iter().any(is_it), "{}", answer["notes"]);
     assert_eq!(ranked(&answer)[0], "ishigami");
 }
@@ -176,6 +179,7 @@ fn folders_without_drives_are_refused() {
         (JUDGE.to_owned(), "no log in it or below, among 0 files"),
         ("validate --drives drives".to_owned(), "--rover and --soil"),
         ("validate --all --mapping mines".to_owned(), "cannot be used with"),
+        (format!("{JUDGE} --set scenario.terrain.file=zones.toml"), "does not use the key"),
     ] {
         let refusal = check_is_refusal(&place.line(&line), 2);
         assert!(refusal.contains(words), "{line}: {refusal}");

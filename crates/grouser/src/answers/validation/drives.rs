@@ -151,7 +151,7 @@ impl DriveValidationQuestion {
     /// That the soil is uncertain, and what of it predicts.
     fn nominal(&self) -> Option<String> {
         let uncertain = self.scenario.uncertain.as_ref()?;
-        let keys: Vec<&str> = uncertain.sampled_keys().collect();
+        let keys: Vec<&str> = uncertain.keys().collect();
         Some(format!(
             "the soil is uncertain ({}): its nominal values predict here, so that what a model misses \
              is its own error and theirs",
